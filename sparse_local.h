@@ -1,61 +1,61 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e02e633cc3eca19b
+ * FNV-1a of the lines after this comment, without the license: 6de5b4f63920ff2e
  * The comments of the implementation are in src/impl.
  *
  * Contents
  *     63 intro.h      what the library does, a quick start, which call for which question, references
- *    181 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    222 config.h     macros that a user may define before the include, the version, and the integer types
- *    300 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    487 options.h    options of all calls, threads, and the allocator
- *    633 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    860 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    962 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1037 factor.h     the numerical factorization P A P' = L D L'
- *   1162 solve.h      full solves, and the workspace of all solves
- *   1259 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1336 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole
- *   1423 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1522 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1562 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1670 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1747 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1832 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1928 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2039 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2078 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2206 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2238 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2427 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2539 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2666 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2706 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2794 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2903 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2940 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   3017 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3057 impl/ base: the compiler, status, memory, sorting, threads
- *   4060 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4917 impl/ matrix: sparse matrices of the caller and of the library
- *   5509 impl/ ordering: fill-reducing orderings of a graph
- *   9871 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11822 impl/ factor: the numbers of L and D
- *  15066 impl/ solve: full and local solves
- *  17228 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  18987 impl/ pivots: the order of the pivots by the values of a matrix
- *  19401 impl/ float: L and fronts in single precision
- *  19848 impl/ inverse: entries of the inverse, regions
- *  22790 impl/ change: a factor that follows changes of its matrix
- *  29633 impl/ io: files that are replaced only when they are complete
- *  29845 impl/ files: Matrix Market files, 64-bit indices
- *  30441 impl/ save: factors in files
- *  32368 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33032 impl/ batch: diagonals of many inverses
- *  33172 impl/ complex: complex Hermitian systems over real factors
- *  33698 impl/ complex: entries of the inverse
- *  33750 impl/ packs: the tables through which the core calls packs
- *  33796 impl/ last: undefine every internal macro
- *  34118 impl/ templates: the header includes them from itself, once for each instruction set
+ *    183 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    224 config.h     macros that a user may define before the include, the version, and the integer types
+ *    303 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    496 options.h    options of all calls, threads, and the allocator
+ *    642 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    884 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    986 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1061 factor.h     the numerical factorization P A P' = L D L'
+ *   1186 solve.h      full solves, and the workspace of all solves
+ *   1283 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1361 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole
+ *   1448 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1547 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1587 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1695 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1772 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1857 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1953 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2065 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2104 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2232 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2264 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2453 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2565 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2693 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2734 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2823 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2933 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2970 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   3047 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3087 impl/ base: the compiler, status, memory, sorting, threads
+ *   4208 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5065 impl/ matrix: sparse matrices of the caller and of the library
+ *   5700 impl/ ordering: fill-reducing orderings of a graph
+ *  10080 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12100 impl/ factor: the numbers of L and D
+ *  15352 impl/ solve: full and local solves
+ *  17548 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19334 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19743 impl/ float: L and fronts in single precision
+ *  20190 impl/ inverse: entries of the inverse, regions
+ *  23158 impl/ change: a factor that follows changes of its matrix
+ *  30070 impl/ io: files that are replaced only when they are complete
+ *  30288 impl/ files: Matrix Market files, 64-bit indices
+ *  30908 impl/ save: factors in files
+ *  32892 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33580 impl/ batch: diagonals of many inverses
+ *  33724 impl/ complex: complex Hermitian systems over real factors
+ *  34271 impl/ complex: entries of the inverse
+ *  34331 impl/ packs: the tables through which the core calls packs
+ *  34377 impl/ last: undefine every internal macro
+ *  34700 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -124,12 +124,14 @@
  *              in supernodal panels; D is diagonal. A reach is a set of columns closed under
  *              parent. nnz counts stored entries.
  * Conventions  Every function that can fail returns sl_status. On error, outputs are NULL or
- *              untouched. Options and stats may be NULL. Dense arguments are column-major with a
- *              leading dimension in elements; solves take row-major ones, too (SL_ROWS). Row
- *              numbers are the caller's, also in errors. A b-set comes before an x-set, and a
- *              length follows its array. The library never prints or aborts and has no mutable
- *              globals; for METIS, an option, see sl_symbolic_create. What is marked EXPERIMENTAL
- *              may change in any version; all else keeps its promises from 1.0 on.
+ *              untouched, and sl_error_text says why. Options and stats may be NULL. Dense
+ *              arguments are column-major with a leading dimension in elements; solves take
+ *              row-major ones, too (SL_ROWS). Row numbers are the caller's, also in errors. A b-set
+ *              comes before an x-set, and a length follows its array. The library never prints or
+ *              aborts. Threads share no mutable globals: each keeps its last error, and with
+ *              SL_NO_THREAD_LOCAL nothing. For METIS, an option, see sl_symbolic_create. What is
+ *              marked EXPERIMENTAL may change in any version; all else keeps its promises from 1.0
+ *              on.
  * Lifetimes    An object keeps what it was made from: a factor, a plan, a region and a selected
  *              inverse their analysis, a plan its region, pins their factor. So all of them may be
  *              freed in any order, and on any threads with gcc, clang and MSVC; other compilers
@@ -236,6 +238,7 @@
  *  SL_NO_AVX512                  leaves out the AVX-512 kernels: AVX2 is then the best on x86.
  *  SL_NO_CLOCK                   makes all times in the statistics 0, for systems without clock();
  *                                set automatically for WASI.
+ *  SL_NO_THREAD_LOCAL            keeps no reason of the last error by thread (sl_error_text).
  *  SL_NO_MMAP                    leaves out sl_map_file, and with it the headers of the system that
  *                                map files.
  *  SL_API                        linkage of the public functions, for a shared library: for example
@@ -309,8 +312,7 @@ typedef enum sl_status {
     SL_ERR_ARGUMENT,
     /* the allocator returned NULL */
     SL_ERR_MEMORY,
-    /* a malformed matrix, both triangles stored with different patterns, or not the analyzed
-     * pattern */
+    /* a malformed matrix, or both triangles stored with different patterns */
     SL_ERR_PATTERN,
     /* a null pivot: the matrix is singular or needs pivoting; stats name the row */
     SL_ERR_PIVOT,
@@ -324,17 +326,24 @@ typedef enum sl_status {
     SL_ERR_IO,
     /* METIS failed */
     SL_ERR_ORDERING,
-    /* a failed factor, a mapped one that would have to change, or objects that do not belong
-     * together */
+    /* objects that do not belong together, such as a plan and a factor of different analyses */
     SL_ERR_STATE,
     /* a singular system whose right-hand side has no solution */
     SL_ERR_INCONSISTENT,
     /* pivot growth beyond options.growth_limit (stats name a row), or a refinement that ended above
      * options.error_limit (its solution is written) */
-    SL_ERR_INACCURATE
+    SL_ERR_INACCURATE,
+    /* a matrix whose pattern is not the analyzed one: analyze it, or sl_symbolic_edit */
+    SL_ERR_OTHER_PATTERN,
+    /* a factor without numbers, as its last change failed; a selected inverse, a region or pins of
+     * older numbers of the factor: refactor them */
+    SL_ERR_STALE,
+    /* a mapped object that would have to change: load it instead */
+    SL_ERR_READ_ONLY
 } sl_status;
 
-/** A short description of a status; static storage. Any value is accepted. */
+/** A short description of a status; static storage. Any value is accepted. sl_error_text (stats.h)
+ *  says more. */
 SL_API const char *sl_status_string(sl_status status);
 
 /** View of a sparse matrix in compressed columns: column j has rows i[p[j]] .. i[p[j+1]-1].
@@ -632,15 +641,15 @@ SL_API void sl_options_init(sl_options *opt, size_t size);
 
 /* src/public/stats.h: what calls report: the location of an error, counts, times and sizes, in groups */
 
-/** Where an error is. Every call resets it. Row and column numbers are the caller's. */
+/** Why a call has failed, and where. Every call resets it. Row and column numbers are the caller's.
+ */
 typedef struct sl_error {
     sl_int row;    /* -1: does not apply */
     sl_int column; /* -1: does not apply */
     sl_off line;   /* of a file, 1-based; -1: does not apply */
-    double value;  /* the pivot or entry that was refused; 0 if none */
-    /* static text: the option that needs a pack which is not compiled in, what in a Matrix Market
-     * file is not supported, or what helps where a factorization was refused; NULL: does not apply
-     */
+    double value;  /* the pivot or entry that was refused; of SL_ERR_IO errno; 0 if none */
+    /* static text: the argument, the option or the reason, and what helps where a factorization was
+     * refused; NULL: no error */
     const char *what;
 } sl_error;
 
@@ -854,6 +863,21 @@ typedef struct sl_stats {
     sl_off reserved[13];
 } sl_stats;
 
+/** Writes an error as one sentence: the status, error.what, and the row, column, line and value as
+ *  far as they apply. "null pivot: the row is pinned twice (row 5)"
+ *
+ *  buffer  [out]  up to size bytes, with a terminating zero; NULL if size is 0.
+ *  status  [in]   what a call has returned.
+ *  stats   [in]   those of the call; NULL: its error is the last one of this thread. So also calls
+ *                 without stats have a text, until another call of the thread fails.
+ *  Returns  the length of the whole sentence without its zero, as snprintf does.
+ *  Threads  any number of calls at once. Without thread-local storage (SL_NO_THREAD_LOCAL, or a
+ *           compiler other than gcc, clang and MSVC) only stats have texts.
+ *  Manual   tools/docs/errors.md
+ *  Example  tests/core/test_errors.c
+ */
+SL_API size_t sl_error_text(char *buffer, size_t size, sl_status status, const sl_stats *stats);
+
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */
 SL_API size_t sl_stats_size(void);
 
@@ -1052,12 +1076,12 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *                growth_limit, error_limit, storage, definite; may be NULL.
  *  stats  [out]  factor; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, or at error.row a
- *           weight, sign or null vector that is not allowed; SL_ERR_PATTERN: not the analyzed one,
- *           or two triangles whose values differ by more than 1e-6 of the row; SL_ERR_PIVOT: a
- *           null pivot at error.row, or a negative one that options do not allow; error.what says
- *           what helps, such as sl_symbolic_create_pivoted, and null_bound up to which size the
- *           pivot error.value is null;
- *           SL_ERR_NOT_FINITE: at error.row, and error.column if it is an entry of A;
+ *           weight, sign or null vector that is not allowed; SL_ERR_OTHER_PATTERN: not the analyzed
+ *           one, from error.row, error.column on; SL_ERR_PATTERN: malformed, or two triangles whose
+ *           values differ by more than 1e-6 of the row; SL_ERR_PIVOT: a null pivot at error.row, or
+ *           a negative one that options do not allow; error.what says what helps, such as
+ *           sl_symbolic_create_pivoted, and null_bound up to which size the pivot error.value is
+ *           null; SL_ERR_NOT_FINITE: at error.row, and error.column if it is an entry of A;
  *           SL_ERR_INACCURATE: growth above its limit by the pivot error.value of error.row, or a
  *           number that float cannot hold; SL_ERR_UNSUPPORTED: the isa, or a combination of options
  *           and matrix that the manual excludes; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
@@ -1082,12 +1106,12 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *  nothing, but 24 bytes a row where small pivots have to be judged (singular.md); without this
  *  memory they are null.
  *
- *  F      [in,out]  unchanged after SL_ERR_ARGUMENT and SL_ERR_PATTERN. After SL_ERR_PIVOT,
- *                   _NOT_FINITE, _INACCURATE and _UNSUPPORTED it has no numbers, and every solve
- *                   refuses it until a refactor succeeds.
+ *  F      [in,out]  unchanged after SL_ERR_ARGUMENT, SL_ERR_PATTERN and SL_ERR_OTHER_PATTERN. After
+ *                   SL_ERR_PIVOT, _NOT_FINITE, _INACCURATE and _UNSUPPORTED it has no numbers, and
+ *                   every solve refuses it until a refactor succeeds.
  *  A      [in]      the analyzed pattern, new values. Two triangles are not compared.
  *  stats  [out]     factor; may be NULL.
- *  Returns  as sl_factor_create; SL_ERR_STATE: a mapped factor (sl_map_file). SL_ERR_MEMORY and
+ *  Returns  as sl_factor_create; SL_ERR_READ_ONLY: a mapped factor (sl_map_file). SL_ERR_MEMORY and
  *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load_file),
  *           which allocates its fronts; SL_ERR_UNSUPPORTED only with SL_STORAGE_COMPLEX.
  *  Cost     as sl_factor_create, without its memory.
@@ -1116,7 +1140,7 @@ typedef enum sl_pivot_kind {
  *  shifts    [out]  the diagonal entries of E in these rows, 0 for null pivots; may be NULL.
  *  capacity  [in]   length of rows and shifts.
  *  count     [out]  how many there are; may exceed capacity.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(count).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor.  Cost  O(count).
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_pivot_rows(const sl_factor *F, sl_pivot_kind kind,
                                                      sl_int *rows, double *shifts, sl_int capacity,
@@ -1129,7 +1153,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_pivot_rows(const sl_factor *F, sl_pivo
  *  number of rows. If regularization changed pivots: the determinant of A + E. Computed as a sum of
  *  logarithms, which cannot overflow.
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(n).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor.  Cost  O(n).
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det,
                                                  double *sign);
@@ -1141,7 +1165,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log
  *
  *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
  *  opt    [in]   allocator; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE: 2^31 or more
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_TOO_LARGE: 2^31 or more
  *           entries; SL_ERR_MEMORY.
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F,
@@ -1241,7 +1265,7 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *                then up to 8, for which a solution has the same bits. 8 take as long as two to
  *                three single solves, 32 as long as six to eight.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_INCONSISTENT: a column of B
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_INCONSISTENT: a column of B
  *           has no solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W
  *           could not grow.
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
@@ -1306,9 +1330,10 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *                in the order of bset.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a failed factor, a factor of another analysis,
- *           or, in a region, a factor whose numbers are not those that the region was computed
- *           from; SL_ERR_INCONSISTENT: as in sl_factor_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed factor, or, in a region, one whose
+ *           numbers are not those that the region was computed from; SL_ERR_STATE: a factor of
+ *           another analysis; SL_ERR_INCONSISTENT: as in sl_factor_solve; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
  *  Cost     2 (b_entries + x_entries) + 4 region_entries flops per right-hand side; nothing O(n);
  *           no allocation once W has grown.
  *  Threads  any number at once on one P and one F, each with its own W.
@@ -1322,7 +1347,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor 
  *
  *  F, bset, nb, xset, nx, X, ldx, B, ldb, nrhs, W as in these two calls; no region.
  *  stats  [out]  plan (bytes is 0); error.row: an index out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_INCONSISTENT: as in
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_INCONSISTENT: as in
  *           sl_factor_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the sum of both calls; no allocation once W has grown.
  *  Threads  any number at once on one F, each with its own W.
@@ -1373,8 +1398,8 @@ SL_API void sl_dirichlet_free(sl_dirichlet *D);
  *
  *  A      [in]   the pattern that sl_dirichlet_create was given, its entries in the same order.
  *  stats  [out]  dirichlet, factor; errors are in rows of A; may be NULL.
- *  Returns  as sl_dirichlet_create; SL_ERR_PATTERN: another pattern. After SL_ERR_PIVOT,
- *           _NOT_FINITE in free rows, _INACCURATE and _UNSUPPORTED solves are refused until a
+ *  Returns  as sl_dirichlet_create; SL_ERR_OTHER_PATTERN: another pattern. After
+ *           SL_ERR_PIVOT, _NOT_FINITE in free rows, _INACCURATE and _UNSUPPORTED solves are refused until a
  *           refactorization succeeds; after other errors D is as before.
  *  Cost     a refactorization of A[free, free]; nothing is allocated, except for its first factor.
  *  Threads  exclusive use of D.
@@ -1394,7 +1419,7 @@ SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_
  *               values, in the order of rows. May be NULL if count = 0.
  *  nrhs  [in]   number of right-hand sides, 0 or more.
  *  W     [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a failed refactorization, or the factor whose
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed refactorization, or the factor whose
  *           pins are used has changed; SL_ERR_NOT_FINITE, SL_ERR_INCONSISTENT: as sl_factor_solve;
  *           SL_ERR_INACCURATE: as sl_pins_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     for each right-hand side a full solve of the free rows, 2 flops per entry of A between
@@ -1458,9 +1483,9 @@ typedef enum sl_part {
  *                order of A with SL_PART_P, else of the pivots.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_PIVOT: SL_PART_SQRT_D with
- *           a negative pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_PIVOT: SL_PART_SQRT_D with
+ *           a negative pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
  *  Cost     2 nnz_panels flops per right-hand side for each of L and L'; O(n) for the others.
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/core/test_parts.c
@@ -1548,7 +1573,7 @@ typedef struct sl_pseudo_inverse {
  *  F      [in]      a factor of A, n x n.
  *  P      [in,out]  component, Q and K NULL: only columns is written. On error columns may be.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, or too few columns; SL_ERR_STATE: failed factor;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, or too few columns; SL_ERR_STALE: failed factor;
  *           SL_ERR_UNSUPPORTED: 2x2 pivots; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
  *  Cost     a full solve for each column, half a one where null vectors are not known, and
  *           O(n columns^2).
@@ -1579,9 +1604,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_
  *                   not return SL_ERR_INACCURATE.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  stats  [out]     refine; may be NULL.
- *  Returns  SL_OK; SL_ERR_INACCURATE: see above; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor;
- *           SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not
- *           grow.
+ *  Returns  SL_OK; SL_ERR_INACCURATE: see above; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor;
+ *           SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W
+ *           could not grow.
  *  Cost     one product with A, and another product and a solve per step; W grows to
  *           O(n min(nrhs, 8)).
  *  Threads  any number at once on one F, each with its own W.
@@ -1634,8 +1659,8 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_refined(const sl_plan *P, const sl
  *  A      [in]      the matrix that F is a factor of.
  *  rcond  [out]     the estimate.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_PATTERN: not the analyzed
- *           pattern; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_OTHER_PATTERN: not the
+ *           analyzed pattern; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
  *  Cost     4 to 10 solves, each with a product with A.
  *  Threads  any number at once on one F, each with its own W.
  *  Source   [Hi88]
@@ -1657,7 +1682,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rcond(const sl_factor *F, const sl_csc
  *                B.
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W
  *           could not grow.
  *  Cost     the forward sweep of sl_factor_solve.
  *  Threads  any number at once on one F, each with its own W.
@@ -1686,11 +1711,11 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
  *                       as a rule 1e3 to 1e6 times larger. Barring underflow.
  *  W          [in,out]  workspace; NULL: allocated for this call.
  *  stats      [out]     certificate; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or guaranteed and other values
- *           than those of F; SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_UNSUPPORTED: negative
- *           or regularized pivots, options.mass, complex storage; guaranteed also null pivots, L in
- *           float; SL_ERR_INACCURATE: eta exceeds 1/16, as with an A that is not that of F;
- *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY. On errors F has no eta.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_STATE: guaranteed, and
+ *           other values than those of F; SL_ERR_OTHER_PATTERN: not the analyzed pattern;
+ *           SL_ERR_UNSUPPORTED: negative or regularized pivots, options.mass, complex storage;
+ *           guaranteed also null pivots, L in float; SL_ERR_INACCURATE: eta exceeds 1/16, as with
+ *           an A that is not that of F; SL_ERR_TOO_LARGE, SL_ERR_MEMORY. On errors F has no eta.
  *  Cost     estimated: 15 to 20 full solves; W grows by 20 n numbers. Guaranteed: 7 to 10
  *           factorizations; memory of a second factor while it runs.
  *  Threads  the caller serializes calls that change F.
@@ -1717,7 +1742,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_certify(sl_factor *F, const sl_csc *A,
  *                    first call: computed in a call that finds those of another plan or of other
  *                    numbers. NULL: computed in every call.
  *  stats   [out]     certificate; may be NULL.
- *  Returns  as sl_plan_solve; also SL_ERR_STATE: F is not certified; SL_ERR_UNSUPPORTED: a plan in
+ *  Returns  as sl_plan_solve; also SL_ERR_STALE: F is not certified; SL_ERR_UNSUPPORTED: a plan in
  *           a region.
  *  Cost     that of sl_plan_solve and O(columns of the reach of b + nx) per right-hand side; the
  *           scales take nx forward sweeps in blocks of 8.
@@ -1761,7 +1786,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
  *  F      [in]      a factor of A, n x n.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  stats  [out]     inverse; error.row, error.column: an index out of range. May be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, a negative count, an index out of range; SL_ERR_STATE:
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, a negative count, an index out of range; SL_ERR_STALE:
  *           failed factor; SL_ERR_UNSUPPORTED: a factor with 2x2 pivots; SL_ERR_TOO_LARGE,
  *           SL_ERR_MEMORY: W could not grow. On error nothing is written.
  *  Cost     sweeps take 2 entries flops per lane, and 8 lanes take as long as two to three, so that
@@ -1849,7 +1874,7 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_bilinear(const sl_factor *F, double *
  *  opt    [in]   allocator, threads; may be NULL. The object keeps the threads; without, those of
  *                F. The instruction set is that of F.
  *  stats  [out]  selected; error.row: a row out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_UNSUPPORTED: 2x2 pivots;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_UNSUPPORTED: 2x2 pivots;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     about twice the flops of the factorization of the same supernodes; of columns that are
  *           solved for, some 10 to 100 times as long. Keeps entries doubles (stats.selected) and
@@ -1872,8 +1897,8 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_create(sl_selected **out, const sl_f
  *  Z      [in,out]  unchanged on error.
  *  F      [in]      a factor over the analysis that Z was made for.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, a factor of another analysis, or
- *           Z is mapped; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_STATE: a factor of another
+ *           analysis; SL_ERR_READ_ONLY: Z is mapped; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     as sl_selected_create; no allocation once W has grown. Up to twice as fast, since the
  *           memory is mapped already.
  *  Threads  exclusive use of Z; runs on the threads that Z was made with.
@@ -1893,8 +1918,8 @@ SL_API void sl_selected_free(sl_selected *Z);
  *                  ignored): all n, which needs columns = NULL.
  *  columns  [in]   count columns of A in 0..n-1; NULL: columns = rows, the diagonal.
  *  stats    [out]  error.row, and error.column if columns are given; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or an index out of range; SL_ERR_PATTERN: an entry that
- *           is not in the pattern of L or that the set of Z does not reach. error.row and
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or an index out of range; SL_ERR_OTHER_PATTERN: an entry
+ *           that is not in the pattern of L or that the set of Z does not reach. error.row and
  *           error.column name it.
  *  Cost     O(count) binary searches; of the diagonal O(count), with a logarithmic factor if Z was
  *           made for a set.
@@ -1966,7 +1991,7 @@ SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats);
  *                stats.region.bytes is at most region_bytes. If only a region without boundary
  *                fits, solves go to the roots of the tree.
  *  stats  [out]  region; error.row: a row out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of the present F;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor, or Z is not of the present F;
  *           SL_ERR_UNSUPPORTED: a factor made with options.mass or with 2x2 pivots;
  *           SL_ERR_INACCURATE: solves would lose digits; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     a plan for the set; for every 8 rows of the boundary one forward sweep of 8 lanes to
@@ -1986,14 +2011,15 @@ SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_facto
 /** Recomputes a region from the present numbers of F, in the same memory; its plans stay valid.
  *
  *  R      [in,out]  unchanged on error; but after SL_ERR_INACCURATE its plans are refused with
- *                   SL_ERR_STATE until the next sl_region_refactor that succeeds.
+ *                   SL_ERR_STALE until the next sl_region_refactor that succeeds.
  *  F      [in]      a factor over the analysis that R was made for; from now on the only one that R
  *                   accepts.
  *  Z      [in]      as in sl_region_create; may be NULL.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, a factor of another analysis, Z
- *           is not of the present F, or R is mapped; SL_ERR_UNSUPPORTED, SL_ERR_INACCURATE: as
- *           sl_region_create; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor, or Z is not of the present F;
+ *           SL_ERR_STATE: a factor of another analysis; SL_ERR_READ_ONLY: R is mapped;
+ *           SL_ERR_UNSUPPORTED, SL_ERR_INACCURATE: as sl_region_create; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
  *  Cost     as sl_region_create without the plan; no allocation once W has grown.
  *  Threads  exclusive use of R and of its plans.
  *  Example  tests/core/test_region.c
@@ -2063,9 +2089,9 @@ typedef struct sl_request {
  *                      allocated for this call.
  *  failed    [out]     the request that caused the error, or -1; may be NULL. On error no X has
  *                      been written.
- *  Returns   SL_OK; SL_ERR_ARGUMENT: also if a workspace is NULL or given twice; SL_ERR_STATE: a
- *            failed factor, or a plan that sl_plan_solve refuses; SL_ERR_INCONSISTENT: as in
- *            sl_factor_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns   SL_OK; SL_ERR_ARGUMENT: also if a workspace is NULL or given twice; SL_ERR_STATE,
+ *            SL_ERR_STALE: a factor or a plan that sl_plan_solve refuses; SL_ERR_INCONSISTENT: as
+ *            in sl_factor_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost      that of the solves, distributed by the entries of L that each reads; one workspace of
  *            the largest size per thread. If consistency is checked, one more forward sweep of all.
  *  Threads   as sl_plan_solve.
@@ -2129,9 +2155,9 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coe
  *                 be anything.
  *  stats   [out]  error.row, error.column: the first stored entry outside the analyzed pattern, or
  *                 a malformed one; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, no values; SL_ERR_PATTERN: another size, malformed,
- *           both triangles with an unsymmetric pattern, or an entry outside the analyzed pattern;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, no values; SL_ERR_PATTERN: malformed, or both
+ *           triangles with an unsymmetric pattern; SL_ERR_OTHER_PATTERN: another size, or an entry
+ *           outside the analyzed pattern; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + entries of S and of K); temporary memory from the allocator of S.
  *  Threads  reads S; any number with different arrays.
  *  Example  tests/core/test_matrix_sum.c
@@ -2162,8 +2188,8 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_scatter(const sl_symbolic *S, double
  *  stats         [out]  error and factor: those of the failed factor, else of the last one; seconds
  *                       and bytes are sums over all factors. May be NULL.
  *  Returns  SL_OK, or the status of the first factor that failed: as sl_factor_create, but never
- *           SL_ERR_PATTERN. SL_ERR_NOT_FINITE: a coefficient (error.value, no row) or a sum, at
- *           error.row >= error.column.
+ *           SL_ERR_PATTERN or SL_ERR_OTHER_PATTERN. SL_ERR_NOT_FINITE: a coefficient (error.value,
+ *           no row) or a sum, at error.row >= error.column.
  *  Cost     that of the factors, distributed; the terms are read once for each, in order.
  *  Threads  as sl_factor_create; only the calling thread allocates.
  *  Example  tests/core/test_combination.c, test_batch_factor.c
@@ -2183,9 +2209,9 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, c
  *                      own use these, one after the other.
  *  coefficients, values, terms, failed, stats  as in sl_batch_factor.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also if a factor is NULL or given twice; SL_ERR_STATE: factors
- *           of several analyses, or a mapped one; SL_ERR_MEMORY and SL_ERR_TOO_LARGE: only with
- *           the first refactorization of a loaded factor. After these no factor has changed. Else
- *           the status of the first factor that failed.
+ *           of several analyses; SL_ERR_READ_ONLY: a mapped one; SL_ERR_MEMORY and
+ *           SL_ERR_TOO_LARGE: only with the first refactorization of a loaded factor. After these
+ *           no factor has changed. Else the status of the first factor that failed.
  *  Threads  exclusive use of the factors.
  *  Example  tests/core/test_combination.c, test_batch_factor.c
  */
@@ -2218,8 +2244,8 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_refactor(sl_factor *const *factors, sl_
  *                     call.
  *  failed   [out]     the factor that caused the error, or -1; may be NULL.
  *  stats    [out]     error.row: an index out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range; SL_ERR_STATE: a failed factor, or
- *           factors of several analyses; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range; SL_ERR_STALE: a failed factor;
+ *           SL_ERR_STATE: factors of several analyses; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     that of sl_inverse_diagonal for each factor, distributed.
  *  Threads  as sl_inverse_diagonal.
  *  Source   [HDA17] 5.
@@ -2257,7 +2283,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(const sl_factor *const *factor
  * another analysis is refused (SL_ERR_STATE), also if both were loaded from one file.
  *
  * Loaded objects can be refactored; the first refactorization of a factor allocates the memory of
- * its fronts. Mapped ones are immutable, so that refactorizations give SL_ERR_STATE. */
+ * its fronts. Mapped ones are immutable, so that refactorizations give SL_ERR_READ_ONLY. */
 
 /** How much of a file a load creates. */
 typedef enum sl_saved_content {
@@ -2298,10 +2324,10 @@ typedef enum sl_load_checks {
  *  set    [in]   an analysis and what belongs to it. A selected inverse may be saved without a
  *                factor; regions may not. The same region may be given more than once.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, n_regions below 0, or regions without a factor;
- *           SL_ERR_STATE: a failed factor, one over another analysis, a selected inverse or region
- *           that is of another analysis or not of the present numbers of factor, or objects from a
- *           file that a newer version has written and this one reads in part;
- *           SL_ERR_UNSUPPORTED: SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds.
+ *           SL_ERR_STALE: a failed factor, or a selected inverse or region that is not of its
+ *           present numbers; SL_ERR_STATE: objects of different analyses, or from a file that a
+ *           newer version has written and this one reads in part; SL_ERR_UNSUPPORTED:
+ *           SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds.
  *  Cost     O(1 + n_regions).
  *  Threads  reads the objects.
  */
@@ -2446,13 +2472,13 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  stats  [out]     change, factor; may be NULL. For pivots of both signs growth, pivot_min and
  *                   pivot_max become bounds until the next refactorization.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also if V does not have n rows; SL_ERR_PATTERN: V is
- *           malformed, or its row error.row is not in the column of L of error.column;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also if V does not have n rows; SL_ERR_PATTERN: V is malformed;
+ *           SL_ERR_OTHER_PATTERN: row error.row of V is not in the column of L of error.column;
  *           SL_ERR_PIVOT: a pivot would change its sign or vanish, at error.row; SL_ERR_NOT_FINITE:
  *           an entry of V at error.row, a weight (error.row = -1) or a pivot; SL_ERR_INACCURATE:
- *           growth beyond its limit, that of a loaded factor with its drift; SL_ERR_STATE: F has no
- *           numbers or is mapped; SL_ERR_UNSUPPORTED: null pivots were skipped, there are 2x2
- *           pivots, or L is in float; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           growth beyond its limit, that of a loaded factor with its drift; SL_ERR_STALE: F has no
+ *           numbers; SL_ERR_READ_ONLY: F is mapped; SL_ERR_UNSUPPORTED: null pivots were skipped,
+ *           there are 2x2 pivots, or L is in float; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
  *           written once for 8 vectors. Changes that may fail take another forward sweep or a copy.
  *  Threads  exclusive use of F.
@@ -2521,8 +2547,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
  *                     allowed.
  *  stats    [out]     factor, of all of L and A: the growth is that of sl_factor_refactor, to
  *                     rounding; may be NULL.
- *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error.row); SL_ERR_STATE:
- *           F has no numbers, or is mapped.
+ *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error.row); SL_ERR_STALE:
+ *           F has no numbers; SL_ERR_READ_ONLY: F is mapped.
  *  Cost     the fronts reached, and the update matrices of the subtrees below them, from L: about
  *           25 % of a factorization for one vertex of a 2D mesh. Temporary memory: 4 bytes per
  *           supernode, and for each worker an update matrix, 4 bytes per row of A and 4 per row of
@@ -2559,7 +2585,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const s
  *  F    [in]   the factor; kept by the object. When F changes, solves are refused until
  *              sl_pins_refactor.
  *  opt  [in]   allocator; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_UNSUPPORTED: pivots of both
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_UNSUPPORTED: pivots of both
  *           signs, or 2x2 pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
  *  Cost     O(1); with SL_NULL_PIVOT_SKIP 8 bytes per row.
  *  Source   capacitance matrix of a change of low rank, as in [Hager89].
@@ -2577,7 +2603,7 @@ SL_API void sl_pins_free(sl_pins *P);
  *  rows   [in]   count >= 0 rows in 0..n-1.
  *  stats  [out]  pins; error.row; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: a row is held already, by its pin or by a
- *           combination of the others, up to rounding; SL_ERR_STATE: F has changed;
+ *           combination of the others, up to rounding; SL_ERR_STALE: F has changed;
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
  *           (error.row); SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     by the capacitance matrix, for each pin, a forward sweep, which up to 8 nearby rows
@@ -2607,7 +2633,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *r
  *  indices  [in]   count >= 0 different numbers of pins, 0-based, in any order.
  *  stats    [out]  pins, of which count is the number that is left; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY; SL_ERR_TOO_LARGE; of pins that are eliminated
- *           also SL_ERR_STATE: F has changed, and the errors of sl_pins_add. On error P is as
+ *           also SL_ERR_STALE: F has changed, and the errors of sl_pins_add. On error P is as
  *           before.
  *  Cost     O(k^2) for each. If some are eliminated, the others are eliminated anew, by the reach
  *           of the released rows, or added anew by the capacitance matrix: release them together.
@@ -2625,9 +2651,10 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, const sl_int *indice
  *                matrix (stats.pins.reason). NULL: no matrix; one that P was given before is
  *                forgotten, and all pins use the capacitance matrix.
  *  stats  [out]  pins; error.row; may be NULL.
- *  Returns  as sl_pins_add; SL_ERR_ARGUMENT: also if the test fails (error.row); SL_ERR_PATTERN: A
- *           has not the analyzed pattern; SL_ERR_STATE: failed factor. On error P is as before, or,
- *           if F has changed or A is NULL, solves are refused until a later call succeeds.
+ *  Returns  as sl_pins_add; SL_ERR_ARGUMENT: also if the test fails (error.row);
+ *           SL_ERR_OTHER_PATTERN: A has not the analyzed pattern; SL_ERR_STALE: failed factor. On
+ *           error P is as before, or, if F has changed or A is NULL, solves are refused until a
+ *           later call succeeds.
  *  Cost     after F has changed, and without A, k forward sweeps and O(k^3), or a refactorization
  *           of the second factor, which elimination keeps. For A a solve, two products with A, and
  *           8 bytes per entry.
@@ -2648,10 +2675,10 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, const sl_csc *A, sl
  *  G      [in]   k x nrhs, column-major, leading dimension ldg elements: the values, in the order
  *                of the pins.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: F has changed, or the plan is of another
- *           analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: C' x = g does not
- *           hold to 1e-8 of x, or rounding hides whether pins rule out the motions of a body;
- *           SL_ERR_INCONSISTENT: b is out of balance with a motion that the pins leave; with
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: F has changed; SL_ERR_STATE: the plan is of
+ *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: C' x = g
+ *           does not hold to 1e-8 of x, or rounding hides whether pins rule out the motions of a
+ *           body; SL_ERR_INCONSISTENT: b is out of balance with a motion that the pins leave; with
  *           more than 8 right-hand sides X may then have those before it; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     for each right-hand side a solve and, of the pins that are not eliminated, k products
@@ -2672,10 +2699,11 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *p
  *  the order of A; if fewer than 40 % could be copied, all are (stats.restriction.is_anew).
  *
  *  G and S do not depend on F. Their row k is row rows[k] of A. They can be solved with, pinned and
- *  inverted as any factor. Refactorizations, changes and saving give SL_ERR_STATE; what compares a
- *  matrix with the analyzed pattern gives SL_ERR_PATTERN: refinement, sl_factor_rcond, another
- *  factor over S. G has the options and the storage of F, but refuses null pivots by
- *  null_tolerance: a component of a singular Laplacian that is in R as a whole gives SL_ERR_PIVOT.
+ *  inverted as any factor. Refactorizations and changes give SL_ERR_READ_ONLY, saving SL_ERR_STATE;
+ *  what compares a matrix with the analyzed pattern gives SL_ERR_OTHER_PATTERN: refinement,
+ *  sl_factor_rcond, another factor over S. G has the options and the storage of F, but refuses null
+ *  pivots by null_tolerance: a component of a singular Laplacian that is in R as a whole gives
+ *  SL_ERR_PIVOT.
  *
  *  S      [out]  the analysis, or NULL on error; release with sl_symbolic_free.
  *  G      [out]  the factor, or NULL on error; release with sl_factor_free.
@@ -2686,10 +2714,10 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *p
  *  opt    [in]   allocator; may be NULL.
  *  stats  [out]  restriction, factor; errors are in rows of A; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
- *           SL_ERR_PATTERN: A differs in size or number of entries from the analyzed matrix, or
- *           error.column of it is malformed; SL_ERR_PIVOT, _NOT_FINITE, _INACCURATE: as
- *           sl_factor_create; SL_ERR_STATE: F has no numbers; SL_ERR_UNSUPPORTED: F has 2x2
- *           pivots or is a restriction itself; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           SL_ERR_OTHER_PATTERN: A differs in size or number of entries from the analyzed matrix;
+ *           SL_ERR_PATTERN: error.column of it is malformed; SL_ERR_PIVOT, _NOT_FINITE,
+ *           _INACCURATE: as sl_factor_create; SL_ERR_STALE: F has no numbers; SL_ERR_UNSUPPORTED: F
+ *           has 2x2 pivots or is a restriction itself; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     linear in the entries of A in R and the rows of supernodes in R, a copy of the kept
  *           entries of L, and the flops of the other columns: 0.44 to 1.45 of the time of analyzing
  *           and factoring A[R, R] in a given order.
@@ -2725,9 +2753,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **
  *                 reads; may be NULL.
  *  stats   [out]  symbolic, edit; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
- *           the row of A), and as sl_symbolic_create; SL_ERR_PATTERN: A does not have the
- *           analyzed pattern, or B is malformed or not symmetric; SL_ERR_UNSUPPORTED: S was created
- *           with pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           the row of A), and as sl_symbolic_create; SL_ERR_OTHER_PATTERN: A does not have the
+ *           analyzed pattern; SL_ERR_PATTERN: B is malformed or not symmetric; SL_ERR_UNSUPPORTED:
+ *           S was created with pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
  *  Cost     O(n + nnz + rows of supernodes) with small constants, and the order and analysis of the
  *           columns above the edit. Where 0.1 % of a mesh of 1e6 vertices is remeshed, about 1/14
  *           of a new order and analysis.
@@ -2760,7 +2789,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
  *  opt     [in]   as for sl_factor_create; may be NULL.
  *  stats   [out]  factor, reuse; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
- *           the row of A); SL_ERR_STATE: F has no numbers; otherwise as sl_factor_create.
+ *           the row of A); SL_ERR_STALE: F has no numbers; otherwise as sl_factor_create.
  *  Cost     O(n + nnz + rows of supernodes), a copy of L, and stats.reuse.flops. Where 0.1 % of a
  *           mesh of 1e6 vertices is remeshed in one place, about a third of a new factorization; at
  *           most a tenth more than that where little is worth keeping.
@@ -2851,7 +2880,8 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_hermitian(sl_matrix **out, const 
  *
  *  M      [in,out]  of sl_matrix_from_hermitian, with values; on error untouched.
  *  stats  [out]     error.row, error.column, in complex rows; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also a pattern without values; SL_ERR_PATTERN: another pattern.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a pattern without values; SL_ERR_PATTERN;
+ *           SL_ERR_OTHER_PATTERN: not that of M.
  *  Cost     O(n + nnz).
  *  Threads  exclusive use of M.
  *  Example  tests/core/test_complex.c
@@ -3124,6 +3154,13 @@ extern int sli_linkat(int from_folder, const char *from, int to_folder, const ch
 extern int sli_usleep(unsigned microseconds) __asm__("usleep");
 #endif
 
+#if defined(SL_NO_THREAD_LOCAL)
+#elif defined(SLI_GNU)
+#define SLI_THREAD_LOCAL __thread
+#elif defined(_MSC_VER)
+#define SLI_THREAD_LOCAL __declspec(thread)
+#endif
+
 #if defined(__unix__) || defined(__APPLE__)
 #define SLI_POSIX 1
 #include <fcntl.h>
@@ -3375,7 +3412,7 @@ SLI_INLINE double sli_seconds(void) {
 #endif
 }
 
-/* src/impl/base/status.h: status codes as text, and the error group of stats */
+/* src/impl/base/status.h: status codes and errors as text, and where the reason of an error is kept */
 
 SL_API int sl_version(void) {
   return SL_VERSION;
@@ -3404,11 +3441,17 @@ SL_API const char *sl_status_string(sl_status status) {
   case SL_ERR_ORDERING:
     return "ordering failed";
   case SL_ERR_STATE:
-    return "failed factor, or objects that do not belong together";
+    return "objects that do not belong together";
   case SL_ERR_INCONSISTENT:
     return "inconsistent right-hand side of a singular system";
   case SL_ERR_INACCURATE:
     return "inaccurate: pivot growth or backward error above its limit";
+  case SL_ERR_OTHER_PATTERN:
+    return "not the analyzed pattern";
+  case SL_ERR_STALE:
+    return "numbers that are missing or out of date";
+  case SL_ERR_READ_ONLY:
+    return "read-only object";
   }
   return "unknown status";
 }
@@ -3417,31 +3460,132 @@ SL_API size_t sl_stats_size(void) {
   return sizeof(sl_stats);
 }
 
-SLI_INLINE void sli_stats_clear_error(sl_stats *stats) {
-  if (stats != NULL) {
-    stats->error.row = -1;
-    stats->error.column = -1;
-    stats->error.line = -1;
-    stats->error.value = 0.0;
-    stats->error.what = NULL;
-  }
-}
+typedef struct sli_last_error {
+  sl_status status;
+  sl_error error;
+} sli_last_error;
 
-SLI_INLINE sl_status sli_unsupported(sl_stats *stats, const char *what) {
-  if (stats != NULL) {
-    stats->error.what = what;
-  }
-  return SL_ERR_UNSUPPORTED;
-}
+#if defined(SLI_THREAD_LOCAL)
+static SLI_THREAD_LOCAL sli_last_error sli_last;
+#endif
 
 SLI_NOINLINE static sl_status sli_fail_at(sl_stats *stats, sl_status status, sl_int row,
-                      sl_int column, double value) {
+                      sl_int column, double value, const char *what) {
+  sl_error e;
+  e.row = row;
+  e.column = column;
+  e.line = -1;
+  e.value = value;
+  e.what = what;
   if (stats != NULL) {
-    stats->error.row = row;
-    stats->error.column = column;
-    stats->error.value = value;
+    stats->error = e;
   }
+#if defined(SLI_THREAD_LOCAL)
+  sli_last.status = status;
+  sli_last.error = e;
+#endif
   return status;
+}
+
+SLI_COLD static sl_status sli_fail_as(sl_stats *stats, sl_status status, const sl_error *e) {
+  return e->what == NULL ? status
+               : sli_fail_at(stats, status, e->row, e->column, e->value, e->what);
+}
+
+SLI_COLD static sl_status sli_refuse(sl_status status, const char *what) {
+  return sli_fail_at(NULL, status, -1, -1, 0.0, what);
+}
+
+SLI_COLD static sl_status sli_no_memory(void) {
+  return sli_refuse(SL_ERR_MEMORY, "the allocator returned NULL");
+}
+
+SLI_NOINLINE static sl_status sli_argument(const char *wrong) {
+  return wrong == NULL ? SL_OK : sli_refuse(SL_ERR_ARGUMENT, wrong);
+}
+
+SLI_NOINLINE static sl_status sli_begin(void *out) {
+  static const void *const none = NULL;
+  if (out != NULL) {
+    memcpy(out, &none, sizeof none);
+  }
+  return sli_argument(out == NULL ? "out is NULL" : NULL);
+}
+
+SLI_NOINLINE static void sli_stats_clear_error(sl_stats *stats) {
+  (void)sli_fail_at(stats, SL_OK, -1, -1, 0.0, NULL);
+}
+
+SLI_NOINLINE static sl_status sli_report(sl_stats *stats, sl_status status) {
+  if (status == SL_OK) {
+#if defined(SLI_THREAD_LOCAL)
+    sli_last.status = SL_OK;
+#endif
+    return status;
+  }
+#if defined(SLI_THREAD_LOCAL)
+  if (sli_last.status != status) {
+    SLI_ASSERT(status == SL_ERR_MEMORY);
+    (void)sli_refuse(status, "an allocation failed");
+  }
+  if (stats != NULL) {
+    stats->error = sli_last.error;
+  }
+#else
+  if (stats != NULL && stats->error.what == NULL) {
+    stats->error.what = "no more is known";
+  }
+#endif
+  return status;
+}
+
+SLI_NOINLINE static void sli_error_line(sl_stats *stats, sl_off line) {
+  if (stats != NULL) {
+    stats->error.line = line;
+  }
+#if defined(SLI_THREAD_LOCAL)
+  sli_last.error.line = line;
+#endif
+}
+
+SLI_COLD static sl_status sli_file_fails(const char *what) {
+  return sli_fail_at(NULL, SL_ERR_IO, -1, -1, (double)errno,
+             errno == ENOENT   ? "there is no such file or folder"
+             : errno == EACCES ? "permission is denied"
+                     : what);
+}
+
+static int sli_error_place(char *place, size_t size, sl_status status, const sl_error *e) {
+  const char *const names[4] = {"row", "column", "line", status == SL_ERR_IO ? "errno" : "value"};
+  const double numbers[4] = {(double)e->row, (double)e->column, (double)e->line, e->value};
+  int k, length = 0;
+  for (k = 0; k < 4; k++) {
+    if (numbers[k] != (k < 3 ? -1.0 : 0.0)) {
+      length += snprintf(place + length, size - (size_t)length, "%s%s %.10g",
+                 length == 0 ? " (" : ", ", names[k], numbers[k]);
+    }
+  }
+  return length;
+}
+
+SL_API size_t sl_error_text(char *buffer, size_t size, sl_status status, const sl_stats *stats) {
+  const sl_error *e = stats == NULL ? NULL : &stats->error;
+  char place[128];
+  int has_place = 0;
+  const char *text = sl_status_string(status), *what = NULL;
+#if defined(SLI_THREAD_LOCAL)
+  if (e == NULL && sli_last.status == status) {
+    e = &sli_last.error;
+  }
+#endif
+  if (e != NULL && status != SL_OK) {
+    what = e->what;
+    has_place = sli_error_place(place, sizeof place, status, e) > 0;
+  }
+  return (size_t)snprintf(buffer, size, "%.*s%s%s%s%s",
+              (int)(what != NULL ? strcspn(text, ":") : strlen(text)), text,
+              what != NULL ? ": " : "", what != NULL ? what : "",
+              has_place ? place : "", has_place ? ")" : "");
 }
 
 /* src/impl/base/options.h: initializes options and checks them in every call */
@@ -3480,29 +3624,33 @@ static int sli_options_set(const sl_options *opt) {
 }
 #endif
 
-SLI_NOINLINE static int sli_options_hold(const sl_options *opt, int reads) {
+SLI_NOINLINE static const char *sli_options_wrong(const sl_options *opt, int reads) {
   size_t k;
-  if (opt->reserved_pointer != NULL || opt->reserved_int != 0) {
-    return 0;
+  int is_unknown;
+  if (opt == NULL) {
+    return NULL;
   }
+  is_unknown = opt->reserved_pointer != NULL || opt->reserved_int != 0;
   for (k = 0; k < sizeof opt->reserved / sizeof opt->reserved[0]; k++) {
-    if (opt->reserved[k] != NULL) {
-      return 0;
-    }
+    is_unknown |= opt->reserved[k] != NULL;
+  }
+  if (opt->size != 0 && opt->size != sizeof *opt) {
+    return "options.size is not that of the library: sl_options_init sets it";
+  }
+  if (is_unknown) {
+    return "a reserved field of options is not 0: sl_options_init sets all fields";
   }
 #if defined(SL_VERIFY)
   if ((sli_options_set(opt) & ~reads) != 0) {
-    return 0;
+    return "an option is set that the call does not read";
   }
 #else
   (void)reads;
 #endif
-  return (opt->size == 0 || opt->size == sizeof *opt) && opt->threads.count >= 0 &&
-       (opt->allocator.allocate == NULL) == (opt->allocator.release == NULL);
-}
-
-SLI_INLINE int sli_options_are_valid(const sl_options *opt, int reads) {
-  return opt == NULL || sli_options_hold(opt, reads);
+  return opt->threads.count < 0 ? "options.threads.count is below 0"
+       : (opt->allocator.allocate == NULL) != (opt->allocator.release == NULL)
+         ? "options.allocator has only one of its two functions"
+         : NULL;
 }
 
 /* src/impl/base/alloc.h: the allocator: 64-byte aligned blocks, cut into arrays with overflow checks */
@@ -3608,11 +3756,11 @@ SLI_NOINLINE static void *sli_take(sli_block *b, uint64_t count, size_t size) {
 
 SLI_NOINLINE static sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
   if (b->overflow) {
-    return SL_ERR_TOO_LARGE;
+    return sli_refuse(SL_ERR_TOO_LARGE, "more memory than size_t counts");
   }
   b->base = (unsigned char *)sli_alloc(a, b->used > 0 ? b->used : 1);
   if (b->base == NULL) {
-    return SL_ERR_MEMORY;
+    return sli_no_memory();
   }
   b->used = 0;
   return SL_OK;
@@ -4929,10 +5077,12 @@ SLI_INLINE sl_int sli_nnz(const sl_csc *A) {
 }
 
 static sl_status sli_csc_check_sizes(int64_t n_rows, int64_t n_cols, const void *p) {
-  if (n_rows < 0 || n_cols < 0 || (n_cols > 0 && p == NULL)) {
-    return SL_ERR_ARGUMENT;
-  }
-  return n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX ? SL_ERR_TOO_LARGE : SL_OK;
+  const sl_status status = sli_argument(n_rows < 0 || n_cols < 0  ? "A has a size below 0"
+                      : n_cols > 0 && p == NULL ? "A.p is NULL"
+                                  : NULL);
+  return status == SL_OK && (n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX)
+         ? sli_refuse(SL_ERR_TOO_LARGE, "A has more than 2^31 - 8 rows or columns")
+         : status;
 }
 
 static int sli_csc_has_pattern(const sl_csc *A) {
@@ -4945,20 +5095,22 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
   sl_int j, p;
   uint32_t beyond = 0;
   sli_stats_clear_error(stats);
-  status = A == NULL ? SL_ERR_ARGUMENT : sli_csc_check_sizes(A->n_rows, A->n_cols, A->p);
+  status = sli_argument(A == NULL ? "A is NULL" : NULL);
+  status = status == SL_OK ? sli_csc_check_sizes(A->n_rows, A->n_cols, A->p) : status;
   if (status != SL_OK || A->n_cols == 0) {
-    return status;
+    return sli_report(stats, status);
   }
   if (A->p[0] != 0) {
-    return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0);
+    return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0, "A.p[0] is not 0");
   }
   for (j = 0; j < A->n_cols; j++) {
     if (A->p[j + 1] < A->p[j]) {
-      return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0);
+      return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0, "A.p descends");
     }
   }
-  if (sli_nnz(A) > 0 && A->i == NULL) {
-    return SL_ERR_ARGUMENT;
+  status = sli_argument(sli_nnz(A) > 0 && A->i == NULL ? "A.i is NULL" : NULL);
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
   for (p = 0; p < sli_nnz(A); p++) {
     beyond |= (uint32_t)A->i[p] >= (uint32_t)A->n_rows;
@@ -4966,7 +5118,8 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
   for (j = 0; beyond; j++) {
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
       if (A->i[p] < 0 || A->i[p] >= A->n_rows) {
-        return sli_fail_at(stats, SL_ERR_PATTERN, A->i[p], j, 0.0);
+        return sli_fail_at(stats, SL_ERR_PATTERN, A->i[p], j, 0.0,
+                   "a row of A is out of range; rows count from 0");
       }
     }
   }
@@ -5006,6 +5159,19 @@ static sl_triangle sli_csc_columns(const sl_csc *A, sl_int *column) {
     above |= row[p] - here;
   }
   return sli_triangle_of(below, above);
+}
+
+static sl_int sli_column_of(const sl_csc *A, sl_int p) {
+  sl_int low = 0, high = A->n_cols - 1;
+  while (low < high) {
+    const sl_int middle = low + (high - low + 1) / 2;
+    if (A->p[middle] <= p) {
+      low = middle;
+    } else {
+      high = middle - 1;
+    }
+  }
+  return low;
 }
 
 SLI_INLINE int sli_is_read(sl_triangle triangle, sl_int row, sl_int column) {
@@ -5142,21 +5308,27 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
   const sl_allocator a = sli_allocator(opt);
   sli_triplet_list t;
   sl_off k;
+  sl_status status;
   sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
+  status = sli_begin(out);
+  if (status == SL_OK) {
+    status = sli_argument(n_rows < 0               ? "n_rows is below 0"
+                : n_cols < 0             ? "n_cols is below 0"
+                : count < 0              ? "count is below 0"
+                : count > 0 && i == NULL ? "i is NULL"
+                : count > 0 && j == NULL ? "j is NULL"
+                             : sli_options_wrong(opt, SLI_READS_NOTHING));
   }
-  *out = NULL;
-  if (n_rows < 0 || n_cols < 0 || count < 0 || (count > 0 && (i == NULL || j == NULL)) ||
-    !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-    return SL_ERR_ARGUMENT;
+  if (status == SL_OK && (count > INT32_MAX || n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX)) {
+    status = sli_refuse(SL_ERR_TOO_LARGE, "more than 2^31 - 1 triplets, or 2^31 - 8 rows");
   }
-  if (count > INT32_MAX || n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX) {
-    return SL_ERR_TOO_LARGE;
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
   for (k = 0; k < count; k++) {
     if (i[k] < 0 || i[k] >= n_rows || j[k] < 0 || j[k] >= n_cols) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, i[k], j[k], 0.0);
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, i[k], j[k], (double)k,
+                 "a triplet is out of range; rows count from 0");
     }
   }
   t.n_rows = n_rows;
@@ -5165,7 +5337,7 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
   t.i = i;
   t.j = j;
   t.x = x;
-  return sli_from_triplets(out, &t, &a);
+  return sli_report(stats, sli_from_triplets(out, &t, &a));
 }
 
 SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_options *opt) {
@@ -5173,12 +5345,9 @@ SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_
   sl_status status;
   sl_int j, p, k;
   sl_matrix *T;
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  status =
-    sli_options_are_valid(opt, SLI_READS_NOTHING) ? sl_csc_check(A, NULL) : SL_ERR_ARGUMENT;
+  status = sli_begin(out);
+  status = status == SL_OK ? sli_argument(sli_options_wrong(opt, SLI_READS_NOTHING)) : status;
+  status = status == SL_OK ? sl_csc_check(A, NULL) : status;
   if (status != SL_OK) {
     return status;
   }
@@ -5216,7 +5385,8 @@ static sl_status sli_csc_check_symmetry(const sl_csc *A, const sl_csc *T, sl_int
     }
     for (p = T->p[j]; p < T->p[j + 1]; p++) {
       if (mark[T->i[p]] != j + 1) {
-        return sli_fail_at(stats, SL_ERR_PATTERN, j, T->i[p], 0.0);
+        return sli_fail_at(stats, SL_ERR_PATTERN, j, T->i[p], 0.0,
+                   "both triangles are stored, and this entry in one of them only");
       }
     }
   }
@@ -5232,7 +5402,7 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle found, sl_triangl
   sl_int *mark;
   sl_status status = SL_OK;
   if ((unsigned)wanted > (unsigned)SL_TRIANGLE_BOTH) {
-    return SL_ERR_ARGUMENT;
+    return sli_refuse(SL_ERR_ARGUMENT, "options.triangle is not a value of sl_triangle");
   }
   if (wanted == SL_TRIANGLE_LOWER || wanted == SL_TRIANGLE_UPPER) {
     *out = wanted;
@@ -5247,7 +5417,7 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle found, sl_triangl
     }
     T = sl_matrix_view(transpose);
     mark = (sl_int *)sli_alloc(&a, (size_t)A->n_cols * sizeof(sl_int));
-    status = mark == NULL ? SL_ERR_MEMORY : sli_csc_check_symmetry(A, &T, mark, stats);
+    status = mark == NULL ? sli_no_memory() : sli_csc_check_symmetry(A, &T, mark, stats);
     sli_free(&a, mark);
     sl_matrix_free(transpose);
   }
@@ -5260,13 +5430,16 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle found, sl_triangl
 SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
                  sl_stats *stats) {
   sl_status status = sl_csc_check(A, stats);
-  if (status != SL_OK) {
-    return status;
+  if (status == SL_OK) {
+    status =
+      sli_argument(out == NULL              ? "out is NULL"
+             : A->n_rows != A->n_cols ? "A is not square"
+                          : sli_options_wrong(opt, SLI_READS_TRIANGLE));
   }
-  if (out == NULL || A->n_rows != A->n_cols || !sli_options_are_valid(opt, SLI_READS_TRIANGLE)) {
-    return SL_ERR_ARGUMENT;
+  if (status == SL_OK) {
+    status = sli_csc_triangle(A, sli_triangle_scan(A), out, opt, stats);
   }
-  return sli_csc_triangle(A, sli_triangle_scan(A), out, opt, stats);
+  return sli_report(stats, status);
 }
 
 /* src/impl/matrix/csc_products.h: products with a matrix in compressed columns, its norm, residuals */
@@ -5287,26 +5460,35 @@ static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, 
   }
 }
 
-static int sli_csc_has_arrays(const sl_csc *A) {
-  return A->n_rows >= 0 && A->n_cols >= 0 && (A->n_cols == 0 || A->p != NULL) &&
-       (sli_nnz(A) <= 0 || (A->i != NULL && A->x != NULL));
+static const char *sli_product_wrong(const sl_csc *A, sl_int nrhs, int is_square) {
+  return A == NULL                             ? "A is NULL"
+       : nrhs < 0                            ? "nrhs is below 0"
+       : A->n_rows < 0 || A->n_cols < 0      ? "A has a size below 0"
+       : A->n_cols > 0 && A->p == NULL       ? "A.p is NULL"
+       : sli_nnz(A) > 0 && A->i == NULL      ? "A.i is NULL"
+       : sli_nnz(A) > 0 && A->x == NULL      ? "A.x is NULL"
+       : is_square && A->n_rows != A->n_cols ? "A is not square"
+                         : NULL;
 }
 
 SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y, size_t ldy,
                  const double *X, size_t ldx, sl_int nrhs) {
   sl_triangle triangle;
   sl_int r;
-  if (A == NULL || nrhs < 0 || !sli_csc_has_arrays(A) ||
-    (reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED) ||
-    (reading == SL_AS_SYMMETRIC && A->n_rows != A->n_cols)) {
-    return SL_ERR_ARGUMENT;
+  sl_status status = sli_argument(reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED
+                    ? "reading is not a value of sl_reading"
+                    : sli_product_wrong(A, nrhs, reading == SL_AS_SYMMETRIC));
+  if (status != SL_OK || nrhs == 0 || A->n_rows == 0) {
+    return status;
   }
-  if (nrhs == 0 || A->n_rows == 0) {
-    return SL_OK;
-  }
-  if (Y == NULL || !sli_is_ld(ldy, A->n_rows) || !sli_is_ld(ldx, A->n_cols) ||
-    (A->n_cols > 0 && (X == NULL || X == Y))) {
-    return SL_ERR_ARGUMENT;
+  status = sli_argument(Y == NULL                    ? "Y is NULL"
+              : !sli_is_ld(ldy, A->n_rows) ? "ldy is below the rows of A"
+              : !sli_is_ld(ldx, A->n_cols) ? "ldx is below the columns of A"
+              : A->n_cols > 0 && X == NULL ? "X is NULL"
+              : A->n_cols > 0 && X == Y    ? "X is Y"
+                             : NULL);
+  if (status != SL_OK) {
+    return status;
   }
   triangle = reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE;
   for (r = 0; r < nrhs; r++) {
@@ -5352,8 +5534,9 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
   sl_int r, n;
   size_t rows;
   sl_triangle triangle;
-  if (A == NULL || A->n_rows != A->n_cols || nrhs < 0 || !sli_csc_has_arrays(A)) {
-    return SL_ERR_ARGUMENT;
+  sl_status status = sli_argument(sli_product_wrong(A, nrhs, 1));
+  if (status != SL_OK) {
+    return status;
   }
   n = A->n_cols;
   rows = (size_t)n;
@@ -5363,9 +5546,19 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
     }
     return SL_OK;
   }
-  if (B == NULL || R == NULL || X == NULL || !sli_is_ld(ldb, n) || !sli_is_ld(ldr, n) ||
-    !sli_is_ld(ldx, n) || R == X || (R == B && (backward_error != NULL || ldr != ldb))) {
-    return SL_ERR_ARGUMENT;
+  status =
+    sli_argument(B == NULL                          ? "B is NULL"
+           : R == NULL                        ? "R is NULL"
+           : X == NULL                        ? "X is NULL"
+           : !sli_is_ld(ldb, n)               ? "ldb is below n"
+           : !sli_is_ld(ldr, n)               ? "ldr is below n"
+           : !sli_is_ld(ldx, n)               ? "ldx is below n"
+           : R == X                           ? "R is X"
+           : R == B && ldr != ldb             ? "R is B with another leading dimension"
+           : R == B && backward_error != NULL ? "R is B, and backward_error is wanted"
+                            : NULL);
+  if (status != SL_OK) {
+    return status;
   }
   triangle = sli_triangle_scan(A);
   if (backward_error != NULL) {
@@ -5451,7 +5644,7 @@ static sl_status sli_submatrix_make(sl_matrix **out, sl_int **from, const sli_su
   status = sli_matrix_new(&M, s->count, s->count, position[s->count], s->A->x != NULL, a);
   if (status == SL_OK && from != NULL) {
     *from = (sl_int *)sli_alloc(a, ((size_t)position[s->count] + 1) * sizeof(sl_int));
-    status = *from == NULL ? SL_ERR_MEMORY : SL_OK;
+    status = *from == NULL ? sli_no_memory() : SL_OK;
   }
   if (status == SL_OK) {
     memcpy(M->p, position, ((size_t)s->count + 1) * sizeof(sl_int));
@@ -5471,28 +5664,26 @@ SL_API sl_status sl_matrix_submatrix(sl_matrix **out, const sl_csc *A, const sl_
   sl_int *where = NULL, *position = NULL, bad;
   sl_status status;
   sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  status = sl_csc_check(A, stats);
-  if (status != SL_OK) {
-    return status;
-  }
-  if (A->n_rows != A->n_cols || count < 0 || (count > 0 && rows == NULL) ||
-    !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-    return SL_ERR_ARGUMENT;
+  status = sli_begin(out);
+  status = status == SL_OK ? sl_csc_check(A, stats) : status;
+  if (status == SL_OK) {
+    status =
+      sli_argument(A->n_rows != A->n_cols      ? "A is not square"
+             : count < 0                 ? "count is below 0"
+             : count > 0 && rows == NULL ? "rows is NULL"
+                           : sli_options_wrong(opt, SLI_READS_NOTHING));
   }
   SLI_LAYOUT(&b, &a, status) {
     where = SLI_TAKE(&b, sl_int, A->n_cols);
     position = SLI_TAKE(&b, sl_int, (uint64_t)count + 1);
   }
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   bad = sli_rows_invert(rows, count, A->n_cols, where);
   if (bad >= 0) {
-    status = sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0);
+    status = sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0,
+               "a row is out of range or given twice");
   } else {
     s.A = A;
     s.triangle = SL_TRIANGLE_NONE;
@@ -5502,7 +5693,7 @@ SL_API sl_status sl_matrix_submatrix(sl_matrix **out, const sl_csc *A, const sl_
     status = sli_submatrix_make(out, NULL, &s, position, &a);
   }
   sli_free(&a, b.base);
-  return status;
+  return sli_report(stats, status);
 }
 
 /* ordering: fill-reducing orderings of a graph */
@@ -5714,6 +5905,11 @@ typedef struct sli_order_job {
   int is_peeled;
   const sl_int *weight;
 } sli_order_job;
+
+SLI_COLD static sl_status sli_order_refuse(const sli_order_job *job, sl_status status,
+                       const char *what) {
+  return sli_fail_at(job->stats, status, -1, -1, 0.0, what);
+}
 
 /* src/impl/ordering/reduce.h: rows ordered apart: those with few neighbors first, constraints last */
 
@@ -8033,7 +8229,7 @@ static sl_status sli_dissect_levels(sli_dissection *d) {
     sli_dissect_project(d);
     sli_dissect_visit(d, sli_dissect_refine);
   }
-  return d->pool.failed ? SL_ERR_MEMORY : SL_OK;
+  return d->pool.failed ? sli_no_memory() : SL_OK;
 }
 
 static void sli_dissect_swap(sli_dissection *d) {
@@ -8631,7 +8827,7 @@ static sl_status sli_nd_dissect(sli_nd *w) {
       sli_dissect_visit(d, sli_dissect_separate);
     } while (rounds-- > 0 && /* untested: there are fewer rounds */
          sli_dissect_split(d, 2 * d->leaf_size, sli_dissect_bisect) > 0);
-    status = d->pool.failed ? SL_ERR_MEMORY : SL_OK;
+    status = d->pool.failed ? sli_no_memory() : SL_OK;
   }
   return status;
 }
@@ -8933,7 +9129,8 @@ static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_
     edges += G->begin[vertices[k] + 1] - G->begin[vertices[k]];
   }
   if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) { /* untested: 2^31 edges */
-    return SL_ERR_TOO_LARGE;                               /* untested: the same */
+    return sli_order_refuse(job, SL_ERR_TOO_LARGE,         /* untested: the same */
+                "METIS has 32-bit indices");
   }
   SLI_LAYOUT(&b, job->a, status) {
     xadj = SLI_TAKE(&b, idx_t, (size_t)count + 1);
@@ -8961,9 +9158,10 @@ static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_
     }
   }
   sli_free(job->a, b.base);
-  return result == METIS_OK             ? SL_OK
-       : result == METIS_ERROR_MEMORY ? SL_ERR_MEMORY
-                      : SL_ERR_ORDERING;
+  return result == METIS_OK ? SL_OK
+       : result == METIS_ERROR_MEMORY
+         ? sli_order_refuse(job, SL_ERR_MEMORY, "METIS has no memory")
+         : sli_order_refuse(job, SL_ERR_ORDERING, "METIS_NodeND has failed");
 }
 
 static sl_status sli_order_metis(const sli_order_job *job) {
@@ -9681,11 +9879,13 @@ static sl_status sli_order_given(const sli_order_job *job) {
   const sl_int *given = job->opt->perm, n = job->A->n_cols;
   sl_int bad;
   if (given == NULL && n > 0) {
-    return SL_ERR_ARGUMENT;
+    return sli_order_refuse(job, SL_ERR_ARGUMENT,
+                "options.perm is NULL though ordering is GIVEN");
   }
   bad = sli_rows_invert(given, n, n, job->scratch);
   if (bad >= 0) {
-    return sli_fail_at(job->stats, SL_ERR_ARGUMENT, bad, -1, 0.0);
+    return sli_fail_at(job->stats, SL_ERR_ARGUMENT, bad, -1, given[bad],
+               "options.perm has a row out of range or twice at this position");
   }
   if (n > 0) {
     memcpy(job->perm, given, (size_t)n * sizeof(sl_int));
@@ -9809,10 +10009,14 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
   return status;
 }
 
-static int sli_order_options_are_valid(const sl_options *opt, sl_int n) {
-  return opt == NULL ||
-       ((opt->purpose == SL_PURPOSE_MANY_SOLVES || opt->purpose == SL_PURPOSE_ONE_FACTOR) &&
-      opt->block_size >= 0 && (opt->block_size <= 1 || n % opt->block_size == 0));
+static const char *sli_order_options_wrong(const sl_options *opt, sl_int n) {
+  return opt == NULL ? NULL
+       : (unsigned)opt->purpose > (unsigned)SL_PURPOSE_ONE_FACTOR
+         ? "options.purpose is not a value of sl_purpose"
+       : opt->block_size < 0 ? "options.block_size is below 0"
+       : opt->block_size > 1 && n % opt->block_size != 0
+         ? "options.block_size does not divide n"
+         : NULL;
 }
 
 static int sli_order_is_hurried(const sl_options *opt) {
@@ -9831,11 +10035,13 @@ static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
 
 static sl_status sli_order(sli_order_job *job) {
   const sl_options *opt = job->opt;
+  const char *wrong;
   job->septree->count = 0;
   job->choice->is_there = 0;
   job->choice->has_tree = 0;
-  if (!sli_order_options_are_valid(opt, job->A->n_cols)) {
-    return SL_ERR_ARGUMENT;
+  wrong = sli_order_options_wrong(opt, job->A->n_cols);
+  if (wrong != NULL) {
+    return sli_order_refuse(job, SL_ERR_ARGUMENT, wrong);
   }
   job->ordering = opt != NULL ? opt->ordering : SL_ORDERING_ND;
   job->is_hurried = sli_order_is_hurried(opt);
@@ -9850,10 +10056,12 @@ static sl_status sli_order(sli_order_job *job) {
     return SL_OK;
   case SL_ORDERING_METIS:
 #if defined(SLI_METIS)
-    return sli_metis_options_are_valid(opt->metis_options) ? sli_order_by_graph(job)
-                                 : SL_ERR_ARGUMENT;
+    return sli_metis_options_are_valid(opt->metis_options)
+           ? sli_order_by_graph(job)
+           : sli_order_refuse(job, SL_ERR_ARGUMENT,
+                    "an entry of options.metis_options is not known");
 #else
-    return SL_ERR_UNSUPPORTED;
+    return sli_order_refuse(job, SL_ERR_UNSUPPORTED, "options.ordering needs SL_METIS");
 #endif
   case SL_ORDERING_ND:
   case SL_ORDERING_MINDEG:
@@ -9863,7 +10071,8 @@ static sl_status sli_order(sli_order_job *job) {
     }
     return sli_order_by_graph(job);
   default:
-    return SL_ERR_ARGUMENT;
+    return sli_order_refuse(job, SL_ERR_ARGUMENT,
+                "options.ordering is not a value of sl_ordering");
   }
 }
 
@@ -11404,10 +11613,11 @@ static sl_int sli_analysis_workers(const sl_csc *A, const sl_options *opt) {
              SLI_TEAM_MAX);
 }
 
-static int sli_symbolic_options_are_valid(const sl_options *opt) {
-  return sli_options_are_valid(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE) &&
-       (opt == NULL || opt->relaxation == SL_RELAXATION_DEFAULT ||
-      opt->relaxation == SL_RELAXATION_NONE);
+static const char *sli_symbolic_options_wrong(const sl_options *opt) {
+  const char *wrong = sli_options_wrong(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE);
+  return wrong == NULL && opt != NULL && (unsigned)opt->relaxation > (unsigned)SL_RELAXATION_NONE
+         ? "options.relaxation is not a value of sl_relaxation"
+         : wrong;
 }
 
 static sl_status sli_symbolic_check(const sl_csc *A, const sl_options *opt, sli_hash *pattern,
@@ -11416,8 +11626,9 @@ static sl_status sli_symbolic_check(const sl_csc *A, const sl_options *opt, sli_
   if (!sli_csc_has_pattern(A) || !sli_pattern_hash(A, pattern)) {
     status = sl_csc_check(A, stats);
   }
-  if (status == SL_OK && (A->n_rows != A->n_cols || !sli_symbolic_options_are_valid(opt))) {
-    status = SL_ERR_ARGUMENT;
+  if (status == SL_OK) {
+    status = sli_argument(A->n_rows != A->n_cols ? "A is not square"
+                           : sli_symbolic_options_wrong(opt));
   }
   return status;
 }
@@ -11429,17 +11640,14 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
   sli_block b = {NULL, 0, 0};
   sli_arena arena;
   sl_status status;
-  sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
   memset(&j, 0, sizeof j);
+  sli_stats_clear_error(stats);
   sli_stats_clear_error(&j.found);
   j.w.clock = sli_seconds();
-  status = sli_symbolic_check(A, opt, &j.w.pattern, stats);
+  status = sli_begin(out);
+  status = status == SL_OK ? sli_symbolic_check(A, opt, &j.w.pattern, stats) : status;
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   j.out = out;
   j.opt = opt;
@@ -11460,14 +11668,14 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     sli_team_run(opt != NULL ? &opt->threads : &sli_no_threads,
            sli_max(sli_order_workers(A, opt), j.w.workers), sli_symbolic_run, &j);
     status = j.status;
-    if (stats != NULL && status == SL_OK) {
-      stats->symbolic = j.found.symbolic;
+    if (status != SL_OK) {
+      (void)sli_fail_as(stats, status, &j.found.error);
     } else if (stats != NULL) {
-      stats->error.row = j.found.error.row;
+      stats->symbolic = j.found.symbolic;
     }
   }
   sli_free(&j.a, b.base);
-  return status;
+  return sli_report(stats, status);
 }
 
 SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
@@ -11519,6 +11727,76 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S) {
     v.node_level = S->n_nodes > 0 ? S->node_level : NULL;
   }
   return v;
+}
+
+/* src/impl/analysis/same_pattern.h: checks that a matrix has the analyzed pattern; says where it differs */
+
+static sl_status sli_pattern_check_size(const sl_symbolic *S, const sl_csc *A, int needs_values) {
+  const sl_status status = sli_argument(A == NULL                       ? "A is NULL"
+                      : A->n_cols > 0 && A->p == NULL ? "A.p is NULL"
+                                      : NULL);
+  if (status != SL_OK) {
+    return status;
+  }
+  if (A->n_rows != S->n || A->n_cols != S->n) {
+    return sli_refuse(SL_ERR_OTHER_PATTERN, "A has another size than the analyzed matrix");
+  }
+  if (sli_nnz(A) != S->nnz_input) {
+    return sli_nnz(A) < 0 ? sli_refuse(SL_ERR_PATTERN, "A.p descends")
+                : sli_refuse(SL_ERR_OTHER_PATTERN, "A has more or fewer entries than "
+                                 "the analyzed matrix");
+  }
+  return sli_argument(S->nnz_input == 0              ? NULL
+            : A->i == NULL                 ? "A.i is NULL"
+            : needs_values && A->x == NULL ? "A.x is NULL"
+                             : NULL);
+}
+
+SLI_COLD static sl_int sli_pattern_difference(const sl_symbolic *S, const sl_csc *A) {
+  sl_int first = sli_nnz(A), s, k, j;
+  for (s = 0; s < S->n_supers; s++) {
+    sl_int tile = sli_last_tile(S, s);
+    sl_off m;
+    for (m = S->scatter_begin[s + 1] - 1; m >= S->scatter_begin[s]; m--) {
+      const sl_int p = S->scatter_from[m], row = S->iperm[A->i[p]];
+      const sl_int column = S->iperm[sli_column_of(A, p)];
+      sli_scatter_map_pivots(S, s, m, &tile, &k, &j);
+      if (sli_max(row, column) != k || sli_min(row, column) != j) {
+        first = sli_min(first, p);
+      }
+    }
+  }
+  return first;
+}
+
+SLI_COLD static sl_status sli_pattern_refuse(const sl_symbolic *S, const sl_csc *A) {
+  const sl_status status = sl_csc_check(A, NULL);
+  sl_triangle found;
+  sl_int p;
+  if (status != SL_OK) {
+    return status;
+  }
+  found = sli_triangle_scan(A);
+  if ((found == SL_TRIANGLE_LOWER || found == SL_TRIANGLE_UPPER) &&
+    found + S->stats.symbolic.triangle == SL_TRIANGLE_LOWER + SL_TRIANGLE_UPPER) {
+    return sli_refuse(SL_ERR_OTHER_PATTERN, "A stores the other triangle");
+  }
+  p = sli_pattern_difference(S, A);
+  return p == sli_nnz(A)
+         ? sli_refuse(SL_ERR_OTHER_PATTERN, "entries that are not read are others")
+         : sli_fail_at(NULL, SL_ERR_OTHER_PATTERN, A->i[p], sli_column_of(A, p), 0.0,
+               "from this one on, entries are others, or in another order");
+}
+
+static sl_status sli_pattern_check(const sl_symbolic *S, const sl_csc *A, int needs_values) {
+  const sl_status status = sli_pattern_check_size(S, A, needs_values);
+  sli_hash pattern;
+  if (status != SL_OK) {
+    return status;
+  }
+  return sli_pattern_hash(A, &pattern) && sli_hash_equals(pattern, S->pattern)
+         ? SL_OK
+         : sli_pattern_refuse(S, A);
 }
 
 /* src/impl/analysis/reach.h: the reach of a set of columns: their paths to the roots, compiled for the kernels */
@@ -11979,8 +12257,26 @@ SLI_INLINE int sli_numbers_are_of(const sli_numbers *numbers, const sl_factor *F
        sli_hash_equals(numbers->identity, F->identity);
 }
 
+SLI_INLINE sl_status sli_factor_has_numbers(const sl_factor *F) {
+  return F->is_valid
+         ? SL_OK
+         : sli_refuse(SL_ERR_STALE, "F has no numbers: its last factorization has failed");
+}
+
 SLI_INLINE sl_status sli_inverse_check(const sl_factor *F) {
-  return !F->is_valid ? SL_ERR_STATE : F->E != NULL ? SL_ERR_UNSUPPORTED : SL_OK;
+  const sl_status status = sli_factor_has_numbers(F);
+  return status == SL_OK && F->E != NULL
+         ? sli_refuse(SL_ERR_UNSUPPORTED, "entries of the inverse with 2x2 pivots")
+         : status;
+}
+
+SLI_COLD static sl_status sli_refuse_mapped(void) {
+  return sli_refuse(SL_ERR_READ_ONLY, "it is mapped (sl_load_file copies it), of "
+                    "sl_factor_restrict, or saved by a newer version");
+}
+
+SLI_INLINE sl_status sli_factor_may_change(const sl_factor *F) {
+  return F->is_immutable ? sli_refuse_mapped() : SL_OK;
 }
 
 SLI_INLINE sl_status sli_fail(sli_failure *f, sl_status status, sl_int super, sl_int pivot,
@@ -11998,19 +12294,6 @@ SLI_INLINE void sli_keep_first_failure(sli_failure *f, const sli_failure *other)
   if (other->status != SL_OK && (f->status == SL_OK || other->super < f->super)) {
     *f = *other;
   }
-}
-
-static sl_int sli_column_of(const sl_csc *A, sl_int p) {
-  sl_int low = 0, high = A->n_cols - 1;
-  while (low < high) {
-    const sl_int middle = low + (high - low + 1) / 2;
-    if (A->p[middle] <= p) {
-      low = middle;
-    } else {
-      high = middle - 1;
-    }
-  }
-  return low;
 }
 
 SLI_INLINE sl_int sli_center_count(const sl_factor *F) {
@@ -13719,7 +14002,8 @@ static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats
   for (k = 0; k < S->n; k++) {
     const double m = mass[S->perm[k]];
     if (!sli_is_finite(m)) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[k], -1, m);
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[k], -1, m,
+                 "options.mass is not finite");
     }
     F->null.mass[k] = m;
     any |= m != 0.0;
@@ -14384,25 +14668,34 @@ static sl_status sli_factor_prepare(sl_factor *F) {
   return status;
 }
 
-static int sli_factor_choices_are_valid(const sl_options *opt) {
-  return opt == NULL ||
-       ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
-      (unsigned)opt->storage <= (unsigned)SL_STORAGE_COMPLEX &&
-      (unsigned)opt->null_pivots <= (unsigned)SL_NULL_PIVOT_SKIP &&
-      opt->null_tolerance == opt->null_tolerance &&
-      opt->consistency_tolerance == opt->consistency_tolerance &&
-      opt->growth_limit == opt->growth_limit && opt->error_limit == opt->error_limit &&
-      opt->regularization >= 0.0 && sli_is_finite(opt->regularization) &&
-      (opt->regularization == 0.0 || opt->null_pivots == SL_NULL_PIVOT_REFUSE) &&
-      (opt->definite == 0 || (opt->definite == 1 && opt->regularization == 0.0 &&
-                  opt->null_pivots == SL_NULL_PIVOT_REFUSE)) &&
-      opt->null_vector_count <= SLI_NULL_VECTORS_MAX &&
-      (opt->null_vector_count <= 1 || opt->null_vector != NULL));
+static const char *sli_factor_choices_wrong(const sl_options *opt) {
+  return (unsigned)opt->method > (unsigned)SL_METHOD_SUPERNODAL
+         ? "options.method is not a value of sl_method"
+       : (unsigned)opt->storage > (unsigned)SL_STORAGE_COMPLEX
+         ? "options.storage is not a value of sl_storage"
+       : (unsigned)opt->null_pivots > (unsigned)SL_NULL_PIVOT_SKIP
+         ? "options.null_pivots is not a value of sl_null_pivots"
+       : opt->null_tolerance != opt->null_tolerance ? "options.null_tolerance is NaN"
+       : opt->consistency_tolerance != opt->consistency_tolerance
+         ? "options.consistency_tolerance is NaN"
+       : opt->growth_limit != opt->growth_limit ? "options.growth_limit is NaN"
+       : opt->error_limit != opt->error_limit   ? "options.error_limit is NaN"
+       : !(opt->regularization >= 0.0) || !sli_is_finite(opt->regularization)
+         ? "options.regularization is below 0 or not finite"
+       : opt->regularization != 0.0 && opt->null_pivots == SL_NULL_PIVOT_SKIP
+         ? "options.regularization excludes null_pivots = SL_NULL_PIVOT_SKIP"
+       : opt->definite != 0 && opt->definite != 1 ? "options.definite is neither 0 nor 1"
+       : opt->definite != 0 &&
+           (opt->regularization != 0.0 || opt->null_pivots == SL_NULL_PIVOT_SKIP)
+         ? "options.definite excludes regularization and SL_NULL_PIVOT_SKIP"
+       : opt->null_vector_count > SLI_NULL_VECTORS_MAX ? "options.null_vector_count is above 32"
+       : opt->null_vector_count > 1 && opt->null_vector == NULL ? "options.null_vector is NULL"
+                                  : NULL;
 }
 
-static int sli_factor_options_are_valid(const sl_options *opt) {
-  return sli_options_are_valid(opt, SLI_READS_FACTOR | SLI_READS_ISA) &&
-       sli_factor_choices_are_valid(opt);
+static const char *sli_factor_options_wrong(const sl_options *opt) {
+  const char *wrong = sli_options_wrong(opt, SLI_READS_FACTOR | SLI_READS_ISA);
+  return wrong != NULL || opt == NULL ? wrong : sli_factor_choices_wrong(opt);
 }
 
 SLI_INLINE double sli_limit(double option, double limit) {
@@ -14441,7 +14734,8 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
   } else if (F->rule.regularization != 0.0) {
     for (i = 0; i < S->n; i++) {
       if (opt->signs[i] < -1 || opt->signs[i] > 1) {
-        return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, (double)opt->signs[i]);
+        return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, (double)opt->signs[i],
+                   "options.signs has a value other than -1, 0 and 1");
       }
       F->rule.signs[S->iperm[i]] = (signed char)opt->signs[i];
     }
@@ -14454,7 +14748,8 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
         const double z =
           opt->null_vector == NULL ? 1.0 : opt->null_vector[column + (size_t)i];
         if (!sli_is_finite(z)) {
-          return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, z);
+          return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, z,
+                     "options.null_vector is not finite");
         }
         F->null.z[column + (size_t)S->iperm[i]] = z;
       }
@@ -14510,13 +14805,13 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
     F->kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
   }
   if (F->kernels == NULL) {
-    return SL_ERR_UNSUPPORTED;
+    return sli_refuse(SL_ERR_UNSUPPORTED, "options.isa is not that of this processor");
   }
   F->stats.factor.isa = F->kernels->isa;
   F->stats.factor.method = F->method;
   F->sweeps = F->type->sweeps(F->kernels);
   if (F->sweeps == NULL) {
-    return SL_ERR_UNSUPPORTED;
+    return sli_refuse(SL_ERR_UNSUPPORTED, "options.isa has no kernels for L in float");
   }
   F->front = F->type->front(F->kernels);
   F->stats.storage = (sl_off)F->type->storage;
@@ -14537,17 +14832,21 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     kernels != NULL ? kernels : sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
   draft.type = sli_storage_type_of(opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
   if (draft.type == NULL) { /* untested: all packs are there */
-    return sli_unsupported(stats, sli_storage_needs(opt->storage)); /* untested: the same */
+    return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
+              sli_storage_needs(opt->storage));
   }
   if (draft.kernels != NULL && draft.type->sweeps(draft.kernels) == NULL) {
     draft.type = draft.type->in_double;
   }
   sli_factor_rules(&draft, opt);
   draft.method = sli_method(S, draft.type, opt);
-  status = (S->is_pivoted && draft.null.mode == SL_NULL_PIVOT_SKIP) ||
-           (draft.type->suits != NULL && !draft.type->suits(&draft))
-         ? SL_ERR_UNSUPPORTED
-         : sli_factor_use(&draft, opt);
+  status =
+    S->is_pivoted && draft.null.mode == SL_NULL_PIVOT_SKIP
+      ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_NULL_PIVOT_SKIP with an analysis for 2x2 pivots")
+    : draft.type->suits != NULL && !draft.type->suits(&draft)
+      ? sli_refuse(SL_ERR_UNSUPPORTED,
+             "options.storage does not suit the analysis or options")
+      : sli_factor_use(&draft, opt);
   SLI_LAYOUT(&b, &a, status) {
     (void)sli_take(&b, 1, sizeof(sl_factor));
     sli_factor_layout(&draft, &b, draft.null.is_centered);
@@ -14608,10 +14907,8 @@ SLI_COLD static sl_status sli_symmetry_report(const sl_csc *A, sl_int r, sl_stat
       column = A->i[q];
     }
   }
-  if (stats != NULL) {
-    stats->error.what = "the values of the two triangles differ; options.triangle chooses one";
-  }
-  return sli_fail_at(stats, SL_ERR_PATTERN, r, column, value);
+  return sli_fail_at(stats, SL_ERR_PATTERN, r, column, value,
+             "the values of the two triangles differ; options.triangle chooses one");
 }
 
 static sl_status sli_symmetry_check(const sl_symbolic *S, const sl_csc *A, const sl_allocator *a,
@@ -14655,28 +14952,9 @@ static sl_status sli_symmetry_check(const sl_symbolic *S, const sl_csc *A, const
 
 /* src/impl/factor/factor.h: creates a factor, and refactors it with new values of the same pattern */
 
-static sl_status sli_factor_check_size(const sl_symbolic *S, const sl_csc *A) {
-  if (A == NULL || (A->n_cols > 0 && A->p == NULL)) {
-    return SL_ERR_ARGUMENT;
-  }
-  if (A->n_rows != S->n || A->n_cols != S->n || sli_nnz(A) != S->nnz_input) {
-    return SL_ERR_PATTERN;
-  }
-  return S->nnz_input > 0 && (A->i == NULL || A->x == NULL) ? SL_ERR_ARGUMENT : SL_OK;
-}
-
-static sl_status sli_factor_check(const sl_symbolic *S, const sl_csc *A) {
-  const sl_status status = sli_factor_check_size(S, A);
-  sli_hash pattern;
-  if (status != SL_OK) {
-    return status;
-  }
-  return sli_pattern_hash(A, &pattern) && sli_hash_equals(pattern, S->pattern) ? SL_OK
-                                         : SL_ERR_PATTERN;
-}
-
 SLI_INLINE sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
-  return F->is_valid ? sli_factor_check(F->S, A) : SL_ERR_STATE;
+  const sl_status status = sli_factor_has_numbers(F);
+  return status == SL_OK ? sli_pattern_check(F->S, A, 1) : status;
 }
 
 SLI_COLD static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, const sli_failure *f) {
@@ -14693,16 +14971,25 @@ SLI_COLD static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, cons
     row = sli_max(S->perm[k], S->perm[j]);
     column = sli_min(S->perm[k], S->perm[j]);
   }
-  sli_fail_at(&F->stats, f->status, row, column, f->value);
+  (void)sli_fail_at(&F->stats, f->status, row, column, f->value,
+            f->position < 0 ? "a coefficient is not finite"
+            : f->status == SL_ERR_NOT_FINITE
+              ? "an entry of A is not finite"
+              : "an entry of A exceeds the range of float");
 }
 
 SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_failure *f) {
   const double size = fabs(f->value);
   if (f->status == SL_ERR_INACCURATE && F->stats.factor.growth > F->growth_limit) {
-    return F->S->is_pivoted ? NULL : "sl_symbolic_create_pivoted avoids pivot growth";
+    return F->S->is_pivoted ? "pivot growth exceeds options.growth_limit"
+                : "sl_symbolic_create_pivoted avoids pivot growth";
   }
-  if (f->status != SL_ERR_PIVOT || f->pivot < 0) {
-    return NULL;
+  if (f->status != SL_ERR_PIVOT) {
+    return f->status == SL_ERR_NOT_FINITE ? "a pivot is not finite: numbers of A overflow"
+         : f->status == SL_ERR_UNSUPPORTED
+           ? "A has more null vectors than columns are given, "
+           "options.null_vector_count"
+           : "float cannot hold L: options.storage";
   }
   if (F->is_definite && f->value < 0.0 && f->bound == 0.0) {
     return "options.definite: the pivot is negative, so that A is not positive definite";
@@ -14713,7 +15000,8 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
   if (F->null.mode == SL_NULL_PIVOT_SKIP) {
     return f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
                 "SL_NULL_PIVOT_SKIP takes semidefinite matrices"
-                : NULL;
+                : "A is indefinite, or options.null_vector or options.mass does not "
+                "suit its null vectors";
   }
   if (F->S->is_pivoted) {
     return "options.null_tolerance decides; a negative one accepts every pivot but 0";
@@ -14728,11 +15016,11 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
 SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f,
                        int has_pivots) {
   sl_int n_done = F->S->n;
-  F->stats.error.what = sli_factor_advice(F, f);
   F->stats.null_bound = f->bound > 0.0 ? f->bound : 0.0;
   if (f->status != SL_OK && f->pivot >= 0) {
     n_done = has_pivots ? n_done : f->pivot;
-    sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value);
+    (void)sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value,
+              sli_factor_advice(F, f));
   } else if (f->status != SL_OK) {
     n_done = F->S->super_first[f->super];
     sli_factor_report_entry(F, A, f);
@@ -14748,10 +15036,7 @@ static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
 
 static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {
   sli_factor_stats_copy(&F->stats, stats);
-  stats->error.row = F->stats.error.row;
-  stats->error.column = F->stats.error.column;
-  stats->error.value = F->stats.error.value;
-  stats->error.what = F->stats.error.what;
+  stats->error = F->stats.error;
   stats->null_bound = F->stats.null_bound;
 }
 
@@ -14896,16 +15181,15 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
   const sli_source from = sli_source_matrix(A);
   sl_status status;
   sli_stats_clear_error(stats);
-  if (F == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = F->is_immutable ? SL_ERR_STATE : sli_factor_check(F->S, A);
+  status = sli_argument(F == NULL ? "F is NULL" : NULL);
+  status = status == SL_OK ? sli_factor_may_change(F) : status;
+  status = status == SL_OK ? sli_pattern_check(F->S, A, 1) : status;
   status = status == SL_OK ? sli_factor_prepare(F) : status;
-  if (status != SL_OK) {
-    return status;
+  if (status == SL_OK) {
+    sli_factor_begin(F);
+    status = sli_factor_numbers(F, &from, started, stats);
   }
-  sli_factor_begin(F);
-  return sli_factor_numbers(F, &from, started, stats);
+  return sli_report(stats, status);
 }
 
 static sl_status sli_factor_create_from(sl_factor **out, const sl_symbolic *S,
@@ -14931,16 +15215,13 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
   const sl_allocator a = sli_allocator(opt);
   sl_status status;
   sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  if (S == NULL || !sli_factor_options_are_valid(opt)) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_factor_check(S, A);
+  status = sli_begin(out);
+  status = status == SL_OK ? sli_argument(S == NULL ? "S is NULL" : sli_factor_options_wrong(opt))
+               : status;
+  status = status == SL_OK ? sli_pattern_check(S, A, 1) : status;
   status = status == SL_OK ? sli_symmetry_check(S, A, &a, stats) : status;
-  return status == SL_OK ? sli_factor_create_from(out, S, &from, opt, stats) : status;
+  status = status == SL_OK ? sli_factor_create_from(out, S, &from, opt, stats) : status;
+  return sli_report(stats, status);
 }
 
 /* src/impl/factor/factor_query.h: read access to a factor: statistics, null rows, determinant, L as a matrix */
@@ -14955,11 +15236,13 @@ SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats) {
 SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, double *sign) {
   double sum = 0.0;
   sl_int k;
-  if (F == NULL || log_abs_det == NULL || sign == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  if (!F->is_valid) {
-    return SL_ERR_STATE;
+  sl_status status = sli_argument(F == NULL             ? "F is NULL"
+                  : log_abs_det == NULL ? "log_abs_det is NULL"
+                  : sign == NULL        ? "sign is NULL"
+                              : NULL);
+  status = status == SL_OK ? sli_factor_has_numbers(F) : status;
+  if (status != SL_OK) {
+    return status;
   }
   for (k = 0; k < F->S->n; k++) {
     if (F->E != NULL && F->S->pairs[k] == SLI_PAIR_FIRST) {
@@ -14979,12 +15262,16 @@ SL_API sl_status sl_factor_pivot_rows(const sl_factor *F, sl_pivot_kind kind, sl
                     double *shifts, sl_int capacity, sl_int *count) {
   const sl_int *pivots;
   sl_int m;
-  if (F == NULL || count == NULL || capacity < 0 || (capacity > 0 && rows == NULL) ||
-    (kind != SL_PIVOT_NULL && kind != SL_PIVOT_REGULARIZED)) {
-    return SL_ERR_ARGUMENT;
-  }
-  if (!F->is_valid) {
-    return SL_ERR_STATE;
+  sl_status status = sli_argument(F == NULL                      ? "F is NULL"
+                  : count == NULL                ? "count is NULL"
+                  : capacity < 0                 ? "capacity is below 0"
+                  : capacity > 0 && rows == NULL ? "rows is NULL"
+                  : kind != SL_PIVOT_NULL && kind != SL_PIVOT_REGULARIZED
+                    ? "kind is not a value of sl_pivot_kind"
+                    : NULL);
+  status = status == SL_OK ? sli_factor_has_numbers(F) : status;
+  if (status != SL_OK) {
+    return status;
   }
   pivots = kind == SL_PIVOT_NULL ? F->null.pivots : F->rule.regularized;
   *count = kind == SL_PIVOT_NULL ? F->null.count : F->stats.factor.regularized;
@@ -15028,19 +15315,18 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
   const sl_allocator a = sli_allocator(opt);
   sl_off count;
   sl_status status;
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  if (F == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-    return SL_ERR_ARGUMENT;
-  }
-  if (!F->is_valid) {
-    return SL_ERR_STATE;
+  status = sli_begin(out);
+  status = status == SL_OK
+         ? sli_argument(F == NULL ? "F is NULL" : sli_options_wrong(opt, SLI_READS_NOTHING))
+         : status;
+  status = status == SL_OK ? sli_factor_has_numbers(F) : status;
+  if (status != SL_OK) {
+    return status;
   }
   count = sli_factor_entries(F, NULL);
-  if (count > INT32_MAX) {     /* untested: 2^31 entries */
-    return SL_ERR_TOO_LARGE; /* untested: the same */
+  if (count > INT32_MAX) { /* untested: 2^31 entries */
+    return sli_refuse(SL_ERR_TOO_LARGE,
+              "L has more than 2^31 - 1 entries"); /* untested: the same */
   }
   status = sli_matrix_new(out, F->S->n, F->S->n, (sl_int)count, 1, &a);
   if (status == SL_OK) {
@@ -15075,7 +15361,9 @@ struct sl_work {
 SLI_NOINLINE static sl_status sli_work_enlarge(sl_work *W, size_t bytes) {
   void *block = sli_alloc(&W->allocator, bytes);
   if (block == NULL) {
-    return bytes == SIZE_MAX ? SL_ERR_TOO_LARGE : SL_ERR_MEMORY;
+    return bytes == SIZE_MAX
+           ? sli_refuse(SL_ERR_TOO_LARGE, "the workspace exceeds what size_t counts")
+           : sli_no_memory();
   }
   sli_free(&W->allocator, W->block);
   W->block = block;
@@ -15133,16 +15421,14 @@ static sl_status sli_work_stages(sl_work *W, const sli_stage *stages, int count,
 
 SL_API sl_status sl_work_create(sl_work **out, const sl_options *opt) {
   const sl_allocator a = sli_allocator(opt);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  if (!sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-    return SL_ERR_ARGUMENT;
+  sl_status status = sli_begin(out);
+  status = status == SL_OK ? sli_argument(sli_options_wrong(opt, SLI_READS_NOTHING)) : status;
+  if (status != SL_OK) {
+    return status;
   }
   *out = (sl_work *)sli_alloc(&a, sizeof(sl_work));
   if (*out == NULL) {
-    return SL_ERR_MEMORY;
+    return sli_no_memory();
   }
   **out = sli_work_own(&a);
   if (opt != NULL) {
@@ -15164,7 +15450,7 @@ SL_API size_t sl_work_bytes(const sl_work *W) {
 }
 
 SL_API sl_status sl_work_reserve(sl_work *W, size_t bytes) {
-  return W == NULL ? SL_ERR_ARGUMENT : sli_work_grow(W, bytes);
+  return W == NULL ? sli_argument("W is NULL") : sli_work_grow(W, bytes);
 }
 
 /* src/impl/solve/query.h: the query, a compiled solve, and moving right-hand sides in and out of it */
@@ -15220,6 +15506,23 @@ static sli_query sli_query_all(const sl_symbolic *S) {
 
 SLI_INLINE int sli_query_fits(const sli_query *q, const sl_factor *F) {
   return F->is_valid && F->S == q->S && (q->ending == NULL || q->ending->calls->fits(q, F));
+}
+
+SLI_COLD static sl_status sli_query_refuse_analysis(void) {
+  return sli_refuse(SL_ERR_STATE, "the plan is of another analysis than F");
+}
+
+static sl_status sli_query_check(const sli_query *q, const sl_factor *F) {
+  return sli_query_fits(q, F) ? SL_OK
+       : !F->is_valid       ? sli_factor_has_numbers(F)
+       : F->S == q->S
+         ? sli_refuse(SL_ERR_STALE, "the region of the plan is not of the present F: "
+                      "sl_region_refactor")
+         : sli_query_refuse_analysis();
+}
+
+SLI_COLD static sl_status sli_refuse_region(void) {
+  return sli_refuse(SL_ERR_UNSUPPORTED, "this call does not take a plan in a region");
 }
 
 SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
@@ -15334,13 +15637,21 @@ static sl_status sli_rhs_check(const sli_rhs *r, sl_int nx, sl_int nb) {
   const int bad_x = nx > 0 && (r->X == NULL || !sli_dense_spans(r->ldx, nx, r->nrhs));
   const int bad_b = nb > 0 && (r->B == NULL || !sli_dense_spans(r->ldb, nb, r->nrhs));
   const int is_misaligned = r->X == r->B && r->ldx != r->ldb && nx > 0 && nb > 0;
-  return r->nrhs < 0 || (r->nrhs > 0 && (bad_x || bad_b || is_misaligned)) ? SL_ERR_ARGUMENT
-                                       : SL_OK;
+  if (r->nrhs == 0 || (r->nrhs > 0 && !bad_x && !bad_b && !is_misaligned)) {
+    return SL_OK;
+  }
+  return sli_argument(r->nrhs < 0             ? "nrhs is below 0"
+            : bad_x && r->X == NULL ? "X is NULL"
+            : bad_x                 ? "ldx is below the rows of X, or with SL_ROWS nrhs"
+            : bad_b && r->B == NULL ? "B is NULL"
+            : bad_b                 ? "ldb is below the rows of B, or with SL_ROWS nrhs"
+                        : "X is B, but ldx is not ldb");
 }
 
 SLI_INLINE sl_status sli_rhs_check_columns(const sli_rhs *r, sl_int nx, sl_int nb) {
-  return r->nrhs > 0 && ((r->ldx | r->ldb) & SL_ROW_MAJOR) ? SL_ERR_ARGUMENT
-                               : sli_rhs_check(r, nx, nb);
+  return r->nrhs > 0 && ((r->ldx | r->ldb) & SL_ROW_MAJOR)
+         ? sli_argument("ldx or ldb is one of SL_ROWS, which this call does not take")
+         : sli_rhs_check(r, nx, nb);
 }
 
 #define SLI_ROWS_AHEAD 32
@@ -16217,6 +16528,11 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
   sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }
 
+SLI_COLD static sl_status sli_inconsistent(void) {
+  return sli_refuse(SL_ERR_INCONSISTENT,
+            "B has a part along a null vector, beyond options.consistency_tolerance");
+}
+
 static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
                  void *memory) {
   sl_int r;
@@ -16224,7 +16540,7 @@ static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const s
     const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
     const sli_vectors v = sli_vectors_of(q, block.nrhs, memory);
     if (!sli_sweep_load(F, q, &v, &block)) {
-      return SL_ERR_INCONSISTENT;
+      return sli_inconsistent();
     }
   }
   return SL_OK;
@@ -16240,7 +16556,7 @@ static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, const 
     block = sli_rhs_part(rhs, r, count);
     v = sli_vectors_of(q, count, memory);
     if (!sli_sweep_load(F, q, &v, &block)) {
-      return SL_ERR_INCONSISTENT;
+      return sli_inconsistent();
     }
     sli_sweep_backward(F, q, &v, count);
     sli_unpack(F, q, &block, v.x);
@@ -16299,11 +16615,9 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, const s
 }
 
 static sl_status sli_solve(const sl_factor *F, const sli_query *q, const sli_rhs *rhs, sl_work *W) {
-  const sl_status status = sli_rhs_check(rhs, q->nx, q->nb);
-  if (status != SL_OK) {
-    return status;
-  }
-  return sli_query_fits(q, F) ? sli_query_solve(F, q, rhs, W) : SL_ERR_STATE;
+  sl_status status = sli_rhs_check(rhs, q->nx, q->nb);
+  status = status == SL_OK ? sli_query_check(q, F) : status;
+  return status == SL_OK ? sli_query_solve(F, q, rhs, W) : status;
 }
 
 SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, const double *B,
@@ -16311,7 +16625,7 @@ SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, cons
   const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sli_query q;
   if (F == NULL) {
-    return SL_ERR_ARGUMENT;
+    return sli_argument("F is NULL");
   }
   q = sli_query_all(F->S);
   return sli_solve(F, &q, &rhs, W);
@@ -16368,7 +16682,8 @@ static sl_status sli_set_sort(const sl_symbolic *S, sli_set *set, sl_stats *stat
   for (k = 0; k < set->count; k++) {
     const sl_int i = set->rows[k];
     if (i < 0 || i >= S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, 0.0);
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, 0.0,
+                 "a row of bset or xset is out of range");
     }
     set->seeds[k] = sli_keyed(S->iperm[i], k);
   }
@@ -16448,10 +16763,10 @@ static void sli_query_stats(const sli_query *q, sl_stats *stats) {
   stats->plan.region_entries = q->used.entries;
 }
 
-static sl_status sli_check_sets(const sl_symbolic *S, const sl_int *bset, sl_int nb,
-                const sl_int *xset, sl_int nx) {
-  return S == NULL || (bset != NULL && nb < 0) || (xset != NULL && nx < 0) ? SL_ERR_ARGUMENT
-                                       : SL_OK;
+static sl_status sli_check_sets(const sl_int *bset, sl_int nb, const sl_int *xset, sl_int nx) {
+  return bset != NULL && nb < 0   ? sli_argument("nb is below 0")
+       : xset != NULL && nx < 0 ? sli_argument("nx is below 0")
+                  : SL_OK;
 }
 
 /* src/impl/solve/plan.h: plan objects: queries compiled once and kept, and solves on them */
@@ -16499,17 +16814,16 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
   sli_set b, x;
   sl_status status;
   sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  status = sli_options_are_valid(opt, SLI_READS_REGION) ? sli_check_sets(S, bset, nb, xset, nx)
-                              : SL_ERR_ARGUMENT;
+  status = sli_begin(out);
+  status = status == SL_OK
+         ? sli_argument(S == NULL ? "S is NULL" : sli_options_wrong(opt, SLI_READS_REGION))
+         : status;
+  status = status == SL_OK ? sli_check_sets(bset, nb, xset, nx) : status;
   if (status == SL_OK && ending != NULL && !ending->calls->belongs(ending, S)) {
-    status = SL_ERR_STATE;
+    status = sli_refuse(SL_ERR_STATE, "options.region is a region of another analysis");
   }
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   b = sli_set_of(S, bset, nb);
   x = sli_set_of(S, xset, nx);
@@ -16527,7 +16841,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
     sl_plan_stats(*out, stats);
   }
   sli_free(&a, seeds.base);
-  return status;
+  return sli_report(stats, status);
 }
 
 SL_API void sl_plan_free(sl_plan *P) {
@@ -16552,7 +16866,9 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats) {
 SL_API sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
                  const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
   const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
-  return P == NULL || F == NULL ? SL_ERR_ARGUMENT : sli_solve(F, &P->query, &rhs, W);
+  return P == NULL   ? sli_argument("P is NULL")
+       : F == NULL ? sli_argument("F is NULL")
+             : sli_solve(F, &P->query, &rhs, W);
 }
 
 /* src/impl/solve/local.h: sl_local_solve: one local solve without a plan, compiled in the workspace */
@@ -16620,12 +16936,9 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
   sli_local l;
   sl_status status;
   sli_stats_clear_error(stats);
-  if (F == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_check_sets(F->S, bset, nb, xset, nx);
+  status = F == NULL ? sli_argument("F is NULL") : sli_check_sets(bset, nb, xset, nx);
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   memset(&l, 0, sizeof l);
   l.S = F->S;
@@ -16634,11 +16947,9 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
   l.nrhs = nrhs;
   l.stats = stats;
   status = sli_rhs_check(&rhs, l.x.count, l.b.count);
+  status = status == SL_OK ? sli_factor_has_numbers(F) : status;
   if (status != SL_OK) {
-    return status;
-  }
-  if (!F->is_valid) {
-    return SL_ERR_STATE;
+    return sli_report(stats, status);
   }
   own = sli_work_own(&F->allocator);
   W = W == NULL ? &own : W;
@@ -16653,7 +16964,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
     status = sli_sweep(F, &l.query, &rhs, l.memory);
   }
   sli_free(&own.allocator, own.block);
-  return status;
+  return sli_report(stats, status);
 }
 
 /* src/impl/solve/dirichlet_rows.h: free and fixed rows, the entries of A between them, and what is copied of A */
@@ -16712,7 +17023,8 @@ static sl_status sli_dirichlet_check_values(const sl_dirichlet *D, const sl_csc 
   for (k = 0; k < D->n_couplings; k++) {
     const sl_int p = D->coupling_from[k];
     if (!sli_is_finite(A->x[p])) {
-      return sli_fail_at(stats, SL_ERR_NOT_FINITE, A->i[p], sli_column_of(A, p), A->x[p]);
+      return sli_fail_at(stats, SL_ERR_NOT_FINITE, A->i[p], sli_column_of(A, p), A->x[p],
+                 "an entry of A is not finite");
     }
   }
   return SL_OK;
@@ -16738,13 +17050,19 @@ static void sli_dirichlet_number(const sl_dirichlet *D, sl_int *where) {
   }
 }
 
-static void sli_dirichlet_report(const sl_dirichlet *D, sl_stats *stats) {
-  if (stats->error.row >= 0) {
-    stats->error.row = D->free_rows[stats->error.row];
+static sl_status sli_dirichlet_report(const sl_dirichlet *D, sl_status status, sl_stats *stats) {
+  sl_stats found;
+  if (status == SL_OK) {
+    return status;
   }
-  if (stats->error.column >= 0) {
-    stats->error.column = D->free_rows[stats->error.column];
+  (void)sli_report(&found, status);
+  if (found.error.row >= 0) {
+    found.error.row = D->free_rows[found.error.row];
   }
+  if (found.error.column >= 0) {
+    found.error.column = D->free_rows[found.error.column];
+  }
+  return sli_fail_as(stats, status, &found.error);
 }
 
 typedef struct sli_dirichlet_arrays {
@@ -16773,7 +17091,8 @@ static sl_status sli_dirichlet_arrays_fill(const sli_dirichlet_arrays *r, const 
   if (r->perm != NULL) {
     k = sli_rows_invert(opt->perm, D->n, D->n, scratch);
     if (k >= 0) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, k, -1, 0.0);
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, k, -1, 0.0,
+                 "options.perm has a row out of range or twice at this position");
     }
     for (k = 0; k < D->n; k++) {
       if (where[opt->perm[k]] >= 0) {
@@ -16855,9 +17174,7 @@ static sl_status sli_dirichlet_factor(sl_dirichlet *D, const sl_csc *A,
   }
   if (status == SL_OK) {
     status = sl_factor_create(&D->F, D->S, &view, &factorization, stats);
-    if (stats != NULL) {
-      sli_dirichlet_report(D, stats);
-    }
+    status = sli_dirichlet_report(D, status, stats);
   }
   D->info.method = SL_DIRICHLET_SUBMATRIX;
   return status;
@@ -16891,21 +17208,23 @@ static void sli_dirichlet_options(sl_dirichlet *D, const sl_options *opt) {
 
 static sl_status sli_dirichlet_check(const sl_csc *A, const sl_int *rows, sl_int count,
                    const sl_options *opt, sl_stats *stats) {
-  const sl_status status = sl_csc_check(A, stats);
-  if (status != SL_OK) {
-    return status;
+  sl_status status = sl_csc_check(A, stats);
+  if (status == SL_OK) {
+    status = sli_argument(A->n_rows != A->n_cols           ? "A is not square"
+                : sli_nnz(A) > 0 && A->x == NULL ? "A.x is NULL"
+                : count < 0                      ? "count is below 0"
+                : count > 0 && rows == NULL
+                  ? "rows is NULL"
+                  : sli_options_wrong(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE |
+                                 SLI_READS_FACTOR | SLI_READS_ISA));
   }
-  if (A->n_rows != A->n_cols || (sli_nnz(A) > 0 && A->x == NULL) || count < 0 ||
-    (count > 0 && rows == NULL) ||
-    !sli_options_are_valid(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE | SLI_READS_FACTOR |
-                    SLI_READS_ISA) ||
-    !sli_factor_choices_are_valid(opt)) {
-    return SL_ERR_ARGUMENT;
+  if (status == SL_OK && opt != NULL) {
+    status = sli_argument(sli_factor_choices_wrong(opt));
   }
-  return opt != NULL && opt->block_size != 0 &&
+  return status == SL_OK && opt != NULL && opt->block_size != 0 &&
            (opt->block_size < 0 || A->n_cols % opt->block_size != 0)
-         ? SL_ERR_ARGUMENT
-         : SL_OK;
+         ? sli_argument("options.block_size does not divide n")
+         : status;
 }
 
 static void sli_dirichlet_layout(sl_dirichlet *D, sli_block *b) {
@@ -16926,7 +17245,8 @@ static sl_status sli_dirichlet_new(sl_dirichlet **out, const sl_csc *A, const sl
   sl_int k, free_row = 0;
   const sl_int bad = sli_rows_invert(rows, draft->n_fixed, draft->n, where);
   if (bad >= 0) {
-    return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0);
+    return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0,
+               "a row is out of range or given twice");
   }
   for (k = 0; k < draft->n; k++) {
     where[k] = where[k] < 0 ? free_row++ : -1 - where[k];
@@ -17014,13 +17334,10 @@ SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const 
   sl_int *where = NULL, *scratch = NULL;
   sl_status status;
   sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  status = sli_dirichlet_check(A, rows, count, opt, stats);
+  status = sli_begin(out);
+  status = status == SL_OK ? sli_dirichlet_check(A, rows, count, opt, stats) : status;
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   memset(&draft, 0, sizeof draft);
   draft.allocator = sli_allocator(opt);
@@ -17034,7 +17351,7 @@ SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const 
     scratch = SLI_TAKE(&b, sl_int, (uint64_t)draft.n + 1);
   }
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   status = sli_dirichlet_new(&D, A, rows, &draft, where, stats);
   status = status == SL_OK ? sli_dirichlet_begin(D, A, F, opt, where, scratch, stats) : status;
@@ -17045,7 +17362,7 @@ SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const 
   } else {
     sl_dirichlet_free(D);
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 static sl_status sli_dirichlet_replace(sl_dirichlet *D, const sl_csc *A, sl_stats *stats) {
@@ -17082,31 +17399,30 @@ SL_API sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A, sl_stat
   sli_hash pattern;
   sl_status status;
   sli_stats_clear_error(stats);
-  if (D == NULL || !sli_csc_has_pattern(A)) {
-    return SL_ERR_ARGUMENT;
+  status = sli_argument(D == NULL                 ? "D is NULL"
+              : !sli_csc_has_pattern(A) ? "A is NULL, or has no size, p or i"
+                          : NULL);
+  if (status == SL_OK &&
+    (A->n_rows != D->n || A->n_cols != D->n || !sli_pattern_hash(A, &pattern) ||
+     !sli_hash_equals(pattern, D->pattern))) {
+    status = sli_refuse(SL_ERR_OTHER_PATTERN, "A has another pattern than at the creation");
   }
-  if (A->n_rows != D->n || A->n_cols != D->n || !sli_pattern_hash(A, &pattern) ||
-    !sli_hash_equals(pattern, D->pattern)) {
-    return SL_ERR_PATTERN;
+  if (status == SL_OK) {
+    status = sli_argument(sli_nnz(A) > 0 && A->x == NULL ? "A.x is NULL" : NULL);
   }
-  if (sli_nnz(A) > 0 && A->x == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_dirichlet_check_values(D, A, stats);
+  status = status == SL_OK ? sli_dirichlet_check_values(D, A, stats) : status;
   if (status == SL_OK && D->M == NULL) {
     status = sli_dirichlet_replace(D, A, stats);
   } else if (status == SL_OK) {
     const sl_csc view = sl_matrix_view(D->M);
     sli_dirichlet_copy_values(D, A);
     status = sl_factor_refactor(D->F, &view, stats);
-    if (stats != NULL) {
-      sli_dirichlet_report(D, stats);
-    }
+    status = sli_dirichlet_report(D, status, stats);
   }
   if (status == SL_OK) {
     sli_dirichlet_done(D, started, stats);
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 static void sli_dirichlet_gather(const sl_dirichlet *D, const sli_rhs *rhs) {
@@ -17188,14 +17504,18 @@ SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx
   sl_status status;
   if (D == NULL ||
     (nrhs > 0 && D->n_fixed > 0 && (G == NULL || !sli_dense_spans(ldg, D->n_fixed, nrhs)))) {
-    return SL_ERR_ARGUMENT;
+    return sli_argument(D == NULL   ? "D is NULL"
+              : G == NULL ? "G is NULL"
+                    : "ldg is below the number of fixed rows, or with SL_ROWS "
+                      "nrhs");
   }
   status = sli_rhs_check(&rhs, D->n, B == NULL ? 0 : D->n);
   if (status != SL_OK || nrhs == 0 || D->n == 0) {
     return status;
   }
-  if (D->pins == NULL && !D->F->is_valid) {
-    return SL_ERR_STATE;
+  status = D->pins == NULL ? sli_factor_has_numbers(D->F) : SL_OK;
+  if (status != SL_OK) {
+    return status;
   }
   own = sli_work_own(&D->allocator);
   W = W == NULL ? &own : W;
@@ -17203,7 +17523,7 @@ SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx
                : sli_dirichlet_run(D, &rhs, G, ldg, W);
   sli_free(&own.allocator, own.block);
   if (status == SL_OK && !sli_dirichlet_set_fixed(D, &rhs, G, ldg)) {
-    status = SL_ERR_NOT_FINITE;
+    status = sli_refuse(SL_ERR_NOT_FINITE, "a value of G is not finite");
   }
   return status;
 }
@@ -17370,16 +17690,16 @@ static void sli_parts_apply(const sli_parts *p, const sli_vectors *v, int kind) 
 
 static sl_status sli_parts_check(const sl_factor *F, unsigned parts) {
   const unsigned both = SL_PART_D | SL_PART_SQRT_D;
-  if (parts >= 2u * SL_PART_PT || (parts & both) == both) {
-    return SL_ERR_ARGUMENT;
+  sl_status status = sli_argument(parts >= 2u * SL_PART_PT ? "parts has a bit that is not known"
+                  : (parts & both) == both ? "parts has both D and sqrt(D)"
+                               : NULL);
+  status = status == SL_OK ? sli_factor_has_numbers(F) : status;
+  if (status == SL_OK && parts & SL_PART_SQRT_D && F->stats.factor.negative > 0) {
+    status = sli_refuse(SL_ERR_PIVOT, "SL_PART_SQRT_D with a pivot below 0");
   }
-  if (!F->is_valid) {
-    return SL_ERR_STATE;
-  }
-  if (parts & SL_PART_SQRT_D && F->stats.factor.negative > 0) {
-    return SL_ERR_PIVOT;
-  }
-  return parts & SL_PART_SQRT_D && F->E != NULL ? SL_ERR_UNSUPPORTED : SL_OK;
+  return status == SL_OK && parts & SL_PART_SQRT_D && F->E != NULL
+         ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_PART_SQRT_D with 2x2 pivots")
+         : status;
 }
 
 static sl_status sli_parts_run(sli_parts *p, const sli_rhs *rhs, sl_work *W) {
@@ -17416,7 +17736,7 @@ static sl_status sli_factor_part(const sl_factor *F, unsigned parts, int is_prod
   sli_query all;
   sli_parts p;
   if (F == NULL) {
-    return SL_ERR_ARGUMENT;
+    return sli_argument("F is NULL");
   }
   memset(&p, 0, sizeof p);
   all = sli_query_all(F->S);
@@ -17446,14 +17766,20 @@ SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsign
   const int is_forward = ends == (SL_PART_P | SL_PART_L);
   const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sli_parts p;
-  if (P == NULL || F == NULL || (!is_forward && ends != (SL_PART_LT | SL_PART_PT))) {
-    return SL_ERR_ARGUMENT;
+  sl_status status =
+    sli_argument(P == NULL   ? "P is NULL"
+           : F == NULL ? "F is NULL"
+           : !is_forward && ends != (SL_PART_LT | SL_PART_PT)
+             ? "parts of a plan are P and L, or L' and P', each with or without D"
+             : NULL);
+  if (status == SL_OK && F->S != P->query.S) {
+    status = sli_query_refuse_analysis();
   }
-  if (F->S != P->query.S) {
-    return SL_ERR_STATE;
+  if (status == SL_OK && P->query.ending != NULL) {
+    status = sli_refuse_region();
   }
-  if (P->query.ending != NULL) {
-    return SL_ERR_UNSUPPORTED;
+  if (status != SL_OK) {
+    return status;
   }
   memset(&p, 0, sizeof p);
   p.F = F;
@@ -17467,12 +17793,18 @@ SL_API sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns
                  sl_int *count) {
   const sli_reach *R;
   sl_int s, k, at = 0;
-  if (P == NULL || count == NULL || capacity < 0 || (capacity > 0 && columns == NULL) ||
-    (part != SL_PART_L && part != SL_PART_LT)) {
-    return SL_ERR_ARGUMENT;
+  sl_status status = sli_argument(P == NULL                         ? "P is NULL"
+                  : count == NULL                   ? "count is NULL"
+                  : capacity < 0                    ? "capacity is below 0"
+                  : capacity > 0 && columns == NULL ? "columns is NULL"
+                  : part != SL_PART_L && part != SL_PART_LT
+                    ? "part is neither SL_PART_L nor SL_PART_LT"
+                    : NULL);
+  if (status == SL_OK && P->query.ending != NULL) {
+    status = sli_refuse_region();
   }
-  if (P->query.ending != NULL) {
-    return SL_ERR_UNSUPPORTED;
+  if (status != SL_OK) {
+    return status;
   }
   R = part == SL_PART_L ? &P->query.forward : &P->query.backward;
   for (s = 0; s < R->count; s++) {
@@ -17584,13 +17916,18 @@ SL_API sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_pseudo_inverse 
   sl_int room, s, c;
   size_t n;
   sl_status status;
-  if (F == NULL || P == NULL || (P->Q == NULL) != (P->K == NULL) ||
-    (P->Q == NULL) != (P->component == NULL)) {
-    return SL_ERR_ARGUMENT;
+  status =
+    sli_argument(F == NULL   ? "F is NULL"
+           : P == NULL ? "P is NULL"
+           : (P->Q == NULL) != (P->K == NULL) || (P->Q == NULL) != (P->component == NULL)
+             ? "P has only some of component, Q and K"
+             : NULL);
+  status = status == SL_OK ? sli_parts_check(F, all) : status;
+  if (status == SL_OK && F->E != NULL) {
+    status = sli_refuse(SL_ERR_UNSUPPORTED, "the pseudo-inverse with 2x2 pivots");
   }
-  status = sli_parts_check(F, all);
-  if (status != SL_OK || F->E != NULL) {
-    return status != SL_OK ? status : SL_ERR_UNSUPPORTED;
+  if (status != SL_OK) {
+    return status;
   }
   room = P->columns;
   P->columns = sli_pseudo_count(F, P->component);
@@ -17599,7 +17936,7 @@ SL_API sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_pseudo_inverse 
     return SL_OK;
   }
   if (room < P->columns) {
-    return SL_ERR_ARGUMENT;
+    return sli_argument("P.columns is below the columns that are needed");
   }
   n = (size_t)F->S->n;
   memset(P->Q, 0, n * (size_t)P->columns * sizeof(double));
@@ -17749,7 +18086,8 @@ static sl_status sli_refine_done(const sl_factor *F, sl_stats *stats, sl_int mos
     stats->refine.backward_error = error;
   }
   return most > 0 && !(error <= F->error_limit) && sli_is_finite(F->error_limit)
-         ? SL_ERR_INACCURATE
+         ? sli_fail_at(NULL, SL_ERR_INACCURATE, -1, -1, error,
+               "the backward error, value, is above options.error_limit")
          : SL_OK;
 }
 
@@ -17764,16 +18102,14 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
   double worst = 0.0;
   sl_int r, c;
   sli_stats_clear_error(stats);
-  if (F == NULL || steps < 0) {
-    return SL_ERR_ARGUMENT;
+  status = sli_argument(F == NULL ? "F is NULL" : steps < 0 ? "steps is below 0" : NULL);
+  status = status == SL_OK ? sli_rhs_check_columns(&rhs, F->S->n, F->S->n) : status;
+  if (status == SL_OK && X == B && nrhs > 0 && F->S->n > 0) {
+    status = sli_argument("X is B");
   }
-  status = sli_rhs_check_columns(&rhs, F->S->n, F->S->n);
-  if (status != SL_OK || (X == B && nrhs > 0 && F->S->n > 0)) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_factor_fits(F, A);
+  status = status == SL_OK ? sli_factor_fits(F, A) : status;
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   memset(&f, 0, sizeof f);
   f.F = F;
@@ -17794,7 +18130,8 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
     }
   }
   sli_free(&own.allocator, own.block);
-  return status == SL_OK ? sli_refine_done(F, stats, steps, f.steps, worst) : status;
+  status = status == SL_OK ? sli_refine_done(F, stats, steps, f.steps, worst) : status;
+  return sli_report(stats, status);
 }
 
 /* src/impl/accuracy/refine_local.h: sl_plan_solve_refined: local solves without the error of regularization */
@@ -17952,7 +18289,8 @@ static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, s
   sli_local_refinement_layout(f, &b, rhs->nrhs);
   c = sli_local_refinement_find(f);
   if (c != -1) {
-    return sli_fail_at(stats, SL_ERR_ARGUMENT, f->F->S->perm[c], -1, f->F->rule.shifts[c]);
+    return sli_fail_at(stats, SL_ERR_ARGUMENT, f->F->S->perm[c], -1, f->F->rule.shifts[c],
+               "xset lacks this row, whose pivot was regularized");
   }
   for (r = 0; r < rhs->nrhs; r += sli_min(8, rhs->nrhs - r)) {
     const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
@@ -17973,23 +18311,27 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
   sl_work own;
   sl_status status;
   sli_stats_clear_error(stats);
-  if (P == NULL || F == NULL || steps < 0) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_rhs_check_columns(&rhs, P->query.nx, P->query.nb);
+  status = sli_argument(P == NULL   ? "P is NULL"
+              : F == NULL ? "F is NULL"
+              : steps < 0 ? "steps is below 0"
+                    : NULL);
+  status = status == SL_OK ? sli_rhs_check_columns(&rhs, P->query.nx, P->query.nb) : status;
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   if (F->stats.factor.regularized == 0 || nrhs == 0 || P->query.nx == 0) {
     status = sli_solve(F, &P->query, &rhs, W);
-    return status != SL_OK ? status
-                 : sli_refine_done(F, stats, steps, 0, sli_local_rounding(F));
+    if (status == SL_OK) {
+      status = sli_refine_done(F, stats, steps, 0, sli_local_rounding(F));
+    }
+    return sli_report(stats, status);
   }
-  if (!sli_query_fits(&P->query, F)) {
-    return SL_ERR_STATE;
+  status = sli_query_check(&P->query, F);
+  if (status == SL_OK && P->query.ending != NULL) {
+    status = sli_refuse_region();
   }
-  if (P->query.ending != NULL) {
-    return SL_ERR_UNSUPPORTED;
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
   memset(&f, 0, sizeof f);
   f.F = F;
@@ -17999,7 +18341,7 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
   own = sli_work_own(&F->allocator);
   status = sli_local_refine(&f, &rhs, steps, W == NULL ? &own : W, stats);
   sli_free(&own.allocator, own.block);
-  return status;
+  return sli_report(stats, status);
 }
 
 /* src/impl/accuracy/rcond.h: sl_factor_rcond: reciprocal condition number by the Hager-Higham estimator */
@@ -18117,10 +18459,8 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
   sl_work own;
   sli_norm_estimate p;
   sl_status status;
-  if (F == NULL || rcond == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_factor_fits(F, A);
+  status = sli_argument(F == NULL ? "F is NULL" : rcond == NULL ? "rcond is NULL" : NULL);
+  status = status == SL_OK ? sli_factor_fits(F, A) : status;
   if (status != SL_OK) {
     return status;
   }
@@ -18181,18 +18521,13 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
   sl_work own;
   sli_query q;
   sl_status status;
-  if (F == NULL) {
-    return SL_ERR_ARGUMENT;
+  status = F == NULL ? sli_argument("F is NULL") : sli_factor_has_numbers(F);
+  status = status == SL_OK ? sli_rhs_check_columns(&rhs, F->null.count, F->S->n) : status;
+  if (status == SL_OK && Y == B && Y != NULL) {
+    status = sli_argument("Y is B");
   }
-  if (!F->is_valid) {
-    return SL_ERR_STATE;
-  }
-  status = sli_rhs_check_columns(&rhs, F->null.count, F->S->n);
-  if (status != SL_OK || (Y == B && Y != NULL)) {
-    return SL_ERR_ARGUMENT;
-  }
-  if (nrhs == 0 || F->null.count == 0) {
-    return SL_OK;
+  if (status != SL_OK || nrhs == 0 || F->null.count == 0) {
+    return status;
   }
   q = sli_query_all(F->S);
   own = sli_work_own(&F->allocator);
@@ -18414,10 +18749,11 @@ static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
   int attempt;
   if (F->null.count > 0 || F->type->storage != SL_STORAGE_DOUBLE ||
     sli_map_has_duplicates(F->S)) {
-    return SL_ERR_UNSUPPORTED;
+    return sli_refuse(SL_ERR_UNSUPPORTED, "SL_GUARANTEED with null pivots, L in float or "
+                        "duplicate entries of A");
   }
   if (!sli_guarantee_fits(F, A)) {
-    return SL_ERR_STATE;
+    return sli_refuse(SL_ERR_STATE, "A is not the matrix that F was computed from");
   }
   memset(&p, 0, sizeof p);
   p.F = F;
@@ -18428,7 +18764,8 @@ static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
   }
   sli_guarantee_layout(&p, &b, A);
   if (!sli_guarantee_roots(&p, A)) {
-    return SL_ERR_UNSUPPORTED;
+    return sli_refuse(SL_ERR_UNSUPPORTED, "SL_GUARANTEED with a diagonal entry or pivot out "
+                        "of range");
   }
   p.gamma = sli_guarantee_gamma(&p);
   shift = sli_eigenvalue_estimate(&p) / 2.0;
@@ -18665,21 +19002,28 @@ SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty c
   sl_work own;
   sl_status status;
   sli_stats_clear_error(stats);
-  if (F == NULL || (certainty != SL_ESTIMATED && certainty != SL_GUARANTEED)) {
-    return SL_ERR_ARGUMENT;
+  status = sli_argument(F == NULL ? "F is NULL"
+              : certainty != SL_ESTIMATED && certainty != SL_GUARANTEED
+                ? "certainty is neither SL_ESTIMATED nor SL_GUARANTEED"
+                : NULL);
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
   memset(&F->certificate, 0, sizeof F->certificate);
   status = sli_factor_fits(F, A);
-  status = status == SL_OK && !sli_certify_suits(F) ? SL_ERR_UNSUPPORTED : status;
+  if (status == SL_OK && !sli_certify_suits(F)) {
+    status = sli_refuse(SL_ERR_UNSUPPORTED, "bounds with negative, regularized or 2x2 pivots, "
+                        "options.mass or SL_STORAGE_COMPLEX");
+  }
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   memset(&info, 0, sizeof info);
   own = sli_work_own(&F->allocator);
   status = sli_certify(F, A, certainty, W == NULL ? &own : W, &info);
   sli_free(&own.allocator, own.block);
   if (status == SL_OK && !(info.eta <= SLI_ETA_MOST)) {
-    status = SL_ERR_INACCURATE;
+    status = sli_refuse(SL_ERR_INACCURATE, "eta is too large for bounds: A is ill-conditioned");
   }
   if (status == SL_OK) {
     F->certificate.eta = info.eta;
@@ -18690,7 +19034,7 @@ SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty c
   if (stats != NULL) {
     stats->certificate = info;
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 /* src/impl/accuracy/bounds.h: sl_plan_solve_bounded: local solves with a bound for the error of each number */
@@ -18930,7 +19274,7 @@ static sl_status sli_bounds_run(sli_bounds *p, const sli_rhs *rhs, double *bound
   }
   sli_bounds_layout(p, &b, rhs->nrhs, has_scales);
   if (p->F->null.checks && sli_sweep_check(p->F, p->q, rhs, p->memory) != SL_OK) {
-    return SL_ERR_INCONSISTENT;
+    return sli_inconsistent();
   }
   identity = sli_scales_identity(p);
   if (!has_scales || memcmp(p->scales, &identity, sizeof identity) != 0) {
@@ -18949,20 +19293,23 @@ SL_API sl_status sl_plan_solve_bounded(const sl_plan *P, const sl_factor *F, dou
   sl_work own;
   sl_status status;
   sli_stats_clear_error(stats);
-  if (P == NULL || F == NULL) {
-    return SL_ERR_ARGUMENT;
+  status = sli_argument(P == NULL ? "P is NULL" : F == NULL ? "F is NULL" : NULL);
+  status = status == SL_OK ? sli_rhs_check(&rhs, P->query.nx, P->query.nb) : status;
+  if (status == SL_OK && nrhs > 0 && P->query.nx > 0) {
+    status = sli_argument(bounds == NULL               ? "bounds is NULL"
+                : bounds == X || bounds == B ? "bounds is X or B"
+                               : NULL);
   }
-  status = sli_rhs_check(&rhs, P->query.nx, P->query.nb);
-  if (status != SL_OK ||
-    (nrhs > 0 && P->query.nx > 0 && (bounds == NULL || bounds == X || bounds == B))) {
-    return SL_ERR_ARGUMENT;
+  status = status == SL_OK ? sli_query_check(&P->query, F) : status;
+  if (status == SL_OK && (F->certificate.certainty == SL_UNCERTIFIED ||
+              F->certificate.generation != F->generation)) {
+    status = sli_refuse(SL_ERR_STALE, "the present F is not certified: sl_factor_certify");
   }
-  if (!sli_query_fits(&P->query, F) || F->certificate.certainty == SL_UNCERTIFIED ||
-    F->certificate.generation != F->generation) {
-    return SL_ERR_STATE;
+  if (status == SL_OK && P->query.ending != NULL) {
+    status = sli_refuse_region();
   }
-  if (P->query.ending != NULL) {
-    return SL_ERR_UNSUPPORTED;
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
   if (stats != NULL) {
     memset(&stats->certificate, 0, sizeof stats->certificate);
@@ -18978,7 +19325,7 @@ SL_API sl_status sl_plan_solve_bounded(const sl_plan *P, const sl_factor *F, dou
   own = sli_work_own(&F->allocator);
   status = sli_bounds_run(&p, &rhs, bounds, W == NULL ? &own : W);
   sli_free(&own.allocator, own.block);
-  return status;
+  return sli_report(stats, status);
 }
 
 #endif
@@ -19183,7 +19530,7 @@ static sl_status sli_search_load(const sli_pivot_search *p, const sl_csc *A, sl_
     const sl_int from = S->scatter_from[m];
     if (!sli_is_finite(A->x[from])) {
       return sli_fail_at(stats, SL_ERR_NOT_FINITE, A->i[from], sli_column_of(A, from),
-                 A->x[from]);
+                 A->x[from], "an entry of A is not finite");
     }
     sli_scatter_map_pivots(S, s, m, &tile, &i, &j);
     sli_dense_add(f, p->local[i], p->local[j], A->x[from]);
@@ -19219,14 +19566,14 @@ static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front
     f->E = SLI_TAKE(&b, double, f->columns);
     f->values = SLI_TAKE(&b, double, (uint64_t)f->rows *(uint64_t)f->rows);
     if (b.overflow) {            /* untested: on 32 bits only */
-      return SL_ERR_TOO_LARGE; /* untested: the same */
+      return sli_refuse(SL_ERR_TOO_LARGE, "a front"); /* untested: the same */
     }
     if (pass == 0 && b.used > p->front_size) {
       sli_free(&p->allocator, p->front_block);
       p->front_size = 0;
       p->front_block = sli_alloc(&p->allocator, b.used);
       if (p->front_block == NULL) {
-        return SL_ERR_MEMORY;
+        return sli_no_memory();
       }
       p->front_size = b.used;
     }
@@ -19369,21 +19716,16 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
   sli_block b = {NULL, 0, 0};
   sl_status status;
   sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  status = sl_symbolic_create(&S, A, opt, &found);
+  status = sli_begin(out);
+  status = status == SL_OK ? sl_symbolic_create(&S, A, opt, &found) : status;
   if (status != SL_OK) {
-    return stats == NULL ? status
-               : sli_fail_at(stats, status, found.error.row, found.error.column,
-                       found.error.value);
+    return sli_report(stats, status);
   }
   memset(&p, 0, sizeof p);
   p.S = S;
   p.allocator = S->allocator;
   started = sli_seconds();
-  status = A->x == NULL && sli_nnz(A) > 0 ? SL_ERR_ARGUMENT : SL_OK;
+  status = sli_argument(A->x == NULL && sli_nnz(A) > 0 ? "A.x is NULL" : NULL);
   SLI_LAYOUT(&b, &p.allocator, status) {
     sli_search_layout(&p, &b);
   }
@@ -19392,7 +19734,7 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
   status = status == SL_OK ? sli_pivoted_analyze(out, &p, A, opt, stats) : status;
   sli_free(&p.allocator, b.base);
   sl_symbolic_free(S);
-  return status;
+  return sli_report(stats, status);
 }
 
 #endif
@@ -20453,7 +20795,8 @@ static sl_status sli_check_rows(const sl_symbolic *S, const sl_int *rows, sl_int
   for (k = 0; k < count && rows != NULL; k++) {
     if (rows[k] < 0 || rows[k] >= S->n) {
       return sli_fail_at(stats, SL_ERR_ARGUMENT, is_column ? -1 : rows[k],
-                 is_column ? rows[k] : -1, 0.0);
+                 is_column ? rows[k] : -1, 0.0,
+                 is_column ? "a column is out of range" : "a row is out of range");
     }
   }
   return SL_OK;
@@ -20890,20 +21233,22 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
   sli_bilinear q;
   sl_status status;
   sli_stats_clear_error(stats);
-  if (F == NULL || out == NULL) {
-    return SL_ERR_ARGUMENT;
+  status = sli_argument(F == NULL ? "F is NULL" : out == NULL ? "out is NULL" : NULL);
+  if (status == SL_OK) {
+    nc = cset == NULL ? F->S->n : nc;
+    nb = bset == NULL ? F->S->n : nb;
+    status = sli_argument(nc < 0                ? "nc is below 0"
+                : nb < 0              ? "nb is below 0"
+                : nc > 0 && c == NULL ? "c is NULL"
+                : nb > 0 && b == NULL ? "b is NULL"
+                          : NULL);
   }
-  nc = cset == NULL ? F->S->n : nc;
-  nb = bset == NULL ? F->S->n : nb;
-  if (nc < 0 || nb < 0 || (nc > 0 && c == NULL) || (nb > 0 && b == NULL)) {
-    return SL_ERR_ARGUMENT;
+  if (status == SL_OK && cset != NULL && bset != NULL && nc > INT32_MAX - nb) {
+    status = sli_refuse(SL_ERR_TOO_LARGE, "nb + nc exceeds 2^31 - 1");
   }
-  if (cset != NULL && bset != NULL && nc > INT32_MAX - nb) {
-    return SL_ERR_TOO_LARGE;
-  }
-  status = sli_check_entries(F, cset, nc, bset, nb, stats);
+  status = status == SL_OK ? sli_check_entries(F, cset, nc, bset, nb, stats) : status;
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   sli_inverse_clear_stats(stats);
   if (nc == 0 || nb == 0) {
@@ -20922,7 +21267,7 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
   own = sli_work_own(&F->allocator);
   status = sli_bilinear_run(&q, out, W == NULL ? &own : W, stats);
   sli_free(&own.allocator, own.block);
-  return status;
+  return sli_report(stats, status);
 }
 
 /* src/impl/inverse/loss.h: a bound on what entries of the inverse lose when they are computed from other entries */
@@ -21399,18 +21744,20 @@ static sl_status sli_inverse_entries(sli_entries *q, sl_work *W, sl_stats *stats
   const sli_requests *r = &q->requests;
   sl_work own;
   sl_status status;
-  if (r->count < 0 || (r->count > 0 && q->out == NULL)) {
-    return SL_ERR_ARGUMENT;
+  status = sli_argument(r->count < 0                     ? "count is below 0"
+              : r->count > 0 && q->out == NULL ? "out is NULL"
+                               : NULL);
+  if (status == SL_OK) {
+    status = sli_check_entries(q->F, r->rows, r->count, r->columns, r->count, stats);
   }
-  status = sli_check_entries(q->F, r->rows, r->count, r->columns, r->count, stats);
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   sli_inverse_clear_stats(stats);
   own = sli_work_own(&q->F->allocator);
   status = r->count > 0 ? sli_entries_run(q, W == NULL ? &own : W, stats) : SL_OK;
   sli_free(&own.allocator, own.block);
-  return status;
+  return sli_report(stats, status);
 }
 
 SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_int *rows,
@@ -21418,7 +21765,7 @@ SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_i
   sli_entries q;
   sli_stats_clear_error(stats);
   if (F == NULL) {
-    return SL_ERR_ARGUMENT;
+    return sli_report(stats, sli_argument("F is NULL"));
   }
   q = sli_entries_of(F, out, rows, rows, rows == NULL ? F->S->n : count);
   return sli_inverse_entries(&q, W, stats);
@@ -21430,7 +21777,9 @@ SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int 
   sli_entries q;
   sli_stats_clear_error(stats);
   if (F == NULL || (count > 0 && (rows == NULL || columns == NULL))) {
-    return SL_ERR_ARGUMENT;
+    return sli_report(stats, sli_argument(F == NULL      ? "F is NULL"
+                        : rows == NULL ? "rows is NULL"
+                               : "columns is NULL"));
   }
   q = sli_entries_of(F, out, rows, columns, count);
   return sli_inverse_entries(&q, W, stats);
@@ -21640,14 +21989,18 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
   sli_inverse_block q;
   sl_status status;
   sli_stats_clear_error(stats);
-  if (F == NULL || n_rows < 0 || n_columns < 0 || (n_rows > 0 && rows == NULL) ||
-    (n_columns > 0 && columns == NULL) ||
-    (!is_empty && (Z == NULL || !sli_is_ld(ldz, n_rows)))) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_check_entries(F, rows, n_rows, columns, n_columns, stats);
+  status = sli_argument(F == NULL                              ? "F is NULL"
+              : n_rows < 0                           ? "n_rows is below 0"
+              : n_columns < 0                        ? "n_columns is below 0"
+              : n_rows > 0 && rows == NULL           ? "rows is NULL"
+              : n_columns > 0 && columns == NULL     ? "columns is NULL"
+              : !is_empty && Z == NULL               ? "Z is NULL"
+              : !is_empty && !sli_is_ld(ldz, n_rows) ? "ldz is below n_rows"
+                                 : NULL);
+  status =
+    status == SL_OK ? sli_check_entries(F, rows, n_rows, columns, n_columns, stats) : status;
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   sli_inverse_clear_stats(stats);
   memset(&q, 0, sizeof q);
@@ -21663,7 +22016,7 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
   own = sli_work_own(&F->allocator);
   status = is_empty ? SL_OK : sli_inverse_block_run(&q, W == NULL ? &own : W, stats);
   sli_free(&own.allocator, own.block);
-  return status;
+  return sli_report(stats, status);
 }
 
 /* src/impl/inverse/selected.h: the selected inverse: a top-down traversal that keeps every panel */
@@ -21917,16 +22270,16 @@ SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const
   sl_selected *Z = NULL;
   sl_status status;
   sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
+  status = sli_begin(out);
+  if (status == SL_OK) {
+    status =
+      sli_argument(F == NULL                  ? "F is NULL"
+             : set != NULL && count < 0 ? "count is below 0"
+                          : sli_options_wrong(opt, SLI_READS_NOTHING));
   }
-  *out = NULL;
-  if (F == NULL || (set != NULL && count < 0) || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_inverse_check(F);
+  status = status == SL_OK ? sli_inverse_check(F) : status;
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   status = sli_selected_new(&Z, F, set, count, opt, stats);
   if (status == SL_OK) {
@@ -21942,17 +22295,19 @@ SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const
   } else {
     sl_selected_free(Z);
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 SL_API sl_status sl_selected_refactor(sl_selected *Z, const sl_factor *F, sl_work *W) {
-  if (Z == NULL || F == NULL) {
-    return SL_ERR_ARGUMENT;
+  sl_status status = sli_argument(Z == NULL ? "Z is NULL" : F == NULL ? "F is NULL" : NULL);
+  status = status == SL_OK ? sli_factor_has_numbers(F) : status;
+  if (status == SL_OK && F->S != Z->traversal.S) {
+    status = sli_refuse(SL_ERR_STATE, "Z and F are of different analyses");
   }
-  if (!F->is_valid || F->S != Z->traversal.S || Z->is_immutable) {
-    return SL_ERR_STATE;
+  if (status == SL_OK && Z->is_immutable) {
+    status = sli_refuse_mapped();
   }
-  return sli_selected_fill(Z, F, W);
+  return status == SL_OK ? sli_selected_fill(Z, F, W) : status;
 }
 
 SL_API void sl_selected_free(sl_selected *Z) {
@@ -21992,11 +22347,13 @@ static sl_status sli_selected_read(const sl_selected *Z, double *out, const sl_i
       const sl_int i = rows == NULL ? k : rows[k], j = columns == NULL ? i : columns[k];
       sl_off at;
       if (pass == 0 && (i < 0 || i >= S->n || j < 0 || j >= S->n)) {
-        return sli_fail_at(stats, SL_ERR_ARGUMENT, i, columns == NULL ? -1 : j, 0.0);
+        return sli_fail_at(stats, SL_ERR_ARGUMENT, i, columns == NULL ? -1 : j, 0.0,
+                   "a row or column is out of range");
       }
       at = sli_selected_position(Z, S->iperm[i], S->iperm[j]);
       if (at == -1) {
-        return sli_fail_at(stats, SL_ERR_PATTERN, i, columns == NULL ? -1 : j, 0.0);
+        return sli_fail_at(stats, SL_ERR_OTHER_PATTERN, i, columns == NULL ? -1 : j, 0.0,
+                   "Z does not have this entry");
       }
       if (pass == 1) {
         out[k] = Z->Z[at];
@@ -22019,19 +22376,24 @@ static void sli_selected_read_diagonal(const sl_selected *Z, double *out) {
 
 SL_API sl_status sl_selected_entries(const sl_selected *Z, double *out, const sl_int *rows,
                    const sl_int *columns, sl_int count, sl_stats *stats) {
+  sl_status status;
   sli_stats_clear_error(stats);
-  if (Z == NULL || (rows == NULL ? columns != NULL : count < 0)) {
-    return SL_ERR_ARGUMENT;
+  status = sli_argument(Z == NULL                         ? "Z is NULL"
+              : rows == NULL && columns != NULL ? "rows is NULL, but columns is not"
+              : rows != NULL && count < 0       ? "count is below 0"
+                              : NULL);
+  if (status == SL_OK) {
+    count = rows == NULL ? Z->traversal.S->n : count;
+    status = sli_argument(count > 0 && out == NULL ? "out is NULL" : NULL);
   }
-  count = rows == NULL ? Z->traversal.S->n : count;
-  if (count > 0 && out == NULL) {
-    return SL_ERR_ARGUMENT;
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
   if (rows == NULL && Z->traversal.forest.count == Z->traversal.S->n_supers) {
     sli_selected_read_diagonal(Z, out);
     return SL_OK;
   }
-  return sli_selected_read(Z, out, rows, columns, count, stats);
+  return sli_report(stats, sli_selected_read(Z, out, rows, columns, count, stats));
 }
 
 SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats) {
@@ -22678,7 +23040,8 @@ static sl_status sli_region_fill(sl_region *R, const sl_factor *F, const sl_sele
     R->is_copied = is_copied;
     if (!sli_region_loss_is_small(R, F, W)) {
       R->numbers.generation = 0;
-      status = SL_ERR_INACCURATE;
+      status = sli_refuse(SL_ERR_INACCURATE, "pivots of both signs: solves that end at the "
+                           "boundary would lose too many digits");
     }
     R->seconds = sli_seconds() - started;
   }
@@ -22687,10 +23050,13 @@ static sl_status sli_region_fill(sl_region *R, const sl_factor *F, const sl_sele
 }
 
 static sl_status sli_region_check_factor(const sl_factor *F, const sl_selected *Z) {
-  if (!F->is_valid || (Z != NULL && !sli_numbers_are_of(&Z->numbers, F))) {
-    return SL_ERR_STATE;
+  const sl_status status = sli_inverse_check(F);
+  if (F->is_valid && Z != NULL && !sli_numbers_are_of(&Z->numbers, F)) {
+    return sli_refuse(SL_ERR_STALE, "Z is not of the present F: sl_selected_refactor");
   }
-  return F->null.is_centered ? SL_ERR_UNSUPPORTED : sli_inverse_check(F);
+  return status == SL_OK && F->null.is_centered
+         ? sli_refuse(SL_ERR_UNSUPPORTED, "a region with options.mass")
+         : status;
 }
 
 SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_int *set,
@@ -22702,13 +23068,15 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
   sli_choice start;
   sl_status status;
   sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
+  status = sli_begin(out);
+  if (status == SL_OK) {
+    status = sli_argument(F == NULL ? "F is NULL"
+                : set != NULL && count < 0
+                  ? "count is below 0"
+                  : sli_options_wrong(opt, SLI_READS_REGION_BYTES));
   }
-  *out = NULL;
-  if (F == NULL || (set != NULL && count < 0) ||
-    !sli_options_are_valid(opt, SLI_READS_REGION_BYTES)) {
-    return SL_ERR_ARGUMENT;
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
   memset(&start, 0, sizeof start);
   start.S = F->S;
@@ -22727,19 +23095,19 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
   } else {
     sl_region_free(R);
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 SL_API sl_status sl_region_refactor(sl_region *R, const sl_factor *F, const sl_selected *Z,
                   sl_work *W) {
-  sl_status status;
-  if (R == NULL || F == NULL) {
-    return SL_ERR_ARGUMENT;
+  sl_status status = sli_argument(R == NULL ? "R is NULL" : F == NULL ? "F is NULL" : NULL);
+  if (status == SL_OK && F->S != R->S) {
+    status = sli_refuse(SL_ERR_STATE, "R and F are of different analyses");
   }
-  if (F->S != R->S || R->is_immutable) {
-    return SL_ERR_STATE;
+  if (status == SL_OK && R->is_immutable) {
+    status = sli_refuse_mapped();
   }
-  status = sli_region_check_factor(F, Z);
+  status = status == SL_OK ? sli_region_check_factor(F, Z) : status;
   if (status == SL_OK) {
     status = sli_region_fill(R, F, Z, W);
   }
@@ -23140,16 +23508,19 @@ static sl_status sli_changes_check(const sl_factor *F, const sl_csc *A, const sl
                    uint64_t *entries, sl_stats *stats) {
   sl_status status;
   sl_int k;
-  if (F == NULL || c->count < 0 || (c->count > 0 && c->columns == NULL)) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = F->is_immutable ? SL_ERR_STATE : sli_factor_fits(F, A);
+  status = sli_argument(F == NULL                            ? "F is NULL"
+              : c->count < 0                       ? "count is below 0"
+              : c->count > 0 && c->columns == NULL ? "columns is NULL"
+                                 : NULL);
+  status = status == SL_OK ? sli_factor_may_change(F) : status;
+  status = status == SL_OK ? sli_factor_fits(F, A) : status;
   if (status != SL_OK) {
     return status;
   }
   for (k = 0, *entries = 0; k < c->count; k++) {
     if (c->columns[k] < 0 || c->columns[k] >= F->S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, c->columns[k], -1, 0.0);
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, c->columns[k], -1, 0.0,
+                 "a column is out of range");
     }
     *entries += (uint64_t)(A->p[c->columns[k] + 1] - A->p[c->columns[k]]);
   }
@@ -23182,7 +23553,7 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
   sli_stats_clear_error(stats);
   status = sli_changes_check(F, A, c, &entries, stats);
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   if (F->method != SL_METHOD_SUPERNODAL || F->type->storage != SL_STORAGE_DOUBLE ||
     F->type->accepts != NULL || entries >= (uint64_t)sli_nnz(A)) {
@@ -23341,11 +23712,11 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
   u->value = e;
   u->pivot = k;
   if (!sli_is_finite(e)) {
-    return SL_ERR_NOT_FINITE;
+    return sli_refuse(SL_ERR_NOT_FINITE, NULL);
   }
   if (fabs(e) < DBL_MIN || (u->keeps_signs && (e < 0.0) != (d < 0.0)) ||
     (fabs(e) < fabs(d) && (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude)))) {
-    return SL_ERR_PIVOT;
+    return sli_refuse(SL_ERR_PIVOT, NULL);
   }
   if (!u->is_trial) {
     u->most = fmax(u->most, fmax(magnitude, sli_update_cancelled(F, d, e)));
@@ -23794,15 +24165,22 @@ typedef struct sli_rank {
 #define SLI_RANK_LARGE 1e100
 #define SLI_RANK_SMALL 1e-100
 
+static const char sli_growth_exceeded[] = "pivot growth exceeds options.growth_limit";
+
 static int sli_rank_is_suited(const sl_factor *F) {
   return F->E == NULL && F->null.count == 0 && F->type->storage == SL_STORAGE_DOUBLE;
 }
 
 static sl_status sli_rank_check(const sl_factor *F) {
-  if (!F->is_valid || F->is_immutable) {
-    return SL_ERR_STATE;
+  sl_status status = sli_factor_has_numbers(F);
+  status = status == SL_OK ? sli_factor_may_change(F) : status;
+  if (status != SL_OK || sli_rank_is_suited(F)) {
+    return status;
   }
-  return sli_rank_is_suited(F) ? SL_OK : SL_ERR_UNSUPPORTED;
+  return sli_refuse(SL_ERR_UNSUPPORTED, F->E != NULL ? "an update with 2x2 pivots"
+                      : F->null.count > 0
+                        ? "an update with null pivots"
+                        : "an update of L in float or complex");
 }
 
 static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first) {
@@ -23811,21 +24189,23 @@ static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first
   const double sigma = q->u.sigma == NULL ? 1.0 : q->u.sigma[v];
   sl_int s, p, at;
   if (!sli_is_finite(sigma)) {
-    return sli_fail_at(q->stats, SL_ERR_NOT_FINITE, -1, v, sigma);
+    return sli_fail_at(q->stats, SL_ERR_NOT_FINITE, -1, v, sigma, "sigma is not finite");
   }
   s = first < S->n ? S->super_of[first] : -1;
   for (p = V->p[v]; p < V->p[v + 1]; p++) {
     const sl_int k = S->iperm[V->i[p]];
     const sl_int *rows = s == -1 ? NULL : S->rows + S->rows_begin[s];
     if (!sli_is_finite(V->x[p])) {
-      return sli_fail_at(q->stats, SL_ERR_NOT_FINITE, V->i[p], v, V->x[p]);
+      return sli_fail_at(q->stats, SL_ERR_NOT_FINITE, V->i[p], v, V->x[p],
+                 "an entry of V is not finite");
     }
     if (V->x[p] == 0.0 || sigma == 0.0 || k < S->super_first[s + 1]) {
       continue;
     }
     at = sli_lower_bound(rows, S->steps[s].below, k);
     if (at == S->steps[s].below || rows[at] != k) {
-      return sli_fail_at(q->stats, SL_ERR_PATTERN, V->i[p], S->perm[first], V->x[p]);
+      return sli_fail_at(q->stats, SL_ERR_OTHER_PATTERN, V->i[p], S->perm[first], V->x[p],
+                 "L has no such entry: the changed matrix has more entries");
     }
   }
   return SL_OK;
@@ -24059,7 +24439,7 @@ static sl_status sli_rank_passes(sli_rank *q) {
         q->u.pivot = F->extents[F->S->super_of[sli_key(seeds[0])]].pivot;
         q->u.pivot = q->u.pivot < 0 ? sli_key(seeds[0]) : q->u.pivot;
         q->u.value = F->D[q->u.pivot];
-        status = SL_ERR_INACCURATE;
+        status = sli_refuse(SL_ERR_INACCURATE, sli_growth_exceeded);
       }
     }
   }
@@ -24077,7 +24457,8 @@ static sl_status sli_rank_run(sli_rank *q) {
   }
   if (before.factor.growth > F->growth_limit) {
     const sl_int k = sli_key(q->seeds[0]);
-    return sli_fail_at(q->stats, SL_ERR_INACCURATE, F->S->perm[k], -1, F->D[k]);
+    return sli_fail_at(q->stats, SL_ERR_INACCURATE, F->S->perm[k], -1, F->D[k],
+               sli_growth_exceeded);
   }
   if (F->history.updates == 0) {
     F->history.scale = F->history.lowest = before.factor.entry_max;
@@ -24110,7 +24491,12 @@ static sl_status sli_rank_run(sli_rank *q) {
     F->status = status;     /* untested: the same */
     F->generation++;        /* untested: the same */
   }
-  return sli_fail_at(q->stats, status, F->S->perm[q->u.pivot], -1, q->u.value);
+  return sli_fail_at(q->stats, status, F->S->perm[q->u.pivot], -1, q->u.value,
+             status == SL_ERR_INACCURATE ? sli_growth_exceeded
+             : status == SL_ERR_NOT_FINITE
+               ? "the change would make this pivot infinite"
+               : "the change would make this pivot null or of "
+               "the other sign; F is as before");
 }
 
 static double sli_rank_least(const sl_factor *F) {
@@ -24176,16 +24562,16 @@ SL_API sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *s
   sli_rank q;
   sl_status status;
   sli_stats_clear_error(stats);
-  if (F == NULL || V == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_rank_check(F);
+  status = sli_argument(F == NULL ? "F is NULL" : V == NULL ? "V is NULL" : NULL);
+  status = status == SL_OK ? sli_rank_check(F) : status;
   status = status == SL_OK ? sl_csc_check(V, stats) : status;
-  if (status != SL_OK) {
-    return status;
+  if (status == SL_OK) {
+    status = sli_argument(V->n_rows != F->S->n ? "V has another number of rows than F"
+                : sli_nnz(V) > 0 && V->x == NULL ? "V.x is NULL"
+                                 : NULL);
   }
-  if (V->n_rows != F->S->n || (sli_nnz(V) > 0 && V->x == NULL)) {
-    return SL_ERR_ARGUMENT;
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
   sli_rank_begin(&q, F, stats);
   q.u.V = V;
@@ -24194,7 +24580,7 @@ SL_API sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *s
   if (status == SL_OK) {
     sli_rank_report(&q, started, stats);
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 /* src/impl/change/edges.h: changes given by entries of A, as rank-one changes */
@@ -24331,19 +24717,26 @@ static const sli_stage sli_edges_stages[3] = {{sli_edges_layout, sli_edges_fill}
 static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const sl_int *columns,
                  const double *deltas, sl_int count, sl_stats *stats) {
   sl_int k;
-  if (F == NULL || count < 0 ||
-    (count > 0 && (rows == NULL || columns == NULL || deltas == NULL))) {
-    return SL_ERR_ARGUMENT;
+  const sl_status status = sli_argument(F == NULL                      ? "F is NULL"
+                      : count < 0                    ? "count is below 0"
+                      : count > 0 && rows == NULL    ? "rows is NULL"
+                      : count > 0 && columns == NULL ? "columns is NULL"
+                      : count > 0 && deltas == NULL  ? "deltas is NULL"
+                                     : NULL);
+  if (status != SL_OK) {
+    return status;
   }
   if (count > INT32_MAX / 4) {
-    return SL_ERR_TOO_LARGE;
+    return sli_refuse(SL_ERR_TOO_LARGE, "count is 2^29 or more");
   }
   for (k = 0; k < count; k++) {
     if (rows[k] < 0 || rows[k] >= F->S->n || columns[k] < 0 || columns[k] >= F->S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], columns[k], deltas[k]);
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], columns[k], deltas[k],
+                 "a row or column is out of range");
     }
     if (!sli_is_finite(deltas[k])) {
-      return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], columns[k], deltas[k]);
+      return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], columns[k], deltas[k],
+                 "a delta is not finite");
     }
   }
   return SL_OK;
@@ -24367,7 +24760,7 @@ SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, cons
   status = sli_edges_check(F, rows, columns, deltas, count, stats);
   status = status == SL_OK ? sli_rank_check(F) : status;
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   sli_rank_begin(&q, F, stats);
   sli_edges_begin(&q, rows, columns, deltas, count);
@@ -24375,7 +24768,7 @@ SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, cons
   if (status == SL_OK) {
     sli_rank_report(&q, started, stats);
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 /* src/impl/change/choose.h: sl_factor_change: rank-one changes, the reach of the change, or all of L */
@@ -24620,10 +25013,10 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
   sl_status status;
   sli_stats_clear_error(stats);
   status = sli_edges_check(F, rows, columns, deltas, count, stats);
-  status = status == SL_OK && F->is_immutable ? SL_ERR_STATE : status;
-  status = status == SL_OK ? sli_factor_check_size(F->S, A) : status;
+  status = status == SL_OK ? sli_factor_may_change(F) : status;
+  status = status == SL_OK ? sli_pattern_check_size(F->S, A, 1) : status;
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   memset(&c, 0, sizeof c);
   sli_rank_begin(&q, F, stats);
@@ -24650,10 +25043,14 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
     stats->change.flops_changed = c.flops_changed;
     stats->change.flops_refactor = c.flops_refactor;
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 /* src/impl/change/pins_types.h: a set of pins: the method, and what it keeps */
+
+static const char sli_pinned_twice[] = "the row is pinned twice";
+static const char sli_nulls_unknown[] =
+  "null vectors of F are not known in the tree of this row: options.null_vector";
 
 typedef struct sli_pin {
   sl_int index;
@@ -24719,6 +25116,14 @@ SLI_INLINE sl_int sli_held_find(const sl_pins *P, sl_int column) {
   return at < P->n_held && P->held[at] == column ? at : -1;
 }
 
+static sl_status sli_pins_are_current(const sl_pins *P) {
+  const sl_status status = sli_factor_has_numbers(P->F);
+  return status == SL_OK && !sli_numbers_are_of(&P->numbers, P->F)
+         ? sli_refuse(SL_ERR_STALE,
+              "F has changed since the pins were made: sl_pins_refactor")
+         : status;
+}
+
 /* src/impl/change/pins_nulls.h: null vectors under pins: their products with the pins, and what remains free */
 
 static sli_tree_range sli_tree_of(const sl_symbolic *S, sl_int column) {
@@ -24777,7 +25182,7 @@ static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, int fills
       double z;
       if (!sli_pin_null(F, &p, F->null.pivots[m], &z)) {
         *row = pin->rows[p.first];
-        return SL_ERR_UNSUPPORTED;
+        return sli_refuse(SL_ERR_UNSUPPORTED, sli_nulls_unknown);
       }
       if (fills) {
         pin->nulls[pin->n_nulls] = m;
@@ -25022,7 +25427,7 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sli_equal
     }
   }
   sli_free(&P->allocator, seeds.base);
-  return row == -1 ? status : sli_fail_at(stats, status, row, -1, 0.0);
+  return row == -1 ? status : sli_fail_at(stats, status, row, -1, 0.0, sli_nulls_unknown);
 }
 
 static void sli_pin_dot(const sli_pin *pin, const sli_reach *R, const double *x, sl_int lanes,
@@ -25066,9 +25471,24 @@ static sl_status sli_pins_factor(sl_pins *P, sl_int k) {
   const double *d = &P->K[(size_t)k * (size_t)P->capacity + (size_t)k], own = *d;
   sli_capacitance_factor(P->K, (size_t)P->capacity, k);
   if (!sli_is_finite(*d)) {
-    return SL_ERR_NOT_FINITE;
+    return sli_refuse(SL_ERR_NOT_FINITE, NULL);
   }
-  return *d * P->sign > (64.0 + k) * 8.0 * DBL_EPSILON * fabs(own) ? SL_OK : SL_ERR_PIVOT;
+  return *d * P->sign > (64.0 + k) * 8.0 * DBL_EPSILON * fabs(own)
+         ? SL_OK
+         : sli_refuse(SL_ERR_PIVOT, NULL);
+}
+
+SLI_COLD static sl_status sli_pins_refuse(const sl_pins *P, sl_status status, sl_int row,
+                      sl_int count, sl_stats *stats) {
+  const char *what = status == SL_ERR_PIVOT ? "it depends on the other pins and equalities"
+                        : "numbers of F overflow in its solution";
+  sl_int k;
+  for (k = 0; k < P->n_pins && count == 1 && status == SL_ERR_PIVOT; k++) {
+    if (P->pins[k]->count == 1 && P->pins[k]->rows[0] == row) {
+      what = sli_pinned_twice;
+    }
+  }
+  return sli_fail_at(stats, status, row, -1, 0.0, what);
 }
 
 static void sli_pins_remove(sl_pins *P, sl_int p) {
@@ -25146,7 +25566,7 @@ static sl_status sli_pins_push(sl_pins *P, sl_int index, const sli_equality *e, 
   status = sli_pins_factor(P, at);
   if (status != SL_OK) {
     sli_pin_free(P, pin);
-    return sli_fail_at(stats, status, e->rows[0], -1, 0.0);
+    return sli_pins_refuse(P, status, e->rows[0], e->count, stats);
   }
   pin->index = index;
   sli_pins_count_nulls(P, pin, 1);
@@ -25203,7 +25623,7 @@ static sl_status sli_pins_sweep_block(sl_pins *P, sli_inverse_block *q, sl_int k
     const sli_equality e = sli_equality_of(row, &one, 1);
     sli_pin **pin = &P->pins[P->n_pins + sli_value(order[j])];
     status = j > 0 && sli_key(order[j]) == sli_key(order[j - 1])
-           ? sli_fail_at(stats, SL_ERR_PIVOT, *row, -1, 0.0)
+           ? sli_fail_at(stats, SL_ERR_PIVOT, *row, -1, 0.0, sli_pinned_twice)
            : sli_pin_create(pin, P, &e, 0, stats);
     if (status == SL_OK) {
       sli_pin_clear_nulls(P, *pin, &f->reach, f->y, f->lanes);
@@ -25258,7 +25678,7 @@ static sl_status sli_pins_push_blocks(sl_pins *P, sli_inverse_block *q, sl_stats
   for (k = 0; k < q->kept.count && status == SL_OK; k++) {
     status = sli_pins_factor(P, P->n_pins + k);
     if (status != SL_OK) {
-      (void)sli_fail_at(stats, status, q->kept.rows[k], -1, 0.0);
+      (void)sli_pins_refuse(P, status, q->kept.rows[k], 1, stats);
     }
   }
   return status;
@@ -25336,7 +25756,8 @@ static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P
     row[a] = w->is_free[a] ? P->sign : row[a];
     sli_capacitance_factor(w->S, ld, a);
     if (!(row[a] * P->sign > 0.0)) {
-      return SL_ERR_INACCURATE;
+      return sli_refuse(SL_ERR_INACCURATE,
+                "pins that nearly depend on each other, by null vectors of F");
     }
   }
   return SL_OK;
@@ -25560,7 +25981,8 @@ static sl_status sli_holding_begin(sli_holding *h, const sl_pins *P, const sl_in
     h->columns[k] = sli_key(h->list[k]);
     h->index[k] = sli_value(h->list[k]);
     if (h->marks[h->columns[k]]) {
-      return sli_fail_at(stats, SL_ERR_PIVOT, S->perm[h->columns[k]], -1, 0.0);
+      return sli_fail_at(stats, SL_ERR_PIVOT, S->perm[h->columns[k]], -1, 0.0,
+                 sli_pinned_twice);
     }
     h->marks[h->columns[k]] = 1;
   }
@@ -25705,7 +26127,10 @@ static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
     for (k = 0; k < P->n_couplings; k++) {
       P->coupling_column[k] = S->iperm[rows[k]];
     }
-    status = sli_held_is_loose(P) ? SL_ERR_PIVOT : SL_OK;
+    if (sli_held_is_loose(P)) {
+      status = sli_refuse(SL_ERR_PIVOT, "the pins do not hold a component whose couplings "
+                        "are as small as rounding");
+    }
   }
   sli_free(&P->allocator, b.base);
   return status;
@@ -25779,7 +26204,7 @@ static sl_status sli_pins_take(sl_pins *P) {
     const size_t bytes = (size_t)P->base->null.count * sizeof *P->uses;
     P->uses = (sl_int *)sli_alloc(&P->allocator, bytes);
     if (P->uses == NULL) {
-      return SL_ERR_MEMORY;
+      return sli_no_memory();
     }
     memset(P->uses, 0, bytes);
   }
@@ -25788,10 +26213,11 @@ static sl_status sli_pins_take(sl_pins *P) {
 
 static sl_status sli_pins_check(const sl_factor *F) {
   const sl_factor_info *info = &F->stats.factor;
-  if (!F->is_valid) {
-    return SL_ERR_STATE;
+  const sl_status status = sli_factor_has_numbers(F);
+  if (status != SL_OK || (F->E == NULL && (info->positive == 0 || info->negative == 0))) {
+    return status;
   }
-  return F->E != NULL || (info->positive > 0 && info->negative > 0) ? SL_ERR_UNSUPPORTED : SL_OK;
+  return sli_refuse(SL_ERR_UNSUPPORTED, "pins with pivots of both signs or 2x2 pivots");
 }
 
 static void sli_pins_release(sl_pins *P) {
@@ -26086,7 +26512,7 @@ static sl_status sli_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stat
   entries = P->F->S->scatter_begin[P->F->S->n_supers];
   values = (double *)sli_alloc(&P->allocator, ((size_t)entries + 1) * sizeof *values);
   if (values == NULL) {
-    return SL_ERR_MEMORY;
+    return sli_no_memory();
   }
   for (m = 0; m < entries; m++) {
     values[m] = A->x[P->F->S->scatter_from[m]];
@@ -26098,7 +26524,8 @@ static sl_status sli_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stat
   status = sli_pins_probe(P->F, &from, &P->allocator, &row, &error);
   if (status == SL_OK &&
     !(error <= (sli_is_float(P->F) ? SLI_PINS_OTHER_FLOAT : SLI_PINS_OTHER))) {
-    status = sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, error);
+    status = sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, error,
+               "A is not the matrix that F was computed from");
   }
   if (status == SL_OK && !sli_pins_can_hold(P->F)) {
     status = sli_numbers_are_of(&P->numbers, P->F) ? SL_OK : sli_pins_renew(P, NULL, stats);
@@ -26123,7 +26550,7 @@ SL_API sl_status sl_pins_refactor(sl_pins *P, const sl_csc *A, sl_stats *stats) 
   sl_status status;
   sli_stats_clear_error(stats);
   if (P == NULL) {
-    return SL_ERR_ARGUMENT;
+    return sli_report(stats, sli_argument("P is NULL"));
   }
   if (A == NULL) {
     status = sli_pins_renew(P, NULL, stats);
@@ -26134,7 +26561,7 @@ SL_API sl_status sl_pins_refactor(sl_pins *P, const sl_csc *A, sl_stats *stats) 
   if (status == SL_OK) {
     sli_pins_report(P, started, stats);
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 /* src/impl/change/pins.h: sets of pins: created, added, released */
@@ -26143,20 +26570,17 @@ SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_opti
   const sl_allocator a = sli_allocator(opt);
   sl_pins *P = NULL;
   sl_status status;
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  if (F == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_pins_check(F);
+  status = sli_begin(out);
+  status = status == SL_OK
+         ? sli_argument(F == NULL ? "F is NULL" : sli_options_wrong(opt, SLI_READS_NOTHING))
+         : status;
+  status = status == SL_OK ? sli_pins_check(F) : status;
   if (status != SL_OK) {
     return status;
   }
   P = (sl_pins *)sli_alloc(&a, sizeof *P);
   if (P == NULL) {
-    return SL_ERR_MEMORY;
+    return sli_no_memory();
   }
   memset(P, 0, sizeof *P);
   P->allocator = a;
@@ -26210,15 +26634,19 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
   sl_status status;
   sl_int k;
   sli_stats_clear_error(stats);
-  if (P == NULL || count < 1 || rows == NULL || values == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  if (!P->F->is_valid || !sli_numbers_are_of(&P->numbers, P->F)) {
-    return SL_ERR_STATE;
+  status = sli_argument(P == NULL        ? "P is NULL"
+              : count < 1      ? "count is below 1"
+              : rows == NULL   ? "rows is NULL"
+              : values == NULL ? "values is NULL"
+                       : NULL);
+  status = status == SL_OK ? sli_pins_are_current(P) : status;
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
   for (k = 0; k < count; k++) {
     if (!sli_is_finite(values[k])) {
-      return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k]);
+      return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k],
+                 "a value of the equality is not finite");
     }
   }
   status = sli_pins_reserve(P, P->count + 1);
@@ -26227,7 +26655,7 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
     P->rows[P->count++] = -1;
     sli_pins_report(P, started, stats);
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 static sl_status sli_pins_add_by_capacitance(sl_pins *P, const sl_int *rows, sl_int count,
@@ -26298,27 +26726,29 @@ SL_API sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count, sl_st
   const double started = stats == NULL ? 0.0 : sli_seconds();
   double seconds = 0.0, threshold;
   sl_pins_reason reason;
-  sl_status status = SL_OK;
+  sl_status status;
   sl_int k;
   int is_done = 0;
   sli_stats_clear_error(stats);
-  if (P == NULL || count < 0 || (count > 0 && rows == NULL)) {
-    return SL_ERR_ARGUMENT;
+  status = sli_argument(P == NULL                   ? "P is NULL"
+              : count < 0                 ? "count is below 0"
+              : count > 0 && rows == NULL ? "rows is NULL"
+                            : NULL);
+  status = status == SL_OK ? sli_pins_are_current(P) : status;
+  if (status == SL_OK && count > INT32_MAX - P->count) {
+    status = sli_refuse(SL_ERR_TOO_LARGE, "more than 2^31 - 1 pins");
   }
-  if (!P->F->is_valid || !sli_numbers_are_of(&P->numbers, P->F)) {
-    return SL_ERR_STATE;
-  }
-  if (count > INT32_MAX - P->count) {
-    return SL_ERR_TOO_LARGE;
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
   reason = P->reason;
   threshold = P->threshold;
   for (k = 0; k < count; k++) {
     if (rows[k] < 0 || rows[k] >= P->F->S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0);
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0, "a row is out of range");
     }
     if (sli_held_find(P, P->F->S->iperm[rows[k]]) != -1) {
-      return sli_fail_at(stats, SL_ERR_PIVOT, rows[k], -1, 0.0);
+      return sli_fail_at(stats, SL_ERR_PIVOT, rows[k], -1, 0.0, sli_pinned_twice);
     }
   }
   if (P->values != NULL && count > 0) {
@@ -26334,7 +26764,7 @@ SL_API sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count, sl_st
     P->reason = reason;
     P->threshold = threshold;
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count, sl_stats *stats) {
@@ -26342,11 +26772,15 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
   sli_pins_target t;
   sli_block b = {NULL, 0, 0}, targets = {NULL, 0, 0};
   unsigned char *gone = NULL;
-  sl_status status = SL_OK;
+  sl_status status;
   sl_int k, held = 0;
   sli_stats_clear_error(stats);
-  if (P == NULL || count < 0 || (count > 0 && indices == NULL)) {
-    return SL_ERR_ARGUMENT;
+  status = sli_argument(P == NULL                      ? "P is NULL"
+              : count < 0                    ? "count is below 0"
+              : count > 0 && indices == NULL ? "indices is NULL"
+                             : NULL);
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
   if (count == 0) {
     sli_pins_report(P, started, stats);
@@ -26360,7 +26794,8 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
   }
   for (k = 0; k < count && status == SL_OK; k++) {
     if (indices[k] < 0 || indices[k] >= P->count || gone[indices[k]]) {
-      status = SL_ERR_ARGUMENT;
+      status = sli_fail_at(stats, SL_ERR_ARGUMENT, -1, -1, (double)indices[k],
+                 "no pin has this index, value, or it is given twice");
     } else {
       gone[indices[k]] = 1;
     }
@@ -26369,9 +26804,7 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
     held += gone[P->held_pin[k]];
   }
   if (status == SL_OK && held > 0) {
-    if (!P->F->is_valid || !sli_numbers_are_of(&P->numbers, P->F)) {
-      status = SL_ERR_STATE;
-    }
+    status = sli_pins_are_current(P);
     status = status == SL_OK ? sli_pins_target_make(&t, &targets, P, 0) : status;
     if (status == SL_OK) {
       sli_pins_target_add(&t, P, gone);
@@ -26388,7 +26821,7 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
   if (status == SL_OK) {
     sli_pins_report(P, started, stats);
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 /* src/impl/change/pins_solve.h: sl_pins_solve: solves with rows held */
@@ -26595,6 +27028,10 @@ static int sli_pins_forward(const sli_pins_solve *w, const sli_vectors *v, doubl
   return 1;
 }
 
+SLI_COLD static sl_status sli_pins_inconsistent(void) {
+  return sli_refuse(SL_ERR_INCONSISTENT, "B has a part along a null vector that no pin holds");
+}
+
 static sl_status sli_pins_block(sli_pins_solve *w) {
   const sl_pins *P = w->P;
   const sli_query *q = w->q;
@@ -26606,7 +27043,7 @@ static sl_status sli_pins_block(sli_pins_solve *w) {
   sl_int p;
   w->lanes = lanes;
   if (!sli_pins_forward(w, &v, norms)) {
-    return SL_ERR_INCONSISTENT;
+    return sli_pins_inconsistent();
   }
   if (!q->is_shared) {
     sli_sweep_transfer(q, v.y, v.x, lanes);
@@ -26616,7 +27053,7 @@ static sl_status sli_pins_block(sli_pins_solve *w) {
   }
   sli_pins_apply(P, w->f, lanes);
   if (!sli_pins_balance(P, &w->nulls, w->f, lanes, norms)) {
-    return SL_ERR_INCONSISTENT;
+    return sli_pins_inconsistent();
   }
   for (p = 0; p < P->n_pins; p++) {
     sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
@@ -26633,7 +27070,7 @@ static sl_status sli_pins_block(sli_pins_solve *w) {
     sli_pins_largest(&q->backward, v.x, w->largest, lanes);
   }
   if (!sli_pins_hold(w, v.x)) {
-    return SL_ERR_INACCURATE;
+    return sli_refuse(SL_ERR_INACCURATE, "C' x = g holds too inaccurately");
   }
   sli_unpack(F, q, &w->rhs, v.x);
   return SL_OK;
@@ -26651,18 +27088,22 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
   sl_status status;
   sl_int r;
   if (P == NULL) {
-    return SL_ERR_ARGUMENT;
+    return sli_argument("P is NULL");
   }
   all = sli_query_all(P->F->S);
   status = sli_rhs_check_columns(&rhs, q->nx, q->nb);
-  if (status != SL_OK || (nrhs > 0 && P->count > 0 && (G == NULL || !sli_is_ld(ldg, P->count)))) {
-    return SL_ERR_ARGUMENT;
+  if (status == SL_OK && nrhs > 0 && P->count > 0) {
+    status = sli_argument(G == NULL                   ? "G is NULL"
+                : !sli_is_ld(ldg, P->count) ? "ldg is below the number of pins"
+                              : NULL);
   }
-  if (!sli_numbers_are_of(&P->numbers, P->F) || !sli_query_fits(q, P->F)) {
-    return SL_ERR_STATE;
+  status = status == SL_OK ? sli_pins_are_current(P) : status;
+  status = status == SL_OK ? sli_query_check(q, P->F) : status;
+  if (status == SL_OK && q->ending != NULL) {
+    status = sli_refuse_region();
   }
-  if (q->ending != NULL) {
-    return SL_ERR_UNSUPPORTED;
+  if (status != SL_OK) {
+    return status;
   }
   if (nrhs == 0 || q->nx == 0) {
     return SL_OK;
@@ -26794,6 +27235,7 @@ static void sli_subset_hash(sli_subset *R) {
 
 static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_int *rows,
                  sl_int *rank_of, sl_stats *stats) {
+  static const char sli_row_twice[] = "a row is given twice";
   sl_int k, rank = 0;
   if (!R->is_hashed) {
     memset(R->words, 0, (size_t)R->n_words * sizeof(uint64_t));
@@ -26802,7 +27244,7 @@ static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_i
     const sl_int row = rows[k];
     const sl_int ahead = rows[sli_min(k + SLI_SUBSET_AHEAD, R->count - 1)];
     if (row < 0 || row >= S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, 0.0);
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, 0.0, "a row is out of range");
     }
     if (ahead >= 0 && ahead < S->n) {
       SLI_PREFETCH(S->iperm + ahead, 0);
@@ -26814,7 +27256,7 @@ static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_i
       uint64_t *word = &R->words[column / SLI_SUBSET_BITS];
       const uint64_t bit = (uint64_t)1 << (column % SLI_SUBSET_BITS);
       if ((*word & bit) != 0) {
-        return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, 0.0);
+        return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, 0.0, sli_row_twice);
       }
       *word |= bit;
     }
@@ -26825,7 +27267,8 @@ static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_i
     for (k = 0; k < R->count; k++) {
       rank_of[R->row_of[k]] = k;
       if (k > 0 && R->columns[k] == R->columns[k - 1]) {
-        return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[R->columns[k]], -1, 0.0);
+        return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[R->columns[k]], -1, 0.0,
+                   sli_row_twice);
       }
     }
     return SL_OK;
@@ -27040,7 +27483,10 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
 static sl_status sli_restriction_work(sli_restriction *r, uint64_t entries, const sl_allocator *a) {
   sli_analysis *w = &r->w;
   sli_block b = {NULL, 0, 0};
-  sl_status status = entries > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK; /* untested: 2^31 entries */
+  sl_status status =
+    entries > INT32_MAX /* untested: 2^31 entries */
+      ? sli_refuse(SL_ERR_TOO_LARGE, "more than 2^31 - 1 entries of new columns")
+      : SL_OK;
   SLI_LAYOUT(&b, a, status) {
     sli_analysis_layout(w, &b, r->n_fresh, (sl_int)entries);
   }
@@ -27106,7 +27552,7 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
       const sl_int i = A->i[p];
       sl_int other = own, is_there;
       if (i < 0 || i >= A->n_rows) {
-        return sli_fail_at(stats, SL_ERR_PATTERN, i, j, 0.0);
+        return sli_fail_at(stats, SL_ERR_PATTERN, i, j, 0.0, "a row of A is out of range");
       }
       is_there = sli_is_read(triangle, i, j);
       if (number_at != NULL) {
@@ -27182,7 +27628,7 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
       SLI_PREFETCH(p + r->rows[k + SLI_RESTRICT_AHEAD], 0);
     }
     if (p[j] < 0 || p[j + 1] < p[j] || p[j + 1] > sli_nnz(r->A)) {
-      return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0);
+      return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0, "A.p descends");
     }
     if (r->n_kept > 0) {
       r->number_of[k] = number = r->fresh_of[number];
@@ -27597,15 +28043,18 @@ static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
   memset(S->scatter_begin, 0, ((size_t)S->n_supers + 1) * sizeof(sl_off));
 }
 
-static void sli_restrict_report(const sli_restriction *r, sl_status status, sl_stats *stats) {
-  if (status == SL_ERR_NOT_FINITE && stats->error.column != -1) {
+static sl_status sli_restrict_report(const sli_restriction *r, sl_status status, sl_stats *stats) {
+  sl_stats found;
+  (void)sli_report(&found, status);
+  if (status == SL_ERR_NOT_FINITE && found.error.column != -1) {
     if (r->B_values != NULL) {
-      stats->error.column = r->rows[stats->error.column];
+      found.error.column = r->rows[found.error.column];
     }
   } else if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE ||
          status == SL_ERR_NOT_FINITE) {
-    stats->error.row = r->rows[stats->error.row];
+    found.error.row = r->rows[found.error.row];
   }
+  return sli_fail_as(stats, status, &found.error);
 }
 
 static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_factor *F,
@@ -27631,23 +28080,18 @@ static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_facto
 
 static sl_status sli_restrict_arguments(const sl_factor *F, const sl_csc *A, const sl_int *rows,
                     sl_int count, const sl_options *opt) {
-  if (F == NULL || A == NULL || count < 0 || (count > 0 && rows == NULL) ||
-    !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-    return SL_ERR_ARGUMENT;
+  sl_status status =
+    sli_argument(F == NULL                   ? "F is NULL"
+           : A == NULL                 ? "A is NULL"
+           : count < 0                 ? "count is below 0"
+           : count > 0 && rows == NULL ? "rows is NULL"
+                         : sli_options_wrong(opt, SLI_READS_NOTHING));
+  status = status == SL_OK ? sli_factor_has_numbers(F) : status;
+  if (status == SL_OK && (F->E != NULL || F->S->nnz_input < 0)) {
+    status = sli_refuse(SL_ERR_UNSUPPORTED, F->E != NULL ? "the restriction of 2x2 pivots"
+                               : "the restriction of a restriction");
   }
-  if (!F->is_valid) {
-    return SL_ERR_STATE;
-  }
-  if (F->E != NULL || F->S->nnz_input < 0) {
-    return SL_ERR_UNSUPPORTED;
-  }
-  if (A->n_cols > 0 && A->p == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  if (A->n_rows != F->S->n || A->n_cols != F->S->n || sli_nnz(A) != F->S->nnz_input) {
-    return SL_ERR_PATTERN;
-  }
-  return sli_nnz(A) > 0 && (A->i == NULL || A->x == NULL) ? SL_ERR_ARGUMENT : SL_OK;
+  return status == SL_OK ? sli_pattern_check_size(F->S, A, 1) : status;
 }
 
 SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_factor *F,
@@ -27658,14 +28102,14 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
   sli_restriction r;
   sl_status status;
   sli_stats_clear_error(stats);
-  if (S == NULL || G == NULL) {
-    return SL_ERR_ARGUMENT;
+  status = sli_argument(S == NULL ? "S is NULL" : G == NULL ? "G is NULL" : NULL);
+  if (status == SL_OK) {
+    *S = NULL;
+    *G = NULL;
+    status = sli_restrict_arguments(F, A, rows, count, opt);
   }
-  *S = NULL;
-  *G = NULL;
-  status = sli_restrict_arguments(F, A, rows, count, opt);
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   memset(&r, 0, sizeof r);
   r.S = F->S;
@@ -27677,8 +28121,8 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
   status = sli_restriction_begin(&r, &a, stats);
   if (status == SL_OK) {
     status = sli_restrict_run(S, G, F, &r, &a, stats);
-    if (stats != NULL) {
-      sli_restrict_report(&r, status, stats);
+    if (status != SL_OK) {
+      status = sli_restrict_report(&r, status, stats);
     }
   }
   if (status == SL_OK) {
@@ -27697,7 +28141,7 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
     info->seconds = sli_seconds() - started;
   }
   sli_restriction_free(&r, &a);
-  return status;
+  return sli_report(stats, status);
 }
 
 /* src/impl/change/dirichlet_reuse.h: rows fixed at given values, by a factor of all rows: restriction or pins */
@@ -27972,7 +28416,8 @@ static sl_status sli_edit_columns(const sl_symbolic *S, const sl_int *new_of, sl
   for (j = 0; j < S->n; j++) {
     const sl_int row = new_of[j];
     if (row < -1 || row >= n || (row >= 0 && column_of[row] != -1)) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, j, -1, (double)row);
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, j, -1, (double)row,
+                 "new_of of this row, value, is out of range or given twice");
     }
     if (row >= 0) {
       column_of[row] = S->iperm[j];
@@ -29196,22 +29641,17 @@ static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const s
 
 static sl_status sli_edit_arguments(const sl_symbolic *S, const sl_csc *A, const sl_csc *B,
                   const sl_int *new_of, const sl_options *opt) {
-  sli_hash pattern;
-  if (S == NULL || A == NULL || B == NULL || (S->n > 0 && new_of == NULL) ||
-    !sli_symbolic_options_are_valid(opt) || (A->n_cols > 0 && A->p == NULL)) {
-    return SL_ERR_ARGUMENT;
+  sl_status status = sli_argument(S == NULL                    ? "S is NULL"
+                  : A == NULL                  ? "A is NULL"
+                  : B == NULL                  ? "B is NULL"
+                  : S->n > 0 && new_of == NULL ? "new_of is NULL"
+                                 : sli_symbolic_options_wrong(opt));
+  if (status == SL_OK && (S->is_pivoted || S->nnz_input < 0)) {
+    status = sli_refuse(SL_ERR_UNSUPPORTED, S->is_pivoted
+                          ? "an analysis of sl_symbolic_create_pivoted"
+                          : "an analysis of sl_factor_restrict");
   }
-  if (S->is_pivoted || S->nnz_input < 0) {
-    return SL_ERR_UNSUPPORTED;
-  }
-  if (A->n_rows != S->n || A->n_cols != S->n || sli_nnz(A) != S->nnz_input) {
-    return SL_ERR_PATTERN;
-  }
-  if (sli_nnz(A) > 0 && A->i == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  return sli_pattern_hash(A, &pattern) && sli_hash_equals(pattern, S->pattern) ? SL_OK
-                                         : SL_ERR_PATTERN;
+  return status == SL_OK ? sli_pattern_check(S, A, 0) : status;
 }
 
 static sl_status sli_edit_find(sli_edit *e, int *is_local, const sl_allocator *a, sl_stats *stats) {
@@ -29315,14 +29755,11 @@ SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const
   sl_status status;
   int is_local = 0, k;
   sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  status = sli_edit_arguments(S, A, B, new_of, opt);
+  status = sli_begin(out);
+  status = status == SL_OK ? sli_edit_arguments(S, A, B, new_of, opt) : status;
   status = status == SL_OK ? sl_csc_check(B, stats) : status;
   if (status == SL_OK && B->n_rows != B->n_cols) {
-    status = SL_ERR_ARGUMENT;
+    status = sli_argument("B is not square");
   }
   memset(&e, 0, sizeof e);
   if (status == SL_OK) {
@@ -29347,7 +29784,7 @@ SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const
   for (k = 0; k < 3; k++) {
     sli_free(&a, e.blocks[k]);
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 /* src/impl/change/edit_factor.h: sl_factor_edit: the factor of an edited matrix from that of the matrix before */
@@ -29591,23 +30028,23 @@ SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_sy
   sli_reuse r;
   sl_status status;
   sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
+  status = sli_begin(out);
+  if (status == SL_OK) {
+    status = sli_argument(F == NULL   ? "F is NULL"
+                : S == NULL ? "S is NULL"
+                      : sli_factor_options_wrong(opt));
   }
-  *out = NULL;
-  if (F == NULL || S == NULL || !sli_factor_options_are_valid(opt)) {
-    return SL_ERR_ARGUMENT;
+  status = status == SL_OK ? sli_factor_has_numbers(F) : status;
+  if (status == SL_OK && F->S->n > 0 && new_of == NULL) {
+    status = sli_argument("new_of is NULL");
   }
-  if (!F->is_valid) {
-    return SL_ERR_STATE;
-  }
-  if (F->S->n > 0 && new_of == NULL) {
-    return SL_ERR_ARGUMENT;
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
   memset(&r, 0, sizeof r);
   r.F = F;
   r.B = B;
-  status = sli_factor_check(S, B);
+  status = sli_pattern_check(S, B, 1);
   status = status == SL_OK ? sli_factor_new(&r.G, S, opt, stats) : status;
   status = status == SL_OK ? sli_reuse_begin(&r, new_of, stats) : status;
   status = status == SL_OK ? sli_reuse_numbers(&r, stats) : status;
@@ -29624,7 +30061,7 @@ SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_sy
   } else {
     sl_factor_free(r.G);
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 #endif
@@ -29780,6 +30217,7 @@ static int sli_create_beside(sli_output *o, int exists) {
 
 static sl_status sli_output_open(sli_output *o, const char *path, const sl_allocator *a) {
   int exists, could_replace;
+  errno = 0;
   o->path = path;
   o->temporary = NULL;
   o->file = NULL;
@@ -29787,7 +30225,7 @@ static sl_status sli_output_open(sli_output *o, const char *path, const sl_alloc
   if (sli_is_replaceable(path, &exists)) {
     o->temporary = (char *)sli_alloc(a, strlen(path) + SLI_TEMPORARY_SUFFIX);
     if (o->temporary == NULL) {
-      return SL_ERR_MEMORY;
+      return sli_no_memory();
     }
     could_replace = sli_create_beside(o, exists);
     if (o->file != NULL) {
@@ -29796,11 +30234,11 @@ static sl_status sli_output_open(sli_output *o, const char *path, const sl_alloc
     sli_free(a, o->temporary);
     o->temporary = NULL;
     if (could_replace) {
-      return SL_ERR_IO;
+      return sli_file_fails("no file can be created beside it");
     }
   }
   o->file = fopen(path, "wb");
-  return o->file != NULL ? SL_OK : SL_ERR_IO;
+  return o->file != NULL ? SL_OK : sli_file_fails("the file cannot be opened");
 }
 
 static int sli_replace(const sli_output *o, int *is_only_copy) {
@@ -29822,21 +30260,26 @@ static int sli_replace(const sli_output *o, int *is_only_copy) {
   return 0;
 }
 
-static int sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
+static sl_status sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
   int ok = fflush(o->file) == 0 && complete, has_name = 1, is_only_copy = 0;
+  sl_status status;
 #if defined(SLI_UNNAMED_FILES)
   has_name = !o->is_unnamed || (ok && sli_name_unnamed(o));
   ok = ok && has_name;
 #endif
   ok = fclose(o->file) == 0 && ok; /* untested: it has been flushed */
+  status = ok ? SL_OK : sli_file_fails("the file cannot be written");
   if (o->temporary != NULL) {
-    ok = ok && sli_replace(o, &is_only_copy);
+    if (ok && !sli_replace(o, &is_only_copy)) {
+      ok = 0;
+      status = sli_file_fails("the old file cannot be replaced");
+    }
     if (!ok && has_name && !is_only_copy) { /* untested: without POSIX */
       remove(o->temporary);
     }
     sli_free(a, o->temporary);
   }
-  return ok;
+  return status;
 }
 
 #endif
@@ -29847,22 +30290,23 @@ static int sli_output_close(sli_output *o, int complete, const sl_allocator *a) 
 static sl_status sli_csc64_check(const sl_csc64 *A, sl_stats *stats) {
   sl_status status;
   int64_t j;
-  status = A == NULL ? SL_ERR_ARGUMENT : sli_csc_check_sizes(A->n_rows, A->n_cols, A->p);
+  status =
+    A == NULL ? sli_argument("A is NULL") : sli_csc_check_sizes(A->n_rows, A->n_cols, A->p);
   if (status != SL_OK || A->n_cols == 0) {
     return status;
   }
   if (A->p[0] != 0) {
-    return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0);
+    return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0, "A.p[0] is not 0");
   }
   for (j = 0; j < A->n_cols; j++) {
     if (A->p[j + 1] < A->p[j]) {
-      return sli_fail_at(stats, SL_ERR_PATTERN, -1, (sl_int)j, 0.0);
+      return sli_fail_at(stats, SL_ERR_PATTERN, -1, (sl_int)j, 0.0, "A.p descends");
     }
   }
   if (A->p[A->n_cols] > INT32_MAX) {
-    return SL_ERR_TOO_LARGE;
+    return sli_refuse(SL_ERR_TOO_LARGE, "A has more than 2^31 - 1 entries");
   }
-  return A->p[A->n_cols] > 0 && A->i == NULL ? SL_ERR_ARGUMENT : SL_OK;
+  return sli_argument(A->p[A->n_cols] > 0 && A->i == NULL ? "A.i is NULL" : NULL);
 }
 
 static sl_status sli_csc64_copy(const sl_csc64 *A, sl_matrix *M, sl_stats *stats) {
@@ -29874,7 +30318,8 @@ static sl_status sli_csc64_copy(const sl_csc64 *A, sl_matrix *M, sl_stats *stats
       const int64_t i = A->i[p];
       if (i < 0 || i >= A->n_rows) {
         const sl_int row = i < INT32_MIN || i > INT32_MAX ? -1 : (sl_int)i;
-        return sli_fail_at(stats, SL_ERR_PATTERN, row, j, 0.0);
+        return sli_fail_at(stats, SL_ERR_PATTERN, row, j, 0.0,
+                   "a row of A is out of range; rows count from 0");
       }
       M->i[p] = (sl_int)i;
     }
@@ -29891,12 +30336,9 @@ SL_API sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A, const 
   sl_matrix *M = NULL;
   sl_status status;
   sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  status =
-    sli_options_are_valid(opt, SLI_READS_NOTHING) ? sli_csc64_check(A, stats) : SL_ERR_ARGUMENT;
+  status = sli_begin(out);
+  status = status == SL_OK ? sli_argument(sli_options_wrong(opt, SLI_READS_NOTHING)) : status;
+  status = status == SL_OK ? sli_csc64_check(A, stats) : status;
   if (status == SL_OK) {
     const int64_t nnz = A->n_cols > 0 ? A->p[A->n_cols] : 0;
     status =
@@ -29907,7 +30349,7 @@ SL_API sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A, const 
   }
   if (status != SL_OK) {
     sl_matrix_free(M);
-    return status;
+    return sli_report(stats, status);
   }
   *out = M;
   return SL_OK;
@@ -29923,7 +30365,8 @@ typedef struct sli_reader {
   const char *at, *end;
   FILE *file;
   char *buffer;
-  int failed;
+  const char *failed;
+  int error;
   sl_off line;
   char point[SLI_POINT_MAX + 1];
   const char *what;
@@ -29943,7 +30386,10 @@ static int sli_reader_fill(sli_reader *r) {
   r->at = r->buffer;
   r->end = r->buffer + kept + got;
   if (got < SLI_LINE_MAX - kept) {
-    r->failed |= ferror(r->file) != 0;
+    if (ferror(r->file)) {
+      r->failed = "the file cannot be read";
+      r->error = errno;
+    }
     r->file = NULL;
   }
   return got > 0;
@@ -29993,7 +30439,7 @@ static int sli_next_line(sli_reader *r, const char **start, const char **stop, i
       }
     } while (length == r->end - r->at && sli_reader_fill(r));
     if (length >= SLI_LINE_MAX) {
-      r->failed = 1;
+      r->failed = "a line of 65536 bytes or more";
       break;
     }
     *start = r->at;
@@ -30111,27 +30557,33 @@ static int sli_line_ends(const char *s, const char *e) {
 
 #define SLI_ENTRIES_FIRST 65536
 
+static sl_status sli_malformed(sli_reader *r, const char *what) {
+  r->what = r->failed != NULL ? r->failed : what;
+  return SL_ERR_IO;
+}
+
 static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric) {
   static const char *const sli_formats[] = {"coordinate", "array", NULL};
   static const char *const sli_fields[] = {"real", "integer", "pattern", "complex", NULL};
   static const char *const sli_symmetries[] = {"general", "symmetric", "skew-symmetric",
                          "hermitian", NULL};
+  static const char sli_not_ours[] = "not a Matrix Market file of a matrix";
   char token[5][SLI_TOKEN_MAX + 1];
   const char *s, *e;
   int k;
   sli_skip_mark(r);
   if (!sli_next_line(r, &s, &e, 1)) {
-    return SL_ERR_IO;
+    return sli_malformed(r, "the file is empty");
   }
   for (k = 0; k < 5; k++) {
     if (!sli_token(&s, e, token[k])) {
-      return SL_ERR_IO;
+      return sli_malformed(r, sli_not_ours);
     }
   }
   if (!sli_token_is(token[0], "%%matrixmarket") || !sli_token_is(token[1], "matrix") ||
     !sli_token_in(token[2], sli_formats) || !sli_token_in(token[3], sli_fields) ||
     !sli_token_in(token[4], sli_symmetries)) {
-    return SL_ERR_IO;
+    return sli_malformed(r, sli_not_ours);
   }
   *has_values = !sli_token_is(token[3], "pattern");
   *symmetric = sli_token_is(token[4], "symmetric") || sli_token_is(token[4], "hermitian");
@@ -30139,7 +30591,7 @@ static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric)
         : sli_token_is(token[3], "complex")        ? "complex"
         : sli_token_is(token[4], "skew-symmetric") ? "skew-symmetric"
                              : NULL;
-  return r->what == NULL ? SL_OK : SL_ERR_UNSUPPORTED;
+  return r->what == NULL ? SL_OK : sli_refuse(SL_ERR_UNSUPPORTED, r->what);
 }
 
 typedef struct sli_triplets {
@@ -30192,12 +30644,17 @@ static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int has_val
     if (!sli_next_line(r, &s, &e, 0) || !sli_token_int(&s, e, 1, size[0], &row) ||
       !sli_token_int(&s, e, 1, size[1], &column) ||
       (has_values && !sli_token_double(r, &s, e, &t->x[t->count])) || !sli_line_ends(s, e)) {
-      return SL_ERR_IO;
+      return sli_malformed(r,
+                 r->at == r->end && r->file == NULL
+                   ? "fewer entries than the header says, or a malformed one"
+                   : "an entry is malformed or out of range; rows count from 1");
     }
     t->i[t->count] = (sl_int)row - 1;
     t->j[t->count] = (sl_int)column - 1;
   }
-  return sli_next_line(r, &s, &e, 0) || r->failed ? SL_ERR_IO : SL_OK;
+  return sli_next_line(r, &s, &e, 0) || r->failed != NULL
+         ? sli_malformed(r, "more entries than the header says")
+         : SL_OK;
 }
 
 static int sli_has_both_triangles(const sli_triplets *t) {
@@ -30221,7 +30678,7 @@ static sl_status sli_check_mirrored(const sl_matrix *M, sli_reader *r) {
         r->what = "both triangles of a symmetric matrix";
         r->twice[0] = i;
         r->twice[1] = j;
-        return SL_ERR_PATTERN;
+        return sli_refuse(SL_ERR_PATTERN, r->what);
       }
     }
   }
@@ -30258,19 +30715,22 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
     return status;
   }
   if (!sli_next_line(r, &s, &e, 0)) {
-    return SL_ERR_IO;
+    return sli_malformed(r, "the file ends before the line of sizes");
   }
   for (k = 0; k < 3; k++) {
     if (!sli_token_int(&s, e, 0, INT64_MAX, &size[k])) {
-      return SL_ERR_IO;
+      return sli_malformed(r, "the line of sizes is malformed");
     }
     if (size[k] > SLI_ROWS_MAX) {
-      return SL_ERR_TOO_LARGE;
+      r->what = "more than 2^31 - 8 rows, columns or entries";
+      return sli_refuse(SL_ERR_TOO_LARGE, r->what);
     }
   }
   if (!sli_line_ends(s, e) || (symmetric && size[0] != size[1]) ||
     (r->buffer == NULL && size[2] > (r->end - r->at) / 4 + 1)) {
-    return SL_ERR_IO;
+    return sli_malformed(r,
+               "the line of sizes is wrong: more on it, a symmetric matrix that is "
+               "not square, or more entries than the text can hold");
   }
   memset(&t, 0, sizeof t);
   room = r->buffer == NULL || size[2] < SLI_ENTRIES_FIRST ? size[2] : SLI_ENTRIES_FIRST;
@@ -30297,14 +30757,14 @@ static sl_status sli_read_matrix(sl_matrix **out, sli_reader *r, const sl_alloca
   sl_status status;
   sli_find_point(r->point);
   status = sli_parse(out, r, a);
-  if (status != SL_OK && stats != NULL) {
-    stats->error.what = r->what;
-    stats->error.line = r->line > 0 ? r->line : 1;
-  }
-  if (status == SL_ERR_PATTERN && stats != NULL) {
-    stats->error.line = -1;
-    stats->error.row = r->twice[0];
-    stats->error.column = r->twice[1];
+  if (status == SL_ERR_PATTERN) {
+    (void)sli_fail_at(stats, status, r->twice[0], r->twice[1], 0.0, r->what);
+  } else if (status != SL_OK) {
+    if (r->what != NULL) {
+      (void)sli_fail_at(stats, status, -1, -1, (double)r->error, r->what);
+    }
+    (void)sli_report(stats, status);
+    sli_error_line(stats, r->line > 0 ? r->line : 1);
   }
   errno = saved;
   return status;
@@ -30314,18 +30774,20 @@ SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t lengt
                  const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
   sli_reader r;
+  sl_status status;
   sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
+  status = sli_begin(out);
+  if (status == SL_OK) {
+    status =
+      sli_argument(text == NULL ? "text is NULL" : sli_options_wrong(opt, SLI_READS_NOTHING));
   }
-  *out = NULL;
-  if (text == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-    return SL_ERR_ARGUMENT;
+  if (status == SL_OK) {
+    memset(&r, 0, sizeof r);
+    r.at = text;
+    r.end = text + length;
+    status = sli_read_matrix(out, &r, &a, stats);
   }
-  memset(&r, 0, sizeof r);
-  r.at = text;
-  r.end = text + length;
-  return sli_read_matrix(out, &r, &a, stats);
+  return sli_report(stats, status);
 }
 
 SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_options *opt,
@@ -30334,19 +30796,22 @@ SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_opti
   const int saved = errno;
   sli_reader r;
   FILE *file;
-  sl_status status = SL_ERR_MEMORY;
+  sl_status status;
   sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
+  status = sli_begin(out);
+  if (status == SL_OK) {
+    status =
+      sli_argument(path == NULL ? "path is NULL" : sli_options_wrong(opt, SLI_READS_NOTHING));
   }
-  *out = NULL;
-  if (path == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-    return SL_ERR_ARGUMENT;
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
+  errno = 0;
   file = fopen(path, "rb");
   if (file == NULL) {
+    status = sli_file_fails("the file cannot be opened");
     errno = saved;
-    return SL_ERR_IO;
+    return sli_report(stats, status);
   }
   memset(&r, 0, sizeof r);
   r.file = file;
@@ -30354,11 +30819,13 @@ SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_opti
   if (r.buffer != NULL) {
     r.at = r.end = r.buffer;
     status = sli_read_matrix(out, &r, &a, stats);
+  } else {
+    status = sli_no_memory();
   }
   sli_free(&a, r.buffer);
   fclose(file);
   errno = saved;
-  return status;
+  return sli_report(stats, status);
 }
 
 static void sli_set_point(char *number) {
@@ -30420,16 +30887,16 @@ SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *p
                           : sl_csc_check(A, NULL);
   const sl_allocator a = sli_allocator(NULL);
   sli_output output;
-  if (status != SL_OK) {
-    return status;
+  if (status == SL_OK) {
+    status = sli_argument(path == NULL ? "path is NULL"
+                : reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED
+                  ? "reading is not a value of sl_reading"
+                  : NULL);
   }
-  if (path == NULL || (reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED)) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_output_open(&output, path, &a);
+  status = status == SL_OK ? sli_output_open(&output, path, &a) : status;
   if (status == SL_OK) {
     const int complete = sli_write(output.file, A, reading, triangle);
-    status = sli_output_close(&output, complete, &a) ? SL_OK : SL_ERR_IO;
+    status = sli_output_close(&output, complete, &a);
   }
   errno = saved;
   return status;
@@ -30445,8 +30912,12 @@ typedef struct sli_mapping {
   size_t size;
 } sli_mapping;
 
+static const char sli_no_file[] = "it is empty, or not an ordinary file";
+static const char sli_huge_file[] = "the file is larger than the address space";
+static const char sli_unmappable[] = "the system cannot map the file";
+
 static sl_status sli_map(const char *path, sli_mapping *out) {
-  sl_status status = SL_ERR_IO;
+  sl_status status = SL_OK;
   out->bytes = NULL;
   out->size = 0;
 #if defined(SLI_MMAP)
@@ -30455,16 +30926,17 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
     struct stat found;
     void *bytes;
     if (file < 0) {
-      return SL_ERR_IO;
+      return sli_file_fails("the file cannot be opened");
     }
-    if (fstat(file, &found) == 0 && S_ISREG(found.st_mode) && found.st_size > 0) {
-      const int is_huge = (uint64_t)found.st_size > SIZE_MAX / 2;
-      status = is_huge ? SL_ERR_TOO_LARGE : SL_OK; /* untested: on 32 bits only */
+    if (fstat(file, &found) != 0 || !S_ISREG(found.st_mode) || found.st_size <= 0) {
+      status = sli_refuse(SL_ERR_IO, sli_no_file);
+    } else if ((uint64_t)found.st_size > SIZE_MAX / 2) {      /* untested: on 32 bits only */
+      status = sli_refuse(SL_ERR_TOO_LARGE, sli_huge_file); /* untested: the same */
     }
     if (status == SL_OK) {
       bytes = mmap(NULL, (size_t)found.st_size, PROT_READ, MAP_SHARED, file, 0);
       if (bytes == MAP_FAILED) {
-        status = errno == ENOMEM ? SL_ERR_MEMORY : SL_ERR_IO;
+        status = errno == ENOMEM ? sli_no_memory() : sli_file_fails(sli_unmappable);
       } else {
         out->bytes = bytes;
         out->size = (size_t)found.st_size;
@@ -30478,10 +30950,12 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
     void *section;
     int64_t size = 0;
     if ((intptr_t)file == -1) {
-      return SL_ERR_IO;
+      return sli_refuse(SL_ERR_IO, "the file cannot be opened");
     }
-    if (GetFileSizeEx(file, (sli_windows_number)(void *)&size) && size > 0) {
-      status = (uint64_t)size > SIZE_MAX / 2 ? SL_ERR_TOO_LARGE : SL_OK;
+    if (!GetFileSizeEx(file, (sli_windows_number)(void *)&size) || size <= 0) {
+      status = sli_refuse(SL_ERR_IO, sli_no_file);
+    } else if ((uint64_t)size > SIZE_MAX / 2) {
+      status = sli_refuse(SL_ERR_TOO_LARGE, sli_huge_file);
     }
     section = status != SL_OK ? NULL : CreateFileMappingA(file, NULL, 2, 0, 0, NULL);
     if (section != NULL) {
@@ -30489,7 +30963,7 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
       CloseHandle(section);
     }
     if (status == SL_OK && out->bytes == NULL) {
-      status = SL_ERR_IO;
+      status = sli_refuse(SL_ERR_IO, sli_unmappable);
     } else if (status == SL_OK) {
       out->size = (size_t)size;
     }
@@ -30497,7 +30971,7 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
   }
 #else
   (void)path;
-  status = SL_ERR_UNSUPPORTED;
+  status = sli_refuse(SL_ERR_UNSUPPORTED, "files cannot be mapped here: sl_load_file");
 #endif
   return status;
 }
@@ -30861,10 +31335,26 @@ static void sli_swap_words(void *data, uint32_t word, uint64_t bytes) {
   }
 }
 
+SLI_COLD static sl_status sli_not_saved(void) {
+  return sli_refuse(SL_ERR_UNSUPPORTED, "not a saved factor");
+}
+
+SLI_COLD static sl_status sli_truncated(void) {
+  return sli_refuse(SL_ERR_IO, "truncated: bytes are missing at its end");
+}
+
+SLI_COLD static sl_status sli_damaged(void) {
+  return sli_refuse(SL_ERR_IO, "damaged: sizes, numbers or indices are inconsistent");
+}
+
+SLI_COLD static sl_status sli_damaged_sum(void) {
+  return sli_refuse(SL_ERR_IO, "damaged: a checksum is wrong");
+}
+
 static sl_status sli_decode_header(sli_saved_header *h, int *swapped) {
   if (memcmp(h->magic, sli_saved_magic, sizeof sli_saved_magic) != 0 ||
     (h->order_mark != SLI_ORDER_MARK && h->order_mark != SLI_ORDER_MARK_SWAPPED)) {
-    return SL_ERR_UNSUPPORTED;
+    return sli_not_saved();
   }
   *swapped = h->order_mark != SLI_ORDER_MARK;
   if (*swapped) {
@@ -30872,9 +31362,9 @@ static sl_status sli_decode_header(sli_saved_header *h, int *swapped) {
     sli_swap_words(&h->bytes, 8, 16);
   }
   if (h->read_version < 1 || h->read_version > SLI_READ_VERSION) {
-    return SL_ERR_UNSUPPORTED;
+    return sli_refuse(SL_ERR_UNSUPPORTED, "a newer version of the library has saved it");
   }
-  return h->sections <= SLI_SECTIONS_MAX ? SL_OK : SL_ERR_IO;
+  return h->sections <= SLI_SECTIONS_MAX ? SL_OK : sli_damaged();
 }
 
 SLI_INLINE int sli_count_is_valid(int64_t count, int64_t most) {
@@ -31473,24 +31963,36 @@ static sl_status sli_save_check(const sl_saved_set *set) {
   const sl_factor *F = set->factor;
   const sl_selected *Z = set->selected;
   sl_int k;
-  if (S == NULL || set->n_regions < 0 ||
-    (set->n_regions > 0 && (F == NULL || set->regions == NULL))) {
-    return SL_ERR_ARGUMENT;
+  sl_status status =
+    sli_argument(S == NULL                                    ? "set.symbolic is NULL"
+           : set->n_regions < 0                         ? "set.n_regions is below 0"
+           : set->n_regions > 0 && F == NULL            ? "regions without set.factor"
+           : set->n_regions > 0 && set->regions == NULL ? "set.regions is NULL"
+                                  : NULL);
+  for (k = 0; status == SL_OK && k < set->n_regions; k++) {
+    status = sli_argument(set->regions[k] == NULL ? "a region is NULL" : NULL);
   }
-  for (k = 0; k < set->n_regions; k++) {
-    if (set->regions[k] == NULL) {
-      return SL_ERR_ARGUMENT;
-    }
+  if (status == SL_OK && S->is_partial) {
+    status = sli_refuse(SL_ERR_STATE, "an analysis of sl_factor_restrict, or from a file of a "
+                      "newer version");
   }
-  if (S->is_partial || (F != NULL && (!F->is_valid || F->S != S)) ||
-    (Z != NULL &&
-     (Z->traversal.S != S || (F != NULL && !sli_numbers_are_of(&Z->numbers, F))))) {
-    return SL_ERR_STATE;
+  status = status == SL_OK && F != NULL ? sli_factor_has_numbers(F) : status;
+  if (status != SL_OK) {
+    return status;
+  }
+  if ((F != NULL && F->S != S) || (Z != NULL && Z->traversal.S != S)) {
+    return sli_refuse(SL_ERR_STATE, "the set has objects of different analyses");
+  }
+  if (Z != NULL && F != NULL && !sli_numbers_are_of(&Z->numbers, F)) {
+    return sli_refuse(SL_ERR_STALE, "the selected inverse is not of the present factor");
   }
   for (k = 0; k < set->n_regions; k++) {
     const sl_region *R = set->regions[k];
-    if (R->S != S || !sli_region_fits(R, F)) {
-      return SL_ERR_STATE;
+    if (R->S != S) {
+      return sli_refuse(SL_ERR_STATE, "the set has objects of different analyses");
+    }
+    if (!sli_region_fits(R, F)) {
+      return sli_refuse(SL_ERR_STALE, "a region is not of the present factor");
     }
   }
   return SL_OK;
@@ -31498,7 +32000,9 @@ static sl_status sli_save_check(const sl_saved_set *set) {
 
 static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
   const sl_factor *F = set->factor;
-  const sl_status status = F != NULL && F->type->half ? SL_ERR_UNSUPPORTED : sli_save_check(set);
+  const sl_status status = F != NULL && F->type->half
+                 ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_STORAGE_COMPLEX is not saved")
+                 : sli_save_check(set);
   sl_factor none;
   int fits = 1;
   memset(f, 0, sizeof *f);
@@ -31531,7 +32035,8 @@ static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
     sli_saved_add_selected(f, set->selected);
   }
   fits = fits && sli_saved_place(f) && f->header.bytes <= SIZE_MAX; /* untested: 2^62 bytes */
-  return fits ? SL_OK : SL_ERR_TOO_LARGE;                           /* untested: the same */
+  return fits ? SL_OK                                               /* untested: the same */
+        : sli_refuse(SL_ERR_TOO_LARGE, "the saved bytes");    /* untested: the same */
 }
 
 static void sli_save_write(sli_saved *f, sli_sink *to) {
@@ -31557,10 +32062,8 @@ static void sli_save_write(sli_saved *f, sli_sink *to) {
 SL_API sl_status sl_save_bytes(size_t *bytes, const sl_saved_set *set) {
   sli_saved f;
   sl_status status;
-  if (bytes == NULL || set == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_save_prepare(&f, set);
+  status = sli_argument(bytes == NULL ? "bytes is NULL" : set == NULL ? "set is NULL" : NULL);
+  status = status == SL_OK ? sli_save_prepare(&f, set) : status;
   if (status == SL_OK) {
     *bytes = (size_t)f.header.bytes;
   }
@@ -31570,9 +32073,11 @@ SL_API sl_status sl_save_bytes(size_t *bytes, const sl_saved_set *set) {
 SL_API sl_status sl_save_memory(void *memory, size_t bytes, const sl_saved_set *set) {
   sli_saved f;
   sli_sink to;
-  sl_status status = set == NULL ? SL_ERR_ARGUMENT : sli_save_prepare(&f, set);
-  if (status == SL_OK && (memory == NULL || bytes < f.header.bytes)) {
-    status = SL_ERR_ARGUMENT;
+  sl_status status = set == NULL ? sli_argument("set is NULL") : sli_save_prepare(&f, set);
+  if (status == SL_OK) {
+    status = sli_argument(memory == NULL           ? "memory is NULL"
+                : bytes < f.header.bytes ? "bytes is below sl_save_bytes"
+                             : NULL);
   }
   if (status == SL_OK) {
     to.memory = (unsigned char *)memory;
@@ -31590,10 +32095,10 @@ SL_API sl_status sl_save_file(const char *path, const sl_saved_set *set, const s
   sli_saved f;
   sli_sink to;
   sl_status status;
-  if (path == NULL || set == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_save_prepare(&f, set);
+  status = sli_argument(path == NULL  ? "path is NULL"
+              : set == NULL ? "set is NULL"
+                    : sli_options_wrong(opt, SLI_READS_NOTHING));
+  status = status == SL_OK ? sli_save_prepare(&f, set) : status;
   status = status == SL_OK ? sli_output_open(&output, path, &a) : status;
   if (status == SL_OK) {
     int complete;
@@ -31602,7 +32107,7 @@ SL_API sl_status sl_save_file(const char *path, const sl_saved_set *set, const s
     to.has_failed = 0;
     sli_save_write(&f, &to);
     complete = !to.has_failed && sli_flush(output.file);
-    status = sli_output_close(&output, complete, &a) ? SL_OK : SL_ERR_IO;
+    status = sli_output_close(&output, complete, &a);
   }
   errno = saved;
   return status;
@@ -31628,12 +32133,12 @@ typedef struct sli_reading {
 
 static sl_status sli_get(sli_reading *r, void *to, uint64_t bytes) {
   if (bytes > r->size - r->at) {
-    return SL_ERR_IO;
+    return sli_truncated();
   }
   if (r->memory != NULL) {
     memcpy(to, r->memory + r->at, (size_t)bytes);
   } else if (fread(to, 1, (size_t)bytes, r->file) != (size_t)bytes) {
-    return SL_ERR_IO;
+    return ferror(r->file) ? sli_file_fails("the file cannot be read") : sli_truncated();
   }
   r->at += bytes;
   return SL_OK;
@@ -31642,9 +32147,16 @@ static sl_status sli_get(sli_reading *r, void *to, uint64_t bytes) {
 static sl_status sli_read_table(sli_reading *r) {
   unsigned char prefix[sizeof(sli_saved_header) + SLI_SECTIONS_MAX * sizeof(sli_section)];
   sli_saved_header *h = &r->saved.header;
-  sl_status status = sli_get(r, prefix, sizeof *h);
+  const size_t first = r->size < sizeof *h ? (size_t)r->size : sizeof *h;
+  sl_status status = sli_get(r, prefix, first);
   size_t size;
   uint32_t k;
+  if (status == SL_OK && first < sizeof *h) {
+    return memcmp(prefix, sli_saved_magic, first < sizeof h->magic ? first : sizeof h->magic) ==
+             0
+           ? sli_truncated()
+           : sli_not_saved();
+  }
   if (status != SL_OK) {
     return status;
   }
@@ -31654,9 +32166,12 @@ static sl_status sli_read_table(sli_reading *r) {
     return status;
   }
   size = (size_t)sli_saved_prefix(&r->saved);
-  status = h->bytes == r->size ? sli_get(r, prefix + sizeof *h, size - sizeof *h) : SL_ERR_IO;
+  if (h->bytes != r->size) {
+    return h->bytes > r->size ? sli_truncated() : sli_damaged();
+  }
+  status = sli_get(r, prefix + sizeof *h, size - sizeof *h);
   if (status != SL_OK || sli_prefix_checksum(prefix, size) != h->checksum) {
-    return SL_ERR_IO;
+    return status != SL_OK ? status : sli_damaged_sum();
   }
   memcpy(r->saved.table, prefix + sizeof *h, h->sections * sizeof(sli_section));
   for (k = 0; k < h->sections && r->swapped; k++) {
@@ -31732,37 +32247,36 @@ static int sli_section_accept(const sli_reading *r, sl_int k, void *data, int al
 
 static sl_status sli_read_numbers(sli_reading *r, sl_int k, void *numbers, size_t bytes) {
   const sli_section *section = &r->saved.table[k];
-  sl_status status = SL_ERR_IO;
-  if (section->bytes == bytes && section->offset == r->at && section->word == 8) {
-    status = sli_get(r, numbers, bytes);
-  }
-  return status == SL_OK && !sli_section_accept(r, k, numbers, 1) ? SL_ERR_IO : status;
+  const int fits = section->bytes == bytes && section->offset == r->at && section->word == 8;
+  const sl_status status = fits ? sli_get(r, numbers, bytes) : sli_damaged();
+  return status == SL_OK && !sli_section_accept(r, k, numbers, 1) ? sli_damaged_sum() : status;
 }
 
 static sl_status sli_read_front(sli_reading *r) {
   sli_saved expected, *f = &r->saved;
   sl_status status = sli_read_table(r);
   if (status == SL_OK && f->header.sections < 2) {
-    return SL_ERR_IO;
+    return sli_damaged();
   }
   status = status == SL_OK ? sli_read_numbers(r, 0, &f->analysis, sizeof f->analysis) : status;
   if (status != SL_OK || !sli_decode_analysis(&f->analysis, &r->S)) {
-    return status != SL_OK ? status : SL_ERR_IO;
+    return status != SL_OK ? status : sli_damaged();
   }
   r->F.type = sli_storage_type_of(SL_STORAGE_DOUBLE);
   r->has_factor = f->table[1].bytes > 0;
   if (r->has_factor) {
     status = sli_read_numbers(r, 1, &f->factor, sizeof f->factor);
     if (status != SL_OK || !sli_decode_factor(&f->factor, &r->S, &r->F)) {
-      return status != SL_OK ? status : SL_ERR_IO;
+      return status != SL_OK ? status : sli_damaged();
     }
     if (r->F.type == NULL) { /* untested: all storages are there */
-      return SL_ERR_UNSUPPORTED;
+      return sli_refuse(SL_ERR_UNSUPPORTED,
+                sli_storage_needs(SL_STORAGE_FLOAT)); /* untested: the same */
     }
   }
   if ((r->F.type->storage != SL_STORAGE_DOUBLE) !=
     (f->header.read_version > SLI_READ_VERSION_DOUBLE)) {
-    return SL_ERR_IO;
+    return sli_damaged();
   }
   memset(&expected, 0, sizeof expected);
   expected.analysis = f->analysis;
@@ -31770,7 +32284,7 @@ static sl_status sli_read_front(sli_reading *r) {
   sli_saved_add_base(&expected, &r->S, &r->F, r->has_factor);
   if (!sli_saved_place(&expected) ||
     !sli_table_is_expected(f, &expected, &r->first_region, &r->first_selected)) {
-    return SL_ERR_IO;
+    return sli_damaged();
   }
   f->first_array = expected.first_array;
   f->first_number = expected.first_number;
@@ -31790,7 +32304,7 @@ static sl_status sli_read_image(sli_reading *r, sli_image *m) {
   m->head = (size_t)sli_round_up(m->head);
   m->block = (unsigned char *)sli_alloc(&r->allocator, m->head + (r->is_mapped ? 0 : m->bytes));
   if (m->block == NULL) {
-    return SL_ERR_MEMORY;
+    return sli_no_memory();
   }
   m->arrays = m->block + m->head;
   if (r->is_mapped) {
@@ -31802,7 +32316,7 @@ static sl_status sli_read_image(sli_reading *r, sli_image *m) {
   for (k = m->first; k < m->last && status == SL_OK; k++) {
     unsigned char *data =
       m->arrays + (r->saved.table[k].offset - r->saved.table[m->first].offset);
-    status = sli_section_accept(r, k, data, 0) ? SL_OK : SL_ERR_IO;
+    status = sli_section_accept(r, k, data, 0) ? SL_OK : sli_damaged_sum();
   }
   if (status != SL_OK) {
     sli_free(&r->allocator, m->block);
@@ -31822,7 +32336,7 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
   m.head = sizeof *S;
   m.bytes = b.used;
   if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *S) { /* untested: on 32 bits only */
-    return SL_ERR_TOO_LARGE;                           /* untested: the same */
+    return sli_refuse(SL_ERR_TOO_LARGE, "the analysis"); /* untested: the same */
   }
   status = sli_read_image(r, &m);
   if (status != SL_OK) {
@@ -31838,7 +32352,7 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
     S->scatter_begin[S->n_supers] != a->entries ||
     (r->checks != SL_LOAD_TRUSTED && !sli_check_analysis(S, a))) {
     sli_free(&r->allocator, m.block);
-    return SL_ERR_IO;
+    return sli_damaged();
   }
   *out = (sl_symbolic *)(void *)m.block;
   **out = *S;
@@ -31861,7 +32375,7 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
   m.head = sizeof *F;
   m.bytes = b.used;
   if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F) {    /* untested: on 32 bits only */
-    status = status == SL_OK ? SL_ERR_TOO_LARGE : status; /* untested: the same */
+    status = sli_refuse(SL_ERR_TOO_LARGE, "the factor");  /* untested: the same */
   }
   status = status == SL_OK ? sli_read_image(r, &m) : status;
   if (status != SL_OK) {
@@ -31874,7 +32388,7 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
   F->stats.factor.bytes = m.head + m.bytes;
   if (r->checks != SL_LOAD_TRUSTED && !sli_check_factor(F)) {
     sli_free(&r->allocator, m.block);
-    return SL_ERR_IO;
+    return sli_damaged();
   }
   *out = (sl_factor *)(void *)m.block;
   **out = *F;
@@ -31894,7 +32408,8 @@ static sl_status sli_read_section(sli_reading *r, uint32_t k, void **data) {
   } else if (bytes > 0) {
     status = sli_get(r, *data, bytes);
   }
-  return status == SL_OK && !sli_section_accept(r, (sl_int)k, *data, 0) ? SL_ERR_IO : status;
+  return status == SL_OK && !sli_section_accept(r, (sl_int)k, *data, 0) ? sli_damaged_sum()
+                                      : status;
 }
 
 static sl_status sli_read_part(sli_reading *r, uint32_t k, const sl_symbolic *S, const sl_factor *F,
@@ -31907,7 +32422,7 @@ static sl_status sli_read_part(sli_reading *r, uint32_t k, const sl_symbolic *S,
            (F == NULL ||
           (part->identity[0] == F->identity.a && part->identity[1] == F->identity.b))
          ? SL_OK
-         : SL_ERR_IO;
+         : sli_damaged();
 }
 
 static int sli_check_selected(const sl_symbolic *S, const sl_int *supers, const sl_off *begin,
@@ -31951,7 +32466,7 @@ static sl_status sli_selected_of_memory(sl_selected **out, sl_selected *draft, s
   draft->bytes = sizeof *draft + sizeof(double) * (size_t)begin[draft->traversal.forest.count];
   *out = (sl_selected *)sli_alloc(&draft->allocator, sizeof *draft);
   if (*out == NULL) {
-    return SL_ERR_MEMORY;
+    return sli_no_memory();
   }
   **out = *draft;
   sli_borrow(&draft->traversal.S->borrowers);
@@ -31977,7 +32492,7 @@ static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected **out, sl_
   if (bytes % sizeof(double) != 0 || (uint64_t)ends[count] != bytes / sizeof(double) ||
     ((r->checks != SL_LOAD_TRUSTED || !r->is_mapped) &&
      !sli_check_selected(draft->traversal.S, (const sl_int *)supers, ends, count))) {
-    return SL_ERR_IO;
+    return sli_damaged();
   }
   status = r->is_mapped ? sli_selected_of_memory(out, draft, (sl_int *)supers, (sl_off *)begin)
               : sli_selected_of_list(out, draft, (const sl_int *)supers, seeds);
@@ -31998,7 +32513,7 @@ static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S, const s
   sl_status status = sli_read_part(r, r->first_selected, S, F, S->n_supers, &part);
   if (status != SL_OK || table[1].bytes != 4 * (uint64_t)part.count ||
     table[2].bytes != 8 * ((uint64_t)part.count + 1)) {
-    return status != SL_OK ? status : SL_ERR_IO;
+    return status != SL_OK ? status : sli_damaged();
   }
   memset(&draft, 0, sizeof draft);
   draft.allocator = r->allocator;
@@ -32096,7 +32611,7 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
   if (!sli_check_columns(roots, draft.extent.n_roots, F->S->n_supers) ||
     !sli_check_columns(rows, draft.extent.n_rows, F->S->n) ||
     (r->checks != SL_LOAD_TRUSTED && !sli_check_extent(F->S, &draft.extent))) {
-    return SL_ERR_IO;
+    return sli_damaged();
   }
   SLI_LAYOUT(&b, &r->allocator, status) {
     sli_region_layout(&draft, &b);
@@ -32138,7 +32653,7 @@ static sl_status sli_read_regions_numbers(sli_reading *r, const sl_saved_set *se
       sli_swap_words(R->Z, section->word, bytes);
     }
   }
-  return verifies && sli_checksum_end(&sum) != section->checksum ? SL_ERR_IO : SL_OK;
+  return verifies && sli_checksum_end(&sum) != section->checksum ? sli_damaged_sum() : SL_OK;
 }
 
 static sl_status sli_read_regions_lists(sli_reading *r, const sl_factor *F, sli_saved_regions *q,
@@ -32151,11 +32666,11 @@ static sl_status sli_read_regions_lists(sli_reading *r, const sl_factor *F, sli_
   status = status == SL_OK ? sli_read_section(r, first + 2, &q->roots) : status;
   status = status == SL_OK ? sli_read_section(r, first + 3, &q->rows) : status;
   if (status != SL_OK || !sli_check_records(r, F->S, q)) {
-    return status != SL_OK ? status : SL_ERR_IO;
+    return status != SL_OK ? status : sli_damaged();
   }
   set->regions = (sl_region **)sli_alloc(&r->allocator, (size_t)q->count * sizeof *set->regions);
   if (set->regions == NULL) {
-    return SL_ERR_MEMORY;
+    return sli_no_memory();
   }
   set->allocator = r->allocator;
   record = (const sli_saved_region *)q->list;
@@ -32180,12 +32695,12 @@ static sl_status sli_read_regions(sli_reading *r, const sl_factor *F, sl_saved_s
   sl_status status;
   memset(&q, 0, sizeof q);
   if (F == NULL || F->null.is_centered) {
-    return SL_ERR_IO;
+    return sli_damaged();
   }
   status = sli_read_part(r, r->first_region, F->S, F, INT32_MAX, &part);
   if (status != SL_OK || part.count == 0 ||
     table[1].bytes != sizeof(sli_saved_region) * (uint64_t)part.count) {
-    return status != SL_OK ? status : SL_ERR_IO;
+    return status != SL_OK ? status : sli_damaged();
   }
   q.count = (sl_int)part.count;
   if (!r->is_mapped) {
@@ -32228,7 +32743,8 @@ static sl_status sli_read(sli_reading *r, sl_saved_set *set) {
   const sl_saved_content wanted = set->wanted;
   sl_status status = sli_read_front(r);
   if (status == SL_OK && r->is_mapped && r->swapped) {
-    return SL_ERR_UNSUPPORTED;
+    return sli_refuse(SL_ERR_UNSUPPORTED, "the byte order is not that of this processor: "
+                        "sl_load_file");
   }
   status = status == SL_OK ? sli_read_analysis(r, &set->symbolic) : status;
   if (status == SL_OK && wanted != SL_SAVED_ANALYSIS && r->has_factor) {
@@ -32255,13 +32771,14 @@ typedef struct sli_origin {
 } sli_origin;
 
 static sl_status sli_read_path(sli_reading *r, const char *path, sl_saved_set *set) {
-  sl_status status = SL_ERR_IO;
+  sl_status status;
   r->file = fopen(path, "rb");
-  if (r->file != NULL) {
-    r->size = sli_file_size(r->file);
-    status = sli_read(r, set);
-    fclose(r->file);
+  if (r->file == NULL) {
+    return sli_file_fails("the file cannot be opened");
   }
+  r->size = sli_file_size(r->file);
+  status = r->size > 0 ? sli_read(r, set) : sli_refuse(SL_ERR_IO, sli_no_file);
+  fclose(r->file);
   return status;
 }
 
@@ -32296,16 +32813,23 @@ static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load
   sli_reading r;
   sl_status status;
   if (set == NULL) {
-    return SL_ERR_ARGUMENT;
+    return sli_argument("set is NULL");
   }
+  errno = 0;
   wanted = set->wanted;
   memset(set, 0, sizeof *set);
   set->wanted = wanted;
-  if ((unsigned)wanted > (unsigned)SL_SAVED_ANALYSIS ||
-    (unsigned)checks > (unsigned)SL_LOAD_VERIFIED ||
-    !sli_options_are_valid(opt, SLI_READS_ISA) || (!is_file && from->memory == NULL) ||
-    (!is_file && from->is_mapped && (uintptr_t)from->memory % SLI_ALIGN != 0)) {
-    return SL_ERR_ARGUMENT;
+  status = sli_argument(
+    (unsigned)wanted > (unsigned)SL_SAVED_ANALYSIS
+      ? "set.wanted is not a value of sl_saved_content: is the set initialized?"
+    : (unsigned)checks > (unsigned)SL_LOAD_VERIFIED ? "checks is not a value of sl_load_checks"
+    : !is_file && from->memory == NULL              ? "path or memory is NULL"
+    : !is_file && from->is_mapped && (uintptr_t)from->memory % SLI_ALIGN != 0
+      ? "memory is not aligned to 64 bytes"
+      : sli_options_wrong(opt, SLI_READS_ISA));
+  if (status != SL_OK) {
+    errno = saved;
+    return status;
   }
   memset(&r, 0, sizeof r);
   r.checks = checks;
@@ -32385,11 +32909,15 @@ static sl_status sli_sum_check(const double *coefficients, const sl_csc *terms, 
     }
     if (A->n_rows != A->n_cols || A->n_cols != terms[0].n_cols ||
       (coefficients != NULL && sli_nnz(A) > 0 && A->x == NULL)) {
-      return SL_ERR_ARGUMENT;
+      return sli_argument(A->n_rows != A->n_cols         ? "a term is not square"
+                : A->n_cols != terms[0].n_cols ? "terms have different sizes"
+                                 : "a term has no values, x");
     }
     *entries += sli_nnz(A);
   }
-  return *entries > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK; /* untested: 2^31 entries */
+  return *entries > INT32_MAX /* untested: 2^31 entries */
+         ? sli_refuse(SL_ERR_TOO_LARGE, "terms have more than 2^31 - 1 entries")
+         : SL_OK;
 }
 
 static void sli_sum_append(sli_summands *all, const sl_csc *A, sl_triangle triangle, double c) {
@@ -32417,14 +32945,13 @@ SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, cons
   sl_status status;
   sl_int t;
   sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
+  status = sli_begin(out);
+  if (status == SL_OK) {
+    status = sli_argument(terms == NULL ? "terms is NULL"
+                : count < 1   ? "count is below 1"
+                      : sli_options_wrong(opt, SLI_READS_TRIANGLE));
   }
-  *out = NULL;
-  if (terms == NULL || count < 1 || !sli_options_are_valid(opt, SLI_READS_TRIANGLE)) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_sum_check(coefficients, terms, count, &entries, stats);
+  status = status == SL_OK ? sli_sum_check(coefficients, terms, count, &entries, stats) : status;
   SLI_LAYOUT(&b, &a, status) {
     all.row = SLI_TAKE(&b, sl_int, entries);
     all.column = SLI_TAKE(&b, sl_int, entries);
@@ -32447,7 +32974,7 @@ SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, cons
     status = sli_from_triplets(out, &list, &a);
   }
   sli_free(&a, b.base);
-  return status;
+  return sli_report(stats, status);
 }
 
 /* src/impl/batch/scatter.h: scatters a matrix into a value array in the order of the scatter map */
@@ -32569,16 +33096,20 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
   sli_block b = {NULL, 0, 0};
   sl_triangle triangle = SL_TRIANGLE_NONE;
   sl_int q, missing;
-  sl_status status = sl_csc_check(K, stats);
-  if (S == NULL || status != SL_OK) {
-    return S == NULL ? SL_ERR_ARGUMENT : status;
+  sl_status status;
+  sli_stats_clear_error(stats);
+  status = S == NULL ? sli_argument("S is NULL") : sl_csc_check(K, stats);
+  if (status == SL_OK) {
+    status = sli_argument(K->n_rows != K->n_cols                          ? "A is not square"
+                : sli_nnz(K) > 0 && K->x == NULL                ? "A.x is NULL"
+                : sli_symbolic_entries(S) > 0 && values == NULL ? "values is NULL"
+                                        : NULL);
   }
-  if (K->n_rows != K->n_cols || (sli_nnz(K) > 0 && K->x == NULL) ||
-    (sli_symbolic_entries(S) > 0 && values == NULL)) {
-    return SL_ERR_ARGUMENT;
+  if (status == SL_OK && K->n_cols != S->n) {
+    status = sli_refuse(SL_ERR_OTHER_PATTERN, "A has another size than the analyzed matrix");
   }
-  if (K->n_cols != S->n) {
-    return SL_ERR_PATTERN;
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
   memset(&w, 0, sizeof w);
   opt = sli_options_with(&S->allocator);
@@ -32587,7 +33118,7 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
     sli_scatter_layout(&w, &b, S, sli_nnz(K));
   }
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   sli_scatter_sort(S, &w, K, triangle);
   missing = sli_scatter_find_all(S, &w);
@@ -32599,11 +33130,11 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
       values[w.to[q]] += K->x[w.from[q]];
     }
   } else {
-    status = sli_fail_at(stats, SL_ERR_PATTERN, K->i[missing], sli_column_of(K, missing),
-               K->x[missing]);
+    status = sli_fail_at(stats, SL_ERR_OTHER_PATTERN, K->i[missing], sli_column_of(K, missing),
+               K->x[missing], "this entry is not in the analyzed pattern");
   }
   sli_free(&S->allocator, b.base);
-  return status;
+  return sli_report(stats, status);
 }
 
 /* src/impl/batch/batch_solve.h: many independent solves, shared among workers by the entries of L they read */
@@ -32689,7 +33220,7 @@ static sl_status sli_solve_batch_consistent(sli_solve_batch *b, const sl_threads
     memcpy(&failed, sli_solve_batch_memory(b, k), sizeof failed);
     *at = failed;
   }
-  return *at == -1 ? SL_OK : SL_ERR_INCONSISTENT;
+  return *at == -1 ? SL_OK : sli_inconsistent();
 }
 
 static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
@@ -32701,15 +33232,13 @@ static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
     size_t bytes;
     sl_status status;
     if (F == NULL) {
-      return SL_ERR_ARGUMENT;
+      return sli_argument("F is NULL, also in a request");
     }
     q = sli_request_query(F, r);
     status = sli_rhs_check(&rhs, q.nx, q.nb);
+    status = status == SL_OK ? sli_query_check(&q, F) : status;
     if (status != SL_OK) {
       return status;
-    }
-    if (!sli_query_fits(&q, F)) {
-      return SL_ERR_STATE;
     }
     bytes = r->nrhs > 0 ? sli_vectors_bytes(&q, r->nrhs, sli_block_most(F)) : 0;
     b->bytes = bytes > b->bytes ? bytes : b->bytes;
@@ -32726,11 +33255,11 @@ static sl_status sli_check_works(sl_work *const *works, sl_int workers) {
   sl_int k, other;
   for (k = 0; k < workers; k++) {
     if (works[k] == NULL) {
-      return SL_ERR_ARGUMENT;
+      return sli_argument("a workspace is NULL");
     }
     for (other = 0; other < k; other++) {
       if (works[k] == works[other]) {
-        return SL_ERR_ARGUMENT;
+        return sli_argument("a workspace is given twice");
       }
     }
   }
@@ -32769,12 +33298,13 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
   if (failed != NULL) {
     *failed = -1;
   }
-  if (count < 0 || (count > 0 && requests == NULL) ||
-    !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-    return SL_ERR_ARGUMENT;
-  }
-  if (F != NULL && !F->is_valid) {
-    return SL_ERR_STATE;
+  status =
+    sli_argument(count < 0                       ? "count is below 0"
+           : count > 0 && requests == NULL ? "requests is NULL"
+                           : sli_options_wrong(opt, SLI_READS_NOTHING));
+  status = status == SL_OK && F != NULL ? sli_factor_has_numbers(F) : status;
+  if (status != SL_OK) {
+    return status;
   }
   b.F = F;
   b.requests = requests;
@@ -32807,11 +33337,13 @@ static sl_status sli_source_of_sum(const sl_symbolic *S, const double *coefficie
                    const double *const *values, sl_int terms, sli_source *from) {
   sl_int t;
   if (terms < 0 || (terms > 0 && (coefficients == NULL || values == NULL))) {
-    return SL_ERR_ARGUMENT;
+    return sli_argument(terms < 0              ? "terms is below 0"
+              : coefficients == NULL ? "coefficients is NULL"
+                           : "values is NULL");
   }
   for (t = 0; t < terms; t++) {
     if (values[t] == NULL && S->scatter_begin[S->n_supers] > 0) {
-      return SL_ERR_ARGUMENT;
+      return sli_argument("an array of values is NULL");
     }
   }
   from->A = NULL;
@@ -32894,7 +33426,7 @@ static void sli_factor_batch_stats(const sli_factor_batch *f, sl_int at, double 
 }
 
 static sl_int sli_factor_batch_create(sl_factor **out, sl_int count, const sl_symbolic *S,
-                    const sl_options *opt, sl_status *status, sl_stats *stats) {
+                    const sl_options *opt, sl_status *status, sl_stats *first) {
   const sl_threads no_threads = {0, NULL, NULL};
   const sl_int workers = opt == NULL ? 1 : sli_workers(&opt->threads);
   sl_options serial;
@@ -32905,11 +33437,11 @@ static sl_int sli_factor_batch_create(sl_factor **out, sl_int count, const sl_sy
     serial.threads = no_threads;
   }
   for (k = 0; k < count; k++) {
-    const sl_status here = sli_factor_new(
-      &out[k], S, k < count / workers * workers ? &serial : opt, at == count ? stats : NULL);
+    const sl_status here =
+      sli_factor_new(&out[k], S, k < count / workers * workers ? &serial : opt, NULL);
     if (here != SL_OK && at == count) {
       at = k;
-      *status = here;
+      *status = sli_report(first, here);
     }
   }
   return at;
@@ -32922,6 +33454,7 @@ SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symboli
   const sl_threads serial = {0, NULL, NULL};
   double started;
   sli_factor_batch f;
+  sl_stats first;
   sl_status status;
   sl_int k, n_created, at;
   sli_stats_clear_error(stats);
@@ -32931,21 +33464,29 @@ SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symboli
   for (k = 0; k < count && out != NULL; k++) {
     out[k] = NULL;
   }
-  if (count < 0 || (count > 0 && out == NULL) || S == NULL ||
-    !sli_factor_options_are_valid(opt)) {
-    return SL_ERR_ARGUMENT;
-  }
+  status = sli_argument(count < 0                  ? "count is below 0"
+              : count > 0 && out == NULL ? "out is NULL"
+              : S == NULL                ? "S is NULL"
+                           : sli_factor_options_wrong(opt));
   f.factors = out;
   f.count = count;
-  status = sli_source_of_sum(S, coefficients, values, terms, &f.source);
-  if (status != SL_OK || count == 0) {
-    return status;
+  if (status == SL_OK) {
+    status = sli_source_of_sum(S, coefficients, values, terms, &f.source);
   }
-  n_created = sli_factor_batch_create(out, count, S, opt, &status, stats);
+  if (status != SL_OK || count == 0) {
+    return sli_report(stats, status);
+  }
+  n_created = sli_factor_batch_create(out, count, S, opt, &status, &first);
   started = sli_seconds();
   at = sli_factor_batch_run(&f, opt == NULL ? &serial : &opt->threads);
-  status = at < n_created ? out[at]->status : status;
+  if (at < n_created) {
+    status = out[at]->status;
+    first.error = out[at]->stats.error;
+  }
   sli_factor_batch_stats(&f, sli_min(at, n_created), started, stats);
+  if (status != SL_OK) {
+    (void)sli_fail_as(stats, status, &first.error);
+  }
   for (k = at; k < count; k++) {
     if (out[k] != NULL && !out[k]->is_valid) {
       sl_factor_free(out[k]);
@@ -32956,23 +33497,28 @@ SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symboli
   if (failed != NULL && at < count) {
     *failed = at;
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 static sl_status sli_factor_batch_check(sl_factor *const *factors, sl_int count, sl_int *at) {
   sl_int k, other;
   for (k = 0; k < count; k++) {
+    sl_status status;
     *at = k;
     if (factors[k] == NULL) {
-      return SL_ERR_ARGUMENT;
+      return sli_argument("a factor is NULL");
     }
     for (other = 0; other < k; other++) {
       if (factors[other] == factors[k]) {
-        return SL_ERR_ARGUMENT;
+        return sli_argument("a factor is given twice");
       }
     }
-    if (factors[k]->S != factors[0]->S || factors[k]->is_immutable) {
-      return SL_ERR_STATE;
+    if (factors[k]->S != factors[0]->S) {
+      return sli_refuse(SL_ERR_STATE, "factors are of different analyses");
+    }
+    status = sli_factor_may_change(factors[k]);
+    if (status != SL_OK) {
+      return status;
     }
   }
   *at = -1;
@@ -33003,11 +33549,11 @@ SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
   if (failed != NULL) {
     *failed = -1;
   }
-  if (count < 0 || (count > 0 && factors == NULL) ||
-    !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_factor_batch_check(factors, count, &at);
+  status =
+    sli_argument(count < 0                      ? "count is below 0"
+           : count > 0 && factors == NULL ? "factors is NULL"
+                          : sli_options_wrong(opt, SLI_READS_NOTHING));
+  status = status == SL_OK ? sli_factor_batch_check(factors, count, &at) : status;
   if (status == SL_OK && count > 0) {
     status = sli_source_of_sum(factors[0]->S, coefficients, values, terms, &f.source);
   }
@@ -33018,12 +33564,14 @@ SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
     k = sli_factor_batch_run(&f, threads);
     sli_factor_batch_stats(&f, k, started, stats);
     at = k < count ? k : -1;
-    status = k < count ? factors[k]->status : SL_OK;
+    if (k < count) {
+      status = sli_fail_as(stats, factors[k]->status, &factors[k]->stats.error);
+    }
   }
   if (failed != NULL) {
     *failed = at;
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 #endif
@@ -33064,14 +33612,13 @@ static sl_status sli_diagonal_batch_check(const sli_diagonal_batch *d, sl_int *a
                       sl_stats *stats) {
   for (*at = 0; *at < d->count; ++*at) {
     const sl_factor *F = d->factors[*at];
-    if (F == NULL) {
-      return SL_ERR_ARGUMENT;
+    const sl_status status =
+      F == NULL ? sli_argument("a factor is NULL") : sli_inverse_check(F);
+    if (status != SL_OK) {
+      return status;
     }
-    if (!F->is_valid || F->S != d->factors[0]->S) {
-      return SL_ERR_STATE;
-    }
-    if (F->E != NULL) {
-      return sli_inverse_check(F);
+    if (F->S != d->factors[0]->S) {
+      return sli_refuse(SL_ERR_STATE, "factors are of different analyses");
     }
   }
   *at = -1;
@@ -33138,9 +33685,12 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
   if (failed != NULL) {
     *failed = -1;
   }
-  if (count < 0 || (count > 0 && factors == NULL) ||
-    !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-    return SL_ERR_ARGUMENT;
+  status =
+    sli_argument(count < 0                      ? "count is below 0"
+           : count > 0 && factors == NULL ? "factors is NULL"
+                          : sli_options_wrong(opt, SLI_READS_NOTHING));
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
   d.serial = serial;
   d.factors = factors;
@@ -33156,14 +33706,16 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
     *failed = at;
   }
   if (status != SL_OK || count == 0) {
-    return status;
+    return sli_report(stats, status);
   }
   n_rows = d.n_rows = rows == NULL ? factors[0]->S->n : n_rows;
-  if (n_rows < 0 || (n_rows > 0 && (out == NULL || !sli_is_ld(ldo, n_rows)))) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = works == NULL ? SL_OK : sli_check_works(works, d.workers);
-  return status == SL_OK && n_rows > 0 ? sli_diagonal_batch_run(&d, threads) : status;
+  status = sli_argument(n_rows < 0                              ? "n_rows is below 0"
+              : n_rows > 0 && out == NULL             ? "out is NULL"
+              : n_rows > 0 && !sli_is_ld(ldo, n_rows) ? "ldo is below n_rows"
+                                  : NULL);
+  status = status == SL_OK && works != NULL ? sli_check_works(works, d.workers) : status;
+  status = status == SL_OK && n_rows > 0 ? sli_diagonal_batch_run(&d, threads) : status;
+  return sli_report(stats, status);
 }
 
 #endif
@@ -33414,18 +33966,23 @@ static sl_status sli_hermitian_check(const sl_hermitian *H, sl_stats *stats) {
   sl_status status;
   sl_int j, p;
   sli_stats_clear_error(stats);
-  if (H == NULL || (H->x == NULL && H->im != NULL)) {
-    return SL_ERR_ARGUMENT;
+  status = sli_argument(H == NULL                       ? "H is NULL"
+              : H->x == NULL && H->im != NULL ? "H.x is NULL, but H.im is not"
+                              : NULL);
+  if (status != SL_OK) {
+    return status;
   }
   pattern.n_rows = pattern.n_cols = H->n;
   pattern.p = H->p;
   pattern.i = H->i;
-  status = H->n > SLI_ROWS_MAX / 2 ? SL_ERR_TOO_LARGE : sl_csc_check(&pattern, stats);
+  status = H->n > SLI_ROWS_MAX / 2 ? sli_refuse(SL_ERR_TOO_LARGE, "H has more than 2^30 - 4 rows")
+                   : sl_csc_check(&pattern, stats);
   for (j = 0; status == SL_OK && H->x != NULL && j < H->n; j++) {
     for (p = H->p[j]; p < H->p[j + 1]; p++) {
       const double im = H->im != NULL ? H->im[p] : H->x[2 * (size_t)p + 1];
       if (H->i[p] == j && !(im == 0.0)) {
-        return sli_fail_at(stats, SL_ERR_ARGUMENT, j, j, im);
+        return sli_fail_at(stats, SL_ERR_ARGUMENT, j, j, im,
+                   "a diagonal entry of H has an imaginary part");
       }
     }
   }
@@ -33509,7 +34066,7 @@ static sl_status sli_hermitian_compare(const sl_hermitian *H, const sl_matrix *M
   const sli_hermitian_sides sides = sli_hermitian_sides_of(H);
   sl_int j, p, k, second, at = 0;
   if (M->n_cols != 2 * H->n || M->n_rows != 2 * H->n) {
-    return SL_ERR_PATTERN;
+    return sli_refuse(SL_ERR_OTHER_PATTERN, "H has another size than M");
   }
   for (j = 0; j < H->n; j++) {
     for (second = 0; second < 2; second++) {
@@ -33518,12 +34075,14 @@ static sl_status sli_hermitian_compare(const sl_hermitian *H, const sl_matrix *M
         const sli_hermitian_column e = sli_hermitian_entry(H, sides, p, j, second);
         for (k = 0; k < e.count; k++, at++) {
           if (at >= end || M->i[at] != e.row + k) {
-            return sli_fail_at(stats, SL_ERR_PATTERN, H->i[p], j, 0.0);
+            return sli_fail_at(stats, SL_ERR_OTHER_PATTERN, H->i[p], j, 0.0,
+                       "M was not made from the pattern of H");
           }
         }
       }
       if (at != end) {
-        return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0);
+        return sli_fail_at(stats, SL_ERR_OTHER_PATTERN, -1, j, 0.0,
+                   "M was not made from the pattern of H");
       }
     }
   }
@@ -33536,37 +34095,39 @@ SL_API sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H
   sl_matrix *M;
   sl_status status;
   sl_off count;
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  status = sli_options_are_valid(opt, SLI_READS_NOTHING) ? sli_hermitian_check(H, stats)
-                               : SL_ERR_ARGUMENT;
+  sli_stats_clear_error(stats);
+  status = sli_begin(out);
+  status = status == SL_OK ? sli_argument(sli_options_wrong(opt, SLI_READS_NOTHING)) : status;
+  status = status == SL_OK ? sli_hermitian_check(H, stats) : status;
   if (status != SL_OK) {
-    return status;
+    return sli_report(stats, status);
   }
   count = sli_hermitian_entries(H, sli_hermitian_sides_of(H));
-  if (count > INT32_MAX) {     /* untested: 2^29 entries */
-    return SL_ERR_TOO_LARGE; /* untested: the same */
+  if (count > INT32_MAX) { /* untested: 2^29 entries */
+    status = sli_refuse(SL_ERR_TOO_LARGE, "M would have 2^31 entries"); /* untested: the same */
+    return sli_report(stats, status);                                   /* untested: the same */
   }
   status = sli_matrix_new(&M, 2 * H->n, 2 * H->n, (sl_int)count, H->x != NULL, &a);
   if (status == SL_OK) {
     sli_hermitian_fill(H, M);
     *out = M;
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 SL_API sl_status sl_matrix_refill_hermitian(sl_matrix *M, const sl_hermitian *H, sl_stats *stats) {
   sl_status status = sli_hermitian_check(H, stats);
-  if (status == SL_OK && (M == NULL || M->x == NULL || H->x == NULL)) {
-    status = SL_ERR_ARGUMENT;
+  if (status == SL_OK) {
+    status = sli_argument(M == NULL      ? "M is NULL"
+                : M->x == NULL ? "M has no values"
+                : H->x == NULL ? "H.x is NULL"
+                       : NULL);
   }
   status = status == SL_OK ? sli_hermitian_compare(H, M, stats) : status;
   if (status == SL_OK) {
     sli_hermitian_fill(H, M);
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 /* src/impl/complex/complex_rows.h: calls on a real factor whose sets count complex rows */
@@ -33578,9 +34139,11 @@ typedef struct sli_complex_set {
 } sli_complex_set;
 
 static sl_status sli_complex_check(sl_int n, const sli_complex_set *set) {
-  return n % 2 != 0 || (set->rows != NULL && set->count < 0)  ? SL_ERR_ARGUMENT
-       : set->rows != NULL && set->count > SLI_ROWS_MAX / 2 ? SL_ERR_TOO_LARGE
-                                : SL_OK;
+  return n % 2 != 0 ? sli_argument("the system is not that of a complex matrix: n is odd")
+       : set->rows != NULL && set->count < 0 ? sli_argument("a set has a size below 0")
+       : set->rows != NULL && set->count > SLI_ROWS_MAX / 2
+         ? sli_refuse(SL_ERR_TOO_LARGE, "a set of more than 2^30 - 4 rows")
+         : SL_OK;
 }
 
 static void sli_complex_layout(sli_complex_set *set, sli_block *b) {
@@ -33623,7 +34186,8 @@ static sl_status sli_complex_fill(const sli_complex_set *set, sl_int n, int is_c
     set->rows == NULL ? -1 : sli_complex_expand(set->rows, set->count, n, set->real);
   return bad == -1 ? SL_OK
            : sli_fail_at(stats, SL_ERR_ARGUMENT, is_columns ? -1 : set->rows[bad],
-                   is_columns ? set->rows[bad] : -1, 0.0);
+                   is_columns ? set->rows[bad] : -1, 0.0,
+                   "a row or column is out of range");
 }
 
 static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n, const sl_allocator *a,
@@ -33652,10 +34216,18 @@ static const sl_int *sli_complex_real(const sli_complex_set *set) {
 }
 
 SL_API sl_status sl_complex_rows(sl_int *out, const sl_int *rows, sl_int count) {
-  if (count < 0 || count > SLI_ROWS_MAX / 2 || (count > 0 && (out == NULL || rows == NULL))) {
-    return SL_ERR_ARGUMENT;
+  sl_status status = sli_argument(count < 0                   ? "count is below 0"
+                  : count > SLI_ROWS_MAX / 2  ? "count is above 2^30 - 4"
+                  : count > 0 && out == NULL  ? "out is NULL"
+                  : count > 0 && rows == NULL ? "rows is NULL"
+                                : NULL);
+  if (status == SL_OK) {
+    const sl_int bad = sli_complex_expand(rows, count, SLI_ROWS_MAX / 2, out);
+    status = bad == -1 ? SL_OK
+               : sli_fail_at(NULL, SL_ERR_ARGUMENT, rows[bad], -1, 0.0,
+                     "a row is out of range");
   }
-  return sli_complex_expand(rows, count, SLI_ROWS_MAX / 2, out) == -1 ? SL_OK : SL_ERR_ARGUMENT;
+  return status;
 }
 
 SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, const sl_int *bset,
@@ -33665,12 +34237,12 @@ SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, con
   sli_complex_sets c;
   sl_status status;
   sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  if (S == NULL || !sli_options_are_valid(opt, SLI_READS_REGION)) {
-    return SL_ERR_ARGUMENT;
+  status = sli_begin(out);
+  status = status == SL_OK
+         ? sli_argument(S == NULL ? "S is NULL" : sli_options_wrong(opt, SLI_READS_REGION))
+         : status;
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
   c = sli_complex_sets_of(bset, nb, xset, nx, 0);
   status = sli_complex_sets_create(&c, S->n, &a, stats);
@@ -33679,12 +34251,13 @@ SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, con
                 sli_complex_real(&c.second), xset == NULL ? 0 : 2 * nx, opt, stats);
     sli_free(&a, c.memory);
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, double *sign) {
-  sl_status status =
-    F != NULL && F->S->n % 2 != 0 ? SL_ERR_ARGUMENT : sl_factor_logdet(F, log_abs_det, sign);
+  const sli_complex_set none = {NULL, 0, NULL};
+  sl_status status = F == NULL ? SL_OK : sli_complex_check(F->S->n, &none);
+  status = status == SL_OK ? sl_factor_logdet(F, log_abs_det, sign) : status;
   if (status == SL_OK) {
     *log_abs_det *= 0.5;
     *sign = F->stats.factor.negative / 2 % 2 == 0 ? 1.0 : -1.0;
@@ -33704,9 +34277,13 @@ SL_API sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t 
   sl_status status;
   sl_int k;
   sli_stats_clear_error(stats);
-  if (F == NULL || ldz > SIZE_MAX / 2 || (rows == NULL && n_rows != 0) ||
-    (columns == NULL && n_columns != 0)) {
-    return SL_ERR_ARGUMENT;
+  status = sli_argument(F == NULL                           ? "F is NULL"
+              : ldz > SIZE_MAX / 2                ? "ldz is too large"
+              : rows == NULL && n_rows != 0       ? "rows is NULL"
+              : columns == NULL && n_columns != 0 ? "columns is NULL"
+                                : NULL);
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
   c = sli_complex_sets_of(rows, n_rows, columns, n_columns, 1);
   status = sli_complex_sets_create(&c, F->S->n, &F->allocator, stats);
@@ -33719,7 +34296,7 @@ SL_API sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t 
                   W, stats);
     sli_free(&F->allocator, c.memory);
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 SL_API sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
@@ -33729,8 +34306,12 @@ SL_API sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out, const
   sl_status status;
   sl_int k;
   sli_stats_clear_error(stats);
-  if (F == NULL || ((rows == NULL || columns == NULL) && count != 0)) {
-    return SL_ERR_ARGUMENT;
+  status = sli_argument(F == NULL                       ? "F is NULL"
+              : rows == NULL && count != 0    ? "rows is NULL"
+              : columns == NULL && count != 0 ? "columns is NULL"
+                              : NULL);
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
   c = sli_complex_sets_of(rows, count, columns, count, 1);
   status = sli_complex_sets_create(&c, F->S->n, &F->allocator, stats);
@@ -33742,7 +34323,7 @@ SL_API sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out, const
     status = sl_inverse_pairs(F, out, c.first.real, c.second.real, 2 * count, W, stats);
     sli_free(&F->allocator, c.memory);
   }
-  return status;
+  return sli_report(stats, status);
 }
 
 #endif
@@ -33797,6 +34378,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_METIS
 #undef SLI_GNU
 #undef SLI_WINDOWS
+#undef SLI_THREAD_LOCAL
 #undef SLI_FNMA1
 #undef SLI_PIN
 #undef SLI_PIN_ANY

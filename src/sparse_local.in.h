@@ -123,6 +123,7 @@ extern "C" {
 #include "impl/analysis/structure.h"
 #include "impl/analysis/schedule.h"
 #include "impl/analysis/symbolic.h"
+#include "impl/analysis/same_pattern.h"
 #include "impl/analysis/reach.h"
 /* factor: the numbers of L and D */
 #include "impl/factor/factor_types.h"

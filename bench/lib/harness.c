@@ -107,8 +107,10 @@ void *bench_alloc(size_t count, size_t bytes_each) {
 
 void bench_must(sl_status status, const char *doing) {
     if (status != SL_OK) {
+        char text[400];
         fflush(stdout);
-        fprintf(stderr, "bench: %s: %s\n", doing, sl_status_string(status));
+        (void)sl_error_text(text, sizeof text, status, NULL);
+        fprintf(stderr, "bench: %s: %s\n", doing, text);
         exit(2);
     }
 }

@@ -23,9 +23,9 @@
  *                   not return SL_ERR_INACCURATE.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  stats  [out]     refine; may be NULL.
- *  Returns  SL_OK; SL_ERR_INACCURATE: see above; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor;
- *           SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not
- *           grow.
+ *  Returns  SL_OK; SL_ERR_INACCURATE: see above; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor;
+ *           SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W
+ *           could not grow.
  *  Cost     one product with A, and another product and a solve per step; W grows to
  *           O(n min(nrhs, 8)).
  *  Threads  any number at once on one F, each with its own W.
@@ -78,8 +78,8 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_refined(const sl_plan *P, const sl
  *  A      [in]      the matrix that F is a factor of.
  *  rcond  [out]     the estimate.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_PATTERN: not the analyzed
- *           pattern; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_OTHER_PATTERN: not the
+ *           analyzed pattern; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
  *  Cost     4 to 10 solves, each with a product with A.
  *  Threads  any number at once on one F, each with its own W.
  *  Source   [Hi88]
@@ -101,7 +101,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rcond(const sl_factor *F, const sl_csc
  *                B.
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W
  *           could not grow.
  *  Cost     the forward sweep of sl_factor_solve.
  *  Threads  any number at once on one F, each with its own W.

@@ -25,13 +25,13 @@
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  stats  [out]     change, factor; may be NULL. For pivots of both signs growth, pivot_min and
  *                   pivot_max become bounds until the next refactorization.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also if V does not have n rows; SL_ERR_PATTERN: V is
- *           malformed, or its row error.row is not in the column of L of error.column;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also if V does not have n rows; SL_ERR_PATTERN: V is malformed;
+ *           SL_ERR_OTHER_PATTERN: row error.row of V is not in the column of L of error.column;
  *           SL_ERR_PIVOT: a pivot would change its sign or vanish, at error.row; SL_ERR_NOT_FINITE:
  *           an entry of V at error.row, a weight (error.row = -1) or a pivot; SL_ERR_INACCURATE:
- *           growth beyond its limit, that of a loaded factor with its drift; SL_ERR_STATE: F has no
- *           numbers or is mapped; SL_ERR_UNSUPPORTED: null pivots were skipped, there are 2x2
- *           pivots, or L is in float; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           growth beyond its limit, that of a loaded factor with its drift; SL_ERR_STALE: F has no
+ *           numbers; SL_ERR_READ_ONLY: F is mapped; SL_ERR_UNSUPPORTED: null pivots were skipped,
+ *           there are 2x2 pivots, or L is in float; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
  *           written once for 8 vectors. Changes that may fail take another forward sweep or a copy.
  *  Threads  exclusive use of F.
@@ -100,8 +100,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
  *                     allowed.
  *  stats    [out]     factor, of all of L and A: the growth is that of sl_factor_refactor, to
  *                     rounding; may be NULL.
- *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error.row); SL_ERR_STATE:
- *           F has no numbers, or is mapped.
+ *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error.row); SL_ERR_STALE:
+ *           F has no numbers; SL_ERR_READ_ONLY: F is mapped.
  *  Cost     the fronts reached, and the update matrices of the subtrees below them, from L: about
  *           25 % of a factorization for one vertex of a 2D mesh. Temporary memory: 4 bytes per
  *           supernode, and for each worker an update matrix, 4 bytes per row of A and 4 per row of

@@ -63,7 +63,8 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_hermitian(sl_matrix **out, const 
  *
  *  M      [in,out]  of sl_matrix_from_hermitian, with values; on error untouched.
  *  stats  [out]     error.row, error.column, in complex rows; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also a pattern without values; SL_ERR_PATTERN: another pattern.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a pattern without values; SL_ERR_PATTERN;
+ *           SL_ERR_OTHER_PATTERN: not that of M.
  *  Cost     O(n + nnz).
  *  Threads  exclusive use of M.
  *  Example  tests/core/test_complex.c

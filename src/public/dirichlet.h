@@ -42,8 +42,8 @@ SL_API void sl_dirichlet_free(sl_dirichlet *D);
  *
  *  A      [in]   the pattern that sl_dirichlet_create was given, its entries in the same order.
  *  stats  [out]  dirichlet, factor; errors are in rows of A; may be NULL.
- *  Returns  as sl_dirichlet_create; SL_ERR_PATTERN: another pattern. After SL_ERR_PIVOT,
- *           _NOT_FINITE in free rows, _INACCURATE and _UNSUPPORTED solves are refused until a
+ *  Returns  as sl_dirichlet_create; SL_ERR_OTHER_PATTERN: another pattern. After
+ *           SL_ERR_PIVOT, _NOT_FINITE in free rows, _INACCURATE and _UNSUPPORTED solves are refused until a
  *           refactorization succeeds; after other errors D is as before.
  *  Cost     a refactorization of A[free, free]; nothing is allocated, except for its first factor.
  *  Threads  exclusive use of D.
@@ -63,7 +63,7 @@ SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_
  *               values, in the order of rows. May be NULL if count = 0.
  *  nrhs  [in]   number of right-hand sides, 0 or more.
  *  W     [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a failed refactorization, or the factor whose
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed refactorization, or the factor whose
  *           pins are used has changed; SL_ERR_NOT_FINITE, SL_ERR_INCONSISTENT: as sl_factor_solve;
  *           SL_ERR_INACCURATE: as sl_pins_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     for each right-hand side a full solve of the free rows, 2 flops per entry of A between

@@ -25,9 +25,10 @@
  *                 reads; may be NULL.
  *  stats   [out]  symbolic, edit; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
- *           the row of A), and as sl_symbolic_create; SL_ERR_PATTERN: A does not have the
- *           analyzed pattern, or B is malformed or not symmetric; SL_ERR_UNSUPPORTED: S was created
- *           with pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           the row of A), and as sl_symbolic_create; SL_ERR_OTHER_PATTERN: A does not have the
+ *           analyzed pattern; SL_ERR_PATTERN: B is malformed or not symmetric; SL_ERR_UNSUPPORTED:
+ *           S was created with pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
  *  Cost     O(n + nnz + rows of supernodes) with small constants, and the order and analysis of the
  *           columns above the edit. Where 0.1 % of a mesh of 1e6 vertices is remeshed, about 1/14
  *           of a new order and analysis.
@@ -60,7 +61,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
  *  opt     [in]   as for sl_factor_create; may be NULL.
  *  stats   [out]  factor, reuse; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
- *           the row of A); SL_ERR_STATE: F has no numbers; otherwise as sl_factor_create.
+ *           the row of A); SL_ERR_STALE: F has no numbers; otherwise as sl_factor_create.
  *  Cost     O(n + nnz + rows of supernodes), a copy of L, and stats.reuse.flops. Where 0.1 % of a
  *           mesh of 1e6 vertices is remeshed in one place, about a third of a new factorization; at
  *           most a tenth more than that where little is worth keeping.

@@ -21,12 +21,12 @@
  *                growth_limit, error_limit, storage, definite; may be NULL.
  *  stats  [out]  factor; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, or at error.row a
- *           weight, sign or null vector that is not allowed; SL_ERR_PATTERN: not the analyzed one,
- *           or two triangles whose values differ by more than 1e-6 of the row; SL_ERR_PIVOT: a
- *           null pivot at error.row, or a negative one that options do not allow; error.what says
- *           what helps, such as sl_symbolic_create_pivoted, and null_bound up to which size the
- *           pivot error.value is null;
- *           SL_ERR_NOT_FINITE: at error.row, and error.column if it is an entry of A;
+ *           weight, sign or null vector that is not allowed; SL_ERR_OTHER_PATTERN: not the analyzed
+ *           one, from error.row, error.column on; SL_ERR_PATTERN: malformed, or two triangles whose
+ *           values differ by more than 1e-6 of the row; SL_ERR_PIVOT: a null pivot at error.row, or
+ *           a negative one that options do not allow; error.what says what helps, such as
+ *           sl_symbolic_create_pivoted, and null_bound up to which size the pivot error.value is
+ *           null; SL_ERR_NOT_FINITE: at error.row, and error.column if it is an entry of A;
  *           SL_ERR_INACCURATE: growth above its limit by the pivot error.value of error.row, or a
  *           number that float cannot hold; SL_ERR_UNSUPPORTED: the isa, or a combination of options
  *           and matrix that the manual excludes; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
@@ -51,12 +51,12 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *  nothing, but 24 bytes a row where small pivots have to be judged (singular.md); without this
  *  memory they are null.
  *
- *  F      [in,out]  unchanged after SL_ERR_ARGUMENT and SL_ERR_PATTERN. After SL_ERR_PIVOT,
- *                   _NOT_FINITE, _INACCURATE and _UNSUPPORTED it has no numbers, and every solve
- *                   refuses it until a refactor succeeds.
+ *  F      [in,out]  unchanged after SL_ERR_ARGUMENT, SL_ERR_PATTERN and SL_ERR_OTHER_PATTERN. After
+ *                   SL_ERR_PIVOT, _NOT_FINITE, _INACCURATE and _UNSUPPORTED it has no numbers, and
+ *                   every solve refuses it until a refactor succeeds.
  *  A      [in]      the analyzed pattern, new values. Two triangles are not compared.
  *  stats  [out]     factor; may be NULL.
- *  Returns  as sl_factor_create; SL_ERR_STATE: a mapped factor (sl_map_file). SL_ERR_MEMORY and
+ *  Returns  as sl_factor_create; SL_ERR_READ_ONLY: a mapped factor (sl_map_file). SL_ERR_MEMORY and
  *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load_file),
  *           which allocates its fronts; SL_ERR_UNSUPPORTED only with SL_STORAGE_COMPLEX.
  *  Cost     as sl_factor_create, without its memory.
@@ -85,7 +85,7 @@ typedef enum sl_pivot_kind {
  *  shifts    [out]  the diagonal entries of E in these rows, 0 for null pivots; may be NULL.
  *  capacity  [in]   length of rows and shifts.
  *  count     [out]  how many there are; may exceed capacity.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(count).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor.  Cost  O(count).
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_pivot_rows(const sl_factor *F, sl_pivot_kind kind,
                                                      sl_int *rows, double *shifts, sl_int capacity,
@@ -98,7 +98,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_pivot_rows(const sl_factor *F, sl_pivo
  *  number of rows. If regularization changed pivots: the determinant of A + E. Computed as a sum of
  *  logarithms, which cannot overflow.
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(n).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor.  Cost  O(n).
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det,
                                                  double *sign);
@@ -110,7 +110,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log
  *
  *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
  *  opt    [in]   allocator; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE: 2^31 or more
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_TOO_LARGE: 2^31 or more
  *           entries; SL_ERR_MEMORY.
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F,

@@ -26,7 +26,7 @@
  *  F    [in]   the factor; kept by the object. When F changes, solves are refused until
  *              sl_pins_refactor.
  *  opt  [in]   allocator; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_UNSUPPORTED: pivots of both
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_UNSUPPORTED: pivots of both
  *           signs, or 2x2 pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
  *  Cost     O(1); with SL_NULL_PIVOT_SKIP 8 bytes per row.
  *  Source   capacitance matrix of a change of low rank, as in [Hager89].
@@ -44,7 +44,7 @@ SL_API void sl_pins_free(sl_pins *P);
  *  rows   [in]   count >= 0 rows in 0..n-1.
  *  stats  [out]  pins; error.row; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: a row is held already, by its pin or by a
- *           combination of the others, up to rounding; SL_ERR_STATE: F has changed;
+ *           combination of the others, up to rounding; SL_ERR_STALE: F has changed;
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
  *           (error.row); SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     by the capacitance matrix, for each pin, a forward sweep, which up to 8 nearby rows
@@ -74,7 +74,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *r
  *  indices  [in]   count >= 0 different numbers of pins, 0-based, in any order.
  *  stats    [out]  pins, of which count is the number that is left; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY; SL_ERR_TOO_LARGE; of pins that are eliminated
- *           also SL_ERR_STATE: F has changed, and the errors of sl_pins_add. On error P is as
+ *           also SL_ERR_STALE: F has changed, and the errors of sl_pins_add. On error P is as
  *           before.
  *  Cost     O(k^2) for each. If some are eliminated, the others are eliminated anew, by the reach
  *           of the released rows, or added anew by the capacitance matrix: release them together.
@@ -92,9 +92,10 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, const sl_int *indice
  *                matrix (stats.pins.reason). NULL: no matrix; one that P was given before is
  *                forgotten, and all pins use the capacitance matrix.
  *  stats  [out]  pins; error.row; may be NULL.
- *  Returns  as sl_pins_add; SL_ERR_ARGUMENT: also if the test fails (error.row); SL_ERR_PATTERN: A
- *           has not the analyzed pattern; SL_ERR_STATE: failed factor. On error P is as before, or,
- *           if F has changed or A is NULL, solves are refused until a later call succeeds.
+ *  Returns  as sl_pins_add; SL_ERR_ARGUMENT: also if the test fails (error.row);
+ *           SL_ERR_OTHER_PATTERN: A has not the analyzed pattern; SL_ERR_STALE: failed factor. On
+ *           error P is as before, or, if F has changed or A is NULL, solves are refused until a
+ *           later call succeeds.
  *  Cost     after F has changed, and without A, k forward sweeps and O(k^3), or a refactorization
  *           of the second factor, which elimination keeps. For A a solve, two products with A, and
  *           8 bytes per entry.
@@ -115,10 +116,10 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, const sl_csc *A, sl
  *  G      [in]   k x nrhs, column-major, leading dimension ldg elements: the values, in the order
  *                of the pins.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: F has changed, or the plan is of another
- *           analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: C' x = g does not
- *           hold to 1e-8 of x, or rounding hides whether pins rule out the motions of a body;
- *           SL_ERR_INCONSISTENT: b is out of balance with a motion that the pins leave; with
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: F has changed; SL_ERR_STATE: the plan is of
+ *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: C' x = g
+ *           does not hold to 1e-8 of x, or rounding hides whether pins rule out the motions of a
+ *           body; SL_ERR_INCONSISTENT: b is out of balance with a motion that the pins leave; with
  *           more than 8 right-hand sides X may then have those before it; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     for each right-hand side a solve and, of the pins that are not eliminated, k products

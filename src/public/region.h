@@ -44,7 +44,7 @@
  *                stats.region.bytes is at most region_bytes. If only a region without boundary
  *                fits, solves go to the roots of the tree.
  *  stats  [out]  region; error.row: a row out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of the present F;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor, or Z is not of the present F;
  *           SL_ERR_UNSUPPORTED: a factor made with options.mass or with 2x2 pivots;
  *           SL_ERR_INACCURATE: solves would lose digits; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     a plan for the set; for every 8 rows of the boundary one forward sweep of 8 lanes to
@@ -64,14 +64,15 @@ SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_facto
 /** Recomputes a region from the present numbers of F, in the same memory; its plans stay valid.
  *
  *  R      [in,out]  unchanged on error; but after SL_ERR_INACCURATE its plans are refused with
- *                   SL_ERR_STATE until the next sl_region_refactor that succeeds.
+ *                   SL_ERR_STALE until the next sl_region_refactor that succeeds.
  *  F      [in]      a factor over the analysis that R was made for; from now on the only one that R
  *                   accepts.
  *  Z      [in]      as in sl_region_create; may be NULL.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, a factor of another analysis, Z
- *           is not of the present F, or R is mapped; SL_ERR_UNSUPPORTED, SL_ERR_INACCURATE: as
- *           sl_region_create; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor, or Z is not of the present F;
+ *           SL_ERR_STATE: a factor of another analysis; SL_ERR_READ_ONLY: R is mapped;
+ *           SL_ERR_UNSUPPORTED, SL_ERR_INACCURATE: as sl_region_create; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
  *  Cost     as sl_region_create without the plan; no allocation once W has grown.
  *  Threads  exclusive use of R and of its plans.
  *  Example  tests/core/test_region.c

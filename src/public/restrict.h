@@ -12,10 +12,11 @@
  *  the order of A; if fewer than 40 % could be copied, all are (stats.restriction.is_anew).
  *
  *  G and S do not depend on F. Their row k is row rows[k] of A. They can be solved with, pinned and
- *  inverted as any factor. Refactorizations, changes and saving give SL_ERR_STATE; what compares a
- *  matrix with the analyzed pattern gives SL_ERR_PATTERN: refinement, sl_factor_rcond, another
- *  factor over S. G has the options and the storage of F, but refuses null pivots by
- *  null_tolerance: a component of a singular Laplacian that is in R as a whole gives SL_ERR_PIVOT.
+ *  inverted as any factor. Refactorizations and changes give SL_ERR_READ_ONLY, saving SL_ERR_STATE;
+ *  what compares a matrix with the analyzed pattern gives SL_ERR_OTHER_PATTERN: refinement,
+ *  sl_factor_rcond, another factor over S. G has the options and the storage of F, but refuses null
+ *  pivots by null_tolerance: a component of a singular Laplacian that is in R as a whole gives
+ *  SL_ERR_PIVOT.
  *
  *  S      [out]  the analysis, or NULL on error; release with sl_symbolic_free.
  *  G      [out]  the factor, or NULL on error; release with sl_factor_free.
@@ -26,10 +27,10 @@
  *  opt    [in]   allocator; may be NULL.
  *  stats  [out]  restriction, factor; errors are in rows of A; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
- *           SL_ERR_PATTERN: A differs in size or number of entries from the analyzed matrix, or
- *           error.column of it is malformed; SL_ERR_PIVOT, _NOT_FINITE, _INACCURATE: as
- *           sl_factor_create; SL_ERR_STATE: F has no numbers; SL_ERR_UNSUPPORTED: F has 2x2
- *           pivots or is a restriction itself; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           SL_ERR_OTHER_PATTERN: A differs in size or number of entries from the analyzed matrix;
+ *           SL_ERR_PATTERN: error.column of it is malformed; SL_ERR_PIVOT, _NOT_FINITE,
+ *           _INACCURATE: as sl_factor_create; SL_ERR_STALE: F has no numbers; SL_ERR_UNSUPPORTED: F
+ *           has 2x2 pivots or is a restriction itself; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     linear in the entries of A in R and the rows of supernodes in R, a copy of the kept
  *           entries of L, and the flops of the other columns: 0.44 to 1.45 of the time of analyzing
  *           and factoring A[R, R] in a given order.

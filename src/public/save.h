@@ -24,7 +24,7 @@
  * another analysis is refused (SL_ERR_STATE), also if both were loaded from one file.
  *
  * Loaded objects can be refactored; the first refactorization of a factor allocates the memory of
- * its fronts. Mapped ones are immutable, so that refactorizations give SL_ERR_STATE. */
+ * its fronts. Mapped ones are immutable, so that refactorizations give SL_ERR_READ_ONLY. */
 
 /** How much of a file a load creates. */
 typedef enum sl_saved_content {
@@ -65,10 +65,10 @@ typedef enum sl_load_checks {
  *  set    [in]   an analysis and what belongs to it. A selected inverse may be saved without a
  *                factor; regions may not. The same region may be given more than once.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, n_regions below 0, or regions without a factor;
- *           SL_ERR_STATE: a failed factor, one over another analysis, a selected inverse or region
- *           that is of another analysis or not of the present numbers of factor, or objects from a
- *           file that a newer version has written and this one reads in part;
- *           SL_ERR_UNSUPPORTED: SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds.
+ *           SL_ERR_STALE: a failed factor, or a selected inverse or region that is not of its
+ *           present numbers; SL_ERR_STATE: objects of different analyses, or from a file that a
+ *           newer version has written and this one reads in part; SL_ERR_UNSUPPORTED:
+ *           SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds.
  *  Cost     O(1 + n_regions).
  *  Threads  reads the objects.
  */

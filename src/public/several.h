@@ -57,9 +57,9 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coe
  *                 be anything.
  *  stats   [out]  error.row, error.column: the first stored entry outside the analyzed pattern, or
  *                 a malformed one; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, no values; SL_ERR_PATTERN: another size, malformed,
- *           both triangles with an unsymmetric pattern, or an entry outside the analyzed pattern;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, no values; SL_ERR_PATTERN: malformed, or both
+ *           triangles with an unsymmetric pattern; SL_ERR_OTHER_PATTERN: another size, or an entry
+ *           outside the analyzed pattern; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + entries of S and of K); temporary memory from the allocator of S.
  *  Threads  reads S; any number with different arrays.
  *  Example  tests/core/test_matrix_sum.c
@@ -90,8 +90,8 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_scatter(const sl_symbolic *S, double
  *  stats         [out]  error and factor: those of the failed factor, else of the last one; seconds
  *                       and bytes are sums over all factors. May be NULL.
  *  Returns  SL_OK, or the status of the first factor that failed: as sl_factor_create, but never
- *           SL_ERR_PATTERN. SL_ERR_NOT_FINITE: a coefficient (error.value, no row) or a sum, at
- *           error.row >= error.column.
+ *           SL_ERR_PATTERN or SL_ERR_OTHER_PATTERN. SL_ERR_NOT_FINITE: a coefficient (error.value,
+ *           no row) or a sum, at error.row >= error.column.
  *  Cost     that of the factors, distributed; the terms are read once for each, in order.
  *  Threads  as sl_factor_create; only the calling thread allocates.
  *  Example  tests/core/test_combination.c, test_batch_factor.c
@@ -111,9 +111,9 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, c
  *                      own use these, one after the other.
  *  coefficients, values, terms, failed, stats  as in sl_batch_factor.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also if a factor is NULL or given twice; SL_ERR_STATE: factors
- *           of several analyses, or a mapped one; SL_ERR_MEMORY and SL_ERR_TOO_LARGE: only with
- *           the first refactorization of a loaded factor. After these no factor has changed. Else
- *           the status of the first factor that failed.
+ *           of several analyses; SL_ERR_READ_ONLY: a mapped one; SL_ERR_MEMORY and
+ *           SL_ERR_TOO_LARGE: only with the first refactorization of a loaded factor. After these
+ *           no factor has changed. Else the status of the first factor that failed.
  *  Threads  exclusive use of the factors.
  *  Example  tests/core/test_combination.c, test_batch_factor.c
  */

@@ -4,15 +4,15 @@
 
 #include "types.h"
 
-/** Where an error is. Every call resets it. Row and column numbers are the caller's. */
+/** Why a call has failed, and where. Every call resets it. Row and column numbers are the caller's.
+ */
 typedef struct sl_error {
     sl_int row;    /* -1: does not apply */
     sl_int column; /* -1: does not apply */
     sl_off line;   /* of a file, 1-based; -1: does not apply */
-    double value;  /* the pivot or entry that was refused; 0 if none */
-    /* static text: the option that needs a pack which is not compiled in, what in a Matrix Market
-     * file is not supported, or what helps where a factorization was refused; NULL: does not apply
-     */
+    double value;  /* the pivot or entry that was refused; of SL_ERR_IO errno; 0 if none */
+    /* static text: the argument, the option or the reason, and what helps where a factorization was
+     * refused; NULL: no error */
     const char *what;
 } sl_error;
 
@@ -225,6 +225,21 @@ typedef struct sl_stats {
     /* new fields take this space, so that the size of the struct never changes; not written */
     sl_off reserved[13];
 } sl_stats;
+
+/** Writes an error as one sentence: the status, error.what, and the row, column, line and value as
+ *  far as they apply. "null pivot: the row is pinned twice (row 5)"
+ *
+ *  buffer  [out]  up to size bytes, with a terminating zero; NULL if size is 0.
+ *  status  [in]   what a call has returned.
+ *  stats   [in]   those of the call; NULL: its error is the last one of this thread. So also calls
+ *                 without stats have a text, until another call of the thread fails.
+ *  Returns  the length of the whole sentence without its zero, as snprintf does.
+ *  Threads  any number of calls at once. Without thread-local storage (SL_NO_THREAD_LOCAL, or a
+ *           compiler other than gcc, clang and MSVC) only stats have texts.
+ *  Manual   tools/docs/errors.md
+ *  Example  tests/core/test_errors.c
+ */
+SL_API size_t sl_error_text(char *buffer, size_t size, sl_status status, const sl_stats *stats);
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */
 SL_API size_t sl_stats_size(void);

@@ -14,8 +14,7 @@ typedef enum sl_status {
     SL_ERR_ARGUMENT,
     /* the allocator returned NULL */
     SL_ERR_MEMORY,
-    /* a malformed matrix, both triangles stored with different patterns, or not the analyzed
-     * pattern */
+    /* a malformed matrix, or both triangles stored with different patterns */
     SL_ERR_PATTERN,
     /* a null pivot: the matrix is singular or needs pivoting; stats name the row */
     SL_ERR_PIVOT,
@@ -29,17 +28,24 @@ typedef enum sl_status {
     SL_ERR_IO,
     /* METIS failed */
     SL_ERR_ORDERING,
-    /* a failed factor, a mapped one that would have to change, or objects that do not belong
-     * together */
+    /* objects that do not belong together, such as a plan and a factor of different analyses */
     SL_ERR_STATE,
     /* a singular system whose right-hand side has no solution */
     SL_ERR_INCONSISTENT,
     /* pivot growth beyond options.growth_limit (stats name a row), or a refinement that ended above
      * options.error_limit (its solution is written) */
-    SL_ERR_INACCURATE
+    SL_ERR_INACCURATE,
+    /* a matrix whose pattern is not the analyzed one: analyze it, or sl_symbolic_edit */
+    SL_ERR_OTHER_PATTERN,
+    /* a factor without numbers, as its last change failed; a selected inverse, a region or pins of
+     * older numbers of the factor: refactor them */
+    SL_ERR_STALE,
+    /* a mapped object that would have to change: load it instead */
+    SL_ERR_READ_ONLY
 } sl_status;
 
-/** A short description of a status; static storage. Any value is accepted. */
+/** A short description of a status; static storage. Any value is accepted. sl_error_text (stats.h)
+ *  says more. */
 SL_API const char *sl_status_string(sl_status status);
 
 /** View of a sparse matrix in compressed columns: column j has rows i[p[j]] .. i[p[j+1]-1].

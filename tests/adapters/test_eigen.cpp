@@ -312,7 +312,7 @@ void regions() {
     /* other numbers: refused until the region is updated; the plan keeps its region alive */
     Sparse twice = 2 * A;
     ours.factorize(twice);
-    CHECK(all_nan(ours.solve(plan, B)) && ours.status() == SL_ERR_STATE);
+    CHECK(all_nan(ours.solve(plan, B)) && ours.status() == SL_ERR_STALE);
     CHECK(ours.update(region) && close(ours.solve(plan, B), 0.5 * x, 1e-13));
     region = sl::LocalRegion();
     CHECK(close(ours.solve(plan, B), 0.5 * x, 1e-13));

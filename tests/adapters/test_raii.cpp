@@ -142,7 +142,7 @@ void regions() {
     CHECK(f.F.solve_local(full, {100}, {1.0}, {121}).ok() && P.solve(x, f.F, {1.0}).ok());
     CHECK(std::fabs(x[0] - full[0]) < 1e-14);
     CHECK(f.F.refactor(f.grid.view()).ok());
-    CHECK(fails(SL_ERR_STATE, -1, [&] { return P.solve(x, f.F, {1.0}); }));
+    CHECK(fails(SL_ERR_STALE, -1, [&] { return P.solve(x, f.F, {1.0}); }));
     CHECK(R.refactor(f.F).ok() && P.solve(x, f.F, {1.0}).ok());
 }
 
@@ -152,7 +152,7 @@ void bounds() {
     std::vector<double> x, plain, errors, again, scales;
     double eta = 0;
     CHECK(f.made && P.create(f.S, {100}, {121, 3, 100}).ok());
-    CHECK(fails(SL_ERR_STATE, -1, [&] { return P.solve_bounded(x, errors, f.F, {1.0}, scales); }));
+    CHECK(fails(SL_ERR_STALE, -1, [&] { return P.solve_bounded(x, errors, f.F, {1.0}, scales); }));
     CHECK(f.F.certify(eta, f.grid.view()).ok() && eta > 0 && eta < 1e-12);
     CHECK(P.solve_bounded(x, errors, f.F, {1.0}, scales).ok() && errors.size() == 3);
     CHECK(P.solve(plain, f.F, {1.0}).ok() && plain == x);
@@ -262,7 +262,7 @@ void wrong_matrices() {
     grid.x[0] = NAN;
     CHECK(fails(SL_ERR_NOT_FINITE, 0, [&] { return F.refactor(A); }));
     std::vector<double> x, b(16, 1.0);
-    CHECK(fails(SL_ERR_STATE, -1, [&] { return F.solve(x, b); })); /* it has no numbers */
+    CHECK(fails(SL_ERR_STALE, -1, [&] { return F.solve(x, b); })); /* it has no numbers */
 }
 
 void no_rows() {

@@ -135,10 +135,10 @@ static void the_first_failure_is_reported_and_the_others_succeed(void **state) {
             assert_int_equal(failed, first);
             assert_int_equal(stats.error.row, first == at ? sl_symbolic_view(y.S).perm[0] : -1);
             for (int k = 0; k < MOST; k++) {
-                SL_EXPECT(k == at || k == later ? SL_ERR_STATE : SL_OK,
+                SL_EXPECT(k == at || k == later ? SL_ERR_STALE : SL_OK,
                           sl_inverse_diagonal(F[k], &x, &row, 1, NULL, NULL));
             }
-            SL_EXPECT(SL_ERR_STATE, sl_batch_diagonal(read_only(F), MOST, good, 1, &row, 1, NULL,
+            SL_EXPECT(SL_ERR_STALE, sl_batch_diagonal(read_only(F), MOST, good, 1, &row, 1, NULL,
                                                       NULL, &failed, NULL));
             assert_int_equal(failed, first);
             SL_CHECK(sl_batch_refactor(F, MOST, good, matrix_pair_values(&y), TERMS, &opt, &failed,

@@ -97,7 +97,7 @@ static void requests_with_invalid_factors_are_refused(void **state) {
     SL_EXPECT(SL_ERR_STATE, sl_batch_solve(F, r, 3, NULL, NULL, &failed));
     assert_int_equal(failed, 2);
     r[1].factor = bad;
-    SL_EXPECT(SL_ERR_STATE, sl_batch_solve(F, r, 3, NULL, NULL, &failed));
+    SL_EXPECT(SL_ERR_STALE, sl_batch_solve(F, r, 3, NULL, NULL, &failed));
     assert_int_equal(failed, 1);
     r[1].factor = NULL;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_solve(NULL, r, 3, NULL, NULL, &failed));

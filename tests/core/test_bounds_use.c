@@ -17,7 +17,7 @@ static void bounds_are_those_of_the_numbers(void **state) {
     sl_plan *P = NULL;
     sl_stats stats;
     SL_CHECK(sl_plan_create(&P, y.S, bset, 1, xset, 2, NULL, NULL));
-    SL_EXPECT(SL_ERR_STATE, solve_bounded(P, F, NULL));
+    SL_EXPECT(SL_ERR_STALE, solve_bounded(P, F, NULL));
     for (int certainty = SL_ESTIMATED; certainty <= SL_GUARANTEED; certainty++) {
         SL_CHECK(sl_factor_certify(F, &y.M.view, (sl_certainty)certainty, NULL, &stats));
         assert_true(stats.certificate.solves > 0);
@@ -28,13 +28,13 @@ static void bounds_are_those_of_the_numbers(void **state) {
         assert_true(stats.certificate.eta == eta);
         /* other numbers: the factor is not certified any more, even with the same values */
         SL_CHECK(sl_factor_refactor(F, &y.M.view, NULL));
-        SL_EXPECT(SL_ERR_STATE, solve_bounded(P, F, NULL));
+        SL_EXPECT(SL_ERR_STALE, solve_bounded(P, F, NULL));
         SL_CHECK(sl_factor_certify(F, &y.M.view, (sl_certainty)certainty, NULL, NULL));
         double w = 0.1;
         static const sl_int column[2] = {0, 1}, row[1] = {7};
         const sl_csc v = {100, 1, column, row, &w};
         SL_CHECK(sl_factor_update(F, &v, NULL, NULL, NULL));
-        SL_EXPECT(SL_ERR_STATE, solve_bounded(P, F, NULL));
+        SL_EXPECT(SL_ERR_STALE, solve_bounded(P, F, NULL));
         SL_CHECK(sl_factor_refactor(F, &y.M.view, NULL));
     }
     sl_plan_free(P);
@@ -55,7 +55,7 @@ static void other_values_are_noticed(void **state) {
     }
     SL_EXPECT(SL_ERR_INACCURATE, sl_factor_certify(y.F, &y.M.view, SL_ESTIMATED, NULL, &stats));
     assert_true(stats.certificate.eta > 1.0);
-    SL_EXPECT(SL_ERR_STATE, solve_bounded(P, y.F, NULL));
+    SL_EXPECT(SL_ERR_STALE, solve_bounded(P, y.F, NULL));
     SL_EXPECT(SL_ERR_STATE, sl_factor_certify(y.F, &y.M.view, SL_GUARANTEED, NULL, NULL));
     y.M.x[0] = -1.0; /* not definite */
     SL_EXPECT(SL_ERR_INACCURATE, sl_factor_certify(y.F, &y.M.view, SL_ESTIMATED, NULL, NULL));
@@ -185,7 +185,7 @@ static void wrong_arguments(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_certify(NULL, &y.M.view, SL_ESTIMATED, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_certify(y.F, NULL, SL_ESTIMATED, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_certify(y.F, &y.M.view, SL_UNCERTIFIED, NULL, NULL));
-    SL_EXPECT(SL_ERR_PATTERN, sl_factor_certify(y.F, &other, SL_ESTIMATED, NULL, NULL));
+    SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_factor_certify(y.F, &other, SL_ESTIMATED, NULL, NULL));
     SL_CHECK(sl_factor_certify(y.F, &y.M.view, SL_ESTIMATED, NULL, NULL));
 #define BOUNDED(P, F, X, ldx, E, B, nrhs) \
     sl_plan_solve_bounded(P, F, X, ldx, E, B, 1, nrhs, NULL, NULL, NULL)
@@ -214,8 +214,8 @@ static void wrong_arguments(void **state) {
         y.M.x[k] = 0.0;
     }
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(y.F, &y.M.view, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_factor_certify(y.F, &y.M.view, SL_ESTIMATED, NULL, NULL));
-    SL_EXPECT(SL_ERR_STATE, solve_bounded(P, y.F, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_factor_certify(y.F, &y.M.view, SL_ESTIMATED, NULL, NULL));
+    SL_EXPECT(SL_ERR_STALE, solve_bounded(P, y.F, NULL));
     sl_plan_free(P);
     factored_free(&y);
     y = factored_make(GEN_NONE, 0, 1, 0, NULL);
@@ -293,7 +293,7 @@ static void saved_factors_keep_their_certificate(void **state) {
             SL_CHECK(call(&S, &F, from->bytes, from->size, SL_LOAD_VERIFIED, NULL));
             SL_CHECK(sl_plan_create(&P, S, bset, 1, xset, 2, NULL, NULL));
             if (is_plain) {
-                SL_EXPECT(SL_ERR_STATE, solve_bounded(P, F, NULL));
+                SL_EXPECT(SL_ERR_STALE, solve_bounded(P, F, NULL));
             } else {
                 SL_CHECK(solve_bounded(P, F, &stats));
                 assert_int_equal(stats.certificate.certainty, SL_GUARANTEED);
@@ -402,7 +402,7 @@ static void memory_may_run_out(void **state) {
                           sl_plan_solve_bounded(P, y.F, x, 2, bounds, &b, 1, 1, NULL, NULL, NULL));
                 counter.fail_at = -1;
             }
-            SL_EXPECT(status == SL_OK ? SL_OK : SL_ERR_STATE, solve_bounded(P, y.F, NULL));
+            SL_EXPECT(status == SL_OK ? SL_OK : SL_ERR_STALE, solve_bounded(P, y.F, NULL));
             sl_plan_free(P);
             factored_free(&y);
             COUNTER_CLEAN(&counter);

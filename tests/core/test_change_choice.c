@@ -170,7 +170,7 @@ static void patterns_are_checked_where_they_are_read(void **state) {
                 grid_add(&g, k, k, 0.5);
             }
         } else {
-            assert_int_equal(status, SL_ERR_PATTERN);
+            assert_int_equal(status, SL_ERR_OTHER_PATTERN);
         }
         assert_is_factor_of(&g);
         free(wrong);
@@ -299,7 +299,7 @@ static void invalid_arguments_and_failing_allocations(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change(g.F, &g.M.view, &bad, &bad, &one, 1, NULL, NULL));
     other = g.M.view;
     other.n_cols = 9;
-    SL_EXPECT(SL_ERR_PATTERN, sl_factor_change(g.F, &other, &bad, &bad, &one, 0, NULL, NULL));
+    SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_factor_change(g.F, &other, &bad, &bad, &one, 0, NULL, NULL));
     list_edge(l, &g, 41, 42, 0.5);
     sl_status status = SL_ERR_MEMORY;
     for (int k = 0; status != SL_OK; k++) {

@@ -174,8 +174,9 @@ static void a_lost_matrix_is_not_solved(void **state) {
     sl_int *i = test_ints((size_t)other.p[N]);
     other.i = i;
     SL_CHECK(sl_factor_change(s.F, &other, rows, rows, &up, 1, NULL, NULL));
-    SL_EXPECT(SL_ERR_PATTERN, sl_factor_change(s.F, &other, rows, rows, &down, 1, NULL, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_factor_solve(s.F, x, N, b, N, 1, NULL));
+    SL_EXPECT(SL_ERR_OTHER_PATTERN,
+              sl_factor_change(s.F, &other, rows, rows, &down, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_factor_solve(s.F, x, N, b, N, 1, NULL));
     SL_CHECK(sl_factor_refactor(s.F, &s.y.M.view, NULL));
     free(i);
     subject_free(&s);

@@ -164,7 +164,7 @@ static void growth_beyond_the_limit_is_refused(void **state) {
     t.x[0] += delta;
     SL_EXPECT(SL_ERR_INACCURATE,
               sl_factor_change(t.F, &t.A, &row, &row, &delta, 1, NULL, &stats));
-    SL_EXPECT(SL_ERR_STATE, sl_factor_solve(t.F, out, 2, b, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_factor_solve(t.F, out, 2, b, 2, 1, NULL));
     t.x[0] = 1.0;
     SL_CHECK(sl_factor_refactor(t.F, &t.A, NULL));
     SL_CHECK(sl_factor_solve(t.F, out, 2, b, 2, 1, NULL));

@@ -169,7 +169,7 @@ static void values_that_are_not_finite_are_refused(void **state) {
                 assert_true(stats.factor.positive >= 0 && stats.factor.positive < y.n);
                 assert_null(G);
             }
-            SL_EXPECT(SL_ERR_STATE, sl_inverse_diagonal(F, &x, &at, 1, NULL, NULL));
+            SL_EXPECT(SL_ERR_STALE, sl_inverse_diagonal(F, &x, &at, 1, NULL, NULL));
             assert_true(x == 1);
             set_entry(&y, 0, 14, 14, 9);
             set_entry(&y, 1, 14, 14, 9);

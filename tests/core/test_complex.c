@@ -153,7 +153,7 @@ static void new_values_in_the_same_pattern(void **state) {
     memcpy(before, y.A.x, (size_t)nnz * sizeof *before);
     /* another pattern: refused, and M stays */
     d->i[4] = d->i[4] + 1;
-    SL_EXPECT(SL_ERR_PATTERN, sl_matrix_refill_hermitian(y.M, &d->H, &stats));
+    SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_matrix_refill_hermitian(y.M, &d->H, &stats));
     assert_true(stats.error.column >= 0);
     d->i[4] = d->i[4] - 1;
     d->H.n = N - 1;

@@ -45,7 +45,7 @@ static void other_patterns_do_not_refill(void **state) {
     assert_true(A.p[2 * N] <= 20);
     memcpy(before, A.x, (size_t)A.p[2 * N] * sizeof *before);
     for (int k = 0; k < 6; k++) {
-        SL_EXPECT(SL_ERR_PATTERN, sl_matrix_refill_hermitian(M, &others[k], &stats));
+        SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_matrix_refill_hermitian(M, &others[k], &stats));
         assert_memory_equal(before, A.x, (size_t)A.p[2 * N] * sizeof *before);
     }
     sl_matrix_free(M);
@@ -53,7 +53,7 @@ static void other_patterns_do_not_refill(void **state) {
     /* as many columns, and other rows */
     const sl_int i[1] = {0}, j[1] = {0};
     SL_CHECK(sl_matrix_from_triplets(&M, 5, 2 * N, 1, i, j, x, NULL, NULL));
-    SL_EXPECT(SL_ERR_PATTERN, sl_matrix_refill_hermitian(M, &hermitian, NULL));
+    SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_matrix_refill_hermitian(M, &hermitian, NULL));
     sl_matrix_free(M);
 
     sl_hermitian H = hermitian;

@@ -162,7 +162,7 @@ static void values_that_are_not_finite(void **state) {
         SL_EXPECT(SL_ERR_NOT_FINITE, sl_dirichlet_refactor(D, &A, &stats));
         assert_int_equal(stats.error.row, row);
         assert_int_equal(stats.error.column, column);
-        SL_EXPECT(is_row_fixed || is_column_fixed ? SL_OK : SL_ERR_STATE,
+        SL_EXPECT(is_row_fixed || is_column_fixed ? SL_OK : SL_ERR_STALE,
                   sl_dirichlet_solve(D, out, 6, NULL, 0, g, 3, 1, NULL));
         sl_dirichlet_free(D);
     }
@@ -203,12 +203,12 @@ static void refactoring_equals_creating(void **state) {
         SL_EXPECT(SL_ERR_PIVOT, sl_dirichlet_refactor(D, &other, &stats));
         assert_int_equal(rows[0] == stats.error.row, 0);
         SL_EXPECT(SL_ERR_PIVOT, sl_dirichlet_refactor(D, &other, NULL));
-        SL_EXPECT(SL_ERR_STATE, sl_dirichlet_solve(D, got, 100, b, 100, g, 100, 1, NULL));
+        SL_EXPECT(SL_ERR_STALE, sl_dirichlet_solve(D, got, 100, b, 100, g, 100, 1, NULL));
         SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_refactor(NULL, &other, NULL));
         SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_refactor(D, NULL, NULL));
         other.x = NULL;
         SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_refactor(D, &other, NULL));
-        SL_EXPECT(SL_ERR_PATTERN, sl_dirichlet_refactor(D, &two_paths, NULL));
+        SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_dirichlet_refactor(D, &two_paths, NULL));
         SL_CHECK(sl_dirichlet_refactor(D, &y.M.view, NULL));
         SL_CHECK(sl_dirichlet_solve(D, got, 100, b, 100, g, 100, 1, NULL));
         sl_dirichlet_free(D);
@@ -227,9 +227,9 @@ static void another_pattern_is_refused(void **state) {
     sl_dirichlet *D = NULL;
     SL_CHECK(sl_dirichlet_create(&D, &A, rows, 2, NULL, NULL, NULL));
     A.i = i;
-    SL_EXPECT(SL_ERR_PATTERN, sl_dirichlet_refactor(D, &A, NULL));
+    SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_dirichlet_refactor(D, &A, NULL));
     A.n_rows = 7;
-    SL_EXPECT(SL_ERR_PATTERN, sl_dirichlet_refactor(D, &A, NULL));
+    SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_dirichlet_refactor(D, &A, NULL));
     sl_dirichlet_free(D);
 }
 

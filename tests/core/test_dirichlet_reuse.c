@@ -172,8 +172,8 @@ static void pins_follow_their_factor(void **state) {
     SL_EXPECT(SL_ERR_PIVOT, sl_dirichlet_refactor(D, &other, NULL)); /* all 0 */
     SL_CHECK(sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, &g, 1, 1, NULL));
     SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, &g, 1, 1, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_dirichlet_solve(D, X, SL_ROWS(1), NULL, 0, &g, SL_ROWS(1), 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, &g, 1, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_dirichlet_solve(D, X, SL_ROWS(1), NULL, 0, &g, SL_ROWS(1), 1, NULL));
     SL_CHECK(sl_dirichlet_refactor(D, &y.M.view, &stats));
     assert_int_equal(stats.dirichlet.method, SL_DIRICHLET_SUBMATRIX);
     dirichlet_check_all(D, &y.M.view, &row, 1);

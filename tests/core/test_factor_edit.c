@@ -273,7 +273,7 @@ static void other_factors_are_made_anew(void **state) {
     assert_int_equal(stats.reuse.is_anew, 1);
     assert_same_bits(y.F, H);
     sl_factor_free(H);
-    assert_int_equal(sl_factor_edit(&H, y.F, T, &y.A.view, map, NULL, NULL), SL_ERR_PATTERN);
+    assert_int_equal(sl_factor_edit(&H, y.F, T, &y.A.view, map, NULL, NULL), SL_ERR_OTHER_PATTERN);
     sl_factor_free(G);
     sl_symbolic_free(T);
     free(map);
@@ -401,7 +401,7 @@ static void failures_are_those_of_a_new_factor(void **state) {
     sl_factor *G = (sl_factor *)(void *)map;
     y.A.x[0] = (double)NAN;
     assert_int_equal(sl_factor_refactor(y.F, &y.A.view, NULL), SL_ERR_NOT_FINITE);
-    assert_int_equal(sl_factor_edit(&G, y.F, y.S, &y.A.view, map, NULL, NULL), SL_ERR_STATE);
+    assert_int_equal(sl_factor_edit(&G, y.F, y.S, &y.A.view, map, NULL, NULL), SL_ERR_STALE);
     assert_null(G);
     free(map);
     followed_free(&y);

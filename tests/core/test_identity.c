@@ -98,10 +98,10 @@ static void a_selected_inverse_of_a_released_factor(void **state) {
         B.x = x;
         SL_CHECK(sl_factor_create(&G, S, &B, &opt, NULL));
         assert_true((uintptr_t)G == old);
-        SL_EXPECT(SL_ERR_STATE, sl_region_create(&R, G, set, 6, Z, &opt, NULL));
+        SL_EXPECT(SL_ERR_STALE, sl_region_create(&R, G, set, 6, Z, &opt, NULL));
         assert_null(R);
         SL_CHECK(sl_region_create(&R, G, set, 6, NULL, &opt, NULL));
-        SL_EXPECT(SL_ERR_STATE, sl_region_refactor(R, G, Z, NULL));
+        SL_EXPECT(SL_ERR_STALE, sl_region_refactor(R, G, Z, NULL));
         SL_CHECK(sl_selected_refactor(Z, G, NULL));
         SL_CHECK(sl_region_refactor(R, G, Z, NULL));
         sl_region_free(R);
@@ -127,7 +127,7 @@ static void a_region_of_a_released_factor(void **state) {
         sl_factor *F = NULL;
         sl_region *R = NULL;
         sl_plan *P = NULL;
-        const sl_status expected = way < CHANGES ? SL_ERR_STATE : SL_OK;
+        const sl_status expected = way < CHANGES ? SL_ERR_STALE : SL_OK;
         SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
         SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
         SL_CHECK(sl_region_create(&R, F, set, 6, NULL, &opt, NULL));
@@ -262,7 +262,7 @@ static void sums_and_changed_columns(void **state) {
             if (turn == 0) {
                 SL_CHECK(sl_selected_create(&Z, F, NULL, 0, &opt, NULL));
             } else {
-                SL_EXPECT(SL_ERR_STATE, sl_region_create(&R, F, set, 6, Z, &opt, NULL));
+                SL_EXPECT(SL_ERR_STALE, sl_region_create(&R, F, set, 6, Z, &opt, NULL));
             }
             sl_factor_free(F);
         }

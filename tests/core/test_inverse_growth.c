@@ -205,9 +205,9 @@ static void a_refused_region_takes_other_numbers_later(void **state) {
     set_of.factor = good.F;
     set_of.regions = &R;
     set_of.n_regions = 1;
-    SL_EXPECT(SL_ERR_STATE, sl_save_bytes(&bytes, &set_of));
-    SL_EXPECT(SL_ERR_STATE, sl_plan_solve(P, bad, after, (size_t)count, b, (size_t)count, 1, NULL));
-    SL_EXPECT(SL_ERR_STATE,
+    SL_EXPECT(SL_ERR_STALE, sl_save_bytes(&bytes, &set_of));
+    SL_EXPECT(SL_ERR_STALE, sl_plan_solve(P, bad, after, (size_t)count, b, (size_t)count, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE,
               sl_plan_solve(P, good.F, after, (size_t)count, b, (size_t)count, 1, NULL));
     SL_CHECK(sl_region_refactor(R, good.F, NULL, NULL));
     SL_CHECK(sl_plan_solve(P, good.F, after, (size_t)count, b, (size_t)count, 1, NULL));

@@ -232,10 +232,10 @@ static void invalid_arguments_are_refused(void **state) {
     y.M.x[0] = NAN;
     SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(y.F, &y.M.view, NULL));
     out[0] = 4321.5;
-    SL_EXPECT(SL_ERR_STATE, sl_inverse_diagonal(y.F, out, good, 3, NULL, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_inverse_pairs(y.F, out, good, good, 3, NULL, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_inverse_block(y.F, out, 3, good, 3, good, 3, NULL, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_inverse_bilinear(y.F, out, good, one, 3, good, one, 3, NULL, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_inverse_diagonal(y.F, out, good, 3, NULL, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_inverse_pairs(y.F, out, good, good, 3, NULL, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_inverse_block(y.F, out, 3, good, 3, good, 3, NULL, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_inverse_bilinear(y.F, out, good, one, 3, good, one, 3, NULL, NULL));
     assert_true(out[0] == 4321.5);
 #undef REFUSED
     factored_free(&y);

@@ -377,7 +377,7 @@ static void every_way_judges_alike(void **state) {
         }
     }
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor_changed(F, &A.view, same, n, &stats));
-    SL_EXPECT(SL_ERR_STATE, sl_factor_refactor_changed(F, &A.view, column, 1, &stats));
+    SL_EXPECT(SL_ERR_STALE, sl_factor_refactor_changed(F, &A.view, column, 1, &stats));
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(F, &A.view, &stats));
     sl_factor_free(F);
     sl_symbolic_free(S);

@@ -208,7 +208,7 @@ static void definite_matrices_keep_their_bits_and_nan_fails(void **state) {
                   sl_factor_pivot_rows(F, (sl_pivot_kind)-1, one, NULL, 1, &count));
         y.M.x[5] = NAN;
         SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(F, &y.M.view, NULL));
-        SL_EXPECT(SL_ERR_STATE, sl_factor_pivot_rows(F, SL_PIVOT_NULL, one, NULL, 1, &count));
+        SL_EXPECT(SL_ERR_STALE, sl_factor_pivot_rows(F, SL_PIVOT_NULL, one, NULL, 1, &count));
         sl_factor_free(F);
         opt.null_pivots = (sl_null_pivots)2;
         SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, y.S, &y.M.view, FOR_FACTOR(&opt), NULL));

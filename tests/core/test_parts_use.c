@@ -53,8 +53,8 @@ static void wrong_arguments_are_refused(void **state) {
 
     y.M.x[0] = NAN; /* a failed factor */
     SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(y.F, &y.M.view, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_factor_solve_part(y.F, L, X, 25, B, 25, 1, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_plan_solve_part(plan, y.F, P | L, X, 25, B, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_factor_solve_part(y.F, L, X, 25, B, 25, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_plan_solve_part(plan, y.F, P | L, X, 25, B, 2, 1, NULL));
     sl_plan_free(plan);
     factored_free(&y);
     factored_free(&k);

@@ -203,8 +203,8 @@ static void a_changed_factor_is_refused_until_the_refactorization(void **state) 
     pin(&p, 21);
     SL_CHECK(sl_factor_update_entries(p.y.F, &i, &i, &two, 1, NULL, NULL));
     p.dense[(size_t)i * (n + 1)] += two;
-    SL_EXPECT(SL_ERR_STATE, sl_pins_solve(p.P, NULL, x, n, x, n, g, 3, 1, NULL));
-    SL_EXPECT(SL_ERR_STATE, pin_row(p.P, 4, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_pins_solve(p.P, NULL, x, n, x, n, g, 3, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, pin_row(p.P, 4, NULL));
     SL_CHECK(sl_pins_refactor(p.P, NULL, NULL));
     assert_pinned(&p, 3);
     free(x);
@@ -294,7 +294,7 @@ static void failing_allocations_leave_the_pins(void **state) {
     counter.fail_at = (int64_t)counter.calls;
     SL_EXPECT(SL_ERR_MEMORY, sl_pins_refactor(P, NULL, NULL));
     counter.fail_at = -1;
-    SL_EXPECT(SL_ERR_STATE, sl_pins_solve(P, NULL, x, 60, b, 60, g, PINS, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_pins_solve(P, NULL, x, 60, b, 60, g, PINS, 1, NULL));
     SL_CHECK(sl_pins_refactor(P, NULL, NULL));
     SL_CHECK(sl_pins_solve(P, NULL, x, 60, b, 60, g, PINS, 1, NULL));
     for (sl_int k = 0; k < PINS; k++) {

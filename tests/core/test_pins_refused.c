@@ -22,7 +22,7 @@ static void failing_allocations_refuse_solves(void **state) {
     assert_int_equal(stats.pins.eliminated, 48);
     SL_CHECK(sl_factor_refactor(p.y.F, &p.y.M.view, NULL));
     for (int m = 0; status != SL_OK; m++) {
-        SL_EXPECT(SL_ERR_STATE, sl_pins_solve(p.P, NULL, x, 100, x, 100, x, 100, 1, NULL));
+        SL_EXPECT(SL_ERR_STALE, sl_pins_solve(p.P, NULL, x, 100, x, 100, x, 100, 1, NULL));
         counter.fail_at = (int64_t)counter.calls + m;
         status = sl_pins_refactor(p.P, &p.y.M.view, &stats);
         assert_true(status == SL_ERR_MEMORY || (status == SL_OK && m > 5));

@@ -127,7 +127,7 @@ static void only_the_reach_is_read(void **state) {
     assert_int_equal(stats.error.row, y.M.i[y.M.p[other]]);
     assert_int_equal(stats.error.column, other);
     /* after a failure only a full refactor is accepted */
-    SL_EXPECT(SL_ERR_STATE, sl_factor_refactor_changed(y.F, &y.M.view, &column, 1, &stats));
+    SL_EXPECT(SL_ERR_STALE, sl_factor_refactor_changed(y.F, &y.M.view, &column, 1, &stats));
     y.M.x[y.M.p[other]] = keep;
     SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
     SL_CHECK(sl_factor_refactor_changed(y.F, &y.M.view, &column, 1, &stats));
@@ -184,7 +184,7 @@ static void invalid_arguments_are_refused(void **state) {
     assert_int_equal(stats.error.row, -1);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_changed(y.F, &y.M.view, above, 2, &stats));
     assert_int_equal(stats.error.row, 100);
-    SL_EXPECT(SL_ERR_PATTERN, sl_factor_refactor_changed(y.F, &other.view, fine, 2, NULL));
+    SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_factor_refactor_changed(y.F, &other.view, fine, 2, NULL));
     for (int k = 0; k < 2; k++) { /* both allocations */
         counter.fail_at = (int64_t)counter.calls + k;
         SL_EXPECT(SL_ERR_MEMORY, sl_factor_refactor_changed(y.F, &y.M.view, fine, 2, NULL));

@@ -65,22 +65,22 @@ static sl_status wrong_matrix(int which, const sl_csc *A, sl_csc *bad, sl_int *p
     switch (which) {
     case 0: /* other n */
         bad->n_rows = bad->n_cols = N - 1;
-        return SL_ERR_PATTERN;
+        return SL_ERR_OTHER_PATTERN;
     case 1: /* other number of entries */
         p[N]--;
-        return SL_ERR_PATTERN;
+        return SL_ERR_OTHER_PATTERN;
     case 2: /* another row in one place */
         while (p[j + 1] - p[j] < 2 || i[p[j + 1] - 1] == N - 1) {
             j++;
         }
         i[p[j + 1] - 1]++;
-        return SL_ERR_PATTERN;
+        return SL_ERR_OTHER_PATTERN;
     case 3: /* the same entries, other columns */
         while (p[j + 1] - p[j] < 2) {
             j++;
         }
         p[j + 1]--;
-        return SL_ERR_PATTERN;
+        return SL_ERR_OTHER_PATTERN;
     case 4: /* the columns do not begin at 0 */
         p[0] = 1;
         return SL_ERR_PATTERN;
@@ -145,12 +145,12 @@ static void a_region_stays_valid(void **state) {
     opt.region = R;
     SL_CHECK(sl_plan_create(&P, y.S, set, 4, set, 4, &opt, NULL));
     SL_CHECK(sl_plan_solve(P, y.F, first, 4, b, 4, 1, NULL));
-    SL_EXPECT(SL_ERR_PATTERN, sl_factor_refactor(y.F, &other.view, NULL));
+    SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_factor_refactor(y.F, &other.view, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(&y.F, 1, NULL, NULL, 1, NULL, NULL, NULL));
     SL_CHECK(sl_plan_solve(P, y.F, second, 4, b, 4, 1, NULL));
     SAME_VALUES(first, second, 4);
     SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL)); /* new numbers, even if they are equal */
-    SL_EXPECT(SL_ERR_STATE, sl_plan_solve(P, y.F, second, 4, b, 4, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_plan_solve(P, y.F, second, 4, b, 4, 1, NULL));
     sl_plan_free(P);
     sl_region_free(R);
     gen_matrix_free(&other);
@@ -176,14 +176,15 @@ static void a_numeric_failure_leaves_no_factor(void **state) {
         Z.x = zeros;
         bad.x = poison;
         SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(y.F, &Z, NULL));
-        solve(y.F, SL_ERR_STATE, x);
-        SL_EXPECT(SL_ERR_PATTERN, sl_factor_refactor(y.F, &other.view, NULL)); /* still none */
-        solve(y.F, SL_ERR_STATE, x);
+        solve(y.F, SL_ERR_STALE, x);
+        SL_EXPECT(SL_ERR_OTHER_PATTERN,
+                  sl_factor_refactor(y.F, &other.view, NULL)); /* still none */
+        solve(y.F, SL_ERR_STALE, x);
         SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
         solve(y.F, SL_OK, x);
         SAME_VALUES(x, before.x, N);
         SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(y.F, &bad, NULL));
-        solve(y.F, SL_ERR_STATE, x);
+        solve(y.F, SL_ERR_STALE, x);
         gen_matrix_free(&other);
         snapshot_free(&before);
         free(zeros);
@@ -218,7 +219,7 @@ static void weights_that_fit_no_more(void **state) {
         SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(F, &A, &stats));
         assert_in_range(stats.error.row, 0, 1);
         assert_int_equal(stats.factor.null, 1);
-        SL_EXPECT(SL_ERR_STATE, sl_factor_solve(F, x, 2, b, 2, 1, NULL));
+        SL_EXPECT(SL_ERR_STALE, sl_factor_solve(F, x, 2, b, 2, 1, NULL));
         sl_factor_free(F);
         sl_symbolic_free(S);
     }
@@ -259,10 +260,10 @@ static void a_wrong_combination_changes_nothing(void **state) {
                   sl_batch_refactor(F, 2, poison, good, TERMS, NULL, &failed, NULL));
         assert_int_equal(failed, 1);
         solve(F[0], SL_OK, x);
-        solve(F[1], SL_ERR_STATE, x);
+        solve(F[1], SL_ERR_STALE, x);
         SL_EXPECT(SL_ERR_NOT_FINITE,
                   sl_batch_refactor(&F[0], 1, poison + TERMS, good, TERMS, NULL, NULL, NULL));
-        solve(F[0], SL_ERR_STATE, x);
+        solve(F[0], SL_ERR_STALE, x);
         free(values);
         snapshot_free(&before);
         snapshot_free(&other);

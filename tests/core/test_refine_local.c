@@ -238,7 +238,7 @@ static void a_plan_must_hold_the_regularized_rows(void **state) {
         factored_free(&y);
         f->y.M.x[0] = NAN;
         SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(f->F, &f->y.M.view, NULL));
-        SL_EXPECT(SL_ERR_STATE,
+        SL_EXPECT(SL_ERR_STALE,
                   sl_plan_solve_refined(f->P, f->F, x, N, f->B, (size_t)f->nb, 1, 5, NULL, NULL));
         fixture_free(f);
     }

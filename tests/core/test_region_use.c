@@ -78,9 +78,9 @@ static void stale_values_are_refused(void **state) {
             break;
         case 2:
             SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(f->y.F, &bad, NULL));
-            SL_EXPECT(SL_ERR_STATE, fixture_solve(f, f->y.F));
-            SL_EXPECT(SL_ERR_STATE, sl_region_refactor(f->R, f->y.F, NULL, NULL));
-            SL_EXPECT(SL_ERR_STATE,
+            SL_EXPECT(SL_ERR_STALE, fixture_solve(f, f->y.F));
+            SL_EXPECT(SL_ERR_STALE, sl_region_refactor(f->R, f->y.F, NULL, NULL));
+            SL_EXPECT(SL_ERR_STALE,
                       sl_region_create(&none, f->y.F, f->set, COUNT, NULL, NULL, NULL));
             assert_null(none);
             SL_CHECK(sl_factor_refactor(f->y.F, &A, NULL));
@@ -90,16 +90,16 @@ static void stale_values_are_refused(void **state) {
             SL_CHECK(sl_factor_refactor(f->y.F, &A, NULL));
         }
         memset(f->X, 0, sizeof f->X);
-        SL_EXPECT(SL_ERR_STATE, fixture_solve(f, f->y.F));
-        SL_EXPECT(SL_ERR_STATE,
+        SL_EXPECT(SL_ERR_STALE, fixture_solve(f, f->y.F));
+        SL_EXPECT(SL_ERR_STALE,
                   sl_plan_solve(f->P, f->y.F, f->X, SL_ROWS(3), f->B, SL_ROWS(3), 3, NULL));
-        SL_EXPECT(SL_ERR_STATE, sl_batch_solve(f->y.F, &request, 1, NULL, NULL, &failed));
+        SL_EXPECT(SL_ERR_STALE, sl_batch_solve(f->y.F, &request, 1, NULL, NULL, &failed));
         assert_int_equal(failed, 0);
         assert_true(f->X[0] == 0.0);
         /* Z holds old values too */
-        SL_EXPECT(SL_ERR_STATE, sl_region_refactor(f->R, f->y.F, Z, NULL));
+        SL_EXPECT(SL_ERR_STALE, sl_region_refactor(f->R, f->y.F, Z, NULL));
         none = f->R;
-        SL_EXPECT(SL_ERR_STATE, sl_region_create(&none, f->y.F, f->set, 1, Z, NULL, NULL));
+        SL_EXPECT(SL_ERR_STALE, sl_region_create(&none, f->y.F, f->set, 1, Z, NULL, NULL));
         assert_null(none);
         SL_CHECK(sl_selected_refactor(Z, f->y.F, NULL));
         SL_CHECK(sl_region_refactor(f->R, f->y.F, how % 2 ? Z : NULL, NULL));
@@ -126,12 +126,12 @@ static void a_region_belongs_to_one_factor(void **state) {
     }
     A.x = values;
     SL_CHECK(sl_factor_create(&G, f->y.S, &A, NULL, NULL));
-    SL_EXPECT(SL_ERR_STATE, fixture_solve(f, G));
+    SL_EXPECT(SL_ERR_STALE, fixture_solve(f, G));
     SL_EXPECT(SL_ERR_STATE, fixture_solve(f, other.F)); /* another analysis */
     SL_EXPECT(SL_ERR_STATE, sl_region_refactor(f->R, other.F, NULL, NULL));
     assert_solution_matches(f, f->y.F); /* still valid */
     SL_CHECK(sl_region_refactor(f->R, G, NULL, NULL));
-    SL_EXPECT(SL_ERR_STATE, fixture_solve(f, f->y.F));
+    SL_EXPECT(SL_ERR_STALE, fixture_solve(f, f->y.F));
     assert_solution_matches(f, G);
     opt.region = f->R;
     SL_EXPECT(SL_ERR_STATE,

@@ -142,7 +142,7 @@ static void without_signs_all_pivots_become_positive(void **state) {
                       sl_factor_pivot_rows(F, SL_PIVOT_REGULARIZED, &row, NULL, 1, NULL));
             M.x[3] = NAN;
             SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(F, &M.view, &stats));
-            SL_EXPECT(SL_ERR_STATE,
+            SL_EXPECT(SL_ERR_STALE,
                       sl_factor_pivot_rows(F, SL_PIVOT_REGULARIZED, &row, NULL, 1, &count));
             sl_factor_free(F);
             sl_symbolic_free(S);

@@ -31,7 +31,7 @@ static void round_trip(const saved_case_t *c, saved_call_t call, sl_load_checks 
     saved_free(&again);
     sl_status status = sl_factor_refactor(F, &c->y.M.view, NULL);
     if (call == pair_map_memory) {
-        assert_int_equal(status, SL_ERR_STATE);
+        assert_int_equal(status, SL_ERR_READ_ONLY);
     } else {
         assert_int_equal(status, SL_OK);
         again = saved_make(S, F);

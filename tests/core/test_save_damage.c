@@ -284,7 +284,7 @@ static void later_versions_are_read_only_or_refused(void **state) {
         size_t size = 0;
         SL_CHECK(calls[call](&S, &F, k.bytes, k.size, SL_LOAD_VERIFIED, NULL));
         assert_same_answers(y.F, F);
-        SL_EXPECT(SL_ERR_STATE, sl_factor_refactor(F, &y.M.view, NULL));
+        SL_EXPECT(SL_ERR_READ_ONLY, sl_factor_refactor(F, &y.M.view, NULL));
         SL_EXPECT(SL_ERR_STATE,
                   pair_save_bytes(&size, S, F)); /* it would lose the unknown section */
         sl_factor_free(F);

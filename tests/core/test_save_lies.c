@@ -327,8 +327,8 @@ static void sets_of_later_versions_are_read_only(void **state) {
     saved_repair(m.bytes, m.size);
     SL_CHECK(sl_load_memory(&set, m.bytes, m.size, SL_LOAD_VERIFIED, NULL));
     assert_same_set(&q.set, &set);
-    SL_EXPECT(SL_ERR_STATE, sl_selected_refactor(set.selected, set.factor, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_region_refactor(set.regions[0], set.factor, NULL, NULL));
+    SL_EXPECT(SL_ERR_READ_ONLY, sl_selected_refactor(set.selected, set.factor, NULL));
+    SL_EXPECT(SL_ERR_READ_ONLY, sl_region_refactor(set.regions[0], set.factor, NULL, NULL));
     sl_saved_set_free(&set);
     saved_free(&m);
     set_case_free(&q);

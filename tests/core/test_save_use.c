@@ -111,10 +111,10 @@ static void a_mapped_factor_is_immutable(void **state) {
     const double *values = y.M.view.x;
     sl_int failed = 7;
     SL_CHECK(pair_map_memory(&S, &F, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_factor_refactor(F, &y.M.view, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_factor_refactor_changed(F, &y.M.view, &column, 1, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_factor_refactor_changed(F, &y.M.view, &column, 0, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_batch_refactor(&F, 1, &one, &values, 1, NULL, &failed, NULL));
+    SL_EXPECT(SL_ERR_READ_ONLY, sl_factor_refactor(F, &y.M.view, NULL));
+    SL_EXPECT(SL_ERR_READ_ONLY, sl_factor_refactor_changed(F, &y.M.view, &column, 1, NULL));
+    SL_EXPECT(SL_ERR_READ_ONLY, sl_factor_refactor_changed(F, &y.M.view, &column, 0, NULL));
+    SL_EXPECT(SL_ERR_READ_ONLY, sl_batch_refactor(&F, 1, &one, &values, 1, NULL, &failed, NULL));
     assert_int_equal(failed, 0);
     assert_same_answers(y.F, F);
     sl_factor_free(F);
@@ -291,7 +291,7 @@ static void wrong_arguments_are_refused(void **state) {
     sl_csc bad = y.M.view;
     bad.x = zeros;
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(y.F, &bad, NULL));
-    SL_EXPECT(SL_ERR_STATE, pair_save_bytes(&size, y.S, y.F)); /* a failed factor */
+    SL_EXPECT(SL_ERR_STALE, pair_save_bytes(&size, y.S, y.F)); /* a failed factor */
     assert_int_equal(size, 0);
     for (int k = 0; k < 2; k++) {
         sl_symbolic *S = y.S;

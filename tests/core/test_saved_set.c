@@ -12,7 +12,7 @@ static const set_call_t calls[2] = {sl_load_memory, sl_map_memory};
 /* The objects of a set follow refactorizations if they are copies, and refuse them if mapped. */
 static void refactor(const set_case_t *q, const sl_saved_set *got, const saved_t *m,
                      int is_mapped) {
-    const sl_status expected = is_mapped ? SL_ERR_STATE : SL_OK;
+    const sl_status expected = is_mapped ? SL_ERR_READ_ONLY : SL_OK;
     sl_factor *F = got->factor;
     SL_EXPECT(expected, sl_factor_refactor(F, &q->c.y.M.view, NULL));
     if (got->selected != NULL) {
@@ -25,7 +25,7 @@ static void refactor(const set_case_t *q, const sl_saved_set *got, const saved_t
         const sl_selected *Z = k == 2 ? got->selected : NULL; /* as it was made */
         if (!is_mapped) { /* the factor has other numbers now, if the same ones */
             size_t bytes = 0;
-            SL_EXPECT(SL_ERR_STATE, sl_save_bytes(&bytes, got));
+            SL_EXPECT(SL_ERR_STALE, sl_save_bytes(&bytes, got));
         }
         SL_EXPECT(expected, sl_region_refactor(got->regions[k], F, Z, NULL));
     }
@@ -73,7 +73,7 @@ static void read_as_pair(const set_case_t *q, const saved_t *m) {
         assert_same_analysis(S, got.symbolic);
         sl_saved_set_free(&got);
         assert_int_equal(got.wanted, SL_SAVED_ALL);
-        SL_EXPECT(k == 0 ? SL_OK : SL_ERR_STATE, sl_factor_refactor(F, &q->c.y.M.view, NULL));
+        SL_EXPECT(k == 0 ? SL_OK : SL_ERR_READ_ONLY, sl_factor_refactor(F, &q->c.y.M.view, NULL));
         sl_factor_free(F);
         sl_symbolic_free(S);
         SL_CHECK(calls[k](&got, plain.bytes, plain.size, SL_LOAD_CHECKED, NULL));
@@ -141,10 +141,11 @@ static void a_selected_inverse_is_saved_without_its_factor(void **state) {
             assert_memory_equal(again.bytes, m.bytes, m.size);
             saved_free(&again);
             SL_CHECK(sl_factor_create(&F, got.symbolic, &q.c.y.M.view, &q.c.opt, NULL));
-            SL_EXPECT(SL_ERR_STATE, sl_region_create(&R, F, &row, 1, got.selected, NULL, NULL));
-            SL_EXPECT(k == 0 ? SL_OK : SL_ERR_STATE, sl_selected_refactor(got.selected, F, NULL));
+            SL_EXPECT(SL_ERR_STALE, sl_region_create(&R, F, &row, 1, got.selected, NULL, NULL));
+            SL_EXPECT(k == 0 ? SL_OK : SL_ERR_READ_ONLY,
+                      sl_selected_refactor(got.selected, F, NULL));
             assert_same_selected(q.set.selected, got.selected);
-            SL_EXPECT(k == 0 ? SL_OK : SL_ERR_STATE,
+            SL_EXPECT(k == 0 ? SL_OK : SL_ERR_STALE,
                       sl_region_create(&R, F, &row, 1, got.selected, NULL, NULL));
             sl_region_free(R);
             sl_factor_free(F);
@@ -281,7 +282,7 @@ static void what_does_not_belong_together_is_refused(void **state) {
     assert_int_equal(size, 7);
     /* the numbers of the factor change, those of the others do not */
     SL_CHECK(sl_factor_refactor(q.c.y.F, &q.c.y.M.view, NULL));
-    REFUSED(SL_ERR_STATE, set_of(&q));
+    REFUSED(SL_ERR_STALE, set_of(&q));
     for (int k = 0; k < 2; k++) {
         SL_EXPECT(SL_ERR_ARGUMENT, calls[k](NULL, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
         memset(&got, 0xA5, sizeof got);

@@ -11,16 +11,16 @@ static void every_use_is_refused(const sl_factor *F, const sl_symbolic *S) {
     sl_matrix *L = NULL;
     sl_selected *Z = NULL;
     sl_region *R = NULL;
-    SL_EXPECT(SL_ERR_STATE, sl_factor_solve(F, x, N, b, N, 1, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_factor_solve_part(F, SL_PART_P | SL_PART_L, x, N, b, N, 1, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_factor_logdet(F, &log_abs, &sign));
-    SL_EXPECT(SL_ERR_STATE, sl_factor_lower(&L, F, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_inverse_diagonal(F, x, set, 2, NULL, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_selected_create(&Z, F, NULL, 0, NULL, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_region_create(&R, F, set, 2, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_factor_solve(F, x, N, b, N, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_factor_solve_part(F, SL_PART_P | SL_PART_L, x, N, b, N, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_factor_logdet(F, &log_abs, &sign));
+    SL_EXPECT(SL_ERR_STALE, sl_factor_lower(&L, F, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_inverse_diagonal(F, x, set, 2, NULL, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_selected_create(&Z, F, NULL, 0, NULL, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_region_create(&R, F, set, 2, NULL, NULL, NULL));
     SL_CHECK(sl_plan_create(&P, S, set, 2, set, 2, NULL, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_plan_solve(P, F, x, 2, b, 2, 1, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_plan_solve_refined(P, F, x, 2, b, 2, 1, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_plan_solve(P, F, x, 2, b, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_plan_solve_refined(P, F, x, 2, b, 2, 1, 1, NULL, NULL));
     sl_plan_free(P);
 }
 
@@ -81,8 +81,8 @@ static void another_pattern_is_not_taken_for_the_analyzed_one(void **state) {
         for (int other = 0; other < 3; other++) {
             factored_t z = factored_make(GEN_GRID2, N, 1, other, NULL);
             if (other != style) {
-                SL_EXPECT(SL_ERR_PATTERN, sl_factor_refactor(y.F, &z.M.view, NULL));
-                SL_EXPECT(SL_ERR_PATTERN, sl_factor_create(&F, y.S, &z.M.view, NULL, NULL));
+                SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_factor_refactor(y.F, &z.M.view, NULL));
+                SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_factor_create(&F, y.S, &z.M.view, NULL, NULL));
                 assert_null(F);
             }
             factored_free(&z);
@@ -92,8 +92,8 @@ static void another_pattern_is_not_taken_for_the_analyzed_one(void **state) {
         memcpy(rows, moved.i, (size_t)nnz * sizeof *rows);
         moved.i = rows;
         rows[nnz / 2] = (rows[nnz / 2] + 1) % N; /* another entry */
-        SL_EXPECT(SL_ERR_PATTERN, sl_factor_refactor(y.F, &moved, NULL));
-        SL_EXPECT(SL_ERR_PATTERN, sl_factor_create(&F, y.S, &moved, NULL, NULL));
+        SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_factor_refactor(y.F, &moved, NULL));
+        SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_factor_create(&F, y.S, &moved, NULL, NULL));
         free(rows);
         factored_free(&y);
     }

@@ -304,9 +304,10 @@ static void wrong_maps_and_matrices_are_refused(void **state) {
     assert_int_equal(sl_symbolic_edit(&T, S, &A.view, NULL, new_of, NULL, NULL), SL_ERR_ARGUMENT);
     assert_int_equal(sl_symbolic_edit(NULL, S, &A.view, &B.view, new_of, NULL, NULL),
                      SL_ERR_ARGUMENT);
-    assert_int_equal(sl_symbolic_edit(&T, S, &B.view, &A.view, new_of, NULL, NULL), SL_ERR_PATTERN);
+    assert_int_equal(sl_symbolic_edit(&T, S, &B.view, &A.view, new_of, NULL, NULL),
+                     SL_ERR_OTHER_PATTERN);
     assert_int_equal(sl_symbolic_edit(&T, S, &small.view, &A.view, new_of, NULL, NULL),
-                     SL_ERR_PATTERN);
+                     SL_ERR_OTHER_PATTERN);
     sl_matrix *other; /* with as many entries */
     sl_int perm[49];
     for (sl_int i = 0; i < 49; i++) {
@@ -315,7 +316,7 @@ static void wrong_maps_and_matrices_are_refused(void **state) {
     SL_CHECK(sl_matrix_submatrix(&other, &A.view, perm, 49, NULL, NULL));
     const sl_csc rotated = sl_matrix_view(other);
     assert_int_equal(sl_symbolic_edit(&T, S, &rotated, &B.view, new_of, NULL, NULL),
-                     SL_ERR_PATTERN);
+                     SL_ERR_OTHER_PATTERN);
     sl_matrix_free(other);
     opt.relaxation = (sl_relaxation)7;
     assert_int_equal(sl_symbolic_edit(&T, S, &A.view, &B.view, new_of, &opt, NULL),

@@ -54,7 +54,7 @@ static void invalid_weights_are_refused(void **state) {
         assert_in_range(stats.error.row, 0, 5);
         SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
         SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(F, &cut.view, &stats));
-        SL_EXPECT(SL_ERR_STATE, sl_factor_solve(F, x, 6, b, 6, 1, NULL));
+        SL_EXPECT(SL_ERR_STALE, sl_factor_solve(F, x, 6, b, 6, 1, NULL));
         /* no null pivot: the solution is not shifted; the bits are those without weights */
         SL_CHECK(sl_factor_refactor(F, &firm.view, &stats));
         assert_int_equal(stats.factor.null, 0);

@@ -372,7 +372,7 @@ static void refactor(case_t *c, const sl_symbolic *S, sl_factor *F, input_t *in)
         c->x[q] = take_value(in);
     }
     if (sl_factor_refactor(F, &c->A, NULL) != SL_OK) {
-        PROMISE(sl_factor_solve(F, c->full, MOST, c->B, MOST, 1, NULL) == SL_ERR_STATE);
+        PROMISE(sl_factor_solve(F, c->full, MOST, c->B, MOST, 1, NULL) == SL_ERR_STALE);
         return;
     }
     if (c->stage == REFACTORED) {

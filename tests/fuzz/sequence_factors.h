@@ -192,7 +192,7 @@ static void refactor_changed(input_t *in) {
     if (f->is_valid) {
         note_numbers(f, status, &v);
     } else {
-        PROMISE(status == SL_ERR_STATE || status == SL_ERR_NOT_FINITE);
+        PROMISE(is_apart(status) || status == SL_ERR_NOT_FINITE);
     }
 }
 

@@ -38,7 +38,7 @@ static void create_selected(input_t *in) {
     if (form % 2 && z->Z) {
         status = sl_selected_refactor(z->Z, f->F, form % 4 == 1 ? work : NULL);
         if (z->analysis != f->analysis || !f->is_valid) {
-            PROMISE(status == SL_ERR_STATE);
+            PROMISE(is_apart(status));
             return;
         }
     } else {
@@ -46,7 +46,7 @@ static void create_selected(input_t *in) {
         free_selected(z);
         status = sl_selected_create(&z->Z, f->F, rows_of(&set), set.count, &opt, NULL);
         PROMISE((z->Z != NULL) == (status == SL_OK));
-        PROMISE(f->is_valid || status == SL_ERR_STATE);
+        PROMISE(f->is_valid || is_apart(status));
     }
     PROMISE(status == SL_OK || no_memory(status) || !f->is_valid);
     if (status != SL_OK) {
@@ -56,7 +56,7 @@ static void create_selected(input_t *in) {
     z->is_float = f->is_float;
     memcpy(z->a, f->v.a, sizeof z->a);
     status = sl_selected_entries(z->Z, d, rows_of(&set), NULL, set.count, NULL);
-    PROMISE(status == SL_OK || (form % 2 && status == SL_ERR_PATTERN));
+    PROMISE(status == SL_OK || (form % 2 && status == SL_ERR_OTHER_PATTERN));
     if (status == SL_OK) {
         check_diagonal(f, &set, d);
     }
@@ -89,15 +89,15 @@ static void create_region(input_t *in) {
         return;
     }
     if (!f->is_valid || (!is_new && r->analysis != f->analysis)) {
-        PROMISE(status == SL_ERR_STATE);
+        PROMISE(is_apart(status));
     } else if (f->has_mass && order_of(f) > 0) {
-        PROMISE(status == SL_ERR_UNSUPPORTED || (z && status == SL_ERR_STATE));
+        PROMISE(status == SL_ERR_UNSUPPORTED || (z && is_apart(status)));
     } else if (z && memcmp(z->a, f->v.a, sizeof z->a) != 0) {
-        PROMISE(status == SL_ERR_STATE);
+        PROMISE(is_apart(status));
     } else { /* with pivots of both signs solves in it could lose digits */
         sl_stats stats;
         sl_factor_stats(f->F, &stats);
-        PROMISE(status == SL_OK || (z && status == SL_ERR_STATE) ||
+        PROMISE(status == SL_OK || (z && is_apart(status)) ||
                 (status == SL_ERR_INACCURATE && stats.factor.positive > 0 &&
                  stats.factor.negative > 0));
     }
@@ -128,7 +128,7 @@ static void invert(input_t *in) {
     take_set(in, order_of(f), &rows);
     take_set(in, order_of(f), &columns);
     const sl_int pairs = rows.count < columns.count ? rows.count : columns.count;
-    const sl_status expected = f->is_valid ? SL_OK : SL_ERR_STATE;
+    const sl_status expected = f->is_valid ? SL_OK : SL_ERR_STALE;
     const int is_known = f->is_valid && f->v.kind == DOMINANT;
     memset(inverse, 0, sizeof inverse);
     if (is_known) {
@@ -178,7 +178,7 @@ static void query(input_t *in) {
     }
     const analysis_t *s = &analyses[f->analysis];
     const sl_csc A = view(s, f->v.x);
-    const sl_status expected = f->is_valid ? SL_OK : SL_ERR_STATE;
+    const sl_status expected = f->is_valid ? SL_OK : SL_ERR_STALE;
     PROMISE(sl_factor_pivot_rows(f->F, SL_PIVOT_NULL, rows, NULL, MOST, &count) == expected);
     PROMISE(sl_factor_logdet(f->F, &log_abs_det, &sign) == expected);
     for (sl_int k = 0; k < MOST * RHS; k++) {

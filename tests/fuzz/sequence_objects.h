@@ -138,7 +138,7 @@ static void look_into(input_t *in) {
     const sl_options opt = options();
     const sl_symbolic_arrays s = sl_symbolic_view(analyses[f->analysis].S);
     const sl_factor_arrays arrays = sl_factor_view(f->F);
-    const sl_status expected = f->is_valid ? SL_OK : SL_ERR_STATE;
+    const sl_status expected = f->is_valid ? SL_OK : SL_ERR_STALE;
     const sl_status status = sl_factor_lower(&M, f->F, &opt);
     PROMISE(s.n == n && arrays.symbolic == analyses[f->analysis].S);
     PROMISE(status == expected || no_memory(status));
@@ -187,7 +187,7 @@ static void batch_diagonal(input_t *in) {
     }
     if (!factors[first].is_valid || !factors[second].is_valid ||
         factors[first].analysis != factors[second].analysis) {
-        PROMISE(status == SL_ERR_STATE);
+        PROMISE(is_apart(status));
         return;
     }
     PROMISE(status == SL_OK && failed == -1);
@@ -221,7 +221,7 @@ static void select_pairs(input_t *in) {
         }
     }
     const sl_status status = sl_selected_entries(z->Z, out, rows, columns, count, &stats);
-    PROMISE(status == SL_OK || status == SL_ERR_PATTERN);
+    PROMISE(status == SL_OK || status == SL_ERR_OTHER_PATTERN);
     for (sl_int k = 0; k < count; k++) { /* Z is symmetric, and stored once */
         const sl_status same = sl_selected_entries(z->Z, one, columns + k, rows + k, 1, NULL);
         PROMISE(status != SL_OK || same == SL_OK);

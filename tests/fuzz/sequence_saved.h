@@ -45,7 +45,7 @@ static void copy(input_t *in) {
     }
     fill(in, B, MOST);
     sl_status status = pair_save_bytes(&bytes, analyses[f->analysis].S, f->F);
-    PROMISE(status == (f->is_valid ? SL_OK : SL_ERR_STATE));
+    PROMISE(status == (f->is_valid ? SL_OK : SL_ERR_STALE));
     if (status != SL_OK) {
         return;
     }
@@ -111,7 +111,7 @@ static void compare_sets(const factor_t *f, const sl_saved_set *saved, const sl_
     for (sl_int row = 0; loaded->selected && row < order_of(f); row++) {
         const sl_status status = sl_selected_entries(loaded->selected, x, &row, NULL, 1, NULL);
         PROMISE(status == sl_selected_entries(saved->selected, y, &row, NULL, 1, NULL));
-        PROMISE(status == SL_OK || status == SL_ERR_PATTERN);
+        PROMISE(status == SL_OK || status == SL_ERR_OTHER_PATTERN);
         if (status == SL_OK) {
             check_same(x[0], y[0]);
         }
@@ -156,8 +156,8 @@ static void copy_set(input_t *in) {
         }
     }
     sl_status status = sl_save_bytes(&bytes, &set);
-    PROMISE(status == SL_OK || status == SL_ERR_STATE);
-    PROMISE(status == SL_ERR_STATE || (may_be_saved && (f->is_valid || !set.factor)));
+    PROMISE(status == SL_OK || is_apart(status));
+    PROMISE(is_apart(status) || (may_be_saved && (f->is_valid || !set.factor)));
     if (status != SL_OK) {
         return;
     }

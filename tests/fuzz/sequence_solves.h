@@ -23,7 +23,7 @@ static void create_plan(input_t *in) {
                                             p->x.count, &opt, &stats);
     PROMISE((p->P != NULL) == (status == SL_OK));
     if (has_region && regions[region].analysis != p->analysis) {
-        PROMISE(status == SL_ERR_STATE);
+        PROMISE(is_apart(status));
     } else {
         PROMISE(status == SL_OK || no_memory(status));
     }
@@ -123,13 +123,13 @@ static void solve(input_t *in) {
         return;
     }
     if (p->analysis != f->analysis || !f->is_valid) {
-        PROMISE(status == SL_ERR_STATE);
+        PROMISE(is_apart(status));
         return;
     }
     if (p->region >= 0) { /* its region has to be that of this matrix */
         const int is_same = memcmp(regions[p->region].a, f->v.a, sizeof f->v.a) == 0;
-        PROMISE(is_same || status == SL_ERR_STATE);
-        PROMISE(status == SL_OK || status == SL_ERR_STATE || status == SL_ERR_INCONSISTENT);
+        PROMISE(is_same || is_apart(status));
+        PROMISE(status == SL_OK || is_apart(status) || status == SL_ERR_INCONSISTENT);
     }
     left = -1; /* the full solve is the reference */
     const sl_status reference = sl_factor_solve(f->F, full, MOST, full_b, MOST, nrhs, work);
@@ -180,7 +180,7 @@ static sl_status solve_zeros(const factor_t *f, const plan_t *p, sl_int nrhs, sl
         }
         PROMISE(status[k] == SL_OK ||
                 (k == 6 && status[k] == SL_ERR_INACCURATE) || /* by epsilon * growth */
-                (k >= 5 && p->region >= 0 && status[k] == SL_ERR_STATE));
+                (k >= 5 && p->region >= 0 && is_apart(status[k])));
     }
     return SL_OK;
 }
@@ -270,7 +270,7 @@ static void solve_batch(input_t *in) {
                                  ? batch_by_rows(requests, count, &opt, &failed)
                                  : sl_batch_solve(NULL, requests, count, &opt, NULL, &failed);
     PROMISE((failed == -1) == (status == SL_OK) || no_memory(status));
-    PROMISE(all_valid || status == SL_ERR_STATE || no_memory(status));
+    PROMISE(all_valid || is_apart(status) || no_memory(status));
     PROMISE(!all_valid || status == SL_OK || status == SL_ERR_INCONSISTENT || no_memory(status));
     left = -1;
     for (int k = 0; status == SL_OK && k < count; k++) {

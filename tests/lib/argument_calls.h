@@ -229,7 +229,8 @@ ON_PINS(pins_add, 1, sl_pins_add(pins, a->xset, a->nx, &a->stats))
 ON_PINS(pins_equality, 1, sl_pins_add_equality(pins, a->xset, a->B, a->nx, &a->stats))
 ON_PINS(pins_release, N, sl_pins_release(pins, a->xset, a->nx, &a->stats))
 /* NULL is no matrix, and not refused */
-ON_PINS(pins_matrix, 1, a->A == NULL ? SL_ERR_ARGUMENT : sl_pins_refactor(pins, a->A, &a->stats))
+ON_PINS(pins_matrix, 1,
+        a->A == NULL ? sl_csc_check(NULL, NULL) : sl_pins_refactor(pins, a->A, &a->stats))
 ON_PINS(pins_refactor, 1, sl_pins_refactor(pins, NULL, &a->stats))
 ON_PINS(pins_solve, 1,
         sl_pins_solve(pins, NULL, a->X, a->ldx, a->B, a->ldb, o->entries, N, a->nrhs, NULL))

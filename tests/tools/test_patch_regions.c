@@ -187,7 +187,7 @@ static void wrong_arguments_are_refused(void **state) {
     heat_field_free(&f);
     /* The region still has the old values. */
     SL_CHECK(heat_solver_set_time(&y.s, 2 * y.s.t));
-    SL_EXPECT(SL_ERR_STATE, heat_patch_distance(&f, &place, &center, 1, 0, 3));
+    SL_EXPECT(SL_ERR_STALE, heat_patch_distance(&f, &place, &center, 1, 0, 3));
     heat_patch_free(&place);
     heat_mesh_free(&y);
 }

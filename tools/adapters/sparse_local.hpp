@@ -56,13 +56,19 @@ namespace sl {
 /** Result of a call: its sl_status, and where the error is. */
 class Status {
 public:
-    Status(sl_status code = SL_OK) : code_(code) {
-        where_.row = where_.column = -1;
-        where_.line = -1;
-        where_.value = 0;
-        where_.what = nullptr;
+  /** Of a call without stats, whose error is the last one of this thread. */
+  Status(sl_status code = SL_OK) : code_(code) {
+      clear();
+      if (code != SL_OK) read(nullptr);
     }
     Status(sl_status code, const sl_stats &stats) : code_(code), where_(stats.error) {
+        if (code != SL_OK) read(&stats);
+    }
+    /** Of a check by a class; what: static text. */
+    Status(sl_status code, const char *what) : code_(code) {
+        clear();
+        where_.what = what;
+        text_ = std::string(sl_status_string(code)) + ": " + what;
     }
 
     bool ok() const {
@@ -82,23 +88,31 @@ public:
     double value() const {
         return where_.value;
     }
-    /** What helps, or what is missing, as text; empty: nothing is known. */
+    /** The reason, or what helps, as text; empty: a call without stats, whose message has it. */
     std::string advice() const {
         return where_.what != nullptr ? where_.what : "";
     }
-    /** The text of the status with the advice, the row and the column, if it has them. */
+    /** The sentence of sl_error_text: status, reason, row and column, as far as they apply. */
     std::string message() const {
-        std::string text = sl_status_string(code_);
-        if (where_.what != nullptr) text += std::string(": ") + where_.what;
-        if (where_.row >= 0) text += ", row " + std::to_string(where_.row);
-        if (where_.column >= 0) text += ", column " + std::to_string(where_.column);
-        if (where_.line >= 0) text += ", line " + std::to_string(where_.line);
-        return text;
+        return text_.empty() ? sl_status_string(code_) : text_;
     }
 
 private:
+  void clear() {
+      where_.row = where_.column = -1;
+      where_.line = -1;
+      where_.value = 0;
+      where_.what = nullptr;
+  }
+  void read(const sl_stats *stats) {
+      text_.resize(sl_error_text(nullptr, 0, code_, stats) + 1);
+      sl_error_text(&text_[0], text_.size(), code_, stats);
+      text_.pop_back();
+  }
+
     sl_status code_;
     sl_error where_;
+    std::string text_;
 };
 
 /** What a failed call throws. */
@@ -260,7 +274,9 @@ public:
                             const sl_options *options = nullptr) {
         sl_matrix *made = nullptr;
         sl_stats stats;
-        if (i.size() != j.size() || i.size() != x.size()) return finish(SL_ERR_ARGUMENT);
+        if (i.size() != j.size() || i.size() != x.size()) {
+            return finish(Status(SL_ERR_ARGUMENT, "i, j and x have different sizes"));
+        }
         sl_status status = sl_matrix_from_triplets(&made, n_rows, n_cols, sl_off(i.size()),
                                                    Rows(i).data(), Rows(j).data(),
                                                    data_of(x), options, &stats);
@@ -350,7 +366,7 @@ public:
     SL_RESULT solve(std::vector<double> &x, const std::vector<double> &b, sl_int nrhs = 1,
                     Work *work = nullptr) const {
         std::size_t rows = std::size_t(n());
-        if (nrhs < 0 || b.size() != rows * std::size_t(nrhs)) return finish(SL_ERR_ARGUMENT);
+        if (nrhs < 0 || b.size() != rows * std::size_t(nrhs)) return finish(internal::wrong_size());
         x.resize(b.size());
         return solve(data_of(x), rows, data_of(b), rows, nrhs, work);
     }
@@ -428,7 +444,7 @@ private:
     SL_RESULT part(Call call, std::vector<double> &x, unsigned parts, const std::vector<double> &b,
                    sl_int nrhs, Work *work) const {
         std::size_t rows = std::size_t(n());
-        if (nrhs < 0 || b.size() != rows * std::size_t(nrhs)) return finish(SL_ERR_ARGUMENT);
+        if (nrhs < 0 || b.size() != rows * std::size_t(nrhs)) return finish(internal::wrong_size());
         x.resize(b.size());
         return finish(call(get(), parts, data_of(x), rows, data_of(b), rows, nrhs, work_of(work)));
     }
@@ -512,7 +528,7 @@ public:
     SL_RESULT solve(std::vector<double> &x, const Factor &F, const std::vector<double> &b,
                     sl_int nrhs = 1, Work *work = nullptr) const {
         std::size_t nb = std::size_t(nb_), nx = std::size_t(nx_);
-        if (nrhs < 0 || b.size() != nb * std::size_t(nrhs)) return finish(SL_ERR_ARGUMENT);
+        if (nrhs < 0 || b.size() != nb * std::size_t(nrhs)) return finish(internal::wrong_size());
         std::vector<double> result(nx * std::size_t(nrhs));
         sl_status status = sl_plan_solve(get(), F.get(), data_of(result), nx,
                                          data_of(b), nb, nrhs, work_of(work));
@@ -525,7 +541,7 @@ public:
                             const std::vector<double> &b, std::vector<double> &scales,
                             sl_int nrhs = 1, Work *work = nullptr) const {
         std::size_t nb = std::size_t(nb_), nx = std::size_t(nx_);
-        if (nrhs < 0 || b.size() != nb * std::size_t(nrhs)) return finish(SL_ERR_ARGUMENT);
+        if (nrhs < 0 || b.size() != nb * std::size_t(nrhs)) return finish(internal::wrong_size());
         std::vector<double> result(nx * std::size_t(nrhs)), errors(result.size());
         sl_stats stats;
         scales.resize(4 * nx + 2);
@@ -546,7 +562,7 @@ public:
         const bool is_forward = (parts & SL_PART_P) != 0;
         std::size_t nb = std::size_t(is_forward ? nb_ : info().x_columns);
         std::size_t nx = std::size_t(is_forward ? info().b_columns : nx_);
-        if (nrhs < 0 || b.size() != nb * std::size_t(nrhs)) return finish(SL_ERR_ARGUMENT);
+        if (nrhs < 0 || b.size() != nb * std::size_t(nrhs)) return finish(internal::wrong_size());
         std::vector<double> result(nx * std::size_t(nrhs));
         sl_status status = sl_plan_solve_part(get(), F.get(), parts, data_of(result), nx,
                                               data_of(b), nb, nrhs, work_of(work));

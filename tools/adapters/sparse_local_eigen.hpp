@@ -685,10 +685,10 @@ private:
     }
     /* Factors A over the analysis there is, if it is that of A, or over a new one. */
     sl_status factor_any(const sl_csc &A) {
-        sl_status status = SL_ERR_PATTERN;
+        sl_status status = SL_ERR_OTHER_PATTERN;
         if (symbolic_ && is_analyzed_as_wanted()) status = factor_numbers(A);
         const bool is_refused = status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE;
-        if (status == SL_ERR_PATTERN || (is_pivoted_ && is_refused)) {
+        if (status == SL_ERR_OTHER_PATTERN || (is_pivoted_ && is_refused)) {
             status = analyze(A);
             if (status == SL_OK) status = factor_numbers(A);
         }

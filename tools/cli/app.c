@@ -45,14 +45,28 @@ void app_die_usage(const char *format, ...) {
     exit(2);
 }
 
+const char *app_error_text(sl_status status, const sl_stats *stats) {
+    static char text[400];
+    size_t length = sizeof text;
+    sl_stats found;
+    if (stats == NULL) {
+        (void)sl_error_text(text, sizeof text, status, NULL);
+        return text;
+    }
+    found = *stats;
+    found.error.row = -1; /* rows are vertices here */
+    length = sl_error_text(text, sizeof text, status, &found);
+    if (stats->error.row >= 0 && status != SL_ERR_MEMORY && length < sizeof text) {
+        (void)snprintf(text + length, sizeof text - length, " (vertex %d)", (int)stats->error.row);
+    }
+    return text;
+}
+
 void app_must(sl_status status, const char *what, const sl_stats *stats) {
     if (status == SL_OK) {
         return;
     }
-    if (stats != NULL && stats->error.row >= 0 && status != SL_ERR_MEMORY) {
-        app_die("%s: %s (vertex %d)", what, sl_status_string(status), (int)stats->error.row);
-    }
-    app_die("%s: %s", what, sl_status_string(status));
+    app_die("%s: %s", what, app_error_text(status, stats));
 }
 
 void *app_alloc(size_t count, size_t size) {

@@ -33,8 +33,11 @@ APP_NORETURN APP_PRINTF void app_die_usage(const char *format, ...);
 /** Prints "sparse-local: warning: ..." to standard error: the results may be of no use. */
 APP_PRINTF void app_warn(const char *format, ...);
 
-/** Dies unless status is SL_OK. The message names the operation `what` and, if stats is not NULL
- *  and has it, the row at which it failed. */
+/** The sentence of sl_error_text, in which rows are vertices; static storage. */
+const char *app_error_text(sl_status status, const sl_stats *stats);
+
+/** Dies unless status is SL_OK. The message names the operation `what` and the reason, of stats or,
+ *  if stats is NULL, of the last error. */
 void app_must(sl_status status, const char *what, const sl_stats *stats);
 
 /** Allocates count elements of size bytes, zeroed; dies if out of memory. Release with free. */

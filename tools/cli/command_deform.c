@@ -79,7 +79,7 @@ static void grab(deform_command *cmd, const script_handle *h, const script_step 
     const sl_status status = deformer_hold(&cmd->d, h->vertices, h->count);
     if (status != SL_OK) {
         app_die("%s:%ld: vertex %d cannot be held: %s", cmd->script_path, step->line,
-                (int)cmd->d.stats.error.row, sl_status_string(status));
+                (int)cmd->d.stats.error.row, app_error_text(status, NULL));
     }
     t->pin = app_processor_ms() - began;
     cmd->pinned += h->count;

@@ -160,7 +160,7 @@ static void answer(const sl_saved_set *set, char *text, long number, sl_work *W)
                                 1, W, NULL);
     }
     if (status != SL_OK) {
-        app_die("line %ld: %s", number, sl_status_string(status));
+        app_die("line %ld: %s", number, app_error_text(status, NULL));
     }
     for (sl_int k = 0; k < nx; k++) {
         printf("%s%.17g", k > 0 ? "," : "", x[k]);

@@ -313,7 +313,7 @@ edit_way edit_system_follow(edit_system *e, const entry_changes *changes) {
         if (status == SL_OK) {
             return EDIT_OUTSIDE;
         }
-        if (status != SL_ERR_PATTERN && status != SL_ERR_PIVOT) {
+        if (status != SL_ERR_OTHER_PATTERN && status != SL_ERR_PIVOT) {
             app_must(status, "change of entries", &e->stats);
         }
     }

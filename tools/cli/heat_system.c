@@ -135,11 +135,11 @@ const char *heat_system_time(const heat_system *h) {
 
 void heat_system_diagonal(const heat_system *h, double *values, const sl_int *vertices,
                           sl_int count) {
-    sl_status status = SL_ERR_PATTERN;
+    sl_status status = SL_ERR_OTHER_PATTERN;
     if (h->selected != NULL) {
         status = sl_selected_entries(h->selected, values, vertices, NULL, count, NULL);
     }
-    if (status == SL_ERR_PATTERN) { /* there is none, or it does not have all of them */
+    if (status == SL_ERR_OTHER_PATTERN) { /* there is none, or it does not have all of them */
         status = sl_inverse_diagonal(h->F, values, vertices, count, NULL, NULL);
     }
     app_must(status, "auto-diffusion", NULL);

@@ -52,8 +52,10 @@ APP_NORETURN APP_PRINTF static void fail(const char *format, ...) {
 }
 
 static void must(sl_status status, const char *what) {
+    char text[400];
     if (status != SL_OK) {
-        fail("%s: %s", what, sl_status_string(status));
+        (void)sl_error_text(text, sizeof text, status, NULL);
+        fail("%s: %s", what, text);
     }
 }
 
@@ -198,15 +200,16 @@ static sl_int take_block(const job *j) {
  * with all of them: which way a block takes depends on the file alone, so that bits do too. */
 static sl_status find_answers(const job *j, const sl_int *rows, const sl_int *columns, sl_int count,
                               double *x, sl_work *W) {
-    sl_status status = SL_ERR_PATTERN;
+    sl_status status = SL_ERR_OTHER_PATTERN;
     if (columns != NULL) {
         return sl_inverse_pairs(j->set.factor, x, rows, columns, count, W, NULL);
     }
     if (j->set.selected != NULL) {
         status = sl_selected_entries(j->set.selected, x, rows, NULL, count, NULL);
     }
-    return status == SL_ERR_PATTERN ? sl_inverse_diagonal(j->set.factor, x, rows, count, W, NULL)
-                                    : status;
+    return status == SL_ERR_OTHER_PATTERN
+               ? sl_inverse_diagonal(j->set.factor, x, rows, count, W, NULL)
+               : status;
 }
 
 static void answer_block(const job *j, sl_int block, double *x, sl_work *W) {

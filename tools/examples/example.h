@@ -13,7 +13,9 @@ enum { SIDE = 40, N = SIDE * SIDE };
 /* Ends the program with a message if a call fails. */
 static inline void ok(sl_status status) {
     if (status != SL_OK) {
-        fprintf(stderr, "%s\n", sl_status_string(status));
+        char text[300];
+        sl_error_text(text, sizeof text, status, NULL);
+        fprintf(stderr, "%s\n", text);
         exit(1);
     }
 }

@@ -38,12 +38,15 @@ static sl_status set_ones(sl_matrix **M) {
     return status;
 }
 
-/* Completes the matrix, or sets the message of the status. */
-static bool finish(sl_matrix **out, input *in, sl_status status) {
+/* Completes the matrix, or sets the message of the status. stats: of the call; may be NULL. */
+static bool finish(sl_matrix **out, input *in, sl_status status, const sl_stats *stats) {
+    char text[300];
     if (status == SL_OK && sl_matrix_view(*out).x == NULL) {
         status = set_ones(out);
+        stats = NULL;
     }
-    return status == SL_OK || input_error(in, "%s", sl_status_string(status));
+    (void)sl_error_text(text, sizeof text, status, stats);
+    return status == SL_OK || input_error(in, "%s", text);
 }
 
 static bool read_matrix_market(sl_matrix **out, input *in) {
@@ -64,7 +67,8 @@ static bool read_matrix_market(sl_matrix **out, input *in) {
                            "entries, general or symmetric, are",
                            stats.error.what);
     }
-    return finish(out, in, status);
+    stats.error.line = -1; /* the message begins with it */
+    return finish(out, in, status, &stats);
 }
 
 static bool read_triplets(sl_matrix **out, input *in, bool (*read)(matrix_read *r)) {
@@ -77,7 +81,8 @@ static bool read_triplets(sl_matrix **out, input *in, bool (*read)(matrix_read *
     }
     in->line = 0;
     return finish(out, in,
-                  triplets_finish(out, (sl_int)r.n_rows, (sl_int)r.n_cols, &r.entries, !r.pattern));
+                  triplets_finish(out, (sl_int)r.n_rows, (sl_int)r.n_cols, &r.entries, !r.pattern),
+                  NULL);
 }
 
 bool matrix_file_read(sl_matrix **out, const char *path, char *message, size_t message_size) {

@@ -273,7 +273,7 @@ static sl_status sli_bounds_run(sli_bounds *p, const sli_rhs *rhs, double *bound
     }
     sli_bounds_layout(p, &b, rhs->nrhs, has_scales);
     if (p->F->null.checks && sli_sweep_check(p->F, p->q, rhs, p->memory) != SL_OK) {
-        return SL_ERR_INCONSISTENT;
+        return sli_inconsistent();
     }
     identity = sli_scales_identity(p);
     if (!has_scales || memcmp(p->scales, &identity, sizeof identity) != 0) {
@@ -292,20 +292,23 @@ SL_API sl_status sl_plan_solve_bounded(const sl_plan *P, const sl_factor *F, dou
     sl_work own;
     sl_status status;
     sli_stats_clear_error(stats);
-    if (P == NULL || F == NULL) {
-        return SL_ERR_ARGUMENT;
+    status = sli_argument(P == NULL ? "P is NULL" : F == NULL ? "F is NULL" : NULL);
+    status = status == SL_OK ? sli_rhs_check(&rhs, P->query.nx, P->query.nb) : status;
+    if (status == SL_OK && nrhs > 0 && P->query.nx > 0) {
+        status = sli_argument(bounds == NULL               ? "bounds is NULL"
+                              : bounds == X || bounds == B ? "bounds is X or B"
+                                                           : NULL);
     }
-    status = sli_rhs_check(&rhs, P->query.nx, P->query.nb);
-    if (status != SL_OK ||
-        (nrhs > 0 && P->query.nx > 0 && (bounds == NULL || bounds == X || bounds == B))) {
-        return SL_ERR_ARGUMENT;
+    status = status == SL_OK ? sli_query_check(&P->query, F) : status;
+    if (status == SL_OK && (F->certificate.certainty == SL_UNCERTIFIED ||
+                            F->certificate.generation != F->generation)) {
+        status = sli_refuse(SL_ERR_STALE, "the present F is not certified: sl_factor_certify");
     }
-    if (!sli_query_fits(&P->query, F) || F->certificate.certainty == SL_UNCERTIFIED ||
-        F->certificate.generation != F->generation) {
-        return SL_ERR_STATE;
+    if (status == SL_OK && P->query.ending != NULL) {
+        status = sli_refuse_region();
     }
-    if (P->query.ending != NULL) {
-        return SL_ERR_UNSUPPORTED;
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
     if (stats != NULL) {
         memset(&stats->certificate, 0, sizeof stats->certificate);
@@ -321,7 +324,7 @@ SL_API sl_status sl_plan_solve_bounded(const sl_plan *P, const sl_factor *F, dou
     own = sli_work_own(&F->allocator);
     status = sli_bounds_run(&p, &rhs, bounds, W == NULL ? &own : W);
     sli_free(&own.allocator, own.block);
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

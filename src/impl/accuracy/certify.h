@@ -246,21 +246,28 @@ SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty c
     sl_work own;
     sl_status status;
     sli_stats_clear_error(stats);
-    if (F == NULL || (certainty != SL_ESTIMATED && certainty != SL_GUARANTEED)) {
-        return SL_ERR_ARGUMENT;
+    status = sli_argument(F == NULL ? "F is NULL"
+                          : certainty != SL_ESTIMATED && certainty != SL_GUARANTEED
+                              ? "certainty is neither SL_ESTIMATED nor SL_GUARANTEED"
+                              : NULL);
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
     memset(&F->certificate, 0, sizeof F->certificate);
     status = sli_factor_fits(F, A);
-    status = status == SL_OK && !sli_certify_suits(F) ? SL_ERR_UNSUPPORTED : status;
+    if (status == SL_OK && !sli_certify_suits(F)) {
+        status = sli_refuse(SL_ERR_UNSUPPORTED, "bounds with negative, regularized or 2x2 pivots, "
+                                                "options.mass or SL_STORAGE_COMPLEX");
+    }
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     memset(&info, 0, sizeof info);
     own = sli_work_own(&F->allocator);
     status = sli_certify(F, A, certainty, W == NULL ? &own : W, &info);
     sli_free(&own.allocator, own.block);
     if (status == SL_OK && !(info.eta <= SLI_ETA_MOST)) {
-        status = SL_ERR_INACCURATE;
+        status = sli_refuse(SL_ERR_INACCURATE, "eta is too large for bounds: A is ill-conditioned");
     }
     if (status == SL_OK) {
         F->certificate.eta = info.eta;
@@ -271,7 +278,7 @@ SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty c
     if (stats != NULL) {
         stats->certificate = info;
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

@@ -35,18 +35,13 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
     sl_work own;
     sli_query q;
     sl_status status;
-    if (F == NULL) {
-        return SL_ERR_ARGUMENT;
+    status = F == NULL ? sli_argument("F is NULL") : sli_factor_has_numbers(F);
+    status = status == SL_OK ? sli_rhs_check_columns(&rhs, F->null.count, F->S->n) : status;
+    if (status == SL_OK && Y == B && Y != NULL) {
+        status = sli_argument("Y is B");
     }
-    if (!F->is_valid) {
-        return SL_ERR_STATE;
-    }
-    status = sli_rhs_check_columns(&rhs, F->null.count, F->S->n);
-    if (status != SL_OK || (Y == B && Y != NULL)) {
-        return SL_ERR_ARGUMENT;
-    }
-    if (nrhs == 0 || F->null.count == 0) {
-        return SL_OK;
+    if (status != SL_OK || nrhs == 0 || F->null.count == 0) {
+        return status;
     }
     q = sli_query_all(F->S);
     own = sli_work_own(&F->allocator);

@@ -241,10 +241,11 @@ static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
     int attempt;
     if (F->null.count > 0 || F->type->storage != SL_STORAGE_DOUBLE ||
         sli_map_has_duplicates(F->S)) {
-        return SL_ERR_UNSUPPORTED;
+        return sli_refuse(SL_ERR_UNSUPPORTED, "SL_GUARANTEED with null pivots, L in float or "
+                                              "duplicate entries of A");
     }
     if (!sli_guarantee_fits(F, A)) {
-        return SL_ERR_STATE;
+        return sli_refuse(SL_ERR_STATE, "A is not the matrix that F was computed from");
     }
     memset(&p, 0, sizeof p);
     p.F = F;
@@ -255,7 +256,8 @@ static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
     }
     sli_guarantee_layout(&p, &b, A);
     if (!sli_guarantee_roots(&p, A)) {
-        return SL_ERR_UNSUPPORTED;
+        return sli_refuse(SL_ERR_UNSUPPORTED, "SL_GUARANTEED with a diagonal entry or pivot out "
+                                              "of range");
     }
     p.gamma = sli_guarantee_gamma(&p);
     shift = sli_eigenvalue_estimate(&p) / 2.0;

@@ -160,16 +160,16 @@ static void sli_parts_apply(const sli_parts *p, const sli_vectors *v, int kind) 
 /* Checks what does not depend on sizes. */
 static sl_status sli_parts_check(const sl_factor *F, unsigned parts) {
     const unsigned both = SL_PART_D | SL_PART_SQRT_D;
-    if (parts >= 2u * SL_PART_PT || (parts & both) == both) {
-        return SL_ERR_ARGUMENT;
+    sl_status status = sli_argument(parts >= 2u * SL_PART_PT ? "parts has a bit that is not known"
+                                    : (parts & both) == both ? "parts has both D and sqrt(D)"
+                                                             : NULL);
+    status = status == SL_OK ? sli_factor_has_numbers(F) : status;
+    if (status == SL_OK && parts & SL_PART_SQRT_D && F->stats.factor.negative > 0) {
+        status = sli_refuse(SL_ERR_PIVOT, "SL_PART_SQRT_D with a pivot below 0");
     }
-    if (!F->is_valid) {
-        return SL_ERR_STATE;
-    }
-    if (parts & SL_PART_SQRT_D && F->stats.factor.negative > 0) {
-        return SL_ERR_PIVOT;
-    }
-    return parts & SL_PART_SQRT_D && F->E != NULL ? SL_ERR_UNSUPPORTED : SL_OK;
+    return status == SL_OK && parts & SL_PART_SQRT_D && F->E != NULL
+               ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_PART_SQRT_D with 2x2 pivots")
+               : status;
 }
 
 /* Runs a call whose query is set. */
@@ -207,7 +207,7 @@ static sl_status sli_factor_part(const sl_factor *F, unsigned parts, int is_prod
     sli_query all;
     sli_parts p;
     if (F == NULL) {
-        return SL_ERR_ARGUMENT;
+        return sli_argument("F is NULL");
     }
     memset(&p, 0, sizeof p);
     all = sli_query_all(F->S);
@@ -237,14 +237,20 @@ SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsign
     const int is_forward = ends == (SL_PART_P | SL_PART_L);
     const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
     sli_parts p;
-    if (P == NULL || F == NULL || (!is_forward && ends != (SL_PART_LT | SL_PART_PT))) {
-        return SL_ERR_ARGUMENT;
+    sl_status status =
+        sli_argument(P == NULL   ? "P is NULL"
+                     : F == NULL ? "F is NULL"
+                     : !is_forward && ends != (SL_PART_LT | SL_PART_PT)
+                         ? "parts of a plan are P and L, or L' and P', each with or without D"
+                         : NULL);
+    if (status == SL_OK && F->S != P->query.S) {
+        status = sli_query_refuse_analysis();
     }
-    if (F->S != P->query.S) {
-        return SL_ERR_STATE;
+    if (status == SL_OK && P->query.ending != NULL) {
+        status = sli_refuse_region();
     }
-    if (P->query.ending != NULL) {
-        return SL_ERR_UNSUPPORTED;
+    if (status != SL_OK) {
+        return status;
     }
     memset(&p, 0, sizeof p);
     p.F = F;
@@ -258,12 +264,18 @@ SL_API sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns
                                  sl_int *count) {
     const sli_reach *R;
     sl_int s, k, at = 0;
-    if (P == NULL || count == NULL || capacity < 0 || (capacity > 0 && columns == NULL) ||
-        (part != SL_PART_L && part != SL_PART_LT)) {
-        return SL_ERR_ARGUMENT;
+    sl_status status = sli_argument(P == NULL                         ? "P is NULL"
+                                    : count == NULL                   ? "count is NULL"
+                                    : capacity < 0                    ? "capacity is below 0"
+                                    : capacity > 0 && columns == NULL ? "columns is NULL"
+                                    : part != SL_PART_L && part != SL_PART_LT
+                                        ? "part is neither SL_PART_L nor SL_PART_LT"
+                                        : NULL);
+    if (status == SL_OK && P->query.ending != NULL) {
+        status = sli_refuse_region();
     }
-    if (P->query.ending != NULL) {
-        return SL_ERR_UNSUPPORTED;
+    if (status != SL_OK) {
+        return status;
     }
     R = part == SL_PART_L ? &P->query.forward : &P->query.backward;
     for (s = 0; s < R->count; s++) {

@@ -113,13 +113,18 @@ SL_API sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_pseudo_inverse 
     sl_int room, s, c;
     size_t n;
     sl_status status;
-    if (F == NULL || P == NULL || (P->Q == NULL) != (P->K == NULL) ||
-        (P->Q == NULL) != (P->component == NULL)) {
-        return SL_ERR_ARGUMENT;
+    status =
+        sli_argument(F == NULL   ? "F is NULL"
+                     : P == NULL ? "P is NULL"
+                     : (P->Q == NULL) != (P->K == NULL) || (P->Q == NULL) != (P->component == NULL)
+                         ? "P has only some of component, Q and K"
+                         : NULL);
+    status = status == SL_OK ? sli_parts_check(F, all) : status;
+    if (status == SL_OK && F->E != NULL) {
+        status = sli_refuse(SL_ERR_UNSUPPORTED, "the pseudo-inverse with 2x2 pivots");
     }
-    status = sli_parts_check(F, all);
-    if (status != SL_OK || F->E != NULL) {
-        return status != SL_OK ? status : SL_ERR_UNSUPPORTED;
+    if (status != SL_OK) {
+        return status;
     }
     room = P->columns;
     P->columns = sli_pseudo_count(F, P->component);
@@ -128,7 +133,7 @@ SL_API sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_pseudo_inverse 
         return SL_OK;
     }
     if (room < P->columns) {
-        return SL_ERR_ARGUMENT;
+        return sli_argument("P.columns is below the columns that are needed");
     }
     n = (size_t)F->S->n;
     memset(P->Q, 0, n * (size_t)P->columns * sizeof(double));

@@ -133,10 +133,8 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
     sl_work own;
     sli_norm_estimate p;
     sl_status status;
-    if (F == NULL || rcond == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_factor_fits(F, A);
+    status = sli_argument(F == NULL ? "F is NULL" : rcond == NULL ? "rcond is NULL" : NULL);
+    status = status == SL_OK ? sli_factor_fits(F, A) : status;
     if (status != SL_OK) {
         return status;
     }

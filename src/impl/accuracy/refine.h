@@ -135,7 +135,8 @@ static sl_status sli_refine_done(const sl_factor *F, sl_stats *stats, sl_int mos
         stats->refine.backward_error = error;
     }
     return most > 0 && !(error <= F->error_limit) && sli_is_finite(F->error_limit)
-               ? SL_ERR_INACCURATE
+               ? sli_fail_at(NULL, SL_ERR_INACCURATE, -1, -1, error,
+                             "the backward error, value, is above options.error_limit")
                : SL_OK;
 }
 
@@ -150,16 +151,14 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
     double worst = 0.0;
     sl_int r, c;
     sli_stats_clear_error(stats);
-    if (F == NULL || steps < 0) {
-        return SL_ERR_ARGUMENT;
+    status = sli_argument(F == NULL ? "F is NULL" : steps < 0 ? "steps is below 0" : NULL);
+    status = status == SL_OK ? sli_rhs_check_columns(&rhs, F->S->n, F->S->n) : status;
+    if (status == SL_OK && X == B && nrhs > 0 && F->S->n > 0) {
+        status = sli_argument("X is B");
     }
-    status = sli_rhs_check_columns(&rhs, F->S->n, F->S->n);
-    if (status != SL_OK || (X == B && nrhs > 0 && F->S->n > 0)) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_factor_fits(F, A);
+    status = status == SL_OK ? sli_factor_fits(F, A) : status;
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     memset(&f, 0, sizeof f);
     f.F = F;
@@ -180,7 +179,8 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
         }
     }
     sli_free(&own.allocator, own.block);
-    return status == SL_OK ? sli_refine_done(F, stats, steps, f.steps, worst) : status;
+    status = status == SL_OK ? sli_refine_done(F, stats, steps, f.steps, worst) : status;
+    return sli_report(stats, status);
 }
 
 #endif

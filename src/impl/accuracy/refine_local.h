@@ -169,7 +169,8 @@ static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, s
     sli_local_refinement_layout(f, &b, rhs->nrhs);
     c = sli_local_refinement_find(f);
     if (c != -1) {
-        return sli_fail_at(stats, SL_ERR_ARGUMENT, f->F->S->perm[c], -1, f->F->rule.shifts[c]);
+        return sli_fail_at(stats, SL_ERR_ARGUMENT, f->F->S->perm[c], -1, f->F->rule.shifts[c],
+                           "xset lacks this row, whose pivot was regularized");
     }
     for (r = 0; r < rhs->nrhs; r += sli_min(8, rhs->nrhs - r)) {
         const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
@@ -190,23 +191,27 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
     sl_work own;
     sl_status status;
     sli_stats_clear_error(stats);
-    if (P == NULL || F == NULL || steps < 0) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_rhs_check_columns(&rhs, P->query.nx, P->query.nb);
+    status = sli_argument(P == NULL   ? "P is NULL"
+                          : F == NULL ? "F is NULL"
+                          : steps < 0 ? "steps is below 0"
+                                      : NULL);
+    status = status == SL_OK ? sli_rhs_check_columns(&rhs, P->query.nx, P->query.nb) : status;
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     if (F->stats.factor.regularized == 0 || nrhs == 0 || P->query.nx == 0) {
         status = sli_solve(F, &P->query, &rhs, W);
-        return status != SL_OK ? status
-                               : sli_refine_done(F, stats, steps, 0, sli_local_rounding(F));
+        if (status == SL_OK) {
+            status = sli_refine_done(F, stats, steps, 0, sli_local_rounding(F));
+        }
+        return sli_report(stats, status);
     }
-    if (!sli_query_fits(&P->query, F)) {
-        return SL_ERR_STATE;
+    status = sli_query_check(&P->query, F);
+    if (status == SL_OK && P->query.ending != NULL) { /* E may be nonzero outside of the region */
+        status = sli_refuse_region();
     }
-    if (P->query.ending != NULL) { /* E may be nonzero outside of the region */
-        return SL_ERR_UNSUPPORTED;
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
     memset(&f, 0, sizeof f);
     f.F = F;
@@ -216,7 +221,7 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
     own = sli_work_own(&F->allocator);
     status = sli_local_refine(&f, &rhs, steps, W == NULL ? &own : W, stats);
     sli_free(&own.allocator, own.block);
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

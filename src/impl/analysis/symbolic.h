@@ -407,11 +407,12 @@ static sl_int sli_analysis_workers(const sl_csc *A, const sl_options *opt) {
                          SLI_TEAM_MAX);
 }
 
-/* Checks the options of an analysis. */
-static int sli_symbolic_options_are_valid(const sl_options *opt) {
-    return sli_options_are_valid(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE) &&
-           (opt == NULL || opt->relaxation == SL_RELAXATION_DEFAULT ||
-            opt->relaxation == SL_RELAXATION_NONE);
+/* What is wrong with the options of an analysis, or NULL. */
+static const char *sli_symbolic_options_wrong(const sl_options *opt) {
+    const char *wrong = sli_options_wrong(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE);
+    return wrong == NULL && opt != NULL && (unsigned)opt->relaxation > (unsigned)SL_RELAXATION_NONE
+               ? "options.relaxation is not a value of sl_relaxation"
+               : wrong;
 }
 
 /* Checks the arguments of an analysis, and hashes the pattern of A. */
@@ -421,8 +422,9 @@ static sl_status sli_symbolic_check(const sl_csc *A, const sl_options *opt, sli_
     if (!sli_csc_has_pattern(A) || !sli_pattern_hash(A, pattern)) { /* the hash checks, too */
         status = sl_csc_check(A, stats);
     }
-    if (status == SL_OK && (A->n_rows != A->n_cols || !sli_symbolic_options_are_valid(opt))) {
-        status = SL_ERR_ARGUMENT;
+    if (status == SL_OK) {
+        status = sli_argument(A->n_rows != A->n_cols ? "A is not square"
+                                                     : sli_symbolic_options_wrong(opt));
     }
     return status;
 }
@@ -436,17 +438,14 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     sli_block b = {NULL, 0, 0};
     sli_arena arena;
     sl_status status;
-    sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *out = NULL;
     memset(&j, 0, sizeof j);
+    sli_stats_clear_error(stats);
     sli_stats_clear_error(&j.found);
     j.w.clock = sli_seconds();
-    status = sli_symbolic_check(A, opt, &j.w.pattern, stats);
+    status = sli_begin(out);
+    status = status == SL_OK ? sli_symbolic_check(A, opt, &j.w.pattern, stats) : status;
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     j.out = out;
     j.opt = opt;
@@ -467,14 +466,14 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
         sli_team_run(opt != NULL ? &opt->threads : &sli_no_threads,
                      sli_max(sli_order_workers(A, opt), j.w.workers), sli_symbolic_run, &j);
         status = j.status;
-        if (stats != NULL && status == SL_OK) {
-            stats->symbolic = j.found.symbolic;
+        if (status != SL_OK) {
+            (void)sli_fail_as(stats, status, &j.found.error);
         } else if (stats != NULL) {
-            stats->error.row = j.found.error.row;
+            stats->symbolic = j.found.symbolic;
         }
     }
     sli_free(&j.a, b.base);
-    return status;
+    return sli_report(stats, status);
 }
 
 SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl_options *opt,

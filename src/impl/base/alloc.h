@@ -3,6 +3,7 @@
 #define SLI_BASE_ALLOC_H
 
 #include "options.h"
+#include "status.h"
 
 #define SLI_ALIGN ((size_t)64) /* a cache line, and the widest register */
 
@@ -120,11 +121,11 @@ SLI_NOINLINE static void *sli_take(sli_block *b, uint64_t count, size_t size) {
  * that NULL means failure. */
 SLI_NOINLINE static sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
     if (b->overflow) {
-        return SL_ERR_TOO_LARGE;
+        return sli_refuse(SL_ERR_TOO_LARGE, "more memory than size_t counts");
     }
     b->base = (unsigned char *)sli_alloc(a, b->used > 0 ? b->used : 1);
     if (b->base == NULL) {
-        return SL_ERR_MEMORY;
+        return sli_no_memory();
     }
     b->used = 0;
     return SL_OK;

@@ -77,6 +77,14 @@ extern int sli_linkat(int from_folder, const char *from, int to_folder, const ch
 extern int sli_usleep(unsigned microseconds) __asm__("usleep");
 #endif
 
+/* Storage of one thread. Without it, texts of errors reach the caller in stats only. */
+#if defined(SL_NO_THREAD_LOCAL)
+#elif defined(SLI_GNU)
+#define SLI_THREAD_LOCAL __thread
+#elif defined(_MSC_VER)
+#define SLI_THREAD_LOCAL __declspec(thread)
+#endif
+
 /* POSIX systems: what a path is and who may read it. */
 #if defined(__unix__) || defined(__APPLE__)
 #define SLI_POSIX 1

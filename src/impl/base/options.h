@@ -41,32 +41,36 @@ static int sli_options_set(const sl_options *opt) {
 }
 #endif
 
-/* Checks the size of the struct, that no option unknown to this library is set, the completeness of
- * the allocator, and the number of threads. reads: the groups that the call reads. An option that
- * is set but not read is a mistake of the caller; SL_VERIFY builds refuse it. */
-SLI_NOINLINE static int sli_options_hold(const sl_options *opt, int reads) {
+/* What is wrong with options, or NULL: the size of the struct, an option unknown to this library,
+ * an incomplete allocator, or the number of threads. reads: the groups that the call reads. An
+ * option that is set but not read is a mistake of the caller; SL_VERIFY builds refuse it. */
+SLI_NOINLINE static const char *sli_options_wrong(const sl_options *opt, int reads) {
     size_t k;
-    if (opt->reserved_pointer != NULL || opt->reserved_int != 0) {
-        return 0;
+    int is_unknown;
+    if (opt == NULL) {
+        return NULL;
     }
+    is_unknown = opt->reserved_pointer != NULL || opt->reserved_int != 0;
     for (k = 0; k < sizeof opt->reserved / sizeof opt->reserved[0]; k++) {
-        if (opt->reserved[k] != NULL) {
-            return 0;
-        }
+        is_unknown |= opt->reserved[k] != NULL;
+    }
+    if (opt->size != 0 && opt->size != sizeof *opt) {
+        return "options.size is not that of the library: sl_options_init sets it";
+    }
+    if (is_unknown) {
+        return "a reserved field of options is not 0: sl_options_init sets all fields";
     }
 #if defined(SL_VERIFY)
     if ((sli_options_set(opt) & ~reads) != 0) {
-        return 0;
+        return "an option is set that the call does not read";
     }
 #else
     (void)reads;
 #endif
-    return (opt->size == 0 || opt->size == sizeof *opt) && opt->threads.count >= 0 &&
-           (opt->allocator.allocate == NULL) == (opt->allocator.release == NULL);
-}
-
-SLI_INLINE int sli_options_are_valid(const sl_options *opt, int reads) {
-    return opt == NULL || sli_options_hold(opt, reads);
+    return opt->threads.count < 0 ? "options.threads.count is below 0"
+           : (opt->allocator.allocate == NULL) != (opt->allocator.release == NULL)
+               ? "options.allocator has only one of its two functions"
+               : NULL;
 }
 
 #endif

@@ -2,6 +2,7 @@
 #undef SLI_METIS
 #undef SLI_GNU
 #undef SLI_WINDOWS
+#undef SLI_THREAD_LOCAL
 #undef SLI_FNMA1
 #undef SLI_PIN
 #undef SLI_PIN_ANY

@@ -45,14 +45,13 @@ static sl_status sli_diagonal_batch_check(const sli_diagonal_batch *d, sl_int *a
                                           sl_stats *stats) {
     for (*at = 0; *at < d->count; ++*at) {
         const sl_factor *F = d->factors[*at];
-        if (F == NULL) {
-            return SL_ERR_ARGUMENT;
+        const sl_status status =
+            F == NULL ? sli_argument("a factor is NULL") : sli_inverse_check(F);
+        if (status != SL_OK) {
+            return status;
         }
-        if (!F->is_valid || F->S != d->factors[0]->S) {
-            return SL_ERR_STATE;
-        }
-        if (F->E != NULL) {
-            return sli_inverse_check(F);
+        if (F->S != d->factors[0]->S) {
+            return sli_refuse(SL_ERR_STATE, "factors are of different analyses");
         }
     }
     *at = -1;
@@ -122,9 +121,12 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
     if (failed != NULL) {
         *failed = -1;
     }
-    if (count < 0 || (count > 0 && factors == NULL) ||
-        !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-        return SL_ERR_ARGUMENT;
+    status =
+        sli_argument(count < 0                      ? "count is below 0"
+                     : count > 0 && factors == NULL ? "factors is NULL"
+                                                    : sli_options_wrong(opt, SLI_READS_NOTHING));
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
     d.serial = serial;
     d.factors = factors;
@@ -140,14 +142,16 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
         *failed = at;
     }
     if (status != SL_OK || count == 0) {
-        return status;
+        return sli_report(stats, status);
     }
     n_rows = d.n_rows = rows == NULL ? factors[0]->S->n : n_rows;
-    if (n_rows < 0 || (n_rows > 0 && (out == NULL || !sli_is_ld(ldo, n_rows)))) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = works == NULL ? SL_OK : sli_check_works(works, d.workers);
-    return status == SL_OK && n_rows > 0 ? sli_diagonal_batch_run(&d, threads) : status;
+    status = sli_argument(n_rows < 0                              ? "n_rows is below 0"
+                          : n_rows > 0 && out == NULL             ? "out is NULL"
+                          : n_rows > 0 && !sli_is_ld(ldo, n_rows) ? "ldo is below n_rows"
+                                                                  : NULL);
+    status = status == SL_OK && works != NULL ? sli_check_works(works, d.workers) : status;
+    status = status == SL_OK && n_rows > 0 ? sli_diagonal_batch_run(&d, threads) : status;
+    return sli_report(stats, status);
 }
 
 #endif

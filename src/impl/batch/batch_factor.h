@@ -10,11 +10,13 @@ static sl_status sli_source_of_sum(const sl_symbolic *S, const double *coefficie
                                    const double *const *values, sl_int terms, sli_source *from) {
     sl_int t;
     if (terms < 0 || (terms > 0 && (coefficients == NULL || values == NULL))) {
-        return SL_ERR_ARGUMENT;
+        return sli_argument(terms < 0              ? "terms is below 0"
+                            : coefficients == NULL ? "coefficients is NULL"
+                                                   : "values is NULL");
     }
     for (t = 0; t < terms; t++) {
         if (values[t] == NULL && S->scatter_begin[S->n_supers] > 0) {
-            return SL_ERR_ARGUMENT;
+            return sli_argument("an array of values is NULL");
         }
     }
     from->A = NULL;
@@ -107,9 +109,9 @@ static void sli_factor_batch_stats(const sli_factor_batch *f, sl_int at, double 
 
 /* Creates the factors, on the calling thread. The factors of whole rounds of `workers` are serial;
  * the remaining ones have the threads of the options. Returns the index of the first that failed,
- * or count. */
+ * or count. first: the error of that one. */
 static sl_int sli_factor_batch_create(sl_factor **out, sl_int count, const sl_symbolic *S,
-                                      const sl_options *opt, sl_status *status, sl_stats *stats) {
+                                      const sl_options *opt, sl_status *status, sl_stats *first) {
     const sl_threads no_threads = {0, NULL, NULL};
     const sl_int workers = opt == NULL ? 1 : sli_workers(&opt->threads);
     sl_options serial;
@@ -120,11 +122,11 @@ static sl_int sli_factor_batch_create(sl_factor **out, sl_int count, const sl_sy
         serial.threads = no_threads;
     }
     for (k = 0; k < count; k++) {
-        const sl_status here = sli_factor_new(
-            &out[k], S, k < count / workers * workers ? &serial : opt, at == count ? stats : NULL);
+        const sl_status here =
+            sli_factor_new(&out[k], S, k < count / workers * workers ? &serial : opt, NULL);
         if (here != SL_OK && at == count) {
             at = k;
-            *status = here;
+            *status = sli_report(first, here);
         }
     }
     return at;
@@ -137,6 +139,7 @@ SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symboli
     const sl_threads serial = {0, NULL, NULL};
     double started;
     sli_factor_batch f;
+    sl_stats first;
     sl_status status;
     sl_int k, n_created, at;
     sli_stats_clear_error(stats);
@@ -146,21 +149,29 @@ SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symboli
     for (k = 0; k < count && out != NULL; k++) {
         out[k] = NULL;
     }
-    if (count < 0 || (count > 0 && out == NULL) || S == NULL ||
-        !sli_factor_options_are_valid(opt)) {
-        return SL_ERR_ARGUMENT;
-    }
+    status = sli_argument(count < 0                  ? "count is below 0"
+                          : count > 0 && out == NULL ? "out is NULL"
+                          : S == NULL                ? "S is NULL"
+                                                     : sli_factor_options_wrong(opt));
     f.factors = out;
     f.count = count;
-    status = sli_source_of_sum(S, coefficients, values, terms, &f.source);
-    if (status != SL_OK || count == 0) {
-        return status;
+    if (status == SL_OK) {
+        status = sli_source_of_sum(S, coefficients, values, terms, &f.source);
     }
-    n_created = sli_factor_batch_create(out, count, S, opt, &status, stats);
+    if (status != SL_OK || count == 0) {
+        return sli_report(stats, status);
+    }
+    n_created = sli_factor_batch_create(out, count, S, opt, &status, &first);
     started = sli_seconds();
     at = sli_factor_batch_run(&f, opt == NULL ? &serial : &opt->threads);
-    status = at < n_created ? out[at]->status : status;
+    if (at < n_created) {
+        status = out[at]->status;
+        first.error = out[at]->stats.error;
+    }
     sli_factor_batch_stats(&f, sli_min(at, n_created), started, stats);
+    if (status != SL_OK) {
+        (void)sli_fail_as(stats, status, &first.error);
+    }
     for (k = at; k < count; k++) {
         if (out[k] != NULL && !out[k]->is_valid) {
             sl_factor_free(out[k]);
@@ -171,24 +182,29 @@ SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symboli
     if (failed != NULL && at < count) {
         *failed = at;
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 /* Can the factors be refactored together? *at: the one at fault; -1 for none or all. */
 static sl_status sli_factor_batch_check(sl_factor *const *factors, sl_int count, sl_int *at) {
     sl_int k, other;
     for (k = 0; k < count; k++) {
+        sl_status status;
         *at = k;
         if (factors[k] == NULL) {
-            return SL_ERR_ARGUMENT;
+            return sli_argument("a factor is NULL");
         }
         for (other = 0; other < k; other++) {
             if (factors[other] == factors[k]) {
-                return SL_ERR_ARGUMENT;
+                return sli_argument("a factor is given twice");
             }
         }
-        if (factors[k]->S != factors[0]->S || factors[k]->is_immutable) {
-            return SL_ERR_STATE;
+        if (factors[k]->S != factors[0]->S) {
+            return sli_refuse(SL_ERR_STATE, "factors are of different analyses");
+        }
+        status = sli_factor_may_change(factors[k]);
+        if (status != SL_OK) {
+            return status;
         }
     }
     *at = -1;
@@ -220,11 +236,11 @@ SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
     if (failed != NULL) {
         *failed = -1;
     }
-    if (count < 0 || (count > 0 && factors == NULL) ||
-        !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_factor_batch_check(factors, count, &at);
+    status =
+        sli_argument(count < 0                      ? "count is below 0"
+                     : count > 0 && factors == NULL ? "factors is NULL"
+                                                    : sli_options_wrong(opt, SLI_READS_NOTHING));
+    status = status == SL_OK ? sli_factor_batch_check(factors, count, &at) : status;
     if (status == SL_OK && count > 0) {
         status = sli_source_of_sum(factors[0]->S, coefficients, values, terms, &f.source);
     }
@@ -235,12 +251,14 @@ SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
         k = sli_factor_batch_run(&f, threads);
         sli_factor_batch_stats(&f, k, started, stats);
         at = k < count ? k : -1;
-        status = k < count ? factors[k]->status : SL_OK;
+        if (k < count) {
+            status = sli_fail_as(stats, factors[k]->status, &factors[k]->stats.error);
+        }
     }
     if (failed != NULL) {
         *failed = at;
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

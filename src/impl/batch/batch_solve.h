@@ -97,7 +97,7 @@ static sl_status sli_solve_batch_consistent(sli_solve_batch *b, const sl_threads
         memcpy(&failed, sli_solve_batch_memory(b, k), sizeof failed);
         *at = failed;
     }
-    return *at == -1 ? SL_OK : SL_ERR_INCONSISTENT;
+    return *at == -1 ? SL_OK : sli_inconsistent();
 }
 
 /* Checks every request, sums the weights, and finds the size of the scratch; *at: the request at
@@ -111,15 +111,13 @@ static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
         size_t bytes;
         sl_status status;
         if (F == NULL) {
-            return SL_ERR_ARGUMENT;
+            return sli_argument("F is NULL, also in a request");
         }
         q = sli_request_query(F, r);
         status = sli_rhs_check(&rhs, q.nx, q.nb);
+        status = status == SL_OK ? sli_query_check(&q, F) : status;
         if (status != SL_OK) {
             return status;
-        }
-        if (!sli_query_fits(&q, F)) {
-            return SL_ERR_STATE;
         }
         bytes = r->nrhs > 0 ? sli_vectors_bytes(&q, r->nrhs, sli_block_most(F)) : 0;
         b->bytes = bytes > b->bytes ? bytes : b->bytes;
@@ -137,11 +135,11 @@ static sl_status sli_check_works(sl_work *const *works, sl_int workers) {
     sl_int k, other;
     for (k = 0; k < workers; k++) {
         if (works[k] == NULL) {
-            return SL_ERR_ARGUMENT;
+            return sli_argument("a workspace is NULL");
         }
         for (other = 0; other < k; other++) {
             if (works[k] == works[other]) {
-                return SL_ERR_ARGUMENT;
+                return sli_argument("a workspace is given twice");
             }
         }
     }
@@ -182,12 +180,13 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
     if (failed != NULL) {
         *failed = -1;
     }
-    if (count < 0 || (count > 0 && requests == NULL) ||
-        !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-        return SL_ERR_ARGUMENT;
-    }
-    if (F != NULL && !F->is_valid) {
-        return SL_ERR_STATE;
+    status =
+        sli_argument(count < 0                       ? "count is below 0"
+                     : count > 0 && requests == NULL ? "requests is NULL"
+                                                     : sli_options_wrong(opt, SLI_READS_NOTHING));
+    status = status == SL_OK && F != NULL ? sli_factor_has_numbers(F) : status;
+    if (status != SL_OK) {
+        return status;
     }
     b.F = F;
     b.requests = requests;

@@ -25,11 +25,15 @@ static sl_status sli_sum_check(const double *coefficients, const sl_csc *terms, 
         }
         if (A->n_rows != A->n_cols || A->n_cols != terms[0].n_cols ||
             (coefficients != NULL && sli_nnz(A) > 0 && A->x == NULL)) {
-            return SL_ERR_ARGUMENT;
+            return sli_argument(A->n_rows != A->n_cols         ? "a term is not square"
+                                : A->n_cols != terms[0].n_cols ? "terms have different sizes"
+                                                               : "a term has no values, x");
         }
         *entries += sli_nnz(A);
     }
-    return *entries > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK; /* untested: 2^31 entries */
+    return *entries > INT32_MAX /* untested: 2^31 entries */
+               ? sli_refuse(SL_ERR_TOO_LARGE, "terms have more than 2^31 - 1 entries")
+               : SL_OK;
 }
 
 /* Appends c A. c is ignored if only patterns are summed. */
@@ -58,14 +62,13 @@ SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, cons
     sl_status status;
     sl_int t;
     sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
+    status = sli_begin(out);
+    if (status == SL_OK) {
+        status = sli_argument(terms == NULL ? "terms is NULL"
+                              : count < 1   ? "count is below 1"
+                                            : sli_options_wrong(opt, SLI_READS_TRIANGLE));
     }
-    *out = NULL;
-    if (terms == NULL || count < 1 || !sli_options_are_valid(opt, SLI_READS_TRIANGLE)) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_sum_check(coefficients, terms, count, &entries, stats);
+    status = status == SL_OK ? sli_sum_check(coefficients, terms, count, &entries, stats) : status;
     SLI_LAYOUT(&b, &a, status) {
         all.row = SLI_TAKE(&b, sl_int, entries);
         all.column = SLI_TAKE(&b, sl_int, entries);
@@ -88,7 +91,7 @@ SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, cons
         status = sli_from_triplets(out, &list, &a);
     }
     sli_free(&a, b.base);
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

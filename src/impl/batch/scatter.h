@@ -139,16 +139,20 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
     sli_block b = {NULL, 0, 0};
     sl_triangle triangle = SL_TRIANGLE_NONE;
     sl_int q, missing;
-    sl_status status = sl_csc_check(K, stats);
-    if (S == NULL || status != SL_OK) {
-        return S == NULL ? SL_ERR_ARGUMENT : status;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    status = S == NULL ? sli_argument("S is NULL") : sl_csc_check(K, stats);
+    if (status == SL_OK) {
+        status = sli_argument(K->n_rows != K->n_cols                          ? "A is not square"
+                              : sli_nnz(K) > 0 && K->x == NULL                ? "A.x is NULL"
+                              : sli_symbolic_entries(S) > 0 && values == NULL ? "values is NULL"
+                                                                              : NULL);
     }
-    if (K->n_rows != K->n_cols || (sli_nnz(K) > 0 && K->x == NULL) ||
-        (sli_symbolic_entries(S) > 0 && values == NULL)) {
-        return SL_ERR_ARGUMENT;
+    if (status == SL_OK && K->n_cols != S->n) {
+        status = sli_refuse(SL_ERR_OTHER_PATTERN, "A has another size than the analyzed matrix");
     }
-    if (K->n_cols != S->n) {
-        return SL_ERR_PATTERN;
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
     memset(&w, 0, sizeof w);
     opt = sli_options_with(&S->allocator);
@@ -157,7 +161,7 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
         sli_scatter_layout(&w, &b, S, sli_nnz(K));
     }
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     sli_scatter_sort(S, &w, K, triangle);
     missing = sli_scatter_find_all(S, &w);
@@ -169,11 +173,11 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
             values[w.to[q]] += K->x[w.from[q]];
         }
     } else {
-        status = sli_fail_at(stats, SL_ERR_PATTERN, K->i[missing], sli_column_of(K, missing),
-                             K->x[missing]);
+        status = sli_fail_at(stats, SL_ERR_OTHER_PATTERN, K->i[missing], sli_column_of(K, missing),
+                             K->x[missing], "this entry is not in the analyzed pattern");
     }
     sli_free(&S->allocator, b.base);
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

@@ -263,10 +263,10 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
     sl_status status;
     sli_stats_clear_error(stats);
     status = sli_edges_check(F, rows, columns, deltas, count, stats);
-    status = status == SL_OK && F->is_immutable ? SL_ERR_STATE : status;
-    status = status == SL_OK ? sli_factor_check_size(F->S, A) : status;
+    status = status == SL_OK ? sli_factor_may_change(F) : status;
+    status = status == SL_OK ? sli_pattern_check_size(F->S, A, 1) : status;
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     memset(&c, 0, sizeof c);
     sli_rank_begin(&q, F, stats);
@@ -293,7 +293,7 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
         stats->change.flops_changed = c.flops_changed;
         stats->change.flops_refactor = c.flops_refactor;
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

@@ -150,19 +150,26 @@ static const sli_stage sli_edges_stages[3] = {{sli_edges_layout, sli_edges_fill}
 static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const sl_int *columns,
                                  const double *deltas, sl_int count, sl_stats *stats) {
     sl_int k;
-    if (F == NULL || count < 0 ||
-        (count > 0 && (rows == NULL || columns == NULL || deltas == NULL))) {
-        return SL_ERR_ARGUMENT;
+    const sl_status status = sli_argument(F == NULL                      ? "F is NULL"
+                                          : count < 0                    ? "count is below 0"
+                                          : count > 0 && rows == NULL    ? "rows is NULL"
+                                          : count > 0 && columns == NULL ? "columns is NULL"
+                                          : count > 0 && deltas == NULL  ? "deltas is NULL"
+                                                                         : NULL);
+    if (status != SL_OK) {
+        return status;
     }
     if (count > INT32_MAX / 4) {
-        return SL_ERR_TOO_LARGE;
+        return sli_refuse(SL_ERR_TOO_LARGE, "count is 2^29 or more");
     }
     for (k = 0; k < count; k++) {
         if (rows[k] < 0 || rows[k] >= F->S->n || columns[k] < 0 || columns[k] >= F->S->n) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], columns[k], deltas[k]);
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], columns[k], deltas[k],
+                               "a row or column is out of range");
         }
         if (!sli_is_finite(deltas[k])) {
-            return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], columns[k], deltas[k]);
+            return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], columns[k], deltas[k],
+                               "a delta is not finite");
         }
     }
     return SL_OK;
@@ -187,7 +194,7 @@ SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, cons
     status = sli_edges_check(F, rows, columns, deltas, count, stats);
     status = status == SL_OK ? sli_rank_check(F) : status;
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     sli_rank_begin(&q, F, stats);
     sli_edges_begin(&q, rows, columns, deltas, count);
@@ -195,7 +202,7 @@ SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, cons
     if (status == SL_OK) {
         sli_rank_report(&q, started, stats);
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

@@ -3,6 +3,7 @@
 #define SLI_CHANGE_EDIT_H
 
 #include "../../public/edit.h"
+#include "../analysis/same_pattern.h"
 #include "edit_join.h"
 
 /* Beyond this share of active rows an order of its own is as fast. */
@@ -14,22 +15,17 @@
 /* Checks what can be checked before the matrices are read. */
 static sl_status sli_edit_arguments(const sl_symbolic *S, const sl_csc *A, const sl_csc *B,
                                     const sl_int *new_of, const sl_options *opt) {
-    sli_hash pattern;
-    if (S == NULL || A == NULL || B == NULL || (S->n > 0 && new_of == NULL) ||
-        !sli_symbolic_options_are_valid(opt) || (A->n_cols > 0 && A->p == NULL)) {
-        return SL_ERR_ARGUMENT;
+    sl_status status = sli_argument(S == NULL                    ? "S is NULL"
+                                    : A == NULL                  ? "A is NULL"
+                                    : B == NULL                  ? "B is NULL"
+                                    : S->n > 0 && new_of == NULL ? "new_of is NULL"
+                                                                 : sli_symbolic_options_wrong(opt));
+    if (status == SL_OK && (S->is_pivoted || S->nnz_input < 0)) {
+        status = sli_refuse(SL_ERR_UNSUPPORTED, S->is_pivoted
+                                                    ? "an analysis of sl_symbolic_create_pivoted"
+                                                    : "an analysis of sl_factor_restrict");
     }
-    if (S->is_pivoted || S->nnz_input < 0) {
-        return SL_ERR_UNSUPPORTED;
-    }
-    if (A->n_rows != S->n || A->n_cols != S->n || sli_nnz(A) != S->nnz_input) {
-        return SL_ERR_PATTERN;
-    }
-    if (sli_nnz(A) > 0 && A->i == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    return sli_pattern_hash(A, &pattern) && sli_hash_equals(pattern, S->pattern) ? SL_OK
-                                                                                 : SL_ERR_PATTERN;
+    return status == SL_OK ? sli_pattern_check(S, A, 0) : status;
 }
 
 /* Finds the rows whose columns are analyzed again and their order. *is_local := 0 if all rows
@@ -137,14 +133,11 @@ SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const
     sl_status status;
     int is_local = 0, k;
     sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *out = NULL;
-    status = sli_edit_arguments(S, A, B, new_of, opt);
+    status = sli_begin(out);
+    status = status == SL_OK ? sli_edit_arguments(S, A, B, new_of, opt) : status;
     status = status == SL_OK ? sl_csc_check(B, stats) : status;
     if (status == SL_OK && B->n_rows != B->n_cols) {
-        status = SL_ERR_ARGUMENT;
+        status = sli_argument("B is not square");
     }
     memset(&e, 0, sizeof e);
     if (status == SL_OK) {
@@ -169,7 +162,7 @@ SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const
     for (k = 0; k < 3; k++) {
         sli_free(&a, e.blocks[k]);
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

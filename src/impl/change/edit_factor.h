@@ -270,23 +270,23 @@ SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_sy
     sli_reuse r;
     sl_status status;
     sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
+    status = sli_begin(out);
+    if (status == SL_OK) {
+        status = sli_argument(F == NULL   ? "F is NULL"
+                              : S == NULL ? "S is NULL"
+                                          : sli_factor_options_wrong(opt));
     }
-    *out = NULL;
-    if (F == NULL || S == NULL || !sli_factor_options_are_valid(opt)) {
-        return SL_ERR_ARGUMENT;
+    status = status == SL_OK ? sli_factor_has_numbers(F) : status;
+    if (status == SL_OK && F->S->n > 0 && new_of == NULL) {
+        status = sli_argument("new_of is NULL");
     }
-    if (!F->is_valid) {
-        return SL_ERR_STATE;
-    }
-    if (F->S->n > 0 && new_of == NULL) {
-        return SL_ERR_ARGUMENT;
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
     memset(&r, 0, sizeof r);
     r.F = F;
     r.B = B;
-    status = sli_factor_check(S, B);
+    status = sli_pattern_check(S, B, 1);
     status = status == SL_OK ? sli_factor_new(&r.G, S, opt, stats) : status;
     status = status == SL_OK ? sli_reuse_begin(&r, new_of, stats) : status;
     status = status == SL_OK ? sli_reuse_numbers(&r, stats) : status;
@@ -303,7 +303,7 @@ SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_sy
     } else {
         sl_factor_free(r.G);
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

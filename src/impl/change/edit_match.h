@@ -75,7 +75,8 @@ static sl_status sli_edit_columns(const sl_symbolic *S, const sl_int *new_of, sl
     for (j = 0; j < S->n; j++) {
         const sl_int row = new_of[j];
         if (row < -1 || row >= n || (row >= 0 && column_of[row] != -1)) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, j, -1, (double)row);
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, j, -1, (double)row,
+                               "new_of of this row, value, is out of range or given twice");
         }
         if (row >= 0) {
             column_of[row] = S->iperm[j];

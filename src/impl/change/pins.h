@@ -8,20 +8,17 @@ SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_opti
     const sl_allocator a = sli_allocator(opt);
     sl_pins *P = NULL;
     sl_status status;
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *out = NULL;
-    if (F == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_pins_check(F);
+    status = sli_begin(out);
+    status = status == SL_OK
+                 ? sli_argument(F == NULL ? "F is NULL" : sli_options_wrong(opt, SLI_READS_NOTHING))
+                 : status;
+    status = status == SL_OK ? sli_pins_check(F) : status;
     if (status != SL_OK) {
         return status;
     }
     P = (sl_pins *)sli_alloc(&a, sizeof *P);
     if (P == NULL) {
-        return SL_ERR_MEMORY;
+        return sli_no_memory();
     }
     memset(P, 0, sizeof *P);
     P->allocator = a;
@@ -76,15 +73,19 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
     sl_status status;
     sl_int k;
     sli_stats_clear_error(stats);
-    if (P == NULL || count < 1 || rows == NULL || values == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    if (!P->F->is_valid || !sli_numbers_are_of(&P->numbers, P->F)) {
-        return SL_ERR_STATE;
+    status = sli_argument(P == NULL        ? "P is NULL"
+                          : count < 1      ? "count is below 1"
+                          : rows == NULL   ? "rows is NULL"
+                          : values == NULL ? "values is NULL"
+                                           : NULL);
+    status = status == SL_OK ? sli_pins_are_current(P) : status;
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
     for (k = 0; k < count; k++) {
         if (!sli_is_finite(values[k])) {
-            return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k]);
+            return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k],
+                               "a value of the equality is not finite");
         }
     }
     status = sli_pins_reserve(P, P->count + 1);
@@ -93,7 +94,7 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
         P->rows[P->count++] = -1;
         sli_pins_report(P, started, stats);
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 /* Adds pins by the capacitance matrix: all of them, or none. */
@@ -167,27 +168,29 @@ SL_API sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count, sl_st
     const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
     double seconds = 0.0, threshold;
     sl_pins_reason reason;
-    sl_status status = SL_OK;
+    sl_status status;
     sl_int k;
     int is_done = 0;
     sli_stats_clear_error(stats);
-    if (P == NULL || count < 0 || (count > 0 && rows == NULL)) {
-        return SL_ERR_ARGUMENT;
+    status = sli_argument(P == NULL                   ? "P is NULL"
+                          : count < 0                 ? "count is below 0"
+                          : count > 0 && rows == NULL ? "rows is NULL"
+                                                      : NULL);
+    status = status == SL_OK ? sli_pins_are_current(P) : status;
+    if (status == SL_OK && count > INT32_MAX - P->count) {
+        status = sli_refuse(SL_ERR_TOO_LARGE, "more than 2^31 - 1 pins");
     }
-    if (!P->F->is_valid || !sli_numbers_are_of(&P->numbers, P->F)) {
-        return SL_ERR_STATE;
-    }
-    if (count > INT32_MAX - P->count) {
-        return SL_ERR_TOO_LARGE;
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
     reason = P->reason;
     threshold = P->threshold;
     for (k = 0; k < count; k++) {
         if (rows[k] < 0 || rows[k] >= P->F->S->n) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0);
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0, "a row is out of range");
         }
         if (sli_held_find(P, P->F->S->iperm[rows[k]]) != -1) {
-            return sli_fail_at(stats, SL_ERR_PIVOT, rows[k], -1, 0.0);
+            return sli_fail_at(stats, SL_ERR_PIVOT, rows[k], -1, 0.0, sli_pinned_twice);
         }
     }
     if (P->values != NULL && count > 0) {
@@ -203,7 +206,7 @@ SL_API sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count, sl_st
         P->reason = reason;
         P->threshold = threshold;
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count, sl_stats *stats) {
@@ -211,11 +214,15 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
     sli_pins_target t;
     sli_block b = {NULL, 0, 0}, targets = {NULL, 0, 0};
     unsigned char *gone = NULL;
-    sl_status status = SL_OK;
+    sl_status status;
     sl_int k, held = 0;
     sli_stats_clear_error(stats);
-    if (P == NULL || count < 0 || (count > 0 && indices == NULL)) {
-        return SL_ERR_ARGUMENT;
+    status = sli_argument(P == NULL                      ? "P is NULL"
+                          : count < 0                    ? "count is below 0"
+                          : count > 0 && indices == NULL ? "indices is NULL"
+                                                         : NULL);
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
     if (count == 0) {
         sli_pins_report(P, started, stats);
@@ -229,7 +236,8 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
     }
     for (k = 0; k < count && status == SL_OK; k++) {
         if (indices[k] < 0 || indices[k] >= P->count || gone[indices[k]]) {
-            status = SL_ERR_ARGUMENT;
+            status = sli_fail_at(stats, SL_ERR_ARGUMENT, -1, -1, (double)indices[k],
+                                 "no pin has this index, value, or it is given twice");
         } else {
             gone[indices[k]] = 1;
         }
@@ -238,9 +246,7 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
         held += gone[P->held_pin[k]];
     }
     if (status == SL_OK && held > 0) {
-        if (!P->F->is_valid || !sli_numbers_are_of(&P->numbers, P->F)) {
-            status = SL_ERR_STATE;
-        }
+        status = sli_pins_are_current(P);
         status = status == SL_OK ? sli_pins_target_make(&t, &targets, P, 0) : status;
         if (status == SL_OK) {
             sli_pins_target_add(&t, P, gone);
@@ -257,7 +263,7 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
     if (status == SL_OK) {
         sli_pins_report(P, started, stats);
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

@@ -31,7 +31,8 @@ static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P
         row[a] = w->is_free[a] ? P->sign : row[a];
         sli_capacitance_factor(w->S, ld, a);
         if (!(row[a] * P->sign > 0.0)) {
-            return SL_ERR_INACCURATE;
+            return sli_refuse(SL_ERR_INACCURATE,
+                              "pins that nearly depend on each other, by null vectors of F");
         }
     }
     return SL_OK;

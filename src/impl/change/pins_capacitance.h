@@ -119,7 +119,7 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sli_equal
         }
     }
     sli_free(&P->allocator, seeds.base);
-    return row == -1 ? status : sli_fail_at(stats, status, row, -1, 0.0);
+    return row == -1 ? status : sli_fail_at(stats, status, row, -1, 0.0, sli_nulls_unknown);
 }
 
 /* sums(r) := sum over the shared columns of u(k) x(k, r). x: the vector of a reach. */
@@ -168,9 +168,25 @@ static sl_status sli_pins_factor(sl_pins *P, sl_int k) {
     const double *d = &P->K[(size_t)k * (size_t)P->capacity + (size_t)k], own = *d;
     sli_capacitance_factor(P->K, (size_t)P->capacity, k);
     if (!sli_is_finite(*d)) {
-        return SL_ERR_NOT_FINITE;
+        return sli_refuse(SL_ERR_NOT_FINITE, NULL); /* sli_pins_refuse names the row */
     }
-    return *d * P->sign > (64.0 + k) * 8.0 * DBL_EPSILON * fabs(own) ? SL_OK : SL_ERR_PIVOT;
+    return *d * P->sign > (64.0 + k) * 8.0 * DBL_EPSILON * fabs(own)
+               ? SL_OK
+               : sli_refuse(SL_ERR_PIVOT, NULL);
+}
+
+/* Refuses a row, or an equality of several rows, that sli_pins_factor has refused. */
+SLI_COLD static sl_status sli_pins_refuse(const sl_pins *P, sl_status status, sl_int row,
+                                          sl_int count, sl_stats *stats) {
+    const char *what = status == SL_ERR_PIVOT ? "it depends on the other pins and equalities"
+                                              : "numbers of F overflow in its solution";
+    sl_int k;
+    for (k = 0; k < P->n_pins && count == 1 && status == SL_ERR_PIVOT; k++) {
+        if (P->pins[k]->count == 1 && P->pins[k]->rows[0] == row) {
+            what = sli_pinned_twice;
+        }
+    }
+    return sli_fail_at(stats, status, row, -1, 0.0, what);
 }
 
 /* Removes equality p: the rows below it take over what its column contributed, a rank-one update of
@@ -252,7 +268,7 @@ static sl_status sli_pins_push(sl_pins *P, sl_int index, const sli_equality *e, 
     status = sli_pins_factor(P, at);
     if (status != SL_OK) {
         sli_pin_free(P, pin);
-        return sli_fail_at(stats, status, e->rows[0], -1, 0.0);
+        return sli_pins_refuse(P, status, e->rows[0], e->count, stats);
     }
     pin->index = index;
     sli_pins_count_nulls(P, pin, 1);

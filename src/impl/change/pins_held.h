@@ -99,7 +99,8 @@ static sl_status sli_holding_begin(sli_holding *h, const sl_pins *P, const sl_in
         h->columns[k] = sli_key(h->list[k]);
         h->index[k] = sli_value(h->list[k]);
         if (h->marks[h->columns[k]]) {
-            return sli_fail_at(stats, SL_ERR_PIVOT, S->perm[h->columns[k]], -1, 0.0);
+            return sli_fail_at(stats, SL_ERR_PIVOT, S->perm[h->columns[k]], -1, 0.0,
+                               sli_pinned_twice);
         }
         h->marks[h->columns[k]] = 1;
     }
@@ -254,7 +255,10 @@ static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
         for (k = 0; k < P->n_couplings; k++) {
             P->coupling_column[k] = S->iperm[rows[k]];
         }
-        status = sli_held_is_loose(P) ? SL_ERR_PIVOT : SL_OK;
+        if (sli_held_is_loose(P)) {
+            status = sli_refuse(SL_ERR_PIVOT, "the pins do not hold a component whose couplings "
+                                              "are as small as rounding");
+        }
     }
     sli_free(&P->allocator, b.base);
     return status;

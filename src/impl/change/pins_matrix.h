@@ -112,7 +112,7 @@ static sl_status sli_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stat
     entries = P->F->S->scatter_begin[P->F->S->n_supers];
     values = (double *)sli_alloc(&P->allocator, ((size_t)entries + 1) * sizeof *values);
     if (values == NULL) {
-        return SL_ERR_MEMORY;
+        return sli_no_memory();
     }
     for (m = 0; m < entries; m++) {
         values[m] = A->x[P->F->S->scatter_from[m]];
@@ -124,7 +124,8 @@ static sl_status sli_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stat
     status = sli_pins_probe(P->F, &from, &P->allocator, &row, &error);
     if (status == SL_OK &&
         !(error <= (sli_is_float(P->F) ? SLI_PINS_OTHER_FLOAT : SLI_PINS_OTHER))) {
-        status = sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, error);
+        status = sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, error,
+                             "A is not the matrix that F was computed from");
     }
     if (status == SL_OK && !sli_pins_can_hold(P->F)) {
         status = sli_numbers_are_of(&P->numbers, P->F) ? SL_OK : sli_pins_renew(P, NULL, stats);
@@ -149,7 +150,7 @@ SL_API sl_status sl_pins_refactor(sl_pins *P, const sl_csc *A, sl_stats *stats) 
     sl_status status;
     sli_stats_clear_error(stats);
     if (P == NULL) {
-        return SL_ERR_ARGUMENT;
+        return sli_report(stats, sli_argument("P is NULL"));
     }
     if (A == NULL) {
         status = sli_pins_renew(P, NULL, stats);
@@ -160,7 +161,7 @@ SL_API sl_status sl_pins_refactor(sl_pins *P, const sl_csc *A, sl_stats *stats) 
     if (status == SL_OK) {
         sli_pins_report(P, started, stats);
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

@@ -67,7 +67,7 @@ static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, int fills
             double z;
             if (!sli_pin_null(F, &p, F->null.pivots[m], &z)) {
                 *row = pin->rows[p.first];
-                return SL_ERR_UNSUPPORTED;
+                return sli_refuse(SL_ERR_UNSUPPORTED, sli_nulls_unknown);
             }
             if (fills) {
                 pin->nulls[pin->n_nulls] = m;

@@ -17,7 +17,7 @@ static sl_status sli_pins_take(sl_pins *P) {
         const size_t bytes = (size_t)P->base->null.count * sizeof *P->uses;
         P->uses = (sl_int *)sli_alloc(&P->allocator, bytes);
         if (P->uses == NULL) {
-            return SL_ERR_MEMORY;
+            return sli_no_memory();
         }
         memset(P->uses, 0, bytes);
     }
@@ -27,10 +27,11 @@ static sl_status sli_pins_take(sl_pins *P) {
 /* May F have pins? */
 static sl_status sli_pins_check(const sl_factor *F) {
     const sl_factor_info *info = &F->stats.factor;
-    if (!F->is_valid) {
-        return SL_ERR_STATE;
+    const sl_status status = sli_factor_has_numbers(F);
+    if (status != SL_OK || (F->E == NULL && (info->positive == 0 || info->negative == 0))) {
+        return status;
     }
-    return F->E != NULL || (info->positive > 0 && info->negative > 0) ? SL_ERR_UNSUPPORTED : SL_OK;
+    return sli_refuse(SL_ERR_UNSUPPORTED, "pins with pivots of both signs or 2x2 pivots");
 }
 
 /* Releases what a set has made on top of its factors and of A. */

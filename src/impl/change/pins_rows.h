@@ -22,7 +22,7 @@ static sl_status sli_pins_sweep_block(sl_pins *P, sli_inverse_block *q, sl_int k
         const sli_equality e = sli_equality_of(row, &one, 1);
         sli_pin **pin = &P->pins[P->n_pins + sli_value(order[j])];
         status = j > 0 && sli_key(order[j]) == sli_key(order[j - 1]) /* twice: no lane of its own */
-                     ? sli_fail_at(stats, SL_ERR_PIVOT, *row, -1, 0.0)
+                     ? sli_fail_at(stats, SL_ERR_PIVOT, *row, -1, 0.0, sli_pinned_twice)
                      : sli_pin_create(pin, P, &e, 0, stats);
         if (status == SL_OK) {
             sli_pin_clear_nulls(P, *pin, &f->reach, f->y, f->lanes);
@@ -79,7 +79,7 @@ static sl_status sli_pins_push_blocks(sl_pins *P, sli_inverse_block *q, sl_stats
     for (k = 0; k < q->kept.count && status == SL_OK; k++) {
         status = sli_pins_factor(P, P->n_pins + k);
         if (status != SL_OK) {
-            (void)sli_fail_at(stats, status, q->kept.rows[k], -1, 0.0);
+            (void)sli_pins_refuse(P, status, q->kept.rows[k], 1, stats);
         }
     }
     return status;

@@ -220,6 +220,10 @@ static int sli_pins_forward(const sli_pins_solve *w, const sli_vectors *v, doubl
     return 1;
 }
 
+SLI_COLD static sl_status sli_pins_inconsistent(void) {
+    return sli_refuse(SL_ERR_INCONSISTENT, "B has a part along a null vector that no pin holds");
+}
+
 /* Solves the current block. */
 static sl_status sli_pins_block(sli_pins_solve *w) {
     const sl_pins *P = w->P;
@@ -232,7 +236,7 @@ static sl_status sli_pins_block(sli_pins_solve *w) {
     sl_int p;
     w->lanes = lanes;
     if (!sli_pins_forward(w, &v, norms)) {
-        return SL_ERR_INCONSISTENT;
+        return sli_pins_inconsistent();
     }
     if (!q->is_shared) {
         sli_sweep_transfer(q, v.y, v.x, lanes);
@@ -242,7 +246,7 @@ static sl_status sli_pins_block(sli_pins_solve *w) {
     }
     sli_pins_apply(P, w->f, lanes);
     if (!sli_pins_balance(P, &w->nulls, w->f, lanes, norms)) {
-        return SL_ERR_INCONSISTENT;
+        return sli_pins_inconsistent();
     }
     for (p = 0; p < P->n_pins; p++) {
         sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
@@ -259,7 +263,7 @@ static sl_status sli_pins_block(sli_pins_solve *w) {
         sli_pins_largest(&q->backward, v.x, w->largest, lanes);
     }
     if (!sli_pins_hold(w, v.x)) {
-        return SL_ERR_INACCURATE;
+        return sli_refuse(SL_ERR_INACCURATE, "C' x = g holds too inaccurately");
     }
     sli_unpack(F, q, &w->rhs, v.x);
     return SL_OK;
@@ -277,18 +281,22 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
     sl_status status;
     sl_int r;
     if (P == NULL) {
-        return SL_ERR_ARGUMENT;
+        return sli_argument("P is NULL");
     }
     all = sli_query_all(P->F->S);
     status = sli_rhs_check_columns(&rhs, q->nx, q->nb);
-    if (status != SL_OK || (nrhs > 0 && P->count > 0 && (G == NULL || !sli_is_ld(ldg, P->count)))) {
-        return SL_ERR_ARGUMENT;
+    if (status == SL_OK && nrhs > 0 && P->count > 0) {
+        status = sli_argument(G == NULL                   ? "G is NULL"
+                              : !sli_is_ld(ldg, P->count) ? "ldg is below the number of pins"
+                                                          : NULL);
     }
-    if (!sli_numbers_are_of(&P->numbers, P->F) || !sli_query_fits(q, P->F)) {
-        return SL_ERR_STATE;
+    status = status == SL_OK ? sli_pins_are_current(P) : status;
+    status = status == SL_OK ? sli_query_check(q, P->F) : status;
+    if (status == SL_OK && q->ending != NULL) {
+        status = sli_refuse_region();
     }
-    if (q->ending != NULL) {
-        return SL_ERR_UNSUPPORTED;
+    if (status != SL_OK) {
+        return status;
     }
     if (nrhs == 0 || q->nx == 0) {
         return SL_OK;

@@ -25,6 +25,10 @@
  * is the same system with a definite K. Columns of W that depend on others are left out, and their
  * v is 0: motions that the pins do not rule out. */
 
+static const char sli_pinned_twice[] = "the row is pinned twice";
+static const char sli_nulls_unknown[] =
+    "null vectors of F are not known in the tree of this row: options.null_vector";
+
 /* One equality. */
 typedef struct sli_pin {
     sl_int index; /* among all of the set */
@@ -92,6 +96,15 @@ static double sli_dot(const double *a, const double *b, sl_int count) {
 SLI_INLINE sl_int sli_held_find(const sl_pins *P, sl_int column) {
     const sl_int at = sli_lower_bound(P->held, P->n_held, column);
     return at < P->n_held && P->held[at] == column ? at : -1;
+}
+
+/* Refuses pins on older numbers of their factor. */
+static sl_status sli_pins_are_current(const sl_pins *P) {
+    const sl_status status = sli_factor_has_numbers(P->F);
+    return status == SL_OK && !sli_numbers_are_of(&P->numbers, P->F)
+               ? sli_refuse(SL_ERR_STALE,
+                            "F has changed since the pins were made: sl_pins_refactor")
+               : status;
 }
 
 #endif

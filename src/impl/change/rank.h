@@ -52,6 +52,8 @@ typedef struct sli_rank {
 #define SLI_RANK_LARGE 1e100
 #define SLI_RANK_SMALL 1e-100
 
+static const char sli_growth_exceeded[] = "pivot growth exceeds options.growth_limit";
+
 /* Can F have rank-one changes? In float each one would round all of its columns again. */
 static int sli_rank_is_suited(const sl_factor *F) {
     return F->E == NULL && F->null.count == 0 && F->type->storage == SL_STORAGE_DOUBLE;
@@ -59,10 +61,15 @@ static int sli_rank_is_suited(const sl_factor *F) {
 
 /* May F be changed in place? */
 static sl_status sli_rank_check(const sl_factor *F) {
-    if (!F->is_valid || F->is_immutable) {
-        return SL_ERR_STATE;
+    sl_status status = sli_factor_has_numbers(F);
+    status = status == SL_OK ? sli_factor_may_change(F) : status;
+    if (status != SL_OK || sli_rank_is_suited(F)) {
+        return status;
     }
-    return sli_rank_is_suited(F) ? SL_OK : SL_ERR_UNSUPPORTED;
+    return sli_refuse(SL_ERR_UNSUPPORTED, F->E != NULL ? "an update with 2x2 pivots"
+                                          : F->null.count > 0
+                                              ? "an update with null pivots"
+                                              : "an update of L in float or complex");
 }
 
 /* Checks vector v: its entries are finite, and its rows are below each other in L. */
@@ -72,21 +79,23 @@ static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first
     const double sigma = q->u.sigma == NULL ? 1.0 : q->u.sigma[v];
     sl_int s, p, at;
     if (!sli_is_finite(sigma)) {
-        return sli_fail_at(q->stats, SL_ERR_NOT_FINITE, -1, v, sigma);
+        return sli_fail_at(q->stats, SL_ERR_NOT_FINITE, -1, v, sigma, "sigma is not finite");
     }
     s = first < S->n ? S->super_of[first] : -1;
     for (p = V->p[v]; p < V->p[v + 1]; p++) {
         const sl_int k = S->iperm[V->i[p]];
         const sl_int *rows = s == -1 ? NULL : S->rows + S->rows_begin[s];
         if (!sli_is_finite(V->x[p])) {
-            return sli_fail_at(q->stats, SL_ERR_NOT_FINITE, V->i[p], v, V->x[p]);
+            return sli_fail_at(q->stats, SL_ERR_NOT_FINITE, V->i[p], v, V->x[p],
+                               "an entry of V is not finite");
         }
         if (V->x[p] == 0.0 || sigma == 0.0 || k < S->super_first[s + 1]) {
             continue;
         }
         at = sli_lower_bound(rows, S->steps[s].below, k);
         if (at == S->steps[s].below || rows[at] != k) {
-            return sli_fail_at(q->stats, SL_ERR_PATTERN, V->i[p], S->perm[first], V->x[p]);
+            return sli_fail_at(q->stats, SL_ERR_OTHER_PATTERN, V->i[p], S->perm[first], V->x[p],
+                               "L has no such entry: the changed matrix has more entries");
         }
     }
     return SL_OK;
@@ -338,7 +347,7 @@ static sl_status sli_rank_passes(sli_rank *q) {
                 q->u.pivot = F->extents[F->S->super_of[sli_key(seeds[0])]].pivot;
                 q->u.pivot = q->u.pivot < 0 ? sli_key(seeds[0]) : q->u.pivot;
                 q->u.value = F->D[q->u.pivot];
-                status = SL_ERR_INACCURATE;
+                status = sli_refuse(SL_ERR_INACCURATE, sli_growth_exceeded);
             }
         }
     }
@@ -357,7 +366,8 @@ static sl_status sli_rank_run(sli_rank *q) {
     }
     if (before.factor.growth > F->growth_limit) { /* a saved factor has its drift as growth */
         const sl_int k = sli_key(q->seeds[0]);
-        return sli_fail_at(q->stats, SL_ERR_INACCURATE, F->S->perm[k], -1, F->D[k]);
+        return sli_fail_at(q->stats, SL_ERR_INACCURATE, F->S->perm[k], -1, F->D[k],
+                           sli_growth_exceeded);
     }
     if (F->history.updates == 0) {
         F->history.scale = F->history.lowest = before.factor.entry_max;
@@ -390,7 +400,12 @@ static sl_status sli_rank_run(sli_rank *q) {
         F->status = status;     /* untested: the same */
         F->generation++;        /* untested: the same */
     }
-    return sli_fail_at(q->stats, status, F->S->perm[q->u.pivot], -1, q->u.value);
+    return sli_fail_at(q->stats, status, F->S->perm[q->u.pivot], -1, q->u.value,
+                       status == SL_ERR_INACCURATE ? sli_growth_exceeded
+                       : status == SL_ERR_NOT_FINITE
+                           ? "the change would make this pivot infinite"
+                           : "the change would make this pivot null or of "
+                             "the other sign; F is as before");
 }
 
 /* The largest pivot that the rounding of heavier rows may have made of a null one. */
@@ -461,16 +476,16 @@ SL_API sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *s
     sli_rank q;
     sl_status status;
     sli_stats_clear_error(stats);
-    if (F == NULL || V == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_rank_check(F);
+    status = sli_argument(F == NULL ? "F is NULL" : V == NULL ? "V is NULL" : NULL);
+    status = status == SL_OK ? sli_rank_check(F) : status;
     status = status == SL_OK ? sl_csc_check(V, stats) : status;
-    if (status != SL_OK) {
-        return status;
+    if (status == SL_OK) {
+        status = sli_argument(V->n_rows != F->S->n ? "V has another number of rows than F"
+                              : sli_nnz(V) > 0 && V->x == NULL ? "V.x is NULL"
+                                                               : NULL);
     }
-    if (V->n_rows != F->S->n || (sli_nnz(V) > 0 && V->x == NULL)) {
-        return SL_ERR_ARGUMENT;
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
     sli_rank_begin(&q, F, stats);
     q.u.V = V;
@@ -479,7 +494,7 @@ SL_API sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *s
     if (status == SL_OK) {
         sli_rank_report(&q, started, stats);
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

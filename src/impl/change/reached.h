@@ -81,16 +81,19 @@ static sl_status sli_changes_check(const sl_factor *F, const sl_csc *A, const sl
                                    uint64_t *entries, sl_stats *stats) {
     sl_status status;
     sl_int k;
-    if (F == NULL || c->count < 0 || (c->count > 0 && c->columns == NULL)) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = F->is_immutable ? SL_ERR_STATE : sli_factor_fits(F, A);
+    status = sli_argument(F == NULL                            ? "F is NULL"
+                          : c->count < 0                       ? "count is below 0"
+                          : c->count > 0 && c->columns == NULL ? "columns is NULL"
+                                                               : NULL);
+    status = status == SL_OK ? sli_factor_may_change(F) : status;
+    status = status == SL_OK ? sli_factor_fits(F, A) : status;
     if (status != SL_OK) {
         return status;
     }
     for (k = 0, *entries = 0; k < c->count; k++) {
         if (c->columns[k] < 0 || c->columns[k] >= F->S->n) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, c->columns[k], -1, 0.0);
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, c->columns[k], -1, 0.0,
+                               "a column is out of range");
         }
         *entries += (uint64_t)(A->p[c->columns[k] + 1] - A->p[c->columns[k]]);
     }
@@ -125,7 +128,7 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
     sli_stats_clear_error(stats);
     status = sli_changes_check(F, A, c, &entries, stats);
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     if (F->method != SL_METHOD_SUPERNODAL || F->type->storage != SL_STORAGE_DOUBLE ||
         F->type->accepts != NULL || entries >= (uint64_t)sli_nnz(A)) {

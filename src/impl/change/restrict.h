@@ -139,16 +139,19 @@ static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
     memset(S->scatter_begin, 0, ((size_t)S->n_supers + 1) * sizeof(sl_off));
 }
 
-/* Reports an error in rows and columns of A. */
-static void sli_restrict_report(const sli_restriction *r, sl_status status, sl_stats *stats) {
-    if (status == SL_ERR_NOT_FINITE && stats->error.column != -1) { /* an entry of A or B */
+/* Reports an error, which F has in rows and columns of A[R, R], in those of A. */
+static sl_status sli_restrict_report(const sli_restriction *r, sl_status status, sl_stats *stats) {
+    sl_stats found;
+    (void)sli_report(&found, status);
+    if (status == SL_ERR_NOT_FINITE && found.error.column != -1) { /* an entry of A or B */
         if (r->B_values != NULL) {
-            stats->error.column = r->rows[stats->error.column];
+            found.error.column = r->rows[found.error.column];
         }
     } else if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE ||
                status == SL_ERR_NOT_FINITE) {
-        stats->error.row = r->rows[stats->error.row];
+        found.error.row = r->rows[found.error.row];
     }
+    return sli_fail_as(stats, status, &found.error);
 }
 
 static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_factor *F,
@@ -175,23 +178,18 @@ static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_facto
 /* Checks F and what can be checked of A and rows before they are read. */
 static sl_status sli_restrict_arguments(const sl_factor *F, const sl_csc *A, const sl_int *rows,
                                         sl_int count, const sl_options *opt) {
-    if (F == NULL || A == NULL || count < 0 || (count > 0 && rows == NULL) ||
-        !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-        return SL_ERR_ARGUMENT;
+    sl_status status =
+        sli_argument(F == NULL                   ? "F is NULL"
+                     : A == NULL                 ? "A is NULL"
+                     : count < 0                 ? "count is below 0"
+                     : count > 0 && rows == NULL ? "rows is NULL"
+                                                 : sli_options_wrong(opt, SLI_READS_NOTHING));
+    status = status == SL_OK ? sli_factor_has_numbers(F) : status;
+    if (status == SL_OK && (F->E != NULL || F->S->nnz_input < 0)) {
+        status = sli_refuse(SL_ERR_UNSUPPORTED, F->E != NULL ? "the restriction of 2x2 pivots"
+                                                             : "the restriction of a restriction");
     }
-    if (!F->is_valid) {
-        return SL_ERR_STATE;
-    }
-    if (F->E != NULL || F->S->nnz_input < 0) {
-        return SL_ERR_UNSUPPORTED;
-    }
-    if (A->n_cols > 0 && A->p == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    if (A->n_rows != F->S->n || A->n_cols != F->S->n || sli_nnz(A) != F->S->nnz_input) {
-        return SL_ERR_PATTERN;
-    }
-    return sli_nnz(A) > 0 && (A->i == NULL || A->x == NULL) ? SL_ERR_ARGUMENT : SL_OK;
+    return status == SL_OK ? sli_pattern_check_size(F->S, A, 1) : status;
 }
 
 SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_factor *F,
@@ -202,14 +200,14 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
     sli_restriction r;
     sl_status status;
     sli_stats_clear_error(stats);
-    if (S == NULL || G == NULL) {
-        return SL_ERR_ARGUMENT;
+    status = sli_argument(S == NULL ? "S is NULL" : G == NULL ? "G is NULL" : NULL);
+    if (status == SL_OK) {
+        *S = NULL;
+        *G = NULL;
+        status = sli_restrict_arguments(F, A, rows, count, opt);
     }
-    *S = NULL;
-    *G = NULL;
-    status = sli_restrict_arguments(F, A, rows, count, opt);
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     memset(&r, 0, sizeof r);
     r.S = F->S;
@@ -221,8 +219,8 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
     status = sli_restriction_begin(&r, &a, stats);
     if (status == SL_OK) {
         status = sli_restrict_run(S, G, F, &r, &a, stats);
-        if (stats != NULL) {
-            sli_restrict_report(&r, status, stats);
+        if (status != SL_OK) {
+            status = sli_restrict_report(&r, status, stats);
         }
     }
     if (status == SL_OK) {
@@ -241,7 +239,7 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
         info->seconds = sli_seconds() - started;
     }
     sli_restriction_free(&r, &a);
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

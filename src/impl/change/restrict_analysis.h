@@ -10,7 +10,10 @@
 static sl_status sli_restriction_work(sli_restriction *r, uint64_t entries, const sl_allocator *a) {
     sli_analysis *w = &r->w;
     sli_block b = {NULL, 0, 0};
-    sl_status status = entries > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK; /* untested: 2^31 entries */
+    sl_status status =
+        entries > INT32_MAX /* untested: 2^31 entries */
+            ? sli_refuse(SL_ERR_TOO_LARGE, "more than 2^31 - 1 entries of new columns")
+            : SL_OK;
     SLI_LAYOUT(&b, a, status) {
         sli_analysis_layout(w, &b, r->n_fresh, (sl_int)entries);
     }
@@ -81,7 +84,7 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
             const sl_int i = A->i[p];
             sl_int other = own, is_there;
             if (i < 0 || i >= A->n_rows) {
-                return sli_fail_at(stats, SL_ERR_PATTERN, i, j, 0.0);
+                return sli_fail_at(stats, SL_ERR_PATTERN, i, j, 0.0, "a row of A is out of range");
             }
             is_there = sli_is_read(triangle, i, j);
             if (number_at != NULL) {
@@ -159,7 +162,7 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
             SLI_PREFETCH(p + r->rows[k + SLI_RESTRICT_AHEAD], 0);
         }
         if (p[j] < 0 || p[j + 1] < p[j] || p[j + 1] > sli_nnz(r->A)) {
-            return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0);
+            return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0, "A.p descends");
         }
         if (r->n_kept > 0) {
             r->number_of[k] = number = r->fresh_of[number];

@@ -123,6 +123,7 @@ static void sli_subset_hash(sli_subset *R) {
  * twice. */
 static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_int *rows,
                                  sl_int *rank_of, sl_stats *stats) {
+    static const char sli_row_twice[] = "a row is given twice";
     sl_int k, rank = 0;
     if (!R->is_hashed) {
         memset(R->words, 0, (size_t)R->n_words * sizeof(uint64_t));
@@ -131,7 +132,7 @@ static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_i
         const sl_int row = rows[k];
         const sl_int ahead = rows[sli_min(k + SLI_SUBSET_AHEAD, R->count - 1)];
         if (row < 0 || row >= S->n) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, 0.0);
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, 0.0, "a row is out of range");
         }
         if (ahead >= 0 && ahead < S->n) {
             SLI_PREFETCH(S->iperm + ahead, 0);
@@ -143,7 +144,7 @@ static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_i
             uint64_t *word = &R->words[column / SLI_SUBSET_BITS];
             const uint64_t bit = (uint64_t)1 << (column % SLI_SUBSET_BITS);
             if ((*word & bit) != 0) {
-                return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, 0.0);
+                return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, 0.0, sli_row_twice);
             }
             *word |= bit;
         }
@@ -154,7 +155,8 @@ static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_i
         for (k = 0; k < R->count; k++) {
             rank_of[R->row_of[k]] = k;
             if (k > 0 && R->columns[k] == R->columns[k - 1]) {
-                return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[R->columns[k]], -1, 0.0);
+                return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[R->columns[k]], -1, 0.0,
+                                   sli_row_twice);
             }
         }
         return SL_OK;

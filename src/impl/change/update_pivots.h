@@ -146,11 +146,11 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
     u->value = e;
     u->pivot = k;
     if (!sli_is_finite(e)) {
-        return SL_ERR_NOT_FINITE;
+        return sli_refuse(SL_ERR_NOT_FINITE, NULL); /* sli_rank_run names the pivot */
     }
     if (fabs(e) < DBL_MIN || (u->keeps_signs && (e < 0.0) != (d < 0.0)) ||
         (fabs(e) < fabs(d) && (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude)))) {
-        return SL_ERR_PIVOT;
+        return sli_refuse(SL_ERR_PIVOT, NULL);
     }
     if (!u->is_trial) {
         u->most = fmax(u->most, fmax(magnitude, sli_update_cancelled(F, d, e)));

@@ -14,9 +14,13 @@ SL_API sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t 
     sl_status status;
     sl_int k;
     sli_stats_clear_error(stats);
-    if (F == NULL || ldz > SIZE_MAX / 2 || (rows == NULL && n_rows != 0) ||
-        (columns == NULL && n_columns != 0)) {
-        return SL_ERR_ARGUMENT;
+    status = sli_argument(F == NULL                           ? "F is NULL"
+                          : ldz > SIZE_MAX / 2                ? "ldz is too large"
+                          : rows == NULL && n_rows != 0       ? "rows is NULL"
+                          : columns == NULL && n_columns != 0 ? "columns is NULL"
+                                                              : NULL);
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
     c = sli_complex_sets_of(rows, n_rows, columns, n_columns, 1);
     status = sli_complex_sets_create(&c, F->S->n, &F->allocator, stats);
@@ -29,7 +33,7 @@ SL_API sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t 
                                   W, stats);
         sli_free(&F->allocator, c.memory);
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 SL_API sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
@@ -39,8 +43,12 @@ SL_API sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out, const
     sl_status status;
     sl_int k;
     sli_stats_clear_error(stats);
-    if (F == NULL || ((rows == NULL || columns == NULL) && count != 0)) {
-        return SL_ERR_ARGUMENT;
+    status = sli_argument(F == NULL                       ? "F is NULL"
+                          : rows == NULL && count != 0    ? "rows is NULL"
+                          : columns == NULL && count != 0 ? "columns is NULL"
+                                                          : NULL);
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
     c = sli_complex_sets_of(rows, count, columns, count, 1);
     status = sli_complex_sets_create(&c, F->S->n, &F->allocator, stats);
@@ -52,7 +60,7 @@ SL_API sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out, const
         status = sl_inverse_pairs(F, out, c.first.real, c.second.real, 2 * count, W, stats);
         sli_free(&F->allocator, c.memory);
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

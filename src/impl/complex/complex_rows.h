@@ -15,9 +15,11 @@ typedef struct sli_complex_set {
 
 /* Checks a set against the real rows n. A NULL set has no rows of its own. */
 static sl_status sli_complex_check(sl_int n, const sli_complex_set *set) {
-    return n % 2 != 0 || (set->rows != NULL && set->count < 0)  ? SL_ERR_ARGUMENT
-           : set->rows != NULL && set->count > SLI_ROWS_MAX / 2 ? SL_ERR_TOO_LARGE
-                                                                : SL_OK;
+    return n % 2 != 0 ? sli_argument("the system is not that of a complex matrix: n is odd")
+           : set->rows != NULL && set->count < 0 ? sli_argument("a set has a size below 0")
+           : set->rows != NULL && set->count > SLI_ROWS_MAX / 2
+               ? sli_refuse(SL_ERR_TOO_LARGE, "a set of more than 2^30 - 4 rows")
+               : SL_OK;
 }
 
 static void sli_complex_layout(sli_complex_set *set, sli_block *b) {
@@ -63,7 +65,8 @@ static sl_status sli_complex_fill(const sli_complex_set *set, sl_int n, int is_c
         set->rows == NULL ? -1 : sli_complex_expand(set->rows, set->count, n, set->real);
     return bad == -1 ? SL_OK
                      : sli_fail_at(stats, SL_ERR_ARGUMENT, is_columns ? -1 : set->rows[bad],
-                                   is_columns ? set->rows[bad] : -1, 0.0);
+                                   is_columns ? set->rows[bad] : -1, 0.0,
+                                   "a row or column is out of range");
 }
 
 /* Allocates and expands the sets, whose rows are those of a real system of n rows. */
@@ -94,10 +97,18 @@ static const sl_int *sli_complex_real(const sli_complex_set *set) {
 }
 
 SL_API sl_status sl_complex_rows(sl_int *out, const sl_int *rows, sl_int count) {
-    if (count < 0 || count > SLI_ROWS_MAX / 2 || (count > 0 && (out == NULL || rows == NULL))) {
-        return SL_ERR_ARGUMENT;
+    sl_status status = sli_argument(count < 0                   ? "count is below 0"
+                                    : count > SLI_ROWS_MAX / 2  ? "count is above 2^30 - 4"
+                                    : count > 0 && out == NULL  ? "out is NULL"
+                                    : count > 0 && rows == NULL ? "rows is NULL"
+                                                                : NULL);
+    if (status == SL_OK) {
+        const sl_int bad = sli_complex_expand(rows, count, SLI_ROWS_MAX / 2, out);
+        status = bad == -1 ? SL_OK
+                           : sli_fail_at(NULL, SL_ERR_ARGUMENT, rows[bad], -1, 0.0,
+                                         "a row is out of range");
     }
-    return sli_complex_expand(rows, count, SLI_ROWS_MAX / 2, out) == -1 ? SL_OK : SL_ERR_ARGUMENT;
+    return status;
 }
 
 SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, const sl_int *bset,
@@ -107,12 +118,12 @@ SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, con
     sli_complex_sets c;
     sl_status status;
     sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *out = NULL;
-    if (S == NULL || !sli_options_are_valid(opt, SLI_READS_REGION)) {
-        return SL_ERR_ARGUMENT;
+    status = sli_begin(out);
+    status = status == SL_OK
+                 ? sli_argument(S == NULL ? "S is NULL" : sli_options_wrong(opt, SLI_READS_REGION))
+                 : status;
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
     c = sli_complex_sets_of(bset, nb, xset, nx, 0);
     status = sli_complex_sets_create(&c, S->n, &a, stats);
@@ -121,12 +132,13 @@ SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, con
                                 sli_complex_real(&c.second), xset == NULL ? 0 : 2 * nx, opt, stats);
         sli_free(&a, c.memory);
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, double *sign) {
-    sl_status status =
-        F != NULL && F->S->n % 2 != 0 ? SL_ERR_ARGUMENT : sl_factor_logdet(F, log_abs_det, sign);
+    const sli_complex_set none = {NULL, 0, NULL};
+    sl_status status = F == NULL ? SL_OK : sli_complex_check(F->S->n, &none);
+    status = status == SL_OK ? sl_factor_logdet(F, log_abs_det, sign) : status;
     if (status == SL_OK) {
         *log_abs_det *= 0.5;
         *sign = F->stats.factor.negative / 2 % 2 == 0 ? 1.0 : -1.0;

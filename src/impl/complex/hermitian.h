@@ -11,18 +11,23 @@ static sl_status sli_hermitian_check(const sl_hermitian *H, sl_stats *stats) {
     sl_status status;
     sl_int j, p;
     sli_stats_clear_error(stats);
-    if (H == NULL || (H->x == NULL && H->im != NULL)) {
-        return SL_ERR_ARGUMENT;
+    status = sli_argument(H == NULL                       ? "H is NULL"
+                          : H->x == NULL && H->im != NULL ? "H.x is NULL, but H.im is not"
+                                                          : NULL);
+    if (status != SL_OK) {
+        return status;
     }
     pattern.n_rows = pattern.n_cols = H->n;
     pattern.p = H->p;
     pattern.i = H->i;
-    status = H->n > SLI_ROWS_MAX / 2 ? SL_ERR_TOO_LARGE : sl_csc_check(&pattern, stats);
+    status = H->n > SLI_ROWS_MAX / 2 ? sli_refuse(SL_ERR_TOO_LARGE, "H has more than 2^30 - 4 rows")
+                                     : sl_csc_check(&pattern, stats);
     for (j = 0; status == SL_OK && H->x != NULL && j < H->n; j++) {
         for (p = H->p[j]; p < H->p[j + 1]; p++) {
             const double im = H->im != NULL ? H->im[p] : H->x[2 * (size_t)p + 1];
             if (H->i[p] == j && !(im == 0.0)) {
-                return sli_fail_at(stats, SL_ERR_ARGUMENT, j, j, im);
+                return sli_fail_at(stats, SL_ERR_ARGUMENT, j, j, im,
+                                   "a diagonal entry of H has an imaginary part");
             }
         }
     }
@@ -113,7 +118,7 @@ static sl_status sli_hermitian_compare(const sl_hermitian *H, const sl_matrix *M
     const sli_hermitian_sides sides = sli_hermitian_sides_of(H);
     sl_int j, p, k, second, at = 0;
     if (M->n_cols != 2 * H->n || M->n_rows != 2 * H->n) {
-        return SL_ERR_PATTERN;
+        return sli_refuse(SL_ERR_OTHER_PATTERN, "H has another size than M");
     }
     for (j = 0; j < H->n; j++) {
         for (second = 0; second < 2; second++) {
@@ -122,12 +127,14 @@ static sl_status sli_hermitian_compare(const sl_hermitian *H, const sl_matrix *M
                 const sli_hermitian_column e = sli_hermitian_entry(H, sides, p, j, second);
                 for (k = 0; k < e.count; k++, at++) {
                     if (at >= end || M->i[at] != e.row + k) {
-                        return sli_fail_at(stats, SL_ERR_PATTERN, H->i[p], j, 0.0);
+                        return sli_fail_at(stats, SL_ERR_OTHER_PATTERN, H->i[p], j, 0.0,
+                                           "M was not made from the pattern of H");
                     }
                 }
             }
             if (at != end) {
-                return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0);
+                return sli_fail_at(stats, SL_ERR_OTHER_PATTERN, -1, j, 0.0,
+                                   "M was not made from the pattern of H");
             }
         }
     }
@@ -140,37 +147,39 @@ SL_API sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H
     sl_matrix *M;
     sl_status status;
     sl_off count;
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *out = NULL;
-    status = sli_options_are_valid(opt, SLI_READS_NOTHING) ? sli_hermitian_check(H, stats)
-                                                           : SL_ERR_ARGUMENT;
+    sli_stats_clear_error(stats);
+    status = sli_begin(out);
+    status = status == SL_OK ? sli_argument(sli_options_wrong(opt, SLI_READS_NOTHING)) : status;
+    status = status == SL_OK ? sli_hermitian_check(H, stats) : status;
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     count = sli_hermitian_entries(H, sli_hermitian_sides_of(H));
-    if (count > INT32_MAX) {     /* untested: 2^29 entries */
-        return SL_ERR_TOO_LARGE; /* untested: the same */
+    if (count > INT32_MAX) { /* untested: 2^29 entries */
+        status = sli_refuse(SL_ERR_TOO_LARGE, "M would have 2^31 entries"); /* untested: the same */
+        return sli_report(stats, status);                                   /* untested: the same */
     }
     status = sli_matrix_new(&M, 2 * H->n, 2 * H->n, (sl_int)count, H->x != NULL, &a);
     if (status == SL_OK) {
         sli_hermitian_fill(H, M);
         *out = M;
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 SL_API sl_status sl_matrix_refill_hermitian(sl_matrix *M, const sl_hermitian *H, sl_stats *stats) {
     sl_status status = sli_hermitian_check(H, stats);
-    if (status == SL_OK && (M == NULL || M->x == NULL || H->x == NULL)) {
-        status = SL_ERR_ARGUMENT;
+    if (status == SL_OK) {
+        status = sli_argument(M == NULL      ? "M is NULL"
+                              : M->x == NULL ? "M has no values"
+                              : H->x == NULL ? "H.x is NULL"
+                                             : NULL);
     }
     status = status == SL_OK ? sli_hermitian_compare(H, M, stats) : status;
     if (status == SL_OK) {
         sli_hermitian_fill(H, M);
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

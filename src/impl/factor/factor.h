@@ -2,8 +2,7 @@
 #ifndef SLI_FACTOR_FACTOR_H
 #define SLI_FACTOR_FACTOR_H
 
-#include "../ordering/graph.h"
-#include "../analysis/structure.h"
+#include "../analysis/same_pattern.h"
 #include "factor_setup.h"
 #include "front_tasks.h"
 #include "null_judge.h"
@@ -11,35 +10,14 @@
 #include "symmetry.h"
 #include "uplooking.h"
 
-/* Checks that A has the size of the matrix that S was made from. */
-static sl_status sli_factor_check_size(const sl_symbolic *S, const sl_csc *A) {
-    if (A == NULL || (A->n_cols > 0 && A->p == NULL)) {
-        return SL_ERR_ARGUMENT;
-    }
-    if (A->n_rows != S->n || A->n_cols != S->n || sli_nnz(A) != S->nnz_input) {
-        return SL_ERR_PATTERN;
-    }
-    return S->nnz_input > 0 && (A->i == NULL || A->x == NULL) ? SL_ERR_ARGUMENT : SL_OK;
-}
-
-/* Checks that A has the pattern that S was made from. Reads p and i of A, and no value. */
-static sl_status sli_factor_check(const sl_symbolic *S, const sl_csc *A) {
-    const sl_status status = sli_factor_check_size(S, A);
-    sli_hash pattern;
-    if (status != SL_OK) {
-        return status;
-    }
-    return sli_pattern_hash(A, &pattern) && sli_hash_equals(pattern, S->pattern) ? SL_OK
-                                                                                 : SL_ERR_PATTERN;
-}
-
 /* Checks that F holds a factor and that A has the pattern that was analyzed. */
 SLI_INLINE sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
-    return F->is_valid ? sli_factor_check(F->S, A) : SL_ERR_STATE;
+    const sl_status status = sli_factor_has_numbers(F);
+    return status == SL_OK ? sli_pattern_check(F->S, A, 1) : status;
 }
 
-/* Reports what is not finite. An entry of A has its row and column in A, an entry of a sum its row
- * and column in the lower triangle, and a coefficient neither. */
+/* Reports what is not finite, or too large for float. An entry of A has its row and column in A, an
+ * entry of a sum its row and column in the lower triangle, and a coefficient neither. */
 SLI_COLD static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, const sli_failure *f) {
     const sl_symbolic *S = F->S;
     sl_int row = -1, column = -1;
@@ -54,17 +32,26 @@ SLI_COLD static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, cons
         row = sli_max(S->perm[k], S->perm[j]);
         column = sli_min(S->perm[k], S->perm[j]);
     }
-    sli_fail_at(&F->stats, f->status, row, column, f->value);
+    (void)sli_fail_at(&F->stats, f->status, row, column, f->value,
+                      f->position < 0 ? "a coefficient is not finite"
+                      : f->status == SL_ERR_NOT_FINITE
+                          ? "an entry of A is not finite"
+                          : "an entry of A exceeds the range of float");
 }
 
 /* What helps where a factorization was refused, as text; NULL: nothing is known. */
 SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_failure *f) {
     const double size = fabs(f->value);
     if (f->status == SL_ERR_INACCURATE && F->stats.factor.growth > F->growth_limit) {
-        return F->S->is_pivoted ? NULL : "sl_symbolic_create_pivoted avoids pivot growth";
+        return F->S->is_pivoted ? "pivot growth exceeds options.growth_limit"
+                                : "sl_symbolic_create_pivoted avoids pivot growth";
     }
-    if (f->status != SL_ERR_PIVOT || f->pivot < 0) {
-        return NULL;
+    if (f->status != SL_ERR_PIVOT) {
+        return f->status == SL_ERR_NOT_FINITE ? "a pivot is not finite: numbers of A overflow"
+               : f->status == SL_ERR_UNSUPPORTED
+                   ? "A has more null vectors than columns are given, "
+                     "options.null_vector_count"
+                   : "float cannot hold L: options.storage";
     }
     if (F->is_definite && f->value < 0.0 && f->bound == 0.0) {
         return "options.definite: the pivot is negative, so that A is not positive definite";
@@ -75,7 +62,8 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
     if (F->null.mode == SL_NULL_PIVOT_SKIP) {
         return f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
                                 "SL_NULL_PIVOT_SKIP takes semidefinite matrices"
-                              : NULL;
+                              : "A is indefinite, or options.null_vector or options.mass does not "
+                                "suit its null vectors";
     }
     if (F->S->is_pivoted) {
         return "options.null_tolerance decides; a negative one accepts every pivot but 0";
@@ -92,11 +80,11 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
 SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f,
                                            int has_pivots) {
     sl_int n_done = F->S->n; /* pivots before the failure */
-    F->stats.error.what = sli_factor_advice(F, f);
     F->stats.null_bound = f->bound > 0.0 ? f->bound : 0.0;
     if (f->status != SL_OK && f->pivot >= 0) {
         n_done = has_pivots ? n_done : f->pivot;
-        sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value);
+        (void)sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value,
+                          sli_factor_advice(F, f));
     } else if (f->status != SL_OK) {
         n_done = F->S->super_first[f->super];
         sli_factor_report_entry(F, A, f);
@@ -112,10 +100,7 @@ static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
 
 static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {
     sli_factor_stats_copy(&F->stats, stats);
-    stats->error.row = F->stats.error.row;
-    stats->error.column = F->stats.error.column;
-    stats->error.value = F->stats.error.value;
-    stats->error.what = F->stats.error.what;
+    stats->error = F->stats.error;
     stats->null_bound = F->stats.null_bound;
 }
 
@@ -272,16 +257,15 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
     const sli_source from = sli_source_matrix(A);
     sl_status status;
     sli_stats_clear_error(stats);
-    if (F == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = F->is_immutable ? SL_ERR_STATE : sli_factor_check(F->S, A);
+    status = sli_argument(F == NULL ? "F is NULL" : NULL);
+    status = status == SL_OK ? sli_factor_may_change(F) : status;
+    status = status == SL_OK ? sli_pattern_check(F->S, A, 1) : status;
     status = status == SL_OK ? sli_factor_prepare(F) : status;
-    if (status != SL_OK) {
-        return status;
+    if (status == SL_OK) {
+        sli_factor_begin(F);
+        status = sli_factor_numbers(F, &from, started, stats);
     }
-    sli_factor_begin(F);
-    return sli_factor_numbers(F, &from, started, stats);
+    return sli_report(stats, status);
 }
 
 /* Creates a factor of a matrix that has the analyzed pattern. *out is NULL on entry. */
@@ -308,16 +292,13 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
     const sl_allocator a = sli_allocator(opt);
     sl_status status;
     sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *out = NULL;
-    if (S == NULL || !sli_factor_options_are_valid(opt)) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_factor_check(S, A);
+    status = sli_begin(out);
+    status = status == SL_OK ? sli_argument(S == NULL ? "S is NULL" : sli_factor_options_wrong(opt))
+                             : status;
+    status = status == SL_OK ? sli_pattern_check(S, A, 1) : status;
     status = status == SL_OK ? sli_symmetry_check(S, A, &a, stats) : status;
-    return status == SL_OK ? sli_factor_create_from(out, S, &from, opt, stats) : status;
+    status = status == SL_OK ? sli_factor_create_from(out, S, &from, opt, stats) : status;
+    return sli_report(stats, status);
 }
 
 #endif

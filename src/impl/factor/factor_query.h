@@ -16,11 +16,13 @@ SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats) {
 SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, double *sign) {
     double sum = 0.0;
     sl_int k;
-    if (F == NULL || log_abs_det == NULL || sign == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    if (!F->is_valid) {
-        return SL_ERR_STATE;
+    sl_status status = sli_argument(F == NULL             ? "F is NULL"
+                                    : log_abs_det == NULL ? "log_abs_det is NULL"
+                                    : sign == NULL        ? "sign is NULL"
+                                                          : NULL);
+    status = status == SL_OK ? sli_factor_has_numbers(F) : status;
+    if (status != SL_OK) {
+        return status;
     }
     for (k = 0; k < F->S->n; k++) {
         if (F->E != NULL && F->S->pairs[k] == SLI_PAIR_FIRST) {
@@ -40,12 +42,16 @@ SL_API sl_status sl_factor_pivot_rows(const sl_factor *F, sl_pivot_kind kind, sl
                                       double *shifts, sl_int capacity, sl_int *count) {
     const sl_int *pivots;
     sl_int m;
-    if (F == NULL || count == NULL || capacity < 0 || (capacity > 0 && rows == NULL) ||
-        (kind != SL_PIVOT_NULL && kind != SL_PIVOT_REGULARIZED)) {
-        return SL_ERR_ARGUMENT;
-    }
-    if (!F->is_valid) {
-        return SL_ERR_STATE;
+    sl_status status = sli_argument(F == NULL                      ? "F is NULL"
+                                    : count == NULL                ? "count is NULL"
+                                    : capacity < 0                 ? "capacity is below 0"
+                                    : capacity > 0 && rows == NULL ? "rows is NULL"
+                                    : kind != SL_PIVOT_NULL && kind != SL_PIVOT_REGULARIZED
+                                        ? "kind is not a value of sl_pivot_kind"
+                                        : NULL);
+    status = status == SL_OK ? sli_factor_has_numbers(F) : status;
+    if (status != SL_OK) {
+        return status;
     }
     pivots = kind == SL_PIVOT_NULL ? F->null.pivots : F->rule.regularized;
     *count = kind == SL_PIVOT_NULL ? F->null.count : F->stats.factor.regularized;
@@ -91,19 +97,18 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
     const sl_allocator a = sli_allocator(opt);
     sl_off count;
     sl_status status;
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *out = NULL;
-    if (F == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-        return SL_ERR_ARGUMENT;
-    }
-    if (!F->is_valid) {
-        return SL_ERR_STATE;
+    status = sli_begin(out);
+    status = status == SL_OK
+                 ? sli_argument(F == NULL ? "F is NULL" : sli_options_wrong(opt, SLI_READS_NOTHING))
+                 : status;
+    status = status == SL_OK ? sli_factor_has_numbers(F) : status;
+    if (status != SL_OK) {
+        return status;
     }
     count = sli_factor_entries(F, NULL);
-    if (count > INT32_MAX) {     /* untested: 2^31 entries */
-        return SL_ERR_TOO_LARGE; /* untested: the same */
+    if (count > INT32_MAX) { /* untested: 2^31 entries */
+        return sli_refuse(SL_ERR_TOO_LARGE,
+                          "L has more than 2^31 - 1 entries"); /* untested: the same */
     }
     status = sli_matrix_new(out, F->S->n, F->S->n, (sl_int)count, 1, &a);
     if (status == SL_OK) {

@@ -159,28 +159,37 @@ static sl_status sli_factor_prepare(sl_factor *F) {
     return status;
 }
 
-/* Checks the enumerations and the tolerances. Null pivots are either skipped or regularized, so the
- * two options exclude each other. */
-static int sli_factor_choices_are_valid(const sl_options *opt) {
-    return opt == NULL ||
-           ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
-            (unsigned)opt->storage <= (unsigned)SL_STORAGE_COMPLEX &&
-            (unsigned)opt->null_pivots <= (unsigned)SL_NULL_PIVOT_SKIP &&
-            opt->null_tolerance == opt->null_tolerance &&
-            opt->consistency_tolerance == opt->consistency_tolerance &&
-            opt->growth_limit == opt->growth_limit && opt->error_limit == opt->error_limit &&
-            opt->regularization >= 0.0 && sli_is_finite(opt->regularization) &&
-            (opt->regularization == 0.0 || opt->null_pivots == SL_NULL_PIVOT_REFUSE) &&
-            (opt->definite == 0 || (opt->definite == 1 && opt->regularization == 0.0 &&
-                                    opt->null_pivots == SL_NULL_PIVOT_REFUSE)) &&
-            opt->null_vector_count <= SLI_NULL_VECTORS_MAX &&
-            (opt->null_vector_count <= 1 || opt->null_vector != NULL));
+/* What is wrong with the options of a factorization, which are not NULL, or NULL. Null pivots are
+ * either skipped or regularized, so the two options exclude each other. */
+static const char *sli_factor_choices_wrong(const sl_options *opt) {
+    return (unsigned)opt->method > (unsigned)SL_METHOD_SUPERNODAL
+               ? "options.method is not a value of sl_method"
+           : (unsigned)opt->storage > (unsigned)SL_STORAGE_COMPLEX
+               ? "options.storage is not a value of sl_storage"
+           : (unsigned)opt->null_pivots > (unsigned)SL_NULL_PIVOT_SKIP
+               ? "options.null_pivots is not a value of sl_null_pivots"
+           : opt->null_tolerance != opt->null_tolerance ? "options.null_tolerance is NaN"
+           : opt->consistency_tolerance != opt->consistency_tolerance
+               ? "options.consistency_tolerance is NaN"
+           : opt->growth_limit != opt->growth_limit ? "options.growth_limit is NaN"
+           : opt->error_limit != opt->error_limit   ? "options.error_limit is NaN"
+           : !(opt->regularization >= 0.0) || !sli_is_finite(opt->regularization)
+               ? "options.regularization is below 0 or not finite"
+           : opt->regularization != 0.0 && opt->null_pivots == SL_NULL_PIVOT_SKIP
+               ? "options.regularization excludes null_pivots = SL_NULL_PIVOT_SKIP"
+           : opt->definite != 0 && opt->definite != 1 ? "options.definite is neither 0 nor 1"
+           : opt->definite != 0 &&
+                   (opt->regularization != 0.0 || opt->null_pivots == SL_NULL_PIVOT_SKIP)
+               ? "options.definite excludes regularization and SL_NULL_PIVOT_SKIP"
+           : opt->null_vector_count > SLI_NULL_VECTORS_MAX ? "options.null_vector_count is above 32"
+           : opt->null_vector_count > 1 && opt->null_vector == NULL ? "options.null_vector is NULL"
+                                                                    : NULL;
 }
 
-/* Checks all options that a factorization reads. */
-static int sli_factor_options_are_valid(const sl_options *opt) {
-    return sli_options_are_valid(opt, SLI_READS_FACTOR | SLI_READS_ISA) &&
-           sli_factor_choices_are_valid(opt);
+/* The same of options that may be NULL, and with those that all calls read. */
+static const char *sli_factor_options_wrong(const sl_options *opt) {
+    const char *wrong = sli_options_wrong(opt, SLI_READS_FACTOR | SLI_READS_ISA);
+    return wrong != NULL || opt == NULL ? wrong : sli_factor_choices_wrong(opt);
 }
 
 /* A limit of the options: 0 is the default, and what is negative is no limit. */
@@ -224,7 +233,8 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
     } else if (F->rule.regularization != 0.0) {
         for (i = 0; i < S->n; i++) {
             if (opt->signs[i] < -1 || opt->signs[i] > 1) {
-                return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, (double)opt->signs[i]);
+                return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, (double)opt->signs[i],
+                                   "options.signs has a value other than -1, 0 and 1");
             }
             F->rule.signs[S->iperm[i]] = (signed char)opt->signs[i];
         }
@@ -237,7 +247,8 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
                 const double z =
                     opt->null_vector == NULL ? 1.0 : opt->null_vector[column + (size_t)i];
                 if (!sli_is_finite(z)) {
-                    return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, z);
+                    return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, z,
+                                       "options.null_vector is not finite");
                 }
                 F->null.z[column + (size_t)S->iperm[i]] = z;
             }
@@ -301,13 +312,13 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
         F->kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
     }
     if (F->kernels == NULL) {
-        return SL_ERR_UNSUPPORTED;
+        return sli_refuse(SL_ERR_UNSUPPORTED, "options.isa is not that of this processor");
     }
     F->stats.factor.isa = F->kernels->isa;
     F->stats.factor.method = F->method;
     F->sweeps = F->type->sweeps(F->kernels);
-    if (F->sweeps == NULL) {
-        return SL_ERR_UNSUPPORTED; /* a saved factor, whose L cannot become double */
+    if (F->sweeps == NULL) { /* a saved factor, whose L cannot become double */
+        return sli_refuse(SL_ERR_UNSUPPORTED, "options.isa has no kernels for L in float");
     }
     F->front = F->type->front(F->kernels);
     F->stats.storage = (sl_off)F->type->storage;
@@ -330,17 +341,21 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
         kernels != NULL ? kernels : sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
     draft.type = sli_storage_type_of(opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
     if (draft.type == NULL) { /* untested: all packs are there */
-        return sli_unsupported(stats, sli_storage_needs(opt->storage)); /* untested: the same */
+        return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
+                          sli_storage_needs(opt->storage));
     }
     if (draft.kernels != NULL && draft.type->sweeps(draft.kernels) == NULL) {
         draft.type = draft.type->in_double;
     }
     sli_factor_rules(&draft, opt);
     draft.method = sli_method(S, draft.type, opt);
-    status = (S->is_pivoted && draft.null.mode == SL_NULL_PIVOT_SKIP) ||
-                     (draft.type->suits != NULL && !draft.type->suits(&draft))
-                 ? SL_ERR_UNSUPPORTED
-                 : sli_factor_use(&draft, opt);
+    status =
+        S->is_pivoted && draft.null.mode == SL_NULL_PIVOT_SKIP
+            ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_NULL_PIVOT_SKIP with an analysis for 2x2 pivots")
+        : draft.type->suits != NULL && !draft.type->suits(&draft)
+            ? sli_refuse(SL_ERR_UNSUPPORTED,
+                         "options.storage does not suit the analysis or options")
+            : sli_factor_use(&draft, opt);
     SLI_LAYOUT(&b, &a, status) {
         (void)sli_take(&b, 1, sizeof(sl_factor));
         sli_factor_layout(&draft, &b, draft.null.is_centered);

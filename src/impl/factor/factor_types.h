@@ -196,9 +196,30 @@ SLI_INLINE int sli_numbers_are_of(const sli_numbers *numbers, const sl_factor *F
            sli_hash_equals(numbers->identity, F->identity);
 }
 
+/* Refuses a factor whose last change has failed. */
+SLI_INLINE sl_status sli_factor_has_numbers(const sl_factor *F) {
+    return F->is_valid
+               ? SL_OK
+               : sli_refuse(SL_ERR_STALE, "F has no numbers: its last factorization has failed");
+}
+
 /* Entries of the inverse are computed with a diagonal D only. */
 SLI_INLINE sl_status sli_inverse_check(const sl_factor *F) {
-    return !F->is_valid ? SL_ERR_STATE : F->E != NULL ? SL_ERR_UNSUPPORTED : SL_OK;
+    const sl_status status = sli_factor_has_numbers(F);
+    return status == SL_OK && F->E != NULL
+               ? sli_refuse(SL_ERR_UNSUPPORTED, "entries of the inverse with 2x2 pivots")
+               : status;
+}
+
+/* Refuses to change an object whose numbers are in mapped memory or whose analysis is not whole. */
+SLI_COLD static sl_status sli_refuse_mapped(void) {
+    return sli_refuse(SL_ERR_READ_ONLY, "it is mapped (sl_load_file copies it), of "
+                                        "sl_factor_restrict, or saved by a newer version");
+}
+
+/* May the numbers of F change? */
+SLI_INLINE sl_status sli_factor_may_change(const sl_factor *F) {
+    return F->is_immutable ? sli_refuse_mapped() : SL_OK;
 }
 
 /* Fills in a failure and returns its status. */
@@ -217,20 +238,6 @@ SLI_INLINE void sli_keep_first_failure(sli_failure *f, const sli_failure *other)
     if (other->status != SL_OK && (f->status == SL_OK || other->super < f->super)) {
         *f = *other;
     }
-}
-
-/* Returns the column of A that holds position p. */
-static sl_int sli_column_of(const sl_csc *A, sl_int p) {
-    sl_int low = 0, high = A->n_cols - 1;
-    while (low < high) { /* finds the last column that begins at or before p */
-        const sl_int middle = low + (high - low + 1) / 2;
-        if (A->p[middle] <= p) {
-            low = middle;
-        } else {
-            high = middle - 1;
-        }
-    }
-    return low;
 }
 
 /* Columns of F->center. */

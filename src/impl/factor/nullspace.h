@@ -36,7 +36,8 @@ static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats
     for (k = 0; k < S->n; k++) {
         const double m = mass[S->perm[k]];
         if (!sli_is_finite(m)) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[k], -1, m);
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[k], -1, m,
+                               "options.mass is not finite");
         }
         F->null.mass[k] = m;
         any |= m != 0.0;

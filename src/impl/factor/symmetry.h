@@ -40,10 +40,8 @@ SLI_COLD static sl_status sli_symmetry_report(const sl_csc *A, sl_int r, sl_stat
             column = A->i[q];
         }
     }
-    if (stats != NULL) {
-        stats->error.what = "the values of the two triangles differ; options.triangle chooses one";
-    }
-    return sli_fail_at(stats, SL_ERR_PATTERN, r, column, value);
+    return sli_fail_at(stats, SL_ERR_PATTERN, r, column, value,
+                       "the values of the two triangles differ; options.triangle chooses one");
 }
 
 /* Refuses a matrix that was analyzed with both triangles, whose values differ. A has the analyzed

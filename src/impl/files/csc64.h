@@ -9,22 +9,23 @@
 static sl_status sli_csc64_check(const sl_csc64 *A, sl_stats *stats) {
     sl_status status;
     int64_t j;
-    status = A == NULL ? SL_ERR_ARGUMENT : sli_csc_check_sizes(A->n_rows, A->n_cols, A->p);
+    status =
+        A == NULL ? sli_argument("A is NULL") : sli_csc_check_sizes(A->n_rows, A->n_cols, A->p);
     if (status != SL_OK || A->n_cols == 0) {
         return status;
     }
     if (A->p[0] != 0) {
-        return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0);
+        return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0, "A.p[0] is not 0");
     }
     for (j = 0; j < A->n_cols; j++) {
         if (A->p[j + 1] < A->p[j]) {
-            return sli_fail_at(stats, SL_ERR_PATTERN, -1, (sl_int)j, 0.0);
+            return sli_fail_at(stats, SL_ERR_PATTERN, -1, (sl_int)j, 0.0, "A.p descends");
         }
     }
     if (A->p[A->n_cols] > INT32_MAX) {
-        return SL_ERR_TOO_LARGE;
+        return sli_refuse(SL_ERR_TOO_LARGE, "A has more than 2^31 - 1 entries");
     }
-    return A->p[A->n_cols] > 0 && A->i == NULL ? SL_ERR_ARGUMENT : SL_OK;
+    return sli_argument(A->p[A->n_cols] > 0 && A->i == NULL ? "A.i is NULL" : NULL);
 }
 
 /* Copies the indices of checked positions. */
@@ -37,7 +38,8 @@ static sl_status sli_csc64_copy(const sl_csc64 *A, sl_matrix *M, sl_stats *stats
             const int64_t i = A->i[p];
             if (i < 0 || i >= A->n_rows) {
                 const sl_int row = i < INT32_MIN || i > INT32_MAX ? -1 : (sl_int)i;
-                return sli_fail_at(stats, SL_ERR_PATTERN, row, j, 0.0);
+                return sli_fail_at(stats, SL_ERR_PATTERN, row, j, 0.0,
+                                   "a row of A is out of range; rows count from 0");
             }
             M->i[p] = (sl_int)i;
         }
@@ -54,12 +56,9 @@ SL_API sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A, const 
     sl_matrix *M = NULL;
     sl_status status;
     sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *out = NULL;
-    status =
-        sli_options_are_valid(opt, SLI_READS_NOTHING) ? sli_csc64_check(A, stats) : SL_ERR_ARGUMENT;
+    status = sli_begin(out);
+    status = status == SL_OK ? sli_argument(sli_options_wrong(opt, SLI_READS_NOTHING)) : status;
+    status = status == SL_OK ? sli_csc64_check(A, stats) : status;
     if (status == SL_OK) {
         const int64_t nnz = A->n_cols > 0 ? A->p[A->n_cols] : 0;
         status =
@@ -70,7 +69,7 @@ SL_API sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A, const 
     }
     if (status != SL_OK) {
         sl_matrix_free(M);
-        return status;
+        return sli_report(stats, status);
     }
     *out = M;
     return SL_OK;

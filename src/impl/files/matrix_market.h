@@ -10,6 +10,12 @@
 
 #define SLI_ENTRIES_FIRST 65536 /* entries of a file for which memory is allocated at first */
 
+/* Records what is malformed; returns the status. */
+static sl_status sli_malformed(sli_reader *r, const char *what) {
+    r->what = r->failed != NULL ? r->failed : what;
+    return SL_ERR_IO;
+}
+
 /* Reads the banner "%%MatrixMarket matrix coordinate <field> <symmetry>". A banner of the format
  * that this library does not read gives SL_ERR_UNSUPPORTED, anything else SL_ERR_IO. */
 static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric) {
@@ -17,22 +23,23 @@ static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric)
     static const char *const sli_fields[] = {"real", "integer", "pattern", "complex", NULL};
     static const char *const sli_symmetries[] = {"general", "symmetric", "skew-symmetric",
                                                  "hermitian", NULL};
+    static const char sli_not_ours[] = "not a Matrix Market file of a matrix";
     char token[5][SLI_TOKEN_MAX + 1];
     const char *s, *e;
     int k;
     sli_skip_mark(r);
     if (!sli_next_line(r, &s, &e, 1)) {
-        return SL_ERR_IO;
+        return sli_malformed(r, "the file is empty");
     }
     for (k = 0; k < 5; k++) {
         if (!sli_token(&s, e, token[k])) {
-            return SL_ERR_IO;
+            return sli_malformed(r, sli_not_ours);
         }
     }
     if (!sli_token_is(token[0], "%%matrixmarket") || !sli_token_is(token[1], "matrix") ||
         !sli_token_in(token[2], sli_formats) || !sli_token_in(token[3], sli_fields) ||
         !sli_token_in(token[4], sli_symmetries)) {
-        return SL_ERR_IO;
+        return sli_malformed(r, sli_not_ours);
     }
     *has_values = !sli_token_is(token[3], "pattern");
     /* a Hermitian matrix without imaginary parts is symmetric */
@@ -41,7 +48,7 @@ static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric)
               : sli_token_is(token[3], "complex")        ? "complex"
               : sli_token_is(token[4], "skew-symmetric") ? "skew-symmetric"
                                                          : NULL;
-    return r->what == NULL ? SL_OK : SL_ERR_UNSUPPORTED;
+    return r->what == NULL ? SL_OK : sli_refuse(SL_ERR_UNSUPPORTED, r->what);
 }
 
 /* Entries read, with room for more. */
@@ -97,12 +104,17 @@ static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int has_val
         if (!sli_next_line(r, &s, &e, 0) || !sli_token_int(&s, e, 1, size[0], &row) ||
             !sli_token_int(&s, e, 1, size[1], &column) ||
             (has_values && !sli_token_double(r, &s, e, &t->x[t->count])) || !sli_line_ends(s, e)) {
-            return SL_ERR_IO;
+            return sli_malformed(r,
+                                 r->at == r->end && r->file == NULL
+                                     ? "fewer entries than the header says, or a malformed one"
+                                     : "an entry is malformed or out of range; rows count from 1");
         }
         t->i[t->count] = (sl_int)row - 1;
         t->j[t->count] = (sl_int)column - 1;
     }
-    return sli_next_line(r, &s, &e, 0) || r->failed ? SL_ERR_IO : SL_OK;
+    return sli_next_line(r, &s, &e, 0) || r->failed != NULL
+               ? sli_malformed(r, "more entries than the header says")
+               : SL_OK;
 }
 
 /* Are there entries below the diagonal, and are there others above it? */
@@ -128,7 +140,7 @@ static sl_status sli_check_mirrored(const sl_matrix *M, sli_reader *r) {
                 r->what = "both triangles of a symmetric matrix";
                 r->twice[0] = i;
                 r->twice[1] = j;
-                return SL_ERR_PATTERN;
+                return sli_refuse(SL_ERR_PATTERN, r->what);
             }
         }
     }
@@ -169,21 +181,24 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
         return status;
     }
     if (!sli_next_line(r, &s, &e, 0)) {
-        return SL_ERR_IO;
+        return sli_malformed(r, "the file ends before the line of sizes");
     }
     for (k = 0; k < 3; k++) {
         if (!sli_token_int(&s, e, 0, INT64_MAX, &size[k])) {
-            return SL_ERR_IO;
+            return sli_malformed(r, "the line of sizes is malformed");
         }
         if (size[k] > SLI_ROWS_MAX) {
-            return SL_ERR_TOO_LARGE;
+            r->what = "more than 2^31 - 8 rows, columns or entries";
+            return sli_refuse(SL_ERR_TOO_LARGE, r->what);
         }
     }
     /* An entry has at least four bytes. A count that a text in memory cannot hold is refused before
      * memory is allocated. */
     if (!sli_line_ends(s, e) || (symmetric && size[0] != size[1]) ||
         (r->buffer == NULL && size[2] > (r->end - r->at) / 4 + 1)) {
-        return SL_ERR_IO;
+        return sli_malformed(r,
+                             "the line of sizes is wrong: more on it, a symmetric matrix that is "
+                             "not square, or more entries than the text can hold");
     }
     memset(&t, 0, sizeof t);
     room = r->buffer == NULL || size[2] < SLI_ENTRIES_FIRST ? size[2] : SLI_ENTRIES_FIRST;
@@ -211,14 +226,14 @@ static sl_status sli_read_matrix(sl_matrix **out, sli_reader *r, const sl_alloca
     sl_status status;
     sli_find_point(r->point);
     status = sli_parse(out, r, a);
-    if (status != SL_OK && stats != NULL) {
-        stats->error.what = r->what;
-        stats->error.line = r->line > 0 ? r->line : 1;
-    }
-    if (status == SL_ERR_PATTERN && stats != NULL) { /* not at the line that was read last */
-        stats->error.line = -1;
-        stats->error.row = r->twice[0];
-        stats->error.column = r->twice[1];
+    if (status == SL_ERR_PATTERN) { /* not at the line that was read last */
+        (void)sli_fail_at(stats, status, r->twice[0], r->twice[1], 0.0, r->what);
+    } else if (status != SL_OK) {
+        if (r->what != NULL) {
+            (void)sli_fail_at(stats, status, -1, -1, (double)r->error, r->what);
+        }
+        (void)sli_report(stats, status);
+        sli_error_line(stats, r->line > 0 ? r->line : 1);
     }
     errno = saved;
     return status;
@@ -228,18 +243,20 @@ SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t lengt
                                  const sl_options *opt, sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     sli_reader r;
+    sl_status status;
     sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
+    status = sli_begin(out);
+    if (status == SL_OK) {
+        status =
+            sli_argument(text == NULL ? "text is NULL" : sli_options_wrong(opt, SLI_READS_NOTHING));
     }
-    *out = NULL;
-    if (text == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-        return SL_ERR_ARGUMENT;
+    if (status == SL_OK) {
+        memset(&r, 0, sizeof r);
+        r.at = text;
+        r.end = text + length;
+        status = sli_read_matrix(out, &r, &a, stats);
     }
-    memset(&r, 0, sizeof r);
-    r.at = text;
-    r.end = text + length;
-    return sli_read_matrix(out, &r, &a, stats);
+    return sli_report(stats, status);
 }
 
 SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_options *opt,
@@ -248,19 +265,22 @@ SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_opti
     const int saved = errno;
     sli_reader r;
     FILE *file;
-    sl_status status = SL_ERR_MEMORY;
+    sl_status status;
     sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
+    status = sli_begin(out);
+    if (status == SL_OK) {
+        status =
+            sli_argument(path == NULL ? "path is NULL" : sli_options_wrong(opt, SLI_READS_NOTHING));
     }
-    *out = NULL;
-    if (path == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-        return SL_ERR_ARGUMENT;
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
+    errno = 0;
     file = fopen(path, "rb");
     if (file == NULL) {
+        status = sli_file_fails("the file cannot be opened");
         errno = saved;
-        return SL_ERR_IO;
+        return sli_report(stats, status);
     }
     memset(&r, 0, sizeof r);
     r.file = file;
@@ -268,11 +288,13 @@ SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_opti
     if (r.buffer != NULL) {
         r.at = r.end = r.buffer;
         status = sli_read_matrix(out, &r, &a, stats);
+    } else {
+        status = sli_no_memory();
     }
     sli_free(&a, r.buffer);
     fclose(file);
     errno = saved;
-    return status;
+    return sli_report(stats, status);
 }
 
 /* Replaces the decimal point that the locale printed, of any number of bytes, by a point. */
@@ -337,16 +359,16 @@ SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *p
                                                   : sl_csc_check(A, NULL);
     const sl_allocator a = sli_allocator(NULL);
     sli_output output;
-    if (status != SL_OK) {
-        return status;
+    if (status == SL_OK) {
+        status = sli_argument(path == NULL ? "path is NULL"
+                              : reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED
+                                  ? "reading is not a value of sl_reading"
+                                  : NULL);
     }
-    if (path == NULL || (reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED)) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_output_open(&output, path, &a);
+    status = status == SL_OK ? sli_output_open(&output, path, &a) : status;
     if (status == SL_OK) {
         const int complete = sli_write(output.file, A, reading, triangle);
-        status = sli_output_close(&output, complete, &a) ? SL_OK : SL_ERR_IO;
+        status = sli_output_close(&output, complete, &a);
     }
     errno = saved;
     return status;

@@ -14,10 +14,11 @@ typedef struct sli_reader {
     const char *at, *end;
     FILE *file;   /* follows `end`; NULL: a text in memory, or the file has ended */
     char *buffer; /* SLI_LINE_MAX, for a file */
-    int failed;   /* the file cannot be read, or a line is too long */
+    const char *failed; /* static: why the file cannot be read on; NULL: it can */
+    int error;          /* errno, if the system has refused to read */
     sl_off line;  /* lines read so far */
     char point[SLI_POINT_MAX + 1]; /* the decimal point that strtod expects */
-    const char *what; /* static: the word of the file that is not supported; NULL: none */
+    const char *what; /* static: what is not supported or malformed; NULL: nothing yet */
     sl_int twice[2];  /* an entry that the file has in both triangles, when it is refused for it */
 } sli_reader;
 
@@ -36,7 +37,10 @@ static int sli_reader_fill(sli_reader *r) {
     r->at = r->buffer;
     r->end = r->buffer + kept + got;
     if (got < SLI_LINE_MAX - kept) {
-        r->failed |= ferror(r->file) != 0;
+        if (ferror(r->file)) {
+            r->failed = "the file cannot be read";
+            r->error = errno;
+        }
         r->file = NULL;
     }
     return got > 0;
@@ -92,7 +96,7 @@ static int sli_next_line(sli_reader *r, const char **start, const char **stop, i
             }
         } while (length == r->end - r->at && sli_reader_fill(r));
         if (length >= SLI_LINE_MAX) {
-            r->failed = 1;
+            r->failed = "a line of 65536 bytes or more";
             break;
         }
         *start = r->at;

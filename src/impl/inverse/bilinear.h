@@ -161,20 +161,22 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
     sli_bilinear q;
     sl_status status;
     sli_stats_clear_error(stats);
-    if (F == NULL || out == NULL) {
-        return SL_ERR_ARGUMENT;
+    status = sli_argument(F == NULL ? "F is NULL" : out == NULL ? "out is NULL" : NULL);
+    if (status == SL_OK) {
+        nc = cset == NULL ? F->S->n : nc;
+        nb = bset == NULL ? F->S->n : nb;
+        status = sli_argument(nc < 0                ? "nc is below 0"
+                              : nb < 0              ? "nb is below 0"
+                              : nc > 0 && c == NULL ? "c is NULL"
+                              : nb > 0 && b == NULL ? "b is NULL"
+                                                    : NULL);
     }
-    nc = cset == NULL ? F->S->n : nc;
-    nb = bset == NULL ? F->S->n : nb;
-    if (nc < 0 || nb < 0 || (nc > 0 && c == NULL) || (nb > 0 && b == NULL)) {
-        return SL_ERR_ARGUMENT;
+    if (status == SL_OK && cset != NULL && bset != NULL && nc > INT32_MAX - nb) {
+        status = sli_refuse(SL_ERR_TOO_LARGE, "nb + nc exceeds 2^31 - 1");
     }
-    if (cset != NULL && bset != NULL && nc > INT32_MAX - nb) {
-        return SL_ERR_TOO_LARGE;
-    }
-    status = sli_check_entries(F, cset, nc, bset, nb, stats);
+    status = status == SL_OK ? sli_check_entries(F, cset, nc, bset, nb, stats) : status;
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     sli_inverse_clear_stats(stats);
     if (nc == 0 || nb == 0) {
@@ -193,7 +195,7 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
     own = sli_work_own(&F->allocator);
     status = sli_bilinear_run(&q, out, W == NULL ? &own : W, stats);
     sli_free(&own.allocator, own.block);
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

@@ -224,14 +224,18 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
     sli_inverse_block q;
     sl_status status;
     sli_stats_clear_error(stats);
-    if (F == NULL || n_rows < 0 || n_columns < 0 || (n_rows > 0 && rows == NULL) ||
-        (n_columns > 0 && columns == NULL) ||
-        (!is_empty && (Z == NULL || !sli_is_ld(ldz, n_rows)))) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_check_entries(F, rows, n_rows, columns, n_columns, stats);
+    status = sli_argument(F == NULL                              ? "F is NULL"
+                          : n_rows < 0                           ? "n_rows is below 0"
+                          : n_columns < 0                        ? "n_columns is below 0"
+                          : n_rows > 0 && rows == NULL           ? "rows is NULL"
+                          : n_columns > 0 && columns == NULL     ? "columns is NULL"
+                          : !is_empty && Z == NULL               ? "Z is NULL"
+                          : !is_empty && !sli_is_ld(ldz, n_rows) ? "ldz is below n_rows"
+                                                                 : NULL);
+    status =
+        status == SL_OK ? sli_check_entries(F, rows, n_rows, columns, n_columns, stats) : status;
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     sli_inverse_clear_stats(stats);
     memset(&q, 0, sizeof q);
@@ -247,7 +251,7 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
     own = sli_work_own(&F->allocator);
     status = is_empty ? SL_OK : sli_inverse_block_run(&q, W == NULL ? &own : W, stats);
     sli_free(&own.allocator, own.block);
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

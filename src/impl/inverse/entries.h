@@ -331,18 +331,20 @@ static sl_status sli_inverse_entries(sli_entries *q, sl_work *W, sl_stats *stats
     const sli_requests *r = &q->requests;
     sl_work own;
     sl_status status;
-    if (r->count < 0 || (r->count > 0 && q->out == NULL)) {
-        return SL_ERR_ARGUMENT;
+    status = sli_argument(r->count < 0                     ? "count is below 0"
+                          : r->count > 0 && q->out == NULL ? "out is NULL"
+                                                           : NULL);
+    if (status == SL_OK) {
+        status = sli_check_entries(q->F, r->rows, r->count, r->columns, r->count, stats);
     }
-    status = sli_check_entries(q->F, r->rows, r->count, r->columns, r->count, stats);
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     sli_inverse_clear_stats(stats);
     own = sli_work_own(&q->F->allocator);
     status = r->count > 0 ? sli_entries_run(q, W == NULL ? &own : W, stats) : SL_OK;
     sli_free(&own.allocator, own.block);
-    return status;
+    return sli_report(stats, status);
 }
 
 SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_int *rows,
@@ -350,7 +352,7 @@ SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_i
     sli_entries q;
     sli_stats_clear_error(stats);
     if (F == NULL) {
-        return SL_ERR_ARGUMENT;
+        return sli_report(stats, sli_argument("F is NULL"));
     }
     q = sli_entries_of(F, out, rows, rows, rows == NULL ? F->S->n : count);
     return sli_inverse_entries(&q, W, stats);
@@ -362,7 +364,9 @@ SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int 
     sli_entries q;
     sli_stats_clear_error(stats);
     if (F == NULL || (count > 0 && (rows == NULL || columns == NULL))) {
-        return SL_ERR_ARGUMENT;
+        return sli_report(stats, sli_argument(F == NULL      ? "F is NULL"
+                                              : rows == NULL ? "rows is NULL"
+                                                             : "columns is NULL"));
     }
     q = sli_entries_of(F, out, rows, columns, count);
     return sli_inverse_entries(&q, W, stats);

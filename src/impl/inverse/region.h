@@ -192,7 +192,8 @@ static sl_status sli_region_fill(sl_region *R, const sl_factor *F, const sl_sele
         R->is_copied = is_copied;
         if (!sli_region_loss_is_small(R, F, W)) {
             R->numbers.generation = 0;
-            status = SL_ERR_INACCURATE;
+            status = sli_refuse(SL_ERR_INACCURATE, "pivots of both signs: solves that end at the "
+                                                   "boundary would lose too many digits");
         }
         R->seconds = sli_seconds() - started;
     }
@@ -203,10 +204,13 @@ static sl_status sli_region_fill(sl_region *R, const sl_factor *F, const sl_sele
 /* Refuses a failed factor, a Z that is not of its present numbers, and centered solves: what
  * centering adds to b is not 0 outside of the region. */
 static sl_status sli_region_check_factor(const sl_factor *F, const sl_selected *Z) {
-    if (!F->is_valid || (Z != NULL && !sli_numbers_are_of(&Z->numbers, F))) {
-        return SL_ERR_STATE;
+    const sl_status status = sli_inverse_check(F);
+    if (F->is_valid && Z != NULL && !sli_numbers_are_of(&Z->numbers, F)) {
+        return sli_refuse(SL_ERR_STALE, "Z is not of the present F: sl_selected_refactor");
     }
-    return F->null.is_centered ? SL_ERR_UNSUPPORTED : sli_inverse_check(F);
+    return status == SL_OK && F->null.is_centered
+               ? sli_refuse(SL_ERR_UNSUPPORTED, "a region with options.mass")
+               : status;
 }
 
 SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_int *set,
@@ -218,13 +222,15 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
     sli_choice start;
     sl_status status;
     sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
+    status = sli_begin(out);
+    if (status == SL_OK) {
+        status = sli_argument(F == NULL ? "F is NULL"
+                              : set != NULL && count < 0
+                                  ? "count is below 0"
+                                  : sli_options_wrong(opt, SLI_READS_REGION_BYTES));
     }
-    *out = NULL;
-    if (F == NULL || (set != NULL && count < 0) ||
-        !sli_options_are_valid(opt, SLI_READS_REGION_BYTES)) {
-        return SL_ERR_ARGUMENT;
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
     memset(&start, 0, sizeof start);
     start.S = F->S;
@@ -243,19 +249,19 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
     } else {
         sl_region_free(R);
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 SL_API sl_status sl_region_refactor(sl_region *R, const sl_factor *F, const sl_selected *Z,
                                     sl_work *W) {
-    sl_status status;
-    if (R == NULL || F == NULL) {
-        return SL_ERR_ARGUMENT;
+    sl_status status = sli_argument(R == NULL ? "R is NULL" : F == NULL ? "F is NULL" : NULL);
+    if (status == SL_OK && F->S != R->S) {
+        status = sli_refuse(SL_ERR_STATE, "R and F are of different analyses");
     }
-    if (F->S != R->S || R->is_immutable) {
-        return SL_ERR_STATE;
+    if (status == SL_OK && R->is_immutable) {
+        status = sli_refuse_mapped();
     }
-    status = sli_region_check_factor(F, Z);
+    status = status == SL_OK ? sli_region_check_factor(F, Z) : status;
     if (status == SL_OK) {
         status = sli_region_fill(R, F, Z, W);
     }

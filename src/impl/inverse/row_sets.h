@@ -13,7 +13,8 @@ static sl_status sli_check_rows(const sl_symbolic *S, const sl_int *rows, sl_int
     for (k = 0; k < count && rows != NULL; k++) {
         if (rows[k] < 0 || rows[k] >= S->n) {
             return sli_fail_at(stats, SL_ERR_ARGUMENT, is_column ? -1 : rows[k],
-                               is_column ? rows[k] : -1, 0.0);
+                               is_column ? rows[k] : -1, 0.0,
+                               is_column ? "a column is out of range" : "a row is out of range");
         }
     }
     return SL_OK;

@@ -272,16 +272,16 @@ SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const
     sl_selected *Z = NULL;
     sl_status status;
     sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
+    status = sli_begin(out);
+    if (status == SL_OK) {
+        status =
+            sli_argument(F == NULL                  ? "F is NULL"
+                         : set != NULL && count < 0 ? "count is below 0"
+                                                    : sli_options_wrong(opt, SLI_READS_NOTHING));
     }
-    *out = NULL;
-    if (F == NULL || (set != NULL && count < 0) || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_inverse_check(F);
+    status = status == SL_OK ? sli_inverse_check(F) : status;
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     status = sli_selected_new(&Z, F, set, count, opt, stats);
     if (status == SL_OK) {
@@ -297,17 +297,19 @@ SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const
     } else {
         sl_selected_free(Z);
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 SL_API sl_status sl_selected_refactor(sl_selected *Z, const sl_factor *F, sl_work *W) {
-    if (Z == NULL || F == NULL) {
-        return SL_ERR_ARGUMENT;
+    sl_status status = sli_argument(Z == NULL ? "Z is NULL" : F == NULL ? "F is NULL" : NULL);
+    status = status == SL_OK ? sli_factor_has_numbers(F) : status;
+    if (status == SL_OK && F->S != Z->traversal.S) {
+        status = sli_refuse(SL_ERR_STATE, "Z and F are of different analyses");
     }
-    if (!F->is_valid || F->S != Z->traversal.S || Z->is_immutable) {
-        return SL_ERR_STATE;
+    if (status == SL_OK && Z->is_immutable) {
+        status = sli_refuse_mapped();
     }
-    return sli_selected_fill(Z, F, W);
+    return status == SL_OK ? sli_selected_fill(Z, F, W) : status;
 }
 
 SL_API void sl_selected_free(sl_selected *Z) {

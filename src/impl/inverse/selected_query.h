@@ -34,11 +34,13 @@ static sl_status sli_selected_read(const sl_selected *Z, double *out, const sl_i
             const sl_int i = rows == NULL ? k : rows[k], j = columns == NULL ? i : columns[k];
             sl_off at;
             if (pass == 0 && (i < 0 || i >= S->n || j < 0 || j >= S->n)) {
-                return sli_fail_at(stats, SL_ERR_ARGUMENT, i, columns == NULL ? -1 : j, 0.0);
+                return sli_fail_at(stats, SL_ERR_ARGUMENT, i, columns == NULL ? -1 : j, 0.0,
+                                   "a row or column is out of range");
             }
             at = sli_selected_position(Z, S->iperm[i], S->iperm[j]);
             if (at == -1) {
-                return sli_fail_at(stats, SL_ERR_PATTERN, i, columns == NULL ? -1 : j, 0.0);
+                return sli_fail_at(stats, SL_ERR_OTHER_PATTERN, i, columns == NULL ? -1 : j, 0.0,
+                                   "Z does not have this entry");
             }
             if (pass == 1) {
                 out[k] = Z->Z[at];
@@ -63,19 +65,24 @@ static void sli_selected_read_diagonal(const sl_selected *Z, double *out) {
 
 SL_API sl_status sl_selected_entries(const sl_selected *Z, double *out, const sl_int *rows,
                                      const sl_int *columns, sl_int count, sl_stats *stats) {
+    sl_status status;
     sli_stats_clear_error(stats);
-    if (Z == NULL || (rows == NULL ? columns != NULL : count < 0)) {
-        return SL_ERR_ARGUMENT;
+    status = sli_argument(Z == NULL                         ? "Z is NULL"
+                          : rows == NULL && columns != NULL ? "rows is NULL, but columns is not"
+                          : rows != NULL && count < 0       ? "count is below 0"
+                                                            : NULL);
+    if (status == SL_OK) {
+        count = rows == NULL ? Z->traversal.S->n : count;
+        status = sli_argument(count > 0 && out == NULL ? "out is NULL" : NULL);
     }
-    count = rows == NULL ? Z->traversal.S->n : count;
-    if (count > 0 && out == NULL) {
-        return SL_ERR_ARGUMENT;
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
     if (rows == NULL && Z->traversal.forest.count == Z->traversal.S->n_supers) {
         sli_selected_read_diagonal(Z, out);
         return SL_OK;
     }
-    return sli_selected_read(Z, out, rows, columns, count, stats);
+    return sli_report(stats, sli_selected_read(Z, out, rows, columns, count, stats));
 }
 
 SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats) {

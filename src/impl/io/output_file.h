@@ -3,6 +3,7 @@
 #define SLI_IO_OUTPUT_FILE_H
 
 #include "../base/alloc.h"
+#include "../base/status.h"
 
 #define SLI_TEMPORARY_NAMES 100 /* tried beside a file: path.tmp00 to path.tmp99 */
 #define SLI_TEMPORARY_SUFFIX 16 /* bytes of ".tmp" and any int, as compilers count them */
@@ -169,6 +170,7 @@ static int sli_create_beside(sli_output *o, int exists) {
 /* Opens o->file for what path shall contain. On error o needs no closing. */
 static sl_status sli_output_open(sli_output *o, const char *path, const sl_allocator *a) {
     int exists, could_replace;
+    errno = 0;
     o->path = path;
     o->temporary = NULL;
     o->file = NULL;
@@ -176,7 +178,7 @@ static sl_status sli_output_open(sli_output *o, const char *path, const sl_alloc
     if (sli_is_replaceable(path, &exists)) {
         o->temporary = (char *)sli_alloc(a, strlen(path) + SLI_TEMPORARY_SUFFIX);
         if (o->temporary == NULL) {
-            return SL_ERR_MEMORY;
+            return sli_no_memory();
         }
         could_replace = sli_create_beside(o, exists);
         if (o->file != NULL) {
@@ -185,11 +187,11 @@ static sl_status sli_output_open(sli_output *o, const char *path, const sl_alloc
         sli_free(a, o->temporary);
         o->temporary = NULL;
         if (could_replace) {
-            return SL_ERR_IO;
+            return sli_file_fails("no file can be created beside it");
         }
     }
     o->file = fopen(path, "wb");
-    return o->file != NULL ? SL_OK : SL_ERR_IO;
+    return o->file != NULL ? SL_OK : sli_file_fails("the file cannot be opened");
 }
 
 /* Gives the temporary file the name of the old one, which it replaces in one step. Returns whether
@@ -214,21 +216,26 @@ static int sli_replace(const sli_output *o, int *is_only_copy) {
 }
 
 /* Closes the file and, if it is complete, gives it its name. Returns whether both succeeded. */
-static int sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
+static sl_status sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
     int ok = fflush(o->file) == 0 && complete, has_name = 1, is_only_copy = 0;
+    sl_status status;
 #if defined(SLI_UNNAMED_FILES)
     has_name = !o->is_unnamed || (ok && sli_name_unnamed(o));
     ok = ok && has_name;
 #endif
     ok = fclose(o->file) == 0 && ok; /* untested: it has been flushed */
+    status = ok ? SL_OK : sli_file_fails("the file cannot be written");
     if (o->temporary != NULL) {
-        ok = ok && sli_replace(o, &is_only_copy);
+        if (ok && !sli_replace(o, &is_only_copy)) {
+            ok = 0;
+            status = sli_file_fails("the old file cannot be replaced");
+        }
         if (!ok && has_name && !is_only_copy) { /* untested: without POSIX */
             remove(o->temporary);
         }
         sli_free(a, o->temporary);
     }
-    return ok;
+    return status;
 }
 
 #endif

@@ -20,10 +20,12 @@ SLI_INLINE sl_int sli_nnz(const sl_csc *A) {
 
 /* Checks the sizes of a matrix with 32-bit or 64-bit indices. p: its positions. */
 static sl_status sli_csc_check_sizes(int64_t n_rows, int64_t n_cols, const void *p) {
-    if (n_rows < 0 || n_cols < 0 || (n_cols > 0 && p == NULL)) {
-        return SL_ERR_ARGUMENT;
-    }
-    return n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX ? SL_ERR_TOO_LARGE : SL_OK;
+    const sl_status status = sli_argument(n_rows < 0 || n_cols < 0  ? "A has a size below 0"
+                                          : n_cols > 0 && p == NULL ? "A.p is NULL"
+                                                                    : NULL);
+    return status == SL_OK && (n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX)
+               ? sli_refuse(SL_ERR_TOO_LARGE, "A has more than 2^31 - 8 rows or columns")
+               : status;
 }
 
 /* Has A sizes and arrays, so that its positions and rows can be checked? */
@@ -37,20 +39,22 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
     sl_int j, p;
     uint32_t beyond = 0;
     sli_stats_clear_error(stats);
-    status = A == NULL ? SL_ERR_ARGUMENT : sli_csc_check_sizes(A->n_rows, A->n_cols, A->p);
+    status = sli_argument(A == NULL ? "A is NULL" : NULL);
+    status = status == SL_OK ? sli_csc_check_sizes(A->n_rows, A->n_cols, A->p) : status;
     if (status != SL_OK || A->n_cols == 0) {
-        return status;
+        return sli_report(stats, status);
     }
     if (A->p[0] != 0) {
-        return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0);
+        return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0, "A.p[0] is not 0");
     }
     for (j = 0; j < A->n_cols; j++) {
         if (A->p[j + 1] < A->p[j]) {
-            return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0);
+            return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0, "A.p descends");
         }
     }
-    if (sli_nnz(A) > 0 && A->i == NULL) {
-        return SL_ERR_ARGUMENT;
+    status = sli_argument(sli_nnz(A) > 0 && A->i == NULL ? "A.i is NULL" : NULL);
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
     for (p = 0; p < sli_nnz(A); p++) { /* without branches: usually all are in range */
         beyond |= (uint32_t)A->i[p] >= (uint32_t)A->n_rows;
@@ -58,7 +62,8 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
     for (j = 0; beyond; j++) {
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
             if (A->i[p] < 0 || A->i[p] >= A->n_rows) {
-                return sli_fail_at(stats, SL_ERR_PATTERN, A->i[p], j, 0.0);
+                return sli_fail_at(stats, SL_ERR_PATTERN, A->i[p], j, 0.0,
+                                   "a row of A is out of range; rows count from 0");
             }
         }
     }
@@ -104,6 +109,20 @@ static sl_triangle sli_csc_columns(const sl_csc *A, sl_int *column) {
         above |= row[p] - here;
     }
     return sli_triangle_of(below, above);
+}
+
+/* Returns the column of A that holds position p. */
+static sl_int sli_column_of(const sl_csc *A, sl_int p) {
+    sl_int low = 0, high = A->n_cols - 1;
+    while (low < high) { /* finds the last column that begins at or before p */
+        const sl_int middle = low + (high - low + 1) / 2;
+        if (A->p[middle] <= p) {
+            low = middle;
+        } else {
+            high = middle - 1;
+        }
+    }
+    return low;
 }
 
 /* Is this entry read? Of a matrix that stores both triangles only the lower one is. */

@@ -93,21 +93,27 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
     const sl_allocator a = sli_allocator(opt);
     sli_triplet_list t;
     sl_off k;
+    sl_status status;
     sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
+    status = sli_begin(out);
+    if (status == SL_OK) {
+        status = sli_argument(n_rows < 0               ? "n_rows is below 0"
+                              : n_cols < 0             ? "n_cols is below 0"
+                              : count < 0              ? "count is below 0"
+                              : count > 0 && i == NULL ? "i is NULL"
+                              : count > 0 && j == NULL ? "j is NULL"
+                                                       : sli_options_wrong(opt, SLI_READS_NOTHING));
     }
-    *out = NULL;
-    if (n_rows < 0 || n_cols < 0 || count < 0 || (count > 0 && (i == NULL || j == NULL)) ||
-        !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-        return SL_ERR_ARGUMENT;
+    if (status == SL_OK && (count > INT32_MAX || n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX)) {
+        status = sli_refuse(SL_ERR_TOO_LARGE, "more than 2^31 - 1 triplets, or 2^31 - 8 rows");
     }
-    if (count > INT32_MAX || n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX) {
-        return SL_ERR_TOO_LARGE;
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
     for (k = 0; k < count; k++) {
         if (i[k] < 0 || i[k] >= n_rows || j[k] < 0 || j[k] >= n_cols) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, i[k], j[k], 0.0);
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, i[k], j[k], (double)k,
+                               "a triplet is out of range; rows count from 0");
         }
     }
     t.n_rows = n_rows;
@@ -116,7 +122,7 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
     t.i = i;
     t.j = j;
     t.x = x;
-    return sli_from_triplets(out, &t, &a);
+    return sli_report(stats, sli_from_triplets(out, &t, &a));
 }
 
 SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_options *opt) {
@@ -124,12 +130,9 @@ SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_
     sl_status status;
     sl_int j, p, k;
     sl_matrix *T;
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *out = NULL;
-    status =
-        sli_options_are_valid(opt, SLI_READS_NOTHING) ? sl_csc_check(A, NULL) : SL_ERR_ARGUMENT;
+    status = sli_begin(out);
+    status = status == SL_OK ? sli_argument(sli_options_wrong(opt, SLI_READS_NOTHING)) : status;
+    status = status == SL_OK ? sl_csc_check(A, NULL) : status;
     if (status != SL_OK) {
         return status;
     }

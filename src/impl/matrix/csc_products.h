@@ -22,27 +22,36 @@ static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, 
     }
 }
 
-/* Has A the arrays that a product reads? Sizes and p alone are looked at. */
-static int sli_csc_has_arrays(const sl_csc *A) {
-    return A->n_rows >= 0 && A->n_cols >= 0 && (A->n_cols == 0 || A->p != NULL) &&
-           (sli_nnz(A) <= 0 || (A->i != NULL && A->x != NULL));
+/* What is wrong with a matrix of a product, of which sizes and p alone are looked at, or NULL. */
+static const char *sli_product_wrong(const sl_csc *A, sl_int nrhs, int is_square) {
+    return A == NULL                             ? "A is NULL"
+           : nrhs < 0                            ? "nrhs is below 0"
+           : A->n_rows < 0 || A->n_cols < 0      ? "A has a size below 0"
+           : A->n_cols > 0 && A->p == NULL       ? "A.p is NULL"
+           : sli_nnz(A) > 0 && A->i == NULL      ? "A.i is NULL"
+           : sli_nnz(A) > 0 && A->x == NULL      ? "A.x is NULL"
+           : is_square && A->n_rows != A->n_cols ? "A is not square"
+                                                 : NULL;
 }
 
 SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y, size_t ldy,
                                  const double *X, size_t ldx, sl_int nrhs) {
     sl_triangle triangle;
     sl_int r;
-    if (A == NULL || nrhs < 0 || !sli_csc_has_arrays(A) ||
-        (reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED) ||
-        (reading == SL_AS_SYMMETRIC && A->n_rows != A->n_cols)) {
-        return SL_ERR_ARGUMENT;
+    sl_status status = sli_argument(reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED
+                                        ? "reading is not a value of sl_reading"
+                                        : sli_product_wrong(A, nrhs, reading == SL_AS_SYMMETRIC));
+    if (status != SL_OK || nrhs == 0 || A->n_rows == 0) {
+        return status;
     }
-    if (nrhs == 0 || A->n_rows == 0) {
-        return SL_OK;
-    }
-    if (Y == NULL || !sli_is_ld(ldy, A->n_rows) || !sli_is_ld(ldx, A->n_cols) ||
-        (A->n_cols > 0 && (X == NULL || X == Y))) {
-        return SL_ERR_ARGUMENT;
+    status = sli_argument(Y == NULL                    ? "Y is NULL"
+                          : !sli_is_ld(ldy, A->n_rows) ? "ldy is below the rows of A"
+                          : !sli_is_ld(ldx, A->n_cols) ? "ldx is below the columns of A"
+                          : A->n_cols > 0 && X == NULL ? "X is NULL"
+                          : A->n_cols > 0 && X == Y    ? "X is Y"
+                                                       : NULL);
+    if (status != SL_OK) {
+        return status;
     }
     triangle = reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE;
     for (r = 0; r < nrhs; r++) {
@@ -92,8 +101,9 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
     sl_int r, n;
     size_t rows;
     sl_triangle triangle;
-    if (A == NULL || A->n_rows != A->n_cols || nrhs < 0 || !sli_csc_has_arrays(A)) {
-        return SL_ERR_ARGUMENT;
+    sl_status status = sli_argument(sli_product_wrong(A, nrhs, 1));
+    if (status != SL_OK) {
+        return status;
     }
     n = A->n_cols;
     rows = (size_t)n;
@@ -103,9 +113,19 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
         }
         return SL_OK;
     }
-    if (B == NULL || R == NULL || X == NULL || !sli_is_ld(ldb, n) || !sli_is_ld(ldr, n) ||
-        !sli_is_ld(ldx, n) || R == X || (R == B && (backward_error != NULL || ldr != ldb))) {
-        return SL_ERR_ARGUMENT;
+    status =
+        sli_argument(B == NULL                          ? "B is NULL"
+                     : R == NULL                        ? "R is NULL"
+                     : X == NULL                        ? "X is NULL"
+                     : !sli_is_ld(ldb, n)               ? "ldb is below n"
+                     : !sli_is_ld(ldr, n)               ? "ldr is below n"
+                     : !sli_is_ld(ldx, n)               ? "ldx is below n"
+                     : R == X                           ? "R is X"
+                     : R == B && ldr != ldb             ? "R is B with another leading dimension"
+                     : R == B && backward_error != NULL ? "R is B, and backward_error is wanted"
+                                                        : NULL);
+    if (status != SL_OK) {
+        return status;
     }
     triangle = sli_triangle_scan(A);
     if (backward_error != NULL) {

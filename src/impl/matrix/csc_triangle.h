@@ -16,7 +16,8 @@ static sl_status sli_csc_check_symmetry(const sl_csc *A, const sl_csc *T, sl_int
         }
         for (p = T->p[j]; p < T->p[j + 1]; p++) {
             if (mark[T->i[p]] != j + 1) {
-                return sli_fail_at(stats, SL_ERR_PATTERN, j, T->i[p], 0.0);
+                return sli_fail_at(stats, SL_ERR_PATTERN, j, T->i[p], 0.0,
+                                   "both triangles are stored, and this entry in one of them only");
             }
         }
     }
@@ -35,7 +36,7 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle found, sl_triangl
     sl_int *mark;
     sl_status status = SL_OK;
     if ((unsigned)wanted > (unsigned)SL_TRIANGLE_BOTH) {
-        return SL_ERR_ARGUMENT;
+        return sli_refuse(SL_ERR_ARGUMENT, "options.triangle is not a value of sl_triangle");
     }
     if (wanted == SL_TRIANGLE_LOWER || wanted == SL_TRIANGLE_UPPER) {
         *out = wanted;
@@ -50,7 +51,7 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle found, sl_triangl
         }
         T = sl_matrix_view(transpose);
         mark = (sl_int *)sli_alloc(&a, (size_t)A->n_cols * sizeof(sl_int)); /* A->p is longer */
-        status = mark == NULL ? SL_ERR_MEMORY : sli_csc_check_symmetry(A, &T, mark, stats);
+        status = mark == NULL ? sli_no_memory() : sli_csc_check_symmetry(A, &T, mark, stats);
         sli_free(&a, mark);
         sl_matrix_free(transpose);
     }
@@ -63,13 +64,16 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle found, sl_triangl
 SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
                                  sl_stats *stats) {
     sl_status status = sl_csc_check(A, stats);
-    if (status != SL_OK) {
-        return status;
+    if (status == SL_OK) {
+        status =
+            sli_argument(out == NULL              ? "out is NULL"
+                         : A->n_rows != A->n_cols ? "A is not square"
+                                                  : sli_options_wrong(opt, SLI_READS_TRIANGLE));
     }
-    if (out == NULL || A->n_rows != A->n_cols || !sli_options_are_valid(opt, SLI_READS_TRIANGLE)) {
-        return SL_ERR_ARGUMENT;
+    if (status == SL_OK) {
+        status = sli_csc_triangle(A, sli_triangle_scan(A), out, opt, stats);
     }
-    return sli_csc_triangle(A, sli_triangle_scan(A), out, opt, stats);
+    return sli_report(stats, status);
 }
 
 #endif

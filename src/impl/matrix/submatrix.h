@@ -73,7 +73,7 @@ static sl_status sli_submatrix_make(sl_matrix **out, sl_int **from, const sli_su
     status = sli_matrix_new(&M, s->count, s->count, position[s->count], s->A->x != NULL, a);
     if (status == SL_OK && from != NULL) {
         *from = (sl_int *)sli_alloc(a, ((size_t)position[s->count] + 1) * sizeof(sl_int));
-        status = *from == NULL ? SL_ERR_MEMORY : SL_OK;
+        status = *from == NULL ? sli_no_memory() : SL_OK;
     }
     if (status == SL_OK) {
         memcpy(M->p, position, ((size_t)s->count + 1) * sizeof(sl_int));
@@ -93,28 +93,26 @@ SL_API sl_status sl_matrix_submatrix(sl_matrix **out, const sl_csc *A, const sl_
     sl_int *where = NULL, *position = NULL, bad;
     sl_status status;
     sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *out = NULL;
-    status = sl_csc_check(A, stats);
-    if (status != SL_OK) {
-        return status;
-    }
-    if (A->n_rows != A->n_cols || count < 0 || (count > 0 && rows == NULL) ||
-        !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-        return SL_ERR_ARGUMENT;
+    status = sli_begin(out);
+    status = status == SL_OK ? sl_csc_check(A, stats) : status;
+    if (status == SL_OK) {
+        status =
+            sli_argument(A->n_rows != A->n_cols      ? "A is not square"
+                         : count < 0                 ? "count is below 0"
+                         : count > 0 && rows == NULL ? "rows is NULL"
+                                                     : sli_options_wrong(opt, SLI_READS_NOTHING));
     }
     SLI_LAYOUT(&b, &a, status) {
         where = SLI_TAKE(&b, sl_int, A->n_cols);
         position = SLI_TAKE(&b, sl_int, (uint64_t)count + 1);
     }
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     bad = sli_rows_invert(rows, count, A->n_cols, where);
     if (bad >= 0) {
-        status = sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0);
+        status = sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0,
+                             "a row is out of range or given twice");
     } else {
         s.A = A;
         s.triangle = SL_TRIANGLE_NONE;
@@ -124,7 +122,7 @@ SL_API sl_status sl_matrix_submatrix(sl_matrix **out, const sl_csc *A, const sl_
         status = sli_submatrix_make(out, NULL, &s, position, &a);
     }
     sli_free(&a, b.base);
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

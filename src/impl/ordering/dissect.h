@@ -282,7 +282,7 @@ static sl_status sli_dissect_levels(sli_dissection *d) {
         sli_dissect_project(d);
         sli_dissect_visit(d, sli_dissect_refine);
     }
-    return d->pool.failed ? SL_ERR_MEMORY : SL_OK;
+    return d->pool.failed ? sli_no_memory() : SL_OK;
 }
 
 /* Exchanges the dissection with the other one of the finest level. */

@@ -43,4 +43,10 @@ typedef struct sli_order_job {
     const sl_int *weight; /* G->n: rows of each vertex, which bisections balance; NULL: 1 each */
 } sli_order_job;
 
+/* Reports an error in the stats of a job: the caller of the analysis may be in another thread. */
+SLI_COLD static sl_status sli_order_refuse(const sli_order_job *job, sl_status status,
+                                           const char *what) {
+    return sli_fail_at(job->stats, status, -1, -1, 0.0, what);
+}
+
 #endif

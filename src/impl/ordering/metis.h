@@ -67,7 +67,8 @@ static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_
         edges += G->begin[vertices[k] + 1] - G->begin[vertices[k]];
     }
     if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) { /* untested: 2^31 edges */
-        return SL_ERR_TOO_LARGE;                               /* untested: the same */
+        return sli_order_refuse(job, SL_ERR_TOO_LARGE,         /* untested: the same */
+                                "METIS has 32-bit indices");
     }
     SLI_LAYOUT(&b, job->a, status) {
         xadj = SLI_TAKE(&b, idx_t, (size_t)count + 1);
@@ -95,9 +96,10 @@ static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_
         }
     }
     sli_free(job->a, b.base);
-    return result == METIS_OK             ? SL_OK
-           : result == METIS_ERROR_MEMORY ? SL_ERR_MEMORY
-                                          : SL_ERR_ORDERING;
+    return result == METIS_OK ? SL_OK
+           : result == METIS_ERROR_MEMORY
+               ? sli_order_refuse(job, SL_ERR_MEMORY, "METIS has no memory")
+               : sli_order_refuse(job, SL_ERR_ORDERING, "METIS_NodeND has failed");
 }
 
 /* Orders the graph of a job by METIS, component by component. A breadth-first search finds each

@@ -190,7 +190,7 @@ static sl_status sli_nd_dissect(sli_nd *w) {
             sli_dissect_visit(d, sli_dissect_separate);
         } while (rounds-- > 0 && /* untested: there are fewer rounds */
                  sli_dissect_split(d, 2 * d->leaf_size, sli_dissect_bisect) > 0);
-        status = d->pool.failed ? SL_ERR_MEMORY : SL_OK;
+        status = d->pool.failed ? sli_no_memory() : SL_OK;
     }
     return status;
 }

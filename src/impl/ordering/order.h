@@ -21,11 +21,13 @@ static sl_status sli_order_given(const sli_order_job *job) {
     const sl_int *given = job->opt->perm, n = job->A->n_cols;
     sl_int bad;
     if (given == NULL && n > 0) {
-        return SL_ERR_ARGUMENT;
+        return sli_order_refuse(job, SL_ERR_ARGUMENT,
+                                "options.perm is NULL though ordering is GIVEN");
     }
     bad = sli_rows_invert(given, n, n, job->scratch);
     if (bad >= 0) {
-        return sli_fail_at(job->stats, SL_ERR_ARGUMENT, bad, -1, 0.0);
+        return sli_fail_at(job->stats, SL_ERR_ARGUMENT, bad, -1, given[bad],
+                           "options.perm has a row out of range or twice at this position");
     }
     if (n > 0) {
         memcpy(job->perm, given, (size_t)n * sizeof(sl_int));
@@ -154,11 +156,15 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
     return status;
 }
 
-/* Are purpose and block size valid for n rows? */
-static int sli_order_options_are_valid(const sl_options *opt, sl_int n) {
-    return opt == NULL ||
-           ((opt->purpose == SL_PURPOSE_MANY_SOLVES || opt->purpose == SL_PURPOSE_ONE_FACTOR) &&
-            opt->block_size >= 0 && (opt->block_size <= 1 || n % opt->block_size == 0));
+/* What is wrong with purpose and block size for n rows, or NULL. */
+static const char *sli_order_options_wrong(const sl_options *opt, sl_int n) {
+    return opt == NULL ? NULL
+           : (unsigned)opt->purpose > (unsigned)SL_PURPOSE_ONE_FACTOR
+               ? "options.purpose is not a value of sl_purpose"
+           : opt->block_size < 0 ? "options.block_size is below 0"
+           : opt->block_size > 1 && n % opt->block_size != 0
+               ? "options.block_size does not divide n"
+               : NULL;
 }
 
 /* Is the first factor wanted as early as possible? */
@@ -183,11 +189,13 @@ static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
  * ordering has one, and another order where dissection, for many solves, may not be the best. */
 static sl_status sli_order(sli_order_job *job) {
     const sl_options *opt = job->opt;
+    const char *wrong;
     job->septree->count = 0;
     job->choice->is_there = 0;
     job->choice->has_tree = 0;
-    if (!sli_order_options_are_valid(opt, job->A->n_cols)) {
-        return SL_ERR_ARGUMENT;
+    wrong = sli_order_options_wrong(opt, job->A->n_cols);
+    if (wrong != NULL) {
+        return sli_order_refuse(job, SL_ERR_ARGUMENT, wrong);
     }
     job->ordering = opt != NULL ? opt->ordering : SL_ORDERING_ND;
     job->is_hurried = sli_order_is_hurried(opt);
@@ -202,10 +210,12 @@ static sl_status sli_order(sli_order_job *job) {
         return SL_OK;
     case SL_ORDERING_METIS:
 #if defined(SLI_METIS)
-        return sli_metis_options_are_valid(opt->metis_options) ? sli_order_by_graph(job)
-                                                               : SL_ERR_ARGUMENT;
+        return sli_metis_options_are_valid(opt->metis_options)
+                   ? sli_order_by_graph(job)
+                   : sli_order_refuse(job, SL_ERR_ARGUMENT,
+                                      "an entry of options.metis_options is not known");
 #else
-        return SL_ERR_UNSUPPORTED;
+        return sli_order_refuse(job, SL_ERR_UNSUPPORTED, "options.ordering needs SL_METIS");
 #endif
     case SL_ORDERING_ND:
     case SL_ORDERING_MINDEG:
@@ -215,7 +225,8 @@ static sl_status sli_order(sli_order_job *job) {
         }
         return sli_order_by_graph(job);
     default:
-        return SL_ERR_ARGUMENT;
+        return sli_order_refuse(job, SL_ERR_ARGUMENT,
+                                "options.ordering is not a value of sl_ordering");
     }
 }
 

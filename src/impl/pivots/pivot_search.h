@@ -222,7 +222,7 @@ static sl_status sli_search_load(const sli_pivot_search *p, const sl_csc *A, sl_
         const sl_int from = S->scatter_from[m];
         if (!sli_is_finite(A->x[from])) {
             return sli_fail_at(stats, SL_ERR_NOT_FINITE, A->i[from], sli_column_of(A, from),
-                               A->x[from]);
+                               A->x[from], "an entry of A is not finite");
         }
         sli_scatter_map_pivots(S, s, m, &tile, &i, &j);
         sli_dense_add(f, p->local[i], p->local[j], A->x[from]);
@@ -260,14 +260,14 @@ static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front
         f->E = SLI_TAKE(&b, double, f->columns);
         f->values = SLI_TAKE(&b, double, (uint64_t)f->rows *(uint64_t)f->rows);
         if (b.overflow) {            /* untested: on 32 bits only */
-            return SL_ERR_TOO_LARGE; /* untested: the same */
+            return sli_refuse(SL_ERR_TOO_LARGE, "a front"); /* untested: the same */
         }
         if (pass == 0 && b.used > p->front_size) {
             sli_free(&p->allocator, p->front_block);
             p->front_size = 0;
             p->front_block = sli_alloc(&p->allocator, b.used);
             if (p->front_block == NULL) {
-                return SL_ERR_MEMORY;
+                return sli_no_memory();
             }
             p->front_size = b.used;
         }

@@ -46,21 +46,16 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
     sli_block b = {NULL, 0, 0};
     sl_status status;
     sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *out = NULL;
-    status = sl_symbolic_create(&S, A, opt, &found);
+    status = sli_begin(out);
+    status = status == SL_OK ? sl_symbolic_create(&S, A, opt, &found) : status;
     if (status != SL_OK) {
-        return stats == NULL ? status
-                             : sli_fail_at(stats, status, found.error.row, found.error.column,
-                                           found.error.value);
+        return sli_report(stats, status);
     }
     memset(&p, 0, sizeof p);
     p.S = S;
     p.allocator = S->allocator;
     started = sli_seconds();
-    status = A->x == NULL && sli_nnz(A) > 0 ? SL_ERR_ARGUMENT : SL_OK;
+    status = sli_argument(A->x == NULL && sli_nnz(A) > 0 ? "A.x is NULL" : NULL);
     SLI_LAYOUT(&b, &p.allocator, status) {
         sli_search_layout(&p, &b);
     }
@@ -69,7 +64,7 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
     status = status == SL_OK ? sli_pivoted_analyze(out, &p, A, opt, stats) : status;
     sli_free(&p.allocator, b.base);
     sl_symbolic_free(S);
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

@@ -29,12 +29,29 @@ static void sli_swap_words(void *data, uint32_t word, uint64_t bytes) {
     }
 }
 
+SLI_COLD static sl_status sli_not_saved(void) {
+    return sli_refuse(SL_ERR_UNSUPPORTED, "not a saved factor");
+}
+
+SLI_COLD static sl_status sli_truncated(void) {
+    return sli_refuse(SL_ERR_IO, "truncated: bytes are missing at its end");
+}
+
+SLI_COLD static sl_status sli_damaged(void) {
+    return sli_refuse(SL_ERR_IO, "damaged: sizes, numbers or indices are inconsistent");
+}
+
+/* The same, found by a checksum. */
+SLI_COLD static sl_status sli_damaged_sum(void) {
+    return sli_refuse(SL_ERR_IO, "damaged: a checksum is wrong");
+}
+
 /* Reads the header: is it that of a file that this library can read? *swapped: it has the other
  * byte order. */
 static sl_status sli_decode_header(sli_saved_header *h, int *swapped) {
     if (memcmp(h->magic, sli_saved_magic, sizeof sli_saved_magic) != 0 ||
         (h->order_mark != SLI_ORDER_MARK && h->order_mark != SLI_ORDER_MARK_SWAPPED)) {
-        return SL_ERR_UNSUPPORTED;
+        return sli_not_saved();
     }
     *swapped = h->order_mark != SLI_ORDER_MARK;
     if (*swapped) {
@@ -42,9 +59,9 @@ static sl_status sli_decode_header(sli_saved_header *h, int *swapped) {
         sli_swap_words(&h->bytes, 8, 16);
     }
     if (h->read_version < 1 || h->read_version > SLI_READ_VERSION) {
-        return SL_ERR_UNSUPPORTED;
+        return sli_refuse(SL_ERR_UNSUPPORTED, "a newer version of the library has saved it");
     }
-    return h->sections <= SLI_SECTIONS_MAX ? SL_OK : SL_ERR_IO;
+    return h->sections <= SLI_SECTIONS_MAX ? SL_OK : sli_damaged();
 }
 
 /* Is a count in 0..most? */

@@ -3,16 +3,20 @@
 #define SLI_SAVE_FILE_MAP_H
 
 #include "../../public/types.h"
-#include "../base/base.h"
+#include "../base/status.h"
 
 typedef struct sli_mapping {
     const void *bytes; /* NULL: nothing is mapped */
     size_t size;
 } sli_mapping;
 
+static const char sli_no_file[] = "it is empty, or not an ordinary file";
+static const char sli_huge_file[] = "the file is larger than the address space";
+static const char sli_unmappable[] = "the system cannot map the file";
+
 /* Maps a file. An empty file cannot be mapped, and gives SL_ERR_IO like one that cannot be read. */
 static sl_status sli_map(const char *path, sli_mapping *out) {
-    sl_status status = SL_ERR_IO;
+    sl_status status = SL_OK;
     out->bytes = NULL;
     out->size = 0;
 #if defined(SLI_MMAP)
@@ -21,16 +25,17 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
         struct stat found;
         void *bytes;
         if (file < 0) {
-            return SL_ERR_IO;
+            return sli_file_fails("the file cannot be opened");
         }
-        if (fstat(file, &found) == 0 && S_ISREG(found.st_mode) && found.st_size > 0) {
-            const int is_huge = (uint64_t)found.st_size > SIZE_MAX / 2;
-            status = is_huge ? SL_ERR_TOO_LARGE : SL_OK; /* untested: on 32 bits only */
+        if (fstat(file, &found) != 0 || !S_ISREG(found.st_mode) || found.st_size <= 0) {
+            status = sli_refuse(SL_ERR_IO, sli_no_file);
+        } else if ((uint64_t)found.st_size > SIZE_MAX / 2) {      /* untested: on 32 bits only */
+            status = sli_refuse(SL_ERR_TOO_LARGE, sli_huge_file); /* untested: the same */
         }
         if (status == SL_OK) {
             bytes = mmap(NULL, (size_t)found.st_size, PROT_READ, MAP_SHARED, file, 0);
             if (bytes == MAP_FAILED) {
-                status = errno == ENOMEM ? SL_ERR_MEMORY : SL_ERR_IO;
+                status = errno == ENOMEM ? sli_no_memory() : sli_file_fails(sli_unmappable);
             } else {
                 out->bytes = bytes;
                 out->size = (size_t)found.st_size;
@@ -45,10 +50,12 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
         void *section;
         int64_t size = 0;
         if ((intptr_t)file == -1) { /* INVALID_HANDLE_VALUE */
-            return SL_ERR_IO;
+            return sli_refuse(SL_ERR_IO, "the file cannot be opened");
         }
-        if (GetFileSizeEx(file, (sli_windows_number)(void *)&size) && size > 0) {
-            status = (uint64_t)size > SIZE_MAX / 2 ? SL_ERR_TOO_LARGE : SL_OK;
+        if (!GetFileSizeEx(file, (sli_windows_number)(void *)&size) || size <= 0) {
+            status = sli_refuse(SL_ERR_IO, sli_no_file);
+        } else if ((uint64_t)size > SIZE_MAX / 2) {
+            status = sli_refuse(SL_ERR_TOO_LARGE, sli_huge_file);
         }
         section = status != SL_OK ? NULL : CreateFileMappingA(file, NULL, 2, 0, 0, NULL);
         if (section != NULL) { /* 2: PAGE_READONLY, 4: FILE_MAP_READ */
@@ -56,7 +63,7 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
             CloseHandle(section);
         }
         if (status == SL_OK && out->bytes == NULL) {
-            status = SL_ERR_IO;
+            status = sli_refuse(SL_ERR_IO, sli_unmappable);
         } else if (status == SL_OK) {
             out->size = (size_t)size;
         }
@@ -64,7 +71,7 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
     }
 #else
     (void)path;
-    status = SL_ERR_UNSUPPORTED;
+    status = sli_refuse(SL_ERR_UNSUPPORTED, "files cannot be mapped here: sl_load_file");
 #endif
     return status;
 }

@@ -25,12 +25,12 @@ typedef struct sli_reading {
 /* Copies the next bytes. */
 static sl_status sli_get(sli_reading *r, void *to, uint64_t bytes) {
     if (bytes > r->size - r->at) {
-        return SL_ERR_IO;
+        return sli_truncated();
     }
     if (r->memory != NULL) {
         memcpy(to, r->memory + r->at, (size_t)bytes);
     } else if (fread(to, 1, (size_t)bytes, r->file) != (size_t)bytes) {
-        return SL_ERR_IO;
+        return ferror(r->file) ? sli_file_fails("the file cannot be read") : sli_truncated();
     }
     r->at += bytes;
     return SL_OK;
@@ -40,9 +40,16 @@ static sl_status sli_get(sli_reading *r, void *to, uint64_t bytes) {
 static sl_status sli_read_table(sli_reading *r) {
     unsigned char prefix[sizeof(sli_saved_header) + SLI_SECTIONS_MAX * sizeof(sli_section)];
     sli_saved_header *h = &r->saved.header;
-    sl_status status = sli_get(r, prefix, sizeof *h);
+    const size_t first = r->size < sizeof *h ? (size_t)r->size : sizeof *h;
+    sl_status status = sli_get(r, prefix, first);
     size_t size;
     uint32_t k;
+    if (status == SL_OK && first < sizeof *h) {
+        return memcmp(prefix, sli_saved_magic, first < sizeof h->magic ? first : sizeof h->magic) ==
+                       0
+                   ? sli_truncated()
+                   : sli_not_saved();
+    }
     if (status != SL_OK) {
         return status;
     }
@@ -52,9 +59,12 @@ static sl_status sli_read_table(sli_reading *r) {
         return status;
     }
     size = (size_t)sli_saved_prefix(&r->saved);
-    status = h->bytes == r->size ? sli_get(r, prefix + sizeof *h, size - sizeof *h) : SL_ERR_IO;
+    if (h->bytes != r->size) {
+        return h->bytes > r->size ? sli_truncated() : sli_damaged();
+    }
+    status = sli_get(r, prefix + sizeof *h, size - sizeof *h);
     if (status != SL_OK || sli_prefix_checksum(prefix, size) != h->checksum) {
-        return SL_ERR_IO;
+        return status != SL_OK ? status : sli_damaged_sum();
     }
     memcpy(r->saved.table, prefix + sizeof *h, h->sections * sizeof(sli_section));
     for (k = 0; k < h->sections && r->swapped; k++) {
@@ -138,11 +148,9 @@ static int sli_section_accept(const sli_reading *r, sl_int k, void *data, int al
 /* Reads the numbers of an object, section k. They are few, and always verified. */
 static sl_status sli_read_numbers(sli_reading *r, sl_int k, void *numbers, size_t bytes) {
     const sli_section *section = &r->saved.table[k];
-    sl_status status = SL_ERR_IO;
-    if (section->bytes == bytes && section->offset == r->at && section->word == 8) {
-        status = sli_get(r, numbers, bytes);
-    }
-    return status == SL_OK && !sli_section_accept(r, k, numbers, 1) ? SL_ERR_IO : status;
+    const int fits = section->bytes == bytes && section->offset == r->at && section->word == 8;
+    const sl_status status = fits ? sli_get(r, numbers, bytes) : sli_damaged();
+    return status == SL_OK && !sli_section_accept(r, k, numbers, 1) ? sli_damaged_sum() : status;
 }
 
 /* Reads everything before the arrays: afterwards all sizes are known, and each array is inside the
@@ -151,26 +159,27 @@ static sl_status sli_read_front(sli_reading *r) {
     sli_saved expected, *f = &r->saved;
     sl_status status = sli_read_table(r);
     if (status == SL_OK && f->header.sections < 2) {
-        return SL_ERR_IO;
+        return sli_damaged();
     }
     status = status == SL_OK ? sli_read_numbers(r, 0, &f->analysis, sizeof f->analysis) : status;
     if (status != SL_OK || !sli_decode_analysis(&f->analysis, &r->S)) {
-        return status != SL_OK ? status : SL_ERR_IO;
+        return status != SL_OK ? status : sli_damaged();
     }
     r->F.type = sli_storage_type_of(SL_STORAGE_DOUBLE);
     r->has_factor = f->table[1].bytes > 0;
     if (r->has_factor) {
         status = sli_read_numbers(r, 1, &f->factor, sizeof f->factor);
         if (status != SL_OK || !sli_decode_factor(&f->factor, &r->S, &r->F)) {
-            return status != SL_OK ? status : SL_ERR_IO;
+            return status != SL_OK ? status : sli_damaged();
         }
         if (r->F.type == NULL) { /* untested: all storages are there */
-            return SL_ERR_UNSUPPORTED;
+            return sli_refuse(SL_ERR_UNSUPPORTED,
+                              sli_storage_needs(SL_STORAGE_FLOAT)); /* untested: the same */
         }
     }
     if ((r->F.type->storage != SL_STORAGE_DOUBLE) !=
         (f->header.read_version > SLI_READ_VERSION_DOUBLE)) {
-        return SL_ERR_IO;
+        return sli_damaged();
     }
     memset(&expected, 0, sizeof expected);
     expected.analysis = f->analysis;
@@ -178,7 +187,7 @@ static sl_status sli_read_front(sli_reading *r) {
     sli_saved_add_base(&expected, &r->S, &r->F, r->has_factor);
     if (!sli_saved_place(&expected) ||
         !sli_table_is_expected(f, &expected, &r->first_region, &r->first_selected)) {
-        return SL_ERR_IO;
+        return sli_damaged();
     }
     f->first_array = expected.first_array;
     f->first_number = expected.first_number;
@@ -200,7 +209,7 @@ static sl_status sli_read_image(sli_reading *r, sli_image *m) {
     m->head = (size_t)sli_round_up(m->head);
     m->block = (unsigned char *)sli_alloc(&r->allocator, m->head + (r->is_mapped ? 0 : m->bytes));
     if (m->block == NULL) {
-        return SL_ERR_MEMORY;
+        return sli_no_memory();
     }
     m->arrays = m->block + m->head;
     if (r->is_mapped) {
@@ -212,7 +221,7 @@ static sl_status sli_read_image(sli_reading *r, sli_image *m) {
     for (k = m->first; k < m->last && status == SL_OK; k++) {
         unsigned char *data =
             m->arrays + (r->saved.table[k].offset - r->saved.table[m->first].offset);
-        status = sli_section_accept(r, k, data, 0) ? SL_OK : SL_ERR_IO;
+        status = sli_section_accept(r, k, data, 0) ? SL_OK : sli_damaged_sum();
     }
     if (status != SL_OK) {
         sli_free(&r->allocator, m->block);
@@ -233,7 +242,7 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
     m.head = sizeof *S;
     m.bytes = b.used;
     if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *S) { /* untested: on 32 bits only */
-        return SL_ERR_TOO_LARGE;                           /* untested: the same */
+        return sli_refuse(SL_ERR_TOO_LARGE, "the analysis"); /* untested: the same */
     }
     status = sli_read_image(r, &m);
     if (status != SL_OK) {
@@ -249,7 +258,7 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
         S->scatter_begin[S->n_supers] != a->entries ||
         (r->checks != SL_LOAD_TRUSTED && !sli_check_analysis(S, a))) {
         sli_free(&r->allocator, m.block);
-        return SL_ERR_IO;
+        return sli_damaged();
     }
     *out = (sl_symbolic *)(void *)m.block;
     **out = *S;
@@ -273,7 +282,7 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
     m.head = sizeof *F;
     m.bytes = b.used;
     if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F) {    /* untested: on 32 bits only */
-        status = status == SL_OK ? SL_ERR_TOO_LARGE : status; /* untested: the same */
+        status = sli_refuse(SL_ERR_TOO_LARGE, "the factor");  /* untested: the same */
     }
     status = status == SL_OK ? sli_read_image(r, &m) : status;
     if (status != SL_OK) {
@@ -286,7 +295,7 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
     F->stats.factor.bytes = m.head + m.bytes;
     if (r->checks != SL_LOAD_TRUSTED && !sli_check_factor(F)) {
         sli_free(&r->allocator, m.block);
-        return SL_ERR_IO;
+        return sli_damaged();
     }
     *out = (sl_factor *)(void *)m.block;
     **out = *F;

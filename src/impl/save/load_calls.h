@@ -27,7 +27,8 @@ static sl_status sli_read(sli_reading *r, sl_saved_set *set) {
     const sl_saved_content wanted = set->wanted;
     sl_status status = sli_read_front(r);
     if (status == SL_OK && r->is_mapped && r->swapped) {
-        return SL_ERR_UNSUPPORTED;
+        return sli_refuse(SL_ERR_UNSUPPORTED, "the byte order is not that of this processor: "
+                                              "sl_load_file");
     }
     status = status == SL_OK ? sli_read_analysis(r, &set->symbolic) : status;
     if (status == SL_OK && wanted != SL_SAVED_ANALYSIS && r->has_factor) {
@@ -55,13 +56,14 @@ typedef struct sli_origin {
 } sli_origin;
 
 static sl_status sli_read_path(sli_reading *r, const char *path, sl_saved_set *set) {
-    sl_status status = SL_ERR_IO;
+    sl_status status;
     r->file = fopen(path, "rb");
-    if (r->file != NULL) {
-        r->size = sli_file_size(r->file);
-        status = sli_read(r, set);
-        fclose(r->file);
+    if (r->file == NULL) {
+        return sli_file_fails("the file cannot be opened");
     }
+    r->size = sli_file_size(r->file);
+    status = r->size > 0 ? sli_read(r, set) : sli_refuse(SL_ERR_IO, sli_no_file);
+    fclose(r->file);
     return status;
 }
 
@@ -97,16 +99,23 @@ static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load
     sli_reading r;
     sl_status status;
     if (set == NULL) {
-        return SL_ERR_ARGUMENT;
+        return sli_argument("set is NULL");
     }
+    errno = 0;
     wanted = set->wanted;
     memset(set, 0, sizeof *set);
     set->wanted = wanted;
-    if ((unsigned)wanted > (unsigned)SL_SAVED_ANALYSIS ||
-        (unsigned)checks > (unsigned)SL_LOAD_VERIFIED ||
-        !sli_options_are_valid(opt, SLI_READS_ISA) || (!is_file && from->memory == NULL) ||
-        (!is_file && from->is_mapped && (uintptr_t)from->memory % SLI_ALIGN != 0)) {
-        return SL_ERR_ARGUMENT;
+    status = sli_argument(
+        (unsigned)wanted > (unsigned)SL_SAVED_ANALYSIS
+            ? "set.wanted is not a value of sl_saved_content: is the set initialized?"
+        : (unsigned)checks > (unsigned)SL_LOAD_VERIFIED ? "checks is not a value of sl_load_checks"
+        : !is_file && from->memory == NULL              ? "path or memory is NULL"
+        : !is_file && from->is_mapped && (uintptr_t)from->memory % SLI_ALIGN != 0
+            ? "memory is not aligned to 64 bytes"
+            : sli_options_wrong(opt, SLI_READS_ISA));
+    if (status != SL_OK) {
+        errno = saved;
+        return status;
     }
     memset(&r, 0, sizeof r);
     r.checks = checks;

@@ -16,7 +16,8 @@ static sl_status sli_read_section(sli_reading *r, uint32_t k, void **data) {
     } else if (bytes > 0) {
         status = sli_get(r, *data, bytes);
     }
-    return status == SL_OK && !sli_section_accept(r, (sl_int)k, *data, 0) ? SL_ERR_IO : status;
+    return status == SL_OK && !sli_section_accept(r, (sl_int)k, *data, 0) ? sli_damaged_sum()
+                                                                          : status;
 }
 
 /* Reads the numbers of section k. Is what they describe of this factor? F NULL: of any. */
@@ -30,7 +31,7 @@ static sl_status sli_read_part(sli_reading *r, uint32_t k, const sl_symbolic *S,
                    (F == NULL ||
                     (part->identity[0] == F->identity.a && part->identity[1] == F->identity.b))
                ? SL_OK
-               : SL_ERR_IO;
+               : sli_damaged();
 }
 
 /* ---- selected inverse ---- */
@@ -81,7 +82,7 @@ static sl_status sli_selected_of_memory(sl_selected **out, sl_selected *draft, s
     draft->bytes = sizeof *draft + sizeof(double) * (size_t)begin[draft->traversal.forest.count];
     *out = (sl_selected *)sli_alloc(&draft->allocator, sizeof *draft);
     if (*out == NULL) {
-        return SL_ERR_MEMORY;
+        return sli_no_memory();
     }
     **out = *draft;
     sli_borrow(&draft->traversal.S->borrowers);
@@ -109,7 +110,7 @@ static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected **out, sl_
     if (bytes % sizeof(double) != 0 || (uint64_t)ends[count] != bytes / sizeof(double) ||
         ((r->checks != SL_LOAD_TRUSTED || !r->is_mapped) && /* copies use the list at once */
          !sli_check_selected(draft->traversal.S, (const sl_int *)supers, ends, count))) {
-        return SL_ERR_IO;
+        return sli_damaged();
     }
     status = r->is_mapped ? sli_selected_of_memory(out, draft, (sl_int *)supers, (sl_off *)begin)
                           : sli_selected_of_list(out, draft, (const sl_int *)supers, seeds);
@@ -131,7 +132,7 @@ static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S, const s
     sl_status status = sli_read_part(r, r->first_selected, S, F, S->n_supers, &part);
     if (status != SL_OK || table[1].bytes != 4 * (uint64_t)part.count ||
         table[2].bytes != 8 * ((uint64_t)part.count + 1)) {
-        return status != SL_OK ? status : SL_ERR_IO;
+        return status != SL_OK ? status : sli_damaged();
     }
     memset(&draft, 0, sizeof draft);
     draft.allocator = r->allocator;
@@ -237,7 +238,7 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
     if (!sli_check_columns(roots, draft.extent.n_roots, F->S->n_supers) ||
         !sli_check_columns(rows, draft.extent.n_rows, F->S->n) ||
         (r->checks != SL_LOAD_TRUSTED && !sli_check_extent(F->S, &draft.extent))) {
-        return SL_ERR_IO;
+        return sli_damaged();
     }
     SLI_LAYOUT(&b, &r->allocator, status) {
         sli_region_layout(&draft, &b);
@@ -280,7 +281,7 @@ static sl_status sli_read_regions_numbers(sli_reading *r, const sl_saved_set *se
             sli_swap_words(R->Z, section->word, bytes);
         }
     }
-    return verifies && sli_checksum_end(&sum) != section->checksum ? SL_ERR_IO : SL_OK;
+    return verifies && sli_checksum_end(&sum) != section->checksum ? sli_damaged_sum() : SL_OK;
 }
 
 /* Creates the regions from their lists. */
@@ -294,11 +295,11 @@ static sl_status sli_read_regions_lists(sli_reading *r, const sl_factor *F, sli_
     status = status == SL_OK ? sli_read_section(r, first + 2, &q->roots) : status;
     status = status == SL_OK ? sli_read_section(r, first + 3, &q->rows) : status;
     if (status != SL_OK || !sli_check_records(r, F->S, q)) {
-        return status != SL_OK ? status : SL_ERR_IO;
+        return status != SL_OK ? status : sli_damaged();
     }
     set->regions = (sl_region **)sli_alloc(&r->allocator, (size_t)q->count * sizeof *set->regions);
     if (set->regions == NULL) {
-        return SL_ERR_MEMORY;
+        return sli_no_memory();
     }
     set->allocator = r->allocator;
     record = (const sli_saved_region *)q->list;
@@ -324,12 +325,12 @@ static sl_status sli_read_regions(sli_reading *r, const sl_factor *F, sl_saved_s
     sl_status status;
     memset(&q, 0, sizeof q);
     if (F == NULL || F->null.is_centered) {
-        return SL_ERR_IO;
+        return sli_damaged();
     }
     status = sli_read_part(r, r->first_region, F->S, F, INT32_MAX, &part);
     if (status != SL_OK || part.count == 0 ||
         table[1].bytes != sizeof(sli_saved_region) * (uint64_t)part.count) {
-        return status != SL_OK ? status : SL_ERR_IO;
+        return status != SL_OK ? status : sli_damaged();
     }
     q.count = (sl_int)part.count;
     if (!r->is_mapped) {

@@ -163,24 +163,36 @@ static sl_status sli_save_check(const sl_saved_set *set) {
     const sl_factor *F = set->factor;
     const sl_selected *Z = set->selected;
     sl_int k;
-    if (S == NULL || set->n_regions < 0 ||
-        (set->n_regions > 0 && (F == NULL || set->regions == NULL))) {
-        return SL_ERR_ARGUMENT;
+    sl_status status =
+        sli_argument(S == NULL                                    ? "set.symbolic is NULL"
+                     : set->n_regions < 0                         ? "set.n_regions is below 0"
+                     : set->n_regions > 0 && F == NULL            ? "regions without set.factor"
+                     : set->n_regions > 0 && set->regions == NULL ? "set.regions is NULL"
+                                                                  : NULL);
+    for (k = 0; status == SL_OK && k < set->n_regions; k++) {
+        status = sli_argument(set->regions[k] == NULL ? "a region is NULL" : NULL);
     }
-    for (k = 0; k < set->n_regions; k++) {
-        if (set->regions[k] == NULL) {
-            return SL_ERR_ARGUMENT;
-        }
+    if (status == SL_OK && S->is_partial) {
+        status = sli_refuse(SL_ERR_STATE, "an analysis of sl_factor_restrict, or from a file of a "
+                                          "newer version");
     }
-    if (S->is_partial || (F != NULL && (!F->is_valid || F->S != S)) ||
-        (Z != NULL &&
-         (Z->traversal.S != S || (F != NULL && !sli_numbers_are_of(&Z->numbers, F))))) {
-        return SL_ERR_STATE;
+    status = status == SL_OK && F != NULL ? sli_factor_has_numbers(F) : status;
+    if (status != SL_OK) {
+        return status;
+    }
+    if ((F != NULL && F->S != S) || (Z != NULL && Z->traversal.S != S)) {
+        return sli_refuse(SL_ERR_STATE, "the set has objects of different analyses");
+    }
+    if (Z != NULL && F != NULL && !sli_numbers_are_of(&Z->numbers, F)) {
+        return sli_refuse(SL_ERR_STALE, "the selected inverse is not of the present factor");
     }
     for (k = 0; k < set->n_regions; k++) {
         const sl_region *R = set->regions[k];
-        if (R->S != S || !sli_region_fits(R, F)) {
-            return SL_ERR_STATE;
+        if (R->S != S) {
+            return sli_refuse(SL_ERR_STATE, "the set has objects of different analyses");
+        }
+        if (!sli_region_fits(R, F)) {
+            return sli_refuse(SL_ERR_STALE, "a region is not of the present factor");
         }
     }
     return SL_OK;
@@ -189,7 +201,9 @@ static sl_status sli_save_check(const sl_saved_set *set) {
 /* Checks the arguments of a save and fills in everything but the checksums. */
 static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
     const sl_factor *F = set->factor;
-    const sl_status status = F != NULL && F->type->half ? SL_ERR_UNSUPPORTED : sli_save_check(set);
+    const sl_status status = F != NULL && F->type->half
+                                 ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_STORAGE_COMPLEX is not saved")
+                                 : sli_save_check(set);
     sl_factor none;
     int fits = 1;
     memset(f, 0, sizeof *f);
@@ -222,7 +236,8 @@ static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
         sli_saved_add_selected(f, set->selected);
     }
     fits = fits && sli_saved_place(f) && f->header.bytes <= SIZE_MAX; /* untested: 2^62 bytes */
-    return fits ? SL_OK : SL_ERR_TOO_LARGE;                           /* untested: the same */
+    return fits ? SL_OK                                               /* untested: the same */
+                : sli_refuse(SL_ERR_TOO_LARGE, "the saved bytes");    /* untested: the same */
 }
 
 /* Computes the checksums, then writes everything. */
@@ -249,10 +264,8 @@ static void sli_save_write(sli_saved *f, sli_sink *to) {
 SL_API sl_status sl_save_bytes(size_t *bytes, const sl_saved_set *set) {
     sli_saved f;
     sl_status status;
-    if (bytes == NULL || set == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_save_prepare(&f, set);
+    status = sli_argument(bytes == NULL ? "bytes is NULL" : set == NULL ? "set is NULL" : NULL);
+    status = status == SL_OK ? sli_save_prepare(&f, set) : status;
     if (status == SL_OK) {
         *bytes = (size_t)f.header.bytes;
     }
@@ -262,9 +275,11 @@ SL_API sl_status sl_save_bytes(size_t *bytes, const sl_saved_set *set) {
 SL_API sl_status sl_save_memory(void *memory, size_t bytes, const sl_saved_set *set) {
     sli_saved f;
     sli_sink to;
-    sl_status status = set == NULL ? SL_ERR_ARGUMENT : sli_save_prepare(&f, set);
-    if (status == SL_OK && (memory == NULL || bytes < f.header.bytes)) {
-        status = SL_ERR_ARGUMENT;
+    sl_status status = set == NULL ? sli_argument("set is NULL") : sli_save_prepare(&f, set);
+    if (status == SL_OK) {
+        status = sli_argument(memory == NULL           ? "memory is NULL"
+                              : bytes < f.header.bytes ? "bytes is below sl_save_bytes"
+                                                       : NULL);
     }
     if (status == SL_OK) {
         to.memory = (unsigned char *)memory;
@@ -282,10 +297,10 @@ SL_API sl_status sl_save_file(const char *path, const sl_saved_set *set, const s
     sli_saved f;
     sli_sink to;
     sl_status status;
-    if (path == NULL || set == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_save_prepare(&f, set);
+    status = sli_argument(path == NULL  ? "path is NULL"
+                          : set == NULL ? "set is NULL"
+                                        : sli_options_wrong(opt, SLI_READS_NOTHING));
+    status = status == SL_OK ? sli_save_prepare(&f, set) : status;
     status = status == SL_OK ? sli_output_open(&output, path, &a) : status;
     if (status == SL_OK) {
         int complete;
@@ -294,7 +309,7 @@ SL_API sl_status sl_save_file(const char *path, const sl_saved_set *set, const s
         to.has_failed = 0;
         sli_save_write(&f, &to);
         complete = !to.has_failed && sli_flush(output.file);
-        status = sli_output_close(&output, complete, &a) ? SL_OK : SL_ERR_IO;
+        status = sli_output_close(&output, complete, &a);
     }
     errno = saved;
     return status;

@@ -59,7 +59,8 @@ static sl_status sli_set_sort(const sl_symbolic *S, sli_set *set, sl_stats *stat
     for (k = 0; k < set->count; k++) {
         const sl_int i = set->rows[k];
         if (i < 0 || i >= S->n) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, 0.0);
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, 0.0,
+                               "a row of bset or xset is out of range");
         }
         set->seeds[k] = sli_keyed(S->iperm[i], k);
     }
@@ -144,10 +145,10 @@ static void sli_query_stats(const sli_query *q, sl_stats *stats) {
     stats->plan.region_entries = q->used.entries;
 }
 
-static sl_status sli_check_sets(const sl_symbolic *S, const sl_int *bset, sl_int nb,
-                                const sl_int *xset, sl_int nx) {
-    return S == NULL || (bset != NULL && nb < 0) || (xset != NULL && nx < 0) ? SL_ERR_ARGUMENT
-                                                                             : SL_OK;
+static sl_status sli_check_sets(const sl_int *bset, sl_int nb, const sl_int *xset, sl_int nx) {
+    return bset != NULL && nb < 0   ? sli_argument("nb is below 0")
+           : xset != NULL && nx < 0 ? sli_argument("nx is below 0")
+                                    : SL_OK;
 }
 
 #endif

@@ -53,9 +53,7 @@ static sl_status sli_dirichlet_factor(sl_dirichlet *D, const sl_csc *A,
     }
     if (status == SL_OK) {
         status = sl_factor_create(&D->F, D->S, &view, &factorization, stats);
-        if (stats != NULL) {
-            sli_dirichlet_report(D, stats);
-        }
+        status = sli_dirichlet_report(D, status, stats);
     }
     D->info.method = SL_DIRICHLET_SUBMATRIX;
     return status;
@@ -91,21 +89,23 @@ static void sli_dirichlet_options(sl_dirichlet *D, const sl_options *opt) {
 /* Checks the arguments of a creation. */
 static sl_status sli_dirichlet_check(const sl_csc *A, const sl_int *rows, sl_int count,
                                      const sl_options *opt, sl_stats *stats) {
-    const sl_status status = sl_csc_check(A, stats);
-    if (status != SL_OK) {
-        return status;
+    sl_status status = sl_csc_check(A, stats);
+    if (status == SL_OK) {
+        status = sli_argument(A->n_rows != A->n_cols           ? "A is not square"
+                              : sli_nnz(A) > 0 && A->x == NULL ? "A.x is NULL"
+                              : count < 0                      ? "count is below 0"
+                              : count > 0 && rows == NULL
+                                  ? "rows is NULL"
+                                  : sli_options_wrong(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE |
+                                                               SLI_READS_FACTOR | SLI_READS_ISA));
     }
-    if (A->n_rows != A->n_cols || (sli_nnz(A) > 0 && A->x == NULL) || count < 0 ||
-        (count > 0 && rows == NULL) ||
-        !sli_options_are_valid(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE | SLI_READS_FACTOR |
-                                        SLI_READS_ISA) ||
-        !sli_factor_choices_are_valid(opt)) {
-        return SL_ERR_ARGUMENT;
+    if (status == SL_OK && opt != NULL) {
+        status = sli_argument(sli_factor_choices_wrong(opt));
     }
-    return opt != NULL && opt->block_size != 0 &&
+    return status == SL_OK && opt != NULL && opt->block_size != 0 &&
                    (opt->block_size < 0 || A->n_cols % opt->block_size != 0)
-               ? SL_ERR_ARGUMENT
-               : SL_OK;
+               ? sli_argument("options.block_size does not divide n")
+               : status;
 }
 
 static void sli_dirichlet_layout(sl_dirichlet *D, sli_block *b) {
@@ -127,7 +127,8 @@ static sl_status sli_dirichlet_new(sl_dirichlet **out, const sl_csc *A, const sl
     sl_int k, free_row = 0;
     const sl_int bad = sli_rows_invert(rows, draft->n_fixed, draft->n, where);
     if (bad >= 0) {
-        return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0);
+        return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0,
+                           "a row is out of range or given twice");
     }
     for (k = 0; k < draft->n; k++) {
         where[k] = where[k] < 0 ? free_row++ : -1 - where[k];
@@ -218,13 +219,10 @@ SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const 
     sl_int *where = NULL, *scratch = NULL;
     sl_status status;
     sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *out = NULL;
-    status = sli_dirichlet_check(A, rows, count, opt, stats);
+    status = sli_begin(out);
+    status = status == SL_OK ? sli_dirichlet_check(A, rows, count, opt, stats) : status;
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     memset(&draft, 0, sizeof draft);
     draft.allocator = sli_allocator(opt);
@@ -238,7 +236,7 @@ SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const 
         scratch = SLI_TAKE(&b, sl_int, (uint64_t)draft.n + 1);
     }
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     status = sli_dirichlet_new(&D, A, rows, &draft, where, stats);
     status = status == SL_OK ? sli_dirichlet_begin(D, A, F, opt, where, scratch, stats) : status;
@@ -249,7 +247,7 @@ SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const 
     } else {
         sl_dirichlet_free(D);
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 /* Replaces what a pack has made by a factor of A[free, free]. On error D is as before. */
@@ -287,31 +285,30 @@ SL_API sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A, sl_stat
     sli_hash pattern;
     sl_status status;
     sli_stats_clear_error(stats);
-    if (D == NULL || !sli_csc_has_pattern(A)) {
-        return SL_ERR_ARGUMENT;
+    status = sli_argument(D == NULL                 ? "D is NULL"
+                          : !sli_csc_has_pattern(A) ? "A is NULL, or has no size, p or i"
+                                                    : NULL);
+    if (status == SL_OK &&
+        (A->n_rows != D->n || A->n_cols != D->n || !sli_pattern_hash(A, &pattern) ||
+         !sli_hash_equals(pattern, D->pattern))) {
+        status = sli_refuse(SL_ERR_OTHER_PATTERN, "A has another pattern than at the creation");
     }
-    if (A->n_rows != D->n || A->n_cols != D->n || !sli_pattern_hash(A, &pattern) ||
-        !sli_hash_equals(pattern, D->pattern)) {
-        return SL_ERR_PATTERN;
+    if (status == SL_OK) {
+        status = sli_argument(sli_nnz(A) > 0 && A->x == NULL ? "A.x is NULL" : NULL);
     }
-    if (sli_nnz(A) > 0 && A->x == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_dirichlet_check_values(D, A, stats);
+    status = status == SL_OK ? sli_dirichlet_check_values(D, A, stats) : status;
     if (status == SL_OK && D->M == NULL) {
         status = sli_dirichlet_replace(D, A, stats);
     } else if (status == SL_OK) {
         const sl_csc view = sl_matrix_view(D->M);
         sli_dirichlet_copy_values(D, A);
         status = sl_factor_refactor(D->F, &view, stats);
-        if (stats != NULL) {
-            sli_dirichlet_report(D, stats);
-        }
+        status = sli_dirichlet_report(D, status, stats);
     }
     if (status == SL_OK) {
         sli_dirichlet_done(D, started, stats);
     }
-    return status;
+    return sli_report(stats, status);
 }
 
 /* Moves rows free_rows of B to the first rows of X, which may be B: they move up. */
@@ -398,14 +395,18 @@ SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx
     sl_status status;
     if (D == NULL ||
         (nrhs > 0 && D->n_fixed > 0 && (G == NULL || !sli_dense_spans(ldg, D->n_fixed, nrhs)))) {
-        return SL_ERR_ARGUMENT;
+        return sli_argument(D == NULL   ? "D is NULL"
+                            : G == NULL ? "G is NULL"
+                                        : "ldg is below the number of fixed rows, or with SL_ROWS "
+                                          "nrhs");
     }
     status = sli_rhs_check(&rhs, D->n, B == NULL ? 0 : D->n);
     if (status != SL_OK || nrhs == 0 || D->n == 0) {
         return status;
     }
-    if (D->pins == NULL && !D->F->is_valid) {
-        return SL_ERR_STATE;
+    status = D->pins == NULL ? sli_factor_has_numbers(D->F) : SL_OK;
+    if (status != SL_OK) {
+        return status;
     }
     own = sli_work_own(&D->allocator);
     W = W == NULL ? &own : W;
@@ -413,7 +414,7 @@ SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx
                              : sli_dirichlet_run(D, &rhs, G, ldg, W);
     sli_free(&own.allocator, own.block);
     if (status == SL_OK && !sli_dirichlet_set_fixed(D, &rhs, G, ldg)) {
-        status = SL_ERR_NOT_FINITE;
+        status = sli_refuse(SL_ERR_NOT_FINITE, "a value of G is not finite");
     }
     return status;
 }

@@ -70,7 +70,8 @@ static sl_status sli_dirichlet_check_values(const sl_dirichlet *D, const sl_csc 
     for (k = 0; k < D->n_couplings; k++) {
         const sl_int p = D->coupling_from[k];
         if (!sli_is_finite(A->x[p])) {
-            return sli_fail_at(stats, SL_ERR_NOT_FINITE, A->i[p], sli_column_of(A, p), A->x[p]);
+            return sli_fail_at(stats, SL_ERR_NOT_FINITE, A->i[p], sli_column_of(A, p), A->x[p],
+                               "an entry of A is not finite");
         }
     }
     return SL_OK;
@@ -98,13 +99,19 @@ static void sli_dirichlet_number(const sl_dirichlet *D, sl_int *where) {
 }
 
 /* Reports an error of the system of free rows in rows of A. */
-static void sli_dirichlet_report(const sl_dirichlet *D, sl_stats *stats) {
-    if (stats->error.row >= 0) {
-        stats->error.row = D->free_rows[stats->error.row];
+static sl_status sli_dirichlet_report(const sl_dirichlet *D, sl_status status, sl_stats *stats) {
+    sl_stats found;
+    if (status == SL_OK) {
+        return status;
     }
-    if (stats->error.column >= 0) {
-        stats->error.column = D->free_rows[stats->error.column];
+    (void)sli_report(&found, status);
+    if (found.error.row >= 0) {
+        found.error.row = D->free_rows[found.error.row];
     }
+    if (found.error.column >= 0) {
+        found.error.column = D->free_rows[found.error.column];
+    }
+    return sli_fail_as(stats, status, &found.error);
 }
 
 /* The arrays among the options, in free rows. */
@@ -136,7 +143,8 @@ static sl_status sli_dirichlet_arrays_fill(const sli_dirichlet_arrays *r, const 
     if (r->perm != NULL) {
         k = sli_rows_invert(opt->perm, D->n, D->n, scratch);
         if (k >= 0) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, k, -1, 0.0);
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, k, -1, 0.0,
+                               "options.perm has a row out of range or twice at this position");
         }
         for (k = 0; k < D->n; k++) {
             if (where[opt->perm[k]] >= 0) {

@@ -71,12 +71,9 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
     sli_local l;
     sl_status status;
     sli_stats_clear_error(stats);
-    if (F == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_check_sets(F->S, bset, nb, xset, nx);
+    status = F == NULL ? sli_argument("F is NULL") : sli_check_sets(bset, nb, xset, nx);
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     memset(&l, 0, sizeof l);
     l.S = F->S;
@@ -85,11 +82,9 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
     l.nrhs = nrhs;
     l.stats = stats;
     status = sli_rhs_check(&rhs, l.x.count, l.b.count);
+    status = status == SL_OK ? sli_factor_has_numbers(F) : status;
     if (status != SL_OK) {
-        return status;
-    }
-    if (!F->is_valid) {
-        return SL_ERR_STATE;
+        return sli_report(stats, status);
     }
     own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
@@ -104,7 +99,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
         status = sli_sweep(F, &l.query, &rhs, l.memory);
     }
     sli_free(&own.allocator, own.block);
-    return status;
+    return sli_report(stats, status);
 }
 
 #endif

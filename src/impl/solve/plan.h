@@ -51,17 +51,16 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
     sli_set b, x;
     sl_status status;
     sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *out = NULL;
-    status = sli_options_are_valid(opt, SLI_READS_REGION) ? sli_check_sets(S, bset, nb, xset, nx)
-                                                          : SL_ERR_ARGUMENT;
+    status = sli_begin(out);
+    status = status == SL_OK
+                 ? sli_argument(S == NULL ? "S is NULL" : sli_options_wrong(opt, SLI_READS_REGION))
+                 : status;
+    status = status == SL_OK ? sli_check_sets(bset, nb, xset, nx) : status;
     if (status == SL_OK && ending != NULL && !ending->calls->belongs(ending, S)) {
-        status = SL_ERR_STATE;
+        status = sli_refuse(SL_ERR_STATE, "options.region is a region of another analysis");
     }
     if (status != SL_OK) {
-        return status;
+        return sli_report(stats, status);
     }
     b = sli_set_of(S, bset, nb);
     x = sli_set_of(S, xset, nx);
@@ -79,7 +78,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
         sl_plan_stats(*out, stats);
     }
     sli_free(&a, seeds.base);
-    return status;
+    return sli_report(stats, status);
 }
 
 SL_API void sl_plan_free(sl_plan *P) {
@@ -104,7 +103,9 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats) {
 SL_API sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
                                const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
     const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
-    return P == NULL || F == NULL ? SL_ERR_ARGUMENT : sli_solve(F, &P->query, &rhs, W);
+    return P == NULL   ? sli_argument("P is NULL")
+           : F == NULL ? sli_argument("F is NULL")
+                       : sli_solve(F, &P->query, &rhs, W);
 }
 
 #endif

@@ -73,6 +73,25 @@ SLI_INLINE int sli_query_fits(const sli_query *q, const sl_factor *F) {
     return F->is_valid && F->S == q->S && (q->ending == NULL || q->ending->calls->fits(q, F));
 }
 
+SLI_COLD static sl_status sli_query_refuse_analysis(void) {
+    return sli_refuse(SL_ERR_STATE, "the plan is of another analysis than F");
+}
+
+/* The same as a status with its reason. */
+static sl_status sli_query_check(const sli_query *q, const sl_factor *F) {
+    return sli_query_fits(q, F) ? SL_OK
+           : !F->is_valid       ? sli_factor_has_numbers(F)
+           : F->S == q->S
+               ? sli_refuse(SL_ERR_STALE, "the region of the plan is not of the present F: "
+                                          "sl_region_refactor")
+               : sli_query_refuse_analysis();
+}
+
+/* Refuses a plan in a region, for a call that needs the paths to the roots. */
+SLI_COLD static sl_status sli_refuse_region(void) {
+    return sli_refuse(SL_ERR_UNSUPPORTED, "this call does not take a plan in a region");
+}
+
 /* The sweep kernel for a block of nrhs right-hand sides. It takes 1 << kind of them. */
 SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
     return nrhs <= 1    ? SLI_NRHS_1
@@ -202,14 +221,22 @@ static sl_status sli_rhs_check(const sli_rhs *r, sl_int nx, sl_int nb) {
     const int bad_b = nb > 0 && (r->B == NULL || !sli_dense_spans(r->ldb, nb, r->nrhs));
     /* in place, but with different leading dimensions or layouts */
     const int is_misaligned = r->X == r->B && r->ldx != r->ldb && nx > 0 && nb > 0;
-    return r->nrhs < 0 || (r->nrhs > 0 && (bad_x || bad_b || is_misaligned)) ? SL_ERR_ARGUMENT
-                                                                             : SL_OK;
+    if (r->nrhs == 0 || (r->nrhs > 0 && !bad_x && !bad_b && !is_misaligned)) {
+        return SL_OK;
+    }
+    return sli_argument(r->nrhs < 0             ? "nrhs is below 0"
+                        : bad_x && r->X == NULL ? "X is NULL"
+                        : bad_x                 ? "ldx is below the rows of X, or with SL_ROWS nrhs"
+                        : bad_b && r->B == NULL ? "B is NULL"
+                        : bad_b                 ? "ldb is below the rows of B, or with SL_ROWS nrhs"
+                                                : "X is B, but ldx is not ldb");
 }
 
 /* The same for calls that take columns only. */
 SLI_INLINE sl_status sli_rhs_check_columns(const sli_rhs *r, sl_int nx, sl_int nb) {
-    return r->nrhs > 0 && ((r->ldx | r->ldb) & SL_ROW_MAJOR) ? SL_ERR_ARGUMENT
-                                                             : sli_rhs_check(r, nx, nb);
+    return r->nrhs > 0 && ((r->ldx | r->ldb) & SL_ROW_MAJOR)
+               ? sli_argument("ldx or ldb is one of SL_ROWS, which this call does not take")
+               : sli_rhs_check(r, nx, nb);
 }
 
 /* How many rows ahead the loops below prefetch. The caller's order jumps about in the vector, which

@@ -95,6 +95,11 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
     sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }
 
+SLI_COLD static sl_status sli_inconsistent(void) {
+    return sli_refuse(SL_ERR_INCONSISTENT,
+                      "B has a part along a null vector, beyond options.consistency_tolerance");
+}
+
 /* Checks that A x = b has a solution for every right-hand side. Writes only to `memory`. */
 static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
                                  void *memory) {
@@ -103,7 +108,7 @@ static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const s
         const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
         const sli_vectors v = sli_vectors_of(q, block.nrhs, memory);
         if (!sli_sweep_load(F, q, &v, &block)) {
-            return SL_ERR_INCONSISTENT;
+            return sli_inconsistent();
         }
     }
     return SL_OK;
@@ -121,7 +126,7 @@ static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, const 
         block = sli_rhs_part(rhs, r, count);
         v = sli_vectors_of(q, count, memory);
         if (!sli_sweep_load(F, q, &v, &block)) {
-            return SL_ERR_INCONSISTENT;
+            return sli_inconsistent();
         }
         sli_sweep_backward(F, q, &v, count);
         sli_unpack(F, q, &block, v.x);
@@ -186,11 +191,9 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, const s
 
 /* Checks the arguments, then solves a query. */
 static sl_status sli_solve(const sl_factor *F, const sli_query *q, const sli_rhs *rhs, sl_work *W) {
-    const sl_status status = sli_rhs_check(rhs, q->nx, q->nb);
-    if (status != SL_OK) {
-        return status;
-    }
-    return sli_query_fits(q, F) ? sli_query_solve(F, q, rhs, W) : SL_ERR_STATE;
+    sl_status status = sli_rhs_check(rhs, q->nx, q->nb);
+    status = status == SL_OK ? sli_query_check(q, F) : status;
+    return status == SL_OK ? sli_query_solve(F, q, rhs, W) : status;
 }
 
 SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, const double *B,
@@ -198,7 +201,7 @@ SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, cons
     const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
     sli_query q;
     if (F == NULL) {
-        return SL_ERR_ARGUMENT;
+        return sli_argument("F is NULL");
     }
     q = sli_query_all(F->S);
     return sli_solve(F, &q, &rhs, W);

@@ -15,7 +15,9 @@ struct sl_work {
 SLI_NOINLINE static sl_status sli_work_enlarge(sl_work *W, size_t bytes) {
     void *block = sli_alloc(&W->allocator, bytes);
     if (block == NULL) {
-        return bytes == SIZE_MAX ? SL_ERR_TOO_LARGE : SL_ERR_MEMORY;
+        return bytes == SIZE_MAX
+                   ? sli_refuse(SL_ERR_TOO_LARGE, "the workspace exceeds what size_t counts")
+                   : sli_no_memory();
     }
     sli_free(&W->allocator, W->block);
     W->block = block;
@@ -80,16 +82,14 @@ static sl_status sli_work_stages(sl_work *W, const sli_stage *stages, int count,
 
 SL_API sl_status sl_work_create(sl_work **out, const sl_options *opt) {
     const sl_allocator a = sli_allocator(opt);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *out = NULL;
-    if (!sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-        return SL_ERR_ARGUMENT;
+    sl_status status = sli_begin(out);
+    status = status == SL_OK ? sli_argument(sli_options_wrong(opt, SLI_READS_NOTHING)) : status;
+    if (status != SL_OK) {
+        return status;
     }
     *out = (sl_work *)sli_alloc(&a, sizeof(sl_work));
     if (*out == NULL) {
-        return SL_ERR_MEMORY;
+        return sli_no_memory();
     }
     **out = sli_work_own(&a);
     if (opt != NULL) {
@@ -111,7 +111,7 @@ SL_API size_t sl_work_bytes(const sl_work *W) {
 }
 
 SL_API sl_status sl_work_reserve(sl_work *W, size_t bytes) {
-    return W == NULL ? SL_ERR_ARGUMENT : sli_work_grow(W, bytes);
+    return W == NULL ? sli_argument("W is NULL") : sli_work_grow(W, bytes);
 }
 
 #endif

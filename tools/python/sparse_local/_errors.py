@@ -40,7 +40,8 @@ class InaccurateError(Error, ArithmeticError):
 
 
 class StateError(Error, RuntimeError):
-    """A failed factor, or objects that do not belong together."""
+    """A failed factor, numbers that are out of date, a mapped object that would have to change, or
+    objects that do not belong together."""
 
 
 class TooLargeError(Error, OverflowError):
@@ -58,4 +59,4 @@ class OutOfMemoryError(Error, MemoryError):
 # in the order of sl_status, from 1 on
 BY_STATUS = (ArgumentError, OutOfMemoryError, PatternError, PivotError, NotFiniteError,
              TooLargeError, UnsupportedError, Error, Error, StateError, InconsistentError,
-             InaccurateError)
+             InaccurateError, PatternError, StateError, StateError)

@@ -112,6 +112,8 @@ def _load():
         call.restype = None
     lib.sl_status_string.argtypes = [ctypes.c_int]
     lib.sl_status_string.restype = ctypes.c_char_p
+    lib.sl_error_text.argtypes = [ctypes.c_char_p, SIZE, ctypes.c_int, PTR]
+    lib.sl_error_text.restype = SIZE
     lib.sl_stats_size.restype = SIZE
     lib.sl_options_init.argtypes = [_OPT, SIZE]
     lib.sl_options_init.restype = None
@@ -161,7 +163,6 @@ def check(status, stats=None, width=1, path=None):
     """
     if status == 0:
         return
-    text = lib.sl_status_string(status).decode()
     kind = BY_STATUS[status - 1] if status <= len(BY_STATUS) else Error
     row = column = None
     value = 0.0
@@ -169,14 +170,20 @@ def check(status, stats=None, width=1, path=None):
         row = stats.error.row // width if stats.error.row >= 0 else None
         column = stats.error.column // width if stats.error.column >= 0 else None
         value = stats.error.value
-        if stats.error.what:
-            text += ": " + stats.error.what.decode().replace(
-                "sl_symbolic_create_pivoted", "pivoted=True (sl_symbolic_create_pivoted)")
+        stats = type(stats).from_buffer_copy(stats)
+        stats.error.row, stats.error.column = (-1 if k is None else k for k in (row, column))
+    buffer = ctypes.create_string_buffer(1000)
+    lib.sl_error_text(buffer, len(buffer), status, None if stats is None else ctypes.byref(stats))
+    text = buffer.value.decode()
+    if stats is not None:
         if kind is PivotError and stats.null_bound > 0:
             text += ", pivot %.3g, null up to %.3g" % (value, stats.null_bound)
+    text = text.replace("sl_symbolic_create_pivoted", "pivoted=True (sl_symbolic_create_pivoted)")
     if path is not None:
         text += ", %s" % os.fsdecode(path)
-    raise kind(text, row, column, value)
+    error = kind(text)  # which has the place already
+    error.row, error.column, error.value = row, column, value
+    raise error
 
 
 class Handle:
