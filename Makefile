@@ -113,8 +113,9 @@ layers: ## do all includes go downward, and do the names of src/ have their pref
 map: ## what is in each file of src, tests, tools and bench, by its first comment
 	@tools/build/map.sh
 
-style: ## are all lines short enough, and is the wording of the public headers plain?
+style: ## are all lines short enough, is the wording of the public headers plain, and has every error a reason?
 	@tools/build/check_style.sh
+	@awk -f tools/build/errors.awk $(wildcard src/impl/*/*.h)
 
 parts: $(patsubst src/%,build/parts/%.ok,$(filter-out %.inl.h,$(PARTS))) ## does every part compile alone?
 	@echo 'parts: each of $(words $^) compiles alone'

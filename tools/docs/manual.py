@@ -36,7 +36,7 @@ CHAPTERS = [("algorithms", "Algorithms"), ("ordering", "Orderings"),
             ("derivatives", "Derivatives"),
             ("indefinite", "Indefinite and KKT systems"),
             ("float", "L in float"), ("inverse", "Entries of the inverse"),
-            ("changes", "Changes of a matrix"), ("files", "Files")]
+            ("changes", "Changes of a matrix"), ("files", "Files"), ("errors", "Errors")]
 PAGES = [("index", "Guide"), ("api", "API")] + CHAPTERS + [
     ("format", "Format"), ("tests", "Tests"), ("platforms", "Platforms"),
     ("changelog", "Changelog")]

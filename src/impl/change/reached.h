@@ -156,7 +156,7 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
     }
     sli_free(&F->allocator, room.base);
     sli_free(&F->allocator, b.base);
-    return status;
+    return sli_report(stats, status);
 }
 
 SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,

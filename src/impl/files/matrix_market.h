@@ -13,7 +13,7 @@
 /* Records what is malformed; returns the status. */
 static sl_status sli_malformed(sli_reader *r, const char *what) {
     r->what = r->failed != NULL ? r->failed : what;
-    return SL_ERR_IO;
+    return sli_refuse(SL_ERR_IO, r->what);
 }
 
 /* Reads the banner "%%MatrixMarket matrix coordinate <field> <symmetry>". A banner of the format
@@ -175,7 +175,7 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
     const char *s, *e;
     sl_off size[3] = {0, 0, 0}, room;
     sli_triplets t;
-    int has_values, symmetric, k;
+    int has_values = 0, symmetric = 0, k;
     sl_status status = sli_read_banner(r, &has_values, &symmetric);
     if (status != SL_OK) {
         return status;
