@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 6de5b4f63920ff2e
+ * FNV-1a of the lines after this comment, without the license: b73c1615c268b252
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -1398,8 +1398,8 @@ SL_API void sl_dirichlet_free(sl_dirichlet *D);
  *
  *  A      [in]   the pattern that sl_dirichlet_create was given, its entries in the same order.
  *  stats  [out]  dirichlet, factor; errors are in rows of A; may be NULL.
- *  Returns  as sl_dirichlet_create; SL_ERR_OTHER_PATTERN: another pattern. After
- *           SL_ERR_PIVOT, _NOT_FINITE in free rows, _INACCURATE and _UNSUPPORTED solves are refused until a
+ *  Returns  as sl_dirichlet_create; SL_ERR_OTHER_PATTERN: another pattern. After SL_ERR_PIVOT,
+ *           _NOT_FINITE in free rows, _INACCURATE and _UNSUPPORTED solves are refused until a
  *           refactorization succeeds; after other errors D is as before.
  *  Cost     a refactorization of A[free, free]; nothing is allocated, except for its first factor.
  *  Threads  exclusive use of D.
@@ -23581,7 +23581,7 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
   }
   sli_free(&F->allocator, room.base);
   sli_free(&F->allocator, b.base);
-  return status;
+  return sli_report(stats, status);
 }
 
 SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
@@ -30559,7 +30559,7 @@ static int sli_line_ends(const char *s, const char *e) {
 
 static sl_status sli_malformed(sli_reader *r, const char *what) {
   r->what = r->failed != NULL ? r->failed : what;
-  return SL_ERR_IO;
+  return sli_refuse(SL_ERR_IO, r->what);
 }
 
 static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric) {
@@ -30709,7 +30709,7 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
   const char *s, *e;
   sl_off size[3] = {0, 0, 0}, room;
   sli_triplets t;
-  int has_values, symmetric, k;
+  int has_values = 0, symmetric = 0, k;
   sl_status status = sli_read_banner(r, &has_values, &symmetric);
   if (status != SL_OK) {
     return status;

@@ -42,8 +42,8 @@ SL_API void sl_dirichlet_free(sl_dirichlet *D);
  *
  *  A      [in]   the pattern that sl_dirichlet_create was given, its entries in the same order.
  *  stats  [out]  dirichlet, factor; errors are in rows of A; may be NULL.
- *  Returns  as sl_dirichlet_create; SL_ERR_OTHER_PATTERN: another pattern. After
- *           SL_ERR_PIVOT, _NOT_FINITE in free rows, _INACCURATE and _UNSUPPORTED solves are refused until a
+ *  Returns  as sl_dirichlet_create; SL_ERR_OTHER_PATTERN: another pattern. After SL_ERR_PIVOT,
+ *           _NOT_FINITE in free rows, _INACCURATE and _UNSUPPORTED solves are refused until a
  *           refactorization succeeds; after other errors D is as before.
  *  Cost     a refactorization of A[free, free]; nothing is allocated, except for its first factor.
  *  Threads  exclusive use of D.

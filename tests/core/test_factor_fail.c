@@ -344,7 +344,7 @@ static void an_indefinite_matrix_is_refused_where_a_definite_one_is_meant(void *
     assert_int_equal(stats.factor.positive + stats.factor.negative, 100); /* all are there */
     assert_int_equal(stats.factor.null, 0);
     assert_true(stats.factor.negative >= 14);
-    SL_EXPECT(SL_ERR_STATE, sl_factor_solve(F, x, 100, x, 100, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_factor_solve(F, x, 100, x, 100, 1, NULL));
     sl_factor_free(F);
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, y.S, &A, &opt, NULL));
     opt.growth_limit = 1e-3; /* growth does not hide the sign */

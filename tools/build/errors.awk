@@ -1,16 +1,17 @@
-# errors.awk: does every error have a reason? Reads the parts of src/impl
+# errors.awk: does every error have a reason? Reads the parts of src/impl (make style)
 #
-# 1. A status of an error is named only where its reason is recorded, in a call of one of the functions below, or where it
-#    is compared. So a function cannot return an error without a reason.
-# 2. A public call with stats ends each return by handing the last error on to stats: sli_report, sli_fail_at, or a
-#    function that does.
+# 1. A status of an error is named only where its reason is recorded, in a call of one of the
+#    functions below, or where it is compared. So no function returns an error without a reason.
+# 2. A public call with stats ends each return by handing the last error on to stats: by sli_report,
+#    sli_fail_at, or a function that does.
 
 function fail(text) {
     print text
     failures++
 }
 
-# The name of the function whose arguments hold position `at` of text: looks back for the parenthesis that is open there.
+# The name of the function whose arguments hold position `at` of text: looks back for the
+# parenthesis that is open there.
 function caller(text, at,    open, k, c, name) {
     for (k = at - 1; k > 0 && at - k < 2000; k--) {
         c = substr(text, k, 1)
@@ -24,7 +25,7 @@ function caller(text, at,    open, k, c, name) {
 }
 
 # Records the body of each function of the file by its name, and checks rule 1.
-function end_file(    text, rest, at, before, name, line, signature) {
+function end_file(    text, rest, at, before, name, line, signature, head) {
     text = whole
     at = 0
     rest = text
@@ -32,15 +33,17 @@ function end_file(    text, rest, at, before, name, line, signature) {
         at += RSTART
         before = substr(text, 1, at - 1)
         name = caller(text, at)
-        # a parenthesis that only groups has no name: its caller is the next one outward
-        if (name !~ /^(sli_refuse|sli_fail_at|sli_fail|sli_order_refuse)$/ && before !~ /(==|!=|case) *$/) {
-            line = gsub(/\n/, "\n", before) + 1
-            fail(file ":" line ": " substr(rest, RSTART, RLENGTH) " without a reason: sli_refuse(status, text)")
+        if (name !~ /^(sli_refuse|sli_fail_at|sli_fail|sli_order_refuse)$/ &&
+            before !~ /(==|!=|case) *$/) {
+            line = gsub(/\n/, "\n", before)
+            fail(file ":" line ": " substr(rest, RSTART, RLENGTH) \
+                 " without a reason: sli_refuse(status, text)")
         }
         at += RLENGTH - 1
         rest = substr(text, at + 1)
     }
-    while (match(text, /\n(SL_API |static |SLI_[A-Z_]+ (static )?)sl_status (sl|sli)_[a-z0-9_]+\([^{;]*\) \{/)) {
+    head = "\n(SL_API |static |SLI_[A-Z_]+ (static )?)sl_status sli?_[a-z0-9_]+[(][^{;]*[)] [{]"
+    while (match(text, head)) {
         signature = substr(text, RSTART + 1, RLENGTH)
         text = substr(text, RSTART + RLENGTH)
         name = signature
@@ -68,7 +71,9 @@ function check(name,    text, value, callee) {
         callee = value
         sub(/\(.*/, "", callee)
         if (callee in body && has_stats[callee] && value ~ /stats\)$/) check(callee)
-        else fail(where[name] ": " name " returns " value ", which stats may not have: sli_report(stats, status)")
+        else
+            fail(where[name] ": " name " returns " value \
+                 ", which stats may not have: sli_report(stats, status)")
     }
 }
 
