@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: b73c1615c268b252
+ * FNV-1a of the lines after this comment, without the license: 4cd52034d294871f
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -32941,7 +32941,7 @@ SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, cons
   const sl_allocator a = sli_allocator(opt);
   sli_block b = {NULL, 0, 0};
   sli_summands all = {0, NULL, NULL, NULL};
-  sl_off entries;
+  sl_off entries = 0;
   sl_status status;
   sl_int t;
   sli_stats_clear_error(stats);

@@ -58,7 +58,7 @@ SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, cons
     const sl_allocator a = sli_allocator(opt);
     sli_block b = {NULL, 0, 0};
     sli_summands all = {0, NULL, NULL, NULL};
-    sl_off entries;
+    sl_off entries = 0;
     sl_status status;
     sl_int t;
     sli_stats_clear_error(stats);
