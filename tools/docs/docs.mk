@@ -1,9 +1,12 @@
 # docs.mk: the manual and the examples in it (a part of the Makefile)
 
-.PHONY: docs test-examples
+.PHONY: docs pictures test-examples
 
 docs: ## build/manual/index.html: guide, API, algorithms, formats; fails if a link leads nowhere
 	@python3 tools/docs/manual.py build/manual
+
+pictures: programs ## the pictures of the manual, by the commands in tools/docs/program.md
+	@PROGRAM=$(B)/sparse-local tools/docs/pictures.sh
 
 # ---- examples ----
 

@@ -36,7 +36,8 @@ CHAPTERS = [("algorithms", "Algorithms"), ("ordering", "Orderings"),
             ("derivatives", "Derivatives"),
             ("indefinite", "Indefinite and KKT systems"),
             ("float", "L in float"), ("inverse", "Entries of the inverse"),
-            ("changes", "Changes of a matrix"), ("files", "Files"), ("errors", "Errors")]
+            ("changes", "Changes of a matrix"), ("files", "Files"), ("errors", "Errors"),
+            ("program", "The program")]
 PAGES = [("index", "Guide"), ("api", "API")] + CHAPTERS + [
     ("format", "Format"), ("tests", "Tests"), ("platforms", "Platforms"),
     ("changelog", "Changelog")]
