@@ -78,12 +78,13 @@ static void move_distances(path_check *check, heat_field *f, const surface_lengt
 void path_check_distances(path_check *check, heat_field *f, const sl_int *sources, sl_int count,
                           double radius, double limit) {
     const double began = app_now();
-    const size_t n = (size_t)check->m->n_vertices;
-    double *flat = app_alloc(2 * n, sizeof *flat), *mixed = count > 1 ? flat + n : flat;
     if (!surface_search_run(check->one, sources, count, 2 * limit) ||
-        !surface_search_run(check->three, sources, count, limit) ||
-        !surface_search_unfold(flat, check->three, false) ||
-        (count > 1 && !surface_search_unfold(mixed, check->three, true))) {
+        !surface_search_run(check->three, sources, count, limit)) {
+        app_die("out of memory for paths over the faces");
+    }
+    const double *flat = surface_search_unfold(check->three, false);
+    const double *mixed = count > 1 ? surface_search_unfold(check->three, true) : flat;
+    if (flat == NULL || mixed == NULL) {
         app_die("out of memory for paths over the faces");
     }
     const double *u3 = surface_search_lengths(check->three);
@@ -96,7 +97,6 @@ void path_check_distances(path_check *check, heat_field *f, const sl_int *source
         check->far += fabs(f->distance[k] - before[k]) > 0.5 * check->edge;
     }
     free(before);
-    free(flat);
     keep_near(f, u3, radius, false);
     check->seconds += app_now() - began;
 }

@@ -23,7 +23,10 @@ struct surface_search {
     size_t n_found;
     double limit;
     path_heap heap;
-    unsigned char *flat; /* n_vertices, see find_flat; NULL: not needed yet */
+    /* of surface_search_unfold, n_vertices each; NULL: not needed yet */
+    unsigned char *flat; /* see find_flat */
+    double *unfolded[2]; /* for mixed false and true; INFINITY where no path leads */
+    sl_int *unfolded_from;
 };
 
 /* The ends of the edge opposite to corner s % 3 of face s / 3, lower number first. */
@@ -127,6 +130,11 @@ bool surface_search_run(surface_search *s, const sl_int *sources, sl_int count, 
     bool ok = true;
     for (size_t k = 0; k < s->n_found; k++) {
         s->length[s->found[k]] = INFINITY;
+        for (int i = 0; i < 2 && s->found[k] < n; i++) {
+            if (s->unfolded[i] != NULL) {
+                s->unfolded[i][s->found[k]] = INFINITY;
+            }
+        }
     }
     s->n_found = 0;
     s->heap.count = 0;
@@ -317,28 +325,39 @@ static bool shorten(flat_lengths *w, sl_int v) {
     return w->length[v] < before;
 }
 
-bool surface_search_unfold(double *out, surface_search *s, bool mixed) {
+/* Allocates what surface_search_unfold needs at its first call. */
+static bool prepare_unfolding(surface_search *s, bool mixed) {
+    const size_t n = (size_t)s->inc->m->n_vertices;
+    double *out = s->unfolded[mixed];
+    if (out == NULL) {
+        out = s->unfolded[mixed] = (double *)malloc((n + 1) * sizeof *out);
+        for (size_t v = 0; v < n && out != NULL; v++) {
+            out[v] = INFINITY;
+        }
+    }
+    if (s->unfolded_from == NULL) {
+        s->unfolded_from = (sl_int *)malloc((n + 1) * sizeof *s->unfolded_from);
+    }
+    return out != NULL && s->unfolded_from != NULL && (s->flat != NULL || find_flat(s));
+}
+
+const double *surface_search_unfold(surface_search *s, bool mixed) {
     enum { PASSES = 8 }; /* more than one for obtuse faces, which are crossed against the order */
     const mesh *m = s->inc->m;
     size_t count = 0;
     bool changed = true;
     reached *order = (reached *)malloc((s->n_found + 1) * sizeof *order);
-    flat_lengths w = {s, out, NULL, mixed};
-    w.origin = (sl_int *)malloc(((size_t)m->n_vertices + 1) * sizeof *w.origin);
-    if (order == NULL || w.origin == NULL || (s->flat == NULL && !find_flat(s))) {
-        free(w.origin);
+    if (order == NULL || !prepare_unfolding(s, mixed)) {
         free(order);
-        return false;
+        return NULL;
     }
-    for (sl_int v = 0; v < m->n_vertices; v++) {
-        out[v] = INFINITY;
-    }
+    flat_lengths w = {s, s->unfolded[mixed], s->unfolded_from, mixed};
     for (size_t k = 0; k < s->n_found; k++) {
         const int64_t v = s->found[k];
         if (v < m->n_vertices) {
             order[count].vertex = (sl_int)v;
             order[count++].length = s->length[v];
-            out[v] = s->length[v] == 0 ? 0 : INFINITY;
+            w.length[v] = s->length[v] == 0 ? 0 : INFINITY;
             w.origin[v] = s->origin[v];
         }
     }
@@ -349,13 +368,15 @@ bool surface_search_unfold(double *out, surface_search *s, bool mixed) {
             changed = shorten(&w, order[k].vertex) || changed;
         }
     }
-    free(w.origin);
     free(order);
-    return true;
+    return w.length;
 }
 
 void surface_search_free(surface_search *s) {
     if (s != NULL) {
+        free(s->unfolded_from);
+        free(s->unfolded[1]);
+        free(s->unfolded[0]);
         free(s->flat);
         free(s->heap.at);
         free(s->found);

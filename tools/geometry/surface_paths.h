@@ -41,16 +41,15 @@ const sl_int *surface_search_origins(const surface_search *s);
  *  face opposite to a vertex, the distance there follows from those at the ends of that edge as in
  *  the plane.
  *
- *  out    [out]  by vertex of the mesh; INFINITY at the others. For the sources of the last search
- *                and within its limit.
- *  mixed  [in]   whether the distances at the ends of an edge may be those of different sources. If
- *                so, none is too large, else none is too small; they differ where fronts meet.
- *                Near the limit of the search both may be too large.
- *  Returns  true; false: out of memory.
+ *  mixed  [in]  whether the distances at the ends of an edge may be those of different sources. If
+ *               so, none is too large, else none is too small; they differ where fronts meet. Near
+ *               the limit of the search both may be too large.
+ *  Returns  by vertex of the mesh, INFINITY at the others, for the sources of the last search and
+ *           within its limit; valid until the next search. NULL: out of memory.
  *  Cost     O(k log k) for the k vertices found, and O(faces) at the first call.
- *  Example  tests/tools/test_path_checks.c
+ *  Example  tests/tools/test_intrinsic.c
  */
-bool surface_search_unfold(double *out, surface_search *s, bool mixed);
+const double *surface_search_unfold(surface_search *s, bool mixed);
 
 /** Releases everything; NULL is allowed. */
 void surface_search_free(surface_search *s);
