@@ -8,6 +8,7 @@ from ._errors import ArgumentError
 from ._library import Handle, Stats, as_dict, check, lib
 from ._matrix import CscArrays, Matrix
 from ._options import Chosen, split
+from ._threads import calls
 
 
 class Analysis:
@@ -36,7 +37,8 @@ class Analysis:
         chosen = Chosen(matrix.n, matrix.is_complex).analysis(**options)
         chosen.options.triangle = matrix.triangle(triangle)
         stats, symbolic = Stats(), ctypes.c_void_p()
-        analyze = lib.sl_symbolic_create_pivoted if pivoted else lib.sl_symbolic_create
+        ours = calls(options.get("threads"))
+        analyze = ours.sl_symbolic_create_pivoted if pivoted else ours.sl_symbolic_create
         check(analyze(ctypes.byref(symbolic), matrix.reference(), ctypes.byref(chosen.options),
                       ctypes.byref(stats)), stats, width)
         self._own(symbolic.value, triangle, matrix.kind())
@@ -100,7 +102,7 @@ class Analysis:
 
     def __repr__(self):
         return "<sparse_local.Analysis of %d rows, %d entries in L>" % (self.n,
-                                                                       self.stats["nnz_l"])
+                                                                        self.stats["nnz_l"])
 
 
 def analyze(A, **options):

@@ -28,8 +28,8 @@ class Changes:
         keep, address, count = self._kind.set(columns)
         matrix, stats = self.analysis._matrix(A), Stats()
         self._nulls = None
-        self._checked(lib.sl_factor_refactor_changed(self._pointer, matrix.reference(), address,
-                                                     count, ctypes.byref(stats)), stats)
+        self._checked(self._lib.sl_factor_refactor_changed(
+            self._pointer, matrix.reference(), address, count, ctypes.byref(stats)), stats)
         return self
 
     def change(self, A, was=None, *, rows=None, columns=None, deltas=None):
@@ -53,10 +53,10 @@ class Changes:
         i, j, delta = _entries(rows, columns, deltas)
         stats = Stats()
         self._nulls = None
-        self._checked(lib.sl_factor_change(self._factor.pointer, matrix.reference(),
-                                           arrays.address(i), arrays.address(j),
-                                           arrays.address(delta), i.size, self._work(),
-                                           ctypes.byref(stats)), stats)
+        self._checked(self._lib.sl_factor_change(self._factor.pointer, matrix.reference(),
+                                                 arrays.address(i), arrays.address(j),
+                                                 arrays.address(delta), i.size, self._work(),
+                                                 ctypes.byref(stats)), stats)
         self.changed = as_dict(stats.change)
         return _METHODS[stats.change.method]
 
@@ -78,9 +78,9 @@ class Changes:
         if sigma is not None:
             sigma = arrays.vector(sigma, matrix.csc.n_cols, "sigma")
         self._nulls = None
-        self._checked(lib.sl_factor_update(self._pointer, matrix.reference(),
-                                           None if sigma is None else arrays.address(sigma),
-                                           self._work(), ctypes.byref(stats)), stats)
+        self._checked(self._lib.sl_factor_update(self._pointer, matrix.reference(),
+                                                 None if sigma is None else arrays.address(sigma),
+                                                 self._work(), ctypes.byref(stats)), stats)
         self.changed = as_dict(stats.change)
         return self
 
@@ -93,9 +93,9 @@ class Changes:
         i, j, delta = _entries(rows, columns, deltas)
         stats = Stats()
         self._nulls = None
-        self._checked(lib.sl_factor_update_entries(self._pointer, arrays.address(i),
-                                                   arrays.address(j), arrays.address(delta), i.size,
-                                                   self._work(), ctypes.byref(stats)), stats)
+        self._checked(self._lib.sl_factor_update_entries(
+            self._pointer, arrays.address(i), arrays.address(j), arrays.address(delta), i.size,
+            self._work(), ctypes.byref(stats)), stats)
         self.changed = as_dict(stats.change)
         return self
 
@@ -146,9 +146,9 @@ class Changes:
             new_of = np.ascontiguousarray(new_of, dtype=np.int32)
         options, stats, symbolic = new_options(), Stats(), ctypes.c_void_p()
         options.triangle = other.triangle(triangle)
-        check(lib.sl_symbolic_edit(ctypes.byref(symbolic), self._symbolic.pointer,
-                                   matrix.reference(), other.reference(), arrays.address(new_of),
-                                   ctypes.byref(options), ctypes.byref(stats)), stats, width)
+        check(self._lib.sl_symbolic_edit(
+            ctypes.byref(symbolic), self._symbolic.pointer, matrix.reference(), other.reference(),
+            arrays.address(new_of), ctypes.byref(options), ctypes.byref(stats)), stats, width)
         analysis = Analysis._of(symbolic.value, triangle, self._kind)
         analysis.edited = as_dict(stats.edit)
         if triangle is None:
@@ -156,9 +156,10 @@ class Changes:
         numbers = {"definite": self._definite, "threads": self._threads, **numbers}
         definite = numbers.pop("definite")
         chosen, factor = Chosen(other.n, width == 2).numbers(**numbers), ctypes.c_void_p()
-        check(lib.sl_factor_edit(ctypes.byref(factor), self._pointer, symbolic.value,
-                                 other.reference(), arrays.address(new_of),
-                                 ctypes.byref(chosen.options), ctypes.byref(stats)), stats, width)
+        check(self._lib.sl_factor_edit(
+            ctypes.byref(factor), self._pointer, symbolic.value, other.reference(),
+            arrays.address(new_of), ctypes.byref(chosen.options), ctypes.byref(stats)), stats,
+            width)
         edited = type(self)._of(analysis, factor.value, numbers["threads"], definite)
         edited.reused = as_dict(stats.reuse)
         edited._consistency = numbers.get("consistency_tolerance") or 1e-6

@@ -28,8 +28,9 @@ class Entries:
             address, count = arrays.address(keep), keep.size
         out = np.empty(self.n if rows is None else count)
         stats = Stats()
-        check(lib.sl_inverse_diagonal(self._pointer, arrays.address(out), address, count,
-                                      self._work(), ctypes.byref(stats)), stats, self._kind.width)
+        check(self._lib.sl_inverse_diagonal(
+            self._pointer, arrays.address(out), address, count, self._work(), ctypes.byref(stats)),
+            stats, self._kind.width)
         nulls = self._null_space(pseudo)
         chosen = slice(None) if rows is None else keep
         return out if nulls is None else nulls.pairs(out, chosen, chosen)
@@ -46,9 +47,9 @@ class Entries:
             c_rows, n_columns = arrays.address(keep_c), keep_c.size
         out = np.empty((n_rows, n_columns), order="F")
         stats = Stats()
-        check(lib.sl_inverse_block(self._pointer, arrays.address(out), max(n_rows, 1),
-                                   r_rows, n_rows, c_rows, n_columns, self._work(),
-                                   ctypes.byref(stats)), stats, self._kind.width)
+        check(self._lib.sl_inverse_block(self._pointer, arrays.address(out), max(n_rows, 1),
+                                         r_rows, n_rows, c_rows, n_columns, self._work(),
+                                         ctypes.byref(stats)), stats, self._kind.width)
         if self._kind is arrays.COMPLEX:
             return out.T.view(np.complex128).T
         nulls = self._null_space(pseudo)
@@ -68,8 +69,9 @@ class Entries:
             keep_c = np.repeat(2 * keep_c, 2)
             c_rows = arrays.address(keep_c)
         out, stats = np.empty(count), Stats()
-        check(lib.sl_inverse_pairs(self._pointer, arrays.address(out), r_rows, c_rows, count,
-                                   self._work(), ctypes.byref(stats)), stats, self._kind.width)
+        check(self._lib.sl_inverse_pairs(
+            self._pointer, arrays.address(out), r_rows, c_rows, count, self._work(),
+            ctypes.byref(stats)), stats, self._kind.width)
         if self._kind is arrays.COMPLEX:
             return out.view(np.complex128)
         nulls = self._null_space(pseudo)
@@ -89,10 +91,10 @@ class Entries:
         for values, what, rows in ((values_b, "b", keep_b), (values_c, "c", keep_c)):
             arrays.check_finite(values, what, rows)
         out, stats = ctypes.c_double(), Stats()
-        check(lib.sl_inverse_bilinear(self._pointer, ctypes.byref(out), b_rows,
-                                      arrays.address(values_b), nb, c_rows,
-                                      arrays.address(values_c), nc, self._work(),
-                                      ctypes.byref(stats)), stats)
+        check(self._lib.sl_inverse_bilinear(self._pointer, ctypes.byref(out), b_rows,
+                                            arrays.address(values_b), nb, c_rows,
+                                            arrays.address(values_c), nc, self._work(),
+                                            ctypes.byref(stats)), stats)
         return out.value
 
     def logdet(self, *, pseudo=True):

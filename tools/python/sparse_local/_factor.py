@@ -13,6 +13,7 @@ from ._library import Handle, Stats, as_dict, check, lib
 from ._options import Chosen, choice, split
 from ._pseudo import NullSpace
 from ._solves import Solves
+from ._threads import calls
 from ._works import Works
 
 _PIVOTS = {"null": 0, "regularized": 1}
@@ -81,9 +82,10 @@ class Factor(Solves, Entries, Changes, Files):
         definite = numbers.pop("definite", False)
         chosen = Chosen(analysis.n, analysis._kind is arrays.COMPLEX).numbers(**numbers)
         stats, factor = Stats(), ctypes.c_void_p()
-        check(lib.sl_factor_create(ctypes.byref(factor), analysis._symbolic.pointer,
-                                   matrix.reference(), ctypes.byref(chosen.options),
-                                   ctypes.byref(stats)), stats, analysis._kind.width)
+        self._lib = calls(numbers.get("threads"))
+        check(self._lib.sl_factor_create(ctypes.byref(factor), analysis._symbolic.pointer,
+                                         matrix.reference(), ctypes.byref(chosen.options),
+                                         ctypes.byref(stats)), stats, analysis._kind.width)
         self._own(analysis, factor.value, numbers.get("threads"), definite)
         self._consistency = numbers.get("consistency_tolerance") or 1e-6
         self._has_mass = numbers.get("mass") is not None
@@ -96,6 +98,7 @@ class Factor(Solves, Entries, Changes, Files):
         self._factor = Handle("factor", factor, analysis._symbolic)
         self.n = analysis.n
         self._threads = threads
+        self._lib = calls(threads)
         self._definite = definite
         self._refused = None  # why the numbers are not to be used
         self._consistency = None  # that of a file
@@ -136,8 +139,8 @@ class Factor(Solves, Entries, Changes, Files):
         """
         matrix, stats = self.analysis._matrix(A), Stats()
         self._nulls = None
-        self._checked(lib.sl_factor_refactor(self._factor.pointer, matrix.reference(),
-                                             ctypes.byref(stats)), stats)
+        self._checked(self._lib.sl_factor_refactor(self._factor.pointer, matrix.reference(),
+                                                   ctypes.byref(stats)), stats)
         return self
 
     def _checked(self, status, stats):

@@ -24,7 +24,7 @@ class Pins:
     def __init__(self, factor, rows=()):
         pointer = ctypes.c_void_p()
         check(lib.sl_pins_create(ctypes.byref(pointer), factor._pointer, None))
-        self._factor = factor
+        self._factor, self._lib = factor, factor._lib
         self._pins = Handle("pins", pointer.value, factor._factor, factor._symbolic)
         self._count = 0
         self.stats = {}
@@ -47,8 +47,9 @@ class Pins:
             raise ArgumentError("a set of rows is needed")
         stats, width = Stats(), self._factor._kind.width
         self._factor._pointer
-        return self._done(lib.sl_pins_add(self._pins.pointer, address, count, ctypes.byref(stats)),
-                          stats, self._count + count // width)
+        return self._done(self._lib.sl_pins_add(
+            self._pins.pointer, address, count, ctypes.byref(stats)), stats, self._count + count //
+            width)
 
     def add_equality(self, rows, coefficients):
         """Adds an equality: the sum of coefficients[k] x[rows[k]] is held. Of real matrices."""
@@ -59,9 +60,9 @@ class Pins:
             raise ArgumentError("an equality needs rows")
         values, stats = arrays.vector(coefficients, count, "coefficients"), Stats()
         self._factor._pointer
-        return self._done(lib.sl_pins_add_equality(
+        return self._done(self._lib.sl_pins_add_equality(
             self._pins.pointer, address, arrays.address(values), count, ctypes.byref(stats)),
-            stats, self._count + 1)
+                          stats, self._count + 1)
 
     def release(self, numbers):
         """Releases pins by their numbers, 0-based; the others move together."""
@@ -73,8 +74,8 @@ class Pins:
         self._factor._pointer  # refuses a failed or closed factor
         if not count:
             return self
-        return self._done(lib.sl_pins_release(self._pins.pointer, address, count,
-                                              ctypes.byref(stats)),
+        return self._done(self._lib.sl_pins_release(self._pins.pointer, address, count,
+                                                    ctypes.byref(stats)),
                           stats, self._count - count // width)
 
     def update(self, A=None):
@@ -86,7 +87,7 @@ class Pins:
         matrix = None if A is None else self._factor.analysis._matrix(A)
         self._factor._pointer
         stats = Stats()
-        return self._done(lib.sl_pins_refactor(
+        return self._done(self._lib.sl_pins_refactor(
             self._pins.pointer, None if matrix is None else matrix.reference(),
             ctypes.byref(stats)), stats, self._count)
 
@@ -116,10 +117,10 @@ class Pins:
         dense = kind.dense(np.asfortranarray(B), n_b, n_x)
         right = kind.dense(np.asfortranarray(held), self._count, self._count)
         out = np.empty((max(n_x * width, 1), dense.count), order="F")
-        check(lib.sl_pins_solve(self._pins.pointer, None if plan is None else plan._plan.pointer,
-                                arrays.address(out), out.shape[0], arrays.address(dense.B),
-                                dense.ldb, arrays.address(right.B), right.ldb, dense.count,
-                                self._solving()))
+        check(self._lib.sl_pins_solve(
+            self._pins.pointer, None if plan is None else plan._plan.pointer, arrays.address(out),
+            out.shape[0], arrays.address(dense.B), dense.ldb, arrays.address(right.B), right.ldb,
+            dense.count, self._solving()))
         return dense.shaped(out[:n_x * width])
 
     def _solving(self):

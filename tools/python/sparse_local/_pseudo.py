@@ -4,7 +4,7 @@ import ctypes
 import numpy as np
 
 from . import _arrays as arrays
-from ._library import PseudoInverse, check, lib
+from ._library import PseudoInverse, check
 
 
 class NullSpace:
@@ -14,7 +14,7 @@ class NullSpace:
     def __init__(self, factor):
         self.component = np.empty(factor.n, dtype=np.int32)
         found = PseudoInverse()
-        call = lib.sl_factor_pseudo_inverse
+        call = factor._lib.sl_factor_pseudo_inverse
         check(call(factor._pointer, ctypes.byref(found), None))
         self.Q = np.empty((factor.n, max(found.columns, 1)), order="F")
         self.K = np.empty_like(self.Q)

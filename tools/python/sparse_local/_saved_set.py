@@ -12,7 +12,7 @@ from ._library import Handle, SavedSet, Stats, as_dict, check, lib, new_options
 from ._matrix import check_triangle
 from ._options import choice
 from ._plan import Region
-from ._threads import set_threads
+from ._threads import calls, set_threads
 
 
 class Selected:
@@ -30,20 +30,22 @@ class Selected:
         keep, address, count = factor._kind.set(rows)
         options, pointer, stats = new_options(), ctypes.c_void_p(), Stats()
         set_threads(options, threads)
-        check(lib.sl_selected_create(ctypes.byref(pointer), factor._pointer, address, count,
-                                     ctypes.byref(options), ctypes.byref(stats)), stats,
+        self._lib = calls(factor._threads if threads is None else threads)
+        check(self._lib.sl_selected_create(ctypes.byref(pointer), factor._pointer, address, count,
+                                           ctypes.byref(options), ctypes.byref(stats)), stats,
               factor._kind.width)
         self._own(factor, pointer.value)
 
     def _own(self, factor, pointer):
         self._factor = factor
         self._selected = Handle("selected", pointer, factor._factor, factor._symbolic)
+        self._lib = getattr(self, "_lib", factor._lib)
         self._nulls = factor._null_space()
 
     def update(self):
         """Computes the entries from the present numbers of the factor; StateError: mapped."""
-        check(lib.sl_selected_refactor(self._selected.pointer, self._factor._pointer,
-                                       self._factor._work()))
+        check(self._lib.sl_selected_refactor(self._selected.pointer, self._factor._pointer,
+                                             self._factor._work()))
         self._nulls = self._factor._null_space()
 
     def diagonal(self, rows=None, *, pseudo=True):

@@ -11,7 +11,7 @@ from ._library import Csc, Handle, Request, Stats, check, lib, new_options
 from ._matrix import Matrix, csc_arrays, from_arrays
 from ._options import Chosen, split
 from ._plan import Plan
-from ._threads import set_threads
+from ._threads import calls, set_threads
 
 
 class Sum:
@@ -59,8 +59,9 @@ class Sum:
         options = Chosen(csc.n_cols).analysis(**{k: v for k, v in chosen.items()
                                                  if k != "pivoted"})
         symbolic, stats = ctypes.c_void_p(), Stats()
-        check(lib.sl_symbolic_create(ctypes.byref(symbolic), ctypes.byref(csc),
-                                     ctypes.byref(options.options), ctypes.byref(stats)), stats)
+        ours = calls(chosen.get("threads"))
+        check(ours.sl_symbolic_create(ctypes.byref(symbolic), ctypes.byref(csc),
+                                      ctypes.byref(options.options), ctypes.byref(stats)), stats)
         return symbolic.value
 
     def matrix(self, coefficients):
@@ -93,10 +94,11 @@ class Sum:
         chosen = Chosen(self.n).numbers(**numbers)
         out = (ctypes.c_void_p * max(len(c), 1))()
         failed, stats = ctypes.c_int32(), Stats()
-        status = lib.sl_batch_factor(out, len(c), self.analysis._symbolic.pointer,
-                                     arrays.address(c), self._pointers(), len(self._values),
-                                     ctypes.byref(chosen.options), ctypes.byref(failed),
-                                     ctypes.byref(stats))
+        ours = calls(numbers.get("threads"))
+        status = ours.sl_batch_factor(out, len(c), self.analysis._symbolic.pointer,
+                                      arrays.address(c), self._pointers(), len(self._values),
+                                      ctypes.byref(chosen.options), ctypes.byref(failed),
+                                      ctypes.byref(stats))
         factors = [Factor._of(self.analysis, pointer, numbers.get("threads"), definite)
                    for pointer in out[:len(c)] if pointer]
         _checked(status, stats, failed.value)
@@ -124,9 +126,10 @@ class Sum:
             if F._symbolic is not self.analysis._symbolic:
                 raise ArgumentError("a factor of another sum")
             F._nulls = None
-        status = lib.sl_batch_refactor(handles, len(many), arrays.address(c), self._pointers(),
-                                       len(self._values), ctypes.byref(options),
-                                       ctypes.byref(failed), ctypes.byref(stats))
+        ours = calls(self._numbers.get("threads"))
+        status = ours.sl_batch_refactor(handles, len(many), arrays.address(c), self._pointers(),
+                                        len(self._values), ctypes.byref(options),
+                                        ctypes.byref(failed), ctypes.byref(stats))
         for F in many:
             F._refused = None
         _checked(status, stats, failed.value)
@@ -167,8 +170,9 @@ def solve_batch(requests, *, threads=None):
         structs[k] = Request(plan._plan.pointer if plan is not None else None, X, ldx, right, ldb,
                              count, factor._pointer)
     failed = ctypes.c_int32()
-    status = lib.sl_batch_solve(None, structs, len(requests), ctypes.byref(options), None,
-                                ctypes.byref(failed))
+    ours = calls(threads)
+    status = ours.sl_batch_solve(None, structs, len(requests), ctypes.byref(options), None,
+                                 ctypes.byref(failed))
     _named(lambda: check(status), failed.value)
     return [dense.X for dense in blocks]
 
@@ -186,9 +190,10 @@ def diagonals(factors, rows=None, *, threads=None):
     n = count if rows is not None else (factors[0].n if factors else 0)
     out, failed, stats = np.empty((n, len(factors)), order="F"), ctypes.c_int32(), Stats()
     handles = (ctypes.c_void_p * max(len(factors), 1))(*(F._pointer for F in factors))
-    status = lib.sl_batch_diagonal(handles, len(factors), arrays.address(out), max(n, 1), address,
-                                   count, ctypes.byref(options), None, ctypes.byref(failed),
-                                   ctypes.byref(stats))
+    ours = calls(threads)
+    status = ours.sl_batch_diagonal(handles, len(factors), arrays.address(out), max(n, 1), address,
+                                    count, ctypes.byref(options), None, ctypes.byref(failed),
+                                    ctypes.byref(stats))
     _checked(status, stats, failed.value)
     for k, F in enumerate(factors):
         nulls = F._null_space()

@@ -34,7 +34,7 @@ class Solves:
             rows, block = columns_of(B)
             return self.local(rows, block, None)
         dense = self._kind.dense(B, self.n, self.n)
-        status = lib.sl_factor_solve(self._pointer, *dense.arguments(), self._work())
+        status = self._lib.sl_factor_solve(self._pointer, *dense.arguments(), self._work())
         if status:
             self._check_consistent(status, dense)
             check(status)
@@ -50,9 +50,9 @@ class Solves:
         right = np.zeros((n, B.shape[1]), order="F")
         np.add.at(right, slice(None) if rows is None else rows, B)
         defects = np.zeros((self.stats["factor"]["null"], right.shape[1]), order="F")
-        check(lib.sl_factor_defects(self._pointer, arrays.address(defects),
-                                    max(defects.shape[0], 1), arrays.address(right), n,
-                                    right.shape[1], self._work()))
+        check(self._lib.sl_factor_defects(self._pointer, arrays.address(defects),
+                                          max(defects.shape[0], 1), arrays.address(right), n,
+                                          right.shape[1], self._work()))
         sizes = abs(right).sum(axis=0)
         worst = (abs(defects).max(axis=0) / np.where(sizes > 0, sizes, 1)).max()
         text = ("%s: |z' b| for a null vector z is %.2g of sum |b|"
@@ -73,8 +73,8 @@ class Solves:
         dense = self._kind.dense(B, self.n if bset is None else nb // width,
                                  self.n if xset is None else nx // width, keep_b)
         stats = Stats()
-        status = lib.sl_local_solve(self._pointer, b_rows, nb, x_rows, nx, *dense.arguments(),
-                                    self._work(), stats)
+        status = self._lib.sl_local_solve(self._pointer, b_rows, nb, x_rows, nx, *dense.arguments(),
+                                          self._work(), stats)
         if status:
             self._check_consistent(status, dense, keep_b)
             check(status, stats, width)
@@ -100,11 +100,11 @@ class Solves:
                 without PT.
         PivotError: sqrtD with a negative pivot.
         """
-        return self._part(lib.sl_factor_solve_part, parts, B)
+        return self._part(self._lib.sl_factor_solve_part, parts, B)
 
     def multiply_part(self, parts, B):
         """X = P' L D L' P B with only the parts that are named; see solve_part."""
-        return self._part(lib.sl_factor_multiply_part, parts, B)
+        return self._part(self._lib.sl_factor_multiply_part, parts, B)
 
     def _part(self, call, parts, B):
         dense = self._kind.dense(B, self.n, self.n)
@@ -140,9 +140,9 @@ class Solves:
             raise ArgumentError("X and B have the same shape")
         out, b = start.right(), right.right()
         stats, lead = Stats(), max(self.n * self._kind.width, 1)
-        check(lib.sl_factor_refine(self._pointer, matrix.reference(), arrays.address(out),
-                                   lead, arrays.address(b), lead, right.count, steps, self._work(),
-                                   ctypes.byref(stats)), stats)
+        check(self._lib.sl_factor_refine(
+            self._pointer, matrix.reference(), arrays.address(out), lead, arrays.address(b), lead,
+            right.count, steps, self._work(), ctypes.byref(stats)), stats)
         return right.shaped(out), stats.refine.backward_error
 
     def certify(self, A, certainty="estimated"):
@@ -154,15 +154,15 @@ class Solves:
         InaccurateError: eta exceeds 1/16, as with a matrix that was not factored.
         """
         matrix, stats = self.analysis._matrix(A), Stats()
-        check(lib.sl_factor_certify(self._pointer, matrix.reference(),
-                                    choice(_CERTAINTIES, certainty, "certainty"), self._work(),
-                                    ctypes.byref(stats)), stats)
+        check(self._lib.sl_factor_certify(
+            self._pointer, matrix.reference(), choice(_CERTAINTIES, certainty, "certainty"),
+            self._work(), ctypes.byref(stats)), stats)
         return stats.certificate.eta
 
     def rcond(self, A):
         """An estimate of 1 / (||A|| ||A^-1||) in the one-norm; A is the factored matrix."""
         matrix = self.analysis._matrix(A)
         out = ctypes.c_double()
-        check(lib.sl_factor_rcond(self._pointer, matrix.reference(), ctypes.byref(out),
-                                  self._work()))
+        check(self._lib.sl_factor_rcond(self._pointer, matrix.reference(), ctypes.byref(out),
+                                        self._work()))
         return out.value

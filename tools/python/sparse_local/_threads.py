@@ -9,6 +9,7 @@ import os
 import threading
 
 from ._errors import ArgumentError
+from ._library import lib
 
 _BODY = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_int32)
 _RUN = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)
@@ -76,7 +77,7 @@ class _Loop:
 
 
 def _run(context, count, body, data):
-    """An sl_parallel_for. An interrupt waits until the loop has ended."""
+    """An sl_parallel_for. An interrupt in the main thread waits until the loop has ended."""
     loop, is_interrupted = None, False
     while count > 0:
         try:
@@ -87,6 +88,45 @@ def _run(context, count, body, data):
             is_interrupted = True
     if is_interrupted:
         _thread.interrupt_main()
+
+
+class _OffMain:
+    """The calls of the library, made from another thread than the main one.
+
+    An interrupt that comes while the library runs is raised where Python code begins next, in the
+    main thread. That must not be _run, whose loop would be lost: it is where the caller waits.
+    """
+
+    def __getattr__(self, name):
+        call = getattr(lib, name)
+
+        def run(*arguments):
+            if threading.current_thread() is not threading.main_thread():
+                return call(*arguments)
+            try:
+                made = _executor().submit(call, *arguments)
+            except RuntimeError:  # no thread could be started
+                return call(*arguments)
+            is_interrupted = False
+            while not made.done():
+                try:
+                    concurrent.futures.wait([made])
+                except KeyboardInterrupt:
+                    is_interrupted = True
+            if is_interrupted:
+                raise KeyboardInterrupt
+            return made.result()
+
+        setattr(self, name, run)
+        return run
+
+
+_off_main = _OffMain()
+
+
+def calls(threads):
+    """The calls of the library for options with so many threads."""
+    return lib if threads is None or threads == 1 else _off_main
 
 
 _CALLBACK = _RUN(_run)

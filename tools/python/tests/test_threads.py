@@ -69,19 +69,30 @@ import os, signal, sys, threading, time
 sys.path.insert(0, %r)
 import numpy as np, sparse_local as sl
 from systems import grid
-A, b = grid(80), np.ones(6400)
+A, b, inside = grid(80), np.ones(6400), []
 F = sl.Factor(A, threads=2)
 x, raised, stop = F.solve(b), 0, time.time() + 3
+
+def handler(number, frame):
+    if inside:
+        inside.clear()
+        raise KeyboardInterrupt
+
 def interrupt():
     while time.time() < stop:
         time.sleep(0.003)
         os.kill(os.getpid(), signal.SIGINT)
+
+signal.signal(signal.SIGINT, handler)
 thread = threading.Thread(target=interrupt)
 thread.start()
-while time.time() < stop + 0.2:
+while thread.is_alive():
     try:
-        while time.time() < stop + 0.2:
-            F.refactor(A)
+        inside.append(1)
+        F.refactor(A)
+        inside.clear()
+        y = F.solve(b)
+        assert np.array_equal(y, x)
     except KeyboardInterrupt:
         raised += 1
 thread.join()
