@@ -20,8 +20,9 @@ class Changes:
         """Factors A again after changes in these columns only; None: anywhere, as refactor.
 
         Only what the changes reach in L is computed anew, which pays where they are in one place.
-        A has the analyzed pattern; entries in other columns are not compared. Errors as in
-        refactor; StateError: the factor is mapped.
+        A has the analyzed pattern; entries in other columns are not compared: the backward error
+        of refine with 0 steps tells whether this is a factor of A. Errors as in refactor;
+        StateError: the factor is mapped.
         """
         if columns is None:
             return self.refactor(A)

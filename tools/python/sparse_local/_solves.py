@@ -131,7 +131,8 @@ class Solves:
         """Improves X, a solution of A X = B, by at most steps corrections; returns a new X and the
         backward error that remains.
 
-        InaccurateError: it remains above error_limit, 1e-8 by default.
+        InaccurateError: it remains above error_limit, 1e-8 by default. steps 0 only measures, as
+        where it is in doubt whether this is a factor of A.
         """
         matrix = self.analysis._matrix(A)
         start = self._kind.dense(X, self.n, self.n)

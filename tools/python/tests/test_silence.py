@@ -112,6 +112,23 @@ def test_a_pattern_that_changed():
     assert np.array_equal(plan.solve([1.0]), F.local([3], [1.0], [4]))
 
 
+def test_columns_that_were_not_named():
+    """update and change trust their sets; a refinement of 0 steps tells."""
+    A, b = grid(40), np.ones(1600)
+    first, last = sl.Factor(A).perm[[0, -1]]
+    B = A.tolil()
+    B[first, first] += 1.0
+    B[last, last] += 1.0
+    B, named = B.tocsc(), [last]
+    for change in (lambda F: F.update(B, named), lambda F: F.update_entries(named, named, [1.0]),
+                   lambda F: F.change(B, rows=named, columns=named, deltas=[1.0])):
+        F = sl.Factor(A)
+        change(F)
+        assert F.refine(B, F.solve(b), b, 0)[1] > 1e-3
+    F = sl.Factor(A).update(B, [first, last])
+    assert F.refine(B, F.solve(b), b, 0)[1] < 1e-14
+
+
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
 @pytest.mark.parametrize("form", ["both", "lower"])
 def test_values_that_are_not_finite(value, form):

@@ -17,6 +17,6 @@ F = sl.cholesky(L[inside][:, inside])  # L itself is singular, this part of it i
 flat[inside] = F.solve(-L[inside][:, border] @ flat[border])  # both coordinates at once
 
 assert abs((L @ flat)[inside]).max() < 1e-12
-a, b, c = (flat[triangles[:, k]] for k in range(3))
-areas = np.cross(b - a, c - a)
+a, b, c = (flat[triangles[:, k]].T for k in range(3))
+areas = (b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0]
 print("%d triangles, %d of them turned over" % (len(areas), (areas <= 0).sum()))
