@@ -11,6 +11,7 @@
 sparse_local.h contains the method and the contracts of all calls.
 """
 from ._analysis import Analysis, analyze
+from ._dirichlet import Dirichlet
 from ._errors import (ArgumentError, Error, InaccurateError, InconsistentError, NotFiniteError,
                       OutOfMemoryError, PatternError, PivotError, StateError, TooLargeError,
                       UnsupportedError)
@@ -24,8 +25,8 @@ from ._several import Sum, diagonals, solve_batch
 from ._stand_in import stand_in
 
 __version__ = version()
-__all__ = ["Factor", "cholesky", "Analysis", "analyze", "Plan", "Region", "Pins", "Selected",
-           "Sum", "solve_batch", "diagonals", "stand_in", "save_set", "load_set", "from_triplets",
-           "CscArrays", "Error", "ArgumentError", "PatternError", "PivotError", "NotFiniteError",
-           "InconsistentError", "InaccurateError", "StateError", "TooLargeError",
+__all__ = ["Factor", "cholesky", "Analysis", "analyze", "Plan", "Region", "Pins", "Dirichlet",
+           "Selected", "Sum", "solve_batch", "diagonals", "stand_in", "save_set", "load_set",
+           "from_triplets", "CscArrays", "Error", "ArgumentError", "PatternError", "PivotError",
+           "NotFiniteError", "InconsistentError", "InaccurateError", "StateError", "TooLargeError",
            "UnsupportedError", "OutOfMemoryError", "library_path", "version"]

@@ -125,6 +125,10 @@ class Dense:
         """X, ldx, B, ldb, nrhs of a call."""
         return address(self.X), self.ldx, address(self.B), self.ldb, self.count
 
+    def is_by_rows(self):
+        """Whether B and X are row-major."""
+        return bool(self.ldb & _ROW_MAJOR)
+
     def right(self):
         """B in real rows and columns, as the library reads it; a copy."""
         B = self.B if self.B.ndim == 2 else self.B[:, None]

@@ -81,6 +81,9 @@ class Factor(Solves, Entries, Changes, Files):
         numbers = dict(numbers)
         definite = numbers.pop("definite", False)
         chosen = Chosen(analysis.n, analysis._kind is arrays.COMPLEX).numbers(**numbers)
+        # the library's own refusal comes earlier, but does not go with these
+        if definite and not (chosen.options.regularization or chosen.options.null_pivots):
+            chosen.options.definite = 1
         stats, factor = Stats(), ctypes.c_void_p()
         self._lib = calls(numbers.get("threads"))
         check(self._lib.sl_factor_create(ctypes.byref(factor), analysis._symbolic.pointer,

@@ -8,8 +8,9 @@ import os
 import sys
 
 from ._errors import BY_STATUS, Error, PivotError, StateError
-from ._structs import (ENUM, INT, OFF, PTR, REAL, SIZE, Csc, Csc64, FactorArrays, Hermitian,
-                       Options, PseudoInverse, Request, SavedSet, Stats, SymbolicArrays)
+from ._structs import (ENUM, INT, OFF, PTR, REAL, SIZE, Csc, Csc64, DirichletArrays,
+                       FactorArrays, Hermitian, Options, PseudoInverse, Request, SavedSet, Stats,
+                       SymbolicArrays)
 
 _OUT = ctypes.POINTER(PTR)
 _CSC, _OPT, _STATS = (ctypes.POINTER(Csc), ctypes.POINTER(Options), ctypes.POINTER(Stats))
@@ -40,6 +41,9 @@ _CALLS = {
     "batch_diagonal": [ctypes.POINTER(PTR), INT, PTR, SIZE, PTR, INT, _OPT, PTR,
                        ctypes.POINTER(INT), _STATS],
     "batch_solve": [PTR, ctypes.POINTER(Request), INT, _OPT, PTR, ctypes.POINTER(INT)],
+    "dirichlet_create": [_OUT, _CSC, PTR, INT, PTR, _OPT, _STATS],
+    "dirichlet_refactor": [PTR, _CSC, _STATS],
+    "dirichlet_solve": [PTR, PTR, SIZE, PTR, SIZE, PTR, SIZE, INT, PTR],
     "pins_create": [_OUT, PTR, _OPT],
     "pins_add": [PTR, PTR, INT, _STATS],
     "pins_add_equality": [PTR, PTR, PTR, INT, _STATS],
@@ -85,7 +89,7 @@ _CALLS = {
     "map_file": [_SET, ctypes.c_char_p, ENUM, _OPT],
 }
 _FREES = ("matrix_free", "symbolic_free", "factor_free", "work_free", "plan_free", "region_free",
-          "selected_free", "pins_free", "saved_set_free")
+          "selected_free", "pins_free", "dirichlet_free", "saved_set_free")
 
 
 def library_path():
@@ -121,6 +125,8 @@ def _load():
     lib.sl_matrix_view.restype = Csc
     lib.sl_symbolic_view.argtypes = [PTR]
     lib.sl_symbolic_view.restype = SymbolicArrays
+    lib.sl_dirichlet_view.argtypes = [PTR]
+    lib.sl_dirichlet_view.restype = DirichletArrays
     lib.sl_factor_view.argtypes = [PTR]
     lib.sl_factor_view.restype = FactorArrays
     for name in ("symbolic_stats", "factor_stats", "plan_stats", "region_stats",

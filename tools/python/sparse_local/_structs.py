@@ -78,6 +78,9 @@ _ReuseInfo = _struct("_ReuseInfo", [
 _PinsInfo = _struct("_PinsInfo", [
     ("method", ENUM), ("reason", ENUM), ("count", INT), ("eliminated", INT),
     ("seconds_capacitance", REAL), ("seconds_elimination", REAL), ("seconds", REAL)])
+_DirichletInfo = _struct("_DirichletInfo", [
+    ("method", ENUM), ("n_free", INT), ("couplings", OFF), ("seconds_submatrix", REAL),
+    ("seconds_restriction", REAL), ("seconds_pins", REAL), ("seconds", REAL)])
 _CertificateInfo = _struct("_CertificateInfo", [
     ("certainty", ENUM), ("solves", INT), ("eta", REAL), ("eigenvalue_min", REAL),
     ("seconds", REAL)])
@@ -122,6 +125,12 @@ class PseudoInverse(ctypes.Structure):
 class FactorArrays(ctypes.Structure):
     """sl_factor_arrays"""
     _fields_ = [("symbolic", PTR), ("L", PTR), ("D", PTR), ("E", PTR), ("L_float", PTR)]
+
+
+class DirichletArrays(ctypes.Structure):
+    """sl_dirichlet_arrays"""
+    _fields_ = [("n_free", INT), ("n_fixed", INT), ("free_rows", PTR), ("fixed_rows", PTR),
+                ("symbolic", PTR), ("factor", PTR), ("matrix", Csc)]
 
 
 class Hermitian(ctypes.Structure):

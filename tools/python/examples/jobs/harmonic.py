@@ -7,16 +7,13 @@ from mesh import boundary, laplacian, surface
 points, triangles = surface()
 L, M = laplacian(points, triangles)
 border = boundary()
-inside = np.setdiff1d(np.arange(L.shape[0]), border)
 
 angle = np.linspace(0, 2 * np.pi, len(border), endpoint=False)
-flat = np.zeros((L.shape[0], 2))
-flat[border] = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+flat = sl.Dirichlet(L, border).solve(circle)  # both coordinates at once
 
-F = sl.cholesky(L[inside][:, inside])  # L itself is singular, this part of it is not
-flat[inside] = F.solve(-L[inside][:, border] @ flat[border])  # both coordinates at once
-
-assert abs((L @ flat)[inside]).max() < 1e-12
+inside = np.setdiff1d(np.arange(len(points)), border)
+assert np.array_equal(flat[border], circle) and abs((L @ flat)[inside]).max() < 1e-12
 a, b, c = (flat[triangles[:, k]].T for k in range(3))
 areas = (b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0]
 print("%d triangles, %d of them turned over" % (len(areas), (areas <= 0).sum()))
