@@ -356,17 +356,55 @@ template <class T> bool positive_definite_solver_agrees(double tolerance) {
     return relative(x.template cast<double>(), z) < tolerance && base.solve(b) == x;
 }
 
+template <class Exception> bool refuses(Sparse A, const Vector &b) {
+    try {
+        Vector x;
+        sl::PositiveDefiniteSolver<double, LinearSolver<double>>(A).solve(x, b);
+    } catch (const Exception &) {
+        return true;
+    }
+    return false;
+}
+
 void geometry_central() {
     CHECK(positive_definite_solver_agrees<double>(1e-11));
     CHECK(positive_definite_solver_agrees<float>(1e-3));
-    Sparse singular(2, 2);
-    bool is_refused = false;
-    try {
-        sl::PositiveDefiniteSolver<double, LinearSolver<double>> none(singular);
-    } catch (const std::runtime_error &) {
-        is_refused = true;
+    const Sparse zero(2, 2);
+    CHECK(refuses<std::invalid_argument>(zero, Vector::Ones(2)));
+    /* what geometry-central's own class checks */
+    Sparse A = cotangent_matrix(Mesh(5));
+    for (int k = 0; k < A.rows(); k++) A.coeffRef(k, k) += 0.01;
+    Vector b = Vector::Ones(25);
+    CHECK(!refuses<std::logic_error>(A, b));
+    CHECK(refuses<std::logic_error>(A, Vector::Ones(10)));
+    CHECK(refuses<std::logic_error>(A, Vector::Ones(26)));
+    b[3] = NAN;
+    CHECK(refuses<std::logic_error>(A, b));
+    CHECK(refuses<std::logic_error>(A.leftCols(24), Vector::Ones(25)));
+    Sparse wrong = A;
+    wrong.coeffRef(0, 1) += 1;
+    CHECK(refuses<std::logic_error>(wrong, Vector::Ones(25)));
+    wrong = A;
+    wrong.coeffRef(7, 7) = INFINITY;
+    CHECK(refuses<std::logic_error>(wrong, Vector::Ones(25)));
+}
+
+/* A connection Laplacian: the Laplacian whose weights have a phase. */
+void geometry_central_complex() {
+    typedef std::complex<double> Complex;
+    typedef Eigen::SparseMatrix<Complex> Hermitian;
+    const Sparse L = cotangent_matrix(Mesh(12));
+    Hermitian A = L.cast<Complex>();
+    for (int j = 0; j < A.outerSize(); j++) {
+        for (Hermitian::InnerIterator a(A, j); a; ++a) {
+            if (a.row() != a.col()) a.valueRef() *= std::polar(1.0, double(a.row() - a.col()));
+            if (a.row() == a.col()) a.valueRef() += 0.01;
+        }
     }
-    CHECK(is_refused);
+    const Eigen::VectorXcd b = Eigen::VectorXcd::Random(A.rows());
+    sl::PositiveDefiniteSolver<Complex, LinearSolver<Complex>> ours(A);
+    const Eigen::VectorXcd x = static_cast<LinearSolver<Complex> &>(ours).solve(b);
+    CHECK((A * x - b).norm() < 1e-12 * b.norm());
 }
 
 } // namespace
@@ -377,5 +415,6 @@ int main() {
                        {"triharmonic_says_what_to_expect", triharmonic_says_what_to_expect},
                        {"heat_distances", heat_distances},
                        {"as_rigid_as_possible", as_rigid_as_possible},
-                       {"geometry_central", geometry_central}});
+                       {"geometry_central", geometry_central},
+                       {"geometry_central_complex", geometry_central_complex}});
 }

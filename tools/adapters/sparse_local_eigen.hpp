@@ -7,31 +7,34 @@
  *     x = solver.solve(b);
  *     y = solver.solve(bset, B, xset);                  b on a few rows, x wanted on a few others
  *
- * sl::SimplicialLDLT takes the place of Eigen::SimplicialLDLT, sl::SimplicialLLT that of
- * Eigen::SimplicialLLT, and sl::CholmodSupernodalLLT that of Eigen::CholmodSupernodalLLT: the same
- * template arguments, analyzePattern, factorize, compute, info and solve. One source file of the
- * program defines SL_WITH_ALL and SPARSE_LOCAL_IMPLEMENTATION and includes sparse_local.h, or the
- * program is linked with the compiled library.
+ * SimplicialLDLT, SimplicialLLT and SimplicialCholesky of namespace sl take the place of Eigen's
+ * classes of these names, and sl::CholmodSupernodalLLT that of Eigen::CholmodSupernodalLLT: the same
+ * template arguments and members. One source file of the program defines SL_WITH_ALL and
+ * SPARSE_LOCAL_IMPLEMENTATION and includes sparse_local.h, or the program is linked with the compiled
+ * library.
  *
- * Matrices    any Eigen::SparseMatrix of float or double, column- or row-major, with Lower, Upper
- *             or both (Lower | Upper), also unsorted or uncompressed. A compressed matrix of double
- *             with int indices is used in place. Others are converted; all arithmetic is in double.
- * Ordering    the third template argument may be Eigen::NaturalOrdering; any other one means the
- *             library's own nested dissection, or options().ordering.
- * Errors      no exceptions: info() is NumericalIssue for a null pivot, a NaN or an infinity, and
- *             for a negative pivot in SimplicialLLT; InvalidInput for all other errors. status() is
- *             the library's own; stats().error names the row and what helps. A solve that fails
- *             sets info() and fills its result with NaN.
- * Indefinite  SimplicialLDLT keeps the order of the pattern unless setPivoted() chooses pivots by
- *             the values, as KKT systems with zeros on the diagonal need.
- * Differences from Eigen's solvers:
- *             - A numerically singular matrix is refused. Eigen accepts it unless a pivot is
- *               exactly 0, and so does options().null_tolerance = -1. For a singular Laplacian set
- *               options().null_pivots = SL_NULL_PIVOT_SKIP, and options().mass if wanted.
+ * Matrices    any Eigen::SparseMatrix of float, double, std::complex<float> or std::complex<double>,
+ *             column- or row-major, with Lower, Upper or both (Lower | Upper), also unsorted or
+ *             uncompressed. A compressed matrix of double with int indices is used in place. Others
+ *             are converted; all arithmetic is in double. Complex matrices are Hermitian.
+ *             Right-hand sides are dense or sparse, of any of these types; complex ones of a real
+ *             matrix are solved as two real ones.
+ * Ordering    the third template argument may be Eigen::NaturalOrdering or a class of the caller.
+ *             AMDOrdering, COLAMDOrdering and MetisOrdering mean the library's own. It minimizes the
+ *             time to the first solution (SL_PURPOSE_ONE_FACTOR), as Eigen's users expect.
+ *             LocalLDLT and LocalLLT are the same classes with the order for many local solves.
+ * Errors      no exceptions: info() is NumericalIssue for a null pivot, pivot growth, a NaN or an
+ *             infinity, and for a negative pivot in SimplicialLLT; InvalidInput for all other errors.
+ *             lastErrorMessage() says what is wrong and what helps; status() and stats() are the
+ *             library's own. A solve that fails sets info() and fills its result with NaN.
+ * Indefinite  SimplicialLDLT keeps the order of the pattern. If a pivot is null or L grows, it chooses
+ *             1x1 and 2x2 pivots by the values, as KKT systems [Q A'; A 0] need (setPivoted).
+ * Singular    a numerically singular matrix is refused. Eigen accepts it unless a pivot is exactly 0,
+ *             and so does options().null_tolerance = -1. setZeroMean() solves singular Laplacians.
+ * Other differences from Eigen's classes:
  *             - factorize with another pattern than that of analyzePattern analyzes it, and compute
  *               with the pattern of the last analysis does not analyze it again; analyses() counts.
  *               Plans and regions of an older analysis are then refused.
- *             - matrixL returns a matrix, and permutationP, vectorD return copies.
  * Threads     const calls may run at once. info() and status() are those of the last call that
  *             ended.
  */
@@ -45,17 +48,25 @@
 
 #include <Eigen/SparseCore>
 #include <Eigen/OrderingMethods>
+#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <initializer_list>
 #include <limits>
 #include <memory>
+#include <mutex>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+namespace Eigen {
+template <typename StorageIndex> class MetisOrdering;
+}
 
 namespace sl {
 
@@ -95,6 +106,24 @@ public:
     Eigen::Index size(Eigen::Index n) const {
         return all_ ? n : Eigen::Index(rows_.size());
     }
+    /* The rows of the real system of a complex one: the real and the imaginary part of each, or the
+     * real part. Of all rows, all; the real parts alone only of n rows. */
+    RowSet of_complex() const {
+        RowSet both;
+        both.all_ = all_;
+        for (sl_int row : rows_) {
+            both.add(2 * static_cast<long long>(row));
+            both.add(2 * static_cast<long long>(row) + 1);
+        }
+        return both;
+    }
+    RowSet real_parts(Eigen::Index n) const {
+        RowSet real;
+        for (Eigen::Index k = 0; k < size(n); k++) {
+            real.add(2 * static_cast<long long>(all_ ? k : rows_[std::size_t(k)]));
+        }
+        return real;
+    }
 
 private:
     /* A row that does not fit becomes -1, which is out of range as the row is. */
@@ -112,7 +141,8 @@ namespace internal {
  * A row-major matrix is seen as its transpose, so that its triangles change places. */
 class MatrixArrays {
 public:
-    template <class MatrixType> explicit MatrixArrays(const MatrixType &A) : status_(SL_OK) {
+    template <class MatrixType>
+    MatrixArrays(const MatrixType &A, int, double offset, double scale) : status_(SL_OK) {
         typedef typename MatrixType::Scalar Scalar;
         typedef typename MatrixType::StorageIndex Index;
         view_ = sl_csc();
@@ -132,6 +162,7 @@ public:
         }
         if (!view_.i) view_.i = &nothing_index();
         if (!view_.x) view_.x = &nothing_value();
+        shift_diagonal(offset, scale);
     }
     const sl_csc &view() const {
         return view_;
@@ -140,6 +171,7 @@ public:
         return status_;
     }
 
+private:
     /* Changes each diagonal entry d to offset + scale d, in a copy. The first entry of a repeated
      * one takes the offset. */
     void shift_diagonal(double offset, double scale) {
@@ -161,7 +193,6 @@ public:
         if (!x_.empty()) view_.x = x_.data();
     }
 
-private:
     static const sl_int &nothing_index() {
         static const sl_int nothing = 0;
         return nothing;
@@ -225,6 +256,76 @@ private:
     std::vector<double> x_;
 };
 
+/* The real matrix of a complex Hermitian one, from the triangle that is read. */
+class HermitianArrays {
+public:
+    template <class MatrixType>
+    HermitianArrays(const MatrixType &A, int triangle, double offset, double scale)
+        : status_(SL_OK), view_(sl_csc()) {
+        if (A.rows() != A.cols()) {
+            status_ = SL_ERR_ARGUMENT;
+        } else if (A.rows() >= (1 << 30) - 4 || A.nonZeros() > INT32_MAX / 4) {
+            status_ = SL_ERR_TOO_LARGE;
+        } else {
+            copy(A, triangle, offset, scale);
+        }
+    }
+    const sl_csc &view() const {
+        return view_;
+    }
+    sl_status status() const {
+        return status_;
+    }
+
+private:
+    /* A row-major matrix is seen as its transpose, whose entries are conjugate. Imaginary parts on
+     * the diagonal are ignored. */
+    template <class M> void copy(const M &A, int triangle, double offset, double scale) {
+        std::vector<sl_int> p(1, 0), i;
+        std::vector<double> x;
+        bool is_other = false, has_off_diagonal = false;
+        for (Eigen::Index j = 0; j < A.outerSize(); j++) {
+            bool is_first = true;
+            for (typename M::InnerIterator entry(A, j); entry; ++entry) {
+                const bool is_diagonal = entry.index() == j;
+                const int side = entry.row() > entry.col() ? Eigen::Lower : Eigen::Upper;
+                if (!is_diagonal && (triangle & side) == 0) {
+                    is_other = true;
+                    continue;
+                }
+                const double re = double(entry.value().real()), im = double(entry.value().imag());
+                i.push_back(entry.index() >= 0 && entry.index() < A.rows() ? sl_int(entry.index())
+                                                                          : -1);
+                x.push_back(is_diagonal ? (is_first ? offset : 0) + scale * re : re);
+                x.push_back(is_diagonal ? 0 : M::IsRowMajor ? -im : im);
+                is_first = is_first && !is_diagonal;
+                has_off_diagonal = has_off_diagonal || !is_diagonal;
+            }
+            if (is_first && offset != 0) status_ = SL_ERR_PATTERN;
+            p.push_back(sl_int(i.size()));
+        }
+        /* only the other triangle is stored: what is read would be a diagonal matrix */
+        if (is_other && !has_off_diagonal) status_ = SL_ERR_PATTERN;
+        if (i.empty()) {
+            i.push_back(0);
+            x.push_back(0);
+        }
+        if (status_ == SL_OK) convert(sl_int(A.rows()), p, i, x);
+    }
+    void convert(sl_int n, const std::vector<sl_int> &p, const std::vector<sl_int> &i,
+                 const std::vector<double> &x) {
+        const sl_hermitian H = {n, p.data(), i.data(), x.data(), nullptr};
+        sl_matrix *made = nullptr;
+        status_ = sl_matrix_from_hermitian(&made, &H, nullptr, nullptr);
+        converted_ = std::shared_ptr<sl_matrix>(made, sl_matrix_free);
+        if (status_ == SL_OK) view_ = sl_matrix_view(made);
+    }
+
+    sl_status status_;
+    sl_csc view_;
+    std::shared_ptr<sl_matrix> converted_;
+};
+
 /* Lends one workspace to one call at a time, so that repeated calls of one thread allocate nothing.
  * A call that finds it lent works with a new one. */
 class WorkSlot {
@@ -282,13 +383,52 @@ private:
     RegionHolder &operator=(const RegionHolder &);
 };
 
-template <class Scalar> struct is_real : std::false_type {};
-template <> struct is_real<float> : std::true_type {};
-template <> struct is_real<double> : std::true_type {};
+/* What a matrix of Scalar needs. unit: rows of the real system for each row. */
+template <class Scalar> struct Numbers {
+    static_assert(!std::is_same<Scalar, long double>::value,
+                  "sparse_local computes in double: for long double use the classes of Eigen");
+    static_assert(std::is_same<Scalar, float>::value || std::is_same<Scalar, double>::value ||
+                      std::is_same<Scalar, long double>::value,
+                  "the matrix must be of float, double or std::complex of these");
+    typedef double Wide;
+    typedef MatrixArrays Arrays;
+    enum { unit = 1 };
+};
+template <class Real> struct Numbers<std::complex<Real>> {
+    static_assert(!std::is_same<Real, long double>::value,
+                  "sparse_local computes in double: for long double use the classes of Eigen");
+    typedef std::complex<double> Wide;
+    typedef HermitianArrays Arrays;
+    enum { unit = 2 };
+};
+
+/* Orders of Eigen that mean the library's own; those of other classes are the caller's. */
+template <class Ordering> struct is_own_order : std::false_type {};
+template <class Index> struct is_own_order<Eigen::AMDOrdering<Index>> : std::true_type {};
+template <class Index> struct is_own_order<Eigen::COLAMDOrdering<Index>> : std::true_type {};
+template <class Index> struct is_own_order<Eigen::MetisOrdering<Index>> : std::true_type {};
+template <class Ordering> struct is_natural_order : std::false_type {};
+template <class Index> struct is_natural_order<Eigen::NaturalOrdering<Index>> : std::true_type {};
+
+/* The template arguments of a solver, as its base class needs them, and its views of L. */
+template <class Solver> struct SolverTraits;
+
+template <class MatrixType_, int UpLo_, class Ordering_, int LowerMode, int UpperMode>
+struct MatrixTraits {
+    typedef MatrixType_ MatrixType;
+    typedef Ordering_ OrderingType;
+    typedef typename MatrixType::Scalar Scalar;
+    typedef typename MatrixType::StorageIndex StorageIndex;
+    typedef Eigen::SparseMatrix<Scalar, Eigen::ColMajor, StorageIndex> CholMatrixType;
+    typedef Eigen::TriangularView<const CholMatrixType, LowerMode> MatrixL;
+    typedef Eigen::TriangularView<const typename CholMatrixType::AdjointReturnType, UpperMode>
+        MatrixU;
+    enum { UpLo = UpLo_ };
+};
 
 } // namespace internal
 
-template <class MatrixType, int UpLo, class Ordering, bool is_llt> class BasicSolver;
+template <class Solver> class BasicSolver;
 
 /** The region of a set of rows, from BasicSolver::region. Copies share it. Empty after an error. */
 class LocalRegion {
@@ -303,7 +443,7 @@ public:
     }
 
 private:
-    template <class, int, class, bool> friend class BasicSolver;
+    template <class> friend class BasicSolver;
     sl_region *get() const {
         return holder_ ? holder_->region : nullptr;
     }
@@ -332,40 +472,36 @@ public:
     }
 
 private:
-    template <class, int, class, bool> friend class BasicSolver;
+    template <class> friend class BasicSolver;
     std::shared_ptr<sl_plan> plan_;
     Eigen::Index nb_, nx_;
 };
 
-/** The solver of both names below. is_llt: a negative pivot is an error. */
-template <class MatrixType_, int UpLo_, class Ordering_, bool is_llt>
-class BasicSolver
-    : public Eigen::SparseSolverBase<BasicSolver<MatrixType_, UpLo_, Ordering_, is_llt>> {
-    typedef Eigen::SparseSolverBase<BasicSolver> Base;
-    typedef Eigen::Ref<const Eigen::MatrixXd> Input;
+/** What the solvers below share. Solver is one of them. */
+template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solver> {
+    typedef Eigen::SparseSolverBase<Solver> Base;
+    typedef internal::SolverTraits<Solver> Traits;
 
 public:
-    typedef MatrixType_ MatrixType;
-    typedef Ordering_ OrderingType;
+    typedef typename Traits::MatrixType MatrixType;
+    typedef typename Traits::OrderingType OrderingType;
     typedef typename MatrixType::Scalar Scalar;
     typedef typename MatrixType::RealScalar RealScalar;
     typedef typename MatrixType::StorageIndex StorageIndex;
-    typedef Eigen::MatrixXd Dense;
+    typedef typename Traits::CholMatrixType CholMatrixType;
+    typedef CholMatrixType const *ConstCholMatrixPtr;
+    typedef Eigen::Matrix<Scalar, Eigen::Dynamic, 1> VectorType;
+    typedef Eigen::Matrix<StorageIndex, Eigen::Dynamic, 1> VectorI;
     typedef Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, StorageIndex> Permutation;
+    /** Results of local calls: of double or std::complex<double>. */
+    typedef typename internal::Numbers<Scalar>::Wide Wide;
+    typedef Eigen::Matrix<Wide, Eigen::Dynamic, Eigen::Dynamic> Dense;
     enum {
-        UpLo = UpLo_,
+        UpLo = Traits::UpLo,
         ColsAtCompileTime = MatrixType::ColsAtCompileTime,
         MaxColsAtCompileTime = MatrixType::MaxColsAtCompileTime
     };
-    static_assert(internal::is_real<Scalar>::value, "the matrix must be of float or double");
-
-    BasicSolver() {
-        init();
-    }
-    explicit BasicSolver(const MatrixType &A) {
-        init();
-        compute(A);
-    }
+    using Base::derived;
 
     Eigen::Index rows() const {
         return n_;
@@ -380,44 +516,60 @@ public:
         return options_;
     }
     /** The diagonal of the factored matrices becomes offset + scale * diagonal, from now on. */
-    BasicSolver &setShift(double offset, double scale = 1) {
+    Solver &setShift(double offset, double scale = 1) {
         shift_offset_ = offset;
         shift_scale_ = scale;
-        return *this;
+        return derived();
     }
-
-    /** From the next analysis on, 1x1 and 2x2 pivots are chosen by the values of the matrix, as
-     *  indefinite ones need. Other values of a pattern keep them, and if these do not suit, are
-     *  analyzed again. vectorD() has the diagonal of D only, and entries of the inverse are refused
-     *  (sl_symbolic_create_pivoted). */
-    BasicSolver &setPivoted(bool on = true) {
-        if (on != is_pivoted_) forget();
-        is_pivoted_ = on;
-        return *this;
+    /** true: from the next analysis on, 1x1 and 2x2 pivots are chosen by the values of the matrix;
+     *  false: never. Without this call, SimplicialLDLT chooses them after a null pivot or pivot
+     *  growth. Other values of a pattern keep them, and if these do not suit, are analyzed again.
+     *  With 2x2 pivots vectorD() has the diagonal of D only, and entries of the inverse and regions
+     *  are refused (sl_symbolic_create_pivoted). */
+    Solver &setPivoted(bool on = true) {
+        const Pivoting wanted = on ? pivoted_always : pivoted_never;
+        if (wanted != pivoting_) forget();
+        pivoting_ = wanted;
+        return derived();
+    }
+    /** Singular semidefinite matrices, such as Laplacians, are accepted from the next factorization
+     *  on: null pivots are skipped, b is made consistent, and the solution is the one with mean zero
+     *  in each connected component, or with sum m x = 0 for the weights m = options().mass. */
+    Solver &setZeroMean(bool on = true) {
+        is_zero_mean_ = on;
+        options_changed_ = true;
+        return derived();
     }
 
     /** Analyzes the pattern of A; with setPivoted() also its values. */
-    BasicSolver &analyzePattern(const MatrixType &A) {
-        internal::MatrixArrays arrays(A);
-        forget();
-        report(arrays.status() == SL_OK ? analyze(arrays.view()) : arrays.status(), A);
-        if (ready_ == SL_OK) ready_ = SL_ERR_STATE;
-        return *this;
+    Solver &analyzePattern(const MatrixType &A) {
+        has_order_ = false;
+        analyze_only(A);
+        return derived();
+    }
+    /** The same with an order of the caller: row order.indices()[k] of A is pivot k, as in what the
+     *  orderings of Eigen compute. */
+    Solver &analyzePattern(const MatrixType &A, const Permutation &order) {
+        keep_order(order);
+        analyze_only(A);
+        return derived();
     }
     /** Factors A, which has the analyzed pattern; another one is analyzed. */
-    BasicSolver &factorize(const MatrixType &A) {
-        internal::MatrixArrays arrays(A);
-        arrays.shift_diagonal(shift_offset_, shift_scale_);
+    Solver &factorize(const MatrixType &A) {
+        const Arrays arrays(A, int(UpLo), shift_offset_, shift_scale_);
         sl_status status = arrays.status();
-        if (status == SL_OK) status = factor_any(arrays.view());
+        stats_.error = sl_error();
+        stats_.error.row = stats_.error.column = -1;
+        if (status == SL_OK) status = factor_any(A, arrays.view());
         if (status != SL_OK && status != SL_ERR_PIVOT && status != SL_ERR_NOT_FINITE) {
             factor_.reset();
         }
-        report(status, A);
-        return *this;
+        has_lower_ = false;
+        report(status, A.rows());
+        return derived();
     }
     /** Both. */
-    BasicSolver &compute(const MatrixType &A) {
+    Solver &compute(const MatrixType &A) {
         return factorize(A);
     }
 
@@ -429,6 +581,7 @@ public:
         case SL_ERR_PIVOT:
         case SL_ERR_NOT_FINITE:
         case SL_ERR_INCONSISTENT:
+        case SL_ERR_INACCURATE:
             return Eigen::NumericalIssue;
         default:
             return Eigen::InvalidInput;
@@ -438,13 +591,39 @@ public:
     sl_status status() const {
         return sl_status(status_.load());
     }
-    /** What the last analysis or factorization reported: the row of an error, counts, times. */
+    /** What is wrong and what helps; empty after a success. */
+    std::string lastErrorMessage() const {
+        if (status() == SL_OK) return std::string();
+        std::string text = sl_status_string(status());
+        if (stats_.error.what) text += std::string(": ") + stats_.error.what;
+        if (stats_.error.row >= 0) text += ", row " + std::to_string(stats_.error.row);
+        if (stats_.error.column >= 0) text += ", column " + std::to_string(stats_.error.column);
+        if (status() == SL_ERR_PIVOT && is_llt_) text += "; SimplicialLDLT allows negative pivots";
+        if (status() == SL_ERR_PIVOT && !is_zero_mean_) {
+            text += "; setZeroMean() solves singular Laplacians";
+        }
+        return text;
+    }
+    /** What the last analysis or factorization reported: the row of an error, counts, times. Counts
+     *  are those of the real system, whose rows are twice those of a complex one. */
     const sl_stats &stats() const {
         return stats_;
     }
     /** How often a pattern was analyzed. */
     int analyses() const {
         return analyses_;
+    }
+    /** Writes what the objects occupy. */
+    template <class Stream> void dumpMemory(Stream &s) const {
+        const std::size_t of_order = std::size_t(m_P.size()) * 3 * sizeof(StorageIndex);
+        const std::size_t of_lower = std::size_t(lower_.nonZeros()) * sizeof(Scalar);
+        const std::size_t of_analysis = symbolic_ ? stats_.symbolic.bytes : 0;
+        const std::size_t of_factor = factor_ ? stats_.factor.bytes : 0;
+        s << "  analysis: " << (of_analysis >> 20) << "Mb\n";
+        s << "  factor:   " << (of_factor >> 20) << "Mb\n";
+        s << "  matrixL:  " << (of_lower >> 20) << "Mb\n";
+        s << "  perm:     " << (of_order >> 20) << "Mb\n";
+        s << "  TOTAL:    " << ((of_analysis + of_factor + of_lower + of_order) >> 20) << "Mb\n";
     }
 
     // ---- solves ----
@@ -454,12 +633,12 @@ public:
     /** x on xset for b on bset: bset.size() x nrhs numbers B, xset.size() x nrhs of the result. */
     template <class Rhs>
     Dense solve(const RowSet &bset, const Eigen::MatrixBase<Rhs> &B, const RowSet &xset) const {
-        return solve_sets(bset, B.template cast<double>(), xset);
+        return solve_sets(bset, B.template cast<Wide>(), xset);
     }
     /** The same on a plan, whose sets are the rows of B and of the result. */
     template <class Rhs>
     Dense solve(const LocalPlan &plan, const Eigen::MatrixBase<Rhs> &B) const {
-        const Dense b = B.template cast<double>();
+        const Dense b = B.template cast<Wide>();
         return local(plan.nb_ == b.rows(), plan.nx_, b, [&](Dense &x, sl_work *work) {
             return sl_plan_solve(plan.plan_.get(), factor_.get(), data(x), stride(x), data(b),
                                  stride(b), columns(b), work);
@@ -467,13 +646,14 @@ public:
     }
     /** A half or another part of a solve; parts is a sum of SL_PART_... For SimplicialLDLT,
      *  permutationP() b is solvePart(SL_PART_P, b), matrixL().solve(b) solvePart(SL_PART_L, b),
-     *  matrixU().solve(b) solvePart(SL_PART_LT, b). The L of SimplicialLLT: SL_PART_L + SQRT_D. */
+     *  matrixU().solve(b) solvePart(SL_PART_LT, b). The L of SimplicialLLT: SL_PART_L + SQRT_D.
+     *  Quicker than the views, and with 2x2 pivots the only way to apply D. */
     template <class Rhs> Dense solvePart(unsigned parts, const Eigen::MatrixBase<Rhs> &B) const {
-        return part(sl_factor_solve_part, parts, B.template cast<double>());
+        return part(sl_factor_solve_part, parts, B.template cast<Wide>());
     }
     /** The product with the same parts: matrixL() b is multiplyPart(SL_PART_L, b). */
     template <class Rhs> Dense multiplyPart(unsigned parts, const Eigen::MatrixBase<Rhs> &B) const {
-        return part(sl_factor_multiply_part, parts, B.template cast<double>());
+        return part(sl_factor_multiply_part, parts, B.template cast<Wide>());
     }
     /** Prepares local solves; the plan is valid for every later factorization of the pattern. */
     LocalPlan plan(const RowSet &bset, const RowSet &xset) const {
@@ -484,10 +664,11 @@ public:
         LocalPlan out;
         sl_plan *made = nullptr;
         sl_options with_region;
+        const RowSet &b = real_rows(bset, is_complex()), &x = real_rows(xset, is_complex());
         sl_options_init(&with_region, sizeof with_region);
         with_region.region = region.get();
-        set_status(sl_plan_create(&made, symbolic_.get(), bset.data(), bset.count(), xset.data(),
-                                  xset.count(), &with_region, nullptr));
+        set_status(sl_plan_create(&made, symbolic_.get(), b.data(), b.count(), x.data(), x.count(),
+                                  &with_region, nullptr));
         if (!made) return out;
         /* the deleter keeps what the plan borrows */
         const std::shared_ptr<sl_symbolic> symbolic = symbolic_;
@@ -500,14 +681,15 @@ public:
     LocalRegion region(const RowSet &set) const {
         LocalRegion out;
         sl_region *made = nullptr;
+        const RowSet &rows = real_rows(set, is_complex());
         set_status(ready_ ? ready_
-                          : sl_region_create(&made, factor_.get(), set.data(), set.count(),
+                          : sl_region_create(&made, factor_.get(), rows.data(), rows.count(),
                                              nullptr, nullptr, nullptr));
         if (!made) return out;
         out.holder_ = std::make_shared<internal::RegionHolder>(made, factor_);
         return out;
     }
-    /** Computes a region again from the present factor; its plans stay valid. */
+    /** Computes a region again from the present unit; its plans stay valid. */
     bool update(LocalRegion &region) const {
         internal::LentWork work(work_);
         sl_status status =
@@ -521,10 +703,17 @@ public:
 
     /** Diagonal entries of the inverse, in the order of rows; without argument all. */
     Eigen::VectorXd inverseDiagonal(const RowSet &rows = RowSet::all()) const {
-        return local(true, rows.size(n_), Dense(0, 1), [&](Dense &x, sl_work *work) {
-            return sl_inverse_diagonal(factor_.get(), data(x), rows.data(), rows.count(), work,
-                                       nullptr);
-        });
+        const RowSet &real = diagonal_rows(rows, is_complex());
+        Eigen::VectorXd out(rows.size(n_));
+        double nothing = 0;
+        internal::LentWork work(work_);
+        const sl_status status =
+            ready_ ? ready_
+                   : sl_inverse_diagonal(factor_.get(), out.size() ? out.data() : &nothing,
+                                         real.data(), real.count(), work.get(), nullptr);
+        set_status(status);
+        if (status != SL_OK) out.setConstant(nan<double>());
+        return out;
     }
     /** log |det A|. */
     double logAbsDeterminant() const {
@@ -532,21 +721,21 @@ public:
     }
     /** log det A; NaN if det A is negative. */
     double logDeterminant() const {
-        return logdet().second > 0 ? logdet().first : std::numeric_limits<double>::quiet_NaN();
+        return logdet().second > 0 ? logdet().first : nan<double>();
     }
     /** 1 or -1. */
     double signDeterminant() const {
         return logdet().second;
     }
     Scalar determinant() const {
-        return Scalar(logdet().second * std::exp(logdet().first));
+        return Scalar(RealScalar(logdet().second * std::exp(logdet().first)));
     }
-    /** An estimate of 1 / (||A|| ||A^-1||) in the one-norm; A is the matrix that was factored. */
+    /** An estimate of 1 / (||A|| ||A^-1||) in the one-norm, of a complex matrix that of the real
+     *  system; A is the matrix that was factored. */
     double rcond(const MatrixType &A) const {
-        double out = std::numeric_limits<double>::quiet_NaN();
-        internal::MatrixArrays arrays(A);
+        double out = nan<double>();
+        const Arrays arrays(A, int(UpLo), shift_offset_, shift_scale_);
         internal::LentWork work(work_);
-        arrays.shift_diagonal(shift_offset_, shift_scale_);
         sl_status status = ready_ ? ready_ : arrays.status();
         if (status == SL_OK) {
             status = sl_factor_rcond(factor_.get(), &arrays.view(), &out, work.get());
@@ -557,48 +746,30 @@ public:
 
     // ---- the factors: P A P^-1 = L D L' ----
 
-    /** P as in Eigen's solvers: row i of A is pivot indices()[i]. */
-    Permutation permutationP() const {
-        if (!symbolic_) return Permutation();
-        const sl_symbolic_arrays arrays = sl_symbolic_view(symbolic_.get());
-        Permutation out(n_);
-        for (Eigen::Index i = 0; i < n_; i++) out.indices()[i] = StorageIndex(arrays.iperm[i]);
-        return out;
+    /** P as in Eigen's solvers: row i of A is pivot indices()[i]. Empty before an analysis, and for
+     *  complex matrices with 2x2 pivots, whose real and imaginary parts are ordered apart. */
+    const Permutation &permutationP() const {
+        return m_P;
     }
-    Permutation permutationPinv() const {
-        return permutationP().inverse();
+    const Permutation &permutationPinv() const {
+        return m_Pinv;
     }
     /** D of SimplicialLDLT; the squared diagonal of L of SimplicialLLT. */
-    Eigen::VectorXd vectorD() const {
-        if (ready_ != SL_OK) return Eigen::VectorXd();
-        return Eigen::Map<const Eigen::VectorXd>(sl_factor_view(factor_.get()).D, n_);
-    }
-    /** L, unit lower triangular for SimplicialLDLT. */
-    Eigen::SparseMatrix<double, Eigen::ColMajor, int> matrixL() const {
-        typedef Eigen::SparseMatrix<double, Eigen::ColMajor, int> Lower;
-        sl_matrix *made = nullptr;
-        set_status(ready_ ? ready_ : sl_factor_lower(&made, factor_.get(), nullptr));
-        if (!made) return Lower();
-        const sl_csc view = sl_matrix_view(made);
-        Lower L = Eigen::Map<const Lower>(view.n_rows, view.n_cols, view.p[view.n_cols], view.p,
-                                          view.i, view.x);
-        sl_matrix_free(made);
-        if (is_llt) L = (L * vectorD().cwiseSqrt().asDiagonal()).eval();
-        return L;
+    VectorType vectorD() const {
+        if (ready_ != SL_OK) return VectorType();
+        typedef Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<unit>> Reals;
+        return Reals(sl_factor_view(factor_.get()).D, n_)
+            .template cast<RealScalar>()
+            .template cast<Scalar>();
     }
 
     // ---- what Eigen calls ----
 
     template <class Rhs, class Dest>
     void _solve_impl(const Eigen::MatrixBase<Rhs> &b, Eigen::MatrixBase<Dest> &dest) const {
-        eigen_assert(b.rows() == n_);
-        typedef std::integral_constant<bool, std::is_same<typename Dest::Scalar, double>::value &&
-                                                 (int(Dest::Flags) & Eigen::DirectAccessBit) != 0 &&
-                                                 (int(Dest::Flags) & Eigen::RowMajorBit) == 0>
-            is_plain;
-        const auto &in_double = cast(b.derived()); /* a copy lives as long as this reference */
-        const Input B(in_double);
-        const sl_status status = ready_ ? ready_ : solve_into(dest.derived(), B, is_plain());
+        sl_status status = ready_;
+        if (status == SL_OK && b.rows() != n_) status = SL_ERR_ARGUMENT;
+        if (status == SL_OK) status = solve_dense(b.derived(), dest.derived(), IsSplit<Rhs>());
         set_status(status);
         if (status != SL_OK) dest.setConstant(nan<typename Dest::Scalar>());
     }
@@ -608,53 +779,145 @@ public:
     void _solve_impl(const Eigen::SparseMatrixBase<Rhs> &b,
                      Eigen::SparseMatrixBase<Dest> &dest) const {
         typedef Eigen::SparseMatrix<typename Dest::Scalar, Eigen::ColMajor, Eigen::Index> Result;
-        const Columns B = b.derived().template cast<double>();
-        Result X(n_, B.cols());
-        sl_status status = SL_OK;
-        for (Eigen::Index c = 0; c < B.cols(); c += 8) {
-            const Eigen::Index width = std::min<Eigen::Index>(8, B.cols() - c);
-            sl_status of_block = SL_OK;
-            const Dense x = solve_columns(B, c, width, &of_block);
-            if (status == SL_OK) status = of_block;
-            for (Eigen::Index r = 0; r < width; r++) append(X, x.col(r), c + r);
-        }
-        X.finalize();
+        Result X(n_, b.cols());
+        const sl_status status = b.rows() == n_ ? solve_sparse(b.derived(), X, IsSplit<Rhs>())
+                                                : SL_ERR_ARGUMENT;
         set_status(ready_ ? ready_ : status);
         assign(dest.derived(), X, std::integral_constant<bool, Dest::ColsAtCompileTime == 1>());
     }
 
-private:
-    void init() {
+protected:
+    BasicSolver() {
         sl_options_init(&options_, sizeof options_);
-        analyzed_with_ = options_;
-        if (std::is_same<Ordering_, Eigen::NaturalOrdering<StorageIndex>>::value) {
+        options_.purpose = SL_PURPOSE_ONE_FACTOR;
+        if (internal::is_natural_order<OrderingType>::value) {
             options_.ordering = SL_ORDERING_NATURAL;
         }
-        stats_ = sl_stats();
-        n_ = 0;
-        ready_ = SL_ERR_STATE;
-        analyses_ = 0;
-        options_changed_ = false;
-        shift_offset_ = 0;
-        shift_scale_ = 1;
+        if (is_complex::value) {
+            options_.block_size = 2;
+            options_.storage = SL_STORAGE_COMPLEX;
+        }
+        analyzed_with_ = options_;
         status_.store(SL_ERR_STATE);
     }
+
+    /* For classes that derive from Eigen's and set m_P and m_Pinv: the next factorization takes this
+     * order. The permuted matrix is not needed. */
+    void analyzePattern_preordered(const CholMatrixType &A, bool) {
+        const Permutation P = m_P, inverse = m_Pinv;
+        keep_order(inverse);
+        forget();
+        m_P = P;
+        m_Pinv = inverse;
+        report(SL_OK, A.rows());
+        ready_ = SL_ERR_STATE;
+    }
+
+    /* L: of LDLT without its unit diagonal. Computed when it is first asked for. */
+    const CholMatrixType &lower() const {
+        const std::lock_guard<std::mutex> lock(lower_mutex_);
+        if (has_lower_) return lower_;
+        sl_matrix *made = nullptr;
+        lower_ = CholMatrixType();
+        set_status(ready_ != SL_OK   ? ready_
+                   : m_P.size() < n_ ? SL_ERR_UNSUPPORTED
+                                     : sl_factor_lower(&made, factor_.get(), nullptr));
+        if (made) fill_lower(sl_matrix_view(made));
+        sl_matrix_free(made);
+        has_lower_ = true;
+        return lower_;
+    }
+    void set_llt(bool is_llt) {
+        if (is_llt == is_llt_) return;
+        is_llt_ = is_llt;
+        forget();
+        ready_ = SL_ERR_STATE;
+    }
+
+    Permutation m_P, m_Pinv;
+    VectorI m_parent; /* the elimination tree, -1 at a root */
+
+private:
+    typedef typename internal::Numbers<Scalar>::Arrays Arrays;
+    enum { unit = internal::Numbers<Scalar>::unit };
+    typedef std::integral_constant<bool, unit == 2> is_complex;
+    typedef Eigen::Ref<const Dense> Input;
+    typedef Eigen::SparseMatrix<Wide, Eigen::ColMajor, Eigen::Index> Columns;
+    enum Pivoting { pivoted_if_needed, pivoted_always, pivoted_never };
+
+    /* Complex right-hand sides of a real matrix. */
+    template <class Rhs>
+    struct IsSplit : std::integral_constant<bool, bool(Eigen::NumTraits<typename Rhs::Scalar>::IsComplex) &&
+                                                      !is_complex::value> {};
+
     void forget() {
         factor_.reset();
         symbolic_.reset();
+        m_P.resize(0);
+        m_Pinv.resize(0);
+        has_lower_ = has_pivots_ = false;
     }
     void set_status(sl_status status) const {
         status_.store(status);
     }
     /* After an error too, the solver has the size of A, and solves fail instead of asserting. */
-    void report(sl_status status, const MatrixType &A) {
+    void report(sl_status status, Eigen::Index n) {
         this->m_isInitialized = true;
-        n_ = A.rows();
+        n_ = n;
         ready_ = status;
         set_status(status);
+        if (unit == 2 && stats_.error.row >= 0) stats_.error.row /= 2;
     }
 
-    sl_status analyze(const sl_csc &A) {
+    // ---- the analysis ----
+
+    void analyze_only(const MatrixType &A) {
+        const Arrays arrays(A, int(UpLo), 0, 1);
+        forget();
+        report(arrays.status() == SL_OK ? analyze(A, arrays.view(), pivoting_ == pivoted_always)
+                                        : arrays.status(),
+               A.rows());
+        if (ready_ == SL_OK) ready_ = SL_ERR_STATE;
+    }
+    void keep_order(const Permutation &order) {
+        order_.clear();
+        for (Eigen::Index k = 0; k < order.size(); k++) {
+            for (int part = 0; part < unit; part++) {
+                order_.push_back(sl_int(order.indices()[k]) * unit + part);
+            }
+        }
+        has_order_ = true;
+    }
+    /* The library's own order, or that of a class of the caller. */
+    static bool order_by_class(const MatrixType &, Permutation &, std::true_type) {
+        return false;
+    }
+    static bool order_by_class(const MatrixType &A, Permutation &order, std::false_type) {
+        enum { triangle = (int(UpLo) & int(Eigen::Lower)) ? Eigen::Lower : Eigen::Upper };
+        if (A.rows() != A.cols()) return false;
+        CholMatrixType C;
+        C = A.template selfadjointView<triangle>();
+        OrderingType()(C, order);
+        if (order.size() == 0) order.setIdentity(A.rows());
+        return true;
+    }
+    /* The order of the caller in options; false: there is one, but not of a matrix of this size. */
+    bool use_order(const MatrixType &A, const sl_csc &view, sl_options &options) {
+        typedef std::integral_constant<bool,
+                                       internal::is_own_order<OrderingType>::value ||
+                                           internal::is_natural_order<OrderingType>::value>
+            is_library;
+        Permutation order;
+        if (!has_order_ && !order_by_class(A, order, is_library())) return true;
+        if (!has_order_) {
+            keep_order(order);
+            has_order_ = false;
+        }
+        options.ordering = SL_ORDERING_GIVEN;
+        options.perm = order_.data();
+        return order_.size() == std::size_t(view.n_cols);
+    }
+    sl_status analyze(const MatrixType &A, const sl_csc &view, bool with_pivots) {
         sl_symbolic *made = nullptr;
         sl_options options = options_;
         /* The view of a row-major matrix is that of its transpose. */
@@ -667,54 +930,117 @@ private:
             options.triangle = SL_TRIANGLE_UPPER;
         }
         forget();
-        const sl_status status = is_pivoted_
-                                     ? sl_symbolic_create_pivoted(&made, &A, &options, &stats_)
-                                     : sl_symbolic_create(&made, &A, &options, &stats_);
+        if (!use_order(A, view, options)) return SL_ERR_ARGUMENT;
+        const sl_status status = with_pivots
+                                     ? sl_symbolic_create_pivoted(&made, &view, &options, &stats_)
+                                     : sl_symbolic_create(&made, &view, &options, &stats_);
         if (status != SL_OK) return status;
         symbolic_.reset(made, sl_symbolic_free);
         /* only the other triangle is stored: what is read would be a diagonal matrix */
         const sl_symbolic_info &read = stats_.symbolic;
         if (options.triangle != SL_TRIANGLE_NONE && read.components == read.n &&
-            sl_off(A.p[A.n_cols]) > read.nnz_a) {
+            sl_off(view.p[view.n_cols]) > read.nnz_a) {
             forget();
             return SL_ERR_PATTERN;
         }
+        has_pivots_ = with_pivots;
         analyzed_with_ = options_;
         analyses_++;
+        copy_order();
         return SL_OK;
     }
-    /* Factors A over the analysis there is, if it is that of A, or over a new one. */
-    sl_status factor_any(const sl_csc &A) {
-        sl_status status = SL_ERR_OTHER_PATTERN;
-        if (symbolic_ && is_analyzed_as_wanted()) status = factor_numbers(A);
-        const bool is_refused = status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE;
-        if (status == SL_ERR_OTHER_PATTERN || (is_pivoted_ && is_refused)) {
-            status = analyze(A);
-            if (status == SL_OK) status = factor_numbers(A);
+    void copy_order() {
+        const sl_symbolic_arrays arrays = sl_symbolic_view(symbolic_.get());
+        const Eigen::Index n = arrays.n / unit;
+        if (unit == 2 && has_pivots_) return;
+        m_P.resize(n);
+        m_Pinv.resize(n);
+        m_parent.resize(n);
+        for (Eigen::Index k = 0; k < n; k++) {
+            const sl_int row = arrays.perm[k * unit] / unit;
+            const sl_int parent = arrays.parent[k * unit + unit - 1];
+            m_Pinv.indices()[k] = StorageIndex(row);
+            m_P.indices()[row] = StorageIndex(k);
+            m_parent[k] = StorageIndex(parent < 0 ? -1 : parent / unit);
         }
-        return status == SL_OK && is_llt ? refuse_negative() : status;
-    }
-    /* A factor that a region borrows keeps its numbers. */
-    sl_status factor_numbers(const sl_csc &A) {
-        if (factor_.use_count() == 1 && !options_changed_) {
-            return sl_factor_refactor(factor_.get(), &A, &stats_);
-        }
-        sl_factor *made = nullptr;
-        const sl_status status = sl_factor_create(&made, symbolic_.get(), &A, &options_, &stats_);
-        factor_.reset();
-        if (status == SL_OK) {
-            /* the deleter keeps the analysis that the factor borrows */
-            const std::shared_ptr<sl_symbolic> symbolic = symbolic_;
-            factor_.reset(made, [symbolic](sl_factor *factor) { sl_factor_free(factor); });
-            options_changed_ = false;
-        }
-        return status;
     }
     /* Whether the options of the analysis are those of the last one. */
     bool is_analyzed_as_wanted() const {
         const sl_options &a = analyzed_with_, &b = options_;
         return a.ordering == b.ordering && a.relaxation == b.relaxation && a.perm == b.perm &&
-               a.metis_options == b.metis_options && a.block_size == b.block_size;
+               a.metis_options == b.metis_options && a.block_size == b.block_size &&
+               a.purpose == b.purpose;
+    }
+
+    // ---- the factorization ----
+
+    static bool is_refused(sl_status status) {
+        return status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE;
+    }
+    /* Factors A over the analysis there is, if it is that of A, or over a new one. */
+    sl_status factor_any(const MatrixType &A, const sl_csc &view) {
+        bool with_pivots = pivoting_ == pivoted_always;
+        sl_status status = SL_ERR_OTHER_PATTERN;
+        if (symbolic_ && is_analyzed_as_wanted()) status = factor_numbers(view);
+        const bool is_again = has_pivots_ && is_refused(status);
+        if (status == SL_ERR_OTHER_PATTERN || is_again) {
+            with_pivots = with_pivots || is_again;
+            status = analyze(A, view, with_pivots);
+            if (status == SL_OK) status = factor_numbers(view);
+        }
+        if (is_refused(status) && !has_pivots_ && pivoting_ == pivoted_if_needed && !is_llt_ &&
+            !is_zero_mean_ && options_.null_pivots == SL_NULL_PIVOT_REFUSE &&
+            options_.regularization == 0) {
+            status = factor_pivoted(A, view, status);
+        }
+        return status == SL_OK && is_llt_ ? refuse_negative() : status;
+    }
+    /* The same with 2x2 pivots; if that fails too, all is as after the first failure. */
+    sl_status factor_pivoted(const MatrixType &A, const sl_csc &view, sl_status first) {
+        const std::shared_ptr<sl_symbolic> symbolic = symbolic_;
+        const sl_stats stats = stats_;
+        const int analyses = analyses_;
+        sl_status status = analyze(A, view, true);
+        if (status == SL_OK) status = factor_numbers(view);
+        if (status == SL_OK) return SL_OK;
+        forget();
+        symbolic_ = symbolic;
+        stats_ = stats;
+        analyses_ = analyses;
+        copy_order();
+        return first;
+    }
+    /* A factor that a region borrows keeps its numbers. */
+    sl_status factor_numbers(const sl_csc &view) {
+        if (factor_.use_count() == 1 && !options_changed_) {
+            return sl_factor_refactor(factor_.get(), &view, &stats_);
+        }
+        sl_factor *made = nullptr;
+        sl_options options = options_;
+        std::vector<double> ones;
+        if (is_zero_mean_) use_zero_mean(options, ones, std::size_t(view.n_cols));
+        if (has_pivots_ && options.storage == SL_STORAGE_COMPLEX) {
+            options.storage = SL_STORAGE_DOUBLE;
+        }
+        const sl_status status = sl_factor_create(&made, symbolic_.get(), &view, &options, &stats_);
+        factor_.reset();
+        if (status == SL_OK) {
+            /* the deleter keeps the analysis that the factor borrows */
+            const std::shared_ptr<sl_symbolic> symbolic = symbolic_;
+            factor_.reset(made, [symbolic](sl_factor *owned) { sl_factor_free(owned); });
+            options_changed_ = false;
+        }
+        return status;
+    }
+    /* A complex null vector z is two real ones, z and i z. */
+    static void use_zero_mean(sl_options &options, std::vector<double> &ones, std::size_t n) {
+        ones.assign(n * (unit == 2 ? 3 : 1), 1.0);
+        options.null_pivots = SL_NULL_PIVOT_SKIP;
+        if (!options.mass) options.mass = ones.data();
+        if (unit == 1 || options.null_vector) return;
+        for (std::size_t k = 0; k < 2 * n; k++) ones[n + k] = k % 2 == (k < n ? 0u : 1u) ? 1 : 0;
+        options.null_vector = ones.data() + n;
+        options.null_vector_count = 2;
     }
     sl_status refuse_negative() {
         if (stats_.factor.negative == 0) return SL_OK;
@@ -726,21 +1052,71 @@ private:
         factor_.reset();
         return SL_ERR_PIVOT;
     }
+    /* Of a complex factor, columns 2k have the real parts in rows 2i and the imaginary ones in rows
+     * 2i + 1. */
+    void fill_lower(const sl_csc &real) const {
+        std::vector<StorageIndex> p(1, 0), i;
+        std::vector<Scalar> x;
+        const VectorType roots = vectorD().cwiseSqrt();
+        const sl_int per_entry = unit;
+        for (Eigen::Index k = 0; k < n_; k++) {
+            const Scalar scale = is_llt_ ? roots[k] : Scalar(1);
+            for (sl_int q = real.p[k * per_entry]; q < real.p[k * per_entry + 1]; q++) {
+                const StorageIndex row = StorageIndex(real.i[q] / per_entry);
+                if (row == k && !is_llt_) continue;
+                const bool is_second = real.i[q] % per_entry != 0;
+                if (StorageIndex(i.size()) == p.back() || i.back() != row) {
+                    i.push_back(row);
+                    x.push_back(Scalar(0));
+                }
+                x.back() += scale * part_of(real.x[q], is_second, Scalar());
+            }
+            p.push_back(StorageIndex(i.size()));
+        }
+        if (i.empty()) {
+            lower_ = CholMatrixType(n_, n_);
+            return;
+        }
+        lower_ = Eigen::Map<const CholMatrixType>(n_, n_, Eigen::Index(i.size()), p.data(),
+                                                  i.data(), x.data());
+    }
+    template <class Real> static Real part_of(double value, bool, Real) {
+        return Real(value);
+    }
+    template <class Real>
+    static std::complex<Real> part_of(double value, bool is_imaginary, std::complex<Real>) {
+        return is_imaginary ? std::complex<Real>(0, Real(value)) : std::complex<Real>(Real(value));
+    }
+
+    // ---- solves ----
 
     template <class T> static T nan() {
-        return std::numeric_limits<T>::quiet_NaN();
+        typedef typename Eigen::NumTraits<T>::Real Real;
+        return T(std::numeric_limits<Real>::quiet_NaN());
+    }
+    static const RowSet &real_rows(const RowSet &rows, std::false_type) {
+        return rows;
+    }
+    static RowSet real_rows(const RowSet &rows, std::true_type) {
+        return rows.of_complex();
+    }
+    const RowSet &diagonal_rows(const RowSet &rows, std::false_type) const {
+        return rows;
+    }
+    RowSet diagonal_rows(const RowSet &rows, std::true_type) const {
+        return rows.real_parts(n_);
     }
     /* The library refuses a NULL, which an empty matrix has as its data. */
     static double *data(Dense &x) {
         static double nothing = 0;
-        return x.size() ? x.data() : &nothing;
+        return x.size() ? reinterpret_cast<double *>(x.data()) : &nothing;
     }
     static const double *data(const Dense &x) {
         static const double nothing = 0;
-        return x.size() ? x.data() : &nothing;
+        return x.size() ? reinterpret_cast<const double *>(x.data()) : &nothing;
     }
     static std::size_t stride(const Dense &x) {
-        return std::size_t(x.rows());
+        return std::size_t(x.rows()) * unit;
     }
     static sl_int columns(const Dense &x) {
         return x.cols() > INT32_MAX ? -1 : sl_int(x.cols());
@@ -755,7 +1131,7 @@ private:
         sl_status status = ready_;
         if (status == SL_OK) status = fits ? call(x, work.get()) : SL_ERR_ARGUMENT;
         set_status(status);
-        if (status != SL_OK) x.setConstant(nan<double>());
+        if (status != SL_OK) x.setConstant(nan<Wide>());
         if (result) *result = status;
         return x;
     }
@@ -767,54 +1143,81 @@ private:
     }
     Dense solve_sets(const RowSet &bset, const Dense &b, const RowSet &xset,
                      sl_status *result = nullptr) const {
+        const RowSet &bs = real_rows(bset, is_complex()), &xs = real_rows(xset, is_complex());
         return local(
             bset.size(n_) == b.rows(), xset.size(n_), b,
             [&](Dense &x, sl_work *work) {
-                return sl_local_solve(factor_.get(), bset.data(), bset.count(), xset.data(),
-                                      xset.count(), data(x), stride(x), data(b), stride(b),
-                                      columns(b), work, nullptr);
+                return sl_local_solve(factor_.get(), bs.data(), bs.count(), xs.data(), xs.count(),
+                                      data(x), stride(x), data(b), stride(b), columns(b), work,
+                                      nullptr);
             },
             result);
     }
 
     std::pair<double, double> logdet() const {
         std::pair<double, double> out(nan<double>(), nan<double>());
-        set_status(ready_ ? ready_ : sl_factor_logdet(factor_.get(), &out.first, &out.second));
+        set_status(ready_        ? ready_
+                   : unit == 2 ? sl_complex_logdet(factor_.get(), &out.first, &out.second)
+                                 : sl_factor_logdet(factor_.get(), &out.first, &out.second));
         return out;
     }
 
     /* b in double, without a copy if it is. */
     template <class Rhs>
-    static typename std::enable_if<std::is_same<typename Rhs::Scalar, double>::value,
+    static typename std::enable_if<std::is_same<typename Rhs::Scalar, Wide>::value,
                                    const Rhs &>::type
     cast(const Rhs &b) {
         return b;
     }
     template <class Rhs>
-    static typename std::enable_if<!std::is_same<typename Rhs::Scalar, double>::value, Dense>::type
+    static typename std::enable_if<!std::is_same<typename Rhs::Scalar, Wide>::value, Dense>::type
     cast(const Rhs &b) {
-        return b.template cast<double>();
+        return b.template cast<Wide>();
     }
 
-    typedef Eigen::SparseMatrix<double, Eigen::ColMajor, Eigen::Index> Columns;
+    template <class Rhs, class Dest>
+    sl_status solve_dense(const Rhs &b, Dest &dest, std::false_type) const {
+        typedef std::integral_constant<bool, std::is_same<typename Dest::Scalar, Wide>::value &&
+                                                 (int(Dest::Flags) & Eigen::DirectAccessBit) != 0 &&
+                                                 (int(Dest::Flags) & Eigen::RowMajorBit) == 0>
+            is_plain;
+        const auto &wide = cast(b); /* a copy lives as long as this reference */
+        return solve_into(dest, Input(wide), is_plain());
+    }
+    /* Real and imaginary parts as two right-hand sides. */
+    template <class Rhs, class Dest>
+    sl_status solve_dense(const Rhs &b, Dest &dest, std::true_type) const {
+        const Eigen::Index half = b.cols();
+        Dense both(n_, 2 * half), x(n_, 2 * half);
+        both.leftCols(half) = b.real().template cast<double>();
+        both.rightCols(half) = b.imag().template cast<double>();
+        const sl_status status = solve_into(x, Input(both), std::true_type());
+        if (status != SL_OK) return status;
+        typedef typename Dest::RealScalar Real;
+        dest.real() = x.leftCols(half).template cast<Real>();
+        dest.imag() = x.rightCols(half).template cast<Real>();
+        return SL_OK;
+    }
 
     /* From column to column; a single column may come with any stride. */
     template <class Block> Eigen::Index stride_of(const Block &x) const {
         return x.cols() > 1 ? x.outerStride() : std::max<Eigen::Index>(n_, 1);
     }
-    sl_status solve_block(double *x, Eigen::Index ldx, const Input &B) const {
+    sl_status solve_block(Wide *x, Eigen::Index ldx, const Input &B) const {
         internal::LentWork work(work_);
         if (B.cols() > INT32_MAX) return SL_ERR_TOO_LARGE;
-        return sl_factor_solve(factor_.get(), x, std::size_t(ldx), B.data(),
-                               std::size_t(stride_of(B)), sl_int(B.cols()), work.get());
+        return sl_factor_solve(factor_.get(), reinterpret_cast<double *>(x),
+                               std::size_t(ldx) * unit,
+                               reinterpret_cast<const double *>(B.data()),
+                               std::size_t(stride_of(B)) * unit, sl_int(B.cols()), work.get());
     }
     /* Writes into dest itself, if its columns are contiguous and it is B or apart from B. */
     template <class Dest>
     sl_status solve_into(Dest &dest, const Input &B, std::true_type) const {
         const Eigen::Index ldx = stride_of(dest), ldb = stride_of(B);
         if (dest.size() > 0 && dest.innerStride() == 1 && ldx >= n_ && ldb >= n_) {
-            const double *x = dest.data(), *b = B.data();
-            const std::less_equal<const double *> is_before = std::less_equal<const double *>();
+            const Wide *x = dest.data(), *b = B.data();
+            const std::less_equal<const Wide *> is_before = std::less_equal<const Wide *>();
             const Eigen::Index last = B.cols() - 1;
             if ((x == b && ldx == ldb) || is_before(x + ldx * last + n_, b) ||
                 is_before(b + ldb * last + n_, x)) {
@@ -832,6 +1235,30 @@ private:
         return status;
     }
 
+    template <class Rhs, class Result>
+    sl_status solve_sparse(const Rhs &b, Result &X, std::false_type) const {
+        const Columns B = b.template cast<Wide>();
+        sl_status status = SL_OK;
+        for (Eigen::Index c = 0; c < B.cols(); c += 8) {
+            const Eigen::Index width = std::min<Eigen::Index>(8, B.cols() - c);
+            sl_status of_block = SL_OK;
+            const Dense x = solve_columns(B, c, width, &of_block);
+            if (status == SL_OK) status = of_block;
+            for (Eigen::Index r = 0; r < width; r++) append(X, x.col(r), c + r);
+        }
+        X.finalize();
+        return status;
+    }
+    template <class Rhs, class Result>
+    sl_status solve_sparse(const Rhs &b, Result &X, std::true_type) const {
+        typedef typename Result::Scalar Complex;
+        Columns re(n_, b.cols()), im(n_, b.cols());
+        const Eigen::SparseMatrix<typename Rhs::Scalar> B = b;
+        sl_status status = solve_sparse(B.real(), re, std::false_type());
+        if (status == SL_OK) status = solve_sparse(B.imag(), im, std::false_type());
+        X = re.template cast<Complex>() + Complex(0, 1) * im.template cast<Complex>();
+        return status;
+    }
     /* Columns c .. c + width - 1 of A^-1 B. */
     Dense solve_columns(const Columns &B, Eigen::Index c, Eigen::Index width,
                         sl_status *status) const {
@@ -857,7 +1284,7 @@ private:
     static void append(Result &X, const Column &x, Eigen::Index c) {
         X.startVec(c);
         for (Eigen::Index i = 0; i < x.size(); i++) {
-            if (x[i] != 0) X.insertBack(i, c) = typename Result::Scalar(x[i]);
+            if (x[i] != Wide(0)) X.insertBack(i, c) = typename Result::Scalar(x[i]);
         }
     }
     template <class Dest, class X> static void assign(Dest &dest, const X &x, std::false_type) {
@@ -868,32 +1295,161 @@ private:
     }
 
     sl_options options_, analyzed_with_;
-    bool is_pivoted_ = false;
-    sl_stats stats_;
-    Eigen::Index n_;
-    sl_status ready_; /* SL_OK, or why there are no numbers */
-    int analyses_;
-    bool options_changed_;
-    double shift_offset_, shift_scale_;
+    Pivoting pivoting_ = pivoted_if_needed;
+    bool has_pivots_ = false; /* the analysis chose them */
+    bool is_llt_ = Traits::is_llt != 0;
+    bool is_zero_mean_ = false;
+    bool options_changed_ = false;
+    bool has_order_ = false; /* order_ is that of analyzePattern */
+    std::vector<sl_int> order_;
+    sl_stats stats_ = sl_stats();
+    Eigen::Index n_ = 0;
+    sl_status ready_ = SL_ERR_STATE; /* SL_OK, or why there are no numbers */
+    int analyses_ = 0;
+    double shift_offset_ = 0, shift_scale_ = 1;
     mutable std::atomic<int> status_;
     mutable internal::WorkSlot work_;
+    mutable std::mutex lower_mutex_;
+    mutable CholMatrixType lower_;
+    mutable bool has_lower_ = false;
     std::shared_ptr<sl_symbolic> symbolic_;
     std::shared_ptr<sl_factor> factor_;
 };
 
-/** P A P' = L D L' of definite, quasi-definite and other symmetric matrices without null pivots. */
 template <class MatrixType, int UpLo = Eigen::Lower,
           class Ordering = Eigen::AMDOrdering<typename MatrixType::StorageIndex>>
-using SimplicialLDLT = BasicSolver<MatrixType, UpLo, Ordering, false>;
+class SimplicialLDLT;
+template <class MatrixType, int UpLo = Eigen::Lower,
+          class Ordering = Eigen::AMDOrdering<typename MatrixType::StorageIndex>>
+class SimplicialLLT;
+template <class MatrixType, int UpLo = Eigen::Lower,
+          class Ordering = Eigen::AMDOrdering<typename MatrixType::StorageIndex>>
+class SimplicialCholesky;
 
-/** The same, of positive definite matrices: a negative pivot is a NumericalIssue. */
-template <class MatrixType, int UpLo = Eigen::Lower,
-          class Ordering = Eigen::AMDOrdering<typename MatrixType::StorageIndex>>
-using SimplicialLLT = BasicSolver<MatrixType, UpLo, Ordering, true>;
+namespace internal {
+
+template <class M, int UpLo, class Ordering>
+struct SolverTraits<SimplicialLDLT<M, UpLo, Ordering>>
+    : MatrixTraits<M, UpLo, Ordering, Eigen::UnitLower, Eigen::UnitUpper> {
+    enum { is_llt = 0 };
+};
+template <class M, int UpLo, class Ordering>
+struct SolverTraits<SimplicialLLT<M, UpLo, Ordering>>
+    : MatrixTraits<M, UpLo, Ordering, Eigen::Lower, Eigen::Upper> {
+    enum { is_llt = 1 };
+};
+template <class M, int UpLo, class Ordering>
+struct SolverTraits<SimplicialCholesky<M, UpLo, Ordering>>
+    : SolverTraits<SimplicialLDLT<M, UpLo, Ordering>> {};
+
+} // namespace internal
+
+/** P A P' = L D L' of definite, quasi-definite and other symmetric or Hermitian matrices. */
+template <class MatrixType_, int UpLo_, class Ordering_>
+class SimplicialLDLT : public BasicSolver<SimplicialLDLT<MatrixType_, UpLo_, Ordering_>> {
+    typedef internal::SolverTraits<SimplicialLDLT> Traits;
+
+public:
+    typedef BasicSolver<SimplicialLDLT> Base;
+    typedef MatrixType_ MatrixType;
+    typedef typename Traits::MatrixL MatrixL;
+    typedef typename Traits::MatrixU MatrixU;
+    SimplicialLDLT() {
+    }
+    explicit SimplicialLDLT(const MatrixType &A) {
+        this->compute(A);
+    }
+    /** Views of L, unit lower triangular, and L', valid until the next factorization. Empty after
+     *  an error. */
+    const MatrixL matrixL() const {
+        return MatrixL(this->lower());
+    }
+    const MatrixU matrixU() const {
+        return MatrixU(this->lower().adjoint());
+    }
+};
+
+/** The same, of positive definite matrices: a negative pivot is a NumericalIssue. P A P' = L L'. */
+template <class MatrixType_, int UpLo_, class Ordering_>
+class SimplicialLLT : public BasicSolver<SimplicialLLT<MatrixType_, UpLo_, Ordering_>> {
+    typedef internal::SolverTraits<SimplicialLLT> Traits;
+
+public:
+    typedef BasicSolver<SimplicialLLT> Base;
+    typedef MatrixType_ MatrixType;
+    typedef typename Traits::MatrixL MatrixL;
+    typedef typename Traits::MatrixU MatrixU;
+    SimplicialLLT() {
+    }
+    explicit SimplicialLLT(const MatrixType &A) {
+        this->compute(A);
+    }
+    /** Views of L and L', valid until the next factorization. Empty after an error. */
+    const MatrixL matrixL() const {
+        return MatrixL(this->lower());
+    }
+    const MatrixU matrixU() const {
+        return MatrixU(this->lower().adjoint());
+    }
+};
+
+/** Either of them, as setMode says; LDLT at first. */
+template <class MatrixType_, int UpLo_, class Ordering_>
+class SimplicialCholesky : public BasicSolver<SimplicialCholesky<MatrixType_, UpLo_, Ordering_>> {
+public:
+    typedef BasicSolver<SimplicialCholesky> Base;
+    typedef MatrixType_ MatrixType;
+    SimplicialCholesky() {
+    }
+    explicit SimplicialCholesky(const MatrixType &A) {
+        this->compute(A);
+    }
+    /** Another mode forgets the factor. */
+    SimplicialCholesky &setMode(Eigen::SimplicialCholeskyMode mode) {
+        this->set_llt(mode == Eigen::SimplicialCholeskyLLT);
+        return *this;
+    }
+    /** L, of LDLT without its unit diagonal. */
+    typename Base::CholMatrixType rawMatrix() const {
+        return this->lower();
+    }
+};
 
 /** SimplicialLLT with the template arguments of Eigen::CholmodSupernodalLLT. */
 template <class MatrixType, int UpLo = Eigen::Lower>
-using CholmodSupernodalLLT = SimplicialLLT<MatrixType, UpLo>;
+class CholmodSupernodalLLT : public SimplicialLLT<MatrixType, UpLo> {
+public:
+    CholmodSupernodalLLT() {
+    }
+    explicit CholmodSupernodalLLT(const MatrixType &A) : SimplicialLLT<MatrixType, UpLo>(A) {
+    }
+};
+
+/** SimplicialLDLT and SimplicialLLT with an order for many local solves. */
+template <class MatrixType, int UpLo = Eigen::Lower,
+          class Ordering = Eigen::AMDOrdering<typename MatrixType::StorageIndex>>
+class LocalLDLT : public SimplicialLDLT<MatrixType, UpLo, Ordering> {
+public:
+    LocalLDLT() {
+        this->options().purpose = SL_PURPOSE_MANY_SOLVES;
+    }
+    explicit LocalLDLT(const MatrixType &A) {
+        this->options().purpose = SL_PURPOSE_MANY_SOLVES;
+        this->compute(A);
+    }
+};
+template <class MatrixType, int UpLo = Eigen::Lower,
+          class Ordering = Eigen::AMDOrdering<typename MatrixType::StorageIndex>>
+class LocalLLT : public SimplicialLLT<MatrixType, UpLo, Ordering> {
+public:
+    LocalLLT() {
+        this->options().purpose = SL_PURPOSE_MANY_SOLVES;
+    }
+    explicit LocalLLT(const MatrixType &A) {
+        this->options().purpose = SL_PURPOSE_MANY_SOLVES;
+        this->compute(A);
+    }
+};
 
 } // namespace sl
 
