@@ -560,6 +560,8 @@ public:
         sl_status status = arrays.status();
         stats_.error = sl_error();
         stats_.error.row = stats_.error.column = -1;
+        /* the order of analyzePattern is that of matrices of this size */
+        if (has_order_ && order_.size() != std::size_t(A.cols()) * unit) has_order_ = false;
         if (status == SL_OK) status = factor_any(A, arrays.view());
         if (status != SL_OK && status != SL_ERR_PIVOT && status != SL_ERR_NOT_FINITE) {
             factor_.reset();
@@ -1012,17 +1014,21 @@ private:
     }
     /* A factor that a region borrows keeps its numbers. */
     sl_status factor_numbers(const sl_csc &view) {
+        sl_status status = SL_ERR_UNSUPPORTED;
         if (factor_.use_count() == 1 && !options_changed_) {
-            return sl_factor_refactor(factor_.get(), &view, &stats_);
+            status = sl_factor_refactor(factor_.get(), &view, &stats_);
+            if (status != SL_ERR_UNSUPPORTED) return status;
         }
         sl_factor *made = nullptr;
         sl_options options = options_;
         std::vector<double> ones;
         if (is_zero_mean_) use_zero_mean(options, ones, std::size_t(view.n_cols));
-        if (has_pivots_ && options.storage == SL_STORAGE_COMPLEX) {
+        status = sl_factor_create(&made, symbolic_.get(), &view, &options, &stats_);
+        /* it takes neither 2x2 nor null pivots, nor a NaN, of which the double one names the row */
+        if (status == SL_ERR_UNSUPPORTED && options.storage == SL_STORAGE_COMPLEX) {
             options.storage = SL_STORAGE_DOUBLE;
+            status = sl_factor_create(&made, symbolic_.get(), &view, &options, &stats_);
         }
-        const sl_status status = sl_factor_create(&made, symbolic_.get(), &view, &options, &stats_);
         factor_.reset();
         if (status == SL_OK) {
             /* the deleter keeps the analysis that the factor borrows */
