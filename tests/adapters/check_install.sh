@@ -90,6 +90,26 @@ C
     ./b/app
 }
 
+# Is the library of a stranger's build compiled with -O$1? The last -O of its command counts.
+library_has() {
+    grep '"command".*tools/packaging/sparse_local\.c' b/compile_commands.json >commands
+    test "$(grep -o ' -O[0-9a-z]*' commands | tail -n 1)" = "$1"
+}
+
+# The library is optimized in a Debug build, and with the switch not.
+optimized_by_cmake() {
+    stranger compiled optimized
+    printf '%s\n' 'cmake_minimum_required(VERSION 3.14)' 'project(stranger C)' \
+        "add_subdirectory(\"$root\" sparse_local)" 'add_executable(app main.c)' \
+        'target_link_libraries(app sparse_local::compiled)' >CMakeLists.txt
+    for type in Debug ''; do
+        cmake -S . -B b -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCMAKE_BUILD_TYPE=$type
+        library_has ' -O2'
+    done
+    cmake -S . -B b -DCMAKE_BUILD_TYPE=Debug -DSPARSE_LOCAL_OPTIMIZE=OFF
+    library_has ''
+}
+
 installed_by_make() {
     make --no-print-directory -C "$root" install PREFIX="$dir/prefix" DESTDIR=
     test -f "$dir/prefix/include/sparse_local_eigen.hpp"
@@ -198,6 +218,7 @@ FetchContent_MakeAvailable(sparse_local)"
         "add_subdirectory(\"$root\" sparse_local)" $plain
     check "add_subdirectory: compiled library" cmake_stranger compiled sub-compiled \
         "add_subdirectory(\"$root\" sparse_local)" $plain
+    check "the library is optimized in Debug builds" optimized_by_cmake
     check "FetchContent of a local folder" cmake_stranger header fetch "$fetch" $plain
     check "cmake --install, then find_package: compiled" installed_by_cmake compiled
     check "cmake --install, then find_package: header" cmake_stranger header cmake-own-header \
@@ -220,13 +241,23 @@ lib = dependency('$name', fallback: ['sparse_local', '${name}_dep'])
 executable('app', 'main.c', dependencies: lib)
 C
     meson setup b -Dsparse_local:simd=false --buildtype=debug
+    [ "$1" = header ] || library_has ' -O2'
     meson compile -C b
     ./b/app
 }
 
+# The switch of the subproject.
+debugged_by_meson() {
+    cd "$dir/meson-compiled"
+    rm -rf b
+    meson setup b -Dsparse_local:optimize=false --buildtype=debug
+    library_has ' -O0'
+}
+
 if wanted meson meson; then
     check "meson subproject: header" by_meson header
-    check "meson subproject: compiled library" by_meson compiled
+    check "meson subproject: compiled library, optimized" by_meson compiled
+    check "meson subproject: not optimized, by its option" debugged_by_meson
 fi
 
 # ---- recipes, versions, the manual page ----
