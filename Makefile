@@ -75,7 +75,7 @@ REPLAYS = $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/tests/replay_%)
 .DELETE_ON_ERROR:
 .SECONDARY:
 .PHONY: all help header check-header layers map style parts check-promises deps deps-png deps-cxx deps-clang always programs \
-	build-tests run-tests test test-clang test-cxx test-no-metis test-no-simd test-openmp sanitize run-bench bench format tidy clean
+	build-tests run-tests test test-clang test-cxx test-no-metis test-no-simd test-openmp test-pthreads sanitize run-bench bench format tidy clean
 
 all: check-header layers style parts test programs ## the checks, the tests, and the programs of tools/
 
@@ -254,6 +254,10 @@ THREADED = test_threads test_threads_solve test_ordering_threads test_batch test
 test-openmp: deps sparse_local.h ## the tests of threads, with OpenMP compiled in
 	@+$(SUB_MAKE) run-tests B=build/openmp OPT='-O2 -fopenmp' REPLAYS= \
 	TEST_PROGRAMS='$(THREADED:%=build/openmp/tests/core/%)'
+
+test-pthreads: deps sparse_local.h ## the tests of threads, with SL_PTHREADS compiled in
+	@+$(SUB_MAKE) run-tests B=build/pthreads OPT='-O2 -pthread -DSL_PTHREADS' REPLAYS= \
+	TEST_PROGRAMS='$(THREADED:%=build/pthreads/tests/core/%)'
 
 # With SL_VERIFY tasks are small in any case.
 sanitize: deps deps-png sparse_local.h ## the tests with address and undefined-behavior sanitizers, and SL_VERIFY

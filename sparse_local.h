@@ -1,61 +1,61 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4cd52034d294871f
+ * FNV-1a of the lines after this comment, without the license: 7ba63d0223d8c408
  * The comments of the implementation are in src/impl.
  *
  * Contents
  *     63 intro.h      what the library does, a quick start, which call for which question, references
  *    183 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
  *    224 config.h     macros that a user may define before the include, the version, and the integer types
- *    303 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    496 options.h    options of all calls, threads, and the allocator
- *    642 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    884 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    986 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1061 factor.h     the numerical factorization P A P' = L D L'
- *   1186 solve.h      full solves, and the workspace of all solves
- *   1283 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1361 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole
- *   1448 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1547 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1587 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1695 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1772 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1857 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1953 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2065 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2104 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2232 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2264 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2453 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2565 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2693 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2734 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2823 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2933 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2970 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   3047 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3087 impl/ base: the compiler, status, memory, sorting, threads
- *   4208 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5065 impl/ matrix: sparse matrices of the caller and of the library
- *   5700 impl/ ordering: fill-reducing orderings of a graph
- *  10080 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12100 impl/ factor: the numbers of L and D
- *  15352 impl/ solve: full and local solves
- *  17548 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19334 impl/ pivots: the order of the pivots by the values of a matrix
- *  19743 impl/ float: L and fronts in single precision
- *  20190 impl/ inverse: entries of the inverse, regions
- *  23158 impl/ change: a factor that follows changes of its matrix
- *  30070 impl/ io: files that are replaced only when they are complete
- *  30288 impl/ files: Matrix Market files, 64-bit indices
- *  30908 impl/ save: factors in files
- *  32892 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33580 impl/ batch: diagonals of many inverses
- *  33724 impl/ complex: complex Hermitian systems over real factors
- *  34271 impl/ complex: entries of the inverse
- *  34331 impl/ packs: the tables through which the core calls packs
- *  34377 impl/ last: undefine every internal macro
- *  34700 impl/ templates: the header includes them from itself, once for each instruction set
+ *    305 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    498 options.h    options of all calls, threads, and the allocator
+ *    645 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    890 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    992 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1067 factor.h     the numerical factorization P A P' = L D L'
+ *   1192 solve.h      full solves, and the workspace of all solves
+ *   1289 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1367 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole
+ *   1454 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1553 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1593 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1701 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1778 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1863 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1959 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2071 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2110 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2238 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2270 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2459 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2571 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2699 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2740 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2829 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2939 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2976 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   3053 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3093 impl/ base: the compiler, status, memory, sorting, threads
+ *   4259 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5116 impl/ matrix: sparse matrices of the caller and of the library
+ *   5751 impl/ ordering: fill-reducing orderings of a graph
+ *  10131 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12151 impl/ factor: the numbers of L and D
+ *  15405 impl/ solve: full and local solves
+ *  17601 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19387 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19796 impl/ float: L and fronts in single precision
+ *  20243 impl/ inverse: entries of the inverse, regions
+ *  23211 impl/ change: a factor that follows changes of its matrix
+ *  30123 impl/ io: files that are replaced only when they are complete
+ *  30341 impl/ files: Matrix Market files, 64-bit indices
+ *  30961 impl/ save: factors in files
+ *  32945 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33633 impl/ batch: diagonals of many inverses
+ *  33777 impl/ complex: complex Hermitian systems over real factors
+ *  34324 impl/ complex: entries of the inverse
+ *  34384 impl/ packs: the tables through which the core calls packs
+ *  34430 impl/ last: undefine every internal macro
+ *  34754 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -236,6 +236,8 @@
  *  SL_NO_SIMD                    compiles only the kernels in plain C: smallest object, fastest
  *                                compilation, easiest to debug.
  *  SL_NO_AVX512                  leaves out the AVX-512 kernels: AVX2 is then the best on x86.
+ *  SL_PTHREADS                   threads of POSIX where options.threads.run is NULL; compile and
+ *                                link with -pthread.
  *  SL_NO_CLOCK                   makes all times in the statistics 0, for systems without clock();
  *                                set automatically for WASI.
  *  SL_NO_THREAD_LOCAL            keeps no reason of the last error by thread (sl_error_text).
@@ -504,7 +506,8 @@ typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *
 /** Threads, opt-in: all zero means none. Results do not depend on the number of threads. */
 typedef struct sl_threads {
     sl_int count; /* 0 or 1: the calling thread only */
-    /* the caller's thread pool; NULL: OpenMP if compiled with it, else serial execution */
+    /* the caller's thread pool; NULL: SL_PTHREADS or OpenMP if compiled with it, else serial
+     * execution: stats.threads is 1 */
     sl_parallel_for run;
     void *context; /* passed to run */
 } sl_threads;
@@ -859,8 +862,11 @@ typedef struct sl_stats {
      * is null; 0: not known */
     double null_bound;
     sl_dirichlet_info dirichlet;
+    /* that a factorization is divided among; 1: the matrix is small, or the header was compiled
+     * with neither SL_PTHREADS nor OpenMP and options.threads has no pool; with the group factor */
+    sl_off threads;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[13];
+    sl_off reserved[12];
 } sl_stats;
 
 /** Writes an error as one sentence: the status, error.what, and the row, column, line and value as
@@ -3100,6 +3106,9 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_create_pivoted(sl_symbolic **out, co
 #if !defined(SL_NO_CLOCK)
 #include <time.h>
 #endif
+#if defined(SL_PTHREADS)
+#include <pthread.h>
+#endif
 
 #if defined(SL_METIS) && !defined(SL_NO_METIS)
 #define SLI_METIS 1
@@ -4018,7 +4027,7 @@ static void sli_sort(uint64_t *a, sl_int count, uint64_t *scratch) {
 /* src/impl/base/parallel.h: runs work items on the caller's threads; a team of workers that share loops */
 
 SLI_INLINE sl_int sli_workers(const sl_threads *t) {
-#if !defined(_OPENMP)
+#if !defined(SL_PTHREADS) && !defined(_OPENMP)
   if (t->run == NULL) {
     return 1;
   }
@@ -4079,6 +4088,43 @@ SLI_INLINE void sli_unlock(sli_atomic *lock) {
   sli_atomic_write(lock, 0);
 }
 
+#if defined(SL_PTHREADS)
+#define SLI_SPAWNED_MAX 63
+
+typedef struct sli_spawned {
+  pthread_t thread;
+  void (*body)(void *data, sl_int k);
+  void *data;
+  sl_int k;
+} sli_spawned;
+
+static void *sli_spawned_run(void *context) {
+  const sli_spawned *s = (const sli_spawned *)context;
+  s->body(s->data, s->k);
+  return NULL;
+}
+
+static void sli_spawn(sl_int count, void (*body)(void *data, sl_int k), void *data) {
+  sli_spawned spawned[SLI_SPAWNED_MAX];
+  sl_int started, k;
+  for (started = 0; started < sli_min(count - 1, SLI_SPAWNED_MAX); started++) {
+    sli_spawned *s = &spawned[started];
+    s->body = body;
+    s->data = data;
+    s->k = started;
+    if (pthread_create(&s->thread, NULL, sli_spawned_run, s) != 0) {
+      break;
+    }
+  }
+  for (k = started; k < count; k++) {
+    body(data, k);
+  }
+  for (k = 0; k < started; k++) {
+    (void)pthread_join(spawned[k].thread, NULL);
+  }
+}
+#endif
+
 static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *data, sl_int k),
              void *data) {
   sl_int k;
@@ -4086,7 +4132,12 @@ static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *d
     t->run(t->context, count, body, data);
     return;
   }
-#if defined(_OPENMP)
+#if defined(SL_PTHREADS)
+  if (count > 1) {
+    sli_spawn(count, body, data);
+    return;
+  }
+#elif defined(_OPENMP)
 #pragma omp parallel for num_threads(count) schedule(static, 1) if (count > 1)
 #endif
   for (k = 0; k < count; k++) {
@@ -14815,6 +14866,7 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
   }
   F->front = F->type->front(F->kernels);
   F->stats.storage = (sl_off)F->type->storage;
+  F->stats.threads = F->schedule.workers;
   return SL_OK;
 }
 
@@ -15032,6 +15084,7 @@ SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const 
 static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
   to->factor = from->factor;
   to->storage = from->storage;
+  to->threads = from->threads;
 }
 
 static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {
@@ -34400,6 +34453,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_USLEEP
 #undef SLI_WORKER_FLOPS
 #undef SLI_SMALL_TASKS
+#undef SLI_SPAWNED_MAX
 #undef SLI_TEAM_MAX
 #undef SLI_SHARES
 #undef SLI_SHARES_MAX

@@ -15,6 +15,8 @@
  *  SL_NO_SIMD                    compiles only the kernels in plain C: smallest object, fastest
  *                                compilation, easiest to debug.
  *  SL_NO_AVX512                  leaves out the AVX-512 kernels: AVX2 is then the best on x86.
+ *  SL_PTHREADS                   threads of POSIX where options.threads.run is NULL; compile and
+ *                                link with -pthread.
  *  SL_NO_CLOCK                   makes all times in the statistics 0, for systems without clock();
  *                                set automatically for WASI.
  *  SL_NO_THREAD_LOCAL            keeps no reason of the last error by thread (sl_error_text).

@@ -222,8 +222,11 @@ typedef struct sl_stats {
      * is null; 0: not known */
     double null_bound;
     sl_dirichlet_info dirichlet;
+    /* that a factorization is divided among; 1: the matrix is small, or the header was compiled
+     * with neither SL_PTHREADS nor OpenMP and options.threads has no pool; with the group factor */
+    sl_off threads;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[13];
+    sl_off reserved[12];
 } sl_stats;
 
 /** Writes an error as one sentence: the status, error.what, and the row, column, line and value as

@@ -46,7 +46,8 @@ Hermitian turning_matrix(int side, double shift = 0.1) {
 
 Vector some_vector(Eigen::Index n) {
     Vector b(n);
-    for (Eigen::Index k = 0; k < n; k++) b[k] = std::sin(1.0 + double(k));
+    for (Eigen::Index k = 0; k < n; k++)
+        b[k] = std::sin(1.0 + double(k));
     return b;
 }
 
@@ -146,7 +147,8 @@ void names_and_types() {
 
 Permutation reversed(int n) {
     Permutation order(n);
-    for (int k = 0; k < n; k++) order.indices()[k] = n - 1 - k;
+    for (int k = 0; k < n; k++)
+        order.indices()[k] = n - 1 - k;
     return order;
 }
 
@@ -163,7 +165,7 @@ struct EmptyOrdering {
 
 /* A class that derives from Eigen's and prescribes its order, as g2o's does. */
 template <class M> class Prescribed : public sl::SimplicialLLT<M, Eigen::Upper> {
-public:
+  public:
     void analyze_with(M &A, const Permutation &order) {
         this->m_Pinv = order;
         this->m_P = order.inverse();
@@ -206,7 +208,8 @@ Sparse kkt_matrix(bool has_zeros) {
     const Sparse Q = grid_matrix(6);
     std::vector<Eigen::Triplet<double>> t;
     for (int j = 0; j < 36; j++) {
-        for (Sparse::InnerIterator q(Q, j); q; ++q) t.emplace_back(q.row(), q.col(), q.value());
+        for (Sparse::InnerIterator q(Q, j); q; ++q)
+            t.emplace_back(q.row(), q.col(), q.value());
     }
     for (int k = 0; k < 3; k++) {
         t.emplace_back(36 + k, 2 * k, 1.0);
@@ -328,8 +331,8 @@ void hermitian_factors() {
     const Vector two = ours.inverseDiagonal({20, 3});
     CHECK(std::fabs(two[0] - inverse(20, 20).real()) < 1e-12);
     const Eigen::MatrixXcd local = ours.solve({7, 3}, some_complex(2), {11});
-    CHECK(std::abs(local(0, 0) - inverse(11, 7) * some_complex(2)[0] - inverse(11, 3) * some_complex(2)[1]) <
-          1e-12);
+    CHECK(std::abs(local(0, 0) - inverse(11, 7) * some_complex(2)[0] -
+                   inverse(11, 3) * some_complex(2)[1]) < 1e-12);
     const sl::LocalPlan plan = ours.plan({7, 3}, {11});
     CHECK(plan.nb() == 2 && ours.solve(plan, some_complex(2)) == local);
     CHECK(ours.rcond(A) > 0 && ours.region({3, 4}));

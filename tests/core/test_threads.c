@@ -238,20 +238,28 @@ static void every_allocation_may_fail(void **state) {
     factored_free(&y);
 }
 
+#if defined(_OPENMP) || defined(SL_PTHREADS)
+enum { HAS_THREADS = 1 };
+#else
+enum { HAS_THREADS = 0 };
+#endif
+
 static void unusual_thread_counts_are_handled(void **state) {
     (void)state;
     factored_t y = factored_make(GEN_GRID2, 100, 1, 0, NULL);
     int calls = 0;
     sl_factor *F = NULL;
+    sl_stats st;
     sl_options opt = options_with_threads(run_backwards, -1, &calls);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
     opt.threads.count = INT32_MAX; /* never more threads than supernodes */
     SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
     sl_factor_free(F);
-    /* Without a run function: one after the other, or OpenMP. */
+    /* Without a run function: threads of the header's own if it has any, else one. */
     opt.threads.count = 2;
     opt.threads.run = NULL;
-    SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
+    SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, &st));
+    assert_int_equal(st.threads, HAS_THREADS ? 2 : 1);
     assert_same_bits(F, y.F);
     sl_factor_free(F);
     factored_free(&y);

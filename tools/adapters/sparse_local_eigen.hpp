@@ -8,33 +8,36 @@
  *     y = solver.solve(bset, B, xset);                  b on a few rows, x wanted on a few others
  *
  * SimplicialLDLT, SimplicialLLT and SimplicialCholesky of namespace sl take the place of Eigen's
- * classes of these names, and sl::CholmodSupernodalLLT that of Eigen::CholmodSupernodalLLT: the same
- * template arguments and members. One source file of the program defines SL_WITH_ALL and
- * SPARSE_LOCAL_IMPLEMENTATION and includes sparse_local.h, or the program is linked with the compiled
- * library.
+ * classes of these names, and sl::CholmodSupernodalLLT that of Eigen::CholmodSupernodalLLT: the
+ * same template arguments and members. One source file of the program defines SL_WITH_ALL and
+ * SPARSE_LOCAL_IMPLEMENTATION and includes sparse_local.h, or the program is linked with the
+ * compiled library.
  *
- * Matrices    any Eigen::SparseMatrix of float, double, std::complex<float> or std::complex<double>,
- *             column- or row-major, with Lower, Upper or both (Lower | Upper), also unsorted or
- *             uncompressed. A compressed matrix of double with int indices is used in place. Others
- *             are converted; all arithmetic is in double. Complex matrices are Hermitian.
- *             Right-hand sides are dense or sparse, of any of these types; complex ones of a real
- *             matrix are solved as two real ones.
+ * Matrices    any Eigen::SparseMatrix of float, double or std::complex of these, column- or
+ *             row-major, with Lower, Upper or both (Lower | Upper), also unsorted or uncompressed.
+ *             A compressed matrix of double with int indices is used in place. Others are
+ *             converted; all arithmetic is in double. Complex matrices are Hermitian. Right-hand
+ *             sides are dense or sparse, of any of these types; complex ones of a real matrix are
+ *             solved as two real ones.
  * Ordering    the third template argument may be Eigen::NaturalOrdering or a class of the caller.
- *             AMDOrdering, COLAMDOrdering and MetisOrdering mean the library's own. It minimizes the
- *             time to the first solution (SL_PURPOSE_ONE_FACTOR), as Eigen's users expect.
+ *             AMDOrdering, COLAMDOrdering and MetisOrdering mean the library's own. It minimizes
+ *             the time to the first solution (SL_PURPOSE_ONE_FACTOR), as Eigen's users expect.
  *             LocalLDLT and LocalLLT are the same classes with the order for many local solves.
  * Errors      no exceptions: info() is NumericalIssue for a null pivot, pivot growth, a NaN or an
- *             infinity, and for a negative pivot in SimplicialLLT; InvalidInput for all other errors.
- *             lastErrorMessage() says what is wrong and what helps; status() and stats() are the
- *             library's own. A solve that fails sets info() and fills its result with NaN.
- * Indefinite  SimplicialLDLT keeps the order of the pattern. If a pivot is null or L grows, it chooses
- *             1x1 and 2x2 pivots by the values, as KKT systems [Q A'; A 0] need (setPivoted).
- * Singular    a numerically singular matrix is refused. Eigen accepts it unless a pivot is exactly 0,
- *             and so does options().null_tolerance = -1. setZeroMean() solves singular Laplacians.
+ *             infinity, and for a negative pivot in SimplicialLLT; InvalidInput for all other
+ *             errors. lastErrorMessage() says what is wrong and what helps; status() and stats()
+ *             are the library's own. A solve that fails sets info() and fills its result with NaN.
+ * Indefinite  SimplicialLDLT keeps the order of the pattern. If a pivot is null or L grows, it
+ *             chooses 1x1 and 2x2 pivots by the values, as KKT systems [Q A'; A 0] need
+ *             (setPivoted).
+ * Singular    a numerically singular matrix is refused. Eigen accepts it unless a pivot is exactly
+ *             0, and so does options().null_tolerance = -1. setZeroMean() solves singular
+ *             Laplacians.
  * Other differences from Eigen's classes:
  *             - factorize with another pattern than that of analyzePattern analyzes it, and compute
  *               with the pattern of the last analysis does not analyze it again; analyses() counts.
  *               Plans and regions of an older analysis are then refused.
+ *             - matrixL() contains the entries of L that are not exactly 0.
  * Threads     const calls may run at once. info() and status() are those of the last call that
  *             ended.
  */
@@ -533,8 +536,8 @@ public:
         return derived();
     }
     /** Singular semidefinite matrices, such as Laplacians, are accepted from the next factorization
-     *  on: null pivots are skipped, b is made consistent, and the solution is the one with mean zero
-     *  in each connected component, or with sum m x = 0 for the weights m = options().mass. */
+     *  on: null pivots are skipped, b is made consistent, and the solution is the one with mean
+     *  zero in each connected component, or with sum m x = 0 for the weights m = options().mass. */
     Solver &setZeroMean(bool on = true) {
         is_zero_mean_ = on;
         options_changed_ = true;
@@ -803,8 +806,8 @@ protected:
         status_.store(SL_ERR_STATE);
     }
 
-    /* For classes that derive from Eigen's and set m_P and m_Pinv: the next factorization takes this
-     * order. The permuted matrix is not needed. */
+    /* For classes that derive from Eigen's and set m_P and m_Pinv: the next factorization takes
+     * this order. The permuted matrix is not needed. */
     void analyzePattern_preordered(const CholMatrixType &A, bool) {
         const Permutation P = m_P, inverse = m_Pinv;
         keep_order(inverse);
@@ -849,8 +852,10 @@ private:
 
     /* Complex right-hand sides of a real matrix. */
     template <class Rhs>
-    struct IsSplit : std::integral_constant<bool, bool(Eigen::NumTraits<typename Rhs::Scalar>::IsComplex) &&
-                                                      !is_complex::value> {};
+    struct IsSplit
+        : std::integral_constant<bool,
+                                 bool(Eigen::NumTraits<typename Rhs::Scalar>::IsComplex) &&
+                                     !is_complex::value> {};
 
     void forget() {
         factor_.reset();

@@ -1,8 +1,8 @@
 /* sparse_local_geometry_central.hpp: PositiveDefiniteSolver of geometry-central over this library
  *
  * geometry-central declares the class in numerical/linear_solvers.h. This one takes its place for
- * double, float, std::complex<double> and std::complex<float>: the same checks of the matrix and the
- * right-hand side, which GC_NLINALG_DEBUG leaves out, and the same types of exceptions. Base is
+ * double, float and std::complex of these: the same checks of the matrix and the right-hand side,
+ * which GC_NLINALG_DEBUG leaves out, and the same types of exceptions. Base is
  * geometrycentral::LinearSolver<T>.
  *
  * Or the edit of four lines in src/numerical/positive_definite_solvers.cpp that the manual shows
@@ -18,7 +18,7 @@
 namespace sl {
 
 template <class T, class Base> class PositiveDefiniteSolver : public Base {
-public:
+  public:
     typedef Eigen::SparseMatrix<T> Matrix;
     typedef Eigen::Matrix<T, Eigen::Dynamic, 1> Vector;
     explicit PositiveDefiniteSolver(Matrix &A) : Base(A) {
@@ -49,7 +49,7 @@ public:
         return x;
     }
 
-private:
+  private:
     static bool is_finite(const T &value) {
         return std::isfinite(std::abs(value));
     }

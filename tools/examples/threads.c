@@ -1,4 +1,6 @@
-/* threads.c: a thread pool of pthreads for options.threads, with a factorization on it */
+/* threads.c: a thread pool of one's own for options.threads, with a factorization on it
+ *
+ * SL_PTHREADS, defined where the implementation is compiled, starts threads without a pool. */
 #include <pthread.h>
 #include <string.h>
 

@@ -18,6 +18,9 @@
 #if !defined(SL_NO_CLOCK)
 #include <time.h>
 #endif
+#if defined(SL_PTHREADS)
+#include <pthread.h>
+#endif
 
 #if defined(SL_METIS) && !defined(SL_NO_METIS)
 #define SLI_METIS 1

@@ -5,10 +5,10 @@
 #include "../../public/options.h"
 #include "base.h"
 
-/* The number of workers for the options of threads: their count, or 1 where neither a pool nor
- * OpenMP is available. */
+/* The number of workers for the options of threads: their count, or 1 where there is no pool,
+ * neither SL_PTHREADS nor OpenMP. */
 SLI_INLINE sl_int sli_workers(const sl_threads *t) {
-#if !defined(_OPENMP)
+#if !defined(SL_PTHREADS) && !defined(_OPENMP)
     if (t->run == NULL) {
         return 1;
     }
@@ -78,6 +78,45 @@ SLI_INLINE void sli_unlock(sli_atomic *lock) {
     sli_atomic_write(lock, 0);
 }
 
+#if defined(SL_PTHREADS)
+#define SLI_SPAWNED_MAX 63
+
+/* A thread that lives as long as one call. */
+typedef struct sli_spawned {
+    pthread_t thread;
+    void (*body)(void *data, sl_int k);
+    void *data;
+    sl_int k;
+} sli_spawned;
+
+static void *sli_spawned_run(void *context) {
+    const sli_spawned *s = (const sli_spawned *)context;
+    s->body(s->data, s->k);
+    return NULL;
+}
+
+/* Starts threads for k = 0, 1, ..., and does what is left, if some could not be started, too. */
+static void sli_spawn(sl_int count, void (*body)(void *data, sl_int k), void *data) {
+    sli_spawned spawned[SLI_SPAWNED_MAX];
+    sl_int started, k;
+    for (started = 0; started < sli_min(count - 1, SLI_SPAWNED_MAX); started++) {
+        sli_spawned *s = &spawned[started];
+        s->body = body;
+        s->data = data;
+        s->k = started;
+        if (pthread_create(&s->thread, NULL, sli_spawned_run, s) != 0) {
+            break;
+        }
+    }
+    for (k = started; k < count; k++) {
+        body(data, k);
+    }
+    for (k = 0; k < started; k++) {
+        (void)pthread_join(spawned[k].thread, NULL);
+    }
+}
+#endif
+
 /* Calls body(data, k) for k = 0 .. count-1. */
 static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *data, sl_int k),
                          void *data) {
@@ -86,7 +125,12 @@ static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *d
         t->run(t->context, count, body, data);
         return;
     }
-#if defined(_OPENMP)
+#if defined(SL_PTHREADS)
+    if (count > 1) {
+        sli_spawn(count, body, data);
+        return;
+    }
+#elif defined(_OPENMP)
 #pragma omp parallel for num_threads(count) schedule(static, 1) if (count > 1)
 #endif
     for (k = 0; k < count; k++) {

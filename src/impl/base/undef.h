@@ -24,6 +24,7 @@
 #undef SLI_USLEEP
 #undef SLI_WORKER_FLOPS
 #undef SLI_SMALL_TASKS
+#undef SLI_SPAWNED_MAX
 #undef SLI_TEAM_MAX
 #undef SLI_SHARES
 #undef SLI_SHARES_MAX

@@ -96,6 +96,7 @@ SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const 
 static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
     to->factor = from->factor;
     to->storage = from->storage;
+    to->threads = from->threads;
 }
 
 static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {

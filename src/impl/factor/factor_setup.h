@@ -322,6 +322,7 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
     }
     F->front = F->type->front(F->kernels);
     F->stats.storage = (sl_off)F->type->storage;
+    F->stats.threads = F->schedule.workers;
     return SL_OK;
 }
 

@@ -98,7 +98,7 @@ class Stats(ctypes.Structure):
                 ("change", _ChangeInfo), ("restriction", _RestrictInfo),
                 ("edit", _EditInfo), ("storage", OFF), ("reuse", _ReuseInfo),
                 ("pins", _PinsInfo), ("certificate", _CertificateInfo), ("null_bound", REAL),
-                ("dirichlet", _DirichletInfo), ("reserved", OFF * 13)]
+                ("dirichlet", _DirichletInfo), ("threads", OFF), ("reserved", OFF * 12)]
 
 
 class SavedSet(ctypes.Structure):
