@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7ba63d0223d8c408
+ * FNV-1a of the lines after this comment, without the license: 2043bade665c4771
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -13,49 +13,49 @@
  *    992 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
  *   1067 factor.h     the numerical factorization P A P' = L D L'
  *   1192 solve.h      full solves, and the workspace of all solves
- *   1289 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1367 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole
- *   1454 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1553 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1593 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1701 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1778 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1863 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1959 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2071 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2110 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2238 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2270 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2459 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2571 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2699 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2740 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2829 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2939 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2976 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   3053 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3093 impl/ base: the compiler, status, memory, sorting, threads
- *   4259 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5116 impl/ matrix: sparse matrices of the caller and of the library
- *   5751 impl/ ordering: fill-reducing orderings of a graph
- *  10131 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12151 impl/ factor: the numbers of L and D
- *  15405 impl/ solve: full and local solves
- *  17601 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19387 impl/ pivots: the order of the pivots by the values of a matrix
- *  19796 impl/ float: L and fronts in single precision
- *  20243 impl/ inverse: entries of the inverse, regions
- *  23211 impl/ change: a factor that follows changes of its matrix
- *  30123 impl/ io: files that are replaced only when they are complete
- *  30341 impl/ files: Matrix Market files, 64-bit indices
- *  30961 impl/ save: factors in files
- *  32945 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33633 impl/ batch: diagonals of many inverses
- *  33777 impl/ complex: complex Hermitian systems over real factors
- *  34324 impl/ complex: entries of the inverse
- *  34384 impl/ packs: the tables through which the core calls packs
- *  34430 impl/ last: undefine every internal macro
- *  34754 impl/ templates: the header includes them from itself, once for each instruction set
+ *   1290 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1369 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole
+ *   1456 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1555 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1595 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1703 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1780 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1865 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1961 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2073 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2113 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2241 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2273 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2462 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2574 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2702 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2743 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2832 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2942 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2979 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   3056 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3096 impl/ base: the compiler, status, memory, sorting, threads
+ *   4262 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5119 impl/ matrix: sparse matrices of the caller and of the library
+ *   5754 impl/ ordering: fill-reducing orderings of a graph
+ *  10134 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12154 impl/ factor: the numbers of L and D
+ *  15408 impl/ solve: full and local solves
+ *  17649 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19439 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19848 impl/ float: L and fronts in single precision
+ *  20295 impl/ inverse: entries of the inverse, regions
+ *  23263 impl/ change: a factor that follows changes of its matrix
+ *  30175 impl/ io: files that are replaced only when they are complete
+ *  30393 impl/ files: Matrix Market files, 64-bit indices
+ *  31013 impl/ save: factors in files
+ *  32997 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33682 impl/ batch: diagonals of many inverses
+ *  33826 impl/ complex: complex Hermitian systems over real factors
+ *  34373 impl/ complex: entries of the inverse
+ *  34433 impl/ packs: the tables through which the core calls packs
+ *  34479 impl/ last: undefine every internal macro
+ *  34803 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1272,8 +1272,9 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *                three single solves, 32 as long as six to eight.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_INCONSISTENT: a column of B
- *           has no solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W
- *           could not grow.
+ *           has no solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: B has a NaN or
+ *           an infinity, or overflow: X is written; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not
+ *           grow.
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
  *           min(nrhs, 32)). If consistency is checked, right-hand sides beyond the eighth take an
  *           additional forward sweep.
@@ -1338,7 +1339,8 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed factor, or, in a region, one whose
  *           numbers are not those that the region was computed from; SL_ERR_STATE: a factor of
- *           another analysis; SL_ERR_INCONSISTENT: as in sl_factor_solve; SL_ERR_TOO_LARGE;
+ *           another analysis; SL_ERR_INCONSISTENT: as in sl_factor_solve; SL_ERR_NOT_FINITE: a
+ *           number of B on which x depends is not finite: X is written; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     2 (b_entries + x_entries) + 4 region_entries flops per right-hand side; nothing O(n);
  *           no allocation once W has grown.
@@ -1353,8 +1355,8 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor 
  *
  *  F, bset, nb, xset, nx, X, ldx, B, ldb, nrhs, W as in these two calls; no region.
  *  stats  [out]  plan (bytes is 0); error.row: an index out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_INCONSISTENT: as in
- *           sl_factor_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_INCONSISTENT, _NOT_FINITE:
+ *           as in sl_plan_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the sum of both calls; no allocation once W has grown.
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/core/test_plan.c
@@ -2097,7 +2099,8 @@ typedef struct sl_request {
  *                      been written.
  *  Returns   SL_OK; SL_ERR_ARGUMENT: also if a workspace is NULL or given twice; SL_ERR_STATE,
  *            SL_ERR_STALE: a factor or a plan that sl_plan_solve refuses; SL_ERR_INCONSISTENT: as
- *            in sl_factor_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *            in sl_factor_solve; SL_ERR_NOT_FINITE: the same, all requests are solved;
+ *            SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost      that of the solves, distributed by the entries of L that each reads; one workspace of
  *            the largest size per thread. If consistency is checked, one more forward sweep of all.
  *  Threads   as sl_plan_solve.
@@ -16163,6 +16166,31 @@ static void sli_backward(const sl_factor *F, const sli_reach *R, int kind, doubl
              scratch);
 }
 
+SLI_INLINE int sli_are_finite(const double *x, ptrdiff_t count) {
+  ptrdiff_t k = 0;
+  while (k < count && sli_is_finite(x[k])) {
+    k++;
+  }
+  return k == count;
+}
+
+static int sli_reach_is_finite(const sl_factor *F, const sli_reach *R, const double *x,
+                 sl_int lanes) {
+  sl_int s = F->S->stats.symbolic.components == 1 && R->count > 0 ? R->count - 1 : 0;
+  int is_finite = 1;
+  if (F->null.vectors > 1) {
+    return sli_are_finite(x, (ptrdiff_t)R->columns * lanes);
+  }
+  for (; s < R->count; s++) {
+    const sli_step *step = &R->steps[s];
+    if (step->up == -1) {
+      is_finite &= sli_are_finite(
+        x + (ptrdiff_t)(step->base + sli_step_columns(step) - 1) * lanes, lanes);
+    }
+  }
+  return is_finite;
+}
+
 /* src/impl/solve/sweep_tasks.h: one right-hand side of a full solve by several workers: subtrees, then the rest */
 
 #if defined(SLI_SMALL_TASKS)
@@ -16188,6 +16216,7 @@ typedef struct sli_sweep_tasks {
   sl_int order[SLI_SOLVE_TASKS];
   sl_int tops[SLI_SOLVE_TASKS];
   void (*run_block)(void *data, sl_int item, sl_int worker);
+  sli_atomic has_failed;
   void *memory;
   size_t bytes, total;
   double *y, *scratch;
@@ -16484,6 +16513,7 @@ static void sli_sweep_tasks_lead(sli_team *team, void *data) {
   sli_team_loop(team, t->n_tasks, NULL, sli_sweep_tasks_forward_item, t);
   sli_sweep_tasks_tops(t, t->scratch);
   sli_team_loop(team, t->n_tasks, NULL, sli_sweep_tasks_backward_item, t);
+  sli_atomic_write(&t->has_failed, !sli_reach_is_finite(t->F, &t->q->backward, t->y, 1));
 }
 
 static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, void *memory,
@@ -16491,6 +16521,7 @@ static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, v
   sli_block b = {NULL, 0, 0};
   t->memory = memory;
   t->run_block = run_block;
+  t->has_failed = 0;
   if (t->rhs.nrhs <= 8) {
     b.base = (unsigned char *)memory;
     sli_sweep_tasks_layout(t, &b);
@@ -16581,6 +16612,10 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
   sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }
 
+SLI_COLD static sl_status sli_not_finite(void) {
+  return sli_refuse(SL_ERR_NOT_FINITE, "a number of B is not finite, or x overflows");
+}
+
 SLI_COLD static sl_status sli_inconsistent(void) {
   return sli_refuse(SL_ERR_INCONSISTENT,
             "B has a part along a null vector, beyond options.consistency_tolerance");
@@ -16599,8 +16634,16 @@ static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const s
   return SL_OK;
 }
 
+static int sli_sweep_is_finite(const sl_factor *F, const sli_query *q, const double *x,
+                 sl_int lanes) {
+  const ptrdiff_t rows = q->ending == NULL ? 0 : q->ending->rows;
+  return sli_reach_is_finite(F, &q->backward, x, lanes) &&
+       sli_are_finite(x + (q->backward.columns - rows) * lanes, rows * lanes);
+}
+
 static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
                   void *memory) {
+  sl_status status = SL_OK;
   sl_int r, count;
   for (r = 0; r < rhs->nrhs; r += count) {
     sli_rhs block;
@@ -16613,8 +16656,11 @@ static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, const 
     }
     sli_sweep_backward(F, q, &v, count);
     sli_unpack(F, q, &block, v.x);
+    if (!sli_sweep_is_finite(F, q, v.x, (sl_int)1 << sli_lanes_kind(count))) {
+      status = sli_not_finite();
+    }
   }
-  return SL_OK;
+  return status;
 }
 
 static sl_status sli_sweep(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
@@ -16628,11 +16674,13 @@ static sl_status sli_sweep(const sl_factor *F, const sli_query *q, const sli_rhs
 }
 
 static void sli_sweep_tasks_block(void *data, sl_int m, sl_int worker) {
-  const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
+  sli_sweep_tasks *t = (sli_sweep_tasks *)data;
   const sl_int first = m * t->share;
   const sli_rhs part = sli_rhs_part(&t->rhs, first, sli_min(t->share, t->rhs.nrhs - first));
-  (void)sli_sweep_blocks(t->F, t->q, &part,
-               (unsigned char *)t->memory + (size_t)worker * t->bytes);
+  if (sli_sweep_blocks(t->F, t->q, &part,
+             (unsigned char *)t->memory + (size_t)worker * t->bytes) != SL_OK) {
+    sli_atomic_write(&t->has_failed, 1);
+  }
 }
 
 static sl_status sli_query_prepare(sli_sweep_tasks *t, const sl_factor *F, const sli_query *q,
@@ -16646,7 +16694,7 @@ static sl_status sli_query_run(sli_sweep_tasks *t, const sl_factor *F, const sli
                  const sli_rhs *rhs, sl_work *W) {
   if (t->workers > 1) {
     sli_sweep_tasks_run(t, &W->threads, W->block, sli_sweep_tasks_block);
-    return SL_OK;
+    return sli_atomic_read(&t->has_failed) ? sli_not_finite() : SL_OK;
   }
   return sli_sweep(F, q, rhs, W->block);
 }
@@ -19299,7 +19347,8 @@ static void sli_bounds_write(const sli_bounds *p, double *to, const sli_rhs *X) 
   }
 }
 
-static void sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, double *bounds) {
+static sl_status sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, double *bounds) {
+  sl_status status = SL_OK;
   sl_int r, count;
   for (r = 0; r < rhs->nrhs; r += count) {
     sli_rhs block;
@@ -19310,9 +19359,13 @@ static void sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, double *b
     (void)sli_sweep_load(p->F, p->q, &v, &block);
     sli_bounds_norms(p, v.y, count);
     sli_sweep_backward(p->F, p->q, &v, count);
+    if (!sli_sweep_is_finite(p->F, p->q, v.x, (sl_int)1 << sli_lanes_kind(count))) {
+      status = sli_not_finite();
+    }
     sli_unpack(p->F, p->q, &block, v.x);
     sli_bounds_write(p, bounds + (size_t)r * sli_dense_of(rhs->ldx).column, &block);
   }
+  return status;
 }
 
 static sl_status sli_bounds_run(sli_bounds *p, const sli_rhs *rhs, double *bounds, sl_work *W) {
@@ -19334,8 +19387,7 @@ static sl_status sli_bounds_run(sli_bounds *p, const sli_rhs *rhs, double *bound
     sli_scales_fill(p);
     memcpy(p->scales, &identity, sizeof identity);
   }
-  sli_bounds_blocks(p, rhs, bounds);
-  return SL_OK;
+  return sli_bounds_blocks(p, rhs, bounds);
 }
 
 SL_API sl_status sl_plan_solve_bounded(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
@@ -27126,7 +27178,7 @@ static sl_status sli_pins_block(sli_pins_solve *w) {
     return sli_refuse(SL_ERR_INACCURATE, "C' x = g holds too inaccurately");
   }
   sli_unpack(F, q, &w->rhs, v.x);
-  return SL_OK;
+  return sli_sweep_is_finite(F, q, v.x, lanes) ? SL_OK : sli_not_finite();
 }
 
 SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X, size_t ldx,
@@ -33244,7 +33296,7 @@ static void sli_solve_batch_worker(void *data, sl_int k) {
   void *memory = sli_solve_batch_memory(b, k);
   double before = 0.0;
   sl_int m, failed = -1;
-  for (m = 0; m < b->count && before < to && failed == -1; m++) {
+  for (m = 0; m < b->count && before < to && (failed == -1 || !b->only_checks); m++) {
     const sl_request *r = &b->requests[m];
     const sl_factor *F = sli_request_factor(b, r);
     const sli_query q = sli_request_query(F, r);
@@ -33254,26 +33306,21 @@ static void sli_solve_batch_worker(void *data, sl_int k) {
       k + 1 == b->workers ? r->nrhs : sli_blocks_before(to, before, weight, r->nrhs);
     if (first < last && q.nx > 0 &&
       sli_solve_batch_columns(b, r, &q, first, last, memory) != SL_OK) {
-      failed = m;
+      failed = failed == -1 ? m : failed;
     }
     before += weight * (sli_tiles(r->nrhs));
   }
-  if (b->only_checks) {
-    memcpy(memory, &failed, sizeof failed);
-  }
+  memcpy(memory, &failed, sizeof failed);
 }
 
-static sl_status sli_solve_batch_consistent(sli_solve_batch *b, const sl_threads *threads,
-                      sl_int *at) {
+static sl_status sli_solve_batch_run(sli_solve_batch *b, const sl_threads *threads, sl_int *at) {
   sl_int k, failed;
-  b->only_checks = 1;
   sli_parallel(threads, b->workers, sli_solve_batch_worker, b);
-  b->only_checks = 0;
   for (k = 0; k < b->workers && *at == -1; k++) {
     memcpy(&failed, sli_solve_batch_memory(b, k), sizeof failed);
     *at = failed;
   }
-  return *at == -1 ? SL_OK : sli_inconsistent();
+  return *at == -1 ? SL_OK : b->only_checks ? sli_inconsistent() : sli_not_finite();
 }
 
 static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
@@ -33369,10 +33416,12 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
     const sl_allocator *a = &sli_request_factor(&b, requests)->allocator;
     status = sli_solve_batch_reserve(&b, works, a);
     if (status == SL_OK && b.checks) {
-      status = sli_solve_batch_consistent(&b, threads, &at);
+      b.only_checks = 1;
+      status = sli_solve_batch_run(&b, threads, &at);
+      b.only_checks = 0;
     }
     if (status == SL_OK) {
-      sli_parallel(threads, b.workers, sli_solve_batch_worker, &b);
+      status = sli_solve_batch_run(&b, threads, &at);
     }
     if (works == NULL) {
       sli_free(a, b.memory);

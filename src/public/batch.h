@@ -31,7 +31,8 @@ typedef struct sl_request {
  *                      been written.
  *  Returns   SL_OK; SL_ERR_ARGUMENT: also if a workspace is NULL or given twice; SL_ERR_STATE,
  *            SL_ERR_STALE: a factor or a plan that sl_plan_solve refuses; SL_ERR_INCONSISTENT: as
- *            in sl_factor_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *            in sl_factor_solve; SL_ERR_NOT_FINITE: the same, all requests are solved;
+ *            SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost      that of the solves, distributed by the entries of L that each reads; one workspace of
  *            the largest size per thread. If consistency is checked, one more forward sweep of all.
  *  Threads   as sl_plan_solve.

@@ -54,7 +54,8 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed factor, or, in a region, one whose
  *           numbers are not those that the region was computed from; SL_ERR_STATE: a factor of
- *           another analysis; SL_ERR_INCONSISTENT: as in sl_factor_solve; SL_ERR_TOO_LARGE;
+ *           another analysis; SL_ERR_INCONSISTENT: as in sl_factor_solve; SL_ERR_NOT_FINITE: a
+ *           number of B on which x depends is not finite: X is written; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     2 (b_entries + x_entries) + 4 region_entries flops per right-hand side; nothing O(n);
  *           no allocation once W has grown.
@@ -69,8 +70,8 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor 
  *
  *  F, bset, nb, xset, nx, X, ldx, B, ldb, nrhs, W as in these two calls; no region.
  *  stats  [out]  plan (bytes is 0); error.row: an index out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_INCONSISTENT: as in
- *           sl_factor_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_INCONSISTENT, _NOT_FINITE:
+ *           as in sl_plan_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the sum of both calls; no allocation once W has grown.
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/core/test_plan.c

@@ -191,7 +191,8 @@ static void a_column_does_not_depend_on_the_others(void **state) {
                 for (sl_int at = 0; at < 27 * 9; at++) {
                     B[at] = at / 27 == r ? q.B[at] : at % 2 ? NAN : 1e300;
                 }
-                SL_CHECK(sl_plan_solve(P, y.F, X, 50, B, 27, nrhs, NULL));
+                SL_EXPECT(nrhs > 1 ? SL_ERR_NOT_FINITE : SL_OK,
+                          sl_plan_solve(P, y.F, X, 50, B, 27, nrhs, NULL));
                 SAME_VALUES(X + 50 * r, q.wanted + 50 * r, 50);
             }
             sl_plan_free(P);

@@ -136,7 +136,8 @@ static void a_column_does_not_depend_on_the_others(void **state) {
                             B[q] = q % 3 == 0 ? NAN : q % 3 == 1 ? 0.0 : 1e200;
                         }
                     }
-                    SL_CHECK(sl_factor_solve(y.F, Y, n, B, n, nrhs, NULL));
+                    SL_EXPECT(nrhs > 1 ? SL_ERR_NOT_FINITE : SL_OK,
+                              sl_factor_solve(y.F, Y, n, B, n, nrhs, NULL));
                     SAME_VALUES(X + r * n, Y + r * n, n);
                     gen_reals(B, n * MOST, 5);
                 }
@@ -202,7 +203,7 @@ static void a_workspace_works_across_sizes(void **state) {
         }
         /* A NaN of one solve must leave no trace in the next. */
         B[0] = NAN;
-        SL_CHECK(sl_factor_solve(y.F, X, n, B, n, MOST, W));
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_solve(y.F, X, n, B, n, MOST, W));
         gen_reals(B, n * MOST, (uint64_t)round);
         SL_CHECK(sl_factor_solve(y.F, X, n, B, n, 1, W));
         SAME_VALUES(X, Y, n);

@@ -259,8 +259,34 @@ static void large_vectors_give_the_same_bits(void **state) {
     }
 }
 
+/* A NaN is reported by every worker's share, and by the subtrees of a single right-hand side. */
+static void a_nan_is_reported(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_GRID2, 400, 1, 0, NULL);
+    double *B = test_reals(400 * 20), *X = test_reals(400 * 20);
+    int calls = 0;
+    const sl_options opt = options_of_workers(3, &calls);
+    sl_work *W = NULL;
+    SL_CHECK(sl_work_create(&W, &opt));
+    for (sl_int nrhs = 1; nrhs <= 20; nrhs += 19) {
+        for (sl_int k = 0; k < 400; k += 7) {
+            const sl_int at = k + 400 * (k % nrhs);
+            SL_CHECK(sl_factor_solve(y.F, X, 400, B, 400, nrhs, W));
+            B[at] = NAN;
+            SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_solve(y.F, X, 400, B, 400, nrhs, W));
+            B[at] = 0.0;
+        }
+    }
+    assert_true(calls > 0);
+    sl_work_free(W);
+    free(B);
+    free(X);
+    factored_free(&y);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_nan_is_reported),
         cmocka_unit_test(solves_give_the_same_bits),
         cmocka_unit_test(many_trees_give_the_same_bits),
         cmocka_unit_test(two_trees_give_the_same_bits),

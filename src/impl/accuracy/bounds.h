@@ -244,7 +244,8 @@ static void sli_bounds_write(const sli_bounds *p, double *to, const sli_rhs *X) 
 }
 
 /* sli_sweep_blocks with bounds. */
-static void sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, double *bounds) {
+static sl_status sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, double *bounds) {
+    sl_status status = SL_OK;
     sl_int r, count;
     for (r = 0; r < rhs->nrhs; r += count) {
         sli_rhs block;
@@ -255,9 +256,13 @@ static void sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, double *b
         (void)sli_sweep_load(p->F, p->q, &v, &block);
         sli_bounds_norms(p, v.y, count);
         sli_sweep_backward(p->F, p->q, &v, count);
+        if (!sli_sweep_is_finite(p->F, p->q, v.x, (sl_int)1 << sli_lanes_kind(count))) {
+            status = sli_not_finite();
+        }
         sli_unpack(p->F, p->q, &block, v.x);
         sli_bounds_write(p, bounds + (size_t)r * sli_dense_of(rhs->ldx).column, &block);
     }
+    return status;
 }
 
 /* Solves in a workspace. */
@@ -280,8 +285,7 @@ static sl_status sli_bounds_run(sli_bounds *p, const sli_rhs *rhs, double *bound
         sli_scales_fill(p);
         memcpy(p->scales, &identity, sizeof identity);
     }
-    sli_bounds_blocks(p, rhs, bounds);
-    return SL_OK;
+    return sli_bounds_blocks(p, rhs, bounds);
 }
 
 SL_API sl_status sl_plan_solve_bounded(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,

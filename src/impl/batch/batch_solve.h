@@ -58,15 +58,15 @@ static sl_status sli_solve_batch_columns(const sli_solve_batch *b, const sl_requ
     return sli_sweep_blocks(F, q, &part, memory);
 }
 
-/* Worker k solves an equal share of the weight. When checking, it leaves the first request that
- * failed, or -1, in its scratch. */
+/* Worker k solves an equal share of the weight. It leaves the first request that failed, or -1, in
+ * its scratch; when checking, it ends there. */
 static void sli_solve_batch_worker(void *data, sl_int k) {
     const sli_solve_batch *b = (const sli_solve_batch *)data;
     const double from = b->total * k / b->workers, to = b->total * (k + 1) / b->workers;
     void *memory = sli_solve_batch_memory(b, k);
     double before = 0.0;
     sl_int m, failed = -1;
-    for (m = 0; m < b->count && before < to && failed == -1; m++) {
+    for (m = 0; m < b->count && before < to && (failed == -1 || !b->only_checks); m++) {
         const sl_request *r = &b->requests[m];
         const sl_factor *F = sli_request_factor(b, r);
         const sli_query q = sli_request_query(F, r);
@@ -76,28 +76,23 @@ static void sli_solve_batch_worker(void *data, sl_int k) {
             k + 1 == b->workers ? r->nrhs : sli_blocks_before(to, before, weight, r->nrhs);
         if (first < last && q.nx > 0 &&
             sli_solve_batch_columns(b, r, &q, first, last, memory) != SL_OK) {
-            failed = m;
+            failed = failed == -1 ? m : failed;
         }
         before += weight * (sli_tiles(r->nrhs));
     }
-    if (b->only_checks) {
-        memcpy(memory, &failed, sizeof failed);
-    }
+    memcpy(memory, &failed, sizeof failed);
 }
 
-/* Checks that every right-hand side is consistent; *at: the first request with one that is not, or
- * -1. */
-static sl_status sli_solve_batch_consistent(sli_solve_batch *b, const sl_threads *threads,
-                                            sl_int *at) {
+/* Solves, or only checks that every right-hand side is consistent. *at: the first request with one
+ * that is not, or with a solution that is not finite, or -1. */
+static sl_status sli_solve_batch_run(sli_solve_batch *b, const sl_threads *threads, sl_int *at) {
     sl_int k, failed;
-    b->only_checks = 1;
     sli_parallel(threads, b->workers, sli_solve_batch_worker, b);
-    b->only_checks = 0;
     for (k = 0; k < b->workers && *at == -1; k++) { /* later workers have later requests */
         memcpy(&failed, sli_solve_batch_memory(b, k), sizeof failed);
         *at = failed;
     }
-    return *at == -1 ? SL_OK : sli_inconsistent();
+    return *at == -1 ? SL_OK : b->only_checks ? sli_inconsistent() : sli_not_finite();
 }
 
 /* Checks every request, sums the weights, and finds the size of the scratch; *at: the request at
@@ -198,10 +193,12 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
         const sl_allocator *a = &sli_request_factor(&b, requests)->allocator;
         status = sli_solve_batch_reserve(&b, works, a);
         if (status == SL_OK && b.checks) {
-            status = sli_solve_batch_consistent(&b, threads, &at);
+            b.only_checks = 1;
+            status = sli_solve_batch_run(&b, threads, &at);
+            b.only_checks = 0;
         }
         if (status == SL_OK) {
-            sli_parallel(threads, b.workers, sli_solve_batch_worker, &b);
+            status = sli_solve_batch_run(&b, threads, &at);
         }
         if (works == NULL) {
             sli_free(a, b.memory);

@@ -266,7 +266,7 @@ static sl_status sli_pins_block(sli_pins_solve *w) {
         return sli_refuse(SL_ERR_INACCURATE, "C' x = g holds too inaccurately");
     }
     sli_unpack(F, q, &w->rhs, v.x);
-    return SL_OK;
+    return sli_sweep_is_finite(F, q, v.x, lanes) ? SL_OK : sli_not_finite();
 }
 
 SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X, size_t ldx,

@@ -36,4 +36,35 @@ static void sli_backward(const sl_factor *F, const sli_reach *R, int kind, doubl
                        scratch);
 }
 
+/* Are so many numbers finite? */
+SLI_INLINE int sli_are_finite(const double *x, ptrdiff_t count) {
+    ptrdiff_t k = 0;
+    while (k < count && sli_is_finite(x[k])) {
+        k++;
+    }
+    return k == count;
+}
+
+/* Is a solution in the vector of a reach, which ends at the roots, finite? A number of b that is
+ * not shows at the root of its tree: sums, products and quotients with it, also those with 0, are
+ * not finite either. So only the roots are looked at. Where components have several null vectors,
+ * x is 0 at their null pivots. */
+static int sli_reach_is_finite(const sl_factor *F, const sli_reach *R, const double *x,
+                               sl_int lanes) {
+    /* the last step is a root */
+    sl_int s = F->S->stats.symbolic.components == 1 && R->count > 0 ? R->count - 1 : 0;
+    int is_finite = 1;
+    if (F->null.vectors > 1) {
+        return sli_are_finite(x, (ptrdiff_t)R->columns * lanes);
+    }
+    for (; s < R->count; s++) {
+        const sli_step *step = &R->steps[s];
+        if (step->up == -1) {
+            is_finite &= sli_are_finite(
+                x + (ptrdiff_t)(step->base + sli_step_columns(step) - 1) * lanes, lanes);
+        }
+    }
+    return is_finite;
+}
+
 #endif

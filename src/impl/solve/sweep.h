@@ -95,6 +95,10 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
     sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }
 
+SLI_COLD static sl_status sli_not_finite(void) {
+    return sli_refuse(SL_ERR_NOT_FINITE, "a number of B is not finite, or x overflows");
+}
+
 SLI_COLD static sl_status sli_inconsistent(void) {
     return sli_refuse(SL_ERR_INCONSISTENT,
                       "B has a part along a null vector, beyond options.consistency_tolerance");
@@ -114,10 +118,20 @@ static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const s
     return SL_OK;
 }
 
+/* Is the solution in the backward vector finite, at the roots or at the boundary of an ending? */
+static int sli_sweep_is_finite(const sl_factor *F, const sli_query *q, const double *x,
+                               sl_int lanes) {
+    const ptrdiff_t rows = q->ending == NULL ? 0 : q->ending->rows;
+    return sli_reach_is_finite(F, &q->backward, x, lanes) &&
+           sli_are_finite(x + (q->backward.columns - rows) * lanes, rows * lanes);
+}
+
 /* Solves A x = b on the rows of a query, in blocks: y = L^-1 P b, z = D^-1 y, P x = L'^-1 z. F is
- * valid and memory is large enough. Stops at the first block that is inconsistent. */
+ * valid and memory is large enough. Stops at the first block that is inconsistent, but not where a
+ * solution is not finite. */
 static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
                                   void *memory) {
+    sl_status status = SL_OK;
     sl_int r, count;
     for (r = 0; r < rhs->nrhs; r += count) {
         sli_rhs block;
@@ -130,8 +144,11 @@ static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, const 
         }
         sli_sweep_backward(F, q, &v, count);
         sli_unpack(F, q, &block, v.x);
+        if (!sli_sweep_is_finite(F, q, v.x, (sl_int)1 << sli_lanes_kind(count))) {
+            status = sli_not_finite();
+        }
     }
-    return SL_OK;
+    return status;
 }
 
 /* Like sli_sweep_blocks, but writes nothing to X unless all blocks are consistent. */
@@ -147,11 +164,13 @@ static sl_status sli_sweep(const sl_factor *F, const sli_query *q, const sli_rhs
 
 /* Item m of a solve by several workers: t->share right-hand sides. */
 static void sli_sweep_tasks_block(void *data, sl_int m, sl_int worker) {
-    const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
+    sli_sweep_tasks *t = (sli_sweep_tasks *)data;
     const sl_int first = m * t->share;
     const sli_rhs part = sli_rhs_part(&t->rhs, first, sli_min(t->share, t->rhs.nrhs - first));
-    (void)sli_sweep_blocks(t->F, t->q, &part,
-                           (unsigned char *)t->memory + (size_t)worker * t->bytes);
+    if (sli_sweep_blocks(t->F, t->q, &part,
+                         (unsigned char *)t->memory + (size_t)worker * t->bytes) != SL_OK) {
+        sli_atomic_write(&t->has_failed, 1);
+    }
 }
 
 /* Plans how to solve a query, and grows W for it. */
@@ -167,7 +186,7 @@ static sl_status sli_query_run(sli_sweep_tasks *t, const sl_factor *F, const sli
                                const sli_rhs *rhs, sl_work *W) {
     if (t->workers > 1) {
         sli_sweep_tasks_run(t, &W->threads, W->block, sli_sweep_tasks_block);
-        return SL_OK;
+        return sli_atomic_read(&t->has_failed) ? sli_not_finite() : SL_OK;
     }
     return sli_sweep(F, q, rhs, W->block);
 }

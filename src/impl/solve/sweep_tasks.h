@@ -39,6 +39,7 @@ typedef struct sli_sweep_tasks {
     sl_int order[SLI_SOLVE_TASKS];         /* the largest first */
     sl_int tops[SLI_SOLVE_TASKS];          /* supernodes above the tasks */
     void (*run_block)(void *data, sl_int item, sl_int worker);
+    sli_atomic has_failed; /* a solution is not finite */
     void *memory;
     size_t bytes, total; /* of one worker's vectors where blocks are distributed; of everything */
     double *y, *scratch; /* y: n + slots */
@@ -349,6 +350,7 @@ static void sli_sweep_tasks_lead(sli_team *team, void *data) {
     sli_team_loop(team, t->n_tasks, NULL, sli_sweep_tasks_forward_item, t);
     sli_sweep_tasks_tops(t, t->scratch);
     sli_team_loop(team, t->n_tasks, NULL, sli_sweep_tasks_backward_item, t);
+    sli_atomic_write(&t->has_failed, !sli_reach_is_finite(t->F, &t->q->backward, t->y, 1));
 }
 
 /* Runs a planned solve in memory of t->total bytes; run_block solves t->share right-hand sides. */
@@ -357,6 +359,7 @@ static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, v
     sli_block b = {NULL, 0, 0};
     t->memory = memory;
     t->run_block = run_block;
+    t->has_failed = 0;
     if (t->rhs.nrhs <= 8) {
         b.base = (unsigned char *)memory;
         sli_sweep_tasks_layout(t, &b);
