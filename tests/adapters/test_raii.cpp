@@ -27,6 +27,20 @@ template <class Call> bool fails(sl_status code, sl_int row, const Call &call) {
 #endif
 }
 
+/* What a call that fails says. */
+template <class Call> std::string message_of(const Call &call) {
+#ifdef SL_NO_EXCEPTIONS
+    return call().message();
+#else
+    try {
+        call();
+    } catch (const sl::Error &error) {
+        return error.what();
+    }
+    return "";
+#endif
+}
+
 /* A grid with its analysis and factor. */
 struct Factored {
     explicit Factored(int side = 12, double shift = 0.1) : grid(side, shift) {
@@ -299,6 +313,20 @@ void chosen_pivots() {
     CHECK(fails(SL_ERR_ARGUMENT, -1, [&] { return S.create_pivoted(none); }));
 }
 
+/* Also calls without statistics have a reason, and checks of the classes theirs. */
+void messages() {
+    Factored f;
+    sl::Factor none;
+    std::vector<double> x;
+    CHECK(message_of([&] { return none.solve(x, {}); }) == "invalid argument: F is NULL");
+    CHECK(message_of([&] { return f.F.solve(x, {1.0}); }).find("invalid argument: the size of b") ==
+          0);
+    CHECK(message_of([&] {
+              return f.F.inverse_diagonal(x, {3, 144});
+          }) == "invalid argument: a row is out of range (row 144)");
+    CHECK(sl::Status().message() == "ok");
+}
+
 } // namespace
 
 int main() {
@@ -315,5 +343,6 @@ int main() {
                        {"wrong_arguments", wrong_arguments},
                        {"wrong_matrices", wrong_matrices},
                        {"no_rows", no_rows},
+                       {"messages", messages},
                        {"chosen_pivots", chosen_pivots}});
 }

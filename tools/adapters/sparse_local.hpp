@@ -142,6 +142,11 @@ inline Status finish(const Status &status) {
 }
 #endif
 
+/* Of a vector b whose size does not fit. */
+inline Status wrong_size() {
+    return Status(SL_ERR_ARGUMENT, "the size of b is not rows times nrhs, or nrhs is below 0");
+}
+
 /** Options with their defaults; the fields are those of sl_options. */
 struct Options : sl_options {
     Options() {
@@ -366,7 +371,7 @@ public:
     SL_RESULT solve(std::vector<double> &x, const std::vector<double> &b, sl_int nrhs = 1,
                     Work *work = nullptr) const {
         std::size_t rows = std::size_t(n());
-        if (nrhs < 0 || b.size() != rows * std::size_t(nrhs)) return finish(internal::wrong_size());
+        if (nrhs < 0 || b.size() != rows * std::size_t(nrhs)) return finish(wrong_size());
         x.resize(b.size());
         return solve(data_of(x), rows, data_of(b), rows, nrhs, work);
     }
@@ -377,7 +382,7 @@ public:
         std::vector<double> result;
         sl_stats stats;
         if (nrhs < 0 || bset.count() < 0 || xset.count() < 0 || b.size() != nb * std::size_t(nrhs))
-            return finish(SL_ERR_ARGUMENT);
+            return finish(wrong_size());
         result.resize(nx * std::size_t(nrhs));
         sl_status status = sl_local_solve(get(), bset.data(), bset.count(), xset.data(),
                                           xset.count(), data_of(result), nx, data_of(b), nb, nrhs,
@@ -401,7 +406,9 @@ public:
     SL_RESULT inverse_diagonal(std::vector<double> &out, const Rows &rows,
                                Work *work = nullptr) const {
         sl_stats stats;
-        if (rows.count() < 0) return finish(SL_ERR_ARGUMENT);
+        if (rows.count() < 0) {
+            return finish(Status(SL_ERR_ARGUMENT, "there are 2^31 rows or more"));
+        }
         std::vector<double> result(std::size_t(rows.count(n())));
         sl_status status = sl_inverse_diagonal(get(), data_of(result), rows.data(), rows.count(),
                                                work_of(work), &stats);
@@ -444,7 +451,7 @@ private:
     SL_RESULT part(Call call, std::vector<double> &x, unsigned parts, const std::vector<double> &b,
                    sl_int nrhs, Work *work) const {
         std::size_t rows = std::size_t(n());
-        if (nrhs < 0 || b.size() != rows * std::size_t(nrhs)) return finish(internal::wrong_size());
+        if (nrhs < 0 || b.size() != rows * std::size_t(nrhs)) return finish(wrong_size());
         x.resize(b.size());
         return finish(call(get(), parts, data_of(x), rows, data_of(b), rows, nrhs, work_of(work)));
     }
@@ -528,7 +535,7 @@ public:
     SL_RESULT solve(std::vector<double> &x, const Factor &F, const std::vector<double> &b,
                     sl_int nrhs = 1, Work *work = nullptr) const {
         std::size_t nb = std::size_t(nb_), nx = std::size_t(nx_);
-        if (nrhs < 0 || b.size() != nb * std::size_t(nrhs)) return finish(internal::wrong_size());
+        if (nrhs < 0 || b.size() != nb * std::size_t(nrhs)) return finish(wrong_size());
         std::vector<double> result(nx * std::size_t(nrhs));
         sl_status status = sl_plan_solve(get(), F.get(), data_of(result), nx,
                                          data_of(b), nb, nrhs, work_of(work));
@@ -541,7 +548,7 @@ public:
                             const std::vector<double> &b, std::vector<double> &scales,
                             sl_int nrhs = 1, Work *work = nullptr) const {
         std::size_t nb = std::size_t(nb_), nx = std::size_t(nx_);
-        if (nrhs < 0 || b.size() != nb * std::size_t(nrhs)) return finish(internal::wrong_size());
+        if (nrhs < 0 || b.size() != nb * std::size_t(nrhs)) return finish(wrong_size());
         std::vector<double> result(nx * std::size_t(nrhs)), errors(result.size());
         sl_stats stats;
         scales.resize(4 * nx + 2);
@@ -562,7 +569,7 @@ public:
         const bool is_forward = (parts & SL_PART_P) != 0;
         std::size_t nb = std::size_t(is_forward ? nb_ : info().x_columns);
         std::size_t nx = std::size_t(is_forward ? info().b_columns : nx_);
-        if (nrhs < 0 || b.size() != nb * std::size_t(nrhs)) return finish(internal::wrong_size());
+        if (nrhs < 0 || b.size() != nb * std::size_t(nrhs)) return finish(wrong_size());
         std::vector<double> result(nx * std::size_t(nrhs));
         sl_status status = sl_plan_solve_part(get(), F.get(), parts, data_of(result), nx,
                                               data_of(b), nb, nrhs, work_of(work));

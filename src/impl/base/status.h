@@ -119,7 +119,8 @@ SLI_NOINLINE static void sli_stats_clear_error(sl_stats *stats) {
 }
 
 /* Every call that takes stats ends with this: it gives the caller the last error. A status that
- * this thread has not recorded comes from a worker that has found no memory. Returns the status. */
+ * this thread has not recorded comes from a worker, usually one that has found no memory. Returns
+ * the status. */
 SLI_NOINLINE static sl_status sli_report(sl_stats *stats, sl_status status) {
     if (status == SL_OK) {
 #if defined(SLI_THREAD_LOCAL)
@@ -129,8 +130,7 @@ SLI_NOINLINE static sl_status sli_report(sl_stats *stats, sl_status status) {
     }
 #if defined(SLI_THREAD_LOCAL)
     if (sli_last.status != status) {
-        SLI_ASSERT(status == SL_ERR_MEMORY);
-        (void)sli_refuse(status, "an allocation failed");
+        (void)sli_refuse(status, "in another thread of the call");
     }
     if (stats != NULL) {
         stats->error = sli_last.error;
