@@ -153,3 +153,16 @@ def test_no_rows():
     F = sl.Factor(sp.csc_matrix((0, 0)))
     assert F.solve(np.zeros(0)).size == 0 and F.diagonal().size == 0
     assert F.solve(np.zeros((0, 3))).shape == (0, 3) and F.perm.size == 0
+
+
+def test_texts_name_the_reason(tmp_path):
+    """The sentence of sl_error_text, with the file: what is missing, what is wrong with it."""
+    with pytest.raises(sl.Error, match="no such file.*none.slf"):
+        sl.Factor.load(str(tmp_path / "none.slf"))
+    junk = tmp_path / "junk.slf"
+    junk.write_bytes(b"hello")
+    with pytest.raises(sl.UnsupportedError, match="not a saved factor.*junk.slf"):
+        sl.Factor.load(str(junk))
+    F = sl.Factor(grid(6))
+    with pytest.raises(sl.PatternError, match="another size than the analyzed matrix"):
+        F.refactor(grid(5))
