@@ -57,6 +57,7 @@ void bench_peers_complex(bench_run *run);
 void bench_peers_kkt(bench_run *run);
 void bench_peers_kinds(bench_run *run);
 void bench_peers_multifrontal(bench_run *run);
+void bench_peers_small(bench_run *run);
 #endif
 
 /* ---- clock, repetitions, memory, pseudo-random numbers (harness.c) ---- */

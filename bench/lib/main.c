@@ -84,6 +84,8 @@ static const question questions[] = {
      bench_peers_kinds},
     {"peers_multifrontal", "MUMPS: factor, solves, entries of the inverse; Scotch: orders",
      bench_peers_multifrontal},
+    {"peers_small", "first factors of 1 to 10,000 rows against CHOLMOD and Eigen",
+     bench_peers_small},
 #endif
 };
 
