@@ -103,6 +103,7 @@ extern "C" {
 #include "impl/ordering/bisect.h"
 #include "impl/ordering/separator.h"
 #include "impl/ordering/mindeg.h"
+#include "impl/ordering/small.h"
 #include "impl/ordering/dissection.h"
 #include "impl/ordering/dissect.h"
 #include "impl/ordering/levelset.h"

@@ -97,7 +97,7 @@ static void a_set_answers_with_the_same_bits(void **state) {
                 options_set_variant(&from, &variants, v);
                 opt.isa = from.isa;
                 opt.threads.count = (int)kind % 3;
-                set_case_t q = set_case_make(way, kind, 90, 0, (int)kind % 2, &from);
+                set_case_t q = set_case_make(way, kind, 100, 0, (int)kind % 2, &from);
                 saved_t m = set_save(set_of(&q));
                 for (sl_int k = 0; k < q.set.n_regions; k++) {
                     sl_stats stats;

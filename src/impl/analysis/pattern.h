@@ -11,6 +11,7 @@ typedef struct sli_analysis {
     sl_int n;
     sl_int workers; /* 0: one */
     double clock;   /* when it was last read */
+    int64_t clock_entries;
     const sl_csc *A;
     sli_hash pattern; /* of A */
     sl_int *column;   /* nnz: of each entry of A; sli_pattern_fill changes them */

@@ -44,6 +44,14 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->spare = SLI_TAKE(b, sl_int, 3 * (uint64_t)nnz + 512);
 }
 
+/* Bytes of the stack that small analyses use instead of memory of the allocator. */
+#define SLI_ANALYSIS_SMALL 16384
+
+/* Do all of these arrays fit there? */
+static int sli_analysis_is_small(const sli_analysis *w, sl_int rows, sl_int nnz) {
+    return rows < 64 && nnz < 256 && w->pairs == NULL && w->workers <= 1;
+}
+
 /* All arrays. A saved analysis has them in this order (save/format.h). */
 static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
     const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
@@ -171,10 +179,10 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     }
 }
 
-/* The processor seconds since the last call: each reading of the clock is a call of the system. */
+/* The processor seconds since the last call. */
 static double sli_analysis_lap(sli_analysis *w) {
     const double before = w->clock;
-    w->clock = sli_seconds();
+    w->clock = sli_seconds_for(w->clock_entries);
     return w->clock - before;
 }
 
@@ -335,7 +343,7 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
     sli_symbolic_fill(draft, w, stats);
     stats->symbolic.seconds_structure = sli_analysis_lap(w);
     stats->symbolic.seconds_analyze += stats->symbolic.seconds_structure;
-    draft->stats = *stats;
+    draft->stats.symbolic = stats->symbolic;
     *out = (sl_symbolic *)(void *)b.base;
     **out = *draft;
     return SL_OK;
@@ -363,6 +371,7 @@ static sl_status sli_symbolic_order(sli_symbolic_job *j, sli_team *team) {
     order.opt = j->opt;
     order.perm = w->perm;
     order.scratch = w->scratch;
+    order.bits = w->list;
     order.septree = &w->septree;
     order.choice = &w->choice;
     order.team = team;
@@ -435,26 +444,37 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
                                      const sl_options *opt, sl_stats *stats) {
     static const sl_threads sli_no_threads = {0, NULL, NULL};
     sli_symbolic_job j;
+    uint64_t small[SLI_ANALYSIS_SMALL / sizeof(uint64_t)];
     sli_block b = {NULL, 0, 0};
     sli_arena arena;
+    int is_allocated = 0;
     sl_status status;
-    memset(&j, 0, sizeof j);
+    memset(&j.w, 0, sizeof j.w);
+    memset(&j.found.symbolic, 0, sizeof j.found.symbolic); /* no other group is read */
     sli_stats_clear_error(stats);
     sli_stats_clear_error(&j.found);
-    j.w.clock = sli_seconds();
     status = sli_begin(out);
     status = status == SL_OK ? sli_symbolic_check(A, opt, &j.w.pattern, stats) : status;
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
+    j.w.clock_entries = 4 * (int64_t)sli_nnz(A);
+    j.w.clock = sli_seconds_for(j.w.clock_entries);
     j.out = out;
     j.opt = opt;
     j.a = sli_allocator(opt);
     j.w.A = A;
     j.w.pairs = pairs;
     j.w.workers = sli_analysis_workers(A, opt);
-    SLI_LAYOUT(&b, &j.a, status) {
+    if (sli_analysis_is_small(&j.w, A->n_cols, sli_nnz(A))) {
+        b.base = (unsigned char *)small;
+        b.base += (SLI_ALIGN - (uintptr_t)small % SLI_ALIGN) % SLI_ALIGN;
         sli_analysis_layout(&j.w, &b, A->n_cols, sli_nnz(A));
+    } else {
+        SLI_LAYOUT(&b, &j.a, status) {
+            sli_analysis_layout(&j.w, &b, A->n_cols, sli_nnz(A));
+        }
+        is_allocated = 1;
     }
     if (status == SL_OK) {
         status = sli_csc_triangle(A, sli_csc_columns(A, j.w.column), &j.found.symbolic.triangle,
@@ -472,7 +492,9 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
             stats->symbolic = j.found.symbolic;
         }
     }
-    sli_free(&j.a, b.base);
+    if (is_allocated) {
+        sli_free(&j.a, b.base);
+    }
     return sli_report(stats, status);
 }
 

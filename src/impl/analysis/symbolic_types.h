@@ -19,7 +19,9 @@ typedef struct sli_backing {
 struct sl_symbolic {
     sl_allocator allocator;
     sli_atomic borrowers; /* factors, plans, selected inverses, regions */
-    sl_stats stats;  /* its symbolic group */
+    struct {
+        sl_symbolic_info symbolic;
+    } stats;
     sl_int n;        /* rows of A */
     sl_int n_supers; /* supernodes, in postorder */
     /* entries stored in A, read or not; -1: a restriction, which has no map of entries */

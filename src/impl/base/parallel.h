@@ -254,6 +254,10 @@ SLI_INLINE sli_team sli_team_of(sl_int workers) {
 static void sli_team_run(const sl_threads *t, sl_int workers,
                          void (*lead)(sli_team *team, void *data), void *data) {
     sli_team team = sli_team_of(workers);
+    if (workers == 1) {
+        lead(&team, data);
+        return;
+    }
     team.lead = lead;
     team.lead_data = data;
     sli_parallel(t, workers, sli_team_body, &team);

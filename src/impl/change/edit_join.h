@@ -282,7 +282,7 @@ static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const s
     }
     j->T = &draft;
     sli_edit_join_fill(j, stats);
-    draft.stats = *stats;
+    draft.stats.symbolic = stats->symbolic;
     *out = (sl_symbolic *)(void *)b.base;
     **out = draft;
     return SL_OK;

@@ -201,7 +201,7 @@ static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_
     j.S = &draft;
     sli_joint_number(&j, r);
     sli_joint_fill(&draft, r, stats);
-    draft.stats = *stats;
+    draft.stats.symbolic = stats->symbolic;
     *out = (sl_symbolic *)(void *)b.base;
     **out = draft;
     return SL_OK;

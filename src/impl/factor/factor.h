@@ -137,6 +137,7 @@ static void sli_factor_identify_numbers(sl_factor *F) {
  * and for the caller. */
 static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failure *failure,
                                  double started, sl_stats *stats) {
+    double ended;
     int has_pivots, suspects;
     sli_stats_clear_error(&F->stats);
     if (failure->status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
@@ -161,7 +162,8 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
         sli_refuse_negative(F, failure);
         sli_factor_outcome(F, from->A, failure, 1);
     }
-    F->stats.factor.seconds = sli_seconds() - started;
+    ended = sli_factor_clock(F->S);
+    F->stats.factor.seconds = ended > 0.0 ? ended - started : 0.0;
     F->is_valid = failure->status == SL_OK;
     if (F->is_valid) {
         sli_factor_identify_numbers(F);
@@ -254,7 +256,6 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
 }
 
 SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {
-    const double started = sli_seconds();
     const sli_source from = sli_source_matrix(A);
     sl_status status;
     sli_stats_clear_error(stats);
@@ -264,7 +265,7 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
     status = status == SL_OK ? sli_factor_prepare(F) : status;
     if (status == SL_OK) {
         sli_factor_begin(F);
-        status = sli_factor_numbers(F, &from, started, stats);
+        status = sli_factor_numbers(F, &from, sli_factor_clock(F->S), stats);
     }
     return sli_report(stats, status);
 }

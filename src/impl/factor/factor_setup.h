@@ -326,11 +326,16 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
     return SL_OK;
 }
 
+/* The clock for a factorization. */
+SLI_INLINE double sli_factor_clock(const sl_symbolic *S) {
+    return sli_seconds_for(S->panel_begin[S->n_supers]);
+}
+
 /* Creates a factor with its memory and its schedule, but without numbers. kernels: NULL: those of
  * the options, which take as long to choose under a hypervisor as a factor of 100 rows. */
 static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
                                      const sli_kernels *kernels, sl_stats *stats) {
-    const double started = sli_seconds();
+    const double started = sli_factor_clock(S);
     const sl_allocator a = sli_allocator(opt);
     sl_factor draft;
     sli_block b = {NULL, 0, 0};
@@ -372,7 +377,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
         }
         status = sli_factor_prepare(F);
         status = status == SL_OK ? sli_factor_rules_fill(F, opt, stats) : status;
-        F->clock = sli_seconds();
+        F->clock = sli_factor_clock(S);
         F->stats.factor.seconds_setup = F->clock - started;
         if (status == SL_OK) {
             *out = F;

@@ -29,6 +29,7 @@ typedef struct sli_dissection {
     int n_levels, level;              /* level: the one that the labels refer to */
     sl_int total;                     /* weight of the finest level */
     sl_int leaf_size;                 /* most vertices of a leaf, if it can be bisected */
+    sl_int first;                     /* bisections are the first ones up to so many nodes */
     int is_volume, may_be_seven_point;
     int has_labels;  /* by the levels of a search */
     int band_growth; /* additional band layers for each factor of 4 in the size of a subgraph */
@@ -41,8 +42,8 @@ typedef struct sli_dissection {
     sl_int *nodes;               /* n + 1 */
     sl_int n_labels, n_ranges;   /* of the loop under way */
     int is_counted;
-    /* the loop under way: bisects a subgraph when the tree has so many nodes, or visits a node */
-    void (*bisect)(sli_subgraph *sub, sl_int nodes);
+    /* the loop under way: bisects a subgraph, or visits a node */
+    void (*bisect)(sli_subgraph *sub, int is_first);
     void (*visit)(struct sli_dissection *d, sli_dissect_worker *w, sl_int node);
 } sli_dissection;
 
@@ -145,7 +146,7 @@ static void sli_dissect_split_item(void *data, sl_int node, sl_int worker) {
     sl_int k, weight[2] = {0, 0};
     sli_subgraph_leaf(sub, &in, node, d->order + d->begin[node],
                       d->begin[node + 1] - d->begin[node]);
-    d->bisect(sub, leaf[0]);
+    d->bisect(sub, leaf[0] < d->first);
     for (k = 0; k < sub->n; k++) {
         const int side = sub->side[k];
         sli_shared_write(d->label + sub->vertex[k], leaf[side]);
@@ -159,7 +160,7 @@ static void sli_dissect_split_item(void *data, sl_int node, sl_int worker) {
 /* Bisects each leaf that has more than `most` vertices on this level and more than leaf_size on the
  * finest. Returns the number of leaves bisected. */
 static sl_int sli_dissect_split(sli_dissection *d, sl_int most,
-                                void (*bisect)(sli_subgraph *sub, sl_int nodes)) {
+                                void (*bisect)(sli_subgraph *sub, int is_first)) {
     const sl_int nodes = d->tree.count;
     sl_int node, split = 0;
     sli_dissect_sort(d, d->tree.count);

@@ -29,6 +29,7 @@ typedef struct sli_order_job {
     const sl_options *opt;
     sl_int *perm;    /* n: the order */
     sl_int *scratch; /* 4 n */
+    uint64_t *bits;  /* 5 n of scratch, which an allocator may give, too */
     sli_septree *septree;
     sli_order_choice *choice;
     sli_team *team;
@@ -39,6 +40,7 @@ typedef struct sli_order_job {
     int is_hurried;       /* the first factor is wanted as early as possible */
     sl_int block;         /* rows of a vertex of the first graph */
     const sli_graph *G;   /* the graph that is left */
+    int is_small;         /* there are few rows or blocks: see SLI_DISSECT_SMALL */
     int is_peeled;        /* rows with few neighbors are gone from it */
     const sl_int *weight; /* G->n: rows of each vertex, which bisections balance; NULL: 1 each */
 } sli_order_job;

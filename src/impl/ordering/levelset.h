@@ -101,7 +101,7 @@ static sl_int sli_levelset_search(const sli_subgraph *sub, sl_int from, sl_int *
 
 /* Bisects along a level set of a vertex at the end of a long path. The smallest level set near the
  * middle becomes the border; the imbalance of the sides increases its cost. */
-static void sli_levelset_bisect(sli_subgraph *sub, sl_int nodes) {
+static void sli_levelset_bisect(sli_subgraph *sub, int is_first) {
     const sl_int n = sub->n;
     sl_int *order = sub->scratch, *distance = sub->scratch + (size_t)n,
            *size = sub->scratch + 2 * (size_t)n;
@@ -111,7 +111,7 @@ static void sli_levelset_bisect(sli_subgraph *sub, sl_int nodes) {
     const sl_int end = sli_subgraph_farthest(sub, 0, order, sub->locked);
     n_sets = sli_levelset_search(sub, sli_subgraph_farthest(sub, end, order, sub->locked), order,
                                  distance);
-    (void)nodes;
+    (void)is_first;
     memset(size, 0, (size_t)n_sets * sizeof(sl_int));
     for (k = 0; k < n; k++) {
         size[distance[k]]++;

@@ -87,6 +87,7 @@ static void sli_septree_append(sli_dissection *d, const sl_int *row, sl_int *per
 typedef struct sli_nd {
     const sli_graph *G;
     const sl_int *weight; /* of the job */
+    int is_small;         /* the same */
     sl_int *local;        /* n: number of a row in its component; -1 not yet visited, -2 dense */
     sl_int *row;          /* n: the rows of the component */
     sl_off *begin;        /* n + 1: graph of the component */
@@ -153,6 +154,7 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
     w->d.levels[0].to = w->to;
     w->d.levels[0].weight = w->weight != NULL ? w->weights : NULL;
     w->d.total = count;
+    w->d.first = w->is_small && !sli_level_is_wide(&w->d.levels[0]) ? 0 : SLI_DISSECT_FIRST;
     if (w->weight != NULL) {
         w->d.total = 0;
         for (k = 0; k < count; k++) {
@@ -264,6 +266,7 @@ static sl_status sli_order_nd(const sli_order_job *job) {
     memset(&w, 0, sizeof w);
     w.G = job->G;
     w.weight = job->weight;
+    w.is_small = job->is_small;
     w.d.leaf_size = SLI_DISSECT_LEAF;
     w.d.team = job->team;
     w.d.a = w.d.pool.a = job->a;

@@ -6,6 +6,7 @@
 #include "compress.h"
 #include "metis.h"
 #include "reduce.h"
+#include "small.h"
 #include "../matrix/submatrix.h"
 #include "../base/status.h"
 
@@ -200,6 +201,7 @@ static sl_status sli_order(sli_order_job *job) {
     job->ordering = opt != NULL ? opt->ordering : SL_ORDERING_ND;
     job->is_hurried = sli_order_is_hurried(opt);
     job->block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
+    job->is_small = job->A->n_cols / job->block < SLI_DISSECT_SMALL;
     job->is_peeled = 0;
     job->weight = NULL;
     switch (job->ordering) {
@@ -221,6 +223,11 @@ static sl_status sli_order(sli_order_job *job) {
     case SL_ORDERING_MINDEG:
         if (job->block == 1 && job->is_hurried && sli_order_forest(job)) {
             job->choice->has_tree = 1;
+            return SL_OK;
+        }
+        if (job->block == 1 && job->ordering == SL_ORDERING_ND &&
+            job->A->n_cols <= (job->is_hurried ? SLI_SMALL_ROWS_ONE_FACTOR : SLI_SMALL_ROWS) &&
+            sli_order_small(job)) {
             return SL_OK;
         }
         return sli_order_by_graph(job);
