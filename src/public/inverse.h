@@ -24,8 +24,9 @@
  *           failed factor; SL_ERR_UNSUPPORTED: a factor with 2x2 pivots; SL_ERR_TOO_LARGE,
  *           SL_ERR_MEMORY: W could not grow. On error nothing is written.
  *  Cost     sweeps take 2 entries flops per lane, and 8 lanes take as long as two to three, so that
- *           many requests should share a call. Nothing O(n), except for NULL sets; no allocation
- *           once W has grown to the largest reach and 16 bytes per request.
+ *           many requests should share a call. A single pair is a local solve if that is cheaper.
+ *           Nothing O(n), except for NULL sets; no allocation once W has grown to the largest reach
+ *           and 16 bytes per request.
  *  Threads  any number at once on one F, each with its own W. Selected inversion uses the threads
  *           that F was created with, and has the same bits for any number of them.
  *  Source   [HDA17] 5; [Davis06] 3.2, 4.1.

@@ -241,8 +241,51 @@ static void pivots_with_extreme_reciprocals_are_inverted(void **state) {
     sl_symbolic_free(S);
 }
 
+/* Single pairs, near and far, in one tree and in several: by sweeps or by a local solve. */
+static void single_pairs(void **state) {
+    (void)state;
+    static const gen_kind_t kinds[3] = {GEN_GRID2, GEN_FOREST, GEN_KKT};
+    for (int kind = 0; kind < 3; kind++) {
+        factored_t y = factored_make(kinds[kind], 144, 1, 0, NULL);
+        const sl_int n = y.M.view.n_cols;
+        double *b = test_reals((size_t)n), *x = test_reals((size_t)n);
+        int local = 0, swept = 0;
+        for (sl_int i = 0; i < n; i += 7) {
+            memset(b, 0, (size_t)n * sizeof *b);
+            b[i] = 1.0;
+            SL_CHECK(sl_factor_solve(y.F, x, (size_t)n, b, (size_t)n, 1, NULL));
+            for (sl_int j = 0; j < n; j++) {
+                double z = NAN;
+                sl_stats pair, plan;
+                SL_CHECK(sl_inverse_pairs(y.F, &z, &j, &i, 1, NULL, &pair));
+                SL_CHECK(sl_local_solve(y.F, &i, 1, &j, 1, b, 1, &z, 1, 0, NULL, &plan));
+                assert_true(fabs(z - x[j]) <= 1e-13 * fabs(x[j]) + 1e-15);
+                assert_int_equal(pair.inverse.method, SL_INVERSE_FORWARD);
+                if (i != j && pair.inverse.entries == plan.plan.b_entries + plan.plan.x_entries) {
+                    local++;
+                } else {
+                    swept++;
+                }
+            }
+        }
+        assert_true(local > 100 && swept > 100);
+        free(b);
+        free(x);
+        factored_free(&y);
+    }
+    factored_t y = factored_make(GEN_GRID2, 100, 1, 0, NULL);
+    const sl_int row = 3, beyond = 100;
+    double z = 7.0;
+    sl_stats stats;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_inverse_pairs(y.F, &z, &row, &beyond, 1, NULL, &stats));
+    assert_int_equal(stats.error.column, 100);
+    assert_true(z == 7.0);
+    factored_free(&y);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(single_pairs),
         cmocka_unit_test(entries_equal_dense_inverses),
         cmocka_unit_test(entries_equal_full_solves_on_a_larger_grid),
         cmocka_unit_test(pivots_with_extreme_reciprocals_are_inverted),

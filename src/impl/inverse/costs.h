@@ -31,6 +31,12 @@ SLI_INLINE const sli_costs *sli_costs_of(sl_isa isa) {
     return &sli_costs_table[sli_isa_row(isa)];
 }
 
+/* A forward sweep of two lanes over an entry of L, relative to one lane, as it was measured for
+ * single pairs on grids of 900 to 5e5 rows; and the entries from which L comes from memory. */
+#define SLI_PAIR_CACHED 1.7
+#define SLI_PAIR_READ 1.25
+#define SLI_PAIR_LARGE 5e5
+
 /* Seconds of the parts of a change, fitted to grids of 1e4 and 1e5 rows: what does not depend on
  * the instruction set, and what takes as long as some flops in a front. */
 #define SLI_CHANGE_ENTRY 0.27e-9 /* an entry of L in a pass of rank-one changes */
