@@ -36,6 +36,7 @@ CHAPTERS = [("algorithms", "Algorithms"), ("ordering", "Orderings"),
             ("derivatives", "Derivatives"),
             ("indefinite", "Indefinite and KKT systems"),
             ("float", "L in float"), ("inverse", "Entries of the inverse"),
+            ("dirichlet", "Pins, restriction or submatrix?"),
             ("changes", "Changes of a matrix"), ("files", "Files"), ("errors", "Errors"),
             ("program", "The program")]
 PAGES = [("index", "Guide"), ("api", "API")] + CHAPTERS + [
