@@ -32,6 +32,13 @@ class Analysis:
             raise TypeError("%s are options of factor" % ", ".join(numbers.keys() - {"threads"}))
         self._analyze(Matrix(A), **chosen)
 
+    @classmethod
+    def _made(cls, matrix, **options):
+        """The analysis of a view."""
+        self = cls.__new__(cls)
+        self._analyze(matrix, **options)
+        return self
+
     def _analyze(self, matrix, triangle=None, pivoted=False, **options):
         width = matrix.kind().width
         chosen = Chosen(matrix.n, matrix.is_complex).analysis(**options)

@@ -10,6 +10,7 @@ from ._entries import Entries
 from ._errors import PivotError, StateError
 from ._files import Files
 from ._library import Handle, Stats, as_dict, check, lib
+from ._matrix import Matrix
 from ._options import Chosen, choice, split
 from ._pseudo import NullSpace
 from ._solves import Solves
@@ -65,8 +66,11 @@ class Factor(Solves, Entries, Changes, Files):
 
     def __init__(self, A, **options):
         chosen, numbers = split(options)
-        analysis = Analysis(A, **chosen)
-        self._set_up(analysis, analysis._matrix(A), numbers)
+        matrix = Matrix(A)
+        analysis = Analysis._made(matrix, **chosen)
+        if chosen.get("triangle") is None:
+            matrix.check_symmetric()
+        self._set_up(analysis, matrix, numbers)
 
     @classmethod
     def _create(cls, analysis, matrix, numbers):
@@ -154,9 +158,11 @@ class Factor(Solves, Entries, Changes, Files):
 
     def _check_definite(self):
         """Refuses the numbers of a factor that has to be definite and is not."""
+        if not self._definite:
+            return
         stats = Stats()
         lib.sl_factor_stats(self._factor.pointer, ctypes.byref(stats))
-        if not self._definite or stats.factor.negative == 0:
+        if stats.factor.negative == 0:
             return
         pivots = self._pivots()
         k = int(np.argmin(pivots > 0))
