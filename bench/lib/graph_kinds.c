@@ -10,8 +10,8 @@
 #include "tools/mesh/grid.h"
 #include "tools/mesh/surface_generator.h"
 
-const char *const kind_group_names[KIND_GROUPS] = {"surfaces", "thin",     "graded",
-                                                   "volumes",  "networks", "dense rows"};
+const char *const kind_group_names[KIND_GROUPS] = {
+    "surfaces", "thin", "graded", "volumes", "fans", "networks", "dense rows"};
 
 /* The neighbors of a point of a lattice of one, two or three dimensions. */
 typedef enum stencil {
@@ -173,6 +173,46 @@ static void quadtree(graph *g, const kind *k) {
         }
     }
     free(cell);
+}
+
+/* ---- CAD parts ---- */
+
+/* Divides the polygon of the vertices first .. first + size[0]-1 into fans of up to size[2] edges,
+ * most of them of a few. */
+static void cap_with_fans(graph *g, const kind *k, sl_int first) {
+    sl_int *outline = bench_alloc((size_t)k->size[0], sizeof *outline), left = k->size[0];
+    uint64_t state = 19;
+    for (sl_int v = 0; v < left; v++) {
+        outline[v] = first + v;
+    }
+    while (left > 3) {
+        const sl_int wanted = 2 + (sl_int)(k->size[2] * pow(random_share(&state), 6));
+        const sl_int edges = wanted < left - 1 ? wanted : left - 1;
+        const sl_int apex = bench_random_below(&state, left - edges);
+        for (sl_int p = apex + 2; p <= apex + edges; p++) {
+            add(g, outline[apex], outline[p]);
+        }
+        memmove(outline + apex + 1, outline + apex + edges,
+                (size_t)(left - apex - edges) * sizeof *outline);
+        left -= edges - 1;
+    }
+    free(outline);
+}
+
+/* An outline of size[0] vertices, extruded to size[1] rings, with both ends capped by fans. */
+static void extrusion(graph *g, const kind *k) {
+    const sl_int around = k->size[0];
+    g->n = around * k->size[1];
+    for (sl_int v = 0; v < g->n; v++) {
+        const sl_int next = v / around * around + (v + 1) % around;
+        add(g, v, next);
+        if (v + around < g->n) {
+            add(g, v, v + around);
+            add(g, v, next + around);
+        }
+    }
+    cap_with_fans(g, k, 0);
+    cap_with_fans(g, k, g->n - around);
 }
 
 /* ---- networks ---- */
@@ -354,6 +394,9 @@ static const kind kinds[KINDS] = {
     {KIND_VOLUMES, "tetrahedra 18^3", lattice, {18, 18, 18}, SIMPLICES, 0, NULL, 0},
     {KIND_VOLUMES, "plate 60x60x4", lattice, {60, 60, 4}, SIMPLICES, 0, NULL, 0},
     {KIND_VOLUMES, "bar 8x8x400", lattice, {8, 8, 400}, SIMPLICES, 0, NULL, 0},
+    {KIND_FANS, "fans 1000x2", extrusion, {1000, 2, 500}, AXES, 0, NULL, 0},
+    {KIND_FANS, "fans 6000x6", extrusion, {6000, 6, 500}, AXES, 0, NULL, 0},
+    {KIND_FANS, "fans 19000x2", extrusion, {19000, 2, 500}, AXES, 0, NULL, 0},
     {KIND_NETWORKS, "roads", roads, {100, 0, 0}, AXES, 0, NULL, 0},
     {KIND_NETWORKS, "random points, 2D", geometric, {20000, 2, 7}, AXES, 0, NULL, 0},
     {KIND_NETWORKS, "random points, 3D", geometric, {20000, 3, 10}, AXES, 0, NULL, 0},

@@ -9,12 +9,13 @@ typedef enum kind_group {
     KIND_THIN, /* strips, tubes, sheets that branch: separators of a few rows */
     KIND_GRADED,
     KIND_VOLUMES,
+    KIND_FANS, /* CAD parts: faces of one vertex and long rows of others */
     KIND_NETWORKS,
     KIND_DENSE_ROWS, /* k-harmonic systems and systems of small blocks: 20 and more entries a row */
     KIND_GROUPS
 } kind_group;
 
-enum { KINDS = 31 };
+enum { KINDS = 34 };
 
 extern const char *const kind_group_names[KIND_GROUPS];
 

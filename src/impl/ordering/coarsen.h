@@ -33,7 +33,7 @@ static sl_int sli_match_best(const sli_level *g, sl_int v, sl_int heaviest, cons
     SLI_ASSERT(degree > 0); /* the graph is connected */
     e = first + (sl_off)(sli_hash32((uint32_t)v) % (uint64_t)degree);
     for (k = 0; k < degree; k++, e = e + 1 == first + degree ? first : e + 1) {
-        const sl_int u = g->to[e], weight = sli_level_weight(g, u), edge = sli_level_edge(g, e);
+        const sl_int u = g->to[e], weight = sli_level_weight(g, u), edge = sli_level_edge(g, v, e);
         if (mate[u] == -1 && weight <= heaviest - own &&
             (int64_t)edge * best_weight > (int64_t)best_edge * weight) {
             best = u;
@@ -141,7 +141,8 @@ SLI_INLINE sl_int sli_cluster_ball(const sli_level *g, sl_int v, sl_int heaviest
     g->coarse[v] = number;
     for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
         const sl_int u = g->to[e];
-        if (g->coarse[u] == -1 && weight + sli_level_weight(g, u) <= heaviest) {
+        if (g->coarse[u] == -1 && weight + sli_level_weight(g, u) <= heaviest &&
+            !sli_level_is_hub(g, u)) {
             weight += sli_level_weight(g, u);
             clusters->member[members++] = u;
             g->coarse[u] = number;
@@ -163,8 +164,8 @@ SLI_INLINE int sli_cluster_is_free(const sli_level *g, sl_int v) {
 /* Makes clusters of the finest level, of a vertex that is in none, and those of its neighbors that
  * are in none. With balls, first of vertices where none of the neighbors is in a cluster yet; then
  * others join the lightest of them that is next to them. Balls are rounder, and one level of them
- * replaces three or four levels of pairs. weight: g->n of scratch. Returns the number of clusters.
- */
+ * replaces three or four levels of pairs. A hub is a cluster of its own. weight: g->n of scratch.
+ * Returns the number of clusters. */
 static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int has_balls,
                                         sli_clusters *clusters, sl_int *weight) {
     sl_int v, best, count = 0, members = 0;
@@ -175,13 +176,13 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
     clusters->start[0] = 0;
     for (k = 0; k < (sl_off)g->n + 511; k++) {
         const sl_off at = sli_visited(k);
-        if (at < g->n && g->coarse[at] == -1 &&
+        if (at < g->n && g->coarse[at] == -1 && !sli_level_is_hub(g, (sl_int)at) &&
             (!has_balls || sli_cluster_is_free(g, (sl_int)at))) {
             weight[count] = sli_cluster_ball(g, (sl_int)at, heaviest, count, clusters);
             count++;
         }
     }
-    if (!has_balls) {
+    if (clusters->start[count] == g->n) {
         return count;
     }
     for (v = 0; v < g->n; v++) { /* those that join are at -2 - cluster, for nobody joins them */
@@ -190,7 +191,8 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
             const sl_int c = g->coarse[g->to[e]];
             best = c >= 0 && (best == -1 || weight[c] < weight[best]) ? c : best;
         }
-        if (best != -1 && weight[best] <= heaviest - sli_level_weight(g, v)) {
+        if (best != -1 && weight[best] <= heaviest - sli_level_weight(g, v) &&
+            !sli_level_is_hub(g, v)) {
             weight[best] += sli_level_weight(g, v);
             g->coarse[v] = -2 - best;
         }
@@ -199,7 +201,7 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
         if (g->coarse[v] < -1) {
             g->coarse[v] = -2 - g->coarse[v];
         } else if (g->coarse[v] == -1) {
-            sli_cluster_ball(g, v, heaviest, count++, clusters);
+            sli_cluster_ball(g, v, sli_level_is_hub(g, v) ? 0 : heaviest, count++, clusters);
         }
     }
     memset(clusters->start, 0, ((size_t)count + 1) * sizeof(sl_int));

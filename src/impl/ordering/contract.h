@@ -12,10 +12,11 @@ typedef struct sli_level {
     sl_off *begin; /* n + 1 */
     sl_int *to;    /* begin[n] */
     /* begin[n]: number of finest edges, or after sli_weigh_edges what a separator costs; NULL: 1
-     * each */
+     * each, or see SLI_HUB_EDGES */
     sl_int *edge;
     sl_int *weight; /* n: number of finest vertices; NULL: 1 each */
     sl_int *coarse; /* n: the vertex of the next coarser level that contains this one */
+    sl_off hub_degree; /* a vertex with this many neighbors is a hub; 0: there is none */
     void *block;    /* the allocation that holds all arrays */
 } sli_level;
 
@@ -32,8 +33,27 @@ SLI_INLINE sl_int sli_level_weight(const sli_level *g, sl_int v) {
     return g->weight == NULL ? 1 : g->weight[v];
 }
 
-SLI_INLINE sl_int sli_level_edge(const sli_level *g, sl_off e) {
-    return g->edge == NULL ? 1 : g->edge[e];
+/* A vertex with this many times the mean number of neighbors, or more, is a hub, such as the apex
+ * of a fan. */
+#define SLI_HUB_TIMES 3
+/* There are no hubs if more than one vertex in this many would be one. */
+#define SLI_HUB_SHARE 64
+/* The weight of an edge that is not at a hub, in a graph that has hubs. One vertex of a separator
+ * cuts all edges of a hub; with the weight of others they hold the whole fan together. */
+#define SLI_HUB_EDGES 8
+
+SLI_INLINE int sli_level_is_hub(const sli_level *g, sl_int v) {
+    return g->hub_degree != 0 && g->begin[v + 1] - g->begin[v] >= g->hub_degree;
+}
+
+/* The weight of edge e of v. */
+SLI_INLINE sl_int sli_level_edge(const sli_level *g, sl_int v, sl_off e) {
+    if (g->edge != NULL) {
+        return g->edge[e];
+    }
+    return g->hub_degree == 0 || sli_level_is_hub(g, v) || sli_level_is_hub(g, g->to[e])
+               ? 1
+               : SLI_HUB_EDGES;
 }
 
 /* Loops over ranges of the vertices of a level, for the workers of a team. Each worker has `room`
@@ -137,9 +157,9 @@ static void sli_contract_range(void *data, const sli_range *r) {
                 if (at[u] < first) {
                     at[u] = count;
                     c->to[count] = u;
-                    c->edge[count++] = sli_level_edge(g, e);
+                    c->edge[count++] = sli_level_edge(g, v, e);
                 } else {
-                    c->edge[at[u]] += sli_level_edge(g, e);
+                    c->edge[at[u]] += sli_level_edge(g, v, e);
                 }
             }
         }

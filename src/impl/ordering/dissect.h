@@ -136,9 +136,9 @@ static void sli_weigh_range(void *data, const sli_range *r) {
             const sl_int v = d->order[i];
             for (e = finest->begin[v]; e < finest->begin[v + 1]; e++) {
                 const sl_int c = d->label[finest->to[e]];
-                if (c != k && seen[c] != v) {
+                if (c != k && seen[c] != v && !sli_level_is_hub(finest, finest->to[e])) {
                     seen[c] = v;
-                    g->edge[at[c]]++;
+                    g->edge[at[c]] += sli_level_edge(finest, v, e);
                 }
             }
         }

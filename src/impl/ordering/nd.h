@@ -9,6 +9,11 @@
  * This many rounds at most. */
 #define SLI_ND_RESPLITS 12
 
+/* Where the mean separator has at most THIN vertices, as between fans, leaves have THIN_LEAF: L has
+ * 1 to 5 percent more entries, and paths have two thirds of theirs. */
+#define SLI_ND_THIN 3
+#define SLI_ND_THIN_LEAF 20
+
 /* Nodes of a task. */
 #define SLI_SEPTREE_NODES 16
 
@@ -145,6 +150,20 @@ static void sli_nd_fill(void *data, const sli_range *r) {
     }
 }
 
+/* Finds out which degree makes a vertex of a connected graph a hub, if few are. */
+static void sli_nd_find_hubs(sli_level *g) {
+    const sl_off edges = g->begin[g->n], least = SLI_HUB_TIMES * edges / g->n;
+    sl_int v, count = 0;
+    for (v = 0; v < g->n; v++) {
+        count += g->begin[v + 1] - g->begin[v] >= least;
+    }
+    /* gains of bisections, up to twice the weight of all edges of a vertex, are below 2^31 */
+    g->hub_degree = count > 0 && count <= g->n / SLI_HUB_SHARE &&
+                            edges < INT32_MAX / (2 * SLI_HUB_EDGES)
+                        ? least
+                        : 0;
+}
+
 /* Builds the graph of the current component, which has `count` rows, without dense rows. */
 static void sli_nd_graph(sli_nd *w, sl_int count) {
     sl_int k;
@@ -153,6 +172,7 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
     w->d.levels[0].begin = w->begin;
     w->d.levels[0].to = w->to;
     w->d.levels[0].weight = w->weight != NULL ? w->weights : NULL;
+    sli_nd_find_hubs(&w->d.levels[0]);
     w->d.total = count;
     w->d.first = w->is_small && !sli_level_is_wide(&w->d.levels[0]) ? 0 : SLI_DISSECT_FIRST;
     if (w->weight != NULL) {
@@ -176,6 +196,16 @@ static sl_status sli_nd_label(sli_nd *w) {
     return sli_dissect_graph(d);
 }
 
+/* Returns whether the mean separator is small. Leaves are then thin, too: minimum degree eliminates
+ * them from their ends, and most of a path is within a leaf. */
+static int sli_nd_is_thin(const sli_dissection *d) {
+    sl_int v, count = 0;
+    for (v = 0; v < d->levels[0].n; v++) {
+        count += !sli_label_tree_is_leaf(&d->tree, d->label[v]);
+    }
+    return count <= SLI_ND_THIN * (d->tree.count / 2);
+}
+
 /* Finds labels and separators of the current component. */
 static sl_status sli_nd_dissect(sli_nd *w) {
     sli_dissection *d = &w->d;
@@ -190,8 +220,12 @@ static sl_status sli_nd_dissect(sli_nd *w) {
     if (status == SL_OK) {
         do {
             sli_dissect_visit(d, sli_dissect_separate);
+            if (rounds == SLI_ND_RESPLITS && sli_nd_is_thin(d)) {
+                d->leaf_size = SLI_ND_THIN_LEAF;
+            }
         } while (rounds-- > 0 && /* untested: there are fewer rounds */
                  sli_dissect_split(d, 2 * d->leaf_size, sli_dissect_bisect) > 0);
+        d->leaf_size = SLI_DISSECT_LEAF;
         status = d->pool.failed ? sli_no_memory() : SL_OK;
     }
     return status;

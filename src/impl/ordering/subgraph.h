@@ -76,9 +76,9 @@ static void sli_subgraph_edges(sli_subgraph *sub, const sli_labelling *in, sl_in
             const sl_int u = g->to[e];
             if (sub->local[u] != -1) {
                 sub->to[count] = sub->local[u];
-                sub->edge[count++] = sli_level_edge(g, e);
+                sub->edge[count++] = sli_level_edge(g, v, e);
             } else if (sli_label_tree_is_below(t, node, sli_shared_read(label + u))) {
-                sub->external[k] += sli_level_edge(g, e);
+                sub->external[k] += sli_level_edge(g, v, e);
             }
         }
     }
@@ -188,8 +188,8 @@ static sl_int sli_subgraph_adjacent_leaf(const sli_labelling *in, sl_int node, s
     for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
         const sl_int other = sli_shared_read(label + g->to[e]);
         if (other != node && sli_label_tree_is_below(t, node, other) && (other > node) == side &&
-            sli_level_edge(g, e) > most) {
-            most = sli_level_edge(g, e);
+            sli_level_edge(g, v, e) > most) {
+            most = sli_level_edge(g, v, e);
             best = other;
         }
     }
