@@ -1000,7 +1000,7 @@ private:
             options_.regularization == 0) {
             status = factor_pivoted(A, view, status);
         }
-        return status == SL_OK && is_llt_ ? refuse_negative() : status;
+        return status;
     }
     /* The same with 2x2 pivots; if that fails too, all is as after the first failure. */
     sl_status factor_pivoted(const MatrixType &A, const sl_csc &view, sl_status first) {
@@ -1028,6 +1028,9 @@ private:
         sl_options options = options_;
         std::vector<double> ones;
         if (is_zero_mean_) use_zero_mean(options, ones, std::size_t(view.n_cols));
+        if (is_llt_ && options.null_pivots == SL_NULL_PIVOT_REFUSE && options.regularization == 0) {
+            options.definite = 1;
+        }
         status = sl_factor_create(&made, symbolic_.get(), &view, &options, &stats_);
         /* it takes neither 2x2 nor null pivots, nor a NaN, of which the double one names the row */
         if (status == SL_ERR_UNSUPPORTED && options.storage == SL_STORAGE_COMPLEX) {
@@ -1052,16 +1055,6 @@ private:
         for (std::size_t k = 0; k < 2 * n; k++) ones[n + k] = k % 2 == (k < n ? 0u : 1u) ? 1 : 0;
         options.null_vector = ones.data() + n;
         options.null_vector_count = 2;
-    }
-    sl_status refuse_negative() {
-        if (stats_.factor.negative == 0) return SL_OK;
-        const double *D = sl_factor_view(factor_.get()).D;
-        sl_int k = 0;
-        while (!(D[k] < 0)) k++;
-        stats_.error.row = sl_symbolic_view(symbolic_.get()).perm[k];
-        stats_.error.value = D[k];
-        factor_.reset();
-        return SL_ERR_PIVOT;
     }
     /* Of a complex factor, columns 2k have the real parts in rows 2i and the imaginary ones in rows
      * 2i + 1. */
