@@ -9,8 +9,7 @@
  *
  *  The free rows have a factor of A[free, free] of their own; A may be singular. If a factor of A
  *  is there already, and the pack of pins is compiled in, the cheapest of three ways is taken, by
- *  counted cost (stats.dirichlet): the same, sl_factor_restrict, or pins on that factor. All give
- *  the same solutions, up to rounding.
+ *  counted cost (stats.dirichlet): the same, sl_factor_restrict, or pins on that factor.
  *
  *  out    [out]  the object, or NULL on error; release with sl_dirichlet_free.
  *  A      [in]   n x n with values, symmetric, not kept. Entries between fixed rows are not read.
@@ -22,11 +21,9 @@
  *  stats  [out]  dirichlet, symbolic, factor; errors are in rows of A; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
  *           SL_ERR_PIVOT: A[free, free] is singular, as where no row of a component of a Laplacian
- *           is fixed: error.row is one of its rows; all others as sl_symbolic_create and
- *           sl_factor_create.
+ *           is fixed (error.row); others as sl_symbolic_create and sl_factor_create.
  *  Cost     O(n + nnz), and the analysis and factorization of A[free, free]. Keeps 4 bytes per row,
  *           16 per entry of A[free, free], and 20 per entry between free and fixed rows.
- *  Threads  options.threads.
  *  Manual   tools/docs/dirichlet.md: what pins, restrictions and submatrices cost
  *  Example  tests/core/test_dirichlet.c
  */

@@ -111,7 +111,7 @@ static void other_objects(void **state) {
     counter_t c = counter_make();
     const sl_options opt = options_counted(&c);
     sl_int rows[200];
-    double x[400], g = 1.0;
+    double x[400] = {0.0}, g = 1.0;
     sl_symbolic *S = NULL, *T = NULL;
     sl_factor *F = NULL, *G = NULL;
     sl_dirichlet *D = NULL;

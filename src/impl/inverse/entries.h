@@ -404,11 +404,13 @@ SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int 
                                                              : "columns is NULL"));
     }
     if (count == 1 && out != NULL && rows[0] != columns[0] && F->null.count == 0) {
-        const sl_status status = sli_check_entries(F, rows, 1, columns, 1, stats);
+        sl_status status = sli_check_entries(F, rows, 1, columns, 1, stats);
         if (status != SL_OK ||
             sli_entry_is_local(F->S, F->S->iperm[rows[0]], F->S->iperm[columns[0]])) {
-            return status == SL_OK ? sli_entry_by_local_solve(F, out, rows[0], columns[0], W, stats)
-                                   : status;
+            status = status == SL_OK
+                         ? sli_entry_by_local_solve(F, out, rows[0], columns[0], W, stats)
+                         : status;
+            return sli_report(stats, status);
         }
     }
     q = sli_entries_of(F, out, rows, columns, count);
