@@ -4,6 +4,7 @@
 
 #include "../../public/dirichlet.h"
 #include "../factor/factor.h"
+#include "../matrix/csc_triangle.h"
 #include "../matrix/submatrix.h"
 #include "query.h"
 
