@@ -1,25 +1,25 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 2043bade665c4771
+ * FNV-1a of the lines after this comment, without the license: 7ef30cbc93f47d92
  * The comments of the implementation are in src/impl.
  *
  * Contents
  *     63 intro.h      what the library does, a quick start, which call for which question, references
- *    183 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    224 config.h     macros that a user may define before the include, the version, and the integer types
- *    305 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    498 options.h    options of all calls, threads, and the allocator
- *    645 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    890 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    992 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1067 factor.h     the numerical factorization P A P' = L D L'
- *   1192 solve.h      full solves, and the workspace of all solves
- *   1290 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1369 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole
- *   1456 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1555 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1595 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1703 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1780 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *    185 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    226 config.h     macros that a user may define before the include, the version, and the integer types
+ *    307 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    500 options.h    options of all calls, threads, and the allocator
+ *    647 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    894 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    996 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1071 factor.h     the numerical factorization P A P' = L D L'
+ *   1196 solve.h      full solves, and the workspace of all solves
+ *   1293 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1371 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole
+ *   1455 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1554 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1594 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1702 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1779 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
  *   1865 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
  *   1961 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
  *   2073 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
@@ -35,27 +35,27 @@
  *   2979 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   3056 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3096 impl/ base: the compiler, status, memory, sorting, threads
- *   4262 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5119 impl/ matrix: sparse matrices of the caller and of the library
- *   5754 impl/ ordering: fill-reducing orderings of a graph
- *  10134 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12154 impl/ factor: the numbers of L and D
- *  15408 impl/ solve: full and local solves
- *  17649 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19439 impl/ pivots: the order of the pivots by the values of a matrix
- *  19848 impl/ float: L and fronts in single precision
- *  20295 impl/ inverse: entries of the inverse, regions
- *  23263 impl/ change: a factor that follows changes of its matrix
- *  30175 impl/ io: files that are replaced only when they are complete
- *  30393 impl/ files: Matrix Market files, 64-bit indices
- *  31013 impl/ save: factors in files
- *  32997 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33682 impl/ batch: diagonals of many inverses
- *  33826 impl/ complex: complex Hermitian systems over real factors
- *  34373 impl/ complex: entries of the inverse
- *  34433 impl/ packs: the tables through which the core calls packs
- *  34479 impl/ last: undefine every internal macro
- *  34803 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4270 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5127 impl/ matrix: sparse matrices of the caller and of the library
+ *   5762 impl/ ordering: fill-reducing orderings of a graph
+ *  10371 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12414 impl/ factor: the numbers of L and D
+ *  15673 impl/ solve: full and local solves
+ *  17914 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19704 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20113 impl/ float: L and fronts in single precision
+ *  20560 impl/ inverse: entries of the inverse, regions
+ *  23573 impl/ change: a factor that follows changes of its matrix
+ *  30485 impl/ io: files that are replaced only when they are complete
+ *  30703 impl/ files: Matrix Market files, 64-bit indices
+ *  31323 impl/ save: factors in files
+ *  33307 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33992 impl/ batch: diagonals of many inverses
+ *  34136 impl/ complex: complex Hermitian systems over real factors
+ *  34683 impl/ complex: entries of the inverse
+ *  34743 impl/ packs: the tables through which the core calls packs
+ *  34789 impl/ last: undefine every internal macro
+ *  35128 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -94,6 +94,8 @@
  *  x everywhere for b everywhere                  sl_factor_solve                        solve.h
  *  x in a few rows for b in a few rows, often     sl_plan_create, sl_plan_solve          plan.h
  *  the same once                                  sl_local_solve                         plan.h
+ *  rows fixed at values, b in the others          sl_dirichlet_create               dirichlet.h
+ *  a part of a matrix                             sl_matrix_submatrix                    csc.h
  *  a singular Laplacian, an elastic body          options.null_pivots, mass, null_vector options.h
  *  several processors                             options.threads                        options.h
  *  what failed, and where; counts and times       sl_stats                               stats.h
@@ -104,7 +106,7 @@
  *  can the solution be trusted?                   sl_factor_refine, sl_factor_rcond      accuracy.h
  *  how far off is each answer?                    sl_factor_certify                      bounds.h
  *  a few entries changed, A + V V'                sl_factor_change, sl_factor_update     change.h
- *  rows held at given values                      sl_pins_create                         pins.h
+ *  rows pinned and released one by one            sl_pins_create                         pins.h
  *  a part of A, with zero values around it        sl_factor_restrict                     restrict.h
  *  a mesh that is cut or remeshed in places       sl_symbolic_edit, sl_factor_edit       edit.h
  *  variances, entries of the inverse              sl_inverse_diagonal, sl_inverse_pairs  inverse.h
@@ -670,7 +672,8 @@ typedef struct sl_symbolic_info {
     sl_int components;             /* roots of the elimination tree */
     sl_int pairs;                  /* 2x2 pivots, of sl_symbolic_create_pivoted; else 0 */
     sl_int delayed;                /* times it moved a column to the parent's front; else 0 */
-    double seconds_order;          /* processor seconds of the ordering, of all threads */
+    /* processor seconds of the ordering, of all threads; all are 0 below 1000 entries of A */
+    double seconds_order;
     double seconds_analyze;        /* processor seconds of the rest of the analysis, of which: */
     double seconds_tree;           /* P A P', elimination tree, column counts and supernodes */
     double seconds_structure;      /* rows of L and the map of A into L */
@@ -698,8 +701,9 @@ typedef struct sl_factor_info {
      * of the pattern: about 1 to 2 for definite matrices, whatever their scaling. The backward
      * error of a solve without refinement is at most about growth * epsilon (sl_factor_create) */
     double growth;
-    double seconds_setup; /* processor seconds of schedule and memory in sl_factor_create */
-    double seconds;       /* processor seconds of the numbers, summed over all threads */
+    /* processor seconds of schedule and memory in sl_factor_create; 0 below 4000 values of L */
+    double seconds_setup;
+    double seconds; /* processor seconds of the numbers, summed over all threads */
     size_t bytes;
 } sl_factor_info;
 
@@ -1272,9 +1276,8 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *                three single solves, 32 as long as six to eight.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_INCONSISTENT: a column of B
- *           has no solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: B has a NaN or
- *           an infinity, or overflow: X is written; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not
- *           grow.
+ *           has no solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: B is not, or
+ *           overflow: X is written; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
  *           min(nrhs, 32)). If consistency is checked, right-hand sides beyond the eighth take an
  *           additional forward sweep.
@@ -1339,9 +1342,8 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed factor, or, in a region, one whose
  *           numbers are not those that the region was computed from; SL_ERR_STATE: a factor of
- *           another analysis; SL_ERR_INCONSISTENT: as in sl_factor_solve; SL_ERR_NOT_FINITE: a
- *           number of B on which x depends is not finite: X is written; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
+ *           another analysis; SL_ERR_INCONSISTENT, _NOT_FINITE: as in sl_factor_solve, of what x
+ *           depends on; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     2 (b_entries + x_entries) + 4 region_entries flops per right-hand side; nothing O(n);
  *           no allocation once W has grown.
  *  Threads  any number at once on one P and one F, each with its own W.
@@ -1373,8 +1375,7 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int 
  *
  *  The free rows have a factor of A[free, free] of their own; A may be singular. If a factor of A
  *  is there already, and the pack of pins is compiled in, the cheapest of three ways is taken, by
- *  counted cost (stats.dirichlet): the same, sl_factor_restrict, or pins on that factor. All give
- *  the same solutions, up to rounding.
+ *  counted cost (stats.dirichlet): the same, sl_factor_restrict, or pins on that factor.
  *
  *  out    [out]  the object, or NULL on error; release with sl_dirichlet_free.
  *  A      [in]   n x n with values, symmetric, not kept. Entries between fixed rows are not read.
@@ -1386,11 +1387,9 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int 
  *  stats  [out]  dirichlet, symbolic, factor; errors are in rows of A; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
  *           SL_ERR_PIVOT: A[free, free] is singular, as where no row of a component of a Laplacian
- *           is fixed: error.row is one of its rows; all others as sl_symbolic_create and
- *           sl_factor_create.
+ *           is fixed (error.row); others as sl_symbolic_create and sl_factor_create.
  *  Cost     O(n + nnz), and the analysis and factorization of A[free, free]. Keeps 4 bytes per row,
  *           16 per entry of A[free, free], and 20 per entry between free and fixed rows.
- *  Threads  options.threads.
  *  Manual   tools/docs/dirichlet.md: what pins, restrictions and submatrices cost
  *  Example  tests/core/test_dirichlet.c
  */
@@ -1798,8 +1797,9 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
  *           failed factor; SL_ERR_UNSUPPORTED: a factor with 2x2 pivots; SL_ERR_TOO_LARGE,
  *           SL_ERR_MEMORY: W could not grow. On error nothing is written.
  *  Cost     sweeps take 2 entries flops per lane, and 8 lanes take as long as two to three, so that
- *           many requests should share a call. Nothing O(n), except for NULL sets; no allocation
- *           once W has grown to the largest reach and 16 bytes per request.
+ *           many requests should share a call. A single pair is a local solve if that is cheaper.
+ *           Nothing O(n), except for NULL sets; no allocation once W has grown to the largest reach
+ *           and 16 bytes per request.
  *  Threads  any number at once on one F, each with its own W. Selected inversion uses the threads
  *           that F was created with, and has the same bits for any number of them.
  *  Source   [HDA17] 5; [Davis06] 3.2, 4.1.
@@ -3424,6 +3424,11 @@ SLI_INLINE double sli_seconds(void) {
 #endif
 }
 
+#define SLI_CLOCK_ENTRIES 4000
+SLI_INLINE double sli_seconds_for(int64_t entries) {
+  return entries < SLI_CLOCK_ENTRIES ? 0.0 : sli_seconds();
+}
+
 /* src/impl/base/status.h: status codes and errors as text, and where the reason of an error is kept */
 
 SL_API int sl_version(void) {
@@ -3537,8 +3542,7 @@ SLI_NOINLINE static sl_status sli_report(sl_stats *stats, sl_status status) {
   }
 #if defined(SLI_THREAD_LOCAL)
   if (sli_last.status != status) {
-    SLI_ASSERT(status == SL_ERR_MEMORY);
-    (void)sli_refuse(status, "an allocation failed");
+    (void)sli_refuse(status, "in another thread of the call");
   }
   if (stats != NULL) {
     stats->error = sli_last.error;
@@ -4253,6 +4257,10 @@ SLI_INLINE sli_team sli_team_of(sl_int workers) {
 static void sli_team_run(const sl_threads *t, sl_int workers,
              void (*lead)(sli_team *team, void *data), void *data) {
   sli_team team = sli_team_of(workers);
+  if (workers == 1) {
+    lead(&team, data);
+    return;
+  }
   team.lead = lead;
   team.lead_data = data;
   sli_parallel(t, workers, sli_team_body, &team);
@@ -5946,6 +5954,7 @@ typedef struct sli_order_job {
   const sl_options *opt;
   sl_int *perm;
   sl_int *scratch;
+  uint64_t *bits;
   sli_septree *septree;
   sli_order_choice *choice;
   sli_team *team;
@@ -5956,6 +5965,7 @@ typedef struct sli_order_job {
   int is_hurried;
   sl_int block;
   const sli_graph *G;
+  int is_small;
   int is_peeled;
   const sl_int *weight;
 } sli_order_job;
@@ -6286,6 +6296,7 @@ typedef struct sli_level {
   sl_int *edge;
   sl_int *weight;
   sl_int *coarse;
+  sl_off hub_degree;
   void *block;
 } sli_level;
 
@@ -6300,8 +6311,21 @@ SLI_INLINE sl_int sli_level_weight(const sli_level *g, sl_int v) {
   return g->weight == NULL ? 1 : g->weight[v];
 }
 
-SLI_INLINE sl_int sli_level_edge(const sli_level *g, sl_off e) {
-  return g->edge == NULL ? 1 : g->edge[e];
+#define SLI_HUB_TIMES 3
+#define SLI_HUB_SHARE 64
+#define SLI_HUB_EDGES 8
+
+SLI_INLINE int sli_level_is_hub(const sli_level *g, sl_int v) {
+  return g->hub_degree != 0 && g->begin[v + 1] - g->begin[v] >= g->hub_degree;
+}
+
+SLI_INLINE sl_int sli_level_edge(const sli_level *g, sl_int v, sl_off e) {
+  if (g->edge != NULL) {
+    return g->edge[e];
+  }
+  return g->hub_degree == 0 || sli_level_is_hub(g, v) || sli_level_is_hub(g, g->to[e])
+         ? 1
+         : SLI_HUB_EDGES;
 }
 
 typedef struct sli_shares {
@@ -6396,9 +6420,9 @@ static void sli_contract_range(void *data, const sli_range *r) {
         if (at[u] < first) {
           at[u] = count;
           c->to[count] = u;
-          c->edge[count++] = sli_level_edge(g, e);
+          c->edge[count++] = sli_level_edge(g, v, e);
         } else {
-          c->edge[at[u]] += sli_level_edge(g, e);
+          c->edge[at[u]] += sli_level_edge(g, v, e);
         }
       }
     }
@@ -6479,7 +6503,7 @@ static sl_int sli_match_best(const sli_level *g, sl_int v, sl_int heaviest, cons
   SLI_ASSERT(degree > 0);
   e = first + (sl_off)(sli_hash32((uint32_t)v) % (uint64_t)degree);
   for (k = 0; k < degree; k++, e = e + 1 == first + degree ? first : e + 1) {
-    const sl_int u = g->to[e], weight = sli_level_weight(g, u), edge = sli_level_edge(g, e);
+    const sl_int u = g->to[e], weight = sli_level_weight(g, u), edge = sli_level_edge(g, v, e);
     if (mate[u] == -1 && weight <= heaviest - own &&
       (int64_t)edge * best_weight > (int64_t)best_edge * weight) {
       best = u;
@@ -6574,7 +6598,8 @@ SLI_INLINE sl_int sli_cluster_ball(const sli_level *g, sl_int v, sl_int heaviest
   g->coarse[v] = number;
   for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
     const sl_int u = g->to[e];
-    if (g->coarse[u] == -1 && weight + sli_level_weight(g, u) <= heaviest) {
+    if (g->coarse[u] == -1 && weight + sli_level_weight(g, u) <= heaviest &&
+      !sli_level_is_hub(g, u)) {
       weight += sli_level_weight(g, u);
       clusters->member[members++] = u;
       g->coarse[u] = number;
@@ -6602,13 +6627,13 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
   clusters->start[0] = 0;
   for (k = 0; k < (sl_off)g->n + 511; k++) {
     const sl_off at = sli_visited(k);
-    if (at < g->n && g->coarse[at] == -1 &&
+    if (at < g->n && g->coarse[at] == -1 && !sli_level_is_hub(g, (sl_int)at) &&
       (!has_balls || sli_cluster_is_free(g, (sl_int)at))) {
       weight[count] = sli_cluster_ball(g, (sl_int)at, heaviest, count, clusters);
       count++;
     }
   }
-  if (!has_balls) {
+  if (clusters->start[count] == g->n) {
     return count;
   }
   for (v = 0; v < g->n; v++) {
@@ -6617,7 +6642,8 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
       const sl_int c = g->coarse[g->to[e]];
       best = c >= 0 && (best == -1 || weight[c] < weight[best]) ? c : best;
     }
-    if (best != -1 && weight[best] <= heaviest - sli_level_weight(g, v)) {
+    if (best != -1 && weight[best] <= heaviest - sli_level_weight(g, v) &&
+      !sli_level_is_hub(g, v)) {
       weight[best] += sli_level_weight(g, v);
       g->coarse[v] = -2 - best;
     }
@@ -6626,7 +6652,7 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
     if (g->coarse[v] < -1) {
       g->coarse[v] = -2 - g->coarse[v];
     } else if (g->coarse[v] == -1) {
-      sli_cluster_ball(g, v, heaviest, count++, clusters);
+      sli_cluster_ball(g, v, sli_level_is_hub(g, v) ? 0 : heaviest, count++, clusters);
     }
   }
   memset(clusters->start, 0, ((size_t)count + 1) * sizeof(sl_int));
@@ -6975,9 +7001,9 @@ static void sli_subgraph_edges(sli_subgraph *sub, const sli_labelling *in, sl_in
       const sl_int u = g->to[e];
       if (sub->local[u] != -1) {
         sub->to[count] = sub->local[u];
-        sub->edge[count++] = sli_level_edge(g, e);
+        sub->edge[count++] = sli_level_edge(g, v, e);
       } else if (sli_label_tree_is_below(t, node, sli_shared_read(label + u))) {
-        sub->external[k] += sli_level_edge(g, e);
+        sub->external[k] += sli_level_edge(g, v, e);
       }
     }
   }
@@ -7078,8 +7104,8 @@ static sl_int sli_subgraph_adjacent_leaf(const sli_labelling *in, sl_int node, s
   for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
     const sl_int other = sli_shared_read(label + g->to[e]);
     if (other != node && sli_label_tree_is_below(t, node, other) && (other > node) == side &&
-      sli_level_edge(g, e) > most) {
-      most = sli_level_edge(g, e);
+      sli_level_edge(g, v, e) > most) {
+      most = sli_level_edge(g, v, e);
       best = other;
     }
   }
@@ -7827,6 +7853,178 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
   memcpy(vertices, order, (size_t)count * sizeof(sl_int));
 }
 
+/* src/impl/ordering/small.h: minimum degree order of a small matrix from its pattern as bits, without a graph */
+
+#define SLI_SMALL_ROWS 256
+#define SLI_SMALL_WORDS (SLI_SMALL_ROWS / 64)
+#define SLI_SMALL_ROWS_ONE_FACTOR 64
+
+#define SLI_SMALL_DEGREE 3
+
+typedef struct sli_small {
+  sl_int n;
+  sl_int floor;
+  uint64_t *rows;
+  uint32_t key[SLI_SMALL_ROWS];
+} sli_small;
+
+SLI_INLINE uint32_t sli_small_key(const sli_small *m, sl_int degree, uint32_t height, sl_int v) {
+  return (uint32_t)sli_max(degree, m->floor) << 16 | height << 8 | (uint32_t)v;
+}
+
+SLI_INLINE uint32_t sli_small_height(const sli_small *m, sl_int v) {
+  return m->key[v] >> 8 & 255u;
+}
+
+SLI_ALWAYS_INLINE sl_int sli_small_count(const uint64_t *row, size_t words) {
+  uint32_t count = 0;
+  size_t k;
+  for (k = 0; k < words; k++) {
+    count += sli_popcount(row[k]);
+  }
+  return (sl_int)count;
+}
+
+SLI_ALWAYS_INLINE int sli_small_fill(sli_small *m, const sli_order_job *job, size_t words) {
+  const sl_csc *A = job->A;
+  const sl_int nnz = sli_nnz(A);
+  sl_int p, v, few = 0, edges = 0;
+  memset(m->rows, 0, (size_t)m->n * words * sizeof(uint64_t));
+  for (p = 0; p < nnz; p++) {
+    const sl_int i = A->i[p], j = job->column[p];
+    if (sli_is_read(job->triangle, i, j)) {
+      m->rows[(size_t)i * words + (size_t)j / 64] |= (uint64_t)1 << (j % 64);
+      m->rows[(size_t)j * words + (size_t)i / 64] |= (uint64_t)1 << (i % 64);
+    }
+  }
+  for (v = 0; v < m->n; v++) {
+    uint64_t *row = m->rows + (size_t)v * words;
+    const sl_int degree = sli_small_count(row, words);
+    const sl_int has_diagonal = (sl_int)(row[v / 64] >> (v % 64) & 1);
+    if (!has_diagonal && degree >= 8 && degree * degree >= m->n) {
+      return 0;
+    }
+    row[v / 64] |= (uint64_t)1 << (v % 64);
+    m->key[v] = sli_small_key(m, degree - has_diagonal, 0, v);
+    few += degree - has_diagonal <= 2;
+    edges += degree - has_diagonal;
+  }
+  if ((m->n > 64 && few > m->n / 2) || (job->is_hurried && edges < 2 * m->n)) {
+    return 0;
+  }
+  for (; v == 0 || v % 8 != 0; v++) {
+    m->key[v] = SLI_MINDEG_ELIMINATED;
+  }
+  return 1;
+}
+
+SLI_ALWAYS_INLINE sl_int sli_small_eliminate(sli_small *m, sl_int v, size_t words, sl_int *order,
+                       sl_int at) {
+  uint64_t *row = m->rows + (size_t)v * words, left[SLI_SMALL_WORDS], gone[SLI_SMALL_WORDS];
+  const sl_int degree = sli_small_count(row, words) - 1, first = at;
+  uint32_t height = sli_small_height(m, v) + 1;
+  size_t k, w;
+  m->key[v] = SLI_MINDEG_ELIMINATED;
+  order[at++] = v;
+  row[v / 64] &= ~((uint64_t)1 << (v % 64));
+  memset(gone, 0, sizeof gone);
+  memcpy(left, row, words * sizeof(uint64_t));
+  for (k = 0; k < words; k++) {
+    for (; left[k] != 0; left[k] &= left[k] - 1) {
+      const sl_int u = (sl_int)(64 * k) + sli_lowest_bit(left[k]);
+      uint64_t *other = m->rows + (size_t)u * words;
+      sl_int count = 0;
+      other[v / 64] &= ~((uint64_t)1 << (v % 64));
+      for (w = 0; w < words; w++) {
+        other[w] |= row[w];
+        count += (sl_int)sli_popcount(other[w]);
+      }
+      if (count == degree && degree > m->floor - 1) {
+        gone[k] |= (uint64_t)1 << (u % 64);
+        order[at++] = u;
+        m->key[u] = SLI_MINDEG_ELIMINATED;
+      } else {
+        const uint32_t before = sli_small_height(m, u);
+        m->key[u] = sli_small_key(m, count - 1, before > height ? before : height, u);
+      }
+    }
+  }
+  height += (uint32_t)(at - first - 1);
+  for (k = 0; k < words && at > first + 1; k++) {
+    for (left[k] = row[k] & ~gone[k]; left[k] != 0; left[k] &= left[k] - 1) {
+      const sl_int u = (sl_int)(64 * k) + sli_lowest_bit(left[k]);
+      const uint32_t before = sli_small_height(m, u);
+      uint64_t *other = m->rows + (size_t)u * words;
+      for (w = 0; w < words; w++) {
+        other[w] &= ~gone[w];
+      }
+      m->key[u] = sli_small_key(m, sli_small_count(other, words) - 1,
+                    before > height ? before : height, u);
+    }
+  }
+  return at;
+}
+
+SLI_ALWAYS_INLINE sl_int sli_small_best(const sli_small *m) {
+  uint32_t least[8];
+  sl_int v, k;
+  if (m->n <= 32) {
+    uint32_t first = m->key[0];
+    for (v = 1; v < m->n; v++) {
+      first = m->key[v] < first ? m->key[v] : first;
+    }
+    return (sl_int)(first & 255u);
+  }
+  memcpy(least, m->key, sizeof least);
+  for (v = 8; v < m->n; v += 8) {
+    for (k = 0; k < 8; k++) {
+      least[k] = m->key[v + k] < least[k] ? m->key[v + k] : least[k];
+    }
+  }
+  for (k = 4; k > 0; k /= 2) {
+    for (v = 0; v < k; v++) {
+      least[v] = least[v + k] < least[v] ? least[v + k] : least[v];
+    }
+  }
+  return (sl_int)(least[0] & 255u);
+}
+
+SLI_ALWAYS_INLINE int sli_small_run_body(sli_small *m, const sli_order_job *job, size_t words) {
+  sl_int at = 0;
+  if (!sli_small_fill(m, job, words)) {
+    return 0;
+  }
+  while (at < m->n) {
+    at = sli_small_eliminate(m, sli_small_best(m), words, job->perm, at);
+  }
+  return 1;
+}
+
+static int sli_small_run(sli_small *m, const sli_order_job *job) {
+  return sli_small_run_body(m, job, ((size_t)m->n + 63) / 64);
+}
+
+#if defined(SLI_X86) && defined(SLI_GNU)
+SLI_TARGET("avx2,popcnt")
+static int sli_small_run_avx2(sli_small *m, const sli_order_job *job) {
+  return m->n <= 64 ? sli_small_run_body(m, job, 1)
+            : sli_small_run_body(m, job, SLI_SMALL_WORDS);
+}
+#endif
+
+static int sli_order_small(const sli_order_job *job) {
+  sli_small m;
+  m.n = job->A->n_cols;
+  m.floor = job->is_hurried ? 1 : SLI_SMALL_DEGREE;
+  m.rows = job->bits;
+#if defined(SLI_X86) && defined(SLI_GNU)
+  if (m.n > 8 && sli_cpu_best() != SL_ISA_SCALAR) { /* untested: without AVX2 */
+    return sli_small_run_avx2(&m, job);
+  }
+#endif
+  return sli_small_run(&m, job);
+}
+
 /* src/impl/ordering/dissection.h: the state of a dissection, and loops over vertices, leaves and borders */
 
 #define SLI_DISSECT_TASKS 8
@@ -7846,6 +8044,7 @@ typedef struct sli_dissection {
   int n_levels, level;
   sl_int total;
   sl_int leaf_size;
+  sl_int first;
   int is_volume, may_be_seven_point;
   int has_labels;
   int band_growth;
@@ -7858,7 +8057,7 @@ typedef struct sli_dissection {
   sl_int *nodes;
   sl_int n_labels, n_ranges;
   int is_counted;
-  void (*bisect)(sli_subgraph *sub, sl_int nodes);
+  void (*bisect)(sli_subgraph *sub, int is_first);
   void (*visit)(struct sli_dissection *d, sli_dissect_worker *w, sl_int node);
 } sli_dissection;
 
@@ -7954,7 +8153,7 @@ static void sli_dissect_split_item(void *data, sl_int node, sl_int worker) {
   sl_int k, weight[2] = {0, 0};
   sli_subgraph_leaf(sub, &in, node, d->order + d->begin[node],
             d->begin[node + 1] - d->begin[node]);
-  d->bisect(sub, leaf[0]);
+  d->bisect(sub, leaf[0] < d->first);
   for (k = 0; k < sub->n; k++) {
     const int side = sub->side[k];
     sli_shared_write(d->label + sub->vertex[k], leaf[side]);
@@ -7966,7 +8165,7 @@ static void sli_dissect_split_item(void *data, sl_int node, sl_int worker) {
 }
 
 static sl_int sli_dissect_split(sli_dissection *d, sl_int most,
-                void (*bisect)(sli_subgraph *sub, sl_int nodes)) {
+                void (*bisect)(sli_subgraph *sub, int is_first)) {
   const sl_int nodes = d->tree.count;
   sl_int node, split = 0;
   sli_dissect_sort(d, d->tree.count);
@@ -8059,12 +8258,13 @@ static void sli_dissect_visit(sli_dissection *d,
 #define SLI_DISSECT_FIRST 64
 #define SLI_DISSECT_TRIES_FIRST 8
 #define SLI_DISSECT_TRIES 2
+#define SLI_DISSECT_SMALL 10000
 #define SLI_DISSECT_LAYERS 3
 #define SLI_DISSECT_BAND_FROM 1000
 #define SLI_SEPARATOR_BALANCE 70
 
-static void sli_dissect_bisect(sli_subgraph *sub, sl_int nodes) {
-  const int few = nodes < SLI_DISSECT_FIRST && sub->n <= 2 * SLI_DISSECT_BISECT_MIN_VOLUME;
+static void sli_dissect_bisect(sli_subgraph *sub, int is_first) {
+  const int few = is_first && sub->n <= 2 * SLI_DISSECT_BISECT_MIN_VOLUME;
   sli_subgraph_bisect(sub, few ? SLI_DISSECT_TRIES_FIRST : sub->n > 50 ? SLI_DISSECT_TRIES : 1);
 }
 
@@ -8149,9 +8349,9 @@ static void sli_weigh_range(void *data, const sli_range *r) {
       const sl_int v = d->order[i];
       for (e = finest->begin[v]; e < finest->begin[v + 1]; e++) {
         const sl_int c = d->label[finest->to[e]];
-        if (c != k && seen[c] != v) {
+        if (c != k && seen[c] != v && !sli_level_is_hub(finest, finest->to[e])) {
           seen[c] = v;
-          g->edge[at[c]]++;
+          g->edge[at[c]] += sli_level_edge(finest, v, e);
         }
       }
     }
@@ -8391,7 +8591,7 @@ static sl_int sli_levelset_search(const sli_subgraph *sub, sl_int from, sl_int *
   }
 }
 
-static void sli_levelset_bisect(sli_subgraph *sub, sl_int nodes) {
+static void sli_levelset_bisect(sli_subgraph *sub, int is_first) {
   const sl_int n = sub->n;
   sl_int *order = sub->scratch, *distance = sub->scratch + (size_t)n,
        *size = sub->scratch + 2 * (size_t)n;
@@ -8401,7 +8601,7 @@ static void sli_levelset_bisect(sli_subgraph *sub, sl_int nodes) {
   const sl_int end = sli_subgraph_farthest(sub, 0, order, sub->locked);
   n_sets = sli_levelset_search(sub, sli_subgraph_farthest(sub, end, order, sub->locked), order,
                  distance);
-  (void)nodes;
+  (void)is_first;
   memset(size, 0, (size_t)n_sets * sizeof(sl_int));
   for (k = 0; k < n; k++) {
     size[distance[k]]++;
@@ -8715,6 +8915,9 @@ static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl
 
 #define SLI_ND_RESPLITS 12
 
+#define SLI_ND_THIN 3
+#define SLI_ND_THIN_LEAF 20
+
 #define SLI_SEPTREE_NODES 16
 
 static void sli_septree_sort_separator(const sli_dissection *d, sli_dissect_worker *w, sl_int node,
@@ -8786,6 +8989,7 @@ static void sli_septree_append(sli_dissection *d, const sl_int *row, sl_int *per
 typedef struct sli_nd {
   const sli_graph *G;
   const sl_int *weight;
+  int is_small;
   sl_int *local;
   sl_int *row;
   sl_off *begin;
@@ -8839,6 +9043,18 @@ static void sli_nd_fill(void *data, const sli_range *r) {
   }
 }
 
+static void sli_nd_find_hubs(sli_level *g) {
+  const sl_off edges = g->begin[g->n], least = SLI_HUB_TIMES * edges / g->n;
+  sl_int v, count = 0;
+  for (v = 0; v < g->n; v++) {
+    count += g->begin[v + 1] - g->begin[v] >= least;
+  }
+  g->hub_degree = count > 0 && count <= g->n / SLI_HUB_SHARE &&
+              edges < INT32_MAX / (2 * SLI_HUB_EDGES)
+            ? least
+            : 0;
+}
+
 static void sli_nd_graph(sli_nd *w, sl_int count) {
   sl_int k;
   w->d.levels[0].n = count;
@@ -8846,7 +9062,9 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
   w->d.levels[0].begin = w->begin;
   w->d.levels[0].to = w->to;
   w->d.levels[0].weight = w->weight != NULL ? w->weights : NULL;
+  sli_nd_find_hubs(&w->d.levels[0]);
   w->d.total = count;
+  w->d.first = w->is_small && !sli_level_is_wide(&w->d.levels[0]) ? 0 : SLI_DISSECT_FIRST;
   if (w->weight != NULL) {
     w->d.total = 0;
     for (k = 0; k < count; k++) {
@@ -8866,6 +9084,14 @@ static sl_status sli_nd_label(sli_nd *w) {
   return sli_dissect_graph(d);
 }
 
+static int sli_nd_is_thin(const sli_dissection *d) {
+  sl_int v, count = 0;
+  for (v = 0; v < d->levels[0].n; v++) {
+    count += !sli_label_tree_is_leaf(&d->tree, d->label[v]);
+  }
+  return count <= SLI_ND_THIN * (d->tree.count / 2);
+}
+
 static sl_status sli_nd_dissect(sli_nd *w) {
   sli_dissection *d = &w->d;
   int rounds = SLI_ND_RESPLITS;
@@ -8879,8 +9105,12 @@ static sl_status sli_nd_dissect(sli_nd *w) {
   if (status == SL_OK) {
     do {
       sli_dissect_visit(d, sli_dissect_separate);
+      if (rounds == SLI_ND_RESPLITS && sli_nd_is_thin(d)) {
+        d->leaf_size = SLI_ND_THIN_LEAF;
+      }
     } while (rounds-- > 0 && /* untested: there are fewer rounds */
          sli_dissect_split(d, 2 * d->leaf_size, sli_dissect_bisect) > 0);
+    d->leaf_size = SLI_DISSECT_LEAF;
     status = d->pool.failed ? sli_no_memory() : SL_OK;
   }
   return status;
@@ -8952,6 +9182,7 @@ static sl_status sli_order_nd(const sli_order_job *job) {
   memset(&w, 0, sizeof w);
   w.G = job->G;
   w.weight = job->weight;
+  w.is_small = job->is_small;
   w.d.leaf_size = SLI_DISSECT_LEAF;
   w.d.team = job->team;
   w.d.a = w.d.pool.a = job->a;
@@ -10100,6 +10331,7 @@ static sl_status sli_order(sli_order_job *job) {
   job->ordering = opt != NULL ? opt->ordering : SL_ORDERING_ND;
   job->is_hurried = sli_order_is_hurried(opt);
   job->block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
+  job->is_small = job->A->n_cols / job->block < SLI_DISSECT_SMALL;
   job->is_peeled = 0;
   job->weight = NULL;
   switch (job->ordering) {
@@ -10123,6 +10355,11 @@ static sl_status sli_order(sli_order_job *job) {
       job->choice->has_tree = 1;
       return SL_OK;
     }
+    if (job->block == 1 && job->ordering == SL_ORDERING_ND &&
+      job->A->n_cols <= (job->is_hurried ? SLI_SMALL_ROWS_ONE_FACTOR : SLI_SMALL_ROWS) &&
+      sli_order_small(job)) {
+      return SL_OK;
+    }
     return sli_order_by_graph(job);
   default:
     return sli_order_refuse(job, SL_ERR_ARGUMENT,
@@ -10142,7 +10379,9 @@ typedef struct sli_backing {
 struct sl_symbolic {
   sl_allocator allocator;
   sli_atomic borrowers;
-  sl_stats stats;
+  struct {
+    sl_symbolic_info symbolic;
+  } stats;
   sl_int n;
   sl_int n_supers;
   sl_int nnz_input;
@@ -10711,6 +10950,7 @@ typedef struct sli_analysis {
   sl_int n;
   sl_int workers;
   double clock;
+  int64_t clock_entries;
   const sl_csc *A;
   sli_hash pattern;
   sl_int *column;
@@ -11327,6 +11567,12 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   w->spare = SLI_TAKE(b, sl_int, 3 * (uint64_t)nnz + 512);
 }
 
+#define SLI_ANALYSIS_SMALL 16384
+
+static int sli_analysis_is_small(const sli_analysis *w, sl_int rows, sl_int nnz) {
+  return rows < 64 && nnz < 256 && w->pairs == NULL && w->workers <= 1;
+}
+
 static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
   const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
   S->perm = SLI_TAKE(b, sl_int, n);
@@ -11450,7 +11696,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
 
 static double sli_analysis_lap(sli_analysis *w) {
   const double before = w->clock;
-  w->clock = sli_seconds();
+  w->clock = sli_seconds_for(w->clock_entries);
   return w->clock - before;
 }
 
@@ -11602,7 +11848,7 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
   sli_symbolic_fill(draft, w, stats);
   stats->symbolic.seconds_structure = sli_analysis_lap(w);
   stats->symbolic.seconds_analyze += stats->symbolic.seconds_structure;
-  draft->stats = *stats;
+  draft->stats.symbolic = stats->symbolic;
   *out = (sl_symbolic *)(void *)b.base;
   **out = *draft;
   return SL_OK;
@@ -11628,6 +11874,7 @@ static sl_status sli_symbolic_order(sli_symbolic_job *j, sli_team *team) {
   order.opt = j->opt;
   order.perm = w->perm;
   order.scratch = w->scratch;
+  order.bits = w->list;
   order.septree = &w->septree;
   order.choice = &w->choice;
   order.team = team;
@@ -11691,26 +11938,37 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
                    const sl_options *opt, sl_stats *stats) {
   static const sl_threads sli_no_threads = {0, NULL, NULL};
   sli_symbolic_job j;
+  uint64_t small[SLI_ANALYSIS_SMALL / sizeof(uint64_t)];
   sli_block b = {NULL, 0, 0};
   sli_arena arena;
+  int is_allocated = 0;
   sl_status status;
-  memset(&j, 0, sizeof j);
+  memset(&j.w, 0, sizeof j.w);
+  memset(&j.found.symbolic, 0, sizeof j.found.symbolic);
   sli_stats_clear_error(stats);
   sli_stats_clear_error(&j.found);
-  j.w.clock = sli_seconds();
   status = sli_begin(out);
   status = status == SL_OK ? sli_symbolic_check(A, opt, &j.w.pattern, stats) : status;
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
+  j.w.clock_entries = 4 * (int64_t)sli_nnz(A);
+  j.w.clock = sli_seconds_for(j.w.clock_entries);
   j.out = out;
   j.opt = opt;
   j.a = sli_allocator(opt);
   j.w.A = A;
   j.w.pairs = pairs;
   j.w.workers = sli_analysis_workers(A, opt);
-  SLI_LAYOUT(&b, &j.a, status) {
+  if (sli_analysis_is_small(&j.w, A->n_cols, sli_nnz(A))) {
+    b.base = (unsigned char *)small;
+    b.base += (SLI_ALIGN - (uintptr_t)small % SLI_ALIGN) % SLI_ALIGN;
     sli_analysis_layout(&j.w, &b, A->n_cols, sli_nnz(A));
+  } else {
+    SLI_LAYOUT(&b, &j.a, status) {
+      sli_analysis_layout(&j.w, &b, A->n_cols, sli_nnz(A));
+    }
+    is_allocated = 1;
   }
   if (status == SL_OK) {
     status = sli_csc_triangle(A, sli_csc_columns(A, j.w.column), &j.found.symbolic.triangle,
@@ -11728,7 +11986,9 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
       stats->symbolic = j.found.symbolic;
     }
   }
-  sli_free(&j.a, b.base);
+  if (is_allocated) {
+    sli_free(&j.a, b.base);
+  }
   return sli_report(stats, status);
 }
 
@@ -14873,9 +15133,13 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
   return SL_OK;
 }
 
+SLI_INLINE double sli_factor_clock(const sl_symbolic *S) {
+  return sli_seconds_for(S->panel_begin[S->n_supers]);
+}
+
 static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
                    const sli_kernels *kernels, sl_stats *stats) {
-  const double started = sli_seconds();
+  const double started = sli_factor_clock(S);
   const sl_allocator a = sli_allocator(opt);
   sl_factor draft;
   sli_block b = {NULL, 0, 0};
@@ -14917,7 +15181,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     }
     status = sli_factor_prepare(F);
     status = status == SL_OK ? sli_factor_rules_fill(F, opt, stats) : status;
-    F->clock = sli_seconds();
+    F->clock = sli_factor_clock(S);
     F->stats.factor.seconds_setup = F->clock - started;
     if (status == SL_OK) {
       *out = F;
@@ -15122,6 +15386,7 @@ static void sli_factor_identify_numbers(sl_factor *F) {
 
 static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failure *failure,
                  double started, sl_stats *stats) {
+  double ended;
   int has_pivots, suspects;
   sli_stats_clear_error(&F->stats);
   if (failure->status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
@@ -15146,7 +15411,8 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
     sli_refuse_negative(F, failure);
     sli_factor_outcome(F, from->A, failure, 1);
   }
-  F->stats.factor.seconds = sli_seconds() - started;
+  ended = sli_factor_clock(F->S);
+  F->stats.factor.seconds = ended > 0.0 ? ended - started : 0.0;
   F->is_valid = failure->status == SL_OK;
   if (F->is_valid) {
     sli_factor_identify_numbers(F);
@@ -15233,7 +15499,6 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
 }
 
 SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {
-  const double started = sli_seconds();
   const sli_source from = sli_source_matrix(A);
   sl_status status;
   sli_stats_clear_error(stats);
@@ -15243,7 +15508,7 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
   status = status == SL_OK ? sli_factor_prepare(F) : status;
   if (status == SL_OK) {
     sli_factor_begin(F);
-    status = sli_factor_numbers(F, &from, started, stats);
+    status = sli_factor_numbers(F, &from, sli_factor_clock(F->S), stats);
   }
   return sli_report(stats, status);
 }
@@ -20945,6 +21210,10 @@ SLI_INLINE const sli_costs *sli_costs_of(sl_isa isa) {
   return &sli_costs_table[sli_isa_row(isa)];
 }
 
+#define SLI_PAIR_CACHED 1.7
+#define SLI_PAIR_READ 1.25
+#define SLI_PAIR_LARGE 5e5
+
 #define SLI_CHANGE_ENTRY 0.27e-9
 #define SLI_CHANGE_HIDDEN 15e-12
 #define SLI_CHANGE_PIVOT(flop) (4e-9 + 100.0 * (flop))
@@ -21876,6 +22145,37 @@ SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_i
   return sli_inverse_entries(&q, W, stats);
 }
 
+static int sli_entry_is_local(const sl_symbolic *S, sl_int a, sl_int b) {
+  sl_int s = S->super_of[a], t = S->super_of[b];
+  double apart = 0.0, common = 0.0;
+  while (s != t) {
+    sl_int *first = (uint32_t)s < (uint32_t)t ? &s : &t;
+    apart += (double)(S->panel_begin[*first + 1] - S->panel_begin[*first]);
+    *first = S->super_parent[*first];
+  }
+  for (; s != -1; s = S->super_parent[s]) {
+    common += (double)(S->panel_begin[s + 1] - S->panel_begin[s]);
+  }
+  return apart + 2.0 * common <
+       (apart + common < SLI_PAIR_LARGE ? SLI_PAIR_CACHED : SLI_PAIR_READ) * (apart + common);
+}
+
+static sl_status sli_entry_by_local_solve(const sl_factor *F, double *out, sl_int row,
+                      sl_int column, sl_work *W, sl_stats *stats) {
+  const double one = 1.0;
+  sl_stats found;
+  sl_status status = sl_local_solve(F, &column, 1, &row, 1, out, 1, &one, 1, 1, W, &found);
+  status = status == SL_ERR_NOT_FINITE ? SL_OK : status;
+  if (status == SL_OK && stats != NULL) {
+    const sl_plan_info *p = &found.plan;
+    stats->inverse.method = SL_INVERSE_FORWARD;
+    stats->inverse.supernodes = sli_max(p->b_supernodes, p->x_supernodes);
+    stats->inverse.columns = sli_max(p->b_columns, p->x_columns);
+    stats->inverse.entries = p->b_entries + p->x_entries;
+  }
+  return status;
+}
+
 SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
                   const sl_int *columns, sl_int count, sl_work *W,
                   sl_stats *stats) {
@@ -21885,6 +22185,16 @@ SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int 
     return sli_report(stats, sli_argument(F == NULL      ? "F is NULL"
                         : rows == NULL ? "rows is NULL"
                                : "columns is NULL"));
+  }
+  if (count == 1 && out != NULL && rows[0] != columns[0] && F->null.count == 0) {
+    sl_status status = sli_check_entries(F, rows, 1, columns, 1, stats);
+    if (status != SL_OK ||
+      sli_entry_is_local(F->S, F->S->iperm[rows[0]], F->S->iperm[columns[0]])) {
+      status = status == SL_OK
+             ? sli_entry_by_local_solve(F, out, rows[0], columns[0], W, stats)
+             : status;
+      return sli_report(stats, status);
+    }
   }
   q = sli_entries_of(F, out, rows, columns, count);
   return sli_inverse_entries(&q, W, stats);
@@ -28014,7 +28324,7 @@ static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_
   j.S = &draft;
   sli_joint_number(&j, r);
   sli_joint_fill(&draft, r, stats);
-  draft.stats = *stats;
+  draft.stats.symbolic = stats->symbolic;
   *out = (sl_symbolic *)(void *)b.base;
   **out = draft;
   return SL_OK;
@@ -29732,7 +30042,7 @@ static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const s
   }
   j->T = &draft;
   sli_edit_join_fill(j, stats);
-  draft.stats = *stats;
+  draft.stats.symbolic = stats->symbolic;
   *out = (sl_symbolic *)(void *)b.base;
   **out = draft;
   return SL_OK;
@@ -34691,7 +35001,14 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_MARKS_BEGIN
 #undef SLI_MINDEG_MAX
 #undef SLI_MINDEG_ELIMINATED
+#undef SLI_CLOCK_ENTRIES
+#undef SLI_ANALYSIS_SMALL
+#undef SLI_SMALL_ROWS
+#undef SLI_SMALL_WORDS
+#undef SLI_SMALL_ROWS_ONE_FACTOR
+#undef SLI_SMALL_DEGREE
 #undef SLI_DISSECT_LEAF
+#undef SLI_DISSECT_SMALL
 #undef SLI_DISSECT_BISECT_MIN
 #undef SLI_DISSECT_BISECT_MIN_VOLUME
 #undef SLI_DISSECT_SHRINK
@@ -34705,7 +35022,12 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_DISSECT_LAYERS
 #undef SLI_DISSECT_BAND_FROM
 #undef SLI_SEPARATOR_BALANCE
+#undef SLI_HUB_EDGES
+#undef SLI_HUB_SHARE
+#undef SLI_HUB_TIMES
 #undef SLI_ND_RESPLITS
+#undef SLI_ND_THIN
+#undef SLI_ND_THIN_LEAF
 #undef SLI_PEEL_SHARE
 #undef SLI_PEEL_SEARCH
 #undef SLI_PEEL_LEAVES
@@ -34759,6 +35081,9 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_PINS_MAP
 #undef SLI_PINS_COPY
 #undef SLI_PINS_MEMORY
+#undef SLI_PAIR_CACHED
+#undef SLI_PAIR_READ
+#undef SLI_PAIR_LARGE
 #undef SLI_DIRICHLET_ANALYSIS
 #undef SLI_DIRICHLET_ROW
 #undef SLI_DIRICHLET_COPY

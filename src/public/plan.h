@@ -54,9 +54,8 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed factor, or, in a region, one whose
  *           numbers are not those that the region was computed from; SL_ERR_STATE: a factor of
- *           another analysis; SL_ERR_INCONSISTENT: as in sl_factor_solve; SL_ERR_NOT_FINITE: a
- *           number of B on which x depends is not finite: X is written; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
+ *           another analysis; SL_ERR_INCONSISTENT, _NOT_FINITE: as in sl_factor_solve, of what x
+ *           depends on; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     2 (b_entries + x_entries) + 4 region_entries flops per right-hand side; nothing O(n);
  *           no allocation once W has grown.
  *  Threads  any number at once on one P and one F, each with its own W.

@@ -58,6 +58,7 @@ static void a_local_refactor_equals_a_full_one(void **state) {
                 sl_options opt = options_none();
                 opt.isa = isas.isa[(kind + size + style) % isas.count];
                 opt.method = style == 5 ? SL_METHOD_AUTO : SL_METHOD_SUPERNODAL;
+                opt.triangle = style == 5 ? SL_TRIANGLE_LOWER : SL_TRIANGLE_NONE; /* of both */
                 factored_t y = factored_make((gen_kind_t)kind, sizes[size], 0, style, &opt);
                 sl_int n = y.M.view.n_cols, *columns = test_ints((size_t)n);
                 sl_symbolic_arrays v = sl_symbolic_view(y.S);

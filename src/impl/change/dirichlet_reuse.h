@@ -2,6 +2,7 @@
 #ifndef SLI_CHANGE_DIRICHLET_REUSE_H
 #define SLI_CHANGE_DIRICHLET_REUSE_H
 
+#include "../matrix/csc_products.h"
 #include "../solve/dirichlet.h"
 #include "pins.h"
 #include "pins_solve.h"

@@ -3,6 +3,7 @@
 #define SLI_SOLVE_PLAN_H
 
 #include "../../public/plan.h"
+#include "../analysis/symbolic.h"
 #include "compile.h"
 #include "sweep.h"
 
