@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7ef30cbc93f47d92
+ * FNV-1a of the lines after this comment, without the license: 1a600af52895ec40
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -11,51 +11,51 @@
  *    647 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
  *    894 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
  *    996 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1071 factor.h     the numerical factorization P A P' = L D L'
- *   1196 solve.h      full solves, and the workspace of all solves
- *   1293 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1371 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole
- *   1455 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1554 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1594 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1702 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1779 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1865 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1961 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2073 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2113 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2241 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2273 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2462 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2574 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2702 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2743 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2832 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2942 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2979 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   3056 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3096 impl/ base: the compiler, status, memory, sorting, threads
- *   4270 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5127 impl/ matrix: sparse matrices of the caller and of the library
- *   5762 impl/ ordering: fill-reducing orderings of a graph
- *  10371 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12414 impl/ factor: the numbers of L and D
- *  15673 impl/ solve: full and local solves
- *  17914 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19704 impl/ pivots: the order of the pivots by the values of a matrix
- *  20113 impl/ float: L and fronts in single precision
- *  20560 impl/ inverse: entries of the inverse, regions
- *  23573 impl/ change: a factor that follows changes of its matrix
- *  30485 impl/ io: files that are replaced only when they are complete
- *  30703 impl/ files: Matrix Market files, 64-bit indices
- *  31323 impl/ save: factors in files
- *  33307 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33992 impl/ batch: diagonals of many inverses
- *  34136 impl/ complex: complex Hermitian systems over real factors
- *  34683 impl/ complex: entries of the inverse
- *  34743 impl/ packs: the tables through which the core calls packs
- *  34789 impl/ last: undefine every internal macro
- *  35128 impl/ templates: the header includes them from itself, once for each instruction set
+ *   1072 factor.h     the numerical factorization P A P' = L D L'
+ *   1197 solve.h      full solves, and the workspace of all solves
+ *   1294 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1372 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole
+ *   1456 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1555 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1595 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1703 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1780 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1866 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1962 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2074 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2114 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2242 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2274 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2463 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2575 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2703 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2744 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2833 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2943 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2980 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   3057 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3097 impl/ base: the compiler, status, memory, sorting, threads
+ *   4271 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5140 impl/ matrix: sparse matrices of the caller and of the library
+ *   5775 impl/ ordering: fill-reducing orderings of a graph
+ *  10384 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12488 impl/ factor: the numbers of L and D
+ *  15807 impl/ solve: full and local solves
+ *  18048 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19838 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20247 impl/ float: L and fronts in single precision
+ *  20695 impl/ inverse: entries of the inverse, regions
+ *  23735 impl/ change: a factor that follows changes of its matrix
+ *  30681 impl/ io: files that are replaced only when they are complete
+ *  30899 impl/ files: Matrix Market files, 64-bit indices
+ *  31519 impl/ save: factors in files
+ *  33513 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34198 impl/ batch: diagonals of many inverses
+ *  34342 impl/ complex: complex Hermitian systems over real factors
+ *  34889 impl/ complex: entries of the inverse
+ *  34949 impl/ packs: the tables through which the core calls packs
+ *  34995 impl/ last: undefine every internal macro
+ *  35336 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1040,7 +1040,8 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
  *  the rows of these columns, then rows rows[rows_begin[s]] .. rows[rows_begin[s+1]-1] below them,
  *  ascending. Supernodes are in postorder. The panel is stored in row tiles, [tile][column][8],
  *  from position panel_begin[s] of sl_factor_view's L: tile t has local rows 8t .. 8t+7 of columns
- *  0 .. min(width, 8(t+1))-1. The unit diagonal and the entries above it are stored as 0.
+ *  0 .. min(width, 8(t+1))-1. The unit diagonal and the entries above it are stored as 0. A panel
+ *  of one column has only its 1 + rows entries.
  *
  *  Nodes are those of the separator tree, in elimination order: separators, and subgraphs that were
  *  not divided further. An entry of A joins two nodes only if one is an ancestor of the other.
@@ -4281,7 +4282,20 @@ SLI_INLINE sl_int sli_tiles(sl_int rows) {
 }
 
 SLI_INLINE sl_off sli_panel_size(sl_int w, sl_int u) {
-  return sli_tile_offset(w, sli_tiles(w + u));
+  return w == 1 ? 1 + (sl_off)u : sli_tile_offset(w, sli_tiles(w + u));
+}
+
+SLI_INLINE sl_off sli_panel_start(sl_int w, sl_off end) {
+  return w == 1 ? end : (end + SLI_TILE - 1) / SLI_TILE * SLI_TILE;
+}
+
+static void sli_column_pad(const double *panel, sl_int u, double *to) {
+  const sl_int rows = SLI_TILE * sli_tiles(1 + u);
+  sl_int r;
+  memcpy(to, panel, (size_t)(1 + u) * sizeof(double));
+  for (r = 1 + u; r < rows; r++) {
+    to[r] = 0.0;
+  }
 }
 
 SLI_INLINE sl_off sli_half_at(sl_off at) {
@@ -4767,7 +4781,6 @@ typedef struct sli_kernels {
     break;
 #define SLI_CASES(call) \
   switch (w) { \
-    SLI_CASE(1, call) \
     SLI_CASE(2, call) \
     SLI_CASE(3, call) \
     SLI_CASE(4, call) \
@@ -10692,8 +10705,10 @@ typedef struct sli_amalgamation {
   sl_int *below;
   sl_off *zeros;
   sl_off *cost;
+  sl_int *apart;
   sl_int *merged_into;
   unsigned char *is_tied;
+  int merges;
   int relaxes;
   int is_for_one_factor;
 } sli_amalgamation;
@@ -10740,11 +10755,25 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
 #define SLI_COST_WIDE_ONE_FACTOR 100
 
 SLI_ALWAYS_INLINE sl_off sli_supernode_cost(const sli_amalgamation *g, sl_int width, sl_int below) {
-  return sli_panel_size(width, below) + SLI_COST_ROW * (sl_off)below +
+  return sli_tile_offset(width, sli_tiles(width + below)) + SLI_COST_ROW * (sl_off)below +
        (g->is_for_one_factor ? SLI_COST_SUPER_ONE_FACTOR : SLI_COST_SUPER) +
        (width <= SLI_TILE      ? 0
       : g->is_for_one_factor ? SLI_COST_WIDE_ONE_FACTOR
                    : SLI_COST_WIDE);
+}
+
+#define SLI_COST_PLAIN 12
+#define SLI_COST_PLAIN_ROW 7
+
+static sl_int sli_apart_cost(const sli_amalgamation *g, sl_int s, const sl_int *child,
+               const sl_int *sibling) {
+  sl_int c = child[s];
+  while (c != -1 && g->below[c] == 1) {
+    c = sibling[c];
+  }
+  return c == -1 && g->width[s] == 1 && g->below[s] < INT32_MAX / 16
+         ? SLI_COST_PLAIN + SLI_COST_PLAIN_ROW * g->below[s]
+         : INT32_MAX;
 }
 
 static sl_off sli_new_zeros(const sli_amalgamation *g, sl_int c, sl_int p) {
@@ -10761,12 +10790,14 @@ SLI_INLINE void sli_amalgamate_child(sli_amalgamation *g, sl_int p, sl_int c, sl
   const sl_off zeros = g->zeros[c] + g->zeros[p] + sli_new_zeros(g, c, p);
   const sl_off stored = (sl_off)width * (width + 1) / 2 + (sl_off)width * below;
   const sl_off merged = sli_supernode_cost(g, width, below);
-  if ((g->is_tied != NULL && g->is_tied[c]) ||
-    (g->relaxes && 100 * zeros <= SLI_ZEROS_MOST * stored && merged <= g->cost[c] + *cost &&
-     !sli_overfills_tile(g, c, p))) {
+  const int is_tied = g->is_tied != NULL && g->is_tied[c];
+  if (is_tied || (g->relaxes && 100 * zeros <= SLI_ZEROS_MOST * stored &&
+          merged <= g->cost[c] + *cost && !sli_overfills_tile(g, c, p))) {
     g->width[p] = width;
     g->zeros[p] = zeros;
     g->merged_into[c] = p;
+    g->apart[p] = is_tied || g->apart[c] > INT32_MAX - g->apart[p] ? INT32_MAX
+                                     : g->apart[p] + g->apart[c];
     *cost = merged;
   }
 }
@@ -10781,6 +10812,7 @@ static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, 
     const sl_int up = g->parent[s];
     sl_off cost = sli_supernode_cost(g, g->width[s], g->below[s]);
     count = 0;
+    g->apart[s] = sli_apart_cost(g, s, child, sibling);
     for (c = child[s]; c != -1; c = sibling[c]) {
       const sl_off zeros = sli_new_zeros(g, c, s);
       list[count++] =
@@ -10805,6 +10837,13 @@ static sl_int sli_find_tops(sli_amalgamation *g, const sl_int *sequence, sl_int 
   sl_int s, k, count = 0;
   for (s = g->count - 1; s >= 0; s--) {
     g->merged_into[s] = g->merged_into[s] == s ? s : g->merged_into[g->merged_into[s]];
+  }
+  for (s = g->count - 1; s >= 0 && g->merges; s--) {
+    const sl_int to = g->merged_into[s];
+    if (g->apart[to] < INT32_MAX && g->apart[to] < g->cost[to]) {
+      g->merged_into[s] = s;
+      g->width[s] = 1;
+    }
   }
   for (s = 0; s < g->count && sequence == NULL; s++) {
     top[count] = s;
@@ -11135,6 +11174,17 @@ SLI_ALWAYS_INLINE void sli_structure_rows(const sli_analysis *w, const sl_symbol
   }
 }
 
+static void sli_fill_panels(const sli_analysis *w, sl_symbolic *S) {
+  const sli_amalgamation *g = &w->amalgamation;
+  sl_off end = 0;
+  sl_int s;
+  for (s = 0; s < S->n_supers; s++) {
+    S->panel_begin[s] = sli_panel_start(g->width[s], end);
+    end = S->panel_begin[s] + sli_panel_size(g->width[s], g->below[s]);
+  }
+  S->panel_begin[s] = end;
+}
+
 static void sli_fill_structure(const sli_analysis *w, const sl_symbolic *S) {
   sli_structure_super *all = (sli_structure_super *)(void *)w->list;
   sli_structure_count(w, S);
@@ -11216,6 +11266,7 @@ typedef struct sli_schedule {
   sl_int *bundle_end;
   sl_int *top;
   sl_off *stack_begin;
+  unsigned char *is_plain;
   sli_top *tops;
   sl_int *ready;
   sl_int *steps;
@@ -11257,13 +11308,28 @@ SLI_INLINE sl_off sli_update_size(const sli_step *s) {
   return sli_triangle_offset(tiles) + SLI_TILE * (sl_off)(tiles + tiles % 2);
 }
 
+static int sli_is_plain(const sl_symbolic *S, sl_int s) {
+  int is_plain = S->steps[s].width == 1;
+  sl_int c;
+  for (c = s - 1; is_plain && c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+    is_plain = S->steps[c].below == 1;
+  }
+  return is_plain;
+}
+
+SLI_INLINE sl_off sli_passed_size(const sli_schedule *p, const sl_symbolic *S, sl_int s) {
+  return p->is_plain[s] == 0   ? sli_update_size(&S->steps[s])
+       : p->is_plain[s] == 1 ? 0
+                 : SLI_TILE * (sl_off)sli_tiles(1 + S->steps[s].below);
+}
+
 SLI_INLINE double sli_front_flops(const sli_step *s) {
   const double w = s->width, h = w + s->below;
   return w * (h * h - (w - 1.0) * h + (w - 1.0) * (2.0 * w - 1.0) / 6.0);
 }
 
-SLI_INLINE int sli_front_is_large(const sli_step *s) {
-  return sli_front_flops(s) >= SLI_SHARED_FLOPS;
+SLI_INLINE int sli_front_is_large(const sl_symbolic *S, sl_int s) {
+  return S->steps[s].width > 1 && sli_front_flops(&S->steps[s]) >= SLI_SHARED_FLOPS;
 }
 
 SLI_INLINE sl_off sli_large_scratch(const sli_step *s) {
@@ -11282,23 +11348,23 @@ typedef struct sli_stacks {
   sl_off most;
 } sli_stacks;
 
-static void sli_stacks_push(sli_stacks *k, const sl_symbolic *S, sl_int s, const sl_int *side,
-              sl_off *begin) {
+static void sli_stacks_push(sli_stacks *k, const sli_schedule *p, const sl_symbolic *S, sl_int s,
+              const sl_int *side) {
   const int own = side[s];
-  const sl_off size = sli_update_size(&S->steps[s]);
+  const sl_off size = sli_passed_size(p, S, s);
   sl_int c;
-  begin[s] = own == 0 ? k->top[0] : -(k->top[1] + size);
+  p->stack_begin[s] = own == 0 ? k->top[0] : -(k->top[1] + size);
   k->top[own] += size;
   k->most = k->top[0] + k->top[1] > k->most ? k->top[0] + k->top[1] : k->most;
   for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-    k->top[1 - own] -= sli_update_size(&S->steps[c]);
+    k->top[1 - own] -= sli_passed_size(p, S, c);
   }
 }
 
-SLI_INLINE sl_off sli_waiting_size(const sl_symbolic *S, sl_int s, int is_top) {
-  const sli_step *step = &S->steps[s];
-  return sli_update_size(step) +
-       (is_top && sli_front_is_large(step) ? sli_large_scratch(step) : 0);
+SLI_INLINE sl_off sli_waiting_size(const sli_schedule *p, const sl_symbolic *S, sl_int s,
+                   int is_top) {
+  return sli_passed_size(p, S, s) +
+       (is_top && sli_front_is_large(S, s) ? sli_large_scratch(&S->steps[s]) : 0);
 }
 
 static sl_off sli_waiting_largest(const sl_symbolic *S, const sl_off *size, const sl_off *subtree,
@@ -11323,11 +11389,11 @@ static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int
   sl_off others;
   sl_int m, c, child;
   for (m = 0; m < p->n_tasks; m++) {
-    size[p->last[m]] = subtree[p->last[m]] = sli_waiting_size(S, p->last[m], 0);
+    size[p->last[m]] = subtree[p->last[m]] = sli_waiting_size(p, S, p->last[m], 0);
   }
   for (m = 0; m < p->n_tops; m++) {
     const sl_int s = p->top[m];
-    size[s] = sli_waiting_size(S, s, 1);
+    size[s] = sli_waiting_size(p, S, s, 1);
     subtree[s] = sli_waiting_largest(S, size, subtree, s, &child, &others);
     subtree[s] += others;
   }
@@ -11342,8 +11408,11 @@ static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int
       continue;
     }
     at = sli_waiting_largest(S, size, subtree, s, &child, &others);
-    p->stack_begin[child] = side[s] == 0 ? p->stack_begin[s] + at - size[child]
-                       : p->stack_begin[s] + size[s] - at;
+    if (child == -1) {
+      continue;
+    }
+    p->stack_begin[child] =
+      side[s] == 0 ? p->stack_begin[s] + at - size[child] : p->stack_begin[s] + size[s] - at;
     for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
       if (c != child) {
         at += subtree[c];
@@ -11354,15 +11423,15 @@ static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int
   }
 }
 
-static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int *side,
-              sl_off *size, sl_off *subtree) {
+static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int *side, sl_off *size,
+              sl_off *subtree) {
   sl_int m, s;
   p->own = 0;
   for (m = 0; m < p->n_tasks; m++) {
     sli_stacks k;
     memset(&k, 0, sizeof k);
     for (s = p->first[m]; s < p->last[m]; s++) {
-      sli_stacks_push(&k, S, s, side, p->stack_begin);
+      sli_stacks_push(&k, p, S, s, side);
     }
     for (s = p->first[m]; s < p->last[m]; s++) {
       p->stack_begin[s] += side[s] == 0 ? 0 : k.most;
@@ -11454,7 +11523,7 @@ static double sli_schedule_gain(const sl_symbolic *S, const sli_schedule_work *w
   for (s = 0; s < S->n_supers; s++) {
     const sl_int up = S->super_parent[s];
     total += w->flops[s];
-    w->path[s] += sli_front_is_large(&S->steps[s]) ? w->flops[s] / workers : w->flops[s];
+    w->path[s] += sli_front_is_large(S, s) ? w->flops[s] / workers : w->flops[s];
     longest = w->path[s] > longest ? w->path[s] : longest;
     if (up != -1) {
       w->path[up] = w->path[s] > w->path[up] ? w->path[s] : w->path[up];
@@ -11463,9 +11532,13 @@ static double sli_schedule_gain(const sl_symbolic *S, const sli_schedule_work *w
   return longest > 0.0 ? total / longest : 1.0; /* untested: fronts have a cost */
 }
 
-static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, sli_schedule_work *w) {
+static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, int plain,
+                sli_schedule_work *w) {
   const sli_forest f = {S->n_supers, S->super_parent, S->first_descendant};
   sl_int s;
+  for (s = 0; s < S->n_supers; s++) {
+    p->is_plain[s] = (unsigned char)(sli_is_plain(S, s) ? plain : 0);
+  }
   if (p->workers > 1) {
     for (s = 0; s < S->n_supers; s++) {
       w->flops[s] = sli_front_flops(&S->steps[s]) + SLI_FRONT_COST;
@@ -11488,13 +11561,14 @@ static void sli_schedule_layout(sli_schedule *p, sli_block *b, sl_int count) {
   p->bundle_end = SLI_TAKE(b, sl_int, tasks);
   p->top = SLI_TAKE(b, sl_int, p->workers == 1 ? 0 : fronts);
   p->stack_begin = SLI_TAKE(b, sl_off, fronts);
+  p->is_plain = SLI_TAKE(b, unsigned char, fronts);
 }
 
 static void sli_schedule_layout_tops(sli_schedule *p, const sl_symbolic *S, sli_block *b) {
   sl_int m, tiles, pieces = 0;
   for (m = 0; m < p->n_tops; m++) {
-    const sli_step *step = &S->steps[p->top[m]];
-    pieces += sli_front_is_large(step) ? sli_large_pieces(step, p->workers, &tiles) : 0;
+    const sl_int s = p->top[m];
+    pieces += sli_front_is_large(S, s) ? sli_large_pieces(&S->steps[s], p->workers, &tiles) : 0;
   }
   p->tops = SLI_TAKE(b, sli_top, p->n_tops);
   p->ready = SLI_TAKE(b, sl_int, p->n_tops);
@@ -11510,7 +11584,7 @@ static void sli_schedule_fill_tops(sli_schedule *p, const sl_symbolic *S) {
     for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
       top->children++;
     }
-    if (sli_front_is_large(&S->steps[s])) {
+    if (sli_front_is_large(S, s)) {
       top->pieces = sli_large_pieces(&S->steps[s], p->workers, &top->piece_tiles);
     }
     top->first_piece = pieces;
@@ -11558,6 +11632,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
     w->amalgamation.cost = w->amalgamation.zeros + n;
     w->amalgamation.merged_into = (sl_int *)(void *)(w->amalgamation.cost + n);
+    w->amalgamation.apart = w->amalgamation.merged_into + n;
   }
   if (w->pairs != NULL) {
     w->amalgamation.is_tied = SLI_TAKE(b, unsigned char, n);
@@ -11683,7 +11758,8 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   if (w->pairs != NULL) {
     sli_analysis_tie(w);
   }
-  if (w->amalgamation.relaxes || w->pairs != NULL) {
+  w->amalgamation.merges = w->amalgamation.relaxes || w->pairs != NULL;
+  if (w->amalgamation.merges) {
     sli_amalgamate(&w->amalgamation, child, more, w->list, w->list + n);
   }
   if (sli_number_supernodes(&w->amalgamation, sequence, order, w->scratch)) {
@@ -11801,12 +11877,10 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) 
   memcpy(S->super_first, w->amalgamation.first, ((size_t)S->n_supers + 1) * sizeof(sl_int));
   memcpy(S->super_parent, w->amalgamation.parent, (size_t)S->n_supers * sizeof(sl_int));
   S->rows_begin[0] = 0;
-  S->panel_begin[0] = 0;
   for (s = 0; s < S->n_supers; s++) {
     S->rows_begin[s + 1] = S->rows_begin[s] + w->amalgamation.below[s];
-    S->panel_begin[s + 1] =
-      S->panel_begin[s] + sli_panel_size(w->amalgamation.width[s], w->amalgamation.below[s]);
   }
+  sli_fill_panels(w, S);
   for (k = 0; k < S->n && S->n_pairs > 0; k++) {
     S->pairs[k] = w->is_first[k]                ? SLI_PAIR_FIRST
             : k > 0 && w->is_first[k - 1] ? SLI_PAIR_SECOND
@@ -12664,9 +12738,14 @@ SLI_INLINE int sli_is_single(const sl_factor *F) {
   return F->type->front_bytes == sizeof(float);
 }
 
+SLI_INLINE int sli_panel_is_copied(const sl_factor *F, sl_int s) {
+  return F->S->steps[s].width == 1 || (sli_is_float(F) && !sli_is_single(F));
+}
+
 SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) {
-  return sli_is_float(F) ? F->work.panels + F->work.panel_room * worker
-               : (double *)F->values + (F->S->steps[s].panel >> F->type->half);
+  return sli_panel_is_copied(F, s)
+         ? F->work.panels + F->work.panel_room * worker
+         : (double *)F->values + (F->S->steps[s].panel >> F->type->half);
 }
 
 SLI_INLINE void sli_forward_sweep(const sl_factor *F, int kind, const sli_reach *R, double *x,
@@ -12697,7 +12776,7 @@ SLI_INLINE void sli_entry_clear(sl_factor *F, sl_off at) {
 SLI_INLINE uint64_t sli_mark_entry(double a, sl_off place) {
   uint64_t bits;
   memcpy(&bits, &a, sizeof bits);
-  return sli_fold(sli_fold(bits ^ SLI_HASH_1, (uint64_t)place + SLI_HASH_2), SLI_HASH_3);
+  return sli_fold(bits ^ SLI_HASH_1, (uint64_t)place * SLI_HASH_3 + SLI_HASH_2);
 }
 
 #define SLI_MARK_BEGIN SLI_HASH_4
@@ -12828,6 +12907,30 @@ SLI_INLINE void sli_pair_eigenvalues(const sl_factor *F, sl_int k, double *value
   values[1] = a * (b / values[0]) - e * (e / values[0]);
 }
 
+typedef struct sli_spread {
+  sl_int positive;
+  double least, most;
+} sli_spread;
+
+static sli_spread sli_spread_of(const double *D, sl_int n) {
+  sli_spread r = {0, (double)INFINITY, 0.0}, s = r;
+  sl_int k;
+  for (k = 0; k < n; k += 2) {
+    const double a = D[k], b = D[k + 1 < n ? k + 1 : k];
+    const double size_a = fabs(a), size_b = fabs(b);
+    r.positive += a > 0.0;
+    s.positive += (b > 0.0) & (k + 1 < n);
+    r.least = size_a < r.least ? size_a : r.least;
+    s.least = size_b < s.least ? size_b : s.least;
+    r.most = size_a > r.most ? size_a : r.most;
+    s.most = size_b > s.most ? size_b : s.most;
+  }
+  r.positive += s.positive;
+  r.least = s.least < r.least ? s.least : r.least;
+  r.most = s.most > r.most ? s.most : r.most;
+  return r;
+}
+
 SLI_INLINE void sli_count_pivot(sl_factor_info *info, double d) {
   const double size = fabs(d);
   if (info->positive + info->negative == 0) {
@@ -12854,11 +12957,16 @@ SLI_COLD static void sli_refuse_negative(const sl_factor *F, sli_failure *failur
 
 static void sli_count_pivots(sl_factor *F, sl_int count) {
   sl_factor_info info = F->stats.factor;
-  sl_int k;
+  sl_int k = 0;
   info.positive = info.negative = info.null = info.regularized = info.weak = 0;
   info.pivot_min = info.pivot_max = 0.0;
-  for (k = 0; k < count && F->E == NULL && !F->rule.replaces; k++) {
-    sli_count_pivot(&info, F->D[k]);
+  if (count > 0 && F->E == NULL && !F->rule.replaces) {
+    const sli_spread r = sli_spread_of(F->D, count);
+    info.positive = r.positive;
+    info.negative = count - r.positive;
+    info.pivot_min = r.least;
+    info.pivot_max = r.most;
+    k = count;
   }
   for (; k < count; k++) {
     double values[2] = {F->D[k], 0.0};
@@ -13595,9 +13703,18 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
 static int sli_null_is_suspected(const sl_factor *F) {
   const sl_symbolic *S = F->S;
   const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
-  double most = 0.0;
+  double most = 0.0, least = (double)INFINITY;
   sl_int k;
-  for (k = 0; k < S->n && !F->rule.replaces && F->rule.null_tolerance >= 0.0; k++) {
+  if (F->rule.replaces || F->rule.null_tolerance < 0.0) {
+    return 0;
+  }
+  for (k = 0; k < S->n; k++) {
+    least = S->parent[k] == -1 && fabs(F->D[k]) < least ? fabs(F->D[k]) : least;
+  }
+  if (least > rounding * sli_spread_of(F->D, S->n).most) {
+    return 0;
+  }
+  for (k = 0; k < S->n; k++) {
     most = fabs(F->D[k]) > most ? fabs(F->D[k]) : most;
     if (S->parent[k] == -1) {
       if (fabs(F->D[k]) <= rounding * most) {
@@ -13628,20 +13745,24 @@ SLI_COLD static sl_status sli_judge_not(const sl_factor *F, sl_int k, sli_failur
 #define SLI_SUSPECT_ROW (sizeof(sli_null_row) + sizeof(double) + sizeof(sl_int))
 
 static int sli_null_suspect_fits(const sl_factor *F) {
-  const sl_off entries = F->S->panel_begin[F->S->n_supers];
-  return F->type->storage == SL_STORAGE_DOUBLE ||
-       (double)entries * sizeof(float) >= (double)F->S->n * SLI_SUSPECT_ROW;
+  const sl_off entries = F->S->panel_begin[F->S->n_supers] >> F->type->half;
+  return (double)entries * (double)F->type->value_bytes >= (double)F->S->n * SLI_SUSPECT_ROW;
 }
 
 SLI_COLD static sl_int sli_null_suspects_find(sl_factor *F, const sli_source *from, sl_int **list,
                         sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
-  sli_null_row *rows =
-    (sli_null_row *)(sli_null_suspect_fits(F) ? F->values : (void *)F->work.panels);
+  void *room = sli_null_suspect_fits(F) ? NULL : sli_judge_memory(F, S->n, SLI_SUSPECT_ROW);
+  sli_null_row *rows = (sli_null_row *)(room == NULL ? F->values : room);
   double *most = (double *)(void *)(rows + S->n);
   sl_int *last = (sl_int *)(void *)(most + S->n), k, count = 0;
-  const sli_null_walk w = sli_null_product(S, from, 0, rows, NULL, NULL);
+  sli_null_walk w;
+  if (room == NULL && !sli_null_suspect_fits(F)) {
+    (void)sli_judge_not(F, S->n - 1, failure);
+    return 0;
+  }
+  w = sli_null_product(S, from, 0, rows, NULL, NULL);
   sli_null_components(&w, S, NULL, last, most);
   for (k = 0; k < S->n; k++) {
     const double size = fabs(F->D[k]) > rows[k].size ? fabs(F->D[k]) : rows[k].size;
@@ -13656,10 +13777,13 @@ SLI_COLD static sl_int sli_null_suspects_find(sl_factor *F, const sli_source *fr
     *list = (sl_int *)sli_judge_memory(F, count, sizeof(sl_int));
     if (*list == NULL) {
       (void)sli_judge_not(F, last[0], failure);
-      return 0;
+      count = 0;
     }
-    memcpy(*list, last, (size_t)count * sizeof(sl_int));
+    for (k = 0; k < count; k++) {
+      (*list)[k] = last[k];
+    }
   }
+  sli_free(&F->allocator, room);
   return count;
 }
 
@@ -13811,8 +13935,9 @@ static void sli_row_link(sl_factor *F, sl_int s) {
 static void sli_row_solve(sl_factor *F, sl_int s, sl_int q, double *pivot, double *magnitude) {
   const sl_symbolic *S = F->S;
   const sl_int first = S->super_first[s];
-  F->kernels->row(sli_front_panel(F, s, 0), S->steps[s].width, q, S->rows + S->rows_begin[s],
-          F->D + first, F->row.x + first, F->row.x, F->work.buffer, pivot, magnitude);
+  F->kernels->row((double *)F->values + S->steps[s].panel, S->steps[s].width, q,
+          S->rows + S->rows_begin[s], F->D + first, F->row.x + first, F->row.x,
+          F->work.buffer, pivot, magnitude);
 }
 
 static void sli_row_solve_all(sl_factor *F, sl_int k, double *pivot, double *magnitude) {
@@ -13846,7 +13971,7 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
   }
   for (k = 0; k < S->n && status == SL_OK; k++) {
     const sl_int s = S->super_of[k], q = k - S->super_first[s];
-    double *panel = sli_front_panel(F, s, 0), *diagonal, pivot, magnitude;
+    double *panel = (double *)F->values + S->steps[s].panel, *diagonal, pivot, magnitude;
     if (q == 0) {
       const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
       memset(panel, 0, (size_t)size * sizeof(double));
@@ -13999,7 +14124,8 @@ static sli_task sli_job_draw(sli_job *job) {
       task.at = at;
       return task;
     }
-    if ((job->F->work.panel_room == 0 || job->in_turn == -1 || job->in_turn == at) &&
+    if ((!sli_is_float(job->F) || job->F->work.panel_room == 0 || job->in_turn == -1 ||
+       job->in_turn == at) &&
       sli_top_draw(job, at, &task)) {
       job->in_turn = at;
       p->tops[at].is_begun = 1;
@@ -14876,17 +15002,14 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
 static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
   const sl_symbolic *S = F->S;
   const uint64_t workers = (uint64_t)F->schedule.workers + (F->schedule.workers > 1);
-  const uint64_t suspects =
-    sli_null_suspect_fits(F) ? 0 : (uint64_t)S->n * SLI_SUSPECT_ROW / sizeof(double) + 1;
   sl_int s;
-  for (s = 0; s < S->n_supers && !sli_is_single(F); s++) {
-    const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
-    F->work.panel_room = size > F->work.panel_room ? size : F->work.panel_room;
+  for (s = 0; s < S->n_supers; s++) {
+    const sl_int w = S->steps[s].width;
+    const sl_off size = sli_tile_offset(w, sli_last_tile(S, s) + 1);
+    const int is_copied = sli_panel_is_copied(F, s);
+    F->work.panel_room = is_copied && size > F->work.panel_room ? size : F->work.panel_room;
   }
-  F->work.panels = SLI_TAKE(b, double,
-                workers *(uint64_t)F->work.panel_room > suspects
-                  ? workers * (uint64_t)F->work.panel_room
-                  : suspects);
+  F->work.panels = SLI_TAKE(b, double, workers *(uint64_t)F->work.panel_room);
 }
 
 static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
@@ -14912,9 +15035,8 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
     F->work.reciprocals = SLI_TAKE(b, double, workers *SLI_FRONT_RECIPROCALS);
     F->work.failures = SLI_TAKE(b, sli_failure, workers);
     sli_schedule_layout(&F->schedule, b, S->n_supers);
-    if (sli_is_float(F)) {
-      sli_factor_layout_panels(F, b);
-    } else {
+    sli_factor_layout_panels(F, b);
+    if (!sli_is_float(F)) {
       F->history.marks = SLI_TAKE(b, uint64_t, supers);
     }
   } else {
@@ -14937,7 +15059,7 @@ static sl_status sli_factor_schedule(sl_factor *F) {
     sli_schedule_work_layout(&w, &b, S->n_supers, F->schedule.workers);
   }
   if (status == SL_OK) {
-    sli_schedule_fill(&F->schedule, S, &w);
+    sli_schedule_fill(&F->schedule, S, sli_is_single(F) ? 0 : 1 + sli_is_float(F), &w);
     sli_free(&F->allocator, b.base);
     b.base = NULL;
     b.used = 0;
@@ -15079,7 +15201,7 @@ static int sli_updates_exceed(const sl_symbolic *S) {
   for (s = 0; s < S->n_supers && sum <= most; s++) {
     sum = 0;
     for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-      sum += sli_update_size(&S->steps[c]);
+      sum += sli_is_plain(S, c) ? 0 : sli_update_size(&S->steps[c]);
     }
   }
   return sum > most;
@@ -15093,9 +15215,7 @@ static sl_method sli_method(const sl_symbolic *S, const sli_storage_type *type,
   if (opt != NULL && opt->method != SL_METHOD_AUTO) {
     return opt->method;
   }
-  return S->stats.symbolic.flops < 8.0 * S->n_supers || sli_updates_exceed(S)
-         ? SL_METHOD_UP_LOOKING
-         : SL_METHOD_SUPERNODAL;
+  return sli_updates_exceed(S) ? SL_METHOD_UP_LOOKING : SL_METHOD_SUPERNODAL;
 }
 
 SL_API void sl_factor_free(sl_factor *F) {
@@ -15137,6 +15257,18 @@ SLI_INLINE double sli_factor_clock(const sl_symbolic *S) {
   return sli_seconds_for(S->panel_begin[S->n_supers]);
 }
 
+static void sli_factor_clear_gaps(sl_factor *F) {
+  const sl_symbolic *S = F->S;
+  sl_int s;
+  for (s = 0; s < S->n_supers; s++) {
+    if (S->steps[s].width == 1) {
+      const sl_off end = S->panel_begin[s] + 1 + S->steps[s].below;
+      memset((char *)F->values + (size_t)end * F->type->value_bytes, 0,
+           (size_t)(S->panel_begin[s + 1] - end) * F->type->value_bytes);
+    }
+  }
+}
+
 static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
                    const sli_kernels *kernels, sl_stats *stats) {
   const double started = sli_factor_clock(S);
@@ -15176,6 +15308,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     *F = draft;
     sli_borrow(&S->borrowers);
     memset(F->extents, 0, (size_t)S->n_supers * sizeof *F->extents);
+    sli_factor_clear_gaps(F);
     if (F->E != NULL) {
       memset(F->E, 0, (size_t)S->n * sizeof(double));
     }
@@ -15463,6 +15596,7 @@ SLI_COLD static void sli_factor_suspect(sl_factor *F, const sli_source *from,
                     sli_failure *failure) {
   sl_int *last = NULL;
   const sl_int count = sli_null_suspects_find(F, from, &last, failure);
+  sli_factor_clear_gaps(F);
   if (failure->status == SL_OK && sli_factor_eliminate(F, from, failure) == SL_OK) {
     sli_suspects_clear(F);
     if (count > 0) {
@@ -18969,7 +19103,7 @@ SLI_INLINE void sli_magnitudes_tile(const sl_factor *F, sl_int s, sl_int tile, i
   }
   for (j = 0; j < columns; j++, l += SLI_TILE) {
     double sum = 0.0;
-    for (q = 0; q < SLI_TILE; q++) {
+    for (q = 0; q < count; q++) {
       sum += fabs(l[q]) * x[q];
       x[q] += is_transposed ? 0.0 : fabs(l[q]) * z[step->column + j];
     }
@@ -20443,6 +20577,7 @@ static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sli_fai
   const sl_int w = f->width, tiles = sli_tiles(w + f->below);
   float *to = (float *)F->values + F->S->steps[s].panel;
   const double *from = f->panel;
+  const sl_int rows = w + f->below;
   sl_int t, j, r;
   for (t = 0; t < tiles; t++) {
     const sl_int columns = sli_min(w, SLI_TILE * (t + 1));
@@ -20458,7 +20593,7 @@ static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sli_fai
                   f->D[j]);
         }
       }
-      for (r = 0; r < SLI_TILE; r++) {
+      for (r = 0; r < SLI_TILE && (w > 1 || SLI_TILE * t + r < rows); r++) {
         to[r] = (float)from[r];
       }
     }
@@ -20478,7 +20613,7 @@ SLI_INLINE sli_front sli_single_begin(const sl_factor *F, sl_int s, sl_int worke
   const sli_step *step = &F->S->steps[s];
   const sl_int rows = SLI_TILE * sli_tiles(F->S->tallest);
   sli_front f = sli_front_in_double(F, s, worker);
-  f.single.panel = (float *)F->values + step->panel;
+  f.single.panel = step->width == 1 ? (float *)(void *)f.panel : (float *)F->values + step->panel;
   f.single.magnitude = (float *)(void *)f.magnitude;
   f.single.D = f.single.magnitude + rows;
   f.single.reciprocals = (float *)(void *)f.reciprocals;
@@ -20710,6 +20845,7 @@ typedef struct sli_traversal {
   sli_schedule schedule;
   sl_off scratch;
   sl_off panel;
+  sl_off column;
   sli_schedule_work schedule_work;
 } sli_traversal;
 
@@ -20900,8 +21036,10 @@ static void sli_traversal_measure(sli_traversal *t) {
   sl_int k, tallest = 0, widest = 0;
   for (k = 0; k < t->forest.count; k++) {
     const sli_step *step = &t->S->steps[t->supers[k]];
-    const sl_off panel = sli_panel_size(step->width, step->below);
+    const sl_int tiles = sli_tiles(step->width + step->below);
+    const sl_off panel = sli_tile_offset(step->width, tiles);
     t->panel = panel > t->panel ? panel : t->panel;
+    t->column = step->width == 1 && panel > t->column ? panel : t->column;
     tallest = sli_max(tallest, step->width + step->below);
     widest = sli_max(widest, step->width);
   }
@@ -20957,10 +21095,14 @@ static sl_int sli_tile_range_begin(sl_int first, sl_int last, sl_int k, sl_int w
 }
 
 static void sli_panel_widen(const sl_factor *F, sl_int s, double *to) {
-  const sl_off first = F->S->panel_begin[s], size = F->S->panel_begin[s + 1] - first;
+  const sli_step *step = &F->S->steps[s];
+  const sl_off size = sli_panel_size(step->width, step->below);
   sl_off k;
   for (k = 0; k < size; k++) {
-    to[k] = sli_entry(F, first + k);
+    to[k] = sli_entry(F, step->panel + k);
+  }
+  for (; k % SLI_TILE != 0; k++) {
+    to[k] = 0.0;
   }
 }
 
@@ -20981,7 +21123,11 @@ typedef struct sli_traversal_run {
 } sli_traversal_run;
 
 SLI_INLINE sl_off sli_traverse_scratch(const sli_traversal *t, sl_storage storage) {
-  return t->scratch + (storage != SL_STORAGE_DOUBLE ? t->panel : 0);
+  return t->scratch + (storage != SL_STORAGE_DOUBLE ? t->panel : t->column);
+}
+
+SLI_INLINE int sli_traverse_copies(const sl_factor *F, sl_int width) {
+  return width == 1 || F->type->storage != SL_STORAGE_DOUBLE;
 }
 
 static void sli_traversal_layout_run(sli_traversal_run *run, const sli_traversal *traversal,
@@ -20995,7 +21141,7 @@ static void sli_traversal_layout_run(sli_traversal_run *run, const sli_traversal
 static sli_inverse_front sli_traverse_front(const sli_traversal_run *run, sl_int k) {
   const sli_step *step = &run->traversal->S->steps[run->traversal->supers[k]];
   sli_inverse_front f;
-  f.panel = run->F->type->storage != SL_STORAGE_DOUBLE
+  f.panel = sli_traverse_copies(run->F, step->width)
           ? NULL
           : (const double *)run->F->values + step->panel;
   f.D = run->F->D + step->column;
@@ -21040,7 +21186,7 @@ static double *sli_traverse_begin(const sli_traversal_run *run, sl_int k, sli_in
                   sl_int worker) {
   const sl_off room = sli_traverse_scratch(run->traversal, run->F->type->storage);
   double *scratch = run->scratch + (ptrdiff_t)(room * worker);
-  if (run->F->type->storage != SL_STORAGE_DOUBLE) {
+  if (sli_traverse_copies(run->F, f->width)) {
     sli_panel_widen(run->F, run->traversal->supers[k], scratch + run->traversal->scratch);
     f->panel = scratch + run->traversal->scratch;
   }
@@ -21692,10 +21838,11 @@ static void sli_loss_layout(sli_loss *q, sli_block *b) {
   q->up = SLI_TAKE(b, double, tallest);
 }
 
-SLI_NOINLINE static const double *sli_loss_widen(const sl_factor *F, sl_off at, double *room) {
+SLI_NOINLINE static const double *sli_loss_widen(const sl_factor *F, sl_off at, sl_int rows,
+                         double *room) {
   sl_int r;
   for (r = 0; r < SLI_TILE; r++) {
-    room[r] = sli_entry(F, at + r);
+    room[r] = r < rows ? sli_entry(F, at + r) : 0.0;
   }
   return room;
 }
@@ -21703,7 +21850,9 @@ SLI_NOINLINE static const double *sli_loss_widen(const sl_factor *F, sl_off at, 
 SLI_INLINE const double *sli_loss_tile(const sl_factor *F, const sli_step *step, sl_int t, sl_int j,
                      double *room) {
   const sl_off at = step->panel + sli_tile_offset(step->width, t) + (sl_off)SLI_TILE * j;
-  return F->type->entry == NULL ? (const double *)F->values + at : sli_loss_widen(F, at, room);
+  return F->type->entry == NULL && step->width > 1
+         ? (const double *)F->values + at
+         : sli_loss_widen(F, at, step->width + step->below - SLI_TILE * t, room);
 }
 
 SLI_INLINE double sli_loss_sum(const double *l, const double *s) {
@@ -22524,8 +22673,17 @@ static void sli_selected_visit(void *context, sl_int k, const sli_inverse_front 
   sl_int t, j;
   for (t = t0; t < t1; t++) {
     double *tile = panel + sli_tile_offset(w, t);
+    const double *from = f->front + sli_square_offset(h, t);
     const sl_int columns = sli_min(w, SLI_TILE * (t + 1)), rows = h - SLI_TILE * t;
-    memcpy(tile, f->front + sli_square_offset(h, t), SLI_TILE * (size_t)columns * sizeof *tile);
+    if (w == 1) {
+      const sl_off left = Z->begin[k + 1] - Z->begin[k] - SLI_TILE * (sl_off)t;
+      memcpy(tile, from, (size_t)sli_min(rows, SLI_TILE) * sizeof *tile);
+      if (rows <= SLI_TILE) {
+        memset(tile + rows, 0, (size_t)(left - rows) * sizeof *tile);
+      }
+      continue;
+    }
+    memcpy(tile, from, SLI_TILE * (size_t)columns * sizeof *tile);
     for (j = 0; j < columns && rows < SLI_TILE; j++) {
       memset(tile + SLI_TILE * (ptrdiff_t)j + rows, 0,
            (size_t)(SLI_TILE - rows) * sizeof *tile);
@@ -22872,11 +23030,16 @@ SLI_INLINE sli_step sli_region_step(const sl_region *R, sl_int first) {
   return step;
 }
 
+SLI_INLINE sl_off sli_region_chunk_size(sl_int rows) {
+  const sl_int width = sli_min(SLI_REGION_COLUMNS, rows);
+  return sli_tile_offset(width, sli_tiles(width + rows));
+}
+
 static sl_off sli_region_entries(sl_int rows) {
   sl_off size = 0;
   sl_int first;
   for (first = 0; first < rows; first += SLI_REGION_COLUMNS) {
-    size += sli_panel_size(sli_min(SLI_REGION_COLUMNS, rows - first), rows - first);
+    size += sli_region_chunk_size(rows - first);
   }
   return size;
 }
@@ -23295,8 +23458,7 @@ static void sli_region_index(sl_region *R) {
   }
   for (k = 0; k < n; k += SLI_REGION_COLUMNS) {
     sl_off *begin = &R->begin[k / SLI_REGION_COLUMNS];
-    const sl_int width = sli_min(SLI_REGION_COLUMNS, n - k);
-    begin[1] = begin[0] + sli_panel_size(width, n - k);
+    begin[1] = begin[0] + sli_region_chunk_size(n - k);
   }
 }
 
@@ -23679,7 +23841,10 @@ static void sli_kept_rows(double *to, const double *from, sl_int w, const sl_int
               sl_int count) {
   const sl_int tiles = sli_tiles(w + count);
   sl_int t, j, r;
-  for (t = w / SLI_TILE; t < tiles; t++) {
+  for (r = 0; r < count && w == 1; r++) {
+    to[1 + r] = from[keep[r]];
+  }
+  for (t = w / SLI_TILE; t < tiles && w > 1; t++) {
     const double *at[SLI_TILE];
     double *tile = to + sli_tile_offset(w, t);
     for (r = 0; r < SLI_TILE; r++) {
@@ -23718,6 +23883,7 @@ static void sli_kept_copy(sl_factor *G, sl_int s, sl_int *keep) {
   if (is_whole) {
     memcpy(panel, from, (size_t)sli_panel_size(w, own->below) * sizeof(double));
   } else {
+    panel[0] = 0.0;
     memcpy(panel, from, (size_t)sli_tile_offset(w, w / SLI_TILE) * sizeof(double));
     sli_kept_rows(panel, from, w, keep, own->below);
   }
@@ -23743,7 +23909,7 @@ typedef struct sli_descendant {
 } sli_descendant;
 
 static void sli_gather_update(const sl_factor *F, const sli_gather_work *p, const sli_front *f,
-              const sli_descendant *d, double *update) {
+                const sli_descendant *d, double *update) {
   const sl_symbolic *S = F->S;
   const sl_int *rows = S->rows + S->rows_begin[d->super];
   const sl_int first = d->first, last = d->last;
@@ -23751,21 +23917,26 @@ static void sli_gather_update(const sl_factor *F, const sli_gather_work *p, cons
   const sl_int w = from.width, tiles = sli_front_tiles(&from);
   const sl_int c0 = (w + first) / SLI_TILE, c1 = sli_tiles(w + last);
   sl_int t, r;
+  for (r = first; r < from.below; r++) {
+    p->relative[r - first] = p->local[rows[r]];
+  }
+  if (w == 1) {
+    const double *l = (const double *)F->values + S->steps[d->super].panel + 1;
+    sli_plain_assemble(f, l + first, *from.D, p->relative, 0, from.below - first);
+    return;
+  }
   from.update = update;
   for (t = c0; t < tiles; t++) {
     memset(from.update + sli_triangle_offset(t - c0), 0,
          (size_t)sli_min(t + 1 - c0, c1 - c0) * SLI_TILE * SLI_TILE * sizeof(double));
   }
   F->kernels->front.update(&from, c0, c1, c0, tiles, p->buffer);
-  for (r = first; r < from.below; r++) {
-    p->relative[r - first] = p->local[rows[r]];
-  }
   F->kernels->front.assemble(f, from.update, (w + first) % SLI_TILE, p->relative, last - first, 0,
                  from.below - first);
 }
 
 static void sli_gather_magnitudes(const sl_factor *F, const sli_gather_work *p, const sli_front *f,
-                const sli_descendant *d) {
+                  const sli_descendant *d) {
   const sli_front from = sli_double_front_of(F, d->super, 0);
   const sl_int w = from.width;
   sl_int r, j;
@@ -23786,10 +23957,15 @@ static void sli_gather_magnitudes(const sl_factor *F, const sli_gather_work *p, 
 static void sli_kept_update_own(const sl_factor *G, const sli_gather_work *p, const sli_front *f,
                 sl_int s, int has_one_sign) {
   sl_int k;
-  sli_front_update(&G->kernels->front, f, p->buffer);
-  for (k = 0; k < f->below && !has_one_sign; k++) {
+  for (k = 0; k < f->below; k++) {
     p->relative[k] = f->width + k;
   }
+  if (f->width == 1) {
+    sli_plain_assemble(f, (const double *)G->values + G->S->steps[s].panel + 1, *f->D,
+               p->relative, 0, f->below);
+    return;
+  }
+  sli_front_update(&G->kernels->front, f, p->buffer);
   if (!has_one_sign) {
     sli_descendant all;
     all.super = s;
@@ -23823,7 +23999,7 @@ static void sli_kept_update(const sl_factor *G, const sli_gather_work *p, sl_int
     from.last = below;
     if (from.first < below) {
       sli_gather_update(G, p, &f, &from, update);
-      if (!has_one_sign) {
+      if (!has_one_sign && S->steps[d].width > 1) {
         sli_gather_magnitudes(G, p, &f, &from);
       }
       d--;
@@ -23849,7 +24025,7 @@ static void sli_kept_run(sl_factor *G, sl_int s, sl_int worker) {
   if (p->F != G) {
     sli_kept_copy(G, s, work.relative);
   }
-  if (up != -1 && p->copied.from[up] == -1) {
+  if (up != -1 && p->copied.from[up] == -1 && !G->schedule.is_plain[s]) {
     sli_kept_update(G, &work, s, worker, p->has_one_sign,
             p->update + (ptrdiff_t)(p->update_room * worker));
   }
@@ -24039,6 +24215,8 @@ typedef struct sli_update {
   sl_int *rows;
   double *x;
   double *gain;
+  double *panel;
+  double *column;
   double *local;
   double *c;
   double *other, *b;
@@ -24059,6 +24237,7 @@ static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, s
   u->rows = SLI_TAKE(b, sl_int, R->n_rows);
   u->x = SLI_TAKE(b, double, many *(uint64_t)R->columns);
   u->gain = SLI_TAKE(b, double, R->columns);
+  u->column = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->tallest));
   u->local = SLI_TAKE(b, double, many *SLI_TILE *((uint64_t)sli_tiles(R->tallest) + 4));
   u->c = SLI_TAKE(b, double, 2 * many * SLI_TILE * (uint64_t)sli_tiles(R->widest));
   u->other = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->tallest));
@@ -24066,6 +24245,21 @@ static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, s
   u->trial = SLI_TAKE(b, double, has_trial ? many *(uint64_t)R->columns : 0);
   u->scratch =
     SLI_TAKE(b, double, has_trial ? sli_sweep_scratch(R->tallest, R->widest, lanes) : 0);
+}
+
+static void sli_update_open(sli_update *u, const sli_step *step) {
+  u->panel = (double *)u->F->values + step->panel;
+  if (step->width == 1) {
+    sli_column_pad(u->panel, step->below, u->column);
+    u->panel = u->column;
+  }
+}
+
+static void sli_update_close(sli_update *u, const sli_step *step) {
+  if (step->width == 1) {
+    memcpy((double *)u->F->values + step->panel, u->column,
+         (size_t)(1 + step->below) * sizeof(double));
+  }
 }
 
 static double sli_update_magnitude(const sl_factor *F, sl_int k) {
@@ -24201,7 +24395,7 @@ static sl_status sli_update_pivots(sli_update *u, sl_int k, sl_int columns, cons
 
 static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, double *w) {
   const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, step->width - first);
-  double *l = (double *)u->F->values + step->panel + sli_panel_at(step->width, first, first);
+  double *l = u->panel + sli_panel_at(step->width, first, first);
   double *at = u->c + 2 * (ptrdiff_t)u->lanes * (first - SLI_TILE * step->first_tile);
   const sl_int k = step->column + first - SLI_TILE * step->first_tile;
   const sl_status status = sli_update_pivots(u, k, columns, l, w, at);
@@ -24226,10 +24420,9 @@ static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t,
               sl_int to) {
   const sl_int entered = step->first_tile;
   sli_change_kernels_of(u->F->kernels->isa)
-    ->change[u->kind - 1](
-      (double *)u->F->values + step->panel + sli_panel_at(step->width, SLI_TILE * t, from),
-      to - from, u->c + 2 * (ptrdiff_t)u->lanes * (from - SLI_TILE * entered),
-      u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
+    ->change[u->kind - 1](u->panel + sli_panel_at(step->width, SLI_TILE * t, from), to - from,
+                u->c + 2 * (ptrdiff_t)u->lanes * (from - SLI_TILE * entered),
+                u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
 }
 
 static void sli_update_move(const sli_update *u, const sli_step *step, const sl_int *rows,
@@ -24302,15 +24495,16 @@ static void sli_update_extent(sli_update *u, const sli_step *step) {
 static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_int *rows) {
   const sl_int entered = step->first_tile, wide = sli_tiles(step->width);
   const sl_int tiles = sli_tiles(step->width + step->below);
+  sl_status status = SL_OK;
   sl_int c0, c1, t;
+  sli_update_open(u, step);
   sli_update_move(u, step, rows, 0);
   if (u->sign == 0.0) {
     sli_update_gains(u, step, rows, -1.0);
   }
-  for (c0 = entered; c0 < wide; c0 = c1) {
+  for (c0 = entered; c0 < wide && status == SL_OK; c0 = c1) {
     c1 = sli_min(c0 + SLI_UPDATE_COLUMNS, wide);
-    for (t = c0; t < tiles; t++) {
-      sl_status status = SL_OK;
+    for (t = c0; t < tiles && status == SL_OK; t++) {
       if (t > c0) {
         sli_update_rows(u, step, t, SLI_TILE * c0,
                 sli_min(SLI_TILE * sli_min(t, c1), step->width));
@@ -24319,10 +24513,11 @@ static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_i
         status = sli_update_tile(u, step, t,
                      u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
       }
-      if (status != SL_OK) {
-        return status;
-      }
     }
+  }
+  sli_update_close(u, step);
+  if (status != SL_OK) {
+    return status;
   }
   sli_update_move(u, step, rows, 1);
   if (u->sign == 0.0) {
@@ -24503,12 +24698,14 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
   for (rest = u->V->p[v + 1] - u->V->p[v]; s != -1 && status == SL_OK; s = S->super_parent[s]) {
     const sli_step *step = &S->steps[s];
     const sl_int *to = S->relative + S->rows_begin[s];
-    one.panel = (double *)F->values + step->panel;
+    sli_update_open(u, step);
+    one.panel = u->panel;
     one.D = F->D + step->column;
     one.width = step->width;
     one.below = step->below;
     one.w = w;
     sli_change_kernels_of(F->kernels->isa)->panel(&one);
+    sli_update_close(u, step);
     entered = SLI_TILE * one.first_tile;
     k = step->column + entered;
     status = sli_update_take_all(u, k, step->width - entered, one.e + entered, NULL);
@@ -28117,12 +28314,11 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
   if (status != SL_OK) {
     return status;
   }
-  T->rows_begin[0] = T->panel_begin[0] = 0;
+  T->rows_begin[0] = 0;
   for (t = 0; t < T->n_supers; t++) {
-    const sl_int below = w->amalgamation.below[t];
-    T->rows_begin[t + 1] = T->rows_begin[t] + below;
-    T->panel_begin[t + 1] = T->panel_begin[t] + sli_panel_size(w->amalgamation.width[t], below);
+    T->rows_begin[t + 1] = T->rows_begin[t] + w->amalgamation.below[t];
   }
+  sli_fill_panels(w, T);
   sli_fill_structure(w, T);
   return SL_OK;
 }
@@ -28150,12 +28346,12 @@ static void sli_joint_add(sli_joint *j, sl_int width, sl_off below) {
   sl_int k;
   S->super_first[j->super] = j->column;
   S->rows_begin[j->super] = j->rows;
-  S->panel_begin[j->super] = j->panel;
+  S->panel_begin[j->super] = sli_panel_start(width, j->panel);
   for (k = 0; k < width; k++) {
     S->super_of[j->column++] = j->super;
   }
   j->rows += below;
-  j->panel += sli_panel_size(width, (sl_int)below);
+  j->panel = S->panel_begin[j->super] + sli_panel_size(width, (sl_int)below);
   j->super++;
 }
 
@@ -32004,6 +32200,16 @@ static int sli_check_front(const sl_symbolic *S, sl_int s) {
        sli_check_relative(S, up, rows, S->relative + S->rows_begin[s], step->below);
 }
 
+static sl_off sli_check_panel(const sl_symbolic *S, sl_int s, sl_int width, sl_off below) {
+  const sl_off begin = S->panel_begin[s], end = begin + sli_panel_size(width, (sl_int)below);
+  const int is_last = s + 1 == S->n_supers;
+  const sl_int next = is_last ? 1 : S->super_first[s + 2] - S->super_first[s + 1];
+  const sl_off padded = sli_tile_offset(width, sli_tiles(width + (sl_int)below));
+  return begin % SLI_TILE == 0 && S->panel_begin[s + 1] - begin == padded
+         ? padded
+         : sli_panel_start(next, end) - begin;
+}
+
 static int sli_check_structure(const sl_symbolic *S) {
   sl_int s, tallest = 0, widest = 0;
   if (S->rows_begin[0] != 0 || S->panel_begin[0] != 0) {
@@ -32017,7 +32223,7 @@ static int sli_check_structure(const sl_symbolic *S) {
     }
     below = S->rows_begin[s + 1] - S->rows_begin[s];
     if (below > S->n - S->super_first[s + 1] ||
-      S->panel_begin[s + 1] != S->panel_begin[s] + sli_panel_size(width, (sl_int)below)) {
+      S->panel_begin[s + 1] - S->panel_begin[s] != sli_check_panel(S, s, width, below)) {
       return 0;
     }
     widest = sli_max(widest, width);
@@ -35044,6 +35250,8 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_REGION_PASSES
 #undef SLI_REGION_DETOUR
 #undef SLI_ZEROS_MOST
+#undef SLI_COST_PLAIN
+#undef SLI_COST_PLAIN_ROW
 #undef SLI_COST_ROW
 #undef SLI_COST_SUPER
 #undef SLI_COST_WIDE
@@ -35249,6 +35457,127 @@ static sl_status SLF_NAME(front_load)(sl_factor *F, const sli_source *from, cons
   return status;
 }
 
+#if !SLF_SINGLE && !SLF_HALF
+static void sli_plain_assemble(const sli_front *f, const double *l, double d,
+                 const sl_int *relative, sl_int first, sl_int last) {
+  const sl_int w = f->width, whole = w / SLI_TILE;
+  const sl_int inner =
+    last == 0 || relative[last - 1] < w ? last : sli_lower_bound(relative, last, w);
+  sl_int r, k;
+  for (r = first; r < last; r++) {
+    const sl_int row = relative[r], tile = row / SLI_TILE, end = sli_min(inner, r + 1);
+    const double x = l[r] * d;
+    double *to = f->panel + sli_tile_offset(w, tile) + row % SLI_TILE;
+    for (k = 0; k < end; k++) {
+      to[SLI_TILE * (ptrdiff_t)relative[k]] -= x * l[k];
+    }
+    if (k <= r) {
+      to = f->update + sli_triangle_offset(tile - whole) + row % SLI_TILE;
+      for (; k <= r; k++) {
+        to[SLI_TILE * (ptrdiff_t)(relative[k] - SLI_TILE * whole)] -= x * l[k];
+      }
+    }
+    f->magnitude[row] += fabs(x * l[r]);
+  }
+}
+
+SLI_INLINE double *sli_plain_column(const sl_factor *F, sl_int s, sl_int worker) {
+  return F->schedule.is_plain[s] == 1 ? (double *)F->values + F->S->steps[s].panel
+                    : sli_double_update_matrix(F, s, worker);
+}
+
+SLI_INLINE void sli_plain_take(const sl_factor *F, sl_int c, sl_int worker, double *pivot,
+                 double *magnitude) {
+  const sli_step *child = &F->S->steps[c];
+  if (F->schedule.is_plain[c]) {
+    const double l = sli_plain_column(F, c, worker)[1];
+    const double product = l * F->D[child->column] * l;
+    *pivot -= product;
+    *magnitude += fabs(product);
+  } else {
+    const double *from = sli_double_update_matrix(F, c, worker);
+    const sl_int at = child->width % SLI_TILE;
+    *pivot += from[(SLI_TILE + 1) * at];
+    *magnitude += from[sli_triangle_offset(1) + at];
+  }
+}
+
+SLI_INLINE int sli_plain_load(const sl_factor *F, const sli_source *from, sl_int s, double *l) {
+  const sl_symbolic *S = F->S;
+  const sl_off first = S->scatter_begin[s], count = S->scatter_begin[s + 1] - first;
+  const sl_off ahead = S->scatter_begin[S->n_supers] - SLI_ENTRIES_AHEAD - first;
+  const sl_int *at = S->scatter_from + first;
+  const sl_off *to = S->scatter_to + first, begin = S->steps[s].panel;
+  double largest = 0.0;
+  uint64_t mark = SLI_MARK_BEGIN;
+  sl_off m, wrong = 0;
+  if (from->A == NULL || count != 1 + S->steps[s].below) {
+    return 0;
+  }
+  for (m = 0; m < count; m++) {
+    const double a = from->A->x[at[m]], size = fabs(a);
+    if (m < ahead) {
+      SLI_PREFETCH(from->A->x + at[m + SLI_ENTRIES_AHEAD], 0);
+    }
+    wrong |= (to[m] - begin - m) | (sl_off) !(size <= DBL_MAX);
+    largest = size > largest ? size : largest;
+    mark += sli_mark_entry(a, m);
+    l[m] = 0.0 + a;
+  }
+  F->extents[s].entry = largest;
+  F->extents[s].magnitude = 0.0;
+  F->extents[s].pivot = -1;
+  F->extents[s].suspects = 0;
+  if (F->history.marks != NULL) {
+    F->history.marks[s] = mark;
+  }
+  return wrong == 0;
+}
+
+SLI_NOINLINE static sl_status sli_plain_store(const sl_factor *F, sl_int s, sl_int worker,
+                        sli_failure *failure) {
+  sli_front f = sli_front_in_double(F, s, worker);
+  const sl_int end = SLI_TILE * sli_tiles(1 + f.below);
+  sl_int r;
+  f.panel = sli_plain_column(F, s, worker);
+  for (r = 0; r < end; r++) {
+    f.panel[r] = r > f.below ? 0.0 : f.panel[r];
+    f.magnitude[r] = fabs(f.panel[r] * *f.D * f.panel[r]);
+  }
+  return F->type->store(F, &f, failure);
+}
+
+static sl_status sli_plain_factor(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
+                  sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  const sli_step *step = &S->steps[s];
+  const sl_int k = step->column, below = step->below;
+  double *l = sli_plain_column(F, s, worker), pivot, magnitude;
+  sl_status status;
+  sl_int c, r;
+  if (!sli_plain_load(F, from, s, l)) {
+    memset(l, 0, (size_t)(1 + below) * sizeof(double));
+    if (sli_double_panel_load(F, from, s, l, failure) != SL_OK) {
+      return failure->status;
+    }
+  }
+  pivot = *l;
+  magnitude = fabs(pivot);
+  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+    sli_plain_take(F, c, worker, &pivot, &magnitude);
+  }
+  pivot = F->rule.replaces ? sli_pivot_by_rule(&F->rule, k, pivot, magnitude) : pivot;
+  F->D[k] = pivot;
+  *l++ = 0.0;
+  for (r = 0; r < below; r++) {
+    l[r] /= pivot;
+  }
+  status = sli_check_pivot(F, s, k, pivot, magnitude, failure);
+  return status == SL_OK && F->type->store != NULL ? sli_plain_store(F, s, worker, failure)
+                           : status;
+}
+#endif
+
 static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_int worker,
                    sl_int t0, sl_int t1) {
   const sl_symbolic *S = F->S;
@@ -35257,13 +35586,20 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
   for (c = f->super - 1; c >= S->first_descendant[f->super]; c = S->first_descendant[c] - 1) {
     const sli_step *child = &S->steps[c];
     const sl_int *relative = S->relative + S->rows_begin[c];
+    const sl_int first = t0 == 0 ? 0 : sli_lower_bound(relative, child->below, SLI_TILE * t0);
+    const sl_int last =
+      t1 == tiles ? child->below : sli_lower_bound(relative, child->below, SLI_TILE * t1);
     const SLF_VALUE *from = SLF_NAME(update_matrix)(F, c, worker);
     const sl_off magnitudes = child->width % SLI_TILE +
                   sli_triangle_offset(sli_update_tiles(child->width, child->below));
     const SLF_VALUE *magnitude = from + (magnitudes >> SLF_HALF);
-    const sl_int first = t0 == 0 ? 0 : sli_lower_bound(relative, child->below, SLI_TILE * t0);
-    const sl_int last =
-      t1 == tiles ? child->below : sli_lower_bound(relative, child->below, SLI_TILE * t1);
+#if !SLF_SINGLE && !SLF_HALF
+    if (F->schedule.is_plain[c]) {
+      sli_plain_assemble(f, sli_plain_column(F, c, worker) + 1, F->D[child->column], relative,
+                 first, last);
+      continue;
+    }
+#endif
     F->front->assemble(f, from, child->width % SLI_TILE, relative, child->below, first, last);
     for (k = first; k < last; k += 1 + SLF_HALF) {
       SLF_OF(f, magnitude)[relative[k]] += magnitude[k >> SLF_HALF];
@@ -35293,6 +35629,10 @@ static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
   for (k = 0; k < f->width && status == SL_OK; k++) {
     status = sli_check_single(F, f, k, failure);
   }
+  if (f->width == 1) {
+    memcpy((SLF_VALUE *)F->values + F->S->steps[f->super].panel, f->single.panel,
+         (size_t)(1 + f->below) * sizeof(SLF_VALUE));
+  }
 #else
   const sl_int count = sli_front_is_regular(F, f, f->super) ? 0 : f->width;
   for (k = 0; k < count && status == SL_OK; k++) {
@@ -35303,6 +35643,9 @@ static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
   }
   if (status == SL_OK && F->type->store != NULL) {
     status = F->type->store(F, f, failure);
+  } else if (f->width == 1) {
+    memcpy((double *)F->values + F->S->steps[f->super].panel, f->panel,
+         (size_t)(1 + f->below) * sizeof(double));
   }
 #endif
   return status;
@@ -35347,6 +35690,10 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   for (s = first; s <= last && status == SL_OK; s++) {
     if (sli_is_copied(F, s)) {
       F->work.copied->copy(F, s, worker);
+#if !SLF_SINGLE && !SLF_HALF
+    } else if (F->schedule.is_plain[s]) {
+      status = sli_plain_factor(F, from, s, worker, failure);
+#endif
     } else {
       status = SLF_NAME(front_factor)(F, from, s, worker, failure);
     }
@@ -37398,6 +37745,15 @@ SLV_FUNCTION static void SLV_SWEEP(forward2)(sl_int count, const sli_step *s, co
     const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
     double *xs = x + 2 * (ptrdiff_t)s->base;
     sl_int row, i, j, k;
+    if (w == 1) {
+      for (i = 0; i < s->below; i++) {
+        double *to = x + 2 * (ptrdiff_t)rows[i];
+        to[0] = SLV_FNMA1((double)tile[1 + i], xs[0], to[0]);
+        to[1] = SLV_FNMA1((double)tile[1 + i], xs[1], to[1]);
+      }
+      rows += s->below;
+      continue;
+    }
     memcpy(buf + 2 * (ptrdiff_t)first, xs, columns * sizeof(double));
     memset(buf + 2 * (ptrdiff_t)w, 0,
          2 * (size_t)(SLI_TILE * sli_tiles(height) - w) * sizeof(double));
@@ -37474,6 +37830,16 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(sl_int count, const sli_step *s,
     SLV_DECLARE(t1)
     SLV_ZERO(a)
     rows_end -= s->below;
+    if (w == 1) {
+      xs[0] /= d[0];
+      xs[1] /= d[0];
+      for (i = s->below - 1, tile -= s->below; i >= 0; i--) {
+        const double *from = x + 2 * (ptrdiff_t)rows_end[i];
+        xs[0] = SLV_FNMA1((double)tile[i], from[0], xs[0]);
+        xs[1] = SLV_FNMA1((double)tile[i], from[1], xs[1]);
+      }
+      continue;
+    }
     for (i = first; i < w; i++) {
       SLV_STORE(sums + SLI_TILE * (ptrdiff_t)i, a)
       buf[2 * i] = buf[2 * i + 1] = 0.0;
@@ -37611,8 +37977,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, sl_
     SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v) \
   }
 #define SLI_DOTS SLI_DOT(7) SLI_DOTS_OWN
-#define SLI_DOTS_OWN \
-  SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
+#define SLI_DOTS_OWN SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
 #define SLI_ROW_AT(k) rows[at + (k)]
 #define SLI_ROW_AT_PART(k) rows[at + sli_min(k, count - 1)]
 #define SLI_ROW_AT_OWN(k) rows[sli_clamp((k)-w, at - 1)]
@@ -37679,6 +38044,52 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
   SLI_EACH8(SLI_GET, 0)
 }
 
+SLV_FUNCTION SLI_INLINE const sli_step *SLV_SWEEP(forward_plain)(const sli_step *s,
+                                 const sli_step *end,
+                                 const sl_int **next_rows,
+                                 const SLV_VALUE *L, double *x) {
+  const sl_int *rows = *next_rows;
+  for (; s < end && s->width == 1; s++) {
+    const SLV_VALUE *l = L + s->panel + 1;
+    const sl_int *last = rows + s->below;
+    const double y = x[s->base];
+    for (; rows < last; rows++, l++) {
+      x[*rows] = SLV_FNMA1((double)*l, y, x[*rows]);
+    }
+  }
+  *next_rows = rows;
+  return s;
+}
+
+SLV_FUNCTION SLI_INLINE const sli_step *
+SLV_SWEEP(backward_plain)(const sli_step *s, const sli_step *begin, const sl_int **rows_end,
+              const SLV_VALUE *L, const double *D, double *x) {
+  const sl_int *rows = *rows_end;
+  for (; s > begin && s[-1].width == 1; s--) {
+    const SLV_VALUE *l = L + s[-1].panel + 1;
+    const sl_int below = s[-1].below;
+    double y = x[s[-1].base] / D[s[-1].column];
+    sl_int i = 0;
+    rows -= below;
+    if (below >= 4) {
+      double a = 0.0, b = 0.0, c = 0.0;
+      for (; i + 4 <= below; i += 4) {
+        y = SLV_FNMA1((double)l[i], x[rows[i]], y);
+        a = SLV_FNMA1((double)l[i + 1], x[rows[i + 1]], a);
+        b = SLV_FNMA1((double)l[i + 2], x[rows[i + 2]], b);
+        c = SLV_FNMA1((double)l[i + 3], x[rows[i + 3]], c);
+      }
+      y += a + (b + c);
+    }
+    for (; i < below; i++) {
+      y = SLV_FNMA1((double)l[i], x[rows[i]], y);
+    }
+    x[s[-1].base] = y;
+  }
+  *rows_end = rows;
+  return s;
+}
+
 #define SLI_FORWARD(k) SLV_SWEEP(small_forward)(k, below, rows, l, xs, x, buf)
 #define SLI_BACKWARD(k) SLV_SWEEP(small_backward)(k, below, rows, l, d, xs, x)
 
@@ -37687,12 +38098,17 @@ SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, 
                                const SLV_VALUE *L, double *x,
                                double *buf) {
   const sl_int *rows = *next_rows;
-  for (; s < end && s->width <= SLI_TILE; s++) {
+  while (s < end && s->width <= SLI_TILE) {
     const sl_int w = s->width, below = s->below;
     const SLV_VALUE *l = L + s->panel;
     double *xs = x + s->base;
+    if (w == 1) {
+      s = SLV_SWEEP(forward_plain)(s, end, &rows, L, x);
+      continue;
+    }
     SLI_BY_WIDTH(SLI_FORWARD);
     rows += below;
+    s++;
   }
   *next_rows = rows;
   return s;
@@ -37702,13 +38118,18 @@ SLV_FUNCTION static const sli_step *
 SLV_SWEEP(backward_small)(const sli_step *s, const sli_step *begin, const sl_int **rows_end,
               const SLV_VALUE *L, const double *D, double *x) {
   const sl_int *rows = *rows_end;
-  for (; s > begin && s[-1].width <= SLI_TILE; s--) {
+  while (s > begin && s[-1].width <= SLI_TILE) {
     const sl_int w = s[-1].width, below = s[-1].below;
     const SLV_VALUE *l = L + s[-1].panel + sli_panel_size(w, below);
     const double *d = D + s[-1].column;
     double *xs = x + s[-1].base;
+    if (w == 1) {
+      s = SLV_SWEEP(backward_plain)(s, begin, &rows, L, D, x);
+      continue;
+    }
     rows -= below;
     SLI_BY_WIDTH(SLI_BACKWARD);
+    s--;
   }
   *rows_end = rows;
   return s;
@@ -37993,9 +38414,11 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
 
 #if defined(SLW_TAKES_FLOATS)
 #define SLW_ENTRIES(v, columns) const SLV_VALUE *v;
+#define SLW_ENTRY SLV_VALUE
 #define SLW_SET_ENTRIES(v, l, columns, rows) v = (l);
 #else
 #define SLW_ENTRIES(v, columns) SLV_WIDE(v, columns)
+#define SLW_ENTRY double
 #define SLW_SET_ENTRIES(v, l, columns, rows) SLV_WIDEN(v, l, columns, rows)
 #endif
 
@@ -38254,6 +38677,23 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
       sli_step_prefetch(s + SLI_STEPS_AHEAD, rows + s->below + s[1].below, x, stride);
     }
 #endif
+#if SLI_PARTS == 1
+    for (group = 0; group < stride && w == 1; group += SLW_NRHS) {
+      SLW_DECLARE(a)
+      SLW_DECLARE(b)
+      SLW_LOAD(a, xs + group)
+      for (j = 0; j < s->below; j++) {
+        double *to = x + (ptrdiff_t)rows[j] * stride + group;
+        const SLW_ENTRY l = tile[1 + j];
+        SLW_LOAD(b, to)
+        SLW_FNMA(b, l, a)
+        SLW_STORE(to, b)
+      }
+    }
+    if (w == 1) {
+      continue;
+    }
+#endif
 #if defined(SLI_SMALL)
     if (w <= SLI_TILE) {
       for (group = 0; group < stride; group += SLW_NRHS) {
@@ -38327,6 +38767,23 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
 #if SLW_GROUPS >= 8
     if (is_fetched && count > SLI_STEPS_AHEAD) {
       sli_step_prefetch(s - SLI_STEPS_AHEAD, rows_end - s[-1].below - s[-2].below, x, stride);
+    }
+#endif
+#if SLI_PARTS == 1
+    for (group = 0; group < stride && w == 1; group += SLW_NRHS) {
+      SLW_DECLARE(a)
+      SLW_DECLARE(b)
+      SLW_LOAD(a, xs + group)
+      SLW_DIVIDE(a, d[0])
+      for (j = 0; j < s->below; j++) {
+        const SLW_ENTRY l = tile[j - s->below];
+        SLW_LOAD(b, x + (ptrdiff_t)rows_end[j] * stride + group)
+        SLW_FNMA(a, l, b)
+      }
+      SLW_STORE(xs + group, a)
+    }
+    if (w == 1) {
+      continue;
     }
 #endif
 #if defined(SLI_SMALL)
@@ -38448,6 +38905,7 @@ SLI_GROUPED_KERNELS(32)
 #undef SLI_BELOW
 #undef SLI_BEFORE
 #undef SLW_ENTRIES
+#undef SLW_ENTRY
 #undef SLW_SET_ENTRIES
 #endif
 
@@ -38928,13 +39386,17 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
     buf[i] = lq[SLI_TILE * i] + xs[i];
     xs[i] = 0.0;
   }
-  if (q > 1) {
+  if (w == 1) {
+    for (i = 1; i < q; i++) {
+      x[rows[i - 1]] = SLV_FNMA1(panel[i], buf[0], x[rows[i - 1]]);
+    }
+  } else if (q > 1) {
     for (; i < SLI_TILE * sli_tiles(q); i++) {
       buf[i] = 0.0;
     }
     SLV_NAME(panel_forward)(panel, 0, w, columns, q, buf);
   }
-  for (i = w; i < q; i++) {
+  for (i = w; i < q && w > 1; i++) {
     x[rows[i - w]] += buf[i];
   }
   for (i = 0; i < columns; i++) {

@@ -50,7 +50,8 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
  *  the rows of these columns, then rows rows[rows_begin[s]] .. rows[rows_begin[s+1]-1] below them,
  *  ascending. Supernodes are in postorder. The panel is stored in row tiles, [tile][column][8],
  *  from position panel_begin[s] of sl_factor_view's L: tile t has local rows 8t .. 8t+7 of columns
- *  0 .. min(width, 8(t+1))-1. The unit diagonal and the entries above it are stored as 0.
+ *  0 .. min(width, 8(t+1))-1. The unit diagonal and the entries above it are stored as 0. A panel
+ *  of one column has only its 1 + rows entries.
  *
  *  Nodes are those of the separator tree, in elimination order: separators, and subgraphs that were
  *  not divided further. An entry of A joins two nodes only if one is an ancestor of the other.

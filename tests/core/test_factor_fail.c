@@ -234,8 +234,8 @@ static void an_overflow_in_elimination_is_reported(void **state) {
 static void an_overflow_of_magnitudes_is_no_null_pivot(void **state) {
     (void)state;
     variant_list_t variants = variants_present();
-    const sl_int p[4] = {0, 2, 4, 5}, i[5] = {0, 2, 1, 2, 2};
-    const double x[5] = {1, 1e154, -1, 1e154, 1e308};
+    const sl_int p[4] = {0, 3, 5, 6}, i[6] = {0, 1, 2, 1, 2, 2}; /* one supernode: in this order */
+    const double x[6] = {1, 1e-200, 1e154, -1, 1e154, 1e308};
     sl_csc A = {3, 3, p, i, x};
     sl_options opt = options_none();
     sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);

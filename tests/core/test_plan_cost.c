@@ -40,13 +40,15 @@ static reach_t reach_by_graph_search(const sl_symbolic_arrays *v, const sl_int *
             R.supernodes++;
             R.columns += width - 8 * tile;
             R.rows += height - width;
-            for (sl_int t = tile; 8 * t < height; t++) {
+            R.entries += width == 1 ? height : 0;
+            for (sl_int t = tile; 8 * t < height && width > 1; t++) {
                 R.entries += 8 * ((width < 8 * (t + 1) ? width : 8 * (t + 1)) - 8 * tile);
             }
         }
     }
     free(seen);
     free(queue);
+    R.entries = set ? R.entries : v->panel_begin[v->n_supers]; /* with what is between panels */
     return R;
 }
 

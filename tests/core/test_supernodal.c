@@ -175,8 +175,8 @@ static void the_automatic_method_fits_the_matrix(void **state) {
     } known[5] = {{GEN_GRID2, SL_METHOD_SUPERNODAL},
                   {GEN_GRID3, SL_METHOD_SUPERNODAL},
                   {GEN_PATH, SL_METHOD_SUPERNODAL},
-                  {GEN_STAR, SL_METHOD_UP_LOOKING},
-                  {GEN_DIAGONAL, SL_METHOD_UP_LOOKING}};
+                  {GEN_STAR, SL_METHOD_SUPERNODAL},
+                  {GEN_DIAGONAL, SL_METHOD_SUPERNODAL}};
     for (int k = 0; k < 5; k++) {
         factored_t y = factored_make(known[k].kind, 2500, 1, 0, NULL);
         sl_stats stats;
@@ -187,9 +187,10 @@ static void the_automatic_method_fits_the_matrix(void **state) {
     }
 }
 
-/* Rows that are joined to 32 others alone: update matrices would take 20 times as much as L. The 32
- * are followed by `rest` rows of their own. */
-static void check_dense_rows(sl_int rest, sl_ordering ordering) {
+/* Rows that are joined to 32 others: update matrices would take 20 times as much as L. The 32 are
+ * followed by `rest` rows of their own. in_pairs: two and two are joined, so that they have
+ * fronts. */
+static void check_dense_rows(sl_int rest, sl_ordering ordering, int in_pairs) {
     const sl_int n = 20000, dense = 32, end = n - rest;
     gen_list_t list = gen_list(n);
     sl_symbolic *S = NULL, *part = NULL;
@@ -203,7 +204,10 @@ static void check_dense_rows(sl_int rest, sl_ordering ordering) {
     for (sl_int i = 0; i < n; i++) {
         rows[count] = i;
         count += i % 100 != 7;
-        gen_add(&list, i, i, i < end - dense ? dense + 1.0 : 2.0 * n);
+        gen_add(&list, i, i, i < end - dense ? dense + 2.0 : 2.0 * n);
+        if (in_pairs && i % 2 == 1 && i < end - dense) {
+            gen_add(&list, i, i - 1, -1.0);
+        }
         for (sl_int k = end - dense; k < end && i < end - dense; k++) {
             gen_add(&list, k, i, -1.0);
         }
@@ -229,8 +233,10 @@ static void check_dense_rows(sl_int rest, sl_ordering ordering) {
 
 static void dense_rows_do_not_fill_the_memory(void **state) {
     (void)state;
-    check_dense_rows(0, SL_ORDERING_ND);
-    check_dense_rows(3, SL_ORDERING_NATURAL);
+    for (int in_pairs = 0; in_pairs < 2; in_pairs++) {
+        check_dense_rows(0, SL_ORDERING_ND, in_pairs);
+        check_dense_rows(3, SL_ORDERING_NATURAL, in_pairs);
+    }
 }
 
 int main(void) {

@@ -53,8 +53,9 @@ static inline const char *check_supernodes(const sl_symbolic_arrays *v) {
         if (v->super_parent[s] != (begin < end ? v->super_of[v->rows[begin]] : -1)) {
             return "super_parent is not the supernode of the first row";
         }
-        if (v->panel_begin[s + 1] - v->panel_begin[s] !=
-            ref_panel_size(ref_width(v, s), ref_height(v, s))) {
+        const sl_off stored = v->panel_begin[s] + ref_panel_size(ref_width(v, s), ref_height(v, s));
+        const sl_int next = s + 1 < v->n_supers ? ref_width(v, s + 1) : 1;
+        if (v->panel_begin[s + 1] != ref_panel_start(next, stored)) {
             return "wrong panel size";
         }
         /* the rows beyond the parent's columns must be rows of the parent */
@@ -200,7 +201,7 @@ static inline double *check_expand(const sl_factor *F, const char **wrong) {
     for (sl_int s = 0; s < v.n_supers; s++) {
         sl_int width = ref_width(&v, s), height = ref_height(&v, s);
         const double *panel = f.L + v.panel_begin[s];
-        for (sl_int r = 0; r < (height + 7) / 8 * 8; r++) {
+        for (sl_int r = 0; r < (width == 1 ? height : (height + 7) / 8 * 8); r++) {
             for (sl_int c = 0; c < width; c++) {
                 sl_off at = ref_position(width, r, c);
                 double value = at < 0 ? 0.0 : panel[at];

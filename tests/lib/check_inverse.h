@@ -76,11 +76,17 @@ static inline const char *check_selected(const sl_selected *Z, const reference_t
     sl_int n = v.n;
     for (sl_int k = 0; k < z.count; k++) {
         sl_int s = z.supers[k], width = ref_width(&v, s), height = ref_height(&v, s);
-        if (z.begin[k + 1] - z.begin[k] != ref_panel_size(width, height)) {
+        const sl_off size = ref_panel_size(width, height), room = z.begin[k + 1] - z.begin[k];
+        if (room < size || room >= size + 8 || (width > 1 && room != size)) {
             return "wrong panel size";
         }
+        for (sl_off at = size; at < room; at++) {
+            if (z.Z[z.begin[k] + at] != 0.0) {
+                return "a number between two panels is not 0";
+            }
+        }
         for (sl_int c = 0; c < width; c++) {
-            for (sl_int q = c; q < (height + 7) / 8 * 8; q++) {
+            for (sl_int q = c; q < (width == 1 ? height : (height + 7) / 8 * 8); q++) {
                 double value = z.Z[z.begin[k] + ref_position(width, q, c)];
                 if (q >= height) {
                     if (value != 0.0) {

@@ -235,13 +235,22 @@ static inline sl_int ref_row(const sl_symbolic_arrays *v, sl_int s, sl_int r) {
     return r < width ? v->super_first[s] + r : v->rows[v->rows_begin[s] + (r - width)];
 }
 
-/* Doubles of a panel: tiles of 8 rows; tile t has the columns 0 .. min(width, 8(t+1)) - 1. */
+/* Doubles of a panel: tiles of 8 rows; tile t has the columns 0 .. min(width, 8(t+1)) - 1. One
+ * column has no padding. */
 static inline sl_off ref_panel_size(sl_int width, sl_int height) {
     sl_off size = 0;
+    if (width == 1) {
+        return height;
+    }
     for (sl_int t = 0; 8 * t < height; t++) {
         size += 8 * (sl_off)(width < 8 * (t + 1) ? width : 8 * (t + 1));
     }
     return size;
+}
+
+/* Where a panel begins after others that end at `end`. */
+static inline sl_off ref_panel_start(sl_int width, sl_off end) {
+    return width == 1 ? end : (end + 7) / 8 * 8;
 }
 
 /* Position of local row r, local column c in a panel, or -1 if the trapezoid does not store it. */

@@ -86,7 +86,7 @@ SLI_INLINE void sli_magnitudes_tile(const sl_factor *F, sl_int s, sl_int tile, i
     }
     for (j = 0; j < columns; j++, l += SLI_TILE) {
         double sum = 0.0;
-        for (q = 0; q < SLI_TILE; q++) { /* what is not below the diagonal is 0 */
+        for (q = 0; q < count; q++) { /* what is not below the diagonal is 0 */
             sum += fabs(l[q]) * x[q];
             x[q] += is_transposed ? 0.0 : fabs(l[q]) * z[step->column + j];
         }

@@ -32,11 +32,13 @@ typedef struct sli_schedule {
     /* n_supers: start of each update matrix, in doubles. Positions below `own` are relative to the
      * room of the worker that factors the task */
     sl_off *stack_begin;
+    /* n_supers, of a factorization: by sli_is_plain; 2: the parent reads the column in the stack */
+    unsigned char *is_plain;
     sli_top *tops; /* n_tops */
     sl_int *ready; /* n_tops: those whose children are done */
     sl_int *steps; /* the next step of each piece of a large front; -1: it is being run */
-    sl_off own;   /* doubles of a worker's stacks */
-    sl_off stack; /* doubles of all stacks together */
+    sl_off own;    /* doubles of a worker's stacks */
+    sl_off stack;  /* doubles of all stacks together */
 } sli_schedule;
 
 /* A forest of fronts numbered in postorder: all supernodes of an analysis, or those of a reach. */
@@ -82,15 +84,33 @@ SLI_INLINE sl_off sli_update_size(const sli_step *s) {
     return sli_triangle_offset(tiles) + SLI_TILE * (sl_off)(tiles + tiles % 2);
 }
 
+/* Is supernode s one column that its children change in its diagonal entry only? Then what it
+ * passes up is known from its column of L and its pivot, and it needs no front. */
+static int sli_is_plain(const sl_symbolic *S, sl_int s) {
+    int is_plain = S->steps[s].width == 1;
+    sl_int c;
+    for (c = s - 1; is_plain && c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+        is_plain = S->steps[c].below == 1;
+    }
+    return is_plain;
+}
+
+/* Doubles that supernode s passes to its parent in the stack. */
+SLI_INLINE sl_off sli_passed_size(const sli_schedule *p, const sl_symbolic *S, sl_int s) {
+    return p->is_plain[s] == 0   ? sli_update_size(&S->steps[s])
+           : p->is_plain[s] == 1 ? 0
+                                 : SLI_TILE * (sl_off)sli_tiles(1 + S->steps[s].below);
+}
+
 /* Flops of a front: the sum of (entries)^2 over its columns. */
 SLI_INLINE double sli_front_flops(const sli_step *s) {
     const double w = s->width, h = w + s->below;
     return w * (h * h - (w - 1.0) * h + (w - 1.0) * (2.0 * w - 1.0) / 6.0);
 }
 
-/* Is the front large enough for several workers? */
-SLI_INLINE int sli_front_is_large(const sli_step *s) {
-    return sli_front_flops(s) >= SLI_SHARED_FLOPS;
+/* Is supernode s a front that is large enough for several workers? */
+SLI_INLINE int sli_front_is_large(const sl_symbolic *S, sl_int s) {
+    return S->steps[s].width > 1 && sli_front_flops(&S->steps[s]) >= SLI_SHARED_FLOPS;
 }
 
 /* Numbers that follow the update matrix of a large front: its magnitudes, D where it is in float,
@@ -117,24 +137,24 @@ typedef struct sli_stacks {
 
 /* Pushes the update matrix of supernode s, then pops those of its children: they are free once s is
  * factored. */
-static void sli_stacks_push(sli_stacks *k, const sl_symbolic *S, sl_int s, const sl_int *side,
-                            sl_off *begin) {
+static void sli_stacks_push(sli_stacks *k, const sli_schedule *p, const sl_symbolic *S, sl_int s,
+                            const sl_int *side) {
     const int own = side[s];
-    const sl_off size = sli_update_size(&S->steps[s]);
+    const sl_off size = sli_passed_size(p, S, s);
     sl_int c;
-    begin[s] = own == 0 ? k->top[0] : -(k->top[1] + size);
+    p->stack_begin[s] = own == 0 ? k->top[0] : -(k->top[1] + size);
     k->top[own] += size;
     k->most = k->top[0] + k->top[1] > k->most ? k->top[0] + k->top[1] : k->most;
     for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-        k->top[1 - own] -= sli_update_size(&S->steps[c]);
+        k->top[1 - own] -= sli_passed_size(p, S, c);
     }
 }
 
 /* What a front above the tasks, or the root of a task, keeps until its parent is done. */
-SLI_INLINE sl_off sli_waiting_size(const sl_symbolic *S, sl_int s, int is_top) {
-    const sli_step *step = &S->steps[s];
-    return sli_update_size(step) +
-           (is_top && sli_front_is_large(step) ? sli_large_scratch(step) : 0);
+SLI_INLINE sl_off sli_waiting_size(const sli_schedule *p, const sl_symbolic *S, sl_int s,
+                                   int is_top) {
+    return sli_passed_size(p, S, s) +
+           (is_top && sli_front_is_large(S, s) ? sli_large_scratch(&S->steps[s]) : 0);
 }
 
 /* The child of front s whose subtree has the most memory, or -1, and the memory of s and of that
@@ -167,11 +187,11 @@ static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int
     sl_off others;
     sl_int m, c, child;
     for (m = 0; m < p->n_tasks; m++) {
-        size[p->last[m]] = subtree[p->last[m]] = sli_waiting_size(S, p->last[m], 0);
+        size[p->last[m]] = subtree[p->last[m]] = sli_waiting_size(p, S, p->last[m], 0);
     }
     for (m = 0; m < p->n_tops; m++) {
         const sl_int s = p->top[m];
-        size[s] = sli_waiting_size(S, s, 1);
+        size[s] = sli_waiting_size(p, S, s, 1);
         subtree[s] = sli_waiting_largest(S, size, subtree, s, &child, &others);
         subtree[s] += others;
     }
@@ -186,8 +206,11 @@ static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int
             continue;
         }
         at = sli_waiting_largest(S, size, subtree, s, &child, &others);
-        p->stack_begin[child] = side[s] == 0 ? p->stack_begin[s] + at - size[child]
-                                             : p->stack_begin[s] + size[s] - at;
+        if (child == -1) { /* all children are plain */
+            continue;
+        }
+        p->stack_begin[child] =
+            side[s] == 0 ? p->stack_begin[s] + at - size[child] : p->stack_begin[s] + size[s] - at;
         for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
             if (c != child) {
                 at += subtree[c];
@@ -200,15 +223,15 @@ static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int
 
 /* Lays out the update stacks. Each worker has room for the two stacks of any task. size, subtree:
  * n_supers of scratch each. */
-static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int *side,
-                            sl_off *size, sl_off *subtree) {
+static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int *side, sl_off *size,
+                            sl_off *subtree) {
     sl_int m, s;
     p->own = 0;
     for (m = 0; m < p->n_tasks; m++) {
         sli_stacks k;
         memset(&k, 0, sizeof k);
         for (s = p->first[m]; s < p->last[m]; s++) {
-            sli_stacks_push(&k, S, s, side, p->stack_begin);
+            sli_stacks_push(&k, p, S, s, side);
         }
         for (s = p->first[m]; s < p->last[m]; s++) { /* the second stack counts from the end */
             p->stack_begin[s] += side[s] == 0 ? 0 : k.most;
@@ -308,7 +331,7 @@ static double sli_schedule_gain(const sl_symbolic *S, const sli_schedule_work *w
     for (s = 0; s < S->n_supers; s++) {
         const sl_int up = S->super_parent[s];
         total += w->flops[s];
-        w->path[s] += sli_front_is_large(&S->steps[s]) ? w->flops[s] / workers : w->flops[s];
+        w->path[s] += sli_front_is_large(S, s) ? w->flops[s] / workers : w->flops[s];
         longest = w->path[s] > longest ? w->path[s] : longest;
         if (up != -1) {
             w->path[up] = w->path[s] > w->path[up] ? w->path[s] : w->path[up];
@@ -317,10 +340,15 @@ static double sli_schedule_gain(const sl_symbolic *S, const sli_schedule_work *w
     return longest > 0.0 ? total / longest : 1.0; /* untested: fronts have a cost */
 }
 
-/* Fills a schedule for at most p->workers. The arrays of p and w have room. */
-static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, sli_schedule_work *w) {
+/* Fills a schedule for at most p->workers. plain: what plain columns are, as in is_plain. The
+ * arrays of p and w have room. */
+static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, int plain,
+                              sli_schedule_work *w) {
     const sli_forest f = {S->n_supers, S->super_parent, S->first_descendant};
     sl_int s;
+    for (s = 0; s < S->n_supers; s++) {
+        p->is_plain[s] = (unsigned char)(sli_is_plain(S, s) ? plain : 0);
+    }
     if (p->workers > 1) {
         for (s = 0; s < S->n_supers; s++) {
             w->flops[s] = sli_front_flops(&S->steps[s]) + SLI_FRONT_COST;
@@ -343,14 +371,15 @@ static void sli_schedule_layout(sli_schedule *p, sli_block *b, sl_int count) {
     p->bundle_end = SLI_TAKE(b, sl_int, tasks);
     p->top = SLI_TAKE(b, sl_int, p->workers == 1 ? 0 : fronts);
     p->stack_begin = SLI_TAKE(b, sl_off, fronts);
+    p->is_plain = SLI_TAKE(b, unsigned char, fronts);
 }
 
 /* The tops of a filled schedule. */
 static void sli_schedule_layout_tops(sli_schedule *p, const sl_symbolic *S, sli_block *b) {
     sl_int m, tiles, pieces = 0;
     for (m = 0; m < p->n_tops; m++) {
-        const sli_step *step = &S->steps[p->top[m]];
-        pieces += sli_front_is_large(step) ? sli_large_pieces(step, p->workers, &tiles) : 0;
+        const sl_int s = p->top[m];
+        pieces += sli_front_is_large(S, s) ? sli_large_pieces(&S->steps[s], p->workers, &tiles) : 0;
     }
     p->tops = SLI_TAKE(b, sli_top, p->n_tops);
     p->ready = SLI_TAKE(b, sl_int, p->n_tops);
@@ -366,7 +395,7 @@ static void sli_schedule_fill_tops(sli_schedule *p, const sl_symbolic *S) {
         for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
             top->children++;
         }
-        if (sli_front_is_large(&S->steps[s])) {
+        if (sli_front_is_large(S, s)) {
             top->pieces = sli_large_pieces(&S->steps[s], p->workers, &top->piece_tiles);
         }
         top->first_piece = pieces;

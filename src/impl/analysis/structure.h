@@ -124,6 +124,18 @@ SLI_ALWAYS_INLINE void sli_structure_rows(const sli_analysis *w, const sl_symbol
     }
 }
 
+/* Fills panel_begin. */
+static void sli_fill_panels(const sli_analysis *w, sl_symbolic *S) {
+    const sli_amalgamation *g = &w->amalgamation;
+    sl_off end = 0;
+    sl_int s;
+    for (s = 0; s < S->n_supers; s++) {
+        S->panel_begin[s] = sli_panel_start(g->width[s], end);
+        end = S->panel_begin[s] + sli_panel_size(g->width[s], g->below[s]);
+    }
+    S->panel_begin[s] = end;
+}
+
 static void sli_fill_structure(const sli_analysis *w, const sl_symbolic *S) {
     sli_structure_super *all = (sli_structure_super *)(void *)w->list;
     sli_structure_count(w, S);

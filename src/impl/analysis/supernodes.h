@@ -10,19 +10,21 @@
 /* Supernodes during amalgamation; all arrays have n entries. A merged supernode is identified by
  * the fundamental supernode on its top. */
 typedef struct sli_amalgamation {
-    sl_int n;            /* columns */
-    sl_int count;        /* fundamental supernodes */
-    sl_int *super_of;    /* the supernode of each column */
-    sl_int *first;       /* n + 1: first column of each */
-    sl_int *parent;      /* parent supernode, -1 at a root */
-    sl_int *width;       /* columns so far */
-    sl_int *below;       /* rows below */
-    sl_off *zeros;       /* entries stored so far that L does not have */
-    sl_off *cost;        /* of what solves read, so far */
+    sl_int n;         /* columns */
+    sl_int count;     /* fundamental supernodes */
+    sl_int *super_of; /* the supernode of each column */
+    sl_int *first;    /* n + 1: first column of each */
+    sl_int *parent;   /* parent supernode, -1 at a root */
+    sl_int *width;    /* columns so far */
+    sl_int *below;    /* rows below */
+    sl_off *zeros;    /* entries stored so far that L does not have */
+    sl_off *cost;     /* of what solves read, so far */
+    sl_int *apart;    /* the cost of its columns if they are not merged; INT32_MAX: they must be */
     sl_int *merged_into; /* the supernode it was merged into, or itself; finally the new number */
     /* 1: always merged into its parent, as its last column and the next one are a 2x2 pivot; NULL:
      * none */
     unsigned char *is_tied;
+    int merges;            /* by sli_amalgamate */
     int relaxes;           /* merge others too */
     int is_for_one_factor; /* by the costs of SL_PURPOSE_ONE_FACTOR */
 } sli_amalgamation;
@@ -81,11 +83,28 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
 
 /* Integers, so that all platforms merge alike. */
 SLI_ALWAYS_INLINE sl_off sli_supernode_cost(const sli_amalgamation *g, sl_int width, sl_int below) {
-    return sli_panel_size(width, below) + SLI_COST_ROW * (sl_off)below +
+    return sli_tile_offset(width, sli_tiles(width + below)) + SLI_COST_ROW * (sl_off)below +
            (g->is_for_one_factor ? SLI_COST_SUPER_ONE_FACTOR : SLI_COST_SUPER) +
            (width <= SLI_TILE      ? 0
             : g->is_for_one_factor ? SLI_COST_WIDE_ONE_FACTOR
                                    : SLI_COST_WIDE);
+}
+
+/* What a solve spends on a column that is a supernode by itself, in the same measure: its kernels
+ * are those of a sparse column. */
+#define SLI_COST_PLAIN 12
+#define SLI_COST_PLAIN_ROW 7
+
+/* The cost of column s by itself, if it is plain (schedule.h). child: of s */
+static sl_int sli_apart_cost(const sli_amalgamation *g, sl_int s, const sl_int *child,
+                             const sl_int *sibling) {
+    sl_int c = child[s];
+    while (c != -1 && g->below[c] == 1) {
+        c = sibling[c];
+    }
+    return c == -1 && g->width[s] == 1 && g->below[s] < INT32_MAX / 16
+               ? SLI_COST_PLAIN + SLI_COST_PLAIN_ROW * g->below[s]
+               : INT32_MAX;
 }
 
 /* The zeros added by merging child c into p: the columns of c grow to the rows of p. */
@@ -106,12 +125,14 @@ SLI_INLINE void sli_amalgamate_child(sli_amalgamation *g, sl_int p, sl_int c, sl
     const sl_off zeros = g->zeros[c] + g->zeros[p] + sli_new_zeros(g, c, p);
     const sl_off stored = (sl_off)width * (width + 1) / 2 + (sl_off)width * below;
     const sl_off merged = sli_supernode_cost(g, width, below);
-    if ((g->is_tied != NULL && g->is_tied[c]) ||
-        (g->relaxes && 100 * zeros <= SLI_ZEROS_MOST * stored && merged <= g->cost[c] + *cost &&
-         !sli_overfills_tile(g, c, p))) {
+    const int is_tied = g->is_tied != NULL && g->is_tied[c];
+    if (is_tied || (g->relaxes && 100 * zeros <= SLI_ZEROS_MOST * stored &&
+                    merged <= g->cost[c] + *cost && !sli_overfills_tile(g, c, p))) {
         g->width[p] = width;
         g->zeros[p] = zeros;
         g->merged_into[c] = p;
+        g->apart[p] = is_tied || g->apart[c] > INT32_MAX - g->apart[p] ? INT32_MAX
+                                                                       : g->apart[p] + g->apart[c];
         *cost = merged;
     }
 }
@@ -129,6 +150,7 @@ static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, 
         const sl_int up = g->parent[s];
         sl_off cost = sli_supernode_cost(g, g->width[s], g->below[s]);
         count = 0;
+        g->apart[s] = sli_apart_cost(g, s, child, sibling);
         for (c = child[s]; c != -1; c = sibling[c]) {
             const sl_off zeros = sli_new_zeros(g, c, s);
             list[count++] =
@@ -157,6 +179,13 @@ static sl_int sli_find_tops(sli_amalgamation *g, const sl_int *sequence, sl_int 
     sl_int s, k, count = 0;
     for (s = g->count - 1; s >= 0; s--) { /* parents first, so that theirs is final */
         g->merged_into[s] = g->merged_into[s] == s ? s : g->merged_into[g->merged_into[s]];
+    }
+    for (s = g->count - 1; s >= 0 && g->merges; s--) { /* plain columns that are better apart */
+        const sl_int to = g->merged_into[s];
+        if (g->apart[to] < INT32_MAX && g->apart[to] < g->cost[to]) {
+            g->merged_into[s] = s;
+            g->width[s] = 1;
+        }
     }
     for (s = 0; s < g->count && sequence == NULL; s++) { /* without a branch */
         top[count] = s;

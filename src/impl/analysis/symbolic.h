@@ -35,6 +35,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
         w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
         w->amalgamation.cost = w->amalgamation.zeros + n;
         w->amalgamation.merged_into = (sl_int *)(void *)(w->amalgamation.cost + n);
+        w->amalgamation.apart = w->amalgamation.merged_into + n;
     }
     if (w->pairs != NULL) {
         w->amalgamation.is_tied = SLI_TAKE(b, unsigned char, n);
@@ -168,7 +169,8 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     if (w->pairs != NULL) {
         sli_analysis_tie(w);
     }
-    if (w->amalgamation.relaxes || w->pairs != NULL) {
+    w->amalgamation.merges = w->amalgamation.relaxes || w->pairs != NULL;
+    if (w->amalgamation.merges) {
         sli_amalgamate(&w->amalgamation, child, more, w->list, w->list + n);
     }
     if (sli_number_supernodes(&w->amalgamation, sequence, order, w->scratch)) {
@@ -295,12 +297,10 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) 
     memcpy(S->super_first, w->amalgamation.first, ((size_t)S->n_supers + 1) * sizeof(sl_int));
     memcpy(S->super_parent, w->amalgamation.parent, (size_t)S->n_supers * sizeof(sl_int));
     S->rows_begin[0] = 0;
-    S->panel_begin[0] = 0;
     for (s = 0; s < S->n_supers; s++) {
         S->rows_begin[s + 1] = S->rows_begin[s] + w->amalgamation.below[s];
-        S->panel_begin[s + 1] =
-            S->panel_begin[s] + sli_panel_size(w->amalgamation.width[s], w->amalgamation.below[s]);
     }
+    sli_fill_panels(w, S);
     for (k = 0; k < S->n && S->n_pairs > 0; k++) {
         S->pairs[k] = w->is_first[k]                ? SLI_PAIR_FIRST
                       : k > 0 && w->is_first[k - 1] ? SLI_PAIR_SECOND

@@ -50,7 +50,10 @@ static void sli_kept_rows(double *to, const double *from, sl_int w, const sl_int
                           sl_int count) {
     const sl_int tiles = sli_tiles(w + count);
     sl_int t, j, r;
-    for (t = w / SLI_TILE; t < tiles; t++) {
+    for (r = 0; r < count && w == 1; r++) {
+        to[1 + r] = from[keep[r]];
+    }
+    for (t = w / SLI_TILE; t < tiles && w > 1; t++) {
         const double *at[SLI_TILE]; /* column 0 of each row */
         double *tile = to + sli_tile_offset(w, t);
         for (r = 0; r < SLI_TILE; r++) {
@@ -90,6 +93,7 @@ static void sli_kept_copy(sl_factor *G, sl_int s, sl_int *keep) {
     if (is_whole) {
         memcpy(panel, from, (size_t)sli_panel_size(w, own->below) * sizeof(double));
     } else {
+        panel[0] = 0.0;
         memcpy(panel, from, (size_t)sli_tile_offset(w, w / SLI_TILE) * sizeof(double));
         sli_kept_rows(panel, from, w, keep, own->below);
     }
@@ -119,9 +123,10 @@ typedef struct sli_descendant {
     sl_int super, first, last;
 } sli_descendant;
 
-/* Adds the update of a descendant to the front f. update: room for its triangle. */
+/* Adds the update of a descendant to the front f, and that of one column to its magnitudes, too.
+ * update: room for its triangle. */
 static void sli_gather_update(const sl_factor *F, const sli_gather_work *p, const sli_front *f,
-                            const sli_descendant *d, double *update) {
+                              const sli_descendant *d, double *update) {
     const sl_symbolic *S = F->S;
     const sl_int *rows = S->rows + S->rows_begin[d->super];
     const sl_int first = d->first, last = d->last;
@@ -129,15 +134,20 @@ static void sli_gather_update(const sl_factor *F, const sli_gather_work *p, cons
     const sl_int w = from.width, tiles = sli_front_tiles(&from);
     const sl_int c0 = (w + first) / SLI_TILE, c1 = sli_tiles(w + last);
     sl_int t, r;
+    for (r = first; r < from.below; r++) {
+        p->relative[r - first] = p->local[rows[r]];
+    }
+    if (w == 1) {
+        const double *l = (const double *)F->values + S->steps[d->super].panel + 1;
+        sli_plain_assemble(f, l + first, *from.D, p->relative, 0, from.below - first);
+        return;
+    }
     from.update = update;
     for (t = c0; t < tiles; t++) {
         memset(from.update + sli_triangle_offset(t - c0), 0,
                (size_t)sli_min(t + 1 - c0, c1 - c0) * SLI_TILE * SLI_TILE * sizeof(double));
     }
     F->kernels->front.update(&from, c0, c1, c0, tiles, p->buffer);
-    for (r = first; r < from.below; r++) {
-        p->relative[r - first] = p->local[rows[r]];
-    }
     F->kernels->front.assemble(f, from.update, (w + first) % SLI_TILE, p->relative, last - first, 0,
                                from.below - first);
 }
@@ -145,7 +155,7 @@ static void sli_gather_update(const sl_factor *F, const sli_gather_work *p, cons
 /* Adds |l d l| of rows first .. last-1 of a descendant to the magnitudes of f. The relative indices
  * are those of its update. */
 static void sli_gather_magnitudes(const sl_factor *F, const sli_gather_work *p, const sli_front *f,
-                                const sli_descendant *d) {
+                                  const sli_descendant *d) {
     const sli_front from = sli_double_front_of(F, d->super, 0);
     const sl_int w = from.width;
     sl_int r, j;
@@ -167,10 +177,15 @@ static void sli_gather_magnitudes(const sl_factor *F, const sli_gather_work *p, 
 static void sli_kept_update_own(const sl_factor *G, const sli_gather_work *p, const sli_front *f,
                                 sl_int s, int has_one_sign) {
     sl_int k;
-    sli_front_update(&G->kernels->front, f, p->buffer);
-    for (k = 0; k < f->below && !has_one_sign; k++) {
+    for (k = 0; k < f->below; k++) {
         p->relative[k] = f->width + k;
     }
+    if (f->width == 1) {
+        sli_plain_assemble(f, (const double *)G->values + G->S->steps[s].panel + 1, *f->D,
+                           p->relative, 0, f->below);
+        return;
+    }
+    sli_front_update(&G->kernels->front, f, p->buffer);
     if (!has_one_sign) {
         sli_descendant all;
         all.super = s;
@@ -207,7 +222,7 @@ static void sli_kept_update(const sl_factor *G, const sli_gather_work *p, sl_int
         from.last = below;
         if (from.first < below) {
             sli_gather_update(G, p, &f, &from, update);
-            if (!has_one_sign) {
+            if (!has_one_sign && S->steps[d].width > 1) { /* else it has added them */
                 sli_gather_magnitudes(G, p, &f, &from);
             }
             d--;
@@ -234,7 +249,7 @@ static void sli_kept_run(sl_factor *G, sl_int s, sl_int worker) {
     if (p->F != G) {
         sli_kept_copy(G, s, work.relative);
     }
-    if (up != -1 && p->copied.from[up] == -1) {
+    if (up != -1 && p->copied.from[up] == -1 && !G->schedule.is_plain[s]) {
         sli_kept_update(G, &work, s, worker, p->has_one_sign,
                         p->update + (ptrdiff_t)(p->update_room * worker));
     }

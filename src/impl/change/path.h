@@ -78,12 +78,14 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
     for (rest = u->V->p[v + 1] - u->V->p[v]; s != -1 && status == SL_OK; s = S->super_parent[s]) {
         const sli_step *step = &S->steps[s];
         const sl_int *to = S->relative + S->rows_begin[s];
-        one.panel = (double *)F->values + step->panel;
+        sli_update_open(u, step);
+        one.panel = u->panel;
         one.D = F->D + step->column;
         one.width = step->width;
         one.below = step->below;
         one.w = w;
         sli_change_kernels_of(F->kernels->isa)->panel(&one);
+        sli_update_close(u, step);
         entered = SLI_TILE * one.first_tile;
         k = step->column + entered;
         status = sli_update_take_all(u, k, step->width - entered, one.e + entered, NULL);

@@ -239,12 +239,11 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
     if (status != SL_OK) {
         return status;
     }
-    T->rows_begin[0] = T->panel_begin[0] = 0;
+    T->rows_begin[0] = 0;
     for (t = 0; t < T->n_supers; t++) {
-        const sl_int below = w->amalgamation.below[t];
-        T->rows_begin[t + 1] = T->rows_begin[t] + below;
-        T->panel_begin[t + 1] = T->panel_begin[t] + sli_panel_size(w->amalgamation.width[t], below);
+        T->rows_begin[t + 1] = T->rows_begin[t] + w->amalgamation.below[t];
     }
+    sli_fill_panels(w, T);
     sli_fill_structure(w, T);
     return SL_OK;
 }

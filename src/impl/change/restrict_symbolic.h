@@ -17,12 +17,12 @@ static void sli_joint_add(sli_joint *j, sl_int width, sl_off below) {
     sl_int k;
     S->super_first[j->super] = j->column;
     S->rows_begin[j->super] = j->rows;
-    S->panel_begin[j->super] = j->panel;
+    S->panel_begin[j->super] = sli_panel_start(width, j->panel);
     for (k = 0; k < width; k++) {
         S->super_of[j->column++] = j->super;
     }
     j->rows += below;
-    j->panel += sli_panel_size(width, (sl_int)below);
+    j->panel = S->panel_begin[j->super] + sli_panel_size(width, (sl_int)below);
     j->super++;
 }
 

@@ -7,7 +7,7 @@
 /* The pivots of column tile c, and the rows of that tile. w: [lane][8] of its rows. */
 static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, double *w) {
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, step->width - first);
-    double *l = (double *)u->F->values + step->panel + sli_panel_at(step->width, first, first);
+    double *l = u->panel + sli_panel_at(step->width, first, first);
     double *at = u->c + 2 * (ptrdiff_t)u->lanes * (first - SLI_TILE * step->first_tile);
     const sl_int k = step->column + first - SLI_TILE * step->first_tile;
     const sl_status status = sli_update_pivots(u, k, columns, l, w, at);
@@ -34,10 +34,9 @@ static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t,
                             sl_int to) {
     const sl_int entered = step->first_tile;
     sli_change_kernels_of(u->F->kernels->isa)
-        ->change[u->kind - 1](
-            (double *)u->F->values + step->panel + sli_panel_at(step->width, SLI_TILE * t, from),
-            to - from, u->c + 2 * (ptrdiff_t)u->lanes * (from - SLI_TILE * entered),
-            u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
+        ->change[u->kind - 1](u->panel + sli_panel_at(step->width, SLI_TILE * t, from), to - from,
+                              u->c + 2 * (ptrdiff_t)u->lanes * (from - SLI_TILE * entered),
+                              u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
 }
 
 /* Moves the rows of a step between the compact vector and the tiles: into the tiles, or back. */
@@ -116,15 +115,16 @@ static void sli_update_extent(sli_update *u, const sli_step *step) {
 static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_int *rows) {
     const sl_int entered = step->first_tile, wide = sli_tiles(step->width);
     const sl_int tiles = sli_tiles(step->width + step->below);
+    sl_status status = SL_OK;
     sl_int c0, c1, t;
+    sli_update_open(u, step);
     sli_update_move(u, step, rows, 0);
     if (u->sign == 0.0) {
         sli_update_gains(u, step, rows, -1.0);
     }
-    for (c0 = entered; c0 < wide; c0 = c1) {
+    for (c0 = entered; c0 < wide && status == SL_OK; c0 = c1) {
         c1 = sli_min(c0 + SLI_UPDATE_COLUMNS, wide);
-        for (t = c0; t < tiles; t++) {
-            sl_status status = SL_OK;
+        for (t = c0; t < tiles && status == SL_OK; t++) {
             if (t > c0) {
                 sli_update_rows(u, step, t, SLI_TILE * c0,
                                 sli_min(SLI_TILE * sli_min(t, c1), step->width));
@@ -133,10 +133,11 @@ static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_i
                 status = sli_update_tile(u, step, t,
                                          u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
             }
-            if (status != SL_OK) {
-                return status;
-            }
         }
+    }
+    sli_update_close(u, step);
+    if (status != SL_OK) {
+        return status;
     }
     sli_update_move(u, step, rows, 1);
     if (u->sign == 0.0) {

@@ -45,6 +45,8 @@ typedef struct sli_update {
     sl_int *rows;
     double *x;               /* lanes for each column of the reach */
     double *gain;            /* for each column: what the pass adds to its sum of magnitudes */
+    double *panel;           /* of the current step: in L or, if it has one column, .. */
+    double *column;          /* .. a copy with padding */
     double *local;           /* [tile][lane][8]: the rows of the current step */
     double *c;               /* 2 lanes for each column of the current step: y and -b */
     double *other, *b;       /* of one vector: the rows of the next step, and b of the columns */
@@ -68,6 +70,7 @@ static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, s
     u->rows = SLI_TAKE(b, sl_int, R->n_rows);
     u->x = SLI_TAKE(b, double, many *(uint64_t)R->columns);
     u->gain = SLI_TAKE(b, double, R->columns);
+    u->column = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->tallest));
     u->local = SLI_TAKE(b, double, many *SLI_TILE *((uint64_t)sli_tiles(R->tallest) + 4));
     u->c = SLI_TAKE(b, double, 2 * many * SLI_TILE * (uint64_t)sli_tiles(R->widest));
     u->other = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->tallest));
@@ -75,6 +78,23 @@ static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, s
     u->trial = SLI_TAKE(b, double, has_trial ? many *(uint64_t)R->columns : 0);
     u->scratch =
         SLI_TAKE(b, double, has_trial ? sli_sweep_scratch(R->tallest, R->widest, lanes) : 0);
+}
+
+/* Finds the panel of a step. */
+static void sli_update_open(sli_update *u, const sli_step *step) {
+    u->panel = (double *)u->F->values + step->panel;
+    if (step->width == 1) {
+        sli_column_pad(u->panel, step->below, u->column);
+        u->panel = u->column;
+    }
+}
+
+/* Puts it back. */
+static void sli_update_close(sli_update *u, const sli_step *step) {
+    if (step->width == 1) {
+        memcpy((double *)u->F->values + step->panel, u->column,
+               (size_t)(1 + step->below) * sizeof(double));
+    }
 }
 
 /* The sum of the magnitudes |a_kk| + sum |l_kj d_j l_kj| that pivot k was computed from, at most.

@@ -45,22 +45,19 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
         sli_take(b, (uint64_t)(S->panel_begin[S->n_supers] >> F->type->half), F->type->value_bytes);
 }
 
-/* The pieces of scratch for panels that are not stored in double: one a worker, and one for a large
- * front that they share. */
+/* The pieces of scratch for panels that are not stored as they are computed: one a worker, and one
+ * for a large front that they share. */
 static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
     const sl_symbolic *S = F->S;
     const uint64_t workers = (uint64_t)F->schedule.workers + (F->schedule.workers > 1);
-    const uint64_t suspects =
-        sli_null_suspect_fits(F) ? 0 : (uint64_t)S->n * SLI_SUSPECT_ROW / sizeof(double) + 1;
     sl_int s;
-    for (s = 0; s < S->n_supers && !sli_is_single(F); s++) {
-        const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
-        F->work.panel_room = size > F->work.panel_room ? size : F->work.panel_room;
+    for (s = 0; s < S->n_supers; s++) {
+        const sl_int w = S->steps[s].width;
+        const sl_off size = sli_tile_offset(w, sli_last_tile(S, s) + 1);
+        const int is_copied = sli_panel_is_copied(F, s);
+        F->work.panel_room = is_copied && size > F->work.panel_room ? size : F->work.panel_room;
     }
-    F->work.panels = SLI_TAKE(b, double,
-                              workers *(uint64_t)F->work.panel_room > suspects
-                                  ? workers * (uint64_t)F->work.panel_room
-                                  : suspects);
+    F->work.panels = SLI_TAKE(b, double, workers *(uint64_t)F->work.panel_room);
 }
 
 /* The scratch of a factorization. */
@@ -87,9 +84,8 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
         F->work.reciprocals = SLI_TAKE(b, double, workers *SLI_FRONT_RECIPROCALS);
         F->work.failures = SLI_TAKE(b, sli_failure, workers);
         sli_schedule_layout(&F->schedule, b, S->n_supers);
-        if (sli_is_float(F)) {
-            sli_factor_layout_panels(F, b);
-        } else {
+        sli_factor_layout_panels(F, b);
+        if (!sli_is_float(F)) {
             F->history.marks = SLI_TAKE(b, uint64_t, supers);
         }
     } else {
@@ -113,7 +109,7 @@ static sl_status sli_factor_schedule(sl_factor *F) {
         sli_schedule_work_layout(&w, &b, S->n_supers, F->schedule.workers);
     }
     if (status == SL_OK) {
-        sli_schedule_fill(&F->schedule, S, &w);
+        sli_schedule_fill(&F->schedule, S, sli_is_single(F) ? 0 : 1 + sli_is_float(F), &w);
         sli_free(&F->allocator, b.base);
         b.base = NULL;
         b.used = 0;
@@ -266,17 +262,13 @@ static int sli_updates_exceed(const sl_symbolic *S) {
     for (s = 0; s < S->n_supers && sum <= most; s++) {
         sum = 0;
         for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-            sum += sli_update_size(&S->steps[c]);
+            sum += sli_is_plain(S, c) ? 0 : sli_update_size(&S->steps[c]);
         }
     }
     return sum > most;
 }
 
-/* Chooses the method. A front costs about 50 ns of overhead. Below 8 flops a supernode, as in
- * diagonal matrices and stars, the up-looking method is up to 3.5 times faster; above that, the
- * supernodal method is 1.1 to 6 times faster, unless update matrices fill the memory: with 64 dense
- * rows beside 1e5 rows of a diagonal, they take 42 times as much as L, and the first factor takes 8
- * times as long. */
+/* Chooses the method. The supernodal one is faster unless update matrices fill the memory. */
 static sl_method sli_method(const sl_symbolic *S, const sli_storage_type *type,
                             const sl_options *opt) {
     if (S->n_pairs > 0 || type->storage != SL_STORAGE_DOUBLE) {
@@ -285,9 +277,7 @@ static sl_method sli_method(const sl_symbolic *S, const sli_storage_type *type,
     if (opt != NULL && opt->method != SL_METHOD_AUTO) {
         return opt->method;
     }
-    return S->stats.symbolic.flops < 8.0 * S->n_supers || sli_updates_exceed(S)
-               ? SL_METHOD_UP_LOOKING
-               : SL_METHOD_SUPERNODAL;
+    return sli_updates_exceed(S) ? SL_METHOD_UP_LOOKING : SL_METHOD_SUPERNODAL;
 }
 
 SL_API void sl_factor_free(sl_factor *F) {
@@ -332,6 +322,19 @@ SLI_INLINE double sli_factor_clock(const sl_symbolic *S) {
     return sli_seconds_for(S->panel_begin[S->n_supers]);
 }
 
+/* Clears what is between a panel of one column and the next panel: it is saved with L. */
+static void sli_factor_clear_gaps(sl_factor *F) {
+    const sl_symbolic *S = F->S;
+    sl_int s;
+    for (s = 0; s < S->n_supers; s++) {
+        if (S->steps[s].width == 1) {
+            const sl_off end = S->panel_begin[s] + 1 + S->steps[s].below;
+            memset((char *)F->values + (size_t)end * F->type->value_bytes, 0,
+                   (size_t)(S->panel_begin[s + 1] - end) * F->type->value_bytes);
+        }
+    }
+}
+
 /* Creates a factor with its memory and its schedule, but without numbers. kernels: NULL: those of
  * the options, which take as long to choose under a hypervisor as a factor of 100 rows. */
 static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
@@ -373,6 +376,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
         *F = draft;
         sli_borrow(&S->borrowers);
         memset(F->extents, 0, (size_t)S->n_supers * sizeof *F->extents);
+        sli_factor_clear_gaps(F);
         if (F->E != NULL) {
             memset(F->E, 0, (size_t)S->n * sizeof(double));
         }

@@ -115,7 +115,7 @@ typedef struct sli_front_work {
     /* rows of the tallest front: the sum of the magnitudes that went into each diagonal entry */
     double *magnitude;
     double *reciprocals;      /* SLI_FRONT_RECIPROCALS */
-    double *panels;           /* panels that are not stored in double */
+    double *panels;           /* panels that are not stored as they are computed */
     sl_off panel_room;        /* doubles of such a piece */
     sli_failure *failures;    /* the first failure of a worker */
     const sli_copied *copied; /* supernodes that are copied in this factorization, or NULL */

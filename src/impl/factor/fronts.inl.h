@@ -142,6 +142,135 @@ static sl_status SLF_NAME(front_load)(sl_factor *F, const sli_source *from, cons
     return status;
 }
 
+#if !SLF_SINGLE && !SLF_HALF
+/* Adds -l d l' to a front, in rows first .. last-1 of the column l, which has these relative
+ * indices, and what it adds to the diagonal to the magnitudes. */
+static void sli_plain_assemble(const sli_front *f, const double *l, double d,
+                               const sl_int *relative, sl_int first, sl_int last) {
+    const sl_int w = f->width, whole = w / SLI_TILE;
+    const sl_int inner =
+        last == 0 || relative[last - 1] < w ? last : sli_lower_bound(relative, last, w);
+    sl_int r, k;
+    for (r = first; r < last; r++) {
+        const sl_int row = relative[r], tile = row / SLI_TILE, end = sli_min(inner, r + 1);
+        const double x = l[r] * d;
+        double *to = f->panel + sli_tile_offset(w, tile) + row % SLI_TILE;
+        for (k = 0; k < end; k++) {
+            to[SLI_TILE * (ptrdiff_t)relative[k]] -= x * l[k];
+        }
+        if (k <= r) {
+            to = f->update + sli_triangle_offset(tile - whole) + row % SLI_TILE;
+            for (; k <= r; k++) {
+                to[SLI_TILE * (ptrdiff_t)(relative[k] - SLI_TILE * whole)] -= x * l[k];
+            }
+        }
+        f->magnitude[row] += fabs(x * l[r]);
+    }
+}
+
+/* Plain column s in double. */
+SLI_INLINE double *sli_plain_column(const sl_factor *F, sl_int s, sl_int worker) {
+    return F->schedule.is_plain[s] == 1 ? (double *)F->values + F->S->steps[s].panel
+                                        : sli_double_update_matrix(F, s, worker);
+}
+
+/* What child c with one row below adds to a plain column: *pivot changes, and *magnitude grows. */
+SLI_INLINE void sli_plain_take(const sl_factor *F, sl_int c, sl_int worker, double *pivot,
+                               double *magnitude) {
+    const sli_step *child = &F->S->steps[c];
+    if (F->schedule.is_plain[c]) {
+        const double l = sli_plain_column(F, c, worker)[1];
+        const double product = l * F->D[child->column] * l;
+        *pivot -= product;
+        *magnitude += fabs(product);
+    } else { /* the one entry of its update matrix, and the magnitude */
+        const double *from = sli_double_update_matrix(F, c, worker);
+        const sl_int at = child->width % SLI_TILE;
+        *pivot += from[(SLI_TILE + 1) * at];
+        *magnitude += from[sli_triangle_offset(1) + at];
+    }
+}
+
+/* Loads a plain column whose entries of A are its rows one by one, as most are, and records the
+ * largest magnitude. Returns whether it is one, and finite. */
+SLI_INLINE int sli_plain_load(const sl_factor *F, const sli_source *from, sl_int s, double *l) {
+    const sl_symbolic *S = F->S;
+    const sl_off first = S->scatter_begin[s], count = S->scatter_begin[s + 1] - first;
+    const sl_off ahead = S->scatter_begin[S->n_supers] - SLI_ENTRIES_AHEAD - first;
+    const sl_int *at = S->scatter_from + first;
+    const sl_off *to = S->scatter_to + first, begin = S->steps[s].panel;
+    double largest = 0.0;
+    uint64_t mark = SLI_MARK_BEGIN;
+    sl_off m, wrong = 0;
+    if (from->A == NULL || count != 1 + S->steps[s].below) {
+        return 0;
+    }
+    for (m = 0; m < count; m++) {
+        const double a = from->A->x[at[m]], size = fabs(a);
+        if (m < ahead) {
+            SLI_PREFETCH(from->A->x + at[m + SLI_ENTRIES_AHEAD], 0);
+        }
+        wrong |= (to[m] - begin - m) | (sl_off) !(size <= DBL_MAX);
+        largest = size > largest ? size : largest;
+        mark += sli_mark_entry(a, m);
+        l[m] = 0.0 + a; /* no -0, as in a sum of entries */
+    }
+    F->extents[s].entry = largest;
+    F->extents[s].magnitude = 0.0;
+    F->extents[s].pivot = -1;
+    F->extents[s].suspects = 0;
+    if (F->history.marks != NULL) {
+        F->history.marks[s] = mark;
+    }
+    return wrong == 0;
+}
+
+/* Stores a plain column in another storage. */
+SLI_NOINLINE static sl_status sli_plain_store(const sl_factor *F, sl_int s, sl_int worker,
+                                              sli_failure *failure) {
+    sli_front f = sli_front_in_double(F, s, worker);
+    const sl_int end = SLI_TILE * sli_tiles(1 + f.below);
+    sl_int r;
+    f.panel = sli_plain_column(F, s, worker);
+    for (r = 0; r < end; r++) {
+        f.panel[r] = r > f.below ? 0.0 : f.panel[r];
+        f.magnitude[r] = fabs(f.panel[r] * *f.D * f.panel[r]);
+    }
+    return F->type->store(F, &f, failure);
+}
+
+/* Computes plain column s: its pivot and its entries of L. */
+static sl_status sli_plain_factor(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
+                                  sli_failure *failure) {
+    const sl_symbolic *S = F->S;
+    const sli_step *step = &S->steps[s];
+    const sl_int k = step->column, below = step->below;
+    double *l = sli_plain_column(F, s, worker), pivot, magnitude;
+    sl_status status;
+    sl_int c, r;
+    if (!sli_plain_load(F, from, s, l)) {
+        memset(l, 0, (size_t)(1 + below) * sizeof(double));
+        if (sli_double_panel_load(F, from, s, l, failure) != SL_OK) {
+            return failure->status;
+        }
+    }
+    pivot = *l;
+    magnitude = fabs(pivot);
+    for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+        sli_plain_take(F, c, worker, &pivot, &magnitude);
+    }
+    pivot = F->rule.replaces ? sli_pivot_by_rule(&F->rule, k, pivot, magnitude) : pivot;
+    F->D[k] = pivot;
+    *l++ = 0.0;
+    for (r = 0; r < below; r++) {
+        l[r] /= pivot;
+    }
+    status = sli_check_pivot(F, s, k, pivot, magnitude, failure);
+    return status == SL_OK && F->type->store != NULL ? sli_plain_store(F, s, worker, failure)
+                                                     : status;
+}
+#endif
+
 /* Extend-add: assembles the children's update matrices into row tiles t0 .. t1-1, the last child
  * first. */
 static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_int worker,
@@ -152,13 +281,20 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
     for (c = f->super - 1; c >= S->first_descendant[f->super]; c = S->first_descendant[c] - 1) {
         const sli_step *child = &S->steps[c];
         const sl_int *relative = S->relative + S->rows_begin[c];
+        const sl_int first = t0 == 0 ? 0 : sli_lower_bound(relative, child->below, SLI_TILE * t0);
+        const sl_int last =
+            t1 == tiles ? child->below : sli_lower_bound(relative, child->below, SLI_TILE * t1);
         const SLF_VALUE *from = SLF_NAME(update_matrix)(F, c, worker);
         const sl_off magnitudes = child->width % SLI_TILE +
                                   sli_triangle_offset(sli_update_tiles(child->width, child->below));
         const SLF_VALUE *magnitude = from + (magnitudes >> SLF_HALF);
-        const sl_int first = t0 == 0 ? 0 : sli_lower_bound(relative, child->below, SLI_TILE * t0);
-        const sl_int last =
-            t1 == tiles ? child->below : sli_lower_bound(relative, child->below, SLI_TILE * t1);
+#if !SLF_SINGLE && !SLF_HALF
+        if (F->schedule.is_plain[c]) {
+            sli_plain_assemble(f, sli_plain_column(F, c, worker) + 1, F->D[child->column], relative,
+                               first, last);
+            continue;
+        }
+#endif
         F->front->assemble(f, from, child->width % SLI_TILE, relative, child->below, first, last);
         for (k = first; k < last; k += 1 + SLF_HALF) {
             SLF_OF(f, magnitude)[relative[k]] += magnitude[k >> SLF_HALF];
@@ -192,6 +328,10 @@ static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
     for (k = 0; k < f->width && status == SL_OK; k++) {
         status = sli_check_single(F, f, k, failure);
     }
+    if (f->width == 1) {
+        memcpy((SLF_VALUE *)F->values + F->S->steps[f->super].panel, f->single.panel,
+               (size_t)(1 + f->below) * sizeof(SLF_VALUE));
+    }
 #else
     const sl_int count = sli_front_is_regular(F, f, f->super) ? 0 : f->width;
     for (k = 0; k < count && status == SL_OK; k++) {
@@ -202,6 +342,9 @@ static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
     }
     if (status == SL_OK && F->type->store != NULL) {
         status = F->type->store(F, f, failure);
+    } else if (f->width == 1) {
+        memcpy((double *)F->values + F->S->steps[f->super].panel, f->panel,
+               (size_t)(1 + f->below) * sizeof(double));
     }
 #endif
     return status;
@@ -249,6 +392,10 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
     for (s = first; s <= last && status == SL_OK; s++) {
         if (sli_is_copied(F, s)) {
             F->work.copied->copy(F, s, worker);
+#if !SLF_SINGLE && !SLF_HALF
+        } else if (F->schedule.is_plain[s]) {
+            status = sli_plain_factor(F, from, s, worker, failure);
+#endif
         } else {
             status = SLF_NAME(front_factor)(F, from, s, worker, failure);
         }

@@ -3,6 +3,7 @@
 #define SLI_FACTOR_NULL_VECTORS_H
 
 #include "panel_load.h"
+#include "pivot_check.h"
 #include "storage_type.h"
 #include "null_basis.h"
 
@@ -142,9 +143,18 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
 static int sli_null_is_suspected(const sl_factor *F) {
     const sl_symbolic *S = F->S;
     const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
-    double most = 0.0;
+    double most = 0.0, least = (double)INFINITY;
     sl_int k;
-    for (k = 0; k < S->n && !F->rule.replaces && F->rule.null_tolerance >= 0.0; k++) {
+    if (F->rule.replaces || F->rule.null_tolerance < 0.0) {
+        return 0;
+    }
+    for (k = 0; k < S->n; k++) {
+        least = S->parent[k] == -1 && fabs(F->D[k]) < least ? fabs(F->D[k]) : least;
+    }
+    if (least > rounding * sli_spread_of(F->D, S->n).most) { /* of all trees */
+        return 0;
+    }
+    for (k = 0; k < S->n; k++) {
         most = fabs(F->D[k]) > most ? fabs(F->D[k]) : most;
         if (S->parent[k] == -1) {
             if (fabs(F->D[k]) <= rounding * most) {
@@ -177,25 +187,28 @@ SLI_COLD static sl_status sli_judge_not(const sl_factor *F, sl_int k, sli_failur
 /* The bytes a row that sli_null_suspects_find works in. */
 #define SLI_SUSPECT_ROW (sizeof(sli_null_row) + sizeof(double) + sizeof(sl_int))
 
-/* Does it fit in L? L has 8 entries or more for each column: enough in double. */
+/* Does it fit in L? */
 static int sli_null_suspect_fits(const sl_factor *F) {
-    const sl_off entries = F->S->panel_begin[F->S->n_supers];
-    return F->type->storage == SL_STORAGE_DOUBLE ||
-           (double)entries * sizeof(float) >= (double)F->S->n * SLI_SUSPECT_ROW;
+    const sl_off entries = F->S->panel_begin[F->S->n_supers] >> F->type->half;
+    return (double)entries * (double)F->type->value_bytes >= (double)F->S->n * SLI_SUSPECT_ROW;
 }
 
 /* Lists the last pivots that are suspected, of components that have constants as a null vector:
- * *list, of the allocator; NULL: none. Returns their number. Overwrites L, or the scratch of a
- * factor in float where L is too short. */
+ * *list, of the allocator; NULL: none. Returns their number. Overwrites L unless L is too short. */
 SLI_COLD static sl_int sli_null_suspects_find(sl_factor *F, const sli_source *from, sl_int **list,
                                               sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
-    sli_null_row *rows =
-        (sli_null_row *)(sli_null_suspect_fits(F) ? F->values : (void *)F->work.panels);
+    void *room = sli_null_suspect_fits(F) ? NULL : sli_judge_memory(F, S->n, SLI_SUSPECT_ROW);
+    sli_null_row *rows = (sli_null_row *)(room == NULL ? F->values : room);
     double *most = (double *)(void *)(rows + S->n); /* n: of a last pivot: the heaviest one */
     sl_int *last = (sl_int *)(void *)(most + S->n), k, count = 0;
-    const sli_null_walk w = sli_null_product(S, from, 0, rows, NULL, NULL);
+    sli_null_walk w;
+    if (room == NULL && !sli_null_suspect_fits(F)) {
+        (void)sli_judge_not(F, S->n - 1, failure);
+        return 0;
+    }
+    w = sli_null_product(S, from, 0, rows, NULL, NULL);
     sli_null_components(&w, S, NULL, last, most);
     for (k = 0; k < S->n; k++) {
         const double size = fabs(F->D[k]) > rows[k].size ? fabs(F->D[k]) : rows[k].size;
@@ -210,10 +223,13 @@ SLI_COLD static sl_int sli_null_suspects_find(sl_factor *F, const sli_source *fr
         *list = (sl_int *)sli_judge_memory(F, count, sizeof(sl_int));
         if (*list == NULL) {
             (void)sli_judge_not(F, last[0], failure);
-            return 0;
+            count = 0;
         }
-        memcpy(*list, last, (size_t)count * sizeof(sl_int));
+        for (k = 0; k < count; k++) {
+            (*list)[k] = last[k];
+        }
     }
+    sli_free(&F->allocator, room);
     return count;
 }
 

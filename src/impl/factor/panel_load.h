@@ -12,7 +12,7 @@
 SLI_INLINE uint64_t sli_mark_entry(double a, sl_off place) {
     uint64_t bits;
     memcpy(&bits, &a, sizeof bits);
-    return sli_fold(sli_fold(bits ^ SLI_HASH_1, (uint64_t)place + SLI_HASH_2), SLI_HASH_3);
+    return sli_fold(bits ^ SLI_HASH_1, (uint64_t)place * SLI_HASH_3 + SLI_HASH_2);
 }
 
 /* The mark of a supernode without entries. */

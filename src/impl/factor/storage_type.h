@@ -61,10 +61,17 @@ SLI_INLINE int sli_is_single(const sl_factor *F) {
     return F->type->front_bytes == sizeof(float);
 }
 
+/* Is the panel of supernode s copied when its front is done, as its numbers are rounded, or as it
+ * has no padding? */
+SLI_INLINE int sli_panel_is_copied(const sl_factor *F, sl_int s) {
+    return F->S->steps[s].width == 1 || (sli_is_float(F) && !sli_is_single(F));
+}
+
 /* The panel of supernode s in double, while a worker factors it. */
 SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) {
-    return sli_is_float(F) ? F->work.panels + F->work.panel_room * worker
-                           : (double *)F->values + (F->S->steps[s].panel >> F->type->half);
+    return sli_panel_is_copied(F, s)
+               ? F->work.panels + F->work.panel_room * worker
+               : (double *)F->values + (F->S->steps[s].panel >> F->type->half);
 }
 
 /* The sweeps of F's factorization over a reach: x := L^-1 x, and x := L'^-1 D^-1 x. */

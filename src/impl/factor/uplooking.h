@@ -19,8 +19,9 @@ static void sli_row_link(sl_factor *F, sl_int s) {
 static void sli_row_solve(sl_factor *F, sl_int s, sl_int q, double *pivot, double *magnitude) {
     const sl_symbolic *S = F->S;
     const sl_int first = S->super_first[s];
-    F->kernels->row(sli_front_panel(F, s, 0), S->steps[s].width, q, S->rows + S->rows_begin[s],
-                    F->D + first, F->row.x + first, F->row.x, F->work.buffer, pivot, magnitude);
+    F->kernels->row((double *)F->values + S->steps[s].panel, S->steps[s].width, q,
+                    S->rows + S->rows_begin[s], F->D + first, F->row.x + first, F->row.x,
+                    F->work.buffer, pivot, magnitude);
 }
 
 /* Computes row k: first from the supernodes linked to it, ascending so that descendants come first,
@@ -57,7 +58,7 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
     }
     for (k = 0; k < S->n && status == SL_OK; k++) {
         const sl_int s = S->super_of[k], q = k - S->super_first[s];
-        double *panel = sli_front_panel(F, s, 0), *diagonal, pivot, magnitude;
+        double *panel = (double *)F->values + S->steps[s].panel, *diagonal, pivot, magnitude;
         if (q == 0) {
             const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
             memset(panel, 0, (size_t)size * sizeof(double));

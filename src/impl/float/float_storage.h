@@ -70,6 +70,7 @@ static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sli_fai
     const sl_int w = f->width, tiles = sli_tiles(w + f->below);
     float *to = (float *)F->values + F->S->steps[s].panel;
     const double *from = f->panel;
+    const sl_int rows = w + f->below;
     sl_int t, j, r;
     for (t = 0; t < tiles; t++) {
         const sl_int columns = sli_min(w, SLI_TILE * (t + 1));
@@ -85,7 +86,7 @@ static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sli_fai
                                     f->D[j]);
                 }
             }
-            for (r = 0; r < SLI_TILE; r++) {
+            for (r = 0; r < SLI_TILE && (w > 1 || SLI_TILE * t + r < rows); r++) {
                 to[r] = (float)from[r];
             }
         }
@@ -107,7 +108,7 @@ SLI_INLINE sli_front sli_single_begin(const sl_factor *F, sl_int s, sl_int worke
     const sli_step *step = &F->S->steps[s];
     const sl_int rows = SLI_TILE * sli_tiles(F->S->tallest);
     sli_front f = sli_front_in_double(F, s, worker);
-    f.single.panel = (float *)F->values + step->panel;
+    f.single.panel = step->width == 1 ? (float *)(void *)f.panel : (float *)F->values + step->panel;
     f.single.magnitude = (float *)(void *)f.magnitude;
     f.single.D = f.single.magnitude + rows;
     f.single.reciprocals = (float *)(void *)f.reciprocals;

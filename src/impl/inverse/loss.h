@@ -72,11 +72,12 @@ static void sli_loss_layout(sli_loss *q, sli_block *b) {
     q->up = SLI_TAKE(b, double, tallest);
 }
 
-/* A tile of a column of L in another storage, as doubles. */
-SLI_NOINLINE static const double *sli_loss_widen(const sl_factor *F, sl_off at, double *room) {
+/* A tile of a column of L in another storage or without padding, as doubles. */
+SLI_NOINLINE static const double *sli_loss_widen(const sl_factor *F, sl_off at, sl_int rows,
+                                                 double *room) {
     sl_int r;
     for (r = 0; r < SLI_TILE; r++) {
-        room[r] = sli_entry(F, at + r);
+        room[r] = r < rows ? sli_entry(F, at + r) : 0.0;
     }
     return room;
 }
@@ -86,7 +87,9 @@ SLI_NOINLINE static const double *sli_loss_widen(const sl_factor *F, sl_off at, 
 SLI_INLINE const double *sli_loss_tile(const sl_factor *F, const sli_step *step, sl_int t, sl_int j,
                                        double *room) {
     const sl_off at = step->panel + sli_tile_offset(step->width, t) + (sl_off)SLI_TILE * j;
-    return F->type->entry == NULL ? (const double *)F->values + at : sli_loss_widen(F, at, room);
+    return F->type->entry == NULL && step->width > 1
+               ? (const double *)F->values + at
+               : sli_loss_widen(F, at, step->width + step->below - SLI_TILE * t, room);
 }
 
 /* The sum of |l(r)| s(r) over a tile. */

@@ -22,8 +22,7 @@ static void sli_region_index(sl_region *R) {
     }
     for (k = 0; k < n; k += SLI_REGION_COLUMNS) {
         sl_off *begin = &R->begin[k / SLI_REGION_COLUMNS];
-        const sl_int width = sli_min(SLI_REGION_COLUMNS, n - k);
-        begin[1] = begin[0] + sli_panel_size(width, n - k);
+        begin[1] = begin[0] + sli_region_chunk_size(n - k);
     }
 }
 

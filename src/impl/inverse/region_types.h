@@ -56,12 +56,18 @@ SLI_INLINE sli_step sli_region_step(const sl_region *R, sl_int first) {
     return step;
 }
 
+/* Doubles of the chunk after which and with which the boundary has this many rows: whole tiles. */
+SLI_INLINE sl_off sli_region_chunk_size(sl_int rows) {
+    const sl_int width = sli_min(SLI_REGION_COLUMNS, rows);
+    return sli_tile_offset(width, sli_tiles(width + rows));
+}
+
 /* Doubles of Z for a boundary of this many rows. */
 static sl_off sli_region_entries(sl_int rows) {
     sl_off size = 0;
     sl_int first;
     for (first = 0; first < rows; first += SLI_REGION_COLUMNS) {
-        size += sli_panel_size(sli_min(SLI_REGION_COLUMNS, rows - first), rows - first);
+        size += sli_region_chunk_size(rows - first);
     }
     return size;
 }

@@ -102,8 +102,17 @@ static void sli_selected_visit(void *context, sl_int k, const sli_inverse_front 
     sl_int t, j;
     for (t = t0; t < t1; t++) {
         double *tile = panel + sli_tile_offset(w, t);
+        const double *from = f->front + sli_square_offset(h, t);
         const sl_int columns = sli_min(w, SLI_TILE * (t + 1)), rows = h - SLI_TILE * t;
-        memcpy(tile, f->front + sli_square_offset(h, t), SLI_TILE * (size_t)columns * sizeof *tile);
+        if (w == 1) { /* no padding, but zeros up to the next panel */
+            const sl_off left = Z->begin[k + 1] - Z->begin[k] - SLI_TILE * (sl_off)t;
+            memcpy(tile, from, (size_t)sli_min(rows, SLI_TILE) * sizeof *tile);
+            if (rows <= SLI_TILE) {
+                memset(tile + rows, 0, (size_t)(left - rows) * sizeof *tile);
+            }
+            continue;
+        }
+        memcpy(tile, from, SLI_TILE * (size_t)columns * sizeof *tile);
         for (j = 0; j < columns && rows < SLI_TILE; j++) { /* the rows of padding */
             memset(tile + SLI_TILE * (ptrdiff_t)j + rows, 0,
                    (size_t)(SLI_TILE - rows) * sizeof *tile);

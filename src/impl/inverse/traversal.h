@@ -26,6 +26,7 @@ typedef struct sli_traversal {
     sli_schedule schedule;           /* tasks and the offsets of the fronts */
     sl_off scratch;                  /* doubles of kernel scratch per worker */
     sl_off panel;                    /* doubles of the largest panel */
+    sl_off column;                   /* doubles of the largest panel of one column, with padding */
     sli_schedule_work schedule_work; /* with more than one worker */
 } sli_traversal;
 
@@ -239,8 +240,10 @@ static void sli_traversal_measure(sli_traversal *t) {
     sl_int k, tallest = 0, widest = 0;
     for (k = 0; k < t->forest.count; k++) {
         const sli_step *step = &t->S->steps[t->supers[k]];
-        const sl_off panel = sli_panel_size(step->width, step->below);
+        const sl_int tiles = sli_tiles(step->width + step->below);
+        const sl_off panel = sli_tile_offset(step->width, tiles);
         t->panel = panel > t->panel ? panel : t->panel;
+        t->column = step->width == 1 && panel > t->column ? panel : t->column;
         tallest = sli_max(tallest, step->width + step->below);
         widest = sli_max(widest, step->width);
     }

@@ -14,12 +14,16 @@ static sl_int sli_tile_range_begin(sl_int first, sl_int last, sl_int k, sl_int w
     return first + (sl_int)((last - first) * (is_triangle ? sqrt(share) : share));
 }
 
-/* Copies the panel of supernode s, of a factor in another storage, to doubles. */
+/* Copies the panel of supernode s to doubles in whole tiles. */
 static void sli_panel_widen(const sl_factor *F, sl_int s, double *to) {
-    const sl_off first = F->S->panel_begin[s], size = F->S->panel_begin[s + 1] - first;
+    const sli_step *step = &F->S->steps[s];
+    const sl_off size = sli_panel_size(step->width, step->below);
     sl_off k;
     for (k = 0; k < size; k++) {
-        to[k] = sli_entry(F, first + k);
+        to[k] = sli_entry(F, step->panel + k);
+    }
+    for (; k % SLI_TILE != 0; k++) {
+        to[k] = 0.0;
     }
 }
 
@@ -43,10 +47,14 @@ typedef struct sli_traversal_run {
     sli_inverse_phase phase;
 } sli_traversal_run;
 
-/* Doubles of scratch per worker: that of the kernels, and unless L is in double a panel in
- * double. */
+/* Doubles of scratch per worker: that of the kernels, and a panel that is copied. */
 SLI_INLINE sl_off sli_traverse_scratch(const sli_traversal *t, sl_storage storage) {
-    return t->scratch + (storage != SL_STORAGE_DOUBLE ? t->panel : 0);
+    return t->scratch + (storage != SL_STORAGE_DOUBLE ? t->panel : t->column);
+}
+
+/* Do the kernels read a copy of the panel of this width? */
+SLI_INLINE int sli_traverse_copies(const sl_factor *F, sl_int width) {
+    return width == 1 || F->type->storage != SL_STORAGE_DOUBLE;
 }
 
 /* storage: that of the factor. */
@@ -58,11 +66,11 @@ static void sli_traversal_layout_run(sli_traversal_run *run, const sli_traversal
         (uint64_t)traversal->schedule.workers *(uint64_t)sli_traverse_scratch(traversal, storage));
 }
 
-/* The k-th front of the list, as the kernels take it; without its panel if L is not in double. */
+/* The k-th front of the list, as the kernels take it; without its panel if they read a copy. */
 static sli_inverse_front sli_traverse_front(const sli_traversal_run *run, sl_int k) {
     const sli_step *step = &run->traversal->S->steps[run->traversal->supers[k]];
     sli_inverse_front f;
-    f.panel = run->F->type->storage != SL_STORAGE_DOUBLE
+    f.panel = sli_traverse_copies(run->F, step->width)
                   ? NULL
                   : (const double *)run->F->values + step->panel;
     f.D = run->F->D + step->column;
@@ -108,12 +116,12 @@ static void sli_traverse_prefetch(const sl_factor *F, sl_int s) {
     }
 }
 
-/* The scratch of a worker; first gives front k a panel in double there if L is in float. */
+/* The scratch of a worker; first copies the panel of front k there if the kernels need that. */
 static double *sli_traverse_begin(const sli_traversal_run *run, sl_int k, sli_inverse_front *f,
                                   sl_int worker) {
     const sl_off room = sli_traverse_scratch(run->traversal, run->F->type->storage);
     double *scratch = run->scratch + (ptrdiff_t)(room * worker);
-    if (run->F->type->storage != SL_STORAGE_DOUBLE) {
+    if (sli_traverse_copies(run->F, f->width)) {
         sli_panel_widen(run->F, run->traversal->supers[k], scratch + run->traversal->scratch);
         f->panel = scratch + run->traversal->scratch;
     }

@@ -22,9 +22,11 @@
 /* v: columns 0 .. columns-1 from l on, [column][8]; a copy in double if SLW_FNMA takes no floats */
 #if defined(SLW_TAKES_FLOATS)
 #define SLW_ENTRIES(v, columns) const SLV_VALUE *v;
+#define SLW_ENTRY SLV_VALUE
 #define SLW_SET_ENTRIES(v, l, columns, rows) v = (l);
 #else
 #define SLW_ENTRIES(v, columns) SLV_WIDE(v, columns)
+#define SLW_ENTRY double
 #define SLW_SET_ENTRIES(v, l, columns, rows) SLV_WIDEN(v, l, columns, rows)
 #endif
 

@@ -49,6 +49,23 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
             sli_step_prefetch(s + SLI_STEPS_AHEAD, rows + s->below + s[1].below, x, stride);
         }
 #endif
+#if SLI_PARTS == 1
+        for (group = 0; group < stride && w == 1; group += SLW_NRHS) {
+            SLW_DECLARE(a)
+            SLW_DECLARE(b)
+            SLW_LOAD(a, xs + group)
+            for (j = 0; j < s->below; j++) { /* x(i) -= L(i) y */
+                double *to = x + (ptrdiff_t)rows[j] * stride + group;
+                const SLW_ENTRY l = tile[1 + j];
+                SLW_LOAD(b, to)
+                SLW_FNMA(b, l, a)
+                SLW_STORE(to, b)
+            }
+        }
+        if (w == 1) {
+            continue;
+        }
+#endif
 #if defined(SLI_SMALL)
         if (w <= SLI_TILE) {
             for (group = 0; group < stride; group += SLW_NRHS) {
@@ -124,6 +141,23 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
 #if SLW_GROUPS >= 8
         if (is_fetched && count > SLI_STEPS_AHEAD) {
             sli_step_prefetch(s - SLI_STEPS_AHEAD, rows_end - s[-1].below - s[-2].below, x, stride);
+        }
+#endif
+#if SLI_PARTS == 1
+        for (group = 0; group < stride && w == 1; group += SLW_NRHS) {
+            SLW_DECLARE(a)
+            SLW_DECLARE(b)
+            SLW_LOAD(a, xs + group)
+            SLW_DIVIDE(a, d[0])
+            for (j = 0; j < s->below; j++) { /* y -= L(i) x(i) */
+                const SLW_ENTRY l = tile[j - s->below];
+                SLW_LOAD(b, x + (ptrdiff_t)rows_end[j] * stride + group)
+                SLW_FNMA(a, l, b)
+            }
+            SLW_STORE(xs + group, a)
+        }
+        if (w == 1) {
+            continue;
         }
 #endif
 #if defined(SLI_SMALL)
@@ -246,4 +280,5 @@ SLI_GROUPED_KERNELS(32)
 #undef SLI_BELOW
 #undef SLI_BEFORE
 #undef SLW_ENTRIES
+#undef SLW_ENTRY
 #undef SLW_SET_ENTRIES

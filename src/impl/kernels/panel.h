@@ -7,8 +7,8 @@
 /* The panel of a supernode with w columns and u rows below its diagonal block has w + u local rows.
  * It is stored in row tiles of 8, [tile][column][8], for every instruction set: entry (r, j) is in
  * tile r / 8, column j, lane r % 8. A tile of the diagonal block keeps only its first 8 (tile + 1)
- * columns. The unit diagonal, the part above it and the padding of the last tile are stored as
- * 0. */
+ * columns. The unit diagonal, the part above it and the padding of the last tile are stored as 0.
+ * A panel of one column has no padding, and begins anywhere; all others begin on a cache line. */
 #define SLI_TILE 8
 
 /* Position of tile t in a panel of w columns, in doubles. The first w / 8 tiles grow by 8 columns
@@ -25,7 +25,22 @@ SLI_INLINE sl_int sli_tiles(sl_int rows) {
 
 /* Size of a panel of w columns and u rows below the diagonal block, in doubles. */
 SLI_INLINE sl_off sli_panel_size(sl_int w, sl_int u) {
-    return sli_tile_offset(w, sli_tiles(w + u));
+    return w == 1 ? 1 + (sl_off)u : sli_tile_offset(w, sli_tiles(w + u));
+}
+
+/* Where a panel of w columns begins, the panels before which end at `end`. */
+SLI_INLINE sl_off sli_panel_start(sl_int w, sl_off end) {
+    return w == 1 ? end : (end + SLI_TILE - 1) / SLI_TILE * SLI_TILE;
+}
+
+/* Copies a panel of one column to whole tiles. */
+static void sli_column_pad(const double *panel, sl_int u, double *to) {
+    const sl_int rows = SLI_TILE * sli_tiles(1 + u);
+    sl_int r;
+    memcpy(to, panel, (size_t)(1 + u) * sizeof(double));
+    for (r = 1 + u; r < rows; r++) {
+        to[r] = 0.0;
+    }
 }
 
 /* A complex matrix is kept as its real one, with pairs of rows and columns for the real and the

@@ -12,13 +12,17 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
         buf[i] = lq[SLI_TILE * i] + xs[i];
         xs[i] = 0.0;
     }
-    if (q > 1) { /* before row 1 is the row of a pivot only */
+    if (w == 1) {
+        for (i = 1; i < q; i++) {
+            x[rows[i - 1]] = SLV_FNMA1(panel[i], buf[0], x[rows[i - 1]]);
+        }
+    } else if (q > 1) { /* before row 1 is the row of a pivot only */
         for (; i < SLI_TILE * sli_tiles(q); i++) {
             buf[i] = 0.0;
         }
         SLV_NAME(panel_forward)(panel, 0, w, columns, q, buf);
     }
-    for (i = w; i < q; i++) {
+    for (i = w; i < q && w > 1; i++) {
         x[rows[i - w]] += buf[i];
     }
     for (i = 0; i < columns; i++) { /* l(k, j) = y(j) / d(j), d(k) -= l(k, j) y(j) */

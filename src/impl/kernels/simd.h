@@ -107,14 +107,14 @@
 /* Is the constant k one of 0 .. count-1? There is at least 0. */
 #define SLI_IS_IN(k, count) ((k) == 0 || (k) < (count))
 
-/* Calls one of 8 copies of a function, compiled for the constant numbers of columns w = 1 .. 8. */
+/* Calls one of 7 copies of a function, compiled for the constant numbers of columns w = 2 .. 8. One
+ * column has kernels of its own. */
 #define SLI_CASE(k, call) \
     case k: \
         call(k); \
         break;
 #define SLI_CASES(call) \
     switch (w) { \
-        SLI_CASE(1, call) \
         SLI_CASE(2, call) \
         SLI_CASE(3, call) \
         SLI_CASE(4, call) \

@@ -83,8 +83,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, sl_
         SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v) \
     }
 #define SLI_DOTS SLI_DOT(7) SLI_DOTS_OWN
-#define SLI_DOTS_OWN \
-    SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
+#define SLI_DOTS_OWN SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
 /* Positions in x of the 8 rows of a tile. PART: the last tile, which has fewer rows; its last
  * position is repeated. OWN: the tile that holds the columns too, at most 7; their lanes get any
  * valid position. */
@@ -155,6 +154,54 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
     SLI_EACH8(SLI_GET, 0)
 }
 
+/* A run of supernodes of one column, in scalars: most have few rows below. */
+SLV_FUNCTION SLI_INLINE const sli_step *SLV_SWEEP(forward_plain)(const sli_step *s,
+                                                                 const sli_step *end,
+                                                                 const sl_int **next_rows,
+                                                                 const SLV_VALUE *L, double *x) {
+    const sl_int *rows = *next_rows;
+    for (; s < end && s->width == 1; s++) {
+        const SLV_VALUE *l = L + s->panel + 1;
+        const sl_int *last = rows + s->below;
+        const double y = x[s->base];
+        for (; rows < last; rows++, l++) { /* x(i) -= L(i) y */
+            x[*rows] = SLV_FNMA1((double)*l, y, x[*rows]);
+        }
+    }
+    *next_rows = rows;
+    return s;
+}
+
+/* The same before step s, in descending order. */
+SLV_FUNCTION SLI_INLINE const sli_step *
+SLV_SWEEP(backward_plain)(const sli_step *s, const sli_step *begin, const sl_int **rows_end,
+                          const SLV_VALUE *L, const double *D, double *x) {
+    const sl_int *rows = *rows_end;
+    for (; s > begin && s[-1].width == 1; s--) {
+        const SLV_VALUE *l = L + s[-1].panel + 1;
+        const sl_int below = s[-1].below;
+        double y = x[s[-1].base] / D[s[-1].column];
+        sl_int i = 0;
+        rows -= below;
+        if (below >= 4) { /* y -= L' x, in four sums */
+            double a = 0.0, b = 0.0, c = 0.0;
+            for (; i + 4 <= below; i += 4) {
+                y = SLV_FNMA1((double)l[i], x[rows[i]], y);
+                a = SLV_FNMA1((double)l[i + 1], x[rows[i + 1]], a);
+                b = SLV_FNMA1((double)l[i + 2], x[rows[i + 2]], b);
+                c = SLV_FNMA1((double)l[i + 3], x[rows[i + 3]], c);
+            }
+            y += a + (b + c);
+        }
+        for (; i < below; i++) {
+            y = SLV_FNMA1((double)l[i], x[rows[i]], y);
+        }
+        x[s[-1].base] = y;
+    }
+    *rows_end = rows;
+    return s;
+}
+
 #define SLI_FORWARD(k) SLV_SWEEP(small_forward)(k, below, rows, l, xs, x, buf)
 #define SLI_BACKWARD(k) SLV_SWEEP(small_backward)(k, below, rows, l, d, xs, x)
 
@@ -166,12 +213,17 @@ SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, 
                                                              const SLV_VALUE *L, double *x,
                                                              double *buf) {
     const sl_int *rows = *next_rows;
-    for (; s < end && s->width <= SLI_TILE; s++) {
+    while (s < end && s->width <= SLI_TILE) {
         const sl_int w = s->width, below = s->below;
         const SLV_VALUE *l = L + s->panel;
         double *xs = x + s->base;
+        if (w == 1) {
+            s = SLV_SWEEP(forward_plain)(s, end, &rows, L, x);
+            continue;
+        }
         SLI_BY_WIDTH(SLI_FORWARD);
         rows += below;
+        s++;
     }
     *next_rows = rows;
     return s;
@@ -183,13 +235,18 @@ SLV_FUNCTION static const sli_step *
 SLV_SWEEP(backward_small)(const sli_step *s, const sli_step *begin, const sl_int **rows_end,
                           const SLV_VALUE *L, const double *D, double *x) {
     const sl_int *rows = *rows_end;
-    for (; s > begin && s[-1].width <= SLI_TILE; s--) {
+    while (s > begin && s[-1].width <= SLI_TILE) {
         const sl_int w = s[-1].width, below = s[-1].below;
         const SLV_VALUE *l = L + s[-1].panel + sli_panel_size(w, below);
         const double *d = D + s[-1].column;
         double *xs = x + s[-1].base;
+        if (w == 1) {
+            s = SLV_SWEEP(backward_plain)(s, begin, &rows, L, D, x);
+            continue;
+        }
         rows -= below;
         SLI_BY_WIDTH(SLI_BACKWARD);
+        s--;
     }
     *rows_end = rows;
     return s;

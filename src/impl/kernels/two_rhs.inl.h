@@ -35,6 +35,15 @@ SLV_FUNCTION static void SLV_SWEEP(forward2)(sl_int count, const sli_step *s, co
         const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
         double *xs = x + 2 * (ptrdiff_t)s->base;
         sl_int row, i, j, k;
+        if (w == 1) {
+            for (i = 0; i < s->below; i++) {
+                double *to = x + 2 * (ptrdiff_t)rows[i];
+                to[0] = SLV_FNMA1((double)tile[1 + i], xs[0], to[0]);
+                to[1] = SLV_FNMA1((double)tile[1 + i], xs[1], to[1]);
+            }
+            rows += s->below;
+            continue;
+        }
         memcpy(buf + 2 * (ptrdiff_t)first, xs, columns * sizeof(double));
         memset(buf + 2 * (ptrdiff_t)w, 0,
                2 * (size_t)(SLI_TILE * sli_tiles(height) - w) * sizeof(double));
@@ -113,6 +122,16 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(sl_int count, const sli_step *s,
         SLV_DECLARE(t1)
         SLV_ZERO(a)
         rows_end -= s->below;
+        if (w == 1) {
+            xs[0] /= d[0];
+            xs[1] /= d[0];
+            for (i = s->below - 1, tile -= s->below; i >= 0; i--) {
+                const double *from = x + 2 * (ptrdiff_t)rows_end[i];
+                xs[0] = SLV_FNMA1((double)tile[i], from[0], xs[0]);
+                xs[1] = SLV_FNMA1((double)tile[i], from[1], xs[1]);
+            }
+            continue;
+        }
         for (i = first; i < w; i++) {
             SLV_STORE(sums + SLI_TILE * (ptrdiff_t)i, a)
             buf[2 * i] = buf[2 * i + 1] = 0.0;

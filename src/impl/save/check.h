@@ -130,6 +130,18 @@ static int sli_check_front(const sl_symbolic *S, sl_int s) {
            sli_check_relative(S, up, rows, S->relative + S->rows_begin[s], step->below);
 }
 
+/* The doubles from the panel of supernode s to the next one. In files of earlier versions panels of
+ * one column have padding. */
+static sl_off sli_check_panel(const sl_symbolic *S, sl_int s, sl_int width, sl_off below) {
+    const sl_off begin = S->panel_begin[s], end = begin + sli_panel_size(width, (sl_int)below);
+    const int is_last = s + 1 == S->n_supers;
+    const sl_int next = is_last ? 1 : S->super_first[s + 2] - S->super_first[s + 1];
+    const sl_off padded = sli_tile_offset(width, sli_tiles(width + (sl_int)below));
+    return begin % SLI_TILE == 0 && S->panel_begin[s + 1] - begin == padded
+               ? padded
+               : sli_panel_start(next, end) - begin;
+}
+
 static int sli_check_structure(const sl_symbolic *S) {
     sl_int s, tallest = 0, widest = 0;
     if (S->rows_begin[0] != 0 || S->panel_begin[0] != 0) {
@@ -143,7 +155,7 @@ static int sli_check_structure(const sl_symbolic *S) {
         }
         below = S->rows_begin[s + 1] - S->rows_begin[s];
         if (below > S->n - S->super_first[s + 1] ||
-            S->panel_begin[s + 1] != S->panel_begin[s] + sli_panel_size(width, (sl_int)below)) {
+            S->panel_begin[s + 1] - S->panel_begin[s] != sli_check_panel(S, s, width, below)) {
             return 0;
         }
         widest = sli_max(widest, width);

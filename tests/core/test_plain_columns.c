@@ -1,0 +1,203 @@
+/* test_plain_columns.c: nearly diagonal systems, whose columns of L stay apart and unpadded */
+#include "tests/lib/factored.h"
+#include "tests/lib/local_solve.h"
+#include "tests/lib/parallel_for.h"
+#include "tests/lib/saved.h"
+
+/* The KKT matrix of support vectors: features, points and bounds of the points. */
+static gen_matrix_t separable(sl_int features, sl_int points, int style) {
+    const sl_int rows = features + points, bounds = rows + points;
+    gen_list_t t = gen_list(bounds + points);
+    uint64_t seed = 5;
+    for (sl_int k = 0; k < t.n; k++) {
+        gen_add(&t, k, k, k < rows ? 1.0 + 0.01 * (double)(k % 7) : -10.0);
+    }
+    for (sl_int r = 0; r < points; r++) {
+        for (sl_int j = 0; j < features; j++) {
+            if (gen_below(&seed, 3) == 0) {
+                gen_add(&t, rows + r, j, gen_real(&seed));
+            }
+        }
+        gen_add(&t, rows + r, features + r, -1.0);
+        gen_add(&t, bounds + r, features + r, 1.0);
+    }
+    const gen_matrix_t M = gen_store(&t, gen_style(style), 1);
+    gen_list_free(&t);
+    return M;
+}
+
+/* L has hardly more numbers than entries, is right by every method, and local solves have the bits
+ * of full ones, with every instruction set, storage and number of right-hand sides. */
+static void columns_are_kept_apart(void **state) {
+    (void)state;
+    static const sl_storage storages[3] = {SL_STORAGE_DOUBLE, SL_STORAGE_FLOAT,
+                                           SL_STORAGE_FLOAT_FRONTS};
+    const variant_list_t variants = variants_present();
+    for (int k = 0; k < 6 * variants.count; k++) {
+        sl_options opt = options_none();
+        sl_symbolic *S = NULL;
+        sl_factor *F = NULL;
+        sl_work *W = NULL;
+        sl_stats stats;
+        int calls = 0;
+        memset(&stats, 0, sizeof stats);
+        options_set_variant(&opt, &variants, k / 6);
+        opt.purpose = k % 2 ? SL_PURPOSE_ONE_FACTOR : SL_PURPOSE_MANY_SOLVES;
+        opt.storage = storages[k % 3];
+        opt.threads.count = k % 4 == 3 ? 3 : 0;
+        opt.threads.run = k % 4 == 3 ? run_backwards : NULL;
+        opt.threads.context = &calls;
+        gen_matrix_t M = separable(12, 300, k % GEN_STYLES);
+        SL_CHECK(sl_symbolic_create(&S, &M.view, FOR_ANALYSIS(&opt), &stats));
+        assert_true((double)stats.symbolic.nnz_panels <= 1.3 * (double)stats.symbolic.nnz_l);
+        SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
+        if (stats.storage == SL_STORAGE_DOUBLE) {
+            NOTHING_WRONG(check_factor(F, &M.view));
+        }
+        SL_CHECK(sl_work_create(&W, NULL));
+        for (sl_int nrhs = 1; nrhs <= 33; nrhs += nrhs < 4 ? 1 : 5) {
+            local_solve_t q =
+                local_solve_random(F, M.view.n_cols, nrhs % 3 ? 4 : -1, 5, nrhs, (uint64_t)nrhs);
+            local_solve_check(S, F, &q, W);
+            local_solve_free(&q);
+        }
+        sl_work_free(W);
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+    }
+}
+
+/* Most columns of a tree stay apart, too. */
+static void trees_are_hardly_padded(void **state) {
+    (void)state;
+    sl_options opt = options_none();
+    gen_list_t t = gen_list(2500);
+    sl_symbolic *S = NULL;
+    sl_stats stats;
+    uint64_t seed = 9;
+    for (sl_int k = 0; k < t.n; k++) {
+        gen_add(&t, k, k, 8.0);
+        if (k > 0) {
+            gen_add(&t, k, gen_below(&seed, k), -1.0);
+        }
+    }
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    gen_list_free(&t);
+    memset(&stats, 0, sizeof stats);
+    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, &stats));
+    assert_true((double)stats.symbolic.nnz_panels <= 1.3 * (double)stats.symbolic.nnz_l);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
+/* A number that is not finite is found in a column that has no front, with its row and column. */
+static void a_nan_is_named(void **state) {
+    (void)state;
+    gen_matrix_t M = separable(3, 40, 0);
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_stats stats;
+    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+    for (sl_int p = 0; p < M.p[M.view.n_cols]; p += 7) {
+        const double keep = M.x[p];
+        M.x[p] = (double)NAN;
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_create(&F, S, &M.view, &opt, &stats));
+        assert_true(stats.error.row == M.i[p] && M.p[stats.error.column] <= p &&
+                    p < M.p[stats.error.column + 1]);
+        M.x[p] = keep;
+    }
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
+/* A column whose diagonal A does not store: its pivot comes from its child. */
+static void a_diagonal_may_be_missing(void **state) {
+    (void)state;
+    static const sl_int p[5] = {0, 2, 3, 5, 6}, i[6] = {0, 1, 2, 2, 3, 3};
+    static const double x[6] = {2.0, 1.0, 1.0, 5.0, 1.0, 7.0};
+    const sl_csc A = {4, 4, p, i, x};
+    const double wanted[4] = {2.0, -0.5, 7.0, 7.0 - 1.0 / 7.0};
+    const variant_list_t variants = variants_present();
+    for (int k = 0; k < variants.count; k++) {
+        sl_options opt = options_none();
+        sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_NONE);
+        sl_factor *F = NULL;
+        options_set_variant(&opt, &variants, k);
+        SL_CHECK(sl_factor_create(&F, S, &A, FOR_FACTOR(&opt), NULL));
+        for (int j = 0; j < 4; j++) {
+            assert_true(fabs(sl_factor_view(F).D[j] - wanted[j]) < 1e-14);
+        }
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+    }
+}
+
+/* Rank-one changes, and refactorizations of what some columns reach. */
+static void changes_are_followed(void **state) {
+    (void)state;
+    const isa_list_t isas = isas_present();
+    for (int k = 0; k < isas.count; k++) {
+        gen_matrix_t M = separable(5, 80, 1);
+        sl_options opt = options_none();
+        sl_symbolic *S = NULL;
+        sl_factor *F = NULL;
+        opt.isa = isas.isa[k];
+        SL_CHECK(sl_symbolic_create(&S, &M.view, FOR_ANALYSIS(&opt), NULL));
+        SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
+        for (sl_int column = 3; column < M.view.n_cols; column += 31) {
+            for (sl_int q = M.p[column]; q < M.p[column + 1]; q++) {
+                M.x[q] *= 1.25;
+            }
+            SL_CHECK(sl_factor_refactor_changed(F, &M.view, &column, 1, NULL));
+            NOTHING_WRONG(check_factor(F, &M.view));
+        }
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+    }
+}
+
+/* A file of the time when panels of one column were padded to whole tiles: this system's. */
+static void padded_files_are_read(void **state) {
+    (void)state;
+    gen_matrix_t M = separable(3, 12, 0);
+    const sl_int n = M.view.n_cols;
+    double *b = test_reals((size_t)n), *x = test_reals((size_t)n), *y = test_reals((size_t)n);
+    sl_symbolic *S = NULL, *T = NULL;
+    sl_factor *F = NULL, *G = NULL;
+    sl_selected *Z = NULL;
+    gen_reals(b, (size_t)n, 3);
+    SL_CHECK(pair_load_file(&S, &F, "tests/core/padded_columns.slf", SL_LOAD_CHECKED, NULL));
+    SL_CHECK(sl_symbolic_create(&T, &M.view, NULL, NULL));
+    SL_CHECK(sl_factor_create(&G, T, &M.view, NULL, NULL));
+    assert_true(panel_doubles(F) >= 8 * (sl_off)sl_symbolic_view(S).n_supers);
+    for (int again = 0; again < 2; again++) {
+        SL_CHECK(sl_factor_solve(F, x, (size_t)n, b, (size_t)n, 1, NULL));
+        SL_CHECK(sl_factor_solve(G, y, (size_t)n, b, (size_t)n, 1, NULL));
+        for (sl_int k = 0; k < n; k++) {
+            assert_true(fabs(x[k] - y[k]) < 1e-12);
+        }
+        SL_CHECK(sl_factor_refactor(F, &M.view, NULL));
+    }
+    SL_CHECK(sl_selected_create(&Z, F, NULL, 0, NULL, NULL));
+    sl_selected_free(Z);
+    sl_factor_free(F);
+    sl_factor_free(G);
+    sl_symbolic_free(S);
+    sl_symbolic_free(T);
+    gen_matrix_free(&M);
+    free(b);
+    free(x);
+    free(y);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(columns_are_kept_apart), cmocka_unit_test(trees_are_hardly_padded),
+        cmocka_unit_test(a_nan_is_named),         cmocka_unit_test(a_diagonal_may_be_missing),
+        cmocka_unit_test(changes_are_followed),   cmocka_unit_test(padded_files_are_read),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
