@@ -33,14 +33,15 @@ SLI_INLINE sl_int sli_level_weight(const sli_level *g, sl_int v) {
     return g->weight == NULL ? 1 : g->weight[v];
 }
 
-/* A vertex with this many times the mean number of neighbors, or more, is a hub, such as the apex
+/* A vertex with this many times the mean number of neighbors, and LEAST, is a hub, such as the apex
  * of a fan. */
 #define SLI_HUB_TIMES 3
+#define SLI_HUB_LEAST 24
 /* There are no hubs if more than one vertex in this many would be one. */
 #define SLI_HUB_SHARE 64
 /* The weight of an edge that is not at a hub, in a graph that has hubs. One vertex of a separator
  * cuts all edges of a hub; with the weight of others they hold the whole fan together. */
-#define SLI_HUB_EDGES 8
+#define SLI_HUB_EDGES 4
 
 SLI_INLINE int sli_level_is_hub(const sli_level *g, sl_int v) {
     return g->hub_degree != 0 && g->begin[v + 1] - g->begin[v] >= g->hub_degree;

@@ -152,7 +152,8 @@ static void sli_nd_fill(void *data, const sli_range *r) {
 
 /* Finds out which degree makes a vertex of a connected graph a hub, if few are. */
 static void sli_nd_find_hubs(sli_level *g) {
-    const sl_off edges = g->begin[g->n], least = SLI_HUB_TIMES * edges / g->n;
+    const sl_off edges = g->begin[g->n], times = SLI_HUB_TIMES * (edges / g->n);
+    const sl_off least = times > SLI_HUB_LEAST ? times : SLI_HUB_LEAST;
     sl_int v, count = 0;
     for (v = 0; v < g->n; v++) {
         count += g->begin[v + 1] - g->begin[v] >= least;
