@@ -229,7 +229,7 @@ class Factor(Solves, Entries, Changes, Files):
         lib.sl_symbolic_stats(self._symbolic.pointer, ctypes.byref(stats))
         lib.sl_factor_stats(self._factor.pointer, ctypes.byref(stats))
         return {"symbolic": as_dict(stats.symbolic), "factor": as_dict(stats.factor),
-                "storage": stats.storage}
+                "storage": stats.storage, "threads": stats.threads}
 
     def __repr__(self):
         return "<sparse_local.Factor of %d rows, %d entries in L, inertia %s>" % (

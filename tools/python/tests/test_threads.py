@@ -11,11 +11,14 @@ import pytest
 import sparse_local as sl
 from systems import grid, right_hand_sides
 
+SIDE = 170  # of a grid whose factorization is divided
+
 
 @pytest.mark.parametrize("threads", [2, 3])
 def test_threads_give_the_same_bits(threads):
-    A = grid(120)
+    A = grid(SIDE)
     one, many = sl.Factor(A), sl.Factor(A, threads=threads)
+    assert one.stats["threads"] == 1 and many.stats["threads"] == threads
     B = right_hand_sides(A.shape[0], 40)
     assert np.array_equal(one.solve(B), many.solve(B))
     assert np.array_equal(one.solve(B[:, 0]), many.solve(B[:, 0]))
@@ -29,7 +32,7 @@ def test_threads_give_the_same_bits(threads):
 
 
 def test_threads_that_factor_and_solve_with_objects_of_their_own():
-    A, b, wrong = grid(60), right_hand_sides(3600), []
+    A, b, wrong = grid(SIDE), right_hand_sides(SIDE ** 2), []
     x = sl.Factor(A).solve(b)
 
     def work(k):
@@ -47,12 +50,12 @@ def test_threads_that_factor_and_solve_with_objects_of_their_own():
 
 
 def solve_in_child(queue):
-    queue.put(float(sl.Factor(grid(60), threads=2).solve(np.ones(3600)).sum()))
+    queue.put(float(sl.Factor(grid(SIDE), threads=2).solve(np.ones(SIDE ** 2)).sum()))
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")
 def test_a_forked_process_has_a_pool_of_its_own():
-    wanted = float(sl.Factor(grid(60), threads=2).solve(np.ones(3600)).sum())
+    wanted = float(sl.Factor(grid(SIDE), threads=2).solve(np.ones(SIDE ** 2)).sum())
     context = multiprocessing.get_context("fork")
     queue = context.Queue()
     child = context.Process(target=solve_in_child, args=(queue,))
@@ -100,6 +103,7 @@ F.refactor(A)
 assert np.array_equal(F.solve(b), x)
 print("raised" if raised > 3 else "not raised")
 """ % os.path.dirname(os.path.abspath(__file__))
-    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,
+                         timeout=120)
     assert out.stdout == "raised\n", out.stderr
     assert "ignored" not in out.stderr, out.stderr
