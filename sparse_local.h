@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 1a600af52895ec40
+ * FNV-1a of the lines after this comment, without the license: 7c10e943d65e836d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,24 +38,24 @@
  *   4271 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5140 impl/ matrix: sparse matrices of the caller and of the library
  *   5775 impl/ ordering: fill-reducing orderings of a graph
- *  10384 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12488 impl/ factor: the numbers of L and D
- *  15807 impl/ solve: full and local solves
- *  18048 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19838 impl/ pivots: the order of the pivots by the values of a matrix
- *  20247 impl/ float: L and fronts in single precision
- *  20695 impl/ inverse: entries of the inverse, regions
- *  23735 impl/ change: a factor that follows changes of its matrix
- *  30681 impl/ io: files that are replaced only when they are complete
- *  30899 impl/ files: Matrix Market files, 64-bit indices
- *  31519 impl/ save: factors in files
- *  33513 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34198 impl/ batch: diagonals of many inverses
- *  34342 impl/ complex: complex Hermitian systems over real factors
- *  34889 impl/ complex: entries of the inverse
- *  34949 impl/ packs: the tables through which the core calls packs
- *  34995 impl/ last: undefine every internal macro
- *  35336 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10386 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12490 impl/ factor: the numbers of L and D
+ *  15809 impl/ solve: full and local solves
+ *  18050 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19840 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20249 impl/ float: L and fronts in single precision
+ *  20697 impl/ inverse: entries of the inverse, regions
+ *  23737 impl/ change: a factor that follows changes of its matrix
+ *  30683 impl/ io: files that are replaced only when they are complete
+ *  30901 impl/ files: Matrix Market files, 64-bit indices
+ *  31521 impl/ save: factors in files
+ *  33515 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34200 impl/ batch: diagonals of many inverses
+ *  34344 impl/ complex: complex Hermitian systems over real factors
+ *  34891 impl/ complex: entries of the inverse
+ *  34951 impl/ packs: the tables through which the core calls packs
+ *  34997 impl/ last: undefine every internal macro
+ *  35339 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -6325,8 +6325,9 @@ SLI_INLINE sl_int sli_level_weight(const sli_level *g, sl_int v) {
 }
 
 #define SLI_HUB_TIMES 3
+#define SLI_HUB_LEAST 24
 #define SLI_HUB_SHARE 64
-#define SLI_HUB_EDGES 8
+#define SLI_HUB_EDGES 4
 
 SLI_INLINE int sli_level_is_hub(const sli_level *g, sl_int v) {
   return g->hub_degree != 0 && g->begin[v + 1] - g->begin[v] >= g->hub_degree;
@@ -9057,7 +9058,8 @@ static void sli_nd_fill(void *data, const sli_range *r) {
 }
 
 static void sli_nd_find_hubs(sli_level *g) {
-  const sl_off edges = g->begin[g->n], least = SLI_HUB_TIMES * edges / g->n;
+  const sl_off edges = g->begin[g->n], times = SLI_HUB_TIMES * (edges / g->n);
+  const sl_off least = times > SLI_HUB_LEAST ? times : SLI_HUB_LEAST;
   sl_int v, count = 0;
   for (v = 0; v < g->n; v++) {
     count += g->begin[v + 1] - g->begin[v] >= least;
@@ -35229,6 +35231,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_DISSECT_BAND_FROM
 #undef SLI_SEPARATOR_BALANCE
 #undef SLI_HUB_EDGES
+#undef SLI_HUB_LEAST
 #undef SLI_HUB_SHARE
 #undef SLI_HUB_TIMES
 #undef SLI_ND_RESPLITS

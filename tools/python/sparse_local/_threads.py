@@ -36,6 +36,10 @@ if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_forget)
 
 
+def _is_main():
+    return threading.get_ident() == threading.main_thread().ident
+
+
 class _Loop:
     """One loop of the library: body(data, k) for each k < count."""
 
@@ -64,7 +68,7 @@ class _Loop:
         The main thread leaves all bodies to helpers, for only there Python raises
         KeyboardInterrupt, which must not lose a body.
         """
-        takes_part = threading.current_thread() is not threading.main_thread()
+        takes_part = not _is_main()
         try:
             while self._helpers < self._count - takes_part:
                 self._helpers += 1
@@ -95,27 +99,44 @@ class _OffMain:
 
     An interrupt that comes while the library runs is raised where Python code begins next, in the
     main thread. That must not be _run, whose loop would be lost: it is where the caller waits.
+    There are only locks of the interpreter: an interrupt within a Condition, as futures and events
+    have, can leave it locked.
     """
 
     def __getattr__(self, name):
         call = getattr(lib, name)
 
         def run(*arguments):
-            if threading.current_thread() is not threading.main_thread():
+            if not _is_main():
                 return call(*arguments)
-            try:
-                made = _executor().submit(call, *arguments)
-            except RuntimeError:  # no thread could be started
-                return call(*arguments)
-            is_interrupted = False
-            while not made.done():
+            made, claim, end = [], _thread.allocate_lock(), _thread.allocate_lock()
+
+            def work():
+                if claim.acquire(False):  # an interrupt may have had it started twice
+                    try:
+                        made.append((call(*arguments), None))
+                    except BaseException as error:
+                        made.append((None, error))
+                    end.release()
+
+            end.acquire()
+            is_started = is_interrupted = False
+            while not made:
                 try:
-                    concurrent.futures.wait([made])
+                    if not is_started:
+                        _thread.start_new_thread(work, ())
+                        is_started = True
+                    end.acquire()
                 except KeyboardInterrupt:
                     is_interrupted = True
+                except RuntimeError:  # no thread could be started
+                    return call(*arguments)
             if is_interrupted:
                 raise KeyboardInterrupt
-            return made.result()
+            value, error = made[0]
+            if error is not None:
+                raise error
+            return value
 
         setattr(self, name, run)
         return run

@@ -72,7 +72,7 @@ import os, signal, sys, threading, time
 sys.path.insert(0, %r)
 import numpy as np, sparse_local as sl
 from systems import grid
-A, b, inside = grid(80), np.ones(6400), []
+A, b, inside = grid(170), np.ones(28900), []
 F = sl.Factor(A, threads=2)
 x, raised, stop = F.solve(b), 0, time.time() + 3
 
