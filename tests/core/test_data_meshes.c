@@ -83,7 +83,7 @@ static void assert_laplacian_is_refused(const mesh_systems_t *y, sl_factor *F,
         assert_true(isfinite(stats.error.value));
     }
     assert_null(G);
-    SL_EXPECT(SL_ERR_STATE, sl_local_solve(F, &row, 1, &row, 1, &one, 1, &one, 1, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_local_solve(F, &row, 1, &row, 1, &one, 1, &one, 1, 1, NULL, NULL));
     SL_CHECK(sl_factor_refactor(F, &A, NULL));
     SL_CHECK(sl_factor_create(&G, y->S, &A, opt, NULL));
     assert_same_bits(F, G);

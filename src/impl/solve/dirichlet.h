@@ -184,8 +184,8 @@ static void sli_dirichlet_done(sl_dirichlet *D, double started, sl_stats *stats)
 static sl_status sli_dirichlet_begin(sl_dirichlet *D, const sl_csc *A, const sl_factor *F,
                                      const sl_options *opt, const sl_int *where, sl_int *scratch,
                                      sl_stats *stats) {
-    static const sl_options sli_no_options;
-    const sl_options *arrays_of = opt == NULL ? &sli_no_options : opt;
+    const sl_options none = sli_options_with(&D->allocator);
+    const sl_options *arrays_of = opt == NULL ? &none : opt;
     const sli_dirichlet_ways *ways = sli_dirichlet_ways_of();
     sli_block b = {NULL, 0, 0};
     sli_dirichlet_arrays arrays;
