@@ -1,61 +1,63 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 0e3a69be66adf4ab
+ * FNV-1a of the lines after this comment, without the license: bb1f09b89b6f4c77
  * The comments of the implementation are in src/impl.
  *
  * Contents
- *     63 intro.h      what the library does, a quick start, which call for which question, references
- *    185 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    226 config.h     macros that a user may define before the include, the version, and the integer types
- *    307 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    500 options.h    options of all calls, threads, and the allocator
- *    647 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    894 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    996 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1072 factor.h     the numerical factorization P A P' = L D L'
- *   1197 solve.h      full solves, and the workspace of all solves
- *   1294 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1372 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole
- *   1456 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1555 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1595 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1703 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1780 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1866 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1962 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2074 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2114 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2242 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2274 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2463 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2575 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2703 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2744 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2833 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2943 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2980 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   3057 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3097 impl/ base: the compiler, status, memory, sorting, threads
- *   4271 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5140 impl/ matrix: sparse matrices of the caller and of the library
- *   5775 impl/ ordering: fill-reducing orderings of a graph
- *  10386 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12490 impl/ factor: the numbers of L and D
- *  15809 impl/ solve: full and local solves
- *  18050 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19840 impl/ pivots: the order of the pivots by the values of a matrix
- *  20249 impl/ float: L and fronts in single precision
- *  20697 impl/ inverse: entries of the inverse, regions
- *  23737 impl/ change: a factor that follows changes of its matrix
- *  30683 impl/ io: files that are replaced only when they are complete
- *  30901 impl/ files: Matrix Market files, 64-bit indices
- *  31521 impl/ save: factors in files
- *  33515 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34200 impl/ batch: diagonals of many inverses
- *  34344 impl/ complex: complex Hermitian systems over real factors
- *  34891 impl/ complex: entries of the inverse
- *  34951 impl/ packs: the tables through which the core calls packs
- *  34997 impl/ last: undefine every internal macro
- *  35339 impl/ templates: the header includes them from itself, once for each instruction set
+ *     65 intro.h      what the library does, a quick start, which call for which question, references
+ *    187 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    231 config.h     macros that a user may define before the include, the version, and the integer types
+ *    312 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    505 options.h    options of all calls, threads, and the allocator
+ *    652 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    899 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *   1001 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1077 factor.h     the numerical factorization P A P' = L D L'
+ *   1202 solve.h      full solves, and the workspace of all solves
+ *   1299 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1378 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
+ *   1469 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1568 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1608 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1716 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1793 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1879 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1975 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2087 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2127 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2255 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2287 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2476 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2588 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2716 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2757 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2846 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2956 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2993 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   3070 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3110 impl/ base: the compiler, status, memory, sorting, threads
+ *   4284 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5153 impl/ matrix: sparse matrices of the caller and of the library
+ *   5788 impl/ ordering: fill-reducing orderings of a graph
+ *  10399 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12503 impl/ factor: the numbers of L and D
+ *  15822 impl/ solve: full and local solves
+ *  17487 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19277 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19686 impl/ float: L and fronts in single precision
+ *  20134 impl/ inverse: entries of the inverse, regions
+ *  23174 impl/ change: a factor that follows changes of its matrix
+ *  29914 impl/ dirichlet: rows fixed at given values
+ *  30493 impl/ dirichlet: by a factor of all rows
+ *  30702 impl/ io: files that are replaced only when they are complete
+ *  30920 impl/ files: Matrix Market files, 64-bit indices
+ *  31540 impl/ save: factors in files
+ *  33534 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34219 impl/ batch: diagonals of many inverses
+ *  34363 impl/ complex: complex Hermitian systems over real factors
+ *  34910 impl/ complex: entries of the inverse
+ *  34970 impl/ packs: the tables through which the core calls packs
+ *  35018 impl/ last: undefine every internal macro
+ *  35360 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -94,7 +96,6 @@
  *  x everywhere for b everywhere                  sl_factor_solve                        solve.h
  *  x in a few rows for b in a few rows, often     sl_plan_create, sl_plan_solve          plan.h
  *  the same once                                  sl_local_solve                         plan.h
- *  rows fixed at values, b in the others          sl_dirichlet_create               dirichlet.h
  *  a part of a matrix                             sl_matrix_submatrix                    csc.h
  *  a singular Laplacian, an elastic body          options.null_pivots, mass, null_vector options.h
  *  several processors                             options.threads                        options.h
@@ -106,12 +107,13 @@
  *  can the solution be trusted?                   sl_factor_refine, sl_factor_rcond      accuracy.h
  *  how far off is each answer?                    sl_factor_certify                      bounds.h
  *  a few entries changed, A + V V'                sl_factor_change, sl_factor_update     change.h
+ *  rows fixed at values, b in the others          sl_dirichlet_create               dirichlet.h
  *  rows pinned and released one by one            sl_pins_create                         pins.h
  *  a part of A, with zero values around it        sl_factor_restrict                     restrict.h
  *  a mesh that is cut or remeshed in places       sl_symbolic_edit, sl_factor_edit       edit.h
  *  variances, entries of the inverse              sl_inverse_diagonal, sl_inverse_pairs  inverse.h
  *  the inverse on the whole pattern of L          sl_selected_create                     selected.h
- *  local solves in one part of a mesh, often       sl_region_create                       region.h
+ *  local solves in one part of a mesh, often      sl_region_create                       region.h
  *  L, D or L' alone, samples of covariance A^-1   sl_factor_solve_part                   parts.h
  *  the pseudo-inverse of a singular A             sl_factor_pseudo_inverse               pseudo.h
  *  many solves by one call                        sl_batch_solve                         batch.h
@@ -190,6 +192,7 @@
  *
  *  SL_WITH_INVERSE    entries of the inverse, bilinear forms, selected inversion, regions
  *  SL_WITH_CHANGE     changes of a factor in place, pins, factors of submatrices, edits
+ *  SL_WITH_DIRICHLET  rows fixed at given values: harmonic maps, interpolation
  *  SL_WITH_SAVE       factors, selected inverses and regions in files and in mapped memory
  *  SL_WITH_BATCH      many factors or solves by one call, weighted sums of matrices
  *  SL_WITH_COMPLEX    complex Hermitian systems, SL_STORAGE_COMPLEX
@@ -203,6 +206,7 @@
  * pins need, and so does SL_WITH_SAVE. Objects and structs are the same with any packs. */
 #if defined(SL_WITH_ALL)
 #undef SL_WITH_CHANGE
+#undef SL_WITH_DIRICHLET
 #undef SL_WITH_SAVE
 #undef SL_WITH_BATCH
 #undef SL_WITH_COMPLEX
@@ -211,6 +215,7 @@
 #undef SL_WITH_FILES
 #undef SL_WITH_PIVOTS
 #define SL_WITH_CHANGE
+#define SL_WITH_DIRICHLET
 #define SL_WITH_SAVE
 #define SL_WITH_BATCH
 #define SL_WITH_COMPLEX
@@ -1369,6 +1374,7 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int 
                                                const double *B, size_t ldb, sl_int nrhs, sl_work *W,
                                                sl_stats *stats);
 
+#if defined(SL_WITH_DIRICHLET)
 /* src/public/dirichlet.h: rows fixed at given values, of a matrix that need not be factored as a whole */
 
 /** Prepares solves of A x = b in the free rows, where x is given in the others: Dirichlet problems,
@@ -1452,6 +1458,13 @@ typedef struct sl_dirichlet_arrays {
 
 SL_API sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D);
 
+#else
+#define sl_dirichlet_create(...) sl_dirichlet_create_needs_SL_WITH_DIRICHLET
+#define sl_dirichlet_free(...) sl_dirichlet_free_needs_SL_WITH_DIRICHLET
+#define sl_dirichlet_refactor(...) sl_dirichlet_refactor_needs_SL_WITH_DIRICHLET
+#define sl_dirichlet_solve(...) sl_dirichlet_solve_needs_SL_WITH_DIRICHLET
+#define sl_dirichlet_view(...) sl_dirichlet_view_needs_SL_WITH_DIRICHLET
+#endif
 #if defined(SL_WITH_ACCURACY)
 /* src/public/parts.h: L, D, L' and the permutation applied one by one: half solves, products, samples */
 
@@ -4289,7 +4302,7 @@ SLI_INLINE sl_off sli_panel_start(sl_int w, sl_off end) {
   return w == 1 ? end : (end + SLI_TILE - 1) / SLI_TILE * SLI_TILE;
 }
 
-static void sli_column_pad(const double *panel, sl_int u, double *to) {
+SLI_INLINE void sli_column_pad(const double *panel, sl_int u, double *to) {
   const sl_int rows = SLI_TILE * sli_tiles(1 + u);
   sl_int r;
   memcpy(to, panel, (size_t)(1 + u) * sizeof(double));
@@ -17469,582 +17482,6 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
   return sli_report(stats, status);
 }
 
-/* src/impl/solve/dirichlet_rows.h: free and fixed rows, the entries of A between them, and what is copied of A */
-
-typedef struct sli_dirichlet_ways {
-  sl_status (*take)(sl_dirichlet *D, const sl_factor *F, const sl_csc *A, sl_stats *stats);
-  sl_status (*solve)(const sl_dirichlet *D, const sli_rhs *rhs, const double *G, size_t ldg,
-             sl_work *W);
-  void (*release)(sl_dirichlet *D);
-} sli_dirichlet_ways;
-
-struct sl_dirichlet {
-  sl_allocator allocator;
-  sl_options analysis, factorization;
-  sli_hash pattern;
-  sl_triangle triangle;
-  sl_int n, n_free, n_fixed, n_couplings;
-  sl_int *free_rows;
-  sl_int *fixed_rows;
-  sl_int *coupling_free, *coupling_fixed, *coupling_from;
-  double *couplings;
-  sl_dirichlet_info info;
-
-  sl_matrix *M;
-  sl_int *from;
-  sl_symbolic *S;
-  sl_factor *F;
-  const sli_dirichlet_ways *ways;
-  void *pins;
-};
-
-static sl_int sli_dirichlet_couple(sl_dirichlet *D, const sl_csc *A, sl_triangle triangle,
-                   const sl_int *where) {
-  sl_int j, p, count = 0;
-  for (j = 0; j < A->n_cols; j++) {
-    const sl_int c = where[j];
-    for (p = A->p[j]; p < A->p[j + 1]; p++) {
-      const sl_int r = where[A->i[p]];
-      if ((r ^ c) >= 0 || !sli_is_read(triangle, A->i[p], j)) {
-        continue;
-      }
-      if (D != NULL) {
-        D->coupling_free[count] = sli_max(r, c);
-        D->coupling_fixed[count] = -1 - sli_min(r, c);
-        D->coupling_from[count] = p;
-      }
-      count++;
-    }
-  }
-  return count;
-}
-
-static sl_status sli_dirichlet_check_values(const sl_dirichlet *D, const sl_csc *A,
-                      sl_stats *stats) {
-  sl_int k;
-  for (k = 0; k < D->n_couplings; k++) {
-    const sl_int p = D->coupling_from[k];
-    if (!sli_is_finite(A->x[p])) {
-      return sli_fail_at(stats, SL_ERR_NOT_FINITE, A->i[p], sli_column_of(A, p), A->x[p],
-                 "an entry of A is not finite");
-    }
-  }
-  return SL_OK;
-}
-
-static void sli_dirichlet_copy_values(sl_dirichlet *D, const sl_csc *A) {
-  sl_int k;
-  for (k = 0; k < D->n_couplings; k++) {
-    D->couplings[k] = A->x[D->coupling_from[k]];
-  }
-  for (k = 0; D->M != NULL && k < D->M->p[D->n_free]; k++) {
-    D->M->x[k] = A->x[D->from[k]];
-  }
-}
-
-static void sli_dirichlet_number(const sl_dirichlet *D, sl_int *where) {
-  sl_int k;
-  for (k = 0; k < D->n_free; k++) {
-    where[D->free_rows[k]] = k;
-  }
-  for (k = 0; k < D->n_fixed; k++) {
-    where[D->fixed_rows[k]] = -1 - k;
-  }
-}
-
-static sl_status sli_dirichlet_report(const sl_dirichlet *D, sl_status status, sl_stats *stats) {
-  sl_stats found;
-  if (status == SL_OK) {
-    return status;
-  }
-  (void)sli_report(&found, status);
-  if (found.error.row >= 0) {
-    found.error.row = D->free_rows[found.error.row];
-  }
-  if (found.error.column >= 0) {
-    found.error.column = D->free_rows[found.error.column];
-  }
-  return sli_fail_as(stats, status, &found.error);
-}
-
-typedef struct sli_dirichlet_arrays {
-  sl_int *perm, *signs;
-  double *mass, *null_vector;
-} sli_dirichlet_arrays;
-
-static void sli_dirichlet_arrays_layout(sli_dirichlet_arrays *r, sli_block *b,
-                    const sl_options *opt, sl_int n) {
-  const uint64_t count = (uint64_t)n;
-  r->perm =
-    opt->ordering != SL_ORDERING_GIVEN || opt->perm == NULL ? NULL : SLI_TAKE(b, sl_int, count);
-  r->signs = opt->signs == NULL ? NULL : SLI_TAKE(b, sl_int, count);
-  r->mass = opt->mass == NULL ? NULL : SLI_TAKE(b, double, count);
-  r->null_vector =
-    opt->null_vector == NULL ? NULL : SLI_TAKE(b, double, count *(opt->null_vector_count + 1));
-}
-
-static sl_status sli_dirichlet_arrays_fill(const sli_dirichlet_arrays *r, const sl_dirichlet *D,
-                       const sl_options *opt, const sl_int *where,
-                       sl_int *scratch, sl_stats *stats) {
-  const sl_int m = D->n_free;
-  const size_t vectors = opt->null_vector_count == 0 ? 1 : opt->null_vector_count;
-  sl_int k, at = 0;
-  size_t v;
-  if (r->perm != NULL) {
-    k = sli_rows_invert(opt->perm, D->n, D->n, scratch);
-    if (k >= 0) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, k, -1, 0.0,
-                 "options.perm has a row out of range or twice at this position");
-    }
-    for (k = 0; k < D->n; k++) {
-      if (where[opt->perm[k]] >= 0) {
-        r->perm[at++] = where[opt->perm[k]];
-      }
-    }
-  }
-  for (k = 0; k < m; k++) {
-    const sl_int row = D->free_rows[k];
-    if (r->signs != NULL) {
-      r->signs[k] = opt->signs[row];
-    }
-    if (r->mass != NULL) {
-      r->mass[k] = opt->mass[row];
-    }
-    for (v = 0; v < vectors && r->null_vector != NULL; v++) {
-      r->null_vector[v * (size_t)m + (size_t)k] =
-        opt->null_vector[v * (size_t)D->n + (size_t)row];
-    }
-  }
-  return SL_OK;
-}
-
-static int sli_dirichlet_keeps_blocks(const sl_dirichlet *D, sl_int size) {
-  sl_int k;
-  for (k = 0; k < D->n_free && size > 1; k++) {
-    const sl_int first = D->free_rows[k - k % size];
-    if (first % size != 0 || D->free_rows[k] != first + k % size) {
-      return 0;
-    }
-  }
-  return size > 1 && D->n_free % size == 0;
-}
-
-/* src/impl/solve/dirichlet.h: systems with rows fixed at given values: a factor of the free rows, its solves */
-
-static const sli_dirichlet_ways *sli_dirichlet_ways_of(void);
-
-static void sli_dirichlet_clear(sl_dirichlet *D) {
-  if (D->pins != NULL) {
-    D->ways->release(D);
-  }
-  sl_factor_free(D->F);
-  sl_symbolic_free(D->S);
-  sl_matrix_free(D->M);
-  sli_free(&D->allocator, D->from);
-}
-
-SL_API void sl_dirichlet_free(sl_dirichlet *D) {
-  if (D != NULL) {
-    const sl_allocator a = D->allocator;
-    sli_dirichlet_clear(D);
-    sli_free(&a, D);
-  }
-}
-
-static sl_status sli_dirichlet_factor(sl_dirichlet *D, const sl_csc *A,
-                    const sli_dirichlet_arrays *arrays, const sl_int *where,
-                    sl_int *scratch, sl_stats *stats) {
-  sl_options analysis = D->analysis, factorization = D->factorization;
-  sli_submatrix s;
-  sl_csc view;
-  sl_status status;
-  analysis.perm = arrays->perm;
-  analysis.block_size =
-    sli_dirichlet_keeps_blocks(D, analysis.block_size) ? analysis.block_size : 0;
-  factorization.signs = arrays->signs;
-  factorization.mass = arrays->mass;
-  factorization.null_vector = arrays->null_vector;
-  s.A = A;
-  s.triangle = D->triangle;
-  s.is_folded = 1;
-  s.count = D->n_free;
-  s.where = where;
-  status = sli_submatrix_make(&D->M, &D->from, &s, scratch, &D->allocator);
-  if (status == SL_OK) {
-    view = sl_matrix_view(D->M);
-    status = sl_symbolic_create(&D->S, &view, &analysis, stats);
-  }
-  if (status == SL_OK) {
-    status = sl_factor_create(&D->F, D->S, &view, &factorization, stats);
-    status = sli_dirichlet_report(D, status, stats);
-  }
-  D->info.method = SL_DIRICHLET_SUBMATRIX;
-  return status;
-}
-
-static void sli_dirichlet_options(sl_dirichlet *D, const sl_options *opt) {
-  const sl_options none = sli_options_with(&D->allocator);
-  sl_options *f = &D->factorization, *s = &D->analysis;
-  *f = *s = none;
-  if (opt == NULL) {
-    return;
-  }
-  s->threads = f->threads = opt->threads;
-  s->ordering = opt->ordering;
-  s->relaxation = opt->relaxation;
-  s->metis_options = opt->metis_options;
-  s->block_size = opt->block_size;
-  s->purpose = opt->purpose;
-  f->isa = opt->isa;
-  f->method = opt->method;
-  f->null_pivots = opt->null_pivots;
-  f->null_tolerance = opt->null_tolerance;
-  f->consistency_tolerance = opt->consistency_tolerance;
-  f->regularization = opt->regularization;
-  f->growth_limit = opt->growth_limit;
-  f->error_limit = opt->error_limit;
-  f->null_vector_count = opt->null_vector_count;
-  f->storage = opt->storage;
-  f->definite = opt->definite;
-}
-
-static sl_status sli_dirichlet_check(const sl_csc *A, const sl_int *rows, sl_int count,
-                   const sl_options *opt, sl_stats *stats) {
-  sl_status status = sl_csc_check(A, stats);
-  if (status == SL_OK) {
-    status = sli_argument(A->n_rows != A->n_cols           ? "A is not square"
-                : sli_nnz(A) > 0 && A->x == NULL ? "A.x is NULL"
-                : count < 0                      ? "count is below 0"
-                : count > 0 && rows == NULL
-                  ? "rows is NULL"
-                  : sli_options_wrong(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE |
-                                 SLI_READS_FACTOR | SLI_READS_ISA));
-  }
-  if (status == SL_OK && opt != NULL) {
-    status = sli_argument(sli_factor_choices_wrong(opt));
-  }
-  return status == SL_OK && opt != NULL && opt->block_size != 0 &&
-           (opt->block_size < 0 || A->n_cols % opt->block_size != 0)
-         ? sli_argument("options.block_size does not divide n")
-         : status;
-}
-
-static void sli_dirichlet_layout(sl_dirichlet *D, sli_block *b) {
-  (void)sli_take(b, 1, sizeof(sl_dirichlet));
-  D->free_rows = SLI_TAKE(b, sl_int, D->n_free);
-  D->fixed_rows = SLI_TAKE(b, sl_int, D->n_fixed);
-  D->coupling_free = SLI_TAKE(b, sl_int, D->n_couplings);
-  D->coupling_fixed = SLI_TAKE(b, sl_int, D->n_couplings);
-  D->coupling_from = SLI_TAKE(b, sl_int, D->n_couplings);
-  D->couplings = SLI_TAKE(b, double, D->n_couplings);
-}
-
-static sl_status sli_dirichlet_new(sl_dirichlet **out, const sl_csc *A, const sl_int *rows,
-                   sl_dirichlet *draft, sl_int *where, sl_stats *stats) {
-  sli_block b = {NULL, 0, 0};
-  sl_dirichlet *D;
-  sl_status status = SL_OK;
-  sl_int k, free_row = 0;
-  const sl_int bad = sli_rows_invert(rows, draft->n_fixed, draft->n, where);
-  if (bad >= 0) {
-    return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0,
-               "a row is out of range or given twice");
-  }
-  for (k = 0; k < draft->n; k++) {
-    where[k] = where[k] < 0 ? free_row++ : -1 - where[k];
-  }
-  draft->n_free = free_row;
-  draft->n_couplings = sli_dirichlet_couple(NULL, A, draft->triangle, where);
-  SLI_LAYOUT(&b, &draft->allocator, status) {
-    sli_dirichlet_layout(draft, &b);
-  }
-  if (status != SL_OK) {
-    return status;
-  }
-  D = (sl_dirichlet *)(void *)b.base;
-  *D = *draft;
-  *out = D;
-  for (k = 0; k < D->n_fixed; k++) {
-    D->fixed_rows[k] = rows[k];
-  }
-  for (k = 0; k < D->n; k++) {
-    if (where[k] >= 0) {
-      D->free_rows[where[k]] = k;
-    }
-  }
-  (void)sli_dirichlet_couple(D, A, D->triangle, where);
-  D->info.n_free = D->n_free;
-  D->info.couplings = D->n_couplings;
-  status = sli_dirichlet_check_values(D, A, stats);
-  if (status == SL_OK) {
-    sli_dirichlet_copy_values(D, A);
-  }
-  return status;
-}
-
-static int sli_dirichlet_may_reuse(const sl_factor *F, const sl_options *opt) {
-  return F != NULL &&
-       (opt == NULL ||
-      ((opt->perm == NULL || opt->ordering != SL_ORDERING_GIVEN) && opt->mass == NULL &&
-       opt->signs == NULL && opt->null_vector == NULL &&
-       opt->null_pivots == SL_NULL_PIVOT_REFUSE && opt->regularization == 0.0)) &&
-       F->type->storage == (opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
-}
-
-static void sli_dirichlet_done(sl_dirichlet *D, double started, sl_stats *stats) {
-  D->info.seconds = sli_seconds() - started;
-  if (stats != NULL) {
-    stats->dirichlet = D->info;
-  }
-}
-
-static sl_status sli_dirichlet_begin(sl_dirichlet *D, const sl_csc *A, const sl_factor *F,
-                   const sl_options *opt, const sl_int *where, sl_int *scratch,
-                   sl_stats *stats) {
-  const sl_options none = sli_options_with(&D->allocator);
-  const sl_options *arrays_of = opt == NULL ? &none : opt;
-  const sli_dirichlet_ways *ways = sli_dirichlet_ways_of();
-  sli_block b = {NULL, 0, 0};
-  sli_dirichlet_arrays arrays;
-  sl_status status = SL_OK;
-  if (ways != NULL && sli_dirichlet_may_reuse(F, opt)) { /* untested: all packs are there */
-    D->ways = ways;
-    status = ways->take(D, F, A, stats);
-    if (status != SL_OK || D->F != NULL || D->pins != NULL) {
-      return status;
-    }
-  }
-  SLI_LAYOUT(&b, &D->allocator, status) {
-    sli_dirichlet_arrays_layout(&arrays, &b, arrays_of, D->n_free);
-  }
-  if (status == SL_OK) {
-    status = sli_dirichlet_arrays_fill(&arrays, D, arrays_of, where, scratch, stats);
-    status =
-      status == SL_OK ? sli_dirichlet_factor(D, A, &arrays, where, scratch, stats) : status;
-    sli_free(&D->allocator, b.base);
-  }
-  D->analysis.metis_options = NULL;
-  return status;
-}
-
-SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const sl_int *rows,
-                   sl_int count, const sl_factor *F, const sl_options *opt,
-                   sl_stats *stats) {
-  const double started = stats == NULL ? 0.0 : sli_seconds();
-  sli_block b = {NULL, 0, 0};
-  sl_dirichlet draft, *D = NULL;
-  sl_int *where = NULL, *scratch = NULL;
-  sl_status status;
-  sli_stats_clear_error(stats);
-  status = sli_begin(out);
-  status = status == SL_OK ? sli_dirichlet_check(A, rows, count, opt, stats) : status;
-  if (status != SL_OK) {
-    return sli_report(stats, status);
-  }
-  memset(&draft, 0, sizeof draft);
-  draft.allocator = sli_allocator(opt);
-  draft.n = A->n_cols;
-  draft.n_fixed = count;
-  (void)sli_pattern_hash(A, &draft.pattern);
-  sli_dirichlet_options(&draft, opt);
-  status = sli_csc_triangle(A, sli_triangle_scan(A), &draft.triangle, opt, stats);
-  SLI_LAYOUT(&b, &draft.allocator, status) {
-    where = SLI_TAKE(&b, sl_int, draft.n);
-    scratch = SLI_TAKE(&b, sl_int, (uint64_t)draft.n + 1);
-  }
-  if (status != SL_OK) {
-    return sli_report(stats, status);
-  }
-  status = sli_dirichlet_new(&D, A, rows, &draft, where, stats);
-  status = status == SL_OK ? sli_dirichlet_begin(D, A, F, opt, where, scratch, stats) : status;
-  sli_free(&draft.allocator, b.base);
-  if (status == SL_OK) {
-    sli_dirichlet_done(D, started, stats);
-    *out = D;
-  } else {
-    sl_dirichlet_free(D);
-  }
-  return sli_report(stats, status);
-}
-
-static sl_status sli_dirichlet_replace(sl_dirichlet *D, const sl_csc *A, sl_stats *stats) {
-  const sli_dirichlet_arrays none = {NULL, NULL, NULL, NULL};
-  sl_dirichlet own = *D;
-  sli_block b = {NULL, 0, 0};
-  sl_int *where = NULL, *scratch = NULL;
-  sl_status status = SL_OK;
-  own.M = NULL;
-  own.from = NULL;
-  own.S = NULL;
-  own.F = NULL;
-  own.ways = NULL;
-  own.pins = NULL;
-  SLI_LAYOUT(&b, &D->allocator, status) {
-    where = SLI_TAKE(&b, sl_int, D->n);
-    scratch = SLI_TAKE(&b, sl_int, (uint64_t)D->n + 1);
-  }
-  if (status == SL_OK) {
-    sli_dirichlet_number(D, where);
-    status = sli_dirichlet_factor(&own, A, &none, where, scratch, stats);
-    sli_free(&D->allocator, b.base);
-  }
-  sli_dirichlet_clear(status == SL_OK ? D : &own);
-  if (status == SL_OK) {
-    *D = own;
-    sli_dirichlet_copy_values(D, A);
-  }
-  return status;
-}
-
-SL_API sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A, sl_stats *stats) {
-  const double started = stats == NULL ? 0.0 : sli_seconds();
-  sli_hash pattern;
-  sl_status status;
-  sli_stats_clear_error(stats);
-  status = sli_argument(D == NULL                 ? "D is NULL"
-              : !sli_csc_has_pattern(A) ? "A is NULL, or has no size, p or i"
-                          : NULL);
-  if (status == SL_OK &&
-    (A->n_rows != D->n || A->n_cols != D->n || !sli_pattern_hash(A, &pattern) ||
-     !sli_hash_equals(pattern, D->pattern))) {
-    status = sli_refuse(SL_ERR_OTHER_PATTERN, "A has another pattern than at the creation");
-  }
-  if (status == SL_OK) {
-    status = sli_argument(sli_nnz(A) > 0 && A->x == NULL ? "A.x is NULL" : NULL);
-  }
-  status = status == SL_OK ? sli_dirichlet_check_values(D, A, stats) : status;
-  if (status == SL_OK && D->M == NULL) {
-    status = sli_dirichlet_replace(D, A, stats);
-  } else if (status == SL_OK) {
-    const sl_csc view = sl_matrix_view(D->M);
-    sli_dirichlet_copy_values(D, A);
-    status = sl_factor_refactor(D->F, &view, stats);
-    status = sli_dirichlet_report(D, status, stats);
-  }
-  if (status == SL_OK) {
-    sli_dirichlet_done(D, started, stats);
-  }
-  return sli_report(stats, status);
-}
-
-static void sli_dirichlet_gather(const sl_dirichlet *D, const sli_rhs *rhs) {
-  const sli_dense x = sli_dense_of(rhs->ldx), b = sli_dense_of(rhs->ldb);
-  const sl_int by_rows = x.column == 1;
-  const sl_int outer = by_rows ? D->n_free : rhs->nrhs, inner = by_rows ? rhs->nrhs : D->n_free;
-  sl_int i, j;
-  for (i = 0; i < outer; i++) {
-    for (j = 0; j < inner; j++) {
-      const size_t k = (size_t)(by_rows ? i : j), r = (size_t)(by_rows ? j : i);
-      rhs->X[k * x.row + r * x.column] =
-        rhs->B == NULL ? 0.0 : rhs->B[(size_t)D->free_rows[k] * b.row + r * b.column];
-    }
-  }
-}
-
-static void sli_dirichlet_subtract(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
-                   size_t ldg) {
-  const sli_dense x = sli_dense_of(rhs->ldx), g = sli_dense_of(ldg);
-  sl_int k, r;
-  for (k = 0; k < D->n_couplings; k++) {
-    double *to = rhs->X + (size_t)D->coupling_free[k] * x.row;
-    const double *from = G + (size_t)D->coupling_fixed[k] * g.row, a = D->couplings[k];
-    for (r = 0; r < rhs->nrhs; r++) {
-      to[(size_t)r * x.column] -= a * from[(size_t)r * g.column];
-    }
-  }
-}
-
-static void sli_dirichlet_scatter(const sl_dirichlet *D, const sli_rhs *rhs) {
-  const sli_dense x = sli_dense_of(rhs->ldx);
-  const sl_int by_rows = x.column == 1;
-  const sl_int outer = by_rows ? D->n_free : rhs->nrhs, inner = by_rows ? rhs->nrhs : D->n_free;
-  sl_int i, j;
-  for (i = outer - 1; i >= 0; i--) {
-    for (j = inner - 1; j >= 0; j--) {
-      const size_t k = (size_t)(by_rows ? i : j), r = (size_t)(by_rows ? j : i);
-      rhs->X[(size_t)D->free_rows[k] * x.row + r * x.column] =
-        rhs->X[k * x.row + r * x.column];
-    }
-  }
-}
-
-static int sli_dirichlet_set_fixed(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
-                   size_t ldg) {
-  const sli_dense x = sli_dense_of(rhs->ldx), g = sli_dense_of(ldg);
-  sl_int k, r;
-  int is_finite = 1;
-  for (r = 0; r < rhs->nrhs; r++) {
-    for (k = 0; k < D->n_fixed; k++) {
-      const double value = G[(size_t)k * g.row + (size_t)r * g.column];
-      rhs->X[(size_t)D->fixed_rows[k] * x.row + (size_t)r * x.column] = value;
-      is_finite &= sli_is_finite(value);
-    }
-  }
-  return is_finite;
-}
-
-static sl_status sli_dirichlet_run(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
-                   size_t ldg, sl_work *W) {
-  const sli_rhs in_place = sli_rhs_of(rhs->X, rhs->ldx, rhs->X, rhs->ldx, rhs->nrhs);
-  const sli_query q = sli_query_all(D->S);
-  sli_sweep_tasks t;
-  sl_status status = sli_query_prepare(&t, D->F, &q, &in_place, W);
-  if (status == SL_OK) {
-    sli_dirichlet_gather(D, rhs);
-    sli_dirichlet_subtract(D, rhs, G, ldg);
-    status = D->n_free > 0 ? sli_query_run(&t, D->F, &q, &in_place, W) : SL_OK;
-    sli_dirichlet_scatter(D, rhs);
-  }
-  return status;
-}
-
-SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx, const double *B,
-                  size_t ldb, const double *G, size_t ldg, sl_int nrhs,
-                  sl_work *W) {
-  sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
-  sl_work own;
-  sl_status status;
-  if (D == NULL ||
-    (nrhs > 0 && D->n_fixed > 0 && (G == NULL || !sli_dense_spans(ldg, D->n_fixed, nrhs)))) {
-    return sli_argument(D == NULL   ? "D is NULL"
-              : G == NULL ? "G is NULL"
-                    : "ldg is below the number of fixed rows, or with SL_ROWS "
-                      "nrhs");
-  }
-  status = sli_rhs_check(&rhs, D->n, B == NULL ? 0 : D->n);
-  if (status != SL_OK || nrhs == 0 || D->n == 0) {
-    return status;
-  }
-  status = D->pins == NULL ? sli_factor_has_numbers(D->F) : SL_OK;
-  if (status != SL_OK) {
-    return status;
-  }
-  own = sli_work_own(&D->allocator);
-  W = W == NULL ? &own : W;
-  status = D->pins != NULL ? D->ways->solve(D, &rhs, G, ldg, W)
-               : sli_dirichlet_run(D, &rhs, G, ldg, W);
-  sli_free(&own.allocator, own.block);
-  if (status == SL_OK && !sli_dirichlet_set_fixed(D, &rhs, G, ldg)) {
-    status = sli_refuse(SL_ERR_NOT_FINITE, "a value of G is not finite");
-  }
-  return status;
-}
-
-SL_API sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D) {
-  sl_dirichlet_arrays v;
-  memset(&v, 0, sizeof v);
-  if (D != NULL) {
-    v.n_free = D->n_free;
-    v.n_fixed = D->n_fixed;
-    v.free_rows = D->free_rows;
-    v.fixed_rows = D->fixed_rows;
-    v.symbolic = D->S;
-    v.factor = D->F;
-    v.matrix = sl_matrix_view(D->M);
-  }
-  return v;
-}
-
 /* accuracy: refinement, condition, defects, half solves, bounds of errors */
 #if defined(SL_WITH_ACCURACY)
 /* src/impl/accuracy/parts.h: half solves: the factors of P A P' = L D L' applied one by one, full and local */
@@ -28757,212 +28194,6 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
   return sli_report(stats, status);
 }
 
-/* src/impl/change/dirichlet_reuse.h: rows fixed at given values, by a factor of all rows: restriction or pins */
-
-static int sli_dirichlet_is_factor_of(const sl_factor *F, const sl_csc *A) {
-  sl_factor as;
-  if (sli_factor_fits(F, A) != SL_OK || F->E != NULL) {
-    return 0;
-  }
-  as = *F;
-  as.identity = sli_hash_words(F->S->identity, A->x, sli_nnz(A));
-  sli_factor_identify_numbers(&as);
-  return sli_hash_equals(as.identity, F->identity);
-}
-
-typedef struct sli_dirichlet_choice {
-  const sl_factor *F;
-  uint64_t *seeds, *scratch;
-  sl_int *uses;
-} sli_dirichlet_choice;
-
-static void sli_dirichlet_count(const sli_dirichlet_choice *c, sl_dirichlet *D) {
-  const sl_factor *F = c->F;
-  const sl_symbolic *S = F->S;
-  const double flop = sli_costs_of(F->kernels->isa)->flop, whole = sli_choose_refactor(F);
-  const double share = (double)D->n_free / (S->n > 0 ? S->n : 1);
-  const double entries = (double)S->scatter_begin[S->n_supers];
-  double computed = 0.0, kept = 0.0, pins;
-  sl_int kept_columns = 0, s, k;
-  for (k = 0; k < D->n_fixed; k++) {
-    c->seeds[k] = sli_keyed(S->iperm[D->fixed_rows[k]], 0);
-  }
-  sli_sort(c->seeds, D->n_fixed, c->scratch);
-  memset(c->uses, 0, (size_t)S->n_supers * sizeof(sl_int));
-  pins = SLI_DIRICHLET_PINS * sli_pins_capacitance_cost(S, c->seeds, D->n_fixed, 0, c->uses) +
-       SLI_DIRICHLET_PROBE * ((double)S->panel_begin[S->n_supers] + entries);
-  for (s = 0, k = 0; s < S->n_supers; s++) {
-    const sl_int up = S->super_parent[s], width = S->steps[s].width;
-    sl_int free_columns = width;
-    for (; k < D->n_fixed && sli_key(c->seeds[k]) < S->super_first[s + 1]; k++) {
-      c->uses[s]++;
-      free_columns--;
-    }
-    if (up != -1) {
-      c->uses[up] += c->uses[s];
-    }
-    if (c->uses[s] == 0) {
-      kept += SLI_DIRICHLET_COPY * (double)(S->panel_begin[s + 1] - S->panel_begin[s]);
-      kept_columns += width;
-    } else if (free_columns > 0) {
-      computed += (flop * sli_choose_front(S, s) + SLI_CHANGE_FRONT(flop)) * free_columns /
-            (double)width;
-    }
-  }
-  D->info.seconds_submatrix = share * (whole + SLI_DIRICHLET_ANALYSIS * entries);
-  D->info.seconds_restriction =
-    SLI_DIRICHLET_ROW * D->n_free +
-    (kept_columns < 0.4 * D->n_free ? share * whole : kept + computed);
-  D->info.seconds_pins = sli_pins_check(F) == SL_OK && F->null.vectors == 1 ? pins : 0.0;
-}
-
-static sl_status sli_dirichlet_probe(const sl_dirichlet *D, const sl_csc *A, const sl_pins *P,
-                   int *is_good) {
-  const size_t n = (size_t)D->n;
-  uint64_t random = 1;
-  sli_block b = {NULL, 0, 0};
-  double *x = NULL, *r = NULL, *sums = NULL, *zeros = NULL, size, error = 0.0;
-  sl_status status = SL_OK;
-  sl_int k;
-  *is_good = 0;
-  SLI_LAYOUT(&b, &D->allocator, status) {
-    x = SLI_TAKE(&b, double, n);
-    r = SLI_TAKE(&b, double, n);
-    sums = SLI_TAKE(&b, double, n);
-    zeros = SLI_TAKE(&b, double, D->n_fixed);
-  }
-  if (status != SL_OK) {
-    return status;
-  }
-  for (k = 0; k < D->n; k++) {
-    random = random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    r[k] = 0.5 + (double)(random >> 40) / 33554432.0;
-  }
-  memset(zeros, 0, (size_t)D->n_fixed * sizeof(double));
-  status = sl_pins_solve(P, NULL, x, n, r, n, zeros, (size_t)D->n_fixed, 1, NULL);
-  if (status == SL_OK) {
-    size = sli_csc_norm(A, D->triangle, sums) * sli_largest(x, D->n) + 1.0;
-    sli_add_product(A, D->triangle, -1.0, r, x);
-    for (k = 0; k < D->n_free; k++) {
-      error = fmax(error, fabs(r[D->free_rows[k]]));
-    }
-    *is_good = error <= SLI_DIRICHLET_LOST * P->F->rule.epsilon * size;
-  }
-  sli_free(&D->allocator, b.base);
-  return status;
-}
-
-static sl_status sli_dirichlet_pin(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
-                   sl_stats *stats) {
-  const sl_options only_memory = sli_options_with(&D->allocator);
-  sl_pins *P = NULL;
-  int is_good = 0;
-  sl_status status = sl_pins_create(&P, F, &only_memory);
-  status = status == SL_OK ? sl_pins_add(P, D->fixed_rows, D->n_fixed, stats) : status;
-  if (status == SL_OK && P->n_used == F->null.count) {
-    status = sli_dirichlet_probe(D, A, P, &is_good);
-  }
-  if (is_good) {
-    D->pins = P;
-    D->info.method = SL_DIRICHLET_PINS;
-  } else {
-    sl_pins_free(P);
-  }
-  return status;
-}
-
-static sl_status sli_dirichlet_restrict(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
-                    sl_stats *stats) {
-  const sl_options only_memory = sli_options_with(&D->allocator);
-  D->info.method = SL_DIRICHLET_RESTRICTION;
-  return sl_factor_restrict(&D->S, &D->F, F, A, D->free_rows, D->n_free, &only_memory, stats);
-}
-
-SLI_INLINE int sli_dirichlet_is_over(sl_status status) {
-  return status == SL_ERR_MEMORY || status == SL_ERR_TOO_LARGE;
-}
-
-static sl_status sli_dirichlet_take(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
-                  sl_stats *stats) {
-  sli_dirichlet_choice c;
-  sli_block b = {NULL, 0, 0};
-  sl_status status = SL_OK;
-  if (!sli_dirichlet_is_factor_of(F, A)) {
-    return SL_OK;
-  }
-  memset(&c, 0, sizeof c);
-  c.F = F;
-  SLI_LAYOUT(&b, &D->allocator, status) {
-    c.seeds = SLI_TAKE(&b, uint64_t, D->n_fixed);
-    c.scratch = SLI_TAKE(&b, uint64_t, D->n_fixed);
-    c.uses = SLI_TAKE(&b, sl_int, F->S->n_supers);
-  }
-  if (status != SL_OK) {
-    return status;
-  }
-  sli_dirichlet_count(&c, D);
-  sli_free(&D->allocator, b.base);
-  if (D->info.seconds_pins > 0.0 &&
-    D->info.seconds_pins <= fmin(D->info.seconds_restriction, D->info.seconds_submatrix)) {
-    status = sli_dirichlet_pin(D, F, A, stats);
-  }
-  if (!sli_dirichlet_is_over(status) && D->pins == NULL &&
-    D->info.seconds_restriction <= D->info.seconds_submatrix) {
-    status = sli_dirichlet_restrict(D, F, A, stats);
-  }
-  return sli_dirichlet_is_over(status) ? status : SL_OK;
-}
-
-static void sli_dirichlet_copy(double *to, sli_dense t, const double *from, sli_dense f,
-                 sl_int rows, sl_int columns) {
-  sl_int k, r;
-  for (k = 0; k < rows; k++) {
-    for (r = 0; r < columns; r++) {
-      to[(size_t)k * t.row + (size_t)r * t.column] =
-        from == NULL ? 0.0 : from[(size_t)k * f.row + (size_t)r * f.column];
-    }
-  }
-}
-
-static sl_status sli_dirichlet_solve_pins(const sl_dirichlet *D, const sli_rhs *rhs,
-                      const double *G, size_t ldg, sl_work *W) {
-  const sl_pins *P = (const sl_pins *)D->pins;
-  const size_t n = (size_t)D->n, m = (size_t)D->n_fixed;
-  sli_block b = {NULL, 0, 0};
-  double *X = NULL, *held = NULL;
-  sl_status status = SL_OK;
-  sl_int r, count;
-  if (rhs->B != NULL && ((rhs->ldx | rhs->ldb | ldg) & SL_ROW_MAJOR) == 0) {
-    return sl_pins_solve(P, NULL, rhs->X, rhs->ldx, rhs->B, rhs->ldb, G, ldg, rhs->nrhs, W);
-  }
-  SLI_LAYOUT(&b, &D->allocator, status) {
-    X = SLI_TAKE(&b, double, 8 * (uint64_t)n);
-    held = SLI_TAKE(&b, double, 8 * (uint64_t)m);
-  }
-  for (r = 0; r < rhs->nrhs && status == SL_OK; r += count) {
-    const sli_dense x = sli_dense_by_columns(n), h = sli_dense_by_columns(m);
-    const sli_dense g = sli_dense_of(ldg);
-    sli_rhs part;
-    count = sli_min(8, rhs->nrhs - r);
-    part = sli_rhs_part(rhs, r, count);
-    sli_dirichlet_copy(X, x, part.B, sli_dense_of(part.ldb), D->n, count);
-    sli_dirichlet_copy(held, h, m == 0 ? NULL : G + (size_t)r * g.column, g, D->n_fixed, count);
-    status = sl_pins_solve(P, NULL, X, n, X, n, held, m, count, W);
-    if (status == SL_OK) {
-      sli_dirichlet_copy(part.X, sli_dense_of(part.ldx), X, x, D->n, count);
-    }
-  }
-  sli_free(&D->allocator, b.base);
-  return status;
-}
-
-static void sli_dirichlet_release(sl_dirichlet *D) {
-  sl_pins_free((sl_pins *)D->pins);
-}
-
-static const sli_dirichlet_ways sli_dirichlet_reuse = {sli_dirichlet_take, sli_dirichlet_solve_pins,
-                             sli_dirichlet_release};
-
 /* src/impl/change/edit_match.h: which rows of an edited matrix have other neighbors than before */
 
 typedef struct sli_edit {
@@ -30676,6 +29907,794 @@ SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_sy
   }
   return sli_report(stats, status);
 }
+
+#endif
+/* dirichlet: rows fixed at given values */
+#if defined(SL_WITH_DIRICHLET)
+/* src/impl/dirichlet/dirichlet_rows.h: free and fixed rows, the entries of A between them, and what is copied of A */
+
+typedef struct sli_dirichlet_ways {
+  sl_status (*take)(sl_dirichlet *D, const sl_factor *F, const sl_csc *A, sl_stats *stats);
+  sl_status (*solve)(const sl_dirichlet *D, const sli_rhs *rhs, const double *G, size_t ldg,
+             sl_work *W);
+  void (*release)(sl_dirichlet *D);
+} sli_dirichlet_ways;
+
+struct sl_dirichlet {
+  sl_allocator allocator;
+  sl_options analysis, factorization;
+  sli_hash pattern;
+  sl_triangle triangle;
+  sl_int n, n_free, n_fixed, n_couplings;
+  sl_int *free_rows;
+  sl_int *fixed_rows;
+  sl_int *coupling_free, *coupling_fixed, *coupling_from;
+  double *couplings;
+  sl_dirichlet_info info;
+
+  sl_matrix *M;
+  sl_int *from;
+  sl_symbolic *S;
+  sl_factor *F;
+  const sli_dirichlet_ways *ways;
+  void *pins;
+};
+
+static sl_int sli_dirichlet_couple(sl_dirichlet *D, const sl_csc *A, sl_triangle triangle,
+                   const sl_int *where) {
+  sl_int j, p, count = 0;
+  for (j = 0; j < A->n_cols; j++) {
+    const sl_int c = where[j];
+    for (p = A->p[j]; p < A->p[j + 1]; p++) {
+      const sl_int r = where[A->i[p]];
+      if ((r ^ c) >= 0 || !sli_is_read(triangle, A->i[p], j)) {
+        continue;
+      }
+      if (D != NULL) {
+        D->coupling_free[count] = sli_max(r, c);
+        D->coupling_fixed[count] = -1 - sli_min(r, c);
+        D->coupling_from[count] = p;
+      }
+      count++;
+    }
+  }
+  return count;
+}
+
+static sl_status sli_dirichlet_check_values(const sl_dirichlet *D, const sl_csc *A,
+                      sl_stats *stats) {
+  sl_int k;
+  for (k = 0; k < D->n_couplings; k++) {
+    const sl_int p = D->coupling_from[k];
+    if (!sli_is_finite(A->x[p])) {
+      return sli_fail_at(stats, SL_ERR_NOT_FINITE, A->i[p], sli_column_of(A, p), A->x[p],
+                 "an entry of A is not finite");
+    }
+  }
+  return SL_OK;
+}
+
+static void sli_dirichlet_copy_values(sl_dirichlet *D, const sl_csc *A) {
+  sl_int k;
+  for (k = 0; k < D->n_couplings; k++) {
+    D->couplings[k] = A->x[D->coupling_from[k]];
+  }
+  for (k = 0; D->M != NULL && k < D->M->p[D->n_free]; k++) {
+    D->M->x[k] = A->x[D->from[k]];
+  }
+}
+
+static void sli_dirichlet_number(const sl_dirichlet *D, sl_int *where) {
+  sl_int k;
+  for (k = 0; k < D->n_free; k++) {
+    where[D->free_rows[k]] = k;
+  }
+  for (k = 0; k < D->n_fixed; k++) {
+    where[D->fixed_rows[k]] = -1 - k;
+  }
+}
+
+static sl_status sli_dirichlet_report(const sl_dirichlet *D, sl_status status, sl_stats *stats) {
+  sl_stats found;
+  if (status == SL_OK) {
+    return status;
+  }
+  (void)sli_report(&found, status);
+  if (found.error.row >= 0) {
+    found.error.row = D->free_rows[found.error.row];
+  }
+  if (found.error.column >= 0) {
+    found.error.column = D->free_rows[found.error.column];
+  }
+  return sli_fail_as(stats, status, &found.error);
+}
+
+typedef struct sli_dirichlet_arrays {
+  sl_int *perm, *signs;
+  double *mass, *null_vector;
+} sli_dirichlet_arrays;
+
+static void sli_dirichlet_arrays_layout(sli_dirichlet_arrays *r, sli_block *b,
+                    const sl_options *opt, sl_int n) {
+  const uint64_t count = (uint64_t)n;
+  r->perm =
+    opt->ordering != SL_ORDERING_GIVEN || opt->perm == NULL ? NULL : SLI_TAKE(b, sl_int, count);
+  r->signs = opt->signs == NULL ? NULL : SLI_TAKE(b, sl_int, count);
+  r->mass = opt->mass == NULL ? NULL : SLI_TAKE(b, double, count);
+  r->null_vector =
+    opt->null_vector == NULL ? NULL : SLI_TAKE(b, double, count *(opt->null_vector_count + 1));
+}
+
+static sl_status sli_dirichlet_arrays_fill(const sli_dirichlet_arrays *r, const sl_dirichlet *D,
+                       const sl_options *opt, const sl_int *where,
+                       sl_int *scratch, sl_stats *stats) {
+  const sl_int m = D->n_free;
+  const size_t vectors = opt->null_vector_count == 0 ? 1 : opt->null_vector_count;
+  sl_int k, at = 0;
+  size_t v;
+  if (r->perm != NULL) {
+    k = sli_rows_invert(opt->perm, D->n, D->n, scratch);
+    if (k >= 0) {
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, k, -1, 0.0,
+                 "options.perm has a row out of range or twice at this position");
+    }
+    for (k = 0; k < D->n; k++) {
+      if (where[opt->perm[k]] >= 0) {
+        r->perm[at++] = where[opt->perm[k]];
+      }
+    }
+  }
+  for (k = 0; k < m; k++) {
+    const sl_int row = D->free_rows[k];
+    if (r->signs != NULL) {
+      r->signs[k] = opt->signs[row];
+    }
+    if (r->mass != NULL) {
+      r->mass[k] = opt->mass[row];
+    }
+    for (v = 0; v < vectors && r->null_vector != NULL; v++) {
+      r->null_vector[v * (size_t)m + (size_t)k] =
+        opt->null_vector[v * (size_t)D->n + (size_t)row];
+    }
+  }
+  return SL_OK;
+}
+
+static int sli_dirichlet_keeps_blocks(const sl_dirichlet *D, sl_int size) {
+  sl_int k;
+  for (k = 0; k < D->n_free && size > 1; k++) {
+    const sl_int first = D->free_rows[k - k % size];
+    if (first % size != 0 || D->free_rows[k] != first + k % size) {
+      return 0;
+    }
+  }
+  return size > 1 && D->n_free % size == 0;
+}
+
+/* src/impl/dirichlet/dirichlet.h: systems with rows fixed at given values: a factor of the free rows, its solves */
+
+static const sli_dirichlet_ways *sli_dirichlet_ways_of(void);
+
+static void sli_dirichlet_clear(sl_dirichlet *D) {
+  if (D->pins != NULL) {
+    D->ways->release(D);
+  }
+  sl_factor_free(D->F);
+  sl_symbolic_free(D->S);
+  sl_matrix_free(D->M);
+  sli_free(&D->allocator, D->from);
+}
+
+SL_API void sl_dirichlet_free(sl_dirichlet *D) {
+  if (D != NULL) {
+    const sl_allocator a = D->allocator;
+    sli_dirichlet_clear(D);
+    sli_free(&a, D);
+  }
+}
+
+static sl_status sli_dirichlet_factor(sl_dirichlet *D, const sl_csc *A,
+                    const sli_dirichlet_arrays *arrays, const sl_int *where,
+                    sl_int *scratch, sl_stats *stats) {
+  sl_options analysis = D->analysis, factorization = D->factorization;
+  sli_submatrix s;
+  sl_csc view;
+  sl_status status;
+  analysis.perm = arrays->perm;
+  analysis.block_size =
+    sli_dirichlet_keeps_blocks(D, analysis.block_size) ? analysis.block_size : 0;
+  factorization.signs = arrays->signs;
+  factorization.mass = arrays->mass;
+  factorization.null_vector = arrays->null_vector;
+  s.A = A;
+  s.triangle = D->triangle;
+  s.is_folded = 1;
+  s.count = D->n_free;
+  s.where = where;
+  status = sli_submatrix_make(&D->M, &D->from, &s, scratch, &D->allocator);
+  if (status == SL_OK) {
+    view = sl_matrix_view(D->M);
+    status = sl_symbolic_create(&D->S, &view, &analysis, stats);
+  }
+  if (status == SL_OK) {
+    status = sl_factor_create(&D->F, D->S, &view, &factorization, stats);
+    status = sli_dirichlet_report(D, status, stats);
+  }
+  D->info.method = SL_DIRICHLET_SUBMATRIX;
+  return status;
+}
+
+static void sli_dirichlet_options(sl_dirichlet *D, const sl_options *opt) {
+  const sl_options none = sli_options_with(&D->allocator);
+  sl_options *f = &D->factorization, *s = &D->analysis;
+  *f = *s = none;
+  if (opt == NULL) {
+    return;
+  }
+  s->threads = f->threads = opt->threads;
+  s->ordering = opt->ordering;
+  s->relaxation = opt->relaxation;
+  s->metis_options = opt->metis_options;
+  s->block_size = opt->block_size;
+  s->purpose = opt->purpose;
+  f->isa = opt->isa;
+  f->method = opt->method;
+  f->null_pivots = opt->null_pivots;
+  f->null_tolerance = opt->null_tolerance;
+  f->consistency_tolerance = opt->consistency_tolerance;
+  f->regularization = opt->regularization;
+  f->growth_limit = opt->growth_limit;
+  f->error_limit = opt->error_limit;
+  f->null_vector_count = opt->null_vector_count;
+  f->storage = opt->storage;
+  f->definite = opt->definite;
+}
+
+static sl_status sli_dirichlet_check(const sl_csc *A, const sl_int *rows, sl_int count,
+                   const sl_options *opt, sl_stats *stats) {
+  sl_status status = sl_csc_check(A, stats);
+  if (status == SL_OK) {
+    status = sli_argument(A->n_rows != A->n_cols           ? "A is not square"
+                : sli_nnz(A) > 0 && A->x == NULL ? "A.x is NULL"
+                : count < 0                      ? "count is below 0"
+                : count > 0 && rows == NULL
+                  ? "rows is NULL"
+                  : sli_options_wrong(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE |
+                                 SLI_READS_FACTOR | SLI_READS_ISA));
+  }
+  if (status == SL_OK && opt != NULL) {
+    status = sli_argument(sli_factor_choices_wrong(opt));
+  }
+  return status == SL_OK && opt != NULL && opt->block_size != 0 &&
+           (opt->block_size < 0 || A->n_cols % opt->block_size != 0)
+         ? sli_argument("options.block_size does not divide n")
+         : status;
+}
+
+static void sli_dirichlet_layout(sl_dirichlet *D, sli_block *b) {
+  (void)sli_take(b, 1, sizeof(sl_dirichlet));
+  D->free_rows = SLI_TAKE(b, sl_int, D->n_free);
+  D->fixed_rows = SLI_TAKE(b, sl_int, D->n_fixed);
+  D->coupling_free = SLI_TAKE(b, sl_int, D->n_couplings);
+  D->coupling_fixed = SLI_TAKE(b, sl_int, D->n_couplings);
+  D->coupling_from = SLI_TAKE(b, sl_int, D->n_couplings);
+  D->couplings = SLI_TAKE(b, double, D->n_couplings);
+}
+
+static sl_status sli_dirichlet_new(sl_dirichlet **out, const sl_csc *A, const sl_int *rows,
+                   sl_dirichlet *draft, sl_int *where, sl_stats *stats) {
+  sli_block b = {NULL, 0, 0};
+  sl_dirichlet *D;
+  sl_status status = SL_OK;
+  sl_int k, free_row = 0;
+  const sl_int bad = sli_rows_invert(rows, draft->n_fixed, draft->n, where);
+  if (bad >= 0) {
+    return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0,
+               "a row is out of range or given twice");
+  }
+  for (k = 0; k < draft->n; k++) {
+    where[k] = where[k] < 0 ? free_row++ : -1 - where[k];
+  }
+  draft->n_free = free_row;
+  draft->n_couplings = sli_dirichlet_couple(NULL, A, draft->triangle, where);
+  SLI_LAYOUT(&b, &draft->allocator, status) {
+    sli_dirichlet_layout(draft, &b);
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  D = (sl_dirichlet *)(void *)b.base;
+  *D = *draft;
+  *out = D;
+  for (k = 0; k < D->n_fixed; k++) {
+    D->fixed_rows[k] = rows[k];
+  }
+  for (k = 0; k < D->n; k++) {
+    if (where[k] >= 0) {
+      D->free_rows[where[k]] = k;
+    }
+  }
+  (void)sli_dirichlet_couple(D, A, D->triangle, where);
+  D->info.n_free = D->n_free;
+  D->info.couplings = D->n_couplings;
+  status = sli_dirichlet_check_values(D, A, stats);
+  if (status == SL_OK) {
+    sli_dirichlet_copy_values(D, A);
+  }
+  return status;
+}
+
+static int sli_dirichlet_may_reuse(const sl_factor *F, const sl_options *opt) {
+  return F != NULL &&
+       (opt == NULL ||
+      ((opt->perm == NULL || opt->ordering != SL_ORDERING_GIVEN) && opt->mass == NULL &&
+       opt->signs == NULL && opt->null_vector == NULL &&
+       opt->null_pivots == SL_NULL_PIVOT_REFUSE && opt->regularization == 0.0)) &&
+       F->type->storage == (opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
+}
+
+static void sli_dirichlet_done(sl_dirichlet *D, double started, sl_stats *stats) {
+  D->info.seconds = sli_seconds() - started;
+  if (stats != NULL) {
+    stats->dirichlet = D->info;
+  }
+}
+
+static sl_status sli_dirichlet_begin(sl_dirichlet *D, const sl_csc *A, const sl_factor *F,
+                   const sl_options *opt, const sl_int *where, sl_int *scratch,
+                   sl_stats *stats) {
+  const sl_options none = sli_options_with(&D->allocator);
+  const sl_options *arrays_of = opt == NULL ? &none : opt;
+  const sli_dirichlet_ways *ways = sli_dirichlet_ways_of();
+  sli_block b = {NULL, 0, 0};
+  sli_dirichlet_arrays arrays;
+  sl_status status = SL_OK;
+  if (ways != NULL && sli_dirichlet_may_reuse(F, opt)) { /* untested: all packs are there */
+    D->ways = ways;
+    status = ways->take(D, F, A, stats);
+    if (status != SL_OK || D->F != NULL || D->pins != NULL) {
+      return status;
+    }
+  }
+  SLI_LAYOUT(&b, &D->allocator, status) {
+    sli_dirichlet_arrays_layout(&arrays, &b, arrays_of, D->n_free);
+  }
+  if (status == SL_OK) {
+    status = sli_dirichlet_arrays_fill(&arrays, D, arrays_of, where, scratch, stats);
+    status =
+      status == SL_OK ? sli_dirichlet_factor(D, A, &arrays, where, scratch, stats) : status;
+    sli_free(&D->allocator, b.base);
+  }
+  D->analysis.metis_options = NULL;
+  return status;
+}
+
+SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const sl_int *rows,
+                   sl_int count, const sl_factor *F, const sl_options *opt,
+                   sl_stats *stats) {
+  const double started = stats == NULL ? 0.0 : sli_seconds();
+  sli_block b = {NULL, 0, 0};
+  sl_dirichlet draft, *D = NULL;
+  sl_int *where = NULL, *scratch = NULL;
+  sl_status status;
+  sli_stats_clear_error(stats);
+  status = sli_begin(out);
+  status = status == SL_OK ? sli_dirichlet_check(A, rows, count, opt, stats) : status;
+  if (status != SL_OK) {
+    return sli_report(stats, status);
+  }
+  memset(&draft, 0, sizeof draft);
+  draft.allocator = sli_allocator(opt);
+  draft.n = A->n_cols;
+  draft.n_fixed = count;
+  (void)sli_pattern_hash(A, &draft.pattern);
+  sli_dirichlet_options(&draft, opt);
+  status = sli_csc_triangle(A, sli_triangle_scan(A), &draft.triangle, opt, stats);
+  SLI_LAYOUT(&b, &draft.allocator, status) {
+    where = SLI_TAKE(&b, sl_int, draft.n);
+    scratch = SLI_TAKE(&b, sl_int, (uint64_t)draft.n + 1);
+  }
+  if (status != SL_OK) {
+    return sli_report(stats, status);
+  }
+  status = sli_dirichlet_new(&D, A, rows, &draft, where, stats);
+  status = status == SL_OK ? sli_dirichlet_begin(D, A, F, opt, where, scratch, stats) : status;
+  sli_free(&draft.allocator, b.base);
+  if (status == SL_OK) {
+    sli_dirichlet_done(D, started, stats);
+    *out = D;
+  } else {
+    sl_dirichlet_free(D);
+  }
+  return sli_report(stats, status);
+}
+
+static sl_status sli_dirichlet_replace(sl_dirichlet *D, const sl_csc *A, sl_stats *stats) {
+  const sli_dirichlet_arrays none = {NULL, NULL, NULL, NULL};
+  sl_dirichlet own = *D;
+  sli_block b = {NULL, 0, 0};
+  sl_int *where = NULL, *scratch = NULL;
+  sl_status status = SL_OK;
+  own.M = NULL;
+  own.from = NULL;
+  own.S = NULL;
+  own.F = NULL;
+  own.ways = NULL;
+  own.pins = NULL;
+  SLI_LAYOUT(&b, &D->allocator, status) {
+    where = SLI_TAKE(&b, sl_int, D->n);
+    scratch = SLI_TAKE(&b, sl_int, (uint64_t)D->n + 1);
+  }
+  if (status == SL_OK) {
+    sli_dirichlet_number(D, where);
+    status = sli_dirichlet_factor(&own, A, &none, where, scratch, stats);
+    sli_free(&D->allocator, b.base);
+  }
+  sli_dirichlet_clear(status == SL_OK ? D : &own);
+  if (status == SL_OK) {
+    *D = own;
+    sli_dirichlet_copy_values(D, A);
+  }
+  return status;
+}
+
+SL_API sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A, sl_stats *stats) {
+  const double started = stats == NULL ? 0.0 : sli_seconds();
+  sli_hash pattern;
+  sl_status status;
+  sli_stats_clear_error(stats);
+  status = sli_argument(D == NULL                 ? "D is NULL"
+              : !sli_csc_has_pattern(A) ? "A is NULL, or has no size, p or i"
+                          : NULL);
+  if (status == SL_OK &&
+    (A->n_rows != D->n || A->n_cols != D->n || !sli_pattern_hash(A, &pattern) ||
+     !sli_hash_equals(pattern, D->pattern))) {
+    status = sli_refuse(SL_ERR_OTHER_PATTERN, "A has another pattern than at the creation");
+  }
+  if (status == SL_OK) {
+    status = sli_argument(sli_nnz(A) > 0 && A->x == NULL ? "A.x is NULL" : NULL);
+  }
+  status = status == SL_OK ? sli_dirichlet_check_values(D, A, stats) : status;
+  if (status == SL_OK && D->M == NULL) {
+    status = sli_dirichlet_replace(D, A, stats);
+  } else if (status == SL_OK) {
+    const sl_csc view = sl_matrix_view(D->M);
+    sli_dirichlet_copy_values(D, A);
+    status = sl_factor_refactor(D->F, &view, stats);
+    status = sli_dirichlet_report(D, status, stats);
+  }
+  if (status == SL_OK) {
+    sli_dirichlet_done(D, started, stats);
+  }
+  return sli_report(stats, status);
+}
+
+static void sli_dirichlet_gather(const sl_dirichlet *D, const sli_rhs *rhs) {
+  const sli_dense x = sli_dense_of(rhs->ldx), b = sli_dense_of(rhs->ldb);
+  const sl_int by_rows = x.column == 1;
+  const sl_int outer = by_rows ? D->n_free : rhs->nrhs, inner = by_rows ? rhs->nrhs : D->n_free;
+  sl_int i, j;
+  for (i = 0; i < outer; i++) {
+    for (j = 0; j < inner; j++) {
+      const size_t k = (size_t)(by_rows ? i : j), r = (size_t)(by_rows ? j : i);
+      rhs->X[k * x.row + r * x.column] =
+        rhs->B == NULL ? 0.0 : rhs->B[(size_t)D->free_rows[k] * b.row + r * b.column];
+    }
+  }
+}
+
+static void sli_dirichlet_subtract(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
+                   size_t ldg) {
+  const sli_dense x = sli_dense_of(rhs->ldx), g = sli_dense_of(ldg);
+  sl_int k, r;
+  for (k = 0; k < D->n_couplings; k++) {
+    double *to = rhs->X + (size_t)D->coupling_free[k] * x.row;
+    const double *from = G + (size_t)D->coupling_fixed[k] * g.row, a = D->couplings[k];
+    for (r = 0; r < rhs->nrhs; r++) {
+      to[(size_t)r * x.column] -= a * from[(size_t)r * g.column];
+    }
+  }
+}
+
+static void sli_dirichlet_scatter(const sl_dirichlet *D, const sli_rhs *rhs) {
+  const sli_dense x = sli_dense_of(rhs->ldx);
+  const sl_int by_rows = x.column == 1;
+  const sl_int outer = by_rows ? D->n_free : rhs->nrhs, inner = by_rows ? rhs->nrhs : D->n_free;
+  sl_int i, j;
+  for (i = outer - 1; i >= 0; i--) {
+    for (j = inner - 1; j >= 0; j--) {
+      const size_t k = (size_t)(by_rows ? i : j), r = (size_t)(by_rows ? j : i);
+      rhs->X[(size_t)D->free_rows[k] * x.row + r * x.column] =
+        rhs->X[k * x.row + r * x.column];
+    }
+  }
+}
+
+static int sli_dirichlet_set_fixed(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
+                   size_t ldg) {
+  const sli_dense x = sli_dense_of(rhs->ldx), g = sli_dense_of(ldg);
+  sl_int k, r;
+  int is_finite = 1;
+  for (r = 0; r < rhs->nrhs; r++) {
+    for (k = 0; k < D->n_fixed; k++) {
+      const double value = G[(size_t)k * g.row + (size_t)r * g.column];
+      rhs->X[(size_t)D->fixed_rows[k] * x.row + (size_t)r * x.column] = value;
+      is_finite &= sli_is_finite(value);
+    }
+  }
+  return is_finite;
+}
+
+static sl_status sli_dirichlet_run(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
+                   size_t ldg, sl_work *W) {
+  const sli_rhs in_place = sli_rhs_of(rhs->X, rhs->ldx, rhs->X, rhs->ldx, rhs->nrhs);
+  const sli_query q = sli_query_all(D->S);
+  sli_sweep_tasks t;
+  sl_status status = sli_query_prepare(&t, D->F, &q, &in_place, W);
+  if (status == SL_OK) {
+    sli_dirichlet_gather(D, rhs);
+    sli_dirichlet_subtract(D, rhs, G, ldg);
+    status = D->n_free > 0 ? sli_query_run(&t, D->F, &q, &in_place, W) : SL_OK;
+    sli_dirichlet_scatter(D, rhs);
+  }
+  return status;
+}
+
+SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx, const double *B,
+                  size_t ldb, const double *G, size_t ldg, sl_int nrhs,
+                  sl_work *W) {
+  sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
+  sl_work own;
+  sl_status status;
+  if (D == NULL ||
+    (nrhs > 0 && D->n_fixed > 0 && (G == NULL || !sli_dense_spans(ldg, D->n_fixed, nrhs)))) {
+    return sli_argument(D == NULL   ? "D is NULL"
+              : G == NULL ? "G is NULL"
+                    : "ldg is below the number of fixed rows, or with SL_ROWS "
+                      "nrhs");
+  }
+  status = sli_rhs_check(&rhs, D->n, B == NULL ? 0 : D->n);
+  if (status != SL_OK || nrhs == 0 || D->n == 0) {
+    return status;
+  }
+  status = D->pins == NULL ? sli_factor_has_numbers(D->F) : SL_OK;
+  if (status != SL_OK) {
+    return status;
+  }
+  own = sli_work_own(&D->allocator);
+  W = W == NULL ? &own : W;
+  status = D->pins != NULL ? D->ways->solve(D, &rhs, G, ldg, W)
+               : sli_dirichlet_run(D, &rhs, G, ldg, W);
+  sli_free(&own.allocator, own.block);
+  if (status == SL_OK && !sli_dirichlet_set_fixed(D, &rhs, G, ldg)) {
+    status = sli_refuse(SL_ERR_NOT_FINITE, "a value of G is not finite");
+  }
+  return status;
+}
+
+SL_API sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D) {
+  sl_dirichlet_arrays v;
+  memset(&v, 0, sizeof v);
+  if (D != NULL) {
+    v.n_free = D->n_free;
+    v.n_fixed = D->n_fixed;
+    v.free_rows = D->free_rows;
+    v.fixed_rows = D->fixed_rows;
+    v.symbolic = D->S;
+    v.factor = D->F;
+    v.matrix = sl_matrix_view(D->M);
+  }
+  return v;
+}
+
+#endif
+/* dirichlet: by a factor of all rows */
+#if defined(SL_WITH_DIRICHLET) && defined(SL_WITH_CHANGE)
+/* src/impl/dirichlet/dirichlet_reuse.h: rows fixed at given values, by a factor of all rows: restriction or pins */
+
+static int sli_dirichlet_is_factor_of(const sl_factor *F, const sl_csc *A) {
+  sl_factor as;
+  if (sli_factor_fits(F, A) != SL_OK || F->E != NULL) {
+    return 0;
+  }
+  as = *F;
+  as.identity = sli_hash_words(F->S->identity, A->x, sli_nnz(A));
+  sli_factor_identify_numbers(&as);
+  return sli_hash_equals(as.identity, F->identity);
+}
+
+typedef struct sli_dirichlet_choice {
+  const sl_factor *F;
+  uint64_t *seeds, *scratch;
+  sl_int *uses;
+} sli_dirichlet_choice;
+
+static void sli_dirichlet_count(const sli_dirichlet_choice *c, sl_dirichlet *D) {
+  const sl_factor *F = c->F;
+  const sl_symbolic *S = F->S;
+  const double flop = sli_costs_of(F->kernels->isa)->flop, whole = sli_choose_refactor(F);
+  const double share = (double)D->n_free / (S->n > 0 ? S->n : 1);
+  const double entries = (double)S->scatter_begin[S->n_supers];
+  double computed = 0.0, kept = 0.0, pins;
+  sl_int kept_columns = 0, s, k;
+  for (k = 0; k < D->n_fixed; k++) {
+    c->seeds[k] = sli_keyed(S->iperm[D->fixed_rows[k]], 0);
+  }
+  sli_sort(c->seeds, D->n_fixed, c->scratch);
+  memset(c->uses, 0, (size_t)S->n_supers * sizeof(sl_int));
+  pins = SLI_DIRICHLET_PINS * sli_pins_capacitance_cost(S, c->seeds, D->n_fixed, 0, c->uses) +
+       SLI_DIRICHLET_PROBE * ((double)S->panel_begin[S->n_supers] + entries);
+  for (s = 0, k = 0; s < S->n_supers; s++) {
+    const sl_int up = S->super_parent[s], width = S->steps[s].width;
+    sl_int free_columns = width;
+    for (; k < D->n_fixed && sli_key(c->seeds[k]) < S->super_first[s + 1]; k++) {
+      c->uses[s]++;
+      free_columns--;
+    }
+    if (up != -1) {
+      c->uses[up] += c->uses[s];
+    }
+    if (c->uses[s] == 0) {
+      kept += SLI_DIRICHLET_COPY * (double)(S->panel_begin[s + 1] - S->panel_begin[s]);
+      kept_columns += width;
+    } else if (free_columns > 0) {
+      computed += (flop * sli_choose_front(S, s) + SLI_CHANGE_FRONT(flop)) * free_columns /
+            (double)width;
+    }
+  }
+  D->info.seconds_submatrix = share * (whole + SLI_DIRICHLET_ANALYSIS * entries);
+  D->info.seconds_restriction =
+    SLI_DIRICHLET_ROW * D->n_free +
+    (kept_columns < 0.4 * D->n_free ? share * whole : kept + computed);
+  D->info.seconds_pins = sli_pins_check(F) == SL_OK && F->null.vectors == 1 ? pins : 0.0;
+}
+
+static sl_status sli_dirichlet_probe(const sl_dirichlet *D, const sl_csc *A, const sl_pins *P,
+                   int *is_good) {
+  const size_t n = (size_t)D->n;
+  uint64_t random = 1;
+  sli_block b = {NULL, 0, 0};
+  double *x = NULL, *r = NULL, *sums = NULL, *zeros = NULL, size, error = 0.0;
+  sl_status status = SL_OK;
+  sl_int k;
+  *is_good = 0;
+  SLI_LAYOUT(&b, &D->allocator, status) {
+    x = SLI_TAKE(&b, double, n);
+    r = SLI_TAKE(&b, double, n);
+    sums = SLI_TAKE(&b, double, n);
+    zeros = SLI_TAKE(&b, double, D->n_fixed);
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  for (k = 0; k < D->n; k++) {
+    random = random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    r[k] = 0.5 + (double)(random >> 40) / 33554432.0;
+  }
+  memset(zeros, 0, (size_t)D->n_fixed * sizeof(double));
+  status = sl_pins_solve(P, NULL, x, n, r, n, zeros, (size_t)D->n_fixed, 1, NULL);
+  if (status == SL_OK) {
+    size = sli_csc_norm(A, D->triangle, sums) * sli_largest(x, D->n) + 1.0;
+    sli_add_product(A, D->triangle, -1.0, r, x);
+    for (k = 0; k < D->n_free; k++) {
+      error = fmax(error, fabs(r[D->free_rows[k]]));
+    }
+    *is_good = error <= SLI_DIRICHLET_LOST * P->F->rule.epsilon * size;
+  }
+  sli_free(&D->allocator, b.base);
+  return status;
+}
+
+static sl_status sli_dirichlet_pin(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
+                   sl_stats *stats) {
+  const sl_options only_memory = sli_options_with(&D->allocator);
+  sl_pins *P = NULL;
+  int is_good = 0;
+  sl_status status = sl_pins_create(&P, F, &only_memory);
+  status = status == SL_OK ? sl_pins_add(P, D->fixed_rows, D->n_fixed, stats) : status;
+  if (status == SL_OK && P->n_used == F->null.count) {
+    status = sli_dirichlet_probe(D, A, P, &is_good);
+  }
+  if (is_good) {
+    D->pins = P;
+    D->info.method = SL_DIRICHLET_PINS;
+  } else {
+    sl_pins_free(P);
+  }
+  return status;
+}
+
+static sl_status sli_dirichlet_restrict(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
+                    sl_stats *stats) {
+  const sl_options only_memory = sli_options_with(&D->allocator);
+  D->info.method = SL_DIRICHLET_RESTRICTION;
+  return sl_factor_restrict(&D->S, &D->F, F, A, D->free_rows, D->n_free, &only_memory, stats);
+}
+
+SLI_INLINE int sli_dirichlet_is_over(sl_status status) {
+  return status == SL_ERR_MEMORY || status == SL_ERR_TOO_LARGE;
+}
+
+static sl_status sli_dirichlet_take(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
+                  sl_stats *stats) {
+  sli_dirichlet_choice c;
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  if (!sli_dirichlet_is_factor_of(F, A)) {
+    return SL_OK;
+  }
+  memset(&c, 0, sizeof c);
+  c.F = F;
+  SLI_LAYOUT(&b, &D->allocator, status) {
+    c.seeds = SLI_TAKE(&b, uint64_t, D->n_fixed);
+    c.scratch = SLI_TAKE(&b, uint64_t, D->n_fixed);
+    c.uses = SLI_TAKE(&b, sl_int, F->S->n_supers);
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  sli_dirichlet_count(&c, D);
+  sli_free(&D->allocator, b.base);
+  if (D->info.seconds_pins > 0.0 &&
+    D->info.seconds_pins <= fmin(D->info.seconds_restriction, D->info.seconds_submatrix)) {
+    status = sli_dirichlet_pin(D, F, A, stats);
+  }
+  if (!sli_dirichlet_is_over(status) && D->pins == NULL &&
+    D->info.seconds_restriction <= D->info.seconds_submatrix) {
+    status = sli_dirichlet_restrict(D, F, A, stats);
+  }
+  return sli_dirichlet_is_over(status) ? status : SL_OK;
+}
+
+static void sli_dirichlet_copy(double *to, sli_dense t, const double *from, sli_dense f,
+                 sl_int rows, sl_int columns) {
+  sl_int k, r;
+  for (k = 0; k < rows; k++) {
+    for (r = 0; r < columns; r++) {
+      to[(size_t)k * t.row + (size_t)r * t.column] =
+        from == NULL ? 0.0 : from[(size_t)k * f.row + (size_t)r * f.column];
+    }
+  }
+}
+
+static sl_status sli_dirichlet_solve_pins(const sl_dirichlet *D, const sli_rhs *rhs,
+                      const double *G, size_t ldg, sl_work *W) {
+  const sl_pins *P = (const sl_pins *)D->pins;
+  const size_t n = (size_t)D->n, m = (size_t)D->n_fixed;
+  sli_block b = {NULL, 0, 0};
+  double *X = NULL, *held = NULL;
+  sl_status status = SL_OK;
+  sl_int r, count;
+  if (rhs->B != NULL && ((rhs->ldx | rhs->ldb | ldg) & SL_ROW_MAJOR) == 0) {
+    return sl_pins_solve(P, NULL, rhs->X, rhs->ldx, rhs->B, rhs->ldb, G, ldg, rhs->nrhs, W);
+  }
+  SLI_LAYOUT(&b, &D->allocator, status) {
+    X = SLI_TAKE(&b, double, 8 * (uint64_t)n);
+    held = SLI_TAKE(&b, double, 8 * (uint64_t)m);
+  }
+  for (r = 0; r < rhs->nrhs && status == SL_OK; r += count) {
+    const sli_dense x = sli_dense_by_columns(n), h = sli_dense_by_columns(m);
+    const sli_dense g = sli_dense_of(ldg);
+    sli_rhs part;
+    count = sli_min(8, rhs->nrhs - r);
+    part = sli_rhs_part(rhs, r, count);
+    sli_dirichlet_copy(X, x, part.B, sli_dense_of(part.ldb), D->n, count);
+    sli_dirichlet_copy(held, h, m == 0 ? NULL : G + (size_t)r * g.column, g, D->n_fixed, count);
+    status = sl_pins_solve(P, NULL, X, n, X, n, held, m, count, W);
+    if (status == SL_OK) {
+      sli_dirichlet_copy(part.X, sli_dense_of(part.ldx), X, x, D->n, count);
+    }
+  }
+  sli_free(&D->allocator, b.base);
+  return status;
+}
+
+static void sli_dirichlet_release(sl_dirichlet *D) {
+  sl_pins_free((sl_pins *)D->pins);
+}
+
+static const sli_dirichlet_ways sli_dirichlet_reuse = {sli_dirichlet_take, sli_dirichlet_solve_pins,
+                             sli_dirichlet_release};
 
 #endif
 /* io: files that are replaced only when they are complete */
@@ -34979,6 +34998,7 @@ static const char *sli_storage_needs(sl_storage storage) {
                      : "options.storage needs SL_WITH_FLOAT";
 }
 
+#if defined(SL_WITH_DIRICHLET)
 /* src/impl/packs/dirichlet_ways.h: the ways to fix rows that are compiled in beside a factor of the free rows */
 
 #if defined(SL_WITH_CHANGE)
@@ -34993,6 +35013,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #endif
 }
 
+#endif
 /* last: undefine every internal macro */
 /* src/impl/base/undef.h: undefines every internal macro */
 #undef SLI_METIS

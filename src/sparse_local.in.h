@@ -16,7 +16,9 @@ extern "C" {
 #include "public/factor.h"
 #include "public/solve.h"
 #include "public/plan.h"
+#if defined(SL_WITH_DIRICHLET)
 #include "public/dirichlet.h"
+#endif
 #if defined(SL_WITH_ACCURACY)
 #include "public/parts.h"
 #include "public/pseudo.h"
@@ -156,8 +158,6 @@ extern "C" {
 #include "impl/solve/compile.h"
 #include "impl/solve/plan.h"
 #include "impl/solve/local.h"
-#include "impl/solve/dirichlet_rows.h"
-#include "impl/solve/dirichlet.h"
 /* accuracy: refinement, condition, defects, half solves, bounds of errors */
 #if defined(SL_WITH_ACCURACY)
 #include "impl/accuracy/parts.h"
@@ -231,7 +231,6 @@ extern "C" {
 #include "impl/change/restrict_analysis.h"
 #include "impl/change/restrict_symbolic.h"
 #include "impl/change/restrict.h"
-#include "impl/change/dirichlet_reuse.h"
 #include "impl/change/edit_match.h"
 #include "impl/change/edit_place.h"
 #include "impl/change/edit_separate.h"
@@ -240,6 +239,15 @@ extern "C" {
 #include "impl/change/edit_join.h"
 #include "impl/change/edit.h"
 #include "impl/change/edit_factor.h"
+#endif
+/* dirichlet: rows fixed at given values */
+#if defined(SL_WITH_DIRICHLET)
+#include "impl/dirichlet/dirichlet_rows.h"
+#include "impl/dirichlet/dirichlet.h"
+#endif
+/* dirichlet: by a factor of all rows */
+#if defined(SL_WITH_DIRICHLET) && defined(SL_WITH_CHANGE)
+#include "impl/dirichlet/dirichlet_reuse.h"
 #endif
 /* io: files that are replaced only when they are complete */
 #if defined(SL_WITH_FILES) || defined(SL_WITH_SAVE)
@@ -286,7 +294,9 @@ extern "C" {
 #endif
 /* packs: the tables through which the core calls packs */
 #include "impl/packs/storage_types.h"
+#if defined(SL_WITH_DIRICHLET)
 #include "impl/packs/dirichlet_ways.h"
+#endif
 /* last: undefine every internal macro */
 #include "impl/base/undef.h"
 #endif

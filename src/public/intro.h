@@ -34,7 +34,6 @@
  *  x everywhere for b everywhere                  sl_factor_solve                        solve.h
  *  x in a few rows for b in a few rows, often     sl_plan_create, sl_plan_solve          plan.h
  *  the same once                                  sl_local_solve                         plan.h
- *  rows fixed at values, b in the others          sl_dirichlet_create               dirichlet.h
  *  a part of a matrix                             sl_matrix_submatrix                    csc.h
  *  a singular Laplacian, an elastic body          options.null_pivots, mass, null_vector options.h
  *  several processors                             options.threads                        options.h
@@ -46,12 +45,13 @@
  *  can the solution be trusted?                   sl_factor_refine, sl_factor_rcond      accuracy.h
  *  how far off is each answer?                    sl_factor_certify                      bounds.h
  *  a few entries changed, A + V V'                sl_factor_change, sl_factor_update     change.h
+ *  rows fixed at values, b in the others          sl_dirichlet_create               dirichlet.h
  *  rows pinned and released one by one            sl_pins_create                         pins.h
  *  a part of A, with zero values around it        sl_factor_restrict                     restrict.h
  *  a mesh that is cut or remeshed in places       sl_symbolic_edit, sl_factor_edit       edit.h
  *  variances, entries of the inverse              sl_inverse_diagonal, sl_inverse_pairs  inverse.h
  *  the inverse on the whole pattern of L          sl_selected_create                     selected.h
- *  local solves in one part of a mesh, often       sl_region_create                       region.h
+ *  local solves in one part of a mesh, often      sl_region_create                       region.h
  *  L, D or L' alone, samples of covariance A^-1   sl_factor_solve_part                   parts.h
  *  the pseudo-inverse of a singular A             sl_factor_pseudo_inverse               pseudo.h
  *  many solves by one call                        sl_batch_solve                         batch.h

@@ -1,4 +1,5 @@
 /* dirichlet.c: a harmonic map: the border of a mesh is laid on a circle, the rest follows */
+#define SL_WITH_DIRICHLET
 #include "example.h"
 
 int main(void) {

@@ -3,9 +3,9 @@
 #define SLI_PACKS_DIRICHLET_WAYS_H
 
 #if defined(SL_WITH_CHANGE)
-#include "../change/dirichlet_reuse.h"
+#include "../dirichlet/dirichlet_reuse.h"
 #else
-#include "../solve/dirichlet.h"
+#include "../dirichlet/dirichlet.h"
 #endif
 
 static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {

@@ -1,9 +1,9 @@
 /* dirichlet.h: systems with rows fixed at given values: a factor of the free rows, its solves */
-#ifndef SLI_SOLVE_DIRICHLET_H
-#define SLI_SOLVE_DIRICHLET_H
+#ifndef SLI_DIRICHLET_DIRICHLET_H
+#define SLI_DIRICHLET_DIRICHLET_H
 
 #include "dirichlet_rows.h"
-#include "sweep.h"
+#include "../solve/sweep.h"
 
 static const sli_dirichlet_ways *sli_dirichlet_ways_of(void); /* of a pack; NULL: none */
 

@@ -1,12 +1,12 @@
 /* dirichlet_reuse.h: rows fixed at given values, by a factor of all rows: restriction or pins */
-#ifndef SLI_CHANGE_DIRICHLET_REUSE_H
-#define SLI_CHANGE_DIRICHLET_REUSE_H
+#ifndef SLI_DIRICHLET_DIRICHLET_REUSE_H
+#define SLI_DIRICHLET_DIRICHLET_REUSE_H
 
+#include "../change/pins.h"
+#include "../change/pins_solve.h"
+#include "../change/restrict.h"
 #include "../matrix/csc_products.h"
-#include "../solve/dirichlet.h"
-#include "pins.h"
-#include "pins_solve.h"
-#include "restrict.h"
+#include "dirichlet.h"
 
 /* Was F computed from the values of A, and not changed since? */
 static int sli_dirichlet_is_factor_of(const sl_factor *F, const sl_csc *A) {

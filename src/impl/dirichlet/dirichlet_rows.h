@@ -1,12 +1,12 @@
 /* dirichlet_rows.h: free and fixed rows, the entries of A between them, and what is copied of A */
-#ifndef SLI_SOLVE_DIRICHLET_ROWS_H
-#define SLI_SOLVE_DIRICHLET_ROWS_H
+#ifndef SLI_DIRICHLET_DIRICHLET_ROWS_H
+#define SLI_DIRICHLET_DIRICHLET_ROWS_H
 
 #include "../../public/dirichlet.h"
 #include "../factor/factor.h"
 #include "../matrix/csc_triangle.h"
 #include "../matrix/submatrix.h"
-#include "query.h"
+#include "../solve/query.h"
 
 /* The ways of a pack, which use a factor of A. */
 typedef struct sli_dirichlet_ways {
