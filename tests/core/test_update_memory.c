@@ -12,10 +12,8 @@ typedef struct piece_t {
 } piece_t;
 
 static piece_t piece_of(const sl_factor *F, sl_int s, int is_top) {
-    const sli_step *step = &F->S->steps[s];
     piece_t piece = {s, F->schedule.stack_begin[s], 0};
-    piece.end = piece.begin + sli_update_size(step) +
-                (is_top && sli_front_is_large(step) ? sli_large_scratch(step) : 0);
+    piece.end = piece.begin + sli_waiting_size(&F->schedule, F->S, s, is_top);
     return piece;
 }
 
