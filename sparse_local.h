@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: bb1f09b89b6f4c77
+ * FNV-1a of the lines after this comment, without the license: c32aca38d785a6d9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38078,7 +38078,7 @@ SLV_FUNCTION SLI_INLINE const sli_step *SLV_SWEEP(forward_plain)(const sli_step 
     const sl_int *last = rows + s->below;
     const double y = x[s->base];
     for (; rows < last; rows++, l++) {
-      x[*rows] = SLV_FNMA1((double)*l, y, x[*rows]);
+      x[*rows] += SLV_FNMA1((double)*l, y, 0.0);
     }
   }
   *next_rows = rows;

@@ -164,8 +164,8 @@ SLV_FUNCTION SLI_INLINE const sli_step *SLV_SWEEP(forward_plain)(const sli_step 
         const SLV_VALUE *l = L + s->panel + 1;
         const sl_int *last = rows + s->below;
         const double y = x[s->base];
-        for (; rows < last; rows++, l++) { /* x(i) -= L(i) y */
-            x[*rows] = SLV_FNMA1((double)*l, y, x[*rows]);
+        for (; rows < last; rows++, l++) { /* x(i) += 0 - L(i) y, for slots (sweep_tasks.h) */
+            x[*rows] += SLV_FNMA1((double)*l, y, 0.0);
         }
     }
     *next_rows = rows;
