@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c32aca38d785a6d9
+ * FNV-1a of the lines after this comment, without the license: 0afcda0b4ac0b6c5
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -15,49 +15,49 @@
  *   1202 solve.h      full solves, and the workspace of all solves
  *   1299 plan.h       local solves: b is known in a few rows, x is wanted in a few others
  *   1378 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
- *   1469 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1568 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1608 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1716 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1793 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1879 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1975 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2087 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2127 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2255 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2287 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2476 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2588 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2716 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2757 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2846 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2956 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2993 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   3070 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3110 impl/ base: the compiler, status, memory, sorting, threads
- *   4284 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5153 impl/ matrix: sparse matrices of the caller and of the library
- *   5788 impl/ ordering: fill-reducing orderings of a graph
- *  10399 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12503 impl/ factor: the numbers of L and D
- *  15822 impl/ solve: full and local solves
- *  17487 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19277 impl/ pivots: the order of the pivots by the values of a matrix
- *  19686 impl/ float: L and fronts in single precision
- *  20134 impl/ inverse: entries of the inverse, regions
- *  23174 impl/ change: a factor that follows changes of its matrix
- *  29914 impl/ dirichlet: rows fixed at given values
- *  30493 impl/ dirichlet: by a factor of all rows
- *  30702 impl/ io: files that are replaced only when they are complete
- *  30920 impl/ files: Matrix Market files, 64-bit indices
- *  31540 impl/ save: factors in files
- *  33534 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34219 impl/ batch: diagonals of many inverses
- *  34363 impl/ complex: complex Hermitian systems over real factors
- *  34910 impl/ complex: entries of the inverse
- *  34970 impl/ packs: the tables through which the core calls packs
- *  35018 impl/ last: undefine every internal macro
- *  35360 impl/ templates: the header includes them from itself, once for each instruction set
+ *   1470 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1569 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1609 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1717 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1794 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1880 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1976 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2088 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2128 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2256 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2288 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2477 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2589 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2717 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2758 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2847 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2957 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2994 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   3071 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3111 impl/ base: the compiler, status, memory, sorting, threads
+ *   4285 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5154 impl/ matrix: sparse matrices of the caller and of the library
+ *   5789 impl/ ordering: fill-reducing orderings of a graph
+ *  10400 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12504 impl/ factor: the numbers of L and D
+ *  15831 impl/ solve: full and local solves
+ *  17497 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19287 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19696 impl/ float: L and fronts in single precision
+ *  20144 impl/ inverse: entries of the inverse, regions
+ *  23184 impl/ change: a factor that follows changes of its matrix
+ *  29924 impl/ dirichlet: rows fixed at given values
+ *  30511 impl/ dirichlet: by a factor of all rows
+ *  30720 impl/ io: files that are replaced only when they are complete
+ *  30938 impl/ files: Matrix Market files, 64-bit indices
+ *  31558 impl/ save: factors in files
+ *  33552 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34237 impl/ batch: diagonals of many inverses
+ *  34381 impl/ complex: complex Hermitian systems over real factors
+ *  34928 impl/ complex: entries of the inverse
+ *  34988 impl/ packs: the tables through which the core calls packs
+ *  35036 impl/ last: undefine every internal macro
+ *  35378 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -321,7 +321,7 @@ typedef enum sl_status {
     SL_ERR_ARGUMENT,
     /* the allocator returned NULL */
     SL_ERR_MEMORY,
-    /* a malformed matrix, or both triangles stored with different patterns */
+    /* a malformed matrix, or both triangles stored with different patterns or values */
     SL_ERR_PATTERN,
     /* a null pivot: the matrix is singular or needs pivoting; stats name the row */
     SL_ERR_PIVOT,
@@ -884,7 +884,7 @@ typedef struct sl_stats {
  *  buffer  [out]  up to size bytes, with a terminating zero; NULL if size is 0.
  *  status  [in]   what a call has returned.
  *  stats   [in]   those of the call; NULL: its error is the last one of this thread. So also calls
- *                 without stats have a text, until another call of the thread fails.
+ *                 without stats have a text, until the thread makes another call.
  *  Returns  the length of the whole sentence without its zero, as snprintf does.
  *  Threads  any number of calls at once. Without thread-local storage (SL_NO_THREAD_LOCAL, or a
  *           compiler other than gcc, clang and MSVC) only stats have texts.
@@ -1282,8 +1282,8 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *                three single solves, 32 as long as six to eight.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_INCONSISTENT: a column of B
- *           has no solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: B is not, or
- *           overflow: X is written; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
+ *           has no solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: a number
+ *           of B is not: X is written; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
  *           min(nrhs, 32)). If consistency is checked, right-hand sides beyond the eighth take an
  *           additional forward sweep.
@@ -1385,7 +1385,8 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int 
  *  counted cost (stats.dirichlet): the same, sl_factor_restrict, or pins on that factor.
  *
  *  out    [out]  the object, or NULL on error; release with sl_dirichlet_free.
- *  A      [in]   n x n with values, symmetric, not kept. Entries between fixed rows are not read.
+ *  A      [in]   n x n with values, symmetric, not kept. Entries between fixed rows are not read,
+ *                and two triangles not compared.
  *  rows   [in]   count rows of A in 0..n-1 that are fixed, any order, none twice; from none to all.
  *  F      [in]   a factor of A, or NULL. Used only if it was computed from the values of A, and opt
  *                has none of perm, mass, signs, null_vector, regularization, SL_NULL_PIVOT_SKIP.
@@ -1413,7 +1414,7 @@ SL_API void sl_dirichlet_free(sl_dirichlet *D);
  *  A      [in]   the pattern that sl_dirichlet_create was given, its entries in the same order.
  *  stats  [out]  dirichlet, factor; errors are in rows of A; may be NULL.
  *  Returns  as sl_dirichlet_create; SL_ERR_OTHER_PATTERN: another pattern. After SL_ERR_PIVOT,
- *           _NOT_FINITE in free rows, _INACCURATE and _UNSUPPORTED solves are refused until a
+ *           _NOT_FINITE, _INACCURATE and _UNSUPPORTED solves are refused until a
  *           refactorization succeeds; after other errors D is as before.
  *  Cost     a refactorization of A[free, free]; nothing is allocated, except for its first factor.
  *  Threads  exclusive use of D.
@@ -15364,18 +15365,26 @@ static double sli_symmetry_entry(const sl_csc *A, sl_int i, sl_int j) {
 
 SLI_COLD static sl_status sli_symmetry_report(const sl_csc *A, sl_int r, sl_stats *stats) {
   double most = 0.0, value = 0.0;
-  sl_int q, column = r;
+  sl_int q, column = -1;
   for (q = A->p[r]; q < A->p[r + 1]; q++) {
     const double mirror = sli_symmetry_entry(A, A->i[q], r);
     const double entry = sli_symmetry_entry(A, r, A->i[q]);
-    if (fabs(entry - mirror) > most) {
+    if (!sli_is_finite(mirror) || !sli_is_finite(entry)) {
+      const int is_mirror = !sli_is_finite(mirror);
+      return sli_fail_at(stats, SL_ERR_NOT_FINITE, is_mirror ? A->i[q] : r,
+                 is_mirror ? r : A->i[q], is_mirror ? mirror : entry,
+                 "an entry of A is not finite");
+    }
+    if (fabs(entry - mirror) > fmax(most, SLI_ASYMMETRY_MOST * fabs(entry))) {
       most = fabs(entry - mirror);
       value = entry;
       column = A->i[q];
     }
   }
-  return sli_fail_at(stats, SL_ERR_PATTERN, r, column, value,
-             "the values of the two triangles differ; options.triangle chooses one");
+  return column == -1 ? SL_OK
+            : sli_fail_at(stats, SL_ERR_PATTERN, r, column, value,
+                    "the values of the two triangles differ; options.triangle "
+                    "chooses one");
 }
 
 static sl_status sli_symmetry_check(const sl_symbolic *S, const sl_csc *A, const sl_allocator *a,
@@ -15408,7 +15417,7 @@ static sl_status sli_symmetry_check(const sl_symbolic *S, const sl_csc *A, const
     magnitude[j] = size;
   }
   for (j = 0; j < S->n && status == SL_OK; j++) {
-    if (sli_is_finite(difference[j]) &&
+    if (!sli_is_finite(difference[j]) ||
       fabs(difference[j]) > SLI_ASYMMETRY_MOST * magnitude[j]) {
       status = sli_symmetry_report(A, j, stats);
     }
@@ -15458,8 +15467,8 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
            "options.null_vector_count"
            : "float cannot hold L: options.storage";
   }
-  if (F->is_definite && f->value < 0.0 && f->bound == 0.0) {
-    return "options.definite: the pivot is negative, so that A is not positive definite";
+  if (F->is_definite && f->bound >= 0.0) {
+    return "options.definite: the pivot is not positive, and A not positive definite";
   }
   if (f->bound < 0.0) {
     return "there was no memory to judge whether the pivot is null";
@@ -17027,7 +17036,8 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
 }
 
 SLI_COLD static sl_status sli_not_finite(void) {
-  return sli_refuse(SL_ERR_NOT_FINITE, "a number of B is not finite, or x overflows");
+  return sli_refuse(SL_ERR_NOT_FINITE,
+            "a right-hand side or a given value is not finite, or x overflows");
 }
 
 SLI_COLD static sl_status sli_inconsistent(void) {
@@ -29938,6 +29948,7 @@ struct sl_dirichlet {
   sl_factor *F;
   const sli_dirichlet_ways *ways;
   void *pins;
+  int is_stale;
 };
 
 static sl_int sli_dirichlet_couple(sl_dirichlet *D, const sl_csc *A, sl_triangle triangle,
@@ -30000,6 +30011,10 @@ static sl_status sli_dirichlet_report(const sl_dirichlet *D, sl_status status, s
     return status;
   }
   (void)sli_report(&found, status);
+  if (status == SL_ERR_PIVOT && D->factorization.definite == 0) {
+    found.error.what = "the free rows are singular: fix a row of this component, or see "
+               "options.null_pivots and sl_symbolic_create_pivoted";
+  }
   if (found.error.row >= 0) {
     found.error.row = D->free_rows[found.error.row];
   }
@@ -30365,6 +30380,10 @@ SL_API sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A, sl_stat
   }
   if (status == SL_OK) {
     sli_dirichlet_done(D, started, stats);
+    D->is_stale = 0;
+  } else if (D != NULL) {
+    D->is_stale |= status == SL_ERR_PIVOT || status == SL_ERR_NOT_FINITE ||
+             status == SL_ERR_INACCURATE || status == SL_ERR_UNSUPPORTED;
   }
   return sli_report(stats, status);
 }
@@ -30457,9 +30476,8 @@ SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx
   if (status != SL_OK || nrhs == 0 || D->n == 0) {
     return status;
   }
-  status = D->pins == NULL ? sli_factor_has_numbers(D->F) : SL_OK;
-  if (status != SL_OK) {
-    return status;
+  if (D->is_stale || (D->pins == NULL && !D->F->is_valid)) {
+    return sli_refuse(SL_ERR_STALE, "the last sl_dirichlet_refactor has failed");
   }
   own = sli_work_own(&D->allocator);
   W = W == NULL ? &own : W;

@@ -12,7 +12,8 @@
  *  counted cost (stats.dirichlet): the same, sl_factor_restrict, or pins on that factor.
  *
  *  out    [out]  the object, or NULL on error; release with sl_dirichlet_free.
- *  A      [in]   n x n with values, symmetric, not kept. Entries between fixed rows are not read.
+ *  A      [in]   n x n with values, symmetric, not kept. Entries between fixed rows are not read,
+ *                and two triangles not compared.
  *  rows   [in]   count rows of A in 0..n-1 that are fixed, any order, none twice; from none to all.
  *  F      [in]   a factor of A, or NULL. Used only if it was computed from the values of A, and opt
  *                has none of perm, mass, signs, null_vector, regularization, SL_NULL_PIVOT_SKIP.
@@ -40,7 +41,7 @@ SL_API void sl_dirichlet_free(sl_dirichlet *D);
  *  A      [in]   the pattern that sl_dirichlet_create was given, its entries in the same order.
  *  stats  [out]  dirichlet, factor; errors are in rows of A; may be NULL.
  *  Returns  as sl_dirichlet_create; SL_ERR_OTHER_PATTERN: another pattern. After SL_ERR_PIVOT,
- *           _NOT_FINITE in free rows, _INACCURATE and _UNSUPPORTED solves are refused until a
+ *           _NOT_FINITE, _INACCURATE and _UNSUPPORTED solves are refused until a
  *           refactorization succeeds; after other errors D is as before.
  *  Cost     a refactorization of A[free, free]; nothing is allocated, except for its first factor.
  *  Threads  exclusive use of D.

@@ -237,7 +237,7 @@ typedef struct sl_stats {
  *  buffer  [out]  up to size bytes, with a terminating zero; NULL if size is 0.
  *  status  [in]   what a call has returned.
  *  stats   [in]   those of the call; NULL: its error is the last one of this thread. So also calls
- *                 without stats have a text, until another call of the thread fails.
+ *                 without stats have a text, until the thread makes another call.
  *  Returns  the length of the whole sentence without its zero, as snprintf does.
  *  Threads  any number of calls at once. Without thread-local storage (SL_NO_THREAD_LOCAL, or a
  *           compiler other than gcc, clang and MSVC) only stats have texts.

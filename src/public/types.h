@@ -14,7 +14,7 @@ typedef enum sl_status {
     SL_ERR_ARGUMENT,
     /* the allocator returned NULL */
     SL_ERR_MEMORY,
-    /* a malformed matrix, or both triangles stored with different patterns */
+    /* a malformed matrix, or both triangles stored with different patterns or values */
     SL_ERR_PATTERN,
     /* a null pivot: the matrix is singular or needs pivoting; stats name the row */
     SL_ERR_PIVOT,

@@ -156,8 +156,8 @@ static void pins_that_lose_digits_are_not_used(void **state) {
     }
 }
 
-/* Pins are refused after the factor has changed, until the object has one of its own. A failure
- * leaves it as it was. */
+/* Pins are refused after other values were refused, or the factor has changed, until the object has
+ * a factor of its own. */
 static void pins_follow_their_factor(void **state) {
     (void)state;
     factored_t y = factored_make(GEN_GRID2, 400, 1, 0, NULL);
@@ -170,6 +170,9 @@ static void pins_follow_their_factor(void **state) {
     SL_CHECK(sl_dirichlet_create(&D, &y.M.view, &row, 1, y.F, NULL, &stats));
     assert_int_equal(stats.dirichlet.method, SL_DIRICHLET_PINS);
     SL_EXPECT(SL_ERR_PIVOT, sl_dirichlet_refactor(D, &other, NULL)); /* all 0 */
+    SL_EXPECT(SL_ERR_STALE, sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, &g, 1, 1, NULL));
+    sl_dirichlet_free(D);
+    SL_CHECK(sl_dirichlet_create(&D, &y.M.view, &row, 1, y.F, NULL, &stats));
     SL_CHECK(sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, &g, 1, 1, NULL));
     SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
     SL_EXPECT(SL_ERR_STALE, sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, &g, 1, 1, NULL));
@@ -218,6 +221,38 @@ static void memory_may_end_at_any_time(void **state) {
     factored_free(&y);
 }
 
+/* Pins or a restriction answer no more once other values were refused. */
+static void refused_values_are_not_forgotten(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_GRID2, 2500, 1, 0, NULL);
+    const sl_int n = y.M.view.n_cols;
+    sl_int *rows = test_ints((size_t)n), few = subset_fill(rows, n, SUBSET_FEW, y.S);
+    double *X = test_reals((size_t)n), *g = test_reals((size_t)n), kept;
+    for (int many = 0; many < 2; many++) {
+        const sl_int count = many ? few : 1, at = y.M.p[n] - 1; /* the last diagonal entry */
+        sl_dirichlet *D = NULL;
+        sl_stats stats;
+        assert_int_not_equal(rows[0], n - 1);
+        SL_CHECK(sl_dirichlet_create(&D, &y.M.view, rows, count, y.F, NULL, &stats));
+        assert_int_equal(stats.dirichlet.method,
+                         many ? SL_DIRICHLET_RESTRICTION : SL_DIRICHLET_PINS);
+        SL_CHECK(sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, g, (size_t)n, 1, NULL));
+        kept = y.M.x[at];
+        y.M.x[at] = NAN;
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_dirichlet_refactor(D, &y.M.view, NULL));
+        SL_EXPECT(SL_ERR_STALE,
+                  sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, g, (size_t)n, 1, NULL));
+        y.M.x[at] = kept;
+        SL_CHECK(sl_dirichlet_refactor(D, &y.M.view, NULL));
+        SL_CHECK(sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, g, (size_t)n, 1, NULL));
+        sl_dirichlet_free(D);
+    }
+    free(rows);
+    free(X);
+    free(g);
+    factored_free(&y);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_ways_hold),
@@ -226,6 +261,7 @@ int main(void) {
         cmocka_unit_test(a_singular_factor_needs_a_row_of_each_component),
         cmocka_unit_test(pins_that_lose_digits_are_not_used),
         cmocka_unit_test(pins_follow_their_factor),
+        cmocka_unit_test(refused_values_are_not_forgotten),
         cmocka_unit_test(memory_may_end_at_any_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

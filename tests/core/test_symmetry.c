@@ -92,17 +92,31 @@ static void a_laplacian_divided_by_masses_is_refused(void **state) {
     }
 }
 
-/* What is not finite keeps its own status. */
+/* What is not finite keeps its own status, in the triangle that is not read, too. */
 static void nan_and_infinity_are_named_as_such(void **state) {
     (void)state;
     static const double bad[3] = {NAN, INFINITY, -INFINITY};
-    for (int k = 0; k < 3; k++) {
+    static const int place[2] = {4, 7}; /* (2, 1), which is read, and (1, 2) */
+    for (int k = 0; k < 6; k++) {
         both_t *y = both_make();
         sl_stats stats;
-        y->x[4] = bad[k]; /* (2, 1), which is read */
+        y->x[place[k / 3]] = bad[k % 3];
         SL_EXPECT(SL_ERR_NOT_FINITE, create(&y->A, SL_TRIANGLE_NONE, &stats));
-        assert_int_equal(stats.error.row, 2);
-        assert_int_equal(stats.error.column, 1);
+        assert_int_equal(stats.error.row, k < 3 ? 2 : 1);
+        assert_int_equal(stats.error.column, k < 3 ? 1 : 2);
+    }
+}
+
+/* Sums that overflow decide nothing: entries are compared. */
+static void huge_values_are_compared(void **state) {
+    (void)state;
+    for (int differ = 0; differ < 2; differ++) {
+        const sl_int p[3] = {0, 2, 4}, i[4] = {0, 1, 0, 1};
+        const double x[4] = {1.5e308, 1e307, differ ? -1e307 : 1e307, 1.5e308};
+        const sl_csc A = {2, 2, p, i, x};
+        sl_stats stats;
+        const sl_status status = create(&A, SL_TRIANGLE_NONE, &stats);
+        assert_true(differ ? status == SL_ERR_PATTERN : status != SL_ERR_PATTERN);
     }
 }
 
@@ -127,6 +141,7 @@ int main(void) {
         cmocka_unit_test(different_values_are_refused_with_an_entry),
         cmocka_unit_test(a_laplacian_divided_by_masses_is_refused),
         cmocka_unit_test(nan_and_infinity_are_named_as_such),
+        cmocka_unit_test(huge_values_are_compared),
         cmocka_unit_test(memory_may_run_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

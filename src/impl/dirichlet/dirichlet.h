@@ -307,6 +307,10 @@ SL_API sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A, sl_stat
     }
     if (status == SL_OK) {
         sli_dirichlet_done(D, started, stats);
+        D->is_stale = 0;
+    } else if (D != NULL) {
+        D->is_stale |= status == SL_ERR_PIVOT || status == SL_ERR_NOT_FINITE ||
+                       status == SL_ERR_INACCURATE || status == SL_ERR_UNSUPPORTED;
     }
     return sli_report(stats, status);
 }
@@ -404,9 +408,8 @@ SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx
     if (status != SL_OK || nrhs == 0 || D->n == 0) {
         return status;
     }
-    status = D->pins == NULL ? sli_factor_has_numbers(D->F) : SL_OK;
-    if (status != SL_OK) {
-        return status;
+    if (D->is_stale || (D->pins == NULL && !D->F->is_valid)) {
+        return sli_refuse(SL_ERR_STALE, "the last sl_dirichlet_refactor has failed");
     }
     own = sli_work_own(&D->allocator);
     W = W == NULL ? &own : W;

@@ -39,6 +39,7 @@ struct sl_dirichlet {
     sl_factor *F;
     const sli_dirichlet_ways *ways; /* that made the factor, or the pins; NULL: none */
     void *pins;
+    int is_stale; /* the last refactorization has refused its values */
 };
 
 /* Visits the entries of A between free and fixed rows. where: the number of a free row, or -1 minus
@@ -106,6 +107,10 @@ static sl_status sli_dirichlet_report(const sl_dirichlet *D, sl_status status, s
         return status;
     }
     (void)sli_report(&found, status);
+    if (status == SL_ERR_PIVOT && D->factorization.definite == 0) {
+        found.error.what = "the free rows are singular: fix a row of this component, or see "
+                           "options.null_pivots and sl_symbolic_create_pivoted";
+    }
     if (found.error.row >= 0) {
         found.error.row = D->free_rows[found.error.row];
     }

@@ -53,8 +53,8 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
                      "options.null_vector_count"
                    : "float cannot hold L: options.storage";
     }
-    if (F->is_definite && f->value < 0.0 && f->bound == 0.0) {
-        return "options.definite: the pivot is negative, so that A is not positive definite";
+    if (F->is_definite && f->bound >= 0.0) {
+        return "options.definite: the pivot is not positive, and A not positive definite";
     }
     if (f->bound < 0.0) {
         return "there was no memory to judge whether the pivot is null";

@@ -27,21 +27,30 @@ static double sli_symmetry_entry(const sl_csc *A, sl_int i, sl_int j) {
     return sum;
 }
 
-/* Names the entry of row r that differs most from its mirror image. */
+/* Compares row r with column r, entry by entry: names what is not finite, or else the entry that
+ * differs most. */
 SLI_COLD static sl_status sli_symmetry_report(const sl_csc *A, sl_int r, sl_stats *stats) {
     double most = 0.0, value = 0.0;
-    sl_int q, column = r;
+    sl_int q, column = -1;
     for (q = A->p[r]; q < A->p[r + 1]; q++) {
         const double mirror = sli_symmetry_entry(A, A->i[q], r);
         const double entry = sli_symmetry_entry(A, r, A->i[q]);
-        if (fabs(entry - mirror) > most) {
+        if (!sli_is_finite(mirror) || !sli_is_finite(entry)) {
+            const int is_mirror = !sli_is_finite(mirror);
+            return sli_fail_at(stats, SL_ERR_NOT_FINITE, is_mirror ? A->i[q] : r,
+                               is_mirror ? r : A->i[q], is_mirror ? mirror : entry,
+                               "an entry of A is not finite");
+        }
+        if (fabs(entry - mirror) > fmax(most, SLI_ASYMMETRY_MOST * fabs(entry))) {
             most = fabs(entry - mirror);
             value = entry;
             column = A->i[q];
         }
     }
-    return sli_fail_at(stats, SL_ERR_PATTERN, r, column, value,
-                       "the values of the two triangles differ; options.triangle chooses one");
+    return column == -1 ? SL_OK
+                        : sli_fail_at(stats, SL_ERR_PATTERN, r, column, value,
+                                      "the values of the two triangles differ; options.triangle "
+                                      "chooses one");
 }
 
 /* Refuses a matrix that was analyzed with both triangles, whose values differ. A has the analyzed
@@ -75,8 +84,8 @@ static sl_status sli_symmetry_check(const sl_symbolic *S, const sl_csc *A, const
         difference[j] -= sum;
         magnitude[j] = size;
     }
-    for (j = 0; j < S->n && status == SL_OK; j++) { /* NaN and infinity are named elsewhere */
-        if (sli_is_finite(difference[j]) &&
+    for (j = 0; j < S->n && status == SL_OK; j++) {
+        if (!sli_is_finite(difference[j]) || /* entries are not, or their sums overflow */
             fabs(difference[j]) > SLI_ASYMMETRY_MOST * magnitude[j]) {
             status = sli_symmetry_report(A, j, stats);
         }

@@ -96,7 +96,8 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
 }
 
 SLI_COLD static sl_status sli_not_finite(void) {
-    return sli_refuse(SL_ERR_NOT_FINITE, "a number of B is not finite, or x overflows");
+    return sli_refuse(SL_ERR_NOT_FINITE,
+                      "a right-hand side or a given value is not finite, or x overflows");
 }
 
 SLI_COLD static sl_status sli_inconsistent(void) {
