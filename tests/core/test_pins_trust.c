@@ -3,7 +3,7 @@
 #include "tests/lib/zero_mean.h"
 #include "tests/lib/pin_calls.h"
 
-enum { N = 240, HALF = 120 }; /* so many rows that they are eliminated */
+enum { N = 480, HALF = 240 }; /* so many rows that they are eliminated */
 
 /* Two paths of springs of 1 side by side, one after the other with a spring of `bridge` between
  * them. `own` is added to the first row, `other` to row HALF; the springs of the second path are
