@@ -137,7 +137,7 @@ static sl_off sli_check_panel(const sl_symbolic *S, sl_int s, sl_int width, sl_o
     const int is_last = s + 1 == S->n_supers;
     const sl_int next = is_last ? 1 : S->super_first[s + 2] - S->super_first[s + 1];
     const sl_off padded = sli_tile_offset(width, sli_tiles(width + (sl_int)below));
-    return begin % SLI_TILE == 0 && S->panel_begin[s + 1] - begin == padded
+    return begin % SLI_TILE == 0 && S->panel_begin[s + 1] == begin + padded
                ? padded
                : sli_panel_start(next, end) - begin;
 }
@@ -155,7 +155,7 @@ static int sli_check_structure(const sl_symbolic *S) {
         }
         below = S->rows_begin[s + 1] - S->rows_begin[s];
         if (below > S->n - S->super_first[s + 1] ||
-            S->panel_begin[s + 1] - S->panel_begin[s] != sli_check_panel(S, s, width, below)) {
+            S->panel_begin[s + 1] != S->panel_begin[s] + sli_check_panel(S, s, width, below)) {
             return 0;
         }
         widest = sli_max(widest, width);
