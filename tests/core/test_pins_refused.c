@@ -88,14 +88,14 @@ static void a_null_vector_may_be_lost(void **state) {
     (void)state;
     sl_options opt = options_none();
     opt.null_pivots = SL_NULL_PIVOT_SKIP;
-    gen_list_t t = gen_list(200), u = gen_list(200);
-    for (sl_int k = 0; k + 1 < 200; k++) { /* two paths */
-        const double sign = k < 100 ? -1.0 : 1.0;
-        for (sl_int m = 0; m < 2 && k != 99; m++) {
+    gen_list_t t = gen_list(500), u = gen_list(500);
+    for (sl_int k = 0; k + 1 < 500; k++) { /* two paths */
+        const double sign = k < 250 ? -1.0 : 1.0;
+        for (sl_int m = 0; m < 2 && k != 249; m++) {
             gen_add(&t, k + m, k + m, 1.0);
             gen_add(&u, k + m, k + m, 1.0);
         }
-        if (k != 99) {
+        if (k != 249) {
             gen_add(&t, k + 1, k, -1.0);
             gen_add(&u, k + 1, k, sign);
         }
@@ -104,11 +104,11 @@ static void a_null_vector_may_be_lost(void **state) {
     sl_symbolic *S;
     sl_factor *F;
     sl_pins *P;
-    const sl_int ends[2] = {110, 180};
+    const sl_int ends[2] = {260, 450};
     const double values[2] = {1.0, 0.5};
-    sl_int rows[90];
+    sl_int rows[240];
     sl_stats stats;
-    for (sl_int k = 0; k < 90; k++) {
+    for (sl_int k = 0; k < 240; k++) {
         rows[k] = k;
     }
     SL_CHECK(sl_symbolic_create(&S, &A.view, NULL, NULL));
@@ -116,13 +116,13 @@ static void a_null_vector_may_be_lost(void **state) {
     SL_CHECK(sl_pins_create(&P, F, NULL));
     SL_CHECK(sl_pins_refactor(P, &A.view, NULL));
     SL_CHECK(sl_pins_add_equality(P, ends, values, 2, NULL));
-    SL_CHECK(sl_pins_add(P, rows, 90, &stats));
-    assert_int_equal(stats.pins.eliminated, 90);
+    SL_CHECK(sl_pins_add(P, rows, 240, &stats));
+    assert_int_equal(stats.pins.eliminated, 240);
     SL_CHECK(sl_factor_refactor(F, &B.view, NULL));
     SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_refactor(P, &B.view, &stats));
     SL_CHECK(sl_factor_refactor(F, &A.view, NULL));
     SL_CHECK(sl_pins_refactor(P, &A.view, &stats));
-    assert_int_equal(stats.pins.eliminated, 90);
+    assert_int_equal(stats.pins.eliminated, 240);
     sl_pins_free(P);
     sl_factor_free(F);
     sl_symbolic_free(S);
