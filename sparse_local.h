@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c68694dfc6ccb365
+ * FNV-1a of the lines after this comment, without the license: 517beb0da268fac3
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,25 +39,25 @@
  *   5154 impl/ matrix: sparse matrices of the caller and of the library
  *   5789 impl/ ordering: fill-reducing orderings of a graph
  *  10400 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12504 impl/ factor: the numbers of L and D
- *  15831 impl/ solve: full and local solves
- *  17497 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19287 impl/ pivots: the order of the pivots by the values of a matrix
- *  19696 impl/ float: L and fronts in single precision
- *  20144 impl/ inverse: entries of the inverse, regions
- *  23184 impl/ change: a factor that follows changes of its matrix
- *  29924 impl/ dirichlet: rows fixed at given values
- *  30511 impl/ dirichlet: by a factor of all rows
- *  30720 impl/ io: files that are replaced only when they are complete
- *  30938 impl/ files: Matrix Market files, 64-bit indices
- *  31558 impl/ save: factors in files
- *  33552 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34237 impl/ batch: diagonals of many inverses
- *  34381 impl/ complex: complex Hermitian systems over real factors
- *  34928 impl/ complex: entries of the inverse
- *  34988 impl/ packs: the tables through which the core calls packs
- *  35036 impl/ last: undefine every internal macro
- *  35378 impl/ templates: the header includes them from itself, once for each instruction set
+ *  12503 impl/ factor: the numbers of L and D
+ *  15830 impl/ solve: full and local solves
+ *  17496 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19286 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19695 impl/ float: L and fronts in single precision
+ *  20143 impl/ inverse: entries of the inverse, regions
+ *  23183 impl/ change: a factor that follows changes of its matrix
+ *  29923 impl/ dirichlet: rows fixed at given values
+ *  30510 impl/ dirichlet: by a factor of all rows
+ *  30719 impl/ io: files that are replaced only when they are complete
+ *  30937 impl/ files: Matrix Market files, 64-bit indices
+ *  31557 impl/ save: factors in files
+ *  33551 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34236 impl/ batch: diagonals of many inverses
+ *  34380 impl/ complex: complex Hermitian systems over real factors
+ *  34927 impl/ complex: entries of the inverse
+ *  34987 impl/ packs: the tables through which the core calls packs
+ *  35035 impl/ last: undefine every internal macro
+ *  35377 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11424,11 +11424,10 @@ static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int
       continue;
     }
     at = sli_waiting_largest(S, size, subtree, s, &child, &others);
-    if (child == -1) {
-      continue;
+    if (child != -1) {
+      p->stack_begin[child] = side[s] == 0 ? p->stack_begin[s] + at - size[child]
+                         : p->stack_begin[s] + size[s] - at;
     }
-    p->stack_begin[child] =
-      side[s] == 0 ? p->stack_begin[s] + at - size[child] : p->stack_begin[s] + size[s] - at;
     for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
       if (c != child) {
         at += subtree[c];

@@ -206,11 +206,10 @@ static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int
             continue;
         }
         at = sli_waiting_largest(S, size, subtree, s, &child, &others);
-        if (child == -1) { /* all children are plain */
-            continue;
+        if (child != -1) { /* else all children are plain, and have no memory */
+            p->stack_begin[child] = side[s] == 0 ? p->stack_begin[s] + at - size[child]
+                                                 : p->stack_begin[s] + size[s] - at;
         }
-        p->stack_begin[child] =
-            side[s] == 0 ? p->stack_begin[s] + at - size[child] : p->stack_begin[s] + size[s] - at;
         for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
             if (c != child) {
                 at += subtree[c];
