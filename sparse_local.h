@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 517beb0da268fac3
+ * FNV-1a of the lines after this comment, without the license: b81e145c8f620f5b
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35684,7 +35684,7 @@ static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
   }
   if (status == SL_OK && F->type->store != NULL) {
     status = F->type->store(F, f, failure);
-  } else if (f->width == 1) {
+  } else if (f->width == 1 && F->type->store == NULL) {
     memcpy((double *)F->values + F->S->steps[f->super].panel, f->panel,
          (size_t)(1 + f->below) * sizeof(double));
   }

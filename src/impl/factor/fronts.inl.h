@@ -342,7 +342,7 @@ static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
     }
     if (status == SL_OK && F->type->store != NULL) {
         status = F->type->store(F, f, failure);
-    } else if (f->width == 1) {
+    } else if (f->width == 1 && F->type->store == NULL) {
         memcpy((double *)F->values + F->S->steps[f->super].panel, f->panel,
                (size_t)(1 + f->below) * sizeof(double));
     }
