@@ -19,8 +19,8 @@
  *             in either way may be linked together.
  * Objects     can be moved and not copied. One that was made without arguments, or was moved from,
  *             is empty: calls refuse it with SL_ERR_ARGUMENT. After a failed create() the object is
- *             as it was. What borrows what is as in sparse_local.h: S outlives F and P, and F
- *             outlives its regions.
+ *             as it was. An object keeps what it was made from (sparse_local.h), so that they may
+ *             be destroyed in any order.
  * Vectors     x has as many columns as right-hand sides, column-major; it is resized. A vector b
  *             whose size does not fit is refused with SL_ERR_ARGUMENT.
  * Threads     as in sparse_local.h: const calls may run at once, each with a Work of its own or
@@ -511,7 +511,7 @@ public:
         create(S, bset, xset, region);
     }
 #endif
-    /** region, if not NULL, must outlive the plan. */
+    /** region: NULL, or one that the plan keeps. */
     SL_RESULT create(const Symbolic &S, const Rows &bset, const Rows &xset,
                      const Region *region = nullptr, const sl_options *options = nullptr) {
         sl_plan *made = nullptr;
