@@ -1,6 +1,6 @@
 # peers.mk: measurements against other libraries, tables and figures of them (a part of the Makefile)
 
-.PHONY: deps-peers deps-arpack bench-peers bench-eigenpairs measure-costs readme-table figures
+.PHONY: deps-peers deps-arpack bench-peers bench-eigenpairs measure-costs speed-table figures
 
 PEERS := $(wildcard bench/peers/*.c bench/peers/*.cpp)
 
@@ -31,8 +31,8 @@ measure-costs: sparse_local.h ## prints the rows of this machine for the table o
 	@$(CC) -O2 -w -DSL_WITH_ALL -I. bench/costs/measure_costs.c -o build/measure_costs $(LDFLAGS) $(LDLIBS) -lm
 	@build/measure_costs
 
-readme-table: ## prints the measurements of the last bench-peers as Markdown tables
-	@awk -f tools/build/csv.awk -f tools/build/readme_table.awk build/bench-out/peers.machine.txt build/bench-out/peers.csv \
+speed-table: ## prints the measurements of the last bench-peers as Markdown tables
+	@awk -f tools/build/csv.awk -f tools/build/speed_table.awk build/bench-out/peers.machine.txt build/bench-out/peers.csv \
 	$(wildcard build/bench-out/peers_harmonic.csv build/bench-out/peers_kinds.csv)
 
 # ---- the paper ----

@@ -116,7 +116,7 @@ test-tcc: ## some of the tests, compiled by tcc
 
 platforms: $(PLATFORMS:%=test-%) test-exchange test-tcc ## the tests on all of these platforms, one after the other with -j1
 
-platform-table: ## prints the results of the platform targets as a Markdown table, as in the README
+platform-table: ## prints the results of the platform targets as a Markdown table, as in tools/docs/platforms.md
 	@printf '| platform | compiler | run | passed | failed | skipped |\n|---|---|---|---|---|---|\n'
 	@cat build/platforms/*.txt
 

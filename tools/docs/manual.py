@@ -38,10 +38,10 @@ CHAPTERS = [("algorithms", "Algorithms"), ("ordering", "Orderings"),
             ("float", "L in float"), ("inverse", "Entries of the inverse"),
             ("dirichlet", "Pins, restriction or submatrix?"),
             ("changes", "Changes of a matrix"), ("files", "Files"), ("errors", "Errors"),
-            ("program", "The program")]
+            ("program", "The program"), ("doors", "Other languages"),
+            ("features", "Features"), ("speed", "Speed"), ("platforms", "Platforms")]
 PAGES = [("index", "Guide"), ("api", "API")] + CHAPTERS + [
-    ("format", "Format"), ("tests", "Tests"), ("platforms", "Platforms"),
-    ("changelog", "Changelog")]
+    ("format", "Format"), ("tests", "Tests"), ("changelog", "Changelog")]
 
 
 def read(path):
@@ -272,12 +272,6 @@ def link_chapters(body):
     return re.sub(r"tools/docs/([a-z]+)\.md", r'<a href="\1.html">tools/docs/\1.md</a>', body)
 
 
-def section(text, title):
-    """One section of a Markdown file, as a page."""
-    match = re.search(r"^## %s\n(.*?)(?=^## |\Z)" % title, text, re.M | re.S)
-    return "# %s\n%s" % (title, match.group(1))
-
-
 def check_links(pages):
     ids = {name: set(re.findall(r'id="([^"]+)"', body)) for name, body in pages.items()}
     for name, body in pages.items():
@@ -338,7 +332,6 @@ def main():
     pages.update({"index": markdown(read("tools/docs/guide.md")),
                   "format": markdown(read("src/FORMAT.md")),
                   "tests": markdown(read("tests/README.md")),
-                  "platforms": markdown(section(read("README.md"), "Platforms")),
                   "changelog": markdown(read("CHANGELOG.md"))})
     for name, _ in CHAPTERS:
         pages[name] = markdown(read("tools/docs/%s.md" % name))

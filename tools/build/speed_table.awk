@@ -1,6 +1,6 @@
-# readme_table.awk: the results of `make bench-peers` as Markdown tables (make readme-table)
+# speed_table.awk: the results of `make bench-peers` as Markdown tables (make speed-table)
 #
-#     awk -f tools/build/csv.awk -f tools/build/readme_table.awk peers.machine.txt peers.csv \
+#     awk -f tools/build/csv.awk -f tools/build/speed_table.awk peers.machine.txt peers.csv \
 #         [peers_harmonic.csv ...] [peers_kinds.csv]
 #
 # The files are in build/bench-out. There is a table per CSV file, with a column per system and a
@@ -95,7 +95,7 @@ is_of_kinds {
 
 END {
     if (n_systems + n_kinds == 0) {
-        print "readme_table.awk: no results; run make bench-peers first" >"/dev/stderr"
+        print "speed_table.awk: no results; run make bench-peers first" >"/dev/stderr"
         exit 1
     }
     printf "%s.\n\n", machine
