@@ -33,7 +33,7 @@ h2 { margin-top: 2em } h3 { margin-top: 1.5em }
 """
 CHAPTERS = [("algorithms", "Algorithms"), ("ordering", "Orderings"),
             ("singular", "Singular systems"), ("bounds", "Bounds of errors"),
-            ("derivatives", "Derivatives"),
+            ("derivatives", "Derivatives"), ("accuracy", "Accuracy"),
             ("indefinite", "Indefinite and KKT systems"),
             ("float", "L in float"), ("inverse", "Entries of the inverse"),
             ("dirichlet", "Pins, restriction or submatrix?"),
@@ -247,10 +247,15 @@ def whole_example(name):
 
 
 def included(kind, name=None):
-    """@file PATH, @example NAME, @examples: source code in the page."""
+    """@file PATH, @example NAME, @program NAME, @examples: source code in the page. A program is
+    an example without what examples share."""
     if kind == "examples":
         return "\n".join('<h3 id="example-%s"><a href="examples/%s.c">%s.c</a></h3>%s' % (
             e, e, e, included("example", e)) for e in examples())
+    if kind == "program":
+        text = read("tools/examples/%s.c" % name).replace('#include "example.h"\n', "")
+        return ('<pre>%s</pre><p>The same to paste: <a href="examples/%s.c">%s.c</a>.</p>'
+                % (html.escape(text), name, name))
     text = whole_example(name) if kind == "example" else read(name)
     return "<pre>%s</pre>" % html.escape(text)
 
