@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: b81e145c8f620f5b
+ * FNV-1a of the lines after this comment, without the license: 473d04042a1c6bad
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -42,22 +42,22 @@
  *  12503 impl/ factor: the numbers of L and D
  *  15830 impl/ solve: full and local solves
  *  17496 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19286 impl/ pivots: the order of the pivots by the values of a matrix
- *  19695 impl/ float: L and fronts in single precision
- *  20143 impl/ inverse: entries of the inverse, regions
- *  23183 impl/ change: a factor that follows changes of its matrix
- *  29923 impl/ dirichlet: rows fixed at given values
- *  30510 impl/ dirichlet: by a factor of all rows
- *  30719 impl/ io: files that are replaced only when they are complete
- *  30937 impl/ files: Matrix Market files, 64-bit indices
- *  31557 impl/ save: factors in files
- *  33551 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34236 impl/ batch: diagonals of many inverses
- *  34380 impl/ complex: complex Hermitian systems over real factors
- *  34927 impl/ complex: entries of the inverse
- *  34987 impl/ packs: the tables through which the core calls packs
- *  35035 impl/ last: undefine every internal macro
- *  35377 impl/ templates: the header includes them from itself, once for each instruction set
+ *  19289 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19698 impl/ float: L and fronts in single precision
+ *  20146 impl/ inverse: entries of the inverse, regions
+ *  23186 impl/ change: a factor that follows changes of its matrix
+ *  29926 impl/ dirichlet: rows fixed at given values
+ *  30513 impl/ dirichlet: by a factor of all rows
+ *  30722 impl/ io: files that are replaced only when they are complete
+ *  30940 impl/ files: Matrix Market files, 64-bit indices
+ *  31560 impl/ save: factors in files
+ *  33554 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34239 impl/ batch: diagonals of many inverses
+ *  34383 impl/ complex: complex Hermitian systems over real factors
+ *  34930 impl/ complex: entries of the inverse
+ *  34990 impl/ packs: the tables through which the core calls packs
+ *  35038 impl/ last: undefine every internal macro
+ *  35380 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -18246,6 +18246,9 @@ static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, s
     for (c = 0; c < block.nrhs; c++) {
       worst = sli_max_error(f->error[c], worst);
     }
+  }
+  if (!sli_is_finite(worst)) {
+    return sli_not_finite();
   }
   worst = sli_max_error(sli_local_rounding(f->F), worst);
   return sli_refine_done(f->F, stats, steps, f->steps, worst);

@@ -287,6 +287,35 @@ static void rows_of_other_components_may_be_missing(void **state) {
     kkt_free(&y);
 }
 
+/* A NaN or an overflow is refused as in a solve, whatever error_limit and steps allow. */
+static void what_is_not_finite_is_refused(void **state) {
+    (void)state;
+    kkt_t y = kkt_make(N, 0, SL_ORDERING_ND);
+    sl_options opt = options_none();
+    sl_factor *F = NULL;
+    sl_plan *P = NULL;
+    double b[N], x[N];
+    opt.regularization = 1e-7;
+    opt.signs = y.signs;
+    opt.error_limit = -1.0;
+    SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
+    SL_CHECK(sl_plan_create(&P, y.S, NULL, 0, NULL, 0, NULL, NULL));
+    for (int k = 0; k < 6; k++) {
+        const double wrong[2] = {(double)NAN, 1.7e308};
+        gen_reals(b, N, 5);
+        b[k * N / 6] = wrong[k % 2];
+        b[k * N / 6 + 1] = wrong[k % 2];
+        for (sl_int steps = 0; steps < 3; steps++) {
+            const sl_status status =
+                sl_plan_solve_refined(P, F, x, N, b, N, 1, steps, NULL, NULL);
+            assert_true(status == SL_ERR_NOT_FINITE || (k % 2 == 1 && status == SL_OK));
+        }
+    }
+    sl_plan_free(P);
+    sl_factor_free(F);
+    kkt_free(&y);
+}
+
 /* Failed allocations leave X as it was, and a workspace that has grown allocates nothing. */
 static void failed_allocations_change_nothing(void **state) {
     (void)state;
@@ -324,6 +353,7 @@ int main(void) {
         cmocka_unit_test(growth_is_an_error_that_remains),
         cmocka_unit_test(a_plan_must_hold_the_regularized_rows),
         cmocka_unit_test(rows_of_other_components_may_be_missing),
+        cmocka_unit_test(what_is_not_finite_is_refused),
         cmocka_unit_test(failed_allocations_change_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -179,6 +179,9 @@ static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, s
             worst = sli_max_error(f->error[c], worst);
         }
     }
+    if (!sli_is_finite(worst)) {
+        return sli_not_finite();
+    }
     worst = sli_max_error(sli_local_rounding(f->F), worst);
     return sli_refine_done(f->F, stats, steps, f->steps, worst);
 }
