@@ -1,6 +1,6 @@
 # release.mk: sizes and counts, the flat header, packages, the manual, a release (a part of the Makefile)
 
-.PHONY: header-flat size test-figures test-page release
+.PHONY: header-flat size test-figures test-page release check-release
 
 header-flat: build/amalgamate ## writes build/sparse_local_flat.h: the header without self-inclusion, for pasting
 	build/amalgamate --flat src/sparse_local.in.h build/sparse_local_flat.h LICENSE
@@ -26,7 +26,7 @@ RELEASE = build/release/sparse_local-$(VERSION)
 
 # The tarball is what git has of the last commit, and the generated header; owner and times are fixed, so that the same commit gives
 # the same bytes.
-release: check-header docs ## build/release: header, flat header, tarball, manual, notes and checksums
+release: check-header docs deps-python ## build/release: headers, tarball, manual, wheel, notes and checksums
 	@test -z "$$(git status --porcelain)" || { echo 'release: there are changes that are not committed'; exit 1; }
 	@rm -rf build/release && mkdir -p build/release
 	@cp sparse_local.h build/release
@@ -34,6 +34,10 @@ release: check-header docs ## build/release: header, flat header, tarball, manua
 	@$(MAKE) --no-print-directory header PACKS=core && cp build/sparse_local_core.h build/release
 	@git archive --format=tar --prefix=sparse_local-$(VERSION)/ HEAD | gzip -9n >$(RELEASE).tar.gz
 	@tar --sort=name --owner=0 --group=0 --mtime="$$(git log -1 --format=@%ct)" -cf - -C build manual | gzip -9n >$(RELEASE)-manual.tar.gz
+	@$(MAKE) --no-print-directory build/python/installed && cp build/python/wheel/*.whl build/release
 	@tools/docs/release_notes.sh $(VERSION) >build/release/NOTES.md
-	@cd build/release && sha256sum *.h *.tar.gz >SHA256SUMS
+	@cd build/release && sha256sum *.h *.tar.gz *.whl >SHA256SUMS
 	@ls -l build/release
+
+check-release: release ## the files of a release, each used by itself in an empty folder
+	@CC='$(CC)' PYTHON='$(PYTHON)' tests/adapters/check_release.sh build/release
