@@ -204,7 +204,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(sli_rank_one *u, double *l,
     for (k = 0; k < SLI_TILE; k++) {
         g[k + 1] = g[k] - z[k];
     }
-    u->sum = g[SLI_TILE];
     SLV_GATHER(y, g, SLI_AFTER) /* in registers: 8 stores are not forwarded to one load */
     SLV_DIVIDE(q, q, y)
     SLV_STORE(b, q)
@@ -212,6 +211,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(sli_rank_one *u, double *l,
     SLV_DIVIDE(y, y, q)
     SLV_MULTIPLY(s, s, y)
     SLV_STORE(u->e + j, s)
+    u->sum = g[SLI_TILE]; /* not before y: clang 14 for WebAssembly would give y(0) this value */
     for (k = 0; k < columns && !u->is_trial; k++, l += SLI_TILE) {
         SLV_LOAD_PINNED(y, l)
         SLV_BROADCAST(s, w + k)

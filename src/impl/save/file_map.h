@@ -82,9 +82,9 @@ static void sli_unmap(const void *bytes, size_t size) {
         munmap((void *)(uintptr_t)bytes, size);
 #elif defined(SLI_MAP_VIEW)
         UnmapViewOfFile(bytes);
-        (void)size;
 #endif
     }
+    (void)size;
 }
 
 /* The bytes of an open file, which is left at its start; 0 if it has no size, as a pipe. */
