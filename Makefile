@@ -53,7 +53,7 @@ PARTS := $(wildcard src/public/*.h src/impl/*/*.h)
 SRC := src/sparse_local.in.h $(PARTS)
 MAIN := tools/cli/main.c
 NEED_PNG := tools/draw/png_write.c
-TOOLS := $(filter-out $(MAIN) $(NEED_PNG) tools/build/% tools/packaging/% tools/cluster/% tools/examples/%,$(wildcard tools/*/*.c))
+TOOLS := $(filter-out $(MAIN) $(NEED_PNG) tools/build/% tools/packaging/% tools/cluster/% tools/examples/% tools/web/%,$(wildcard tools/*/*.c))
 CORE_TESTS := $(wildcard tests/core/test_*.c)
 TOOL_TESTS := $(wildcard tests/tools/test_*.c)
 TESTS := $(CORE_TESTS) $(TOOL_TESTS)
@@ -80,7 +80,7 @@ REPLAYS = $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/tests/replay_%)
 all: check-header layers style parts test programs ## the checks, the tests, and the programs of tools/
 
 # The files with targets, the newcomer's first. The first line of each is the heading of its targets.
-MAKE_FILES = Makefile tools/docs/docs.mk tests/packs.mk tests/platforms.mk bench/peers.mk tools/release.mk tools/packaging/packaging.mk
+MAKE_FILES = Makefile tools/docs/docs.mk tests/packs.mk tests/platforms.mk bench/peers.mk tools/release.mk tools/packaging/packaging.mk tools/web/web.mk
 
 help: ## this list
 	@awk -F ':.*## ' 'FNR == 1 { sub(/^# [^:]*: /, ""); sub(/;.*| [(]a part.*/, ""); print (NR == 1 ? "" : "\n") FILENAME ": " $$0 } \

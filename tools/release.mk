@@ -19,6 +19,7 @@ test-page: ## writes the figures between the marks in tests/README.md
 
 include tools/packaging/packaging.mk
 include tools/docs/docs.mk
+include tools/web/web.mk
 
 # ---- release ----
 

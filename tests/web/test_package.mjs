@@ -1,0 +1,366 @@
+/* test_package.mjs: the npm package under node: solves, changes, arrays, memory, errors */
+//
+//     node tests/web/test_package.mjs FOLDER_OF_THE_PACKAGE
+
+import {readFileSync} from "node:fs";
+import {pathToFileURL} from "node:url";
+import {test, check, near, thrown, end} from "./harness.mjs";
+
+const folder = pathToFileURL(`${process.argv[2]}/`);
+const {load, default: loadToo, SparseLocalError, HeapArray, Matrix, Factor} =
+    await import(new URL("sparse_local.js", folder));
+const bytes = readFileSync(new URL("sparse_local.wasm", folder));
+const sl = await load();
+
+/* ---- systems, and answers of dense elimination ---- */
+
+/* I + Laplacian of a grid, with edges of random weights, the lower triangle as triplets. */
+function grid(width, height, shift = 1) {
+    const rows = [], columns = [], values = [];
+    let random = 1;
+    const add = (i, j, x) => { rows.push(i); columns.push(j); values.push(x); };
+    for (let k = 0; k < width * height; k++) {
+        add(k, k, shift);
+        for (const next of [k % width < width - 1 ? k + 1 : -1, k + width < width * height ? k + width : -1]) {
+            if (next < 0) continue;
+            random = (random * 16807) % 2147483647;
+            const w = 0.5 + random / 2147483647;
+            add(next, k, -w);
+            add(k, k, w);
+            add(next, next, w);
+        }
+    }
+    return {n: width * height, rows, columns, values};
+}
+
+const matrixOf = g => sl.matrix(g.n, g.rows, g.columns, g.values);
+
+function dense(g) {
+    const A = Array.from({length: g.n}, () => new Float64Array(g.n));
+    g.rows.forEach((i, k) => {
+        A[i][g.columns[k]] += g.values[k];
+        if (i !== g.columns[k]) A[g.columns[k]][i] += g.values[k];
+    });
+    return A;
+}
+
+function denseSolve(given, b) {
+    const A = given.map(row => row.slice()), x = Float64Array.from(b), n = b.length;
+    for (let k = 0; k < n; k++) {
+        for (let i = k + 1; i < n; i++) {
+            const factor = A[i][k] / A[k][k];
+            for (let j = k; j < n; j++) A[i][j] -= factor * A[k][j];
+            x[i] -= factor * x[k];
+        }
+    }
+    for (let k = n - 1; k >= 0; k--) {
+        for (let j = k + 1; j < n; j++) x[k] -= A[k][j] * x[j];
+        x[k] /= A[k][k];
+    }
+    return x;
+}
+
+const g = grid(9, 7), n = g.n, D = dense(g), A = matrixOf(g);
+const b = Float64Array.from({length: n}, (_, k) => Math.sin(k)), x = denseSolve(D, b);
+const F = sl.factor(A, {definite: true});
+
+/* ---- solves ---- */
+
+test("an instance has a version and a heap", () => {
+    check(/^\d+\.\d+\.\d+$/.test(sl.version) && sl.bytes > 0 && load === loadToo);
+    check(JSON.parse(readFileSync(new URL("package.json", folder))).version === sl.version);
+});
+
+test("a matrix from triplets is in compressed columns", () => {
+    check(A instanceof Matrix && A.n === n && A.p[n] === A.x.length && A.i.length === A.x.length);
+    let sum = 0;
+    for (const value of A.x) sum += value;
+    near([sum], [g.values.reduce((a, v) => a + v)]);
+});
+
+test("a full solve of one column, and of three", () => {
+    near(F.solve(b), x);
+    near(F.solve(Array.from(b)), x);
+    const three = new Float64Array(3 * n);
+    for (let c = 0; c < 3; c++) three.set(b.map(v => (c + 1) * v), c * n);
+    const X = F.solve(three);
+    for (let c = 0; c < 3; c++) near(X.subarray(c * n, (c + 1) * n), x.map(v => (c + 1) * v));
+    check(F.solve([]).length === 0);
+});
+
+test("results go where they are wanted", () => {
+    const given = new Float64Array(n), single = new Float32Array(n), list = new Array(n).fill(0), same = b.slice();
+    check(F.solve(b, given) === given && F.solve(b, single) === single);
+    near(given, x);
+    near(single, x, 1e-6);
+    near(F.solve(b, list), x);
+    near(F.solve(same, same), x);
+});
+
+test("arrays in the heap are used in place", () => {
+    const at = sl.float64(n), to = sl.float64(n), views = [at.view, to.view];
+    at.view.set(b);
+    check(F.solve(at, to) === to);
+    near(to.view, x);
+    check(views[0] === at.view && views[1] === to.view);
+    to.view.fill(0);
+    F.solve(at.view, to.view);
+    near(to.view, x);
+    F.solve(at, at);
+    near(at.view, x);
+    at.dispose();
+    to.dispose();
+    to.dispose();
+});
+
+test("a local solve is the full one on its rows", () => {
+    const bset = [3, 40], xset = Int32Array.of(5, 0, 62), full = new Float64Array(n);
+    full[3] = 2;
+    full[40] = -1;
+    const all = F.solve(full), P = F.plan(bset, xset);
+    check(P.nb === 2 && P.nx === 3);
+    const local = P.solve([2, -1]);
+    xset.forEach((row, k) => check(local[k] === all[row]));
+    near(F.localSolve(bset, xset, [2, -1]), local, 0);
+    near(F.plan(bset, null).solve([2, -1]), all, 0);
+    near(F.localSolve(null, xset, full, new Float64Array(3)), local, 0);
+    near(P.solve([2, -1, 4, -2]).subarray(3), local.map(v => 2 * v));
+    near(F.plan([], [1]).solve([]), [0]);
+    const held = sl.float64(3);
+    P.solve([2, -1], held);
+    near(held.view, local, 0);
+    held.dispose();
+    P.dispose();
+});
+
+test("one analysis serves several factors, and their plans", () => {
+    const S = sl.analyze({n, p: A.p, i: A.i}), twice = {n, p: A.p.slice(), i: A.i.slice(), x: A.x.map(v => 2 * v)};
+    const F1 = S.factor(A), F2 = S.factor(twice), perm = Array.from(S.perm).sort((i, j) => i - j);
+    check(perm.every((row, k) => row === k));
+    S.dispose();
+    near(F2.solve(b), x.map(v => v / 2));
+    const P = F1.plan([7], [9]);
+    near(P.solve([1], new Float64Array(1), F2), P.solve([1]).map(v => v / 2));
+    F2.refactor(A);
+    near(F2.solve(b), x);
+});
+
+test("orders, triangles and purposes give the same solution", () => {
+    const upper = sl.matrix(n, g.columns, g.rows, g.values), S = sl.analyze(A);
+    for (const [M, options] of [[A, {ordering: "minimum-degree"}], [A, {ordering: "natural"}], [A, {perm: S.perm}],
+        [A, {purpose: "one-factor"}], [upper, {}], [upper, {triangle: "upper"}], [A, {blockSize: 3}]]) {
+        near(sl.factor(M, options).solve(b), x, 1e-11);
+    }
+});
+
+test("statistics of a factor", () => {
+    const s = F.stats;
+    check(s.positive === n && s.negative === 0 && s.null === 0);
+    check(s.nnzL >= A.x.length && s.stored >= n && s.bytes > 8 * n && s.supernodes > 0 && s.growth >= 1);
+});
+
+test("a singular Laplacian", () => {
+    const L = matrixOf(grid(9, 7, 0)), mass = new Float64Array(n).fill(1), Z = sl.factor(L, {nullPivots: "skip", mass});
+    check(Z.stats.null === 1);
+    const u = Z.solve(b), mean = b.reduce((sum, v) => sum + v) / n;
+    near([u.reduce((sum, v) => sum + v)], [0], 1e300);
+    const back = dense(grid(9, 7, 0)).map(row => row.reduce((sum, v, k) => sum + v * u[k], 0));
+    near(back, b.map(v => v - mean), 1e-11);
+});
+
+/* ---- changes ---- */
+
+test("a change by entries, by columns, and back", () => {
+    const C = sl.factor(A), E = dense(g), P = C.plan(null, [30]);
+    E[10][10] += 3;
+    E[11][11] += 3;
+    E[10][11] -= 3;
+    E[11][10] -= 3;
+    C.updateEntries([10, 11, 11], [10, 11, 10], [3, 3, -3]);
+    near(C.solve(b), denseSolve(E, b), 1e-11);
+    near(P.solve(b), [denseSolve(E, b)[30]], 1e-11);
+    const V = {p: [0, 2], i: [10, 11], x: [1, -1]};
+    C.update(V, [-3]);
+    near(C.solve(b), x, 1e-11);
+    C.update({p: Int32Array.of(0, 1, 2), i: [0, 5], x: [2, 3]});
+    E[10][10] -= 3;
+    E[11][11] -= 3;
+    E[10][11] += 3;
+    E[11][10] += 3;
+    E[0][0] += 4;
+    E[5][5] += 9;
+    near(C.solve(b), denseSolve(E, b), 1e-11);
+});
+
+test("pins hold rows", () => {
+    const held = D.map((row, i) => i === 4 || i === 50 ? row.map((_, j) => i === j ? 1 : 0) : row), right = b.slice();
+    right[4] = 2;
+    right[50] = -1;
+    const wanted = denseSolve(held, right), P = F.pins([4, 50]);
+    near(P.solve([2, -1], {b}), wanted, 1e-11);
+    const same = b.slice();
+    near(P.solve([2, -1], {b: same, x: same}), wanted, 1e-11);
+    const plan = F.plan([], [20, 4]), zero = P.solve([2, -1]);
+    near(P.solve([2, -1], {plan}), [zero[20], 2], 1e-11);
+    P.add([30]).release([0, 2]);
+    check(P.count === 1);
+    check(Math.abs(P.solve([7], {b})[50] - 7) < 1e-12);
+    const G = sl.factor(A), Q = G.pins([4, 50]);
+    G.updateEntries([1], [1], [1]);
+    check(thrown(() => Q.solve([2, -1])).status === "STALE");
+    Q.refactor();
+    check(Math.abs(Q.solve([2, -1])[4] - 2) < 1e-12);
+    check(thrown(() => F.pins([n])).row === n);
+    check(F.pins().count === 0);
+});
+
+/* ---- memory ---- */
+
+test("the heap grows, and arrays in it stay", () => {
+    const at = sl.float64(n), before = at.view, size = sl.bytes;
+    before.set(b);
+    const large = Array.from({length: 4}, () => sl.float64(4 << 20));
+    check(sl.bytes > size && before.length === 0);
+    near(at.view, b, 0);
+    near(F.solve(at), x);
+    const error = thrown(() => F.solve(at, before));
+    check(error instanceof RangeError && /grown/.test(error.message));
+    for (const array of large) array.dispose();
+    at.dispose();
+});
+
+test("a result in the heap is there although the call made the heap grow", () => {
+    const other = sl.matrix(40000, ...Object.values(grid(200, 200)).slice(1)), to = sl.float64(40000);
+    const raw = to.view, G = sl.factor(other);
+    check(raw.length === 40000 || to.view.length === 40000);
+    const u = G.solve(new Float64Array(40000).fill(1), to).view;
+    near([Math.min(...u), Math.max(...u)], [1, 1], 1e-10);
+});
+
+test("objects are disposed of in any order, once or more", () => {
+    const M = matrixOf(g), S = sl.analyze(M), G = S.factor(M), P = G.plan([1], [2]), Q = G.pins([3]);
+    const value = P.solve([1]);
+    M.dispose();
+    S.dispose();
+    near(P.solve([1]), value, 0);
+    G.dispose();
+    G.dispose();
+    check(Q.solve([1], {plan: P})[0] !== 0);
+    check(/Factor has been disposed of/.test(thrown(() => G.solve(b)).message));
+    check(/Factor has been disposed of/.test(thrown(() => P.solve([1])).message));
+    P.dispose();
+    Q.dispose();
+    check(/Matrix has been disposed of/.test(thrown(() => M.x).message));
+    const array = sl.int32(3);
+    array.dispose();
+    check(/disposed of/.test(thrown(() => array.view).message));
+    check(/disposed of/.test(thrown(() => F.plan(array, null)).message));
+});
+
+test("calls of the same kind leave the heap as large as it was", () => {
+    let size = 0;
+    for (let k = 0; k < 400; k++) {
+        const G = sl.factor(A), P = G.plan(null, [k % n]), Q = G.pins([1]);
+        P.solve(b);
+        Q.solve([1]);
+        for (const object of [G, P, Q]) object.dispose();
+        if (k === 100) size = sl.bytes;
+    }
+    check(sl.bytes === size);
+});
+
+/* ---- errors ---- */
+
+test("an error has the text of the library, its status and its place", () => {
+    const error = thrown(() => sl.factor(sl.matrix(2, [0, 1, 1], [0, 0, 1], [1, 1, 1])));
+    check(error instanceof SparseLocalError && error instanceof Error && error.name === "SparseLocalError");
+    check(error.status === "PIVOT" && error.row === 1 && error.message.startsWith("null pivot"));
+    const cases = [
+        [() => sl.matrix(2, [0, 5], [0, 0], [1, 1]), "ARGUMENT", 5],
+        [() => sl.factor({n: 2, p: [0, 1, 2], i: [0, 7], x: [1, 1]}), "PATTERN", 7],
+        [() => sl.factor({n: 2, p: [0, 1, 2], i: [0, 1], x: [1, NaN]}), "NOT_FINITE", 1],
+        [() => sl.factor({n: 2, p: [0, 1, 2], i: [0, 1], x: [1, -1]}, {definite: true}), "PIVOT", 1],
+        [() => F.refactor({n, p: [0, ...new Array(n).fill(1)], i: [0], x: [1]}), "OTHER_PATTERN", -1],
+        [() => F.plan([n], null), "ARGUMENT", n],
+        [() => F.localSolve([-1], [0], [1]), "ARGUMENT", -1],
+        [() => F.updateEntries([0], [n], [1]), "ARGUMENT", 0],
+        [() => F.updateEntries([0], [n - 1], [1]), "OTHER_PATTERN", -2],
+        [() => sl.factor(A, {perm: new Int32Array(n)}), "ARGUMENT", -2],
+        [() => sl.factor(A).plan([0], null).solve([1], new Float64Array(n), sl.factor(A)), "STATE", -1],
+        [() => F.solve(b.map(() => NaN)), "NOT_FINITE", -1]];
+    cases.forEach(([body, status, row], k) => {
+        const e = thrown(body);
+        check(e instanceof SparseLocalError, `case ${k}: ${e.stack}`);
+        check(e.status === status && (row === -2 || e.row === row), `case ${k}: ${e.status} ${e.row} ${e.message}`);
+        check(e.message.length > 10, `case ${k}: ${e.message}`);
+    });
+    near(F.solve(b), x); /* and the factor is as before */
+});
+
+test("arguments that the library would read beyond their ends", () => {
+    const short = new Float64Array(n - 1), cases = [
+        [() => F.solve(short), /62 numbers are not a multiple of 63 rows/],
+        [() => F.solve(b, short), /x: 63 numbers are wanted, not 62/],
+        [() => F.solve(null, short), /b: an array is wanted/],
+        [() => F.solve(5), /b: an array is wanted/],
+        [() => F.plan([0], [1]).solve([1, 2], []), /x: 2 numbers/],
+        [() => F.plan([0, 1], [1]).solve([1]), /not a multiple of 2/],
+        [() => F.localSolve([0], null, [1], short), /x: 63/],
+        [() => F.localSolve([0], 5, [1]), /xset: an array is wanted/],
+        [() => F.updateEntries([0], [], []), /columns: 1 numbers/],
+        [() => F.update({p: [0, 2], i: [0], x: [1, 1]}), /A.i: 2 numbers/],
+        [() => F.update({p: [0, 1], i: [0], x: [1]}, []), /sigma: 1 numbers/],
+        [() => F.pins([1]).solve([1, 2], {b}), /b: 126 numbers/],
+        [() => sl.factor({n: 3, p: [0, 1], i: [0], x: [1]}), /A.p: 4 numbers/],
+        [() => sl.factor({n: 1, p: [0, 2], i: [0], x: [1]}), /A.i: 2 numbers/],
+        [() => sl.factor({n: 1, p: [0, 1], i: [0]}), /A.x: 1 numbers/],
+        [() => sl.factor({n: 1.5, p: [0], i: [], x: []}), /A.n: 1.5 is not a count/],
+        [() => sl.factor(5), /a matrix/],
+        [() => sl.factor(A, {order: "natural"}), /order is none of triangle/],
+        [() => sl.factor(A, {ordering: "metis"}), /ordering: metis is none of dissection/],
+        [() => sl.factor(A, {mass: short}), /mass: 63/],
+        [() => sl.matrix(2, [0, 1], [0], [1, 1]), /columns: 2 numbers/],
+        [() => sl.float64(-1), /length: -1/],
+        [() => F.plan(sl.float64(2), null), /HeapArray of Int32Array/]];
+    cases.forEach(([body, text], k) => {
+        const e = thrown(body);
+        check((e instanceof RangeError || e instanceof TypeError) && text.test(e.message), `case ${k}: ${e.message}`);
+    });
+    near(F.solve(b), x);
+});
+
+test("an empty system", () => {
+    const E = sl.factor(sl.matrix(0, [], [], []));
+    check(E.solve([]).length === 0 && E.n === 0 && E.stats.positive === 0);
+});
+
+/* ---- instances ---- */
+
+const others = [await load(bytes), await load(new WebAssembly.Module(bytes)),
+    await load(new URL("sparse_local.wasm", folder)), await load(new URL("sparse_local.wasm", folder).href)];
+
+test("instances from bytes, a module and URLs have heaps of their own", () => {
+    for (const other of others) {
+        const at = other.float64(n);
+        at.view.set(b);
+        near(F.solve(at), x); /* copied from the other heap */
+        const G = other.factor(A), to = other.float64(n); /* A too */
+        near(F.solve(b, to).view, x);
+        near(G.solve(b), x);
+        check(G instanceof Factor && at instanceof HeapArray);
+    }
+});
+
+const refused = await load(Uint8Array.of(1, 2, 3)).catch(error => error);
+const missing = await load(new URL("none.wasm", folder)).catch(error => error);
+test("what is no module is refused", () => check(refused instanceof Error && missing instanceof Error));
+
+const full = await load(bytes), kept = [];
+test("memory that runs out is an error, and the instance lives on", () => {
+    const error = thrown(() => { for (;;) kept.push(full.float64(1 << 26)); });
+    check(error instanceof SparseLocalError && error.status === "MEMORY" && error.message.length > 5);
+    kept.pop().dispose();
+    near(full.factor({n: 1, p: [0, 1], i: [0], x: [4]}).solve([2]), [0.5]);
+});
+
+end();

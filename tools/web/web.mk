@@ -1,0 +1,42 @@
+# web.mk: the npm package: WebAssembly, JavaScript, types; the kernel of live pages (a part of the Makefile)
+
+.PHONY: deps-npm deps-types npm test-npm bench-npm
+
+deps-npm: ## clang, lld and a C library for WebAssembly, and node
+	@tools/build/deps.sh node=nodejs clang=clang wasm-ld=lld /usr/lib/wasm32-wasi/libc.a=wasi-libc \
+	'/usr/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a=libclang-rt-dev-wasm32'
+
+deps-types: ## tsc, which checks the types of the package
+	@tools/build/deps.sh tsc=node-typescript
+
+# The module has at most so many bytes in gzip -9. Fewer functions are inlined and fewer loops unrolled than with -O2, which
+# gives a fifth of the bytes back and takes as long; -Os takes three times as long for a factorization.
+WEB_LIMIT = 150000
+WEB_CC = clang --target=wasm32-wasi --sysroot=/usr
+WEB_OPT = -O2 -mllvm -inline-threshold=0 -fno-vectorize -mllvm -unroll-runtime=0 -mllvm -unroll-threshold=100
+WEB_LINK = -mexec-model=reactor -Wl,--strip-all -Wl,-z,stack-size=1048576 -Wl,--stack-first
+WEB_PACKAGE = build/npm/package
+WEB_FILES = sparse_local.js sparse_local.d.ts heat.js README.md
+
+build/web/sparse_local.wasm: tools/web/sparse_local_web.c sparse_local.h tools/web/web.mk
+	@mkdir -p $(@D)
+	$(call say,WASM)
+	$(Q)$(WEB_CC) -std=c99 $(WEB_OPT) -msimd128 -Wall -Wextra -Wno-unused-function -Werror -I. -c -o build/web/module.o $<
+	$(Q)$(WEB_CC) $(WEB_LINK) -o $@ build/web/module.o
+	@bytes=$$(gzip -9 -c $@ | wc -c); echo "sparse_local.wasm: $$(wc -c <$@) bytes, $$bytes in gzip, of which $(WEB_LIMIT) are allowed"; \
+	[ $$bytes -le $(WEB_LIMIT) ] || { rm $@; exit 1; }
+
+npm: deps-npm ## build/npm/sparse-local-VERSION.tgz and its folder, build/npm/package: WebAssembly, JavaScript, types
+	@$(MAKE) --no-print-directory build/web/sparse_local.wasm
+	@rm -rf $(WEB_PACKAGE) && mkdir -p $(WEB_PACKAGE)
+	@cp build/web/sparse_local.wasm LICENSE $(WEB_FILES:%=tools/web/%) $(WEB_PACKAGE)
+	@sed 's/@VERSION@/$(VERSION)/; s/@LICENSE@/$(firstword $(shell head -n 1 LICENSE))/' tools/web/package.json >$(WEB_PACKAGE)/package.json
+	@tar -czf build/npm/sparse-local-$(VERSION).tgz -C build/npm --owner=0 --group=0 --numeric-owner --sort=name package
+	@echo "build/npm/sparse-local-$(VERSION).tgz: $$(wc -c <build/npm/sparse-local-$(VERSION).tgz) bytes"
+
+test-npm: npm ## the npm package under node, its types, and a page with it in headless Chromium where they can be installed
+	@for what in types chromium; do $(MAKE) --no-print-directory deps-$$what >/dev/null 2>&1 || true; done
+	@PACKAGE=$(WEB_PACKAGE) tests/lib/run.sh build/npm/log tests/web/check_package.sh
+
+bench-npm: npm ## times the npm package on the heat of a grid with 100 thousand unknowns; PEER=FOLDER of cholesky-solve beside it
+	@node tools/web/bench.mjs $(WEB_PACKAGE) $(PEER)
