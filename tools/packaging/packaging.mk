@@ -15,7 +15,8 @@ INSTALL_PARTS ?=
 SHARED_FLAGS ?=
 SHARED_LIBS ?=
 
-.PHONY: deps-eigen deps-packaging test-adapters test-clients shared test-shared install uninstall check-install deps-python deps-torch test-python test-python-build bench-python
+.PHONY: deps-eigen deps-packaging test-adapters test-clients shared test-shared install uninstall check-install deps-python deps-torch test-python test-python-build bench-python \
+	deps-octave octave test-octave
 
 deps-eigen: deps-cxx ## Eigen: the tests of its adapter
 	@tools/build/deps.sh /usr/include/eigen3/Eigen/Sparse=libeigen3-dev
@@ -151,3 +152,24 @@ test-python-build: deps-python sparse_local.h ## python3 -m build, offline: both
 
 bench-python: test-python ## times the package against scipy.sparse.linalg.splu
 	@PYTHONPATH=build/python/site $(PYTHON) -B tools/python/bench.py
+
+# ---- Octave ----
+
+## OCTAVE   Octave of test-octave; its mkoctfile compiles
+OCTAVE ?= octave-cli
+## OCTAVE_FLAGS  more for its compiler: '-O1 -DSL_NO_SIMD' compiles in a third of the time
+OCTAVE_FLAGS ?=
+OCTAVE_MEX = build/octave/sparse_local_mex.mex
+
+deps-octave: ## Octave and its mkoctfile, 200 MB
+	@tools/build/deps.sh $(OCTAVE)=octave mkoctfile=octave-dev
+
+octave: deps-octave $(OCTAVE_MEX) ## build/octave: the mex file of tools/octave
+
+$(OCTAVE_MEX): tools/octave/sparse_local_mex.c tools/octave/sparse_local_make.m sparse_local.h
+	@mkdir -p $(@D)
+	$(call say,MEX )
+	$(Q)$(OCTAVE) -qf --path tools/octave --eval "sparse_local_make('$(@D)'$(foreach f,-Wall -Wextra -Werror $(OCTAVE_FLAGS),, '$(f)'))"
+
+test-octave: octave ## the classes of tools/octave, their examples and help texts
+	@$(OCTAVE) -qf $(patsubst %,--path %,build/octave tools/octave $(addprefix tools/octave/,gptoolbox examples tests)) --eval test_sparse_local
