@@ -29,6 +29,7 @@ RELEASE = build/release/sparse_local-$(VERSION)
 # the same bytes.
 release: check-header docs deps-python ## build/release: headers, tarball, manual, wheel, notes and checksums
 	@test -z "$$(git status --porcelain)" || { echo 'release: there are changes that are not committed'; exit 1; }
+	@case $(VERSION) in 0.*) ;; *) test -f tests/abi/sparse_local-$(VERSION).h || { echo 'release: make abi-record, and commit it'; exit 1; } ;; esac
 	@rm -rf build/release && mkdir -p build/release
 	@cp sparse_local.h build/release
 	@$(MAKE) --no-print-directory header-flat && cp build/sparse_local_flat.h build/release

@@ -15,7 +15,7 @@ INSTALL_PARTS ?=
 SHARED_FLAGS ?=
 SHARED_LIBS ?=
 
-.PHONY: deps-eigen deps-packaging test-adapters test-clients shared test-shared install uninstall check-install deps-python deps-torch test-python test-python-build bench-python \
+.PHONY: deps-eigen deps-packaging test-adapters test-clients shared test-shared deps-abi abi abi-record install uninstall check-install deps-python deps-torch test-python test-python-build bench-python \
 	deps-octave octave test-octave
 
 deps-eigen: deps-cxx ## Eigen: the tests of its adapter
@@ -92,6 +92,15 @@ $(SO): build/lib/sparse_local.o tools/packaging/libsparse_local.map
 
 test-shared: shared ## does the shared library export what the header declares, and nothing else?
 	@CC='$(CC)' VERSION=$(VERSION) SOVERSION=$(SOVERSION) tests/adapters/check_shared.sh
+
+deps-abi: ## abidiff, which compares declarations
+	@tools/build/deps.sh abidiff=abigail-tools
+
+abi: shared deps-abi ## is what the last release declared as it was, and do programs of one run with the library of the other?
+	@CC='$(CC)' VERSION=$(VERSION) tests/abi/check_abi.sh
+
+abi-record: sparse_local.h ## tests/abi: what this version declares, at a release
+	@CC='$(CC)' VERSION=$(VERSION) tests/abi/check_abi.sh record
 
 # ---- installation ----
 
