@@ -1,63 +1,63 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 473d04042a1c6bad
+ * FNV-1a of the lines after this comment, without the license: 47247d5c65818b2f
  * The comments of the implementation are in src/impl.
  *
  * Contents
  *     65 intro.h      what the library does, a quick start, which call for which question, references
- *    187 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    231 config.h     macros that a user may define before the include, the version, and the integer types
- *    312 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    505 options.h    options of all calls, threads, and the allocator
- *    652 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    899 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *   1001 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1077 factor.h     the numerical factorization P A P' = L D L'
- *   1202 solve.h      full solves, and the workspace of all solves
- *   1299 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1378 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
- *   1470 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1569 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1609 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1717 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1794 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1880 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1976 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2088 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2128 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2256 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2288 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2477 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2589 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2717 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2758 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2847 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2957 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2994 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   3071 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3111 impl/ base: the compiler, status, memory, sorting, threads
- *   4285 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5154 impl/ matrix: sparse matrices of the caller and of the library
- *   5789 impl/ ordering: fill-reducing orderings of a graph
- *  10400 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12503 impl/ factor: the numbers of L and D
- *  15830 impl/ solve: full and local solves
- *  17496 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19289 impl/ pivots: the order of the pivots by the values of a matrix
- *  19698 impl/ float: L and fronts in single precision
- *  20146 impl/ inverse: entries of the inverse, regions
- *  23186 impl/ change: a factor that follows changes of its matrix
- *  29926 impl/ dirichlet: rows fixed at given values
- *  30513 impl/ dirichlet: by a factor of all rows
- *  30722 impl/ io: files that are replaced only when they are complete
- *  30940 impl/ files: Matrix Market files, 64-bit indices
- *  31560 impl/ save: factors in files
- *  33554 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34239 impl/ batch: diagonals of many inverses
- *  34383 impl/ complex: complex Hermitian systems over real factors
- *  34930 impl/ complex: entries of the inverse
- *  34990 impl/ packs: the tables through which the core calls packs
- *  35038 impl/ last: undefine every internal macro
- *  35380 impl/ templates: the header includes them from itself, once for each instruction set
+ *    190 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    234 config.h     macros that a user may define before the include, the version, and the integer types
+ *    317 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    510 options.h    options of all calls, threads, and the allocator
+ *    657 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    904 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *   1006 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1082 factor.h     the numerical factorization P A P' = L D L'
+ *   1207 solve.h      full solves, and the workspace of all solves
+ *   1304 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1383 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
+ *   1475 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1574 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1614 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1722 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1799 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1885 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1981 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2093 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2133 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2261 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2293 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2482 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2594 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2722 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2763 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2852 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2962 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2999 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   3076 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3116 impl/ base: the compiler, status, memory, sorting, threads
+ *   4290 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5159 impl/ matrix: sparse matrices of the caller and of the library
+ *   5794 impl/ ordering: fill-reducing orderings of a graph
+ *  10405 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12508 impl/ factor: the numbers of L and D
+ *  15835 impl/ solve: full and local solves
+ *  17501 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19294 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19703 impl/ float: L and fronts in single precision
+ *  20151 impl/ inverse: entries of the inverse, regions
+ *  23191 impl/ change: a factor that follows changes of its matrix
+ *  29931 impl/ dirichlet: rows fixed at given values
+ *  30518 impl/ dirichlet: by a factor of all rows
+ *  30727 impl/ io: files that are replaced only when they are complete
+ *  30945 impl/ files: Matrix Market files, 64-bit indices
+ *  31565 impl/ save: factors in files
+ *  33559 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34244 impl/ batch: diagonals of many inverses
+ *  34388 impl/ complex: complex Hermitian systems over real factors
+ *  34935 impl/ complex: entries of the inverse
+ *  34995 impl/ packs: the tables through which the core calls packs
+ *  35043 impl/ last: undefine every internal macro
+ *  35385 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -184,6 +184,9 @@
  *             1980.
  */
 
+#if defined(SL_CONFIG_HEADER)
+#include SL_CONFIG_HEADER
+#endif
 /* src/public/packs.h: the packs that a user asks for: what each adds to the core, and what it brings along */
 
 /* The core analyzes, factors, refactors and solves: in full, on plans and in one shot, with one to
@@ -255,6 +258,8 @@
  *  SL_HEADER                     name of this header, default "sparse_local.h". The implementation
  *                                includes this header again for each instruction set. If you rename
  *                                the file: #define SL_HEADER "new_name.h", without its folder.
+ *  SL_CONFIG_HEADER              name of a header of yours that this one includes first. It defines
+ *                                such macros and those of packs.h: -DSL_CONFIG_HEADER='"mine.h"'
  *  SL_VERIFY                     checks internal invariants and unread options at run time: slow,
  *                                for debugging.
  *
@@ -31634,9 +31639,9 @@ static void sli_unmap(const void *bytes, size_t size) {
     munmap((void *)(uintptr_t)bytes, size);
 #elif defined(SLI_MAP_VIEW)
     UnmapViewOfFile(bytes);
-    (void)size;
 #endif
   }
+  (void)size;
 }
 
 static uint64_t sli_file_size(FILE *file) {
@@ -36638,7 +36643,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(sli_rank_one *u, double *l,
   for (k = 0; k < SLI_TILE; k++) {
     g[k + 1] = g[k] - z[k];
   }
-  u->sum = g[SLI_TILE];
   SLV_GATHER(y, g, SLI_AFTER)
   SLV_DIVIDE(q, q, y)
   SLV_STORE(b, q)
@@ -36646,6 +36650,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(sli_rank_one *u, double *l,
   SLV_DIVIDE(y, y, q)
   SLV_MULTIPLY(s, s, y)
   SLV_STORE(u->e + j, s)
+  u->sum = g[SLI_TILE];
   for (k = 0; k < columns && !u->is_trial; k++, l += SLI_TILE) {
     SLV_LOAD_PINNED(y, l)
     SLV_BROADCAST(s, w + k)

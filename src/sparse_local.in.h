@@ -3,6 +3,9 @@
 #ifndef SPARSE_LOCAL_H
 #define SPARSE_LOCAL_H
 #include "public/intro.h"
+#if defined(SL_CONFIG_HEADER)
+#include SL_CONFIG_HEADER
+#endif
 #include "public/packs.h"
 #include "public/config.h"
 #ifdef __cplusplus

@@ -9,7 +9,7 @@ JUDGE_SEED ?= 1
 FUZZ_SEED ?= 0
 
 .PHONY: deps-locales deps-tcc deps-mingw deps-wasm deps-cov deps-chromium deps-mpi test-exchange test-tcc platforms platform-table \
-	races valgrind test-msan test-mingw test-mingw-clang test-wasm cov mcdc fuzz run-fuzz judge test-view cluster test-cluster
+	races valgrind test-stack test-msan test-mingw test-mingw-clang test-wasm cov mcdc fuzz run-fuzz judge test-view cluster test-cluster
 
 # ---- packages ----
 
@@ -129,6 +129,12 @@ races: deps sparse_local.h ## the tests of threads, watched for data races
 valgrind: deps ## the tests under valgrind (no AVX-512 there)
 	@tools/build/deps.sh valgrind=valgrind
 	@+$(SUB_MAKE) run-tests RUN='valgrind -q --leak-check=full --error-exitcode=99'
+
+# The tests of what has the largest frames: null vectors, dissections, edits, regions, files, queries.
+STACK_TESTS = $(patsubst %,$(B)/tests/core/test_%,dirichlet factor factor_edit inverse null_pivots null_vectors ordering pins_rigid pins_ways \
+	pivots plan region restrict rigid_calls rigid_mass_cases save saved_set selected symbolic_edit threads)
+test-stack: deps sparse_local.h ## some of the tests on a stack of 64 kB; the limits on frames and chains of calls are in make size
+	@+$(SUB_MAKE) run-tests RUN=tests/lib/small_stack.sh REPLAYS= TEST_PROGRAMS='$(STACK_TESTS)'
 
 # ---- platforms that have no cmocka: tests/lib/cmocka has the part of it that the tests use ----
 

@@ -27,6 +27,8 @@
  *  SL_HEADER                     name of this header, default "sparse_local.h". The implementation
  *                                includes this header again for each instruction set. If you rename
  *                                the file: #define SL_HEADER "new_name.h", without its folder.
+ *  SL_CONFIG_HEADER              name of a header of yours that this one includes first. It defines
+ *                                such macros and those of packs.h: -DSL_CONFIG_HEADER='"mine.h"'
  *  SL_VERIFY                     checks internal invariants and unread options at run time: slow,
  *                                for debugging.
  *

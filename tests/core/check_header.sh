@@ -236,6 +236,13 @@ check "-ffast-math refuses the bodies, not the declarations" \
              grep -q 'NaN' $dir/refused || exit 1
      done"
 
+# refused MESSAGE COMMAND: the compiler fails, and says MESSAGE.
+refused() {
+    message=$1
+    shift
+    ! "$@" 2>$dir/refused && grep -q "$message" $dir/refused || { cat $dir/refused; return 1; }
+}
+
 # ---- where the header lies and what it is called: it includes itself by the name in SL_HEADER ----
 
 x=$dir/third_party/x
@@ -258,18 +265,29 @@ for compiler in gcc clang tcc $cxx clang++; do
         "$compiler $how -I$x $dir/angled.c"
 done
 
+# SL_CONFIG_HEADER gives a program a pack, and the bodies no SIMD
+printf '#ifndef MINE_H\n#define MINE_H\n%s\n%s\n#endif\n' '#define SL_NO_SIMD' \
+    '#define SL_WITH_INVERSE' >$dir/mine.h
+cat >$dir/configured.c <<'C'
+#include "user.h"
+int main(void) {
+    return use_sparse_local() || sl_inverse_diagonal(NULL, NULL, NULL, 0, NULL, NULL) == SL_OK;
+}
+C
+check "SL_CONFIG_HEADER: a header of the user's with the macros, for all files" \
+    "mine='-DSL_CONFIG_HEADER=\"mine.h\"'
+     $cc $c99 -I$dir \"\$mine\" $dir/configured.c -c -o $dir/configured.o &&
+     $cc $c99 -I$dir \"\$mine\" $dir/bodies.c -c -o $dir/configured_bodies.o &&
+     $cc $dir/configured.o $dir/configured_bodies.o -o $dir/configured $libs && $dir/configured &&
+     nm $dir/configured_bodies.o | grep -E '_(avx2|avx512|neon)|sl_factor_update' | none &&
+     refused 'needs_SL_WITH_INVERSE' $cc $c99 -I$dir -fsyntax-only $dir/configured.c"
+
 cp sparse_local.h $x/renamed.h
 sed 's/SL_VERSION_MAJOR != [0-9]*/SL_VERSION_MAJOR != 99/' sparse_local.h >$x/other_version.h
 printf '#define SPARSE_LOCAL_IMPLEMENTATION\n#include "third_party/x/renamed.h"\n' >$dir/renamed.c
 sed 's|"sparse_local.h"|"third_party/x/renamed.h"|' $dir/user.h >$dir/user_renamed.h
 sed 's|user.h|user_renamed.h|' $dir/one.c >$dir/one_renamed.c
 
-# refused MESSAGE COMMAND: the compiler fails, and says MESSAGE.
-refused() {
-    message=$1
-    shift
-    ! "$@" 2>$dir/refused && grep -q "$message" $dir/refused || { cat $dir/refused; return 1; }
-}
 rm $x/sparse_local.h
 for compiler in gcc clang; do
     promise_of $compiler "$compiler: renamed, with SL_HEADER" \

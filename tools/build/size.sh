@@ -7,13 +7,16 @@
 # C only. SIZE=full adds the core with each pack alone, as the difference to the core; a pack that
 # implies others has them in it. A header is that of make header PACKS=. The time is processor time;
 # its share is that of the header with all packs. Limits are on bytes: headers, and the text of the
-# objects, the latter only on x86-64, where the kernels of AVX2, AVX-512 and plain C are in it.
+# objects, the latter only on x86-64, where the kernels of AVX2, AVX-512 and plain C are in it. Of
+# all packs the stack is limited, too: a frame, and a chain of calls.
 
 cd "$(dirname "$0")/../.." || exit 1
 header_limit=1412000      # sparse_local.h
 core_header_limit=846000  # the core, with the comments of the implementation
 core_text_limit=362000
 all_text_limit=872000
+frame_limit=28000
+chain_limit=36000
 
 export CCACHE_DISABLE=1
 dir=build/size
@@ -57,7 +60,10 @@ row() {
 header=$(wc -c <sparse_local.h)
 core_header=$(selection --packs '')
 read_header=$(selection --comments --packs '')
-compile -DSL_WITH_ALL
+rm -f $dir/bodies.ci
+graph=-fcallgraph-info=su # from gcc 10 on
+gcc $graph -E - </dev/null >/dev/null 2>&1 || graph=
+compile -DSL_WITH_ALL $graph
 all_text=$text all_seconds=$seconds
 printf '%-16s %10s %10s %10s %10s\n' '' 'header kB' 'object kB' 'compile s' 'of all'
 compile
@@ -86,6 +92,8 @@ x86_64-*)
     check 'the object with all packs' "$all_text" $all_text_limit
     ;;
 esac
+[ -z "$graph" ] || awk -v frame_limit=$frame_limit -v chain_limit=$chain_limit \
+    -f tools/build/stack.awk $dir/bodies.ci || failed=1
 [ $failed -eq 0 ] &&
     echo "size: header $header of $header_limit bytes, core $read_header of $core_header_limit;" \
         "objects: all $all_text of $all_text_limit, core $core_text of $core_text_limit"
