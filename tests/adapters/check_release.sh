@@ -3,7 +3,8 @@
 #
 #     tests/adapters/check_release.sh FOLDER          (make check-release)
 #
-# FOLDER is build/release. CC and PYTHON come from the Makefile. The last line is `N passed, N failed`.
+# FOLDER is build/release. CC and PYTHON come from the Makefile. The last line is `N passed, N
+# failed`.
 
 release=$(cd "$1" && pwd) || exit 1
 cd "$(dirname "$0")/../.." || exit 1
@@ -25,7 +26,8 @@ check "the tarball" "tar -C source --strip-components 1 -xzf $release/sparse_loc
 awk '/^```c$/ { inside = 1; next } /^```/ { inside = 0 } inside' source/README.md >readme.c
 for header in sparse_local.h sparse_local_core.h; do
     check "$header: the README's program" \
-        "empty && cp $release/$header . && sed 's/sparse_local[.]h/$header/' ../readme.c >readme.c &&
+        "empty && cp $release/$header . &&
+         sed 's/sparse_local[.]h/$header/' ../readme.c >readme.c &&
          $CC -O1 -DSL_NO_SIMD readme.c -o readme -lm && ./readme"
 done
 check "sparse_local_flat.h: pasted into the README's program" \
@@ -35,11 +37,12 @@ check "sparse_local_flat.h: pasted into the README's program" \
 
 # ---- the tarball ----
 
-check "the header of the tarball is the one beside it" "cmp source/sparse_local.h $release/sparse_local.h"
+check "the header of the tarball is the one beside it" \
+    "cmp source/sparse_local.h $release/sparse_local.h"
 check "make header in the tarball gives the same header" \
     "cd source && make --no-print-directory header && cmp sparse_local.h $release/sparse_local.h"
 check "a test from the tarball" \
-    "cd source && make --no-print-directory -s build/tests/core/test_solve PACK_FLAGS=-DSL_WITH_ALL &&
+    "cd source && make --no-print-directory -s build/tests/core/test_solve &&
      build/tests/core/test_solve"
 
 # ---- the manual, the wheel and the npm package ----
@@ -57,5 +60,10 @@ check "the wheel, with NumPy and SciPy of the system" \
          F = sparse_local.Factor(A)
          assert abs(A @ F.solve(b) - b).max() < 1e-14
          assert F.local([3], [1.0], [5])[0] == F.solve(b)[5]'"
+check "the npm package" \
+    "empty && mkdir -p node_modules/sparse-local &&
+     tar -C node_modules/sparse-local --strip-components 1 -xzf $release/*.tgz &&
+     sed -n '/^\`\`\`js\$/,/^\`\`\`\$/p' node_modules/sparse-local/README.md | sed '/^\`\`\`/d' >use.mjs &&
+     node use.mjs | grep -q '0[.]25'"
 
 checks_end
