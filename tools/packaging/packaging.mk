@@ -15,8 +15,8 @@ INSTALL_PARTS ?=
 SHARED_FLAGS ?=
 SHARED_LIBS ?=
 
-.PHONY: deps-eigen deps-packaging test-adapters test-clients shared test-shared deps-abi abi abi-record install uninstall check-install deps-python deps-torch test-python test-python-build bench-python \
-	deps-octave octave test-octave
+.PHONY: deps-eigen deps-packaging test-adapters test-clients test-osqp bench-osqp shared test-shared deps-abi abi abi-record \
+	install uninstall check-install deps-python deps-torch test-python test-python-build bench-python deps-octave octave test-octave
 
 deps-eigen: deps-cxx ## Eigen: the tests of its adapter
 	@tools/build/deps.sh /usr/include/eigen3/Eigen/Sparse=libeigen3-dev
@@ -48,9 +48,31 @@ $(foreach cxx,$(ADAPTER_CXX),$(foreach std,$(ADAPTER_STD),\
 ADAPTER_PROGRAMS = $(foreach cxx,$(ADAPTER_CXX),$(foreach std,$(ADAPTER_STD),\
 	$(ADAPTER_NAMES:%=build/adapters/$(cxx)-$(std)-%)))
 
-test-adapters: deps deps-eigen sparse_local.h ## the C++ and Eigen adapters, for each of ADAPTER_CXX and ADAPTER_STD
-	@$(MAKE) --no-print-directory $(ADAPTER_PROGRAMS)
-	@tests/lib/run.sh build/adapters/log $(ADAPTER_PROGRAMS)
+# In C, with each pair of types of QDLDL and OSQP, whose headers are osqp_interface.h here.
+C_ADAPTER_PROGRAMS = $(foreach types,int_double long_double int_float long_float,build/adapters/test_qdldl-$(types) build/adapters/test_osqp-$(types))
+C_ADAPTER_TYPES = $(if $(findstring long,$@),-DQDLDL_LONG -DOSQP_USE_LONG) $(if $(findstring float,$@),-DQDLDL_FLOAT -DOSQP_USE_FLOAT)
+OSQP_HEADERS = $(addprefix build/adapters/osqp/,osqp.h lin_alg.h types.h printing.h qdldl_interface.h codegen.h)
+$(OSQP_HEADERS):
+	@mkdir -p $(@D)
+	@echo '#include "tests/adapters/osqp_interface.h"' >$@
+
+$(C_ADAPTER_PROGRAMS): $(wildcard tests/adapters/*.[ch] tools/adapters/*.[ch]) $(OSQP_HEADERS) $(IMPL)
+	$(call say,CC  )
+	$(Q)$(CC) $(C_FLAGS) -O1 $(C_ADAPTER_TYPES) -Ibuild/adapters/osqp -o $@ $(@:build/%-$(lastword $(subst -, ,$@))=tests/%).c $(IMPL) $(TEST_LIBS) $(LIBS)
+
+test-adapters: deps deps-eigen sparse_local.h ## the adapters: C++ and Eigen, for each of ADAPTER_CXX and ADAPTER_STD; QDLDL, OSQP
+	@$(MAKE) --no-print-directory $(ADAPTER_PROGRAMS) $(C_ADAPTER_PROGRAMS)
+	@tests/lib/run.sh build/adapters/log $(ADAPTER_PROGRAMS) $(C_ADAPTER_PROGRAMS)
+
+## QDLDL, OSQP, CATCH2  folders of their sources, of which test-osqp and bench-osqp build OSQP: any QDLDL 0.1, OSQP 1.0, Catch2 2.13
+QDLDL ?=
+OSQP ?=
+CATCH2 ?=
+test-osqp: deps-packaging sparse_local.h ## the own tests of QDLDL and of OSQP, on our names and our solver; needs QDLDL, OSQP, CATCH2
+	@CC='$(CC)' QDLDL='$(QDLDL)' OSQP='$(OSQP)' CATCH2='$(CATCH2)' JOBS='$(JOBS)' tests/adapters/check_osqp.sh test
+
+bench-osqp: deps-packaging sparse_local.h ## whole runs of OSQP on its seven classes, with our solver and with QDLDL; needs QDLDL, OSQP
+	@CC='$(CC)' QDLDL='$(QDLDL)' OSQP='$(OSQP)' CATCH2= JOBS='$(JOBS)' tests/adapters/check_osqp.sh bench
 
 CLIENT_PROGRAMS = $(foreach cxx,$(ADAPTER_CXX),$(ADAPTER_STD:%=build/adapters/$(cxx)-%-test_clients))
 
