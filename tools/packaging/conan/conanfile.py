@@ -27,6 +27,7 @@ class SparseLocal(ConanFile):
         copy(self, "sparse_local.h", root, self.export_sources_folder)
         copy(self, "LICENSE", root, self.export_sources_folder)
         copy(self, "*.hpp", adapters, self.export_sources_folder)
+        copy(self, "*.h", adapters, self.export_sources_folder)
 
     def package(self):
         include = os.path.join(self.package_folder, "include")
