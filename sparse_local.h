@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 47247d5c65818b2f
+ * FNV-1a of the lines after this comment, without the license: 3653f86d3a47c765
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -19,45 +19,45 @@
  *   1574 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
  *   1614 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
  *   1722 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1799 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1885 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1981 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2093 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2133 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2261 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2293 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2482 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2594 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2722 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2763 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2852 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2962 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2999 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   3076 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3116 impl/ base: the compiler, status, memory, sorting, threads
- *   4290 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5159 impl/ matrix: sparse matrices of the caller and of the library
- *   5794 impl/ ordering: fill-reducing orderings of a graph
- *  10405 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12508 impl/ factor: the numbers of L and D
- *  15835 impl/ solve: full and local solves
- *  17501 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19294 impl/ pivots: the order of the pivots by the values of a matrix
- *  19703 impl/ float: L and fronts in single precision
- *  20151 impl/ inverse: entries of the inverse, regions
- *  23191 impl/ change: a factor that follows changes of its matrix
- *  29931 impl/ dirichlet: rows fixed at given values
- *  30518 impl/ dirichlet: by a factor of all rows
- *  30727 impl/ io: files that are replaced only when they are complete
- *  30945 impl/ files: Matrix Market files, 64-bit indices
- *  31565 impl/ save: factors in files
- *  33559 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34244 impl/ batch: diagonals of many inverses
- *  34388 impl/ complex: complex Hermitian systems over real factors
- *  34935 impl/ complex: entries of the inverse
- *  34995 impl/ packs: the tables through which the core calls packs
- *  35043 impl/ last: undefine every internal macro
- *  35385 impl/ templates: the header includes them from itself, once for each instruction set
+ *   1801 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1887 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1983 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2095 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2135 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2263 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2295 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2484 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2596 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2724 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2765 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2854 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2964 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   3001 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   3078 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3118 impl/ base: the compiler, status, memory, sorting, threads
+ *   4292 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5161 impl/ matrix: sparse matrices of the caller and of the library
+ *   5796 impl/ ordering: fill-reducing orderings of a graph
+ *  10407 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12510 impl/ factor: the numbers of L and D
+ *  15837 impl/ solve: full and local solves
+ *  17504 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19447 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19856 impl/ float: L and fronts in single precision
+ *  20304 impl/ inverse: entries of the inverse, regions
+ *  23344 impl/ change: a factor that follows changes of its matrix
+ *  30084 impl/ dirichlet: rows fixed at given values
+ *  30671 impl/ dirichlet: by a factor of all rows
+ *  30880 impl/ io: files that are replaced only when they are complete
+ *  31098 impl/ files: Matrix Market files, 64-bit indices
+ *  31718 impl/ save: factors in files
+ *  33712 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34397 impl/ batch: diagonals of many inverses
+ *  34541 impl/ complex: complex Hermitian systems over real factors
+ *  35088 impl/ complex: entries of the inverse
+ *  35148 impl/ packs: the tables through which the core calls packs
+ *  35196 impl/ last: undefine every internal macro
+ *  35539 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1727,10 +1727,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
  *  ||v||^2 = v' A v. F keeps eta for sl_plan_solve_bounded until its numbers change; a saved factor
  *  keeps it, too.
  *
- *  F          [in,out]  a factor of A, definite, or semidefinite with skipped null pivots and no
- *                       options.mass; L in double or float.
- *  A          [in]      the matrix. Guaranteed: with exactly the values that F was computed from
- *                       as a whole, not by sl_factor_change and the like.
+ *  F          [in,out]  a factor of A, definite, or semidefinite with skipped null pivots; L in
+ *                       double or float. With options.mass: one known null vector a component.
+ *  A          [in]      the matrix, or A[R, R] of a restriction. Guaranteed: with the values that
+ *                       F was computed from as a whole, not by sl_factor_change and the like.
  *  certainty  [in]      SL_ESTIMATED: 4 times the largest error that 12 solves show, whose
  *                       right-hand sides approach the worst ones.
  *                       SL_GUARANTEED: a proved bound, by rounding errors a priori and the smallest
@@ -1740,9 +1740,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
  *  stats      [out]     certificate; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_STATE: guaranteed, and
  *           other values than those of F; SL_ERR_OTHER_PATTERN: not the analyzed pattern;
- *           SL_ERR_UNSUPPORTED: negative or regularized pivots, options.mass, complex storage;
- *           guaranteed also null pivots, L in float; SL_ERR_INACCURATE: eta exceeds 1/16, as with
- *           an A that is not that of F; SL_ERR_TOO_LARGE, SL_ERR_MEMORY. On errors F has no eta.
+ *           SL_ERR_UNSUPPORTED: negative or regularized pivots, complex storage, options.mass with
+ *           several or unknown null vectors; guaranteed also null pivots, L in float, restrictions;
+ *           SL_ERR_INACCURATE: eta exceeds 1/16, as with an A that is not that of F;
+ *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY. On errors F has no eta.
  *  Cost     estimated: 15 to 20 full solves; W grows by 20 n numbers. Guaranteed: 7 to 10
  *           factorizations; memory of a second factor while it runs.
  *  Threads  the caller serializes calls that change F.
@@ -1758,7 +1759,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_certify(sl_factor *F, const sl_csc *A,
  *
  *  The bound of x(i) is about eta sqrt((A^-1)(i,i) b' A^-1 b), and less where the path of i meets
  *  those of b only far up. It is sharp near b and loose where x has decayed by many digits. With
- *  skipped null pivots the exact answer is the one that is 0 in their rows.
+ *  skipped null pivots the exact answer is the one that is 0 in their rows or, with options.mass,
+ *  has a weighted mean of 0 in each component.
  *
  *  P       [in]      the plan; not in a region.
  *  F       [in]      a factor that sl_factor_certify has certified.
@@ -16005,7 +16007,8 @@ static sl_status sli_query_check(const sli_query *q, const sl_factor *F) {
 }
 
 SLI_COLD static sl_status sli_refuse_region(void) {
-  return sli_refuse(SL_ERR_UNSUPPORTED, "this call does not take a plan in a region");
+  return sli_refuse(SL_ERR_UNSUPPORTED, "this call takes no plan in a region: create one without "
+                       "options.region");
 }
 
 SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
@@ -18703,10 +18706,10 @@ static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
   sl_status status;
   double shift, lowest = 0.0;
   int attempt;
-  if (F->null.count > 0 || F->type->storage != SL_STORAGE_DOUBLE ||
+  if (F->null.count > 0 || F->type->storage != SL_STORAGE_DOUBLE || F->S->nnz_input < 0 ||
     sli_map_has_duplicates(F->S)) {
-    return sli_refuse(SL_ERR_UNSUPPORTED, "SL_GUARANTEED with null pivots, L in float or "
-                        "duplicate entries of A");
+    return sli_refuse(SL_ERR_UNSUPPORTED, "SL_GUARANTEED with null pivots, L in float, "
+                        "duplicate entries of A or sl_factor_restrict");
   }
   if (!sli_guarantee_fits(F, A)) {
     return sli_refuse(SL_ERR_STATE, "A is not the matrix that F was computed from");
@@ -18775,10 +18778,11 @@ static void sli_probes_solve(sli_probes *p, double *x, sl_int count) {
   const size_t ld = SL_ROWS((size_t)count);
   const sli_rhs rhs = sli_rhs_of(x, ld, x, ld, count);
   const sli_vectors v = sli_vectors_of(&q, count, p->memory);
+  const int kind = sli_lanes_kind(count);
   sli_pack(p->F, &q, v.y, &rhs);
-  sli_sweep_forward(p->F, &q, &v, count);
-  sli_sweep_backward(p->F, &q, &v, count);
-  sli_unpack(p->F, &q, &rhs, v.x);
+  sli_forward_sweep(p->F, kind, &q.forward, v.y, v.scratch);
+  sli_backward_sweep(p->F, kind, &q.forward, p->F->D, v.y, v.scratch);
+  sli_unpack(p->F, &q, &rhs, v.y);
   p->solves += count;
 }
 
@@ -18903,6 +18907,64 @@ static void sli_probes_turn(sli_probes *p) {
   }
 }
 
+SLI_INLINE sl_int sli_anchor_in(const sl_factor *F, sl_int first, sl_int root) {
+  const sl_int count = F->null.is_centered ? F->null.n_anchors : 0;
+  const sl_int m = sli_lower_bound(F->null.anchors, count, first);
+  return m < count && F->null.anchors[m] <= root && F->null.g[F->null.anchors[m]] != 0.0 ? m : -1;
+}
+
+SLI_INLINE double sli_anchor_vector(const sl_factor *F, sl_int m, sl_int k) {
+  return F->null.g[k] / F->null.g[F->null.anchors[m]];
+}
+
+static double sli_probes_tree(const sli_probes *p, sl_int first, sl_int root, sl_int m) {
+  const sli_null_space *null = &p->F->null;
+  double square = 0.0, sum = 0.0, size = 0.0;
+  sl_int k;
+  for (k = first; k <= root; k++) {
+    const ptrdiff_t at = (ptrdiff_t)p->F->S->perm[k] * SLI_PROBES;
+    const double term = null->g[k] * null->mass[k];
+    square += p->v[at] * p->product[2 * at];
+    sum += term;
+    size += fabs(term);
+  }
+  size *= DBL_EPSILON * sqrt((double)(root - first + 1));
+  return sqrt(fmax(square, 0.0) * null->squares[m]) + fabs(null->ratios[m] - 1.0) +
+       (size > 0.0 ? size / fabs(sum) : 0.0);
+}
+
+static double sli_probes_null(sli_probes *p) {
+  const sl_factor *F = p->F;
+  const sl_symbolic *S = F->S;
+  double most = 0.0;
+  sl_int k, m, first;
+  int pass;
+  memset(p->v, 0, (size_t)S->n * SLI_PROBES * sizeof(double));
+  for (m = 0; m < F->null.n_anchors; m++) {
+    p->v[(ptrdiff_t)S->perm[F->null.anchors[m]] * SLI_PROBES] = SLI_NULL_PIVOT;
+  }
+  sli_probes_solve(p, p->v, SLI_PROBES);
+  for (pass = 0; pass < 2; pass++) {
+    for (k = first = 0; k < S->n; k++) {
+      if (S->parent[k] != -1) {
+        continue;
+      }
+      m = sli_anchor_in(F, first, k);
+      if (m != -1 && pass == 1) {
+        most = fmax(most, sli_probes_tree(p, first, k, m));
+      }
+      for (; m != -1 && pass == 0 && first <= k; first++) {
+        p->v[(ptrdiff_t)S->perm[first] * SLI_PROBES] -= sli_anchor_vector(F, m, first);
+      }
+      first = k + 1;
+    }
+    if (pass == 0) {
+      sli_probes_multiply(p);
+    }
+  }
+  return most;
+}
+
 static sl_status sli_probes_run(sli_probes *p, sl_work *W) {
   sli_block b = {NULL, 0, 0};
   sl_status status;
@@ -18921,30 +18983,65 @@ static sl_status sli_probes_run(sli_probes *p, sl_work *W) {
     sli_probes_multiply(p);
     sli_probes_measure(p, 0);
   }
+  if (p->F->null.is_centered) {
+    p->eta += sli_probes_null(p);
+  }
   p->eta = SLI_PROBE_SAFETY *
        fmax(p->eta, sli_is_float(p->F) ? (double)FLT_EPSILON / 8.0 : DBL_EPSILON);
   return SL_OK;
 }
 
-static int sli_certify_suits(const sl_factor *F) {
-  return F->stats.factor.negative == 0 && F->stats.factor.regularized == 0 && F->E == NULL &&
-       F->null.mass == NULL && F->null.vectors <= 1 && F->type->half == 0;
+static sl_status sli_certify_suits(const sl_factor *F) {
+  const sl_int *up = F->S->parent;
+  const char *what = NULL;
+  sl_int m;
+  if (F->stats.factor.negative > 0 || F->stats.factor.regularized > 0 || F->E != NULL ||
+    F->type->half > 0) {
+    what = "bounds with negative, regularized or 2x2 pivots or SL_STORAGE_COMPLEX";
+  }
+  for (m = 0; F->null.is_centered && m < F->null.n_anchors; m++) {
+    const sl_int k = F->null.anchors[m];
+    if (F->null.g[k] == 0.0 && (up[k] != -1 || (k > 0 && up[k - 1] != -1))) {
+      what = "bounds with options.mass and a null vector that is not known: set "
+           "options.null_vector";
+    }
+  }
+  if (F->null.is_centered && F->null.vectors > 1) {
+    what = "bounds with options.mass and several null vectors: leave out options.mass";
+  }
+  return what == NULL ? SL_OK : sli_refuse(SL_ERR_UNSUPPORTED, what);
+}
+
+static sl_status sli_certify_fits(const sl_factor *F, const sl_csc *A, sl_triangle *triangle) {
+  sl_options opt;
+  sl_status status;
+  *triangle = F->S->stats.symbolic.triangle;
+  if (F->S->nnz_input >= 0) {
+    return sli_factor_fits(F, A);
+  }
+  opt = sli_options_with(&F->allocator);
+  status = sl_csc_triangle(A, triangle, &opt, NULL);
+  if (status == SL_OK && A->n_cols != F->S->n) {
+    status = sli_refuse(SL_ERR_OTHER_PATTERN, "A has another size than the analyzed matrix");
+  }
+  return status == SL_OK ? sli_argument(A->x == NULL ? "A.x is NULL" : NULL) : status;
 }
 
 static sl_status sli_certify(sl_factor *F, const sl_csc *A, sl_certainty certainty, sl_work *W,
                sl_certificate_info *info) {
   sli_probes p;
   sl_status status;
-  if (F->S->n == 0) {
-    return SL_OK;
+  memset(&p, 0, sizeof p);
+  status = sli_certify_fits(F, A, &p.triangle);
+  status = status == SL_OK ? sli_certify_suits(F) : status;
+  if (status != SL_OK || F->S->n == 0) {
+    return status;
   }
   if (certainty == SL_GUARANTEED) {
     return sli_guarantee(F, A, W, info);
   }
-  memset(&p, 0, sizeof p);
   p.F = F;
   p.A = A;
-  p.triangle = F->S->stats.symbolic.triangle;
   status = sli_probes_run(&p, W);
   info->eta = p.eta;
   info->solves = p.solves;
@@ -18966,14 +19063,6 @@ SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty c
     return sli_report(stats, status);
   }
   memset(&F->certificate, 0, sizeof F->certificate);
-  status = sli_factor_fits(F, A);
-  if (status == SL_OK && !sli_certify_suits(F)) {
-    status = sli_refuse(SL_ERR_UNSUPPORTED, "bounds with negative, regularized or 2x2 pivots, "
-                        "options.mass or SL_STORAGE_COMPLEX");
-  }
-  if (status != SL_OK) {
-    return sli_report(stats, status);
-  }
   memset(&info, 0, sizeof info);
   own = sli_work_own(&F->allocator);
   status = sli_certify(F, A, certainty, W == NULL ? &own : W, &info);
@@ -18998,6 +19087,7 @@ SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty c
 enum { SLI_SCALE_COMMON, SLI_SCALE_REST, SLI_SCALE_ALL, SLI_SCALE_JOINT, SLI_SCALES };
 
 #define SLI_JOINT_NULL (-2)
+#define SLI_JOINT_CENTERED (-3)
 
 #define SLI_NORM_FLOOR 1e-50
 
@@ -19009,6 +19099,7 @@ typedef struct sli_bounds {
   double *scales;
   unsigned char *memory;
   double *norms;
+  double shifts[SLI_TILE];
   uint64_t *order, *sorting;
   sli_step *steps;
   sl_int *rows;
@@ -19035,7 +19126,9 @@ static void sli_bounds_layout(sli_bounds *p, sli_block *b, sl_int nrhs, int has_
 }
 
 static sli_hash sli_scales_identity(const sli_bounds *p) {
+  const sli_null_space *null = &p->F->null;
   sli_hash h = p->F->identity;
+  h = sli_hash_words(h, null->squares, null->is_centered ? null->n_anchors : 0);
   h = sli_hash_ints(h, (const sl_int *)(const void *)p->q->forward.steps,
             (sl_off)p->q->forward.count * (sl_off)(sizeof(sli_step) / sizeof(sl_int)));
   h = sli_hash_ints(h, (const sl_int *)(const void *)p->q->backward.steps,
@@ -19043,12 +19136,15 @@ static sli_hash sli_scales_identity(const sli_bounds *p) {
   return sli_hash_ints(h, p->q->x_index, p->q->nx);
 }
 
-static sl_int sli_path_joint(const sli_query *q, sl_int s) {
-  const sl_symbolic *S = q->S;
-  sl_int at = -1;
-  for (; s != -1 && at == -1; s = S->super_parent[s]) {
-    at = sli_reach_step_of(&q->forward, S->super_first[s + 1] - 1);
+static sl_int sli_path_joint(const sli_bounds *p, sl_int s, sl_int *anchor) {
+  const sl_symbolic *S = p->q->S;
+  sl_int at = -1, root = s;
+  for (; s != -1; s = S->super_parent[s]) {
+    at = at == -1 ? sli_reach_step_of(&p->q->forward, S->super_first[s + 1] - 1) : at;
+    root = s;
   }
+  *anchor = sli_anchor_in(p->F, S->super_first[S->first_descendant[root]],
+              S->super_first[root + 1] - 1);
   return at;
 }
 
@@ -19091,11 +19187,21 @@ static void sli_scales_block(sli_bounds *p, sl_int first, sl_int count) {
     const double common = squares[SLI_SCALE_COMMON][r], rest = squares[SLI_SCALE_REST][r];
     const double all = sqrt(common + rest), least = SLI_NORM_FLOOR * all;
     double *scale = p->scales + 2 + (ptrdiff_t)sli_value(row) * SLI_SCALES;
-    const sl_int joint = sli_path_joint(p->q, S->super_of[sli_key(row)]);
+    sl_int m;
+    const sl_int joint = sli_path_joint(p, S->super_of[sli_key(row)], &m);
     scale[SLI_SCALE_COMMON] = joint == -1 ? 0.0 : fmax(sqrt(common), least);
     scale[SLI_SCALE_REST] = fmax(sqrt(rest), least);
     scale[SLI_SCALE_ALL] = joint == -1 ? 0.0 : all;
-    scale[SLI_SCALE_JOINT] = sli_is_skipped(p->F, sli_key(row)) ? SLI_JOINT_NULL : joint;
+    scale[SLI_SCALE_JOINT] = joint;
+    if (m != -1 && joint != -1) {
+      scale[SLI_SCALE_ALL] +=
+        2.0 * fabs(sli_anchor_vector(p->F, m, sli_key(row))) * sqrt(p->F->null.squares[m]);
+      scale[SLI_SCALE_JOINT] = SLI_JOINT_CENTERED;
+    }
+    if (sli_is_skipped(p->F, sli_key(row)) &&
+      !(m != -1 && p->F->null.anchors[m] == sli_key(row))) {
+      scale[SLI_SCALE_JOINT] = SLI_JOINT_NULL;
+    }
   }
 }
 
@@ -19142,15 +19248,60 @@ static void sli_norms_step(const sl_factor *F, const sli_step *step, const doubl
   }
 }
 
-static double sli_norm_of(double square, const double *y, sl_int columns, sl_int lanes) {
-  sl_int k = 0;
+static double sli_norm_of(const sli_bounds *p, double square, const double *y, sl_int r,
+              sl_int lanes) {
+  const sli_reach *R = &p->q->forward;
+  sl_int s, k;
   if (square >= SLI_SQUARE_LEAST) {
     return sqrt(square);
   }
-  while (k < columns && y[(ptrdiff_t)k * lanes] == 0.0) {
-    k++;
+  for (s = 0; s < R->count; s++) {
+    for (k = 0; k < sli_step_columns(&R->steps[s]); k++) {
+      if (y[(ptrdiff_t)(R->steps[s].base + k) * lanes + r] != 0.0 &&
+        !sli_is_skipped(p->F, R->steps[s].column + k)) {
+        return HUGE_VAL;
+      }
+    }
   }
-  return k == columns ? 0.0 : HUGE_VAL;
+  return 0.0;
+}
+
+static void sli_shifts_add(sli_bounds *p, const double *y, sl_int lanes, sl_int first, sl_int root,
+               sl_int m) {
+  const double rounding = DBL_EPSILON * (8.0 + sqrt((double)p->q->nb));
+  double sums[SLI_TILE] = {0.0}, sizes[SLI_TILE] = {0.0};
+  sl_int k, r;
+  for (; first <= root; first++) {
+    const sli_step *step = &p->q->forward.steps[first];
+    const double *row = y + (ptrdiff_t)step->base * lanes;
+    for (k = 0; k < sli_step_columns(step); k++, row += lanes) {
+      const double z = sli_anchor_vector(p->F, m, step->column + k);
+      for (r = 0; r < lanes; r++) {
+        sums[r] += z * row[r];
+        sizes[r] += fabs(z * row[r]);
+      }
+    }
+  }
+  for (r = 0; r < lanes; r++) {
+    p->shifts[r] += sqrt(p->F->null.squares[m]) * fabs(p->F->null.ratios[m]) *
+            (fabs(sums[r]) + rounding * sizes[r]);
+  }
+}
+
+static void sli_bounds_shifts(sli_bounds *p, const double *y, sl_int lanes) {
+  const sli_reach *R = &p->q->forward;
+  sl_int s, first = 0;
+  memset(p->shifts, 0, sizeof p->shifts);
+  for (s = 0; s < R->count && p->F->null.is_centered; s++) {
+    if (R->steps[s].up == -1) {
+      const sli_tree_range tree = sli_tree_range_of(p->F->S, &R->steps[s]);
+      const sl_int m = sli_anchor_in(p->F, tree.first, tree.root);
+      if (m != -1) {
+        sli_shifts_add(p, y, lanes, first, s, m);
+      }
+      first = s + 1;
+    }
+  }
 }
 
 static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int count) {
@@ -19169,7 +19320,7 @@ static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int count)
     }
   }
   for (r = 0; r < count; r++) {
-    all[r] = sli_norm_of(all[r], y + r, R->columns, lanes);
+    all[r] = sli_norm_of(p, all[r], y, r, lanes) + p->shifts[r];
   }
   for (s = 0; s < R->count; s++) {
     for (r = 0; r < lanes; r++) {
@@ -19194,7 +19345,7 @@ static void sli_bounds_write(const sli_bounds *p, double *to, const sli_rhs *X) 
     for (r = 0; r < X->nrhs; r++) {
       const size_t here = (size_t)k * at.row + (size_t)r * at.column;
       const double whole = joint == -1 ? 0.0 : scale[SLI_SCALE_ALL] * all[r];
-      const double part = joint < 0 ? 0.0 : common * all[r] + rest * shared[r];
+      const double part = joint < 0 ? whole : common * all[r] + rest * shared[r];
       to[here] = joint == SLI_JOINT_NULL
                ? fabs(X->X[here])
                : eta * (part < whole ? part : whole) + 4.0 * eta * eta * whole;
@@ -19202,7 +19353,7 @@ static void sli_bounds_write(const sli_bounds *p, double *to, const sli_rhs *X) 
   }
 }
 
-static sl_status sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, double *bounds) {
+static sl_status sli_bounds_blocks(sli_bounds *p, const sli_rhs *rhs, double *bounds) {
   sl_status status = SL_OK;
   sl_int r, count;
   for (r = 0; r < rhs->nrhs; r += count) {
@@ -19211,7 +19362,9 @@ static sl_status sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, doub
     count = sli_block_size(rhs->nrhs - r, sli_block_most(p->F));
     block = sli_rhs_part(rhs, r, count);
     v = sli_vectors_of(p->q, count, p->memory);
-    (void)sli_sweep_load(p->F, p->q, &v, &block);
+    sli_pack(p->F, p->q, v.y, &block);
+    sli_bounds_shifts(p, v.y, (sl_int)1 << sli_lanes_kind(count));
+    sli_sweep_forward(p->F, p->q, &v, count);
     sli_bounds_norms(p, v.y, count);
     sli_sweep_backward(p->F, p->q, &v, count);
     if (!sli_sweep_is_finite(p->F, p->q, v.x, (sl_int)1 << sli_lanes_kind(count))) {
@@ -35367,6 +35520,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_INVERSE_STEPS
 #undef SLI_OTHER_ROUNDINGS
 #undef SLI_JOINT_NULL
+#undef SLI_JOINT_CENTERED
 #undef SLI_NORM_FLOOR
 #undef SLI_DOUBLE_FRONTS
 #undef SLI_SQUARE_LEAST

@@ -12,10 +12,10 @@
  *  ||v||^2 = v' A v. F keeps eta for sl_plan_solve_bounded until its numbers change; a saved factor
  *  keeps it, too.
  *
- *  F          [in,out]  a factor of A, definite, or semidefinite with skipped null pivots and no
- *                       options.mass; L in double or float.
- *  A          [in]      the matrix. Guaranteed: with exactly the values that F was computed from
- *                       as a whole, not by sl_factor_change and the like.
+ *  F          [in,out]  a factor of A, definite, or semidefinite with skipped null pivots; L in
+ *                       double or float. With options.mass: one known null vector a component.
+ *  A          [in]      the matrix, or A[R, R] of a restriction. Guaranteed: with the values that
+ *                       F was computed from as a whole, not by sl_factor_change and the like.
  *  certainty  [in]      SL_ESTIMATED: 4 times the largest error that 12 solves show, whose
  *                       right-hand sides approach the worst ones.
  *                       SL_GUARANTEED: a proved bound, by rounding errors a priori and the smallest
@@ -25,9 +25,10 @@
  *  stats      [out]     certificate; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_STATE: guaranteed, and
  *           other values than those of F; SL_ERR_OTHER_PATTERN: not the analyzed pattern;
- *           SL_ERR_UNSUPPORTED: negative or regularized pivots, options.mass, complex storage;
- *           guaranteed also null pivots, L in float; SL_ERR_INACCURATE: eta exceeds 1/16, as with
- *           an A that is not that of F; SL_ERR_TOO_LARGE, SL_ERR_MEMORY. On errors F has no eta.
+ *           SL_ERR_UNSUPPORTED: negative or regularized pivots, complex storage, options.mass with
+ *           several or unknown null vectors; guaranteed also null pivots, L in float, restrictions;
+ *           SL_ERR_INACCURATE: eta exceeds 1/16, as with an A that is not that of F;
+ *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY. On errors F has no eta.
  *  Cost     estimated: 15 to 20 full solves; W grows by 20 n numbers. Guaranteed: 7 to 10
  *           factorizations; memory of a second factor while it runs.
  *  Threads  the caller serializes calls that change F.
@@ -43,7 +44,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_certify(sl_factor *F, const sl_csc *A,
  *
  *  The bound of x(i) is about eta sqrt((A^-1)(i,i) b' A^-1 b), and less where the path of i meets
  *  those of b only far up. It is sharp near b and loose where x has decayed by many digits. With
- *  skipped null pivots the exact answer is the one that is 0 in their rows.
+ *  skipped null pivots the exact answer is the one that is 0 in their rows or, with options.mass,
+ *  has a weighted mean of 0 in each component.
  *
  *  P       [in]      the plan; not in a region.
  *  F       [in]      a factor that sl_factor_certify has certified.

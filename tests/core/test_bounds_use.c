@@ -1,6 +1,7 @@
 /* test_bounds_use.c: certified factors: refusals, lifetimes, saved files, sharpness, memory */
 #include "tests/lib/exact_solve.h"
 #include "tests/lib/saved.h"
+#include "tests/lib/zero_mean.h"
 
 enum { SIDE = 40, N = SIDE * SIDE };
 
@@ -67,13 +68,40 @@ static void other_values_are_noticed(void **state) {
 
 static void what_has_no_bound_is_refused(void **state) {
     (void)state;
-    static const int ways[4] = {SAVED_WEIGHTED, SAVED_PIVOTED, SAVED_VECTORS, SAVED_DEFINITE};
-    for (int m = 0; m < 4; m++) { /* the last one: negative pivots */
+    static const int ways[2] = {SAVED_PIVOTED, SAVED_DEFINITE};
+    for (int m = 0; m < 2; m++) { /* the last one: negative pivots */
         sl_options from = options_none();
-        saved_case_t c = saved_case_make(ways[m], m == 3 ? GEN_KKT : GEN_GRID2, 60, 0, &from);
+        saved_case_t c = saved_case_make(ways[m], m == 1 ? GEN_KKT : GEN_GRID2, 60, 0, &from);
         SL_EXPECT(SL_ERR_UNSUPPORTED,
                   sl_factor_certify(c.y.F, &c.y.M.view, SL_ESTIMATED, NULL, NULL));
         saved_case_free(&c);
+    }
+    /* weights, and null vectors that are not known, or several */
+    for (int m = 0; m < 2; m++) {
+        sl_int components = 0;
+        gen_matrix_t M = laplacian(GEN_GRID2, 60, 0, &components);
+        const size_t n = (size_t)M.view.n_cols;
+        double *mass = weights((sl_int)n, 3), *Z = test_reals(2 * n);
+        sl_options opt = options_none();
+        sl_stats stats;
+        sl_symbolic *S = NULL;
+        sl_factor *F = NULL;
+        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.mass = mass;
+        opt.null_vector = Z;
+        opt.null_vector_count = m == 0 ? 1 : 2;
+        for (size_t i = 0; i < n; i++) {
+            Z[i + (m ? n : 0)] = m ? 1.0 : 0.0;
+        }
+        SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+        SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+        SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_certify(F, &M.view, SL_ESTIMATED, NULL, &stats));
+        assert_non_null(strstr(stats.error.what, m ? "leave out options.mass" : "null_vector"));
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+        free(mass);
+        free(Z);
     }
     /* guaranteed: L in float, duplicates, magnitudes near overflow, eigenvalues within rounding */
     for (int what = 0; what < 4; what++) {
@@ -275,6 +303,49 @@ static void scales_know_what_they_are_of(void **state) {
     factored_free(&y);
 }
 
+/* Weights are no part of L and D, but scales depend on them; a saved factor has them, too. */
+static void scales_know_their_weights(void **state) {
+    (void)state;
+    static const sl_int bset[2] = {7, 55}, xset[3] = {30, 7, 0};
+    static const double b[2] = {1.0, 0.5};
+    sl_int components = 0;
+    gen_matrix_t M = laplacian(GEN_GRID2, 100, 0, &components);
+    double scales[4 * 3 + 2], x[3], bounds[3], fresh[3], before = 0.0;
+    sl_symbolic *S = NULL;
+    sl_plan *P = NULL;
+    memset(scales, 0, sizeof scales);
+    SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+    SL_CHECK(sl_plan_create(&P, S, bset, 2, xset, 3, NULL, NULL));
+    for (uint64_t turn = 0; turn < 3; turn++) {
+        double *mass = weights(M.view.n_cols, turn);
+        sl_options opt = options_none();
+        sl_factor *F = NULL, *G = NULL;
+        sl_symbolic *T = NULL;
+        sl_plan *Q = NULL;
+        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.mass = mass;
+        SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+        SL_CHECK(sl_factor_certify(F, &M.view, SL_ESTIMATED, NULL, NULL));
+        SL_CHECK(sl_plan_solve_bounded(P, F, x, 3, bounds, b, 2, 1, scales, NULL, NULL));
+        assert_true(bounds[0] > 0.0 && bounds[0] != before);
+        before = bounds[0];
+        saved_t m = saved_make(S, F);
+        SL_CHECK(pair_load_memory(&T, &G, m.bytes, m.size, SL_LOAD_VERIFIED, NULL));
+        SL_CHECK(sl_plan_create(&Q, T, bset, 2, xset, 3, NULL, NULL));
+        SL_CHECK(sl_plan_solve_bounded(Q, G, x, 3, fresh, b, 2, 1, NULL, NULL, NULL));
+        assert_memory_equal(bounds, fresh, sizeof bounds);
+        sl_plan_free(Q);
+        sl_factor_free(F);
+        sl_factor_free(G);
+        sl_symbolic_free(T);
+        saved_free(&m);
+        free(mass);
+    }
+    sl_plan_free(P);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
 static void saved_factors_keep_their_certificate(void **state) {
     (void)state;
     static const sl_int bset[1] = {7}, xset[2] = {30, 7};
@@ -421,6 +492,7 @@ int main(void) {
         cmocka_unit_test(wrong_arguments),
         cmocka_unit_test(inconsistent_right_hand_sides),
         cmocka_unit_test(scales_know_what_they_are_of),
+        cmocka_unit_test(scales_know_their_weights),
         cmocka_unit_test(saved_factors_keep_their_certificate),
         cmocka_unit_test(bounds_are_sharp_near_the_source),
         cmocka_unit_test(memory_may_run_out),

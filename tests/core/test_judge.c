@@ -91,6 +91,7 @@ static void no_wrong_answer_comes_without_a_signal(void **state) {
                       tally.worst[w]);
         silent += v[JUDGE_SILENT];
     }
+    print_message("%ld errors were compared with their bounds\n", (long)tally.bounds);
     print_message("growth     entries  sweeps beside solves\n");
     for (int k = 0; k < JUDGE_DECADES; k++) {
         print_message("1e%-2d       %7.1g  %7.1g\n", k, tally.entries[k], tally.sweeps[k]);

@@ -24,6 +24,7 @@ typedef struct judge_tally_t {
     /* by decades of growth: the largest error of entries of the inverse, and of their sweeps beside
      * full solves */
     double entries[JUDGE_DECADES], sweeps[JUDGE_DECADES];
+    sl_off bounds; /* errors that were compared with their bounds */
 } judge_tally_t;
 
 /* A system under judgement. */

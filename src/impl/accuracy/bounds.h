@@ -4,6 +4,7 @@
 
 #include "../../public/bounds.h"
 #include "../solve/plan.h"
+#include "certify.h"
 
 /* With u(b) = D^-1/2 L^-1 P b, and u(i) that of a unit vector, x(i) is u(i)' u(b), and its error is
  * u(i)' T u(b) with ||T|| <= eta, to first order. T(k, l) is 0 unless one of the columns k and l is
@@ -13,13 +14,25 @@
  *
  *    |x(i) - exact| <= eta min(|u(i)| |u(b)|, |u(i)_c| |u(b)| + |u(i)_rest| |u(b)_c|),
  *
- * which is small if b and i meet far up. Terms of higher order are below 4 eta^2 |u(i)| |u(b)|. */
+ * which is small if b and i meet far up. Terms of higher order are below 4 eta^2 |u(i)| |u(b)|.
+ *
+ * Centered solves (nullspace.h). x = v + t z, where v is 0 in the row k of the anchor and solves
+ * the other rows with b - c m, and t is -w' u(b - c m) for w = u(m / z' m) and the null vector z, 1
+ * in row k. Each product of two vectors u has an error of at most eta times their norms, and so
+ *
+ *    |x(i) - exact| <= eta (|u(i)| + 2 |z(i)| |w|) |u(b - c m)|,
+ *
+ * where one of the two is for the rounding of w. What the null vector of L differs from z by is in
+ * eta (certify.h). |u(b - c m)| is at most |u(b)| + |c| |u(m)|. All columns of a tree have entries
+ * of m: the bound is no smaller where b and i meet far up. */
 
 /* The scales of a row of x. */
 enum { SLI_SCALE_COMMON, SLI_SCALE_REST, SLI_SCALE_ALL, SLI_SCALE_JOINT, SLI_SCALES };
 
 /* In place of the joint: x is 0 in the row of a null pivot, but for the division by DBL_MAX. */
 #define SLI_JOINT_NULL (-2)
+/* In a tree that is centered. */
+#define SLI_JOINT_CENTERED (-3)
 
 /* A norm that is smaller than this part of the whole is taken as this part: its square may
  * underflow. */
@@ -36,6 +49,7 @@ typedef struct sli_bounds {
     /* path norms: of the columns from each step of the forward reach on up to the root; then the
      * norm of all. By rows: one for each right-hand side of a block */
     double *norms;
+    double shifts[SLI_TILE]; /* |c| |u(m)| of each right-hand side of a block, all trees together */
     /* while scales are computed: the rows of x by their index in the vector, sorted; then a block
      * of up to 8 of them, its reach and its vector */
     uint64_t *order, *sorting;
@@ -63,9 +77,11 @@ static void sli_bounds_layout(sli_bounds *p, sli_block *b, sl_int nrhs, int has_
     p->scratch = SLI_TAKE(b, double, scratch);
 }
 
-/* What the scales depend on: the numbers of F, both reaches, and the rows of x. */
+/* What the scales depend on: the numbers of F and its weights, both reaches, and the rows of x. */
 static sli_hash sli_scales_identity(const sli_bounds *p) {
+    const sli_null_space *null = &p->F->null;
     sli_hash h = p->F->identity;
+    h = sli_hash_words(h, null->squares, null->is_centered ? null->n_anchors : 0);
     h = sli_hash_ints(h, (const sl_int *)(const void *)p->q->forward.steps,
                       (sl_off)p->q->forward.count * (sl_off)(sizeof(sli_step) / sizeof(sl_int)));
     h = sli_hash_ints(h, (const sl_int *)(const void *)p->q->backward.steps,
@@ -73,13 +89,17 @@ static sli_hash sli_scales_identity(const sli_bounds *p) {
     return sli_hash_ints(h, p->q->x_index, p->q->nx);
 }
 
-/* The step of the forward reach where the path of supernode s enters it, or -1. */
-static sl_int sli_path_joint(const sli_query *q, sl_int s) {
-    const sl_symbolic *S = q->S;
-    sl_int at = -1;
-    for (; s != -1 && at == -1; s = S->super_parent[s]) {
-        at = sli_reach_step_of(&q->forward, S->super_first[s + 1] - 1);
+/* The step of the forward reach where the path of supernode s enters it, or -1. *anchor: of the
+ * tree of s if it is centered, or -1. */
+static sl_int sli_path_joint(const sli_bounds *p, sl_int s, sl_int *anchor) {
+    const sl_symbolic *S = p->q->S;
+    sl_int at = -1, root = s;
+    for (; s != -1; s = S->super_parent[s]) {
+        at = at == -1 ? sli_reach_step_of(&p->q->forward, S->super_first[s + 1] - 1) : at;
+        root = s;
     }
+    *anchor = sli_anchor_in(p->F, S->super_first[S->first_descendant[root]],
+                            S->super_first[root + 1] - 1);
     return at;
 }
 
@@ -126,11 +146,21 @@ static void sli_scales_block(sli_bounds *p, sl_int first, sl_int count) {
         const double common = squares[SLI_SCALE_COMMON][r], rest = squares[SLI_SCALE_REST][r];
         const double all = sqrt(common + rest), least = SLI_NORM_FLOOR * all;
         double *scale = p->scales + 2 + (ptrdiff_t)sli_value(row) * SLI_SCALES;
-        const sl_int joint = sli_path_joint(p->q, S->super_of[sli_key(row)]);
+        sl_int m;
+        const sl_int joint = sli_path_joint(p, S->super_of[sli_key(row)], &m);
         scale[SLI_SCALE_COMMON] = joint == -1 ? 0.0 : fmax(sqrt(common), least);
         scale[SLI_SCALE_REST] = fmax(sqrt(rest), least);
         scale[SLI_SCALE_ALL] = joint == -1 ? 0.0 : all;
-        scale[SLI_SCALE_JOINT] = sli_is_skipped(p->F, sli_key(row)) ? SLI_JOINT_NULL : joint;
+        scale[SLI_SCALE_JOINT] = joint;
+        if (m != -1 && joint != -1) {
+            scale[SLI_SCALE_ALL] +=
+                2.0 * fabs(sli_anchor_vector(p->F, m, sli_key(row))) * sqrt(p->F->null.squares[m]);
+            scale[SLI_SCALE_JOINT] = SLI_JOINT_CENTERED;
+        }
+        if (sli_is_skipped(p->F, sli_key(row)) &&
+            !(m != -1 && p->F->null.anchors[m] == sli_key(row))) {
+            scale[SLI_SCALE_JOINT] = SLI_JOINT_NULL;
+        }
     }
 }
 
@@ -179,17 +209,65 @@ static void sli_norms_step(const sl_factor *F, const sli_step *step, const doubl
     }
 }
 
-/* The norm from the sum of squares. It is not known if squares may have been lost, of numbers near
- * the ends of the range. y: one of `lanes` vectors by rows. */
-static double sli_norm_of(double square, const double *y, sl_int columns, sl_int lanes) {
-    sl_int k = 0;
+/* The norm from the sum of squares of vector r. It is not known if squares may have been lost, of
+ * numbers near the ends of the range. */
+static double sli_norm_of(const sli_bounds *p, double square, const double *y, sl_int r,
+                          sl_int lanes) {
+    const sli_reach *R = &p->q->forward;
+    sl_int s, k;
     if (square >= SLI_SQUARE_LEAST) {
         return sqrt(square);
     }
-    while (k < columns && y[(ptrdiff_t)k * lanes] == 0.0) {
-        k++;
+    for (s = 0; s < R->count; s++) {
+        for (k = 0; k < sli_step_columns(&R->steps[s]); k++) {
+            if (y[(ptrdiff_t)(R->steps[s].base + k) * lanes + r] != 0.0 &&
+                !sli_is_skipped(p->F, R->steps[s].column + k)) {
+                return HUGE_VAL;
+            }
+        }
     }
-    return k == columns ? 0.0 : HUGE_VAL;
+    return 0.0;
+}
+
+/* Adds |c| |u(m)| of the tree with anchor m, whose steps are first .. root, to p->shifts. Beside c
+ * it counts the rounding error of z' b, taken as that of as many random ones. */
+static void sli_shifts_add(sli_bounds *p, const double *y, sl_int lanes, sl_int first, sl_int root,
+                           sl_int m) {
+    const double rounding = DBL_EPSILON * (8.0 + sqrt((double)p->q->nb));
+    double sums[SLI_TILE] = {0.0}, sizes[SLI_TILE] = {0.0};
+    sl_int k, r;
+    for (; first <= root; first++) {
+        const sli_step *step = &p->q->forward.steps[first];
+        const double *row = y + (ptrdiff_t)step->base * lanes;
+        for (k = 0; k < sli_step_columns(step); k++, row += lanes) {
+            const double z = sli_anchor_vector(p->F, m, step->column + k);
+            for (r = 0; r < lanes; r++) {
+                sums[r] += z * row[r];
+                sizes[r] += fabs(z * row[r]);
+            }
+        }
+    }
+    for (r = 0; r < lanes; r++) {
+        p->shifts[r] += sqrt(p->F->null.squares[m]) * fabs(p->F->null.ratios[m]) *
+                        (fabs(sums[r]) + rounding * sizes[r]);
+    }
+}
+
+/* Fills p->shifts from a block of right-hand sides before its forward sweep. */
+static void sli_bounds_shifts(sli_bounds *p, const double *y, sl_int lanes) {
+    const sli_reach *R = &p->q->forward;
+    sl_int s, first = 0;
+    memset(p->shifts, 0, sizeof p->shifts);
+    for (s = 0; s < R->count && p->F->null.is_centered; s++) {
+        if (R->steps[s].up == -1) {
+            const sli_tree_range tree = sli_tree_range_of(p->F->S, &R->steps[s]);
+            const sl_int m = sli_anchor_in(p->F, tree.first, tree.root);
+            if (m != -1) {
+                sli_shifts_add(p, y, lanes, first, s, m);
+            }
+            first = s + 1;
+        }
+    }
 }
 
 /* The norms of one block of `count` vectors from its forward vector. */
@@ -209,7 +287,7 @@ static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int count)
         }
     }
     for (r = 0; r < count; r++) {
-        all[r] = sli_norm_of(all[r], y + r, R->columns, lanes);
+        all[r] = sli_norm_of(p, all[r], y, r, lanes) + p->shifts[r];
     }
     for (s = 0; s < R->count; s++) {
         for (r = 0; r < lanes; r++) {
@@ -235,7 +313,7 @@ static void sli_bounds_write(const sli_bounds *p, double *to, const sli_rhs *X) 
         for (r = 0; r < X->nrhs; r++) {
             const size_t here = (size_t)k * at.row + (size_t)r * at.column;
             const double whole = joint == -1 ? 0.0 : scale[SLI_SCALE_ALL] * all[r];
-            const double part = joint < 0 ? 0.0 : common * all[r] + rest * shared[r];
+            const double part = joint < 0 ? whole : common * all[r] + rest * shared[r];
             to[here] = joint == SLI_JOINT_NULL
                            ? fabs(X->X[here])
                            : eta * (part < whole ? part : whole) + 4.0 * eta * eta * whole;
@@ -244,7 +322,7 @@ static void sli_bounds_write(const sli_bounds *p, double *to, const sli_rhs *X) 
 }
 
 /* sli_sweep_blocks with bounds. */
-static sl_status sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, double *bounds) {
+static sl_status sli_bounds_blocks(sli_bounds *p, const sli_rhs *rhs, double *bounds) {
     sl_status status = SL_OK;
     sl_int r, count;
     for (r = 0; r < rhs->nrhs; r += count) {
@@ -253,7 +331,9 @@ static sl_status sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, doub
         count = sli_block_size(rhs->nrhs - r, sli_block_most(p->F));
         block = sli_rhs_part(rhs, r, count);
         v = sli_vectors_of(p->q, count, p->memory);
-        (void)sli_sweep_load(p->F, p->q, &v, &block);
+        sli_pack(p->F, p->q, v.y, &block);
+        sli_bounds_shifts(p, v.y, (sl_int)1 << sli_lanes_kind(count));
+        sli_sweep_forward(p->F, p->q, &v, count);
         sli_bounds_norms(p, v.y, count);
         sli_sweep_backward(p->F, p->q, &v, count);
         if (!sli_sweep_is_finite(p->F, p->q, v.x, (sl_int)1 << sli_lanes_kind(count))) {

@@ -49,16 +49,17 @@ static void sli_probes_layout(sli_probes *p, sli_block *b) {
     p->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(&q, 2 * SLI_PROBES, SLI_TILE), 1);
 }
 
-/* x := A^-1 x by the factor, whether consistent or not. x: n x count, by rows. */
+/* x := A^-1 x by the factor, 0 in the rows of null pivots. x: n x count, by rows. */
 static void sli_probes_solve(sli_probes *p, double *x, sl_int count) {
     const sli_query q = sli_query_all(p->F->S);
     const size_t ld = SL_ROWS((size_t)count);
     const sli_rhs rhs = sli_rhs_of(x, ld, x, ld, count);
     const sli_vectors v = sli_vectors_of(&q, count, p->memory);
+    const int kind = sli_lanes_kind(count);
     sli_pack(p->F, &q, v.y, &rhs);
-    sli_sweep_forward(p->F, &q, &v, count);
-    sli_sweep_backward(p->F, &q, &v, count);
-    sli_unpack(p->F, &q, &rhs, v.x);
+    sli_forward_sweep(p->F, kind, &q.forward, v.y, v.scratch);
+    sli_backward_sweep(p->F, kind, &q.forward, p->F->D, v.y, v.scratch);
+    sli_unpack(p->F, &q, &rhs, v.y);
     p->solves += count;
 }
 
@@ -189,6 +190,74 @@ static void sli_probes_turn(sli_probes *p) {
     }
 }
 
+/* The number of the anchor among the columns first .. root of a tree, or -1 if solves are not
+ * centered there, or by a null vector that is not known. */
+SLI_INLINE sl_int sli_anchor_in(const sl_factor *F, sl_int first, sl_int root) {
+    const sl_int count = F->null.is_centered ? F->null.n_anchors : 0;
+    const sl_int m = sli_lower_bound(F->null.anchors, count, first);
+    return m < count && F->null.anchors[m] <= root && F->null.g[F->null.anchors[m]] != 0.0 ? m : -1;
+}
+
+/* z in column k of the tree of anchor m, where it is 1. */
+SLI_INLINE double sli_anchor_vector(const sl_factor *F, sl_int m, sl_int k) {
+    return F->null.g[k] / F->null.g[F->null.anchors[m]];
+}
+
+/* What the solves of the tree of columns first .. root with anchor m lose relative to |w| |u(b)|
+ * (bounds.h). p->v and p->product are d and A d. */
+static double sli_probes_tree(const sli_probes *p, sl_int first, sl_int root, sl_int m) {
+    const sli_null_space *null = &p->F->null;
+    double square = 0.0, sum = 0.0, size = 0.0;
+    sl_int k;
+    for (k = first; k <= root; k++) {
+        const ptrdiff_t at = (ptrdiff_t)p->F->S->perm[k] * SLI_PROBES;
+        const double term = null->g[k] * null->mass[k];
+        square += p->v[at] * p->product[2 * at];
+        sum += term;
+        size += fabs(term);
+    }
+    size *= DBL_EPSILON * sqrt((double)(root - first + 1));
+    return sqrt(fmax(square, 0.0) * null->squares[m]) + fabs(null->ratios[m] - 1.0) +
+           (size > 0.0 ? size / fabs(sum) : 0.0);
+}
+
+/* By how much the null vectors of centered solves are off. With A_1, which is A without the anchor
+ * row, the computed solution is v + t L'^-1 e_k, and the exact one is (A_1^-1 (b - c m), 0) + t z
+ * with the given z. The difference d of both null vectors has the norm |d| in the energy of A_1.
+ * Hence t d(i) is at most |t| |u(i)| |d|, and |t| <= |w| |u(b - c m)|: |w| |d| adds to eta, for the
+ * worst component. So does what c and the mean lose where weights of both signs cancel. */
+static double sli_probes_null(sli_probes *p) {
+    const sl_factor *F = p->F;
+    const sl_symbolic *S = F->S;
+    double most = 0.0;
+    sl_int k, m, first;
+    int pass;
+    memset(p->v, 0, (size_t)S->n * SLI_PROBES * sizeof(double));
+    for (m = 0; m < F->null.n_anchors; m++) {
+        p->v[(ptrdiff_t)S->perm[F->null.anchors[m]] * SLI_PROBES] = SLI_NULL_PIVOT;
+    }
+    sli_probes_solve(p, p->v, SLI_PROBES);
+    for (pass = 0; pass < 2; pass++) {
+        for (k = first = 0; k < S->n; k++) {
+            if (S->parent[k] != -1) {
+                continue;
+            }
+            m = sli_anchor_in(F, first, k);
+            if (m != -1 && pass == 1) {
+                most = fmax(most, sli_probes_tree(p, first, k, m));
+            }
+            for (; m != -1 && pass == 0 && first <= k; first++) {
+                p->v[(ptrdiff_t)S->perm[first] * SLI_PROBES] -= sli_anchor_vector(F, m, first);
+            }
+            first = k + 1;
+        }
+        if (pass == 0) {
+            sli_probes_multiply(p);
+        }
+    }
+    return most;
+}
+
 /* Estimates eta. n > 0. */
 static sl_status sli_probes_run(sli_probes *p, sl_work *W) {
     sli_block b = {NULL, 0, 0};
@@ -208,31 +277,69 @@ static sl_status sli_probes_run(sli_probes *p, sl_work *W) {
         sli_probes_multiply(p);
         sli_probes_measure(p, 0);
     }
+    if (p->F->null.is_centered) {
+        p->eta += sli_probes_null(p);
+    }
     p->eta = SLI_PROBE_SAFETY *
              fmax(p->eta, sli_is_float(p->F) ? (double)FLT_EPSILON / 8.0 : DBL_EPSILON);
     return SL_OK;
 }
 
-/* Has F the pivots that bounds are derived for? */
-static int sli_certify_suits(const sl_factor *F) {
-    return F->stats.factor.negative == 0 && F->stats.factor.regularized == 0 && F->E == NULL &&
-           F->null.mass == NULL && F->null.vectors <= 1 && F->type->half == 0;
+/* Has F the pivots that bounds are derived for? Centered solves must add one null vector in each
+ * component, which is known; where a tree has one row only, x is 0. */
+static sl_status sli_certify_suits(const sl_factor *F) {
+    const sl_int *up = F->S->parent;
+    const char *what = NULL;
+    sl_int m;
+    if (F->stats.factor.negative > 0 || F->stats.factor.regularized > 0 || F->E != NULL ||
+        F->type->half > 0) {
+        what = "bounds with negative, regularized or 2x2 pivots or SL_STORAGE_COMPLEX";
+    }
+    for (m = 0; F->null.is_centered && m < F->null.n_anchors; m++) {
+        const sl_int k = F->null.anchors[m];
+        if (F->null.g[k] == 0.0 && (up[k] != -1 || (k > 0 && up[k - 1] != -1))) {
+            what = "bounds with options.mass and a null vector that is not known: set "
+                   "options.null_vector";
+        }
+    }
+    if (F->null.is_centered && F->null.vectors > 1) {
+        what = "bounds with options.mass and several null vectors: leave out options.mass";
+    }
+    return what == NULL ? SL_OK : sli_refuse(SL_ERR_UNSUPPORTED, what);
+}
+
+/* Is A the analyzed matrix or, for a restriction, which keeps no pattern, one of its size?
+ * *triangle: the one that is read. */
+static sl_status sli_certify_fits(const sl_factor *F, const sl_csc *A, sl_triangle *triangle) {
+    sl_options opt;
+    sl_status status;
+    *triangle = F->S->stats.symbolic.triangle;
+    if (F->S->nnz_input >= 0) {
+        return sli_factor_fits(F, A);
+    }
+    opt = sli_options_with(&F->allocator);
+    status = sl_csc_triangle(A, triangle, &opt, NULL);
+    if (status == SL_OK && A->n_cols != F->S->n) {
+        status = sli_refuse(SL_ERR_OTHER_PATTERN, "A has another size than the analyzed matrix");
+    }
+    return status == SL_OK ? sli_argument(A->x == NULL ? "A.x is NULL" : NULL) : status;
 }
 
 static sl_status sli_certify(sl_factor *F, const sl_csc *A, sl_certainty certainty, sl_work *W,
                              sl_certificate_info *info) {
     sli_probes p;
     sl_status status;
-    if (F->S->n == 0) {
-        return SL_OK;
+    memset(&p, 0, sizeof p);
+    status = sli_certify_fits(F, A, &p.triangle);
+    status = status == SL_OK ? sli_certify_suits(F) : status;
+    if (status != SL_OK || F->S->n == 0) {
+        return status;
     }
     if (certainty == SL_GUARANTEED) {
         return sli_guarantee(F, A, W, info);
     }
-    memset(&p, 0, sizeof p);
     p.F = F;
     p.A = A;
-    p.triangle = F->S->stats.symbolic.triangle;
     status = sli_probes_run(&p, W);
     info->eta = p.eta;
     info->solves = p.solves;
@@ -254,14 +361,6 @@ SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty c
         return sli_report(stats, status);
     }
     memset(&F->certificate, 0, sizeof F->certificate);
-    status = sli_factor_fits(F, A);
-    if (status == SL_OK && !sli_certify_suits(F)) {
-        status = sli_refuse(SL_ERR_UNSUPPORTED, "bounds with negative, regularized or 2x2 pivots, "
-                                                "options.mass or SL_STORAGE_COMPLEX");
-    }
-    if (status != SL_OK) {
-        return sli_report(stats, status);
-    }
     memset(&info, 0, sizeof info);
     own = sli_work_own(&F->allocator);
     status = sli_certify(F, A, certainty, W == NULL ? &own : W, &info);

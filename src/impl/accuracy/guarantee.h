@@ -239,10 +239,10 @@ static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
     sl_status status;
     double shift, lowest = 0.0;
     int attempt;
-    if (F->null.count > 0 || F->type->storage != SL_STORAGE_DOUBLE ||
+    if (F->null.count > 0 || F->type->storage != SL_STORAGE_DOUBLE || F->S->nnz_input < 0 ||
         sli_map_has_duplicates(F->S)) {
-        return sli_refuse(SL_ERR_UNSUPPORTED, "SL_GUARANTEED with null pivots, L in float or "
-                                              "duplicate entries of A");
+        return sli_refuse(SL_ERR_UNSUPPORTED, "SL_GUARANTEED with null pivots, L in float, "
+                                              "duplicate entries of A or sl_factor_restrict");
     }
     if (!sli_guarantee_fits(F, A)) {
         return sli_refuse(SL_ERR_STATE, "A is not the matrix that F was computed from");

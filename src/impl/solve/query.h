@@ -89,7 +89,8 @@ static sl_status sli_query_check(const sli_query *q, const sl_factor *F) {
 
 /* Refuses a plan in a region, for a call that needs the paths to the roots. */
 SLI_COLD static sl_status sli_refuse_region(void) {
-    return sli_refuse(SL_ERR_UNSUPPORTED, "this call does not take a plan in a region");
+    return sli_refuse(SL_ERR_UNSUPPORTED, "this call takes no plan in a region: create one without "
+                                           "options.region");
 }
 
 /* The sweep kernel for a block of nrhs right-hand sides. It takes 1 << kind of them. */
