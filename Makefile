@@ -68,7 +68,7 @@ IMPL = $(B)/obj/sparse_local.o
 # The bodies again, where small systems are divided among workers, too.
 SMALL_TASKS = $(B)/obj/small_tasks.o
 LIBRARY = $(B)/libtools.a
-PAGE := build/view_page_text.c
+PAGE := build/view_page_text.c build/view_live_text.c
 TEST_PROGRAMS = $(TESTS:tests/%.c=$(B)/tests/%)
 REPLAYS = $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/tests/replay_%)
 
@@ -193,12 +193,23 @@ $(B)/sparse-local: $(call object,$(MAIN:.c=) $(NEED_PNG:.c=)) $(LIBRARY) $(IMPL)
 	$(Q)$(LINK) -o $@ $^ $(LIBS) -lpng
 
 # The page of the command view, as an array of its lines.
-$(PAGE): tools/draw/view_page.html
+in_quotes = sed 's/[\\"?]/\\&/g; s/.*/    "&",/' $(1)
+build/view_page_text.c: tools/draw/view_page.html
 	@mkdir -p $(@D)
 	$(call say,MAKE)
 	$(Q){ printf '/* the lines of view_page.html */\n#include "tools/draw/view_page.h"\n'; \
 	printf 'const char *const view_page_text[] = {\n'; \
-	sed 's/[\\"]/\\&/g; s/.*/    "&",/' $<; printf '    NULL,\n};\n'; } >$@
+	$(call in_quotes,$<); printf '    NULL,\n};\n'; } >$@
+
+# The script of live pages, and the WebAssembly that it runs if make live or make npm has built it.
+LIVE_KERNEL := $(wildcard build/web/sparse_local.wasm)
+build/view_live_text.c: tools/web/sparse_local.js tools/draw/view_live.js $(LIVE_KERNEL)
+	@mkdir -p $(@D)
+	$(call say,MAKE)
+	$(Q){ printf '/* the lines of sparse_local.js and view_live.js, and sparse_local.wasm in base64 */\n#include "tools/draw/view_page.h"\n'; \
+	printf 'const char *const view_live_script[] = {\n'; \
+	$(call in_quotes,tools/web/sparse_local.js tools/draw/view_live.js); printf '    NULL,\n};\nconst char *const view_live_kernel[] = {\n'; \
+	$(if $(LIVE_KERNEL),base64 -w 3000 $(LIVE_KERNEL) | $(call in_quotes);) printf '    NULL,\n};\n'; } >$@
 
 programs: $(B)/sparse-local ## build/sparse-local: the paper's experiments on meshes
 

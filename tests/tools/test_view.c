@@ -93,7 +93,7 @@ static void pages_hold_the_data(void **state) {
     FILE *file = fopen(files_path("page.html"), "w");
     assert_non_null(file);
     const sl_int marked[2] = {4, 1};
-    const view_page what = {&m, "<b>&", {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}, marked, 2, &field, 1};
+    const view_page what = {&m, "<b>&", {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}, marked, 2, &field, 1, NULL};
     view_page_write(file, &what);
     assert_int_equal(fclose(file), 0);
     char *page = files_get(files_path("page.html"), &length);

@@ -5,6 +5,8 @@
 
 #include "app.h"
 #include "command.h"
+#include "heat_system.h"
+#include "laplacian_choice.h"
 #include "tools/draw/view_page.h"
 #include "tools/io/field_table.h"
 #include "tools/mesh/repeated_faces.h"
@@ -20,9 +22,16 @@ static const options_manual manual = {
     "field that the page can show, as colors with a legend, on a linear or a logarithmic scale or "
     "on quantiles, with or without isolines; it opens on the first of these scales on which "
     "most values differ in color. Vertices without a value are gray. The page is one file: it "
-    "loads nothing from the network and can be sent to others. It needs a browser with WebGL 2.",
+    "loads nothing from the network and can be sent to others. It needs a browser with WebGL 2.\n"
+    "With --live the page has three more fields, which it computes itself and which follow when "
+    "the "
+    "first marked vertex is dragged: heat from there; distances by the heat method, without the "
+    "comparison with paths; and the harmonic function that is 1 there and 0 at the other marked "
+    "vertices, or at the farthest one. The library, compiled to WebAssembly, is in the page; the "
+    "program has it if it was built by make live.",
     "The page, and a line on what it holds.",
-    "bunny.obj --out bunny.html\nbunny.obj heat.csv adf.csv --out bunny.html"};
+    "bunny.obj --out bunny.html\nbunny.obj heat.csv adf.csv --out bunny.html\n"
+    "bunny.obj --live --from 17 --out bunny.html"};
 
 /* The tables, and their columns one after another. */
 typedef struct view_fields {
@@ -118,23 +127,65 @@ static void aim(double axes[3][3], app_output *camera, const mesh *m, const sl_i
     render_axes(axes, &view, m);
 }
 
+/* Of each face, the lengths of the edges opposite to its corners. */
+static double *edge_lengths(const mesh *m) {
+    double *lengths = app_alloc(3 * (size_t)m->n_faces, sizeof *lengths);
+    for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
+        const sl_int *face = m->faces + 3 * (k / 3);
+        const double *a = m->xyz + 3 * (size_t)face[(k + 1) % 3];
+        const double *b = m->xyz + 3 * (size_t)face[(k + 2) % 3];
+        lengths[k] = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+    }
+    return lengths;
+}
+
+/* What a live page solves with. surface [out]: the Delaunay triangulation, if it is used; release
+ * with intrinsic_free. */
+static void prepare_live(view_live *live, intrinsic *surface, const mesh *m, heat_time *time) {
+    if (time->time == 0 && time->scaled == 0 && time->area == 0) {
+        time->scaled = 4; /* as for distances */
+    }
+    live->t = heat_time_value(time, m, 0);
+    const bool is_intrinsic = laplacian_choose(surface, m, time->laplacian);
+    live->surface = is_intrinsic ? &surface->m : m;
+    live->share = is_intrinsic ? surface->share : 1;
+    if (!is_intrinsic) {
+        surface->lengths = edge_lengths(m);
+    }
+    live->lengths = surface->lengths;
+}
+
 int command_view(int argc, char **argv) {
     const char *operands[1 + MOST_TABLES + 1] = {NULL}, *out = NULL, *from = NULL;
     app_output camera;
+    bool is_live = false;
+    heat_time time = {0, 0, 0, NULL};
     memset(&camera, 0, sizeof camera);
     const option options[] = {
         {OPTION_OUTPUT, "out", &out, "FILE", "the page to write: required"},
         {OPTION_TEXT, "from", &from, "VERTICES",
          "vertices to mark, on whose side the camera is at first: 3,17,100-200 (where the first "
          "field is heat or a distance: its source)"},
+        {OPTION_FLAG, "live", &is_live, NULL,
+         "the page solves: heat, distances and a harmonic function from a vertex that is dragged"},
+        HEAT_TIME_OPTIONS(&time, "with --live; otherwise S = 4"),
         APP_CAMERA_OPTIONS(&camera),
         APP_WELD_OPTION,
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, operands);
     app_check_output(&camera, NULL);
+    if (is_live && view_live_kernel[0] == NULL) {
+        app_die("view: --live: this program was built without the kernel that solves in browsers; "
+                "make live builds both, by clang, lld and wasi-libc");
+    }
+    if (!is_live && (time.time != 0 || time.scaled != 0 || time.area != 0 || time.laplacian)) {
+        app_die_usage("view: times and --laplacian are for --live");
+    }
     mesh given, m;
     view_fields f;
     view_page page;
+    view_live live;
+    intrinsic surface;
     sl_int removed = 0, *marked;
     app_mesh(&given, operands[0], true);
     if (out == NULL) {
@@ -152,6 +203,14 @@ int command_view(int argc, char **argv) {
     page.n_fields = f.n_fields;
     page.n_marked = marked_vertices(&marked, from, &f, m.n_vertices);
     page.marked = marked;
+    if (is_live) {
+        if (page.n_marked == 0) {
+            *marked = app_default_vertex(&m);
+            page.n_marked = 1;
+        }
+        prepare_live(&live, &surface, &m, &time);
+        page.live = &live;
+    }
     aim(page.axes, &camera, &m, marked, page.n_marked);
     app_stage("writing the page");
     FILE *file = app_create(out);
@@ -162,6 +221,9 @@ int command_view(int argc, char **argv) {
            (int)f.n_fields);
     if (removed > 0) {
         printf("%d faces with the vertices of others are left out\n", (int)removed);
+    }
+    if (is_live) {
+        intrinsic_free(&surface);
     }
     free(marked);
     free_tables(&f);

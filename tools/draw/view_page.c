@@ -95,14 +95,39 @@ static void put_colors(FILE *out) {
     end(&b);
 }
 
-static void put_values(FILE *out, const double *value, sl_int count) {
+static void put_values(FILE *out, const double *value, size_t count) {
     base64 b = begin(out);
-    for (sl_int k = 0; k < count; k++) {
+    for (size_t k = 0; k < count; k++) {
         uint64_t word;
         memcpy(&word, value + k, sizeof word);
         put_bytes(&b, word, 8);
     }
     end(&b);
+}
+
+/* What live pages solve with. Faces are those of the page, or others. */
+static void put_live(FILE *out, const view_live *live, const mesh *m) {
+    (void)fprintf(out, ",\nlive: {time: %.17g, share: %.17g, faces: ", live->t, live->share);
+    if (live->surface != m) {
+        put_faces(out, live->surface);
+    } else {
+        (void)fputs("null", out);
+    }
+    (void)fputs(",\nlengths: ", out);
+    put_values(out, live->lengths, 3 * (size_t)live->surface->n_faces);
+    (void)fputs(",\nkernel: \"", out);
+    for (const char *const *line = view_live_kernel; *line != NULL; line++) {
+        (void)fputs(*line, out);
+    }
+    (void)fputs("\"}", out);
+}
+
+static void put_script(FILE *out) {
+    (void)fprintf(out, "<script type=\"module\">\n");
+    for (const char *const *line = view_live_script; *line != NULL; line++) {
+        (void)fprintf(out, "%s\n", *line);
+    }
+    (void)fprintf(out, "</script>\n");
 }
 
 static void put_data(FILE *out, const view_page *page) {
@@ -126,16 +151,24 @@ static void put_data(FILE *out, const view_page *page) {
         (void)fprintf(out, "%s\n{name: ", k > 0 ? "," : "");
         put_text(out, page->fields[k].name);
         (void)fprintf(out, ", values: ");
-        put_values(out, page->fields[k].value, page->m->n_vertices);
+        put_values(out, page->fields[k].value, (size_t)page->m->n_vertices);
         (void)putc('}', out);
     }
-    (void)fprintf(out, "]};\n");
+    (void)fputc(']', out);
+    if (page->live != NULL) {
+        put_live(out, page->live, page->m);
+    }
+    (void)fprintf(out, "};\n");
 }
 
 void view_page_write(FILE *out, const view_page *page) {
     for (const char *const *line = view_page_text; *line != NULL; line++) {
         if (strcmp(*line, VIEW_PAGE_DATA) == 0) {
             put_data(out, page);
+        } else if (strcmp(*line, VIEW_PAGE_LIVE) == 0) {
+            if (page->live != NULL) {
+                put_script(out);
+            }
         } else {
             (void)fprintf(out, "%s\n", *line);
         }

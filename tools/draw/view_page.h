@@ -17,6 +17,20 @@ typedef struct view_field {
 extern const char *const view_page_text[];
 #define VIEW_PAGE_DATA "/*DATA*/"
 
+/** The script of live pages and the WebAssembly that it runs, in base64; both ended by NULL. A
+ *  program that was built without the latter has an empty array: `make live` makes both. */
+extern const char *const view_live_script[];
+extern const char *const view_live_kernel[];
+#define VIEW_PAGE_LIVE "<!--LIVE-->"
+
+/** A triangulation of the surface on which a live page solves; see intrinsic.h. */
+typedef struct view_live {
+    const mesh *surface;   /* with the vertices of the page; that of the page itself, or another */
+    const double *lengths; /* 3 n_faces of the surface: of the edge opposite to each corner */
+    double share;          /* of each face in areas and weights */
+    double t;              /* heat diffuses for this time */
+} view_live;
+
 typedef struct view_page {
     const mesh *m;
     const char *title; /* any text; of a path the page shows the name and, as a hint, the rest */
@@ -25,6 +39,7 @@ typedef struct view_page {
     sl_int n_marked; /* vertices with a dot */
     const view_field *fields;
     size_t n_fields;
+    const view_live *live; /* NULL: the page shows its fields and solves nothing */
 } view_page;
 
 /** Writes the page. It loads nothing from anywhere: scripts and data are in the file, coordinates

@@ -1,6 +1,6 @@
 # web.mk: the npm package: WebAssembly, JavaScript, types; the kernel of live pages (a part of the Makefile)
 
-.PHONY: deps-npm deps-types npm test-npm bench-npm
+.PHONY: deps-npm deps-types npm live test-npm test-live bench-npm
 
 deps-npm: ## clang, lld and a C library for WebAssembly, and node
 	@tools/build/deps.sh node=nodejs clang=clang wasm-ld=lld /usr/lib/wasm32-wasi/libc.a=wasi-libc \
@@ -34,9 +34,18 @@ npm: deps-npm ## build/npm/sparse-local-VERSION.tgz and its folder, build/npm/pa
 	@tar -czf build/npm/sparse-local-$(VERSION).tgz -C build/npm --owner=0 --group=0 --numeric-owner --sort=name package
 	@echo "build/npm/sparse-local-$(VERSION).tgz: $$(wc -c <build/npm/sparse-local-$(VERSION).tgz) bytes"
 
+live: deps-npm deps-png ## build/sparse-local with the kernel of live pages: sparse-local view --live
+	@$(MAKE) --no-print-directory build/web/sparse_local.wasm
+	@$(MAKE) --no-print-directory programs
+
 test-npm: npm ## the npm package under node, its types, and a page with it in headless Chromium where they can be installed
 	@for what in types chromium; do $(MAKE) --no-print-directory deps-$$what >/dev/null 2>&1 || true; done
 	@PACKAGE=$(WEB_PACKAGE) tests/lib/run.sh build/npm/log tests/web/check_package.sh
+
+test-live: live ## pages of view --live in headless Chromium; LIVE_MESH=hills:318x318: frame times of 100 thousand vertices
+	@$(MAKE) --no-print-directory deps-chromium
+	@PROGRAM=$(B)/sparse-local tests/lib/run.sh build/web/log tests/web/check_live.sh; status=$$?; \
+	grep ' ms ' build/web/log/check_live.sh.log; exit $$status
 
 bench-npm: npm ## times the npm package on the heat of a grid with 100 thousand unknowns; PEER=FOLDER of cholesky-solve beside it
 	@node tools/web/bench.mjs $(WEB_PACKAGE) $(PEER)
