@@ -93,7 +93,8 @@ static void pages_hold_the_data(void **state) {
     FILE *file = fopen(files_path("page.html"), "w");
     assert_non_null(file);
     const sl_int marked[2] = {4, 1};
-    const view_page what = {&m, "<b>&", {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}, marked, 2, &field, 1, NULL};
+    const view_page what = {&m, "<b>&", {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}, marked, 2, &field,
+                            1,  NULL};
     view_page_write(file, &what);
     assert_int_equal(fclose(file), 0);
     char *page = files_get(files_path("page.html"), &length);
@@ -120,6 +121,104 @@ static void pages_hold_the_data(void **state) {
     assert_true(bytes[2] > bytes[0] && bytes[765] > bytes[767]); /* from blue to yellow */
     free(page);
     mesh_free(&m);
+}
+
+/* A live page has the edges of a triangulation, its own or another one, the script and the kernel,
+ * which is empty if the program has none. */
+static void live_pages_hold_the_surface(void **state) {
+    (void)state;
+    mesh m, other;
+    unsigned char bytes[1024];
+    double lengths[24];
+    assert_true(mesh_grid(&m, 3, 2, 0, 1) && mesh_grid(&other, 3, 2, 0, 1));
+    assert_int_equal(m.n_faces, 4);
+    for (int k = 0; k < 24; k++) {
+        lengths[k] = 1 + k / 7.0;
+    }
+    for (int way = 0; way < 2; way++) {
+        const view_live live = {way ? &other : &m, lengths, way ? 0.5 : 1, 0.1};
+        view_page what;
+        size_t length;
+        memset(&what, 0, sizeof what);
+        what.m = &m;
+        what.title = "m";
+        what.live = &live;
+        FILE *file = fopen(files_path("page.html"), "w");
+        assert_non_null(file);
+        view_page_write(file, &what);
+        assert_int_equal(fclose(file), 0);
+        char *page = files_get(files_path("page.html"), &length);
+        page[length] = '\0';
+        assert_non_null(
+            strstr(page, way ? "live: {time: 0.10000000000000001, share: 0.5, faces: \""
+                             : "live: {time: 0.10000000000000001, share: 1, faces: null"));
+        assert_int_equal(decode(page, "lengths: \"", bytes), 8 * 3 * m.n_faces);
+        for (int k = 0; k < 3 * m.n_faces; k++) {
+            assert_true(real_at(bytes + 8 * k) == lengths[k]);
+        }
+        const char *kernel = strstr(page, "kernel: \"");
+        assert_non_null(kernel);
+        if (view_live_kernel[0] != NULL) { /* the first bytes of WebAssembly */
+            assert_memory_equal(kernel + strlen("kernel: \""), "AGFzbQ", 6);
+        }
+        assert_non_null(strstr(page, "<script type=\"module\">\n/* sparse_local.js: "));
+        assert_non_null(strstr(page, "\n/* view_live.js: "));
+        assert_null(strstr(page, VIEW_PAGE_LIVE));
+        free(page);
+    }
+    mesh_free(&other);
+    mesh_free(&m);
+}
+
+/* The last line of output or of errors of `view` with these words. */
+static char *view(const char *words, int *status) {
+    char all[1500];
+    (void)snprintf(all, sizeof all, "view %s --out %s", words, files_path("page.html"));
+    return run_command(command_view, all, status);
+}
+
+static void live_pages_are_written(void **state) {
+    (void)state;
+    int status;
+    size_t length;
+    char *text = view("torus:12x6 --live --from 3,7", &status);
+    if (view_live_kernel[0] == NULL) {
+        assert_int_not_equal(status, 0);
+        assert_non_null(strstr(text, "make live builds both"));
+        free(text);
+        return;
+    }
+    assert_int_equal(status, 0);
+    free(text);
+    static const char *const cases[][2] = {
+        {"torus:12x6 --live --from 3,7", "marked: [3, 7]"},
+        {"torus:12x6 --live --laplacian cotangent", "share: 1, faces: null"},
+        {"torus:12x6 --live --laplacian intrinsic", "share: 1, faces: \""},
+        {"torus:12x6 --live --time 0.5", "time: 0.5, "},
+        {"torus:12x6 --live", "marked: [0]"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        free(view(cases[k][0], &status));
+        assert_int_equal(status, 0);
+        char *page = files_get(files_path("page.html"), &length);
+        page[length] = '\0';
+        assert_non_null(strstr(page, cases[k][1]));
+        free(page);
+    }
+}
+
+static void times_need_a_live_page(void **state) {
+    (void)state;
+    static const char *const cases[] = {"--time 1", "--scaled-time 1", "--area-time 1",
+                                        "--laplacian cotangent"};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char words[100];
+        int status;
+        (void)snprintf(words, sizeof words, "torus:12x6 %s", cases[k]);
+        char *text = view(words, &status);
+        assert_int_not_equal(status, 0);
+        assert_non_null(strstr(text, "are for --live"));
+        free(text);
+    }
 }
 
 /* The camera is on the side of the source of the first field, or of the vertices of --from. */
@@ -170,8 +269,12 @@ static void pages_open_at_the_source(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tables_are_read), cmocka_unit_test(malformed_tables_are_refused),
-        cmocka_unit_test(pages_hold_the_data), cmocka_unit_test(pages_open_at_the_source)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(tables_are_read),
+                                       cmocka_unit_test(malformed_tables_are_refused),
+                                       cmocka_unit_test(pages_hold_the_data),
+                                       cmocka_unit_test(pages_open_at_the_source),
+                                       cmocka_unit_test(live_pages_hold_the_surface),
+                                       cmocka_unit_test(live_pages_are_written),
+                                       cmocka_unit_test(times_need_a_live_page)};
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
 }

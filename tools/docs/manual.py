@@ -38,7 +38,7 @@ CHAPTERS = [("algorithms", "Algorithms"), ("ordering", "Orderings"),
             ("float", "L in float"), ("inverse", "Entries of the inverse"),
             ("dirichlet", "Pins, restriction or submatrix?"),
             ("changes", "Changes of a matrix"), ("files", "Files"), ("errors", "Errors"),
-            ("program", "The program"), ("doors", "Other languages"),
+            ("program", "The program"), ("web", "In browsers"), ("doors", "Other languages"),
             ("features", "Features"), ("speed", "Speed"), ("platforms", "Platforms")]
 PAGES = [("index", "Guide"), ("api", "API")] + CHAPTERS + [
     ("format", "Format"), ("tests", "Tests"), ("changelog", "Changelog")]
