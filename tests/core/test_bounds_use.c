@@ -138,6 +138,28 @@ static void what_has_no_bound_is_refused(void **state) {
     }
 }
 
+/* Two springs and a weak one between them, which the diagonal has rounded away: A without the null
+ * row is singular, and no probe sees how wrong the pivot is that is kept. */
+static void weak_pivots_have_no_bounds(void **state) {
+    (void)state;
+    static const sl_int column[5] = {0, 2, 4, 6, 7}, row[7] = {0, 1, 1, 2, 2, 3, 3};
+    static const double values[7] = {77.0, -77.0, 77.0, -4e-15, 0.125 + 4e-15, -0.125, 0.125};
+    const sl_csc A = {4, 4, column, row, values};
+    sl_options opt = options_none(), natural = options_none();
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_stats stats;
+    natural.ordering = SL_ORDERING_NATURAL;
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    SL_CHECK(sl_symbolic_create(&S, &A, &natural, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
+    assert_int_equal(stats.factor.weak, 1);
+    SL_EXPECT(SL_ERR_INACCURATE, sl_factor_certify(F, &A, SL_ESTIMATED, NULL, &stats));
+    assert_non_null(strstr(stats.error.what, "weak"));
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
 /* S A S with powers of 2 in S: L, D, x and its bounds scale exactly, in spite of squares that leave
  * the range of double. */
 static void bounds_scale_with_the_rows(void **state) {
@@ -487,6 +509,7 @@ int main(void) {
         cmocka_unit_test(bounds_are_those_of_the_numbers),
         cmocka_unit_test(other_values_are_noticed),
         cmocka_unit_test(what_has_no_bound_is_refused),
+        cmocka_unit_test(weak_pivots_have_no_bounds),
         cmocka_unit_test(bounds_scale_with_the_rows),
         cmocka_unit_test(unknown_norms_give_infinite_bounds),
         cmocka_unit_test(wrong_arguments),

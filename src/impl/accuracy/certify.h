@@ -365,6 +365,10 @@ SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty c
     own = sli_work_own(&F->allocator);
     status = sli_certify(F, A, certainty, W == NULL ? &own : W, &info);
     sli_free(&own.allocator, own.block);
+    if (status == SL_OK && F->stats.factor.weak > 0) {
+        status = sli_refuse(SL_ERR_INACCURATE, "a pivot within rounding of 0 was kept: "
+                                               "stats.factor.weak");
+    }
     if (status == SL_OK && !(info.eta <= SLI_ETA_MOST)) {
         status = sli_refuse(SL_ERR_INACCURATE, "eta is too large for bounds: A is ill-conditioned");
     }
