@@ -55,7 +55,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
  *                 depend on F.
  *  F       [in]   a factor of A. It stays as it is, and so must its analysis during the call.
  *  S       [in]   an analysis of B, such as that of sl_symbolic_edit; kept by out.
- *  B       [in]   n x n, the matrix that S was created from.
+ *  B       [in]   n x n, the matrix that S was created from. Two triangles are not compared.
  *  new_of  [in]   rows of A: new_of[i] is the row of B that row i of A has become, or -1 if it is
  *                 gone. After several edits, the composition of their maps.
  *  opt     [in]   as for sl_factor_create; may be NULL.

@@ -22,12 +22,12 @@
  *  G      [out]  the factor, or NULL on error; release with sl_factor_free.
  *  F      [in]   a factor of A.
  *  A      [in]   the matrix that F was computed from. Read only in the columns of R that are
- *                computed again; its pattern is not compared with the analyzed one.
+ *                computed again; neither its pattern nor its two triangles are compared.
  *  rows   [in]   count rows of A in 0..n-1, any order, no duplicates.
  *  opt    [in]   allocator; may be NULL.
  *  stats  [out]  restriction, factor; errors are in rows of A; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
- *           SL_ERR_OTHER_PATTERN: A differs in size or number of entries from the analyzed matrix;
+ *           SL_ERR_OTHER_PATTERN: A differs in size, entries or triangle from the analyzed matrix;
  *           SL_ERR_PATTERN: error.column of it is malformed; SL_ERR_PIVOT, _NOT_FINITE,
  *           _INACCURATE: as sl_factor_create; SL_ERR_STALE: F has no numbers; SL_ERR_UNSUPPORTED: F
  *           has 2x2 pivots or is a restriction itself; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.

@@ -70,6 +70,7 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
     const int copies = r->B_values != NULL;
     sl_int *row = r->entry_row, *column = r->entry_column, *from = r->entry_from;
     sl_int k, p, e = r->n_entries;
+    int others = 0; /* entries that are not read: in the analyzed matrix all may be */
     for (k = 0; k < r->R.count; k++) { /* in the caller's order, in which A is read faster */
         const sl_int j = r->rows[k], own = r->number_of[k], end = sli_value(r->list[k]);
         if (k + SLI_RESTRICT_AHEAD < r->R.count) {
@@ -87,6 +88,7 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
                 return sli_fail_at(stats, SL_ERR_PATTERN, i, j, 0.0, "a row of A is out of range");
             }
             is_there = sli_is_read(triangle, i, j);
+            others |= !is_there;
             if (number_at != NULL) {
                 other = number_at[i];
             } else if (i != j) {
@@ -104,6 +106,9 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
             from[e] = p;
             e += is_there;
         }
+    }
+    if (others && r->S->nnz_input == r->S->scatter_begin[r->S->n_supers]) {
+        return sli_refuse(SL_ERR_OTHER_PATTERN, "A stores the other triangle");
     }
     if (copies) {
         r->B_begin[k] = e;
