@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 3653f86d3a47c765
+ * FNV-1a of the lines after this comment, without the license: 8ce5aa72120e3dec
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -42,22 +42,22 @@
  *  12510 impl/ factor: the numbers of L and D
  *  15837 impl/ solve: full and local solves
  *  17504 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19447 impl/ pivots: the order of the pivots by the values of a matrix
- *  19856 impl/ float: L and fronts in single precision
- *  20304 impl/ inverse: entries of the inverse, regions
- *  23344 impl/ change: a factor that follows changes of its matrix
- *  30084 impl/ dirichlet: rows fixed at given values
- *  30671 impl/ dirichlet: by a factor of all rows
- *  30880 impl/ io: files that are replaced only when they are complete
- *  31098 impl/ files: Matrix Market files, 64-bit indices
- *  31718 impl/ save: factors in files
- *  33712 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34397 impl/ batch: diagonals of many inverses
- *  34541 impl/ complex: complex Hermitian systems over real factors
- *  35088 impl/ complex: entries of the inverse
- *  35148 impl/ packs: the tables through which the core calls packs
- *  35196 impl/ last: undefine every internal macro
- *  35539 impl/ templates: the header includes them from itself, once for each instruction set
+ *  19451 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19860 impl/ float: L and fronts in single precision
+ *  20308 impl/ inverse: entries of the inverse, regions
+ *  23348 impl/ change: a factor that follows changes of its matrix
+ *  30094 impl/ dirichlet: rows fixed at given values
+ *  30681 impl/ dirichlet: by a factor of all rows
+ *  30890 impl/ io: files that are replaced only when they are complete
+ *  31108 impl/ files: Matrix Market files, 64-bit indices
+ *  31728 impl/ save: factors in files
+ *  33722 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34407 impl/ batch: diagonals of many inverses
+ *  34551 impl/ complex: complex Hermitian systems over real factors
+ *  35098 impl/ complex: entries of the inverse
+ *  35158 impl/ packs: the tables through which the core calls packs
+ *  35206 impl/ last: undefine every internal macro
+ *  35549 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2740,12 +2740,12 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *p
  *  G      [out]  the factor, or NULL on error; release with sl_factor_free.
  *  F      [in]   a factor of A.
  *  A      [in]   the matrix that F was computed from. Read only in the columns of R that are
- *                computed again; its pattern is not compared with the analyzed one.
+ *                computed again; neither its pattern nor its two triangles are compared.
  *  rows   [in]   count rows of A in 0..n-1, any order, no duplicates.
  *  opt    [in]   allocator; may be NULL.
  *  stats  [out]  restriction, factor; errors are in rows of A; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
- *           SL_ERR_OTHER_PATTERN: A differs in size or number of entries from the analyzed matrix;
+ *           SL_ERR_OTHER_PATTERN: A differs in size, entries or triangle from the analyzed matrix;
  *           SL_ERR_PATTERN: error.column of it is malformed; SL_ERR_PIVOT, _NOT_FINITE,
  *           _INACCURATE: as sl_factor_create; SL_ERR_STALE: F has no numbers; SL_ERR_UNSUPPORTED: F
  *           has 2x2 pivots or is a restriction itself; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
@@ -2814,7 +2814,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
  *                 depend on F.
  *  F       [in]   a factor of A. It stays as it is, and so must its analysis during the call.
  *  S       [in]   an analysis of B, such as that of sl_symbolic_edit; kept by out.
- *  B       [in]   n x n, the matrix that S was created from.
+ *  B       [in]   n x n, the matrix that S was created from. Two triangles are not compared.
  *  new_of  [in]   rows of A: new_of[i] is the row of B that row i of A has become, or -1 if it is
  *                 gone. After several edits, the composition of their maps.
  *  opt     [in]   as for sl_factor_create; may be NULL.
@@ -19067,6 +19067,10 @@ SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty c
   own = sli_work_own(&F->allocator);
   status = sli_certify(F, A, certainty, W == NULL ? &own : W, &info);
   sli_free(&own.allocator, own.block);
+  if (status == SL_OK && F->stats.factor.weak > 0) {
+    status = sli_refuse(SL_ERR_INACCURATE, "a pivot within rounding of 0 was kept: "
+                         "stats.factor.weak");
+  }
   if (status == SL_OK && !(info.eta <= SLI_ETA_MOST)) {
     status = sli_refuse(SL_ERR_INACCURATE, "eta is too large for bounds: A is ill-conditioned");
   }
@@ -27759,6 +27763,7 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
   const int copies = r->B_values != NULL;
   sl_int *row = r->entry_row, *column = r->entry_column, *from = r->entry_from;
   sl_int k, p, e = r->n_entries;
+  int others = 0;
   for (k = 0; k < r->R.count; k++) {
     const sl_int j = r->rows[k], own = r->number_of[k], end = sli_value(r->list[k]);
     if (k + SLI_RESTRICT_AHEAD < r->R.count) {
@@ -27776,6 +27781,7 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
         return sli_fail_at(stats, SL_ERR_PATTERN, i, j, 0.0, "a row of A is out of range");
       }
       is_there = sli_is_read(triangle, i, j);
+      others |= !is_there;
       if (number_at != NULL) {
         other = number_at[i];
       } else if (i != j) {
@@ -27793,6 +27799,9 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
       from[e] = p;
       e += is_there;
     }
+  }
+  if (others && r->S->nnz_input == r->S->scatter_begin[r->S->n_supers]) {
+    return sli_refuse(SL_ERR_OTHER_PATTERN, "A stores the other triangle");
   }
   if (copies) {
     r->B_begin[k] = e;
@@ -28216,6 +28225,7 @@ static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction
   sl_int k;
   opt.null_tolerance = sli_tolerance_option(F);
   opt.regularization = F->rule.regularization;
+  opt.definite = (size_t)F->is_definite;
   opt.growth_limit = sli_limit_option(F->growth_limit);
   opt.error_limit = sli_limit_option(F->error_limit);
   if (opt.regularization != 0.0 && F->rule.signs != NULL) {

@@ -57,7 +57,8 @@ static inline void judge_way_bounds(judge_t *t) {
             judge_exact(t, F, q.full, exact);
             for (sl_int k = 0; k < q.nx; k++) {
                 const twice_t z = exact[q.xset[k]];
-                const double error = fabs((z.high - x[k]) + z.low);
+                const double found = fabs((z.high - x[k]) + z.low);
+                const double error = found > 1e-290 ? found : 0.0; /* b / DBL_MAX in null rows */
                 worst = fmax(worst, error > bounds[k] ? error / (bounds[k] + DBL_MIN) : 0.0);
                 t->tally->bounds += error > 0.0;
             }
