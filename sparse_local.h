@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 8ce5aa72120e3dec
+ * FNV-1a of the lines after this comment, without the license: 4ae5a8187bc2c11a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,28 +36,28 @@
  *   3078 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3118 impl/ base: the compiler, status, memory, sorting, threads
  *   4292 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5161 impl/ matrix: sparse matrices of the caller and of the library
- *   5796 impl/ ordering: fill-reducing orderings of a graph
- *  10407 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12510 impl/ factor: the numbers of L and D
- *  15837 impl/ solve: full and local solves
- *  17504 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19451 impl/ pivots: the order of the pivots by the values of a matrix
- *  19860 impl/ float: L and fronts in single precision
- *  20308 impl/ inverse: entries of the inverse, regions
- *  23348 impl/ change: a factor that follows changes of its matrix
- *  30094 impl/ dirichlet: rows fixed at given values
- *  30681 impl/ dirichlet: by a factor of all rows
- *  30890 impl/ io: files that are replaced only when they are complete
- *  31108 impl/ files: Matrix Market files, 64-bit indices
- *  31728 impl/ save: factors in files
- *  33722 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34407 impl/ batch: diagonals of many inverses
- *  34551 impl/ complex: complex Hermitian systems over real factors
- *  35098 impl/ complex: entries of the inverse
- *  35158 impl/ packs: the tables through which the core calls packs
- *  35206 impl/ last: undefine every internal macro
- *  35549 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5163 impl/ matrix: sparse matrices of the caller and of the library
+ *   5798 impl/ ordering: fill-reducing orderings of a graph
+ *  10409 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12512 impl/ factor: the numbers of L and D
+ *  15839 impl/ solve: full and local solves
+ *  17506 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19453 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19862 impl/ float: L and fronts in single precision
+ *  20313 impl/ inverse: entries of the inverse, regions
+ *  23353 impl/ change: a factor that follows changes of its matrix
+ *  30099 impl/ dirichlet: rows fixed at given values
+ *  30686 impl/ dirichlet: by a factor of all rows
+ *  30895 impl/ io: files that are replaced only when they are complete
+ *  31113 impl/ files: Matrix Market files, 64-bit indices
+ *  31733 impl/ save: factors in files
+ *  33727 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34412 impl/ batch: diagonals of many inverses
+ *  34556 impl/ complex: complex Hermitian systems over real factors
+ *  35103 impl/ complex: entries of the inverse
+ *  35163 impl/ packs: the tables through which the core calls packs
+ *  35211 impl/ last: undefine every internal macro
+ *  35555 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4512,7 +4512,9 @@ SLI_INLINE sl_int sli_update_tiles(sl_int w, sl_int u) {
 }
 
 #define SLI_GROUP_TILES 8
-#define SLI_CHUNK_COLUMNS 256
+#define SLI_CHUNK_COLUMNS 128
+
+#define SLI_ASSEMBLE_DISTANCE 1024
 
 SLI_INLINE sl_int sli_front_scratch(sl_int width) {
   return SLI_GROUP_TILES * SLI_TILE * sli_min(width, SLI_CHUNK_COLUMNS);
@@ -19927,6 +19929,7 @@ SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
 #define SLV_BELOW(a, k) \
   a = _mm256_and_ps(a, _mm256_castsi256_ps(_mm256_cmpgt_epi32( \
                _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32(k))));
+#define SLV_AHEAD 1
 #define SLV_TILES 2
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4
@@ -19981,6 +19984,7 @@ SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
 #define SLV_MULTIPLY(a, b, c) a = _mm512_mul_ps(b, c);
 #define SLV_DIVIDE(a, b, c) a = _mm512_div_ps(b, c);
 #define SLV_BELOW(a, k) a = _mm512_maskz_mov_ps((__mmask16)((0xfe << (k)&0xff) * 0x101), a);
+#define SLV_AHEAD 4
 #define SLV_TILES 4
 #define SLV_COLUMNS 8
 #define SLV_EACH_COLUMN SLI_EACH8
@@ -20034,6 +20038,7 @@ SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
     a##_1 = vreinterpretq_f32_u32( \
       vandq_u32(vreinterpretq_u32_f32(a##_1), vcgtq_s32(vld1q_s32(lanes_ + 4), k_))); \
   }
+#define SLV_AHEAD 1
 #define SLV_TILES 2
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4
@@ -35331,6 +35336,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_EXPAND_PLAIN
 #undef SLI_EXPAND_ADD_PLAIN
 #undef SLI_GROUP_TILES
+#undef SLI_ASSEMBLE_DISTANCE
 #undef SLI_CHUNK_COLUMNS
 #undef SLI_FRONT_RECIPROCALS
 #undef SLI_PIVOT_THRESHOLD
@@ -36234,6 +36240,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #define SLV_TRANSPOSE(to, from) \
   SLV_TRANSPOSE_4(to, from, _mm512_maskz_unpacklo_pd) \
   SLV_TRANSPOSE_4((to) + 8, from, _mm512_maskz_unpackhi_pd)
+#define SLV_AHEAD 2
 #define SLV_TILES 2
 #define SLV_COLUMNS 8
 #define SLV_EACH_COLUMN SLI_EACH8
@@ -36401,7 +36408,22 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   SLV_TRANSPOSE_4((to) + 4, (from) + 32) \
   SLV_TRANSPOSE_4((to) + 32, (from) + 4) \
   SLV_TRANSPOSE_4((to) + 36, (from) + 36)
-#define SLV_TILES 1
+#define SLV_HAS_HALF
+#define SLV_HALF_DECLARE(a) __m256d a;
+#define SLV_HALF_ZERO(a) a = _mm256_setzero_pd();
+#define SLV_HALF_LOAD(a, p) a = _mm256_load_pd(p);
+#define SLV_HALF_LOAD_PINNED(a, p) \
+  a = _mm256_load_pd(p); \
+  SLI_PIN(a);
+#define SLV_HALF_STORE(p, a) _mm256_store_pd((p), a);
+#define SLV_HALF_LOAD_TILES(a, p, q) SLV_HALF_LOAD(a, p)
+#define SLV_HALF_STORE_TILES(p, q, a) SLV_HALF_STORE(p, a)
+#define SLV_HALF_FNMA(a, b, c) a = _mm256_fnmadd_pd(b, c##_0, a);
+#define SLV_HALF_ADD(a, b) a = _mm256_add_pd(a, b);
+#define SLV_HALF_TURN_BACK(a, b) \
+  a = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), b), 5);
+#define SLV_AHEAD 1
+#define SLV_TILES 3
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4
 #define SLV_LOAD_PINNED(a, p) \
@@ -36955,13 +36977,6 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(block1)(const SLV_VALUE *A, const SLV_VAL
                          sl_int length, SLV_VALUE *C, sl_int columns) {
   SLV_FRONT(rows1)(A, A, B, length, C, C, columns);
 }
-#if SLV_TILES == 2
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(block2)(const SLV_VALUE *A, const SLV_VALUE *A1,
-                         const SLV_VALUE *B, sl_int length, SLV_VALUE *C,
-                         SLV_VALUE *C1, sl_int columns) {
-  SLV_FRONT(rows2)(A, A, A1, A1, B, length, C, C, C1, C1, columns);
-}
-#endif
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, sl_int length,
                        double *C, sl_int columns) {
@@ -37091,6 +37106,28 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_inverse_front *f,
   }
 }
 
+#if SLV_TILES > SLV_VECTOR_TILES
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_tiles)(const double *A, const double *B, sl_int length,
+                           double *C, sl_int columns, ptrdiff_t tile,
+                           sl_int after, ptrdiff_t stride) {
+  const double *rows[SLV_TILES], *next[SLV_TILES];
+  double *to[SLV_TILES];
+  sl_int c, k;
+  for (k = 0; k < SLV_TILES; k++) {
+    rows[k] = A + tile * k;
+    next[k] = A + tile * (after + k);
+    to[k] = C + tile * k;
+  }
+  for (c = 0; c < columns; c += SLI_TILE) {
+    for (k = c; k < c + SLI_TILE && k < columns; k += SLV_COLUMNS) {
+      SLV_NAME(whole)
+      (rows, B + c / SLI_TILE * stride + k % SLI_TILE, length, to, SLI_TILE * (ptrdiff_t)k,
+       columns - k, next, k);
+    }
+  }
+}
+#endif
+
 SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_inverse_front *f, sl_int j0,
                            sl_int t0, sl_int t1, double *scratch) {
   const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below, first = j0 + m;
@@ -37110,15 +37147,12 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_inverse_front *f,
       double *row = f->front + sli_square_offset(h, t);
       const double *A = row + SLI_TILE * (ptrdiff_t)s;
       double *C = row + SLI_TILE * (ptrdiff_t)j0;
-#if SLV_TILES == 2
-      if (t + 1 < t1) {
-        const ptrdiff_t next = sli_square_offset(h, 1);
-        for (c = 0; c < sli_tiles(m); c++) {
-          const ptrdiff_t at = tile_size * c;
-          SLV_NAME(block2)
-          (A, A + next, B + c * stride, length, C + at, C + next + at, m - SLI_TILE * c);
-        }
-        t++;
+#if SLV_TILES > SLV_VECTOR_TILES
+      if (t + SLV_TILES <= t1) {
+        SLV_NAME(group_tiles)
+        (A, B, length, C, m, sli_square_offset(h, 1),
+         t + 2 * SLV_TILES <= t1 ? SLV_TILES : 0, stride);
+        t += SLV_TILES - 1;
         continue;
       }
 #endif
@@ -37311,42 +37345,52 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
 
 #if SLV_VECTOR_TILES == 1
 #define SLI_LOAD_ROWS(a, p, q) SLV_LOAD_PINNED(a, p)
+#define SLI_LOAD_SECOND(a, p, q) SLI_WORD(LOAD_PINNED, 1)(a, p)
 #else
+#define SLI_LOAD_SECOND SLI_LOAD_ROWS
 #define SLI_LOAD_ROWS(a, p, q) SLV_LOAD_TILES(a, p, q)
 #endif
 
-#define SLI_DECLARE(k, v) SLV_DECLARE(c##v##k)
+#if defined(SLV_HAS_HALF)
+#define SLI_WORD_1(word) SLV_HALF_##word
+#else
+#define SLI_WORD_1(word) SLV_##word
+#endif
+#define SLI_WORD_0(word) SLV_##word
+#define SLI_WORD(word, v) SLI_PASTE(SLI_WORD_, v)(word)
+
+#define SLI_DECLARE(k, v) SLI_WORD(DECLARE, v)(c##v##k)
 #if SLV_SINGLE
-#define SLI_LOAD(k, v) SLV_ZERO(c##v##k)
+#define SLI_LOAD(k, v) SLI_WORD(ZERO, v)(c##v##k)
 #define SLI_SUM(k, v) \
   SLV_LOAD_TILES(b, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
   SLV_ADD(c##v##k, b)
 #elif SLV_COMPLEX
 #define SLI_LOAD(k, v) \
   if ((k) % 2 == 0 && (k) < columns) { \
-    SLV_LOAD(c##v##k, Cp##v + SLI_TILE / 2 * (k)) \
+    SLI_WORD(LOAD, v)(c##v##k, Cp##v + SLI_TILE / 2 * (k)) \
   } else { \
-    SLV_ZERO(c##v##k) \
+    SLI_WORD(ZERO, v)(c##v##k) \
   }
 #define SLI_STORE_PAIR(k, m, v) \
   if ((k) < columns) { \
-    SLV_TURN_BACK(c##v##m, c##v##m) \
-    SLV_ADD(c##v##k, c##v##m) \
-    SLV_STORE(Cp##v + SLI_TILE / 2 * (k), c##v##k) \
+    SLI_WORD(TURN_BACK, v)(c##v##m, c##v##m) \
+    SLI_WORD(ADD, v)(c##v##k, c##v##m) \
+    SLI_WORD(STORE, v)(Cp##v + SLI_TILE / 2 * (k), c##v##k) \
   }
 #else
 #define SLI_LOAD(k, v) \
   if (SLI_IS_IN(k, columns)) { \
-    SLV_LOAD_TILES(c##v##k, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
+    SLI_WORD(LOAD_TILES, v)(c##v##k, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
   } else { \
-    SLV_ZERO(c##v##k) \
+    SLI_WORD(ZERO, v)(c##v##k) \
   }
 #define SLI_SUM(k, v)
 #endif
 #define SLI_STORE(k, v) \
   if (SLI_IS_IN(k, columns)) { \
     SLI_SUM(k, v) \
-    SLV_STORE_TILES(Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k), c##v##k) \
+    SLI_WORD(STORE_TILES, v)(Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k), c##v##k) \
   }
 #if !SLV_COMPLEX
 #define SLI_STORE_BLOCK(v) SLV_EACH_COLUMN(SLI_STORE, v)
@@ -37361,12 +37405,14 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
   SLI_STORE_PAIR(0, 1, v) \
   SLI_STORE_PAIR(2, 3, v)
 #endif
+#define SLI_FETCH(k, v)  \
+  SLI_PREFETCH(Cp##v, sizeof(SLV_VALUE) * SLI_TILE / SLV_PARTS * (SLV_COLUMNS + (k)));
 #define SLI_UPDATE(k, unused)  \
   SLV_BROADCAST(b, B + (k)) \
   SLV_FNMA(c0##k, a0, b)
 #define SLI_UPDATE2(k, unused) \
   SLI_UPDATE(k, unused) \
-  SLV_FNMA(c1##k, a1, b)
+  SLI_WORD(FNMA, 1)(c1##k, a1, b)
 
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows1)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
                         const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
@@ -37390,18 +37436,21 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VA
                         const SLV_VALUE *Ap1, const SLV_VALUE *Aq1,
                         const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
                         SLV_VALUE *Cq0, SLV_VALUE *Cp1, SLV_VALUE *Cq1,
-                        sl_int columns) {
+                        sl_int columns, const SLV_VALUE *ahead) {
   sl_int j;
   SLV_DECLARE(a0)
-  SLV_DECLARE(a1)
+  SLI_WORD(DECLARE, 1)(a1)
   SLV_DECLARE(b)
   SLV_EACH_COLUMN(SLI_DECLARE, 0)
   SLV_EACH_COLUMN(SLI_DECLARE, 1)
   SLV_EACH_COLUMN(SLI_LOAD, 0)
   SLV_EACH_COLUMN(SLI_LOAD, 1)
-  for (j = 0; j < SLI_TILE * length; j += SLI_TILE, B += SLI_TILE) {
+  SLV_EACH_COLUMN(SLI_FETCH, 0)
+  SLV_EACH_COLUMN(SLI_FETCH, 1)
+  for (j = 0; j < SLI_TILE * length; j += SLI_TILE, B += SLI_TILE, ahead += SLV_AHEAD) {
+    SLI_PREFETCH(ahead, 0);
     SLI_LOAD_ROWS(a0, Ap0 + j, Aq0 + j)
-    SLI_LOAD_ROWS(a1, Ap1 + j, Aq1 + j)
+    SLI_LOAD_SECOND(a1, Ap1 + j, Aq1 + j)
     SLV_EACH_COLUMN(SLI_UPDATE2, 0)
   }
   SLI_STORE_BLOCK(0)
@@ -37419,9 +37468,43 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VA
 #undef SLI_STORE
 #undef SLI_STORE_PAIR
 #undef SLI_STORE_BLOCK
+#undef SLI_FETCH
 #undef SLI_UPDATE
 #undef SLI_UPDATE2
 #undef SLI_LOAD_ROWS
+#undef SLI_LOAD_SECOND
+#undef SLI_WORD
+#undef SLI_WORD_0
+#undef SLI_WORD_1
+
+#if SLV_TILES > SLV_VECTOR_TILES
+SLV_FUNCTION SLI_INLINE const SLV_VALUE *SLV_FRONT(ahead)(const SLV_VALUE *const *A, sl_int length,
+                              sl_int part) {
+  const sl_int parts = SLI_TILE / SLV_AHEAD, at = sli_min(part, SLV_TILES * parts - 1);
+  return A[at / parts] + at % parts * SLV_AHEAD * (ptrdiff_t)length;
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(whole)(const SLV_VALUE *const *A, const SLV_VALUE *B,
+                        sl_int length, SLV_VALUE *const *C, ptrdiff_t to,
+                        sl_int columns, const SLV_VALUE *const *next,
+                        sl_int k) {
+#if defined(SLV_HAS_HALF)
+  sl_int m;
+  for (m = 0; m < 2; m++) {
+    const SLV_VALUE *Am = A[2 * m], *Ah = A[1] + SLI_TILE / 2 * m;
+    SLV_VALUE *Cm = C[2 * m] + to, *Ch = C[1] + SLI_TILE / 2 * m + to;
+    SLV_FRONT(rows2)
+    (Am, Am, Ah, Ah, B, length, Cm, Cm, Ch, Ch, columns,
+     SLV_FRONT(ahead)(next, length, 2 * (k / SLV_COLUMNS) + m));
+  }
+#else
+  const sl_int p = SLV_VECTOR_TILES, q = SLV_VECTOR_TILES - 1;
+  SLV_FRONT(rows2)
+  (A[0], A[q], A[p], A[p + q], B, length, C[0] + to, C[q] + to, C[p] + to, C[p + q] + to, columns,
+   SLV_FRONT(ahead)(next, length, k / SLV_COLUMNS));
+#endif
+}
+#endif
 
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(pack)(const SLV_VALUE *l, const SLV_VALUE *d, sl_int length,
                        SLV_VALUE *B) {
@@ -37454,11 +37537,18 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
     for (t = t0; t < t1; t += step) {
       const sl_int end = sli_min(t + step, t1);
       const SLV_VALUE *A[SLV_TILES];
+#if SLV_TILES > SLV_VECTOR_TILES
+      const SLV_VALUE *next[SLV_TILES];
+#endif
       SLV_VALUE *C[SLV_TILES];
       for (m = 0; m < step; m++) {
         r = sli_min(t + m, end - 1);
         A[m] = panel + sli_tile_offset(w, r) / parts + SLI_TILE * (ptrdiff_t)j;
         C[m] = target + sli_tile_offset(target_width, r - target_first) / parts;
+#if SLV_TILES > SLV_VECTOR_TILES
+        r = sli_min(t + m + step, t1 - 1);
+        next[m] = panel + sli_tile_offset(w, r) / parts + SLI_TILE * (ptrdiff_t)j;
+#endif
       }
       for (c = c0; c < c1 && c < end; c++) {
         const ptrdiff_t at = (ptrdiff_t)tile_size / parts * (c - target_first);
@@ -37468,10 +37558,8 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
           const ptrdiff_t to = at + SLI_TILE / parts * k;
 #if SLV_TILES > SLV_VECTOR_TILES
           if (c <= t && end == t + step) {
-            const sl_int p = SLV_VECTOR_TILES, q = SLV_VECTOR_TILES - 1;
-            SLV_FRONT(rows2)
-            (A[0], A[q], A[p], A[p + q], b + k, length, C[0] + to, C[q] + to, C[p] + to,
-             C[p + q] + to, columns - k);
+            SLV_FRONT(whole)
+            (A, b + k, length, C, to, columns - k, next, SLI_TILE * (c - c0) + k);
             continue;
           }
 #endif
@@ -37781,6 +37869,8 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
         const int is_below = relative[i] >= w;
         SLV_VALUE *target =
           to[is_below] + (at[is_below] + SLI_TILE / SLV_PARTS * (ptrdiff_t)relative[i]);
+        SLI_PREFETCH(target, SLI_ASSEMBLE_DISTANCE);
+        SLI_PREFETCH(source + SLI_TILE / SLV_PARTS * (ptrdiff_t)i, SLI_ASSEMBLE_DISTANCE);
         SLV_EXPAND_ADD(target, source + SLI_TILE / SLV_PARTS * (ptrdiff_t)i)
       }
     }
@@ -39791,6 +39881,18 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_DUP_AT
 #undef SLV_PAIR
 #undef SLV_TILES
+#undef SLV_AHEAD
+#undef SLV_HAS_HALF
+#undef SLV_HALF_DECLARE
+#undef SLV_HALF_ZERO
+#undef SLV_HALF_LOAD
+#undef SLV_HALF_LOAD_PINNED
+#undef SLV_HALF_STORE
+#undef SLV_HALF_LOAD_TILES
+#undef SLV_HALF_STORE_TILES
+#undef SLV_HALF_FNMA
+#undef SLV_HALF_ADD
+#undef SLV_HALF_TURN_BACK
 #undef SLV_VECTOR_TILES
 #undef SLV_LOAD_TILES
 #undef SLV_STORE_TILES

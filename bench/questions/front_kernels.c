@@ -16,7 +16,7 @@
  * met twice in a round. Flops of a front: the sum over its columns of entries^2. */
 enum {
     ARENA = 48 * 1024,
-    SCRATCH = 8 * 8 * 256, /* sli_front_scratch */
+    SCRATCH = 8 * 8 * 128, /* sli_front_scratch */
     INVERSE = 3 * 8 * 8,   /* SLI_FRONT_RECIPROCALS; guards detect writes past the scratch */
     GUARDS = 64,
     WIDTHS = 8,

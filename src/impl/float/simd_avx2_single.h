@@ -39,6 +39,7 @@ SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
 #define SLV_BELOW(a, k) \
     a = _mm256_and_ps(a, _mm256_castsi256_ps(_mm256_cmpgt_epi32( \
                              _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32(k))));
+#define SLV_AHEAD 1
 #define SLV_TILES 2
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4

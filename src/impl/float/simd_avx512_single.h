@@ -39,6 +39,7 @@
 #define SLV_MULTIPLY(a, b, c) a = _mm512_mul_ps(b, c);
 #define SLV_DIVIDE(a, b, c) a = _mm512_div_ps(b, c);
 #define SLV_BELOW(a, k) a = _mm512_maskz_mov_ps((__mmask16)((0xfe << (k)&0xff) * 0x101), a);
+#define SLV_AHEAD 4
 #define SLV_TILES 4
 #define SLV_COLUMNS 8
 #define SLV_EACH_COLUMN SLI_EACH8

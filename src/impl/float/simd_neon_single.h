@@ -32,6 +32,7 @@
         a##_1 = vreinterpretq_f32_u32( \
             vandq_u32(vreinterpretq_u32_f32(a##_1), vcgtq_s32(vld1q_s32(lanes_ + 4), k_))); \
     }
+#define SLV_AHEAD 1
 #define SLV_TILES 2
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4

@@ -5,13 +5,6 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(block1)(const SLV_VALUE *A, const SLV_VAL
                                                sl_int length, SLV_VALUE *C, sl_int columns) {
     SLV_FRONT(rows1)(A, A, B, length, C, C, columns);
 }
-#if SLV_TILES == 2
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(block2)(const SLV_VALUE *A, const SLV_VALUE *A1,
-                                               const SLV_VALUE *B, sl_int length, SLV_VALUE *C,
-                                               SLV_VALUE *C1, sl_int columns) {
-    SLV_FRONT(rows2)(A, A, A1, A1, B, length, C, C, C1, C1, columns);
-}
-#endif
 
 /* C(rows, k) -= A(rows, j) B(k, j) for one row tile. A and B: [length][8]; C: [columns][8]. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, sl_int length,
@@ -151,6 +144,30 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_inverse_front *f,
     }
 }
 
+#if SLV_TILES > SLV_VECTOR_TILES
+/* SLV_TILES row tiles of group_product, `tile` entries apart; the same again begin `after` tiles
+ * later, or 0. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_tiles)(const double *A, const double *B, sl_int length,
+                                                   double *C, sl_int columns, ptrdiff_t tile,
+                                                   sl_int after, ptrdiff_t stride) {
+    const double *rows[SLV_TILES], *next[SLV_TILES];
+    double *to[SLV_TILES];
+    sl_int c, k;
+    for (k = 0; k < SLV_TILES; k++) {
+        rows[k] = A + tile * k;
+        next[k] = A + tile * (after + k);
+        to[k] = C + tile * k;
+    }
+    for (c = 0; c < columns; c += SLI_TILE) {
+        for (k = c; k < c + SLI_TILE && k < columns; k += SLV_COLUMNS) {
+            SLV_NAME(whole)
+            (rows, B + c / SLI_TILE * stride + k % SLI_TILE, length, to, SLI_TILE * (ptrdiff_t)k,
+             columns - k, next, k);
+        }
+    }
+}
+#endif
+
 /* Z_SJ = -Z_SS W for row tiles t0 .. t1-1, SLI_CHUNK_COLUMNS columns of Z_SS at a time. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_inverse_front *f, sl_int j0,
                                                      sl_int t0, sl_int t1, double *scratch) {
@@ -171,15 +188,12 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_inverse_front *f,
             double *row = f->front + sli_square_offset(h, t);
             const double *A = row + SLI_TILE * (ptrdiff_t)s;
             double *C = row + SLI_TILE * (ptrdiff_t)j0;
-#if SLV_TILES == 2
-            if (t + 1 < t1) {
-                const ptrdiff_t next = sli_square_offset(h, 1);
-                for (c = 0; c < sli_tiles(m); c++) {
-                    const ptrdiff_t at = tile_size * c;
-                    SLV_NAME(block2)
-                    (A, A + next, B + c * stride, length, C + at, C + next + at, m - SLI_TILE * c);
-                }
-                t++;
+#if SLV_TILES > SLV_VECTOR_TILES
+            if (t + SLV_TILES <= t1) {
+                SLV_NAME(group_tiles)
+                (A, B, length, C, m, sli_square_offset(h, 1),
+                 t + 2 * SLV_TILES <= t1 ? SLV_TILES : 0, stride);
+                t += SLV_TILES - 1;
                 continue;
             }
 #endif

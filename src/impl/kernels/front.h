@@ -21,10 +21,13 @@ SLI_INLINE sl_int sli_update_tiles(sl_int w, sl_int u) {
 }
 
 /* Blocking of the products: column tiles that are updated together, and columns that they are
- * updated by at a time. A row tile reads 16 KB of a chunk (fits the first cache), the group 128 KB
- * (fits the second). */
+ * updated by at a time. A row tile reads 8 KB of a chunk (three of them and a column tile fit the
+ * first cache of 32 KB), the group 64 KB (fits the second). */
 #define SLI_GROUP_TILES 8
-#define SLI_CHUNK_COLUMNS 256
+#define SLI_CHUNK_COLUMNS 128
+
+/* Distance in bytes from the entries that extend-add moves to those that it prefetches. */
+#define SLI_ASSEMBLE_DISTANCE 1024
 
 /* Entries of scratch for fronts of some width. */
 SLI_INLINE sl_int sli_front_scratch(sl_int width) {

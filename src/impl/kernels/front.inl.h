@@ -316,6 +316,8 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
                 const int is_below = relative[i] >= w; /* selects the target without a branch */
                 SLV_VALUE *target =
                     to[is_below] + (at[is_below] + SLI_TILE / SLV_PARTS * (ptrdiff_t)relative[i]);
+                SLI_PREFETCH(target, SLI_ASSEMBLE_DISTANCE);
+                SLI_PREFETCH(source + SLI_TILE / SLV_PARTS * (ptrdiff_t)i, SLI_ASSEMBLE_DISTANCE);
                 SLV_EXPAND_ADD(target, source + SLI_TILE / SLV_PARTS * (ptrdiff_t)i)
             }
         }

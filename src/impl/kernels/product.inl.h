@@ -10,42 +10,52 @@
  * is c0 - i c1. So the loop is the same, over half of the columns. */
 #if SLV_VECTOR_TILES == 1
 #define SLI_LOAD_ROWS(a, p, q) SLV_LOAD_PINNED(a, p)
+#define SLI_LOAD_SECOND(a, p, q) SLI_WORD(LOAD_PINNED, 1)(a, p)
 #else
+#define SLI_LOAD_SECOND SLI_LOAD_ROWS
 #define SLI_LOAD_ROWS(a, p, q) SLV_LOAD_TILES(a, p, q)
 #endif
 
-#define SLI_DECLARE(k, v) SLV_DECLARE(c##v##k)
+#if defined(SLV_HAS_HALF) /* the second vector of a block is half of one */
+#define SLI_WORD_1(word) SLV_HALF_##word
+#else
+#define SLI_WORD_1(word) SLV_##word
+#endif
+#define SLI_WORD_0(word) SLV_##word
+#define SLI_WORD(word, v) SLI_PASTE(SLI_WORD_, v)(word)
+
+#define SLI_DECLARE(k, v) SLI_WORD(DECLARE, v)(c##v##k)
 #if SLV_SINGLE /* updates are summed first: many are below half a unit in the last place of C */
-#define SLI_LOAD(k, v) SLV_ZERO(c##v##k)
+#define SLI_LOAD(k, v) SLI_WORD(ZERO, v)(c##v##k)
 #define SLI_SUM(k, v) \
     SLV_LOAD_TILES(b, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
     SLV_ADD(c##v##k, b)
 #elif SLV_COMPLEX
 #define SLI_LOAD(k, v) \
     if ((k) % 2 == 0 && (k) < columns) { \
-        SLV_LOAD(c##v##k, Cp##v + SLI_TILE / 2 * (k)) \
+        SLI_WORD(LOAD, v)(c##v##k, Cp##v + SLI_TILE / 2 * (k)) \
     } else { \
-        SLV_ZERO(c##v##k) \
+        SLI_WORD(ZERO, v)(c##v##k) \
     }
 #define SLI_STORE_PAIR(k, m, v) \
     if ((k) < columns) { \
-        SLV_TURN_BACK(c##v##m, c##v##m) \
-        SLV_ADD(c##v##k, c##v##m) \
-        SLV_STORE(Cp##v + SLI_TILE / 2 * (k), c##v##k) \
+        SLI_WORD(TURN_BACK, v)(c##v##m, c##v##m) \
+        SLI_WORD(ADD, v)(c##v##k, c##v##m) \
+        SLI_WORD(STORE, v)(Cp##v + SLI_TILE / 2 * (k), c##v##k) \
     }
 #else
 #define SLI_LOAD(k, v) \
     if (SLI_IS_IN(k, columns)) { \
-        SLV_LOAD_TILES(c##v##k, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
+        SLI_WORD(LOAD_TILES, v)(c##v##k, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
     } else { \
-        SLV_ZERO(c##v##k) \
+        SLI_WORD(ZERO, v)(c##v##k) \
     }
 #define SLI_SUM(k, v)
 #endif
 #define SLI_STORE(k, v) \
     if (SLI_IS_IN(k, columns)) { \
         SLI_SUM(k, v) \
-        SLV_STORE_TILES(Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k), c##v##k) \
+        SLI_WORD(STORE_TILES, v)(Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k), c##v##k) \
     }
 #if !SLV_COMPLEX
 #define SLI_STORE_BLOCK(v) SLV_EACH_COLUMN(SLI_STORE, v)
@@ -60,12 +70,14 @@
     SLI_STORE_PAIR(0, 1, v) \
     SLI_STORE_PAIR(2, 3, v)
 #endif
+#define SLI_FETCH(k, v) /* C of the next columns */ \
+    SLI_PREFETCH(Cp##v, sizeof(SLV_VALUE) * SLI_TILE / SLV_PARTS * (SLV_COLUMNS + (k)));
 #define SLI_UPDATE(k, unused) /* C(rows, k) -= A(rows, j) B(k, j) */ \
     SLV_BROADCAST(b, B + (k)) \
     SLV_FNMA(c0##k, a0, b)
 #define SLI_UPDATE2(k, unused) \
     SLI_UPDATE(k, unused) \
-    SLV_FNMA(c1##k, a1, b)
+    SLI_WORD(FNMA, 1)(c1##k, a1, b)
 
 /* One vector. A: [length][8], for each row tile; B: [length][8], from the first column of the block
  * on; C: [columns][8], for each row tile. */
@@ -87,23 +99,27 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows1)(const SLV_VALUE *Ap0, const SLV_VA
 }
 
 #if SLV_TILES > SLV_VECTOR_TILES
-/* Two vectors. */
+/* Two vectors, or with SLV_HAS_HALF one and a half. Prefetches what comes next: C of later columns,
+ * and SLV_AHEAD entries from `ahead` on for each column j. */
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
                                               const SLV_VALUE *Ap1, const SLV_VALUE *Aq1,
                                               const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
                                               SLV_VALUE *Cq0, SLV_VALUE *Cp1, SLV_VALUE *Cq1,
-                                              sl_int columns) {
+                                              sl_int columns, const SLV_VALUE *ahead) {
     sl_int j;
     SLV_DECLARE(a0)
-    SLV_DECLARE(a1)
+    SLI_WORD(DECLARE, 1)(a1)
     SLV_DECLARE(b)
     SLV_EACH_COLUMN(SLI_DECLARE, 0)
     SLV_EACH_COLUMN(SLI_DECLARE, 1)
     SLV_EACH_COLUMN(SLI_LOAD, 0)
     SLV_EACH_COLUMN(SLI_LOAD, 1)
-    for (j = 0; j < SLI_TILE * length; j += SLI_TILE, B += SLI_TILE) {
+    SLV_EACH_COLUMN(SLI_FETCH, 0)
+    SLV_EACH_COLUMN(SLI_FETCH, 1)
+    for (j = 0; j < SLI_TILE * length; j += SLI_TILE, B += SLI_TILE, ahead += SLV_AHEAD) {
+        SLI_PREFETCH(ahead, 0);
         SLI_LOAD_ROWS(a0, Ap0 + j, Aq0 + j)
-        SLI_LOAD_ROWS(a1, Ap1 + j, Aq1 + j)
+        SLI_LOAD_SECOND(a1, Ap1 + j, Aq1 + j)
         SLV_EACH_COLUMN(SLI_UPDATE2, 0)
     }
     SLI_STORE_BLOCK(0)
@@ -121,9 +137,47 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VA
 #undef SLI_STORE
 #undef SLI_STORE_PAIR
 #undef SLI_STORE_BLOCK
+#undef SLI_FETCH
 #undef SLI_UPDATE
 #undef SLI_UPDATE2
 #undef SLI_LOAD_ROWS
+#undef SLI_LOAD_SECOND
+#undef SLI_WORD
+#undef SLI_WORD_0
+#undef SLI_WORD_1
+
+#if SLV_TILES > SLV_VECTOR_TILES
+/* The rows at A that a part of the work on a group of column tiles prefetches for the row tiles
+ * after it: `length` times SLV_AHEAD entries of one of them. */
+SLV_FUNCTION SLI_INLINE const SLV_VALUE *SLV_FRONT(ahead)(const SLV_VALUE *const *A, sl_int length,
+                                                          sl_int part) {
+    const sl_int parts = SLI_TILE / SLV_AHEAD, at = sli_min(part, SLV_TILES * parts - 1);
+    return A[at / parts] + at % parts * SLV_AHEAD * (ptrdiff_t)length;
+}
+
+/* SLV_TILES row tiles and SLV_COLUMNS columns. A, C, next: of each row tile and of those that come
+ * after it; C at position `to`. k: the first of the columns in the group. */
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(whole)(const SLV_VALUE *const *A, const SLV_VALUE *B,
+                                              sl_int length, SLV_VALUE *const *C, ptrdiff_t to,
+                                              sl_int columns, const SLV_VALUE *const *next,
+                                              sl_int k) {
+#if defined(SLV_HAS_HALF)
+    sl_int m;
+    for (m = 0; m < 2; m++) { /* the first tile and half of the second one, then the rest */
+        const SLV_VALUE *Am = A[2 * m], *Ah = A[1] + SLI_TILE / 2 * m;
+        SLV_VALUE *Cm = C[2 * m] + to, *Ch = C[1] + SLI_TILE / 2 * m + to;
+        SLV_FRONT(rows2)
+        (Am, Am, Ah, Ah, B, length, Cm, Cm, Ch, Ch, columns,
+         SLV_FRONT(ahead)(next, length, 2 * (k / SLV_COLUMNS) + m));
+    }
+#else
+    const sl_int p = SLV_VECTOR_TILES, q = SLV_VECTOR_TILES - 1;
+    SLV_FRONT(rows2)
+    (A[0], A[q], A[p], A[p + q], B, length, C[0] + to, C[q] + to, C[p] + to, C[p + q] + to, columns,
+     SLV_FRONT(ahead)(next, length, k / SLV_COLUMNS));
+#endif
+}
+#endif
 
 /* B(k, j) = L(k, j) d(j) for the 8 rows k of a tile and `length` columns that are kept. */
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(pack)(const SLV_VALUE *l, const SLV_VALUE *d, sl_int length,
@@ -164,11 +218,18 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
         for (t = t0; t < t1; t += step) {
             const sl_int end = sli_min(t + step, t1);
             const SLV_VALUE *A[SLV_TILES];
+#if SLV_TILES > SLV_VECTOR_TILES
+            const SLV_VALUE *next[SLV_TILES];
+#endif
             SLV_VALUE *C[SLV_TILES];
             for (m = 0; m < step; m++) {
                 r = sli_min(t + m, end - 1);
                 A[m] = panel + sli_tile_offset(w, r) / parts + SLI_TILE * (ptrdiff_t)j;
                 C[m] = target + sli_tile_offset(target_width, r - target_first) / parts;
+#if SLV_TILES > SLV_VECTOR_TILES
+                r = sli_min(t + m + step, t1 - 1);
+                next[m] = panel + sli_tile_offset(w, r) / parts + SLI_TILE * (ptrdiff_t)j;
+#endif
             }
             for (c = c0; c < c1 && c < end; c++) {
                 const ptrdiff_t at = (ptrdiff_t)tile_size / parts * (c - target_first);
@@ -178,10 +239,8 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
                     const ptrdiff_t to = at + SLI_TILE / parts * k;
 #if SLV_TILES > SLV_VECTOR_TILES
                     if (c <= t && end == t + step) {
-                        const sl_int p = SLV_VECTOR_TILES, q = SLV_VECTOR_TILES - 1;
-                        SLV_FRONT(rows2)
-                        (A[0], A[q], A[p], A[p + q], b + k, length, C[0] + to, C[q] + to, C[p] + to,
-                         C[p + q] + to, columns - k);
+                        SLV_FRONT(whole)
+                        (A, b + k, length, C, to, columns - k, next, SLI_TILE * (c - c0) + k);
                         continue;
                     }
 #endif

@@ -79,6 +79,10 @@
  *  SLV_TILES, SLV_COLUMNS             row tiles and columns of the register block of a product
  *  SLV_VECTOR_TILES                   row tiles of a vector in products and below the pivots: 1, or
  *                                     2 with SLV_LOAD_TILES(a, p, q), SLV_STORE_TILES(p, q, a)
+ *  SLV_HAS_HALF           defined: the second vector of that block has 4 lanes, two blocks are
+ *                         SLV_TILES = 3 row tiles, and the words SLV_HALF_ are those of 4 lanes
+ *  SLV_AHEAD              entries of A that a block of more than one vector prefetches for each
+ *                         column of A: SLV_TILES row tiles in the blocks of 64 columns
  *  SLV_EACH_COLUMN(op, t)             op(0, t) op(1, t) .. over the columns of that block
  *
  * SLW_: a, b are vectors of SLW_NRHS doubles: one row of as many right-hand sides; s is a scalar.

@@ -78,7 +78,24 @@
     SLV_TRANSPOSE_4((to) + 4, (from) + 32) \
     SLV_TRANSPOSE_4((to) + 32, (from) + 4) \
     SLV_TRANSPOSE_4((to) + 36, (from) + 36)
-#define SLV_TILES 1
+/* A block is one vector and half of another, three registers: three row tiles are two blocks. With
+ * one vector the FMAs of a register wait for each other. */
+#define SLV_HAS_HALF
+#define SLV_HALF_DECLARE(a) __m256d a;
+#define SLV_HALF_ZERO(a) a = _mm256_setzero_pd();
+#define SLV_HALF_LOAD(a, p) a = _mm256_load_pd(p);
+#define SLV_HALF_LOAD_PINNED(a, p) \
+    a = _mm256_load_pd(p); \
+    SLI_PIN(a);
+#define SLV_HALF_STORE(p, a) _mm256_store_pd((p), a);
+#define SLV_HALF_LOAD_TILES(a, p, q) SLV_HALF_LOAD(a, p)
+#define SLV_HALF_STORE_TILES(p, q, a) SLV_HALF_STORE(p, a)
+#define SLV_HALF_FNMA(a, b, c) a = _mm256_fnmadd_pd(b, c##_0, a);
+#define SLV_HALF_ADD(a, b) a = _mm256_add_pd(a, b);
+#define SLV_HALF_TURN_BACK(a, b) \
+    a = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), b), 5);
+#define SLV_AHEAD 1
+#define SLV_TILES 3
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4
 #define SLV_LOAD_PINNED(a, p) \

@@ -74,6 +74,7 @@
 #define SLV_TRANSPOSE(to, from) \
     SLV_TRANSPOSE_4(to, from, _mm512_maskz_unpacklo_pd) \
     SLV_TRANSPOSE_4((to) + 8, from, _mm512_maskz_unpackhi_pd)
+#define SLV_AHEAD 2
 #define SLV_TILES 2
 #define SLV_COLUMNS 8
 #define SLV_EACH_COLUMN SLI_EACH8
