@@ -153,6 +153,7 @@ static void sli_parts_apply(const sli_parts *p, const sli_vectors *v, int kind) 
     }
     if (!p->is_product && p->parts & SL_PART_LT) {
         R.steps = p->steps;
+        R.plain = NULL; /* D is read by the columns of the steps */
         sli_backward_sweep(F, kind, &R, p->ones, v->x, v->scratch);
     }
 }

@@ -5,18 +5,6 @@
 #include "../base/sort.h"
 #include "symbolic_types.h"
 
-/* A compiled reach: its supernodes ascending, each from the first column needed, and the rows below
- * them as indices into a compact vector that has the columns of the reach only. */
-typedef struct sli_reach {
-    sl_int count;           /* supernodes */
-    sl_int columns;         /* length of the compact vector */
-    sl_int tallest, widest; /* largest height and width, for the scratch */
-    sl_off n_rows;          /* length of rows */
-    sl_off entries;         /* doubles of L that a sweep reads */
-    const sli_step *steps;  /* count */
-    const sl_int *rows;     /* n_rows, step after step */
-} sli_reach;
-
 /* The reach of all columns, which the analysis has already compiled. */
 static sli_reach sli_reach_all(const sl_symbolic *S) {
     sli_reach R;
@@ -28,7 +16,15 @@ static sli_reach sli_reach_all(const sl_symbolic *S) {
     R.entries = S->panel_begin[S->n_supers];
     R.steps = S->steps;
     R.rows = S->rows;
+    R.plain = S->plain;
     return R;
+}
+
+/* Leaves steps first .. first+count-1 in a reach; rows and sizes stay as they are. */
+SLI_INLINE void sli_reach_cut(sli_reach *R, sl_int first, sl_int count) {
+    R->steps += first;
+    R->plain = R->plain == NULL ? NULL : R->plain + first;
+    R->count = count;
 }
 
 /* Where paths end below the roots of the tree: a forest of whole subtrees, and a boundary that

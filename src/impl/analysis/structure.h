@@ -148,6 +148,22 @@ static void sli_fill_structure(const sli_analysis *w, const sl_symbolic *S) {
     }
 }
 
+/* Fills S->plain, if there is room for it. It is not kept if most supernodes are wider than a
+ * column, or if panels of one column are padded, as in old files. */
+static void sli_fill_plain(sl_symbolic *S) {
+    sl_int s, count = 0, padded = 0;
+    sl_off end = -1; /* of the panel of one column before */
+    for (s = 0; s < S->n_supers && S->plain != NULL; s++) {
+        const sli_step *step = &S->steps[s];
+        const int is_plain = step->width == 1;
+        S->plain[s] = is_plain ? step->below : -1;
+        padded |= is_plain && end >= 0 && step->panel != end;
+        end = is_plain ? step->panel + 1 + step->below : -1;
+        count += is_plain;
+    }
+    S->plain = !padded && 2 * (int64_t)count > S->n_supers ? S->plain : NULL;
+}
+
 /* Fills the steps of a sweep over all supernodes: the vector has all n columns, so that `base` is
  * the column. */
 static void sli_fill_steps(sl_symbolic *S) {

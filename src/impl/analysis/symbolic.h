@@ -162,9 +162,9 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
         sequence = keeps_order ? w->new_of : NULL;
         sli_find_other_children(n, w->parent, more);
     }
+    w->amalgamation.relaxes = opt == NULL || opt->relaxation != SL_RELAXATION_NONE;
     sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
     stats->symbolic.supernodes_fundamental = w->amalgamation.count;
-    w->amalgamation.relaxes = opt == NULL || opt->relaxation != SL_RELAXATION_NONE;
     w->amalgamation.is_for_one_factor = opt != NULL && opt->purpose == SL_PURPOSE_ONE_FACTOR;
     if (w->pairs != NULL) {
         sli_analysis_tie(w);
@@ -309,6 +309,7 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) 
     sli_fill_descendants(S);
     sli_fill_structure(w, S);
     sli_fill_steps(S);
+    sli_fill_plain(S);
     sli_fill_septree(S, &w->septree);
     sli_fill_identity(S, stats->symbolic.triangle);
     sli_analyze_stats(S, w->scratch, stats);
@@ -319,7 +320,7 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
                                     sl_stats *stats) {
     sli_block b = {NULL, 0, 0};
     sl_off rows = 0;
-    sl_int s;
+    sl_int s, plain = 0;
     sl_status status = SL_OK;
     draft->n = w->n;
     draft->n_supers = w->amalgamation.count;
@@ -331,10 +332,14 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
     stats->symbolic.nnz_a = w->columns.begin[w->n];
     for (s = 0; s < w->amalgamation.count; s++) {
         rows += w->amalgamation.below[s];
+        plain += w->amalgamation.width[s] == 1;
     }
     SLI_LAYOUT(&b, &draft->allocator, status) {
         (void)sli_take(&b, 1, sizeof(sl_symbolic));
         sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a);
+        if (2 * plain > draft->n_supers) {
+            draft->plain = SLI_TAKE(&b, sl_int, draft->n_supers);
+        }
         stats->symbolic.bytes = b.used;
     }
     if (status != SL_OK) {

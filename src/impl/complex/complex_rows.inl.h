@@ -183,11 +183,11 @@ SLV_NAME(complex_backward_step)(const sli_step *s, const sl_int *rows, const dou
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(complex_forward)(sl_int count, const sli_step *s,
-                                                   const sl_int *rows, const void *values,
+SLV_FUNCTION static void SLV_NAME(complex_forward)(const sli_reach *R, const void *values,
                                                    double *x, double *buf) {
     const double *L = (const double *)values;
-    const sli_step *end = s + count;
+    const sli_step *s = R->steps, *end = s + R->count;
+    const sl_int *rows = R->rows;
     while (s < end) {
         if (SLI_SMALL && s->width <= SLI_TILE) {
             s = SLV_NAME_SMALL(complex_forward_small)(s, end, &rows, L, x, buf);
@@ -198,12 +198,11 @@ SLV_FUNCTION static void SLV_NAME(complex_forward)(sl_int count, const sli_step 
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(complex_backward)(sl_int count, const sli_step *s,
-                                                    const sl_int *rows, const void *values,
+SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const void *values,
                                                     const double *D, double *x, double *buf) {
     const double *L = (const double *)values;
-    const sli_step *begin = s;
-    s += count;
+    const sli_step *begin = R->steps, *s = begin + R->count;
+    const sl_int *rows = R->rows + R->n_rows;
     while (s > begin) {
         if (SLI_SMALL && s[-1].width <= SLI_TILE) {
             s = SLV_NAME_SMALL(complex_backward_small)(s, begin, &rows, L, D, x);

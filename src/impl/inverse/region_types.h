@@ -111,21 +111,27 @@ static void sli_region_apply(const sl_region *R, const sli_ending_use *boundary,
     const sl_int n = R->extent.n_rows;
     const size_t size = (size_t)n << kind;
     double *vectors = v->product;
+    sli_reach reach;
     sl_int first;
     if (n == 0) {
         return;
     }
+    memset(&reach, 0, sizeof reach);
+    reach.count = 1;
     memcpy(vectors, v->y, size * sizeof(double));
     memset(vectors + size, 0, size * sizeof(double));
     memcpy(vectors + 2 * size, v->y, size * sizeof(double));
     for (first = 0; first < n; first += SLI_REGION_COLUMNS) {
         const sli_step step = sli_region_step(R, first);
+        reach.steps = &step;
+        reach.n_rows = step.below;
         if (boundary->b[first / SLI_REGION_COLUMNS]) {
-            sweeps->forward[kind](1, &step, R->relative + first, R->Z, vectors, v->scratch);
+            reach.rows = R->relative + first;
+            sweeps->forward[kind](&reach, R->Z, vectors, v->scratch);
         }
         if (boundary->x[first / SLI_REGION_COLUMNS]) {
-            sweeps->backward[kind](1, &step, R->relative + n, R->Z, sli_ones, vectors + size,
-                                   v->scratch);
+            reach.rows = R->relative + n - step.below;
+            sweeps->backward[kind](&reach, R->Z, sli_ones, vectors + size, v->scratch);
         }
     }
     memcpy(v->x, vectors + size, size * sizeof(double));

@@ -29,10 +29,12 @@
 
 /* Computes SLW_ROWS rows at a time: x(rows) -= L(rows, j) x(j) for the columns j before them, then
  * the triangle of the diagonal tile. Rows below are updated in x in place. */
-SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, const sl_int *rows,
-                                             const void *values, double *x,
+SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *values, double *x,
                                              double *buf SLI_STRIDE_PARAMETER) {
     const SLV_VALUE *L = (const SLV_VALUE *)values;
+    const sli_step *s = R->steps;
+    const sl_int *rows = R->rows;
+    sl_int count = R->count;
     SLI_SET_STRIDE
 #if SLW_GROUPS >= 8
     const int is_fetched = sli_steps_exceed_cache(count, s, stride);
@@ -120,11 +122,13 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
 
 /* Row tiles from the last to the first, SLW_ROWS rows at a time. Once the rows are final,
  * x(j) -= L(rows, j)' x(rows) for the columns j before them. */
-SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
-                                              const sl_int *rows_end, const void *values,
+SLV_FUNCTION static void SLI_KERNEL(backward)(const sli_reach *R, const void *values,
                                               const double *D, double *x,
                                               double *buf SLI_STRIDE_PARAMETER) {
     const SLV_VALUE *L = (const SLV_VALUE *)values;
+    const sli_step *s = R->steps;
+    const sl_int *rows_end = R->rows + R->n_rows;
+    sl_int count = R->count;
     SLI_SET_STRIDE
 #if SLW_GROUPS >= 8
     const int is_fetched = sli_steps_exceed_cache(count, s, stride);
@@ -221,15 +225,13 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
 #if defined(SLW_GROUPS)
 /* See sli_forward_kernel. */
 #define SLI_GROUPED_KERNELS(lanes) \
-    SLV_FUNCTION static void SLI_TABLE(forward##lanes)(sl_int count, const sli_step *s, \
-                                                       const sl_int *rows, const void *values, \
+    SLV_FUNCTION static void SLI_TABLE(forward##lanes)(const sli_reach *R, const void *values, \
                                                        double *x, double *buf) { \
-        SLI_KERNEL(forward)(count, s, rows, values, x, buf, lanes); \
+        SLI_KERNEL(forward)(R, values, x, buf, lanes); \
     } \
-    SLV_FUNCTION static void SLI_TABLE(backward##lanes)( \
-        sl_int count, const sli_step *s, const sl_int *rows_end, const void *values, \
-        const double *D, double *x, double *buf) { \
-        SLI_KERNEL(backward)(count, s, rows_end, values, D, x, buf, lanes); \
+    SLV_FUNCTION static void SLI_TABLE(backward##lanes)(const sli_reach *R, const void *values, \
+                                                        const double *D, double *x, double *buf) { \
+        SLI_KERNEL(backward)(R, values, D, x, buf, lanes); \
     }
 #if SLW_NRHS == 2
 SLI_GROUPED_KERNELS(2)

@@ -46,17 +46,18 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(panel_forward)(const SLV_VALUE *tile, sl_
     }
 }
 
-SLV_FUNCTION static void SLV_SWEEP(forward)(sl_int count, const sli_step *s, const sl_int *rows,
-                                            const void *values, double *x, double *buf) {
+SLV_FUNCTION static void SLV_SWEEP(forward)(const sli_reach *R, const void *values, double *x,
+                                            double *buf) {
     const SLV_VALUE *L = (const SLV_VALUE *)values;
-    const sli_step *end = s + count;
+    const sli_step *s = R->steps, *end = s + R->count;
+    const sl_int *rows = R->rows;
     while (s < end) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
         double *xs = x + s->base;
         sl_int i;
         if (w <= SLI_TILE) {
-            s = SLV_SWEEP_SMALL(forward_small)(s, end, &rows, L, x, buf);
+            s = SLV_SWEEP_SMALL(forward_small)(s, R, &rows, L, x, buf);
             continue;
         }
         memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
@@ -164,13 +165,12 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inne
 #define SLI_FEW_STEPS 512
 
 /* buf: the rows of two tiles, then the sums. */
-SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
-                                             const sl_int *rows_end, const void *values,
+SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *values,
                                              const double *D, double *x, double *buf) {
     const SLV_VALUE *L = (const SLV_VALUE *)values;
-    const int by_two = count <= SLI_FEW_STEPS;
-    const sli_step *begin = s;
-    s += count;
+    const int by_two = R->count <= SLI_FEW_STEPS;
+    const sli_step *begin = R->steps, *s = begin + R->count;
+    const sl_int *rows_end = R->rows + R->n_rows;
     while (s > begin) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
@@ -181,7 +181,7 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
         SLV_DECLARE(v)
         SLV_SUM_DECLARE(a)
         if (w <= SLI_TILE) {
-            s = SLV_SWEEP_SMALL(backward_small)(s + 1, begin, &rows_end, L, D, x);
+            s = SLV_SWEEP_SMALL(backward_small)(s + 1, R, &rows_end, L, D, x);
             continue;
         }
         rows = rows_end -= s->below;

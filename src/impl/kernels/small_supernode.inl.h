@@ -154,35 +154,58 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
     SLI_EACH8(SLI_GET, 0)
 }
 
-/* A run of supernodes of one column, in scalars: most have few rows below. */
+/* A run of supernodes of one column from step s on, in scalars: most have few rows below. Where
+ * their panels follow each other, of the steps after the first one R->plain says all. Returns the
+ * step after the run. */
 SLV_FUNCTION SLI_INLINE const sli_step *SLV_SWEEP(forward_plain)(const sli_step *s,
-                                                                 const sli_step *end,
+                                                                 const sli_reach *R,
                                                                  const sl_int **next_rows,
                                                                  const SLV_VALUE *L, double *x) {
+    const sl_int *plain = R->plain == NULL ? sli_not_plain : R->plain + (s - R->steps);
+    const sl_int *last = R->plain == NULL ? sli_not_plain + 2 : R->plain + R->count;
     const sl_int *rows = *next_rows;
-    for (; s < end && s->width == 1; s++) {
-        const SLV_VALUE *l = L + s->panel + 1;
-        const sl_int *last = rows + s->below;
-        const double y = x[s->base];
-        for (; rows < last; rows++, l++) { /* x(i) += 0 - L(i) y, for slots (sweep_tasks.h) */
-            x[*rows] += SLV_FNMA1((double)*l, y, 0.0);
+    const SLV_VALUE *l = L + s->panel;
+    const double *from = x + s->base, *xs = from;
+    sl_int below = s->below, i;
+    do {
+        const double y = *xs++;
+        if (below == 1) { /* x(i) += 0 - L(i) y, for slots (sweep_tasks.h) */
+            x[*rows++] += SLV_FNMA1((double)l[1], y, 0.0);
+            l += 2;
+            continue;
         }
-    }
+        l++;
+        for (i = 0; i < below; i++) {
+            x[rows[i]] += SLV_FNMA1((double)l[i], y, 0.0);
+        }
+        rows += below;
+        l += below;
+    } while (++plain < last && (below = *plain) >= 0);
     *next_rows = rows;
-    return s;
+    return s + (xs - from);
 }
 
-/* The same before step s, in descending order. */
+/* The same before step s, in descending order. Returns the first step of the run. */
 SLV_FUNCTION SLI_INLINE const sli_step *
-SLV_SWEEP(backward_plain)(const sli_step *s, const sli_step *begin, const sl_int **rows_end,
+SLV_SWEEP(backward_plain)(const sli_step *s, const sli_reach *R, const sl_int **rows_end,
                           const SLV_VALUE *L, const double *D, double *x) {
+    const sl_int *begin = R->plain == NULL ? sli_not_plain : R->plain;
+    const sl_int *plain = R->plain == NULL ? begin + 1 : begin + (s - 1 - R->steps);
     const sl_int *rows = *rows_end;
-    for (; s > begin && s[-1].width == 1; s--) {
-        const SLV_VALUE *l = L + s[-1].panel + 1;
-        const sl_int below = s[-1].below;
-        double y = x[s[-1].base] / D[s[-1].column];
-        sl_int i = 0;
+    sl_int below = s[-1].below, i;
+    const SLV_VALUE *l = L + s[-1].panel + 1 + below;
+    double *from = x + s[-1].base + 1, *xs = from;
+    D += s[-1].column + 1;
+    do {
+        double y = *--xs / *--D;
+        if (below == 1) {
+            *xs = SLV_FNMA1((double)l[-1], x[*--rows], y);
+            l -= 2;
+            continue;
+        }
         rows -= below;
+        l -= below;
+        i = 0;
         if (below >= 4) { /* y -= L' x, in four sums */
             double a = 0.0, b = 0.0, c = 0.0;
             for (; i + 4 <= below; i += 4) {
@@ -196,29 +219,31 @@ SLV_SWEEP(backward_plain)(const sli_step *s, const sli_step *begin, const sl_int
         for (; i < below; i++) {
             y = SLV_FNMA1((double)l[i], x[rows[i]], y);
         }
-        x[s[-1].base] = y;
-    }
+        *xs = y;
+        l--;
+    } while (plain > begin && (below = *--plain) >= 0);
     *rows_end = rows;
-    return s;
+    return s - (from - xs);
 }
 
 #define SLI_FORWARD(k) SLV_SWEEP(small_forward)(k, below, rows, l, xs, x, buf)
 #define SLI_BACKWARD(k) SLV_SWEEP(small_backward)(k, below, rows, l, d, xs, x)
 
-/* A run of such supernodes from step s on, up to one that is wider or to `end`. Returns the step
+/* A run of such supernodes from step s on, up to one that is wider. Returns the step
  * after the run and moves next_rows on. A function for runs, because a call for each supernode took
  * 3 % of the time of a solve. */
-SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, const sli_step *end,
+SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, const sli_reach *R,
                                                              const sl_int **next_rows,
                                                              const SLV_VALUE *L, double *x,
                                                              double *buf) {
     const sl_int *rows = *next_rows;
+    const sli_step *end = R->steps + R->count;
     while (s < end && s->width <= SLI_TILE) {
         const sl_int w = s->width, below = s->below;
         const SLV_VALUE *l = L + s->panel;
         double *xs = x + s->base;
         if (w == 1) {
-            s = SLV_SWEEP(forward_plain)(s, end, &rows, L, x);
+            s = SLV_SWEEP(forward_plain)(s, R, &rows, L, x);
             continue;
         }
         SLI_BY_WIDTH(SLI_FORWARD);
@@ -229,19 +254,21 @@ SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, 
     return s;
 }
 
-/* The same before step s, from `begin` on, in descending order. Returns the first step of the run.
+/* The same before step s, in descending order. Returns the first step of the run.
  */
-SLV_FUNCTION static const sli_step *
-SLV_SWEEP(backward_small)(const sli_step *s, const sli_step *begin, const sl_int **rows_end,
-                          const SLV_VALUE *L, const double *D, double *x) {
+SLV_FUNCTION static const sli_step *SLV_SWEEP(backward_small)(const sli_step *s, const sli_reach *R,
+                                                              const sl_int **rows_end,
+                                                              const SLV_VALUE *L, const double *D,
+                                                              double *x) {
     const sl_int *rows = *rows_end;
+    const sli_step *begin = R->steps;
     while (s > begin && s[-1].width <= SLI_TILE) {
         const sl_int w = s[-1].width, below = s[-1].below;
         const SLV_VALUE *l = L + s[-1].panel + sli_panel_size(w, below);
         const double *d = D + s[-1].column;
         double *xs = x + s[-1].base;
         if (w == 1) {
-            s = SLV_SWEEP(backward_plain)(s, begin, &rows, L, D, x);
+            s = SLV_SWEEP(backward_plain)(s, R, &rows, L, D, x);
             continue;
         }
         rows -= below;

@@ -37,16 +37,31 @@ enum {
     SLI_NRHS_KINDS = SLI_NRHS_16
 };
 
-/* x := L^-1 x over the steps in ascending order. rows: positions in x of the rows below, step after
- * step. L: as it is stored, 64-byte aligned. scratch: sli_sweep_scratch doubles for the tallest
- * and widest step, 64-byte aligned. */
-typedef void (*sli_forward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows,
-                                   const void *L, double *x, double *scratch);
+/* A compiled reach: its supernodes ascending, each from the first column needed, and the rows below
+ * them as indices into a compact vector that has the columns of the reach only. */
+typedef struct sli_reach {
+    sl_int count;           /* supernodes */
+    sl_int columns;         /* length of the compact vector */
+    sl_int tallest, widest; /* largest height and width, for the scratch */
+    sl_off n_rows;          /* length of rows */
+    sl_off entries;         /* doubles of L that a sweep reads */
+    const sli_step *steps;  /* count */
+    const sl_int *rows;     /* n_rows, step after step */
+    /* count: the rows below supernodes of one column, the panels of which follow each other; -1:
+     * wider ones. A sweep then reads 4 bytes of such a step. NULL: not known */
+    const sl_int *plain;
+} sli_reach;
 
-/* x := L'^-1 D^-1 x over the steps in descending order. rows_end: one past the last position of the
- * last step. */
-typedef void (*sli_backward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows_end,
-                                    const void *L, const double *D, double *x, double *scratch);
+/* Where it is not known, each step is read. */
+static const sl_int sli_not_plain[2] = {-1, -1};
+
+/* x := L^-1 x over the steps in ascending order. L: as it is stored, 64-byte aligned. scratch:
+ * sli_sweep_scratch doubles for the tallest and widest step, 64-byte aligned. */
+typedef void (*sli_forward_kernel)(const sli_reach *R, const void *L, double *x, double *scratch);
+
+/* x := L'^-1 D^-1 x over the steps in descending order. */
+typedef void (*sli_backward_kernel)(const sli_reach *R, const void *L, const double *D, double *x,
+                                    double *scratch);
 
 /* All sweeps over L of one type. */
 typedef struct sli_sweeps {

@@ -26,10 +26,12 @@
         } \
     }
 
-SLV_FUNCTION static void SLV_SWEEP(forward2)(sl_int count, const sli_step *s, const sl_int *rows,
-                                             const void *values, double *x, double *buf) {
+SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *values, double *x,
+                                             double *buf) {
     const SLV_VALUE *L = (const SLV_VALUE *)values;
-    for (; count > 0; count--, s++) {
+    const sli_step *s = R->steps, *end = s + R->count;
+    const sl_int *rows = R->rows;
+    for (; s < end; s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const size_t columns = 2 * (size_t)(w - first);
         const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
@@ -104,11 +106,12 @@ SLV_FUNCTION static void SLV_SWEEP(forward2)(sl_int count, const sli_step *s, co
     SLV_FNMA(a, t0, v0) \
     SLV_FNMA(a, t1, v1)
 
-SLV_FUNCTION static void SLV_SWEEP(backward2)(sl_int count, const sli_step *s,
-                                              const sl_int *rows_end, const void *values,
+SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *values,
                                               const double *D, double *x, double *buf) {
     const SLV_VALUE *L = (const SLV_VALUE *)values;
-    for (s += count; count > 0; count--) {
+    const sli_step *s = R->steps + R->count;
+    const sl_int *rows_end = R->rows + R->n_rows;
+    while (s > R->steps) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
         const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);

@@ -239,9 +239,9 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
     sli_symbolic_layout(S, &b, a->rows, a->entries);
     m.first = r->saved.first_array;
     m.last = r->saved.first_number;
-    m.head = sizeof *S;
+    m.head = sizeof *S + (r->is_mapped ? 0 : (size_t)S->n_supers * sizeof(sl_int));
     m.bytes = b.used;
-    if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *S) { /* untested: on 32 bits only */
+    if (b.overflow || b.used > SIZE_MAX / 2 - sizeof *S) { /* untested: on 32 bits only */
         return sli_refuse(SL_ERR_TOO_LARGE, "the analysis"); /* untested: the same */
     }
     status = sli_read_image(r, &m);
@@ -259,6 +259,10 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
         (r->checks != SL_LOAD_TRUSTED && !sli_check_analysis(S, a))) {
         sli_free(&r->allocator, m.block);
         return sli_damaged();
+    }
+    if (!r->is_mapped) {
+        S->plain = (sl_int *)(void *)(m.block + sizeof *S);
+        sli_fill_plain(S);
     }
     *out = (sl_symbolic *)(void *)m.block;
     **out = *S;

@@ -51,18 +51,20 @@ SLI_INLINE int sli_are_finite(const double *x, ptrdiff_t count) {
  * x is 0 at their null pivots. */
 static int sli_reach_is_finite(const sl_factor *F, const sli_reach *R, const double *x,
                                sl_int lanes) {
-    /* the last step is a root */
-    sl_int s = F->S->stats.symbolic.components == 1 && R->count > 0 ? R->count - 1 : 0;
+    const sl_symbolic *S = F->S;
+    const int is_full = R->count == S->n_supers;
+    sl_int s = R->count - 1; /* a root */
     int is_finite = 1;
     if (F->null.vectors > 1) {
         return sli_are_finite(x, (ptrdiff_t)R->columns * lanes);
     }
-    for (; s < R->count; s++) {
+    while (s >= 0) {
         const sli_step *step = &R->steps[s];
         if (step->up == -1) {
             is_finite &= sli_are_finite(
                 x + (ptrdiff_t)(step->base + sli_step_columns(step) - 1) * lanes, lanes);
         }
+        s = S->stats.symbolic.components == 1 ? -1 : is_full ? S->first_descendant[s] - 1 : s - 1;
     }
     return is_finite;
 }

@@ -348,6 +348,8 @@ static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sl
         }
     } else if (nrhs == 3) {
         sli_pack_rows(y, sli_rows_of(index, count, 4), B, at, 3);
+    } else if (nrhs == 1 && index == F->S->iperm && at.row == 1) {
+        sli_unpack_rows(y, at, B, sli_rows_of(F->S->perm, count, 1), 1);
     } else if (nrhs == 1) {
         sli_pack_rows(y, sli_rows_of(index, count, 1), B, at, 1);
     } else {

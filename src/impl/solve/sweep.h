@@ -43,8 +43,9 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
         if (sli_null_dot_next(F, &b, first, s, &dot)) {
             at = sli_reach_index_of(R, dot.null);
         }
-        tree.count = s + 1 - first;
-        tree.steps = R->steps + first;
+        tree.steps = R->steps;
+        tree.plain = R->plain;
+        sli_reach_cut(&tree, first, s + 1 - first);
         sli_forward_sweep(F, kind, &tree, v->y, v->scratch);
         if (at != -1) {
             memcpy(v->y + ((ptrdiff_t)at << kind), dot.sums, sizeof(double) << kind);

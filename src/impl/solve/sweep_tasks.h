@@ -254,8 +254,7 @@ static void sli_sweep_tasks_steps(const sli_sweep_tasks *t, sl_int first, sl_int
     const sl_symbolic *S = t->F->S;
     sli_reach R = t->q->forward;
     if (first <= last) {
-        R.count = last + 1 - first;
-        R.steps = S->steps + first;
+        sli_reach_cut(&R, first, last + 1 - first);
         R.rows = rows == NULL ? S->rows + S->rows_begin[first] : rows;
         sli_forward_sweep(t->F, SLI_NRHS_1, &R, t->y, scratch);
     }
@@ -265,8 +264,7 @@ static void sli_sweep_tasks_backward(const sli_sweep_tasks *t, sl_int first, sl_
                                      double *scratch) {
     const sl_symbolic *S = t->F->S;
     sli_reach R = t->q->backward;
-    R.count = last + 1 - first;
-    R.steps = S->steps + first;
+    sli_reach_cut(&R, first, last + 1 - first);
     R.rows = S->rows + S->rows_begin[first];
     R.n_rows = S->rows_begin[last + 1] - S->rows_begin[first];
     sli_backward(t->F, &R, SLI_NRHS_1, t->y, scratch);
