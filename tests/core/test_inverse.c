@@ -268,7 +268,7 @@ static void single_pairs(void **state) {
                 }
             }
         }
-        assert_true(local > 100 && swept > 50);
+        assert_true(local > 100 && swept > 40);
         free(b);
         free(x);
         factored_free(&y);

@@ -41,20 +41,49 @@ static void sli_find_other_children(sl_int n, const sl_int *parent, sl_int *othe
 }
 
 /* Finds the fundamental supernodes: runs of columns with the same structure, each the only child of
- * the next. The column count falls by one along a run. other: by sli_find_other_children. */
-static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts,
-                            const sl_int *other, sl_int *super_of, sli_amalgamation *g) {
+ * the next. The column count falls by one along a run. splits: roots of two columns are two
+ * supernodes. Returns the number of supernodes. */
+static sl_int sli_fundamental_find(sli_amalgamation *g, const sl_int *parent, const sl_int *counts,
+                                   const sl_int *other, int splits) {
+    const sl_int n = g->n;
     sl_int j, s = -1;
+    g->first[0] = 0;
     for (j = 0; j < n; j++) { /* without branches, which nothing would predict */
         const sl_int last = j - (j > 0);
+        const sl_int from = g->first[s + (s < 0)];
+        const int is_root = (counts[j] == 1) & (from == last) & splits;
         g->first[s + 1] = j;
-        s += ((parent[last] ^ j) | (other[j] + 1) | (counts[last] ^ (counts[j] + 1))) != 0;
-        super_of[j] = s;
+        s +=
+            ((parent[last] ^ j) | (other[j] + 1) | (counts[last] ^ (counts[j] + 1)) | is_root) != 0;
+        g->super_of[j] = s;
     }
+    g->first[s + 1] = n;
+    return s + 1;
+}
+
+/* Is there a root of two columns, which may be better apart, and a supernode of an odd number of
+ * columns? Without one the matrix may be complex, and keeps its pairs of columns. */
+static int sli_has_root_pairs(const sli_amalgamation *g, const sl_int *counts) {
+    sl_int s;
+    int has_odd = 0, has_pair = 0;
+    for (s = 0; s < g->count; s++) {
+        const sl_int width = g->first[s + 1] - g->first[s];
+        has_odd |= width & 1;
+        has_pair |= (width == 2) & (counts[g->first[s]] == 2);
+    }
+    return has_odd & has_pair;
+}
+
+/* Fills g with the fundamental supernodes. other: by sli_find_other_children. */
+static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts,
+                            const sl_int *other, sl_int *super_of, sli_amalgamation *g) {
+    sl_int s;
     g->n = n;
     g->super_of = super_of;
-    g->count = s + 1;
-    g->first[g->count] = n;
+    g->count = sli_fundamental_find(g, parent, counts, other, 0);
+    if (g->relaxes && sli_has_root_pairs(g, counts)) {
+        g->count = sli_fundamental_find(g, parent, counts, other, 1);
+    }
     for (s = 0; s < g->count; s++) {
         const sl_int last = g->first[s + 1] - 1;
         g->width[s] = g->first[s + 1] - g->first[s];
@@ -209,6 +238,47 @@ static sl_int sli_find_tops(sli_amalgamation *g, const sl_int *sequence, sl_int 
     return count;
 }
 
+/* Where a supernode has so many children of one column, they follow each other by their numbers of
+ * rows below, up to SLI_SORTED_ROWS: sweeps and assembly then foresee the ends of their loops. In
+ * the nearly diagonal KKT systems of lasso, support vectors and Huber fitting with 6000 points
+ * solves take 0.6 of the time. */
+#define SLI_SORTED_CHILDREN 64
+#define SLI_SORTED_ROWS 255
+
+/* The order of sibling supernodes: NULL, if it is that of their numbers. top: of each supernode;
+ * children: `count` of scratch; order: gets it. */
+static const sl_int *sli_sort_siblings(const sli_amalgamation *g, const sl_int *top,
+                                       const sl_int *tree, sl_int count, sl_int *children,
+                                       sl_int *order) {
+    sl_int begin[SLI_SORTED_ROWS + 2], s, k, pass, most = 0;
+    if (count <= SLI_SORTED_CHILDREN) {
+        return NULL;
+    }
+    memset(children, 0, (size_t)count * sizeof(sl_int));
+    memset(begin, 0, sizeof begin);
+    for (s = 0; s < count; s++) {
+        if (tree[s] != -1 && g->width[top[s]] == 1) {
+            most = sli_max(most, ++children[tree[s]]);
+        }
+    }
+    for (pass = 0; pass < 2 && most >= SLI_SORTED_CHILDREN; pass++) {
+        for (s = 0; s < count; s++) {
+            const int is_sorted =
+                tree[s] != -1 && g->width[top[s]] == 1 && children[tree[s]] >= SLI_SORTED_CHILDREN;
+            k = is_sorted ? sli_min(g->below[top[s]], SLI_SORTED_ROWS) : 0;
+            if (pass == 0) {
+                begin[k + 1]++;
+            } else {
+                order[begin[k]++] = s;
+            }
+        }
+        for (k = 0; k <= SLI_SORTED_ROWS && pass == 0; k++) {
+            begin[k + 1] += begin[k];
+        }
+    }
+    return most >= SLI_SORTED_CHILDREN ? order : NULL;
+}
+
 /* Numbers the supernodes in a postorder of their tree and makes their columns consecutive: order[k]
  * = the old number of the new column k. On return the arrays of g refer to the new numbers, and
  * g->count is the number of supernodes. Returns whether columns move; if not, there is
@@ -225,8 +295,10 @@ static int sli_number_supernodes(sli_amalgamation *g, const sl_int *sequence, sl
            *post = scratch + 2 * (size_t)n, *at = scratch + 3 * (size_t)n,
            *number = scratch + 4 * (size_t)n;
     const sl_int count = sli_find_tops(g, sequence, top, tree, at);
+    const sl_int *siblings =
+        sequence == NULL ? sli_sort_siblings(g, top, tree, count, at, order) : NULL;
     sl_int s, k, column = 0, before = 0, moves = sequence != NULL;
-    sli_postorder(tree, NULL, count, post, at, number);
+    sli_postorder(tree, siblings, count, post, at, number);
     for (k = 0; k < count; k++) {
         number[post[k]] = k;
         at[k] = column; /* where the next column of the supernode goes */
