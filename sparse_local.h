@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4ae5a8187bc2c11a
+ * FNV-1a of the lines after this comment, without the license: 5992ece1fc378852
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,28 +36,28 @@
  *   3078 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3118 impl/ base: the compiler, status, memory, sorting, threads
  *   4292 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5163 impl/ matrix: sparse matrices of the caller and of the library
- *   5798 impl/ ordering: fill-reducing orderings of a graph
- *  10409 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12512 impl/ factor: the numbers of L and D
- *  15839 impl/ solve: full and local solves
- *  17506 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19453 impl/ pivots: the order of the pivots by the values of a matrix
- *  19862 impl/ float: L and fronts in single precision
- *  20313 impl/ inverse: entries of the inverse, regions
- *  23353 impl/ change: a factor that follows changes of its matrix
- *  30099 impl/ dirichlet: rows fixed at given values
- *  30686 impl/ dirichlet: by a factor of all rows
- *  30895 impl/ io: files that are replaced only when they are complete
- *  31113 impl/ files: Matrix Market files, 64-bit indices
- *  31733 impl/ save: factors in files
- *  33727 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34412 impl/ batch: diagonals of many inverses
- *  34556 impl/ complex: complex Hermitian systems over real factors
- *  35103 impl/ complex: entries of the inverse
- *  35163 impl/ packs: the tables through which the core calls packs
- *  35211 impl/ last: undefine every internal macro
- *  35555 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5175 impl/ matrix: sparse matrices of the caller and of the library
+ *   5810 impl/ ordering: fill-reducing orderings of a graph
+ *  10421 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12621 impl/ factor: the numbers of L and D
+ *  15958 impl/ solve: full and local solves
+ *  17629 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19577 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19986 impl/ float: L and fronts in single precision
+ *  20437 impl/ inverse: entries of the inverse, regions
+ *  23483 impl/ change: a factor that follows changes of its matrix
+ *  30229 impl/ dirichlet: rows fixed at given values
+ *  30816 impl/ dirichlet: by a factor of all rows
+ *  31025 impl/ io: files that are replaced only when they are complete
+ *  31243 impl/ files: Matrix Market files, 64-bit indices
+ *  31863 impl/ save: factors in files
+ *  33861 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34546 impl/ batch: diagonals of many inverses
+ *  34690 impl/ complex: complex Hermitian systems over real factors
+ *  35237 impl/ complex: entries of the inverse
+ *  35297 impl/ packs: the tables through which the core calls packs
+ *  35345 impl/ last: undefine every internal macro
+ *  35691 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4354,11 +4354,23 @@ enum {
   SLI_NRHS_KINDS = SLI_NRHS_16
 };
 
-typedef void (*sli_forward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows,
-                   const void *L, double *x, double *scratch);
+typedef struct sli_reach {
+  sl_int count;
+  sl_int columns;
+  sl_int tallest, widest;
+  sl_off n_rows;
+  sl_off entries;
+  const sli_step *steps;
+  const sl_int *rows;
+  const sl_int *plain;
+} sli_reach;
 
-typedef void (*sli_backward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows_end,
-                  const void *L, const double *D, double *x, double *scratch);
+static const sl_int sli_not_plain[2] = {-1, -1};
+
+typedef void (*sli_forward_kernel)(const sli_reach *R, const void *L, double *x, double *scratch);
+
+typedef void (*sli_backward_kernel)(const sli_reach *R, const void *L, const double *D, double *x,
+                  double *scratch);
 
 typedef struct sli_sweeps {
   sli_forward_kernel forward[SLI_SWEEP_KINDS];
@@ -10444,6 +10456,7 @@ struct sl_symbolic {
   sl_off *scatter_begin;
   sl_int *scatter_from;
   sl_off *scatter_to;
+  sl_int *plain;
   sl_int n_nodes;
   sl_int *node_of;
   sl_int *node_parent, *node_level;
@@ -10748,19 +10761,44 @@ static void sli_find_other_children(sl_int n, const sl_int *parent, sl_int *othe
   }
 }
 
-static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts,
-              const sl_int *other, sl_int *super_of, sli_amalgamation *g) {
+static sl_int sli_fundamental_find(sli_amalgamation *g, const sl_int *parent, const sl_int *counts,
+                   const sl_int *other, int splits) {
+  const sl_int n = g->n;
   sl_int j, s = -1;
+  g->first[0] = 0;
   for (j = 0; j < n; j++) {
     const sl_int last = j - (j > 0);
+    const sl_int from = g->first[s + (s < 0)];
+    const int is_root = (counts[j] == 1) & (from == last) & splits;
     g->first[s + 1] = j;
-    s += ((parent[last] ^ j) | (other[j] + 1) | (counts[last] ^ (counts[j] + 1))) != 0;
-    super_of[j] = s;
+    s +=
+      ((parent[last] ^ j) | (other[j] + 1) | (counts[last] ^ (counts[j] + 1)) | is_root) != 0;
+    g->super_of[j] = s;
   }
+  g->first[s + 1] = n;
+  return s + 1;
+}
+
+static int sli_has_root_pairs(const sli_amalgamation *g, const sl_int *counts) {
+  sl_int s;
+  int has_odd = 0, has_pair = 0;
+  for (s = 0; s < g->count; s++) {
+    const sl_int width = g->first[s + 1] - g->first[s];
+    has_odd |= width & 1;
+    has_pair |= (width == 2) & (counts[g->first[s]] == 2);
+  }
+  return has_odd & has_pair;
+}
+
+static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts,
+              const sl_int *other, sl_int *super_of, sli_amalgamation *g) {
+  sl_int s;
   g->n = n;
   g->super_of = super_of;
-  g->count = s + 1;
-  g->first[g->count] = n;
+  g->count = sli_fundamental_find(g, parent, counts, other, 0);
+  if (g->relaxes && sli_has_root_pairs(g, counts)) {
+    g->count = sli_fundamental_find(g, parent, counts, other, 1);
+  }
   for (s = 0; s < g->count; s++) {
     const sl_int last = g->first[s + 1] - 1;
     g->width[s] = g->first[s + 1] - g->first[s];
@@ -10892,6 +10930,41 @@ static sl_int sli_find_tops(sli_amalgamation *g, const sl_int *sequence, sl_int 
   return count;
 }
 
+#define SLI_SORTED_CHILDREN 64
+#define SLI_SORTED_ROWS 255
+
+static const sl_int *sli_sort_siblings(const sli_amalgamation *g, const sl_int *top,
+                     const sl_int *tree, sl_int count, sl_int *children,
+                     sl_int *order) {
+  sl_int begin[SLI_SORTED_ROWS + 2], s, k, pass, most = 0;
+  if (count <= SLI_SORTED_CHILDREN) {
+    return NULL;
+  }
+  memset(children, 0, (size_t)count * sizeof(sl_int));
+  memset(begin, 0, sizeof begin);
+  for (s = 0; s < count; s++) {
+    if (tree[s] != -1 && g->width[top[s]] == 1) {
+      most = sli_max(most, ++children[tree[s]]);
+    }
+  }
+  for (pass = 0; pass < 2 && most >= SLI_SORTED_CHILDREN; pass++) {
+    for (s = 0; s < count; s++) {
+      const int is_sorted =
+        tree[s] != -1 && g->width[top[s]] == 1 && children[tree[s]] >= SLI_SORTED_CHILDREN;
+      k = is_sorted ? sli_min(g->below[top[s]], SLI_SORTED_ROWS) : 0;
+      if (pass == 0) {
+        begin[k + 1]++;
+      } else {
+        order[begin[k]++] = s;
+      }
+    }
+    for (k = 0; k <= SLI_SORTED_ROWS && pass == 0; k++) {
+      begin[k + 1] += begin[k];
+    }
+  }
+  return most >= SLI_SORTED_CHILDREN ? order : NULL;
+}
+
 static int sli_number_supernodes(sli_amalgamation *g, const sl_int *sequence, sl_int *order,
                  sl_int *scratch) {
   const sl_int n = g->n;
@@ -10899,8 +10972,10 @@ static int sli_number_supernodes(sli_amalgamation *g, const sl_int *sequence, sl
        *post = scratch + 2 * (size_t)n, *at = scratch + 3 * (size_t)n,
        *number = scratch + 4 * (size_t)n;
   const sl_int count = sli_find_tops(g, sequence, top, tree, at);
+  const sl_int *siblings =
+    sequence == NULL ? sli_sort_siblings(g, top, tree, count, at, order) : NULL;
   sl_int s, k, column = 0, before = 0, moves = sequence != NULL;
-  sli_postorder(tree, NULL, count, post, at, number);
+  sli_postorder(tree, siblings, count, post, at, number);
   for (k = 0; k < count; k++) {
     number[post[k]] = k;
     at[k] = column;
@@ -11222,6 +11297,20 @@ static void sli_fill_structure(const sli_analysis *w, const sl_symbolic *S) {
   }
 }
 
+static void sli_fill_plain(sl_symbolic *S) {
+  sl_int s, count = 0, padded = 0;
+  sl_off end = -1;
+  for (s = 0; s < S->n_supers && S->plain != NULL; s++) {
+    const sli_step *step = &S->steps[s];
+    const int is_plain = step->width == 1;
+    S->plain[s] = is_plain ? step->below : -1;
+    padded |= is_plain && end >= 0 && step->panel != end;
+    end = is_plain ? step->panel + 1 + step->below : -1;
+    count += is_plain;
+  }
+  S->plain = !padded && 2 * (int64_t)count > S->n_supers ? S->plain : NULL;
+}
+
 static void sli_fill_steps(sl_symbolic *S) {
   sl_int s;
   S->tallest = 0;
@@ -11283,6 +11372,8 @@ typedef struct sli_top {
   int is_begun, is_loading, is_loaded, is_finishing;
 } sli_top;
 
+enum { SLI_PLAIN_NOT, SLI_PLAIN, SLI_PLAIN_DIRECT, SLI_PLAIN_PASSED };
+
 typedef struct sli_schedule {
   sl_int workers;
   sl_int n_tasks, n_tops, n_bundles;
@@ -11343,9 +11434,10 @@ static int sli_is_plain(const sl_symbolic *S, sl_int s) {
 }
 
 SLI_INLINE sl_off sli_passed_size(const sli_schedule *p, const sl_symbolic *S, sl_int s) {
-  return p->is_plain[s] == 0   ? sli_update_size(&S->steps[s])
-       : p->is_plain[s] == 1 ? 0
-                 : SLI_TILE * (sl_off)sli_tiles(1 + S->steps[s].below);
+  return p->is_plain[s] == SLI_PLAIN_NOT ? sli_update_size(&S->steps[s])
+       : p->is_plain[s] != SLI_PLAIN_PASSED
+         ? 0
+         : SLI_TILE * (sl_off)sli_tiles(1 + S->steps[s].below);
 }
 
 SLI_INLINE double sli_front_flops(const sli_step *s) {
@@ -11556,12 +11648,27 @@ static double sli_schedule_gain(const sl_symbolic *S, const sli_schedule_work *w
   return longest > 0.0 ? total / longest : 1.0; /* untested: fronts have a cost */
 }
 
+static int sli_is_direct(const sl_symbolic *S, sl_int s) {
+  const sl_off first = S->scatter_begin[s], count = 1 + (sl_off)S->steps[s].below;
+  sl_off m = 0;
+  if (S->nnz_input < 0 || S->scatter_begin[s + 1] - first != count) {
+    return 0;
+  }
+  while (m < count && S->scatter_to[first + m] == S->steps[s].panel + m) {
+    m++;
+  }
+  return m == count;
+}
+
 static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, int plain,
                 sli_schedule_work *w) {
   const sli_forest f = {S->n_supers, S->super_parent, S->first_descendant};
   sl_int s;
   for (s = 0; s < S->n_supers; s++) {
-    p->is_plain[s] = (unsigned char)(sli_is_plain(S, s) ? plain : 0);
+    p->is_plain[s] =
+      (unsigned char)(plain == SLI_PLAIN_NOT || !sli_is_plain(S, s) ? SLI_PLAIN_NOT
+              : plain == SLI_PLAIN && sli_is_direct(S, s)   ? SLI_PLAIN_DIRECT
+                                      : plain);
   }
   if (p->workers > 1) {
     for (s = 0; s < S->n_supers; s++) {
@@ -11775,9 +11882,9 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     sequence = keeps_order ? w->new_of : NULL;
     sli_find_other_children(n, w->parent, more);
   }
+  w->amalgamation.relaxes = opt == NULL || opt->relaxation != SL_RELAXATION_NONE;
   sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
   stats->symbolic.supernodes_fundamental = w->amalgamation.count;
-  w->amalgamation.relaxes = opt == NULL || opt->relaxation != SL_RELAXATION_NONE;
   w->amalgamation.is_for_one_factor = opt != NULL && opt->purpose == SL_PURPOSE_ONE_FACTOR;
   if (w->pairs != NULL) {
     sli_analysis_tie(w);
@@ -11913,6 +12020,7 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) 
   sli_fill_descendants(S);
   sli_fill_structure(w, S);
   sli_fill_steps(S);
+  sli_fill_plain(S);
   sli_fill_septree(S, &w->septree);
   sli_fill_identity(S, stats->symbolic.triangle);
   sli_analyze_stats(S, w->scratch, stats);
@@ -11922,7 +12030,7 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
                   sl_stats *stats) {
   sli_block b = {NULL, 0, 0};
   sl_off rows = 0;
-  sl_int s;
+  sl_int s, plain = 0;
   sl_status status = SL_OK;
   draft->n = w->n;
   draft->n_supers = w->amalgamation.count;
@@ -11934,10 +12042,14 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
   stats->symbolic.nnz_a = w->columns.begin[w->n];
   for (s = 0; s < w->amalgamation.count; s++) {
     rows += w->amalgamation.below[s];
+    plain += w->amalgamation.width[s] == 1;
   }
   SLI_LAYOUT(&b, &draft->allocator, status) {
     (void)sli_take(&b, 1, sizeof(sl_symbolic));
     sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a);
+    if (2 * plain > draft->n_supers) {
+      draft->plain = SLI_TAKE(&b, sl_int, draft->n_supers);
+    }
     stats->symbolic.bytes = b.used;
   }
   if (status != SL_OK) {
@@ -12213,16 +12325,6 @@ static sl_status sli_pattern_check(const sl_symbolic *S, const sl_csc *A, int ne
 
 /* src/impl/analysis/reach.h: the reach of a set of columns: their paths to the roots, compiled for the kernels */
 
-typedef struct sli_reach {
-  sl_int count;
-  sl_int columns;
-  sl_int tallest, widest;
-  sl_off n_rows;
-  sl_off entries;
-  const sli_step *steps;
-  const sl_int *rows;
-} sli_reach;
-
 static sli_reach sli_reach_all(const sl_symbolic *S) {
   sli_reach R;
   R.count = S->n_supers;
@@ -12233,7 +12335,14 @@ static sli_reach sli_reach_all(const sl_symbolic *S) {
   R.entries = S->panel_begin[S->n_supers];
   R.steps = S->steps;
   R.rows = S->rows;
+  R.plain = S->plain;
   return R;
+}
+
+SLI_INLINE void sli_reach_cut(sli_reach *R, sl_int first, sl_int count) {
+  R->steps += first;
+  R->plain = R->plain == NULL ? NULL : R->plain + first;
+  R->count = count;
 }
 
 typedef struct sli_region_extent {
@@ -12774,11 +12883,11 @@ SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) 
 
 SLI_INLINE void sli_forward_sweep(const sl_factor *F, int kind, const sli_reach *R, double *x,
                   double *scratch) {
-  F->sweeps->forward[kind](R->count, R->steps, R->rows, F->values, x, scratch);
+  F->sweeps->forward[kind](R, F->values, x, scratch);
 }
 SLI_INLINE void sli_backward_sweep(const sl_factor *F, int kind, const sli_reach *R,
                    const double *D, double *x, double *scratch) {
-  F->sweeps->backward[kind](R->count, R->steps, R->rows + R->n_rows, F->values, D, x, scratch);
+  F->sweeps->backward[kind](R, F->values, D, x, scratch);
 }
 
 SLI_INLINE double sli_entry(const sl_factor *F, sl_off at) {
@@ -12797,10 +12906,14 @@ SLI_INLINE void sli_entry_clear(sl_factor *F, sl_off at) {
 
 #define SLI_ENTRIES_AHEAD 32
 
+SLI_INLINE uint64_t sli_mark_bits(uint64_t bits, uint64_t key) {
+  return sli_fold(bits ^ SLI_HASH_1, key);
+}
+
 SLI_INLINE uint64_t sli_mark_entry(double a, sl_off place) {
   uint64_t bits;
   memcpy(&bits, &a, sizeof bits);
-  return sli_fold(bits ^ SLI_HASH_1, (uint64_t)place * SLI_HASH_3 + SLI_HASH_2);
+  return sli_mark_bits(bits, (uint64_t)place * SLI_HASH_3 + SLI_HASH_2);
 }
 
 #define SLI_MARK_BEGIN SLI_HASH_4
@@ -12937,21 +13050,19 @@ typedef struct sli_spread {
 } sli_spread;
 
 static sli_spread sli_spread_of(const double *D, sl_int n) {
-  sli_spread r = {0, (double)INFINITY, 0.0}, s = r;
+  uint64_t least = UINT64_MAX, most = 0, negative = 0, bits;
+  sli_spread r;
   sl_int k;
-  for (k = 0; k < n; k += 2) {
-    const double a = D[k], b = D[k + 1 < n ? k + 1 : k];
-    const double size_a = fabs(a), size_b = fabs(b);
-    r.positive += a > 0.0;
-    s.positive += (b > 0.0) & (k + 1 < n);
-    r.least = size_a < r.least ? size_a : r.least;
-    s.least = size_b < s.least ? size_b : s.least;
-    r.most = size_a > r.most ? size_a : r.most;
-    s.most = size_b > s.most ? size_b : s.most;
+  for (k = 0; k < n; k++) {
+    memcpy(&bits, &D[k], sizeof bits);
+    negative += bits >> 63;
+    bits &= UINT64_MAX >> 1;
+    least = bits < least ? bits : least;
+    most = bits > most ? bits : most;
   }
-  r.positive += s.positive;
-  r.least = s.least < r.least ? s.least : r.least;
-  r.most = s.most > r.most ? s.most : r.most;
+  memcpy(&r.least, &least, sizeof least);
+  memcpy(&r.most, &most, sizeof most);
+  r.positive = n - (sl_int)negative;
   return r;
 }
 
@@ -14725,25 +14836,29 @@ SLI_COLD static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl
 static int sli_growth_check(sl_factor *F, sli_failure *failure) {
   const sl_symbolic *S = F->S;
   sl_factor_info *info = &F->stats.factor;
-  double entry = 0.0, magnitude = 0.0, growth;
-  sl_int s, first = 0, suspects = 0;
-  for (s = 0; s < S->n_supers; s++) {
-    const sli_extent *own = &F->extents[s];
-    entry = own->entry > entry ? own->entry : entry;
-    magnitude = own->magnitude > magnitude ? own->magnitude : magnitude;
-    suspects |= own->suspects != 0;
-    if (S->super_parent[s] == -1) {
-      growth = sli_growth(magnitude, entry);
-      info->growth = fmax(info->growth, growth);
-      info->entry_max = fmax(info->entry_max, entry);
-      if (growth > F->growth_limit && failure->status == SL_OK) {
-        (void)sli_growth_refuse(F, first, s, entry, failure);
-      }
-      entry = magnitude = 0.0;
-      first = s + 1;
+  sl_int s, first, root, suspects = 0;
+  int has_refused = 0;
+  for (root = S->n_supers - 1; root >= 0; root = first - 1) {
+    uint64_t bits[2], most[2] = {0, 0};
+    double entry, magnitude, growth;
+    first = S->first_descendant[root];
+    for (s = first; s <= root; s++) {
+      memcpy(bits, &F->extents[s], sizeof bits);
+      most[0] = bits[0] > most[0] ? bits[0] : most[0];
+      most[1] = bits[1] > most[1] ? bits[1] : most[1];
+      suspects |= F->extents[s].suspects;
+    }
+    memcpy(&entry, &most[0], sizeof entry);
+    memcpy(&magnitude, &most[1], sizeof magnitude);
+    growth = sli_growth(magnitude, entry);
+    info->growth = growth > info->growth ? growth : info->growth;
+    info->entry_max = entry > info->entry_max ? entry : info->entry_max;
+    if (growth > F->growth_limit && (failure->status == SL_OK || has_refused)) {
+      has_refused = 1;
+      (void)sli_growth_refuse(F, first, root, entry, failure);
     }
   }
-  return suspects;
+  return suspects != 0;
 }
 
 /* src/impl/factor/null_judge.h: after a factorization: are its smallest pivots null, or right? */
@@ -15083,7 +15198,11 @@ static sl_status sli_factor_schedule(sl_factor *F) {
     sli_schedule_work_layout(&w, &b, S->n_supers, F->schedule.workers);
   }
   if (status == SL_OK) {
-    sli_schedule_fill(&F->schedule, S, sli_is_single(F) ? 0 : 1 + sli_is_float(F), &w);
+    sli_schedule_fill(&F->schedule, S,
+              sli_is_single(F)  ? SLI_PLAIN_NOT
+              : sli_is_float(F) ? SLI_PLAIN_PASSED
+                      : SLI_PLAIN,
+              &w);
     sli_free(&F->allocator, b.base);
     b.base = NULL;
     b.used = 0;
@@ -16235,6 +16354,8 @@ static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sl
     }
   } else if (nrhs == 3) {
     sli_pack_rows(y, sli_rows_of(index, count, 4), B, at, 3);
+  } else if (nrhs == 1 && index == F->S->iperm && at.row == 1) {
+    sli_unpack_rows(y, at, B, sli_rows_of(F->S->perm, count, 1), 1);
   } else if (nrhs == 1) {
     sli_pack_rows(y, sli_rows_of(index, count, 1), B, at, 1);
   } else {
@@ -16608,17 +16729,20 @@ SLI_INLINE int sli_are_finite(const double *x, ptrdiff_t count) {
 
 static int sli_reach_is_finite(const sl_factor *F, const sli_reach *R, const double *x,
                  sl_int lanes) {
-  sl_int s = F->S->stats.symbolic.components == 1 && R->count > 0 ? R->count - 1 : 0;
+  const sl_symbolic *S = F->S;
+  const int is_full = R->count == S->n_supers;
+  sl_int s = R->count - 1;
   int is_finite = 1;
   if (F->null.vectors > 1) {
     return sli_are_finite(x, (ptrdiff_t)R->columns * lanes);
   }
-  for (; s < R->count; s++) {
+  while (s >= 0) {
     const sli_step *step = &R->steps[s];
     if (step->up == -1) {
       is_finite &= sli_are_finite(
         x + (ptrdiff_t)(step->base + sli_step_columns(step) - 1) * lanes, lanes);
     }
+    s = S->stats.symbolic.components == 1 ? -1 : is_full ? S->first_descendant[s] - 1 : s - 1;
   }
   return is_finite;
 }
@@ -16852,8 +16976,7 @@ static void sli_sweep_tasks_steps(const sli_sweep_tasks *t, sl_int first, sl_int
   const sl_symbolic *S = t->F->S;
   sli_reach R = t->q->forward;
   if (first <= last) {
-    R.count = last + 1 - first;
-    R.steps = S->steps + first;
+    sli_reach_cut(&R, first, last + 1 - first);
     R.rows = rows == NULL ? S->rows + S->rows_begin[first] : rows;
     sli_forward_sweep(t->F, SLI_NRHS_1, &R, t->y, scratch);
   }
@@ -16863,8 +16986,7 @@ static void sli_sweep_tasks_backward(const sli_sweep_tasks *t, sl_int first, sl_
                    double *scratch) {
   const sl_symbolic *S = t->F->S;
   sli_reach R = t->q->backward;
-  R.count = last + 1 - first;
-  R.steps = S->steps + first;
+  sli_reach_cut(&R, first, last + 1 - first);
   R.rows = S->rows + S->rows_begin[first];
   R.n_rows = S->rows_begin[last + 1] - S->rows_begin[first];
   sli_backward(t->F, &R, SLI_NRHS_1, t->y, scratch);
@@ -16995,8 +17117,9 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
     if (sli_null_dot_next(F, &b, first, s, &dot)) {
       at = sli_reach_index_of(R, dot.null);
     }
-    tree.count = s + 1 - first;
-    tree.steps = R->steps + first;
+    tree.steps = R->steps;
+    tree.plain = R->plain;
+    sli_reach_cut(&tree, first, s + 1 - first);
     sli_forward_sweep(F, kind, &tree, v->y, v->scratch);
     if (at != -1) {
       memcpy(v->y + ((ptrdiff_t)at << kind), dot.sums, sizeof(double) << kind);
@@ -17642,6 +17765,7 @@ static void sli_parts_apply(const sli_parts *p, const sli_vectors *v, int kind) 
   }
   if (!p->is_product && p->parts & SL_PART_LT) {
     R.steps = p->steps;
+    R.plain = NULL;
     sli_backward_sweep(F, kind, &R, p->ones, v->x, v->scratch);
   }
 }
@@ -22693,21 +22817,27 @@ static void sli_region_apply(const sl_region *R, const sli_ending_use *boundary,
   const sl_int n = R->extent.n_rows;
   const size_t size = (size_t)n << kind;
   double *vectors = v->product;
+  sli_reach reach;
   sl_int first;
   if (n == 0) {
     return;
   }
+  memset(&reach, 0, sizeof reach);
+  reach.count = 1;
   memcpy(vectors, v->y, size * sizeof(double));
   memset(vectors + size, 0, size * sizeof(double));
   memcpy(vectors + 2 * size, v->y, size * sizeof(double));
   for (first = 0; first < n; first += SLI_REGION_COLUMNS) {
     const sli_step step = sli_region_step(R, first);
+    reach.steps = &step;
+    reach.n_rows = step.below;
     if (boundary->b[first / SLI_REGION_COLUMNS]) {
-      sweeps->forward[kind](1, &step, R->relative + first, R->Z, vectors, v->scratch);
+      reach.rows = R->relative + first;
+      sweeps->forward[kind](&reach, R->Z, vectors, v->scratch);
     }
     if (boundary->x[first / SLI_REGION_COLUMNS]) {
-      sweeps->backward[kind](1, &step, R->relative + n, R->Z, sli_ones, vectors + size,
-                   v->scratch);
+      reach.rows = R->relative + n - step.below;
+      sweeps->backward[kind](&reach, R->Z, sli_ones, vectors + size, v->scratch);
     }
   }
   memcpy(v->x, vectors + size, size * sizeof(double));
@@ -33168,9 +33298,9 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
   sli_symbolic_layout(S, &b, a->rows, a->entries);
   m.first = r->saved.first_array;
   m.last = r->saved.first_number;
-  m.head = sizeof *S;
+  m.head = sizeof *S + (r->is_mapped ? 0 : (size_t)S->n_supers * sizeof(sl_int));
   m.bytes = b.used;
-  if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *S) { /* untested: on 32 bits only */
+  if (b.overflow || b.used > SIZE_MAX / 2 - sizeof *S) { /* untested: on 32 bits only */
     return sli_refuse(SL_ERR_TOO_LARGE, "the analysis"); /* untested: the same */
   }
   status = sli_read_image(r, &m);
@@ -33188,6 +33318,10 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
     (r->checks != SL_LOAD_TRUSTED && !sli_check_analysis(S, a))) {
     sli_free(&r->allocator, m.block);
     return sli_damaged();
+  }
+  if (!r->is_mapped) {
+    S->plain = (sl_int *)(void *)(m.block + sizeof *S);
+    sli_fill_plain(S);
   }
   *out = (sl_symbolic *)(void *)m.block;
   **out = *S;
@@ -35467,6 +35601,8 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_REGION_COLUMNS
 #undef SLI_REGION_PASSES
 #undef SLI_REGION_DETOUR
+#undef SLI_SORTED_CHILDREN
+#undef SLI_SORTED_ROWS
 #undef SLI_ZEROS_MOST
 #undef SLI_COST_PLAIN
 #undef SLI_COST_PLAIN_ROW
@@ -35680,29 +35816,30 @@ static sl_status SLF_NAME(front_load)(sl_factor *F, const sli_source *from, cons
 static void sli_plain_assemble(const sli_front *f, const double *l, double d,
                  const sl_int *relative, sl_int first, sl_int last) {
   const sl_int w = f->width, whole = w / SLI_TILE;
-  const sl_int inner =
-    last == 0 || relative[last - 1] < w ? last : sli_lower_bound(relative, last, w);
+  double *magnitude = f->magnitude;
+  double *const panel = f->panel, *const update = f->update;
   sl_int r, k;
   for (r = first; r < last; r++) {
-    const sl_int row = relative[r], tile = row / SLI_TILE, end = sli_min(inner, r + 1);
+    const uint32_t row = (uint32_t)relative[r], lane = row % SLI_TILE;
+    const sl_int tile = (sl_int)(row / SLI_TILE);
     const double x = l[r] * d;
-    double *to = f->panel + sli_tile_offset(w, tile) + row % SLI_TILE;
-    for (k = 0; k < end; k++) {
+    double *to = panel + sli_tile_offset(w, tile) + lane;
+    for (k = 0; k <= r && relative[k] < w; k++) {
       to[SLI_TILE * (ptrdiff_t)relative[k]] -= x * l[k];
     }
     if (k <= r) {
-      to = f->update + sli_triangle_offset(tile - whole) + row % SLI_TILE;
+      to = update + sli_triangle_offset(tile - whole) + lane;
       for (; k <= r; k++) {
         to[SLI_TILE * (ptrdiff_t)(relative[k] - SLI_TILE * whole)] -= x * l[k];
       }
     }
-    f->magnitude[row] += fabs(x * l[r]);
+    magnitude[row] += fabs(x * l[r]);
   }
 }
 
 SLI_INLINE double *sli_plain_column(const sl_factor *F, sl_int s, sl_int worker) {
-  return F->schedule.is_plain[s] == 1 ? (double *)F->values + F->S->steps[s].panel
-                    : sli_double_update_matrix(F, s, worker);
+  return F->schedule.is_plain[s] != SLI_PLAIN_PASSED ? (double *)F->values + F->S->steps[s].panel
+                             : sli_double_update_matrix(F, s, worker);
 }
 
 SLI_INLINE void sli_plain_take(const sl_factor *F, sl_int c, sl_int worker, double *pivot,
@@ -35721,36 +35858,92 @@ SLI_INLINE void sli_plain_take(const sl_factor *F, sl_int c, sl_int worker, doub
   }
 }
 
-SLI_INLINE int sli_plain_load(const sl_factor *F, const sli_source *from, sl_int s, double *l) {
-  const sl_symbolic *S = F->S;
-  const sl_off first = S->scatter_begin[s], count = S->scatter_begin[s + 1] - first;
-  const sl_off ahead = S->scatter_begin[S->n_supers] - SLI_ENTRIES_AHEAD - first;
-  const sl_int *at = S->scatter_from + first;
-  const sl_off *to = S->scatter_to + first, begin = S->steps[s].panel;
-  double largest = 0.0;
-  uint64_t mark = SLI_MARK_BEGIN;
-  sl_off m, wrong = 0;
-  if (from->A == NULL || count != 1 + S->steps[s].below) {
-    return 0;
+SLI_INLINE uint64_t sli_plain_mark(const double *x, const sl_int *at, sl_int count, double *most) {
+  uint64_t mark = SLI_MARK_BEGIN, place = SLI_HASH_2, largest = 0;
+  sl_int m;
+  for (m = 0; m < count; m++, place += SLI_HASH_3) {
+    uint64_t bits;
+    memcpy(&bits, &x[at[m]], sizeof bits);
+    mark += sli_mark_bits(bits, place);
+    bits &= UINT64_MAX >> 1;
+    largest = bits > largest ? bits : largest;
   }
-  for (m = 0; m < count; m++) {
-    const double a = from->A->x[at[m]], size = fabs(a);
-    if (m < ahead) {
-      SLI_PREFETCH(from->A->x + at[m + SLI_ENTRIES_AHEAD], 0);
+  memcpy(most, &largest, sizeof largest);
+  return mark;
+}
+
+SLI_INLINE int sli_plain_runs(const sl_factor *F, const sli_source *from) {
+  return from->A != NULL && F->work.copied == NULL && F->history.marks != NULL &&
+       !F->rule.replaces;
+}
+
+typedef struct sli_plain_work {
+  const double *x;
+  const sl_int *at;
+  const sl_int *low;
+  const sli_step *steps;
+  const unsigned char *is_plain;
+  sli_extent *extents;
+  uint64_t *marks;
+  double *L, *D;
+  double tolerance;
+} sli_plain_work;
+
+SLI_ALWAYS_INLINE int sli_plain_regular(const sl_factor *F, const sli_plain_work *w, sl_int s,
+                    sl_int below, sl_int worker) {
+  const sl_int first = w->low[s], k = w->steps[s].column;
+  const double *x = w->x;
+  const sl_int *at = w->at;
+  double *l = w->L + w->steps[s].panel, pivot = 0.0 + x[*at], magnitude = fabs(pivot), size;
+  sli_extent *extent = &w->extents[s];
+  sl_int c, m;
+  w->marks[s] = sli_plain_mark(x, at, below + 1, &extent->entry);
+  for (c = s - 1; c >= first; c = w->low[c] - 1) {
+    if (w->is_plain[c]) {
+      const double own = w->L[w->steps[c].panel + 1];
+      const double product = own * w->D[w->steps[c].column] * own;
+      pivot -= product;
+      magnitude += fabs(product);
+    } else {
+      sli_plain_take(F, c, worker, &pivot, &magnitude);
     }
-    wrong |= (to[m] - begin - m) | (sl_off) !(size <= DBL_MAX);
-    largest = size > largest ? size : largest;
-    mark += sli_mark_entry(a, m);
-    l[m] = 0.0 + a;
   }
-  F->extents[s].entry = largest;
-  F->extents[s].magnitude = 0.0;
-  F->extents[s].pivot = -1;
-  F->extents[s].suspects = 0;
-  if (F->history.marks != NULL) {
-    F->history.marks[s] = mark;
+  *l = 0.0;
+  for (m = 1; m <= below; m++) {
+    l[m] = (0.0 + x[at[m]]) / pivot;
   }
-  return wrong == 0;
+  size = fabs(pivot);
+  w->D[k] = pivot;
+  extent->magnitude = magnitude;
+  extent->pivot = k;
+  extent->suspects = 0;
+  return (size > w->tolerance * magnitude) & (size <= DBL_MAX) & (extent->entry <= DBL_MAX);
+}
+
+SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl_int s, sl_int last,
+                     sl_int worker) {
+  const sl_symbolic *S = F->S;
+  sli_plain_work w;
+  w.x = x;
+  w.at = S->scatter_from + S->scatter_begin[s];
+  w.low = S->first_descendant;
+  w.steps = S->steps;
+  w.is_plain = F->schedule.is_plain;
+  w.extents = F->extents;
+  w.marks = F->history.marks;
+  w.L = (double *)F->values;
+  w.D = F->D;
+  w.tolerance = F->rule.null_tolerance > 0.0 ? F->rule.null_tolerance : 0.0;
+  for (; s <= last && w.is_plain[s] == SLI_PLAIN_DIRECT; s++) {
+    const sl_int below = w.steps[s].below;
+    const int is_regular = below == 1 ? sli_plain_regular(F, &w, s, 1, worker)
+                      : sli_plain_regular(F, &w, s, below, worker);
+    if (!is_regular) {
+      break;
+    }
+    w.at += 1 + below;
+  }
+  return s;
 }
 
 SLI_NOINLINE static sl_status sli_plain_store(const sl_factor *F, sl_int s, sl_int worker,
@@ -35774,11 +35967,9 @@ static sl_status sli_plain_factor(sl_factor *F, const sli_source *from, sl_int s
   double *l = sli_plain_column(F, s, worker), pivot, magnitude;
   sl_status status;
   sl_int c, r;
-  if (!sli_plain_load(F, from, s, l)) {
-    memset(l, 0, (size_t)(1 + below) * sizeof(double));
-    if (sli_double_panel_load(F, from, s, l, failure) != SL_OK) {
-      return failure->status;
-    }
+  memset(l, 0, (size_t)(1 + below) * sizeof(double));
+  if (sli_double_panel_load(F, from, s, l, failure) != SL_OK) {
+    return failure->status;
   }
   pivot = *l;
   magnitude = fabs(pivot);
@@ -35808,10 +35999,8 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
     const sl_int first = t0 == 0 ? 0 : sli_lower_bound(relative, child->below, SLI_TILE * t0);
     const sl_int last =
       t1 == tiles ? child->below : sli_lower_bound(relative, child->below, SLI_TILE * t1);
-    const SLF_VALUE *from = SLF_NAME(update_matrix)(F, c, worker);
-    const sl_off magnitudes = child->width % SLI_TILE +
-                  sli_triangle_offset(sli_update_tiles(child->width, child->below));
-    const SLF_VALUE *magnitude = from + (magnitudes >> SLF_HALF);
+    const SLF_VALUE *from, *magnitude;
+    sl_off magnitudes;
 #if !SLF_SINGLE && !SLF_HALF
     if (F->schedule.is_plain[c]) {
       sli_plain_assemble(f, sli_plain_column(F, c, worker) + 1, F->D[child->column], relative,
@@ -35819,6 +36008,10 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
       continue;
     }
 #endif
+    from = SLF_NAME(update_matrix)(F, c, worker);
+    magnitudes = child->width % SLI_TILE +
+           sli_triangle_offset(sli_update_tiles(child->width, child->below));
+    magnitude = from + (magnitudes >> SLF_HALF);
     F->front->assemble(f, from, child->width % SLI_TILE, relative, child->below, first, last);
     for (k = first; k < last; k += 1 + SLF_HALF) {
       SLF_OF(f, magnitude)[relative[k]] += magnitude[k >> SLF_HALF];
@@ -35907,6 +36100,14 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   sl_status status = SL_OK;
   sl_int s;
   for (s = first; s <= last && status == SL_OK; s++) {
+#if !SLF_SINGLE && !SLF_HALF
+    if (F->schedule.is_plain[s] == SLI_PLAIN_DIRECT && sli_plain_runs(F, from)) {
+      s = sli_plain_run(F, from->A->x, s, last, worker);
+      if (s > last) {
+        break;
+      }
+    }
+#endif
     if (sli_is_copied(F, s)) {
       F->work.copied->copy(F, s, worker);
 #if !SLF_SINGLE && !SLF_HALF
@@ -38039,10 +38240,12 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(tile_backward)(const SLV_VALUE *l, double
     } \
   }
 
-SLV_FUNCTION static void SLV_SWEEP(forward2)(sl_int count, const sli_step *s, const sl_int *rows,
-                       const void *values, double *x, double *buf) {
+SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *values, double *x,
+                       double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
-  for (; count > 0; count--, s++) {
+  const sli_step *s = R->steps, *end = s + R->count;
+  const sl_int *rows = R->rows;
+  for (; s < end; s++) {
     const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const size_t columns = 2 * (size_t)(w - first);
     const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
@@ -38115,11 +38318,12 @@ SLV_FUNCTION static void SLV_SWEEP(forward2)(sl_int count, const sli_step *s, co
   SLV_FNMA(a, t0, v0) \
   SLV_FNMA(a, t1, v1)
 
-SLV_FUNCTION static void SLV_SWEEP(backward2)(sl_int count, const sli_step *s,
-                        const sl_int *rows_end, const void *values,
+SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *values,
                         const double *D, double *x, double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
-  for (s += count; count > 0; count--) {
+  const sli_step *s = R->steps + R->count;
+  const sl_int *rows_end = R->rows + R->n_rows;
+  while (s > R->steps) {
     const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const sl_int padded = SLI_TILE * sli_tiles(height);
     const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
@@ -38348,32 +38552,53 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
 }
 
 SLV_FUNCTION SLI_INLINE const sli_step *SLV_SWEEP(forward_plain)(const sli_step *s,
-                                 const sli_step *end,
+                                 const sli_reach *R,
                                  const sl_int **next_rows,
                                  const SLV_VALUE *L, double *x) {
+  const sl_int *plain = R->plain == NULL ? sli_not_plain : R->plain + (s - R->steps);
+  const sl_int *last = R->plain == NULL ? sli_not_plain + 2 : R->plain + R->count;
   const sl_int *rows = *next_rows;
-  for (; s < end && s->width == 1; s++) {
-    const SLV_VALUE *l = L + s->panel + 1;
-    const sl_int *last = rows + s->below;
-    const double y = x[s->base];
-    for (; rows < last; rows++, l++) {
-      x[*rows] += SLV_FNMA1((double)*l, y, 0.0);
+  const SLV_VALUE *l = L + s->panel;
+  const double *from = x + s->base, *xs = from;
+  sl_int below = s->below, i;
+  do {
+    const double y = *xs++;
+    if (below == 1) {
+      x[*rows++] += SLV_FNMA1((double)l[1], y, 0.0);
+      l += 2;
+      continue;
     }
-  }
+    l++;
+    for (i = 0; i < below; i++) {
+      x[rows[i]] += SLV_FNMA1((double)l[i], y, 0.0);
+    }
+    rows += below;
+    l += below;
+  } while (++plain < last && (below = *plain) >= 0);
   *next_rows = rows;
-  return s;
+  return s + (xs - from);
 }
 
 SLV_FUNCTION SLI_INLINE const sli_step *
-SLV_SWEEP(backward_plain)(const sli_step *s, const sli_step *begin, const sl_int **rows_end,
+SLV_SWEEP(backward_plain)(const sli_step *s, const sli_reach *R, const sl_int **rows_end,
               const SLV_VALUE *L, const double *D, double *x) {
+  const sl_int *begin = R->plain == NULL ? sli_not_plain : R->plain;
+  const sl_int *plain = R->plain == NULL ? begin + 1 : begin + (s - 1 - R->steps);
   const sl_int *rows = *rows_end;
-  for (; s > begin && s[-1].width == 1; s--) {
-    const SLV_VALUE *l = L + s[-1].panel + 1;
-    const sl_int below = s[-1].below;
-    double y = x[s[-1].base] / D[s[-1].column];
-    sl_int i = 0;
+  sl_int below = s[-1].below, i;
+  const SLV_VALUE *l = L + s[-1].panel + 1 + below;
+  double *from = x + s[-1].base + 1, *xs = from;
+  D += s[-1].column + 1;
+  do {
+    double y = *--xs / *--D;
+    if (below == 1) {
+      *xs = SLV_FNMA1((double)l[-1], x[*--rows], y);
+      l -= 2;
+      continue;
+    }
     rows -= below;
+    l -= below;
+    i = 0;
     if (below >= 4) {
       double a = 0.0, b = 0.0, c = 0.0;
       for (; i + 4 <= below; i += 4) {
@@ -38387,26 +38612,28 @@ SLV_SWEEP(backward_plain)(const sli_step *s, const sli_step *begin, const sl_int
     for (; i < below; i++) {
       y = SLV_FNMA1((double)l[i], x[rows[i]], y);
     }
-    x[s[-1].base] = y;
-  }
+    *xs = y;
+    l--;
+  } while (plain > begin && (below = *--plain) >= 0);
   *rows_end = rows;
-  return s;
+  return s - (from - xs);
 }
 
 #define SLI_FORWARD(k) SLV_SWEEP(small_forward)(k, below, rows, l, xs, x, buf)
 #define SLI_BACKWARD(k) SLV_SWEEP(small_backward)(k, below, rows, l, d, xs, x)
 
-SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, const sli_step *end,
+SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, const sli_reach *R,
                                const sl_int **next_rows,
                                const SLV_VALUE *L, double *x,
                                double *buf) {
   const sl_int *rows = *next_rows;
+  const sli_step *end = R->steps + R->count;
   while (s < end && s->width <= SLI_TILE) {
     const sl_int w = s->width, below = s->below;
     const SLV_VALUE *l = L + s->panel;
     double *xs = x + s->base;
     if (w == 1) {
-      s = SLV_SWEEP(forward_plain)(s, end, &rows, L, x);
+      s = SLV_SWEEP(forward_plain)(s, R, &rows, L, x);
       continue;
     }
     SLI_BY_WIDTH(SLI_FORWARD);
@@ -38417,17 +38644,19 @@ SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, 
   return s;
 }
 
-SLV_FUNCTION static const sli_step *
-SLV_SWEEP(backward_small)(const sli_step *s, const sli_step *begin, const sl_int **rows_end,
-              const SLV_VALUE *L, const double *D, double *x) {
+SLV_FUNCTION static const sli_step *SLV_SWEEP(backward_small)(const sli_step *s, const sli_reach *R,
+                                const sl_int **rows_end,
+                                const SLV_VALUE *L, const double *D,
+                                double *x) {
   const sl_int *rows = *rows_end;
+  const sli_step *begin = R->steps;
   while (s > begin && s[-1].width <= SLI_TILE) {
     const sl_int w = s[-1].width, below = s[-1].below;
     const SLV_VALUE *l = L + s[-1].panel + sli_panel_size(w, below);
     const double *d = D + s[-1].column;
     double *xs = x + s[-1].base;
     if (w == 1) {
-      s = SLV_SWEEP(backward_plain)(s, begin, &rows, L, D, x);
+      s = SLV_SWEEP(backward_plain)(s, R, &rows, L, D, x);
       continue;
     }
     rows -= below;
@@ -38505,17 +38734,18 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(panel_forward)(const SLV_VALUE *tile, sl_
   }
 }
 
-SLV_FUNCTION static void SLV_SWEEP(forward)(sl_int count, const sli_step *s, const sl_int *rows,
-                      const void *values, double *x, double *buf) {
+SLV_FUNCTION static void SLV_SWEEP(forward)(const sli_reach *R, const void *values, double *x,
+                      double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
-  const sli_step *end = s + count;
+  const sli_step *s = R->steps, *end = s + R->count;
+  const sl_int *rows = R->rows;
   while (s < end) {
     const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
     double *xs = x + s->base;
     sl_int i;
     if (w <= SLI_TILE) {
-      s = SLV_SWEEP_SMALL(forward_small)(s, end, &rows, L, x, buf);
+      s = SLV_SWEEP_SMALL(forward_small)(s, R, &rows, L, x, buf);
       continue;
     }
     memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
@@ -38612,13 +38842,12 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inne
 
 #define SLI_FEW_STEPS 512
 
-SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
-                       const sl_int *rows_end, const void *values,
+SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *values,
                        const double *D, double *x, double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
-  const int by_two = count <= SLI_FEW_STEPS;
-  const sli_step *begin = s;
-  s += count;
+  const int by_two = R->count <= SLI_FEW_STEPS;
+  const sli_step *begin = R->steps, *s = begin + R->count;
+  const sl_int *rows_end = R->rows + R->n_rows;
   while (s > begin) {
     const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
@@ -38629,7 +38858,7 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
     SLV_DECLARE(v)
     SLV_SUM_DECLARE(a)
     if (w <= SLI_TILE) {
-      s = SLV_SWEEP_SMALL(backward_small)(s + 1, begin, &rows_end, L, D, x);
+      s = SLV_SWEEP_SMALL(backward_small)(s + 1, R, &rows_end, L, D, x);
       continue;
     }
     rows = rows_end -= s->below;
@@ -38960,10 +39189,12 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, 
 #define SLI_SET_STRIDE const sl_int stride = SLW_NRHS;
 #endif
 
-SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, const sl_int *rows,
-                       const void *values, double *x,
+SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *values, double *x,
                        double *buf SLI_STRIDE_PARAMETER) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
+  const sli_step *s = R->steps;
+  const sl_int *rows = R->rows;
+  sl_int count = R->count;
   SLI_SET_STRIDE
 #if SLW_GROUPS >= 8
   const int is_fetched = sli_steps_exceed_cache(count, s, stride);
@@ -39049,11 +39280,13 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
   }
 }
 
-SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
-                        const sl_int *rows_end, const void *values,
+SLV_FUNCTION static void SLI_KERNEL(backward)(const sli_reach *R, const void *values,
                         const double *D, double *x,
                         double *buf SLI_STRIDE_PARAMETER) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
+  const sli_step *s = R->steps;
+  const sl_int *rows_end = R->rows + R->n_rows;
+  sl_int count = R->count;
   SLI_SET_STRIDE
 #if SLW_GROUPS >= 8
   const int is_fetched = sli_steps_exceed_cache(count, s, stride);
@@ -39149,15 +39382,13 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
 
 #if defined(SLW_GROUPS)
 #define SLI_GROUPED_KERNELS(lanes) \
-  SLV_FUNCTION static void SLI_TABLE(forward##lanes)(sl_int count, const sli_step *s, \
-                             const sl_int *rows, const void *values, \
+  SLV_FUNCTION static void SLI_TABLE(forward##lanes)(const sli_reach *R, const void *values, \
                              double *x, double *buf) { \
-    SLI_KERNEL(forward)(count, s, rows, values, x, buf, lanes); \
+    SLI_KERNEL(forward)(R, values, x, buf, lanes); \
   } \
-  SLV_FUNCTION static void SLI_TABLE(backward##lanes)( \
-    sl_int count, const sli_step *s, const sl_int *rows_end, const void *values, \
-    const double *D, double *x, double *buf) { \
-    SLI_KERNEL(backward)(count, s, rows_end, values, D, x, buf, lanes); \
+  SLV_FUNCTION static void SLI_TABLE(backward##lanes)(const sli_reach *R, const void *values, \
+                            const double *D, double *x, double *buf) { \
+    SLI_KERNEL(backward)(R, values, D, x, buf, lanes); \
   }
 #if SLW_NRHS == 2
 SLI_GROUPED_KERNELS(2)
@@ -39590,11 +39821,11 @@ SLV_NAME(complex_backward_step)(const sli_step *s, const sl_int *rows, const dou
   }
 }
 
-SLV_FUNCTION static void SLV_NAME(complex_forward)(sl_int count, const sli_step *s,
-                           const sl_int *rows, const void *values,
+SLV_FUNCTION static void SLV_NAME(complex_forward)(const sli_reach *R, const void *values,
                            double *x, double *buf) {
   const double *L = (const double *)values;
-  const sli_step *end = s + count;
+  const sli_step *s = R->steps, *end = s + R->count;
+  const sl_int *rows = R->rows;
   while (s < end) {
     if (SLI_SMALL && s->width <= SLI_TILE) {
       s = SLV_NAME_SMALL(complex_forward_small)(s, end, &rows, L, x, buf);
@@ -39605,12 +39836,11 @@ SLV_FUNCTION static void SLV_NAME(complex_forward)(sl_int count, const sli_step 
   }
 }
 
-SLV_FUNCTION static void SLV_NAME(complex_backward)(sl_int count, const sli_step *s,
-                          const sl_int *rows, const void *values,
+SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const void *values,
                           const double *D, double *x, double *buf) {
   const double *L = (const double *)values;
-  const sli_step *begin = s;
-  s += count;
+  const sli_step *begin = R->steps, *s = begin + R->count;
+  const sl_int *rows = R->rows + R->n_rows;
   while (s > begin) {
     if (SLI_SMALL && s[-1].width <= SLI_TILE) {
       s = SLV_NAME_SMALL(complex_backward_small)(s, begin, &rows, L, D, x);

@@ -68,6 +68,94 @@ static void columns_are_kept_apart(void **state) {
     }
 }
 
+/* Children of one column follow each other by their rows below, where a supernode has many. */
+static void siblings_are_sorted(void **state) {
+    (void)state;
+    for (int points = 20; points <= 300; points += 280) {
+        gen_matrix_t M = separable(12, points, 0);
+        sl_symbolic *S = NULL;
+        sl_int last[13] = {0}, count = 0, descents = 0;
+        SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+        const sl_symbolic_arrays v = sl_symbolic_view(S);
+        for (sl_int s = 0; s < v.n_supers; s++) {
+            const sl_int up = v.super_parent[s], width = v.super_first[s + 1] - v.super_first[s];
+            const sl_int below = (sl_int)(v.rows_begin[s + 1] - v.rows_begin[s]);
+            if (width == 1 && up >= v.n_supers - 12) {
+                sl_int *of = &last[v.n_supers - up];
+                descents += below < *of;
+                *of = below;
+                count++;
+            }
+        }
+        assert_true(count >= points);
+        assert_true(points < 64 || descents == 0);
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+    }
+}
+
+/* Components of two rows are no panels of 16 numbers, unless there is nothing else: then the matrix
+ * may be complex. */
+static void roots_of_two_columns_are_split(void **state) {
+    (void)state;
+    for (int odd = 0; odd < 2; odd++) {
+        gen_list_t t = gen_list(200 + odd);
+        sl_symbolic *S = NULL;
+        for (sl_int k = 0; k < t.n; k++) {
+            gen_add(&t, k, k, 2.0);
+            if (k % 2 == 1) {
+                gen_add(&t, k, k - 1, 1.0);
+            }
+        }
+        gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+        gen_list_free(&t);
+        SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+        const sl_symbolic_arrays v = sl_symbolic_view(S);
+        assert_int_equal(v.n_supers, odd ? 201 : 100);
+        assert_int_equal(v.panel_begin[v.n_supers], odd ? 301 : 1600);
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+    }
+}
+
+/* A loaded analysis finds the runs of columns again, and a mapped one does without. */
+static void loaded_columns_have_the_same_bits(void **state) {
+    (void)state;
+    const saved_call_t calls[2] = {pair_load_memory, pair_map_memory};
+    gen_matrix_t M = separable(12, 300, 0);
+    const sl_int n = M.view.n_cols;
+    double *b = test_reals((size_t)n), *x = test_reals((size_t)n), *y = test_reals((size_t)n);
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    gen_reals(b, (size_t)n, 3);
+    SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &M.view, NULL, NULL));
+    SL_CHECK(sl_factor_solve(F, x, (size_t)n, b, (size_t)n, 1, NULL));
+    saved_t m = saved_make(S, F);
+    for (int k = 0; k < 2; k++) {
+        sl_symbolic *T = NULL;
+        sl_factor *G = NULL;
+        SL_CHECK(calls[k](&T, &G, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
+        for (int again = 0; again < 2 - k; again++) {
+            SL_CHECK(sl_factor_solve(G, y, (size_t)n, b, (size_t)n, 1, NULL));
+            assert_memory_equal(x, y, (size_t)n * sizeof *x);
+            assert_same_bits(F, G);
+            if (k == 0) {
+                SL_CHECK(sl_factor_refactor(G, &M.view, NULL));
+            }
+        }
+        sl_factor_free(G);
+        sl_symbolic_free(T);
+    }
+    saved_free(&m);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+    free(b);
+    free(x);
+    free(y);
+}
+
 /* Most columns of a tree stay apart, too. */
 static void trees_are_hardly_padded(void **state) {
     (void)state;
@@ -108,6 +196,28 @@ static void a_nan_is_named(void **state) {
                     p < M.p[stats.error.column + 1]);
         M.x[p] = keep;
     }
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
+/* A pivot of 0 in the middle of a run of columns is refused with its row. */
+static void a_null_pivot_is_named(void **state) {
+    (void)state;
+    gen_matrix_t M = separable(3, 40, 0);
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_stats stats;
+    SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+    for (sl_int bound = 83; bound < 123; bound += 13) {
+        double *d = &M.x[M.p[bound]]; /* the only entry of its column */
+        const double keep = *d;
+        *d = 0.0;
+        SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, NULL, &stats));
+        assert_int_equal(stats.error.row, bound);
+        *d = keep;
+    }
+    SL_CHECK(sl_factor_create(&F, S, &M.view, NULL, NULL));
+    sl_factor_free(F);
     sl_symbolic_free(S);
     gen_matrix_free(&M);
 }
@@ -195,9 +305,16 @@ static void padded_files_are_read(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(columns_are_kept_apart), cmocka_unit_test(trees_are_hardly_padded),
-        cmocka_unit_test(a_nan_is_named),         cmocka_unit_test(a_diagonal_may_be_missing),
-        cmocka_unit_test(changes_are_followed),   cmocka_unit_test(padded_files_are_read),
+        cmocka_unit_test(columns_are_kept_apart),
+        cmocka_unit_test(siblings_are_sorted),
+        cmocka_unit_test(roots_of_two_columns_are_split),
+        cmocka_unit_test(loaded_columns_have_the_same_bits),
+        cmocka_unit_test(trees_are_hardly_padded),
+        cmocka_unit_test(a_nan_is_named),
+        cmocka_unit_test(a_null_pivot_is_named),
+        cmocka_unit_test(a_diagonal_may_be_missing),
+        cmocka_unit_test(changes_are_followed),
+        cmocka_unit_test(padded_files_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,6 +19,11 @@ typedef struct sli_top {
     int is_begun, is_loading, is_loaded, is_finishing;
 } sli_top;
 
+/* What a supernode is in a factorization: one with a front; a plain column that is computed in its
+ * panel; one whose entries of A are its rows one by one; a plain column that the parent reads from
+ * the stack, as the panel has other numbers. */
+enum { SLI_PLAIN_NOT, SLI_PLAIN, SLI_PLAIN_DIRECT, SLI_PLAIN_PASSED };
+
 /* A task is a subtree, a run of consecutive supernodes, that is factored by one worker. The fronts
  * above all tasks follow, large ones by several workers. A single worker has one task: the whole
  * forest. */
@@ -32,13 +37,12 @@ typedef struct sli_schedule {
     /* n_supers: start of each update matrix, in doubles. Positions below `own` are relative to the
      * room of the worker that factors the task */
     sl_off *stack_begin;
-    /* n_supers, of a factorization: by sli_is_plain; 2: the parent reads the column in the stack */
-    unsigned char *is_plain;
-    sli_top *tops; /* n_tops */
-    sl_int *ready; /* n_tops: those whose children are done */
-    sl_int *steps; /* the next step of each piece of a large front; -1: it is being run */
-    sl_off own;    /* doubles of a worker's stacks */
-    sl_off stack;  /* doubles of all stacks together */
+    unsigned char *is_plain; /* n_supers, of a factorization: SLI_PLAIN_* */
+    sli_top *tops;           /* n_tops */
+    sl_int *ready;           /* n_tops: those whose children are done */
+    sl_int *steps;           /* the next step of each piece of a large front; -1: it is being run */
+    sl_off own;              /* doubles of a worker's stacks */
+    sl_off stack;            /* doubles of all stacks together */
 } sli_schedule;
 
 /* A forest of fronts numbered in postorder: all supernodes of an analysis, or those of a reach. */
@@ -97,9 +101,10 @@ static int sli_is_plain(const sl_symbolic *S, sl_int s) {
 
 /* Doubles that supernode s passes to its parent in the stack. */
 SLI_INLINE sl_off sli_passed_size(const sli_schedule *p, const sl_symbolic *S, sl_int s) {
-    return p->is_plain[s] == 0   ? sli_update_size(&S->steps[s])
-           : p->is_plain[s] == 1 ? 0
-                                 : SLI_TILE * (sl_off)sli_tiles(1 + S->steps[s].below);
+    return p->is_plain[s] == SLI_PLAIN_NOT ? sli_update_size(&S->steps[s])
+           : p->is_plain[s] != SLI_PLAIN_PASSED
+               ? 0
+               : SLI_TILE * (sl_off)sli_tiles(1 + S->steps[s].below);
 }
 
 /* Flops of a front: the sum of (entries)^2 over its columns. */
@@ -339,14 +344,30 @@ static double sli_schedule_gain(const sl_symbolic *S, const sli_schedule_work *w
     return longest > 0.0 ? total / longest : 1.0; /* untested: fronts have a cost */
 }
 
-/* Fills a schedule for at most p->workers. plain: what plain columns are, as in is_plain. The
- * arrays of p and w have room. */
+/* Is the map of entries of plain column s its rows one by one? */
+static int sli_is_direct(const sl_symbolic *S, sl_int s) {
+    const sl_off first = S->scatter_begin[s], count = 1 + (sl_off)S->steps[s].below;
+    sl_off m = 0;
+    if (S->nnz_input < 0 || S->scatter_begin[s + 1] - first != count) {
+        return 0;
+    }
+    while (m < count && S->scatter_to[first + m] == S->steps[s].panel + m) {
+        m++;
+    }
+    return m == count;
+}
+
+/* Fills a schedule for at most p->workers. plain: what plain columns are, SLI_PLAIN_*. The arrays
+ * of p and w have room. */
 static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, int plain,
                               sli_schedule_work *w) {
     const sli_forest f = {S->n_supers, S->super_parent, S->first_descendant};
     sl_int s;
     for (s = 0; s < S->n_supers; s++) {
-        p->is_plain[s] = (unsigned char)(sli_is_plain(S, s) ? plain : 0);
+        p->is_plain[s] =
+            (unsigned char)(plain == SLI_PLAIN_NOT || !sli_is_plain(S, s) ? SLI_PLAIN_NOT
+                            : plain == SLI_PLAIN && sli_is_direct(S, s)   ? SLI_PLAIN_DIRECT
+                                                                          : plain);
     }
     if (p->workers > 1) {
         for (s = 0; s < S->n_supers; s++) {

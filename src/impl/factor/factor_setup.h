@@ -109,7 +109,11 @@ static sl_status sli_factor_schedule(sl_factor *F) {
         sli_schedule_work_layout(&w, &b, S->n_supers, F->schedule.workers);
     }
     if (status == SL_OK) {
-        sli_schedule_fill(&F->schedule, S, sli_is_single(F) ? 0 : 1 + sli_is_float(F), &w);
+        sli_schedule_fill(&F->schedule, S,
+                          sli_is_single(F)  ? SLI_PLAIN_NOT
+                          : sli_is_float(F) ? SLI_PLAIN_PASSED
+                                            : SLI_PLAIN,
+                          &w);
         sli_free(&F->allocator, b.base);
         b.base = NULL;
         b.used = 0;

@@ -148,30 +148,31 @@ static sl_status SLF_NAME(front_load)(sl_factor *F, const sli_source *from, cons
 static void sli_plain_assemble(const sli_front *f, const double *l, double d,
                                const sl_int *relative, sl_int first, sl_int last) {
     const sl_int w = f->width, whole = w / SLI_TILE;
-    const sl_int inner =
-        last == 0 || relative[last - 1] < w ? last : sli_lower_bound(relative, last, w);
+    double *magnitude = f->magnitude; /* in registers: what is stored may change f */
+    double *const panel = f->panel, *const update = f->update;
     sl_int r, k;
     for (r = first; r < last; r++) {
-        const sl_int row = relative[r], tile = row / SLI_TILE, end = sli_min(inner, r + 1);
+        const uint32_t row = (uint32_t)relative[r], lane = row % SLI_TILE;
+        const sl_int tile = (sl_int)(row / SLI_TILE);
         const double x = l[r] * d;
-        double *to = f->panel + sli_tile_offset(w, tile) + row % SLI_TILE;
-        for (k = 0; k < end; k++) {
+        double *to = panel + sli_tile_offset(w, tile) + lane;
+        for (k = 0; k <= r && relative[k] < w; k++) {
             to[SLI_TILE * (ptrdiff_t)relative[k]] -= x * l[k];
         }
         if (k <= r) {
-            to = f->update + sli_triangle_offset(tile - whole) + row % SLI_TILE;
+            to = update + sli_triangle_offset(tile - whole) + lane;
             for (; k <= r; k++) {
                 to[SLI_TILE * (ptrdiff_t)(relative[k] - SLI_TILE * whole)] -= x * l[k];
             }
         }
-        f->magnitude[row] += fabs(x * l[r]);
+        magnitude[row] += fabs(x * l[r]);
     }
 }
 
 /* Plain column s in double. */
 SLI_INLINE double *sli_plain_column(const sl_factor *F, sl_int s, sl_int worker) {
-    return F->schedule.is_plain[s] == 1 ? (double *)F->values + F->S->steps[s].panel
-                                        : sli_double_update_matrix(F, s, worker);
+    return F->schedule.is_plain[s] != SLI_PLAIN_PASSED ? (double *)F->values + F->S->steps[s].panel
+                                                       : sli_double_update_matrix(F, s, worker);
 }
 
 /* What child c with one row below adds to a plain column: *pivot changes, and *magnitude grows. */
@@ -191,38 +192,101 @@ SLI_INLINE void sli_plain_take(const sl_factor *F, sl_int c, sl_int worker, doub
     }
 }
 
-/* Loads a plain column whose entries of A are its rows one by one, as most are, and records the
- * largest magnitude. Returns whether it is one, and finite. */
-SLI_INLINE int sli_plain_load(const sl_factor *F, const sli_source *from, sl_int s, double *l) {
-    const sl_symbolic *S = F->S;
-    const sl_off first = S->scatter_begin[s], count = S->scatter_begin[s + 1] - first;
-    const sl_off ahead = S->scatter_begin[S->n_supers] - SLI_ENTRIES_AHEAD - first;
-    const sl_int *at = S->scatter_from + first;
-    const sl_off *to = S->scatter_to + first, begin = S->steps[s].panel;
-    double largest = 0.0;
-    uint64_t mark = SLI_MARK_BEGIN;
-    sl_off m, wrong = 0;
-    if (from->A == NULL || count != 1 + S->steps[s].below) {
-        return 0;
+/* The mark of a plain column with these entries, in their order, and the largest magnitude, as sets
+ * of bits: the order is the same, and NaN come last. */
+SLI_INLINE uint64_t sli_plain_mark(const double *x, const sl_int *at, sl_int count, double *most) {
+    uint64_t mark = SLI_MARK_BEGIN, place = SLI_HASH_2, largest = 0;
+    sl_int m;
+    for (m = 0; m < count; m++, place += SLI_HASH_3) {
+        uint64_t bits;
+        memcpy(&bits, &x[at[m]], sizeof bits);
+        mark += sli_mark_bits(bits, place);
+        bits &= UINT64_MAX >> 1;
+        largest = bits > largest ? bits : largest;
     }
-    for (m = 0; m < count; m++) {
-        const double a = from->A->x[at[m]], size = fabs(a);
-        if (m < ahead) {
-            SLI_PREFETCH(from->A->x + at[m + SLI_ENTRIES_AHEAD], 0);
+    memcpy(most, &largest, sizeof largest);
+    return mark;
+}
+
+/* Can a factorization take runs of plain columns? */
+SLI_INLINE int sli_plain_runs(const sl_factor *F, const sli_source *from) {
+    return from->A != NULL && F->work.copied == NULL && F->history.marks != NULL &&
+           !F->rule.replaces;
+}
+
+/* What a run of plain columns reads and writes: copies of F and its analysis, as a compiler cannot
+ * know that numbers that are stored do not change these addresses. */
+typedef struct sli_plain_work {
+    const double *x;   /* of A */
+    const sl_int *at;  /* the first entry of the column in the map */
+    const sl_int *low; /* first descendants */
+    const sli_step *steps;
+    const unsigned char *is_plain;
+    sli_extent *extents;
+    uint64_t *marks;
+    double *L, *D;
+    double tolerance;
+} sli_plain_work;
+
+/* Computes plain column s, which has so many rows below. Returns 0 if it is not regular. */
+SLI_ALWAYS_INLINE int sli_plain_regular(const sl_factor *F, const sli_plain_work *w, sl_int s,
+                                        sl_int below, sl_int worker) {
+    const sl_int first = w->low[s], k = w->steps[s].column;
+    const double *x = w->x;
+    const sl_int *at = w->at;
+    double *l = w->L + w->steps[s].panel, pivot = 0.0 + x[*at], magnitude = fabs(pivot), size;
+    sli_extent *extent = &w->extents[s];
+    sl_int c, m;
+    w->marks[s] = sli_plain_mark(x, at, below + 1, &extent->entry);
+    for (c = s - 1; c >= first; c = w->low[c] - 1) {
+        if (w->is_plain[c]) {
+            const double own = w->L[w->steps[c].panel + 1];
+            const double product = own * w->D[w->steps[c].column] * own;
+            pivot -= product;
+            magnitude += fabs(product);
+        } else {
+            sli_plain_take(F, c, worker, &pivot, &magnitude);
         }
-        wrong |= (to[m] - begin - m) | (sl_off) !(size <= DBL_MAX);
-        largest = size > largest ? size : largest;
-        mark += sli_mark_entry(a, m);
-        l[m] = 0.0 + a; /* no -0, as in a sum of entries */
     }
-    F->extents[s].entry = largest;
-    F->extents[s].magnitude = 0.0;
-    F->extents[s].pivot = -1;
-    F->extents[s].suspects = 0;
-    if (F->history.marks != NULL) {
-        F->history.marks[s] = mark;
+    *l = 0.0;
+    for (m = 1; m <= below; m++) {
+        l[m] = (0.0 + x[at[m]]) / pivot; /* no -0, as in a sum of entries */
     }
-    return wrong == 0;
+    size = fabs(pivot);
+    w->D[k] = pivot;
+    extent->magnitude = magnitude;
+    extent->pivot = k;
+    extent->suspects = 0;
+    return (size > w->tolerance * magnitude) & (size <= DBL_MAX) & (extent->entry <= DBL_MAX);
+}
+
+/* Computes plain columns from supernode s up to `last` while each is regular: its entries of A are
+ * its rows one by one, as most are, and there is nothing to refuse and nothing to replace. Returns
+ * the supernode after them. What it leaves is computed again from the start. */
+SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl_int s, sl_int last,
+                                         sl_int worker) {
+    const sl_symbolic *S = F->S;
+    sli_plain_work w;
+    w.x = x;
+    w.at = S->scatter_from + S->scatter_begin[s];
+    w.low = S->first_descendant;
+    w.steps = S->steps;
+    w.is_plain = F->schedule.is_plain;
+    w.extents = F->extents;
+    w.marks = F->history.marks;
+    w.L = (double *)F->values;
+    w.D = F->D;
+    w.tolerance = F->rule.null_tolerance > 0.0 ? F->rule.null_tolerance : 0.0;
+    for (; s <= last && w.is_plain[s] == SLI_PLAIN_DIRECT; s++) {
+        const sl_int below = w.steps[s].below;
+        const int is_regular = below == 1 ? sli_plain_regular(F, &w, s, 1, worker)
+                                          : sli_plain_regular(F, &w, s, below, worker);
+        if (!is_regular) {
+            break;
+        }
+        w.at += 1 + below;
+    }
+    return s;
 }
 
 /* Stores a plain column in another storage. */
@@ -248,11 +312,9 @@ static sl_status sli_plain_factor(sl_factor *F, const sli_source *from, sl_int s
     double *l = sli_plain_column(F, s, worker), pivot, magnitude;
     sl_status status;
     sl_int c, r;
-    if (!sli_plain_load(F, from, s, l)) {
-        memset(l, 0, (size_t)(1 + below) * sizeof(double));
-        if (sli_double_panel_load(F, from, s, l, failure) != SL_OK) {
-            return failure->status;
-        }
+    memset(l, 0, (size_t)(1 + below) * sizeof(double));
+    if (sli_double_panel_load(F, from, s, l, failure) != SL_OK) {
+        return failure->status;
     }
     pivot = *l;
     magnitude = fabs(pivot);
@@ -284,10 +346,8 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
         const sl_int first = t0 == 0 ? 0 : sli_lower_bound(relative, child->below, SLI_TILE * t0);
         const sl_int last =
             t1 == tiles ? child->below : sli_lower_bound(relative, child->below, SLI_TILE * t1);
-        const SLF_VALUE *from = SLF_NAME(update_matrix)(F, c, worker);
-        const sl_off magnitudes = child->width % SLI_TILE +
-                                  sli_triangle_offset(sli_update_tiles(child->width, child->below));
-        const SLF_VALUE *magnitude = from + (magnitudes >> SLF_HALF);
+        const SLF_VALUE *from, *magnitude;
+        sl_off magnitudes;
 #if !SLF_SINGLE && !SLF_HALF
         if (F->schedule.is_plain[c]) {
             sli_plain_assemble(f, sli_plain_column(F, c, worker) + 1, F->D[child->column], relative,
@@ -295,6 +355,10 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
             continue;
         }
 #endif
+        from = SLF_NAME(update_matrix)(F, c, worker);
+        magnitudes = child->width % SLI_TILE +
+                     sli_triangle_offset(sli_update_tiles(child->width, child->below));
+        magnitude = from + (magnitudes >> SLF_HALF);
         F->front->assemble(f, from, child->width % SLI_TILE, relative, child->below, first, last);
         for (k = first; k < last; k += 1 + SLF_HALF) {
             SLF_OF(f, magnitude)[relative[k]] += magnitude[k >> SLF_HALF];
@@ -390,6 +454,14 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
     sl_status status = SL_OK;
     sl_int s;
     for (s = first; s <= last && status == SL_OK; s++) {
+#if !SLF_SINGLE && !SLF_HALF
+        if (F->schedule.is_plain[s] == SLI_PLAIN_DIRECT && sli_plain_runs(F, from)) {
+            s = sli_plain_run(F, from->A->x, s, last, worker);
+            if (s > last) {
+                break;
+            }
+        }
+#endif
         if (sli_is_copied(F, s)) {
             F->work.copied->copy(F, s, worker);
 #if !SLF_SINGLE && !SLF_HALF

@@ -82,25 +82,29 @@ SLI_COLD static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl
 static int sli_growth_check(sl_factor *F, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sl_factor_info *info = &F->stats.factor;
-    double entry = 0.0, magnitude = 0.0, growth;
-    sl_int s, first = 0, suspects = 0;
-    for (s = 0; s < S->n_supers; s++) {
-        const sli_extent *own = &F->extents[s]; /* no NaN: fmax, a call, is not needed */
-        entry = own->entry > entry ? own->entry : entry;
-        magnitude = own->magnitude > magnitude ? own->magnitude : magnitude;
-        suspects |= own->suspects != 0;
-        if (S->super_parent[s] == -1) { /* in a postorder a tree ends at its root */
-            growth = sli_growth(magnitude, entry);
-            info->growth = fmax(info->growth, growth);
-            info->entry_max = fmax(info->entry_max, entry);
-            if (growth > F->growth_limit && failure->status == SL_OK) {
-                (void)sli_growth_refuse(F, first, s, entry, failure);
-            }
-            entry = magnitude = 0.0;
-            first = s + 1;
+    sl_int s, first, root, suspects = 0;
+    int has_refused = 0;
+    for (root = S->n_supers - 1; root >= 0; root = first - 1) {
+        uint64_t bits[2], most[2] = {0, 0}; /* integers: half of the latency */
+        double entry, magnitude, growth;
+        first = S->first_descendant[root];
+        for (s = first; s <= root; s++) {
+            memcpy(bits, &F->extents[s], sizeof bits); /* entry, magnitude */
+            most[0] = bits[0] > most[0] ? bits[0] : most[0];
+            most[1] = bits[1] > most[1] ? bits[1] : most[1];
+            suspects |= F->extents[s].suspects;
+        }
+        memcpy(&entry, &most[0], sizeof entry);
+        memcpy(&magnitude, &most[1], sizeof magnitude);
+        growth = sli_growth(magnitude, entry);
+        info->growth = growth > info->growth ? growth : info->growth; /* fmax is a call */
+        info->entry_max = entry > info->entry_max ? entry : info->entry_max;
+        if (growth > F->growth_limit && (failure->status == SL_OK || has_refused)) {
+            has_refused = 1; /* of several trees, the first one */
+            (void)sli_growth_refuse(F, first, root, entry, failure);
         }
     }
-    return suspects;
+    return suspects != 0;
 }
 
 #endif

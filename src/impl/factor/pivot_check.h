@@ -118,23 +118,22 @@ typedef struct sli_spread {
     double least, most;
 } sli_spread;
 
-/* In two chains: the latency of a minimum is longer than all else. */
+/* As integers: the order of the bits of magnitudes is theirs, and the latency of a minimum of
+ * doubles would be longer than all else. */
 static sli_spread sli_spread_of(const double *D, sl_int n) {
-    sli_spread r = {0, (double)INFINITY, 0.0}, s = r;
+    uint64_t least = UINT64_MAX, most = 0, negative = 0, bits;
+    sli_spread r;
     sl_int k;
-    for (k = 0; k < n; k += 2) {
-        const double a = D[k], b = D[k + 1 < n ? k + 1 : k];
-        const double size_a = fabs(a), size_b = fabs(b);
-        r.positive += a > 0.0;
-        s.positive += (b > 0.0) & (k + 1 < n);
-        r.least = size_a < r.least ? size_a : r.least;
-        s.least = size_b < s.least ? size_b : s.least;
-        r.most = size_a > r.most ? size_a : r.most;
-        s.most = size_b > s.most ? size_b : s.most;
+    for (k = 0; k < n; k++) {
+        memcpy(&bits, &D[k], sizeof bits);
+        negative += bits >> 63;
+        bits &= UINT64_MAX >> 1;
+        least = bits < least ? bits : least;
+        most = bits > most ? bits : most;
     }
-    r.positive += s.positive;
-    r.least = s.least < r.least ? s.least : r.least;
-    r.most = s.most > r.most ? s.most : r.most;
+    memcpy(&r.least, &least, sizeof least);
+    memcpy(&r.most, &most, sizeof most);
+    r.positive = n - (sl_int)negative;
     return r;
 }
 
