@@ -203,7 +203,11 @@ build/view_page_text.c: tools/draw/view_page.html
 
 # The script of live pages, and the WebAssembly that it runs if make live or make npm has built it.
 LIVE_KERNEL := $(wildcard build/web/sparse_local.wasm)
-build/view_live_text.c: tools/web/sparse_local.js tools/draw/view_live.js $(LIVE_KERNEL)
+build/live_kernel.txt: always
+	@mkdir -p $(@D)
+	@echo '$(LIVE_KERNEL)' | cmp -s - $@ || echo '$(LIVE_KERNEL)' >$@
+
+build/view_live_text.c: tools/web/sparse_local.js tools/draw/view_live.js build/live_kernel.txt $(LIVE_KERNEL)
 	@mkdir -p $(@D)
 	$(call say,MAKE)
 	$(Q){ printf '/* the lines of sparse_local.js and view_live.js, and sparse_local.wasm in base64 */\n#include "tools/draw/view_page.h"\n'; \

@@ -8,6 +8,12 @@
  *   harmonic  L h = 0, with h = 1 at the source and 0 at the other marked vertices
  * Only the field that is shown is computed. The source is the first marked vertex. */
 
+const speed = document.createElement("div"); /* what the page does, later the times of a frame */
+speed.id = "speed";
+speed.textContent = "preparing ...";
+element("counts").after(speed);
+await new Promise(resolve => { setTimeout(resolve, 20); });
+
 const given = data.live, corner = given.faces ? decode(given.faces, Uint32Array) : face;
 const lengths = decode(given.lengths, Float64Array), faces = corner.length / 3;
 
@@ -37,7 +43,10 @@ for (let f = 0; f < faces; f++) {
 
 /* ---- the systems ---- */
 
-const sparse = await load(Uint8Array.from(atob(given.kernel), c => c.charCodeAt(0)));
+const sparse = await load(Uint8Array.from(atob(given.kernel), c => c.charCodeAt(0))).catch(error => {
+    speed.textContent = `this browser does not run the kernel: ${error.message}`;
+    throw error;
+});
 
 function system(t, withMass) { /* the lower triangle, with an entry for each edge of each face */
     const count = n + 3 * faces, rows = new Int32Array(count), columns = new Int32Array(count);
@@ -162,10 +171,6 @@ function setHarmonic(to) {
 /* ---- the source moves ---- */
 
 const set = {heat: setHeat, distance: setDistance, harmonic: setHarmonic}, times = [];
-const speed = document.createElement("div");
-speed.id = "speed";
-element("counts").after(speed);
-
 /* Computes and shows the field that is selected; milliseconds of the two. */
 function update(to) {
     source = data.marked[0] = to;
@@ -236,7 +241,7 @@ function frame() {
 }
 canvas.addEventListener("pointerdown", e => {
     const [x, y] = place(source);
-    if (e.shiftKey || Math.hypot(e.clientX - x, e.clientY - y) > 12) return;
+    if (e.shiftKey || Math.hypot(e.clientX - x, e.clientY - y) > (e.pointerType === "touch" ? 30 : 12)) return;
     e.stopImmediatePropagation();
     canvas.setPointerCapture(e.pointerId);
     front = drawFront();
