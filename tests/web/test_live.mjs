@@ -65,6 +65,7 @@ try {
     check(moved !== first && frames > 3, `the drag moved the source from ${first} to ${moved} in ${frames} frames`);
     const [u, v] = await page.value("live.place(live.source())");
     check(Math.hypot(u - x - 80 * Math.cos(2), v - y - 40) < 20, `the source is under the pointer: ${[u - x, v - y]}`);
+    check(!(await page.value("picked.concat(data.marked)")).includes(first), "its dot went along");
     check(await page.value("turn.join()") === turned, "the drag did not turn the page");
     check(await page.value(`{ const u = fields[element("field").selectedIndex].value;
         u.indexOf(u.reduce((a, b) => Math.max(a, b))) }`) === moved, "heat is largest at the source");

@@ -173,6 +173,7 @@ function setHarmonic(to) {
 const set = {heat: setHeat, distance: setDistance, harmonic: setHarmonic}, times = [];
 /* Computes and shows the field that is selected; milliseconds of the two. */
 function update(to) {
+    picked = [...new Set(picked.map(v => v === source ? to : v))];
     source = data.marked[0] = to;
     const field = fields[element("field").selectedIndex], start = performance.now();
     if (field?.live) set[field.live](source);

@@ -1,6 +1,6 @@
 # web.mk: the npm package: WebAssembly, JavaScript, types; the kernel of live pages (a part of the Makefile)
 
-.PHONY: deps-npm deps-types npm live test-npm test-live bench-npm
+.PHONY: deps-npm deps-types npm live live-page test-npm test-live bench-npm
 
 deps-npm: ## clang, lld and a C library for WebAssembly, and node
 	@tools/build/deps.sh node=nodejs clang=clang wasm-ld=lld /usr/lib/wasm32-wasi/libc.a=wasi-libc \
@@ -37,6 +37,10 @@ npm: deps-npm ## build/npm/sparse-local-VERSION.tgz and its folder, build/npm/pa
 live: deps-npm deps-png ## build/sparse-local with the kernel of live pages: sparse-local view --live
 	@$(MAKE) --no-print-directory build/web/sparse_local.wasm
 	@$(MAKE) --no-print-directory programs
+
+live-page: live ## build/manual/live.html: an example of a live page
+	@mkdir -p build/manual
+	@$(B)/sparse-local view star:5 --live --from 100 --out build/manual/live.html
 
 test-npm: npm ## the npm package under node, its types, and a page with it in headless Chromium where they can be installed
 	@for what in types chromium; do $(MAKE) --no-print-directory deps-$$what >/dev/null 2>&1 || true; done
