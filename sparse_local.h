@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 5992ece1fc378852
+ * FNV-1a of the lines after this comment, without the license: 752a12f663cc7e30
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -42,22 +42,22 @@
  *  12621 impl/ factor: the numbers of L and D
  *  15958 impl/ solve: full and local solves
  *  17629 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19577 impl/ pivots: the order of the pivots by the values of a matrix
- *  19986 impl/ float: L and fronts in single precision
- *  20437 impl/ inverse: entries of the inverse, regions
- *  23483 impl/ change: a factor that follows changes of its matrix
- *  30229 impl/ dirichlet: rows fixed at given values
- *  30816 impl/ dirichlet: by a factor of all rows
- *  31025 impl/ io: files that are replaced only when they are complete
- *  31243 impl/ files: Matrix Market files, 64-bit indices
- *  31863 impl/ save: factors in files
- *  33861 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34546 impl/ batch: diagonals of many inverses
- *  34690 impl/ complex: complex Hermitian systems over real factors
- *  35237 impl/ complex: entries of the inverse
- *  35297 impl/ packs: the tables through which the core calls packs
- *  35345 impl/ last: undefine every internal macro
- *  35691 impl/ templates: the header includes them from itself, once for each instruction set
+ *  19545 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19954 impl/ float: L and fronts in single precision
+ *  20405 impl/ inverse: entries of the inverse, regions
+ *  23451 impl/ change: a factor that follows changes of its matrix
+ *  30197 impl/ dirichlet: rows fixed at given values
+ *  30784 impl/ dirichlet: by a factor of all rows
+ *  30993 impl/ io: files that are replaced only when they are complete
+ *  31211 impl/ files: Matrix Market files, 64-bit indices
+ *  31831 impl/ save: factors in files
+ *  33829 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34514 impl/ batch: diagonals of many inverses
+ *  34658 impl/ complex: complex Hermitian systems over real factors
+ *  35205 impl/ complex: entries of the inverse
+ *  35265 impl/ packs: the tables through which the core calls packs
+ *  35313 impl/ last: undefine every internal macro
+ *  35660 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -18773,18 +18773,23 @@ static double sli_eigenvalue_estimate(const sli_guarantee_work *p) {
   return 1.0 / size;
 }
 
-static int sli_guarantee_roots(const sli_guarantee_work *p, const sl_csc *A) {
-  const sl_factor *F = p->F;
-  sl_int j, q, k;
+static void sli_diagonal_of(const sl_csc *A, double *diagonal) {
+  sl_int j, q;
   for (j = 0; j < A->n_cols; j++) {
-    k = F->S->iperm[j];
-    p->root[k] = 0.0;
+    diagonal[j] = 0.0;
     for (q = A->p[j]; q < A->p[j + 1]; q++) {
-      if (A->i[q] == j) {
-        p->root[k] = sqrt(A->x[q]);
-      }
+      diagonal[j] += A->i[q] == j ? A->x[q] : 0.0;
     }
-    if (!(F->D[k] > 1e-200 && p->root[k] > 1e-100 && p->root[k] < 1e100)) {
+  }
+}
+
+static int sli_guarantee_roots(const sli_guarantee_work *p, const sl_csc *A) {
+  const sl_symbolic *S = p->F->S;
+  sl_int k;
+  sli_diagonal_of(A, p->w);
+  for (k = 0; k < S->n; k++) {
+    p->root[k] = sqrt(p->w[S->perm[k]]);
+    if (!(p->F->D[k] > 1e-200 && p->root[k] > 1e-100 && p->root[k] < 1e100)) {
       return 0;
     }
   }
@@ -18917,23 +18922,12 @@ SLI_INLINE double sli_probe_random(uint32_t *state) {
   return (double)(*state >> 8) / (double)(1u << 23) - 1.0;
 }
 
-static void sli_probes_diagonal(const sli_probes *p, double *diagonal) {
-  const sl_csc *A = p->A;
-  sl_int j, q;
-  for (j = 0; j < A->n_cols; j++) {
-    diagonal[j] = 0.0;
-    for (q = A->p[j]; q < A->p[j + 1]; q++) {
-      diagonal[j] += A->i[q] == j ? A->x[q] : 0.0;
-    }
-  }
-}
-
 static void sli_probes_start(sli_probes *p) {
   const sl_int n = p->F->S->n, half = SLI_PROBES / 2;
   double *diagonal = p->product;
   uint32_t state = 1;
   sl_int i, c;
-  sli_probes_diagonal(p, diagonal);
+  sli_diagonal_of(p->A, diagonal);
   for (i = 0; i < n; i++) {
     for (c = 0; c < SLI_PROBES; c++) {
       p->v[(ptrdiff_t)i * SLI_PROBES + c] = sli_probe_random(&state) * sqrt(diagonal[i]);
@@ -19045,24 +19039,27 @@ SLI_INLINE double sli_anchor_vector(const sl_factor *F, sl_int m, sl_int k) {
 
 static double sli_probes_tree(const sli_probes *p, sl_int first, sl_int root, sl_int m) {
   const sli_null_space *null = &p->F->null;
-  double square = 0.0, sum = 0.0, size = 0.0;
-  sl_int k;
+  double squares[2] = {0.0, 0.0}, sum = 0.0, size = 0.0;
+  sl_int k, c;
   for (k = first; k <= root; k++) {
     const ptrdiff_t at = (ptrdiff_t)p->F->S->perm[k] * SLI_PROBES;
     const double term = null->g[k] * null->mass[k];
-    square += p->v[at] * p->product[2 * at];
+    for (c = 0; c < 2; c++) {
+      squares[c] += p->v[at + c] * p->product[2 * at + c];
+    }
     sum += term;
     size += fabs(term);
   }
   size *= DBL_EPSILON * sqrt((double)(root - first + 1));
-  return sqrt(fmax(square, 0.0) * null->squares[m]) + fabs(null->ratios[m] - 1.0) +
-       (size > 0.0 ? size / fabs(sum) : 0.0);
+  return (sqrt(fmax(squares[0], 0.0)) + DBL_EPSILON * sqrt(squares[1])) * sqrt(null->squares[m]) +
+       fabs(null->ratios[m] - 1.0) + (size > 0.0 ? size / fabs(sum) : 0.0);
 }
 
 static double sli_probes_null(sli_probes *p) {
   const sl_factor *F = p->F;
   const sl_symbolic *S = F->S;
   double most = 0.0;
+  uint32_t state = 1;
   sl_int k, m, first;
   int pass;
   memset(p->v, 0, (size_t)S->n * SLI_PROBES * sizeof(double));
@@ -19080,7 +19077,10 @@ static double sli_probes_null(sli_probes *p) {
         most = fmax(most, sli_probes_tree(p, first, k, m));
       }
       for (; m != -1 && pass == 0 && first <= k; first++) {
-        p->v[(ptrdiff_t)S->perm[first] * SLI_PROBES] -= sli_anchor_vector(F, m, first);
+        double *v = p->v + (ptrdiff_t)S->perm[first] * SLI_PROBES;
+        const double z = sli_anchor_vector(F, m, first);
+        v[0] -= z;
+        v[1] = 2.0 * sli_probe_random(&state) * z;
       }
       first = k + 1;
     }
@@ -19229,7 +19229,6 @@ typedef struct sli_bounds {
   double *scales;
   unsigned char *memory;
   double *norms;
-  double shifts[SLI_TILE];
   uint64_t *order, *sorting;
   sli_step *steps;
   sl_int *rows;
@@ -19396,44 +19395,6 @@ static double sli_norm_of(const sli_bounds *p, double square, const double *y, s
   return 0.0;
 }
 
-static void sli_shifts_add(sli_bounds *p, const double *y, sl_int lanes, sl_int first, sl_int root,
-               sl_int m) {
-  const double rounding = DBL_EPSILON * (8.0 + sqrt((double)p->q->nb));
-  double sums[SLI_TILE] = {0.0}, sizes[SLI_TILE] = {0.0};
-  sl_int k, r;
-  for (; first <= root; first++) {
-    const sli_step *step = &p->q->forward.steps[first];
-    const double *row = y + (ptrdiff_t)step->base * lanes;
-    for (k = 0; k < sli_step_columns(step); k++, row += lanes) {
-      const double z = sli_anchor_vector(p->F, m, step->column + k);
-      for (r = 0; r < lanes; r++) {
-        sums[r] += z * row[r];
-        sizes[r] += fabs(z * row[r]);
-      }
-    }
-  }
-  for (r = 0; r < lanes; r++) {
-    p->shifts[r] += sqrt(p->F->null.squares[m]) * fabs(p->F->null.ratios[m]) *
-            (fabs(sums[r]) + rounding * sizes[r]);
-  }
-}
-
-static void sli_bounds_shifts(sli_bounds *p, const double *y, sl_int lanes) {
-  const sli_reach *R = &p->q->forward;
-  sl_int s, first = 0;
-  memset(p->shifts, 0, sizeof p->shifts);
-  for (s = 0; s < R->count && p->F->null.is_centered; s++) {
-    if (R->steps[s].up == -1) {
-      const sli_tree_range tree = sli_tree_range_of(p->F->S, &R->steps[s]);
-      const sl_int m = sli_anchor_in(p->F, tree.first, tree.root);
-      if (m != -1) {
-        sli_shifts_add(p, y, lanes, first, s, m);
-      }
-      first = s + 1;
-    }
-  }
-}
-
 static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int count) {
   const sli_reach *R = &p->q->forward;
   const sl_int lanes = (sl_int)1 << sli_lanes_kind(count);
@@ -19450,7 +19411,16 @@ static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int count)
     }
   }
   for (r = 0; r < count; r++) {
-    all[r] = sli_norm_of(p, all[r], y, r, lanes) + p->shifts[r];
+    all[r] = sli_norm_of(p, all[r], y, r, lanes);
+  }
+  for (s = 0; s < R->count && p->F->null.is_centered; s++) {
+    const sli_tree_range tree = sli_tree_range_of(p->F->S, &R->steps[s]);
+    const sl_int m = R->steps[s].up == -1 ? sli_anchor_in(p->F, tree.first, tree.root) : -1;
+    const sl_int at = m == -1 ? -1 : sli_reach_index_of(R, p->F->null.anchors[m]);
+    for (r = 0; r < count && at != -1; r++) {
+      all[r] += fabs(y[(ptrdiff_t)at * lanes + r] * p->F->null.ratios[m]) *
+            sqrt(p->F->null.squares[m]);
+    }
   }
   for (s = 0; s < R->count; s++) {
     for (r = 0; r < lanes; r++) {
@@ -19483,7 +19453,7 @@ static void sli_bounds_write(const sli_bounds *p, double *to, const sli_rhs *X) 
   }
 }
 
-static sl_status sli_bounds_blocks(sli_bounds *p, const sli_rhs *rhs, double *bounds) {
+static sl_status sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, double *bounds) {
   sl_status status = SL_OK;
   sl_int r, count;
   for (r = 0; r < rhs->nrhs; r += count) {
@@ -19492,9 +19462,7 @@ static sl_status sli_bounds_blocks(sli_bounds *p, const sli_rhs *rhs, double *bo
     count = sli_block_size(rhs->nrhs - r, sli_block_most(p->F));
     block = sli_rhs_part(rhs, r, count);
     v = sli_vectors_of(p->q, count, p->memory);
-    sli_pack(p->F, p->q, v.y, &block);
-    sli_bounds_shifts(p, v.y, (sl_int)1 << sli_lanes_kind(count));
-    sli_sweep_forward(p->F, p->q, &v, count);
+    (void)sli_sweep_load(p->F, p->q, &v, &block);
     sli_bounds_norms(p, v.y, count);
     sli_sweep_backward(p->F, p->q, &v, count);
     if (!sli_sweep_is_finite(p->F, p->q, v.x, (sl_int)1 << sli_lanes_kind(count))) {
@@ -35671,6 +35639,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_POWER_STEPS
 #undef SLI_INVERSE_STEPS
 #undef SLI_OTHER_ROUNDINGS
+#undef SLI_JOINT_CENTERED
 #undef SLI_JOINT_NULL
 #undef SLI_JOINT_CENTERED
 #undef SLI_NORM_FLOOR

@@ -49,7 +49,6 @@ typedef struct sli_bounds {
     /* path norms: of the columns from each step of the forward reach on up to the root; then the
      * norm of all. By rows: one for each right-hand side of a block */
     double *norms;
-    double shifts[SLI_TILE]; /* |c| |u(m)| of each right-hand side of a block, all trees together */
     /* while scales are computed: the rows of x by their index in the vector, sorted; then a block
      * of up to 8 of them, its reach and its vector */
     uint64_t *order, *sorting;
@@ -229,47 +228,6 @@ static double sli_norm_of(const sli_bounds *p, double square, const double *y, s
     return 0.0;
 }
 
-/* Adds |c| |u(m)| of the tree with anchor m, whose steps are first .. root, to p->shifts. Beside c
- * it counts the rounding error of z' b, taken as that of as many random ones. */
-static void sli_shifts_add(sli_bounds *p, const double *y, sl_int lanes, sl_int first, sl_int root,
-                           sl_int m) {
-    const double rounding = DBL_EPSILON * (8.0 + sqrt((double)p->q->nb));
-    double sums[SLI_TILE] = {0.0}, sizes[SLI_TILE] = {0.0};
-    sl_int k, r;
-    for (; first <= root; first++) {
-        const sli_step *step = &p->q->forward.steps[first];
-        const double *row = y + (ptrdiff_t)step->base * lanes;
-        for (k = 0; k < sli_step_columns(step); k++, row += lanes) {
-            const double z = sli_anchor_vector(p->F, m, step->column + k);
-            for (r = 0; r < lanes; r++) {
-                sums[r] += z * row[r];
-                sizes[r] += fabs(z * row[r]);
-            }
-        }
-    }
-    for (r = 0; r < lanes; r++) {
-        p->shifts[r] += sqrt(p->F->null.squares[m]) * fabs(p->F->null.ratios[m]) *
-                        (fabs(sums[r]) + rounding * sizes[r]);
-    }
-}
-
-/* Fills p->shifts from a block of right-hand sides before its forward sweep. */
-static void sli_bounds_shifts(sli_bounds *p, const double *y, sl_int lanes) {
-    const sli_reach *R = &p->q->forward;
-    sl_int s, first = 0;
-    memset(p->shifts, 0, sizeof p->shifts);
-    for (s = 0; s < R->count && p->F->null.is_centered; s++) {
-        if (R->steps[s].up == -1) {
-            const sli_tree_range tree = sli_tree_range_of(p->F->S, &R->steps[s]);
-            const sl_int m = sli_anchor_in(p->F, tree.first, tree.root);
-            if (m != -1) {
-                sli_shifts_add(p, y, lanes, first, s, m);
-            }
-            first = s + 1;
-        }
-    }
-}
-
 /* The norms of one block of `count` vectors from its forward vector. */
 static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int count) {
     const sli_reach *R = &p->q->forward;
@@ -287,7 +245,16 @@ static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int count)
         }
     }
     for (r = 0; r < count; r++) {
-        all[r] = sli_norm_of(p, all[r], y, r, lanes) + p->shifts[r];
+        all[r] = sli_norm_of(p, all[r], y, r, lanes);
+    }
+    for (s = 0; s < R->count && p->F->null.is_centered; s++) { /* |c| |u(m)| */
+        const sli_tree_range tree = sli_tree_range_of(p->F->S, &R->steps[s]);
+        const sl_int m = R->steps[s].up == -1 ? sli_anchor_in(p->F, tree.first, tree.root) : -1;
+        const sl_int at = m == -1 ? -1 : sli_reach_index_of(R, p->F->null.anchors[m]);
+        for (r = 0; r < count && at != -1; r++) {
+            all[r] += fabs(y[(ptrdiff_t)at * lanes + r] * p->F->null.ratios[m]) *
+                      sqrt(p->F->null.squares[m]);
+        }
     }
     for (s = 0; s < R->count; s++) {
         for (r = 0; r < lanes; r++) {
@@ -322,7 +289,7 @@ static void sli_bounds_write(const sli_bounds *p, double *to, const sli_rhs *X) 
 }
 
 /* sli_sweep_blocks with bounds. */
-static sl_status sli_bounds_blocks(sli_bounds *p, const sli_rhs *rhs, double *bounds) {
+static sl_status sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, double *bounds) {
     sl_status status = SL_OK;
     sl_int r, count;
     for (r = 0; r < rhs->nrhs; r += count) {
@@ -331,9 +298,7 @@ static sl_status sli_bounds_blocks(sli_bounds *p, const sli_rhs *rhs, double *bo
         count = sli_block_size(rhs->nrhs - r, sli_block_most(p->F));
         block = sli_rhs_part(rhs, r, count);
         v = sli_vectors_of(p->q, count, p->memory);
-        sli_pack(p->F, p->q, v.y, &block);
-        sli_bounds_shifts(p, v.y, (sl_int)1 << sli_lanes_kind(count));
-        sli_sweep_forward(p->F, p->q, &v, count);
+        (void)sli_sweep_load(p->F, p->q, &v, &block);
         sli_bounds_norms(p, v.y, count);
         sli_sweep_backward(p->F, p->q, &v, count);
         if (!sli_sweep_is_finite(p->F, p->q, v.x, (sl_int)1 << sli_lanes_kind(count))) {

@@ -69,24 +69,12 @@ SLI_INLINE double sli_probe_random(uint32_t *state) {
     return (double)(*state >> 8) / (double)(1u << 23) - 1.0;
 }
 
-/* The diagonal of A: the scale of the probes, which are the same for any scaling of A. */
-static void sli_probes_diagonal(const sli_probes *p, double *diagonal) {
-    const sl_csc *A = p->A;
-    sl_int j, q;
-    for (j = 0; j < A->n_cols; j++) {
-        diagonal[j] = 0.0;
-        for (q = A->p[j]; q < A->p[j + 1]; q++) {
-            diagonal[j] += A->i[q] == j ? A->x[q] : 0.0;
-        }
-    }
-}
-
 static void sli_probes_start(sli_probes *p) {
     const sl_int n = p->F->S->n, half = SLI_PROBES / 2;
     double *diagonal = p->product; /* free so far */
     uint32_t state = 1;
     sl_int i, c;
-    sli_probes_diagonal(p, diagonal);
+    sli_diagonal_of(p->A, diagonal); /* the scale of the probes, the same for any scaling of A */
     for (i = 0; i < n; i++) {
         for (c = 0; c < SLI_PROBES; c++) {
             p->v[(ptrdiff_t)i * SLI_PROBES + c] = sli_probe_random(&state) * sqrt(diagonal[i]);
@@ -203,33 +191,37 @@ SLI_INLINE double sli_anchor_vector(const sl_factor *F, sl_int m, sl_int k) {
     return F->null.g[k] / F->null.g[F->null.anchors[m]];
 }
 
-/* What the solves of the tree of columns first .. root with anchor m lose relative to |w| |u(b)|
- * (bounds.h). p->v and p->product are d and A d. */
+/* What the solves of the tree of columns first .. root with anchor m lose relative to |w| |u(b)|:
+ * p->v and p->product have d and A d, and a vector like the rounding errors of z. */
 static double sli_probes_tree(const sli_probes *p, sl_int first, sl_int root, sl_int m) {
     const sli_null_space *null = &p->F->null;
-    double square = 0.0, sum = 0.0, size = 0.0;
-    sl_int k;
+    double squares[2] = {0.0, 0.0}, sum = 0.0, size = 0.0;
+    sl_int k, c;
     for (k = first; k <= root; k++) {
         const ptrdiff_t at = (ptrdiff_t)p->F->S->perm[k] * SLI_PROBES;
         const double term = null->g[k] * null->mass[k];
-        square += p->v[at] * p->product[2 * at];
+        for (c = 0; c < 2; c++) {
+            squares[c] += p->v[at + c] * p->product[2 * at + c];
+        }
         sum += term;
         size += fabs(term);
     }
     size *= DBL_EPSILON * sqrt((double)(root - first + 1));
-    return sqrt(fmax(square, 0.0) * null->squares[m]) + fabs(null->ratios[m] - 1.0) +
-           (size > 0.0 ? size / fabs(sum) : 0.0);
+    return (sqrt(fmax(squares[0], 0.0)) + DBL_EPSILON * sqrt(squares[1])) * sqrt(null->squares[m]) +
+           fabs(null->ratios[m] - 1.0) + (size > 0.0 ? size / fabs(sum) : 0.0);
 }
 
 /* By how much the null vectors of centered solves are off. With A_1, which is A without the anchor
  * row, the computed solution is v + t L'^-1 e_k, and the exact one is (A_1^-1 (b - c m), 0) + t z
  * with the given z. The difference d of both null vectors has the norm |d| in the energy of A_1.
  * Hence t d(i) is at most |t| |u(i)| |d|, and |t| <= |w| |u(b - c m)|: |w| |d| adds to eta, for the
- * worst component. So does what c and the mean lose where weights of both signs cancel. */
+ * worst component. So do the rounding errors of z' b, which are at most |e| |u(b)| for a vector e
+ * of about epsilon z, and what c and the mean lose where weights of both signs cancel. */
 static double sli_probes_null(sli_probes *p) {
     const sl_factor *F = p->F;
     const sl_symbolic *S = F->S;
     double most = 0.0;
+    uint32_t state = 1;
     sl_int k, m, first;
     int pass;
     memset(p->v, 0, (size_t)S->n * SLI_PROBES * sizeof(double));
@@ -247,7 +239,10 @@ static double sli_probes_null(sli_probes *p) {
                 most = fmax(most, sli_probes_tree(p, first, k, m));
             }
             for (; m != -1 && pass == 0 && first <= k; first++) {
-                p->v[(ptrdiff_t)S->perm[first] * SLI_PROBES] -= sli_anchor_vector(F, m, first);
+                double *v = p->v + (ptrdiff_t)S->perm[first] * SLI_PROBES;
+                const double z = sli_anchor_vector(F, m, first);
+                v[0] -= z;
+                v[1] = 2.0 * sli_probe_random(&state) * z;
             }
             first = k + 1;
         }

@@ -176,19 +176,24 @@ static double sli_eigenvalue_estimate(const sli_guarantee_work *p) {
     return 1.0 / size;
 }
 
+static void sli_diagonal_of(const sl_csc *A, double *diagonal) {
+    sl_int j, q;
+    for (j = 0; j < A->n_cols; j++) {
+        diagonal[j] = 0.0;
+        for (q = A->p[j]; q < A->p[j + 1]; q++) {
+            diagonal[j] += A->i[q] == j ? A->x[q] : 0.0;
+        }
+    }
+}
+
 /* Fills p->root and checks that A is far from overflow and underflow. */
 static int sli_guarantee_roots(const sli_guarantee_work *p, const sl_csc *A) {
-    const sl_factor *F = p->F;
-    sl_int j, q, k;
-    for (j = 0; j < A->n_cols; j++) {
-        k = F->S->iperm[j];
-        p->root[k] = 0.0;
-        for (q = A->p[j]; q < A->p[j + 1]; q++) {
-            if (A->i[q] == j) {
-                p->root[k] = sqrt(A->x[q]);
-            }
-        }
-        if (!(F->D[k] > 1e-200 && p->root[k] > 1e-100 && p->root[k] < 1e100)) {
+    const sl_symbolic *S = p->F->S;
+    sl_int k;
+    sli_diagonal_of(A, p->w);
+    for (k = 0; k < S->n; k++) {
+        p->root[k] = sqrt(p->w[S->perm[k]]);
+        if (!(p->F->D[k] > 1e-200 && p->root[k] > 1e-100 && p->root[k] < 1e100)) {
             return 0;
         }
     }
