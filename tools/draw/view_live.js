@@ -119,7 +119,8 @@ function divergence(b, u) {
         const i = corner[k], j = corner[k + 1], l = corner[k + 2], p = base[f], q = along[f], r = up[f];
         const largest = Math.max(Math.abs(u[i]), Math.abs(u[j]), Math.abs(u[l]));
         if (!(largest > 1e-290) || !(p > 0) || !(r > 0)) continue;
-        const gx = (u[j] - u[i]) / largest / p, gy = ((u[l] - u[i]) / largest - gx * q) / r;
+        /* the gradient times largest p r, so that nothing is divided but by its length */
+        const scale = 1 / largest, gx = (u[j] - u[i]) * scale * r, gy = (u[l] - u[i]) * scale * p - (u[j] - u[i]) * scale * q;
         const length = Math.sqrt(gx * gx + gy * gy);
         if (!(length > 0 && length < Infinity)) continue;
         const x = -gx / length, y = -gy / length;
