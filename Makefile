@@ -257,7 +257,7 @@ test-no-metis: deps sparse_local.h ## the header's tests, built without SL_METIS
 	@+$(SUB_MAKE) run-tests B=build/no_metis TEST_PROGRAMS='$(CORE_TESTS:tests/%.c=build/no_metis/tests/%)' METIS= LIBS='$(FILE_LIBS) -lm'
 
 # those of the kernels, and those of ways that are chosen by what kernels cost
-NO_SIMD = test_solve test_plan test_interleaved test_supernodal test_selected test_pins_refused test_pins_trust test_pins_ways \
+NO_SIMD = test_solve test_plan test_interleaved test_supernodal test_selected test_pins_refused test_pins_trust test_pins_sets \
 	test_change_choice test_change_ways
 
 test-no-simd: deps sparse_local.h ## tests of kernels and of choices by their costs, built with -DSL_NO_SIMD

@@ -188,7 +188,7 @@ static int check(bench_run *run, const changes *c) {
         }
         apart = fmax(apart, difference(c));
     }
-    bench_must(sl_pins_refactor(c->pins, NULL, NULL), "pins");
+    bench_must(sl_pins_refactor(c->pins, NULL), "pins");
     for (int k = 0; k < PLACES; k++) {
         values[0] = our_pinned(c, k);
         values[1] = their_pinned(c, k);
@@ -226,7 +226,7 @@ static void pin_step(bench_run *run, bench_report *report, changes *c) {
                          {.method = "CHOLMOD rowdel/rowadd", .call = call_their_pin, .is_peer = 1}};
     rows[0].state = &places[0];
     rows[1].state = &places[1];
-    bench_must(sl_pins_refactor(c->pins, NULL, NULL), "pins");
+    bench_must(sl_pins_refactor(c->pins, NULL), "pins");
     peers_race(run->seconds / 2, report, c->cmp, "pin, solve, release", 0, rows, 2, NULL, 0);
 }
 

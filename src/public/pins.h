@@ -7,9 +7,8 @@
 
 /** Creates an empty set of pins: rows, or linear combinations of rows, that solves hold at given
  *  values. For definite A this minimizes x' A x / 2 - b' x under these equalities. The factor does
- *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep. If
- *  the matrix is known (sl_pins_refactor), many pins are eliminated instead: a second factor, in
- *  which their rows are those of the identity, over the same analysis.
+ *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep. For
+ *  hundreds of rows that are held together, sl_dirichlet_create is the faster call.
  *
  *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
  *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
@@ -47,13 +46,9 @@ SL_API void sl_pins_free(sl_pins *P);
  *           combination of the others, up to rounding; SL_ERR_STALE: F has changed;
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
  *           (error.row); SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
- *  Cost     by the capacitance matrix, for each pin, a forward sweep, which up to 8 nearby rows
- *           share, k products over shared columns and O(k^2); keeps 16 bytes per column of the
- *           path, and 4 per row below its supernodes. 100 pins together take half as long as one by
- *           one.
- *           If the matrix is known, k counts the pins since the last elimination. Once their cost
- *           exceeds that of the next elimination, all are eliminated: by a copy of the factor if P
- *           has none yet, and a refactorization of the reach of the changed rows, or of all.
+ *  Cost     for each pin, a forward sweep, which up to 8 nearby rows share, k products over shared
+ *           columns and O(k^2), with k pins before it; keeps 16 bytes per column of the path, and 4
+ *           per row below its supernodes. 100 pins together take half as long as one by one.
  *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count,
@@ -73,35 +68,22 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *r
  *
  *  indices  [in]   count >= 0 different numbers of pins, 0-based, in any order.
  *  stats    [out]  pins, of which count is the number that is left; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY; SL_ERR_TOO_LARGE; of pins that are eliminated
- *           also SL_ERR_STALE: F has changed, and the errors of sl_pins_add. On error P is as
- *           before.
- *  Cost     O(k^2) for each. If some are eliminated, the others are eliminated anew, by the reach
- *           of the released rows, or added anew by the capacitance matrix: release them together.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
+ *  Cost     O(k^2) for each.
  *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count,
                                                 sl_stats *stats);
 
-/** Takes the present numbers of the factor, after it has changed. EXPERIMENTAL: takes its matrix,
- *  so that pins may be eliminated; both ways to hold them give the same solutions, up to rounding.
+/** Takes the present numbers of the factor, after it has changed.
  *
- *  A      [in]   the matrix that F is a factor of; its values are copied. This is tested by a solve
- *                with a random right-hand side. Pins are then held by the cheaper way; with several
- *                null vectors, regularization or SL_STORAGE_COMPLEX they stay with the capacitance
- *                matrix (stats.pins.reason). NULL: no matrix; one that P was given before is
- *                forgotten, and all pins use the capacitance matrix.
  *  stats  [out]  pins; error.row; may be NULL.
- *  Returns  as sl_pins_add; SL_ERR_ARGUMENT: also if the test fails (error.row);
- *           SL_ERR_OTHER_PATTERN: A has not the analyzed pattern; SL_ERR_STALE: failed factor. On
- *           error P is as before, or, if F has changed or A is NULL, solves are refused until a
- *           later call succeeds.
- *  Cost     after F has changed, and without A, k forward sweeps and O(k^3), or a refactorization
- *           of the second factor, which elimination keeps. For A a solve, two products with A, and
- *           8 bytes per entry.
+ *  Returns  as sl_pins_add; SL_ERR_STALE: failed factor. On error solves are refused until a later
+ *           call succeeds.
+ *  Cost     that of sl_pins_add for all pins.
  *  Threads  exclusive use of P; F is read.
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, const sl_csc *A, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
 
 /** Solves A x = b + C f with C' x = g, where the columns of C are the equalities: for pins, x is g
  *  in their rows, and A x = b in all others.
@@ -122,9 +104,8 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, const sl_csc *A, sl
  *           body; SL_ERR_INCONSISTENT: b is out of balance with a motion that the pins leave; with
  *           more than 8 right-hand sides X may then have those before it; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
- *  Cost     for each right-hand side a solve and, of the pins that are not eliminated, k products
- *           over shared columns, twice, and O(k^2); as much for each null vector of components with
- *           pins. Eliminated pins: with a plan the forward sweep of their neighbors.
+ *  Cost     for each right-hand side a solve, k products over shared columns, twice, and O(k^2);
+ *           as much for each null vector of components with pins.
  *  Threads  any number at once on one P, each with its own W.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,

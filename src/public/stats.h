@@ -179,14 +179,8 @@ typedef struct sl_reuse_info {
 
 /** A set of pins: sl_pins_add, _add_equality, _release, _refactor. */
 typedef struct sl_pins_info {
-    sl_pins_method method; /* the way in use */
-    sl_pins_reason reason; /* why */
-    sl_int count;          /* pins and equalities */
-    sl_int eliminated;     /* those that are eliminated */
-    /* of the last choice, as estimated from counts; 0: there was none yet */
-    double seconds_capacitance;
-    double seconds_elimination; /* the same */
-    double seconds;             /* processor seconds of the call */
+    sl_int count;   /* pins and equalities */
+    double seconds; /* processor seconds of the call */
 } sl_pins_info;
 
 /** Rows fixed at given values: sl_dirichlet_create, sl_dirichlet_refactor. */
@@ -228,7 +222,7 @@ typedef struct sl_stats {
      * with neither SL_PTHREADS nor OpenMP and options.threads has no pool; with the group factor */
     sl_off threads;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[12];
+    sl_off reserved[15];
 } sl_stats;
 
 /** Writes an error as one sentence: the status, error.what, and the row, column, line and value as

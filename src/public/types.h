@@ -164,20 +164,6 @@ typedef enum sl_change_reason {
     SL_CHANGE_REFUSED       /* rank-one changes met a pivot that they refuse */
 } sl_change_reason;
 
-/** How pins hold rows. */
-typedef enum sl_pins_method {
-    SL_PINS_CAPACITANCE = 0, /* all by a small dense matrix on top of the factor */
-    SL_PINS_ELIMINATION      /* pins in a factor with identity rows, later ones on top of it */
-} sl_pins_method;
-
-/** Why pins hold rows in their way. */
-typedef enum sl_pins_reason {
-    SL_PINS_CHEAPEST = 0, /* the fewest flops, weighted by what one costs in each way */
-    SL_PINS_NO_MATRIX,    /* the matrix is not known: sl_pins_refactor */
-    SL_PINS_UNSUITED,     /* several null vectors, regularization, or SL_STORAGE_COMPLEX */
-    SL_PINS_REFUSED       /* elimination met a pivot that it refuses */
-} sl_pins_reason;
-
 /** How sl_dirichlet_create fixes rows. */
 typedef enum sl_dirichlet_method {
     SL_DIRICHLET_SUBMATRIX = 0, /* a factor of the free rows */

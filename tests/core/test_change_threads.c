@@ -109,7 +109,7 @@ static void edit(shared_t *s, int round) {
     if (round % 3 == 2) {
         SL_CHECK(sl_factor_change(s->y.F, &s->y.M.view, &row, &row, &delta, 1, s->W[0], NULL));
     }
-    SL_CHECK(sl_pins_refactor(s->pins, NULL, NULL));
+    SL_CHECK(sl_pins_refactor(s->pins, NULL));
 }
 
 static void solves_between_edits_share_a_factor(void **state) {

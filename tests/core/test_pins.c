@@ -205,7 +205,7 @@ static void a_changed_factor_is_refused_until_the_refactorization(void **state) 
     p.dense[(size_t)i * (n + 1)] += two;
     SL_EXPECT(SL_ERR_STALE, sl_pins_solve(p.P, NULL, x, n, x, n, g, 3, 1, NULL));
     SL_EXPECT(SL_ERR_STALE, pin_row(p.P, 4, NULL));
-    SL_CHECK(sl_pins_refactor(p.P, NULL, NULL));
+    SL_CHECK(sl_pins_refactor(p.P, NULL));
     assert_pinned(&p, 3);
     free(x);
     pinned_free(&p);
@@ -241,7 +241,7 @@ static void invalid_arguments_are_refused(void **state) {
     assert_int_equal(stats.error.row, 3);
     SL_EXPECT(SL_ERR_ARGUMENT, unpin(p.P, -1));
     SL_EXPECT(SL_ERR_ARGUMENT, unpin(NULL, 0));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_refactor(NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_refactor(NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(NULL, NULL, x, n, x, n, x, 2, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(p.P, NULL, x, n, x, n, NULL, 2, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(p.P, NULL, x, n, x, n, x, 1, 1, NULL));
@@ -292,10 +292,10 @@ static void failing_allocations_leave_the_pins(void **state) {
     counter.fail_at = (int64_t)counter.calls;
     SL_EXPECT(SL_ERR_MEMORY, sl_pins_solve(P, NULL, x, 60, b, 60, g, PINS, 1, NULL));
     counter.fail_at = (int64_t)counter.calls;
-    SL_EXPECT(SL_ERR_MEMORY, sl_pins_refactor(P, NULL, NULL));
+    SL_EXPECT(SL_ERR_MEMORY, sl_pins_refactor(P, NULL));
     counter.fail_at = -1;
     SL_EXPECT(SL_ERR_STALE, sl_pins_solve(P, NULL, x, 60, b, 60, g, PINS, 1, NULL));
-    SL_CHECK(sl_pins_refactor(P, NULL, NULL));
+    SL_CHECK(sl_pins_refactor(P, NULL));
     SL_CHECK(sl_pins_solve(P, NULL, x, 60, b, 60, g, PINS, 1, NULL));
     for (sl_int k = 0; k < PINS; k++) {
         assert_true(fabs(x[4 * k] - g[k]) <= 1e-13);

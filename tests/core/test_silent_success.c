@@ -198,9 +198,6 @@ static void derived_factors_count_or_refuse_negative_pivots(void **state) {
             sl_symbolic_free(S);
             S = NULL;
         }
-        SL_CHECK(sl_pins_create(&P, y.F, NULL)); /* of F, not of A */
-        assert_refused(sl_pins_refactor(P, &A, &stats), SL_ERR_ARGUMENT, &stats);
-        sl_pins_free(P);
         free(values);
         free(scattered);
         factored_free(&y);
@@ -215,8 +212,6 @@ static void derived_factors_compare_patterns(void **state) {
         factored_t y = factored_make(GEN_GRID2, N, 1, style, NULL);
         sl_int rows[N], same[N];
         const sl_int count = some_rows(rows);
-        sl_pins *P = NULL;
-        SL_CHECK(sl_pins_create(&P, y.F, NULL));
         for (sl_int i = 0; i < N; i++) {
             same[i] = i;
         }
@@ -234,7 +229,6 @@ static void derived_factors_compare_patterns(void **state) {
                 assert_refused(sl_factor_edit(&G, y.F, y.S, A, same, NULL, &stats),
                                SL_ERR_OTHER_PATTERN, &stats);
                 assert_null(G);
-                assert_refused(sl_pins_refactor(P, A, &stats), SL_ERR_OTHER_PATTERN, &stats);
             }
             if (other == 3) { /* without an entry */
                 double *values = test_reals((size_t)y.M.view.p[N]);
@@ -246,7 +240,6 @@ static void derived_factors_compare_patterns(void **state) {
             }
             factored_free(&z);
         }
-        sl_pins_free(P);
         factored_free(&y);
     }
 }
@@ -279,7 +272,7 @@ static void nothing_is_derived_from_a_failed_factor(void **state) {
     assert_refused(sl_pins_create(&Q, y.F, NULL), SL_ERR_STALE, NULL);
     assert_refused(sl_pins_solve(P, NULL, x, N, b, N, &one, 1, 1, NULL), SL_ERR_STALE, NULL);
     assert_refused(sl_pins_add(P, rows + 1, 1, &stats), SL_ERR_STALE, &stats);
-    assert_refused(sl_pins_refactor(P, &A, &stats), SL_ERR_STALE, &stats);
+    assert_refused(sl_pins_refactor(P, &stats), SL_ERR_STALE, &stats);
     assert_refused(sl_batch_solve(NULL, &request, 1, NULL, NULL, &failed), SL_ERR_STALE, NULL);
     assert_int_equal(failed, 0);
     assert_true(x[0] == 0.0);
@@ -288,7 +281,7 @@ static void nothing_is_derived_from_a_failed_factor(void **state) {
                    &stats);
     SL_CHECK(sl_factor_refactor(y.F, &A, NULL)); /* a refactorization mends it */
     assert_refused(sl_pins_solve(P, NULL, x, N, b, N, &one, 1, 1, NULL), SL_ERR_STALE, NULL);
-    SL_CHECK(sl_pins_refactor(P, &A, NULL));
+    SL_CHECK(sl_pins_refactor(P, NULL));
     SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, &one, 1, 1, NULL));
     sl_pins_free(P);
     free(zeros);

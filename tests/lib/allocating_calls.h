@@ -313,9 +313,6 @@ static sl_status pins(fixture_t *f, const sl_int *rows, sl_int count, const sl_o
     sl_status status = sl_pins_create(&P, f->y.F, opt);
     MADE_OR_NULL(status, P);
     if (status == SL_OK) {
-        status = sl_pins_refactor(P, &f->y.M.view, NULL);
-    }
-    if (status == SL_OK) {
         status = sl_pins_add(P, rows, count, NULL);
         assert_int_equal(pins_count(P), status == SL_OK ? count : 0);
     }

@@ -228,10 +228,7 @@ CALL(reserve, sl_work_reserve(a->W, 64))
 ON_PINS(pins_add, 1, sl_pins_add(pins, a->xset, a->nx, &a->stats))
 ON_PINS(pins_equality, 1, sl_pins_add_equality(pins, a->xset, a->B, a->nx, &a->stats))
 ON_PINS(pins_release, N, sl_pins_release(pins, a->xset, a->nx, &a->stats))
-/* NULL is no matrix, and not refused */
-ON_PINS(pins_matrix, 1,
-        a->A == NULL ? sl_csc_check(NULL, NULL) : sl_pins_refactor(pins, a->A, &a->stats))
-ON_PINS(pins_refactor, 1, sl_pins_refactor(pins, NULL, &a->stats))
+ON_PINS(pins_refactor, 1, sl_pins_refactor(pins, &a->stats))
 ON_PINS(pins_solve, 1,
         sl_pins_solve(pins, NULL, a->X, a->ldx, a->B, a->ldb, o->entries, N, a->nrhs, NULL))
 CREATE(pins, sl_pins, sl_pins_free, sl_pins_create(&out, a->F, NULL))
@@ -306,7 +303,6 @@ static const struct {
     {"sl_pins_add", pins_add, PINS_ | LIST_},
     {"sl_pins_add_equality", pins_equality, PINS_ | LIST_ | B_},
     {"sl_pins_release", pins_release, PINS_ | LIST_},
-    {"sl_pins_refactor, matrix", pins_matrix, PINS_ | A_ | SQUARE_ | VALUES_},
     {"sl_pins_refactor", pins_refactor, PINS_},
     {"sl_pins_solve", pins_solve, PINS_ | X_ | LDX_ | B_ | LDB_ | NRHS_},
     {"sl_save_bytes", save_bytes, S_ | FAILED_ | OTHER_},

@@ -198,12 +198,6 @@ static inline void judge_way_pins(judge_t *t) {
     p.which = test_ints(t->n + JUDGE_EQUALITIES);
     p.C = test_reals(t->n * JUDGE_EQUALITIES);
     if (judge_succeeded(t, sl_pins_create(&p.P, t->F, NULL), "pins create")) {
-        if (gen_below(&t->state, 2)) {
-            const sl_status status = sl_pins_refactor(p.P, &t->y->M.view, NULL);
-            if (status != SL_OK) { /* the test of the matrix may fail where digits are lost */
-                judge_count(t, JUDGE_REFUSED, 0.0, "pins matrix");
-            }
-        }
         for (int k = 0; k < 1 + gen_below(&t->state, 6); k++) {
             if (p.count > 0 && gen_below(&t->state, 4) == 0) {
                 judge_pins_release(t, &p, held);

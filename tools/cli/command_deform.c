@@ -15,8 +15,8 @@ static const options_usage usage = {
 static const options_manual manual = {
     "Vertices that handles hold are pins on the factor of a singular matrix, the Laplacian L "
     "(arap) or L M^-1 L (biharmonic), which is factored once. Grabbing a handle takes a forward "
-    "sweep for up to 8 of its vertices, and releasing it changes a small matrix only; many "
-    "vertices are eliminated in a second factor instead, where that is cheaper. A frame "
+    "sweep for up to 8 of its vertices, and releasing it changes a small matrix only; more than "
+    "200 vertices are fixed in a factor of the others instead. A frame "
     "takes full solves with three right-hand sides. As-rigid-as-possible deformations alternate "
     "rotations of vertices with such solves. Biharmonic displacements need one solve; --at "
     "computes them near the wanted vertices only. A component without handles keeps its mean "
@@ -65,9 +65,9 @@ static void report(deform_command *cmd, const script_step *step, const step_time
 /* ---- steps of the script ---- */
 
 static void warn_of_refusal(deform_command *cmd) {
-    if (cmd->d.anew && !cmd->has_warned) {
+    if (cmd->d.refused && !cmd->has_warned) {
         app_warn("a part of the mesh is so close to degenerate that pins on its factor lose all "
-                 "digits; each solve makes a new factor instead");
+                 "digits; each set of handles has a new factor instead");
         cmd->has_warned = true;
     }
 }

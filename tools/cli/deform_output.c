@@ -112,12 +112,9 @@ void deform_print_summary(const deform_command *cmd) {
             printf("; %d released, %.4f ms each", (int)cmd->released,
                    cmd->total.release / (double)cmd->released);
         }
-        const sl_pins_info *pins = &cmd->d.stats.pins;
-        printf("; %d of %d eliminated%s\n", (int)pins->eliminated, (int)pins->count,
-               cmd->d.anew                        ? " (refused: a new factor for each solve)"
-               : pins->reason == SL_PINS_REFUSED  ? " (refused: a pivot is too small)"
-               : pins->reason == SL_PINS_UNSUITED ? " (not possible: several null vectors)"
-                                                  : "");
+        printf("%s\n", cmd->d.refused ? " (refused: a new factor for each set of handles)"
+                       : cmd->d.anew  ? "; in a factor of the other rows"
+                                      : "");
     }
     printf("frames     %d", (int)cmd->script.n_frames);
     if (cmd->d.method == DEFORM_ARAP) {

@@ -14,6 +14,7 @@
 void deformer_free(deformer *d) {
     sl_plan_free(d->near);
     sl_pins_free(d->pins);
+    sl_dirichlet_free(d->fixed);
     sl_factor_free(d->F);
     sl_symbolic_free(d->S);
     sl_work_free(d->W);
@@ -125,11 +126,6 @@ static sl_status factor(deformer *d) {
         status = sl_pins_create(&d->pins, d->F, NULL);
     }
     if (status == SL_OK) {
-        /* Many pins are then eliminated. If K fails the test, pins are as they were. */
-        status = sl_pins_refactor(d->pins, &K, &d->stats);
-        status = status == SL_ERR_ARGUMENT ? SL_OK : status;
-    }
-    if (status == SL_OK) {
         status = sl_work_create(&d->W, NULL);
     }
     if (status == SL_OK && d->method == DEFORM_ARAP) {
@@ -167,10 +163,21 @@ static bool is_alone(const deformer *d, sl_int vertex) {
     return d->sizes[d->component[vertex]] == 1;
 }
 
+/* Beyond so many pins the rows are fixed in a factor of the others. */
+enum { MANY_PINS = 200 };
+
+/* The handles have changed. */
+static void forget_fixed(deformer *d) {
+    sl_dirichlet_free(d->fixed);
+    d->fixed = NULL;
+}
+
 /* Whether pins have lost all digits, as they do in parts of the mesh that are nearly degenerate. If
  * so, they are no longer used. */
 static bool is_refused(deformer *d, sl_status status) {
-    d->anew = d->anew || status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE;
+    if (!d->anew && (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE)) {
+        d->anew = d->refused = true;
+    }
     return d->anew;
 }
 
@@ -193,6 +200,8 @@ sl_status deformer_hold(deformer *d, const sl_int *vertices, sl_int count) {
             d->target[3 * v + c] = d->Y[c * n + v];
         }
     }
+    forget_fixed(d);
+    d->anew = d->anew || d->n_pins + n_added > MANY_PINS;
     sl_status status = d->anew ? SL_OK : sl_pins_add(d->pins, added, n_added, &d->stats);
     status = is_refused(d, status) ? SL_OK : status;
     d->n_pins += status == SL_OK ? n_added : 0;
@@ -223,6 +232,7 @@ sl_status deformer_release(deformer *d, const sl_int *vertices, sl_int count) {
         }
     }
     sl_status status = gone != NULL ? SL_OK : SL_ERR_MEMORY;
+    forget_fixed(d);
     if (status == SL_OK && !d->anew) {
         status = sl_pins_release(d->pins, gone, n_gone, &d->stats);
     }

@@ -11,7 +11,8 @@ typedef enum deform_method {
 
 /* The matrix K, L or L M^-1 L, is singular by a constant on each component. It is factored once,
  * with SL_NULL_PIVOT_SKIP. Vertices that are held are pins (sl_pins), which change nothing in the
- * factor. A component without held vertices keeps its mean position (ARAP) or is at rest.
+ * factor; hundreds are fixed by sl_dirichlet instead. A component without held vertices keeps its
+ * mean position (ARAP) or is at rest.
  *
  * Unknowns are displacements: K u = b(R) - K x with the positions x at rest; b(R) - K x = 0 for
  * DEFORM_BIHARMONIC. A step of the deformation is
@@ -27,6 +28,7 @@ typedef struct deformer {
     sl_symbolic *S;
     sl_factor *F;
     sl_pins *pins;
+    sl_dirichlet *fixed; /* of deformer_solve_anew; NULL: not made for these handles yet */
     sl_work *W;
     sl_stats stats;    /* of analysis and factorization */
     arap_surface arap; /* DEFORM_ARAP */
@@ -49,7 +51,8 @@ typedef struct deformer {
     sl_int *watched;   /* n_watched vertices */
     sl_int n_watched;
     double diameter; /* diagonal of the bounding box */
-    bool anew;       /* pins were refused, with stats.error.row: each solve makes a new factor */
+    bool anew;       /* pins are not used: each set of handles has a factor of the other rows */
+    bool refused;    /* because they were refused, with stats.error.row */
 } deformer;
 
 /** Prepares a deformation: assembles, orders, analyzes and factors K.
@@ -68,8 +71,7 @@ void deformer_free(deformer *d);
  *
  *  Returns  SL_OK; as sl_pins_add, with the vertex in stats.error.row; where that finds a null
  *           pivot, pins are no longer used.
- *  Cost     that of sl_pins_add; stats.pins has the way in use. Many are eliminated in a second
- *           factor.
+ *  Cost     that of sl_pins_add; beyond 200 pins the next solve makes a factor of the other rows.
  */
 sl_status deformer_hold(deformer *d, const sl_int *vertices, sl_int count);
 

@@ -1,15 +1,15 @@
-/* deformer_anew.h: the displacements of a deformation where pins are refused */
+/* deformer_anew.h: the displacements of a deformation where pins are refused or many */
 #ifndef TOOLS_DEFORMER_ANEW_H
 #define TOOLS_DEFORMER_ANEW_H
 
 #include "deformer.h"
 
-/** Computes d->U from d->B and the held vertices by a new factor of K without their rows. Vertices
- *  of components without held ones stay where they are (ARAP) or are at rest; those in rows of null
- *  pivots are at rest.
+/** Computes d->U from d->B and the held vertices by a factor of K without their rows, which is kept
+ *  in d->fixed. Vertices of components without held ones stay where they are (ARAP) or are at rest;
+ *  those in rows of null pivots are at rest.
  *
- *  Returns  SL_OK; SL_ERR_MEMORY; as sl_symbolic_create, sl_factor_create and sl_factor_solve.
- *  Cost     an analysis and a factorization.
+ *  Returns  SL_OK; SL_ERR_MEMORY; as sl_dirichlet_create and sl_dirichlet_solve.
+ *  Cost     a restriction or a factorization after handles have changed.
  */
 sl_status deformer_solve_anew(deformer *d);
 

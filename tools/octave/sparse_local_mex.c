@@ -577,17 +577,9 @@ static sl_status pins_release(call *c) {
     return sl_pins_release(p->pins, numbers, count, NULL);
 }
 
-/* pins_refactor(pins, A): the present numbers of the factor; its matrix A may be [] */
+/* pins_refactor(pins): the present numbers of the factor */
 static sl_status pins_refactor(call *c) {
-    object *p = find(c->in[0], PINS);
-    sl_matrix *indices;
-    sl_csc A;
-    sl_status status;
-    if (mxGetNumberOfElements(c->in[1]) == 0) return sl_pins_refactor(p->pins, NULL, NULL);
-    status = matrix_of(c->in[1], &indices, &A);
-    if (status == SL_OK) status = sl_pins_refactor(p->pins, &A, NULL);
-    sl_matrix_free(indices);
-    return status;
+    return sl_pins_refactor(find(c->in[0], PINS)->pins, NULL);
 }
 
 /* X = pins_solve(factor, pins, B, G, count, plan): of count pins; plan 0: all rows */
@@ -654,7 +646,7 @@ static const struct {
     {"pins", pins, 1, 1},
     {"pins_add", pins_add, 2, 0},
     {"pins_release", pins_release, 2, 0},
-    {"pins_refactor", pins_refactor, 2, 0},
+    {"pins_refactor", pins_refactor, 1, 0},
     {"pins_solve", pins_solve, 6, 1},
     {"free", free_object, 1, 0},
     {"live", live, 0, 1},

@@ -5,7 +5,7 @@ classdef sparse_local_pins < handle
 %   x = P.solve(b, values)    A * x = b in the other rows; numel(I) x k values for b of n x k
 %   x = P.solve(b, values, Q) the same in the rows of a plan Q of F; b has the rows of that plan
 %   P.add(I), P.release(K)    more pins; without those of number K. The others keep their order
-%   P.refactor(), P.refactor(A)   after F has changed; with its matrix many pins are cheaper
+%   P.refactor()              after F has changed
 %
 %   For a definite A, x minimizes x' * A * x / 2 - b' * x under these equalities.
 %
@@ -44,10 +44,9 @@ classdef sparse_local_pins < handle
             this.count = this.count - numel(numbers);
         end
 
-        function refactor(this, A)
-            % P.refactor(A): takes the present numbers of the factor, and its matrix if it is given.
-            if nargin < 2, A = []; end
-            sparse_local_mex('pins_refactor', this.id, double(A));
+        function refactor(this)
+            % P.refactor(): takes the present numbers of the factor.
+            sparse_local_mex('pins_refactor', this.id);
         end
 
         function x = solve(this, b, values, plan)

@@ -260,7 +260,7 @@ sl_status web_pins_release(sl_pins *P, const sl_int *indices, sl_int count) {
 
 WEB_EXPORT(web_pins_refactor) sl_status web_pins_refactor(sl_pins *P) {
     forget();
-    return keep(sl_pins_refactor(P, NULL, &stats));
+    return keep(sl_pins_refactor(P, &stats));
 }
 
 WEB_EXPORT(web_pins_solve)

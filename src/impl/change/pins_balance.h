@@ -42,7 +42,7 @@ static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P
  * that has several null vectors. norms: of b. */
 static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli_packed *b,
                             const double *norms) {
-    const sl_factor *F = P->base;
+    const sl_factor *F = P->F;
     const sli_reach *R = b->R;
     const sl_int lanes = b->lanes;
     sl_int first = 0, s, k, r;
@@ -78,17 +78,16 @@ static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli
 }
 
 /* y := 0 at null pivots after the forward sweep, but for those that weights will center. Returns 0
- * if b is inconsistent in a component without pins. norms: of b; NULL: it is not checked. */
+ * if b is inconsistent in a component without pins. norms: of b. */
 static int sli_pins_clear(const sl_pins *P, const sli_reach *R, double *y, sl_int lanes,
                           const double *norms) {
-    const sl_factor *F = P->base;
-    const int checks = F->null.checks && norms != NULL;
+    const sl_factor *F = P->F;
     sl_int m, r;
     for (m = 0; m < F->null.count; m++) {
         const sl_int at = sli_reach_index_of(R, F->null.pivots[m]);
         double *row = y + (ptrdiff_t)at * lanes;
         const int is_known = F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
-        for (r = 0; r < lanes && at != -1 && checks && !is_known; r++) {
+        for (r = 0; r < lanes && at != -1 && F->null.checks && !is_known; r++) {
             if (P->uses[m] == 0 && fabs(row[r]) > F->null.consistency * norms[r]) {
                 return 0;
             }
@@ -135,9 +134,9 @@ static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f
             w->sizes[at] += fabs(force);
         }
     }
-    for (k = 0; k < w->count * lanes && P->base->null.consistency >= 0.0; k++) {
+    for (k = 0; k < w->count * lanes && P->F->null.consistency >= 0.0; k++) {
         if (w->is_free[k / lanes] &&
-            fabs(w->defects[k]) > P->base->null.consistency * w->sizes[k]) {
+            fabs(w->defects[k]) > P->F->null.consistency * w->sizes[k]) {
             return 0;
         }
     }
@@ -147,7 +146,7 @@ static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f
 /* x += Z v */
 static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w, double *x,
                            sl_int lanes) {
-    const sl_factor *F = P->base;
+    const sl_factor *F = P->F;
     const sli_reach *R = &q->backward;
     sl_int first = 0, root, s, m, k, r;
     for (root = 0; root < R->count && w->count > 0; root++) {

@@ -10,7 +10,7 @@ static void sli_pin_clear_nulls(const sl_pins *P, const sli_pin *pin, const sli_
                                 sl_int lanes) {
     sl_int k;
     for (k = 0; k < pin->n_nulls; k++) {
-        const ptrdiff_t at = sli_reach_index_of(R, P->base->null.pivots[pin->nulls[k]]);
+        const ptrdiff_t at = sli_reach_index_of(R, P->F->null.pivots[pin->nulls[k]]);
         if (at != -1) {
             memset(y + at * lanes, 0, (size_t)lanes * sizeof *y);
         }
@@ -19,15 +19,13 @@ static void sli_pin_clear_nulls(const sl_pins *P, const sli_pin *pin, const sli_
 
 /* y := L^-1 P c, u := D^-1 y */
 static void sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) {
-    const sl_factor *F = P->base;
+    const sl_factor *F = P->F;
     const sl_symbolic *S = F->S;
     sli_forward f;
     sl_int k;
     memset(pin->y, 0, (size_t)pin->R.columns * sizeof(double));
     for (k = 0; k < pin->count; k++) {
-        const sl_int column = S->iperm[pin->rows[k]];
-        pin->y[sli_reach_index_of(&pin->R, column)] +=
-            sli_held_find(P, column) == -1 ? pin->values[k] : 0.0;
+        pin->y[sli_reach_index_of(&pin->R, S->iperm[pin->rows[k]])] += pin->values[k];
     }
     sli_forward_sweep(F, SLI_NRHS_1, &pin->R, pin->y, scratch);
     sli_pin_clear_nulls(P, pin, &pin->R, pin->y, 1);
@@ -76,7 +74,7 @@ static sl_status sli_pin_new(sli_pin **out, const sl_pins *P, sli_set *set, sl_i
     if (status == SL_OK) {
         const sl_int *unused;
         **out = pin;
-        sli_set_fill(P->base->S, set, &(*out)->R, &unused);
+        sli_set_fill(P->F->S, set, &(*out)->R, &unused);
     }
     return status;
 }
@@ -84,7 +82,7 @@ static sl_status sli_pin_new(sli_pin **out, const sl_pins *P, sli_set *set, sl_i
 /* Makes an equality; without y and u if is_swept is 0. */
 static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sli_equality *e,
                                 int is_swept, sl_stats *stats) {
-    const sl_symbolic *S = P->base->S;
+    const sl_symbolic *S = P->F->S;
     sli_block seeds = {NULL, 0, 0};
     sli_set set = sli_set_of(S, e->rows, e->count);
     sli_reach R;
@@ -249,8 +247,8 @@ static sl_status sli_pins_grow(sl_pins *P, sl_int more) {
     return SL_OK;
 }
 
-/* Adds an equality, number `index` of the set. On error P is as before. */
-static sl_status sli_pins_push(sl_pins *P, sl_int index, const sli_equality *e, sl_stats *stats) {
+/* Adds an equality. On error P is as before. */
+static sl_status sli_pins_push(sl_pins *P, const sli_equality *e, sl_stats *stats) {
     const sl_int at = P->n_pins;
     sli_pin *pin = NULL;
     sl_status status = sli_pins_grow(P, 1);
@@ -270,7 +268,6 @@ static sl_status sli_pins_push(sl_pins *P, sl_int index, const sli_equality *e, 
         sli_pin_free(P, pin);
         return sli_pins_refuse(P, status, e->rows[0], e->count, stats);
     }
-    pin->index = index;
     sli_pins_count_nulls(P, pin, 1);
     P->n_pins++;
     return SL_OK;

@@ -85,15 +85,15 @@ static sl_status sli_pin_find_nulls(const sl_pins *P, sli_pin *pin, sl_int *row)
     sli_free(&P->allocator, pin->nulls);
     pin->nulls = NULL;
     pin->n_nulls = 0;
-    if (P->base->null.count > 0) {
-        status = sli_pin_visit_nulls(P->base, pin, 0, row);
+    if (P->F->null.count > 0) {
+        status = sli_pin_visit_nulls(P->F, pin, 0, row);
     }
     if (status == SL_OK && pin->n_nulls > 0) {
         SLI_LAYOUT(&b, &P->allocator, status) {
             pin->nulls = SLI_TAKE(&b, sl_int, pin->n_nulls);
             pin->z = SLI_TAKE(&b, double, pin->n_nulls);
         }
-        status = status == SL_OK ? sli_pin_visit_nulls(P->base, pin, 1, row) : status;
+        status = status == SL_OK ? sli_pin_visit_nulls(P->F, pin, 1, row) : status;
     }
     pin->n_nulls = status == SL_OK ? pin->n_nulls : 0;
     pin->nulls = (sl_int *)(void *)b.base;
@@ -143,7 +143,7 @@ static void sli_pins_nulls_layout(sli_pins_nulls *w, sli_block *b, const sl_pins
     const uint64_t count = (uint64_t)P->n_used;
     w->count = P->n_used;
     w->numbers = SLI_TAKE(b, sl_int, count);
-    w->place = SLI_TAKE(b, sl_int, count > 0 ? (uint64_t)P->base->null.count : 0);
+    w->place = SLI_TAKE(b, sl_int, count > 0 ? (uint64_t)P->F->null.count : 0);
     w->is_free = SLI_TAKE(b, unsigned char, count);
     w->W = SLI_TAKE(b, double, count *(uint64_t)P->n_pins);
     w->S = SLI_TAKE(b, double, count *count);
@@ -164,7 +164,7 @@ static void sli_pins_nulls_load(const sli_pins_nulls *w, const sl_pins *P) {
         for (k = 0; k < pin->n_nulls; k++) {
             const sl_int at = w->place[pin->nulls[k]];
             w->W[(size_t)at * (size_t)P->n_pins + (size_t)p] = pin->z[k];
-            w->s[at] += P->base->null.vectors > 1 ? square : 0.0;
+            w->s[at] += P->F->null.vectors > 1 ? square : 0.0;
         }
     }
 }

@@ -85,8 +85,8 @@ static sl_status sli_pins_push_blocks(sl_pins *P, sli_inverse_block *q, sl_stats
     return status;
 }
 
-/* Pins rows, numbers index, index + 1, ... of the set. On error P is as before. */
-static sl_status sli_pins_push_rows(sl_pins *P, sl_int index, const sl_int *rows, sl_int count,
+/* Pins rows. On error P is as before. */
+static sl_status sli_pins_push_rows(sl_pins *P, const sl_int *rows, sl_int count,
                                     sl_stats *stats) {
     const double one = 1.0;
     const sl_int before = P->n_pins;
@@ -98,12 +98,12 @@ static sl_status sli_pins_push_rows(sl_pins *P, sl_int index, const sl_int *rows
         sli_inverse_block q;
         if (m <= SLI_PINS_SINGLY) {
             const sli_equality e = sli_equality_of(&rows[done], &one, 1);
-            status = sli_pins_push(P, index + done, &e, stats);
+            status = sli_pins_push(P, &e, stats);
             done++;
             continue;
         }
         for (;; m = m / 2) { /* so many that all sweeps are kept */
-            q = sli_inverse_all_pairs_of(P->base, rows + done, m);
+            q = sli_inverse_all_pairs_of(P->F, rows + done, m);
             status = sli_work_stages(&W, sli_inverse_block_stages, 2, &q);
             if (status != SL_OK || q.kept.n_blocks <= SLI_BLOCK_KEPT) {
                 break;
@@ -113,13 +113,13 @@ static sl_status sli_pins_push_rows(sl_pins *P, sl_int index, const sl_int *rows
         status = status == SL_OK ? sli_pins_push_blocks(P, &q, stats) : status;
         for (k = P->n_pins; k < P->n_pins + m; k++) {
             if (status == SL_OK) {
-                P->pins[k]->index = index + done++;
                 sli_pins_count_nulls(P, P->pins[k], 1);
             } else if (P->pins[k] != NULL) {
                 sli_pin_free(P, P->pins[k]);
             }
         }
         P->n_pins += status == SL_OK ? m : 0;
+        done += m;
     }
     while (status != SL_OK && P->n_pins > before) {
         sli_pin *last = P->pins[--P->n_pins];

@@ -8,16 +8,13 @@
 typedef struct sli_pins_solve {
     const sl_pins *P;
     const sli_query *q;
-    int is_whole;    /* q has all rows */
     sli_rhs rhs;     /* the current block of up to 8 right-hand sides */
-    const double *G; /* its P->count x rhs.nrhs, column-major: C' x */
+    const double *G; /* its n_pins x rhs.nrhs, column-major: C' x */
     size_t ldg;
     sl_int lanes;
     unsigned char *memory; /* of the sweeps */
     double *largest;       /* steps of the backward reach x lanes: |x| */
     double *f;             /* n_pins x lanes: K f, then f */
-    double *e;             /* held_reach.columns x lanes: -L^-1 P A(:, H) g, for local solves */
-    double *scratch;       /* of its sweep */
     sli_pins_nulls nulls;
 } sli_pins_solve;
 
@@ -28,41 +25,7 @@ static void sli_pins_layout(sli_pins_solve *w, sli_block *b, sl_int nrhs) {
     w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs, 8), 1);
     w->largest = SLI_TAKE(b, double, (uint64_t)q->backward.count *(uint64_t)lanes);
     w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->n_pins);
-    if (P->n_held > 0 && !w->is_whole) {
-        const sli_reach *R = &P->held_reach;
-        w->e = SLI_TAKE(b, double, (uint64_t)R->columns *(uint64_t)lanes);
-        w->scratch = SLI_TAKE(b, double, /* for blocks of 8, and the rest: sli_vectors_bytes */
-                              sli_sweep_scratch(R->tallest, R->widest, 2) +
-                                  sli_sweep_scratch(R->tallest, R->widest, SLI_TILE));
-    }
     sli_pins_nulls_layout(&w->nulls, b, P);
-}
-
-/* y -= A(:, H) g, where y is a vector of all columns, or that of held_reach. */
-static void sli_pins_couple(const sli_pins_solve *w, double *y) {
-    const sl_pins *P = w->P;
-    const sl_int *to = w->is_whole ? P->coupling_column : P->coupling_to;
-    sl_int k, r;
-    for (k = 0; k < P->n_couplings; k++) {
-        const double *g = w->G + P->held_pin[P->coupling_from[k]];
-        for (r = 0; r < w->rhs.nrhs; r++) {
-            y[(ptrdiff_t)to[k] * w->lanes + r] -= P->couplings[k] * g[w->ldg * (size_t)r];
-        }
-    }
-}
-
-/* Sets the held rows of a vector to g, or to 0 if G is NULL. */
-static void sli_pins_set_held(const sli_pins_solve *w, const sli_reach *R, double *x,
-                              const double *G) {
-    const sl_pins *P = w->P;
-    sl_int k, r;
-    for (k = 0; k < P->n_held; k++) {
-        const sl_int at = sli_reach_index_of(R, P->held[k]);
-        for (r = 0; r < w->lanes && at != -1; r++) {
-            x[(ptrdiff_t)at * w->lanes + r] =
-                G != NULL && r < w->rhs.nrhs ? G[(size_t)P->held_pin[k] + w->ldg * (size_t)r] : 0.0;
-        }
-    }
 }
 
 /* Clears b in pinned rows, where it changes nothing but the multiplier. So x is 0, and no rounding
@@ -79,45 +42,15 @@ static void sli_pins_clear_rows(const sl_pins *P, const sli_reach *R, double *b,
     }
 }
 
-/* e := L^-1 P (-A(:, H) g) in the vector of held_reach. */
-static void sli_pins_spread(const sli_pins_solve *w) {
-    const sl_pins *P = w->P;
-    const sli_reach *R = &P->held_reach;
-    memset(w->e, 0, (size_t)R->columns * (size_t)w->lanes * sizeof(double));
-    sli_pins_couple(w, w->e);
-    sli_forward_sweep(P->base, sli_lanes_kind(w->rhs.nrhs), R, w->e, w->scratch);
-    (void)sli_pins_clear(P, R, w->e, w->lanes, NULL);
-}
-
-/* x += e */
-static void sli_pins_join(const sli_pins_solve *w, double *x) {
-    sli_intersection m = sli_intersection_of(&w->P->held_reach, &w->q->backward);
-    const sl_int lanes = w->lanes;
-    sl_int k;
-    while (sli_intersection_next(&m)) {
-        const double *e = w->e + (ptrdiff_t)m.in_a * lanes;
-        double *to = x + (ptrdiff_t)m.in_b * lanes;
-        for (k = 0; k < m.count * lanes; k++) {
-            to[k] += e[k];
-        }
-    }
-}
-
-/* f := K f = g - C' A^-1 b, where L^-1 P b is the sum of y and e. */
+/* f := K f = g - C' A^-1 b, where y = L^-1 P b. */
 static void sli_pins_load(const sli_pins_solve *w, const double *y) {
     const sl_pins *P = w->P;
     const sl_int lanes = w->lanes, nrhs = w->rhs.nrhs;
     sl_int p, r, k;
     for (p = 0; p < P->n_pins; p++) {
         const sli_pin *pin = P->pins[p];
-        double sums[SLI_TILE], more[SLI_TILE], *f = w->f + (ptrdiff_t)p * lanes;
+        double sums[SLI_TILE], *f = w->f + (ptrdiff_t)p * lanes;
         sli_pin_dot(pin, &w->q->forward, y, lanes, sums);
-        if (P->n_held > 0 && !w->is_whole) {
-            sli_pin_dot(pin, &P->held_reach, w->e, lanes, more);
-            for (r = 0; r < lanes; r++) {
-                sums[r] += more[r];
-            }
-        }
         for (k = 0; k < pin->n_nulls; k++) {
             const double *s = w->nulls.s + (ptrdiff_t)w->nulls.place[pin->nulls[k]] * lanes;
             for (r = 0; r < lanes; r++) {
@@ -125,13 +58,7 @@ static void sli_pins_load(const sli_pins_solve *w, const double *y) {
             }
         }
         for (r = 0; r < lanes; r++) {
-            f[r] = r < nrhs ? w->G[(size_t)pin->index + w->ldg * (size_t)r] - sums[r] : 0.0;
-        }
-        for (k = 0; k < pin->count && P->n_held > 0; k++) { /* held rows of an equality */
-            const sl_int at = sli_held_find(P, P->F->S->iperm[pin->rows[k]]);
-            for (r = 0; r < nrhs && at != -1; r++) {
-                f[r] -= pin->values[k] * w->G[(size_t)P->held_pin[at] + w->ldg * (size_t)r];
-            }
+            f[r] = r < nrhs ? w->G[(size_t)p + w->ldg * (size_t)r] - sums[r] : 0.0;
         }
     }
 }
@@ -170,7 +97,7 @@ static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
     for (r = 0; r < w->rhs.nrhs; r++) {
         for (p = 0; p < P->n_pins; p++) {
             const sli_pin *pin = P->pins[p];
-            const double g = w->G[(size_t)pin->index + w->ldg * (size_t)r];
+            const double g = w->G[(size_t)p + w->ldg * (size_t)r];
             double sum = -g, size = 0.0;
             sl_int s = 0;
             for (k = 0; k < pin->count && s != -1; k++) {
@@ -194,11 +121,10 @@ static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
  * there are null pivots. */
 static int sli_pins_forward(const sli_pins_solve *w, const sli_vectors *v, double *norms) {
     const sl_pins *P = w->P;
-    const sl_factor *F = P->base;
+    const sl_factor *F = P->F;
     const sli_reach *R = &w->q->forward;
     const sli_packed b = sli_packed_of(R, v->y, w->lanes);
     sli_pack(F, w->q, v->y, &w->rhs);
-    sli_pins_set_held(w, R, v->y, NULL);
     sli_pins_clear_rows(P, R, v->y, w->lanes);
     if (F->null.count > 0) {
         sli_norms(&b, norms);
@@ -206,15 +132,9 @@ static int sli_pins_forward(const sli_pins_solve *w, const sli_vectors *v, doubl
     if (!sli_pins_defects(P, &w->nulls, &b, norms)) {
         return 0;
     }
-    if (w->is_whole) {
-        sli_pins_couple(w, v->y);
-    }
     sli_sweep_forward(F, w->q, v, w->rhs.nrhs);
     if (!sli_pins_clear(P, R, v->y, w->lanes, norms)) {
         return 0;
-    }
-    if (P->n_held > 0 && !w->is_whole) {
-        sli_pins_spread(w);
     }
     sli_pins_load(w, v->y);
     return 1;
@@ -228,7 +148,7 @@ SLI_COLD static sl_status sli_pins_inconsistent(void) {
 static sl_status sli_pins_block(sli_pins_solve *w) {
     const sl_pins *P = w->P;
     const sli_query *q = w->q;
-    const sl_factor *F = P->base;
+    const sl_factor *F = P->F;
     const sli_vectors v = sli_vectors_of(q, w->rhs.nrhs, w->memory);
     const int kind = sli_lanes_kind(w->rhs.nrhs);
     const sl_int lanes = (sl_int)1 << kind;
@@ -240,9 +160,6 @@ static sl_status sli_pins_block(sli_pins_solve *w) {
     }
     if (!q->is_shared) {
         sli_sweep_transfer(q, v.y, v.x, lanes);
-    }
-    if (P->n_held > 0 && !w->is_whole) {
-        sli_pins_join(w, v.x);
     }
     sli_pins_apply(P, w->f, lanes);
     if (!sli_pins_balance(P, &w->nulls, w->f, lanes, norms)) {
@@ -258,7 +175,6 @@ static sl_status sli_pins_block(sli_pins_solve *w) {
     }
     sli_backward(F, &q->backward, kind, v.x, v.scratch);
     sli_pins_shift(P, q, &w->nulls, v.x, lanes);
-    sli_pins_set_held(w, &q->backward, v.x, w->G);
     if (P->n_pins > 0) {
         sli_pins_largest(&q->backward, v.x, w->largest, lanes);
     }
@@ -285,9 +201,9 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
     }
     all = sli_query_all(P->F->S);
     status = sli_rhs_check_columns(&rhs, q->nx, q->nb);
-    if (status == SL_OK && nrhs > 0 && P->count > 0) {
+    if (status == SL_OK && nrhs > 0 && P->n_pins > 0) {
         status = sli_argument(G == NULL                   ? "G is NULL"
-                              : !sli_is_ld(ldg, P->count) ? "ldg is below the number of pins"
+                              : !sli_is_ld(ldg, P->n_pins) ? "ldg is below the number of pins"
                                                           : NULL);
     }
     status = status == SL_OK ? sli_pins_are_current(P) : status;
@@ -305,7 +221,6 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
     W = W == NULL ? &own : W;
     w.P = P;
     w.q = q;
-    w.is_whole = q->forward.steps == q->S->steps;
     w.ldg = ldg;
     sli_pins_layout(&w, &counted, nrhs);
     status = sli_work_block(W, &counted);
@@ -314,7 +229,7 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
         status = sli_pins_nulls_factor(&w.nulls, P);
         for (r = 0; r < nrhs && status == SL_OK; r += sli_min(8, nrhs - r)) {
             w.rhs = sli_rhs_part(&rhs, r, sli_min(8, nrhs - r));
-            w.G = P->count == 0 ? G : G + (size_t)r * ldg;
+            w.G = P->n_pins == 0 ? G : G + (size_t)r * ldg;
             status = sli_pins_block(&w);
         }
     }

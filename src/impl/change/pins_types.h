@@ -31,7 +31,6 @@ static const char sli_nulls_unknown[] =
 
 /* One equality. */
 typedef struct sli_pin {
-    sl_int index; /* among all of the set */
     sl_int count;
     sl_int *rows;   /* count: the rows of c, in the order of L */
     double *values; /* count: its entries */
@@ -48,36 +47,13 @@ struct sl_pins {
     const sl_factor *F; /* borrowed */
     sli_numbers numbers;
     double sign;  /* of all pivots */
-    double delta; /* takes the place of null pivots, and of the diagonal of held rows */
-    sl_int count;
-    sl_off room;
-    sl_int *rows; /* room: the row of each pin; -1: an equality */
-
-    /* by the capacitance matrix */
-    const sl_factor *base; /* F, or G */
+    double delta; /* takes the place of null pivots */
     sl_int n_pins, capacity;
-    sli_pin **pins;  /* capacity */
+    sli_pin **pins;  /* capacity: in their order */
     double *K;       /* capacity x capacity, row-major: the factor L D L' of K, D on the diagonal */
     double *scratch; /* 2 capacity */
     sl_int *uses;    /* of each null pivot: the pins in its tree; NULL: there are no null pivots */
     sl_int n_used;   /* null pivots with pins */
-
-    /* by elimination (pins_held.h) */
-    sl_pins_reason reason; /* of the present method */
-    double *values;        /* of A, in the order of the scatter map; NULL: A is not known */
-    sl_factor *G;          /* of A with identity rows; NULL: not made yet */
-    sl_int n_held, n_couplings;
-    sl_int *held;     /* n_held: columns of L, ascending; the first array of its block */
-    sl_int *held_pin; /* n_held */
-    sl_int
-        *coupling_from; /* n_couplings: of an entry of A between them and others: the held one, */
-    sl_int *coupling_column;   /* the column of L of the other one, */
-    const sl_int *coupling_to; /* where that is in the vector of held_reach, */
-    double *couplings;         /* and the value */
-    sli_reach held_reach;      /* of the other rows */
-    double spent;              /* seconds on capacitance since the last choice, as estimated */
-    double threshold;          /* at which the next choice is made */
-    double capacitance, elimination; /* seconds of the last choice */
 };
 
 /* sum a(k) b(k) */
@@ -90,12 +66,6 @@ static double sli_dot(const double *a, const double *b, sl_int count) {
         sum += chains[k];
     }
     return sum;
-}
-
-/* The number of a column among the held ones, or -1. */
-SLI_INLINE sl_int sli_held_find(const sl_pins *P, sl_int column) {
-    const sl_int at = sli_lower_bound(P->held, P->n_held, column);
-    return at < P->n_held && P->held[at] == column ? at : -1;
 }
 
 /* Refuses pins on older numbers of their factor. */

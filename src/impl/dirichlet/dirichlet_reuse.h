@@ -2,6 +2,7 @@
 #ifndef SLI_DIRICHLET_DIRICHLET_REUSE_H
 #define SLI_DIRICHLET_DIRICHLET_REUSE_H
 
+#include "../change/choose.h"
 #include "../change/pins.h"
 #include "../change/pins_solve.h"
 #include "../change/restrict.h"
@@ -34,24 +35,31 @@ static void sli_dirichlet_count(const sli_dirichlet_choice *c, sl_dirichlet *D) 
     const double flop = sli_costs_of(F->kernels->isa)->flop, whole = sli_choose_refactor(F);
     const double share = (double)D->n_free / (S->n > 0 ? S->n : 1);
     const double entries = (double)S->scatter_begin[S->n_supers];
-    double computed = 0.0, kept = 0.0, pins;
+    const double fixed = D->n_fixed;
+    double computed = 0.0, kept = 0.0;
+    double pins = SLI_PINS_DENSE / 3.0 * (fixed * fixed * fixed) + SLI_PINS_PIN * fixed;
     sl_int kept_columns = 0, s, k;
     for (k = 0; k < D->n_fixed; k++) {
         c->seeds[k] = sli_keyed(S->iperm[D->fixed_rows[k]], 0);
     }
     sli_sort(c->seeds, D->n_fixed, c->scratch);
     memset(c->uses, 0, (size_t)S->n_supers * sizeof(sl_int));
-    pins = SLI_DIRICHLET_PINS * sli_pins_capacitance_cost(S, c->seeds, D->n_fixed, 0, c->uses) +
-           SLI_DIRICHLET_PROBE * ((double)S->panel_begin[S->n_supers] + entries);
     for (s = 0, k = 0; s < S->n_supers; s++) {
         const sl_int up = S->super_parent[s], width = S->steps[s].width;
         sl_int free_columns = width;
+        double u;
         for (; k < D->n_fixed && sli_key(c->seeds[k]) < S->super_first[s + 1]; k++) {
             c->uses[s]++;
             free_columns--;
         }
         if (up != -1) {
             c->uses[up] += c->uses[s];
+        }
+        u = c->uses[s];
+        if (u > 0.0) {
+            pins += SLI_PINS_ENTRY * fmin(u, SLI_PINS_JOINT * u + SLI_PINS_BLOCK) *
+                        (double)sli_panel_size(width, S->steps[s].below) +
+                    (SLI_PINS_NUMBER + SLI_PINS_PRODUCT / 2.0 * u) * width * u;
         }
         if (c->uses[s] == 0) {
             kept += SLI_DIRICHLET_COPY * (double)(S->panel_begin[s + 1] - S->panel_begin[s]);
@@ -65,6 +73,8 @@ static void sli_dirichlet_count(const sli_dirichlet_choice *c, sl_dirichlet *D) 
     D->info.seconds_restriction =
         SLI_DIRICHLET_ROW * D->n_free +
         (kept_columns < 0.4 * D->n_free ? share * whole : kept + computed); /* as restrictions do */
+    pins = SLI_DIRICHLET_PINS * pins +
+           SLI_DIRICHLET_PROBE * ((double)S->panel_begin[S->n_supers] + entries);
     D->info.seconds_pins = sli_pins_check(F) == SL_OK && F->null.vectors == 1 ? pins : 0.0;
 }
 

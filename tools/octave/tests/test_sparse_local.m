@@ -227,8 +227,6 @@ function rows_held()
     P.refactor();
     y = P.solve(2 * b, 3);
     near(y, x(:, 1), 1e-12);
-    P.refactor(2 * A);
-    near(P.solve(2 * b, 3), y, 1e-12);
     assert(~isempty(strfind(evalc('disp(P)'), '1 pins')));
     refused('argument', 'rows, not 1', @() P.solve(b, [1; 2]));
     refused('argument', 'as many columns', @() P.solve(b, [1, 2]));
@@ -341,7 +339,7 @@ function wrong_arguments()
     commands = {'create', 2; 'refactor', 2; 'solve', 2; 'refine', 4; 'rcond', 2; 'logdet', 1; ...
                 'parts', 1; 'info', 1; 'local', 4; 'plan', 3; 'plan_solve', 3; 'diagonal', 2; ...
                 'entries', 3; 'block', 3; 'update', 3; 'change', 5; 'pins', 1; 'pins_add', 2; ...
-                'pins_release', 2; 'pins_refactor', 2; 'pins_solve', 6};
+                'pins_release', 2; 'pins_refactor', 1; 'pins_solve', 6};
     things = {[], 'x', {}, {1, 2}, struct('a', 1), single(3), true, 1i, sparse(2), -1, NaN, ...
               1e300, uint8(3), @sin, ones(2, 2, 2)};
     A = grid_laplacian(4, 1);

@@ -48,7 +48,7 @@ _CALLS = {
     "pins_add": [PTR, PTR, INT, _STATS],
     "pins_add_equality": [PTR, PTR, PTR, INT, _STATS],
     "pins_release": [PTR, PTR, INT, _STATS],
-    "pins_refactor": [PTR, _CSC, _STATS],
+    "pins_refactor": [PTR, _STATS],
     "pins_solve": [PTR, PTR, PTR, SIZE, PTR, SIZE, PTR, SIZE, INT, PTR],
     "factor_defects": [PTR, PTR, SIZE, PTR, SIZE, INT, PTR],
     "factor_create": [_OUT, PTR, _CSC, _OPT, _STATS],

@@ -78,18 +78,12 @@ class Pins:
                                                     ctypes.byref(stats)),
                           stats, self._count - count // width)
 
-    def update(self, A=None):
-        """Takes the present numbers of the factor, after it has changed.
-
-        A  its matrix: pins are then held by the cheaper way, elimination or a small dense matrix.
-           ArgumentError: not the matrix of the factor.
-        """
-        matrix = None if A is None else self._factor.analysis._matrix(A)
+    def update(self):
+        """Takes the present numbers of the factor, after it has changed."""
         self._factor._pointer
         stats = Stats()
-        return self._done(self._lib.sl_pins_refactor(
-            self._pins.pointer, None if matrix is None else matrix.reference(),
-            ctypes.byref(stats)), stats, self._count)
+        return self._done(self._lib.sl_pins_refactor(self._pins.pointer, ctypes.byref(stats)),
+                          stats, self._count)
 
     def solve(self, B, values, plan=None):
         """x with A x = B in all other rows and x = values in the pinned ones.

@@ -76,8 +76,7 @@ _ReuseInfo = _struct("_ReuseInfo", [
     ("kept", INT), ("computed", INT), ("entries", OFF), ("flops", REAL),
     ("flops_anew", REAL), ("is_anew", ctypes.c_int), ("reason", ENUM), ("seconds", REAL)])
 _PinsInfo = _struct("_PinsInfo", [
-    ("method", ENUM), ("reason", ENUM), ("count", INT), ("eliminated", INT),
-    ("seconds_capacitance", REAL), ("seconds_elimination", REAL), ("seconds", REAL)])
+    ("count", INT), ("padding", INT), ("seconds", REAL)])
 _DirichletInfo = _struct("_DirichletInfo", [
     ("method", ENUM), ("n_free", INT), ("couplings", OFF), ("seconds_submatrix", REAL),
     ("seconds_restriction", REAL), ("seconds_pins", REAL), ("seconds", REAL)])
@@ -98,7 +97,7 @@ class Stats(ctypes.Structure):
                 ("change", _ChangeInfo), ("restriction", _RestrictInfo),
                 ("edit", _EditInfo), ("storage", OFF), ("reuse", _ReuseInfo),
                 ("pins", _PinsInfo), ("certificate", _CertificateInfo), ("null_bound", REAL),
-                ("dirichlet", _DirichletInfo), ("threads", OFF), ("reserved", OFF * 12)]
+                ("dirichlet", _DirichletInfo), ("threads", OFF), ("reserved", OFF * 15)]
 
 
 class SavedSet(ctypes.Structure):

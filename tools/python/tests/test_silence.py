@@ -49,7 +49,7 @@ def test_values_that_are_not_symmetric(turn):
     calls = (lambda: sl.Factor(B), lambda: F.refactor(B), lambda: F.update(B, [2]),
              lambda: F.change(B, A), lambda: F.refine(B, b, b), lambda: F.rcond(B),
              lambda: F.certify(B), lambda: F.restrict(B, [1]), lambda: sl.analyze(A).factor(B),
-             lambda: sl.Sum([B]), lambda: F.pins([1]).update(B))
+             lambda: sl.Sum([B]))
     for call in calls:
         with pytest.raises(sl.PatternError):
             call()

@@ -1,19 +1,7 @@
-/* test_pins_ways.c: pins that are eliminated: adding and releasing across the switch of the way */
+/* test_pins_sets.c: sets of pins that change, of many pins, for new numbers */
 #include "tests/lib/pinned.h"
 
 enum { STEPS = 40 };
-
-/* What a test has seen. */
-typedef struct ways_t {
-    int eliminated, back, mixed;
-} ways_t;
-
-static void note(ways_t *w, const sl_stats *stats, sl_pins_method before) {
-    w->eliminated += stats->pins.method == SL_PINS_ELIMINATION;
-    w->back += before == SL_PINS_ELIMINATION && stats->pins.method == SL_PINS_CAPACITANCE;
-    w->mixed +=
-        stats->pins.method == SL_PINS_ELIMINATION && stats->pins.eliminated < stats->pins.count;
-}
 
 /* How many pins and equalities have this row; a pin counts 1000. */
 static int uses(const pinned_t *p, sl_int row) {
@@ -91,9 +79,8 @@ static void add_equality(pinned_t *p, uint64_t *seed) {
 }
 
 /* Random changes of a set that keep the first `least` pins: a singular matrix needs one. */
-static void change(pinned_t *p, sl_int least, uint64_t *seed, ways_t *w) {
+static void change(pinned_t *p, sl_int least, uint64_t *seed) {
     sl_int *rows = test_ints((size_t)p->n);
-    sl_pins_method before = SL_PINS_CAPACITANCE;
     sl_stats stats;
     for (int step = 0; step < STEPS; step++) {
         const int kind = (int)gen_below(seed, 8);
@@ -112,23 +99,19 @@ static void change(pinned_t *p, sl_int least, uint64_t *seed, ways_t *w) {
         } else {
             continue;
         }
-        note(w, &stats, before);
-        before = stats.pins.method;
         assert_int_equal(stats.pins.count, p->count);
-        assert_int_equal(stats.pins.reason, SL_PINS_CHEAPEST);
         assert_true(stats.pins.seconds >= 0.0);
         assert_pinned(p, gen_bits(seed));
     }
     free(rows);
 }
 
-static void both_ways_give_the_same(void **state) {
+static void sets_that_change_hold(void **state) {
     (void)state;
     static const gen_kind_t kinds[6] = {GEN_PATH,  GEN_STAR,       GEN_GRID2,
                                         GEN_GRID3, GEN_COMPONENTS, GEN_SINGULAR};
     variant_list_t variants = variants_present();
     uint64_t seed = 5;
-    ways_t w = {0, 0, 0};
     for (int k = 0; k < 6 * variants.count; k++) {
         for (int sign = -1; sign <= 1; sign += 2) {
             sl_options opt = options_none();
@@ -137,39 +120,18 @@ static void both_ways_give_the_same(void **state) {
             opt.null_pivots =
                 kinds[k % 6] == GEN_SINGULAR ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
             pinned_t p = pinned_make(kinds[k % 6], 90, sign, &opt);
-            SL_CHECK(sl_pins_refactor(p.P, &p.y.M.view, NULL));
             const sl_int least = kinds[k % 6] == GEN_SINGULAR;
             if (least > 0) {
                 pin(&p, 7);
             }
-            change(&p, least, &seed, &w);
+            change(&p, least, &seed);
             pinned_free(&p);
         }
     }
-    assert_true(w.eliminated > 20 && w.back > 0 && w.mixed > 5);
 }
 
-/* Pins that come one by one are eliminated in time. */
-static void single_pins_are_eliminated(void **state) {
-    (void)state;
-    pinned_t p = pinned_make(GEN_GRID2, 100, 1, NULL);
-    sl_stats stats;
-    sl_int count = 0;
-    SL_CHECK(sl_pins_refactor(p.P, &p.y.M.view, NULL));
-    do {
-        assert_true(count < 99);
-        pin_rows(&p, &count, 1, &stats);
-        count++;
-    } while (stats.pins.eliminated == 0);
-    assert_true(count > 2);
-    assert_int_equal(stats.pins.eliminated, count);
-    assert_true(stats.pins.seconds_capacitance > stats.pins.seconds_elimination);
-    assert_pinned(&p, 9);
-    pinned_free(&p);
-}
-
-/* Each allocation of a switch fails once: the pins stay as they were. */
-static void failing_allocations_leave_the_way(void **state) {
+/* Each allocation of a change fails once: the pins stay as they were. */
+static void failing_allocations_leave_the_pins(void **state) {
     (void)state;
     counter_t counter = counter_make();
     sl_options opt = options_counted(&counter);
@@ -182,12 +144,11 @@ static void failing_allocations_leave_the_way(void **state) {
         rows[k] = 2 * k + 1;
         some[k % 10] = 3 * (k % 10);
     }
-    for (int step = 0; step < 6; step++) {
+    for (int step = 1; step < 6; step++) {
         sl_status status = SL_ERR_MEMORY;
         for (int m = 0; status != SL_OK; m++) {
             counter.fail_at = (int64_t)counter.calls + m;
-            status = step == 0   ? sl_pins_refactor(p.P, &p.y.M.view, &stats)
-                     : step == 1 ? sl_pins_add(p.P, rows, 47, &stats)
+            status = step == 1   ? sl_pins_add(p.P, rows, 47, &stats)
                      : step == 2 ? sl_pins_add(p.P, rows + 47, 2, &stats)
                      : step == 3 ? pin_row(p.P, rows[49], &stats)
                      : step == 4 ? sl_pins_release(p.P, some, 10, &stats)
@@ -213,15 +174,12 @@ static void failing_allocations_leave_the_way(void **state) {
             assert_int_equal(pins_count(p.P), p.count);
             assert_pinned(&p, (uint64_t)m);
         }
-        assert_int_equal(step == 5 ? SL_PINS_ELIMINATION : stats.pins.method,
-                         step == 0 ? SL_PINS_CAPACITANCE : SL_PINS_ELIMINATION);
     }
     pinned_free(&p);
     COUNTER_CLEAN(&counter);
 }
 
-/* New numbers: by sl_pins_refactor the rows stay eliminated, by sl_pins_refactor the matrix is
- * forgotten. A matrix of other values is refused with the row. */
+/* New numbers are refused until sl_pins_refactor takes them; a set may lose pins before. */
 static void new_numbers_are_taken(void **state) {
     (void)state;
     pinned_t p = pinned_make(GEN_GRID2, 100, 1, NULL);
@@ -229,16 +187,19 @@ static void new_numbers_are_taken(void **state) {
     sl_csc *A = &p.y.M.view;
     double *x = test_reals(n * 60), *values = test_reals((size_t)A->p[n]);
     sl_int rows[48];
+    uint64_t seed = 6;
     sl_stats stats;
     for (sl_int k = 0; k < 48; k++) {
         rows[k] = 2 * k;
     }
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_refactor(NULL, A, NULL));
-    pin_rows(&p, rows, 2, &stats);
-    assert_int_equal(stats.pins.reason, SL_PINS_NO_MATRIX);
-    SL_CHECK(sl_pins_refactor(p.P, A, &stats));
-    pin_rows(&p, rows + 2, 46, &stats);
-    assert_int_equal(stats.pins.eliminated, 48);
+    pin_rows(&p, rows, 20, &stats);
+    add_equality(&p, &seed);
+    pin_rows(&p, rows + 20, 28, &stats);
+    const sl_int one_row = 97;
+    const double one = 1.0, two = 2.0;
+    SL_CHECK(sl_pins_add_equality(p.P, &one_row, &two, 1, NULL));
+    SL_EXPECT(SL_ERR_PIVOT, sl_pins_add_equality(p.P, &one_row, &one, 1, NULL));
+    p.C[n * (size_t)p.count++ + (size_t)one_row] = two;
     SL_EXPECT(SL_ERR_PIVOT, pin_row(p.P, 4, &stats));
     assert_int_equal(stats.error.row, 4);
     memcpy(values, A->x, (size_t)A->p[n] * sizeof(double));
@@ -249,20 +210,16 @@ static void new_numbers_are_taken(void **state) {
     for (size_t k = 0; k < n * n; k++) {
         p.dense[k] *= 1.5;
     }
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_refactor(p.P, A, &stats));
-    assert_true(stats.error.row >= 0 && stats.error.row < p.n && stats.error.value > 0.1);
     SL_CHECK(sl_factor_refactor(p.y.F, A, NULL));
     SL_EXPECT(SL_ERR_STALE, sl_pins_solve(p.P, NULL, x, n, x, n, x, n, 1, NULL));
-    SL_EXPECT(SL_ERR_STALE, unpin(p.P, 0));
-    SL_CHECK(sl_pins_refactor(p.P, A, &stats));
-    assert_int_equal(stats.pins.eliminated, 48);
+    SL_EXPECT(SL_ERR_STALE, pin_row(p.P, 99, NULL));
+    release_rows(&p, 0, 3, &(uint64_t){7}, &stats);
+    SL_CHECK(sl_pins_refactor(p.P, &stats));
+    assert_int_equal(stats.pins.count, p.count);
     assert_pinned(&p, 4);
     SL_CHECK(sl_factor_refactor(p.y.F, A, NULL));
-    SL_CHECK(sl_pins_refactor(p.P, NULL, NULL));
-    assert_pinned(&p, 5);
+    SL_CHECK(sl_pins_refactor(p.P, NULL));
     release_rows(&p, 0, 3, &(uint64_t){7}, &stats);
-    assert_int_equal(stats.pins.method, SL_PINS_CAPACITANCE);
-    assert_int_equal(stats.pins.reason, SL_PINS_NO_MATRIX);
     assert_pinned(&p, 6);
     const sl_int twice[2] = {3, 3}, outside[2] = {3, p.n};
     SL_EXPECT(SL_ERR_PIVOT, sl_pins_add(p.P, twice, 2, &stats));
@@ -278,20 +235,12 @@ static void new_numbers_are_taken(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release(p.P, NULL, 1, NULL));
     SL_EXPECT(SL_ERR_TOO_LARGE, sl_pins_add(p.P, twice, INT32_MAX, NULL));
     assert_pinned(&p, 7);
-    SL_CHECK(sl_pins_refactor(p.P, A, NULL));
     SL_CHECK(sl_pins_add(p.P, NULL, 0, NULL));
-    for (sl_int k = 0; k < 48; k++) {
-        rows[k] = 2 * (k % 39) + 1;
-    }
-    SL_EXPECT(SL_ERR_PIVOT, sl_pins_add(p.P, rows, 40, &stats)); /* row 1 twice */
-    assert_int_equal(stats.error.row, 1);
-    pin_rows(&p, rows, 39, &stats);
-    assert_int_equal(stats.pins.method, SL_PINS_ELIMINATION);
-    assert_pinned(&p, 8);
     A->x = x; /* zeros */
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(p.y.F, A, NULL));
-    SL_EXPECT(SL_ERR_STALE, unpin(p.P, p.count - 1));
-    assert_int_equal(pins_count(p.P), p.count);
+    SL_EXPECT(SL_ERR_STALE, sl_pins_refactor(p.P, &stats));
+    SL_CHECK(unpin(p.P, p.count - 1));
+    assert_int_equal(pins_count(p.P), p.count - 1);
     A->x = p.y.M.x;
     free(values);
     free(x);
@@ -320,21 +269,16 @@ static void many_pins_with_long_paths_hold(void **state) {
     gen_matrix_t M = gen_store(&t, gen_style(0), 1);
     factored_t y = {M, analyze_natural(&M.view, SL_RELAXATION_DEFAULT), NULL};
     SL_CHECK(sl_factor_create(&y.F, y.S, &M.view, NULL, NULL));
-    for (int has_matrix = 0; has_matrix < 2; has_matrix++) { /* 0: no elimination */
-        sl_pins *P = NULL;
-        SL_CHECK(sl_pins_create(&P, y.F, NULL));
-        if (has_matrix) {
-            SL_CHECK(sl_pins_refactor(P, &M.view, NULL));
-        }
-        SL_CHECK(sl_pins_add(P, rows, PINS, NULL));
-        SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, g, PINS, 1, NULL));
-        SL_CHECK(sl_csc_residual(&M.view, r, N, NULL, x, N, b, N, 1));
-        for (sl_int k = 0; k < N; k++) {
-            const int is_pin = k < 2 * PINS && k % 2 == 0;
-            assert_true(fabs(is_pin ? x[k] - g[k / 2] : r[k]) <= 1e-12);
-        }
-        sl_pins_free(P);
+    sl_pins *P = NULL;
+    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_CHECK(sl_pins_add(P, rows, PINS, NULL));
+    SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, g, PINS, 1, NULL));
+    SL_CHECK(sl_csc_residual(&M.view, r, N, NULL, x, N, b, N, 1));
+    for (sl_int k = 0; k < N; k++) {
+        const int is_pin = k < 2 * PINS && k % 2 == 0;
+        assert_true(fabs(is_pin ? x[k] - g[k / 2] : r[k]) <= 1e-12);
     }
+    sl_pins_free(P);
     gen_list_free(&t);
     factored_free(&y);
     free(b);
@@ -357,13 +301,12 @@ static void large_fronts_have_room(void **state) {
     double b[SET * MOST], x[SET * MOST];
     sl_pins *P = NULL;
     sl_plan *plan = NULL;
-    for (sl_int i = 0; i < (sl_int)n; i += 2) {
+    for (sl_int i = 0; i < (sl_int)n; i += 5) {
         rows[count++] = i;
     }
     gen_reals(G, n * MOST, 1);
     gen_reals(b, SET * MOST, 2);
     SL_CHECK(sl_pins_create(&P, y.F, &opt));
-    SL_CHECK(sl_pins_refactor(P, &y.M.view, NULL));
     SL_CHECK(sl_pins_add(P, rows, count, NULL));
     SL_CHECK(sl_plan_create(&plan, y.S, set, SET, set, SET, NULL, NULL));
     for (sl_int nrhs = 1; nrhs <= MOST; nrhs++) {
@@ -389,10 +332,9 @@ static void large_fronts_have_room(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(both_ways_give_the_same),
-        cmocka_unit_test(single_pins_are_eliminated),
+        cmocka_unit_test(sets_that_change_hold),
         cmocka_unit_test(many_pins_with_long_paths_hold),
-        cmocka_unit_test(failing_allocations_leave_the_way),
+        cmocka_unit_test(failing_allocations_leave_the_pins),
         cmocka_unit_test(new_numbers_are_taken),
         cmocka_unit_test(large_fronts_have_room),
     };
