@@ -1,6 +1,6 @@
 /* multi_rhs_small.inl.h: several right-hand sides through a supernode of at most 8 columns */
 
-#if SLW_ROWS == 8
+#if !defined(SLW_HALF)
 /* A supernode of 1 to 8 columns. The width is a compile-time constant, as in small_supernode.inl.h,
  * but not with SLW_GROUPS.
  * The rows of its columns stay in registers; the rows below are read one after another. The
@@ -154,7 +154,7 @@ SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_i
 #undef SLI_BY_WIDTH
 #undef SLI_CLEAR_WIDE
 #else
-/* 8 rows do not fit in the registers: first one half of the right-hand sides, then the other. */
+/* First one half of the right-hand sides, then the other. */
 SLV_FUNCTION SLI_INLINE void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
                                                       const sl_int *rows, const SLV_VALUE *l,
                                                       double *xs, double *x) {

@@ -115,17 +115,16 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
     SLV_DECLARE(z)
     SLI_EACH8(SLI_SUM_DECLARE, a)
     SLI_EACH8(SLI_SUM_ZERO, a)
-    if ((w == SLI_TILE || row > 0) && count > 0) {
-        at -= count;
+    for (row += count > 0 ? SLI_TILE : 0; row > SLI_TILE; row -= SLI_TILE) {
         l -= SLI_TILE * w;
-        SLV_GATHER(v, x, SLI_ROW_AT_PART)
-        SLV_FIRST(v, count)
-        SLI_DOTS
-    }
-    for (; row > SLI_TILE; row -= SLI_TILE) {
-        at -= SLI_TILE;
-        l -= SLI_TILE * w;
-        SLV_GATHER(v, x, SLI_ROW_AT)
+        if (at == below && count > 0) {
+            at -= count;
+            SLV_GATHER(v, x, SLI_ROW_AT_PART)
+            SLV_FIRST(v, count)
+        } else {
+            at -= SLI_TILE;
+            SLV_GATHER(v, x, SLI_ROW_AT)
+        }
         SLI_DOTS
     }
     l -= SLI_TILE * w;
