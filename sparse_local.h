@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 752a12f663cc7e30
+ * FNV-1a of the lines after this comment, without the license: d027ac6204eab975
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -7,57 +7,57 @@
  *    190 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
  *    234 config.h     macros that a user may define before the include, the version, and the integer types
  *    317 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    510 options.h    options of all calls, threads, and the allocator
- *    657 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    904 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *   1006 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1082 factor.h     the numerical factorization P A P' = L D L'
- *   1207 solve.h      full solves, and the workspace of all solves
- *   1304 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1383 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
- *   1475 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1574 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1614 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1722 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1801 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1887 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1983 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2095 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2135 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2263 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2295 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2484 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2596 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2724 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2765 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2854 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2964 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   3001 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   3078 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3118 impl/ base: the compiler, status, memory, sorting, threads
- *   4292 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5175 impl/ matrix: sparse matrices of the caller and of the library
- *   5810 impl/ ordering: fill-reducing orderings of a graph
- *  10421 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12621 impl/ factor: the numbers of L and D
- *  15958 impl/ solve: full and local solves
- *  17629 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19545 impl/ pivots: the order of the pivots by the values of a matrix
- *  19954 impl/ float: L and fronts in single precision
- *  20405 impl/ inverse: entries of the inverse, regions
- *  23451 impl/ change: a factor that follows changes of its matrix
- *  30197 impl/ dirichlet: rows fixed at given values
- *  30784 impl/ dirichlet: by a factor of all rows
- *  30993 impl/ io: files that are replaced only when they are complete
- *  31211 impl/ files: Matrix Market files, 64-bit indices
- *  31831 impl/ save: factors in files
- *  33829 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34514 impl/ batch: diagonals of many inverses
- *  34658 impl/ complex: complex Hermitian systems over real factors
- *  35205 impl/ complex: entries of the inverse
- *  35265 impl/ packs: the tables through which the core calls packs
- *  35313 impl/ last: undefine every internal macro
- *  35660 impl/ templates: the header includes them from itself, once for each instruction set
+ *    496 options.h    options of all calls, threads, and the allocator
+ *    643 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    884 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    986 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1062 factor.h     the numerical factorization P A P' = L D L'
+ *   1187 solve.h      full solves, and the workspace of all solves
+ *   1284 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1363 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
+ *   1455 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1554 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1594 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1702 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1781 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1867 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1963 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2075 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2115 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2243 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2275 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2464 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2565 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2674 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2715 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2803 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2913 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2950 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   3027 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3067 impl/ base: the compiler, status, memory, sorting, threads
+ *   4241 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5124 impl/ matrix: sparse matrices of the caller and of the library
+ *   5759 impl/ ordering: fill-reducing orderings of a graph
+ *  10370 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12570 impl/ factor: the numbers of L and D
+ *  15907 impl/ solve: full and local solves
+ *  17578 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19494 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19903 impl/ float: L and fronts in single precision
+ *  20354 impl/ inverse: entries of the inverse, regions
+ *  23395 impl/ change: a factor that follows changes of its matrix
+ *  29343 impl/ dirichlet: rows fixed at given values
+ *  29930 impl/ dirichlet: by a factor of all rows
+ *  30148 impl/ io: files that are replaced only when they are complete
+ *  30366 impl/ files: Matrix Market files, 64-bit indices
+ *  30986 impl/ save: factors in files
+ *  32984 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33669 impl/ batch: diagonals of many inverses
+ *  33813 impl/ complex: complex Hermitian systems over real factors
+ *  34360 impl/ complex: entries of the inverse
+ *  34420 impl/ packs: the tables through which the core calls packs
+ *  34468 impl/ last: undefine every internal macro
+ *  34807 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -476,20 +476,6 @@ typedef enum sl_change_reason {
     SL_CHANGE_REFUSED       /* rank-one changes met a pivot that they refuse */
 } sl_change_reason;
 
-/** How pins hold rows. */
-typedef enum sl_pins_method {
-    SL_PINS_CAPACITANCE = 0, /* all by a small dense matrix on top of the factor */
-    SL_PINS_ELIMINATION      /* pins in a factor with identity rows, later ones on top of it */
-} sl_pins_method;
-
-/** Why pins hold rows in their way. */
-typedef enum sl_pins_reason {
-    SL_PINS_CHEAPEST = 0, /* the fewest flops, weighted by what one costs in each way */
-    SL_PINS_NO_MATRIX,    /* the matrix is not known: sl_pins_refactor */
-    SL_PINS_UNSUITED,     /* several null vectors, regularization, or SL_STORAGE_COMPLEX */
-    SL_PINS_REFUSED       /* elimination met a pivot that it refuses */
-} sl_pins_reason;
-
 /** How sl_dirichlet_create fixes rows. */
 typedef enum sl_dirichlet_method {
     SL_DIRICHLET_SUBMATRIX = 0, /* a factor of the free rows */
@@ -774,7 +760,7 @@ typedef struct sl_certificate_info {
     double seconds;        /* processor seconds */
 } sl_certificate_info;
 
-/** A change of a factor in place: sl_factor_update, _update_entries, _change. */
+/** A change of a factor in place: sl_factor_update, sl_factor_change. */
 typedef struct sl_change_info {
     sl_change_method method; /* the way that was taken */
     sl_change_reason reason; /* why; of sl_factor_change */
@@ -831,14 +817,8 @@ typedef struct sl_reuse_info {
 
 /** A set of pins: sl_pins_add, _add_equality, _release, _refactor. */
 typedef struct sl_pins_info {
-    sl_pins_method method; /* the way in use */
-    sl_pins_reason reason; /* why */
-    sl_int count;          /* pins and equalities */
-    sl_int eliminated;     /* those that are eliminated */
-    /* of the last choice, as estimated from counts; 0: there was none yet */
-    double seconds_capacitance;
-    double seconds_elimination; /* the same */
-    double seconds;             /* processor seconds of the call */
+    sl_int count;   /* pins and equalities */
+    double seconds; /* processor seconds of the call */
 } sl_pins_info;
 
 /** Rows fixed at given values: sl_dirichlet_create, sl_dirichlet_refactor. */
@@ -880,7 +860,7 @@ typedef struct sl_stats {
      * with neither SL_PTHREADS nor OpenMP and options.threads has no pool; with the group factor */
     sl_off threads;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[12];
+    sl_off reserved[15];
 } sl_stats;
 
 /** Writes an error as one sentence: the status, error.what, and the row, column, line and value as
@@ -2520,41 +2500,30 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
 SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *sigma,
                                                  sl_work *W, sl_stats *stats);
 
-/** Changes a factor by entries of A: a_ij and a_ji by delta.
+/** Changes a factor by entries of A, a_ij and a_ji by delta, in the cheapest way: by rank-one
+ *  changes, by recomputing the columns of L that the change reaches, or by a refactorization. By
+ *  rank-one changes alone if A is NULL.
  *
- *  The library finds rank-one changes: one for the weight of an edge of a graph, which changes a_ij
- *  by -w and a_ii and a_jj by w, one for an entry of the diagonal, and up to three for any other
- *  entry, which follow the scales of the two rows if all pivots have one sign.
- *
- *  rows, columns  [in]  count entries (i, j) of either triangle, each pair i != j once for both
- *                       sides; repeated ones add up. L must have an entry there; all entries of A
- *                       do.
- *  deltas         [in]  count changes.
- *  F, W, stats, Returns, Cost, Threads  as in sl_factor_update; SL_ERR_ARGUMENT: also an index out
- *                       of range, at error.row and error.column.
- *  Example  tests/core/test_change.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows,
-                                                         const sl_int *columns,
-                                                         const double *deltas, sl_int count,
-                                                         sl_work *W, sl_stats *stats);
-
-/** Changes a factor by entries of A in the cheapest way: by rank-one changes, by recomputing the
- *  columns of L that the change reaches, or by a refactorization.
+ *  Rank-one changes: one for the weight of an edge of a graph, which changes a_ij by -w and a_ii
+ *  and a_jj by w, one for an entry of the diagonal, and up to three for any other entry, which
+ *  follow the scales of the two rows if all pivots have one sign.
  *
  *  The ways are compared by their flops, each with what a flop costs in it. Where rank-one changes
  *  are not possible or have added up too much error, the other two remain (stats.change.reason).
  *
- *  F              [in,out]  the factor, or a failed one, which is refactored. On error as with
- *                           sl_factor_refactor; without numbers where the error of a change is too
- *                           large and A is refused.
- *  A              [in]      the changed matrix, in the analyzed pattern. Rank-one changes compare
- *                           its size only; the other ways read it and check its pattern.
- *  rows, columns, deltas  [in]  how it differs from the matrix of F, as in
- *                           sl_factor_update_entries.
+ *  F              [in,out]  the factor, or, with A, a failed one, which is refactored. On error as
+ *                           with sl_factor_update; with A as with sl_factor_refactor, and without
+ *                           numbers where the error of a change is too large and A is refused.
+ *  A              [in]      the changed matrix, in the analyzed pattern, or NULL. Rank-one changes
+ *                           compare its size only; the other ways read it and check its pattern.
+ *  rows, columns  [in]  count entries (i, j) of either triangle, each pair i != j once for both
+ *                       sides; repeated ones add up. L must have an entry there; all entries of A
+ *                       do.
+ *  deltas         [in]  count changes.
  *  W              [in,out]  workspace; NULL: allocated for this call.
  *  stats          [out]     change, factor; may be NULL.
- *  Returns  as sl_factor_refactor and sl_factor_update_entries.
+ *  Returns  as sl_factor_refactor and sl_factor_update; SL_ERR_ARGUMENT: also an index out of
+ *           range, at error.row and error.column.
  *  Cost     that of the way, and at most a few percent of a refactorization to count flops;
  *           nothing of O(n) or O(nnz) for rank-one changes.
  *  Threads  exclusive use of F.
@@ -2597,9 +2566,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const s
 
 /** Creates an empty set of pins: rows, or linear combinations of rows, that solves hold at given
  *  values. For definite A this minimizes x' A x / 2 - b' x under these equalities. The factor does
- *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep. If
- *  the matrix is known (sl_pins_refactor), many pins are eliminated instead: a second factor, in
- *  which their rows are those of the identity, over the same analysis.
+ *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep. For
+ *  hundreds of rows that are held together, sl_dirichlet_create is the faster call.
  *
  *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
  *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
@@ -2637,13 +2605,9 @@ SL_API void sl_pins_free(sl_pins *P);
  *           combination of the others, up to rounding; SL_ERR_STALE: F has changed;
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
  *           (error.row); SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
- *  Cost     by the capacitance matrix, for each pin, a forward sweep, which up to 8 nearby rows
- *           share, k products over shared columns and O(k^2); keeps 16 bytes per column of the
- *           path, and 4 per row below its supernodes. 100 pins together take half as long as one by
- *           one.
- *           If the matrix is known, k counts the pins since the last elimination. Once their cost
- *           exceeds that of the next elimination, all are eliminated: by a copy of the factor if P
- *           has none yet, and a refactorization of the reach of the changed rows, or of all.
+ *  Cost     for each pin, a forward sweep, which up to 8 nearby rows share, k products over shared
+ *           columns and O(k^2), with k pins before it; keeps 16 bytes per column of the path, and 4
+ *           per row below its supernodes. 100 pins together take half as long as one by one.
  *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count,
@@ -2663,35 +2627,22 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *r
  *
  *  indices  [in]   count >= 0 different numbers of pins, 0-based, in any order.
  *  stats    [out]  pins, of which count is the number that is left; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY; SL_ERR_TOO_LARGE; of pins that are eliminated
- *           also SL_ERR_STALE: F has changed, and the errors of sl_pins_add. On error P is as
- *           before.
- *  Cost     O(k^2) for each. If some are eliminated, the others are eliminated anew, by the reach
- *           of the released rows, or added anew by the capacitance matrix: release them together.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
+ *  Cost     O(k^2) for each.
  *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count,
                                                 sl_stats *stats);
 
-/** Takes the present numbers of the factor, after it has changed. EXPERIMENTAL: takes its matrix,
- *  so that pins may be eliminated; both ways to hold them give the same solutions, up to rounding.
+/** Takes the present numbers of the factor, after it has changed.
  *
- *  A      [in]   the matrix that F is a factor of; its values are copied. This is tested by a solve
- *                with a random right-hand side. Pins are then held by the cheaper way; with several
- *                null vectors, regularization or SL_STORAGE_COMPLEX they stay with the capacitance
- *                matrix (stats.pins.reason). NULL: no matrix; one that P was given before is
- *                forgotten, and all pins use the capacitance matrix.
  *  stats  [out]  pins; error.row; may be NULL.
- *  Returns  as sl_pins_add; SL_ERR_ARGUMENT: also if the test fails (error.row);
- *           SL_ERR_OTHER_PATTERN: A has not the analyzed pattern; SL_ERR_STALE: failed factor. On
- *           error P is as before, or, if F has changed or A is NULL, solves are refused until a
- *           later call succeeds.
- *  Cost     after F has changed, and without A, k forward sweeps and O(k^3), or a refactorization
- *           of the second factor, which elimination keeps. For A a solve, two products with A, and
- *           8 bytes per entry.
+ *  Returns  as sl_pins_add; SL_ERR_STALE: failed factor. On error solves are refused until a later
+ *           call succeeds.
+ *  Cost     that of sl_pins_add for all pins.
  *  Threads  exclusive use of P; F is read.
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, const sl_csc *A, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
 
 /** Solves A x = b + C f with C' x = g, where the columns of C are the equalities: for pins, x is g
  *  in their rows, and A x = b in all others.
@@ -2712,9 +2663,8 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, const sl_csc *A, sl
  *           body; SL_ERR_INCONSISTENT: b is out of balance with a motion that the pins leave; with
  *           more than 8 right-hand sides X may then have those before it; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
- *  Cost     for each right-hand side a solve and, of the pins that are not eliminated, k products
- *           over shared columns, twice, and O(k^2); as much for each null vector of components with
- *           pins. Eliminated pins: with a plan the forward sweep of their neighbors.
+ *  Cost     for each right-hand side a solve, k products over shared columns, twice, and O(k^2);
+ *           as much for each null vector of components with pins.
  *  Threads  any number at once on one P, each with its own W.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
@@ -2836,7 +2786,6 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor 
 
 #else
 #define sl_factor_update(...) sl_factor_update_needs_SL_WITH_CHANGE
-#define sl_factor_update_entries(...) sl_factor_update_entries_needs_SL_WITH_CHANGE
 #define sl_factor_change(...) sl_factor_change_needs_SL_WITH_CHANGE
 #define sl_factor_refactor_changed(...) sl_factor_refactor_changed_needs_SL_WITH_CHANGE
 #define sl_pins_create(...) sl_pins_create_needs_SL_WITH_CHANGE
@@ -21085,15 +21034,10 @@ SLI_INLINE const sli_costs *sli_costs_of(sl_isa isa) {
 #define SLI_PINS_ENTRY 0.12e-9
 #define SLI_PINS_JOINT 0.26
 #define SLI_PINS_BLOCK 1.05
-#define SLI_PINS_TERM 0.2e-9
-#define SLI_PINS_STEP 3e-9
 #define SLI_PINS_PRODUCT 0.04e-9
 #define SLI_PINS_NUMBER 1e-9
 #define SLI_PINS_PIN 1e-6
 #define SLI_PINS_DENSE 0.13e-9
-#define SLI_PINS_MAP 5e-9
-#define SLI_PINS_COPY 0.6e-9
-#define SLI_PINS_MEMORY 1.2e-9
 
 #define SLI_DIRICHLET_ANALYSIS 280e-9
 #define SLI_DIRICHLET_ROW 120e-9
@@ -25078,27 +25022,6 @@ static void sli_edges_begin(sli_rank *q, const sl_int *rows, const sl_int *colum
   q->n_entries = count;
 }
 
-SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, const sl_int *columns,
-                      const double *deltas, sl_int count, sl_work *W,
-                      sl_stats *stats) {
-  const double started = stats == NULL ? 0.0 : sli_seconds();
-  sli_rank q;
-  sl_status status;
-  sli_stats_clear_error(stats);
-  status = sli_edges_check(F, rows, columns, deltas, count, stats);
-  status = status == SL_OK ? sli_rank_check(F) : status;
-  if (status != SL_OK) {
-    return sli_report(stats, status);
-  }
-  sli_rank_begin(&q, F, stats);
-  sli_edges_begin(&q, rows, columns, deltas, count);
-  status = sli_rank_apply(&q, sli_edges_stages, 3, W);
-  if (status == SL_OK) {
-    sli_rank_report(&q, started, stats);
-  }
-  return sli_report(stats, status);
-}
-
 /* src/impl/change/choose.h: sl_factor_change: rank-one changes, the reach of the change, or all of L */
 
 typedef struct sli_change_choice {
@@ -25329,40 +25252,29 @@ static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc 
   return status;
 }
 
-SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,
-                  const sl_int *columns, const double *deltas, sl_int count,
-                  sl_work *W, sl_stats *stats) {
-  const double started = stats == NULL ? 0.0 : sli_seconds();
+static sl_status sli_choose_cheapest(sli_rank *q, const sl_csc *A, sl_work *W, double started) {
+  const sl_allocator *a = &q->u.F->allocator;
+  const uint64_t count = (uint64_t)q->n_entries;
   sl_change_method method = SL_CHANGE_NONE;
+  sl_stats *stats = q->stats;
   sli_block b = {NULL, 0, 0};
   sli_change_choice c;
-  sli_rank q;
-  sl_work own;
-  sl_status status;
-  sli_stats_clear_error(stats);
-  status = sli_edges_check(F, rows, columns, deltas, count, stats);
-  status = status == SL_OK ? sli_factor_may_change(F) : status;
-  status = status == SL_OK ? sli_pattern_check_size(F->S, A, 1) : status;
-  if (status != SL_OK) {
-    return sli_report(stats, status);
-  }
+  sl_work own = sli_work_own(a);
+  sl_status status = SL_OK;
   memset(&c, 0, sizeof c);
-  sli_rank_begin(&q, F, stats);
-  sli_edges_begin(&q, rows, columns, deltas, count);
-  q.u.least = sli_rank_least(F);
-  SLI_LAYOUT(&b, &F->allocator, status) {
+  q->u.least = sli_rank_least(q->u.F);
+  SLI_LAYOUT(&b, a, status) {
     c.seeds = SLI_TAKE(&b, uint64_t, count);
-    c.scratch = SLI_TAKE(&b, uint64_t, 2 * (uint64_t)count);
+    c.scratch = SLI_TAKE(&b, uint64_t, 2 * count);
     c.columns = SLI_TAKE(&b, sl_int, count);
   }
-  own = sli_work_own(&F->allocator);
   W = W == NULL ? &own : W;
   status = status == SL_OK ? sli_work_grow(W, 1) : status;
-  status = status == SL_OK ? sli_choose_run(&c, &q, A, W, &method) : status;
-  sli_free(&F->allocator, b.base);
-  sli_free(&own.allocator, own.block);
+  status = status == SL_OK ? sli_choose_run(&c, q, A, W, &method) : status;
+  sli_free(a, b.base);
+  sli_free(a, own.block);
   if (status == SL_OK) {
-    sli_rank_report(&q, started, stats);
+    sli_rank_report(q, started, stats);
   }
   if (status == SL_OK && stats != NULL) {
     stats->change.method = method;
@@ -25370,6 +25282,35 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
     stats->change.flops_update = c.flops_update;
     stats->change.flops_changed = c.flops_changed;
     stats->change.flops_refactor = c.flops_refactor;
+  }
+  return status;
+}
+
+SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,
+                  const sl_int *columns, const double *deltas, sl_int count,
+                  sl_work *W, sl_stats *stats) {
+  const double started = stats == NULL ? 0.0 : sli_seconds();
+  sli_rank q;
+  sl_status status;
+  sli_stats_clear_error(stats);
+  status = sli_edges_check(F, rows, columns, deltas, count, stats);
+  if (status == SL_OK) {
+    status = A == NULL ? sli_rank_check(F) : sli_factor_may_change(F);
+  }
+  if (status == SL_OK && A != NULL) {
+    status = sli_pattern_check_size(F->S, A, 1);
+  }
+  if (status != SL_OK) {
+    return sli_report(stats, status);
+  }
+  sli_rank_begin(&q, F, stats);
+  sli_edges_begin(&q, rows, columns, deltas, count);
+  if (A != NULL) {
+    return sli_report(stats, sli_choose_cheapest(&q, A, W, started));
+  }
+  status = sli_rank_apply(&q, sli_edges_stages, 3, W);
+  if (status == SL_OK) {
+    sli_rank_report(&q, started, stats);
   }
   return sli_report(stats, status);
 }
@@ -25381,7 +25322,6 @@ static const char sli_nulls_unknown[] =
   "null vectors of F are not known in the tree of this row: options.null_vector";
 
 typedef struct sli_pin {
-  sl_int index;
   sl_int count;
   sl_int *rows;
   double *values;
@@ -25399,33 +25339,12 @@ struct sl_pins {
   sli_numbers numbers;
   double sign;
   double delta;
-  sl_int count;
-  sl_off room;
-  sl_int *rows;
-
-  const sl_factor *base;
   sl_int n_pins, capacity;
   sli_pin **pins;
   double *K;
   double *scratch;
   sl_int *uses;
   sl_int n_used;
-
-  sl_pins_reason reason;
-  double *values;
-  sl_factor *G;
-  sl_int n_held, n_couplings;
-  sl_int *held;
-  sl_int *held_pin;
-  sl_int
-    *coupling_from;
-  sl_int *coupling_column;
-  const sl_int *coupling_to;
-  double *couplings;
-  sli_reach held_reach;
-  double spent;
-  double threshold;
-  double capacitance, elimination;
 };
 
 static double sli_dot(const double *a, const double *b, sl_int count) {
@@ -25437,11 +25356,6 @@ static double sli_dot(const double *a, const double *b, sl_int count) {
     sum += chains[k];
   }
   return sum;
-}
-
-SLI_INLINE sl_int sli_held_find(const sl_pins *P, sl_int column) {
-  const sl_int at = sli_lower_bound(P->held, P->n_held, column);
-  return at < P->n_held && P->held[at] == column ? at : -1;
 }
 
 static sl_status sli_pins_are_current(const sl_pins *P) {
@@ -25527,15 +25441,15 @@ static sl_status sli_pin_find_nulls(const sl_pins *P, sli_pin *pin, sl_int *row)
   sli_free(&P->allocator, pin->nulls);
   pin->nulls = NULL;
   pin->n_nulls = 0;
-  if (P->base->null.count > 0) {
-    status = sli_pin_visit_nulls(P->base, pin, 0, row);
+  if (P->F->null.count > 0) {
+    status = sli_pin_visit_nulls(P->F, pin, 0, row);
   }
   if (status == SL_OK && pin->n_nulls > 0) {
     SLI_LAYOUT(&b, &P->allocator, status) {
       pin->nulls = SLI_TAKE(&b, sl_int, pin->n_nulls);
       pin->z = SLI_TAKE(&b, double, pin->n_nulls);
     }
-    status = status == SL_OK ? sli_pin_visit_nulls(P->base, pin, 1, row) : status;
+    status = status == SL_OK ? sli_pin_visit_nulls(P->F, pin, 1, row) : status;
   }
   pin->n_nulls = status == SL_OK ? pin->n_nulls : 0;
   pin->nulls = (sl_int *)(void *)b.base;
@@ -25582,7 +25496,7 @@ static void sli_pins_nulls_layout(sli_pins_nulls *w, sli_block *b, const sl_pins
   const uint64_t count = (uint64_t)P->n_used;
   w->count = P->n_used;
   w->numbers = SLI_TAKE(b, sl_int, count);
-  w->place = SLI_TAKE(b, sl_int, count > 0 ? (uint64_t)P->base->null.count : 0);
+  w->place = SLI_TAKE(b, sl_int, count > 0 ? (uint64_t)P->F->null.count : 0);
   w->is_free = SLI_TAKE(b, unsigned char, count);
   w->W = SLI_TAKE(b, double, count *(uint64_t)P->n_pins);
   w->S = SLI_TAKE(b, double, count *count);
@@ -25601,7 +25515,7 @@ static void sli_pins_nulls_load(const sli_pins_nulls *w, const sl_pins *P) {
     for (k = 0; k < pin->n_nulls; k++) {
       const sl_int at = w->place[pin->nulls[k]];
       w->W[(size_t)at * (size_t)P->n_pins + (size_t)p] = pin->z[k];
-      w->s[at] += P->base->null.vectors > 1 ? square : 0.0;
+      w->s[at] += P->F->null.vectors > 1 ? square : 0.0;
     }
   }
 }
@@ -25650,7 +25564,7 @@ static void sli_pin_clear_nulls(const sl_pins *P, const sli_pin *pin, const sli_
                 sl_int lanes) {
   sl_int k;
   for (k = 0; k < pin->n_nulls; k++) {
-    const ptrdiff_t at = sli_reach_index_of(R, P->base->null.pivots[pin->nulls[k]]);
+    const ptrdiff_t at = sli_reach_index_of(R, P->F->null.pivots[pin->nulls[k]]);
     if (at != -1) {
       memset(y + at * lanes, 0, (size_t)lanes * sizeof *y);
     }
@@ -25658,15 +25572,13 @@ static void sli_pin_clear_nulls(const sl_pins *P, const sli_pin *pin, const sli_
 }
 
 static void sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) {
-  const sl_factor *F = P->base;
+  const sl_factor *F = P->F;
   const sl_symbolic *S = F->S;
   sli_forward f;
   sl_int k;
   memset(pin->y, 0, (size_t)pin->R.columns * sizeof(double));
   for (k = 0; k < pin->count; k++) {
-    const sl_int column = S->iperm[pin->rows[k]];
-    pin->y[sli_reach_index_of(&pin->R, column)] +=
-      sli_held_find(P, column) == -1 ? pin->values[k] : 0.0;
+    pin->y[sli_reach_index_of(&pin->R, S->iperm[pin->rows[k]])] += pin->values[k];
   }
   sli_forward_sweep(F, SLI_NRHS_1, &pin->R, pin->y, scratch);
   sli_pin_clear_nulls(P, pin, &pin->R, pin->y, 1);
@@ -25713,14 +25625,14 @@ static sl_status sli_pin_new(sli_pin **out, const sl_pins *P, sli_set *set, sl_i
   if (status == SL_OK) {
     const sl_int *unused;
     **out = pin;
-    sli_set_fill(P->base->S, set, &(*out)->R, &unused);
+    sli_set_fill(P->F->S, set, &(*out)->R, &unused);
   }
   return status;
 }
 
 static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sli_equality *e,
                 int is_swept, sl_stats *stats) {
-  const sl_symbolic *S = P->base->S;
+  const sl_symbolic *S = P->F->S;
   sli_block seeds = {NULL, 0, 0};
   sli_set set = sli_set_of(S, e->rows, e->count);
   sli_reach R;
@@ -25876,7 +25788,7 @@ static sl_status sli_pins_grow(sl_pins *P, sl_int more) {
   return SL_OK;
 }
 
-static sl_status sli_pins_push(sl_pins *P, sl_int index, const sli_equality *e, sl_stats *stats) {
+static sl_status sli_pins_push(sl_pins *P, const sli_equality *e, sl_stats *stats) {
   const sl_int at = P->n_pins;
   sli_pin *pin = NULL;
   sl_status status = sli_pins_grow(P, 1);
@@ -25896,7 +25808,6 @@ static sl_status sli_pins_push(sl_pins *P, sl_int index, const sli_equality *e, 
     sli_pin_free(P, pin);
     return sli_pins_refuse(P, status, e->rows[0], e->count, stats);
   }
-  pin->index = index;
   sli_pins_count_nulls(P, pin, 1);
   P->n_pins++;
   return SL_OK;
@@ -26012,7 +25923,7 @@ static sl_status sli_pins_push_blocks(sl_pins *P, sli_inverse_block *q, sl_stats
   return status;
 }
 
-static sl_status sli_pins_push_rows(sl_pins *P, sl_int index, const sl_int *rows, sl_int count,
+static sl_status sli_pins_push_rows(sl_pins *P, const sl_int *rows, sl_int count,
                   sl_stats *stats) {
   const double one = 1.0;
   const sl_int before = P->n_pins;
@@ -26024,12 +25935,12 @@ static sl_status sli_pins_push_rows(sl_pins *P, sl_int index, const sl_int *rows
     sli_inverse_block q;
     if (m <= SLI_PINS_SINGLY) {
       const sli_equality e = sli_equality_of(&rows[done], &one, 1);
-      status = sli_pins_push(P, index + done, &e, stats);
+      status = sli_pins_push(P, &e, stats);
       done++;
       continue;
     }
     for (;; m = m / 2) {
-      q = sli_inverse_all_pairs_of(P->base, rows + done, m);
+      q = sli_inverse_all_pairs_of(P->F, rows + done, m);
       status = sli_work_stages(&W, sli_inverse_block_stages, 2, &q);
       if (status != SL_OK || q.kept.n_blocks <= SLI_BLOCK_KEPT) {
         break;
@@ -26039,13 +25950,13 @@ static sl_status sli_pins_push_rows(sl_pins *P, sl_int index, const sl_int *rows
     status = status == SL_OK ? sli_pins_push_blocks(P, &q, stats) : status;
     for (k = P->n_pins; k < P->n_pins + m; k++) {
       if (status == SL_OK) {
-        P->pins[k]->index = index + done++;
         sli_pins_count_nulls(P, P->pins[k], 1);
       } else if (P->pins[k] != NULL) {
         sli_pin_free(P, P->pins[k]);
       }
     }
     P->n_pins += status == SL_OK ? m : 0;
+    done += m;
   }
   while (status != SL_OK && P->n_pins > before) {
     sli_pin *last = P->pins[--P->n_pins];
@@ -26093,7 +26004,7 @@ static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P
 
 static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli_packed *b,
               const double *norms) {
-  const sl_factor *F = P->base;
+  const sl_factor *F = P->F;
   const sli_reach *R = b->R;
   const sl_int lanes = b->lanes;
   sl_int first = 0, s, k, r;
@@ -26130,14 +26041,13 @@ static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli
 
 static int sli_pins_clear(const sl_pins *P, const sli_reach *R, double *y, sl_int lanes,
               const double *norms) {
-  const sl_factor *F = P->base;
-  const int checks = F->null.checks && norms != NULL;
+  const sl_factor *F = P->F;
   sl_int m, r;
   for (m = 0; m < F->null.count; m++) {
     const sl_int at = sli_reach_index_of(R, F->null.pivots[m]);
     double *row = y + (ptrdiff_t)at * lanes;
     const int is_known = F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
-    for (r = 0; r < lanes && at != -1 && checks && !is_known; r++) {
+    for (r = 0; r < lanes && at != -1 && F->null.checks && !is_known; r++) {
       if (P->uses[m] == 0 && fabs(row[r]) > F->null.consistency * norms[r]) {
         return 0;
       }
@@ -26182,9 +26092,9 @@ static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f
       w->sizes[at] += fabs(force);
     }
   }
-  for (k = 0; k < w->count * lanes && P->base->null.consistency >= 0.0; k++) {
+  for (k = 0; k < w->count * lanes && P->F->null.consistency >= 0.0; k++) {
     if (w->is_free[k / lanes] &&
-      fabs(w->defects[k]) > P->base->null.consistency * w->sizes[k]) {
+      fabs(w->defects[k]) > P->F->null.consistency * w->sizes[k]) {
       return 0;
     }
   }
@@ -26193,7 +26103,7 @@ static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f
 
 static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w, double *x,
                sl_int lanes) {
-  const sl_factor *F = P->base;
+  const sl_factor *F = P->F;
   const sli_reach *R = &q->backward;
   sl_int first = 0, root, s, m, k, r;
   for (root = 0; root < R->count && w->count > 0; root++) {
@@ -26221,304 +26131,7 @@ static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_
   }
 }
 
-/* src/impl/change/pins_held.h: eliminated rows: the factor of A with identity rows, and what they hand to others */
-
-typedef struct sli_holding {
-  sl_int count;
-  sl_int *columns;
-  sl_int *index;
-  uint64_t *list;
-  unsigned char *marks;
-  double *values;
-  uint64_t *room, *seeds;
-  sl_int n_seeds;
-  sl_off couplings;
-  sl_int *from;
-  void *block;
-  sli_change_choice choice;
-  int is_new, is_local;
-} sli_holding;
-
-static void sli_holding_layout(sli_holding *h, sli_block *b, const sl_symbolic *S) {
-  h->columns = SLI_TAKE(b, sl_int, h->count);
-  h->index = SLI_TAKE(b, sl_int, h->count);
-  h->list = SLI_TAKE(b, uint64_t, 2 * (uint64_t)h->count);
-  h->marks = SLI_TAKE(b, unsigned char, S->n);
-  h->values = SLI_TAKE(b, double, S->scatter_begin[S->n_supers]);
-  h->room = SLI_TAKE(b, uint64_t, S->n_supers);
-  h->from = SLI_TAKE(b, sl_int, S->n_supers);
-}
-
-static void sli_holding_mask(sli_holding *h, const sl_pins *P) {
-  const sl_symbolic *S = P->F->S;
-  sl_off m;
-  sl_int s, k, j;
-  h->n_seeds = S->n_supers;
-  h->couplings = 0;
-  for (s = S->n_supers - 1; s >= 0; s--) {
-    sl_int tile = sli_last_tile(S, s);
-    int is_changed = 0;
-    for (m = S->scatter_begin[s + 1] - 1; m >= S->scatter_begin[s]; m--) {
-      int marks;
-      sli_scatter_map_pivots(S, s, m, &tile, &k, &j);
-      marks = h->marks[k] | h->marks[j];
-      h->values[m] = P->values[m];
-      if ((marks & 1) != 0) {
-        const int is_last =
-          m + 1 == S->scatter_begin[s + 1] || S->scatter_to[m + 1] != S->scatter_to[m];
-        h->values[m] = k == j && is_last ? P->delta : 0.0;
-        h->couplings += ((h->marks[k] ^ h->marks[j]) & 1) != 0 && P->values[m] != 0.0;
-      }
-      is_changed |= marks == 1 || marks == 2;
-    }
-    if (is_changed) {
-      h->room[--h->n_seeds] = sli_keyed(S->super_first[s], 0);
-    }
-  }
-  h->seeds = h->room + h->n_seeds;
-  h->n_seeds = S->n_supers - h->n_seeds;
-}
-
-static sl_status sli_holding_begin(sli_holding *h, const sl_pins *P, const sl_int *rows,
-                   sl_int count, int is_stale, sl_stats *stats) {
-  const sl_symbolic *S = P->F->S;
-  sli_block b = {NULL, 0, 0};
-  sl_status status = SL_OK;
-  sl_int k;
-  memset(h, 0, sizeof *h);
-  for (k = 0; k < count; k++) {
-    h->count += rows[k] != -1;
-  }
-  SLI_LAYOUT(&b, &P->allocator, status) {
-    sli_holding_layout(h, &b, S);
-  }
-  h->block = b.base;
-  if (status != SL_OK) {
-    return status;
-  }
-  h->is_new = is_stale || P->n_held == 0;
-  h->count = 0;
-  for (k = 0; k < count; k++) {
-    if (rows[k] != -1) {
-      h->list[h->count++] = sli_keyed(S->iperm[rows[k]], k);
-    }
-  }
-  sli_sort(h->list, h->count, h->list + h->count);
-  memset(h->marks, 0, (size_t)S->n);
-  for (k = 0; k < h->count; k++) {
-    h->columns[k] = sli_key(h->list[k]);
-    h->index[k] = sli_value(h->list[k]);
-    if (h->marks[h->columns[k]]) {
-      return sli_fail_at(stats, SL_ERR_PIVOT, S->perm[h->columns[k]], -1, 0.0,
-                 sli_pinned_twice);
-    }
-    h->marks[h->columns[k]] = 1;
-  }
-  for (k = 0; k < P->n_held && !h->is_new; k++) {
-    h->marks[P->held[k]] |= 2;
-  }
-  sli_holding_mask(h, P);
-  return SL_OK;
-}
-
-static sl_status sli_held_factor(sl_factor **G, const sl_factor *F, const sl_allocator *a) {
-  sl_options opt = sli_options_with(a);
-  sl_status status;
-  opt.isa = F->kernels->isa;
-  opt.method = F->method;
-  opt.storage = F->type->storage;
-  opt.threads = F->threads;
-  opt.null_pivots = F->null.mode;
-  opt.null_tolerance = sli_tolerance_option(F);
-  opt.consistency_tolerance = F->null.consistency;
-  opt.mass = F->null.mass;
-  opt.growth_limit = sli_limit_option(F->growth_limit);
-  status = sli_factor_new(G, F->S, &opt, NULL);
-  if (status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
-    memcpy((*G)->null.z, F->null.z, (size_t)F->S->n * sizeof(double));
-    if (F->null.mass != NULL) {
-      memcpy((*G)->null.mass, F->null.mass, (size_t)F->S->n * sizeof(double));
-    }
-  }
-  return status;
-}
-
-static int sli_held_is_local(const sl_factor *F, int is_new) {
-  return F->method == SL_METHOD_SUPERNODAL && F->type->storage == SL_STORAGE_DOUBLE &&
-       (F->null.mode == SL_NULL_PIVOT_REFUSE || !is_new);
-}
-
-static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_holding *h) {
-  const double started = sli_seconds(), one = 1.0;
-  const double *const values = h->values;
-  sli_block room = {NULL, 0, 0};
-  sl_status status = SL_OK;
-  sli_kept kept;
-  sli_source from;
-  sl_int k;
-  from.A = NULL;
-  from.values = &values;
-  from.coefficients = &one;
-  from.terms = 1;
-  if (!h->is_local) {
-    sli_factor_begin(G);
-    return sli_factor_numbers(G, &from, started, NULL);
-  }
-  sli_reached_begin(&kept, h->is_new ? F : G, h->from);
-  for (k = 0; k < h->n_seeds; k++) {
-    sli_reached_mark(F->S, h->from, sli_key(h->seeds[k]));
-  }
-  status = sli_kept_room(&kept, G, &room);
-  if (status == SL_OK) {
-    sli_factor_begin(G);
-    sli_factor_identify(G, &from);
-    status = sli_reached_numbers(G, &kept, &from, started, NULL);
-  }
-  sli_free(&G->allocator, room.base);
-  return status;
-}
-
-static int sli_held_is_loose(const sl_pins *P) {
-  const sl_factor *G = P->G;
-  sl_int k;
-  for (k = 0; k < P->n_couplings && G->null.count > 0; k++) {
-    if (sli_is_skipped(G, G->null.last[P->coupling_column[k]])) {
-      return 1;
-    }
-  }
-  return 0;
-}
-
-static void sli_held_couplings(sl_pins *P, const sli_holding *h, sl_int *rows, sl_int *held,
-                 double *values) {
-  const sl_symbolic *S = P->F->S;
-  const sl_off total = S->scatter_begin[S->n_supers];
-  sl_int k, j, s = 0;
-  sl_off m;
-  for (m = 0, P->n_couplings = 0; m < total; m++) {
-    sl_int tile;
-    if (h->values[m] == P->values[m]) {
-      continue;
-    }
-    while (m >= S->scatter_begin[s + 1]) {
-      s++;
-    }
-    tile = sli_last_tile(S, s);
-    sli_scatter_map_pivots(S, s, m, &tile, &k, &j);
-    if (((h->marks[k] ^ h->marks[j]) & 1) != 0) {
-      const sl_int at = P->n_couplings++, out = (h->marks[k] & 1) != 0 ? k : j;
-      rows[at] = S->perm[out == k ? j : k];
-      held[at] = sli_lower_bound(h->columns, h->count, out);
-      values[at] = P->values[m];
-    }
-  }
-}
-
-static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
-  const sl_symbolic *S = P->F->S;
-  sli_block b = {NULL, 0, 0}, kept = {NULL, 0, 0};
-  sl_status status = SL_OK;
-  sl_int *rows = NULL, *held = NULL, k;
-  double *values = NULL;
-  sli_set set;
-  SLI_LAYOUT(&b, &P->allocator, status) {
-    rows = SLI_TAKE(&b, sl_int, h->couplings);
-    held = SLI_TAKE(&b, sl_int, h->couplings);
-    values = SLI_TAKE(&b, double, h->couplings);
-    set = sli_set_of(S, rows == NULL ? S->perm : rows, (sl_int)h->couplings);
-    sli_set_layout_seeds(&set, &b);
-  }
-  P->n_couplings = 0;
-  if (status == SL_OK) {
-    sli_held_couplings(P, h, rows, held, values);
-    status = sli_set_sort(S, &set, NULL);
-  }
-  if (status == SL_OK) {
-    sli_set_measure(S, &set, &P->held_reach);
-  }
-  SLI_LAYOUT(&kept, &P->allocator, status) {
-    P->held = SLI_TAKE(&kept, sl_int, h->count);
-    P->held_pin = SLI_TAKE(&kept, sl_int, h->count);
-    P->coupling_from = SLI_TAKE(&kept, sl_int, h->couplings);
-    P->coupling_column = SLI_TAKE(&kept, sl_int, h->couplings);
-    P->couplings = SLI_TAKE(&kept, double, h->couplings);
-    sli_set_layout_reach(&set, &kept, &P->held_reach);
-  }
-  P->held = (sl_int *)(void *)kept.base;
-  if (status == SL_OK) {
-    P->n_held = h->count;
-    memcpy(P->held, h->columns, (size_t)h->count * sizeof(sl_int));
-    memcpy(P->held_pin, h->index, (size_t)h->count * sizeof(sl_int));
-    memcpy(P->coupling_from, held, (size_t)h->couplings * sizeof(sl_int));
-    memcpy(P->couplings, values, (size_t)h->couplings * sizeof(double));
-    sli_set_fill(S, &set, &P->held_reach, &P->coupling_to);
-    for (k = 0; k < P->n_couplings; k++) {
-      P->coupling_column[k] = S->iperm[rows[k]];
-    }
-    if (sli_held_is_loose(P)) {
-      status = sli_refuse(SL_ERR_PIVOT, "the pins do not hold a component whose couplings "
-                        "are as small as rounding");
-    }
-  }
-  sli_free(&P->allocator, b.base);
-  return status;
-}
-
-/* src/impl/change/pins_choose.h: what pins cost by the capacitance matrix and by elimination */
-
-#define SLI_PINS_WORTH 1.5
-
-static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
-                    sl_int others, sl_int *uses) {
-  const double before = others, after = before + count;
-  double seconds = SLI_PINS_DENSE / 3.0 * (after * after * after - before * before * before) +
-           SLI_PINS_PIN * count;
-  sl_int k, s;
-  for (k = 0; k < count && uses != NULL; k++) {
-    uses[S->super_of[sli_key(seeds[k])]]++;
-  }
-  s = count == 0 ? -1 : uses != NULL ? 0 : S->super_of[sli_key(seeds[0])];
-  while (s != -1 && s < S->n_supers) {
-    const double u = uses == NULL ? 1.0 : uses[s], w = S->steps[s].width;
-    const sl_int up = S->super_parent[s];
-    if (u > 0.0) {
-      seconds += SLI_PINS_ENTRY * fmin(u, SLI_PINS_JOINT * u + SLI_PINS_BLOCK) *
-               (double)sli_panel_size((sl_int)w, S->steps[s].below) +
-             (SLI_PINS_STEP + SLI_PINS_TERM * w) * u * before +
-             (SLI_PINS_NUMBER + SLI_PINS_PRODUCT / 2.0 * u) * w * u;
-    }
-    if (uses != NULL) {
-      if (up != -1) {
-        uses[up] += uses[s];
-      }
-      uses[s++] = 0;
-    } else {
-      s = up;
-    }
-  }
-  return seconds;
-}
-
-static double sli_pins_least_cost(const sl_pins *P) {
-  const sl_symbolic *S = P->F->S;
-  return SLI_PINS_MAP * (double)S->scatter_begin[S->n_supers] +
-       (P->G == NULL ? SLI_PINS_MEMORY * (double)S->panel_begin[S->n_supers] : 0.0);
-}
-
-static double sli_pins_elimination_cost(const sl_pins *P, sli_holding *h) {
-  const sl_symbolic *S = P->F->S;
-  const double whole = sli_choose_refactor(P->F);
-  double part;
-  h->choice.seeds = h->seeds;
-  h->choice.n_seeds = h->n_seeds;
-  sli_choose_measure(&h->choice, P->F, whole);
-  part =
-    h->choice.changed + (h->is_new ? SLI_PINS_COPY * (double)S->panel_begin[S->n_supers] : 0.0);
-  h->is_local = part < whole && sli_held_is_local(P->F, h->is_new);
-  return (h->is_local ? part : whole) + sli_pins_least_cost(P);
-}
-
-/* src/impl/change/pins_rebuild.h: sets of pins made again: other numbers, or the other method */
+/* src/impl/change/pins.h: sets of pins: created, added, released, and made again for other numbers */
 
 static sl_status sli_pins_take(sl_pins *P) {
   const sl_factor *F = P->F;
@@ -26528,8 +26141,8 @@ static sl_status sli_pins_take(sl_pins *P) {
   P->numbers = sli_numbers_of(F);
   P->n_used = 0;
   P->uses = NULL;
-  if (P->base->null.count > 0) {
-    const size_t bytes = (size_t)P->base->null.count * sizeof *P->uses;
+  if (P->F->null.count > 0) {
+    const size_t bytes = (size_t)P->F->null.count * sizeof *P->uses;
     P->uses = (sl_int *)sli_alloc(&P->allocator, bytes);
     if (P->uses == NULL) {
       return sli_no_memory();
@@ -26555,344 +26168,14 @@ static void sli_pins_release(sl_pins *P) {
   }
   sli_free(&P->allocator, P->pins);
   sli_free(&P->allocator, P->uses);
-  sli_free(&P->allocator, P->rows);
-  sli_free(&P->allocator, P->held);
-}
-
-static sl_status sli_pins_reserve(sl_pins *P, sl_int count) {
-  const sl_off room = 2 * (sl_off)count + 8;
-  sli_block b = {NULL, 0, 0};
-  sl_status status = SL_OK;
-  sl_int *rows = NULL;
-  if (count <= P->room) {
-    return SL_OK;
-  }
-  SLI_LAYOUT(&b, &P->allocator, status) {
-    rows = SLI_TAKE(&b, sl_int, room);
-  }
-  if (status != SL_OK) {
-    return status;
-  }
-  if (P->count > 0) {
-    memcpy(rows, P->rows, (size_t)P->count * sizeof *rows);
-  }
-  sli_free(&P->allocator, P->rows);
-  P->rows = rows;
-  P->room = room;
-  return SL_OK;
-}
-
-typedef struct sli_pins_target {
-  sl_int count;
-  sl_int *rows;
-  sl_int *from;
-  uint64_t *list;
-  sl_int *uses;
-} sli_pins_target;
-
-static sl_status sli_pins_target_make(sli_pins_target *t, sli_block *b, const sl_pins *P,
-                    sl_int more) {
-  const sl_int count = P->count + more;
-  sl_status status = SL_OK;
-  SLI_LAYOUT(b, &P->allocator, status) {
-    t->rows = SLI_TAKE(b, sl_int, count);
-    t->from = SLI_TAKE(b, sl_int, count);
-    t->list = SLI_TAKE(b, uint64_t, 2 * (uint64_t)count);
-    t->uses = SLI_TAKE(b, sl_int, P->F->S->n_supers);
-  }
-  if (status == SL_OK) {
-    memset(t->uses, 0, (size_t)P->F->S->n_supers * sizeof(sl_int));
-  }
-  t->count = 0;
-  return status;
-}
-
-static void sli_pins_target_add(sli_pins_target *t, const sl_pins *P, const unsigned char *gone) {
-  sl_int k, at = 0;
-  for (k = 0; k < P->count; k++) {
-    while (at < P->n_pins && P->pins[at]->index < k) {
-      at++;
-    }
-    if (gone == NULL || !gone[k]) {
-      t->from[t->count] = at;
-      t->rows[t->count++] = P->rows[k];
-    }
-  }
-}
-
-static double sli_pins_target_cost(const sli_pins_target *t, const sl_pins *P) {
-  sl_int k, count = 0;
-  for (k = 0; k < t->count; k++) {
-    if (t->rows[k] != -1) {
-      t->list[count++] = sli_keyed(P->F->S->iperm[t->rows[k]], 0);
-    }
-  }
-  sli_sort(t->list, count, t->list + count);
-  return sli_pins_capacitance_cost(P->F->S, t->list, count, t->count - count, t->uses);
-}
-
-static void sli_held_restore(const sl_pins *P, sli_holding *h) {
-  sl_int k;
-  for (k = 0; k < P->F->S->n; k++) {
-    h->marks[k] = h->marks[k] >> 1;
-  }
-  sli_holding_mask(h, P);
-  h->is_local = 0;
-  (void)sli_held_numbers(P->G, P->F, h);
-}
-
-static sl_status sli_pins_fill(sl_pins *D, const sl_pins *P, const sli_pins_target *t,
-                 const sli_holding *h, sl_stats *stats) {
-  sl_status status = h == NULL ? SL_OK : sli_held_take(D, h);
-  sl_int k, last;
-  D->base = h == NULL ? D->F : D->G;
-  status = status == SL_OK ? sli_pins_take(D) : status;
-  status = status == SL_OK ? sli_pins_reserve(D, t->count) : status;
-  for (k = 0; k < t->count && status == SL_OK; k = last) {
-    last = k + 1;
-    if (t->rows[k] == -1) {
-      const sli_pin *pin = P->pins[t->from[k]];
-      const sli_equality e = sli_equality_of(pin->rows, pin->values, pin->count);
-      status = sli_pins_push(D, k, &e, stats);
-    } else {
-      while (last < t->count && t->rows[last] != -1) {
-        last++;
-      }
-      status = h == NULL ? sli_pins_push_rows(D, k, t->rows + k, last - k, stats) : SL_OK;
-    }
-  }
-  if (status == SL_OK && t->count > 0) {
-    memcpy(D->rows, t->rows, (size_t)t->count * sizeof(sl_int));
-  }
-  D->count = t->count;
-  return status;
-}
-
-static sl_status sli_pins_rebuild(sl_pins *P, const sli_pins_target *t, sli_holding *h,
-                  int is_stale, sl_stats *stats) {
-  sl_pins D = *P;
-  sl_status status = SL_OK;
-  D.count = D.n_pins = D.capacity = D.n_held = D.n_couplings = 0;
-  D.room = 0;
-  D.rows = D.uses = D.held = NULL;
-  D.pins = NULL;
-  if (h != NULL && P->G == NULL) {
-    status = sli_held_factor(&D.G, P->F, &P->allocator);
-  }
-  status = status == SL_OK && h != NULL ? sli_held_numbers(D.G, P->F, h) : status;
-  status = status == SL_OK ? sli_pins_fill(&D, P, t, h, stats) : status;
-  if (status != SL_OK) {
-    sli_pins_release(&D);
-    if (D.G != P->G) {
-      sl_factor_free(D.G);
-    } else if (h != NULL && P->n_held > 0 && !is_stale) {
-      sli_held_restore(P, h);
-    }
-    return status;
-  }
-  sli_pins_release(P);
-  *P = D;
-  return SL_OK;
-}
-
-static int sli_pins_is_refused(sl_status status) {
-  return status != SL_OK && status != SL_ERR_MEMORY;
-}
-
-static sl_status sli_pins_remake(sl_pins *P, const sli_pins_target *t, double *values,
-                 double margin, int is_stale, sl_stats *stats) {
-  const double capacitance = sli_pins_target_cost(t, P);
-  double elimination = 0.0, *old = P->values;
-  sl_status status = SL_OK;
-  sli_holding h;
-  int is_held = 0, is_refused = 0;
-  memset(&h, 0, sizeof h);
-  P->values = values;
-  if (values != NULL) {
-    status = sli_holding_begin(&h, P, t->rows, t->count, is_stale, stats);
-    elimination = status == SL_OK ? sli_pins_elimination_cost(P, &h) : 0.0;
-    is_held = status == SL_OK && margin * capacitance > elimination;
-  }
-  if (is_held) {
-    status = sli_pins_rebuild(P, t, &h, is_stale, stats);
-    is_refused = sli_pins_is_refused(status);
-    is_held = !is_refused;
-  }
-  if (!is_held && (status == SL_OK || is_refused)) {
-    status = sli_pins_rebuild(P, t, NULL, is_stale, stats);
-  }
-  sli_free(&P->allocator, h.block);
-  if (status != SL_OK) {
-    P->values = old;
-    return status;
-  }
-  if (old != values) {
-    sli_free(&P->allocator, old);
-  }
-  P->reason = is_refused       ? SL_PINS_REFUSED
-        : values == NULL ? SL_PINS_NO_MATRIX
-                 : SL_PINS_CHEAPEST;
-  P->spent = is_held ? 0.0 : capacitance;
-  P->threshold = is_refused ? (double)INFINITY : elimination;
-  P->capacitance = capacitance;
-  P->elimination = elimination;
-  return SL_OK;
-}
-
-/* src/impl/change/pins_matrix.h: sl_pins_refactor: new numbers, and the matrix, whose rows can be eliminated */
-
-#define SLI_PINS_OTHER 1e-7
-#define SLI_PINS_OTHER_FLOAT 1e-3
-
-static sl_status sli_pins_probe(const sl_factor *F, const sli_source *from, const sl_allocator *a,
-                sl_int *row, double *error) {
-  const sl_symbolic *S = F->S;
-  const sli_reach all = sli_reach_all(S);
-  uint64_t random = 1;
-  sli_block b = {NULL, 0, 0};
-  sl_status status = SL_OK;
-  sli_null_row *rows = NULL;
-  double *x = NULL, *y = NULL, *diagonal = NULL, *scratch = NULL, most = 0.0;
-  sl_int k;
-  SLI_LAYOUT(&b, a, status) {
-    rows = SLI_TAKE(&b, sli_null_row, S->n);
-    x = SLI_TAKE(&b, double, S->n);
-    y = SLI_TAKE(&b, double, S->n);
-    diagonal = SLI_TAKE(&b, double, S->n);
-    scratch = SLI_TAKE(&b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
-  }
-  *error = 0.0;
-  *row = -1;
-  for (k = 0; k < S->n && status == SL_OK; k++) {
-    random = random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    x[k] = 0.5 + (double)(random >> 40) / 33554432.0;
-  }
-  if (status == SL_OK) {
-    (void)sli_null_product(S, from, 0, rows, x, NULL);
-    for (k = 0; k < S->n; k++) {
-      x[k] = y[k] = rows[k].product;
-    }
-    sli_forward_sweep(F, SLI_NRHS_1, &all, x, scratch);
-    for (k = 0; k < F->null.count; k++) {
-      x[F->null.pivots[k]] = 0.0;
-    }
-    sli_backward_sweep(F, SLI_NRHS_1, &all, F->D, x, scratch);
-    (void)sli_null_product(S, from, 0, rows, x, diagonal);
-    for (k = 0; k < S->n; k++) {
-      most = fmax(most, sqrt(fabs(diagonal[k])) * fabs(x[k]));
-    }
-  }
-  for (k = 0; k < S->n && status == SL_OK; k++) {
-    const double size = rows[k].size + fabs(y[k]) + sqrt(fabs(diagonal[k])) * most;
-    const double r = fabs(rows[k].product - y[k]);
-    if (size != 0.0 && !(r <= *error * size)) {
-      *error = r / size;
-      *row = S->perm[k];
-      k = *error == *error ? k : S->n;
-    }
-  }
-  sli_free(a, b.base);
-  return status;
-}
-
-static int sli_pins_can_hold(const sl_factor *F) {
-  return F->null.vectors == 1 && F->rule.regularization == 0.0 &&
-       F->type->storage != SL_STORAGE_COMPLEX;
 }
 
 static void sli_pins_report(const sl_pins *P, double started, sl_stats *stats) {
   if (stats != NULL) {
-    sl_pins_info *info = &stats->pins;
-    info->method = P->n_held > 0 ? SL_PINS_ELIMINATION : SL_PINS_CAPACITANCE;
-    info->reason = P->reason;
-    info->count = P->count;
-    info->eliminated = P->n_held;
-    info->seconds_capacitance = P->capacitance;
-    info->seconds_elimination = P->elimination;
-    info->seconds = sli_seconds() - started;
+    stats->pins.count = P->n_pins;
+    stats->pins.seconds = sli_seconds() - started;
   }
 }
-
-static sl_status sli_pins_renew(sl_pins *P, double *values, sl_stats *stats) {
-  sli_pins_target t;
-  sli_block b = {NULL, 0, 0};
-  sl_status status = sli_pins_check(P->F);
-  memset(&t, 0, sizeof t);
-  status = status == SL_OK ? sli_pins_target_make(&t, &b, P, 0) : status;
-  if (status == SL_OK) {
-    sli_pins_target_add(&t, P, NULL);
-    status = sli_pins_remake(P, &t, values, 1.0, 1, stats);
-  }
-  sli_free(&P->allocator, b.base);
-  if (status != SL_OK) {
-    P->numbers.generation = 0;
-  }
-  return status;
-}
-
-static sl_status sli_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stats) {
-  const double one = 1.0;
-  sli_source from;
-  double *values, error;
-  sl_status status;
-  sl_int row;
-  sl_off m, entries;
-  entries = P->F->S->scatter_begin[P->F->S->n_supers];
-  values = (double *)sli_alloc(&P->allocator, ((size_t)entries + 1) * sizeof *values);
-  if (values == NULL) {
-    return sli_no_memory();
-  }
-  for (m = 0; m < entries; m++) {
-    values[m] = A->x[P->F->S->scatter_from[m]];
-  }
-  from.A = NULL;
-  from.values = (const double *const *)&values;
-  from.coefficients = &one;
-  from.terms = 1;
-  status = sli_pins_probe(P->F, &from, &P->allocator, &row, &error);
-  if (status == SL_OK &&
-    !(error <= (sli_is_float(P->F) ? SLI_PINS_OTHER_FLOAT : SLI_PINS_OTHER))) {
-    status = sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, error,
-               "A is not the matrix that F was computed from");
-  }
-  if (status == SL_OK && !sli_pins_can_hold(P->F)) {
-    status = sli_numbers_are_of(&P->numbers, P->F) ? SL_OK : sli_pins_renew(P, NULL, stats);
-    P->reason = SL_PINS_UNSUITED;
-    sli_free(&P->allocator, values);
-  } else if (status == SL_OK && sli_numbers_are_of(&P->numbers, P->F)) {
-    sli_free(&P->allocator, P->values);
-    P->values = values;
-    P->reason = SL_PINS_CHEAPEST;
-    P->threshold = SLI_PINS_WORTH * sli_pins_least_cost(P);
-  } else {
-    status = status == SL_OK ? sli_pins_renew(P, values, stats) : status;
-    if (status != SL_OK) {
-      sli_free(&P->allocator, values);
-    }
-  }
-  return status;
-}
-
-SL_API sl_status sl_pins_refactor(sl_pins *P, const sl_csc *A, sl_stats *stats) {
-  const double started = sli_seconds();
-  sl_status status;
-  sli_stats_clear_error(stats);
-  if (P == NULL) {
-    return sli_report(stats, sli_argument("P is NULL"));
-  }
-  if (A == NULL) {
-    status = sli_pins_renew(P, NULL, stats);
-  } else {
-    status = sli_factor_fits(P->F, A);
-    status = status == SL_OK ? sli_pins_set_matrix(P, A, stats) : status;
-  }
-  if (status == SL_OK) {
-    sli_pins_report(P, started, stats);
-  }
-  return sli_report(stats, status);
-}
-
-/* src/impl/change/pins.h: sets of pins: created, added, released */
 
 SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_options *opt) {
   const sl_allocator a = sli_allocator(opt);
@@ -26912,9 +26195,8 @@ SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_opti
   }
   memset(P, 0, sizeof *P);
   P->allocator = a;
-  P->F = P->base = F;
+  P->F = F;
   sli_borrow(&F->borrowers);
-  P->reason = SL_PINS_NO_MATRIX;
   status = sli_pins_take(P);
   if (status == SL_OK) {
     *out = P;
@@ -26928,31 +26210,17 @@ SL_API void sl_pins_free(sl_pins *P) {
   if (P != NULL) {
     const sl_allocator a = P->allocator;
     sli_pins_release(P);
-    sl_factor_free(P->G);
     sl_factor_free((sl_factor *)P->F);
-    sli_free(&a, P->values);
     sli_free(&a, P);
   }
 }
 
 static void sli_pins_drop(sl_pins *P, sl_int index) {
-  sl_int k, at = 0;
-  while (P->pins[at]->index != index) {
-    at++;
-  }
   if (P->numbers.generation != 0) {
-    sli_pins_count_nulls(P, P->pins[at], 0);
+    sli_pins_count_nulls(P, P->pins[index], 0);
   }
-  sli_pin_free(P, P->pins[at]);
-  sli_pins_remove(P, at);
-  for (k = 0; k < P->n_pins; k++) {
-    P->pins[k]->index -= P->pins[k]->index > index;
-  }
-  for (k = 0; k < P->n_held; k++) {
-    P->held_pin[k] -= P->held_pin[k] > index;
-  }
-  P->count--;
-  memmove(P->rows + index, P->rows + index + 1, (size_t)(P->count - index) * sizeof *P->rows);
+  sli_pin_free(P, P->pins[index]);
+  sli_pins_remove(P, index);
 }
 
 SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const double *values,
@@ -26977,131 +26245,44 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
                  "a value of the equality is not finite");
     }
   }
-  status = sli_pins_reserve(P, P->count + 1);
-  status = status == SL_OK ? sli_pins_push(P, P->count, &e, stats) : status;
+  status = sli_pins_push(P, &e, stats);
   if (status == SL_OK) {
-    P->rows[P->count++] = -1;
     sli_pins_report(P, started, stats);
   }
   return sli_report(stats, status);
 }
 
-static sl_status sli_pins_add_by_capacitance(sl_pins *P, const sl_int *rows, sl_int count,
-                       sl_stats *stats) {
-  sl_status status = sli_pins_reserve(P, P->count + count);
-  status = status == SL_OK ? sli_pins_push_rows(P, P->count, rows, count, stats) : status;
-  if (status == SL_OK && count > 0) {
-    memcpy(P->rows + P->count, rows, (size_t)count * sizeof *rows);
-    P->count += count;
-  }
-  return status;
-}
-
-static sl_status sli_pins_add_by_elimination(sl_pins *P, const sl_int *rows, sl_int count,
-                       double *seconds, int *is_done, sl_stats *stats) {
-  const sl_symbolic *S = P->F->S;
-  sli_pins_target t;
-  sli_holding h;
-  sli_block b = {NULL, 0, 0};
-  uint64_t one = sli_keyed(S->iperm[rows[0]], 0);
-  double elimination = 0.0;
-  sl_status status;
-  sl_int k;
-  *seconds = count > 1 ? 0.0 : sli_pins_capacitance_cost(S, &one, 1, P->n_pins, NULL);
-  if (count == 1 && P->spent + *seconds <= P->threshold) {
-    return SL_OK;
-  }
-  status = sli_pins_target_make(&t, &b, P, count);
-  if (status == SL_OK && count > 1) {
-    for (k = 0; k < count; k++) {
-      t.list[k] = sli_keyed(S->iperm[rows[k]], 0);
-    }
-    sli_sort(t.list, count, t.list + count);
-    *seconds = sli_pins_capacitance_cost(S, t.list, count, P->n_pins, t.uses);
-  }
-  memset(&h, 0, sizeof h);
-  if (status == SL_OK && P->spent + *seconds > P->threshold) {
-    sli_pins_target_add(&t, P, NULL);
-    memcpy(t.rows + t.count, rows, (size_t)count * sizeof *rows);
-    t.count += count;
-    status = sli_holding_begin(&h, P, t.rows, t.count, 0, stats);
-    if (status == SL_OK) {
-      P->capacitance = P->spent + *seconds;
-      P->elimination = elimination = sli_pins_elimination_cost(P, &h);
-      *is_done = P->capacitance > elimination;
-      P->threshold = *is_done ? P->threshold : fmax(0.9 * elimination, 1.2 * P->capacitance);
-    }
-  }
-  if (*is_done) {
-    status = sli_pins_rebuild(P, &t, &h, 0, stats);
-    *is_done = status == SL_OK;
-    if (*is_done) {
-      P->reason = SL_PINS_CHEAPEST;
-      P->spent = 0.0;
-      P->threshold = SLI_PINS_WORTH * sli_pins_least_cost(P);
-    } else if (sli_pins_is_refused(status)) {
-      P->reason = SL_PINS_REFUSED;
-      P->threshold = (double)INFINITY;
-      status = SL_OK;
-    }
-  }
-  sli_free(&P->allocator, h.block);
-  sli_free(&P->allocator, b.base);
-  return status;
-}
-
 SL_API sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count, sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
-  double seconds = 0.0, threshold;
-  sl_pins_reason reason;
   sl_status status;
   sl_int k;
-  int is_done = 0;
   sli_stats_clear_error(stats);
   status = sli_argument(P == NULL                   ? "P is NULL"
               : count < 0                 ? "count is below 0"
               : count > 0 && rows == NULL ? "rows is NULL"
                             : NULL);
   status = status == SL_OK ? sli_pins_are_current(P) : status;
-  if (status == SL_OK && count > INT32_MAX - P->count) {
+  if (status == SL_OK && count > INT32_MAX - P->n_pins) {
     status = sli_refuse(SL_ERR_TOO_LARGE, "more than 2^31 - 1 pins");
   }
-  if (status != SL_OK) {
-    return sli_report(stats, status);
-  }
-  reason = P->reason;
-  threshold = P->threshold;
-  for (k = 0; k < count; k++) {
+  for (k = 0; k < count && status == SL_OK; k++) {
     if (rows[k] < 0 || rows[k] >= P->F->S->n) {
       return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0, "a row is out of range");
     }
-    if (sli_held_find(P, P->F->S->iperm[rows[k]]) != -1) {
-      return sli_fail_at(stats, SL_ERR_PIVOT, rows[k], -1, 0.0, sli_pinned_twice);
-    }
   }
-  if (P->values != NULL && count > 0) {
-    status = sli_pins_add_by_elimination(P, rows, count, &seconds, &is_done, stats);
-  }
-  if (status == SL_OK && !is_done) {
-    status = sli_pins_add_by_capacitance(P, rows, count, stats);
-    P->spent += status == SL_OK ? seconds : 0.0;
-  }
+  status = status == SL_OK ? sli_pins_push_rows(P, rows, count, stats) : status;
   if (status == SL_OK) {
     sli_pins_report(P, started, stats);
-  } else {
-    P->reason = reason;
-    P->threshold = threshold;
   }
   return sli_report(stats, status);
 }
 
 SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count, sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
-  sli_pins_target t;
-  sli_block b = {NULL, 0, 0}, targets = {NULL, 0, 0};
+  sli_block b = {NULL, 0, 0};
   unsigned char *gone = NULL;
   sl_status status;
-  sl_int k, held = 0;
+  sl_int k;
   sli_stats_clear_error(stats);
   status = sli_argument(P == NULL                      ? "P is NULL"
               : count < 0                    ? "count is below 0"
@@ -27115,32 +26296,20 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
     return SL_OK;
   }
   SLI_LAYOUT(&b, &P->allocator, status) {
-    gone = SLI_TAKE(&b, unsigned char, P->count);
+    gone = SLI_TAKE(&b, unsigned char, P->n_pins);
   }
-  if (status == SL_OK && P->count > 0) {
-    memset(gone, 0, (size_t)P->count);
+  for (k = 0; k < P->n_pins && status == SL_OK; k++) {
+    gone[k] = 0;
   }
   for (k = 0; k < count && status == SL_OK; k++) {
-    if (indices[k] < 0 || indices[k] >= P->count || gone[indices[k]]) {
+    if (indices[k] < 0 || indices[k] >= P->n_pins || gone[indices[k]]) {
       status = sli_fail_at(stats, SL_ERR_ARGUMENT, -1, -1, (double)indices[k],
                  "no pin has this index, value, or it is given twice");
     } else {
       gone[indices[k]] = 1;
     }
   }
-  for (k = 0; k < P->n_held && status == SL_OK; k++) {
-    held += gone[P->held_pin[k]];
-  }
-  if (status == SL_OK && held > 0) {
-    status = sli_pins_are_current(P);
-    status = status == SL_OK ? sli_pins_target_make(&t, &targets, P, 0) : status;
-    if (status == SL_OK) {
-      sli_pins_target_add(&t, P, gone);
-      status = sli_pins_remake(P, &t, P->values, 2.0, 0, stats);
-    }
-    sli_free(&P->allocator, targets.base);
-  }
-  for (k = P->count - 1; k >= 0 && status == SL_OK && held == 0; k--) {
+  for (k = P->n_pins - 1; k >= 0 && status == SL_OK; k--) {
     if (gone[k]) {
       sli_pins_drop(P, k);
     }
@@ -27152,12 +26321,69 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
   return sli_report(stats, status);
 }
 
+SLI_INLINE int sli_pin_is_row(const sli_pin *pin) {
+  return pin->count == 1 && pin->values[0] == 1.0;
+}
+
+static sl_status sli_pins_fill(sl_pins *D, const sl_pins *P, sl_int *rows, sl_stats *stats) {
+  sl_status status = sli_pins_take(D);
+  sl_int k, last;
+  for (k = 0; k < P->n_pins && status == SL_OK; k = last) {
+    const sli_pin *pin = P->pins[k];
+    for (last = k; last < P->n_pins && sli_pin_is_row(P->pins[last]); last++) {
+      rows[last - k] = P->pins[last]->rows[0];
+    }
+    if (last == k) {
+      const sli_equality e = sli_equality_of(pin->rows, pin->values, pin->count);
+      status = sli_pins_push(D, &e, stats);
+      last = k + 1;
+    } else {
+      status = sli_pins_push_rows(D, rows, last - k, stats);
+    }
+  }
+  return status;
+}
+
+static sl_status sli_pins_renew(sl_pins *P, sl_stats *stats) {
+  sl_pins D = *P;
+  sli_block b = {NULL, 0, 0};
+  sl_int *rows = NULL;
+  sl_status status = sli_pins_check(P->F);
+  D.n_pins = D.capacity = 0;
+  D.pins = NULL;
+  D.uses = NULL;
+  SLI_LAYOUT(&b, &P->allocator, status) {
+    rows = SLI_TAKE(&b, sl_int, P->n_pins);
+  }
+  status = status == SL_OK ? sli_pins_fill(&D, P, rows, stats) : status;
+  sli_free(&P->allocator, b.base);
+  if (status != SL_OK) {
+    P->numbers.generation = 0;
+  }
+  sli_pins_release(status == SL_OK ? P : &D);
+  if (status == SL_OK) {
+    *P = D;
+  }
+  return status;
+}
+
+SL_API sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats) {
+  const double started = stats == NULL ? 0.0 : sli_seconds();
+  sl_status status;
+  sli_stats_clear_error(stats);
+  status = sli_argument(P == NULL ? "P is NULL" : NULL);
+  status = status == SL_OK ? sli_pins_renew(P, stats) : status;
+  if (status == SL_OK) {
+    sli_pins_report(P, started, stats);
+  }
+  return sli_report(stats, status);
+}
+
 /* src/impl/change/pins_solve.h: sl_pins_solve: solves with rows held */
 
 typedef struct sli_pins_solve {
   const sl_pins *P;
   const sli_query *q;
-  int is_whole;
   sli_rhs rhs;
   const double *G;
   size_t ldg;
@@ -27165,8 +26391,6 @@ typedef struct sli_pins_solve {
   unsigned char *memory;
   double *largest;
   double *f;
-  double *e;
-  double *scratch;
   sli_pins_nulls nulls;
 } sli_pins_solve;
 
@@ -27177,39 +26401,7 @@ static void sli_pins_layout(sli_pins_solve *w, sli_block *b, sl_int nrhs) {
   w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs, 8), 1);
   w->largest = SLI_TAKE(b, double, (uint64_t)q->backward.count *(uint64_t)lanes);
   w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->n_pins);
-  if (P->n_held > 0 && !w->is_whole) {
-    const sli_reach *R = &P->held_reach;
-    w->e = SLI_TAKE(b, double, (uint64_t)R->columns *(uint64_t)lanes);
-    w->scratch = SLI_TAKE(b, double,
-                sli_sweep_scratch(R->tallest, R->widest, 2) +
-                  sli_sweep_scratch(R->tallest, R->widest, SLI_TILE));
-  }
   sli_pins_nulls_layout(&w->nulls, b, P);
-}
-
-static void sli_pins_couple(const sli_pins_solve *w, double *y) {
-  const sl_pins *P = w->P;
-  const sl_int *to = w->is_whole ? P->coupling_column : P->coupling_to;
-  sl_int k, r;
-  for (k = 0; k < P->n_couplings; k++) {
-    const double *g = w->G + P->held_pin[P->coupling_from[k]];
-    for (r = 0; r < w->rhs.nrhs; r++) {
-      y[(ptrdiff_t)to[k] * w->lanes + r] -= P->couplings[k] * g[w->ldg * (size_t)r];
-    }
-  }
-}
-
-static void sli_pins_set_held(const sli_pins_solve *w, const sli_reach *R, double *x,
-                const double *G) {
-  const sl_pins *P = w->P;
-  sl_int k, r;
-  for (k = 0; k < P->n_held; k++) {
-    const sl_int at = sli_reach_index_of(R, P->held[k]);
-    for (r = 0; r < w->lanes && at != -1; r++) {
-      x[(ptrdiff_t)at * w->lanes + r] =
-        G != NULL && r < w->rhs.nrhs ? G[(size_t)P->held_pin[k] + w->ldg * (size_t)r] : 0.0;
-    }
-  }
 }
 
 static void sli_pins_clear_rows(const sl_pins *P, const sli_reach *R, double *b, sl_int lanes) {
@@ -27224,42 +26416,14 @@ static void sli_pins_clear_rows(const sl_pins *P, const sli_reach *R, double *b,
   }
 }
 
-static void sli_pins_spread(const sli_pins_solve *w) {
-  const sl_pins *P = w->P;
-  const sli_reach *R = &P->held_reach;
-  memset(w->e, 0, (size_t)R->columns * (size_t)w->lanes * sizeof(double));
-  sli_pins_couple(w, w->e);
-  sli_forward_sweep(P->base, sli_lanes_kind(w->rhs.nrhs), R, w->e, w->scratch);
-  (void)sli_pins_clear(P, R, w->e, w->lanes, NULL);
-}
-
-static void sli_pins_join(const sli_pins_solve *w, double *x) {
-  sli_intersection m = sli_intersection_of(&w->P->held_reach, &w->q->backward);
-  const sl_int lanes = w->lanes;
-  sl_int k;
-  while (sli_intersection_next(&m)) {
-    const double *e = w->e + (ptrdiff_t)m.in_a * lanes;
-    double *to = x + (ptrdiff_t)m.in_b * lanes;
-    for (k = 0; k < m.count * lanes; k++) {
-      to[k] += e[k];
-    }
-  }
-}
-
 static void sli_pins_load(const sli_pins_solve *w, const double *y) {
   const sl_pins *P = w->P;
   const sl_int lanes = w->lanes, nrhs = w->rhs.nrhs;
   sl_int p, r, k;
   for (p = 0; p < P->n_pins; p++) {
     const sli_pin *pin = P->pins[p];
-    double sums[SLI_TILE], more[SLI_TILE], *f = w->f + (ptrdiff_t)p * lanes;
+    double sums[SLI_TILE], *f = w->f + (ptrdiff_t)p * lanes;
     sli_pin_dot(pin, &w->q->forward, y, lanes, sums);
-    if (P->n_held > 0 && !w->is_whole) {
-      sli_pin_dot(pin, &P->held_reach, w->e, lanes, more);
-      for (r = 0; r < lanes; r++) {
-        sums[r] += more[r];
-      }
-    }
     for (k = 0; k < pin->n_nulls; k++) {
       const double *s = w->nulls.s + (ptrdiff_t)w->nulls.place[pin->nulls[k]] * lanes;
       for (r = 0; r < lanes; r++) {
@@ -27267,13 +26431,7 @@ static void sli_pins_load(const sli_pins_solve *w, const double *y) {
       }
     }
     for (r = 0; r < lanes; r++) {
-      f[r] = r < nrhs ? w->G[(size_t)pin->index + w->ldg * (size_t)r] - sums[r] : 0.0;
-    }
-    for (k = 0; k < pin->count && P->n_held > 0; k++) {
-      const sl_int at = sli_held_find(P, P->F->S->iperm[pin->rows[k]]);
-      for (r = 0; r < nrhs && at != -1; r++) {
-        f[r] -= pin->values[k] * w->G[(size_t)P->held_pin[at] + w->ldg * (size_t)r];
-      }
+      f[r] = r < nrhs ? w->G[(size_t)p + w->ldg * (size_t)r] - sums[r] : 0.0;
     }
   }
 }
@@ -27308,7 +26466,7 @@ static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
   for (r = 0; r < w->rhs.nrhs; r++) {
     for (p = 0; p < P->n_pins; p++) {
       const sli_pin *pin = P->pins[p];
-      const double g = w->G[(size_t)pin->index + w->ldg * (size_t)r];
+      const double g = w->G[(size_t)p + w->ldg * (size_t)r];
       double sum = -g, size = 0.0;
       sl_int s = 0;
       for (k = 0; k < pin->count && s != -1; k++) {
@@ -27330,11 +26488,10 @@ static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
 
 static int sli_pins_forward(const sli_pins_solve *w, const sli_vectors *v, double *norms) {
   const sl_pins *P = w->P;
-  const sl_factor *F = P->base;
+  const sl_factor *F = P->F;
   const sli_reach *R = &w->q->forward;
   const sli_packed b = sli_packed_of(R, v->y, w->lanes);
   sli_pack(F, w->q, v->y, &w->rhs);
-  sli_pins_set_held(w, R, v->y, NULL);
   sli_pins_clear_rows(P, R, v->y, w->lanes);
   if (F->null.count > 0) {
     sli_norms(&b, norms);
@@ -27342,15 +26499,9 @@ static int sli_pins_forward(const sli_pins_solve *w, const sli_vectors *v, doubl
   if (!sli_pins_defects(P, &w->nulls, &b, norms)) {
     return 0;
   }
-  if (w->is_whole) {
-    sli_pins_couple(w, v->y);
-  }
   sli_sweep_forward(F, w->q, v, w->rhs.nrhs);
   if (!sli_pins_clear(P, R, v->y, w->lanes, norms)) {
     return 0;
-  }
-  if (P->n_held > 0 && !w->is_whole) {
-    sli_pins_spread(w);
   }
   sli_pins_load(w, v->y);
   return 1;
@@ -27363,7 +26514,7 @@ SLI_COLD static sl_status sli_pins_inconsistent(void) {
 static sl_status sli_pins_block(sli_pins_solve *w) {
   const sl_pins *P = w->P;
   const sli_query *q = w->q;
-  const sl_factor *F = P->base;
+  const sl_factor *F = P->F;
   const sli_vectors v = sli_vectors_of(q, w->rhs.nrhs, w->memory);
   const int kind = sli_lanes_kind(w->rhs.nrhs);
   const sl_int lanes = (sl_int)1 << kind;
@@ -27375,9 +26526,6 @@ static sl_status sli_pins_block(sli_pins_solve *w) {
   }
   if (!q->is_shared) {
     sli_sweep_transfer(q, v.y, v.x, lanes);
-  }
-  if (P->n_held > 0 && !w->is_whole) {
-    sli_pins_join(w, v.x);
   }
   sli_pins_apply(P, w->f, lanes);
   if (!sli_pins_balance(P, &w->nulls, w->f, lanes, norms)) {
@@ -27393,7 +26541,6 @@ static sl_status sli_pins_block(sli_pins_solve *w) {
   }
   sli_backward(F, &q->backward, kind, v.x, v.scratch);
   sli_pins_shift(P, q, &w->nulls, v.x, lanes);
-  sli_pins_set_held(w, &q->backward, v.x, w->G);
   if (P->n_pins > 0) {
     sli_pins_largest(&q->backward, v.x, w->largest, lanes);
   }
@@ -27420,9 +26567,9 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
   }
   all = sli_query_all(P->F->S);
   status = sli_rhs_check_columns(&rhs, q->nx, q->nb);
-  if (status == SL_OK && nrhs > 0 && P->count > 0) {
+  if (status == SL_OK && nrhs > 0 && P->n_pins > 0) {
     status = sli_argument(G == NULL                   ? "G is NULL"
-                : !sli_is_ld(ldg, P->count) ? "ldg is below the number of pins"
+                : !sli_is_ld(ldg, P->n_pins) ? "ldg is below the number of pins"
                               : NULL);
   }
   status = status == SL_OK ? sli_pins_are_current(P) : status;
@@ -27440,7 +26587,6 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
   W = W == NULL ? &own : W;
   w.P = P;
   w.q = q;
-  w.is_whole = q->forward.steps == q->S->steps;
   w.ldg = ldg;
   sli_pins_layout(&w, &counted, nrhs);
   status = sli_work_block(W, &counted);
@@ -27449,7 +26595,7 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
     status = sli_pins_nulls_factor(&w.nulls, P);
     for (r = 0; r < nrhs && status == SL_OK; r += sli_min(8, nrhs - r)) {
       w.rhs = sli_rhs_part(&rhs, r, sli_min(8, nrhs - r));
-      w.G = P->count == 0 ? G : G + (size_t)r * ldg;
+      w.G = P->n_pins == 0 ? G : G + (size_t)r * ldg;
       status = sli_pins_block(&w);
     }
   }
@@ -30806,24 +29952,31 @@ static void sli_dirichlet_count(const sli_dirichlet_choice *c, sl_dirichlet *D) 
   const double flop = sli_costs_of(F->kernels->isa)->flop, whole = sli_choose_refactor(F);
   const double share = (double)D->n_free / (S->n > 0 ? S->n : 1);
   const double entries = (double)S->scatter_begin[S->n_supers];
-  double computed = 0.0, kept = 0.0, pins;
+  const double fixed = D->n_fixed;
+  double computed = 0.0, kept = 0.0;
+  double pins = SLI_PINS_DENSE / 3.0 * (fixed * fixed * fixed) + SLI_PINS_PIN * fixed;
   sl_int kept_columns = 0, s, k;
   for (k = 0; k < D->n_fixed; k++) {
     c->seeds[k] = sli_keyed(S->iperm[D->fixed_rows[k]], 0);
   }
   sli_sort(c->seeds, D->n_fixed, c->scratch);
   memset(c->uses, 0, (size_t)S->n_supers * sizeof(sl_int));
-  pins = SLI_DIRICHLET_PINS * sli_pins_capacitance_cost(S, c->seeds, D->n_fixed, 0, c->uses) +
-       SLI_DIRICHLET_PROBE * ((double)S->panel_begin[S->n_supers] + entries);
   for (s = 0, k = 0; s < S->n_supers; s++) {
     const sl_int up = S->super_parent[s], width = S->steps[s].width;
     sl_int free_columns = width;
+    double u;
     for (; k < D->n_fixed && sli_key(c->seeds[k]) < S->super_first[s + 1]; k++) {
       c->uses[s]++;
       free_columns--;
     }
     if (up != -1) {
       c->uses[up] += c->uses[s];
+    }
+    u = c->uses[s];
+    if (u > 0.0) {
+      pins += SLI_PINS_ENTRY * fmin(u, SLI_PINS_JOINT * u + SLI_PINS_BLOCK) *
+            (double)sli_panel_size(width, S->steps[s].below) +
+          (SLI_PINS_NUMBER + SLI_PINS_PRODUCT / 2.0 * u) * width * u;
     }
     if (c->uses[s] == 0) {
       kept += SLI_DIRICHLET_COPY * (double)(S->panel_begin[s + 1] - S->panel_begin[s]);
@@ -30837,6 +29990,8 @@ static void sli_dirichlet_count(const sli_dirichlet_choice *c, sl_dirichlet *D) 
   D->info.seconds_restriction =
     SLI_DIRICHLET_ROW * D->n_free +
     (kept_columns < 0.4 * D->n_free ? share * whole : kept + computed);
+  pins = SLI_DIRICHLET_PINS * pins +
+       SLI_DIRICHLET_PROBE * ((double)S->panel_begin[S->n_supers] + entries);
   D->info.seconds_pins = sli_pins_check(F) == SL_OK && F->null.vectors == 1 ? pins : 0.0;
 }
 
@@ -35597,7 +34752,6 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_PINS_PRODUCT
 #undef SLI_PINS_NUMBER
 #undef SLI_PINS_PIN
-#undef SLI_PINS_WORTH
 #undef SLI_PINS_SINGLY
 #undef SLI_RANK_LOGGED
 #undef SLI_RANK_LARGE
@@ -35605,12 +34759,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_RANK_CLOSE
 #undef SLI_EDGES_HEAVY
 #undef SLI_UPDATE_LOST
-#undef SLI_PINS_TERM
-#undef SLI_PINS_STEP
 #undef SLI_PINS_DENSE
-#undef SLI_PINS_MAP
-#undef SLI_PINS_COPY
-#undef SLI_PINS_MEMORY
 #undef SLI_PAIR_CACHED
 #undef SLI_PAIR_READ
 #undef SLI_PAIR_LARGE
@@ -35621,8 +34770,6 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_DIRICHLET_PINS
 #undef SLI_DIRICHLET_LOST
 #undef SLI_PINS_LOST
-#undef SLI_PINS_OTHER
-#undef SLI_PINS_OTHER_FLOAT
 #undef SLI_NULL_VECTORS_MAX
 #undef SLI_READ_VERSION_DOUBLE
 #undef SLI_RESTRICT_AHEAD
@@ -36471,6 +35618,9 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #define SLW_LOW SLI_LOW8
 #elif SLW_NRHS == 16
 #define SLW_NAME(f) sli_##f##16_avx512
+#if !SLV_SINGLE
+#define SLW_HALF(f) sli_##f##8_avx512
+#endif
 #define SLW_ROWS 8
 #define SLW_DECLARE(a) __m512d a##_0, a##_1;
 #define SLW_ZERO(a) a##_0 = a##_1 = _mm512_setzero_pd();
@@ -38481,17 +37631,16 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
   SLV_DECLARE(z)
   SLI_EACH8(SLI_SUM_DECLARE, a)
   SLI_EACH8(SLI_SUM_ZERO, a)
-  if ((w == SLI_TILE || row > 0) && count > 0) {
-    at -= count;
+  for (row += count > 0 ? SLI_TILE : 0; row > SLI_TILE; row -= SLI_TILE) {
     l -= SLI_TILE * w;
-    SLV_GATHER(v, x, SLI_ROW_AT_PART)
-    SLV_FIRST(v, count)
-    SLI_DOTS
-  }
-  for (; row > SLI_TILE; row -= SLI_TILE) {
-    at -= SLI_TILE;
-    l -= SLI_TILE * w;
-    SLV_GATHER(v, x, SLI_ROW_AT)
+    if (at == below && count > 0) {
+      at -= count;
+      SLV_GATHER(v, x, SLI_ROW_AT_PART)
+      SLV_FIRST(v, count)
+    } else {
+      at -= SLI_TILE;
+      SLV_GATHER(v, x, SLI_ROW_AT)
+    }
     SLI_DOTS
   }
   l -= SLI_TILE * w;
@@ -38776,7 +37925,12 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots2)(const SLV_VALUE *l0, const SLV_VAL
   } else { \
     SLV_SUM_ZERO(a##k) \
   }
-SLV_FUNCTION SLI_INLINE void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inner,
+#if defined(SLV_PAIR)
+#define SLI_SHARED SLI_NOINLINE static
+#else
+#define SLI_SHARED SLI_INLINE
+#endif
+SLV_FUNCTION SLI_SHARED void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inner,
                          const double *sums, const double *d, double *xs,
                          double *buf) {
   double r[SLI_TILE];
@@ -38888,6 +38042,7 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 #undef SLI_ROW_AT
 #undef SLI_ROW_AT_PART
 #undef SLI_TAKE_SUM
+#undef SLI_SHARED
 #undef SLI_FEW_STEPS
 /* end of single_rhs.inl.h */
 #endif
@@ -38966,7 +38121,7 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 #if SLW_ROWS == 8 || defined(SLW_HALF)
 /* src/impl/kernels/multi_rhs_small.inl.h: several right-hand sides through a supernode of at most 8 columns */
 
-#if SLW_ROWS == 8
+#if !defined(SLW_HALF)
 #define SLI_LOAD_OWN(k, p) \
   if (SLI_IS_IN(k, w)) { \
     SLW_LOAD(a##k, (p) + (k)*stride) \
@@ -39913,16 +39068,22 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
 /* end of row.inl.h */
 /* src/impl/kernels/interleave.inl.h: 8 columns of a dense block to interleaved rows of a vector, and back */
 
+#if defined(SLV_PAIR)
+#define SLI_UNROLL_ROWS SLI_UNROLL
+#else
+#define SLI_UNROLL_ROWS
+#endif
+
 #define SLI_ROWS_BEFORE 32
 #define SLI_BYTES_BEFORE 512
 #define SLI_INTERLEAVE_PREFETCH(of_vector) \
   if ((of_vector) && k + SLI_ROWS_BEFORE + SLI_TILE <= count) { \
-    SLI_UNROLL \
+    SLI_UNROLL_ROWS \
     for (r = 0; r < SLI_TILE; r++) { \
       SLI_PREFETCH(v + (ptrdiff_t)index[k + SLI_ROWS_BEFORE + r] * stride, 0); \
     } \
   } \
-  SLI_UNROLL \
+  SLI_UNROLL_ROWS \
   for (r = 0; r < SLI_TILE; r++) { \
     SLI_PREFETCH(M + (size_t)r * ldm + k, SLI_BYTES_BEFORE); \
   }
@@ -39936,13 +39097,13 @@ SLV_FUNCTION static void SLV_NAME(interleave)(double *v, sl_int stride, const sl
   SLV_DECLARE(a)
   for (k = 0; k + SLI_TILE <= count; k += SLI_TILE) {
     SLI_INTERLEAVE_PREFETCH(!is_streamed)
-    SLI_UNROLL
+    SLI_UNROLL_ROWS
     for (r = 0; r < SLI_TILE; r++) {
       SLV_LOAD_PART(a, M + (size_t)r * ldm + k, SLI_TILE, 0.0)
       SLV_STORE(from + SLI_TILE * r, a)
     }
     SLV_TRANSPOSE(to, from)
-    SLI_UNROLL
+    SLI_UNROLL_ROWS
     for (r = 0; r < SLI_TILE; r++) {
       SLV_LOAD(a, to + SLI_TILE * r)
       if (is_streamed) {
@@ -39970,13 +39131,13 @@ SLV_FUNCTION static void SLV_NAME(separate)(double *M, size_t ldm, const double 
   SLV_DECLARE(a)
   for (k = 0; k + SLI_TILE <= count; k += SLI_TILE) {
     SLI_INTERLEAVE_PREFETCH(1)
-    SLI_UNROLL
+    SLI_UNROLL_ROWS
     for (r = 0; r < SLI_TILE; r++) {
       SLV_LOAD(a, v + (ptrdiff_t)index[k + r] * stride)
       SLV_STORE(from + SLI_TILE * r, a)
     }
     SLV_TRANSPOSE(to, from)
-    SLI_UNROLL
+    SLI_UNROLL_ROWS
     for (r = 0; r < SLI_TILE; r++) {
       SLV_LOAD(a, to + SLI_TILE * r)
       SLV_STORE_ANY(M + (size_t)r * ldm + k, a)
@@ -39992,6 +39153,7 @@ SLV_FUNCTION static void SLV_NAME(separate)(double *M, size_t ldm, const double 
 #undef SLI_ROWS_BEFORE
 #undef SLI_BYTES_BEFORE
 #undef SLI_INTERLEAVE_PREFETCH
+#undef SLI_UNROLL_ROWS
 /* end of interleave.inl.h */
 
 static const sli_kernels SLV_NAME(kernels) = {

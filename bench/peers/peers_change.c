@@ -39,9 +39,8 @@ static void ours(const changes *c, int at, int which, double w) {
     for (int r = 0; r < RANK && which == 1; r++) {
         deltas[r] = w;
     }
-    bench_must(which == 0
-                   ? sl_factor_update_entries(c->F, rows, columns, deltas, 3, c->cmp->W, NULL)
-                   : sl_factor_update_entries(c->F, v, v, deltas, RANK, c->cmp->W, NULL),
+    bench_must(which == 0 ? sl_factor_change(c->F, NULL, rows, columns, deltas, 3, c->cmp->W, NULL)
+                          : sl_factor_change(c->F, NULL, v, v, deltas, RANK, c->cmp->W, NULL),
                "update");
 }
 

@@ -32,7 +32,7 @@ static void edge_change(change *c, double w) {
     const sl_int i = c->i[c->next], j = c->j[c->next];
     const sl_int rows[3] = {i, j, i}, columns[3] = {i, j, j};
     const double deltas[3] = {w, w, -w};
-    bench_must(sl_factor_update_entries(c->F, rows, columns, deltas, 3, c->W, NULL),
+    bench_must(sl_factor_change(c->F, NULL, rows, columns, deltas, 3, c->W, NULL),
                "change of an edge");
 }
 
@@ -41,9 +41,9 @@ static void eight_change(change *c, double w) {
     for (int k = 0; k < RANK; k++) {
         deltas[k] = w;
     }
-    bench_must(sl_factor_update_entries(c->F, c->near[c->next], c->near[c->next], deltas, RANK,
-                                        c->W, NULL),
-               "change of eight vertices");
+    bench_must(
+        sl_factor_change(c->F, NULL, c->near[c->next], c->near[c->next], deltas, RANK, c->W, NULL),
+        "change of eight vertices");
 }
 
 /* ---- contenders; state is a change * ---- */

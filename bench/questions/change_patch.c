@@ -103,8 +103,8 @@ static void call_change(void *state) {
 static void call_update(void *state) {
     change_state *s = state;
     const patch_change *p = &s->patches[s->next];
-    bench_must(sl_factor_update_entries(s->F, p->rows, p->columns, p->deltas[s->is_changed],
-                                        p->count, s->W, NULL),
+    bench_must(sl_factor_change(s->F, NULL, p->rows, p->columns, p->deltas[s->is_changed], p->count,
+                                s->W, NULL),
                "update");
     step_on(s);
 }

@@ -42,41 +42,30 @@
 SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *sigma,
                                                  sl_work *W, sl_stats *stats);
 
-/** Changes a factor by entries of A: a_ij and a_ji by delta.
+/** Changes a factor by entries of A, a_ij and a_ji by delta, in the cheapest way: by rank-one
+ *  changes, by recomputing the columns of L that the change reaches, or by a refactorization. By
+ *  rank-one changes alone if A is NULL.
  *
- *  The library finds rank-one changes: one for the weight of an edge of a graph, which changes a_ij
- *  by -w and a_ii and a_jj by w, one for an entry of the diagonal, and up to three for any other
- *  entry, which follow the scales of the two rows if all pivots have one sign.
- *
- *  rows, columns  [in]  count entries (i, j) of either triangle, each pair i != j once for both
- *                       sides; repeated ones add up. L must have an entry there; all entries of A
- *                       do.
- *  deltas         [in]  count changes.
- *  F, W, stats, Returns, Cost, Threads  as in sl_factor_update; SL_ERR_ARGUMENT: also an index out
- *                       of range, at error.row and error.column.
- *  Example  tests/core/test_change.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows,
-                                                         const sl_int *columns,
-                                                         const double *deltas, sl_int count,
-                                                         sl_work *W, sl_stats *stats);
-
-/** Changes a factor by entries of A in the cheapest way: by rank-one changes, by recomputing the
- *  columns of L that the change reaches, or by a refactorization.
+ *  Rank-one changes: one for the weight of an edge of a graph, which changes a_ij by -w and a_ii
+ *  and a_jj by w, one for an entry of the diagonal, and up to three for any other entry, which
+ *  follow the scales of the two rows if all pivots have one sign.
  *
  *  The ways are compared by their flops, each with what a flop costs in it. Where rank-one changes
  *  are not possible or have added up too much error, the other two remain (stats.change.reason).
  *
- *  F              [in,out]  the factor, or a failed one, which is refactored. On error as with
- *                           sl_factor_refactor; without numbers where the error of a change is too
- *                           large and A is refused.
- *  A              [in]      the changed matrix, in the analyzed pattern. Rank-one changes compare
- *                           its size only; the other ways read it and check its pattern.
- *  rows, columns, deltas  [in]  how it differs from the matrix of F, as in
- *                           sl_factor_update_entries.
+ *  F              [in,out]  the factor, or, with A, a failed one, which is refactored. On error as
+ *                           with sl_factor_update; with A as with sl_factor_refactor, and without
+ *                           numbers where the error of a change is too large and A is refused.
+ *  A              [in]      the changed matrix, in the analyzed pattern, or NULL. Rank-one changes
+ *                           compare its size only; the other ways read it and check its pattern.
+ *  rows, columns  [in]  count entries (i, j) of either triangle, each pair i != j once for both
+ *                       sides; repeated ones add up. L must have an entry there; all entries of A
+ *                       do.
+ *  deltas         [in]  count changes.
  *  W              [in,out]  workspace; NULL: allocated for this call.
  *  stats          [out]     change, factor; may be NULL.
- *  Returns  as sl_factor_refactor and sl_factor_update_entries.
+ *  Returns  as sl_factor_refactor and sl_factor_update; SL_ERR_ARGUMENT: also an index out of
+ *           range, at error.row and error.column.
  *  Cost     that of the way, and at most a few percent of a refactorization to count flops;
  *           nothing of O(n) or O(nnz) for rank-one changes.
  *  Threads  exclusive use of F.

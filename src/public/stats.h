@@ -122,7 +122,7 @@ typedef struct sl_certificate_info {
     double seconds;        /* processor seconds */
 } sl_certificate_info;
 
-/** A change of a factor in place: sl_factor_update, _update_entries, _change. */
+/** A change of a factor in place: sl_factor_update, sl_factor_change. */
 typedef struct sl_change_info {
     sl_change_method method; /* the way that was taken */
     sl_change_reason reason; /* why; of sl_factor_change */

@@ -92,7 +92,7 @@ static void packs(const sl_csc *A, sl_symbolic *S, sl_factor *F, const double *b
     HOLDS(fabs(y[0] - 1) < 1e-12 && fabs(y[N - 1] + 1) < 1e-12);
     HOLDS(sl_dirichlet_create(&D, A, fixed, 2, NULL, NULL, &stats) == SL_OK);
     HOLDS(sl_dirichlet_view(D).n_free == N - 2 && stats.dirichlet.n_free == N - 2);
-    HOLDS(sl_factor_update_entries(F, xset, xset, &delta, 1, NULL, &stats) == SL_OK);
+    HOLDS(sl_factor_change(F, NULL, xset, xset, &delta, 1, NULL, &stats) == SL_OK);
     HOLDS(stats.change.method == SL_CHANGE_UPDATE && stats.factor.positive == N);
     HOLDS(sl_factor_refactor(F, A, &stats) == SL_OK);
     memcpy(y, full, sizeof y);

@@ -341,7 +341,7 @@ static void bounds_hold_after_edits_and_changes(void **state) {
         assert_int_equal(row, 70);
         if (storage == SL_STORAGE_DOUBLE) { /* L in float does not change */
             y.A.x[p] += more;
-            SL_CHECK(sl_factor_update_entries(y.F, &row, &row, &more, 1, NULL, NULL));
+            SL_CHECK(sl_factor_change(y.F, NULL, &row, &row, &more, 1, NULL, NULL));
         }
         for (int m = 0; m < 2; m++) {
             const followed_t *f = m ? &z : &y;

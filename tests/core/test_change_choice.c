@@ -256,7 +256,7 @@ static void float_factors_are_refactored(void **state) {
     assert_int_equal(stats.change.reason, SL_CHANGE_UNSUITED);
     SL_CHECK(sl_factor_create(&F, g.S, &g.M.view, &opt, NULL));
     assert_same_bits(g.F, F);
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_update_entries(g.F, l->rows, l->columns, l->deltas,
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_change(g.F, NULL, l->rows, l->columns, l->deltas,
                                                            l->count, NULL, NULL));
     assert_same_bits(g.F, F);
     sl_factor_free(F);
@@ -294,7 +294,7 @@ static void invalid_arguments_and_failing_allocations(void **state) {
     sl_csc other = g.M.view;
     other.x = NULL;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change(NULL, &g.M.view, &bad, &bad, &one, 0, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change(g.F, NULL, &bad, &bad, &one, 0, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change(g.F, NULL, &bad, &bad, &one, 1, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change(g.F, &other, &bad, &bad, &one, 0, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change(g.F, &g.M.view, &bad, &bad, &one, 1, NULL, NULL));
     other = g.M.view;

@@ -149,16 +149,16 @@ static void drift_is_relative_to_what_remains(void **state) {
         const sl_int row = 44, other = 3;
         double b[100], x[100], r[100], delta = 1e10 * sign / 3.0, error = 0.0;
         sl_stats stats;
-        SL_CHECK(sl_factor_update_entries(y.F, &row, &row, &delta, 1, NULL, &stats));
+        SL_CHECK(sl_factor_change(y.F, NULL, &row, &row, &delta, 1, NULL, &stats));
         assert_true(stats.change.drift <= 1e-14);
         delta = -delta;
-        SL_CHECK(sl_factor_update_entries(y.F, &row, &row, &delta, 1, NULL, &stats));
+        SL_CHECK(sl_factor_change(y.F, NULL, &row, &row, &delta, 1, NULL, &stats));
         gen_reals(b, 100, 5);
         SL_CHECK(sl_factor_solve(y.F, x, 100, b, 100, 1, NULL));
         SL_CHECK(sl_csc_residual(&y.M.view, r, 100, &error, x, 100, b, 100, 1));
         assert_true(error > 1e-12 && stats.change.drift > error && stats.change.drift < 1e-4);
         delta = 1e-3 * sign;
-        SL_CHECK(sl_factor_update_entries(y.F, &other, &other, &delta, 1, NULL, &stats));
+        SL_CHECK(sl_factor_change(y.F, NULL, &other, &other, &delta, 1, NULL, &stats));
         assert_true(stats.change.drift > error && stats.change.drift < 1e-4);
         factored_free(&y);
     }
@@ -177,7 +177,7 @@ static void growth_is_relative_to_what_remains(void **state) {
     sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
     SL_CHECK(sl_factor_create(&F, S, &A, NULL, &stats));
     assert_true(stats.factor.growth < 100.0);
-    SL_CHECK(sl_factor_update_entries(F, &last, &last, &down, 1, NULL, &stats));
+    SL_CHECK(sl_factor_change(F, NULL, &last, &last, &down, 1, NULL, &stats));
     assert_true(stats.factor.growth >= 1e10 && stats.factor.growth < 1e12);
     sl_factor_free(F);
     sl_symbolic_free(S);
@@ -197,11 +197,11 @@ static void a_pivot_of_rounding_is_null(void **state) {
     const double pivot = sl_factor_view(F).D[1];
     double delta = 1e-17 - pivot;
     assert_true(pivot > 9e-11 && pivot < 1.1e-10 && pivot + delta > 0.0);
-    SL_EXPECT(SL_ERR_PIVOT, sl_factor_update_entries(F, &last, &last, &delta, 1, NULL, &stats));
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_change(F, NULL, &last, &last, &delta, 1, NULL, &stats));
     assert_int_equal(stats.error.row, 1);
     assert_true(sl_factor_view(F).D[1] == pivot);
     delta = 1e-12 - pivot;
-    SL_CHECK(sl_factor_update_entries(F, &last, &last, &delta, 1, NULL, &stats));
+    SL_CHECK(sl_factor_change(F, NULL, &last, &last, &delta, 1, NULL, &stats));
     sl_factor_free(F);
     sl_symbolic_free(S);
 }
@@ -227,7 +227,7 @@ static void lost_digits_are_counted(void **state) {
         SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
         a[1] += delta;
         SL_CHECK(k % 2 ? sl_factor_change(F, &A, &row, &column, &delta, 1, NULL, &stats)
-                       : sl_factor_update_entries(F, &row, &column, &delta, 1, NULL, &stats));
+                       : sl_factor_change(F, NULL, &row, &column, &delta, 1, NULL, &stats));
         SL_CHECK(sl_factor_solve(F, x, 2, b, 2, 1, NULL));
         SL_CHECK(sl_csc_residual(&A, r, 2, &eta, x, 2, b, 2, 1));
         const double error = fmax(fabs(r[0]), fabs(r[1])) /
@@ -300,7 +300,7 @@ static void a_laplacian_may_become_singular(void **state) {
         tree_set(&M, parent, w, 0.0, deltas);
         if (k % 3 == 2) {
             SL_EXPECT(SL_ERR_PIVOT,
-                      sl_factor_update_entries(F, rows, columns, deltas, ENTRIES, NULL, &stats));
+                      sl_factor_change(F, NULL, rows, columns, deltas, ENTRIES, NULL, &stats));
         }
         SL_EXPECT(k % 3 > 0 ? SL_OK : SL_ERR_PIVOT,
                   sl_factor_change(F, &M.view, rows, columns, deltas, ENTRIES, NULL, &stats));

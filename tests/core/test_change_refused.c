@@ -27,8 +27,8 @@ static subject_t subject_make(int history, double growth_limit) {
     s.S = s.y.S;
     s.F = s.y.F;
     if (history != FRESH) {
-        SL_CHECK(sl_factor_update_entries(s.F, &row, &row, &up, 1, NULL, NULL));
-        SL_CHECK(sl_factor_update_entries(s.F, &row, &row, &down, 1, NULL, NULL));
+        SL_CHECK(sl_factor_change(s.F, NULL, &row, &row, &up, 1, NULL, NULL));
+        SL_CHECK(sl_factor_change(s.F, NULL, &row, &row, &down, 1, NULL, NULL));
     }
     if (history == LOADED || history == MAPPED) {
         size_t bytes;
@@ -97,13 +97,13 @@ static sl_status refused_call(const subject_t *s, int k) {
     case 9:
         return sl_factor_update(s->F, &W, NULL, NULL, NULL); /* outside of L */
     case 10:
-        return sl_factor_update_entries(s->F, &beyond, &first, &delta, 1, NULL, NULL);
+        return sl_factor_change(s->F, NULL, &beyond, &first, &delta, 1, NULL, NULL);
     case 11:
-        return sl_factor_update_entries(s->F, &first, &first, &nan, 1, NULL, NULL);
+        return sl_factor_change(s->F, NULL, &first, &first, &nan, 1, NULL, NULL);
     case 12:
-        return sl_factor_update_entries(s->F, &first, &first, &less, 1, NULL, NULL);
+        return sl_factor_change(s->F, NULL, &first, &first, &less, 1, NULL, NULL);
     case 13:
-        return sl_factor_update_entries(s->F, far, far + 1, &huge, 1, NULL, NULL);
+        return sl_factor_change(s->F, NULL, far, far + 1, &huge, 1, NULL, NULL);
     case 14:
         return sl_factor_change(s->F, &small, &first, &first, &delta, 1, NULL, NULL);
     case 15:
@@ -152,7 +152,7 @@ static void the_drift_of_a_loaded_factor_is_refused(void **state) {
     subject_t s = subject_make(LOADED, 1e4);
     image_t before = image_make(&s);
     SL_EXPECT(SL_ERR_INACCURATE,
-              sl_factor_update_entries(s.F, &row, &row, &up, 1, NULL, &stats));
+              sl_factor_change(s.F, NULL, &row, &row, &up, 1, NULL, &stats));
     assert_int_equal(stats.error.row, 0);
     image_t after = image_make(&s);
     assert_memory_equal(before.bytes, after.bytes, before.size);

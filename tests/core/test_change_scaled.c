@@ -73,7 +73,7 @@ static void entries_change_by_the_scales_of_their_rows(void **state) {
                 deltas[count++] = 0.1 * *a;
                 *a += deltas[count - 1];
             }
-            SL_CHECK(sl_factor_update_entries(y.F, rows, columns, deltas, count, NULL, &stats));
+            SL_CHECK(sl_factor_change(y.F, NULL, rows, columns, deltas, count, NULL, &stats));
             assert_true(error_of(&y, s) <= 64.0 * DBL_EPSILON);
             assert_true(stats.change.drift <= 64.0 * DBL_EPSILON);
             band_free(&y);

@@ -98,7 +98,7 @@ static void edit(shared_t *s, int round) {
     const sl_int row = (sl_int)(round * 61 % s->n);
     const double delta = round % 2 ? -0.25 : 0.5;
     if (round % 3 < 2) {
-        SL_CHECK(sl_factor_update_entries(s->y.F, &row, &row, &delta, 1, s->W[0], NULL));
+        SL_CHECK(sl_factor_change(s->y.F, NULL, &row, &row, &delta, 1, s->W[0], NULL));
     }
     for (sl_int p = s->y.M.p[row]; p < s->y.M.p[row + 1]; p++) {
         if (s->y.M.i[p] == row) {
@@ -164,9 +164,9 @@ static void edit_task(void *shared, sl_int k) {
     const double up = 0.5 + 0.1 * (double)k, down = -up;
     s->status[k] = sl_factor_refactor(s->F[k], &s->y.M.view, NULL);
     for (int turn = 0; turn < 3 && s->status[k] == SL_OK; turn++) {
-        s->status[k] = sl_factor_update_entries(s->F[k], &row, &row, &up, 1, s->W[k], NULL);
+        s->status[k] = sl_factor_change(s->F[k], NULL, &row, &row, &up, 1, s->W[k], NULL);
         if (s->status[k] == SL_OK && turn < 2) {
-            s->status[k] = sl_factor_update_entries(s->F[k], &row, &row, &down, 1, s->W[k], NULL);
+            s->status[k] = sl_factor_change(s->F[k], NULL, &row, &row, &down, 1, s->W[k], NULL);
         }
     }
     if (s->status[k] == SL_OK) {

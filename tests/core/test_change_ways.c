@@ -108,7 +108,7 @@ static void pivoted_factors_are_recomputed(void **state) {
     SL_CHECK(sl_symbolic_create_pivoted(&S, &A, NULL, &stats));
     assert_true(stats.symbolic.pairs > 0);
     SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_update_entries(F, &row, &row, &delta, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_change(F, NULL, &row, &row, &delta, 1, NULL, NULL));
     x[3] += delta;
     SL_CHECK(sl_factor_change(F, &A, &row, &row, &delta, 1, NULL, &stats));
     assert_true(stats.change.method >= SL_CHANGE_REACH);
@@ -158,7 +158,7 @@ static void growth_beyond_the_limit_is_refused(void **state) {
     sl_stats stats;
     two_make(&t, 1.0, 0.5, -1.0, 10.0);
     SL_EXPECT(SL_ERR_INACCURATE,
-              sl_factor_update_entries(t.F, &row, &row, &delta, 1, NULL, &stats));
+              sl_factor_change(t.F, NULL, &row, &row, &delta, 1, NULL, &stats));
     assert_true(stats.error.row >= 0 && stats.error.row < 2);
     SL_CHECK(sl_factor_refactor(t.F, &t.A, NULL));
     t.x[0] += delta;
@@ -201,7 +201,7 @@ static void small_pivot(sl_int row, double delta) {
     sl_factor *F;
     assert_int_equal(sl_symbolic_view(S).n_supers, 3);
     SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
-    SL_CHECK(sl_factor_update_entries(F, &row, &row, &delta, 1, NULL, NULL));
+    SL_CHECK(sl_factor_change(F, NULL, &row, &row, &delta, 1, NULL, NULL));
     x[p[row]] += delta;
     const double d = sl_factor_view(F).D[row];
     assert_true(d > 0.0 && d < 2e-5);
@@ -242,7 +242,7 @@ static void changes_of_a_zero_matrix(void **state) {
     SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
     assert_int_equal(stats.factor.regularized, 2);
-    SL_CHECK(sl_factor_update_entries(F, i, i, deltas, 2, NULL, &stats));
+    SL_CHECK(sl_factor_change(F, NULL, i, i, deltas, 2, NULL, &stats));
     SL_CHECK(sl_factor_solve(F, out, 2, b, 2, 1, NULL));
     assert_true(fabs(out[0] - 0.5) <= 1e-15 && fabs(out[1] - 0.25) <= 1e-15);
     sl_factor_free(F);
@@ -270,7 +270,7 @@ static void signs_of_regularized_pivots_stay(void **state) {
         const double d = sl_factor_view(y.F).D[sl_symbolic_view(y.S).iperm[row]];
         const double away = -d * 4.0;
         const sl_status status =
-            sl_factor_update_entries(y.F, &row, &row, &away, 1, NULL, &stats);
+            sl_factor_change(y.F, NULL, &row, &row, &away, 1, NULL, &stats);
         assert_true(status == SL_OK || status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE);
         if (status == SL_OK) {
             assert_int_equal(stats.factor.positive, before.factor.positive);
@@ -307,11 +307,11 @@ static void long_lists_are_refused(void **state) {
     const sl_int row = 0, wrong[2] = {-1, SIDE * SIDE};
     const double one = 1.0;
     sl_stats stats;
-    SL_EXPECT(SL_ERR_TOO_LARGE, sl_factor_update_entries(y.F, &row, &row, &one, INT32_MAX / 4 + 1,
+    SL_EXPECT(SL_ERR_TOO_LARGE, sl_factor_change(y.F, NULL, &row, &row, &one, INT32_MAX / 4 + 1,
                                                          NULL, NULL));
     for (int k = 0; k < 2; k++) {
         SL_EXPECT(SL_ERR_ARGUMENT,
-                  sl_factor_update_entries(y.F, &row, &wrong[k], &one, 1, NULL, &stats));
+                  sl_factor_change(y.F, NULL, &row, &wrong[k], &one, 1, NULL, &stats));
         assert_int_equal(stats.error.column, wrong[k]);
     }
     assert_is_factor(&y, NULL, 1);

@@ -273,8 +273,7 @@ WRONG(not_in_l) {
     const sl_int row = 0, column = N - 1;
     const double delta = 1;
     factored_t path = factored_make(GEN_PATH, N, 1, 0, NULL);
-    const sl_status status =
-        sl_factor_update_entries(path.F, &row, &column, &delta, 1, NULL, stats);
+    const sl_status status = sl_factor_change(path.F, NULL, &row, &column, &delta, 1, NULL, stats);
     factored_free(&path);
     return status;
 }

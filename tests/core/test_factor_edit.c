@@ -168,7 +168,7 @@ static void changed_factors_follow(void **state) {
     sl_stats stats;
     sl_factor *G = NULL;
     assert_true(row != column);
-    SL_CHECK(sl_factor_update_entries(y.F, &row, &column, &delta, 1, NULL, NULL));
+    SL_CHECK(sl_factor_change(y.F, NULL, &row, &column, &delta, 1, NULL, NULL));
     SL_CHECK(sl_factor_edit(&G, y.F, y.S, &y.A.view, map, NULL, &stats));
     check_right(G, &y.A.view);
     assert_true(!stats.reuse.is_anew && stats.reuse.computed > 0);

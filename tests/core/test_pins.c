@@ -201,7 +201,7 @@ static void a_changed_factor_is_refused_until_the_refactorization(void **state) 
     pin(&p, 3);
     pin(&p, 20);
     pin(&p, 21);
-    SL_CHECK(sl_factor_update_entries(p.y.F, &i, &i, &two, 1, NULL, NULL));
+    SL_CHECK(sl_factor_change(p.y.F, NULL, &i, &i, &two, 1, NULL, NULL));
     p.dense[(size_t)i * (n + 1)] += two;
     SL_EXPECT(SL_ERR_STALE, sl_pins_solve(p.P, NULL, x, n, x, n, g, 3, 1, NULL));
     SL_EXPECT(SL_ERR_STALE, pin_row(p.P, 4, NULL));

@@ -169,7 +169,7 @@ static void a_drift_is_kept_as_growth(void **state) {
     sl_stats before, after;
     SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
-    SL_CHECK(sl_factor_update_entries(F, &row, &column, &delta, 1, NULL, &before));
+    SL_CHECK(sl_factor_change(F, NULL, &row, &column, &delta, 1, NULL, &before));
     saved_t m = saved_make(S, F);
     SL_CHECK(pair_load_memory(&T, &G, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
     sl_factor_stats(G, &after);

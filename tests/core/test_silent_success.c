@@ -90,7 +90,7 @@ static void an_indefinite_matrix_is_not_taken_for_definite(void **state) {
     for (sl_int p = A.p[row]; p < A.p[row + 1]; p++) {
         values[p] += A.i[p] == row ? less : 0.0;
     }
-    SL_EXPECT(SL_ERR_PIVOT, sl_factor_update_entries(y.F, &row, &row, &less, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_change(y.F, NULL, &row, &row, &less, 1, NULL, NULL));
     SL_CHECK(sl_factor_refactor(y.F, &A, &stats));
     assert_int_equal(stats.factor.negative, 1);
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_solve_part(y.F, SL_PART_P | SL_PART_L | SL_PART_SQRT_D, x, N,
@@ -277,7 +277,7 @@ static void nothing_is_derived_from_a_failed_factor(void **state) {
     assert_int_equal(failed, 0);
     assert_true(x[0] == 0.0);
     assert_refused(sl_factor_refactor_changed(y.F, &A, rows, 1, &stats), SL_ERR_STALE, &stats);
-    assert_refused(sl_factor_update_entries(y.F, rows, rows, &one, 1, NULL, &stats), SL_ERR_STALE,
+    assert_refused(sl_factor_change(y.F, NULL, rows, rows, &one, 1, NULL, &stats), SL_ERR_STALE,
                    &stats);
     SL_CHECK(sl_factor_refactor(y.F, &A, NULL)); /* a refactorization mends it */
     assert_refused(sl_pins_solve(P, NULL, x, N, b, N, &one, 1, 1, NULL), SL_ERR_STALE, NULL);

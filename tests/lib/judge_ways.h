@@ -217,7 +217,7 @@ static inline void judge_way_change(judge_t *t) {
             *entry += deltas[c];
         }
         if (kind == 0) {
-            status = sl_factor_update_entries(F, rows, columns, deltas, count, NULL, &stats);
+            status = sl_factor_change(F, NULL, rows, columns, deltas, count, NULL, &stats);
             if (status == SL_ERR_UNSUPPORTED) {
                 status = sl_factor_refactor(F, &M.view, &stats);
             } else if (status != SL_OK && status != SL_ERR_NOT_FINITE) { /* F is as before */

@@ -17,7 +17,7 @@ static const options_manual manual = {
     "release a vertex (its row and column are eliminated or put back), or flip an edge. "
     "sl_factor_change takes the cheapest of rank-one updates, a refactorization of the reach and a "
     "complete one. A flip joins two vertices by a new entry, which is a change of pattern: where L "
-    "holds the fill, sl_factor_update_entries follows, also for the edits after it; elsewhere the "
+    "holds the fill, rank-one updates follow, also for the edits after it; elsewhere the "
     "system is analyzed and factored anew. Positions do not change. With split, collapse or remesh "
     "among the kinds rows come and go: an edge gets a vertex in its middle, an edge is collapsed, "
     "or a patch is remeshed by splits, collapses and flips. sl_symbolic_edit and sl_factor_edit "

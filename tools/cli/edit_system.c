@@ -308,8 +308,8 @@ edit_way edit_system_follow(edit_system *e, const entry_changes *changes) {
         return (edit_way)e->stats.change.method;
     }
     if (count <= MOST_OUTSIDE && e->stats.change.drift < most_drift) {
-        const sl_status status = sl_factor_update_entries(e->F, changes->i, changes->j, changes->x,
-                                                          count, e->W, &e->stats);
+        const sl_status status = sl_factor_change(e->F, NULL, changes->i, changes->j, changes->x,
+                                                  count, e->W, &e->stats);
         if (status == SL_OK) {
             return EDIT_OUTSIDE;
         }

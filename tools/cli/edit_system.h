@@ -32,7 +32,7 @@ typedef enum edit_kind {
 
 /** How the factor followed. The first four are those of sl_factor_change.
  *
- *  EDIT_OUTSIDE  by sl_factor_update_entries: entries outside of the analyzed pattern, from flips,
+ *  EDIT_OUTSIDE  by rank-one changes: entries outside of the analyzed pattern, from flips,
  *                are present where L holds the fill
  *  EDIT_ANEW     by a new analysis and factorization: an entry outside of L, or too many changes or
  *                too much drift while entries are outside of the pattern; in mesh_edits.h by a new

@@ -233,7 +233,7 @@ WEB_EXPORT(web_update_entries)
 sl_status web_update_entries(sl_factor *F, const sl_int *rows, const sl_int *columns,
                              const double *deltas, sl_int count) {
     forget();
-    return keep(sl_factor_update_entries(F, rows, columns, deltas, count, workspace(), &stats));
+    return keep(sl_factor_change(F, NULL, rows, columns, deltas, count, workspace(), &stats));
 }
 
 /* ---- pins ---- */

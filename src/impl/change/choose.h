@@ -251,40 +251,30 @@ static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc 
     return status;
 }
 
-SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,
-                                  const sl_int *columns, const double *deltas, sl_int count,
-                                  sl_work *W, sl_stats *stats) {
-    const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
+/* Changes F in the cheapest way; A decides where rank-one changes are refused. */
+static sl_status sli_choose_cheapest(sli_rank *q, const sl_csc *A, sl_work *W, double started) {
+    const sl_allocator *a = &q->u.F->allocator;
+    const uint64_t count = (uint64_t)q->n_entries;
     sl_change_method method = SL_CHANGE_NONE;
+    sl_stats *stats = q->stats;
     sli_block b = {NULL, 0, 0};
     sli_change_choice c;
-    sli_rank q;
-    sl_work own;
-    sl_status status;
-    sli_stats_clear_error(stats);
-    status = sli_edges_check(F, rows, columns, deltas, count, stats);
-    status = status == SL_OK ? sli_factor_may_change(F) : status;
-    status = status == SL_OK ? sli_pattern_check_size(F->S, A, 1) : status;
-    if (status != SL_OK) {
-        return sli_report(stats, status);
-    }
+    sl_work own = sli_work_own(a);
+    sl_status status = SL_OK;
     memset(&c, 0, sizeof c);
-    sli_rank_begin(&q, F, stats);
-    sli_edges_begin(&q, rows, columns, deltas, count);
-    q.u.least = sli_rank_least(F); /* A decides */
-    SLI_LAYOUT(&b, &F->allocator, status) {
+    q->u.least = sli_rank_least(q->u.F);
+    SLI_LAYOUT(&b, a, status) {
         c.seeds = SLI_TAKE(&b, uint64_t, count);
-        c.scratch = SLI_TAKE(&b, uint64_t, 2 * (uint64_t)count);
+        c.scratch = SLI_TAKE(&b, uint64_t, 2 * count);
         c.columns = SLI_TAKE(&b, sl_int, count);
     }
-    own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
     status = status == SL_OK ? sli_work_grow(W, 1) : status;
-    status = status == SL_OK ? sli_choose_run(&c, &q, A, W, &method) : status;
-    sli_free(&F->allocator, b.base);
-    sli_free(&own.allocator, own.block);
+    status = status == SL_OK ? sli_choose_run(&c, q, A, W, &method) : status;
+    sli_free(a, b.base);
+    sli_free(a, own.block);
     if (status == SL_OK) {
-        sli_rank_report(&q, started, stats);
+        sli_rank_report(q, started, stats);
     }
     if (status == SL_OK && stats != NULL) {
         stats->change.method = method;
@@ -292,6 +282,35 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
         stats->change.flops_update = c.flops_update;
         stats->change.flops_changed = c.flops_changed;
         stats->change.flops_refactor = c.flops_refactor;
+    }
+    return status;
+}
+
+SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,
+                                  const sl_int *columns, const double *deltas, sl_int count,
+                                  sl_work *W, sl_stats *stats) {
+    const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
+    sli_rank q;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    status = sli_edges_check(F, rows, columns, deltas, count, stats);
+    if (status == SL_OK) {
+        status = A == NULL ? sli_rank_check(F) : sli_factor_may_change(F);
+    }
+    if (status == SL_OK && A != NULL) {
+        status = sli_pattern_check_size(F->S, A, 1);
+    }
+    if (status != SL_OK) {
+        return sli_report(stats, status);
+    }
+    sli_rank_begin(&q, F, stats);
+    sli_edges_begin(&q, rows, columns, deltas, count);
+    if (A != NULL) {
+        return sli_report(stats, sli_choose_cheapest(&q, A, W, started));
+    }
+    status = sli_rank_apply(&q, sli_edges_stages, 3, W);
+    if (status == SL_OK) {
+        sli_rank_report(&q, started, stats);
     }
     return sli_report(stats, status);
 }

@@ -184,25 +184,4 @@ static void sli_edges_begin(sli_rank *q, const sl_int *rows, const sl_int *colum
     q->n_entries = count;
 }
 
-SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, const sl_int *columns,
-                                          const double *deltas, sl_int count, sl_work *W,
-                                          sl_stats *stats) {
-    const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
-    sli_rank q;
-    sl_status status;
-    sli_stats_clear_error(stats);
-    status = sli_edges_check(F, rows, columns, deltas, count, stats);
-    status = status == SL_OK ? sli_rank_check(F) : status;
-    if (status != SL_OK) {
-        return sli_report(stats, status);
-    }
-    sli_rank_begin(&q, F, stats);
-    sli_edges_begin(&q, rows, columns, deltas, count);
-    status = sli_rank_apply(&q, sli_edges_stages, 3, W);
-    if (status == SL_OK) {
-        sli_rank_report(&q, started, stats);
-    }
-    return sli_report(stats, status);
-}
-
 #endif

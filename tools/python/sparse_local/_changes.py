@@ -94,9 +94,9 @@ class Changes:
         i, j, delta = _entries(rows, columns, deltas)
         stats = Stats()
         self._nulls = None
-        self._checked(self._lib.sl_factor_update_entries(
-            self._pointer, arrays.address(i), arrays.address(j), arrays.address(delta), i.size,
-            self._work(), ctypes.byref(stats)), stats)
+        self._checked(self._lib.sl_factor_change(
+            self._pointer, None, arrays.address(i), arrays.address(j), arrays.address(delta),
+            i.size, self._work(), ctypes.byref(stats)), stats)
         self.changed = as_dict(stats.change)
         return self
 

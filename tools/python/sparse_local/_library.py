@@ -32,7 +32,6 @@ _CALLS = {
     "factor_restrict": [_OUT, _OUT, PTR, _CSC, PTR, INT, _OPT, _STATS],
     "factor_change": [PTR, _CSC, PTR, PTR, PTR, INT, PTR, _STATS],
     "factor_update": [PTR, _CSC, PTR, PTR, _STATS],
-    "factor_update_entries": [PTR, PTR, PTR, PTR, INT, PTR, _STATS],
     "factor_lower": [_OUT, PTR, _OPT],
     "batch_factor": [_OUT, INT, PTR, PTR, ctypes.POINTER(PTR), INT, _OPT, ctypes.POINTER(INT),
                      _STATS],
