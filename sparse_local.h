@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d027ac6204eab975
+ * FNV-1a of the lines after this comment, without the license: 94c467909bb821e9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -9,55 +9,55 @@
  *    317 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    496 options.h    options of all calls, threads, and the allocator
  *    643 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    884 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    986 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1062 factor.h     the numerical factorization P A P' = L D L'
- *   1187 solve.h      full solves, and the workspace of all solves
- *   1284 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1363 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
- *   1455 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1554 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1594 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1702 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1781 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1867 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1963 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2075 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2115 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2243 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2275 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2464 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2565 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2674 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2715 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2803 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2913 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2950 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   3027 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3067 impl/ base: the compiler, status, memory, sorting, threads
- *   4241 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5124 impl/ matrix: sparse matrices of the caller and of the library
- *   5759 impl/ ordering: fill-reducing orderings of a graph
- *  10370 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12570 impl/ factor: the numbers of L and D
- *  15907 impl/ solve: full and local solves
- *  17578 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19494 impl/ pivots: the order of the pivots by the values of a matrix
- *  19903 impl/ float: L and fronts in single precision
- *  20354 impl/ inverse: entries of the inverse, regions
- *  23395 impl/ change: a factor that follows changes of its matrix
- *  29343 impl/ dirichlet: rows fixed at given values
- *  29930 impl/ dirichlet: by a factor of all rows
- *  30148 impl/ io: files that are replaced only when they are complete
- *  30366 impl/ files: Matrix Market files, 64-bit indices
- *  30986 impl/ save: factors in files
- *  32984 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33669 impl/ batch: diagonals of many inverses
- *  33813 impl/ complex: complex Hermitian systems over real factors
- *  34360 impl/ complex: entries of the inverse
- *  34420 impl/ packs: the tables through which the core calls packs
- *  34468 impl/ last: undefine every internal macro
- *  34807 impl/ templates: the header includes them from itself, once for each instruction set
+ *    885 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    987 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1063 factor.h     the numerical factorization P A P' = L D L'
+ *   1188 solve.h      full solves, and the workspace of all solves
+ *   1285 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1364 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
+ *   1456 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1555 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1595 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1703 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1782 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1868 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1964 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2076 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2116 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2244 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2276 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2465 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2566 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2675 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2716 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2804 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2914 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2951 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   3028 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3068 impl/ base: the compiler, status, memory, sorting, threads
+ *   4242 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5125 impl/ matrix: sparse matrices of the caller and of the library
+ *   5760 impl/ ordering: fill-reducing orderings of a graph
+ *  10371 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12571 impl/ factor: the numbers of L and D
+ *  15908 impl/ solve: full and local solves
+ *  17579 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19495 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19904 impl/ float: L and fronts in single precision
+ *  20355 impl/ inverse: entries of the inverse, regions
+ *  23396 impl/ change: a factor that follows changes of its matrix
+ *  29344 impl/ dirichlet: rows fixed at given values
+ *  29931 impl/ dirichlet: by a factor of all rows
+ *  30149 impl/ io: files that are replaced only when they are complete
+ *  30367 impl/ files: Matrix Market files, 64-bit indices
+ *  30987 impl/ save: factors in files
+ *  32985 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33670 impl/ batch: diagonals of many inverses
+ *  33814 impl/ complex: complex Hermitian systems over real factors
+ *  34361 impl/ complex: entries of the inverse
+ *  34421 impl/ packs: the tables through which the core calls packs
+ *  34469 impl/ last: undefine every internal macro
+ *  34808 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -818,7 +818,8 @@ typedef struct sl_reuse_info {
 /** A set of pins: sl_pins_add, _add_equality, _release, _refactor. */
 typedef struct sl_pins_info {
     sl_int count;   /* pins and equalities */
-    double seconds; /* processor seconds of the call */
+    double seconds; /* processor seconds of the call; from some stats.factor.seconds on,
+                     * sl_dirichlet_create holds the same rows sooner */
 } sl_pins_info;
 
 /** Rows fixed at given values: sl_dirichlet_create, sl_dirichlet_refactor. */
