@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 94c467909bb821e9
+ * FNV-1a of the lines after this comment, without the license: 7f3f71d75ed71dde
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -42,22 +42,22 @@
  *  12571 impl/ factor: the numbers of L and D
  *  15908 impl/ solve: full and local solves
  *  17579 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19495 impl/ pivots: the order of the pivots by the values of a matrix
- *  19904 impl/ float: L and fronts in single precision
- *  20355 impl/ inverse: entries of the inverse, regions
- *  23396 impl/ change: a factor that follows changes of its matrix
- *  29344 impl/ dirichlet: rows fixed at given values
- *  29931 impl/ dirichlet: by a factor of all rows
- *  30149 impl/ io: files that are replaced only when they are complete
- *  30367 impl/ files: Matrix Market files, 64-bit indices
- *  30987 impl/ save: factors in files
- *  32985 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33670 impl/ batch: diagonals of many inverses
- *  33814 impl/ complex: complex Hermitian systems over real factors
- *  34361 impl/ complex: entries of the inverse
- *  34421 impl/ packs: the tables through which the core calls packs
- *  34469 impl/ last: undefine every internal macro
- *  34808 impl/ templates: the header includes them from itself, once for each instruction set
+ *  19497 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19906 impl/ float: L and fronts in single precision
+ *  20357 impl/ inverse: entries of the inverse, regions
+ *  23398 impl/ change: a factor that follows changes of its matrix
+ *  29346 impl/ dirichlet: rows fixed at given values
+ *  29933 impl/ dirichlet: by a factor of all rows
+ *  30151 impl/ io: files that are replaced only when they are complete
+ *  30369 impl/ files: Matrix Market files, 64-bit indices
+ *  30989 impl/ save: factors in files
+ *  32987 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33672 impl/ batch: diagonals of many inverses
+ *  33816 impl/ complex: complex Hermitian systems over real factors
+ *  34363 impl/ complex: entries of the inverse
+ *  34423 impl/ packs: the tables through which the core calls packs
+ *  34471 impl/ last: undefine every internal macro
+ *  34810 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -18181,6 +18181,7 @@ typedef struct sli_local_refinement {
   unsigned char *memory;
   double error[SLI_TILE];
   int is_done[SLI_TILE];
+  int not_finite;
   sl_int steps;
 } sli_local_refinement;
 
@@ -18240,6 +18241,7 @@ static void sli_local_refinement_step(sli_local_refinement *f, const sli_rhs *rh
   }
   sli_sweep_forward(f->F, f->q, &v, columns);
   sli_sweep_backward(f->F, f->q, &v, columns);
+  f->not_finite |= step == 0 && !sli_sweep_is_finite(f->F, f->q, v.x, lanes);
   sli_unpack(f->F, f->q, &current, v.x);
   for (c = 0; c < columns; c++) {
     double error = 0.0;
@@ -18331,7 +18333,7 @@ static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, s
       worst = sli_max_error(f->error[c], worst);
     }
   }
-  if (!sli_is_finite(worst)) {
+  if (f->not_finite || !sli_is_finite(worst)) {
     return sli_not_finite();
   }
   worst = sli_max_error(sli_local_rounding(f->F), worst);

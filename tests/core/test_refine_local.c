@@ -316,6 +316,36 @@ static void what_is_not_finite_is_refused(void **state) {
     kkt_free(&y);
 }
 
+/* Also in components without a regularized row. */
+static void what_is_not_finite_elsewhere_is_refused(void **state) {
+    (void)state;
+    const sl_int p[] = {0, 1, 2, 3}, i[] = {0, 1, 2};
+    const double a[] = {1e-200, 0, 1}, good[] = {1, 0, 1};
+    const double wrong[3][3] = {{1e200, 0, 1}, {(double)NAN, 0, 1}, {1, 0, -HUGE_VAL}};
+    const sl_csc A = {3, 3, p, i, a};
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_plan *P = NULL;
+    sl_stats stats;
+    double x[3];
+    opt.regularization = 1e-8;
+    SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &A, FOR_FACTOR(&opt), &stats));
+    assert_true(stats.factor.regularized == 1);
+    SL_CHECK(sl_plan_create(&P, S, NULL, 0, NULL, 0, NULL, NULL));
+    for (sl_int steps = 0; steps < 3; steps++) {
+        SL_CHECK(sl_plan_solve_refined(P, F, x, 3, good, 3, 1, steps, NULL, NULL));
+        for (int k = 0; k < 3; k++) {
+            SL_EXPECT(SL_ERR_NOT_FINITE,
+                      sl_plan_solve_refined(P, F, x, 3, wrong[k], 3, 1, steps, NULL, NULL));
+        }
+    }
+    sl_plan_free(P);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
 /* Failed allocations leave X as it was, and a workspace that has grown allocates nothing. */
 static void failed_allocations_change_nothing(void **state) {
     (void)state;
@@ -354,6 +384,7 @@ int main(void) {
         cmocka_unit_test(a_plan_must_hold_the_regularized_rows),
         cmocka_unit_test(rows_of_other_components_may_be_missing),
         cmocka_unit_test(what_is_not_finite_is_refused),
+        cmocka_unit_test(what_is_not_finite_elsewhere_is_refused),
         cmocka_unit_test(failed_allocations_change_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

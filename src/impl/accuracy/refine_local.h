@@ -20,6 +20,7 @@ typedef struct sli_local_refinement {
     unsigned char *memory; /* vectors of the sweeps */
     double error[SLI_TILE];
     int is_done[SLI_TILE];
+    int not_finite; /* a first solution is not, also where no row was regularized */
     sl_int steps;
 } sli_local_refinement;
 
@@ -83,6 +84,7 @@ static void sli_local_refinement_step(sli_local_refinement *f, const sli_rhs *rh
     }
     sli_sweep_forward(f->F, f->q, &v, columns);
     sli_sweep_backward(f->F, f->q, &v, columns);
+    f->not_finite |= step == 0 && !sli_sweep_is_finite(f->F, f->q, v.x, lanes);
     sli_unpack(f->F, f->q, &current, v.x);
     for (c = 0; c < columns; c++) {
         double error = 0.0;
@@ -179,7 +181,7 @@ static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, s
             worst = sli_max_error(f->error[c], worst);
         }
     }
-    if (!sli_is_finite(worst)) {
+    if (f->not_finite || !sli_is_finite(worst)) {
         return sli_not_finite();
     }
     worst = sli_max_error(sli_local_rounding(f->F), worst);
