@@ -234,10 +234,11 @@ static void wrong_matrices_are_refused(void **state) {
     static const sl_int p[] = {0, 1, 3}, below[] = {1, 0, 1}, both[] = {0, 0, 1};
     static const sl_int p_empty[] = {0, 1, 1}, p_late[] = {0, 0, 1};
     static const double ones[] = {1, 1, 1}, zeros[] = {0, 0, 0}, not_a_number[] = {1, NAN, 1};
+    static const double below_float[] = {1, 1e-30, 0};
     const sl_csc is_below = {2, 2, p, below, ones}, empty = {2, 2, p_empty, both, ones};
     const sl_csc empty_first = {2, 2, p_late, both, ones};
     const sl_csc singular = {2, 2, p, both, ones}, null = {2, 2, p, both, zeros};
-    const sl_csc nan_inside = {2, 2, p, both, not_a_number};
+    const sl_csc nan_inside = {2, 2, p, both, not_a_number}, tiny = {2, 2, p, both, below_float};
     QDLDL_int tree;
     (void)state;
     (void)factor_of(&is_below, by_rows, &tree);
@@ -251,6 +252,7 @@ static void wrong_matrices_are_refused(void **state) {
         assert_true(factor_of(&singular, how, &tree) == -1 && tree == 1);
         assert_true(factor_of(&null, how, &tree) == -1 && tree == 1);
         assert_true(factor_of(&nan_inside, how, &tree) == 1 && tree == 1);
+        assert_true(factor_of(&tiny, how, &tree) == (sizeof(QDLDL_float) == 4 ? -1 : 1));
     }
 }
 

@@ -127,7 +127,7 @@ static OSQPInt sl_osqp_solve(LinSysSolver *self, OSQPVectorf *b, OSQPInt iterati
 }
 
 /* What a step has come to, of which the last one is a factorization: K must have n positive pivots,
- * as P + sigma I is then positive definite. */
+ * as P + sigma I + A' diag(rho) A is then positive definite. */
 static OSQPInt sl_osqp_error(const sl_osqp *s, sl_status status, const sl_stats *stats) {
     char text[200];
     if (status == SL_OK && stats->factor.positive >= s->n) {

@@ -258,9 +258,10 @@ static void sl_qdldl_copy(sl_csc *A, const sl_qdldl_job *q) {
     }
 }
 
-/* By supernodes. Returns the number of positive pivots; -1: it cannot, and no array has changed. */
+/* By supernodes. Returns the number of positive pivots; -1: a pivot is 0 as a QDLDL_float; -2: it
+ * cannot, and no array has changed. */
 static QDLDL_int sl_qdldl_by_supernodes(const sl_qdldl_job *q) {
-    QDLDL_int positive = -1;
+    QDLDL_int positive = -2, k;
     sl_options opt;
     sl_stats stats;
     sl_symbolic *S = NULL;
@@ -277,6 +278,9 @@ static QDLDL_int sl_qdldl_by_supernodes(const sl_qdldl_job *q) {
         positive = stats.factor.positive;
         sl_qdldl_pattern(q);
         sl_qdldl_take(q, F);
+        for (k = 0; k < q->n; k++) {
+            positive = q->D[k] == 0 ? -1 : positive;
+        }
     }
     sl_factor_free(F);
     sl_symbolic_free(S);
@@ -295,7 +299,7 @@ QDLDL_int QDLDL_factor(QDLDL_int n, const QDLDL_int *Ap, const QDLDL_int *Ai, co
                        QDLDL_bool *bwork, QDLDL_int *iwork, QDLDL_float *fwork) {
     sl_qdldl_job q;
     double squares = 0;
-    QDLDL_int k, positive = -1;
+    QDLDL_int k, positive = -2;
     q.n = n;
     q.Ap = Ap, q.Ai = Ai, q.Ax = Ax;
     q.Lp = Lp, q.Li = Li, q.Lx = Lx;
@@ -314,7 +318,7 @@ QDLDL_int QDLDL_factor(QDLDL_int n, const QDLDL_int *Ap, const QDLDL_int *Ai, co
     if (squares > SL_QDLDL_LONG_COLUMNS * (double)(Lp[n] + n) && Ap[n] <= INT32_MAX - 7) {
         positive = sl_qdldl_by_supernodes(&q);
     }
-    return positive >= 0 ? positive : sl_qdldl_by_rows(&q);
+    return positive >= -1 ? positive : sl_qdldl_by_rows(&q);
 }
 
 void QDLDL_Lsolve(QDLDL_int n, const QDLDL_int *Lp, const QDLDL_int *Li, const QDLDL_float *Lx,
