@@ -133,6 +133,46 @@ static void estimated_bounds_hold(void **state) {
     }
 }
 
+/* A right-hand side in a block of 8, 16 or 32 has the bound that it has alone, up to rounding. */
+static void bounds_in_blocks_are_those_alone(void **state) {
+    (void)state;
+    enum { MOST = 33, SIDE = 20, ROWS = SIDE * SIDE };
+    variant_list_t variants = variants_present();
+    double *B = test_reals(MOST * ROWS), *X = test_reals(MOST * ROWS),
+           *bounds = test_reals(MOST * ROWS), *x = test_reals(ROWS), *alone = test_reals(ROWS);
+    gen_reals(B, MOST * ROWS, 1);
+    for (size_t k = 0; k < MOST * ROWS; k++) {
+        B[k] *= pow(10.0, (double)(k / ROWS % 5)); /* bounds differ from column to column */
+    }
+    for (int v = 0; v < variants.count; v++) {
+        sl_options opt = options_none();
+        sl_plan *P = NULL;
+        options_set_variant(&opt, &variants, v);
+        factored_t y = factored_make(GEN_GRID2, ROWS, 1, 0, &opt);
+        SL_CHECK(sl_factor_certify(y.F, &y.M.view, SL_ESTIMATED, NULL, NULL));
+        SL_CHECK(sl_plan_create(&P, y.S, NULL, 0, NULL, 0, NULL, NULL));
+        for (sl_int nrhs = 7; nrhs <= MOST; nrhs += nrhs < 31 ? 8 : 1) {
+            SL_CHECK(sl_plan_solve_bounded(P, y.F, X, ROWS, bounds, B, ROWS, nrhs, NULL, NULL,
+                                           NULL));
+            for (sl_int r = 0; r < nrhs; r++) {
+                SL_CHECK(sl_plan_solve_bounded(P, y.F, x, ROWS, alone, B + ROWS * r, ROWS, 1, NULL,
+                                               NULL, NULL));
+                for (sl_int k = 0; k < ROWS; k++) {
+                    const double ratio = bounds[ROWS * r + k] / alone[k];
+                    assert_true(ratio > 1 - 1e-6 && ratio < 1 + 1e-6);
+                }
+            }
+        }
+        sl_plan_free(P);
+        factored_free(&y);
+    }
+    free(B);
+    free(X);
+    free(bounds);
+    free(x);
+    free(alone);
+}
+
 static void guaranteed_bounds_hold(void **state) {
     (void)state;
     variant_list_t variants = variants_present();
@@ -369,6 +409,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(estimated_bounds_hold),
         cmocka_unit_test(estimated_bounds_hold_in_small_components),
+        cmocka_unit_test(bounds_in_blocks_are_those_alone),
         cmocka_unit_test(guaranteed_bounds_hold),
         cmocka_unit_test(bounds_hold_with_null_pivots),
         cmocka_unit_test(bounds_hold_with_several_null_vectors),
