@@ -184,14 +184,14 @@ static void sli_scales_fill(sli_bounds *p) {
     }
 }
 
-/* own(r) := the sum of y(k, r)^2 / d(k) over the columns of a step. */
+/* own(r) := the sum of y(k, r)^2 / d(k) over the columns of a step. d is DBL_MAX in null pivots. */
 static void sli_norms_step(const sl_factor *F, const sli_step *step, const double *row,
                            sl_int lanes, double *own) {
     const sl_int columns = sli_step_columns(step);
     double chains[4] = {0.0, 0.0, 0.0, 0.0};
     sl_int k = 0, r;
     memset(own, 0, (size_t)lanes * sizeof(double));
-    if (lanes == 1 && F->null.count == 0) { /* independent sums hide the latency */
+    if (lanes == 1) { /* independent sums hide the latency */
         const double *D = F->D + step->column;
         for (; k + 4 <= columns; k += 4) {
             for (r = 0; r < 4; r++) {
@@ -201,7 +201,7 @@ static void sli_norms_step(const sl_factor *F, const sli_step *step, const doubl
         own[0] = (chains[0] + chains[1]) + (chains[2] + chains[3]);
     }
     for (; k < columns; k++) {
-        const double d = sli_is_skipped(F, step->column + k) ? 0.0 : 1.0 / F->D[step->column + k];
+        const double d = 1.0 / F->D[step->column + k];
         for (r = 0; r < lanes; r++) {
             own[r] += row[(ptrdiff_t)k * lanes + r] * (row[(ptrdiff_t)k * lanes + r] * d);
         }
