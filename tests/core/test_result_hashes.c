@@ -1,0 +1,169 @@
+/* test_result_hashes.c: every platform and compiler finds the same bits, for each instruction set */
+#include "tests/lib/order_patterns.h"
+
+/* ---- a hash of bits: FNV-1a over 8 bytes a number, low first ---- */
+
+static uint64_t hash_numbers(uint64_t h, const double *x, size_t count) {
+    for (size_t k = 0; k < count; k++) {
+        uint64_t bits;
+        memcpy(&bits, &x[k], sizeof bits);
+        for (int shift = 0; shift < 64; shift += 8) {
+            h = (h ^ (bits >> shift & 255u)) * 0x100000001b3u;
+        }
+    }
+    return h;
+}
+
+/* ---- a matrix whose entries are whole numbers: no rounding before the library's ---- */
+
+static gen_matrix_t matrix_of(int kind) {
+    gen_list_t t = pattern(kind);
+    uint64_t state = 3;
+    for (size_t k = 0; k < t.count; k++) {
+        const int is_diagonal = t.row[k] == t.col[k];
+        t.x[k] = is_diagonal ? 0.0 : -1.0 - (double)((3 * t.row[k] + 5 * t.col[k]) % 7);
+    }
+    gen_dominate(&t, 1, &state);
+    const gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    gen_list_free(&t);
+    return M;
+}
+
+/* Does plain C round each product and each sum to double? Pivots and solutions of 2 x 2 matrices say
+ * so: not where the compiler contracts a * b + c, nor with the excess precision of x87. */
+static int rounds_each_operation(void) {
+    int different = 0;
+    for (int k = 1; k <= 50; k++) {
+        const sl_int p[] = {0, 2, 3}, i[] = {0, 1, 1};
+        const double x[] = {3.0, 1.0 / (double)k, 2.0}, b[] = {0.7, 1.1};
+        const sl_csc A = {2, 2, p, i, x};
+        double solution[2];
+        sl_options opt = options_none();
+        sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
+        sl_factor *F = NULL;
+        opt.isa = SL_ISA_SCALAR;
+        SL_CHECK(sl_factor_create(&F, S, &A, FOR_FACTOR(&opt), NULL));
+        SL_CHECK(sl_factor_solve(F, solution, 2, b, 2, 1, NULL));
+        const volatile double l = x[1] / x[0], lx = l * x[1], d = x[2] - lx;
+        const volatile double lb = l * b[0], y = b[1] - lb, last = y / d;
+        const volatile double first = b[0] / x[0], product = l * last, difference = first - product;
+        different +=
+            sl_factor_view(F).D[1] != d || solution[1] != last || solution[0] != difference;
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+    }
+    return different == 0;
+}
+
+/* ---- what is computed ---- */
+
+enum { SIDES = 11, ROWS = 20 };
+
+/* The hash of pivots, full and local solves, entries of the inverse, and of a changed factor. */
+static uint64_t hash_of(const sl_csc *A, sl_isa isa) {
+    uint64_t h = 0xcbf29ce484222325u;
+    const size_t n = (size_t)A->n_cols;
+    sl_int rows[ROWS];
+    double local[ROWS], delta = 0.5, *b = test_reals(n * SIDES), *x = test_reals(n * SIDES);
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    opt.isa = isa;
+    for (size_t k = 0; k < n * SIDES; k++) {
+        b[k] = (double)(k % 17 * (k % 17) % 17) - 8.0;
+    }
+    for (sl_int k = 0; k < ROWS; k++) {
+        rows[k] = k * (A->n_cols / ROWS);
+    }
+    SL_CHECK(sl_symbolic_create(&S, A, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, A, FOR_FACTOR(&opt), NULL));
+    h = hash_numbers(h, sl_factor_view(F).D, n);
+    SL_CHECK(sl_factor_solve(F, x, n, b, n, 1, NULL));
+    h = hash_numbers(h, x, n);
+    SL_CHECK(sl_factor_solve(F, x, n, b, n, SIDES, NULL));
+    h = hash_numbers(h, x, n * SIDES);
+    SL_CHECK(sl_local_solve(F, rows, ROWS, rows, ROWS, local, ROWS, b, ROWS, 1, NULL, NULL));
+    h = hash_numbers(h, local, ROWS);
+    SL_CHECK(sl_inverse_diagonal(F, local, rows, ROWS, NULL, NULL));
+    h = hash_numbers(h, local, ROWS);
+    SL_CHECK(sl_factor_update_entries(F, rows + 3, rows + 3, &delta, 1, NULL, NULL));
+    h = hash_numbers(h, sl_factor_view(F).D, n);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    free(b);
+    free(x);
+    return h;
+}
+
+/* ---- the hashes, found on x86-64 ---- */
+
+enum { KINDS = 5 };
+static const int kinds[KINDS] = {ORDER_GRID, ORDER_STRIP, ORDER_RANDOM, ORDER_CLIQUES, ORDER_WIDE};
+
+/* Compares; prints both, so that a deliberate change of the arithmetic can be taken over here. */
+static void same_bits(sl_isa isa, const uint64_t *expected) {
+    int wrong = 0;
+    if (!isa_is_present(isa)) {
+        print_message("skipped: this instruction set is not here\n");
+        skip();
+    }
+    if (!rounds_each_operation()) { /* beside vectors there is plain C */
+        print_message("skipped: the compiler contracts products and sums, or x87 is used\n");
+        skip();
+    }
+    for (int k = 0; k < KINDS; k++) {
+        gen_matrix_t M = matrix_of(kinds[k]);
+        const uint64_t found = hash_of(&M.view, isa);
+        if (found != expected[k]) {
+            print_error("matrix %d, isa %d: 0x%08lx%08lxu, expected 0x%08lx%08lxu\n", k, (int)isa,
+                        (unsigned long)(found >> 32), (unsigned long)(found & 0xffffffffu),
+                        (unsigned long)(expected[k] >> 32),
+                        (unsigned long)(expected[k] & 0xffffffffu));
+            wrong++;
+        }
+        gen_matrix_free(&M);
+    }
+    assert_int_equal(wrong, 0);
+}
+
+static void plain_c_has_the_same_bits(void **state) {
+    static const uint64_t expected[KINDS] = {0xc544691f85645b72u, 0xe909ed16c509e360u,
+                                             0xc938a926f3d3563cu, 0x81fc9547d6eaa349u,
+                                             0xb211e9c260fbe338u};
+    (void)state;
+    same_bits(SL_ISA_SCALAR, expected);
+}
+
+static void avx2_has_the_same_bits(void **state) {
+    static const uint64_t expected[KINDS] = {0x8acee672fc118169u, 0xa1d949d8d611cbc6u,
+                                             0x5ff3cbee940c51deu, 0x38208d2417924865u,
+                                             0x0c2a90011c2ceb51u};
+    (void)state;
+    same_bits(SL_ISA_AVX2, expected);
+}
+
+static void avx512_has_the_same_bits(void **state) {
+    static const uint64_t expected[KINDS] = {0x07a8abc291355138u, 0xa1d949d8d611cbc6u,
+                                             0x58a7bad220a1fd9au, 0x861208ce75b3755eu,
+                                             0x73fcc058f1ea127fu};
+    (void)state;
+    same_bits(SL_ISA_AVX512, expected);
+}
+
+static void neon_has_the_same_bits(void **state) {
+    static const uint64_t expected[KINDS] = {0x715540b5b6600cc7u, 0x805d07fa5c585d48u,
+                                             0x52b5639a6941d75au, 0x88a7c524b2faa57bu,
+                                             0x06fb13fd65e52c28u};
+    (void)state;
+    same_bits(SL_ISA_NEON, expected);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(plain_c_has_the_same_bits),
+        cmocka_unit_test(avx2_has_the_same_bits),
+        cmocka_unit_test(avx512_has_the_same_bits),
+        cmocka_unit_test(neon_has_the_same_bits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
