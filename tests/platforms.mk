@@ -8,7 +8,7 @@ JUDGE_SEED ?= 1
 ## FUZZ_SEED  the seed of the fuzzers' random numbers; 0 chooses one
 FUZZ_SEED ?= 0
 
-.PHONY: deps-locales deps-tcc deps-mingw deps-wasm deps-cov deps-chromium deps-mpi test-exchange test-tcc platforms platform-table \
+.PHONY: deps-locales deps-tcc deps-mingw deps-wasm deps-cov deps-chromium deps-mpi test-exchange test-tcc deps-compilers test-compilers platforms platform-table \
 	races valgrind test-stack test-msan test-mingw test-mingw-clang test-wasm cov mcdc fuzz run-fuzz judge test-view cluster test-cluster
 
 # ---- packages ----
@@ -97,6 +97,14 @@ $(PLATFORMS:%=test-%): test-%: deps-% sparse_local.h
 test-tcc: deps deps-tcc sparse_local.h
 	@+tools/build/platform.sh tcc tcc natively $(SUB_MAKE) run-tests B=build/tcc CC=tcc WARN= DEPEND= SL_DATA= METIS= \
 	TEST_PROGRAMS='$(PLATFORM_TESTS:tests/%.c=build/tcc/tests/%)' LIBS='$(FILE_LIBS) -lm'
+
+## COMPILERS  of test-compilers; nothing: gcc-7 and clang-7 to the newest, as far as they are installed
+COMPILERS ?=
+deps-compilers: ## other versions of gcc and clang, of which Debian has those
+	@tools/build/deps.sh gcc-11=gcc-11 clang-13=clang-13 clang-16=clang-16 clang-19=clang-19
+
+test-compilers: sparse_local.h ## the core and all packs by each installed version of gcc and clang, and programs over them
+	@tests/core/check_compilers.sh $(COMPILERS)
 
 # The program over the objects of test-s390x, and natively.
 test-exchange: test-s390x ## saved objects written on big endian, emulated, loaded on this machine, and the other way round

@@ -1,4 +1,4 @@
-/* test_result_hashes.c: every platform and compiler finds the same bits, for each instruction set */
+/* test_result_hashes.c: every platform and compiler finds the same bits by each instruction set */
 #include "tests/lib/order_patterns.h"
 
 /* ---- a hash of bits: FNV-1a over 8 bytes a number, low first ---- */
@@ -29,8 +29,8 @@ static gen_matrix_t matrix_of(int kind) {
     return M;
 }
 
-/* Does plain C round each product and each sum to double? Pivots and solutions of 2 x 2 matrices say
- * so: not where the compiler contracts a * b + c, nor with the excess precision of x87. */
+/* Does plain C round each product and each sum to double? Pivots and solutions of 2 x 2 matrices
+ * show it: not where the compiler contracts a * b + c, nor with the excess precision of x87. */
 static int rounds_each_operation(void) {
     int different = 0;
     for (int k = 1; k <= 50; k++) {
