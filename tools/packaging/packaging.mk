@@ -200,7 +200,7 @@ octave: deps-octave $(OCTAVE_MEX) ## build/octave: the mex file of tools/octave
 $(OCTAVE_MEX): tools/octave/sparse_local_mex.c tools/octave/sparse_local_make.m sparse_local.h
 	@mkdir -p $(@D)
 	$(call say,MEX )
-	$(Q)$(OCTAVE) -qf --path tools/octave --eval "sparse_local_make('$(@D)'$(foreach f,-Wall -Wextra -Werror $(OCTAVE_FLAGS),, '$(f)'))"
+	$(Q)$(OCTAVE) -qfH --path tools/octave --eval "sparse_local_make('$(@D)'$(foreach f,-Wall -Wextra -Werror $(OCTAVE_FLAGS),, '$(f)'))"
 
 test-octave: octave ## the classes of tools/octave, their examples and help texts
-	@$(OCTAVE) -qf $(patsubst %,--path %,build/octave tools/octave $(addprefix tools/octave/,gptoolbox examples tests)) --eval test_sparse_local
+	@$(OCTAVE) -qfH $(patsubst %,--path %,build/octave tools/octave $(addprefix tools/octave/,gptoolbox examples tests)) --eval test_sparse_local
