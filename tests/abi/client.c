@@ -1,6 +1,8 @@
 /* client.c: a program that gives the library its structs and reads those of the library; compiled
  * with one header and linked with the library of another (make abi) */
+#if !defined(SL_WITH_ALL)
 #define SL_WITH_ALL
+#endif
 #include ABI_HEADER
 #include <math.h>
 #include <stdio.h>
