@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7f3f71d75ed71dde
+ * FNV-1a of the lines after this comment, without the license: 37ca0e125ad6be8e
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -19312,7 +19312,7 @@ static void sli_norms_step(const sl_factor *F, const sli_step *step, const doubl
   double chains[4] = {0.0, 0.0, 0.0, 0.0};
   sl_int k = 0, r;
   memset(own, 0, (size_t)lanes * sizeof(double));
-  if (lanes == 1 && F->null.count == 0) {
+  if (lanes == 1) {
     const double *D = F->D + step->column;
     for (; k + 4 <= columns; k += 4) {
       for (r = 0; r < 4; r++) {
@@ -19322,7 +19322,7 @@ static void sli_norms_step(const sl_factor *F, const sli_step *step, const doubl
     own[0] = (chains[0] + chains[1]) + (chains[2] + chains[3]);
   }
   for (; k < columns; k++) {
-    const double d = sli_is_skipped(F, step->column + k) ? 0.0 : 1.0 / F->D[step->column + k];
+    const double d = 1.0 / F->D[step->column + k];
     for (r = 0; r < lanes; r++) {
       own[r] += row[(ptrdiff_t)k * lanes + r] * (row[(ptrdiff_t)k * lanes + r] * d);
     }
