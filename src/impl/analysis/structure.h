@@ -148,8 +148,14 @@ static void sli_fill_structure(const sli_analysis *w, const sl_symbolic *S) {
     }
 }
 
-/* Fills S->plain, if there is room for it. It is not kept if most supernodes are wider than a
- * column, or if panels of one column are padded, as in old files. */
+/* Do nearly all supernodes have one column? Where one in ten is wider, runs are short, and sweeps
+ * lose time by them. */
+SLI_INLINE int sli_is_mostly_plain(sl_int count, sl_int supers) {
+    return 20 * (int64_t)count > 19 * (int64_t)supers;
+}
+
+/* Fills S->plain, if there is room for it. It is not kept if too few supernodes have one column, or
+ * if their panels are padded, as in old files. */
 static void sli_fill_plain(sl_symbolic *S) {
     sl_int s, count = 0, padded = 0;
     sl_off end = -1; /* of the panel of one column before */
@@ -161,7 +167,7 @@ static void sli_fill_plain(sl_symbolic *S) {
         end = is_plain ? step->panel + 1 + step->below : -1;
         count += is_plain;
     }
-    S->plain = !padded && 2 * (int64_t)count > S->n_supers ? S->plain : NULL;
+    S->plain = !padded && sli_is_mostly_plain(count, S->n_supers) ? S->plain : NULL;
 }
 
 /* Fills the steps of a sweep over all supernodes: the vector has all n columns, so that `base` is

@@ -337,7 +337,7 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
     SLI_LAYOUT(&b, &draft->allocator, status) {
         (void)sli_take(&b, 1, sizeof(sl_symbolic));
         sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a);
-        if (2 * plain > draft->n_supers) {
+        if (sli_is_mostly_plain(plain, draft->n_supers)) {
             draft->plain = SLI_TAKE(&b, sl_int, draft->n_supers);
         }
         stats->symbolic.bytes = b.used;

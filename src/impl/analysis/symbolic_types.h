@@ -56,9 +56,9 @@ struct sl_symbolic {
     sl_off *scatter_begin;
     sl_int *scatter_from;
     sl_off *scatter_to;
-    sl_int *plain;   /* n_supers, as in sli_reach; NULL: most are wider than a column. Not saved */
-    sl_int n_nodes;  /* nodes of the separator tree; 0: the ordering has none */
-    sl_int *node_of; /* n: the node of each column */
+    sl_int *plain;                    /* n_supers, as in sli_reach; NULL: not known. Not saved */
+    sl_int n_nodes;                   /* nodes of the separator tree; 0: the ordering has none */
+    sl_int *node_of;                  /* n: the node of each column */
     sl_int *node_parent, *node_level; /* n_nodes */
     sli_backing backing;              /* the mapped file that holds the arrays */
     /* made from a file that has more than this library reads, or a restriction: it is not saved */

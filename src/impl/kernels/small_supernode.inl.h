@@ -154,14 +154,15 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
 }
 
 /* A run of supernodes of one column from step s on, in scalars: most have few rows below. Where
- * their panels follow each other, of the steps after the first one R->plain says all. Returns the
- * step after the run. */
+ * R->plain has the rows below each, only the first step of the run is read. Returns the step after
+ * the run. */
 SLV_FUNCTION SLI_INLINE const sli_step *SLV_SWEEP(forward_plain)(const sli_step *s,
                                                                  const sli_reach *R,
                                                                  const sl_int **next_rows,
                                                                  const SLV_VALUE *L, double *x) {
-    const sl_int *plain = R->plain == NULL ? sli_not_plain : R->plain + (s - R->steps);
-    const sl_int *last = R->plain == NULL ? sli_not_plain + 2 : R->plain + R->count;
+    const sli_step *end = R->steps + R->count, *first = s;
+    const sl_int *plain = R->plain == NULL ? NULL : R->plain + (s - R->steps);
+    const sl_int *last = R->plain == NULL ? NULL : R->plain + R->count;
     const sl_int *rows = *next_rows;
     const SLV_VALUE *l = L + s->panel;
     const double *from = x + s->base, *xs = from;
@@ -171,58 +172,77 @@ SLV_FUNCTION SLI_INLINE const sli_step *SLV_SWEEP(forward_plain)(const sli_step 
         if (below == 1) { /* x(i) += 0 - L(i) y, for slots (sweep_tasks.h) */
             x[*rows++] += SLV_FNMA1((double)l[1], y, 0.0);
             l += 2;
-            continue;
+        } else {
+            l++;
+            for (i = 0; i < below; i++) {
+                x[rows[i]] += SLV_FNMA1((double)l[i], y, 0.0);
+            }
+            rows += below;
+            l += below;
         }
-        l++;
-        for (i = 0; i < below; i++) {
-            x[rows[i]] += SLV_FNMA1((double)l[i], y, 0.0);
+        if (plain != NULL) {
+            below = ++plain < last ? *plain : -1;
+        } else if (++s < end && s->width == 1) {
+            below = s->below;
+            l = L + s->panel;
+        } else {
+            below = -1;
         }
-        rows += below;
-        l += below;
-    } while (++plain < last && (below = *plain) >= 0);
+    } while (below >= 0);
     *next_rows = rows;
-    return s + (xs - from);
+    return first + (xs - from);
 }
 
 /* The same before step s, in descending order. Returns the first step of the run. */
 SLV_FUNCTION SLI_INLINE const sli_step *
 SLV_SWEEP(backward_plain)(const sli_step *s, const sli_reach *R, const sl_int **rows_end,
                           const SLV_VALUE *L, const double *D, double *x) {
-    const sl_int *begin = R->plain == NULL ? sli_not_plain : R->plain;
-    const sl_int *plain = R->plain == NULL ? begin + 1 : begin + (s - 1 - R->steps);
-    const sl_int *rows = *rows_end;
-    sl_int below = s[-1].below, i;
-    const SLV_VALUE *l = L + s[-1].panel + 1 + below;
-    double *from = x + s[-1].base + 1, *xs = from;
-    D += s[-1].column + 1;
+    const sl_int *begin = R->plain, *rows = *rows_end;
+    const sl_int *plain = begin == NULL ? NULL : begin + (s - 1 - R->steps);
+    const sli_step *last = s--;
+    const SLV_VALUE *l = L + s->panel + 1 + s->below;
+    const double *d = D + s->column;
+    double *from = x + s->base + 1, *xs = from;
+    sl_int below = s->below, i;
     do {
-        double y = *--xs / *--D;
+        double y = *--xs / *d;
         if (below == 1) {
-            *xs = SLV_FNMA1((double)l[-1], x[*--rows], y);
+            y = SLV_FNMA1((double)l[-1], x[*--rows], y);
             l -= 2;
-            continue;
-        }
-        rows -= below;
-        l -= below;
-        i = 0;
-        if (below >= 4) { /* y -= L' x, in four sums */
-            double a = 0.0, b = 0.0, c = 0.0;
-            for (; i + 4 <= below; i += 4) {
-                y = SLV_FNMA1((double)l[i], x[rows[i]], y);
-                a = SLV_FNMA1((double)l[i + 1], x[rows[i + 1]], a);
-                b = SLV_FNMA1((double)l[i + 2], x[rows[i + 2]], b);
-                c = SLV_FNMA1((double)l[i + 3], x[rows[i + 3]], c);
+        } else {
+            rows -= below;
+            l -= below;
+            i = 0;
+            if (below >= 4) { /* y -= L' x, in four sums */
+                double a = 0.0, b = 0.0, c = 0.0;
+                for (; i + 4 <= below; i += 4) {
+                    y = SLV_FNMA1((double)l[i], x[rows[i]], y);
+                    a = SLV_FNMA1((double)l[i + 1], x[rows[i + 1]], a);
+                    b = SLV_FNMA1((double)l[i + 2], x[rows[i + 2]], b);
+                    c = SLV_FNMA1((double)l[i + 3], x[rows[i + 3]], c);
+                }
+                y += a + (b + c);
             }
-            y += a + (b + c);
-        }
-        for (; i < below; i++) {
-            y = SLV_FNMA1((double)l[i], x[rows[i]], y);
+            for (; i < below; i++) {
+                y = SLV_FNMA1((double)l[i], x[rows[i]], y);
+            }
+            l--;
         }
         *xs = y;
-        l--;
-    } while (plain > begin && (below = *--plain) >= 0);
+        if (plain != NULL) {
+            below = plain > begin ? *--plain : -1;
+            d -= below >= 0;
+        } else if (s > R->steps && s[-1].width == 1) {
+            s--;
+            below = s->below;
+            l = L + s->panel + 1 + below;
+            d = D + s->column;
+        } else {
+            below = -1;
+        }
+    } while (below >= 0);
     *rows_end = rows;
-    return s - (from - xs);
+    return last - (from - xs);
 }
 
 #define SLI_FORWARD(k) SLV_SWEEP(small_forward)(k, below, rows, l, xs, x, buf)

@@ -52,9 +52,6 @@ typedef struct sli_reach {
     const sl_int *plain;
 } sli_reach;
 
-/* Where it is not known, each step is read. */
-static const sl_int sli_not_plain[2] = {-1, -1};
-
 /* x := L^-1 x over the steps in ascending order. L: as it is stored, 64-byte aligned. scratch:
  * sli_sweep_scratch doubles for the tallest and widest step, 64-byte aligned. */
 typedef void (*sli_forward_kernel)(const sli_reach *R, const void *L, double *x, double *scratch);
