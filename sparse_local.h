@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 37ca0e125ad6be8e
+ * FNV-1a of the lines after this comment, without the license: 3504853eaf5a7fbf
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,28 +36,28 @@
  *   3028 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3068 impl/ base: the compiler, status, memory, sorting, threads
  *   4242 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5125 impl/ matrix: sparse matrices of the caller and of the library
- *   5760 impl/ ordering: fill-reducing orderings of a graph
- *  10371 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12571 impl/ factor: the numbers of L and D
- *  15908 impl/ solve: full and local solves
- *  17579 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19497 impl/ pivots: the order of the pivots by the values of a matrix
- *  19906 impl/ float: L and fronts in single precision
- *  20357 impl/ inverse: entries of the inverse, regions
- *  23398 impl/ change: a factor that follows changes of its matrix
- *  29346 impl/ dirichlet: rows fixed at given values
- *  29933 impl/ dirichlet: by a factor of all rows
- *  30151 impl/ io: files that are replaced only when they are complete
- *  30369 impl/ files: Matrix Market files, 64-bit indices
- *  30989 impl/ save: factors in files
- *  32987 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33672 impl/ batch: diagonals of many inverses
- *  33816 impl/ complex: complex Hermitian systems over real factors
- *  34363 impl/ complex: entries of the inverse
- *  34423 impl/ packs: the tables through which the core calls packs
- *  34471 impl/ last: undefine every internal macro
- *  34810 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5123 impl/ matrix: sparse matrices of the caller and of the library
+ *   5758 impl/ ordering: fill-reducing orderings of a graph
+ *  10369 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12573 impl/ factor: the numbers of L and D
+ *  15910 impl/ solve: full and local solves
+ *  17581 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19499 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19908 impl/ float: L and fronts in single precision
+ *  20359 impl/ inverse: entries of the inverse, regions
+ *  23400 impl/ change: a factor that follows changes of its matrix
+ *  29348 impl/ dirichlet: rows fixed at given values
+ *  29935 impl/ dirichlet: by a factor of all rows
+ *  30153 impl/ io: files that are replaced only when they are complete
+ *  30371 impl/ files: Matrix Market files, 64-bit indices
+ *  30991 impl/ save: factors in files
+ *  32989 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33674 impl/ batch: diagonals of many inverses
+ *  33818 impl/ complex: complex Hermitian systems over real factors
+ *  34365 impl/ complex: entries of the inverse
+ *  34425 impl/ packs: the tables through which the core calls packs
+ *  34473 impl/ last: undefine every internal macro
+ *  34812 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4314,8 +4314,6 @@ typedef struct sli_reach {
   const sl_int *rows;
   const sl_int *plain;
 } sli_reach;
-
-static const sl_int sli_not_plain[2] = {-1, -1};
 
 typedef void (*sli_forward_kernel)(const sli_reach *R, const void *L, double *x, double *scratch);
 
@@ -11247,6 +11245,10 @@ static void sli_fill_structure(const sli_analysis *w, const sl_symbolic *S) {
   }
 }
 
+SLI_INLINE int sli_is_mostly_plain(sl_int count, sl_int supers) {
+  return 20 * (int64_t)count > 19 * (int64_t)supers;
+}
+
 static void sli_fill_plain(sl_symbolic *S) {
   sl_int s, count = 0, padded = 0;
   sl_off end = -1;
@@ -11258,7 +11260,7 @@ static void sli_fill_plain(sl_symbolic *S) {
     end = is_plain ? step->panel + 1 + step->below : -1;
     count += is_plain;
   }
-  S->plain = !padded && 2 * (int64_t)count > S->n_supers ? S->plain : NULL;
+  S->plain = !padded && sli_is_mostly_plain(count, S->n_supers) ? S->plain : NULL;
 }
 
 static void sli_fill_steps(sl_symbolic *S) {
@@ -11997,7 +11999,7 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
   SLI_LAYOUT(&b, &draft->allocator, status) {
     (void)sli_take(&b, 1, sizeof(sl_symbolic));
     sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a);
-    if (2 * plain > draft->n_supers) {
+    if (sli_is_mostly_plain(plain, draft->n_supers)) {
       draft->plain = SLI_TAKE(&b, sl_int, draft->n_supers);
     }
     stats->symbolic.bytes = b.used;
@@ -37676,8 +37678,9 @@ SLV_FUNCTION SLI_INLINE const sli_step *SLV_SWEEP(forward_plain)(const sli_step 
                                  const sli_reach *R,
                                  const sl_int **next_rows,
                                  const SLV_VALUE *L, double *x) {
-  const sl_int *plain = R->plain == NULL ? sli_not_plain : R->plain + (s - R->steps);
-  const sl_int *last = R->plain == NULL ? sli_not_plain + 2 : R->plain + R->count;
+  const sli_step *end = R->steps + R->count, *first = s;
+  const sl_int *plain = R->plain == NULL ? NULL : R->plain + (s - R->steps);
+  const sl_int *last = R->plain == NULL ? NULL : R->plain + R->count;
   const sl_int *rows = *next_rows;
   const SLV_VALUE *l = L + s->panel;
   const double *from = x + s->base, *xs = from;
@@ -37687,57 +37690,76 @@ SLV_FUNCTION SLI_INLINE const sli_step *SLV_SWEEP(forward_plain)(const sli_step 
     if (below == 1) {
       x[*rows++] += SLV_FNMA1((double)l[1], y, 0.0);
       l += 2;
-      continue;
+    } else {
+      l++;
+      for (i = 0; i < below; i++) {
+        x[rows[i]] += SLV_FNMA1((double)l[i], y, 0.0);
+      }
+      rows += below;
+      l += below;
     }
-    l++;
-    for (i = 0; i < below; i++) {
-      x[rows[i]] += SLV_FNMA1((double)l[i], y, 0.0);
+    if (plain != NULL) {
+      below = ++plain < last ? *plain : -1;
+    } else if (++s < end && s->width == 1) {
+      below = s->below;
+      l = L + s->panel;
+    } else {
+      below = -1;
     }
-    rows += below;
-    l += below;
-  } while (++plain < last && (below = *plain) >= 0);
+  } while (below >= 0);
   *next_rows = rows;
-  return s + (xs - from);
+  return first + (xs - from);
 }
 
 SLV_FUNCTION SLI_INLINE const sli_step *
 SLV_SWEEP(backward_plain)(const sli_step *s, const sli_reach *R, const sl_int **rows_end,
               const SLV_VALUE *L, const double *D, double *x) {
-  const sl_int *begin = R->plain == NULL ? sli_not_plain : R->plain;
-  const sl_int *plain = R->plain == NULL ? begin + 1 : begin + (s - 1 - R->steps);
-  const sl_int *rows = *rows_end;
-  sl_int below = s[-1].below, i;
-  const SLV_VALUE *l = L + s[-1].panel + 1 + below;
-  double *from = x + s[-1].base + 1, *xs = from;
-  D += s[-1].column + 1;
+  const sl_int *begin = R->plain, *rows = *rows_end;
+  const sl_int *plain = begin == NULL ? NULL : begin + (s - 1 - R->steps);
+  const sli_step *last = s--;
+  const SLV_VALUE *l = L + s->panel + 1 + s->below;
+  const double *d = D + s->column;
+  double *from = x + s->base + 1, *xs = from;
+  sl_int below = s->below, i;
   do {
-    double y = *--xs / *--D;
+    double y = *--xs / *d;
     if (below == 1) {
-      *xs = SLV_FNMA1((double)l[-1], x[*--rows], y);
+      y = SLV_FNMA1((double)l[-1], x[*--rows], y);
       l -= 2;
-      continue;
-    }
-    rows -= below;
-    l -= below;
-    i = 0;
-    if (below >= 4) {
-      double a = 0.0, b = 0.0, c = 0.0;
-      for (; i + 4 <= below; i += 4) {
-        y = SLV_FNMA1((double)l[i], x[rows[i]], y);
-        a = SLV_FNMA1((double)l[i + 1], x[rows[i + 1]], a);
-        b = SLV_FNMA1((double)l[i + 2], x[rows[i + 2]], b);
-        c = SLV_FNMA1((double)l[i + 3], x[rows[i + 3]], c);
+    } else {
+      rows -= below;
+      l -= below;
+      i = 0;
+      if (below >= 4) {
+        double a = 0.0, b = 0.0, c = 0.0;
+        for (; i + 4 <= below; i += 4) {
+          y = SLV_FNMA1((double)l[i], x[rows[i]], y);
+          a = SLV_FNMA1((double)l[i + 1], x[rows[i + 1]], a);
+          b = SLV_FNMA1((double)l[i + 2], x[rows[i + 2]], b);
+          c = SLV_FNMA1((double)l[i + 3], x[rows[i + 3]], c);
+        }
+        y += a + (b + c);
       }
-      y += a + (b + c);
-    }
-    for (; i < below; i++) {
-      y = SLV_FNMA1((double)l[i], x[rows[i]], y);
+      for (; i < below; i++) {
+        y = SLV_FNMA1((double)l[i], x[rows[i]], y);
+      }
+      l--;
     }
     *xs = y;
-    l--;
-  } while (plain > begin && (below = *--plain) >= 0);
+    if (plain != NULL) {
+      below = plain > begin ? *--plain : -1;
+      d -= below >= 0;
+    } else if (s > R->steps && s[-1].width == 1) {
+      s--;
+      below = s->below;
+      l = L + s->panel + 1 + below;
+      d = D + s->column;
+    } else {
+      below = -1;
+    }
+  } while (below >= 0);
   *rows_end = rows;
-  return s - (from - xs);
+  return last - (from - xs);
 }
 
 #define SLI_FORWARD(k) SLV_SWEEP(small_forward)(k, below, rows, l, xs, x, buf)
