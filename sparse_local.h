@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 3504853eaf5a7fbf
+ * FNV-1a of the lines after this comment, without the license: 8d97283fed7c7de4
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40,24 +40,24 @@
  *   5758 impl/ ordering: fill-reducing orderings of a graph
  *  10369 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12573 impl/ factor: the numbers of L and D
- *  15910 impl/ solve: full and local solves
- *  17581 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19499 impl/ pivots: the order of the pivots by the values of a matrix
- *  19908 impl/ float: L and fronts in single precision
- *  20359 impl/ inverse: entries of the inverse, regions
- *  23400 impl/ change: a factor that follows changes of its matrix
- *  29348 impl/ dirichlet: rows fixed at given values
- *  29935 impl/ dirichlet: by a factor of all rows
- *  30153 impl/ io: files that are replaced only when they are complete
- *  30371 impl/ files: Matrix Market files, 64-bit indices
- *  30991 impl/ save: factors in files
- *  32989 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33674 impl/ batch: diagonals of many inverses
- *  33818 impl/ complex: complex Hermitian systems over real factors
- *  34365 impl/ complex: entries of the inverse
- *  34425 impl/ packs: the tables through which the core calls packs
- *  34473 impl/ last: undefine every internal macro
- *  34812 impl/ templates: the header includes them from itself, once for each instruction set
+ *  15911 impl/ solve: full and local solves
+ *  17582 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19500 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19909 impl/ float: L and fronts in single precision
+ *  20360 impl/ inverse: entries of the inverse, regions
+ *  23401 impl/ change: a factor that follows changes of its matrix
+ *  29349 impl/ dirichlet: rows fixed at given values
+ *  29936 impl/ dirichlet: by a factor of all rows
+ *  30154 impl/ io: files that are replaced only when they are complete
+ *  30372 impl/ files: Matrix Market files, 64-bit indices
+ *  30992 impl/ save: factors in files
+ *  32990 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33675 impl/ batch: diagonals of many inverses
+ *  33819 impl/ complex: complex Hermitian systems over real factors
+ *  34366 impl/ complex: entries of the inverse
+ *  34426 impl/ packs: the tables through which the core calls packs
+ *  34474 impl/ last: undefine every internal macro
+ *  34813 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -15146,6 +15146,7 @@ static sl_status sli_factor_schedule(sl_factor *F) {
   sli_block b = {NULL, 0, 0};
   sli_schedule_work w;
   sl_status status = SL_OK;
+  memset(&w, 0, sizeof w);
   SLI_LAYOUT(&b, &F->allocator, status) {
     sli_schedule_work_layout(&w, &b, S->n_supers, F->schedule.workers);
   }

@@ -105,6 +105,7 @@ static sl_status sli_factor_schedule(sl_factor *F) {
     sli_block b = {NULL, 0, 0};
     sli_schedule_work w;
     sl_status status = SL_OK;
+    memset(&w, 0, sizeof w); /* compilers do not see that the layout fills it */
     SLI_LAYOUT(&b, &F->allocator, status) {
         sli_schedule_work_layout(&w, &b, S->n_supers, F->schedule.workers);
     }
