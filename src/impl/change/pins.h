@@ -2,6 +2,7 @@
 #ifndef SLI_CHANGE_PINS_H
 #define SLI_CHANGE_PINS_H
 
+#include "../factor/factor_setup.h"
 #include "pins_rows.h"
 
 /* Prepares a set without pins for the numbers of its base. */
