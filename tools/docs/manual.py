@@ -160,7 +160,6 @@ def inline(text):
     text = re.sub(r"\[([^\]]+)\]\(([^)\s]+)\)", lambda m: keep('<a href="%s">%s</a>' % (
         page_of(m.group(2)), html.escape(m.group(1)))), text)
     text = re.sub(r"\*\*([^*]+)\*\*", r"<b>\1</b>", html.escape(text, quote=False))
-    text = re.sub(r"@(\w+)", r'<a href="index.html#example-\1">\1</a>', text)
     while "\0" in text:
         text = re.sub("\0(\\d+)\0", lambda m: kept[int(m.group(1))], text)
     return text
@@ -168,15 +167,22 @@ def inline(text):
 
 def picture(path, text):
     """A picture of the repository, which is copied beside the pages."""
-    PICTURES.append(path)
+    PICTURES.append(os.path.join("tools/docs", path))
     return '<img src="%s" alt="%s">' % (os.path.basename(path), html.escape(text))
 
 
 def page_of(target):
-    """A link between Markdown files of the repository as one between pages."""
-    target = re.sub(r"^tools/docs/([a-z]+)\.md$", r"\1.html", target)
-    return {"FORMAT.md": "format.html", "../src/FORMAT.md": "format.html",
-            "src/FORMAT.md": "format.html", "tests/README.md": "tests.html"}.get(target, target)
+    """A link between files of the repository as one between pages."""
+    target = re.sub(r"^(?:\.\./)*", "", target)
+    for pattern, page in ((r"(?:tools/docs/)?guide\.md", "index.html"),
+                          (r"(?:tools/docs/)?([a-z]+)\.md", r"\1.html"),
+                          (r"examples/(\w+)\.c", r"index.html#example-\1"),
+                          (r"src/public/(\w+)\.h", r"api-\1.html"), (r"src/public", "api.html"),
+                          (r"(?:src/)?FORMAT\.md", "format.html"),
+                          (r"tests/README\.md", "tests.html"),
+                          (r"CHANGELOG\.md", "changelog.html")):
+        target = re.sub("^%s(?=#|$)" % pattern, page, target)
+    return target
 
 
 def anchor(title):
@@ -195,7 +201,8 @@ def table(lines):
 
 
 def markdown(text):
-    """HTML of headings, paragraphs, lists, tables, code, and the @ lines of the guide."""
+    """HTML of headings, paragraphs, lists, tables, code; a link in a line of its own may become
+    what it leads to."""
     out, lines, k = [], re.sub(r"<!--.*?-->", "", text, flags=re.S).split("\n"), 0
     while k < len(lines):
         line = lines[k]
@@ -224,10 +231,10 @@ def markdown(text):
                 k += 1
             code = "\n".join(text[4:] for text in lines[start:k])
             out.append("<pre>%s</pre>" % html.escape(code.rstrip()))
-        elif line.startswith("@"):
-            out.append(included(*line[1:].split()))
+        elif included(line):
+            out.append(included(line))
         elif line.strip():
-            while k < len(lines) and lines[k].strip() and not re.match(r"[#|@]|- |```", lines[k]):
+            while k < len(lines) and lines[k].strip() and not re.match(r"[#|]|- |```", lines[k]):
                 k += 1
             out.append("<p>%s</p>" % inline(" ".join(lines[start:k])))
     return "\n".join(out)
@@ -246,18 +253,21 @@ def whole_example(name):
     return text.replace('#include "example.h"', "#define SPARSE_LOCAL_IMPLEMENTATION\n" + shared)
 
 
-def included(kind, name=None):
-    """@file PATH, @example NAME, @program NAME, @examples: source code in the page. A program is
-    an example without what examples share."""
-    if kind == "examples":
-        return "\n".join('<h3 id="example-%s"><a href="examples/%s.c">%s.c</a></h3>%s' % (
-            e, e, e, included("example", e)) for e in examples())
-    if kind == "program":
-        text = read("tools/examples/%s.c" % name).replace('#include "example.h"\n', "")
-        return ('<pre>%s</pre><p>The same to paste: <a href="examples/%s.c">%s.c</a>.</p>'
-                % (html.escape(text), name, name))
-    text = whole_example(name) if kind == "example" else read(name)
-    return "<pre>%s</pre>" % html.escape(text)
+def included(line):
+    """What a line that is nothing but a link shows: the examples, one without what examples share,
+    or a file of tools/adapters."""
+    link = re.match(r"\[[^\]]+\]\(\.\./(examples|adapters)(?:/(\w+)(\.\w+))?\)$", line)
+    if not link:
+        return None
+    folder, name, ending = link.groups()
+    if not name:
+        title = '<h3 id="example-%s"><a href="examples/%s.c">%s.c</a></h3><pre>%s</pre>'
+        return "\n".join(title % (e, e, e, html.escape(whole_example(e))) for e in examples())
+    text = "<pre>%s</pre>" % html.escape(
+        read("tools/%s/%s%s" % (folder, name, ending)).replace('#include "example.h"\n', ""))
+    if folder == "examples":
+        text += '<p>The same to paste: <a href="examples/%s.c">%s.c</a>.</p>' % (name, name)
+    return text
 
 
 # ---- pages ----
@@ -311,7 +321,7 @@ def check_texts(page_of_name):
     """Do the guide, the chapters and intro.h mention what exists, and all examples?"""
     guide = read("tools/docs/guide.md")
     for name in examples():
-        if "@" + name not in guide:
+        if "(../examples/%s.c)" % name not in guide:
             PROBLEMS.append("the guide does not mention the example %s" % name)
     written = [("guide", guide), ("intro.h", read("src/public/intro.h"))]
     written += [(name, read("tools/docs/%s.md" % name)) for name, _ in CHAPTERS]
