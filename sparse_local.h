@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 8d97283fed7c7de4
+ * FNV-1a of the lines after this comment, without the license: 7f4057853b9553d3
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -7,57 +7,57 @@
  *    190 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
  *    234 config.h     macros that a user may define before the include, the version, and the integer types
  *    317 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    496 options.h    options of all calls, threads, and the allocator
- *    643 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    885 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    987 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1063 factor.h     the numerical factorization P A P' = L D L'
- *   1188 solve.h      full solves, and the workspace of all solves
- *   1285 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1364 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
- *   1456 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1555 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1595 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1703 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1782 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1868 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1964 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2076 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2116 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2244 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2276 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2465 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2566 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2675 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2716 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2804 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2914 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2951 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   3028 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3068 impl/ base: the compiler, status, memory, sorting, threads
- *   4242 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5123 impl/ matrix: sparse matrices of the caller and of the library
- *   5758 impl/ ordering: fill-reducing orderings of a graph
- *  10369 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12573 impl/ factor: the numbers of L and D
- *  15911 impl/ solve: full and local solves
- *  17582 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19500 impl/ pivots: the order of the pivots by the values of a matrix
- *  19909 impl/ float: L and fronts in single precision
- *  20360 impl/ inverse: entries of the inverse, regions
- *  23401 impl/ change: a factor that follows changes of its matrix
- *  29349 impl/ dirichlet: rows fixed at given values
- *  29936 impl/ dirichlet: by a factor of all rows
- *  30154 impl/ io: files that are replaced only when they are complete
- *  30372 impl/ files: Matrix Market files, 64-bit indices
- *  30992 impl/ save: factors in files
- *  32990 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33675 impl/ batch: diagonals of many inverses
- *  33819 impl/ complex: complex Hermitian systems over real factors
- *  34366 impl/ complex: entries of the inverse
- *  34426 impl/ packs: the tables through which the core calls packs
- *  34474 impl/ last: undefine every internal macro
- *  34813 impl/ templates: the header includes them from itself, once for each instruction set
+ *    497 options.h    options of all calls, threads, and the allocator
+ *    644 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    886 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    988 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1064 factor.h     the numerical factorization P A P' = L D L'
+ *   1189 solve.h      full solves, and the workspace of all solves
+ *   1286 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1365 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
+ *   1457 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1556 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1596 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1704 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1783 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1869 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1965 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2077 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2117 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2245 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2277 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2466 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2567 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2676 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2717 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2805 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2915 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2952 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   3029 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3069 impl/ base: the compiler, status, memory, sorting, threads
+ *   4243 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5124 impl/ matrix: sparse matrices of the caller and of the library
+ *   5759 impl/ ordering: fill-reducing orderings of a graph
+ *  10370 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12574 impl/ factor: the numbers of L and D
+ *  15912 impl/ solve: full and local solves
+ *  17583 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19501 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19910 impl/ float: L and fronts in single precision
+ *  20361 impl/ inverse: entries of the inverse, regions
+ *  23402 impl/ change: a factor that follows changes of its matrix
+ *  29350 impl/ dirichlet: rows fixed at given values
+ *  29937 impl/ dirichlet: by a factor of all rows
+ *  30155 impl/ io: files that are replaced only when they are complete
+ *  30373 impl/ files: Matrix Market files, 64-bit indices
+ *  30993 impl/ save: factors in files
+ *  32991 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33676 impl/ batch: diagonals of many inverses
+ *  33820 impl/ complex: complex Hermitian systems over real factors
+ *  34367 impl/ complex: entries of the inverse
+ *  34427 impl/ packs: the tables through which the core calls packs
+ *  34475 impl/ last: undefine every internal macro
+ *  34814 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -352,7 +352,8 @@ typedef enum sl_status {
     /* a factor without numbers, as its last change failed; a selected inverse, a region or pins of
      * older numbers of the factor: refactor them */
     SL_ERR_STALE,
-    /* a mapped object that would have to change: load it instead */
+    /* a mapped object that would have to change: load it instead; or a factor of
+     * sl_factor_restrict */
     SL_ERR_READ_ONLY
 } sl_status;
 

@@ -40,7 +40,8 @@ typedef enum sl_status {
     /* a factor without numbers, as its last change failed; a selected inverse, a region or pins of
      * older numbers of the factor: refactor them */
     SL_ERR_STALE,
-    /* a mapped object that would have to change: load it instead */
+    /* a mapped object that would have to change: load it instead; or a factor of
+     * sl_factor_restrict */
     SL_ERR_READ_ONLY
 } sl_status;
 
