@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7f4057853b9553d3
+ * FNV-1a of the lines after this comment, without the license: 9a4269fc87a242e7
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35625,9 +35625,6 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #define SLW_LOW SLI_LOW8
 #elif SLW_NRHS == 16
 #define SLW_NAME(f) sli_##f##16_avx512
-#if !SLV_SINGLE
-#define SLW_HALF(f) sli_##f##8_avx512
-#endif
 #define SLW_ROWS 8
 #define SLW_DECLARE(a) __m512d a##_0, a##_1;
 #define SLW_ZERO(a) a##_0 = a##_1 = _mm512_setzero_pd();

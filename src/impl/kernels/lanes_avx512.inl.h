@@ -17,9 +17,6 @@
 #elif SLW_NRHS == 16 /* two registers */
 /* An entry of L that is broadcast serves two FMAs, so that loads no longer limit the rate. */
 #define SLW_NAME(f) sli_##f##16_avx512
-#if !SLV_SINGLE /* there the kernels of 8 have no copies by width */
-#define SLW_HALF(f) sli_##f##8_avx512
-#endif
 #define SLW_ROWS 8
 #define SLW_DECLARE(a) __m512d a##_0, a##_1;
 #define SLW_ZERO(a) a##_0 = a##_1 = _mm512_setzero_pd();

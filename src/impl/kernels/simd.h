@@ -91,9 +91,8 @@
  *  SLW_ROWS               rows that are kept in registers, 4 or 8: a0, a1, ..
  *  SLW_EACH(op, k)        op(0, k) op(1, k) .. over these rows. SLW_EACH_AGAIN: the same inside
  *                         SLW_EACH. SLW_HIGH, SLW_LOW: its halves in descending order
- *  SLW_HALF(f)            name of f for half as many right-hand sides. Defined where supernodes of
- *                         at most 8 columns take these in turn: 8 rows do not fit in the registers,
- *                         or the kernels of half as many have copies by width and are as fast
+ *  SLW_HALF(f)            defined where 8 rows do not fit in the registers: name of f for half as
+ *                         many right-hand sides, which supernodes of at most 8 columns take in turn
  *  SLW_DECLARE, SLW_ZERO, SLW_ADD     as above; SLW_LOAD and SLW_STORE need no alignment
  *  SLW_FNMA(a, s, b)      a -= s b; s is a double, with SLW_TAKES_FLOATS an SLV_VALUE
  *  SLW_DIVIDE(a, s)       a /= s
