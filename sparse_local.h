@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 9a4269fc87a242e7
+ * FNV-1a of the lines after this comment, without the license: f469c185658e3121
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40,12 +40,12 @@
  *   5759 impl/ ordering: fill-reducing orderings of a graph
  *  10370 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12574 impl/ factor: the numbers of L and D
- *  15912 impl/ solve: full and local solves
- *  17583 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19501 impl/ pivots: the order of the pivots by the values of a matrix
- *  19910 impl/ float: L and fronts in single precision
- *  20361 impl/ inverse: entries of the inverse, regions
- *  23402 impl/ change: a factor that follows changes of its matrix
+ *  15913 impl/ solve: full and local solves
+ *  17584 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19502 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19911 impl/ float: L and fronts in single precision
+ *  20362 impl/ inverse: entries of the inverse, regions
+ *  23403 impl/ change: a factor that follows changes of its matrix
  *  29350 impl/ dirichlet: rows fixed at given values
  *  29937 impl/ dirichlet: by a factor of all rows
  *  30155 impl/ io: files that are replaced only when they are complete
@@ -12644,6 +12644,7 @@ typedef struct sli_history {
   double drift;
   double scale;
   double lowest;
+  double error;
   uint64_t *marks;
 } sli_history;
 
@@ -24683,6 +24684,8 @@ static void sli_rank_note(const sli_update *u) {
   info->growth =
     u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0)) : fmax(info->growth * rise, growth);
   F->history.drift = F->history.drift * rise + DBL_EPSILON * fmax(1.0, most);
+  F->history.error += DBL_EPSILON * fmax(F->history.scale, scale);
+  F->history.drift = fmax(F->history.drift, scale > 0.0 ? F->history.error / scale : 0.0);
   F->history.lowest = fmin(F->history.lowest, scale);
   F->history.scale = scale;
 }
@@ -24728,8 +24731,7 @@ static sl_status sli_rank_passes(sli_rank *q) {
 static sl_status sli_rank_run(sli_rank *q) {
   sl_factor *F = q->u.F;
   const sl_stats before = F->stats;
-  const double drift = F->history.drift;
-  double scale, lowest;
+  sli_history history;
   sl_status status;
   if (q->count == 0) {
     return SL_OK;
@@ -24741,9 +24743,9 @@ static sl_status sli_rank_run(sli_rank *q) {
   }
   if (F->history.updates == 0) {
     F->history.scale = F->history.lowest = before.factor.entry_max;
+    F->history.error = 0.0;
   }
-  scale = F->history.scale;
-  lowest = F->history.lowest;
+  history = F->history;
   if (q->has_log) {
     sli_reach R;
     sli_reach_fill(F->S, q->whole_seeds, q->count, q->log_steps, q->u.rows, &R);
@@ -24762,9 +24764,7 @@ static sl_status sli_rank_run(sli_rank *q) {
   if (q->has_log) {
     sli_rank_log(q, q->logged, 1);
     F->stats = before;
-    F->history.drift = drift;
-    F->history.scale = scale;
-    F->history.lowest = lowest;
+    F->history = history;
   } else if (q->is_changed) { /* untested: rounding has taken all digits of a pivot, */
     F->is_valid = 0;        /* untested: although the trial found it far from 0 */
     F->status = status;     /* untested: the same */

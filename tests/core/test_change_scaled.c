@@ -108,10 +108,35 @@ static void lost_digits_of_small_rows_are_drift(void **state) {
     }
 }
 
+/* A weight of 1e10 that falls by steps to nothing: the errors made beside it are drift, and the
+ * matrix is factored again. */
+static void a_weight_that_rises_and_falls_leaves_no_error(void **state) {
+    (void)state;
+    const sl_int row = N / 2;
+    int refactored = 0;
+    sl_stats stats;
+    band_t y;
+    band_make(&y, 1.0);
+    double *a = &y.a[y.p[row]], base = *a;
+    for (double weight = 1e10; weight > 0.0; weight = weight < 1.0 ? 0.0 : weight / 2) {
+        const double delta = base + weight - *a;
+        *a += delta;
+        SL_CHECK(sl_factor_change(y.F, &y.view, &row, &row, &delta, 1, NULL, &stats));
+        refactored += stats.change.method == SL_CHANGE_REFACTOR;
+    }
+    const double delta = base - *a;
+    *a = base;
+    SL_CHECK(sl_factor_change(y.F, &y.view, &row, &row, &delta, 1, NULL, &stats));
+    assert_true(refactored > 0);
+    assert_true(error_of(&y, 1.0) < 1e-10);
+    band_free(&y);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(entries_change_by_the_scales_of_their_rows),
         cmocka_unit_test(lost_digits_of_small_rows_are_drift),
+        cmocka_unit_test(a_weight_that_rises_and_falls_leaves_no_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

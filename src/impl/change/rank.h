@@ -294,7 +294,8 @@ static void sli_rank_unmark(sl_factor *F, const sli_step *steps, sl_int count) {
 }
 
 /* Updates growth and drift after a pass. They are relative to the largest |a|: where that becomes
- * less than it ever was they rise. Only a bound from below is known of it: a pivot, if all have one
+ * less than it ever was they rise. Where it rises and falls again, the errors that were made above
+ * remain. Only a bound from below is known of it: a pivot, if all have one
  * sign, and the difference of the bound before and what the pass changes. The pass is compared with
  * its own columns, as other components may be larger. */
 static void sli_rank_note(const sli_update *u) {
@@ -310,6 +311,8 @@ static void sli_rank_note(const sli_update *u) {
     info->growth =
         u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0)) : fmax(info->growth * rise, growth);
     F->history.drift = F->history.drift * rise + DBL_EPSILON * fmax(1.0, most);
+    F->history.error += DBL_EPSILON * fmax(F->history.scale, scale);
+    F->history.drift = fmax(F->history.drift, scale > 0.0 ? F->history.error / scale : 0.0);
     F->history.lowest = fmin(F->history.lowest, scale);
     F->history.scale = scale;
 }
@@ -358,8 +361,7 @@ static sl_status sli_rank_passes(sli_rank *q) {
 static sl_status sli_rank_run(sli_rank *q) {
     sl_factor *F = q->u.F;
     const sl_stats before = F->stats;
-    const double drift = F->history.drift;
-    double scale, lowest;
+    sli_history history;
     sl_status status;
     if (q->count == 0) {
         return SL_OK;
@@ -371,9 +373,9 @@ static sl_status sli_rank_run(sli_rank *q) {
     }
     if (F->history.updates == 0) {
         F->history.scale = F->history.lowest = before.factor.entry_max;
+        F->history.error = 0.0;
     }
-    scale = F->history.scale;
-    lowest = F->history.lowest;
+    history = F->history;
     if (q->has_log) {
         sli_reach R;
         sli_reach_fill(F->S, q->whole_seeds, q->count, q->log_steps, q->u.rows, &R);
@@ -392,9 +394,7 @@ static sl_status sli_rank_run(sli_rank *q) {
     if (q->has_log) {
         sli_rank_log(q, q->logged, 1);
         F->stats = before;
-        F->history.drift = drift;
-        F->history.scale = scale;
-        F->history.lowest = lowest;
+        F->history = history;
     } else if (q->is_changed) { /* untested: rounding has taken all digits of a pivot, */
         F->is_valid = 0;        /* untested: although the trial found it far from 0 */
         F->status = status;     /* untested: the same */

@@ -97,6 +97,7 @@ typedef struct sli_history {
     double drift;   /* the rounding errors that they have added, relative to the largest entry */
     double scale;   /* of the matrix as they have changed it: the largest entry, or less */
     double lowest;  /* the least that it has been */
+    double error;   /* the rounding errors that changes have added: epsilon times their scales */
     /* n_supers: a hash of the entries of A that each supernode was computed from; 0: not known */
     uint64_t *marks;
 } sli_history;

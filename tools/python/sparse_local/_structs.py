@@ -76,16 +76,13 @@ _ReuseInfo = _struct("_ReuseInfo", [
     ("kept", INT), ("computed", INT), ("entries", OFF), ("flops", REAL),
     ("flops_anew", REAL), ("is_anew", ctypes.c_int), ("reason", ENUM), ("seconds", REAL)])
 _PinsInfo = _struct("_PinsInfo", [
-    ("count", INT), ("padding", INT), ("seconds", REAL)])
+    ("count", INT), ("seconds", REAL)])
 _DirichletInfo = _struct("_DirichletInfo", [
     ("method", ENUM), ("n_free", INT), ("couplings", OFF), ("seconds_submatrix", REAL),
     ("seconds_restriction", REAL), ("seconds_pins", REAL), ("seconds", REAL)])
 _CertificateInfo = _struct("_CertificateInfo", [
     ("certainty", ENUM), ("solves", INT), ("eta", REAL), ("eigenvalue_min", REAL),
     ("seconds", REAL)])
-_DirichletInfo = _struct("_DirichletInfo", [
-    ("method", ENUM), ("n_free", INT), ("couplings", OFF), ("seconds_submatrix", REAL),
-    ("seconds_restriction", REAL), ("seconds_pins", REAL), ("seconds", REAL)])
 _RefineInfo = _struct("_RefineInfo", [("steps", INT), ("backward_error", REAL)])
 
 
