@@ -139,7 +139,7 @@ valgrind: deps ## the tests under valgrind (no AVX-512 there)
 	@+$(SUB_MAKE) run-tests RUN='valgrind -q --leak-check=full --error-exitcode=99'
 
 # The tests of what has the largest frames: null vectors, dissections, edits, regions, files, queries.
-STACK_TESTS = $(patsubst %,$(B)/tests/core/test_%,dirichlet factor factor_edit inverse null_pivots null_vectors ordering pins_rigid pins_ways \
+STACK_TESTS = $(patsubst %,$(B)/tests/core/test_%,dirichlet factor factor_edit inverse null_pivots null_vectors ordering pins_rigid pins_sets \
 	pivots plan region restrict rigid_calls rigid_mass_cases save saved_set selected symbolic_edit threads)
 test-stack: deps sparse_local.h ## some of the tests on a stack of 64 kB; the limits on frames and chains of calls are in make size
 	@+$(SUB_MAKE) run-tests RUN=tests/lib/small_stack.sh REPLAYS= TEST_PROGRAMS='$(STACK_TESTS)'

@@ -63,7 +63,7 @@ check "the wheel, with NumPy and SciPy of the system" \
 check "the npm package" \
     "empty && mkdir -p node_modules/sparse-local &&
      tar -C node_modules/sparse-local --strip-components 1 -xzf $release/*.tgz &&
-     awk '/^.{3}js\$/ { inside = 1; next } /^.{3}\$/ { inside = 0 } inside' \
+     awk '/^...js\$/ { inside = 1; next } /^...\$/ { inside = 0 } inside' \
          node_modules/sparse-local/README.md >use.mjs &&
      node use.mjs | grep -q '0[.]25'"
 
