@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f469c185658e3121
+ * FNV-1a of the lines after this comment, without the license: e19a481b63fe62db
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40,24 +40,24 @@
  *   5759 impl/ ordering: fill-reducing orderings of a graph
  *  10370 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12574 impl/ factor: the numbers of L and D
- *  15913 impl/ solve: full and local solves
- *  17584 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19502 impl/ pivots: the order of the pivots by the values of a matrix
- *  19911 impl/ float: L and fronts in single precision
- *  20362 impl/ inverse: entries of the inverse, regions
- *  23403 impl/ change: a factor that follows changes of its matrix
- *  29350 impl/ dirichlet: rows fixed at given values
- *  29937 impl/ dirichlet: by a factor of all rows
- *  30155 impl/ io: files that are replaced only when they are complete
- *  30373 impl/ files: Matrix Market files, 64-bit indices
- *  30993 impl/ save: factors in files
- *  32991 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33676 impl/ batch: diagonals of many inverses
- *  33820 impl/ complex: complex Hermitian systems over real factors
- *  34367 impl/ complex: entries of the inverse
- *  34427 impl/ packs: the tables through which the core calls packs
- *  34475 impl/ last: undefine every internal macro
- *  34814 impl/ templates: the header includes them from itself, once for each instruction set
+ *  15918 impl/ solve: full and local solves
+ *  17589 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19507 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19916 impl/ float: L and fronts in single precision
+ *  20367 impl/ inverse: entries of the inverse, regions
+ *  23408 impl/ change: a factor that follows changes of its matrix
+ *  29429 impl/ dirichlet: rows fixed at given values
+ *  30016 impl/ dirichlet: by a factor of all rows
+ *  30234 impl/ io: files that are replaced only when they are complete
+ *  30452 impl/ files: Matrix Market files, 64-bit indices
+ *  31072 impl/ save: factors in files
+ *  33074 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33759 impl/ batch: diagonals of many inverses
+ *  33903 impl/ complex: complex Hermitian systems over real factors
+ *  34450 impl/ complex: entries of the inverse
+ *  34510 impl/ packs: the tables through which the core calls packs
+ *  34558 impl/ last: undefine every internal macro
+ *  34897 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12645,6 +12645,10 @@ typedef struct sli_history {
   double scale;
   double lowest;
   double error;
+  double *loss;
+  unsigned char *known;
+  double base;
+  size_t bytes;
   uint64_t *marks;
 } sli_history;
 
@@ -15319,6 +15323,7 @@ static sl_method sli_method(const sl_symbolic *S, const sli_storage_type *type,
 SL_API void sl_factor_free(sl_factor *F) {
   if (F != NULL && sli_is_last(&F->borrowers)) {
     const sl_allocator a = F->allocator;
+    sli_free(&a, F->history.loss);
     sli_free(&a, F->work.stack);
     sli_free(&a, F->scratch);
     sli_symbolic_return(F->S);
@@ -23834,6 +23839,9 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
       F->identity = sli_hash_ints(F->identity, &c->columns[k], 1);
       F->identity = sli_hash_words(F->identity, A->x + p, q - p);
     }
+    for (k = 0; F->history.known != NULL && k < F->S->n_supers; k++) {
+      F->history.known[k] &= from[k] != -1;
+    }
     status = sli_reached_numbers(F, &kept, &source, started, stats);
     F->history.scale = F->history.lowest =
       fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
@@ -23853,6 +23861,86 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
   return sli_reached_refactor(F, A, &c, stats);
 }
 
+/* src/impl/change/update_loss.h: what the rows of a definite matrix lose by changes, relative to what is left */
+
+#define SLI_LOSS_SMALL 256.0
+
+static sl_status sli_loss_begin(sl_factor *F) {
+  const sl_symbolic *S = F->S;
+  sli_history *h = &F->history;
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  if (h->updates > 0 && h->base > 0.0) {
+    return SL_OK;
+  }
+  if (h->loss == NULL) {
+    SLI_LAYOUT(&b, &F->allocator, status) {
+      h->loss = SLI_TAKE(&b, double, S->n);
+      h->known = SLI_TAKE(&b, unsigned char, S->n_supers);
+    }
+    if (status != SL_OK) {
+      h->loss = NULL;
+      return status;
+    }
+    h->bytes = b.used;
+  }
+  memset(h->known, 0, (size_t)S->n_supers);
+  h->base = fmax(1.0, h->drift / DBL_EPSILON);
+  return SL_OK;
+}
+
+SLI_INLINE void sli_loss_open(sl_factor *F, sl_int s) {
+  sl_int k;
+  if (F->history.known[s]) {
+    return;
+  }
+  for (k = F->S->super_first[s]; k < F->S->super_first[s + 1]; k++) {
+    F->history.loss[k] = fabs(F->D[k]) * F->history.base;
+  }
+  F->history.known[s] = 1;
+}
+
+SLI_INLINE double sli_loss_bar(const sl_factor *F) {
+  return fmax(SLI_LOSS_SMALL, F->history.drift * (2.0 / DBL_EPSILON));
+}
+
+static double sli_update_magnitude(const sl_factor *F, sl_int k) {
+  const sl_symbolic *S = F->S;
+  const sl_int own = S->super_of[k];
+  double sum = 0.0;
+  sl_int d, j;
+  for (d = own; d >= S->first_descendant[own];) {
+    const sli_step *step = &S->steps[d];
+    const sl_int *rows = S->rows + S->rows_begin[d];
+    const sl_int at = d == own ? 0 : sli_lower_bound(rows, step->below, k);
+    const sl_int r = d == own ? k - step->column : step->width + at;
+    if (d != own && at == step->below) {
+      d = S->first_descendant[d] - 1;
+      continue;
+    }
+    for (j = 0; j < sli_min(r, step->width) && (d == own || rows[at] == k); j++) {
+      const double l = sli_entry(F, step->panel + sli_panel_at(step->width, r, j));
+      sum += fabs(l * F->D[step->column + j] * l);
+    }
+    d--;
+  }
+  return 2.0 * sum + fabs(F->D[k]);
+}
+
+static double sli_loss_worst(sl_factor *F, sl_int k, sl_int count, double bar, double lost) {
+  double *loss = F->history.loss;
+  const sl_int end = k + count;
+  for (; k < end; k++) {
+    const double pivot = fabs(F->D[k]);
+    if (loss[k] > fmax(bar, lost) * pivot) {
+      const double ratio = loss[k] / sli_update_magnitude(F, k);
+      lost = fmax(lost, ratio);
+      loss[k] = ratio * pivot;
+    }
+  }
+  return lost;
+}
+
 /* src/impl/change/update_pivots.h: the state of a rank-k change, and the pivots that it changes */
 
 typedef struct sli_update {
@@ -23868,6 +23956,7 @@ typedef struct sli_update {
   double most;
   double loss;
   double lost;
+  double bar;
   double fall;
   double least;
   double shrink;
@@ -23890,8 +23979,6 @@ typedef struct sli_update {
   double *other, *b;
   double *trial, *scratch;
 } sli_update;
-
-#define SLI_UPDATE_LOST 256.0
 
 SLI_INLINE int sli_update_kind(sl_int count) {
   return count == 1 ? SLI_NRHS_2 : sli_lanes_kind(count);
@@ -23930,29 +24017,6 @@ static void sli_update_close(sli_update *u, const sli_step *step) {
   }
 }
 
-static double sli_update_magnitude(const sl_factor *F, sl_int k) {
-  const sl_symbolic *S = F->S;
-  const sl_int own = S->super_of[k];
-  double sum = 0.0;
-  sl_int d, j;
-  for (d = own; d >= S->first_descendant[own];) {
-    const sli_step *step = &S->steps[d];
-    const sl_int *rows = S->rows + S->rows_begin[d];
-    const sl_int at = d == own ? 0 : sli_lower_bound(rows, step->below, k);
-    const sl_int r = d == own ? k - step->column : step->width + at;
-    if (d != own && at == step->below) {
-      d = S->first_descendant[d] - 1;
-      continue;
-    }
-    for (j = 0; j < sli_min(r, step->width) && (d == own || rows[at] == k); j++) {
-      const double l = sli_entry(F, step->panel + sli_panel_at(step->width, r, j));
-      sum += fabs(l * F->D[step->column + j] * l);
-    }
-    d--;
-  }
-  return 2.0 * sum + fabs(F->D[k]);
-}
-
 static int sli_update_is_null(const sl_factor *F, sl_int k, double d, double magnitude) {
   const double tolerance = sli_rule_tolerance(&F->rule, k);
   const double known = F->extents[F->S->super_of[k]].magnitude;
@@ -23977,12 +24041,6 @@ static double sli_update_cancelled(const sl_factor *F, double d, double e) {
   return fabs(e) > 4.0 * fabs(d) ? fabs(e) * sqrt(largest / fabs(d)) : 0.0;
 }
 
-static void sli_update_note_lost(sli_update *u, sl_int k, double magnitude) {
-  if (u->sign != 0.0 && magnitude > fmax(SLI_UPDATE_LOST, u->lost) * fabs(u->F->D[k])) {
-    u->lost = fmax(u->lost, magnitude / sli_update_magnitude(u->F, k));
-  }
-}
-
 static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magnitude) {
   sl_factor *F = u->F;
   const double d = F->D[k];
@@ -24000,7 +24058,6 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
     u->top = fabs(e) > u->top ? fabs(e) : u->top;
     sli_update_count(&F->stats.factor, d, e);
     F->D[k] = e;
-    sli_update_note_lost(u, k, magnitude);
   }
   return SL_OK;
 }
@@ -24010,10 +24067,11 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
   sl_factor *F = u->F;
   sl_factor_info *info = &F->stats.factor;
   const double known = F->extents[F->S->super_of[k]].magnitude;
-  double *D = F->D + k, least = DBL_MAX, top = 0.0, most = 0.0;
+  double *const loss = u->sign != 0.0 && !u->is_trial ? F->history.loss + k : NULL;
+  double *D = F->D + k, least = DBL_MAX, top = 0.0, most = 0.0, over = 0.0;
   int are_usual = 1, shrink = 0;
   sl_status status = SL_OK;
-  sl_int j;
+  sl_int j, first = 0;
   for (j = 0; j < count; j++) {
     const double d = D[j], size = fabs(e[j]), before = fabs(d);
     const double magnitude = magnitudes != NULL ? magnitudes[j] : before + fabs(e[j] - d);
@@ -24022,32 +24080,32 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
     least = size < least ? size : least;
     top = size > top ? size : top;
     most = magnitude > most ? magnitude : most;
+    if (loss != NULL) {
+      const double sum = loss[j] + magnitude, beyond = sum - u->bar * size;
+      loss[j] = sum;
+      over = beyond > over ? beyond : over;
+    }
   }
   if (are_usual && least >= DBL_MIN && top <= DBL_MAX &&
     (!shrink || u->is_tried ||
      (least > u->least && !sli_is_null(least, most + known, F->rule.null_tolerance)))) {
     if (!u->is_trial) {
-      for (j = 0; j < count && most > SLI_UPDATE_LOST * least; j++) {
-        const double d = fabs(D[j]);
-        D[j] = e[j];
-        sli_update_note_lost(u, k + j,
-                   magnitudes != NULL ? magnitudes[j] : d + fabs(d - fabs(e[j])));
-      }
       memcpy(D, e, (size_t)count * sizeof *D);
       info->pivot_min = least < info->pivot_min ? least : info->pivot_min;
       info->pivot_max = top > info->pivot_max ? top : info->pivot_max;
       u->top = top > u->top ? top : u->top;
       u->most = most > u->most ? most : u->most;
     }
-    return SL_OK;
+    first = count;
   }
-  for (j = 0; j < count && status == SL_OK; j++) {
+  for (j = first; j < count && status == SL_OK; j++) {
     const double d = D[j], size = fabs(e[j]);
     const double magnitude = magnitudes != NULL ? magnitudes[j] : fabs(d) + fabs(e[j] - d);
     if (e[j] != d || magnitude != size) {
       status = sli_update_take(u, k + j, e[j], magnitude);
     }
   }
+  u->lost = over > 0.0 ? sli_loss_worst(F, k, count, u->bar, u->lost) : u->lost;
   return status;
 }
 
@@ -24169,6 +24227,8 @@ static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_i
   sli_update_move(u, step, rows, 0);
   if (u->sign == 0.0) {
     sli_update_gains(u, step, rows, -1.0);
+  } else {
+    sli_loss_open(u->F, u->F->S->super_of[step->column]);
   }
   for (c0 = entered; c0 < wide && status == SL_OK; c0 = c1) {
     c1 = sli_min(c0 + SLI_UPDATE_COLUMNS, wide);
@@ -24233,6 +24293,7 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
   u->most = u->fall = u->top = u->entry = u->growth = 0.0;
   u->loss = 1.0;
   u->lost = 0.0;
+  u->bar = sli_loss_bar(u->F);
   memset(u->state->U, 0, sizeof u->state->U);
   memset(u->x, 0, (size_t)u->R.columns * (size_t)u->lanes * sizeof(double));
   memset(u->gain, 0, (size_t)u->R.columns * sizeof(double));
@@ -24363,9 +24424,11 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
   u->most = u->top = u->entry = u->growth = 0.0;
   u->loss = 1.0;
   u->lost = 0.0;
+  u->bar = sli_loss_bar(F);
   for (rest = u->V->p[v + 1] - u->V->p[v]; s != -1 && status == SL_OK; s = S->super_parent[s]) {
     const sli_step *step = &S->steps[s];
     const sl_int *to = S->relative + S->rows_begin[s];
+    sli_loss_open(F, s);
     sli_update_open(u, step);
     one.panel = u->panel;
     one.D = F->D + step->column;
@@ -24427,7 +24490,7 @@ typedef struct sli_rank {
   sl_off entries;
   sli_reach whole;
   uint64_t *seeds, *scratch, *whole_seeds;
-  double *log, *log_D;
+  double *log, *log_D, *log_loss;
   uint64_t *log_marks;
   sli_extent *log_extents;
   sli_step *log_steps;
@@ -24620,6 +24683,7 @@ static void sli_rank_layout(void *data, sli_block *b) {
   if (q->has_log) {
     q->log = SLI_TAKE(b, double, sli_rank_panels(S, q->whole_seeds, q->count));
     q->log_D = SLI_TAKE(b, double, q->whole.columns);
+    q->log_loss = SLI_TAKE(b, double, q->u.sign != 0.0 ? q->whole.columns : 0);
     q->log_marks = SLI_TAKE(b, uint64_t, q->whole.count);
     q->log_extents = SLI_TAKE(b, sli_extent, q->whole.count);
     q->log_steps = SLI_TAKE(b, sli_step, q->whole.count);
@@ -24628,7 +24692,7 @@ static void sli_rank_layout(void *data, sli_block *b) {
 
 static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
   sl_factor *F = q->u.F;
-  double *log = q->log, *log_D = q->log_D;
+  double *log = q->log, *log_D = q->log_D, *log_loss = q->log_loss;
   sl_int k;
   for (k = 0; k < count; k++) {
     const sli_step *step = &q->log_steps[k];
@@ -24641,6 +24705,13 @@ static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
     if (F->history.marks != NULL) {
       uint64_t *mark = &F->history.marks[s];
       *(restores ? mark : &q->log_marks[k]) = *(restores ? &q->log_marks[k] : mark);
+    }
+    if (q->u.sign != 0.0) {
+      double *loss = F->history.loss + step->column;
+      sli_loss_open(F, s);
+      memcpy(restores ? loss : log_loss, restores ? log_loss : loss,
+           (size_t)columns * sizeof(double));
+      log_loss += columns;
     }
     memcpy(restores ? L : log, restores ? log : L, size * sizeof(double));
     memcpy(restores ? F->D + step->column : log_D, restores ? log_D : F->D + step->column,
@@ -24680,12 +24751,15 @@ static void sli_rank_note(const sli_update *u) {
   const double local = fmax(fmin(own, scale), least);
   const double rise = scale > 0.0 ? fmax(1.0, F->history.lowest / scale) : 1.0;
   const double growth = local > 0.0 ? u->growth / local : 0.0;
-  const double most = fmax(local > 0.0 ? u->most / local * u->loss : 0.0, u->lost);
+  const double most = local > 0.0 ? u->most / local * u->loss : 0.0;
   info->growth =
     u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0)) : fmax(info->growth * rise, growth);
-  F->history.drift = F->history.drift * rise + DBL_EPSILON * fmax(1.0, most);
-  F->history.error += DBL_EPSILON * fmax(F->history.scale, scale);
-  F->history.drift = fmax(F->history.drift, scale > 0.0 ? F->history.error / scale : 0.0);
+  F->history.drift = fmax(F->history.drift * rise + DBL_EPSILON * fmax(1.0, most),
+              DBL_EPSILON * u->lost);
+  if (u->sign == 0.0) {
+    F->history.error += DBL_EPSILON * fmax(F->history.scale, scale);
+    F->history.drift = fmax(F->history.drift, scale > 0.0 ? F->history.error / scale : 0.0);
+  }
   F->history.lowest = fmin(F->history.lowest, scale);
   F->history.scale = scale;
 }
@@ -24758,6 +24832,8 @@ static sl_status sli_rank_run(sli_rank *q) {
   }
   if (status == SL_OK) {
     F->history.updates += q->count;
+    F->stats.factor.bytes += F->history.bytes;
+    F->history.bytes = 0;
     sli_rank_identify(q);
     return SL_OK;
   }
@@ -24815,7 +24891,9 @@ static const sli_stage sli_rank_stages[2] = {{sli_rank_layout_seeds, sli_rank_so
                        {sli_rank_layout, NULL}};
 
 static sl_status sli_rank_run_logged(sli_rank *q, const sli_stage *stages, int count, sl_work *W) {
-  sl_status status = sli_rank_run(q);
+  const int is_counted = q->count > 0 && q->u.sign != 0.0;
+  sl_status status = is_counted ? sli_loss_begin(q->u.F) : SL_OK;
+  status = status == SL_OK ? sli_rank_run(q) : status;
   if (q->needs_log && !q->has_log) {
     status = sli_work_stages(W, stages, count, q);
     status = status == SL_OK ? sli_rank_run(q) : status;
@@ -27463,6 +27541,7 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
     sli_factor_begin(G);
     G->identity = sli_hash_words(F->identity, &G->S->identity, 2);
     G->work.copied = r->n_kept > 0 ? &kept.copied : NULL;
+    G->history.drift = r->n_kept > 0 ? F->history.drift : 0.0;
     G->history.marks = NULL;
     if (sli_restrict_check(F, r, &failure) == SL_OK) {
       (void)sli_factor_eliminate(G, &source, &failure);
@@ -31158,7 +31237,8 @@ typedef struct sli_saved_factor {
   int64_t storage;
   double eta;
   int64_t certainty;
-  uint64_t reserved[3];
+  double drift;
+  uint64_t reserved[2];
 } sli_saved_factor;
 
 typedef struct sli_saved_part {
@@ -31521,7 +31601,8 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     !sli_count_is_valid(g->storage,
               g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT_FRONTS : 0) ||
     !sli_count_is_valid(g->certainty, SL_GUARANTEED) || !(g->eta >= 0.0) || g->eta > 1.0 ||
-    g->null_tolerance != g->null_tolerance || g->consistency != g->consistency) {
+    !(g->drift >= 0.0) || g->null_tolerance != g->null_tolerance ||
+    g->consistency != g->consistency) {
     return 0;
   }
   F->S = S;
@@ -31546,6 +31627,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   F->identity.a = g->identity[0];
   F->identity.b = g->identity[1];
   F->generation = F->certificate.generation = 1;
+  F->history.drift = g->drift;
   F->certificate.eta = g->eta;
   F->certificate.certainty = (sl_certainty)g->certainty;
   F->is_valid = 1;
@@ -31960,8 +32042,9 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
   g.pivot_max = info->pivot_max;
   g.entry_max = info->entry_max;
   g.growth = info->growth;
+  g.drift = F->history.drift;
   if (F->history.drift > SLI_CHANGE_DRIFT) {
-    g.entry_max = fmin(g.entry_max, F->history.scale);
+    g.entry_max = F->history.updates > 0 ? fmin(g.entry_max, F->history.scale) : g.entry_max;
     g.growth = fmax(g.growth, F->history.drift / DBL_EPSILON);
   }
   g.null_tolerance = F->rule.null_tolerance;
@@ -34765,7 +34848,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_RANK_SMALL
 #undef SLI_RANK_CLOSE
 #undef SLI_EDGES_HEAVY
-#undef SLI_UPDATE_LOST
+#undef SLI_LOSS_SMALL
 #undef SLI_PINS_DENSE
 #undef SLI_PAIR_CACHED
 #undef SLI_PAIR_READ

@@ -212,6 +212,7 @@ extern "C" {
 #include "impl/change/change_kernels.h"
 #include "impl/change/kept.h"
 #include "impl/change/reached.h"
+#include "impl/change/update_loss.h"
 #include "impl/change/update_pivots.h"
 #include "impl/change/update.h"
 #include "impl/change/path.h"

@@ -132,11 +132,106 @@ static void a_weight_that_rises_and_falls_leaves_no_error(void **state) {
     band_free(&y);
 }
 
+/* Changes row `row` of y by delta: by its entry, by one vector, or by one of several. */
+static void row_change(band_t *y, int way, sl_int row, double delta, sl_stats *stats) {
+    const sl_int p[4] = {0, 1, 2, 3}, rows[3] = {3, row, 50};
+    const double ones[3] = {1.0, 1.0, 1.0}, sigma[3] = {1e-9, delta, 1e-9};
+    const sl_csc one = {N, 1, p, rows + 1, ones}, three = {N, 3, p, rows, ones};
+    y->a[y->p[row]] += delta;
+    if (way == 0) {
+        SL_CHECK(sl_factor_change(y->F, NULL, &row, &row, &delta, 1, NULL, stats));
+    } else if (way == 1) {
+        SL_CHECK(sl_factor_update(y->F, &one, sigma + 1, NULL, stats));
+    } else {
+        SL_CHECK(sl_factor_update(y->F, &three, sigma, NULL, stats));
+        y->a[y->p[3]] += 1e-9;
+        y->a[y->p[50]] += 1e-9;
+    }
+}
+
+/* A row of 5 rises to 1e10 and falls by halves beside a row that is always larger: drift is what
+ * that row has lost, and what others lose later does not hide it. */
+static void each_row_has_its_own_drift(void **state) {
+    (void)state;
+    const sl_int row = N / 2;
+    for (int way = 0; way < 3; way++) {
+        sl_stats stats;
+        band_t y;
+        band_make(&y, 1.0);
+        const double base = y.a[y.p[row]];
+        y.a[y.p[N - 1]] = 1e11;
+        SL_CHECK(sl_factor_refactor(y.F, &y.view, NULL));
+        row_change(&y, way, row, 1e10, &stats);
+        assert_true(stats.change.drift <= 1e-10);
+        for (double *a = &y.a[y.p[row]]; *a > 2.0 * base;) {
+            row_change(&y, way, row, -0.5 * (*a - base), &stats);
+        }
+        const double lost = error_of(&y, 1.0);
+        print_message("way %d: error %.1e, drift %.1e\n", way, lost, stats.change.drift);
+        assert_true(lost > 1e-9 && stats.change.drift >= 0.1 * lost && stats.change.drift <= 1e-4);
+        row_change(&y, way, 3, 1.0, &stats);
+        assert_true(stats.change.drift >= 0.1 * lost && stats.change.drift <= 1e-4);
+        SL_CHECK(sl_factor_refactor(y.F, &y.view, NULL));
+        row_change(&y, way, row, 1.0, &stats);
+        assert_true(stats.change.drift <= 1e-14);
+        band_free(&y);
+    }
+}
+
+/* Rows of a small pivot that are large themselves, and rows whose columns are computed again, have
+ * lost nothing. */
+static void what_is_computed_again_is_not_lost(void **state) {
+    (void)state;
+    const sl_int row = N / 2;
+    sl_stats stats;
+    band_t y;
+    band_make(&y, 1.0);
+    row_change(&y, 0, row, 1e10, &stats);
+    y.a[y.p[row]] -= 1e10;
+    SL_CHECK(sl_factor_refactor_changed(y.F, &y.view, &row, 1, &stats));
+    for (int k = 0; k < 2; k++) {
+        row_change(&y, k, row, 1.0, &stats);
+        row_change(&y, 2, N - 1, 1.0, &stats);
+    }
+    assert_true(stats.change.drift <= 1e-13);
+    assert_true(error_of(&y, 1.0) <= 1e-14);
+    band_free(&y);
+}
+
+/* A change of many vectors that is refused leaves no loss behind. */
+static void a_refused_change_loses_nothing(void **state) {
+    (void)state;
+    enum { MANY = 17 };
+    sl_int p[MANY + 1], rows[MANY];
+    double ones[MANY], sigma[MANY];
+    const sl_csc V = {N, MANY, p, rows, ones};
+    sl_stats stats;
+    band_t y;
+    band_make(&y, 1.0);
+    for (sl_int k = 0; k < MANY; k++) {
+        p[k] = k;
+        rows[k] = k;
+        ones[k] = 1.0;
+        sigma[k] = k == MANY - 1 ? -1e14 : 1e12;
+    }
+    p[MANY] = MANY;
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_update(y.F, &V, sigma, NULL, NULL));
+    for (sl_int k = 0; k < MANY; k++) {
+        row_change(&y, 0, k, 1.0, &stats);
+    }
+    assert_true(stats.change.drift <= 1e-13);
+    assert_true(error_of(&y, 1.0) <= 1e-14);
+    band_free(&y);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(entries_change_by_the_scales_of_their_rows),
         cmocka_unit_test(lost_digits_of_small_rows_are_drift),
         cmocka_unit_test(a_weight_that_rises_and_falls_leaves_no_error),
+        cmocka_unit_test(each_row_has_its_own_drift),
+        cmocka_unit_test(what_is_computed_again_is_not_lost),
+        cmocka_unit_test(a_refused_change_loses_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -183,6 +183,46 @@ static void a_drift_is_kept_as_growth(void **state) {
     saved_free(&m);
 }
 
+/* What a row has lost remains when the factor is saved before it falls. */
+static void a_drift_goes_on_after_loading(void **state) {
+    (void)state;
+    enum { N = 100, ROW = 44 };
+    const sl_int row = ROW;
+    double b[N] = {0.0}, x[N], y[N], error = 0.0, size = 0.0;
+    factored_t f = factored_make(GEN_GRID2, N, 1, 0, NULL);
+    sl_symbolic *T = NULL;
+    sl_factor *G = NULL;
+    sl_stats before, after;
+    double weight = 1e10 / 3.0, delta = weight;
+    SL_CHECK(sl_factor_change(f.F, NULL, &row, &row, &delta, 1, NULL, NULL));
+    for (; weight > 1e8; weight += delta) {
+        delta = -0.5 * weight;
+        SL_CHECK(sl_factor_change(f.F, NULL, &row, &row, &delta, 1, NULL, &before));
+    }
+    saved_t m = saved_make(f.S, f.F);
+    SL_CHECK(pair_load_memory(&T, &G, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
+    SL_CHECK(sl_factor_change(G, NULL, NULL, NULL, NULL, 0, NULL, &after));
+    assert_true(before.change.drift < 1e-11 && after.change.drift == before.change.drift);
+    for (; weight > 0.0; weight += delta) {
+        delta = weight > 1.0 ? -0.5 * weight : -weight;
+        SL_CHECK(sl_factor_change(G, NULL, &row, &row, &delta, 1, NULL, &after));
+    }
+    b[ROW] = 1.0;
+    SL_CHECK(sl_factor_refactor(f.F, &f.M.view, NULL));
+    SL_CHECK(sl_factor_solve(f.F, x, N, b, N, 1, NULL));
+    SL_CHECK(sl_factor_solve(G, y, N, b, N, 1, NULL));
+    for (int k = 0; k < N; k++) {
+        error = fmax(error, fabs(x[k] - y[k]));
+        size = fmax(size, fabs(x[k]));
+    }
+    assert_true(error > 1e-9 * size && after.change.drift * size >= 0.1 * error);
+    assert_true(after.change.drift <= 1e-3);
+    sl_factor_free(G);
+    sl_symbolic_free(T);
+    factored_free(&f);
+    saved_free(&m);
+}
+
 static void the_error_limit_is_kept(void **state) {
     (void)state;
     enum { N = 100 };
@@ -377,6 +417,7 @@ int main(void) {
         cmocka_unit_test(a_mapped_factor_is_immutable),
         cmocka_unit_test(the_growth_limit_is_kept),
         cmocka_unit_test(a_drift_is_kept_as_growth),
+        cmocka_unit_test(a_drift_goes_on_after_loading),
         cmocka_unit_test(the_error_limit_is_kept),
         cmocka_unit_test(batches_refactor_loaded_factors),
         cmocka_unit_test(l_in_float_needs_its_kernels),

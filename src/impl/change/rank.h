@@ -28,7 +28,7 @@ typedef struct sli_rank {
     sl_off entries;  /* entries of L that the passes change */
     sli_reach whole; /* of all vectors */
     uint64_t *seeds, *scratch, *whole_seeds; /* vectors: first pivot and number */
-    double *log, *log_D;
+    double *log, *log_D, *log_loss;
     uint64_t *log_marks;
     sli_extent *log_extents;
     sli_step *log_steps;
@@ -239,16 +239,18 @@ static void sli_rank_layout(void *data, sli_block *b) {
     if (q->has_log) {
         q->log = SLI_TAKE(b, double, sli_rank_panels(S, q->whole_seeds, q->count));
         q->log_D = SLI_TAKE(b, double, q->whole.columns);
+        q->log_loss = SLI_TAKE(b, double, q->u.sign != 0.0 ? q->whole.columns : 0);
         q->log_marks = SLI_TAKE(b, uint64_t, q->whole.count);
         q->log_extents = SLI_TAKE(b, sli_extent, q->whole.count);
         q->log_steps = SLI_TAKE(b, sli_step, q->whole.count);
     }
 }
 
-/* Saves or restores the panels, pivots, extents and marks of the first `count` steps of the log. */
+/* Saves or restores the panels, pivots, extents, marks and losses of the first `count` steps of the
+ * log. */
 static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
     sl_factor *F = q->u.F;
-    double *log = q->log, *log_D = q->log_D;
+    double *log = q->log, *log_D = q->log_D, *log_loss = q->log_loss;
     sl_int k;
     for (k = 0; k < count; k++) {
         const sli_step *step = &q->log_steps[k];
@@ -261,6 +263,13 @@ static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
         if (F->history.marks != NULL) {
             uint64_t *mark = &F->history.marks[s];
             *(restores ? mark : &q->log_marks[k]) = *(restores ? &q->log_marks[k] : mark);
+        }
+        if (q->u.sign != 0.0) {
+            double *loss = F->history.loss + step->column;
+            sli_loss_open(F, s);
+            memcpy(restores ? loss : log_loss, restores ? log_loss : loss,
+                   (size_t)columns * sizeof(double));
+            log_loss += columns;
         }
         memcpy(restores ? L : log, restores ? log : L, size * sizeof(double));
         memcpy(restores ? F->D + step->column : log_D, restores ? log_D : F->D + step->column,
@@ -295,9 +304,9 @@ static void sli_rank_unmark(sl_factor *F, const sli_step *steps, sl_int count) {
 
 /* Updates growth and drift after a pass. They are relative to the largest |a|: where that becomes
  * less than it ever was they rise. Where it rises and falls again, the errors that were made above
- * remain. Only a bound from below is known of it: a pivot, if all have one
- * sign, and the difference of the bound before and what the pass changes. The pass is compared with
- * its own columns, as other components may be larger. */
+ * remain, by rows if all pivots have one sign. Only a bound from below is known of it: a pivot, if
+ * all have one sign, and the difference of the bound before and what the pass changes. The pass is
+ * compared with its own columns, as other components may be larger. */
 static void sli_rank_note(const sli_update *u) {
     sl_factor *F = u->F;
     sl_factor_info *info = &F->stats.factor;
@@ -307,12 +316,15 @@ static void sli_rank_note(const sli_update *u) {
     const double local = fmax(fmin(own, scale), least);
     const double rise = scale > 0.0 ? fmax(1.0, F->history.lowest / scale) : 1.0;
     const double growth = local > 0.0 ? u->growth / local : 0.0;
-    const double most = fmax(local > 0.0 ? u->most / local * u->loss : 0.0, u->lost);
+    const double most = local > 0.0 ? u->most / local * u->loss : 0.0;
     info->growth =
         u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0)) : fmax(info->growth * rise, growth);
-    F->history.drift = F->history.drift * rise + DBL_EPSILON * fmax(1.0, most);
-    F->history.error += DBL_EPSILON * fmax(F->history.scale, scale);
-    F->history.drift = fmax(F->history.drift, scale > 0.0 ? F->history.error / scale : 0.0);
+    F->history.drift = fmax(F->history.drift * rise + DBL_EPSILON * fmax(1.0, most),
+                            DBL_EPSILON * u->lost); /* a row has the sum of all passes */
+    if (u->sign == 0.0) {
+        F->history.error += DBL_EPSILON * fmax(F->history.scale, scale);
+        F->history.drift = fmax(F->history.drift, scale > 0.0 ? F->history.error / scale : 0.0);
+    }
     F->history.lowest = fmin(F->history.lowest, scale);
     F->history.scale = scale;
 }
@@ -388,6 +400,8 @@ static sl_status sli_rank_run(sli_rank *q) {
     }
     if (status == SL_OK) {
         F->history.updates += q->count;
+        F->stats.factor.bytes += F->history.bytes;
+        F->history.bytes = 0;
         sli_rank_identify(q);
         return SL_OK;
     }
@@ -449,7 +463,9 @@ static const sli_stage sli_rank_stages[2] = {{sli_rank_layout_seeds, sli_rank_so
 
 /* Runs a change whose stages are prepared; prepares them once more where it asks for a log. */
 static sl_status sli_rank_run_logged(sli_rank *q, const sli_stage *stages, int count, sl_work *W) {
-    sl_status status = sli_rank_run(q);
+    const int is_counted = q->count > 0 && q->u.sign != 0.0;
+    sl_status status = is_counted ? sli_loss_begin(q->u.F) : SL_OK;
+    status = status == SL_OK ? sli_rank_run(q) : status;
     if (q->needs_log && !q->has_log) {
         status = sli_work_stages(W, stages, count, q);
         status = status == SL_OK ? sli_rank_run(q) : status;

@@ -150,6 +150,9 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
             F->identity = sli_hash_ints(F->identity, &c->columns[k], 1);
             F->identity = sli_hash_words(F->identity, A->x + p, q - p);
         }
+        for (k = 0; F->history.known != NULL && k < F->S->n_supers; k++) {
+            F->history.known[k] &= from[k] != -1; /* it loses what it has lost */
+        }
         status = sli_reached_numbers(F, &kept, &source, started, stats);
         F->history.scale = F->history.lowest =
             fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);

@@ -70,6 +70,7 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
         sli_factor_begin(G);
         G->identity = sli_hash_words(F->identity, &G->S->identity, 2);
         G->work.copied = r->n_kept > 0 ? &kept.copied : NULL;
+        G->history.drift = r->n_kept > 0 ? F->history.drift : 0.0;
         G->history.marks = NULL; /* no later factorization compares its entries */
         if (sli_restrict_check(F, r, &failure) == SL_OK) {
             (void)sli_factor_eliminate(G, &source, &failure);

@@ -121,6 +121,8 @@ static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_i
     sli_update_move(u, step, rows, 0);
     if (u->sign == 0.0) {
         sli_update_gains(u, step, rows, -1.0);
+    } else {
+        sli_loss_open(u->F, u->F->S->super_of[step->column]);
     }
     for (c0 = entered; c0 < wide && status == SL_OK; c0 = c1) {
         c1 = sli_min(c0 + SLI_UPDATE_COLUMNS, wide);
@@ -189,6 +191,7 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
     u->most = u->fall = u->top = u->entry = u->growth = 0.0;
     u->loss = 1.0;
     u->lost = 0.0;
+    u->bar = sli_loss_bar(u->F);
     memset(u->state->U, 0, sizeof u->state->U);
     memset(u->x, 0, (size_t)u->R.columns * (size_t)u->lanes * sizeof(double));
     memset(u->gain, 0, (size_t)u->R.columns * sizeof(double));

@@ -3,8 +3,8 @@
 #define SLI_CHANGE_UPDATE_PIVOTS_H
 
 #include "change_kernels.h"
+#include "update_loss.h"
 #include "../analysis/reach.h"
-#include "../factor/factor.h"
 #include "../solve/query.h"
 
 /* L D L' + W M W' = K N K' for W of n x k, column by column [DH01]. With the row y of W and the
@@ -29,7 +29,8 @@ typedef struct sli_update {
     int kind;
     double most;   /* the largest sum of magnitudes that a pivot of the pass was computed from */
     double loss;   /* of digits in a pivot, which later ones multiply: of pivots of both signs */
-    double lost;   /* of digits in a row, relative to its own entry of the diagonal */
+    double lost;   /* by the worst row, relative to the magnitudes that are left of it */
+    double bar;    /* where the sum of a row is more than this many pivots, it has lost more */
     double fall;   /* by at most this much the pass changes the largest |a| */
     double least;  /* a smaller pivot may be null, and is refused where it was larger */
     double shrink; /* of a trial: the least ratio of a new pivot to the old one */
@@ -52,9 +53,6 @@ typedef struct sli_update {
     double *other, *b;       /* of one vector: the rows of the next step, and b of the columns */
     double *trial, *scratch; /* of a trial: the compact vector, and what the kernel needs */
 } sli_update;
-
-/* Where the magnitudes of a pivot exceed it by less, no more than two digits are lost. */
-#define SLI_UPDATE_LOST 256.0
 
 /* The kernel for passes of `count` vectors. One vector takes another kernel (path.h) where all
  * pivots have one sign. */
@@ -97,31 +95,6 @@ static void sli_update_close(sli_update *u, const sli_step *step) {
     }
 }
 
-/* The sum of the magnitudes |a_kk| + sum |l_kj d_j l_kj| that pivot k was computed from, at most.
- * O(descendants). */
-static double sli_update_magnitude(const sl_factor *F, sl_int k) {
-    const sl_symbolic *S = F->S;
-    const sl_int own = S->super_of[k];
-    double sum = 0.0;
-    sl_int d, j;
-    for (d = own; d >= S->first_descendant[own];) {
-        const sli_step *step = &S->steps[d];
-        const sl_int *rows = S->rows + S->rows_begin[d];
-        const sl_int at = d == own ? 0 : sli_lower_bound(rows, step->below, k);
-        const sl_int r = d == own ? k - step->column : step->width + at;
-        if (d != own && at == step->below) { /* no descendant has a row there */
-            d = S->first_descendant[d] - 1;
-            continue;
-        }
-        for (j = 0; j < sli_min(r, step->width) && (d == own || rows[at] == k); j++) {
-            const double l = sli_entry(F, step->panel + sli_panel_at(step->width, r, j));
-            sum += fabs(l * F->D[step->column + j] * l);
-        }
-        d--;
-    }
-    return 2.0 * sum + fabs(F->D[k]);
-}
-
 /* Is pivot k, now d, null? magnitude: of its change alone. */
 static int sli_update_is_null(const sl_factor *F, sl_int k, double d, double magnitude) {
     const double tolerance = sli_rule_tolerance(&F->rule, k);
@@ -151,14 +124,6 @@ static double sli_update_cancelled(const sl_factor *F, double d, double e) {
     return fabs(e) > 4.0 * fabs(d) ? fabs(e) * sqrt(largest / fabs(d)) : 0.0;
 }
 
-/* Notes what row k has lost, relative to the magnitudes that are left of it: its scale may be far
- * below that of the largest entry. Few pivots lose so much that this is worth a look at the row. */
-static void sli_update_note_lost(sli_update *u, sl_int k, double magnitude) {
-    if (u->sign != 0.0 && magnitude > fmax(SLI_UPDATE_LOST, u->lost) * fabs(u->F->D[k])) {
-        u->lost = fmax(u->lost, magnitude / sli_update_magnitude(u->F, k));
-    }
-}
-
 /* Takes pivot k from d to e. magnitude: the sum of the magnitudes that e was computed from. */
 static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magnitude) {
     sl_factor *F = u->F;
@@ -177,22 +142,23 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
         u->top = fabs(e) > u->top ? fabs(e) : u->top;
         sli_update_count(&F->stats.factor, d, e);
         F->D[k] = e;
-        sli_update_note_lost(u, k, magnitude);
     }
     return SL_OK;
 }
 
-/* Takes `count` pivots from k on, as a kernel computed them. magnitudes: the sums of magnitudes;
- * NULL: of one vector. Nearly always the extremes show that all of them can be taken. */
+/* Takes `count` pivots from k on, as a kernel computed them, and adds to what their rows have lost.
+ * magnitudes: the sums of magnitudes; NULL: of one vector. Nearly always the extremes show that all
+ * of them can be taken. */
 static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, const double *e,
                                      const double *magnitudes) {
     sl_factor *F = u->F;
     sl_factor_info *info = &F->stats.factor;
     const double known = F->extents[F->S->super_of[k]].magnitude;
-    double *D = F->D + k, least = DBL_MAX, top = 0.0, most = 0.0;
+    double *const loss = u->sign != 0.0 && !u->is_trial ? F->history.loss + k : NULL;
+    double *D = F->D + k, least = DBL_MAX, top = 0.0, most = 0.0, over = 0.0;
     int are_usual = 1, shrink = 0;
     sl_status status = SL_OK;
-    sl_int j;
+    sl_int j, first = 0;
     for (j = 0; j < count; j++) {
         const double d = D[j], size = fabs(e[j]), before = fabs(d);
         const double magnitude = magnitudes != NULL ? magnitudes[j] : before + fabs(e[j] - d);
@@ -201,32 +167,32 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
         least = size < least ? size : least;
         top = size > top ? size : top;
         most = magnitude > most ? magnitude : most;
+        if (loss != NULL) {
+            const double sum = loss[j] + magnitude, beyond = sum - u->bar * size;
+            loss[j] = sum;
+            over = beyond > over ? beyond : over;
+        }
     }
     if (are_usual && least >= DBL_MIN && top <= DBL_MAX &&
         (!shrink || u->is_tried ||
          (least > u->least && !sli_is_null(least, most + known, F->rule.null_tolerance)))) {
         if (!u->is_trial) {
-            for (j = 0; j < count && most > SLI_UPDATE_LOST * least; j++) {
-                const double d = fabs(D[j]);
-                D[j] = e[j];
-                sli_update_note_lost(u, k + j,
-                                     magnitudes != NULL ? magnitudes[j] : d + fabs(d - fabs(e[j])));
-            }
             memcpy(D, e, (size_t)count * sizeof *D);
             info->pivot_min = least < info->pivot_min ? least : info->pivot_min;
             info->pivot_max = top > info->pivot_max ? top : info->pivot_max;
             u->top = top > u->top ? top : u->top;
             u->most = most > u->most ? most : u->most;
         }
-        return SL_OK;
+        first = count;
     }
-    for (j = 0; j < count && status == SL_OK; j++) {
+    for (j = first; j < count && status == SL_OK; j++) {
         const double d = D[j], size = fabs(e[j]);
         const double magnitude = magnitudes != NULL ? magnitudes[j] : fabs(d) + fabs(e[j] - d);
         if (e[j] != d || magnitude != size) {
             status = sli_update_take(u, k + j, e[j], magnitude);
         }
     }
+    u->lost = over > 0.0 ? sli_loss_worst(F, k, count, u->bar, u->lost) : u->lost;
     return status;
 }
 

@@ -288,6 +288,7 @@ static sl_method sli_method(const sl_symbolic *S, const sli_storage_type *type,
 SL_API void sl_factor_free(sl_factor *F) {
     if (F != NULL && sli_is_last(&F->borrowers)) {
         const sl_allocator a = F->allocator;
+        sli_free(&a, F->history.loss);
         sli_free(&a, F->work.stack);
         sli_free(&a, F->scratch);
         sli_symbolic_return(F->S);

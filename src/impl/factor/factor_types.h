@@ -98,6 +98,11 @@ typedef struct sli_history {
     double scale;   /* of the matrix as they have changed it: the largest entry, or less */
     double lowest;  /* the least that it has been */
     double error;   /* the rounding errors that changes have added: epsilon times their scales */
+    /* by rows, from the first change on where all pivots have one sign (change/update_loss.h): */
+    double *loss;         /* n: the sum of all numbers that a pivot was computed from */
+    unsigned char *known; /* n_supers: is it known of the rows of a supernode? */
+    double base;          /* what the pivots had lost before, in units of epsilon; 0: not begun */
+    size_t bytes;         /* of the two arrays, until a change succeeds and they count */
     /* n_supers: a hash of the entries of A that each supernode was computed from; 0: not known */
     uint64_t *marks;
 } sli_history;

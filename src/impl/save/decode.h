@@ -136,7 +136,8 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
         !sli_count_is_valid(g->storage,
                             g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT_FRONTS : 0) ||
         !sli_count_is_valid(g->certainty, SL_GUARANTEED) || !(g->eta >= 0.0) || g->eta > 1.0 ||
-        g->null_tolerance != g->null_tolerance || g->consistency != g->consistency) {
+        !(g->drift >= 0.0) || g->null_tolerance != g->null_tolerance ||
+        g->consistency != g->consistency) {
         return 0;
     }
     F->S = S;
@@ -161,6 +162,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     F->identity.a = g->identity[0];
     F->identity.b = g->identity[1];
     F->generation = F->certificate.generation = 1;
+    F->history.drift = g->drift;
     F->certificate.eta = g->eta;
     F->certificate.certainty = (sl_certainty)g->certainty;
     F->is_valid = 1;

@@ -75,7 +75,8 @@ typedef struct sli_saved_factor {
     int64_t storage;      /* sl_storage: of L */
     double eta;           /* of sl_factor_certify; 0: none, as in files of earlier versions */
     int64_t certainty;    /* sl_certainty */
-    uint64_t reserved[3];
+    double drift;         /* of changes; 0: none, or a file of an earlier version */
+    uint64_t reserved[2];
 } sli_saved_factor;
 
 /* Regions or a selected inverse: how many regions or supernodes, and the identity of the factor. */

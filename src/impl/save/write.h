@@ -57,8 +57,9 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
     g.pivot_max = info->pivot_max;
     g.entry_max = info->entry_max;
     g.growth = info->growth;
+    g.drift = F->history.drift;
     if (F->history.drift > SLI_CHANGE_DRIFT) { /* as an error it is growth times epsilon */
-        g.entry_max = fmin(g.entry_max, F->history.scale);
+        g.entry_max = F->history.updates > 0 ? fmin(g.entry_max, F->history.scale) : g.entry_max;
         g.growth = fmax(g.growth, F->history.drift / DBL_EPSILON);
     }
     g.null_tolerance = F->rule.null_tolerance;
