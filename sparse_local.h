@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e19a481b63fe62db
+ * FNV-1a of the lines after this comment, without the license: 69250703cd15d7e0
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -45,19 +45,19 @@
  *  19507 impl/ pivots: the order of the pivots by the values of a matrix
  *  19916 impl/ float: L and fronts in single precision
  *  20367 impl/ inverse: entries of the inverse, regions
- *  23408 impl/ change: a factor that follows changes of its matrix
- *  29429 impl/ dirichlet: rows fixed at given values
- *  30016 impl/ dirichlet: by a factor of all rows
- *  30234 impl/ io: files that are replaced only when they are complete
- *  30452 impl/ files: Matrix Market files, 64-bit indices
- *  31072 impl/ save: factors in files
- *  33074 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33759 impl/ batch: diagonals of many inverses
- *  33903 impl/ complex: complex Hermitian systems over real factors
- *  34450 impl/ complex: entries of the inverse
- *  34510 impl/ packs: the tables through which the core calls packs
- *  34558 impl/ last: undefine every internal macro
- *  34897 impl/ templates: the header includes them from itself, once for each instruction set
+ *  23445 impl/ change: a factor that follows changes of its matrix
+ *  29466 impl/ dirichlet: rows fixed at given values
+ *  30053 impl/ dirichlet: by a factor of all rows
+ *  30271 impl/ io: files that are replaced only when they are complete
+ *  30489 impl/ files: Matrix Market files, 64-bit indices
+ *  31109 impl/ save: factors in files
+ *  33111 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33796 impl/ batch: diagonals of many inverses
+ *  33940 impl/ complex: complex Hermitian systems over real factors
+ *  34487 impl/ complex: entries of the inverse
+ *  34547 impl/ packs: the tables through which the core calls packs
+ *  34595 impl/ last: undefine every internal macro
+ *  34935 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1804,8 +1804,8 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
  *           many requests should share a call. A single pair is a local solve if that is cheaper.
  *           Nothing O(n), except for NULL sets; no allocation once W has grown to the largest reach
  *           and 16 bytes per request.
- *  Threads  any number at once on one F, each with its own W. Selected inversion uses the threads
- *           that F was created with, and has the same bits for any number of them.
+ *  Threads  any number at once on one F, each with its own W. Uses the threads that F was
+ *           created with, and has the same bits for any number of them.
  *  Source   [HDA17] 5; [Davis06] 3.2, 4.1.
  *  Manual   tools/docs/inverse.md
  *  Example  tests/core/test_inverse.c
@@ -21247,6 +21247,25 @@ static void sli_forward_layout_run(sli_forward *f, sli_block *b, const sli_capac
   f->scratch = SLI_TAKE(b, double, capacity->scratch);
 }
 
+static void sli_forward_layout_workers(sli_forward *f, sli_block *b, const sli_capacity *capacity,
+                     sl_int workers) {
+  const uint64_t count = (uint64_t)workers;
+  const sli_capacity all = {capacity->steps * count, capacity->rows * count,
+                capacity->values * count, capacity->scratch * count};
+  sli_forward_layout(f, b, &all);
+  sli_forward_layout_run(f, b, &all);
+}
+
+static sli_forward sli_forward_of_worker(const sli_forward *all, const sli_capacity *capacity,
+                     sl_int worker) {
+  sli_forward f = *all;
+  f.steps += (ptrdiff_t)capacity->steps * worker;
+  f.rows += (ptrdiff_t)capacity->rows * worker;
+  f.y += (ptrdiff_t)capacity->values * worker;
+  f.scratch += (ptrdiff_t)capacity->scratch * worker;
+  return f;
+}
+
 static void sli_forward_clear(sli_forward *f, sl_int vectors) {
   f->kind = sli_lanes_kind(vectors);
   f->lanes = (sl_int)1 << f->kind;
@@ -21640,6 +21659,8 @@ typedef struct sli_entries {
   sl_inverse_method method;
   sli_capacity capacity;
   sli_forward forward;
+  sl_int workers;
+  sl_stats *found;
   sli_traversal traversal;
   sli_traversal_run run;
   sl_int *first_request;
@@ -21696,9 +21717,15 @@ static double sli_traversal_time(const sli_entries *q, sl_int *supers) {
   return time;
 }
 
+#define SLI_SWEEP_FLOPS 8.0
+
+static sl_int sli_entries_workers(const sli_entries *q, double time) {
+  return sli_min(sli_workers_for(q->threads, SLI_SWEEP_FLOPS * time), q->requests.n_blocks);
+}
+
 static void sli_entries_choose(void *call) {
   sli_entries *q = (sli_entries *)call;
-  double limit = HUGE_VAL;
+  double limit = HUGE_VAL, time;
   sl_int supers = q->F->S->n_supers;
   memset(&q->capacity, 0, sizeof q->capacity);
   q->is_lossy = 0;
@@ -21709,9 +21736,9 @@ static void sli_entries_choose(void *call) {
       sli_entries_sort(q);
       limit = sli_traversal_time(q, &supers);
     }
-    q->method = sli_requests_partition_within(&q->requests, &q->capacity, limit) < limit
-            ? SL_INVERSE_FORWARD
-            : SL_INVERSE_SELECTED;
+    time = sli_requests_partition_within(&q->requests, &q->capacity, limit);
+    q->method = time < limit ? SL_INVERSE_FORWARD : SL_INVERSE_SELECTED;
+    q->workers = sli_entries_workers(q, time);
   }
   if (q->method == SL_INVERSE_SELECTED) {
     q->traversal =
@@ -21799,7 +21826,8 @@ static void sli_entries_partition(void *call) {
     q->requests.rows = q->requests.columns = q->all;
   }
   q->method = SL_INVERSE_FORWARD;
-  sli_requests_partition(&q->requests, &q->capacity);
+  q->workers =
+    sli_entries_workers(q, sli_requests_partition_within(&q->requests, &q->capacity, HUGE_VAL));
 }
 
 static void sli_entries_layout_run(void *call, sli_block *b) {
@@ -21807,8 +21835,8 @@ static void sli_entries_layout_run(void *call, sli_block *b) {
   if (q->method == SL_INVERSE_SELECTED) {
     sli_traversal_layout_run(&q->run, &q->traversal, q->F->type->storage, b);
   } else {
-    sli_forward_layout(&q->forward, b, &q->capacity);
-    sli_forward_layout_run(&q->forward, b, &q->capacity);
+    sli_forward_layout_workers(&q->forward, b, &q->capacity, q->workers);
+    q->found = SLI_TAKE(b, sl_stats, q->workers);
   }
 }
 
@@ -21837,8 +21865,8 @@ static void sli_entries_visit(void *call, sl_int index, const sli_inverse_front 
   }
 }
 
-static void sli_entries_write(const sli_entries *q, const sli_rhs_block *block, sl_int k,
-                sl_int block_size) {
+static void sli_entries_write(const sli_entries *q, const sli_forward *f,
+                const sli_rhs_block *block, sl_int k, sl_int block_size) {
   sl_int first[SLI_BLOCK_REQUESTS_MAX], second[SLI_BLOCK_REQUESTS_MAX], m;
   double sums[SLI_BLOCK_REQUESTS_MAX];
   for (m = 0; m < block_size; m++) {
@@ -21846,21 +21874,38 @@ static void sli_entries_write(const sli_entries *q, const sli_rhs_block *block, 
     first[m] = sli_rhs_block_lane(block, sli_request_row(&q->requests, index));
     second[m] = sli_rhs_block_lane(block, sli_request_column(&q->requests, index));
   }
-  sli_pair_sums(q->F, &q->forward, block_size, first, second, sums);
+  sli_pair_sums(q->F, f, block_size, first, second, sums);
   for (m = 0; m < block_size; m++) {
     q->out[sli_value(q->requests.order[k + m])] = sums[m];
   }
 }
 
+static void sli_entries_forward_worker(void *data, sl_int worker) {
+  const sli_entries *q = (const sli_entries *)data;
+  sli_forward f = sli_forward_of_worker(&q->forward, &q->capacity, worker);
+  sl_stats *found = &q->found[worker];
+  sl_int k = 0, m, block_size;
+  sli_inverse_clear_stats(found);
+  for (m = 0; m < q->requests.n_blocks; m++, k += block_size) {
+    block_size = (sl_int)q->requests.block_size[m];
+    if (m % q->workers == worker) {
+      sli_rhs_block block;
+      sli_rhs_block_rebuild(&q->requests, k, block_size, &block);
+      sli_forward_unit_vectors(&f, q->F, &block, found);
+      sli_entries_write(q, &f, &block, k, block_size);
+    }
+  }
+}
+
 static void sli_entries_forward(sli_entries *q, sl_stats *stats) {
-  sl_int k = 0, m;
-  for (m = 0; m < q->requests.n_blocks; m++) {
-    const sl_int block_size = (sl_int)q->requests.block_size[m];
-    sli_rhs_block block;
-    sli_rhs_block_rebuild(&q->requests, k, block_size, &block);
-    sli_forward_unit_vectors(&q->forward, q->F, &block, stats);
-    sli_entries_write(q, &block, k, block_size);
-    k += block_size;
+  sl_int w;
+  sli_parallel(q->threads, q->workers, sli_entries_forward_worker, q);
+  for (w = 0; w < q->workers && stats != NULL; w++) {
+    const sl_inverse_info *found = &q->found[w].inverse;
+    stats->inverse.method = SL_INVERSE_FORWARD;
+    stats->inverse.supernodes = sli_max(stats->inverse.supernodes, found->supernodes);
+    stats->inverse.columns = sli_max(stats->inverse.columns, found->columns);
+    stats->inverse.entries += found->entries;
   }
 }
 
@@ -22400,11 +22445,7 @@ static void sli_selected_judge(void *context) {
 static void sli_selected_layout_run(void *context, sli_block *b) {
   sli_selected_run *q = (sli_selected_run *)context;
   if (q->is_lossy) {
-    const uint64_t workers = (uint64_t)q->Z->traversal.schedule.workers;
-    const sli_capacity all = {q->capacity.steps * workers, q->capacity.rows * workers,
-                  q->capacity.values * workers, q->capacity.scratch * workers};
-    sli_forward_layout(&q->forward, b, &all);
-    sli_forward_layout_run(&q->forward, b, &all);
+    sli_forward_layout_workers(&q->forward, b, &q->capacity, q->Z->traversal.schedule.workers);
   } else {
     sli_traversal_layout_run(&q->run, &q->Z->traversal, q->F->type->storage, b);
   }
@@ -22417,13 +22458,9 @@ static void sli_selected_solve(const sli_selected_run *q, sl_int worker, sl_int 
   const sl_symbolic *S = q->F->S;
   const sl_int s = q->loss.supers[k], w = S->steps[s].width, h = w + S->steps[s].below;
   double *panel = q->Z->Z + q->Z->begin[k];
-  sli_forward f = q->forward;
+  sli_forward f = sli_forward_of_worker(&q->forward, &q->capacity, worker);
   sli_rhs_block block;
   sl_int j, r;
-  f.steps += (ptrdiff_t)q->capacity.steps * worker;
-  f.rows += (ptrdiff_t)q->capacity.rows * worker;
-  f.y += (ptrdiff_t)q->capacity.values * worker;
-  f.scratch += (ptrdiff_t)q->capacity.scratch * worker;
   block.count = sli_min(w - j0, SLI_LANES_MAX);
   for (j = 0; j < block.count; j++) {
     block.seeds[j] = sli_keyed(S->super_first[s] + j0 + j, 0);
@@ -34853,6 +34890,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_PAIR_CACHED
 #undef SLI_PAIR_READ
 #undef SLI_PAIR_LARGE
+#undef SLI_SWEEP_FLOPS
 #undef SLI_DIRICHLET_ANALYSIS
 #undef SLI_DIRICHLET_ROW
 #undef SLI_DIRICHLET_COPY

@@ -27,8 +27,8 @@
  *           many requests should share a call. A single pair is a local solve if that is cheaper.
  *           Nothing O(n), except for NULL sets; no allocation once W has grown to the largest reach
  *           and 16 bytes per request.
- *  Threads  any number at once on one F, each with its own W. Selected inversion uses the threads
- *           that F was created with, and has the same bits for any number of them.
+ *  Threads  any number at once on one F, each with its own W. Uses the threads that F was
+ *           created with, and has the same bits for any number of them.
  *  Source   [HDA17] 5; [Davis06] 3.2, 4.1.
  *  Manual   tools/docs/inverse.md
  *  Example  tests/core/test_inverse.c

@@ -172,12 +172,43 @@ static void solved_columns_have_the_same_bits(void **state) {
     factored_free(&y);
 }
 
+/* The diagonal and single entries by sweeps, because selected inversion would lose digits. */
+static void swept_entries_have_the_same_bits(void **state) {
+    (void)state;
+    sl_stats one, many;
+    factored_t y = grid_factored(1e-8, SHIFT_DIAGONAL, options_none(), &one);
+    const sl_int n = y.M.view.n_cols, rows[3] = {0, n - 1, n / 2}, columns[3] = {n / 3, 1, 7};
+    double *z = test_reals((size_t)n), *same = test_reals((size_t)n), pairs[2][3];
+    SL_CHECK(sl_inverse_diagonal(y.F, z, NULL, 0, NULL, &one));
+    SL_CHECK(sl_inverse_pairs(y.F, pairs[0], rows, columns, 3, NULL, NULL));
+    for (int run = 0; run < RUNS; run++) {
+        for (sl_int count = 1; count <= 4; count++) {
+            int calls = 0;
+            sl_factor *F = NULL;
+            const sl_options opt = options_threads(run, count, &calls);
+            SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
+            calls = 0;
+            SL_CHECK(sl_inverse_diagonal(F, same, NULL, 0, NULL, &many));
+            assert_int_equal(calls, count > 1);
+            SAME_VALUES(z, same, (size_t)n);
+            assert_memory_equal(&one.inverse, &many.inverse, sizeof one.inverse);
+            SL_CHECK(sl_inverse_pairs(F, pairs[1], rows, columns, 3, NULL, NULL));
+            SAME_VALUES(pairs[0], pairs[1], 3);
+            sl_factor_free(F);
+        }
+    }
+    free(z);
+    free(same);
+    factored_free(&y);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bits_do_not_depend_on_the_number_of_threads),
         cmocka_unit_test(large_fronts_are_divided_among_threads),
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(extreme_numbers_of_threads_are_handled),
+        cmocka_unit_test(swept_entries_have_the_same_bits),
         cmocka_unit_test(solved_columns_have_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,14 +11,16 @@
  * the entry's first column then has it. */
 typedef struct sli_entries {
     const sl_factor *F;
-    const sl_threads *threads; /* for a traversal */
+    const sl_threads *threads;
     double *out;
     int is_all; /* the whole diagonal: there is no list of requests unless it is swept */
     sli_requests requests;
     sl_inverse_method method;
     /* SL_INVERSE_FORWARD */
     sli_capacity capacity;
-    sli_forward forward;
+    sli_forward forward; /* of all workers */
+    sl_int workers;
+    sl_stats *found; /* workers: what each has swept */
     /* SL_INVERSE_SELECTED */
     sli_traversal traversal;
     sli_traversal_run run;
@@ -81,11 +83,19 @@ static double sli_traversal_time(const sli_entries *q, sl_int *supers) {
     return time;
 }
 
+/* What a step of sli_costs takes, in operations of a factorization. */
+#define SLI_SWEEP_FLOPS 8.0
+
+/* The workers for sweeps that take so long, in the unit of sli_costs. */
+static sl_int sli_entries_workers(const sli_entries *q, double time) {
+    return sli_min(sli_workers_for(q->threads, SLI_SWEEP_FLOPS * time), q->requests.n_blocks);
+}
+
 /* Sorts requests and chooses the faster method. Counting the forward sweeps stops once they take
  * longer than the traversal. */
 static void sli_entries_choose(void *call) {
     sli_entries *q = (sli_entries *)call;
-    double limit = HUGE_VAL;
+    double limit = HUGE_VAL, time;
     sl_int supers = q->F->S->n_supers;
     memset(&q->capacity, 0, sizeof q->capacity);
     q->is_lossy = 0;
@@ -96,9 +106,9 @@ static void sli_entries_choose(void *call) {
             sli_entries_sort(q);
             limit = sli_traversal_time(q, &supers);
         }
-        q->method = sli_requests_partition_within(&q->requests, &q->capacity, limit) < limit
-                        ? SL_INVERSE_FORWARD
-                        : SL_INVERSE_SELECTED;
+        time = sli_requests_partition_within(&q->requests, &q->capacity, limit);
+        q->method = time < limit ? SL_INVERSE_FORWARD : SL_INVERSE_SELECTED;
+        q->workers = sli_entries_workers(q, time);
     }
     if (q->method == SL_INVERSE_SELECTED) {
         q->traversal =
@@ -189,7 +199,8 @@ static void sli_entries_partition(void *call) {
         q->requests.rows = q->requests.columns = q->all;
     }
     q->method = SL_INVERSE_FORWARD;
-    sli_requests_partition(&q->requests, &q->capacity);
+    q->workers =
+        sli_entries_workers(q, sli_requests_partition_within(&q->requests, &q->capacity, HUGE_VAL));
 }
 
 static void sli_entries_layout_run(void *call, sli_block *b) {
@@ -197,8 +208,8 @@ static void sli_entries_layout_run(void *call, sli_block *b) {
     if (q->method == SL_INVERSE_SELECTED) {
         sli_traversal_layout_run(&q->run, &q->traversal, q->F->type->storage, b);
     } else {
-        sli_forward_layout(&q->forward, b, &q->capacity);
-        sli_forward_layout_run(&q->forward, b, &q->capacity);
+        sli_forward_layout_workers(&q->forward, b, &q->capacity, q->workers);
+        q->found = SLI_TAKE(b, sl_stats, q->workers);
     }
 }
 
@@ -229,8 +240,8 @@ static void sli_entries_visit(void *call, sl_int index, const sli_inverse_front 
 }
 
 /* Writes the entries of the sorted requests k .. k+block_size-1, which are one block. */
-static void sli_entries_write(const sli_entries *q, const sli_rhs_block *block, sl_int k,
-                              sl_int block_size) {
+static void sli_entries_write(const sli_entries *q, const sli_forward *f,
+                              const sli_rhs_block *block, sl_int k, sl_int block_size) {
     sl_int first[SLI_BLOCK_REQUESTS_MAX], second[SLI_BLOCK_REQUESTS_MAX], m;
     double sums[SLI_BLOCK_REQUESTS_MAX];
     for (m = 0; m < block_size; m++) {
@@ -238,22 +249,39 @@ static void sli_entries_write(const sli_entries *q, const sli_rhs_block *block, 
         first[m] = sli_rhs_block_lane(block, sli_request_row(&q->requests, index));
         second[m] = sli_rhs_block_lane(block, sli_request_column(&q->requests, index));
     }
-    sli_pair_sums(q->F, &q->forward, block_size, first, second, sums);
+    sli_pair_sums(q->F, f, block_size, first, second, sums);
     for (m = 0; m < block_size; m++) {
         q->out[sli_value(q->requests.order[k + m])] = sums[m];
     }
 }
 
-/* Sweeps and sums block after block. */
+/* Sweeps and sums every workers-th block. */
+static void sli_entries_forward_worker(void *data, sl_int worker) {
+    const sli_entries *q = (const sli_entries *)data;
+    sli_forward f = sli_forward_of_worker(&q->forward, &q->capacity, worker);
+    sl_stats *found = &q->found[worker];
+    sl_int k = 0, m, block_size;
+    sli_inverse_clear_stats(found);
+    for (m = 0; m < q->requests.n_blocks; m++, k += block_size) {
+        block_size = (sl_int)q->requests.block_size[m];
+        if (m % q->workers == worker) {
+            sli_rhs_block block;
+            sli_rhs_block_rebuild(&q->requests, k, block_size, &block);
+            sli_forward_unit_vectors(&f, q->F, &block, found);
+            sli_entries_write(q, &f, &block, k, block_size);
+        }
+    }
+}
+
 static void sli_entries_forward(sli_entries *q, sl_stats *stats) {
-    sl_int k = 0, m;
-    for (m = 0; m < q->requests.n_blocks; m++) {
-        const sl_int block_size = (sl_int)q->requests.block_size[m];
-        sli_rhs_block block;
-        sli_rhs_block_rebuild(&q->requests, k, block_size, &block);
-        sli_forward_unit_vectors(&q->forward, q->F, &block, stats);
-        sli_entries_write(q, &block, k, block_size);
-        k += block_size;
+    sl_int w;
+    sli_parallel(q->threads, q->workers, sli_entries_forward_worker, q);
+    for (w = 0; w < q->workers && stats != NULL; w++) {
+        const sl_inverse_info *found = &q->found[w].inverse;
+        stats->inverse.method = SL_INVERSE_FORWARD;
+        stats->inverse.supernodes = sli_max(stats->inverse.supernodes, found->supernodes);
+        stats->inverse.columns = sli_max(stats->inverse.columns, found->columns);
+        stats->inverse.entries += found->entries;
     }
 }
 

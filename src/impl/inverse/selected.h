@@ -128,7 +128,7 @@ typedef struct sli_selected_run {
     int is_lossy;  /* 1: a traversal would lose too much; columns are solved for instead */
     sli_traversal_run run;
     sli_capacity capacity; /* of the sweeps of columns */
-    sli_forward forward;   /* of the first worker; those of the others follow in its arrays */
+    sli_forward forward;   /* of all workers */
 } sli_selected_run;
 
 static void sli_selected_layout_loss(void *context, sli_block *b) {
@@ -164,11 +164,7 @@ static void sli_selected_judge(void *context) {
 static void sli_selected_layout_run(void *context, sli_block *b) {
     sli_selected_run *q = (sli_selected_run *)context;
     if (q->is_lossy) {
-        const uint64_t workers = (uint64_t)q->Z->traversal.schedule.workers;
-        const sli_capacity all = {q->capacity.steps * workers, q->capacity.rows * workers,
-                                  q->capacity.values * workers, q->capacity.scratch * workers};
-        sli_forward_layout(&q->forward, b, &all);
-        sli_forward_layout_run(&q->forward, b, &all);
+        sli_forward_layout_workers(&q->forward, b, &q->capacity, q->Z->traversal.schedule.workers);
     } else {
         sli_traversal_layout_run(&q->run, &q->Z->traversal, q->F->type->storage, b);
     }
@@ -183,13 +179,9 @@ static void sli_selected_solve(const sli_selected_run *q, sl_int worker, sl_int 
     const sl_symbolic *S = q->F->S;
     const sl_int s = q->loss.supers[k], w = S->steps[s].width, h = w + S->steps[s].below;
     double *panel = q->Z->Z + q->Z->begin[k];
-    sli_forward f = q->forward;
+    sli_forward f = sli_forward_of_worker(&q->forward, &q->capacity, worker);
     sli_rhs_block block;
     sl_int j, r;
-    f.steps += (ptrdiff_t)q->capacity.steps * worker;
-    f.rows += (ptrdiff_t)q->capacity.rows * worker;
-    f.y += (ptrdiff_t)q->capacity.values * worker;
-    f.scratch += (ptrdiff_t)q->capacity.scratch * worker;
     block.count = sli_min(w - j0, SLI_LANES_MAX);
     for (j = 0; j < block.count; j++) {
         block.seeds[j] = sli_keyed(S->super_first[s] + j0 + j, 0);

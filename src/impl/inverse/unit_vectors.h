@@ -217,6 +217,26 @@ static void sli_forward_layout_run(sli_forward *f, sli_block *b, const sli_capac
     f->scratch = SLI_TAKE(b, double, capacity->scratch);
 }
 
+/* Room for sweeps by several workers, and that of one of them. */
+static void sli_forward_layout_workers(sli_forward *f, sli_block *b, const sli_capacity *capacity,
+                                       sl_int workers) {
+    const uint64_t count = (uint64_t)workers;
+    const sli_capacity all = {capacity->steps * count, capacity->rows * count,
+                              capacity->values * count, capacity->scratch * count};
+    sli_forward_layout(f, b, &all);
+    sli_forward_layout_run(f, b, &all);
+}
+
+static sli_forward sli_forward_of_worker(const sli_forward *all, const sli_capacity *capacity,
+                                         sl_int worker) {
+    sli_forward f = *all;
+    f.steps += (ptrdiff_t)capacity->steps * worker;
+    f.rows += (ptrdiff_t)capacity->rows * worker;
+    f.y += (ptrdiff_t)capacity->values * worker;
+    f.scratch += (ptrdiff_t)capacity->scratch * worker;
+    return f;
+}
+
 /* Sets the number of lanes for some vectors and clears y over a compiled reach. */
 static void sli_forward_clear(sli_forward *f, sl_int vectors) {
     f->kind = sli_lanes_kind(vectors);
