@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 69250703cd15d7e0
+ * FNV-1a of the lines after this comment, without the license: 179da31863e768ac
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -51,13 +51,13 @@
  *  30271 impl/ io: files that are replaced only when they are complete
  *  30489 impl/ files: Matrix Market files, 64-bit indices
  *  31109 impl/ save: factors in files
- *  33111 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33796 impl/ batch: diagonals of many inverses
- *  33940 impl/ complex: complex Hermitian systems over real factors
- *  34487 impl/ complex: entries of the inverse
- *  34547 impl/ packs: the tables through which the core calls packs
- *  34595 impl/ last: undefine every internal macro
- *  34935 impl/ templates: the header includes them from itself, once for each instruction set
+ *  33114 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33799 impl/ batch: diagonals of many inverses
+ *  33943 impl/ complex: complex Hermitian systems over real factors
+ *  34490 impl/ complex: entries of the inverse
+ *  34550 impl/ packs: the tables through which the core calls packs
+ *  34598 impl/ last: undefine every internal macro
+ *  34938 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -31661,6 +31661,9 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   F->rule.null_tolerance = g->null_tolerance;
   F->rule.regularization = g->regularization;
   F->rule.replaces = skips || g->regularization != 0.0;
+  if (F->type->suits != NULL && !F->type->suits(F)) {
+    return 0;
+  }
   F->identity.a = g->identity[0];
   F->identity.b = g->identity[1];
   F->generation = F->certificate.generation = 1;
