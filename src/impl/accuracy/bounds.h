@@ -46,8 +46,8 @@ typedef struct sli_bounds {
     const sli_query *q;
     double *scales;        /* 2 numbers that identify them, then SLI_SCALES of each row of x */
     unsigned char *memory; /* vectors of the sweeps */
-    /* path norms: of the columns from each step of the forward reach on up to the root; then the
-     * norm of all. By rows: one for each right-hand side of a block */
+    /* the squares of path norms: of the columns from each step of the forward reach on up to the
+     * root; then the norm of all. By rows: one for each right-hand side of a block */
     double *norms;
     /* while scales are computed: the rows of x by their index in the vector, sorted; then a block
      * of up to 8 of them, its reach and its vector */
@@ -57,7 +57,9 @@ typedef struct sli_bounds {
     double *y, *scratch;
 } sli_bounds;
 
-static void sli_bounds_layout(sli_bounds *p, sli_block *b, sl_int nrhs, int has_scales) {
+/* needs: SLI_NEEDS_NOTHING where the scales are known, or what their computation needs. */
+enum { SLI_NEEDS_NOTHING, SLI_NEEDS_ROOM, SLI_NEEDS_SCALES };
+static void sli_bounds_layout(sli_bounds *p, sli_block *b, sl_int nrhs, int needs) {
     const sli_reach *R = &p->q->backward;
     const uint64_t paths = (uint64_t)p->q->forward.count + 1;
     const sl_int most = sli_block_most(p->F);
@@ -65,7 +67,10 @@ static void sli_bounds_layout(sli_bounds *p, sli_block *b, sl_int nrhs, int has_
     scratch += sli_sweep_scratch(R->tallest, R->widest, 2); /* one and two keep partial sums */
     p->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(p->q, nrhs, most), 1);
     p->norms = SLI_TAKE(b, double, paths << sli_lanes_kind(sli_block_size(nrhs, most)));
-    if (!has_scales) {
+    if (needs == SLI_NEEDS_NOTHING) {
+        return;
+    }
+    if (needs == SLI_NEEDS_SCALES) {
         p->scales = SLI_TAKE(b, double, (uint64_t)p->q->nx *SLI_SCALES + 2);
     }
     p->order = SLI_TAKE(b, uint64_t, p->q->nx);
@@ -184,26 +189,32 @@ static void sli_scales_fill(sli_bounds *p) {
     }
 }
 
-/* own(r) := the sum of y(k, r)^2 / d(k) over the columns of a step. d is DBL_MAX in null pivots. */
-static void sli_norms_step(const sl_factor *F, const sli_step *step, const double *row,
-                           sl_int lanes, double *own) {
-    const sl_int columns = sli_step_columns(step);
-    double chains[4] = {0.0, 0.0, 0.0, 0.0};
-    sl_int k = 0, r;
-    memset(own, 0, (size_t)lanes * sizeof(double));
-    if (lanes == 1) { /* independent sums hide the latency */
-        const double *D = F->D + step->column;
-        for (; k + 4 <= columns; k += 4) {
-            for (r = 0; r < 4; r++) {
-                chains[r] += row[k + r] * (row[k + r] / D[k + r]);
-            }
-        }
-        own[0] = (chains[0] + chains[1]) + (chains[2] + chains[3]);
+/* The sum of y(k)^2 / d(k) over the columns of a step. d is DBL_MAX in null pivots. Independent
+ * sums hide the latency, and compilers divide by two pivots at a time. */
+static double sli_norms_one(const double *D, const double *y, sl_int columns) {
+    double a = 0.0, b = 0.0, c = 0.0, d = 0.0;
+    sl_int k;
+    for (k = 0; k + 4 <= columns; k += 4) {
+        a += y[k] * (y[k] / D[k]);
+        b += y[k + 1] * (y[k + 1] / D[k + 1]);
+        c += y[k + 2] * (y[k + 2] / D[k + 2]);
+        d += y[k + 3] * (y[k + 3] / D[k + 3]);
     }
     for (; k < columns; k++) {
-        const double d = 1.0 / F->D[step->column + k];
+        a += y[k] * (y[k] / D[k]);
+    }
+    return (a + b) + (c + d);
+}
+
+/* The same for several vectors: own(r). */
+static void sli_norms_step(const double *D, const double *y, sl_int columns, sl_int lanes,
+                           double *own) {
+    sl_int k, r;
+    memset(own, 0, (size_t)lanes * sizeof(double));
+    for (k = 0; k < columns; k++, y += lanes) {
+        const double d = 1.0 / D[k];
         for (r = 0; r < lanes; r++) {
-            own[r] += row[(ptrdiff_t)k * lanes + r] * (row[(ptrdiff_t)k * lanes + r] * d);
+            own[r] += y[r] * (y[r] * d);
         }
     }
 }
@@ -238,7 +249,12 @@ static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int count)
     for (s = R->count - 1; s >= 0; s--) {
         const sli_step *step = &R->steps[s];
         double *own = p->norms + (ptrdiff_t)s * lanes;
-        sli_norms_step(p->F, step, y + (ptrdiff_t)step->base * lanes, lanes, own);
+        const double *D = p->F->D + step->column, *own_y = y + (ptrdiff_t)step->base * lanes;
+        if (lanes == 1) {
+            *own = sli_norms_one(D, own_y, sli_step_columns(step));
+        } else {
+            sli_norms_step(D, own_y, sli_step_columns(step), lanes, own);
+        }
         for (r = 0; r < lanes; r++) {
             all[r] += own[r];
             own[r] += step->up == -1 ? 0.0 : p->norms[(ptrdiff_t)step->up * lanes + r];
@@ -256,12 +272,6 @@ static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int count)
                       sqrt(p->F->null.squares[m]);
         }
     }
-    for (s = 0; s < R->count; s++) {
-        for (r = 0; r < lanes; r++) {
-            double *own = p->norms + (ptrdiff_t)s * lanes + r;
-            *own = fmax(sqrt(*own), SLI_NORM_FLOOR * all[r]);
-        }
-    }
 }
 
 /* Writes the bounds of one block, whose solutions are in X. */
@@ -276,11 +286,12 @@ static void sli_bounds_write(const sli_bounds *p, double *to, const sli_rhs *X) 
         const double *scale = p->scales + 2 + (ptrdiff_t)k * SLI_SCALES;
         const double common = scale[SLI_SCALE_COMMON], rest = scale[SLI_SCALE_REST];
         const sl_int joint = (sl_int)scale[SLI_SCALE_JOINT];
-        const double *shared = joint < 0 ? all : p->norms + (ptrdiff_t)joint * lanes;
+        const double *squares = joint < 0 ? all : p->norms + (ptrdiff_t)joint * lanes;
         for (r = 0; r < X->nrhs; r++) {
             const size_t here = (size_t)k * at.row + (size_t)r * at.column;
             const double whole = joint == -1 ? 0.0 : scale[SLI_SCALE_ALL] * all[r];
-            const double part = joint < 0 ? whole : common * all[r] + rest * shared[r];
+            const double shared = fmax(sqrt(squares[r]), SLI_NORM_FLOOR * all[r]);
+            const double part = joint < 0 ? whole : common * all[r] + rest * shared;
             to[here] = joint == SLI_JOINT_NULL
                            ? fabs(X->X[here])
                            : eta * (part < whole ? part : whole) + 4.0 * eta * eta * whole;
@@ -312,21 +323,22 @@ static sl_status sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, doub
 
 /* Solves in a workspace. */
 static sl_status sli_bounds_run(sli_bounds *p, const sli_rhs *rhs, double *bounds, sl_work *W) {
-    const int has_scales = p->scales != NULL;
+    const sli_hash identity = sli_scales_identity(p);
+    const int needs = p->scales == NULL                                    ? SLI_NEEDS_SCALES
+                      : memcmp(p->scales, &identity, sizeof identity) == 0 ? SLI_NEEDS_NOTHING
+                                                                           : SLI_NEEDS_ROOM;
     sli_block b = {NULL, 0, 0};
     sl_status status;
-    sli_hash identity;
-    sli_bounds_layout(p, &b, rhs->nrhs, has_scales);
+    sli_bounds_layout(p, &b, rhs->nrhs, needs);
     status = sli_work_block(W, &b);
     if (status != SL_OK) {
         return status;
     }
-    sli_bounds_layout(p, &b, rhs->nrhs, has_scales);
+    sli_bounds_layout(p, &b, rhs->nrhs, needs);
     if (p->F->null.checks && sli_sweep_check(p->F, p->q, rhs, p->memory) != SL_OK) {
         return sli_inconsistent();
     }
-    identity = sli_scales_identity(p);
-    if (!has_scales || memcmp(p->scales, &identity, sizeof identity) != 0) {
+    if (needs != SLI_NEEDS_NOTHING) {
         sli_scales_fill(p);
         memcpy(p->scales, &identity, sizeof identity);
     }
