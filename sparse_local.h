@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 179da31863e768ac
+ * FNV-1a of the lines after this comment, without the license: 442283f6707ce7e4
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -42,22 +42,22 @@
  *  12574 impl/ factor: the numbers of L and D
  *  15918 impl/ solve: full and local solves
  *  17589 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19507 impl/ pivots: the order of the pivots by the values of a matrix
- *  19916 impl/ float: L and fronts in single precision
- *  20367 impl/ inverse: entries of the inverse, regions
- *  23445 impl/ change: a factor that follows changes of its matrix
- *  29466 impl/ dirichlet: rows fixed at given values
- *  30053 impl/ dirichlet: by a factor of all rows
- *  30271 impl/ io: files that are replaced only when they are complete
- *  30489 impl/ files: Matrix Market files, 64-bit indices
- *  31109 impl/ save: factors in files
- *  33114 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33799 impl/ batch: diagonals of many inverses
- *  33943 impl/ complex: complex Hermitian systems over real factors
- *  34490 impl/ complex: entries of the inverse
- *  34550 impl/ packs: the tables through which the core calls packs
- *  34598 impl/ last: undefine every internal macro
- *  34938 impl/ templates: the header includes them from itself, once for each instruction set
+ *  19516 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19925 impl/ float: L and fronts in single precision
+ *  20376 impl/ inverse: entries of the inverse, regions
+ *  23454 impl/ change: a factor that follows changes of its matrix
+ *  29475 impl/ dirichlet: rows fixed at given values
+ *  30062 impl/ dirichlet: by a factor of all rows
+ *  30280 impl/ io: files that are replaced only when they are complete
+ *  30498 impl/ files: Matrix Market files, 64-bit indices
+ *  31118 impl/ save: factors in files
+ *  33123 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33808 impl/ batch: diagonals of many inverses
+ *  33952 impl/ complex: complex Hermitian systems over real factors
+ *  34514 impl/ complex: entries of the inverse
+ *  34574 impl/ packs: the tables through which the core calls packs
+ *  34622 impl/ last: undefine every internal macro
+ *  34962 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12813,7 +12813,7 @@ struct sli_storage_type {
   double (*entry)(const void *values, sl_off at);
   void (*entry_clear)(void *values, sl_off at);
   int (*suits)(const sl_factor *F);
-  int (*accepts)(const sli_source *from);
+  void (*accepts)(const sl_symbolic *S, const sli_source *from, sli_failure *failure);
   int (*keeps)(const sl_int *rows, sl_int count, const sl_symbolic *S);
   const sli_storage_type *in_double;
 };
@@ -15730,8 +15730,8 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
       (void)sli_fail(&failure, SL_ERR_NOT_FINITE, 0, -1, -1, from->coefficients[t]);
     }
   }
-  if (F->type->accepts != NULL && !F->type->accepts(from)) {
-    (void)sli_fail(&failure, SL_ERR_UNSUPPORTED, 0, -1, -1, 0.0);
+  if (F->type->accepts != NULL && failure.status == SL_OK) {
+    F->type->accepts(F->S, from, &failure);
   }
   if (failure.status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
     (void)sli_null_vectors_check(F, from, &failure);
@@ -19197,7 +19197,8 @@ typedef struct sli_bounds {
   double *y, *scratch;
 } sli_bounds;
 
-static void sli_bounds_layout(sli_bounds *p, sli_block *b, sl_int nrhs, int has_scales) {
+enum { SLI_NEEDS_NOTHING, SLI_NEEDS_ROOM, SLI_NEEDS_SCALES };
+static void sli_bounds_layout(sli_bounds *p, sli_block *b, sl_int nrhs, int needs) {
   const sli_reach *R = &p->q->backward;
   const uint64_t paths = (uint64_t)p->q->forward.count + 1;
   const sl_int most = sli_block_most(p->F);
@@ -19205,7 +19206,10 @@ static void sli_bounds_layout(sli_bounds *p, sli_block *b, sl_int nrhs, int has_
   scratch += sli_sweep_scratch(R->tallest, R->widest, 2);
   p->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(p->q, nrhs, most), 1);
   p->norms = SLI_TAKE(b, double, paths << sli_lanes_kind(sli_block_size(nrhs, most)));
-  if (!has_scales) {
+  if (needs == SLI_NEEDS_NOTHING) {
+    return;
+  }
+  if (needs == SLI_NEEDS_SCALES) {
     p->scales = SLI_TAKE(b, double, (uint64_t)p->q->nx *SLI_SCALES + 2);
   }
   p->order = SLI_TAKE(b, uint64_t, p->q->nx);
@@ -19316,25 +19320,29 @@ static void sli_scales_fill(sli_bounds *p) {
   }
 }
 
-static void sli_norms_step(const sl_factor *F, const sli_step *step, const double *row,
-               sl_int lanes, double *own) {
-  const sl_int columns = sli_step_columns(step);
-  double chains[4] = {0.0, 0.0, 0.0, 0.0};
-  sl_int k = 0, r;
-  memset(own, 0, (size_t)lanes * sizeof(double));
-  if (lanes == 1) {
-    const double *D = F->D + step->column;
-    for (; k + 4 <= columns; k += 4) {
-      for (r = 0; r < 4; r++) {
-        chains[r] += row[k + r] * (row[k + r] / D[k + r]);
-      }
-    }
-    own[0] = (chains[0] + chains[1]) + (chains[2] + chains[3]);
+static double sli_norms_one(const double *D, const double *y, sl_int columns) {
+  double a = 0.0, b = 0.0, c = 0.0, d = 0.0;
+  sl_int k;
+  for (k = 0; k + 4 <= columns; k += 4) {
+    a += y[k] * (y[k] / D[k]);
+    b += y[k + 1] * (y[k + 1] / D[k + 1]);
+    c += y[k + 2] * (y[k + 2] / D[k + 2]);
+    d += y[k + 3] * (y[k + 3] / D[k + 3]);
   }
   for (; k < columns; k++) {
-    const double d = 1.0 / F->D[step->column + k];
+    a += y[k] * (y[k] / D[k]);
+  }
+  return (a + b) + (c + d);
+}
+
+static void sli_norms_step(const double *D, const double *y, sl_int columns, sl_int lanes,
+               double *own) {
+  sl_int k, r;
+  memset(own, 0, (size_t)lanes * sizeof(double));
+  for (k = 0; k < columns; k++, y += lanes) {
+    const double d = 1.0 / D[k];
     for (r = 0; r < lanes; r++) {
-      own[r] += row[(ptrdiff_t)k * lanes + r] * (row[(ptrdiff_t)k * lanes + r] * d);
+      own[r] += y[r] * (y[r] * d);
     }
   }
 }
@@ -19366,7 +19374,12 @@ static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int count)
   for (s = R->count - 1; s >= 0; s--) {
     const sli_step *step = &R->steps[s];
     double *own = p->norms + (ptrdiff_t)s * lanes;
-    sli_norms_step(p->F, step, y + (ptrdiff_t)step->base * lanes, lanes, own);
+    const double *D = p->F->D + step->column, *own_y = y + (ptrdiff_t)step->base * lanes;
+    if (lanes == 1) {
+      *own = sli_norms_one(D, own_y, sli_step_columns(step));
+    } else {
+      sli_norms_step(D, own_y, sli_step_columns(step), lanes, own);
+    }
     for (r = 0; r < lanes; r++) {
       all[r] += own[r];
       own[r] += step->up == -1 ? 0.0 : p->norms[(ptrdiff_t)step->up * lanes + r];
@@ -19384,12 +19397,6 @@ static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int count)
             sqrt(p->F->null.squares[m]);
     }
   }
-  for (s = 0; s < R->count; s++) {
-    for (r = 0; r < lanes; r++) {
-      double *own = p->norms + (ptrdiff_t)s * lanes + r;
-      *own = fmax(sqrt(*own), SLI_NORM_FLOOR * all[r]);
-    }
-  }
 }
 
 static void sli_bounds_write(const sli_bounds *p, double *to, const sli_rhs *X) {
@@ -19403,11 +19410,12 @@ static void sli_bounds_write(const sli_bounds *p, double *to, const sli_rhs *X) 
     const double *scale = p->scales + 2 + (ptrdiff_t)k * SLI_SCALES;
     const double common = scale[SLI_SCALE_COMMON], rest = scale[SLI_SCALE_REST];
     const sl_int joint = (sl_int)scale[SLI_SCALE_JOINT];
-    const double *shared = joint < 0 ? all : p->norms + (ptrdiff_t)joint * lanes;
+    const double *squares = joint < 0 ? all : p->norms + (ptrdiff_t)joint * lanes;
     for (r = 0; r < X->nrhs; r++) {
       const size_t here = (size_t)k * at.row + (size_t)r * at.column;
       const double whole = joint == -1 ? 0.0 : scale[SLI_SCALE_ALL] * all[r];
-      const double part = joint < 0 ? whole : common * all[r] + rest * shared[r];
+      const double shared = fmax(sqrt(squares[r]), SLI_NORM_FLOOR * all[r]);
+      const double part = joint < 0 ? whole : common * all[r] + rest * shared;
       to[here] = joint == SLI_JOINT_NULL
                ? fabs(X->X[here])
                : eta * (part < whole ? part : whole) + 4.0 * eta * eta * whole;
@@ -19437,21 +19445,22 @@ static sl_status sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, doub
 }
 
 static sl_status sli_bounds_run(sli_bounds *p, const sli_rhs *rhs, double *bounds, sl_work *W) {
-  const int has_scales = p->scales != NULL;
+  const sli_hash identity = sli_scales_identity(p);
+  const int needs = p->scales == NULL                                    ? SLI_NEEDS_SCALES
+            : memcmp(p->scales, &identity, sizeof identity) == 0 ? SLI_NEEDS_NOTHING
+                                       : SLI_NEEDS_ROOM;
   sli_block b = {NULL, 0, 0};
   sl_status status;
-  sli_hash identity;
-  sli_bounds_layout(p, &b, rhs->nrhs, has_scales);
+  sli_bounds_layout(p, &b, rhs->nrhs, needs);
   status = sli_work_block(W, &b);
   if (status != SL_OK) {
     return status;
   }
-  sli_bounds_layout(p, &b, rhs->nrhs, has_scales);
+  sli_bounds_layout(p, &b, rhs->nrhs, needs);
   if (p->F->null.checks && sli_sweep_check(p->F, p->q, rhs, p->memory) != SL_OK) {
     return sli_inconsistent();
   }
-  identity = sli_scales_identity(p);
-  if (!has_scales || memcmp(p->scales, &identity, sizeof identity) != 0) {
+  if (needs != SLI_NEEDS_NOTHING) {
     sli_scales_fill(p);
     memcpy(p->scales, &identity, sizeof identity);
   }
@@ -34114,8 +34123,23 @@ static int sli_complex_keeps(const sl_int *rows, sl_int count, const sl_symbolic
        sli_rows_are_paired(S);       /* untested: the same */
 }
 
-static int sli_complex_accepts(const sli_source *from) {
-  return from->A != NULL && sli_matrix_is_complex(from->A);
+static void sli_complex_accepts(const sl_symbolic *S, const sli_source *from,
+                sli_failure *failure) {
+  sl_int s;
+  sl_off m;
+  if (from->A != NULL && sli_matrix_is_complex(from->A)) {
+    return;
+  }
+  (void)sli_fail(failure, SL_ERR_UNSUPPORTED, 0, -1, -1, 0.0);
+  for (s = 0; from->A != NULL && s < S->n_supers && failure->status != SL_ERR_NOT_FINITE; s++) {
+    for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
+      const double a = from->A->x[S->scatter_from[m]];
+      if (!sli_is_finite(a)) {
+        (void)sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
+        break;
+      }
+    }
+  }
 }
 
 #define SLF_NAME(f) sli_complex_##f

@@ -20,6 +20,29 @@ static sl_status create_pivoted(const sl_csc *A) {
     return status;
 }
 
+/* A number that is not finite is refused as in double, with its row and column. */
+static void what_is_not_finite_is_named(void **state) {
+    (void)state;
+    pair_t y = pair_make(GEN_GRID2, 16, 0, SL_ISA_AUTO);
+    const size_t entries = (size_t)y.A.p[y.n];
+    double *x = test_reals(entries);
+    sl_csc A = y.A;
+    A.x = x;
+    for (size_t k = 0; k < entries; k++) {
+        sl_stats stats[2];
+        memcpy(x, y.A.x, entries * sizeof *x);
+        x[k] = k % 2 ? (double)NAN : (double)INFINITY;
+        for (int m = 0; m < 2; m++) {
+            SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(y.F[m], &A, &stats[m]));
+        }
+        assert_int_equal(stats[0].error.row, stats[1].error.row);
+        assert_int_equal(stats[0].error.column, stats[1].error.column);
+        assert_string_equal(stats[0].error.what, stats[1].error.what);
+    }
+    free(x);
+    pair_free(&y);
+}
+
 /* Real matrices, null pivots that are replaced, sums, changes and files are refused. */
 static void what_is_not_complex_is_refused(void **state) {
     (void)state;
@@ -198,6 +221,7 @@ static void failing_allocations(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_not_finite_is_named),
         cmocka_unit_test(what_is_not_complex_is_refused),
         cmocka_unit_test(plain_c_refuses_what_is_not_complex),
         cmocka_unit_test(blocks_must_be_complete),

@@ -78,8 +78,24 @@ static int sli_complex_keeps(const sl_int *rows, sl_int count, const sl_symbolic
            sli_rows_are_paired(S);       /* untested: the same */
 }
 
-static int sli_complex_accepts(const sli_source *from) {
-    return from->A != NULL && sli_matrix_is_complex(from->A);
+/* A number that is not finite has no equal: it is refused as with other storages. */
+static void sli_complex_accepts(const sl_symbolic *S, const sli_source *from,
+                                sli_failure *failure) {
+    sl_int s;
+    sl_off m;
+    if (from->A != NULL && sli_matrix_is_complex(from->A)) {
+        return;
+    }
+    (void)sli_fail(failure, SL_ERR_UNSUPPORTED, 0, -1, -1, 0.0);
+    for (s = 0; from->A != NULL && s < S->n_supers && failure->status != SL_ERR_NOT_FINITE; s++) {
+        for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
+            const double a = from->A->x[S->scatter_from[m]];
+            if (!sli_is_finite(a)) {
+                (void)sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
+                break;
+            }
+        }
+    }
 }
 
 #define SLF_NAME(f) sli_complex_##f

@@ -243,8 +243,8 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
             (void)sli_fail(&failure, SL_ERR_NOT_FINITE, 0, -1, -1, from->coefficients[t]);
         }
     }
-    if (F->type->accepts != NULL && !F->type->accepts(from)) {
-        (void)sli_fail(&failure, SL_ERR_UNSUPPORTED, 0, -1, -1, 0.0);
+    if (F->type->accepts != NULL && failure.status == SL_OK) {
+        F->type->accepts(F->S, from, &failure);
     }
     if (failure.status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
         (void)sli_null_vectors_check(F, from, &failure);

@@ -36,10 +36,10 @@ struct sli_storage_type {
     /* The entry of L at a position of the panels, and sets it to 0; NULL: L is in double. */
     double (*entry)(const void *values, sl_off at);
     void (*entry_clear)(void *values, sl_off at);
-    /* Can a factor with this analysis and these rules be kept so? Has the matrix the form that is
-     * needed? NULL: always. */
+    /* Can a factor with this analysis and these rules be kept so? NULL: always. */
     int (*suits)(const sl_factor *F);
-    int (*accepts)(const sli_source *from);
+    /* Refuses a matrix that does not have the form that is needed. NULL: all have it. */
+    void (*accepts)(const sl_symbolic *S, const sli_source *from, sli_failure *failure);
     /* Has the matrix on these rows, with the analysis S, that form, too? NULL: always. */
     int (*keeps)(const sl_int *rows, sl_int count, const sl_symbolic *S);
     /* the storage in double that takes its place where no kernels serve it; of that itself NULL */
