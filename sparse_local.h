@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 442283f6707ce7e4
+ * FNV-1a of the lines after this comment, without the license: 441f32bde59369a0
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -46,18 +46,18 @@
  *  19925 impl/ float: L and fronts in single precision
  *  20376 impl/ inverse: entries of the inverse, regions
  *  23454 impl/ change: a factor that follows changes of its matrix
- *  29475 impl/ dirichlet: rows fixed at given values
- *  30062 impl/ dirichlet: by a factor of all rows
- *  30280 impl/ io: files that are replaced only when they are complete
- *  30498 impl/ files: Matrix Market files, 64-bit indices
- *  31118 impl/ save: factors in files
- *  33123 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33808 impl/ batch: diagonals of many inverses
- *  33952 impl/ complex: complex Hermitian systems over real factors
- *  34514 impl/ complex: entries of the inverse
- *  34574 impl/ packs: the tables through which the core calls packs
- *  34622 impl/ last: undefine every internal macro
- *  34962 impl/ templates: the header includes them from itself, once for each instruction set
+ *  29492 impl/ dirichlet: rows fixed at given values
+ *  30079 impl/ dirichlet: by a factor of all rows
+ *  30297 impl/ io: files that are replaced only when they are complete
+ *  30515 impl/ files: Matrix Market files, 64-bit indices
+ *  31135 impl/ save: factors in files
+ *  33140 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33825 impl/ batch: diagonals of many inverses
+ *  33969 impl/ complex: complex Hermitian systems over real factors
+ *  34531 impl/ complex: entries of the inverse
+ *  34591 impl/ packs: the tables through which the core calls packs
+ *  34639 impl/ last: undefine every internal macro
+ *  34979 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -23946,10 +23946,6 @@ SLI_INLINE void sli_loss_open(sl_factor *F, sl_int s) {
   F->history.known[s] = 1;
 }
 
-SLI_INLINE double sli_loss_bar(const sl_factor *F) {
-  return fmax(SLI_LOSS_SMALL, F->history.drift * (2.0 / DBL_EPSILON));
-}
-
 static double sli_update_magnitude(const sl_factor *F, sl_int k) {
   const sl_symbolic *S = F->S;
   const sl_int own = S->super_of[k];
@@ -23973,20 +23969,6 @@ static double sli_update_magnitude(const sl_factor *F, sl_int k) {
   return 2.0 * sum + fabs(F->D[k]);
 }
 
-static double sli_loss_worst(sl_factor *F, sl_int k, sl_int count, double bar, double lost) {
-  double *loss = F->history.loss;
-  const sl_int end = k + count;
-  for (; k < end; k++) {
-    const double pivot = fabs(F->D[k]);
-    if (loss[k] > fmax(bar, lost) * pivot) {
-      const double ratio = loss[k] / sli_update_magnitude(F, k);
-      lost = fmax(lost, ratio);
-      loss[k] = ratio * pivot;
-    }
-  }
-  return lost;
-}
-
 /* src/impl/change/update_pivots.h: the state of a rank-k change, and the pivots that it changes */
 
 typedef struct sli_update {
@@ -24002,7 +23984,6 @@ typedef struct sli_update {
   double most;
   double loss;
   double lost;
-  double bar;
   double fall;
   double least;
   double shrink;
@@ -24114,7 +24095,7 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
   sl_factor_info *info = &F->stats.factor;
   const double known = F->extents[F->S->super_of[k]].magnitude;
   double *const loss = u->sign != 0.0 && !u->is_trial ? F->history.loss + k : NULL;
-  double *D = F->D + k, least = DBL_MAX, top = 0.0, most = 0.0, over = 0.0;
+  double *D = F->D + k, least = DBL_MAX, top = 0.0, most = 0.0;
   int are_usual = 1, shrink = 0;
   sl_status status = SL_OK;
   sl_int j, first = 0;
@@ -24127,9 +24108,7 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
     top = size > top ? size : top;
     most = magnitude > most ? magnitude : most;
     if (loss != NULL) {
-      const double sum = loss[j] + magnitude, beyond = sum - u->bar * size;
-      loss[j] = sum;
-      over = beyond > over ? beyond : over;
+      loss[j] += magnitude;
     }
   }
   if (are_usual && least >= DBL_MIN && top <= DBL_MAX &&
@@ -24151,8 +24130,45 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
       status = sli_update_take(u, k + j, e[j], magnitude);
     }
   }
-  u->lost = over > 0.0 ? sli_loss_worst(F, k, count, u->bar, u->lost) : u->lost;
   return status;
+}
+
+static void sli_update_add_loss(sli_update *u, sl_int v, double sigma) {
+  const sl_csc *V = u->V;
+  sl_int p;
+  for (p = V->p[v]; p < V->p[v + 1]; p++) {
+    if (V->x[p] != 0.0) {
+      u->F->history.loss[u->F->S->iperm[V->i[p]]] += fabs(sigma) * V->x[p] * V->x[p];
+    }
+  }
+}
+
+static void sli_update_note_loss(sli_update *u, sl_int v) {
+  const sl_factor *F = u->F;
+  const sl_csc *V = u->V;
+  const double bar = fmax(SLI_LOSS_SMALL, F->history.drift * (2.0 / DBL_EPSILON));
+  sl_int p;
+  for (p = V->p[v]; p < V->p[v + 1]; p++) {
+    const sl_int k = F->S->iperm[V->i[p]];
+    if (V->x[p] != 0.0 && F->history.loss[k] > fmax(bar, u->lost) * fabs(F->D[k])) {
+      u->lost = fmax(u->lost, F->history.loss[k] / sli_update_magnitude(F, k));
+    }
+  }
+}
+
+static void sli_update_lose(sli_update *u, const sl_int *group, sl_int count) {
+  int falls;
+  sl_int r;
+  for (falls = 0; falls < 2; falls++) {
+    for (r = 0; r < count; r++) {
+      const double sigma = u->sigma == NULL ? 1.0 : u->sigma[group[r]];
+      if (!falls) {
+        sli_update_add_loss(u, group[r], sigma);
+      } else if (u->sign * sigma < 0.0) {
+        sli_update_note_loss(u, group[r]);
+      }
+    }
+  }
 }
 
 static sl_status sli_update_pivots(sli_update *u, sl_int k, sl_int columns, const double *l,
@@ -24339,7 +24355,6 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
   u->most = u->fall = u->top = u->entry = u->growth = 0.0;
   u->loss = 1.0;
   u->lost = 0.0;
-  u->bar = sli_loss_bar(u->F);
   memset(u->state->U, 0, sizeof u->state->U);
   memset(u->x, 0, (size_t)u->R.columns * (size_t)u->lanes * sizeof(double));
   memset(u->gain, 0, (size_t)u->R.columns * sizeof(double));
@@ -24470,7 +24485,6 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
   u->most = u->top = u->entry = u->growth = 0.0;
   u->loss = 1.0;
   u->lost = 0.0;
-  u->bar = sli_loss_bar(F);
   for (rest = u->V->p[v + 1] - u->V->p[v]; s != -1 && status == SL_OK; s = S->super_parent[s]) {
     const sli_step *step = &S->steps[s];
     const sl_int *to = S->relative + S->rows_begin[s];
@@ -24836,6 +24850,9 @@ static sl_status sli_rank_passes(sli_rank *q) {
       status = status == SL_OK ? sli_update_run(&q->u) : status;
     }
     if (status == SL_OK) {
+      if (q->u.sign != 0.0) {
+        sli_update_lose(&q->u, group, last - k);
+      }
       sli_rank_note(&q->u);
       if (info->growth > F->growth_limit) {
         q->u.pivot = F->extents[F->S->super_of[sli_key(seeds[0])]].pivot;

@@ -178,8 +178,37 @@ static void each_row_has_its_own_drift(void **state) {
     }
 }
 
-/* Rows of a small pivot that are large themselves, and rows whose columns are computed again, have
- * lost nothing. */
+/* The heavy edge of two rows goes, at once or by halves, while one of them stays heavy or becomes
+ * it: the pivot of the other one was never as large as its entry. */
+static void a_row_loses_more_than_its_pivot(void **state) {
+    (void)state;
+    const sl_int p[3] = {0, 2, 3};
+    for (int way = 0; way < 6; way++) {
+        const sl_int low = N / 2, high = N / 2 + 1, heavy = way % 2 ? low : high;
+        const sl_int rows[3] = {low, high, heavy};
+        const double values[3] = {1.0, -1.0, 1.0};
+        double sigma[2] = {1e10, 1e8}, left = 0.0;
+        const int is_late = way / 2 == 2;
+        sl_stats stats;
+        band_t y;
+        band_make(&y, 1.0);
+        sl_csc V = {N, is_late ? 1 : 2, p, rows, values};
+        SL_CHECK(sl_factor_update(y.F, &V, sigma, NULL, NULL));
+        for (left = sigma[0]; left > 0.0; left += sigma[0]) {
+            sigma[0] = way / 2 == 1 && left > 1.0 ? -0.5 * left : -left;
+            V.n_cols = is_late ? 2 : 1;
+            SL_CHECK(sl_factor_update(y.F, &V, sigma, NULL, &stats));
+        }
+        y.a[y.p[heavy]] += sigma[1];
+        const double lost = error_of(&y, 1.0);
+        print_message("way %d: error %.1e, drift %.1e\n", way, lost, stats.change.drift);
+        assert_true(stats.change.drift >= 0.1 * lost && stats.change.drift <= 1e-4);
+        assert_true(stats.change.drift >= 1e-8);
+        band_free(&y);
+    }
+}
+
+/* Rows whose columns are computed again have lost nothing. */
 static void what_is_computed_again_is_not_lost(void **state) {
     (void)state;
     const sl_int row = N / 2;
@@ -230,6 +259,7 @@ int main(void) {
         cmocka_unit_test(lost_digits_of_small_rows_are_drift),
         cmocka_unit_test(a_weight_that_rises_and_falls_leaves_no_error),
         cmocka_unit_test(each_row_has_its_own_drift),
+        cmocka_unit_test(a_row_loses_more_than_its_pivot),
         cmocka_unit_test(what_is_computed_again_is_not_lost),
         cmocka_unit_test(a_refused_change_loses_nothing),
     };

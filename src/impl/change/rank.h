@@ -357,6 +357,9 @@ static sl_status sli_rank_passes(sli_rank *q) {
             status = status == SL_OK ? sli_update_run(&q->u) : status;
         }
         if (status == SL_OK) {
+            if (q->u.sign != 0.0) {
+                sli_update_lose(&q->u, group, last - k);
+            }
             sli_rank_note(&q->u);
             if (info->growth > F->growth_limit) {
                 q->u.pivot = F->extents[F->S->super_of[sli_key(seeds[0])]].pivot;

@@ -191,7 +191,6 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
     u->most = u->fall = u->top = u->entry = u->growth = 0.0;
     u->loss = 1.0;
     u->lost = 0.0;
-    u->bar = sli_loss_bar(u->F);
     memset(u->state->U, 0, sizeof u->state->U);
     memset(u->x, 0, (size_t)u->R.columns * (size_t)u->lanes * sizeof(double));
     memset(u->gain, 0, (size_t)u->R.columns * sizeof(double));

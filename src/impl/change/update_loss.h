@@ -5,8 +5,8 @@
 #include "../factor/factor.h"
 
 /* Each pass leaves an error of epsilon times the numbers that a pivot was computed from. It remains
- * where the pivot falls later, by one pass or by many. So each row has the sum of these numbers:
- * one row may rise and fall beside others whose entries are larger. */
+ * where a_kk falls later, by one pass or by many. So each row has the sum of these numbers: one row
+ * may rise and fall beside others whose entries are larger. */
 
 /* Where that sum exceeds a pivot by less, no more than two digits are lost. */
 #define SLI_LOSS_SMALL 256.0
@@ -49,12 +49,6 @@ SLI_INLINE void sli_loss_open(sl_factor *F, sl_int s) {
     F->history.known[s] = 1;
 }
 
-/* The multiple of its pivot that the sum of a row has, at least, where it has lost more than drift
- * says. Each pass adds 1 to both. */
-SLI_INLINE double sli_loss_bar(const sl_factor *F) {
-    return fmax(SLI_LOSS_SMALL, F->history.drift * (2.0 / DBL_EPSILON));
-}
-
 /* The sum of the magnitudes |a_kk| + sum |l_kj d_j l_kj| that pivot k was computed from, at most.
  * O(descendants). */
 static double sli_update_magnitude(const sl_factor *F, sl_int k) {
@@ -78,23 +72,6 @@ static double sli_update_magnitude(const sl_factor *F, sl_int k) {
         d--;
     }
     return 2.0 * sum + fabs(F->D[k]);
-}
-
-/* The largest sum of a row that has lost, relative to the magnitudes that are left of it, or `lost`
- * if that is more. Small pivots of large rows have not lost: their sums become relative to them, so
- * that few rows are looked at. */
-static double sli_loss_worst(sl_factor *F, sl_int k, sl_int count, double bar, double lost) {
-    double *loss = F->history.loss;
-    const sl_int end = k + count;
-    for (; k < end; k++) {
-        const double pivot = fabs(F->D[k]);
-        if (loss[k] > fmax(bar, lost) * pivot) {
-            const double ratio = loss[k] / sli_update_magnitude(F, k);
-            lost = fmax(lost, ratio);
-            loss[k] = ratio * pivot;
-        }
-    }
-    return lost;
 }
 
 #endif

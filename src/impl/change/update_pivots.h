@@ -30,7 +30,6 @@ typedef struct sli_update {
     double most;   /* the largest sum of magnitudes that a pivot of the pass was computed from */
     double loss;   /* of digits in a pivot, which later ones multiply: of pivots of both signs */
     double lost;   /* by the worst row, relative to the magnitudes that are left of it */
-    double bar;    /* where the sum of a row is more than this many pivots, it has lost more */
     double fall;   /* by at most this much the pass changes the largest |a| */
     double least;  /* a smaller pivot may be null, and is refused where it was larger */
     double shrink; /* of a trial: the least ratio of a new pivot to the old one */
@@ -155,7 +154,7 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
     sl_factor_info *info = &F->stats.factor;
     const double known = F->extents[F->S->super_of[k]].magnitude;
     double *const loss = u->sign != 0.0 && !u->is_trial ? F->history.loss + k : NULL;
-    double *D = F->D + k, least = DBL_MAX, top = 0.0, most = 0.0, over = 0.0;
+    double *D = F->D + k, least = DBL_MAX, top = 0.0, most = 0.0;
     int are_usual = 1, shrink = 0;
     sl_status status = SL_OK;
     sl_int j, first = 0;
@@ -168,9 +167,7 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
         top = size > top ? size : top;
         most = magnitude > most ? magnitude : most;
         if (loss != NULL) {
-            const double sum = loss[j] + magnitude, beyond = sum - u->bar * size;
-            loss[j] = sum;
-            over = beyond > over ? beyond : over;
+            loss[j] += magnitude;
         }
     }
     if (are_usual && least >= DBL_MIN && top <= DBL_MAX &&
@@ -192,8 +189,50 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
             status = sli_update_take(u, k + j, e[j], magnitude);
         }
     }
-    u->lost = over > 0.0 ? sli_loss_worst(F, k, count, u->bar, u->lost) : u->lost;
     return status;
+}
+
+/* Adds vector v to what its rows have lost, after a pass. It changes a_kk, from which pivot k may
+ * differ by many digits. */
+static void sli_update_add_loss(sli_update *u, sl_int v, double sigma) {
+    const sl_csc *V = u->V;
+    sl_int p;
+    for (p = V->p[v]; p < V->p[v + 1]; p++) {
+        if (V->x[p] != 0.0) {
+            u->F->history.loss[u->F->S->iperm[V->i[p]]] += fabs(sigma) * V->x[p] * V->x[p];
+        }
+    }
+}
+
+/* Looks at the rows of vector v, whose a_kk it has made smaller: no other row has less left of it.
+ * Nearly always the pivot shows that a row has not lost more than drift says. */
+static void sli_update_note_loss(sli_update *u, sl_int v) {
+    const sl_factor *F = u->F;
+    const sl_csc *V = u->V;
+    const double bar = fmax(SLI_LOSS_SMALL, F->history.drift * (2.0 / DBL_EPSILON));
+    sl_int p;
+    for (p = V->p[v]; p < V->p[v + 1]; p++) {
+        const sl_int k = F->S->iperm[V->i[p]];
+        if (V->x[p] != 0.0 && F->history.loss[k] > fmax(bar, u->lost) * fabs(F->D[k])) {
+            u->lost = fmax(u->lost, F->history.loss[k] / sli_update_magnitude(F, k));
+        }
+    }
+}
+
+/* Notes what the rows of the vectors of a pass have lost. */
+static void sli_update_lose(sli_update *u, const sl_int *group, sl_int count) {
+    int falls;
+    sl_int r;
+    for (falls = 0; falls < 2; falls++) {
+        for (r = 0; r < count; r++) {
+            const double sigma = u->sigma == NULL ? 1.0 : u->sigma[group[r]];
+            if (!falls) {
+                sli_update_add_loss(u, group[r], sigma);
+            } else if (u->sign * sigma < 0.0) {
+                sli_update_note_loss(u, group[r]);
+            }
+        }
+    }
 }
 
 /* Changes the pivots of `columns` columns from k on. l, w: as for the kernel. Writes their c. */
