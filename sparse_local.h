@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 441f32bde59369a0
+ * FNV-1a of the lines after this comment, without the license: 3a872b0add70eada
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,25 +39,25 @@
  *   5124 impl/ matrix: sparse matrices of the caller and of the library
  *   5759 impl/ ordering: fill-reducing orderings of a graph
  *  10370 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12574 impl/ factor: the numbers of L and D
- *  15918 impl/ solve: full and local solves
- *  17589 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19516 impl/ pivots: the order of the pivots by the values of a matrix
- *  19925 impl/ float: L and fronts in single precision
- *  20376 impl/ inverse: entries of the inverse, regions
- *  23454 impl/ change: a factor that follows changes of its matrix
- *  29492 impl/ dirichlet: rows fixed at given values
- *  30079 impl/ dirichlet: by a factor of all rows
- *  30297 impl/ io: files that are replaced only when they are complete
- *  30515 impl/ files: Matrix Market files, 64-bit indices
- *  31135 impl/ save: factors in files
- *  33140 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33825 impl/ batch: diagonals of many inverses
- *  33969 impl/ complex: complex Hermitian systems over real factors
- *  34531 impl/ complex: entries of the inverse
- *  34591 impl/ packs: the tables through which the core calls packs
- *  34639 impl/ last: undefine every internal macro
- *  34979 impl/ templates: the header includes them from itself, once for each instruction set
+ *  12598 impl/ factor: the numbers of L and D
+ *  15948 impl/ solve: full and local solves
+ *  17619 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19546 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19955 impl/ float: L and fronts in single precision
+ *  20407 impl/ inverse: entries of the inverse, regions
+ *  23485 impl/ change: a factor that follows changes of its matrix
+ *  29523 impl/ dirichlet: rows fixed at given values
+ *  30110 impl/ dirichlet: by a factor of all rows
+ *  30328 impl/ io: files that are replaced only when they are complete
+ *  30546 impl/ files: Matrix Market files, 64-bit indices
+ *  31166 impl/ save: factors in files
+ *  33171 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33856 impl/ batch: diagonals of many inverses
+ *  34000 impl/ complex: complex Hermitian systems over real factors
+ *  34562 impl/ complex: entries of the inverse
+ *  34622 impl/ packs: the tables through which the core calls packs
+ *  34670 impl/ last: undefine every internal macro
+ *  35014 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -10698,6 +10698,7 @@ typedef struct sli_amalgamation {
   int merges;
   int relaxes;
   int is_for_one_factor;
+  int is_large;
 } sli_amalgamation;
 
 static void sli_find_other_children(sl_int n, const sl_int *parent, sl_int *other) {
@@ -10760,6 +10761,25 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
 
 #define SLI_ZEROS_MOST 70
 
+#define SLI_LARGE_ENTRIES 200000
+#define SLI_ZEROS_MOST_LARGE 40
+#define SLI_ZEROS_MOST_COLUMN 25
+
+static int sli_is_large(const sl_int *counts, sl_int n) {
+  sl_off entries = 0;
+  sl_int k;
+  for (k = 0; k < n; k++) {
+    entries += counts[k];
+  }
+  return entries >= SLI_LARGE_ENTRIES;
+}
+
+SLI_INLINE sl_off sli_zeros_most(const sli_amalgamation *g, sl_int c) {
+  return !g->is_large       ? SLI_ZEROS_MOST
+       : g->width[c] == 1 ? SLI_ZEROS_MOST_COLUMN
+                : SLI_ZEROS_MOST_LARGE;
+}
+
 #define SLI_COST_ROW 4
 #define SLI_COST_SUPER 100
 #define SLI_COST_WIDE 200
@@ -10776,16 +10796,19 @@ SLI_ALWAYS_INLINE sl_off sli_supernode_cost(const sli_amalgamation *g, sl_int wi
 
 #define SLI_COST_PLAIN 12
 #define SLI_COST_PLAIN_ROW 7
+#define SLI_COST_TURN 30
 
 static sl_int sli_apart_cost(const sli_amalgamation *g, sl_int s, const sl_int *child,
                const sl_int *sibling) {
-  sl_int c = child[s];
+  sl_int c = g->is_large && g->below[s] < SLI_TILE ? -1 : child[s];
   while (c != -1 && g->below[c] == 1) {
     c = sibling[c];
   }
-  return c == -1 && g->width[s] == 1 && g->below[s] < INT32_MAX / 16
-         ? SLI_COST_PLAIN + SLI_COST_PLAIN_ROW * g->below[s]
-         : INT32_MAX;
+  if (c != -1 || g->width[s] > 1 || g->below[s] >= INT32_MAX / 16) {
+    return INT32_MAX;
+  }
+  return SLI_COST_PLAIN + SLI_COST_PLAIN_ROW * g->below[s] +
+       (g->is_large && s > 0 && g->below[s - 1] != g->below[s] ? SLI_COST_TURN : 0);
 }
 
 static sl_off sli_new_zeros(const sli_amalgamation *g, sl_int c, sl_int p) {
@@ -10803,7 +10826,7 @@ SLI_INLINE void sli_amalgamate_child(sli_amalgamation *g, sl_int p, sl_int c, sl
   const sl_off stored = (sl_off)width * (width + 1) / 2 + (sl_off)width * below;
   const sl_off merged = sli_supernode_cost(g, width, below);
   const int is_tied = g->is_tied != NULL && g->is_tied[c];
-  if (is_tied || (g->relaxes && 100 * zeros <= SLI_ZEROS_MOST * stored &&
+  if (is_tied || (g->relaxes && 100 * zeros <= sli_zeros_most(g, c) * stored &&
           merged <= g->cost[c] + *cost && !sli_overfills_tile(g, c, p))) {
     g->width[p] = width;
     g->zeros[p] = zeros;
@@ -11838,6 +11861,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   w->amalgamation.relaxes = opt == NULL || opt->relaxation != SL_RELAXATION_NONE;
   sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
   stats->symbolic.supernodes_fundamental = w->amalgamation.count;
+  w->amalgamation.is_large = sli_is_large(w->counts, n);
   w->amalgamation.is_for_one_factor = opt != NULL && opt->purpose == SL_PURPOSE_ONE_FACTOR;
   if (w->pairs != NULL) {
     sli_analysis_tie(w);
@@ -13890,6 +13914,11 @@ SLI_INLINE sl_int sli_front_tiles(const sli_front *f) {
   return sli_tiles(f->width + f->below);
 }
 
+SLI_INLINE int sli_is_short(const sl_factor *F, sl_int s) {
+  const sli_step *step = &F->S->steps[s];
+  return step->width == 1 && step->below < SLI_TILE && F->type->store == NULL;
+}
+
 SLI_INLINE void sli_front_clear_small(const sli_front *f) {
   double *update = f->update + SLI_TILE * (ptrdiff_t)f->width;
   sl_int k;
@@ -13967,6 +13996,7 @@ static sli_front sli_front_in_double(const sl_factor *F, sl_int s, sl_int worker
 #define SLF_NAME(f) sli_double_##f
 #define SLF_VALUE double
 #define SLF_SINGLE 0
+#define SLF_PIVOT(d) (d)
 #define SLF_HALF 0
 #define SLF_OF(f, array) (f)->array
 #define SLF_BEGIN sli_front_in_double
@@ -20305,6 +20335,7 @@ SLI_INLINE sli_front sli_single_begin(const sl_factor *F, sl_int s, sl_int worke
 #define SLF_NAME(f) sli_single_##f
 #define SLF_VALUE float
 #define SLF_SINGLE 1
+#define SLF_PIVOT(d) sli_to_float(d)
 #define SLF_HALF 0
 #define SLF_OF(f, array) (f)->single.array
 #define SLF_BEGIN sli_single_begin
@@ -34898,8 +34929,12 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_SORTED_CHILDREN
 #undef SLI_SORTED_ROWS
 #undef SLI_ZEROS_MOST
+#undef SLI_ZEROS_MOST_LARGE
+#undef SLI_ZEROS_MOST_COLUMN
+#undef SLI_LARGE_ENTRIES
 #undef SLI_COST_PLAIN
 #undef SLI_COST_PLAIN_ROW
+#undef SLI_COST_TURN
 #undef SLI_COST_ROW
 #undef SLI_COST_SUPER
 #undef SLI_COST_WIDE
@@ -35357,12 +35392,123 @@ static sl_status SLF_NAME(front_finish)(const sl_factor *F, const sli_front *f,
   return SLF_NAME(front_check)(F, f, failure);
 }
 
+#if !SLF_HALF
+typedef struct SLF_NAME(short) {
+  SLF_VALUE *l, *tile, *magnitude, *D;
+} SLF_NAME(short);
+
+SLI_INLINE void SLF_NAME(short_assemble)(const sl_factor *F, const SLF_NAME(short) * f, sl_int c,
+                     sl_int worker) {
+  const sli_step *child = &F->S->steps[c];
+  const sl_int *relative = F->S->relative + F->S->rows_begin[c];
+  const sl_int below = child->below, skipped = child->width % SLI_TILE;
+  const SLF_VALUE *update, *magnitude;
+  sl_int r, k;
+#if !SLF_SINGLE
+  if (F->schedule.is_plain[c]) {
+    const double *l = sli_plain_column(F, c, worker) + 1, d = F->D[child->column];
+    for (r = 0; r < below; r++) {
+      const sl_int row = relative[r];
+      const double x = l[r] * d;
+      f->l[row] -= x * l[0];
+      for (k = 1; k <= r; k++) {
+        f->tile[SLI_TILE * relative[k] + row] -= x * l[k];
+      }
+      f->magnitude[row] += fabs(x * l[r]);
+    }
+    return;
+  }
+#endif
+  update = SLF_NAME(update_matrix)(F, c, worker);
+  magnitude = update + sli_triangle_offset(sli_tiles(skipped + below)) + skipped;
+  for (r = 0; r < below; r++) {
+    const sl_int row = relative[r], at = skipped + r;
+    const SLF_VALUE *from =
+      update + sli_triangle_offset(at / SLI_TILE) + SLI_TILE * skipped + at % SLI_TILE;
+    f->l[row] += from[0];
+    for (k = 1; k <= r; k++) {
+      f->tile[SLI_TILE * relative[k] + row] += from[SLI_TILE * k];
+    }
+    f->magnitude[row] += magnitude[r];
+  }
+}
+
+static sl_status SLF_NAME(short_factor)(const sl_factor *F, const sli_source *from, sl_int s,
+                    sl_int worker, const SLF_NAME(short) * f,
+                    sli_failure *failure) {
+  const sli_step *step = &F->S->steps[s];
+  const sl_int below = step->below;
+  SLF_VALUE x[SLI_TILE], pivot;
+  sl_int c, r, k;
+  for (r = 0; r <= below; r++) {
+    f->l[r] = f->magnitude[r] = 0;
+    for (k = 1; k <= r; k++) {
+      f->tile[SLI_TILE * k + r] = 0;
+    }
+  }
+  if (SLF_NAME(panel_load)(F, from, s, f->l, failure) != SL_OK) {
+    return failure->status;
+  }
+  f->magnitude[0] = (SLF_VALUE)fabs(f->l[0]);
+  for (c = s - 1; c >= F->S->first_descendant[s]; c = F->S->first_descendant[c] - 1) {
+    SLF_NAME(short_assemble)(F, f, c, worker);
+  }
+  pivot = f->l[0];
+  if (F->rule.replaces) {
+    const double d = sli_pivot_by_rule(&F->rule, step->column, pivot, f->magnitude[0]);
+    pivot = SLF_PIVOT(d);
+  }
+  *f->D = pivot;
+  f->l[0] = 0;
+  for (r = 1; r <= below; r++) {
+    x[r] = f->l[r];
+    f->l[r] = x[r] / pivot;
+    for (k = 1; k <= r; k++) {
+      f->tile[SLI_TILE * k + r] -= f->l[r] * x[k];
+    }
+    f->magnitude[r] += (SLF_VALUE)fabs(f->l[r] * x[r]);
+  }
+  return SL_OK;
+}
+#endif
+
+#if !SLF_SINGLE && !SLF_HALF
+static sl_status sli_short_column(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
+                  sli_failure *failure) {
+  const sli_step *step = &F->S->steps[s];
+  sli_double_short f;
+  f.l = (double *)F->values + step->panel;
+  f.tile = sli_double_update_matrix(F, s, worker);
+  f.magnitude = f.tile + SLI_TILE * SLI_TILE;
+  f.D = F->D + step->column;
+  if (sli_double_short_factor(F, from, s, worker, &f, failure) != SL_OK) {
+    return failure->status;
+  }
+  return sli_check_pivot(F, s, step->column, F->D[step->column], f.magnitude[0], failure);
+}
+#endif
+
 static sl_status SLF_NAME(front_factor)(sl_factor *F, const sli_source *from, sl_int s,
                     sl_int worker, sli_failure *failure) {
   sli_front f = SLF_NAME(front_of)(F, s, worker);
   const sl_int tiles = sli_front_tiles(&f);
   double *scratch = F->work.buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
   sl_status status;
+#if !SLF_HALF
+  if (f.width == 1 && tiles == 1) {
+    SLF_NAME(short) arrays;
+    arrays.l = SLF_OF(&f, panel);
+    arrays.tile = SLF_OF(&f, update);
+    arrays.magnitude = SLF_OF(&f, magnitude);
+    arrays.D = SLF_OF(&f, D);
+    memset(arrays.l, 0, SLI_TILE * sizeof(SLF_VALUE));
+    if (SLF_NAME(short_factor)(F, from, s, worker, &arrays, failure) != SL_OK) {
+      return failure->status;
+    }
+    SLF_NAME(front_hand_over)(&f);
+    return SLF_NAME(front_check)(F, &f, failure);
+  }
+#endif
   f.is_small = tiles == 1 && f.pairs == NULL && !SLF_HALF;
 #if !SLF_SINGLE
   if (f.is_small) {
@@ -35401,6 +35547,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #if !SLF_SINGLE && !SLF_HALF
     } else if (F->schedule.is_plain[s]) {
       status = sli_plain_factor(F, from, s, worker, failure);
+    } else if (sli_is_short(F, s)) {
+      status = sli_short_column(F, from, s, worker, failure);
 #endif
     } else {
       status = SLF_NAME(front_factor)(F, from, s, worker, failure);
@@ -35422,6 +35570,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #undef SLF_NAME
 #undef SLF_VALUE
 #undef SLF_SINGLE
+#undef SLF_PIVOT
 #undef SLF_HALF
 #undef SLF_OF
 #undef SLF_BEGIN

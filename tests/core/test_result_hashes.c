@@ -127,33 +127,33 @@ static void same_bits(sl_isa isa, const uint64_t *expected) {
 }
 
 static void plain_c_has_the_same_bits(void **state) {
-    static const uint64_t expected[KINDS] = {0xc544691f85645b72u, 0xe909ed16c509e360u,
-                                             0xc938a926f3d3563cu, 0x81fc9547d6eaa349u,
-                                             0xb211e9c260fbe338u};
+    static const uint64_t expected[KINDS] = {0x37d2ff7744f39c06u, 0xe909ed16c509e360u,
+                                             0xc938a926f3d3563cu, 0xab3358fdeeee892du,
+                                             0xdc24a36aa0dadc6du};
     (void)state;
     same_bits(SL_ISA_SCALAR, expected);
 }
 
 static void avx2_has_the_same_bits(void **state) {
-    static const uint64_t expected[KINDS] = {0x8acee672fc118169u, 0xa1d949d8d611cbc6u,
-                                             0x5ff3cbee940c51deu, 0x38208d2417924865u,
-                                             0x0c2a90011c2ceb51u};
+    static const uint64_t expected[KINDS] = {0x38ac25ad7d9336b9u, 0xa1d949d8d611cbc6u,
+                                             0x5ff3cbee940c51deu, 0x62a8f49fd886f893u,
+                                             0xb80584ac951994c2u};
     (void)state;
     same_bits(SL_ISA_AVX2, expected);
 }
 
 static void avx512_has_the_same_bits(void **state) {
-    static const uint64_t expected[KINDS] = {0x07a8abc291355138u, 0xa1d949d8d611cbc6u,
-                                             0x58a7bad220a1fd9au, 0x861208ce75b3755eu,
-                                             0x73fcc058f1ea127fu};
+    static const uint64_t expected[KINDS] = {0x575d8ce7d8bf91bcu, 0xa1d949d8d611cbc6u,
+                                             0x58a7bad220a1fd9au, 0x6c2bed584f31684fu,
+                                             0x567fe0554f6c1bcdu};
     (void)state;
     same_bits(SL_ISA_AVX512, expected);
 }
 
 static void neon_has_the_same_bits(void **state) {
-    static const uint64_t expected[KINDS] = {0x715540b5b6600cc7u, 0x805d07fa5c585d48u,
-                                             0x52b5639a6941d75au, 0x88a7c524b2faa57bu,
-                                             0x06fb13fd65e52c28u};
+    static const uint64_t expected[KINDS] = {0x60f9bf38ddcd49edu, 0x805d07fa5c585d48u,
+                                             0x52b5639a6941d75au, 0x2b3c5258e3ed288cu,
+                                             0x66fe99727f136918u};
     (void)state;
     same_bits(SL_ISA_NEON, expected);
 }

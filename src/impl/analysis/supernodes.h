@@ -27,6 +27,7 @@ typedef struct sli_amalgamation {
     int merges;            /* by sli_amalgamate */
     int relaxes;           /* merge others too */
     int is_for_one_factor; /* by the costs of SL_PURPOSE_ONE_FACTOR */
+    int is_large;          /* L has SLI_LARGE_ENTRIES */
 } sli_amalgamation;
 
 /* other[k] := a child of k but k - 1, or -1. */
@@ -99,6 +100,31 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
  * its entries of L, even where short columns are children of tall ones. */
 #define SLI_ZEROS_MOST 70
 
+/* From so many entries of L on, memory limits solves. Supernodes then have fewer zeros, least of
+ * all those of single columns, which cost little, and short columns are kept apart where that costs
+ * less, even if they are not plain. On a path L has a fifth of the numbers, a refactorization takes
+ * 0.7 and a solve 0.5 of the time; 2D and 3D grids take what they took. */
+#define SLI_LARGE_ENTRIES 200000
+#define SLI_ZEROS_MOST_LARGE 40
+#define SLI_ZEROS_MOST_COLUMN 25
+
+/* Does L have so many entries? counts: of its n columns. */
+static int sli_is_large(const sl_int *counts, sl_int n) {
+    sl_off entries = 0;
+    sl_int k;
+    for (k = 0; k < n; k++) {
+        entries += counts[k];
+    }
+    return entries >= SLI_LARGE_ENTRIES;
+}
+
+/* The largest percentage of zeros in a supernode that child c is merged into. */
+SLI_INLINE sl_off sli_zeros_most(const sli_amalgamation *g, sl_int c) {
+    return !g->is_large       ? SLI_ZEROS_MOST
+           : g->width[c] == 1 ? SLI_ZEROS_MOST_COLUMN
+                              : SLI_ZEROS_MOST_LARGE;
+}
+
 /* What a solve spends on a supernode besides reading its panel, in the entries that it reads in the
  * same time: for each row below, for each supernode, and for one of more than 8 columns, which the
  * kernels of small supernodes do not take. Fitted to solves and factorizations on 2D and 3D grids
@@ -120,20 +146,25 @@ SLI_ALWAYS_INLINE sl_off sli_supernode_cost(const sli_amalgamation *g, sl_int wi
 }
 
 /* What a solve spends on a column that is a supernode by itself, in the same measure: its kernels
- * are those of a sparse column. */
+ * are those of a sparse column. In a large L it is more if the column before has another number of
+ * rows below, as nothing predicts the ends of its loops. */
 #define SLI_COST_PLAIN 12
 #define SLI_COST_PLAIN_ROW 7
+#define SLI_COST_TURN 30
 
-/* The cost of column s by itself, if it is plain (schedule.h). child: of s */
+/* The cost of column s by itself, if it may be: if it is plain (schedule.h) or, in a large L, so
+ * short that it is factored in scalars (fronts.inl.h). child: of s */
 static sl_int sli_apart_cost(const sli_amalgamation *g, sl_int s, const sl_int *child,
                              const sl_int *sibling) {
-    sl_int c = child[s];
+    sl_int c = g->is_large && g->below[s] < SLI_TILE ? -1 : child[s];
     while (c != -1 && g->below[c] == 1) {
         c = sibling[c];
     }
-    return c == -1 && g->width[s] == 1 && g->below[s] < INT32_MAX / 16
-               ? SLI_COST_PLAIN + SLI_COST_PLAIN_ROW * g->below[s]
-               : INT32_MAX;
+    if (c != -1 || g->width[s] > 1 || g->below[s] >= INT32_MAX / 16) {
+        return INT32_MAX;
+    }
+    return SLI_COST_PLAIN + SLI_COST_PLAIN_ROW * g->below[s] +
+           (g->is_large && s > 0 && g->below[s - 1] != g->below[s] ? SLI_COST_TURN : 0);
 }
 
 /* The zeros added by merging child c into p: the columns of c grow to the rows of p. */
@@ -155,7 +186,7 @@ SLI_INLINE void sli_amalgamate_child(sli_amalgamation *g, sl_int p, sl_int c, sl
     const sl_off stored = (sl_off)width * (width + 1) / 2 + (sl_off)width * below;
     const sl_off merged = sli_supernode_cost(g, width, below);
     const int is_tied = g->is_tied != NULL && g->is_tied[c];
-    if (is_tied || (g->relaxes && 100 * zeros <= SLI_ZEROS_MOST * stored &&
+    if (is_tied || (g->relaxes && 100 * zeros <= sli_zeros_most(g, c) * stored &&
                     merged <= g->cost[c] + *cost && !sli_overfills_tile(g, c, p))) {
         g->width[p] = width;
         g->zeros[p] = zeros;
@@ -209,7 +240,7 @@ static sl_int sli_find_tops(sli_amalgamation *g, const sl_int *sequence, sl_int 
     for (s = g->count - 1; s >= 0; s--) { /* parents first, so that theirs is final */
         g->merged_into[s] = g->merged_into[s] == s ? s : g->merged_into[g->merged_into[s]];
     }
-    for (s = g->count - 1; s >= 0 && g->merges; s--) { /* plain columns that are better apart */
+    for (s = g->count - 1; s >= 0 && g->merges; s--) { /* columns that are better apart */
         const sl_int to = g->merged_into[s];
         if (g->apart[to] < INT32_MAX && g->apart[to] < g->cost[to]) {
             g->merged_into[s] = s;

@@ -165,6 +165,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     w->amalgamation.relaxes = opt == NULL || opt->relaxation != SL_RELAXATION_NONE;
     sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
     stats->symbolic.supernodes_fundamental = w->amalgamation.count;
+    w->amalgamation.is_large = sli_is_large(w->counts, n);
     w->amalgamation.is_for_one_factor = opt != NULL && opt->purpose == SL_PURPOSE_ONE_FACTOR;
     if (w->pairs != NULL) {
         sli_analysis_tie(w);

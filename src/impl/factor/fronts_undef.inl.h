@@ -3,6 +3,7 @@
 #undef SLF_NAME
 #undef SLF_VALUE
 #undef SLF_SINGLE
+#undef SLF_PIVOT
 #undef SLF_HALF
 #undef SLF_OF
 #undef SLF_BEGIN
