@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 3a872b0add70eada
+ * FNV-1a of the lines after this comment, without the license: ed5aaed85fd563ec
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,29 +35,29 @@
  *   2952 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   3029 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3069 impl/ base: the compiler, status, memory, sorting, threads
- *   4243 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5124 impl/ matrix: sparse matrices of the caller and of the library
- *   5759 impl/ ordering: fill-reducing orderings of a graph
- *  10370 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12598 impl/ factor: the numbers of L and D
- *  15948 impl/ solve: full and local solves
- *  17619 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19546 impl/ pivots: the order of the pivots by the values of a matrix
- *  19955 impl/ float: L and fronts in single precision
- *  20407 impl/ inverse: entries of the inverse, regions
- *  23485 impl/ change: a factor that follows changes of its matrix
- *  29523 impl/ dirichlet: rows fixed at given values
- *  30110 impl/ dirichlet: by a factor of all rows
- *  30328 impl/ io: files that are replaced only when they are complete
- *  30546 impl/ files: Matrix Market files, 64-bit indices
- *  31166 impl/ save: factors in files
- *  33171 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33856 impl/ batch: diagonals of many inverses
- *  34000 impl/ complex: complex Hermitian systems over real factors
- *  34562 impl/ complex: entries of the inverse
- *  34622 impl/ packs: the tables through which the core calls packs
- *  34670 impl/ last: undefine every internal macro
- *  35014 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4259 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5140 impl/ matrix: sparse matrices of the caller and of the library
+ *   5775 impl/ ordering: fill-reducing orderings of a graph
+ *  10386 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12614 impl/ factor: the numbers of L and D
+ *  15967 impl/ solve: full and local solves
+ *  17638 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19565 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19974 impl/ float: L and fronts in single precision
+ *  20426 impl/ inverse: entries of the inverse, regions
+ *  23504 impl/ change: a factor that follows changes of its matrix
+ *  29542 impl/ dirichlet: rows fixed at given values
+ *  30129 impl/ dirichlet: by a factor of all rows
+ *  30347 impl/ io: files that are replaced only when they are complete
+ *  30565 impl/ files: Matrix Market files, 64-bit indices
+ *  31185 impl/ save: factors in files
+ *  33190 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33875 impl/ batch: diagonals of many inverses
+ *  34019 impl/ complex: complex Hermitian systems over real factors
+ *  34581 impl/ complex: entries of the inverse
+ *  34641 impl/ packs: the tables through which the core calls packs
+ *  34689 impl/ last: undefine every internal macro
+ *  35035 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3127,6 +3127,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_create_pivoted(sl_symbolic **out, co
 
 #if defined(__linux__) && defined(__GNUC__)
 #define SLI_HUGE_PAGES 14
+#define SLI_POPULATE 23
 extern int sli_madvise(void *block, size_t bytes, int advice) __asm__("madvise");
 #define SLI_FSYNC 1
 extern ptrdiff_t sli_readlink(const char *path, char *to, size_t size) __asm__("readlink");
@@ -3648,6 +3649,7 @@ SLI_NOINLINE static const char *sli_options_wrong(const sl_options *opt, int rea
 
 #define SLI_HUGE_BLOCK ((size_t)4 << 20)
 #define SLI_PAGE ((size_t)65536)
+#define SLI_SMALL_PAGE ((size_t)4096)
 
 SLI_INLINE void sli_advise_huge_pages(void *block, size_t bytes) {
 #if defined(SLI_HUGE_PAGES)
@@ -3753,6 +3755,20 @@ SLI_NOINLINE static sl_status sli_block_alloc(sli_block *b, const sl_allocator *
   }
   b->used = 0;
   return SL_OK;
+}
+
+SLI_INLINE void sli_populate(const sl_allocator *a, const sli_block *b) {
+#if defined(SLI_POPULATE)
+  if (b->base != NULL && a->allocate == sli_malloc_default && b->used < SLI_HUGE_BLOCK &&
+    (uintptr_t)b->base % SLI_SMALL_PAGE == SLI_ALIGN) {
+    const int keep = errno;
+    (void)sli_madvise(b->base - SLI_ALIGN, b->used, SLI_POPULATE);
+    errno = keep;
+  }
+#else
+  (void)a;
+  (void)b;
+#endif
 }
 
 #define SLI_LAYOUT(b, a, status) \
@@ -15200,6 +15216,7 @@ static sl_status sli_factor_schedule(sl_factor *F) {
         sli_take(&b, (uint64_t)(F->schedule.stack >> F->type->half), F->type->front_bytes);
       sli_schedule_layout_tops(&F->schedule, S, &b);
     }
+    sli_populate(&F->allocator, &b);
     F->stats.factor.bytes += b.used;
     if (status == SL_OK) {
       sli_schedule_fill_tops(&F->schedule, S);
@@ -15218,6 +15235,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
   SLI_LAYOUT(&b, &F->allocator, status) {
     sli_factor_layout_scratch(F, &b);
   }
+  sli_populate(&F->allocator, &b);
   F->stats.factor.bytes += b.used;
   if (status == SL_OK) {
     F->scratch = b.base;
@@ -15436,6 +15454,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     sli_factor_layout(&draft, &b, draft.null.is_centered);
     draft.stats.factor.bytes = b.used;
   }
+  sli_populate(&a, &b);
   if (status == SL_OK) {
     sl_factor *F = (sl_factor *)(void *)b.base;
     *F = draft;
@@ -34715,6 +34734,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_ROWS_MAX
 #undef SLI_ALIGN
 #undef SLI_HUGE_PAGES
+#undef SLI_POPULATE
 #undef SLI_POSIX
 #undef SLI_BIG_ENDIAN
 #undef SLI_MMAP
@@ -34727,6 +34747,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_SECTIONS_MAX
 #undef SLI_HUGE_BLOCK
 #undef SLI_PAGE
+#undef SLI_SMALL_PAGE
 #undef SLI_LAYOUT
 #undef SLI_TAKE
 #undef SLI_TAKE_INLINE

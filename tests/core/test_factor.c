@@ -1,4 +1,6 @@
 /* test_factor.c: P A P' = L D L' entrywise, inertia, determinant, refactor, equal bits */
+#include <errno.h>
+
 #include "tests/lib/factored.h"
 
 static void ldl_reproduces_a_for_every_method_style_and_sign(void **state) {
@@ -339,8 +341,24 @@ static void the_default_instruction_set_is_the_best(void **state) {
     factored_free(&y);
 }
 
+/* Blocks of some 100 kB to 4 MB that the system has just given, and of 4 MB and more. */
+static void memory_of_all_sizes_leaves_errno_alone(void **state) {
+    (void)state;
+    static const sl_int sides[4] = {30, 50, 80, 120};
+    for (int k = 0; k < 4; k++) {
+        factored_t y = factored_make(GEN_GRID2, sides[k] * sides[k], 1, 0, NULL);
+        sl_factor *again = NULL;
+        errno = 77;
+        SL_CHECK(sl_factor_create(&again, y.S, &y.M.view, NULL, NULL));
+        assert_int_equal(errno, 77);
+        sl_factor_free(again);
+        factored_free(&y);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(memory_of_all_sizes_leaves_errno_alone), /* first: memory is fresh */
         cmocka_unit_test(ldl_reproduces_a_for_every_method_style_and_sign),
         cmocka_unit_test(every_small_supernode_is_factored),
         cmocka_unit_test(every_small_pair_of_supernodes_is_factored),

@@ -11,6 +11,7 @@
  * solves took 20 to 23 % less time, refactorizations 3 %. */
 #define SLI_HUGE_BLOCK ((size_t)4 << 20)
 #define SLI_PAGE ((size_t)65536) /* a multiple of the page sizes of systems */
+#define SLI_SMALL_PAGE ((size_t)4096)
 
 /* Asks for huge pages; a block that gets none works as well. errno is unchanged. */
 SLI_INLINE void sli_advise_huge_pages(void *block, size_t bytes) {
@@ -129,6 +130,24 @@ SLI_NOINLINE static sl_status sli_block_alloc(sli_block *b, const sl_allocator *
     }
     b->used = 0;
     return SL_OK;
+}
+
+/* Asks for the pages of a block at once, not one by one as they are touched, if all will be and
+ * malloc has just got them from the system: it then begins so many bytes into a page. First
+ * factors of 3,000 to 10,000 rows take 0.83 of the time. In memory that is used again it would cost
+ * 3 percent, and huge pages do not need it. */
+SLI_INLINE void sli_populate(const sl_allocator *a, const sli_block *b) {
+#if defined(SLI_POPULATE)
+    if (b->base != NULL && a->allocate == sli_malloc_default && b->used < SLI_HUGE_BLOCK &&
+        (uintptr_t)b->base % SLI_SMALL_PAGE == SLI_ALIGN) {
+        const int keep = errno;
+        (void)sli_madvise(b->base - SLI_ALIGN, b->used, SLI_POPULATE);
+        errno = keep;
+    }
+#else
+    (void)a;
+    (void)b;
+#endif
 }
 
 /* The header of a loop over a layout, which takes arrays from the block b: it counts, then cuts the

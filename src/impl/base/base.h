@@ -68,6 +68,7 @@
 /* Functions of Linux under names of this library, because -std=c99 hides their declarations. */
 #if defined(__linux__) && defined(__GNUC__)
 #define SLI_HUGE_PAGES 14
+#define SLI_POPULATE 23
 extern int sli_madvise(void *block, size_t bytes, int advice) __asm__("madvise");
 #define SLI_FSYNC 1
 extern ptrdiff_t sli_readlink(const char *path, char *to, size_t size) __asm__("readlink");

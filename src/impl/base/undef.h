@@ -46,6 +46,7 @@
 #undef SLI_ROWS_MAX
 #undef SLI_ALIGN
 #undef SLI_HUGE_PAGES
+#undef SLI_POPULATE
 #undef SLI_POSIX
 #undef SLI_BIG_ENDIAN
 #undef SLI_MMAP
@@ -58,6 +59,7 @@
 #undef SLI_SECTIONS_MAX
 #undef SLI_HUGE_BLOCK
 #undef SLI_PAGE
+#undef SLI_SMALL_PAGE
 #undef SLI_LAYOUT
 #undef SLI_TAKE
 #undef SLI_TAKE_INLINE

@@ -123,6 +123,7 @@ static sl_status sli_factor_schedule(sl_factor *F) {
                 sli_take(&b, (uint64_t)(F->schedule.stack >> F->type->half), F->type->front_bytes);
             sli_schedule_layout_tops(&F->schedule, S, &b);
         }
+        sli_populate(&F->allocator, &b);
         F->stats.factor.bytes += b.used;
         if (status == SL_OK) {
             sli_schedule_fill_tops(&F->schedule, S);
@@ -143,6 +144,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
     SLI_LAYOUT(&b, &F->allocator, status) {
         sli_factor_layout_scratch(F, &b);
     }
+    sli_populate(&F->allocator, &b);
     F->stats.factor.bytes += b.used;
     if (status == SL_OK) {
         F->scratch = b.base;
@@ -377,6 +379,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
         sli_factor_layout(&draft, &b, draft.null.is_centered);
         draft.stats.factor.bytes = b.used;
     }
+    sli_populate(&a, &b);
     if (status == SL_OK) {
         sl_factor *F = (sl_factor *)(void *)b.base;
         *F = draft;
