@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: ed5aaed85fd563ec
+ * FNV-1a of the lines after this comment, without the license: 86f95b81f0dfabf9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -46,18 +46,18 @@
  *  19974 impl/ float: L and fronts in single precision
  *  20426 impl/ inverse: entries of the inverse, regions
  *  23504 impl/ change: a factor that follows changes of its matrix
- *  29542 impl/ dirichlet: rows fixed at given values
- *  30129 impl/ dirichlet: by a factor of all rows
- *  30347 impl/ io: files that are replaced only when they are complete
- *  30565 impl/ files: Matrix Market files, 64-bit indices
- *  31185 impl/ save: factors in files
- *  33190 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33875 impl/ batch: diagonals of many inverses
- *  34019 impl/ complex: complex Hermitian systems over real factors
- *  34581 impl/ complex: entries of the inverse
- *  34641 impl/ packs: the tables through which the core calls packs
- *  34689 impl/ last: undefine every internal macro
- *  35035 impl/ templates: the header includes them from itself, once for each instruction set
+ *  29562 impl/ dirichlet: rows fixed at given values
+ *  30149 impl/ dirichlet: by a factor of all rows
+ *  30367 impl/ io: files that are replaced only when they are complete
+ *  30585 impl/ files: Matrix Market files, 64-bit indices
+ *  31205 impl/ save: factors in files
+ *  33210 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33895 impl/ batch: diagonals of many inverses
+ *  34039 impl/ complex: complex Hermitian systems over real factors
+ *  34601 impl/ complex: entries of the inverse
+ *  34661 impl/ packs: the tables through which the core calls packs
+ *  34709 impl/ last: undefine every internal macro
+ *  35055 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2661,10 +2661,10 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: F has changed; SL_ERR_STATE: the plan is of
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: C' x = g
- *           does not hold to 1e-8 of x, or rounding hides whether pins rule out the motions of a
- *           body; SL_ERR_INCONSISTENT: b is out of balance with a motion that the pins leave; with
- *           more than 8 right-hand sides X may then have those before it; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
+ *           does not hold to 1e-8 of x or, where g is 0, of b / max |a|, or rounding hides whether
+ *           pins rule out the motions of a body; SL_ERR_INCONSISTENT: b is out of balance with a
+ *           motion that the pins leave; with more than 8 right-hand sides X may then have those
+ *           before it; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     for each right-hand side a solve, k products over shared columns, twice, and O(k^2);
  *           as much for each null vector of components with pins.
  *  Threads  any number at once on one P, each with its own W.
@@ -26588,6 +26588,7 @@ typedef struct sli_pins_solve {
   sl_int lanes;
   unsigned char *memory;
   double *largest;
+  double *forces;
   double *f;
   sli_pins_nulls nulls;
 } sli_pins_solve;
@@ -26598,6 +26599,7 @@ static void sli_pins_layout(sli_pins_solve *w, sli_block *b, sl_int nrhs) {
   const sl_int lanes = (sl_int)1 << sli_lanes_kind(sli_min(nrhs, 8));
   w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs, 8), 1);
   w->largest = SLI_TAKE(b, double, (uint64_t)q->backward.count *(uint64_t)lanes);
+  w->forces = SLI_TAKE(b, double, (uint64_t)q->forward.count *(uint64_t)lanes);
   w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->n_pins);
   sli_pins_nulls_layout(&w->nulls, b, P);
 }
@@ -26656,6 +26658,18 @@ static void sli_pins_largest(const sli_reach *R, const double *x, double *larges
   }
 }
 
+SLI_COLD static double sli_pins_least(const sli_pins_solve *w, sl_int k, sl_int r) {
+  const sl_symbolic *S = w->P->F->S;
+  const sl_factor_info *info = &w->P->F->stats.factor;
+  const double largest = fmax(info->entry_max, info->pivot_max);
+  sl_int root = S->super_of[k], s;
+  while (S->super_parent[root] != -1) {
+    root = S->super_parent[root];
+  }
+  s = sli_reach_step_of(&w->q->forward, S->super_first[root + 1] - 1);
+  return s == -1 || !(largest > 0.0) ? 0.0 : w->forces[(ptrdiff_t)s * w->lanes + r] / largest;
+}
+
 static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
   const sl_pins *P = w->P;
   const sli_reach *R = &w->q->backward;
@@ -26665,7 +26679,7 @@ static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
     for (p = 0; p < P->n_pins; p++) {
       const sli_pin *pin = P->pins[p];
       const double g = w->G[(size_t)p + w->ldg * (size_t)r];
-      double sum = -g, size = 0.0;
+      double sum = -g, size = 0.0, weight = 0.0;
       sl_int s = 0;
       for (k = 0; k < pin->count && s != -1; k++) {
         const sl_int column = P->F->S->iperm[pin->rows[k]];
@@ -26674,9 +26688,12 @@ static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
           const sl_int at = R->steps[s].base + column - R->steps[s].column;
           sum += pin->values[k] * x[(ptrdiff_t)at * lanes + r];
           size += fabs(pin->values[k]) * w->largest[(ptrdiff_t)s * lanes + r];
+          weight += fabs(pin->values[k]);
         }
       }
-      if (s != -1 && fabs(sum) > SLI_PINS_LOST * (size + fabs(g))) {
+      if (s != -1 && fabs(sum) > SLI_PINS_LOST * (size + fabs(g)) &&
+        (g != 0.0 ||
+         fabs(sum) > SLI_PINS_LOST * weight * sli_pins_least(w, R->steps[s].column, r))) {
         return 0;
       }
     }
@@ -26691,6 +26708,9 @@ static int sli_pins_forward(const sli_pins_solve *w, const sli_vectors *v, doubl
   const sli_packed b = sli_packed_of(R, v->y, w->lanes);
   sli_pack(F, w->q, v->y, &w->rhs);
   sli_pins_clear_rows(P, R, v->y, w->lanes);
+  if (P->n_pins > 0) {
+    sli_pins_largest(R, v->y, w->forces, w->lanes);
+  }
   if (F->null.count > 0) {
     sli_norms(&b, norms);
   }

@@ -100,10 +100,10 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: F has changed; SL_ERR_STATE: the plan is of
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: C' x = g
- *           does not hold to 1e-8 of x, or rounding hides whether pins rule out the motions of a
- *           body; SL_ERR_INCONSISTENT: b is out of balance with a motion that the pins leave; with
- *           more than 8 right-hand sides X may then have those before it; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
+ *           does not hold to 1e-8 of x or, where g is 0, of b / max |a|, or rounding hides whether
+ *           pins rule out the motions of a body; SL_ERR_INCONSISTENT: b is out of balance with a
+ *           motion that the pins leave; with more than 8 right-hand sides X may then have those
+ *           before it; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     for each right-hand side a solve, k products over shared columns, twice, and O(k^2);
  *           as much for each null vector of components with pins.
  *  Threads  any number at once on one P, each with its own W.

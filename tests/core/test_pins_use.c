@@ -356,6 +356,32 @@ static void lost_digits_are_noticed(void **state) {
     factored_free(&y);
 }
 
+/* All rows of a path but one are held at 0: x is 0 there, but for rounding, which is no error. */
+static void zeros_between_pins_are_accurate(void **state) {
+    (void)state;
+    enum { ROWS = 240, FREE = 100 };
+    factored_t y = factored_make(GEN_PATH, ROWS, 1, 0, NULL);
+    sl_int rows[ROWS], count = 0;
+    double x[ROWS], b[1] = {1.0}, g[ROWS] = {0.0};
+    const sl_int at = FREE;
+    sl_pins *P;
+    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    for (sl_int k = 0; k < ROWS; k++) {
+        rows[count] = k;
+        count += k != FREE;
+    }
+    SL_CHECK(sl_pins_add(P, rows, count, NULL));
+    for (sl_int k = 0; k < count; k++) {
+        sl_plan *plan = NULL;
+        SL_CHECK(sl_plan_create(&plan, y.S, &at, 1, rows + k, 1, NULL, NULL));
+        SL_CHECK(sl_pins_solve(P, plan, x, 1, b, 1, g, ROWS, 1, NULL));
+        assert_true(fabs(x[0]) <= 1e-14);
+        sl_plan_free(plan);
+    }
+    sl_pins_free(P);
+    factored_free(&y);
+}
+
 /* An equality that sees the constant so little that its square underflows. */
 static void an_underflow_is_refused(void **state) {
     (void)state;
@@ -396,6 +422,7 @@ int main(void) {
         cmocka_unit_test(failing_allocations_leave_the_set),
         cmocka_unit_test(rows_of_zeros_can_be_pinned),
         cmocka_unit_test(lost_digits_are_noticed),
+        cmocka_unit_test(zeros_between_pins_are_accurate),
         cmocka_unit_test(an_underflow_is_refused),
         cmocka_unit_test(a_matrix_without_rows_has_no_pins),
     };

@@ -14,6 +14,7 @@ typedef struct sli_pins_solve {
     sl_int lanes;
     unsigned char *memory; /* of the sweeps */
     double *largest;       /* steps of the backward reach x lanes: |x| */
+    double *forces;        /* steps of the forward reach x lanes: |b| */
     double *f;             /* n_pins x lanes: K f, then f */
     sli_pins_nulls nulls;
 } sli_pins_solve;
@@ -24,6 +25,7 @@ static void sli_pins_layout(sli_pins_solve *w, sli_block *b, sl_int nrhs) {
     const sl_int lanes = (sl_int)1 << sli_lanes_kind(sli_min(nrhs, 8));
     w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs, 8), 1);
     w->largest = SLI_TAKE(b, double, (uint64_t)q->backward.count *(uint64_t)lanes);
+    w->forces = SLI_TAKE(b, double, (uint64_t)q->forward.count *(uint64_t)lanes);
     w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->n_pins);
     sli_pins_nulls_layout(&w->nulls, b, P);
 }
@@ -64,10 +66,11 @@ static void sli_pins_load(const sli_pins_solve *w, const double *y) {
 }
 
 /* Beyond this error of C' x = g, relative to x and g, digits are lost: the solution without pins is
- * much larger than x. */
+ * much larger than x. Where g is 0, x may be 0 and its rounding is not: an error of this part of
+ * b / max |a| changes A x by no more than this part of b. */
 #define SLI_PINS_LOST 1e-8
 
-/* largest := the largest |x| of the tree of each step. */
+/* largest := the largest |x| or |b| of the tree of each step. */
 static void sli_pins_largest(const sli_reach *R, const double *x, double *largest, sl_int lanes) {
     double most[SLI_TILE] = {0.0};
     sl_int s, k, r, first = 0;
@@ -88,6 +91,20 @@ static void sli_pins_largest(const sli_reach *R, const double *x, double *larges
     }
 }
 
+/* What is small of right-hand side r in the tree of column k: b / max |a|. Rank-one changes change
+ * pivot_max, and not entry_max. */
+SLI_COLD static double sli_pins_least(const sli_pins_solve *w, sl_int k, sl_int r) {
+    const sl_symbolic *S = w->P->F->S;
+    const sl_factor_info *info = &w->P->F->stats.factor;
+    const double largest = fmax(info->entry_max, info->pivot_max);
+    sl_int root = S->super_of[k], s;
+    while (S->super_parent[root] != -1) {
+        root = S->super_parent[root];
+    }
+    s = sli_reach_step_of(&w->q->forward, S->super_first[root + 1] - 1);
+    return s == -1 || !(largest > 0.0) ? 0.0 : w->forces[(ptrdiff_t)s * w->lanes + r] / largest;
+}
+
 /* Is C' x = g, for the equalities whose rows are all in the vector? */
 static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
     const sl_pins *P = w->P;
@@ -98,7 +115,7 @@ static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
         for (p = 0; p < P->n_pins; p++) {
             const sli_pin *pin = P->pins[p];
             const double g = w->G[(size_t)p + w->ldg * (size_t)r];
-            double sum = -g, size = 0.0;
+            double sum = -g, size = 0.0, weight = 0.0;
             sl_int s = 0;
             for (k = 0; k < pin->count && s != -1; k++) {
                 const sl_int column = P->F->S->iperm[pin->rows[k]];
@@ -107,9 +124,12 @@ static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
                     const sl_int at = R->steps[s].base + column - R->steps[s].column;
                     sum += pin->values[k] * x[(ptrdiff_t)at * lanes + r];
                     size += fabs(pin->values[k]) * w->largest[(ptrdiff_t)s * lanes + r];
+                    weight += fabs(pin->values[k]);
                 }
             }
-            if (s != -1 && fabs(sum) > SLI_PINS_LOST * (size + fabs(g))) {
+            if (s != -1 && fabs(sum) > SLI_PINS_LOST * (size + fabs(g)) &&
+                (g != 0.0 ||
+                 fabs(sum) > SLI_PINS_LOST * weight * sli_pins_least(w, R->steps[s].column, r))) {
                 return 0;
             }
         }
@@ -126,6 +146,9 @@ static int sli_pins_forward(const sli_pins_solve *w, const sli_vectors *v, doubl
     const sli_packed b = sli_packed_of(R, v->y, w->lanes);
     sli_pack(F, w->q, v->y, &w->rhs);
     sli_pins_clear_rows(P, R, v->y, w->lanes);
+    if (P->n_pins > 0) {
+        sli_pins_largest(R, v->y, w->forces, w->lanes);
+    }
     if (F->null.count > 0) {
         sli_norms(&b, norms);
     }
