@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 86f95b81f0dfabf9
+ * FNV-1a of the lines after this comment, without the license: d9c157e302b617c3
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -46,18 +46,18 @@
  *  19974 impl/ float: L and fronts in single precision
  *  20426 impl/ inverse: entries of the inverse, regions
  *  23504 impl/ change: a factor that follows changes of its matrix
- *  29562 impl/ dirichlet: rows fixed at given values
- *  30149 impl/ dirichlet: by a factor of all rows
- *  30367 impl/ io: files that are replaced only when they are complete
- *  30585 impl/ files: Matrix Market files, 64-bit indices
- *  31205 impl/ save: factors in files
- *  33210 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33895 impl/ batch: diagonals of many inverses
- *  34039 impl/ complex: complex Hermitian systems over real factors
- *  34601 impl/ complex: entries of the inverse
- *  34661 impl/ packs: the tables through which the core calls packs
- *  34709 impl/ last: undefine every internal macro
- *  35055 impl/ templates: the header includes them from itself, once for each instruction set
+ *  29543 impl/ dirichlet: rows fixed at given values
+ *  30130 impl/ dirichlet: by a factor of all rows
+ *  30348 impl/ io: files that are replaced only when they are complete
+ *  30566 impl/ files: Matrix Market files, 64-bit indices
+ *  31186 impl/ save: factors in files
+ *  33191 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33876 impl/ batch: diagonals of many inverses
+ *  34020 impl/ complex: complex Hermitian systems over real factors
+ *  34582 impl/ complex: entries of the inverse
+ *  34642 impl/ packs: the tables through which the core calls packs
+ *  34690 impl/ last: undefine every internal macro
+ *  35036 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -24183,40 +24183,21 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
   return status;
 }
 
-static void sli_update_add_loss(sli_update *u, sl_int v, double sigma) {
-  const sl_csc *V = u->V;
-  sl_int p;
-  for (p = V->p[v]; p < V->p[v + 1]; p++) {
-    if (V->x[p] != 0.0) {
-      u->F->history.loss[u->F->S->iperm[V->i[p]]] += fabs(sigma) * V->x[p] * V->x[p];
-    }
-  }
-}
-
-static void sli_update_note_loss(sli_update *u, sl_int v) {
+static void sli_update_lose(sli_update *u, sl_int v) {
   const sl_factor *F = u->F;
   const sl_csc *V = u->V;
+  const double sigma = u->sigma == NULL ? 1.0 : u->sigma[v];
   const double bar = fmax(SLI_LOSS_SMALL, F->history.drift * (2.0 / DBL_EPSILON));
   sl_int p;
-  for (p = V->p[v]; p < V->p[v + 1]; p++) {
+  for (p = V->p[v]; p < V->p[v + 1] && u->sign * sigma < 0.0; p++) {
     const sl_int k = F->S->iperm[V->i[p]];
-    if (V->x[p] != 0.0 && F->history.loss[k] > fmax(bar, u->lost) * fabs(F->D[k])) {
-      u->lost = fmax(u->lost, F->history.loss[k] / sli_update_magnitude(F, k));
+    double *loss = &F->history.loss[k];
+    if (V->x[p] == 0.0) {
+      continue;
     }
-  }
-}
-
-static void sli_update_lose(sli_update *u, const sl_int *group, sl_int count) {
-  int falls;
-  sl_int r;
-  for (falls = 0; falls < 2; falls++) {
-    for (r = 0; r < count; r++) {
-      const double sigma = u->sigma == NULL ? 1.0 : u->sigma[group[r]];
-      if (!falls) {
-        sli_update_add_loss(u, group[r], sigma);
-      } else if (u->sign * sigma < 0.0) {
-        sli_update_note_loss(u, group[r]);
-      }
+    *loss += fabs(sigma) * V->x[p] * V->x[p];
+    if (*loss > fmax(bar, u->lost) * fabs(F->D[k])) {
+      u->lost = fmax(u->lost, *loss / sli_update_magnitude(F, k));
     }
   }
 }
@@ -24878,7 +24859,7 @@ static sl_status sli_rank_passes(sli_rank *q) {
   sl_factor *F = q->u.F;
   sl_factor_info *info = &F->stats.factor;
   sl_status status = SL_OK;
-  sl_int k, last, group[SLI_TILE];
+  sl_int k, v, last, group[SLI_TILE];
   uint64_t seeds[SLI_TILE];
   for (k = 0; k < q->count && status == SL_OK; k = last) {
     last = sli_rank_pass(q, k);
@@ -24900,8 +24881,8 @@ static sl_status sli_rank_passes(sli_rank *q) {
       status = status == SL_OK ? sli_update_run(&q->u) : status;
     }
     if (status == SL_OK) {
-      if (q->u.sign != 0.0) {
-        sli_update_lose(&q->u, group, last - k);
+      for (v = 0; v < last - k && q->u.sign != 0.0; v++) {
+        sli_update_lose(&q->u, group[v]);
       }
       sli_rank_note(&q->u);
       if (info->growth > F->growth_limit) {

@@ -335,7 +335,7 @@ static sl_status sli_rank_passes(sli_rank *q) {
     sl_factor *F = q->u.F;
     sl_factor_info *info = &F->stats.factor;
     sl_status status = SL_OK;
-    sl_int k, last, group[SLI_TILE];
+    sl_int k, v, last, group[SLI_TILE];
     uint64_t seeds[SLI_TILE];
     for (k = 0; k < q->count && status == SL_OK; k = last) {
         last = sli_rank_pass(q, k);
@@ -357,8 +357,8 @@ static sl_status sli_rank_passes(sli_rank *q) {
             status = status == SL_OK ? sli_update_run(&q->u) : status;
         }
         if (status == SL_OK) {
-            if (q->u.sign != 0.0) {
-                sli_update_lose(&q->u, group, last - k);
+            for (v = 0; v < last - k && q->u.sign != 0.0; v++) {
+                sli_update_lose(&q->u, group[v]);
             }
             sli_rank_note(&q->u);
             if (info->growth > F->growth_limit) {

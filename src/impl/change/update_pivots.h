@@ -192,45 +192,24 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
     return status;
 }
 
-/* Adds vector v to what its rows have lost, after a pass. It changes a_kk, from which pivot k may
- * differ by many digits. */
-static void sli_update_add_loss(sli_update *u, sl_int v, double sigma) {
-    const sl_csc *V = u->V;
-    sl_int p;
-    for (p = V->p[v]; p < V->p[v + 1]; p++) {
-        if (V->x[p] != 0.0) {
-            u->F->history.loss[u->F->S->iperm[V->i[p]]] += fabs(sigma) * V->x[p] * V->x[p];
-        }
-    }
-}
-
-/* Looks at the rows of vector v, whose a_kk it has made smaller: no other row has less left of it.
- * Nearly always the pivot shows that a row has not lost more than drift says. */
-static void sli_update_note_loss(sli_update *u, sl_int v) {
+/* Notes what the rows of a vector that makes their a_kk smaller have lost, after its pass: no other
+ * row has less left of it. The change of a_kk counts, from which that of the pivot may differ by
+ * many digits. Nearly always the pivot shows that a row has not lost more than drift says. */
+static void sli_update_lose(sli_update *u, sl_int v) {
     const sl_factor *F = u->F;
     const sl_csc *V = u->V;
+    const double sigma = u->sigma == NULL ? 1.0 : u->sigma[v];
     const double bar = fmax(SLI_LOSS_SMALL, F->history.drift * (2.0 / DBL_EPSILON));
     sl_int p;
-    for (p = V->p[v]; p < V->p[v + 1]; p++) {
+    for (p = V->p[v]; p < V->p[v + 1] && u->sign * sigma < 0.0; p++) {
         const sl_int k = F->S->iperm[V->i[p]];
-        if (V->x[p] != 0.0 && F->history.loss[k] > fmax(bar, u->lost) * fabs(F->D[k])) {
-            u->lost = fmax(u->lost, F->history.loss[k] / sli_update_magnitude(F, k));
+        double *loss = &F->history.loss[k];
+        if (V->x[p] == 0.0) {
+            continue;
         }
-    }
-}
-
-/* Notes what the rows of the vectors of a pass have lost. */
-static void sli_update_lose(sli_update *u, const sl_int *group, sl_int count) {
-    int falls;
-    sl_int r;
-    for (falls = 0; falls < 2; falls++) {
-        for (r = 0; r < count; r++) {
-            const double sigma = u->sigma == NULL ? 1.0 : u->sigma[group[r]];
-            if (!falls) {
-                sli_update_add_loss(u, group[r], sigma);
-            } else if (u->sign * sigma < 0.0) {
-                sli_update_note_loss(u, group[r]);
-            }
+        *loss += fabs(sigma) * V->x[p] * V->x[p];
+        if (*loss > fmax(bar, u->lost) * fabs(F->D[k])) {
+            u->lost = fmax(u->lost, *loss / sli_update_magnitude(F, k));
         }
     }
 }
