@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d9c157e302b617c3
+ * FNV-1a of the lines after this comment, without the license: 49d57d09052a752a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40,24 +40,24 @@
  *   5775 impl/ ordering: fill-reducing orderings of a graph
  *  10386 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12614 impl/ factor: the numbers of L and D
- *  15967 impl/ solve: full and local solves
- *  17638 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19565 impl/ pivots: the order of the pivots by the values of a matrix
- *  19974 impl/ float: L and fronts in single precision
- *  20426 impl/ inverse: entries of the inverse, regions
- *  23504 impl/ change: a factor that follows changes of its matrix
- *  29543 impl/ dirichlet: rows fixed at given values
- *  30130 impl/ dirichlet: by a factor of all rows
- *  30348 impl/ io: files that are replaced only when they are complete
- *  30566 impl/ files: Matrix Market files, 64-bit indices
- *  31186 impl/ save: factors in files
- *  33191 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33876 impl/ batch: diagonals of many inverses
- *  34020 impl/ complex: complex Hermitian systems over real factors
- *  34582 impl/ complex: entries of the inverse
- *  34642 impl/ packs: the tables through which the core calls packs
- *  34690 impl/ last: undefine every internal macro
- *  35036 impl/ templates: the header includes them from itself, once for each instruction set
+ *  15965 impl/ solve: full and local solves
+ *  17636 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19563 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19972 impl/ float: L and fronts in single precision
+ *  20423 impl/ inverse: entries of the inverse, regions
+ *  23501 impl/ change: a factor that follows changes of its matrix
+ *  29540 impl/ dirichlet: rows fixed at given values
+ *  30127 impl/ dirichlet: by a factor of all rows
+ *  30345 impl/ io: files that are replaced only when they are complete
+ *  30563 impl/ files: Matrix Market files, 64-bit indices
+ *  31183 impl/ save: factors in files
+ *  33188 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33873 impl/ batch: diagonals of many inverses
+ *  34017 impl/ complex: complex Hermitian systems over real factors
+ *  34579 impl/ complex: entries of the inverse
+ *  34639 impl/ packs: the tables through which the core calls packs
+ *  34687 impl/ last: undefine every internal macro
+ *  35033 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13931,8 +13931,7 @@ SLI_INLINE sl_int sli_front_tiles(const sli_front *f) {
 }
 
 SLI_INLINE int sli_is_short(const sl_factor *F, sl_int s) {
-  const sli_step *step = &F->S->steps[s];
-  return step->width == 1 && step->below < SLI_TILE && F->type->store == NULL;
+  return F->S->steps[s].width == 1 && F->S->steps[s].below < SLI_TILE;
 }
 
 SLI_INLINE void sli_front_clear_small(const sli_front *f) {
@@ -14012,7 +14011,6 @@ static sli_front sli_front_in_double(const sl_factor *F, sl_int s, sl_int worker
 #define SLF_NAME(f) sli_double_##f
 #define SLF_VALUE double
 #define SLF_SINGLE 0
-#define SLF_PIVOT(d) (d)
 #define SLF_HALF 0
 #define SLF_OF(f, array) (f)->array
 #define SLF_BEGIN sli_front_in_double
@@ -20354,7 +20352,6 @@ SLI_INLINE sli_front sli_single_begin(const sl_factor *F, sl_int s, sl_int worke
 #define SLF_NAME(f) sli_single_##f
 #define SLF_VALUE float
 #define SLF_SINGLE 1
-#define SLF_PIVOT(d) sli_to_float(d)
 #define SLF_HALF 0
 #define SLF_OF(f, array) (f)->single.array
 #define SLF_BEGIN sli_single_begin
@@ -35291,17 +35288,23 @@ SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl
   return s;
 }
 
-SLI_NOINLINE static sl_status sli_plain_store(const sl_factor *F, sl_int s, sl_int worker,
-                        sli_failure *failure) {
-  sli_front f = sli_front_in_double(F, s, worker);
-  const sl_int end = SLI_TILE * sli_tiles(1 + f.below);
-  sl_int r;
-  f.panel = sli_plain_column(F, s, worker);
-  for (r = 0; r < end; r++) {
-    f.panel[r] = r > f.below ? 0.0 : f.panel[r];
-    f.magnitude[r] = fabs(f.panel[r] * *f.D * f.panel[r]);
+SLI_NOINLINE static sl_status sli_column_end(const sl_factor *F, sl_int s, sl_int worker, double *l,
+                       const double *magnitude, sli_failure *failure) {
+  const sl_int k = F->S->steps[s].column, below = F->S->steps[s].below;
+  const sl_int end = SLI_TILE * sli_tiles(1 + below);
+  sl_status status = sli_check_pivot(F, s, k, F->D[k], *magnitude, failure);
+  if (status == SL_OK && F->type->store != NULL) {
+    sli_front f = sli_front_in_double(F, s, worker);
+    sl_int r;
+    f.panel = l;
+    for (r = 0; r < end; r++) {
+      l[r] = r > below ? 0.0 : l[r];
+      f.magnitude[r] =
+        r > below || F->schedule.is_plain[s] ? fabs(l[r] * *f.D * l[r]) : magnitude[r];
+    }
+    status = F->type->store(F, &f, failure);
   }
-  return F->type->store(F, &f, failure);
+  return status;
 }
 
 static sl_status sli_plain_factor(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
@@ -35310,7 +35313,6 @@ static sl_status sli_plain_factor(sl_factor *F, const sli_source *from, sl_int s
   const sli_step *step = &S->steps[s];
   const sl_int k = step->column, below = step->below;
   double *l = sli_plain_column(F, s, worker), pivot, magnitude;
-  sl_status status;
   sl_int c, r;
   memset(l, 0, (size_t)(1 + below) * sizeof(double));
   if (sli_double_panel_load(F, from, s, l, failure) != SL_OK) {
@@ -35323,13 +35325,11 @@ static sl_status sli_plain_factor(sl_factor *F, const sli_source *from, sl_int s
   }
   pivot = F->rule.replaces ? sli_pivot_by_rule(&F->rule, k, pivot, magnitude) : pivot;
   F->D[k] = pivot;
-  *l++ = 0.0;
-  for (r = 0; r < below; r++) {
+  *l = 0.0;
+  for (r = 1; r <= below; r++) {
     l[r] /= pivot;
   }
-  status = sli_check_pivot(F, s, k, pivot, magnitude, failure);
-  return status == SL_OK && F->type->store != NULL ? sli_plain_store(F, s, worker, failure)
-                           : status;
+  return sli_column_end(F, s, worker, l, &magnitude, failure);
 }
 #endif
 
@@ -35414,19 +35414,18 @@ static sl_status SLF_NAME(front_finish)(const sl_factor *F, const sli_front *f,
   return SLF_NAME(front_check)(F, f, failure);
 }
 
-#if !SLF_HALF
-typedef struct SLF_NAME(short) {
-  SLF_VALUE *l, *tile, *magnitude, *D;
-} SLF_NAME(short);
+#if !SLF_SINGLE && !SLF_HALF
+typedef struct sli_short {
+  double *l, *tile, *magnitude;
+} sli_short;
 
-SLI_INLINE void SLF_NAME(short_assemble)(const sl_factor *F, const SLF_NAME(short) * f, sl_int c,
-                     sl_int worker) {
+SLI_INLINE void sli_short_assemble(const sl_factor *F, const sli_short *f, sl_int c,
+                   sl_int worker) {
   const sli_step *child = &F->S->steps[c];
   const sl_int *relative = F->S->relative + F->S->rows_begin[c];
   const sl_int below = child->below, skipped = child->width % SLI_TILE;
-  const SLF_VALUE *update, *magnitude;
+  const double *update, *magnitude;
   sl_int r, k;
-#if !SLF_SINGLE
   if (F->schedule.is_plain[c]) {
     const double *l = sli_plain_column(F, c, worker) + 1, d = F->D[child->column];
     for (r = 0; r < below; r++) {
@@ -35440,12 +35439,11 @@ SLI_INLINE void SLF_NAME(short_assemble)(const sl_factor *F, const SLF_NAME(shor
     }
     return;
   }
-#endif
-  update = SLF_NAME(update_matrix)(F, c, worker);
+  update = sli_double_update_matrix(F, c, worker);
   magnitude = update + sli_triangle_offset(sli_tiles(skipped + below)) + skipped;
   for (r = 0; r < below; r++) {
     const sl_int row = relative[r], at = skipped + r;
-    const SLF_VALUE *from =
+    const double *from =
       update + sli_triangle_offset(at / SLI_TILE) + SLI_TILE * skipped + at % SLI_TILE;
     f->l[row] += from[0];
     for (k = 1; k <= r; k++) {
@@ -35455,58 +35453,43 @@ SLI_INLINE void SLF_NAME(short_assemble)(const sl_factor *F, const SLF_NAME(shor
   }
 }
 
-static sl_status SLF_NAME(short_factor)(const sl_factor *F, const sli_source *from, sl_int s,
-                    sl_int worker, const SLF_NAME(short) * f,
-                    sli_failure *failure) {
-  const sli_step *step = &F->S->steps[s];
-  const sl_int below = step->below;
-  SLF_VALUE x[SLI_TILE], pivot;
-  sl_int c, r, k;
-  for (r = 0; r <= below; r++) {
-    f->l[r] = f->magnitude[r] = 0;
-    for (k = 1; k <= r; k++) {
-      f->tile[SLI_TILE * k + r] = 0;
-    }
-  }
-  if (SLF_NAME(panel_load)(F, from, s, f->l, failure) != SL_OK) {
-    return failure->status;
-  }
-  f->magnitude[0] = (SLF_VALUE)fabs(f->l[0]);
-  for (c = s - 1; c >= F->S->first_descendant[s]; c = F->S->first_descendant[c] - 1) {
-    SLF_NAME(short_assemble)(F, f, c, worker);
-  }
-  pivot = f->l[0];
-  if (F->rule.replaces) {
-    const double d = sli_pivot_by_rule(&F->rule, step->column, pivot, f->magnitude[0]);
-    pivot = SLF_PIVOT(d);
-  }
-  *f->D = pivot;
-  f->l[0] = 0;
-  for (r = 1; r <= below; r++) {
-    x[r] = f->l[r];
-    f->l[r] = x[r] / pivot;
-    for (k = 1; k <= r; k++) {
-      f->tile[SLI_TILE * k + r] -= f->l[r] * x[k];
-    }
-    f->magnitude[r] += (SLF_VALUE)fabs(f->l[r] * x[r]);
-  }
-  return SL_OK;
-}
-#endif
-
-#if !SLF_SINGLE && !SLF_HALF
-static sl_status sli_short_column(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
+static sl_status sli_short_factor(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
                   sli_failure *failure) {
   const sli_step *step = &F->S->steps[s];
-  sli_double_short f;
-  f.l = (double *)F->values + step->panel;
+  const sl_int below = step->below;
+  double x[SLI_TILE], pivot;
+  sli_short f;
+  sl_int c, r, k;
+  f.l =
+    F->type->store == NULL ? (double *)F->values + step->panel : sli_front_panel(F, s, worker);
   f.tile = sli_double_update_matrix(F, s, worker);
   f.magnitude = f.tile + SLI_TILE * SLI_TILE;
-  f.D = F->D + step->column;
-  if (sli_double_short_factor(F, from, s, worker, &f, failure) != SL_OK) {
+  for (r = 0; r <= below; r++) {
+    f.l[r] = f.magnitude[r] = 0.0;
+    for (k = 1; k <= r; k++) {
+      f.tile[SLI_TILE * k + r] = 0.0;
+    }
+  }
+  if (sli_double_panel_load(F, from, s, f.l, failure) != SL_OK) {
     return failure->status;
   }
-  return sli_check_pivot(F, s, step->column, F->D[step->column], f.magnitude[0], failure);
+  f.magnitude[0] = fabs(f.l[0]);
+  for (c = s - 1; c >= F->S->first_descendant[s]; c = F->S->first_descendant[c] - 1) {
+    sli_short_assemble(F, &f, c, worker);
+  }
+  pivot = F->rule.replaces ? sli_pivot_by_rule(&F->rule, step->column, f.l[0], f.magnitude[0])
+               : f.l[0];
+  F->D[step->column] = pivot;
+  f.l[0] = 0.0;
+  for (r = 1; r <= below; r++) {
+    x[r] = f.l[r];
+    f.l[r] = x[r] / pivot;
+    for (k = 1; k <= r; k++) {
+      f.tile[SLI_TILE * k + r] -= f.l[r] * x[k];
+    }
+    f.magnitude[r] += fabs(f.l[r] * x[r]);
+  }
+  return sli_column_end(F, s, worker, f.l, f.magnitude, failure);
 }
 #endif
 
@@ -35516,21 +35499,6 @@ static sl_status SLF_NAME(front_factor)(sl_factor *F, const sli_source *from, sl
   const sl_int tiles = sli_front_tiles(&f);
   double *scratch = F->work.buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
   sl_status status;
-#if !SLF_HALF
-  if (f.width == 1 && tiles == 1) {
-    SLF_NAME(short) arrays;
-    arrays.l = SLF_OF(&f, panel);
-    arrays.tile = SLF_OF(&f, update);
-    arrays.magnitude = SLF_OF(&f, magnitude);
-    arrays.D = SLF_OF(&f, D);
-    memset(arrays.l, 0, SLI_TILE * sizeof(SLF_VALUE));
-    if (SLF_NAME(short_factor)(F, from, s, worker, &arrays, failure) != SL_OK) {
-      return failure->status;
-    }
-    SLF_NAME(front_hand_over)(&f);
-    return SLF_NAME(front_check)(F, &f, failure);
-  }
-#endif
   f.is_small = tiles == 1 && f.pairs == NULL && !SLF_HALF;
 #if !SLF_SINGLE
   if (f.is_small) {
@@ -35570,7 +35538,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
     } else if (F->schedule.is_plain[s]) {
       status = sli_plain_factor(F, from, s, worker, failure);
     } else if (sli_is_short(F, s)) {
-      status = sli_short_column(F, from, s, worker, failure);
+      status = sli_short_factor(F, from, s, worker, failure);
 #endif
     } else {
       status = SLF_NAME(front_factor)(F, from, s, worker, failure);
@@ -35592,7 +35560,6 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #undef SLF_NAME
 #undef SLF_VALUE
 #undef SLF_SINGLE
-#undef SLF_PIVOT
 #undef SLF_HALF
 #undef SLF_OF
 #undef SLF_BEGIN

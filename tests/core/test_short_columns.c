@@ -108,6 +108,28 @@ static void short_columns_are_right(void **state) {
     gen_matrix_free(&M);
 }
 
+/* Along a ring the entries of the last row of L fall below the range of float, as nothing does in
+ * the magnitudes of the row. */
+static void tiny_entries_are_rounded(void **state) {
+    (void)state;
+    const variant_list_t variants = variants_present();
+    for (int k = 0; k < variants.count; k++) {
+        gen_list_t t = path_with_chords(200, 0);
+        gen_add(&t, 199, 0, -1.0);
+        gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+        gen_list_free(&t);
+        sl_options opt = options_none();
+        sl_factor *F = NULL;
+        sl_symbolic *S = analyze_natural(&M.view, SL_RELAXATION_NONE);
+        options_set_variant(&opt, &variants, k);
+        opt.storage = SL_STORAGE_FLOAT;
+        SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+    }
+}
+
 /* The last pivot of a Laplacian is null, in whatever column of a path it is. */
 static void null_pivots_are_replaced(void **state) {
     (void)state;
@@ -138,6 +160,7 @@ int main(void) {
         cmocka_unit_test(a_large_path_is_in_columns),
         cmocka_unit_test(large_networks_have_few_zeros),
         cmocka_unit_test(short_columns_are_right),
+        cmocka_unit_test(tiny_entries_are_rounded),
         cmocka_unit_test(null_pivots_are_replaced),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

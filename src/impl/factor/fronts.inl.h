@@ -5,7 +5,6 @@
  *  SLF_NAME(f)            the name of function f for this type
  *  SLF_VALUE              the type of the numbers of a front
  *  SLF_SINGLE             1: floats, and no 2x2 pivots; 0: doubles
- *  SLF_PIVOT(d)           a pivot in double as SLF_VALUE
  *  SLF_HALF               1: a front holds the first columns of pairs only; 0: all columns
  *  SLF_OF(f, array)       an array of front f
  *  SLF_BEGIN(F, s, w)     the front of supernode s, which worker w factors, without its update
@@ -290,18 +289,25 @@ SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl
     return s;
 }
 
-/* Stores a plain column in another storage. */
-SLI_NOINLINE static sl_status sli_plain_store(const sl_factor *F, sl_int s, sl_int worker,
-                                              sli_failure *failure) {
-    sli_front f = sli_front_in_double(F, s, worker);
-    const sl_int end = SLI_TILE * sli_tiles(1 + f.below);
-    sl_int r;
-    f.panel = sli_plain_column(F, s, worker);
-    for (r = 0; r < end; r++) {
-        f.panel[r] = r > f.below ? 0.0 : f.panel[r];
-        f.magnitude[r] = fabs(f.panel[r] * *f.D * f.panel[r]);
+/* Ends column s: refuses its pivot as sli_check_pivot does, and stores l unless it is in L.
+ * magnitude: of all rows or, if it is plain, of the first one. */
+SLI_NOINLINE static sl_status sli_column_end(const sl_factor *F, sl_int s, sl_int worker, double *l,
+                                             const double *magnitude, sli_failure *failure) {
+    const sl_int k = F->S->steps[s].column, below = F->S->steps[s].below;
+    const sl_int end = SLI_TILE * sli_tiles(1 + below);
+    sl_status status = sli_check_pivot(F, s, k, F->D[k], *magnitude, failure);
+    if (status == SL_OK && F->type->store != NULL) {
+        sli_front f = sli_front_in_double(F, s, worker);
+        sl_int r;
+        f.panel = l;
+        for (r = 0; r < end; r++) {
+            l[r] = r > below ? 0.0 : l[r];
+            f.magnitude[r] =
+                r > below || F->schedule.is_plain[s] ? fabs(l[r] * *f.D * l[r]) : magnitude[r];
+        }
+        status = F->type->store(F, &f, failure);
     }
-    return F->type->store(F, &f, failure);
+    return status;
 }
 
 /* Computes plain column s: its pivot and its entries of L. */
@@ -311,7 +317,6 @@ static sl_status sli_plain_factor(sl_factor *F, const sli_source *from, sl_int s
     const sli_step *step = &S->steps[s];
     const sl_int k = step->column, below = step->below;
     double *l = sli_plain_column(F, s, worker), pivot, magnitude;
-    sl_status status;
     sl_int c, r;
     memset(l, 0, (size_t)(1 + below) * sizeof(double));
     if (sli_double_panel_load(F, from, s, l, failure) != SL_OK) {
@@ -324,13 +329,11 @@ static sl_status sli_plain_factor(sl_factor *F, const sli_source *from, sl_int s
     }
     pivot = F->rule.replaces ? sli_pivot_by_rule(&F->rule, k, pivot, magnitude) : pivot;
     F->D[k] = pivot;
-    *l++ = 0.0;
-    for (r = 0; r < below; r++) {
+    *l = 0.0;
+    for (r = 1; r <= below; r++) {
         l[r] /= pivot;
     }
-    status = sli_check_pivot(F, s, k, pivot, magnitude, failure);
-    return status == SL_OK && F->type->store != NULL ? sli_plain_store(F, s, worker, failure)
-                                                     : status;
+    return sli_column_end(F, s, worker, l, &magnitude, failure);
 }
 #endif
 
@@ -422,22 +425,21 @@ static sl_status SLF_NAME(front_finish)(const sl_factor *F, const sli_front *f,
     return SLF_NAME(front_check)(F, f, failure);
 }
 
-#if !SLF_HALF
+#if !SLF_SINGLE && !SLF_HALF
 /* The front of a column with up to 7 rows below: l is the column, the tile its update matrix, with
  * row r of the front in row and column r. */
-typedef struct SLF_NAME(short) {
-    SLF_VALUE *l, *tile, *magnitude, *D;
-} SLF_NAME(short);
+typedef struct sli_short {
+    double *l, *tile, *magnitude;
+} sli_short;
 
 /* Adds what child c passes up. Its first row below is the column. */
-SLI_INLINE void SLF_NAME(short_assemble)(const sl_factor *F, const SLF_NAME(short) * f, sl_int c,
-                                         sl_int worker) {
+SLI_INLINE void sli_short_assemble(const sl_factor *F, const sli_short *f, sl_int c,
+                                   sl_int worker) {
     const sli_step *child = &F->S->steps[c];
     const sl_int *relative = F->S->relative + F->S->rows_begin[c];
     const sl_int below = child->below, skipped = child->width % SLI_TILE;
-    const SLF_VALUE *update, *magnitude;
+    const double *update, *magnitude;
     sl_int r, k;
-#if !SLF_SINGLE
     if (F->schedule.is_plain[c]) { /* -l d l' */
         const double *l = sli_plain_column(F, c, worker) + 1, d = F->D[child->column];
         for (r = 0; r < below; r++) {
@@ -451,12 +453,11 @@ SLI_INLINE void SLF_NAME(short_assemble)(const sl_factor *F, const SLF_NAME(shor
         }
         return;
     }
-#endif
-    update = SLF_NAME(update_matrix)(F, c, worker);
+    update = sli_double_update_matrix(F, c, worker);
     magnitude = update + sli_triangle_offset(sli_tiles(skipped + below)) + skipped;
     for (r = 0; r < below; r++) {
         const sl_int row = relative[r], at = skipped + r;
-        const SLF_VALUE *from =
+        const double *from =
             update + sli_triangle_offset(at / SLI_TILE) + SLI_TILE * skipped + at % SLI_TILE;
         f->l[row] += from[0];
         for (k = 1; k <= r; k++) {
@@ -468,59 +469,43 @@ SLI_INLINE void SLF_NAME(short_assemble)(const sl_factor *F, const SLF_NAME(shor
 
 /* Factors such a front in scalars: most of its time would be spent on calls, and on vectors with
  * few rows in them. */
-static sl_status SLF_NAME(short_factor)(const sl_factor *F, const sli_source *from, sl_int s,
-                                        sl_int worker, const SLF_NAME(short) * f,
-                                        sli_failure *failure) {
-    const sli_step *step = &F->S->steps[s];
-    const sl_int below = step->below;
-    SLF_VALUE x[SLI_TILE], pivot;
-    sl_int c, r, k;
-    for (r = 0; r <= below; r++) {
-        f->l[r] = f->magnitude[r] = 0;
-        for (k = 1; k <= r; k++) {
-            f->tile[SLI_TILE * k + r] = 0;
-        }
-    }
-    if (SLF_NAME(panel_load)(F, from, s, f->l, failure) != SL_OK) {
-        return failure->status;
-    }
-    f->magnitude[0] = (SLF_VALUE)fabs(f->l[0]);
-    for (c = s - 1; c >= F->S->first_descendant[s]; c = F->S->first_descendant[c] - 1) {
-        SLF_NAME(short_assemble)(F, f, c, worker);
-    }
-    pivot = f->l[0];
-    if (F->rule.replaces) {
-        const double d = sli_pivot_by_rule(&F->rule, step->column, pivot, f->magnitude[0]);
-        pivot = SLF_PIVOT(d);
-    }
-    *f->D = pivot;
-    f->l[0] = 0;
-    for (r = 1; r <= below; r++) { /* l = x / d, then the update matrix -= l x' */
-        x[r] = f->l[r];
-        f->l[r] = x[r] / pivot;
-        for (k = 1; k <= r; k++) {
-            f->tile[SLI_TILE * k + r] -= f->l[r] * x[k];
-        }
-        f->magnitude[r] += (SLF_VALUE)fabs(f->l[r] * x[r]);
-    }
-    return SL_OK;
-}
-#endif
-
-#if !SLF_SINGLE && !SLF_HALF
-/* Factors a column with up to 7 rows below in L itself. */
-static sl_status sli_short_column(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
+static sl_status sli_short_factor(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
                                   sli_failure *failure) {
     const sli_step *step = &F->S->steps[s];
-    sli_double_short f;
-    f.l = (double *)F->values + step->panel;
+    const sl_int below = step->below;
+    double x[SLI_TILE], pivot;
+    sli_short f;
+    sl_int c, r, k;
+    f.l =
+        F->type->store == NULL ? (double *)F->values + step->panel : sli_front_panel(F, s, worker);
     f.tile = sli_double_update_matrix(F, s, worker);
     f.magnitude = f.tile + SLI_TILE * SLI_TILE;
-    f.D = F->D + step->column;
-    if (sli_double_short_factor(F, from, s, worker, &f, failure) != SL_OK) {
+    for (r = 0; r <= below; r++) {
+        f.l[r] = f.magnitude[r] = 0.0;
+        for (k = 1; k <= r; k++) {
+            f.tile[SLI_TILE * k + r] = 0.0;
+        }
+    }
+    if (sli_double_panel_load(F, from, s, f.l, failure) != SL_OK) {
         return failure->status;
     }
-    return sli_check_pivot(F, s, step->column, F->D[step->column], f.magnitude[0], failure);
+    f.magnitude[0] = fabs(f.l[0]);
+    for (c = s - 1; c >= F->S->first_descendant[s]; c = F->S->first_descendant[c] - 1) {
+        sli_short_assemble(F, &f, c, worker);
+    }
+    pivot = F->rule.replaces ? sli_pivot_by_rule(&F->rule, step->column, f.l[0], f.magnitude[0])
+                             : f.l[0];
+    F->D[step->column] = pivot;
+    f.l[0] = 0.0;
+    for (r = 1; r <= below; r++) { /* l = x / d, then the update matrix -= l x' */
+        x[r] = f.l[r];
+        f.l[r] = x[r] / pivot;
+        for (k = 1; k <= r; k++) {
+            f.tile[SLI_TILE * k + r] -= f.l[r] * x[k];
+        }
+        f.magnitude[r] += fabs(f.l[r] * x[r]);
+    }
+    return sli_column_end(F, s, worker, f.l, f.magnitude, failure);
 }
 #endif
 
@@ -531,21 +516,6 @@ static sl_status SLF_NAME(front_factor)(sl_factor *F, const sli_source *from, sl
     const sl_int tiles = sli_front_tiles(&f);
     double *scratch = F->work.buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
     sl_status status;
-#if !SLF_HALF
-    if (f.width == 1 && tiles == 1) {
-        SLF_NAME(short) arrays;
-        arrays.l = SLF_OF(&f, panel);
-        arrays.tile = SLF_OF(&f, update);
-        arrays.magnitude = SLF_OF(&f, magnitude);
-        arrays.D = SLF_OF(&f, D);
-        memset(arrays.l, 0, SLI_TILE * sizeof(SLF_VALUE)); /* padding that is stored with it */
-        if (SLF_NAME(short_factor)(F, from, s, worker, &arrays, failure) != SL_OK) {
-            return failure->status;
-        }
-        SLF_NAME(front_hand_over)(&f);
-        return SLF_NAME(front_check)(F, &f, failure);
-    }
-#endif
     f.is_small = tiles == 1 && f.pairs == NULL && !SLF_HALF;
 #if !SLF_SINGLE
     if (f.is_small) {
@@ -586,7 +556,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
         } else if (F->schedule.is_plain[s]) {
             status = sli_plain_factor(F, from, s, worker, failure);
         } else if (sli_is_short(F, s)) {
-            status = sli_short_column(F, from, s, worker, failure);
+            status = sli_short_factor(F, from, s, worker, failure);
 #endif
         } else {
             status = SLF_NAME(front_factor)(F, from, s, worker, failure);

@@ -3,7 +3,6 @@
 #undef SLF_NAME
 #undef SLF_VALUE
 #undef SLF_SINGLE
-#undef SLF_PIVOT
 #undef SLF_HALF
 #undef SLF_OF
 #undef SLF_BEGIN

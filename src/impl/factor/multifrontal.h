@@ -15,10 +15,9 @@ SLI_INLINE sl_int sli_front_tiles(const sli_front *f) {
     return sli_tiles(f->width + f->below);
 }
 
-/* Is supernode s a column that is factored in scalars, in L itself? */
+/* Is supernode s a column that is factored in scalars? */
 SLI_INLINE int sli_is_short(const sl_factor *F, sl_int s) {
-    const sli_step *step = &F->S->steps[s];
-    return step->width == 1 && step->below < SLI_TILE && F->type->store == NULL;
+    return F->S->steps[s].width == 1 && F->S->steps[s].below < SLI_TILE;
 }
 
 /* Clears what is used of a small front in double: a call of memset takes as long as a front. */
@@ -104,7 +103,6 @@ static sli_front sli_front_in_double(const sl_factor *F, sl_int s, sl_int worker
 #define SLF_NAME(f) sli_double_##f
 #define SLF_VALUE double
 #define SLF_SINGLE 0
-#define SLF_PIVOT(d) (d)
 #define SLF_HALF 0
 #define SLF_OF(f, array) (f)->array
 #define SLF_BEGIN sli_front_in_double

@@ -119,7 +119,6 @@ SLI_INLINE sli_front sli_single_begin(const sl_factor *F, sl_int s, sl_int worke
 #define SLF_NAME(f) sli_single_##f
 #define SLF_VALUE float
 #define SLF_SINGLE 1
-#define SLF_PIVOT(d) sli_to_float(d)
 #define SLF_HALF 0
 #define SLF_OF(f, array) (f)->single.array
 #define SLF_BEGIN sli_single_begin
