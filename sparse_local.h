@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 49d57d09052a752a
+ * FNV-1a of the lines after this comment, without the license: c2dc8f62efa4961d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,29 +35,29 @@
  *   2952 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   3029 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3069 impl/ base: the compiler, status, memory, sorting, threads
- *   4259 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5140 impl/ matrix: sparse matrices of the caller and of the library
- *   5775 impl/ ordering: fill-reducing orderings of a graph
- *  10386 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12614 impl/ factor: the numbers of L and D
- *  15965 impl/ solve: full and local solves
- *  17636 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19563 impl/ pivots: the order of the pivots by the values of a matrix
- *  19972 impl/ float: L and fronts in single precision
- *  20423 impl/ inverse: entries of the inverse, regions
- *  23501 impl/ change: a factor that follows changes of its matrix
- *  29540 impl/ dirichlet: rows fixed at given values
- *  30127 impl/ dirichlet: by a factor of all rows
- *  30345 impl/ io: files that are replaced only when they are complete
- *  30563 impl/ files: Matrix Market files, 64-bit indices
- *  31183 impl/ save: factors in files
- *  33188 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33873 impl/ batch: diagonals of many inverses
- *  34017 impl/ complex: complex Hermitian systems over real factors
- *  34579 impl/ complex: entries of the inverse
- *  34639 impl/ packs: the tables through which the core calls packs
- *  34687 impl/ last: undefine every internal macro
- *  35033 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4260 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5141 impl/ matrix: sparse matrices of the caller and of the library
+ *   5776 impl/ ordering: fill-reducing orderings of a graph
+ *  10387 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12615 impl/ factor: the numbers of L and D
+ *  15971 impl/ solve: full and local solves
+ *  17642 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19571 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19980 impl/ float: L and fronts in single precision
+ *  20431 impl/ inverse: entries of the inverse, regions
+ *  23509 impl/ change: a factor that follows changes of its matrix
+ *  29549 impl/ dirichlet: rows fixed at given values
+ *  30137 impl/ dirichlet: by a factor of all rows
+ *  30355 impl/ io: files that are replaced only when they are complete
+ *  30573 impl/ files: Matrix Market files, 64-bit indices
+ *  31193 impl/ save: factors in files
+ *  33199 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33884 impl/ batch: diagonals of many inverses
+ *  34028 impl/ complex: complex Hermitian systems over real factors
+ *  34590 impl/ complex: entries of the inverse
+ *  34650 impl/ packs: the tables through which the core calls packs
+ *  34698 impl/ last: undefine every internal macro
+ *  35045 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3204,6 +3204,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #define SLI_ALWAYS_INLINE __attribute__((unused, always_inline)) static inline
 #define SLI_NOINLINE __attribute__((unused, noinline))
 #define SLI_COLD __attribute__((unused, noinline, cold))
+#define SLI_HOT __attribute__((unused, noinline, hot))
 #define SLI_TARGET(list) __attribute__((target(list)))
 #define SLI_ALIGNED(variable) variable __attribute__((aligned(64)))
 #define SLI_PREFETCH(p, bytes) \
@@ -3214,6 +3215,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #define SLI_INLINE static inline
 #define SLI_NOINLINE
 #define SLI_COLD
+#define SLI_HOT
 #define SLI_TARGET(list)
 #if defined(_MSC_VER)
 #define SLI_ALWAYS_INLINE static __forceinline
@@ -3233,8 +3235,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #if defined(SLI_GNU)
 #define SLI_FNMA1(a, b, c) __builtin_fma(-(a), b, c)
 #elif defined(SLI_X86)
-#define SLI_FNMA1(a, b, c) \
-  _mm_cvtsd_f64(_mm_fnmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c)))
+#define SLI_FNMA1(a, b, c) _mm_cvtsd_f64(_mm_fnmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c)))
 #else
 #define SLI_FNMA1(a, b, c) fma(-(a), b, c)
 #endif
@@ -5706,8 +5707,8 @@ static void sli_submatrix_visit(const sli_submatrix *s, sl_int *position, sl_mat
   }
 }
 
-static sl_status sli_submatrix_make(sl_matrix **out, sl_int **from, const sli_submatrix *s,
-                  sl_int *position, const sl_allocator *a) {
+SLI_HOT static sl_status sli_submatrix_make(sl_matrix **out, sl_int **from, const sli_submatrix *s,
+                      sl_int *position, const sl_allocator *a) {
   sl_matrix *M = NULL;
   sl_status status;
   sl_int k;
@@ -13220,8 +13221,9 @@ SLI_INLINE void sli_null_map_join(const sli_null_walk *w, const sli_null_map_sta
   }
 }
 
-static void sli_null_add_entries(const sli_null_walk *w, sli_null_map_state *p, sl_off first,
-                 sl_int count, const double *values, const sl_int *from) {
+SLI_HOT static void sli_null_add_entries(const sli_null_walk *w, sli_null_map_state *p,
+                     sl_off first, sl_int count, const double *values,
+                     const sl_int *from) {
   const sl_symbolic *S = p->S;
   sl_int m;
   for (m = count - 1; m >= 0; m--) {
@@ -13242,8 +13244,8 @@ static void sli_null_add_entries(const sli_null_walk *w, sli_null_map_state *p, 
   }
 }
 
-static void sli_null_add_map(const sli_null_walk *w, const sl_symbolic *S, const sli_source *from,
-               double *diagonal) {
+SLI_HOT static void sli_null_add_map(const sli_null_walk *w, const sl_symbolic *S,
+                   const sli_source *from, double *diagonal) {
   double sums[SLI_SUM_ENTRIES];
   sli_null_map_state p;
   memset(&p, 0, sizeof p);
@@ -13279,8 +13281,9 @@ static int sli_map_has_duplicates(const sl_symbolic *S) {
   return 0;
 }
 
-static sli_null_walk sli_null_product(const sl_symbolic *S, const sli_source *from, int by_columns,
-                    sli_null_row *rows, const double *z, double *diagonal) {
+SLI_HOT static sli_null_walk sli_null_product(const sl_symbolic *S, const sli_source *from,
+                        int by_columns, sli_null_row *rows, const double *z,
+                        double *diagonal) {
   sli_null_walk w;
   sl_int i;
   w.rows = rows;
@@ -13521,7 +13524,7 @@ static void sli_null_combine(const sli_null_part *p, const double *c, sl_int col
   }
 }
 
-static sl_int sli_null_restrict(const sli_null_part *p) {
+SLI_COLD static sl_int sli_null_restrict(const sli_null_part *p) {
   double q[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX];
   double c[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX];
   sl_int vectors = 0;
@@ -13559,7 +13562,7 @@ static void sli_null_subtract(const sli_null_part *p, double *a, const double *b
   }
 }
 
-static void sli_null_orthonormalize(sli_null_part *p) {
+SLI_HOT static void sli_null_orthonormalize(sli_null_part *p) {
   sl_int v, j, k;
   for (v = 0; v < p->count; v++) {
     double *z = p->z + (size_t)v * p->n, most = -1.0;
@@ -13611,7 +13614,7 @@ static double sli_null_distance(const sli_null_part *p, sl_int k, const double *
   return sli_null_project(q, vectors, p->rank, x);
 }
 
-static void sli_null_anchors(const sli_null_part *p, sl_int *anchors) {
+SLI_COLD static void sli_null_anchors(const sli_null_part *p, sl_int *anchors) {
   double q[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX];
   sl_int v, j, k;
   for (v = 0; v < p->rank; v++) {
@@ -13794,8 +13797,8 @@ SLI_COLD static void sli_null_finite_check(const sl_factor *F, const sli_source 
   }
 }
 
-static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
-                    sli_failure *failure) {
+SLI_COLD static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
+                         sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const int is_one = F->null.vectors == 1,
         by_columns = from->A != NULL && !F->null.has_duplicates;
@@ -14450,7 +14453,8 @@ static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_fail
 
 /* src/impl/factor/null_center.h: constants for centered solves where components have several null vectors */
 
-static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_failure *failure) {
+SLI_HOT static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root,
+                      sli_failure *failure) {
   const size_t n = (size_t)F->S->n;
   sl_int m = sli_lower_bound(F->null.pivots, F->null.count, first), count = 0, k = root, i, j;
   const double rounding = 16.0 * F->S->n * DBL_EPSILON;
@@ -14496,7 +14500,7 @@ static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_f
   return SL_OK;
 }
 
-static void sli_center_multiply(sl_factor *F) {
+SLI_HOT static void sli_center_multiply(sl_factor *F) {
   const sl_symbolic *S = F->S;
   sl_int s, c, r, j;
   for (s = 0; s < S->n_supers; s++) {
@@ -14515,7 +14519,8 @@ static void sli_center_multiply(sl_factor *F) {
   }
 }
 
-static sl_status sli_center_finish(sl_factor *F, sl_int first, sl_int root, sli_failure *failure) {
+SLI_HOT static sl_status sli_center_finish(sl_factor *F, sl_int first, sl_int root,
+                       sli_failure *failure) {
   const size_t n = (size_t)F->S->n, count = (size_t)F->null.vectors;
   double q[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX] = {0.0}, size = 0.0;
   size_t i, j;
@@ -14594,7 +14599,7 @@ static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats
   return SL_OK;
 }
 
-static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
+SLI_COLD static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
   const sl_symbolic *S = F->S;
   double *used = F->divisors;
   sl_int k, m = 0;
@@ -14756,7 +14761,8 @@ static void sli_anchor_columns_clear(sl_factor *F) {
   }
 }
 
-static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failure *failure) {
+SLI_COLD static sl_status sli_nulls_find(sl_factor *F, const sli_source *from,
+                     sli_failure *failure) {
   sl_status status;
   sl_int k, m, regular = 0;
   F->null.count = 0;
@@ -15252,7 +15258,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
   return status;
 }
 
-static const char *sli_factor_choices_wrong(const sl_options *opt) {
+SLI_COLD static const char *sli_factor_choices_wrong(const sl_options *opt) {
   return (unsigned)opt->method > (unsigned)SL_METHOD_SUPERNODAL
          ? "options.method is not a value of sl_method"
        : (unsigned)opt->storage > (unsigned)SL_STORAGE_COMPLEX
@@ -15431,7 +15437,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
   draft.kernels =
     kernels != NULL ? kernels : sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
   draft.type = sli_storage_type_of(opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
-  if (draft.type == NULL) { /* untested: all packs are there */
+  if (draft.type == NULL) {                 /* untested: all packs are there */
     return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
               sli_storage_needs(opt->storage));
   }
@@ -15897,7 +15903,7 @@ SL_API sl_status sl_factor_pivot_rows(const sl_factor *F, sl_pivot_kind kind, sl
   return SL_OK;
 }
 
-static sl_off sli_factor_entries(const sl_factor *F, sl_matrix *M) {
+SLI_HOT static sl_off sli_factor_entries(const sl_factor *F, sl_matrix *M) {
   const sl_symbolic *S = F->S;
   sl_int s, j, r;
   sl_off count = 0;
@@ -17742,7 +17748,8 @@ static void sli_column_multiply(const sl_factor *F, sl_int s, sl_int j, int is_t
   }
 }
 
-static void sli_lower_multiply(const sl_factor *F, int is_transposed, double *x, sl_int lanes) {
+SLI_HOT static void sli_lower_multiply(const sl_factor *F, int is_transposed, double *x,
+                     sl_int lanes) {
   const sl_symbolic *S = F->S;
   sl_int at, s, k, j;
   for (at = 0; at < S->n_supers; at++) {
@@ -18080,7 +18087,8 @@ static void sli_refinement_layout(sli_refinement *f, sli_block *b, sl_int column
   f->memory = (unsigned char *)sli_take(b, bytes, 1);
 }
 
-static double sli_row_error(const sli_refinement *f, double *r, const double *x, const double *b) {
+SLI_HOT static double sli_row_error(const sli_refinement *f, double *r, const double *x,
+                  const double *b) {
   const sl_csc *A = f->A;
   double *size = f->size, worst = 0.0;
   sl_int i, j, p;
@@ -18476,7 +18484,7 @@ static void sli_norm_estimate_residual(const sli_norm_estimate *p) {
   }
 }
 
-static double sli_norm_estimate_solve(sli_norm_estimate *p) {
+SLI_HOT static double sli_norm_estimate_solve(sli_norm_estimate *p) {
   const sl_factor *F = p->F;
   const sl_int n = p->all.columns;
   const double size = sli_largest(p->v, n);
@@ -18681,8 +18689,8 @@ static double sli_guarantee_gamma(const sli_guarantee_work *p) {
   return size / (1.0 - size);
 }
 
-SLI_INLINE void sli_magnitudes_tile(const sl_factor *F, sl_int s, sl_int tile, int is_transposed,
-                  double *z) {
+SLI_HOT static void sli_magnitudes_tile(const sl_factor *F, sl_int s, sl_int tile,
+                    int is_transposed, double *z) {
   const sli_step *step = &F->S->steps[s];
   const sl_int *below = F->S->rows + F->S->rows_begin[s] - step->width;
   const sl_int first = SLI_TILE * tile, columns = sli_min(step->width, first + SLI_TILE);
@@ -18726,7 +18734,7 @@ static void sli_magnitudes_multiply(const sl_factor *F, double *z) {
   }
 }
 
-static double sli_magnitude_bound(const sli_guarantee_work *p, const sl_factor *F) {
+SLI_HOT static double sli_magnitude_bound(const sli_guarantee_work *p, const sl_factor *F) {
   const sl_symbolic *S = F->S;
   double least = HUGE_VAL;
   sl_int k;
@@ -18805,8 +18813,8 @@ static int sli_guarantee_roots(const sli_guarantee_work *p, const sl_csc *A) {
   return 1;
 }
 
-static double sli_guarantee_try(sli_guarantee_work *p, const sl_csc *A, double shift,
-                sl_status *status) {
+SLI_HOT static double sli_guarantee_try(sli_guarantee_work *p, const sl_csc *A, double shift,
+                    sl_status *status) {
   const double kept = 1.0 - shift;
   sl_csc shifted = *A;
   sl_int j, q;
@@ -18931,7 +18939,7 @@ SLI_INLINE double sli_probe_random(uint32_t *state) {
   return (double)(*state >> 8) / (double)(1u << 23) - 1.0;
 }
 
-static void sli_probes_start(sli_probes *p) {
+SLI_HOT static void sli_probes_start(sli_probes *p) {
   const sl_int n = p->F->S->n, half = SLI_PROBES / 2;
   double *diagonal = p->product;
   uint32_t state = 1;
@@ -18970,7 +18978,7 @@ static void sli_probes_add(double *product, double a, const double *v) {
   }
 }
 
-static void sli_probes_multiply(sli_probes *p) {
+SLI_HOT static void sli_probes_multiply(sli_probes *p) {
   const sl_csc *A = p->A;
   sl_int j, q;
   memset(p->product, 0, (size_t)A->n_cols * 2 * SLI_PROBES * sizeof(double));
@@ -19012,7 +19020,7 @@ static void sli_probes_measure(sli_probes *p, int is_first) {
   }
 }
 
-static void sli_probes_turn(sli_probes *p) {
+SLI_HOT static void sli_probes_turn(sli_probes *p) {
   double largest[SLI_PROBES], *v = p->v;
   const double *x = p->product;
   sl_int i, c;
@@ -19794,7 +19802,7 @@ static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front
     f->D = SLI_TAKE(&b, double, f->columns);
     f->E = SLI_TAKE(&b, double, f->columns);
     f->values = SLI_TAKE(&b, double, (uint64_t)f->rows *(uint64_t)f->rows);
-    if (b.overflow) {            /* untested: on 32 bits only */
+    if (b.overflow) {                                   /* untested: on 32 bits only */
       return sli_refuse(SL_ERR_TOO_LARGE, "a front"); /* untested: the same */
     }
     if (pass == 0 && b.used > p->front_size) {
@@ -19853,8 +19861,8 @@ static sl_status sli_search_keep(sli_pivot_search *p, sl_int s, const sli_dense_
   return SL_OK;
 }
 
-static sl_status sli_search_supernode(sli_pivot_search *p, const sl_csc *A, sl_int s,
-                    sl_stats *stats) {
+SLI_HOT static sl_status sli_search_supernode(sli_pivot_search *p, const sl_csc *A, sl_int s,
+                        sl_stats *stats) {
   const sl_symbolic *S = p->S;
   sli_dense_front f;
   sl_status status = sli_search_front(p, s, &f);
@@ -21008,7 +21016,7 @@ static void sli_traverse_shared(sli_traversal_run *run, sli_team *team) {
   sli_team_loop(team, workers, NULL, sli_traverse_visit_range, run);
 }
 
-static void sli_traverse_lead(sli_team *team, void *data) {
+SLI_HOT static void sli_traverse_lead(sli_team *team, void *data) {
   sli_traversal_run *run = (sli_traversal_run *)data;
   const sli_schedule *schedule = &run->traversal->schedule;
   sl_int m;
@@ -22402,8 +22410,8 @@ static sl_status sli_selected_plan(sl_selected **out, sl_selected *draft, const 
   return status;
 }
 
-static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const sl_int *set,
-                  sl_int count, const sl_options *opt, sl_stats *stats) {
+SLI_COLD static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const sl_int *set,
+                       sl_int count, const sl_options *opt, sl_stats *stats) {
   const sl_symbolic *S = F->S;
   sli_block b = {NULL, 0, 0};
   uint64_t *seeds = NULL, *scratch = NULL;
@@ -25583,7 +25591,8 @@ static int sli_pin_null(const sl_factor *F, const sli_pin_part *part, sl_int nul
   return column != -1 || sli_null_is_zero_row(F, &part->tree, null);
 }
 
-static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, int fills, sl_int *row) {
+SLI_HOT static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, int fills,
+                       sl_int *row) {
   const sl_int *iperm = F->S->iperm;
   sli_pin_part p;
   pin->n_nulls = 0;
@@ -25989,8 +25998,8 @@ static sl_status sli_pins_push(sl_pins *P, const sli_equality *e, sl_stats *stat
   return SL_OK;
 }
 
-static void sli_capacitance_solve(const double *K, size_t ld, sl_int count, double *f,
-                  sl_int lanes) {
+SLI_HOT static void sli_capacitance_solve(const double *K, size_t ld, sl_int count, double *f,
+                      sl_int lanes) {
   sl_int i, j, r;
   for (i = 1; i < count; i++) {
     double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, sums[SLI_TILE];
@@ -26707,7 +26716,7 @@ SLI_COLD static sl_status sli_pins_inconsistent(void) {
   return sli_refuse(SL_ERR_INCONSISTENT, "B has a part along a null vector that no pin holds");
 }
 
-static sl_status sli_pins_block(sli_pins_solve *w) {
+SLI_HOT static sl_status sli_pins_block(sli_pins_solve *w) {
   const sl_pins *P = w->P;
   const sli_query *q = w->q;
   const sl_factor *F = P->F;
@@ -26764,9 +26773,9 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
   all = sli_query_all(P->F->S);
   status = sli_rhs_check_columns(&rhs, q->nx, q->nb);
   if (status == SL_OK && nrhs > 0 && P->n_pins > 0) {
-    status = sli_argument(G == NULL                   ? "G is NULL"
+    status = sli_argument(G == NULL                    ? "G is NULL"
                 : !sli_is_ld(ldg, P->n_pins) ? "ldg is below the number of pins"
-                              : NULL);
+                               : NULL);
   }
   status = status == SL_OK ? sli_pins_are_current(P) : status;
   status = status == SL_OK ? sli_query_check(q, P->F) : status;
@@ -26903,8 +26912,8 @@ static void sli_subset_hash(sli_subset *R) {
   }
 }
 
-static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_int *rows,
-                 sl_int *rank_of, sl_stats *stats) {
+SLI_HOT static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_int *rows,
+                     sl_int *rank_of, sl_stats *stats) {
   static const char sli_row_twice[] = "a row is given twice";
   sl_int k, rank = 0;
   if (!R->is_hashed) {
@@ -27039,7 +27048,7 @@ static int sli_restriction_has_runs(const sli_restriction *r) {
   return follow >= SLI_RESTRICT_KEPT * r->R.count;
 }
 
-static void sli_restriction_split(sli_restriction *r) {
+SLI_HOT static void sli_restriction_split(sli_restriction *r) {
   const sl_symbolic *S = r->S;
   const sl_int *columns = r->R.columns;
   const sl_int most = (sl_int)((1.0 - SLI_RESTRICT_KEPT) * r->R.count);
@@ -27075,7 +27084,7 @@ static void sli_restriction_split(sli_restriction *r) {
   }
 }
 
-static sl_status sli_restriction_filter(sli_restriction *r, const sl_allocator *a) {
+SLI_HOT static sl_status sli_restriction_filter(sli_restriction *r, const sl_allocator *a) {
   const sl_symbolic *S = r->S;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
@@ -27201,7 +27210,7 @@ static void sli_restriction_cliques(sli_restriction *r) {
   }
 }
 
-static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
+SLI_HOT static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
   const sl_csc *A = r->A;
   const sl_triangle triangle = r->S->stats.symbolic.triangle;
   const sl_int *number_at = r->number_at;
@@ -27418,7 +27427,7 @@ static void sli_joint_add(sli_joint *j, sl_int width, sl_off below) {
   j->super++;
 }
 
-static void sli_joint_add_kept(sli_joint *j, sli_restriction *r, sl_int root) {
+SLI_HOT static void sli_joint_add_kept(sli_joint *j, sli_restriction *r, sl_int root) {
   for (; root != -1; root = r->next[root]) {
     sl_int q, k;
     for (q = root + 1 - sli_restriction_size(r, root); q <= root; q++) {
@@ -27463,7 +27472,7 @@ static void sli_joint_number(sli_joint *j, sli_restriction *r) {
   j->S->panel_begin[j->super] = j->panel;
 }
 
-static void sli_joint_fill_kept(sl_symbolic *S, const sli_restriction *r, sl_int q) {
+SLI_HOT static void sli_joint_fill_kept(sl_symbolic *S, const sli_restriction *r, sl_int q) {
   const sl_symbolic *from = r->S;
   const sl_int s = r->kept[q], to = r->kept_new[q], up = from->super_parent[s];
   const sl_int first = from->super_first[s], end = from->super_first[s + 1];
@@ -29410,7 +29419,7 @@ static void sli_reuse_drop(sli_reuse *r, sl_int s) {
   }
 }
 
-static void sli_reuse_compare(sli_reuse *r, sl_int s) {
+SLI_HOT static void sli_reuse_compare(sli_reuse *r, sl_int s) {
   int is_moved;
   const sl_int there = sli_reuse_candidate(r, s, &is_moved);
   if (there != -1 && sli_reuse_is_same(r, s, there, is_moved)) {
@@ -29724,9 +29733,10 @@ SL_API void sl_dirichlet_free(sl_dirichlet *D) {
   }
 }
 
-static sl_status sli_dirichlet_factor(sl_dirichlet *D, const sl_csc *A,
-                    const sli_dirichlet_arrays *arrays, const sl_int *where,
-                    sl_int *scratch, sl_stats *stats) {
+SLI_COLD static sl_status sli_dirichlet_factor(sl_dirichlet *D, const sl_csc *A,
+                         const sli_dirichlet_arrays *arrays,
+                         const sl_int *where, sl_int *scratch,
+                         sl_stats *stats) {
   sl_options analysis = D->analysis, factorization = D->factorization;
   sli_submatrix s;
   sl_csc view;
@@ -30258,8 +30268,8 @@ SLI_INLINE int sli_dirichlet_is_over(sl_status status) {
   return status == SL_ERR_MEMORY || status == SL_ERR_TOO_LARGE;
 }
 
-static sl_status sli_dirichlet_take(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
-                  sl_stats *stats) {
+SLI_COLD static sl_status sli_dirichlet_take(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
+                       sl_stats *stats) {
   sli_dirichlet_choice c;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
@@ -30490,7 +30500,7 @@ static int sli_create_beside(sli_output *o, int exists) {
   return 1;
 }
 
-static sl_status sli_output_open(sli_output *o, const char *path, const sl_allocator *a) {
+SLI_COLD static sl_status sli_output_open(sli_output *o, const char *path, const sl_allocator *a) {
   int exists, could_replace;
   errno = 0;
   o->path = path;
@@ -30535,7 +30545,7 @@ static int sli_replace(const sli_output *o, int *is_only_copy) {
   return 0;
 }
 
-static sl_status sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
+SLI_COLD static sl_status sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
   int ok = fflush(o->file) == 0 && complete, has_name = 1, is_only_copy = 0;
   sl_status status;
 #if defined(SLI_UNNAMED_FILES)
@@ -31396,7 +31406,7 @@ SLI_NOINLINE static void sli_saved_add(sli_saved *f, uint32_t id, uint32_t word,
   f->used[k] = used * word;
 }
 
-SLI_NOINLINE static void sli_saved_add_analysis(sli_saved *f, const sl_symbolic *S) {
+SLI_COLD static void sli_saved_add_analysis(sli_saved *f, const sl_symbolic *S) {
   const sli_saved_analysis *a = &f->analysis;
   const uint64_t n = (uint64_t)a->n, supers = (uint64_t)a->supers, rows = (uint64_t)a->rows,
            entries = (uint64_t)a->entries, nodes = (uint64_t)a->nodes;
@@ -31526,8 +31536,8 @@ static void sli_saved_add_selected(sli_saved *f, const sl_selected *Z) {
   }
 }
 
-SLI_NOINLINE static void sli_saved_add_base(sli_saved *f, const sl_symbolic *S, const sl_factor *F,
-                      int has_factor) {
+SLI_COLD static void sli_saved_add_base(sli_saved *f, const sl_symbolic *S, const sl_factor *F,
+                    int has_factor) {
   f->header.sections = 0;
   sli_saved_add(f, SLI_SECTION_ANALYSIS, 8, &f->analysis, sizeof f->analysis / 8,
           sizeof f->analysis / 8);
@@ -31565,7 +31575,7 @@ static sli_checksum sli_checksum_begin(void) {
   return c;
 }
 
-static void sli_checksum_add(sli_checksum *c, const void *data, size_t bytes) {
+SLI_HOT static void sli_checksum_add(sli_checksum *c, const void *data, size_t bytes) {
   (void)sli_hash_stripes(c->chain, data, bytes, SLI_HASH_BYTES, 0);
   c->bytes += sli_round_up(bytes);
 }
@@ -31772,7 +31782,7 @@ static int sli_check_perm(const sl_symbolic *S) {
   return 1;
 }
 
-static int sli_check_supers(const sl_symbolic *S) {
+SLI_HOT static int sli_check_supers(const sl_symbolic *S) {
   sl_int s, c, k = 0, children = 0, visited = 0;
   if (S->super_first[0] != 0 || S->super_first[S->n_supers] != S->n) {
     return 0;
@@ -31813,7 +31823,7 @@ static int sli_check_parent(const sl_symbolic *S, sl_int k, sl_int up) {
   return up == (S->steps[s].below > 0 ? S->rows[S->rows_begin[s]] : -1);
 }
 
-static int sli_check_tree(const sl_symbolic *S, const sli_saved_analysis *a) {
+SLI_HOT static int sli_check_tree(const sl_symbolic *S, const sli_saved_analysis *a) {
   sl_off nnz_l = 0;
   sl_int k, roots = 0;
   for (k = 0; k < S->n; k++) {
@@ -31880,7 +31890,7 @@ static sl_off sli_check_panel(const sl_symbolic *S, sl_int s, sl_int width, sl_o
          : sli_panel_start(next, end) - begin;
 }
 
-static int sli_check_structure(const sl_symbolic *S) {
+SLI_HOT static int sli_check_structure(const sl_symbolic *S) {
   sl_int s, tallest = 0, widest = 0;
   if (S->rows_begin[0] != 0 || S->panel_begin[0] != 0) {
     return 0;
@@ -31934,7 +31944,7 @@ static int sli_check_scatter_panel(const sl_symbolic *S, sl_int s, sl_int width,
   return !wrong;
 }
 
-static int sli_check_scatter(const sl_symbolic *S) {
+SLI_HOT static int sli_check_scatter(const sl_symbolic *S) {
   sl_int s;
   if (S->scatter_begin[0] != 0) {
     return 0;
@@ -32056,7 +32066,7 @@ static int sli_check_blocks(const sl_factor *F) {
   return 1;
 }
 
-static int sli_check_factor(const sl_factor *F) {
+SLI_HOT static int sli_check_factor(const sl_factor *F) {
   const sl_factor_info *info = &F->stats.factor;
   const sl_int n = F->S->n;
   sl_int k, positive = 0, negative = 0, nulls = 0, shifted = 0, blocks = 0;
@@ -32195,8 +32205,8 @@ static void sli_put(sli_sink *to, const void *data, size_t bytes) {
   }
 }
 
-static void sli_put_filled(sli_sink *to, sli_checksum *sum, const void *data, uint64_t used,
-               uint64_t bytes) {
+SLI_HOT static void sli_put_filled(sli_sink *to, sli_checksum *sum, const void *data, uint64_t used,
+                   uint64_t bytes) {
   static const unsigned char zeros[1024] = {0};
   uint64_t left = bytes - used;
   if (to == NULL) {
@@ -32241,7 +32251,8 @@ static void sli_put_regions(const sli_saved *f, uint32_t id, sli_sink *to, sli_c
   }
 }
 
-static void sli_put_section(const sli_saved *f, uint32_t k, sli_sink *to, sli_checksum *sum) {
+SLI_HOT static void sli_put_section(const sli_saved *f, uint32_t k, sli_sink *to,
+                  sli_checksum *sum) {
   const uint32_t id = f->table[k].id;
   if (id > SLI_SECTION_REGIONS && id < SLI_SECTION_SELECTED) {
     sli_put_regions(f, id, to, sum);
@@ -32290,7 +32301,7 @@ static sl_status sli_save_check(const sl_saved_set *set) {
   return SL_OK;
 }
 
-static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
+SLI_COLD static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
   const sl_factor *F = set->factor;
   const sl_status status = F != NULL && F->type->half
                  ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_STORAGE_COMPLEX is not saved")
@@ -32331,7 +32342,7 @@ static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
         : sli_refuse(SL_ERR_TOO_LARGE, "the saved bytes");    /* untested: the same */
 }
 
-static void sli_save_write(sli_saved *f, sli_sink *to) {
+SLI_COLD static void sli_save_write(sli_saved *f, sli_sink *to) {
   unsigned char prefix[sizeof(sli_saved_header) + SLI_SECTIONS_MAX * sizeof(sli_section)];
   const size_t size = (size_t)sli_saved_prefix(f);
   uint32_t k;
@@ -32769,8 +32780,8 @@ static sl_status sli_selected_of_memory(sl_selected **out, sl_selected *draft, s
   return SL_OK;
 }
 
-static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected **out, sl_selected *draft,
-                      sli_block *lists) {
+SLI_COLD static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected **out,
+                           sl_selected *draft, sli_block *lists) {
   const uint32_t k = r->first_selected;
   const sl_int count = draft->traversal.forest.count;
   const uint64_t bytes = r->saved.table[k + 3].bytes;
@@ -32800,8 +32811,8 @@ static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected **out, sl_
   return status;
 }
 
-static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S, const sl_factor *F,
-                   sl_selected **out) {
+SLI_COLD static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S,
+                      const sl_factor *F, sl_selected **out) {
   const sli_section *table = &r->saved.table[r->first_selected];
   sli_block lists = {NULL, 0, 0};
   sli_saved_part part;
@@ -33890,7 +33901,7 @@ static sli_entries sli_diagonal_batch_entries(const sli_diagonal_batch *d, sl_in
   return q;
 }
 
-static void sli_diagonal_batch_worker(void *data, sl_int w) {
+SLI_HOT static void sli_diagonal_batch_worker(void *data, sl_int w) {
   const sli_diagonal_batch *d = (const sli_diagonal_batch *)data;
   sl_int k;
   for (k = w; k < d->count; k += d->workers) {
@@ -34498,8 +34509,8 @@ static sl_status sli_complex_fill(const sli_complex_set *set, sl_int n, int is_c
                    "a row or column is out of range");
 }
 
-static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n, const sl_allocator *a,
-                     sl_stats *stats) {
+SLI_COLD static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n,
+                          const sl_allocator *a, sl_stats *stats) {
   sli_block b = {NULL, 0, 0};
   sl_status status = sli_complex_check(n, &c->first);
   status = status == SL_OK ? sli_complex_check(n, &c->second) : status;
@@ -34700,6 +34711,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_ALWAYS_INLINE
 #undef SLI_NOINLINE
 #undef SLI_COLD
+#undef SLI_HOT
 #undef SLI_TARGET
 #undef SLI_UNROLL
 #undef SLI_KEEP_CALL
@@ -37838,18 +37850,6 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *va
 
 #if defined(SLV_PAIR)
 #define SLI_BY_WIDTH(call) SLI_CASES(call)
-#define SLI_CLEAR_ALL
-#else
-#define SLI_BY_WIDTH(call) call(w)
-#define SLI_CLEAR_ALL SLI_EACH8(SLI_CLEAR, y)
-#define SLI_CLEAR(k, y) SLV_ZERO(y##k)
-#endif
-#if !defined(SLV_PAIR) && SLV_SINGLE
-#define SLI_CLEAR_WIDE memset(t, 0, sizeof t);
-#else
-#define SLI_CLEAR_WIDE
-#endif
-
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
@@ -37877,7 +37877,6 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, sl_
   SLV_DECLARE(a)
   SLV_DECLARE(b)
   SLI_EACH8(SLI_DECLARE, y)
-  SLI_CLEAR_ALL
   SLV_LOAD_PART(a, xs, w, 0.0)
   SLI_EACH8(SLI_COLUMN, 0)
   SLV_STORE(buf, a)
@@ -37957,7 +37956,6 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
     SLV_BELOW(v, w - 1)
     SLI_DOTS_OWN
   }
-  SLI_CLEAR_WIDE
   SLV_WIDEN(t, l, w, SLI_TILE)
   SLV_LOAD_PART(z, xs, w, 0.0)
   SLV_LOAD_PART(v, d, w, 1.0)
@@ -37975,6 +37973,69 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
   SLI_ROW(1)
   SLI_EACH8(SLI_GET, 0)
 }
+
+#else
+#define SLI_BY_WIDTH(call) call(w)
+
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_forward)(sl_int w, sl_int below, const sl_int *rows,
+                            const SLV_VALUE *l, double *xs, double *x,
+                            double *buf) {
+  sl_int row, i, k;
+  double a[SLI_TILE] = {0.0}, b[SLI_TILE], y[SLI_TILE];
+  memcpy(a, xs, (size_t)w * sizeof(double));
+  for (k = 0; k < w; k++) {
+    y[k] = a[k];
+    SLI_LOOP(SLI_TILE, a[i_] -= l[SLI_TILE * k + i_] * y[k])
+  }
+  memcpy(buf, a, sizeof a);
+  memcpy(xs, a, (size_t)w * sizeof(double));
+  for (row = SLI_TILE; row < w + below; row += SLI_TILE) {
+    l += SLI_TILE * w;
+    SLV_ZERO(a)
+    SLV_ZERO(b)
+    for (k = 0; k + 2 <= w; k += 2) {
+      SLI_PREFETCH(l + SLI_TILE * k, SLI_PREFETCH_DISTANCE);
+      SLI_LOOP(SLI_TILE, a[i_] -= l[SLI_TILE * k + i_] * y[k])
+      SLI_LOOP(SLI_TILE, b[i_] -= l[SLI_TILE * k + SLI_TILE + i_] * y[k + 1])
+    }
+    if (k < w) {
+      SLI_LOOP(SLI_TILE, a[i_] -= l[SLI_TILE * k + i_] * y[k])
+    }
+    SLI_LOOP(SLI_TILE, buf[row + i_] = a[i_] + b[i_])
+  }
+  for (i = 0; i < below; i++) {
+    x[rows[i]] += buf[w + i];
+  }
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_backward)(sl_int w, sl_int below, const sl_int *rows,
+                             const SLV_VALUE *l, const double *d,
+                             double *xs, const double *x) {
+  double a[SLI_TILE] = {0.0}, v[SLI_TILE] = {0.0};
+  sl_int row = (w + below - 1) / SLI_TILE * SLI_TILE, j, k;
+  for (; row >= 0; row -= SLI_TILE) {
+    const sl_int from = sli_max(row, w), end = sli_min(row + SLI_TILE, w + below);
+    l -= SLI_TILE * w;
+    SLV_ZERO(v)
+    for (j = from; j < end; j++) {
+      v[j - row] = x[rows[j - w]];
+    }
+    for (k = from < end ? w - 1 : -1; k >= 0; k--) {
+      SLI_PREFETCH(l + SLI_TILE * k, -SLI_PREFETCH_DISTANCE);
+      SLV_SUM_DOT(a[k], l + SLI_TILE * k, v)
+    }
+  }
+  for (k = 0; k < w; k++) {
+    a[k] += xs[k] / d[k];
+  }
+  for (k = w - 1; k > 0; k--) {
+    for (j = 0; j < k; j++) {
+      a[j] = SLV_FNMA1((double)l[SLI_TILE * j + k], a[k], a[j]);
+    }
+  }
+  memcpy(xs, a, (size_t)w * sizeof(double));
+}
+#endif
 
 SLV_FUNCTION SLI_INLINE const sli_step *SLV_SWEEP(forward_plain)(const sli_step *s,
                                  const sli_reach *R,
@@ -38130,9 +38191,6 @@ SLV_FUNCTION static const sli_step *SLV_SWEEP(backward_small)(const sli_step *s,
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
 #undef SLI_BY_WIDTH
-#undef SLI_CLEAR_ALL
-#undef SLI_CLEAR_WIDE
-#undef SLI_CLEAR
 /* end of small_supernode.inl.h */
 #endif
 /* src/impl/kernels/single_rhs.inl.h: sweeps for one right-hand side, vectorized over the 8 rows of a tile */

@@ -40,8 +40,9 @@ selection() {
 
 # compile FLAG ...: sets text and seconds
 compile() {
-    seconds=$( { time gcc -std=c99 -O2 -I. "$@" -c $dir/bodies.c -o $dir/bodies.o; } 2>&1 ) || {
-        echo "$seconds"
+    seconds=$( { time gcc -std=c99 -O2 -I. "$@" -c $dir/bodies.c -o $dir/bodies.o \
+        2>$dir/messages; } 2>&1 ) || {
+        cat $dir/messages
         exit 1
     }
     text=$(size $dir/bodies.o | awk 'NR == 2 { print $1 }')
@@ -63,7 +64,12 @@ read_header=$(selection --comments --packs '')
 rm -f $dir/bodies.ci
 graph=-fcallgraph-info=su # from gcc 10 on
 gcc $graph -E - </dev/null >/dev/null 2>&1 || graph=
-compile -DSL_WITH_ALL $graph
+compile -DSL_WITH_ALL $graph -Wsuggest-attribute=cold
+# Loops of a user who calls what always ends in cold code would be compiled for few bytes, too.
+if grep SL_API $dir/messages; then
+    echo 'size: a public call that is taken for cold, or the way to it'
+    failed=1
+fi
 all_text=$text all_seconds=$seconds
 printf '%-16s %10s %10s %10s %10s\n' '' 'header kB' 'object kB' 'compile s' 'of all'
 compile

@@ -69,7 +69,7 @@ SLI_INLINE double sli_probe_random(uint32_t *state) {
     return (double)(*state >> 8) / (double)(1u << 23) - 1.0;
 }
 
-static void sli_probes_start(sli_probes *p) {
+SLI_HOT static void sli_probes_start(sli_probes *p) {
     const sl_int n = p->F->S->n, half = SLI_PROBES / 2;
     double *diagonal = p->product; /* free so far */
     uint32_t state = 1;
@@ -110,7 +110,7 @@ static void sli_probes_add(double *product, double a, const double *v) {
     }
 }
 
-static void sli_probes_multiply(sli_probes *p) {
+SLI_HOT static void sli_probes_multiply(sli_probes *p) {
     const sl_csc *A = p->A;
     sl_int j, q;
     memset(p->product, 0, (size_t)A->n_cols * 2 * SLI_PROBES * sizeof(double));
@@ -154,7 +154,7 @@ static void sli_probes_measure(sli_probes *p, int is_first) {
 }
 
 /* The errors of the solves become the probes, scaled by powers of 2. */
-static void sli_probes_turn(sli_probes *p) {
+SLI_HOT static void sli_probes_turn(sli_probes *p) {
     double largest[SLI_PROBES], *v = p->v;
     const double *x = p->product;
     sl_int i, c;

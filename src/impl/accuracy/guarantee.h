@@ -70,8 +70,8 @@ static double sli_guarantee_gamma(const sli_guarantee_work *p) {
 }
 
 /* z += |L| z, or z += |L'| z, without the unit diagonal, for one row tile of supernode s. */
-SLI_INLINE void sli_magnitudes_tile(const sl_factor *F, sl_int s, sl_int tile, int is_transposed,
-                                    double *z) {
+SLI_HOT static void sli_magnitudes_tile(const sl_factor *F, sl_int s, sl_int tile,
+                                        int is_transposed, double *z) {
     const sli_step *step = &F->S->steps[s];
     const sl_int *below = F->S->rows + F->S->rows_begin[s] - step->width;
     const sl_int first = SLI_TILE * tile, columns = sli_min(step->width, first + SLI_TILE);
@@ -119,7 +119,7 @@ static void sli_magnitudes_multiply(const sl_factor *F, double *z) {
 
 /* A bound of the largest eigenvalue of H^-1/2 |L| D |L'| H^-1/2 for the factor F, of some pivots
  * whose diagonal H is p->root squared. */
-static double sli_magnitude_bound(const sli_guarantee_work *p, const sl_factor *F) {
+SLI_HOT static double sli_magnitude_bound(const sli_guarantee_work *p, const sl_factor *F) {
     const sl_symbolic *S = F->S;
     double least = HUGE_VAL;
     sl_int k;
@@ -201,8 +201,8 @@ static int sli_guarantee_roots(const sli_guarantee_work *p, const sl_csc *A) {
 }
 
 /* The lower bound a of A - s H; 0 or less if there is none. *status: of the factorization. */
-static double sli_guarantee_try(sli_guarantee_work *p, const sl_csc *A, double shift,
-                                sl_status *status) {
+SLI_HOT static double sli_guarantee_try(sli_guarantee_work *p, const sl_csc *A, double shift,
+                                        sl_status *status) {
     const double kept = 1.0 - shift;
     sl_csc shifted = *A;
     sl_int j, q;

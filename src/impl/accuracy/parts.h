@@ -122,7 +122,8 @@ static void sli_column_multiply(const sl_factor *F, sl_int s, sl_int j, int is_t
 
 /* x := L x or L' x in place: a column is read before it is written if L takes the last one first,
  * and L' the first one. */
-static void sli_lower_multiply(const sl_factor *F, int is_transposed, double *x, sl_int lanes) {
+SLI_HOT static void sli_lower_multiply(const sl_factor *F, int is_transposed, double *x,
+                                       sl_int lanes) {
     const sl_symbolic *S = F->S;
     sl_int at, s, k, j;
     for (at = 0; at < S->n_supers; at++) {

@@ -50,7 +50,7 @@ static void sli_norm_estimate_residual(const sli_norm_estimate *p) {
 }
 
 /* v := (P A P')^-1 v. Returns the 1-norm of v. */
-static double sli_norm_estimate_solve(sli_norm_estimate *p) {
+SLI_HOT static double sli_norm_estimate_solve(sli_norm_estimate *p) {
     const sl_factor *F = p->F;
     const sl_int n = p->all.columns;
     const double size = sli_largest(p->v, n);

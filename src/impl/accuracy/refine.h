@@ -33,7 +33,8 @@ static void sli_refinement_layout(sli_refinement *f, sli_block *b, sl_int column
 
 /* r := b - A x. Returns the componentwise backward error of x: the least relative change of the
  * entries of A and b that makes x an exact solution. */
-static double sli_row_error(const sli_refinement *f, double *r, const double *x, const double *b) {
+SLI_HOT static double sli_row_error(const sli_refinement *f, double *r, const double *x,
+                                    const double *b) {
     const sl_csc *A = f->A;
     double *size = f->size, worst = 0.0;
     sl_int i, j, p;

@@ -148,7 +148,12 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 /* for functions whose calls pass a constant that must be folded into the body */
 #define SLI_ALWAYS_INLINE __attribute__((unused, always_inline)) static inline
 #define SLI_NOINLINE __attribute__((unused, noinline)) /* keeps rare code out of hot functions */
-#define SLI_COLD __attribute__((unused, noinline, cold)) /* the same, of few bytes */
+/* The same, compiled for few bytes: errors, and calls whose time is that of what they call. What
+ * only such functions call is compiled like them, but for SLI_HOT. Other functions call them under
+ * a condition, because compilers take the way to them for rare: no public call is cold, or the loops
+ * of its callers would be compiled for few bytes, too. */
+#define SLI_COLD __attribute__((unused, noinline, cold))
+#define SLI_HOT __attribute__((unused, noinline, hot)) /* loops that cold functions call */
 #define SLI_TARGET(list) __attribute__((target(list)))
 #define SLI_ALIGNED(variable) variable __attribute__((aligned(64)))
 /* Prefetches the cache line `bytes` after p. The line need not exist: prefetching an invalid
@@ -162,6 +167,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #define SLI_INLINE static inline
 #define SLI_NOINLINE
 #define SLI_COLD
+#define SLI_HOT
 #define SLI_TARGET(list)
 #if defined(_MSC_VER)
 #define SLI_ALWAYS_INLINE static __forceinline
@@ -182,8 +188,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #if defined(SLI_GNU)
 #define SLI_FNMA1(a, b, c) __builtin_fma(-(a), b, c)
 #elif defined(SLI_X86)
-#define SLI_FNMA1(a, b, c) \
-    _mm_cvtsd_f64(_mm_fnmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c)))
+#define SLI_FNMA1(a, b, c) _mm_cvtsd_f64(_mm_fnmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c)))
 #else
 #define SLI_FNMA1(a, b, c) fma(-(a), b, c)
 #endif

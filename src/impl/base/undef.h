@@ -14,6 +14,7 @@
 #undef SLI_ALWAYS_INLINE
 #undef SLI_NOINLINE
 #undef SLI_COLD
+#undef SLI_HOT
 #undef SLI_TARGET
 #undef SLI_UNROLL
 #undef SLI_KEEP_CALL

@@ -28,7 +28,7 @@ static sli_entries sli_diagonal_batch_entries(const sli_diagonal_batch *d, sl_in
 }
 
 /* Worker w computes every workers-th diagonal. */
-static void sli_diagonal_batch_worker(void *data, sl_int w) {
+SLI_HOT static void sli_diagonal_batch_worker(void *data, sl_int w) {
     const sli_diagonal_batch *d = (const sli_diagonal_batch *)data;
     sl_int k;
     for (k = w; k < d->count; k += d->workers) {

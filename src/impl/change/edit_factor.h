@@ -179,7 +179,7 @@ static void sli_reuse_drop(sli_reuse *r, sl_int s) {
 }
 
 /* Compares supernode s with that of F, but not its children. */
-static void sli_reuse_compare(sli_reuse *r, sl_int s) {
+SLI_HOT static void sli_reuse_compare(sli_reuse *r, sl_int s) {
     int is_moved;
     const sl_int there = sli_reuse_candidate(r, s, &is_moved);
     if (there != -1 && sli_reuse_is_same(r, s, there, is_moved)) {

@@ -274,8 +274,8 @@ static sl_status sli_pins_push(sl_pins *P, const sli_equality *e, sl_stats *stat
 }
 
 /* f := K^-1 f, count rows of lanes numbers. */
-static void sli_capacitance_solve(const double *K, size_t ld, sl_int count, double *f,
-                                  sl_int lanes) {
+SLI_HOT static void sli_capacitance_solve(const double *K, size_t ld, sl_int count, double *f,
+                                          sl_int lanes) {
     sl_int i, j, r;
     for (i = 1; i < count; i++) {
         double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, sums[SLI_TILE];

@@ -50,7 +50,8 @@ static int sli_pin_null(const sl_factor *F, const sli_pin_part *part, sl_int nul
 
 /* Visits the null pivots of an equality's trees. `fills`: stores them. Sets *row where a null
  * vector is not known. */
-static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, int fills, sl_int *row) {
+SLI_HOT static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, int fills,
+                                             sl_int *row) {
     const sl_int *iperm = F->S->iperm;
     sli_pin_part p;
     pin->n_nulls = 0;

@@ -168,7 +168,7 @@ SLI_COLD static sl_status sli_pins_inconsistent(void) {
 }
 
 /* Solves the current block. */
-static sl_status sli_pins_block(sli_pins_solve *w) {
+SLI_HOT static sl_status sli_pins_block(sli_pins_solve *w) {
     const sl_pins *P = w->P;
     const sli_query *q = w->q;
     const sl_factor *F = P->F;
@@ -225,9 +225,9 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
     all = sli_query_all(P->F->S);
     status = sli_rhs_check_columns(&rhs, q->nx, q->nb);
     if (status == SL_OK && nrhs > 0 && P->n_pins > 0) {
-        status = sli_argument(G == NULL                   ? "G is NULL"
+        status = sli_argument(G == NULL                    ? "G is NULL"
                               : !sli_is_ld(ldg, P->n_pins) ? "ldg is below the number of pins"
-                                                          : NULL);
+                                                           : NULL);
     }
     status = status == SL_OK ? sli_pins_are_current(P) : status;
     status = status == SL_OK ? sli_query_check(q, P->F) : status;

@@ -63,7 +63,7 @@ static void sli_restriction_cliques(sli_restriction *r) {
 
 /* Lists the entries of A in new columns. Its pattern has not been compared with the analyzed one.
  * Where it is read in place, no branch asks whether an entry is in R: nothing would predict it. */
-static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
+SLI_HOT static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
     const sl_csc *A = r->A;
     const sl_triangle triangle = r->S->stats.symbolic.triangle;
     const sl_int *number_at = r->number_at;

@@ -108,7 +108,7 @@ static int sli_restriction_has_runs(const sli_restriction *r) {
 
 /* Separates kept supernodes from new columns. In a postorder the columns of a subtree are
  * consecutive; they are in R if as many of its columns are. */
-static void sli_restriction_split(sli_restriction *r) {
+SLI_HOT static void sli_restriction_split(sli_restriction *r) {
     const sl_symbolic *S = r->S;
     const sl_int *columns = r->R.columns;
     const sl_int most = (sl_int)((1.0 - SLI_RESTRICT_KEPT) * r->R.count);
@@ -146,7 +146,7 @@ static void sli_restriction_split(sli_restriction *r) {
 
 /* Lists the rows below the kept supernodes that are in R. The columns of a subtree have consecutive
  * ranks. */
-static sl_status sli_restriction_filter(sli_restriction *r, const sl_allocator *a) {
+SLI_HOT static sl_status sli_restriction_filter(sli_restriction *r, const sl_allocator *a) {
     const sl_symbolic *S = r->S;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;

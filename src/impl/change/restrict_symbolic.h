@@ -27,7 +27,7 @@ static void sli_joint_add(sli_joint *j, sl_int width, sl_off below) {
 }
 
 /* Appends the subtrees of a list of kept roots. */
-static void sli_joint_add_kept(sli_joint *j, sli_restriction *r, sl_int root) {
+SLI_HOT static void sli_joint_add_kept(sli_joint *j, sli_restriction *r, sl_int root) {
     for (; root != -1; root = r->next[root]) {
         sl_int q, k;
         for (q = root + 1 - sli_restriction_size(r, root); q <= root; q++) {
@@ -76,7 +76,7 @@ static void sli_joint_number(sli_joint *j, sli_restriction *r) {
 
 /* Fills the tree and the rows of kept supernode q. A column whose parent was removed gets the next
  * row of R below its supernode: an ancestor in any case, and its parent if no zero is stored. */
-static void sli_joint_fill_kept(sl_symbolic *S, const sli_restriction *r, sl_int q) {
+SLI_HOT static void sli_joint_fill_kept(sl_symbolic *S, const sli_restriction *r, sl_int q) {
     const sl_symbolic *from = r->S;
     const sl_int s = r->kept[q], to = r->kept_new[q], up = from->super_parent[s];
     const sl_int first = from->super_first[s], end = from->super_first[s + 1];

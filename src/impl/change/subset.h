@@ -121,8 +121,8 @@ static void sli_subset_hash(sli_subset *R) {
 
 /* Fills the set from rows of A, and rank_of: the rank of each. Refuses a row out of range or given
  * twice. */
-static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_int *rows,
-                                 sl_int *rank_of, sl_stats *stats) {
+SLI_HOT static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_int *rows,
+                                         sl_int *rank_of, sl_stats *stats) {
     static const char sli_row_twice[] = "a row is given twice";
     sl_int k, rank = 0;
     if (!R->is_hashed) {

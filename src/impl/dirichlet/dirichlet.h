@@ -28,9 +28,10 @@ SL_API void sl_dirichlet_free(sl_dirichlet *D) {
 
 /* Copies A[free, free], analyzes and factors it. arrays: those of the options. scratch: n + 1
  * elements. On error all are NULL. */
-static sl_status sli_dirichlet_factor(sl_dirichlet *D, const sl_csc *A,
-                                      const sli_dirichlet_arrays *arrays, const sl_int *where,
-                                      sl_int *scratch, sl_stats *stats) {
+SLI_COLD static sl_status sli_dirichlet_factor(sl_dirichlet *D, const sl_csc *A,
+                                               const sli_dirichlet_arrays *arrays,
+                                               const sl_int *where, sl_int *scratch,
+                                               sl_stats *stats) {
     sl_options analysis = D->analysis, factorization = D->factorization;
     sli_submatrix s;
     sl_csc view;

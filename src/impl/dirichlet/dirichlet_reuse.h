@@ -150,8 +150,8 @@ SLI_INLINE int sli_dirichlet_is_over(sl_status status) {
     return status == SL_ERR_MEMORY || status == SL_ERR_TOO_LARGE;
 }
 
-static sl_status sli_dirichlet_take(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
-                                    sl_stats *stats) {
+SLI_COLD static sl_status sli_dirichlet_take(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
+                                             sl_stats *stats) {
     sli_dirichlet_choice c;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;

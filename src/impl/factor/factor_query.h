@@ -66,7 +66,7 @@ SL_API sl_status sl_factor_pivot_rows(const sl_factor *F, sl_pivot_kind kind, sl
 
 /* Counts the entries of L: the unit diagonal and the nonzeros of the panels. Writes them to M
  * unless M is NULL. */
-static sl_off sli_factor_entries(const sl_factor *F, sl_matrix *M) {
+SLI_HOT static sl_off sli_factor_entries(const sl_factor *F, sl_matrix *M) {
     const sl_symbolic *S = F->S;
     sl_int s, j, r;
     sl_off count = 0;

@@ -165,7 +165,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
 
 /* What is wrong with the options of a factorization, which are not NULL, or NULL. Null pivots are
  * either skipped or regularized, so the two options exclude each other. */
-static const char *sli_factor_choices_wrong(const sl_options *opt) {
+SLI_COLD static const char *sli_factor_choices_wrong(const sl_options *opt) {
     return (unsigned)opt->method > (unsigned)SL_METHOD_SUPERNODAL
                ? "options.method is not a value of sl_method"
            : (unsigned)opt->storage > (unsigned)SL_STORAGE_COMPLEX
@@ -358,7 +358,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     draft.kernels =
         kernels != NULL ? kernels : sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
     draft.type = sli_storage_type_of(opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
-    if (draft.type == NULL) { /* untested: all packs are there */
+    if (draft.type == NULL) {                 /* untested: all packs are there */
         return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
                           sli_storage_needs(opt->storage));
     }

@@ -151,7 +151,7 @@ static void sli_null_combine(const sli_null_part *p, const double *c, sl_int col
 
 /* Replaces Z by the combinations of its columns with A Z = 0. Returns how many columns were ruled
  * out. */
-static sl_int sli_null_restrict(const sli_null_part *p) {
+SLI_COLD static sl_int sli_null_restrict(const sli_null_part *p) {
     double q[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX];
     double c[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX];
     sl_int vectors = 0;
@@ -191,7 +191,7 @@ static void sli_null_subtract(const sli_null_part *p, double *a, const double *b
 }
 
 /* Makes the columns orthonormal, the largest remainder first. Dependent columns become 0. */
-static void sli_null_orthonormalize(sli_null_part *p) {
+SLI_HOT static void sli_null_orthonormalize(sli_null_part *p) {
     sl_int v, j, k;
     for (v = 0; v < p->count; v++) {
         double *z = p->z + (size_t)v * p->n, most = -1.0;
@@ -245,7 +245,7 @@ static double sli_null_distance(const sli_null_part *p, sl_int k, const double *
 }
 
 /* Chooses `rank` anchors. */
-static void sli_null_anchors(const sli_null_part *p, sl_int *anchors) {
+SLI_COLD static void sli_null_anchors(const sli_null_part *p, sl_int *anchors) {
     double q[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX];
     sl_int v, j, k;
     for (v = 0; v < p->rank; v++) {

@@ -24,7 +24,8 @@
 
 /* U := Z, V := s M Z in one tree, by Gram-Schmidt. The columns of U are null vectors on entry. A
  * z' M z of less than 1e-4 |z|' |M| |z| has too few digits: weights of both signs. */
-static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_failure *failure) {
+SLI_HOT static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root,
+                                          sli_failure *failure) {
     const size_t n = (size_t)F->S->n;
     sl_int m = sli_lower_bound(F->null.pivots, F->null.count, first), count = 0, k = root, i, j;
     const double rounding = 16.0 * F->S->n * DBL_EPSILON; /* of u, which is 1 in an anchor */
@@ -71,7 +72,7 @@ static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_f
 }
 
 /* U := L' U, in place: each row is read before it changes. */
-static void sli_center_multiply(sl_factor *F) {
+SLI_HOT static void sli_center_multiply(sl_factor *F) {
     const sl_symbolic *S = F->S;
     sl_int s, c, r, j;
     for (s = 0; s < S->n_supers; s++) {
@@ -91,7 +92,8 @@ static void sli_center_multiply(sl_factor *F) {
 }
 
 /* V := D^+ W - U Q / 2 in one tree. V is W on entry. */
-static sl_status sli_center_finish(sl_factor *F, sl_int first, sl_int root, sli_failure *failure) {
+SLI_HOT static sl_status sli_center_finish(sl_factor *F, sl_int first, sl_int root,
+                                           sli_failure *failure) {
     const size_t n = (size_t)F->S->n, count = (size_t)F->null.vectors;
     double q[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX] = {0.0}, size = 0.0;
     size_t i, j;

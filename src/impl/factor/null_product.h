@@ -110,8 +110,9 @@ SLI_INLINE void sli_null_map_join(const sli_null_walk *w, const sli_null_map_sta
 
 /* Adds the map entries first .. first+count-1 of the current supernode. Runs backward. from: where
  * each value is; NULL: values are those of the entries. */
-static void sli_null_add_entries(const sli_null_walk *w, sli_null_map_state *p, sl_off first,
-                                 sl_int count, const double *values, const sl_int *from) {
+SLI_HOT static void sli_null_add_entries(const sli_null_walk *w, sli_null_map_state *p,
+                                         sl_off first, sl_int count, const double *values,
+                                         const sl_int *from) {
     const sl_symbolic *S = p->S;
     sl_int m;
     for (m = count - 1; m >= 0; m--) {
@@ -133,8 +134,8 @@ static void sli_null_add_entries(const sli_null_walk *w, sli_null_map_state *p, 
 }
 
 /* Adds all entries of the map. */
-static void sli_null_add_map(const sli_null_walk *w, const sl_symbolic *S, const sli_source *from,
-                             double *diagonal) {
+SLI_HOT static void sli_null_add_map(const sli_null_walk *w, const sl_symbolic *S,
+                                     const sli_source *from, double *diagonal) {
     double sums[SLI_SUM_ENTRIES];
     sli_null_map_state p;
     memset(&p, 0, sizeof p);
@@ -173,8 +174,9 @@ static int sli_map_has_duplicates(const sl_symbolic *S) {
 
 /* Computes A z, |A| |z|, the components of A and, if not NULL, its diagonal, by rows of the walk.
  * z: by pivots; NULL: all 1. */
-static sli_null_walk sli_null_product(const sl_symbolic *S, const sli_source *from, int by_columns,
-                                      sli_null_row *rows, const double *z, double *diagonal) {
+SLI_HOT static sli_null_walk sli_null_product(const sl_symbolic *S, const sli_source *from,
+                                              int by_columns, sli_null_row *rows, const double *z,
+                                              double *diagonal) {
     sli_null_walk w;
     sl_int i;
     w.rows = rows;

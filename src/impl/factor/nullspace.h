@@ -54,7 +54,7 @@ static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats
 /* Finds the anchor of each tree. A row of zeros, such as that of a vertex whose faces are all
  * degenerate, is a component by itself, and its x is 0. Apart from such rows a tree may have one
  * null pivot. */
-static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
+SLI_COLD static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     double *used = F->divisors; /* 0 in components of one row, unless they are trees */
     sl_int k, m = 0;
@@ -231,7 +231,8 @@ static void sli_anchor_columns_clear(sl_factor *F) {
 
 /* Finds the null pivots of a new factorization, counts the components without one, and prepares
  * solves. */
-static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failure *failure) {
+SLI_COLD static sl_status sli_nulls_find(sl_factor *F, const sli_source *from,
+                                         sli_failure *failure) {
     sl_status status;
     sl_int k, m, regular = 0;
     F->null.count = 0;

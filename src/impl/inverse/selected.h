@@ -62,8 +62,8 @@ static sl_status sli_selected_plan(sl_selected **out, sl_selected *draft, const 
 }
 
 /* Makes the object for a set of rows, without its numbers. */
-static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const sl_int *set,
-                                  sl_int count, const sl_options *opt, sl_stats *stats) {
+SLI_COLD static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const sl_int *set,
+                                           sl_int count, const sl_options *opt, sl_stats *stats) {
     const sl_symbolic *S = F->S;
     sli_block b = {NULL, 0, 0};
     uint64_t *seeds = NULL, *scratch = NULL;

@@ -225,7 +225,7 @@ static void sli_traverse_shared(sli_traversal_run *run, sli_team *team) {
 
 /* Computes all fronts, parents before children. One worker leads; the others help with large fronts
  * and with tasks. */
-static void sli_traverse_lead(sli_team *team, void *data) {
+SLI_HOT static void sli_traverse_lead(sli_team *team, void *data) {
     sli_traversal_run *run = (sli_traversal_run *)data;
     const sli_schedule *schedule = &run->traversal->schedule;
     sl_int m;

@@ -168,7 +168,7 @@ static int sli_create_beside(sli_output *o, int exists) {
 }
 
 /* Opens o->file for what path shall contain. On error o needs no closing. */
-static sl_status sli_output_open(sli_output *o, const char *path, const sl_allocator *a) {
+SLI_COLD static sl_status sli_output_open(sli_output *o, const char *path, const sl_allocator *a) {
     int exists, could_replace;
     errno = 0;
     o->path = path;
@@ -216,7 +216,7 @@ static int sli_replace(const sli_output *o, int *is_only_copy) {
 }
 
 /* Closes the file and, if it is complete, gives it its name. Returns whether both succeeded. */
-static sl_status sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
+SLI_COLD static sl_status sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
     int ok = fflush(o->file) == 0 && complete, has_name = 1, is_only_copy = 0;
     sl_status status;
 #if defined(SLI_UNNAMED_FILES)

@@ -5,21 +5,8 @@
  * the width is a constant in each of 8 copies: there are no loops over columns, y or the sums of
  * all columns stay in registers, and x is gathered directly into registers. */
 
-/* In plain C one function that takes the width as a variable is as fast as 8 copies. */
 #if defined(SLV_PAIR)
 #define SLI_BY_WIDTH(call) SLI_CASES(call)
-#define SLI_CLEAR_ALL
-#else
-#define SLI_BY_WIDTH(call) call(w)
-#define SLI_CLEAR_ALL SLI_EACH8(SLI_CLEAR, y) /* compilers do not see that no other is used */
-#define SLI_CLEAR(k, y) SLV_ZERO(y##k)
-#endif
-#if !defined(SLV_PAIR) && SLV_SINGLE
-#define SLI_CLEAR_WIDE memset(t, 0, sizeof t);
-#else
-#define SLI_CLEAR_WIDE
-#endif
-
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
@@ -49,7 +36,6 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, sl_
     SLV_DECLARE(a)
     SLV_DECLARE(b)
     SLI_EACH8(SLI_DECLARE, y)
-    SLI_CLEAR_ALL
     SLV_LOAD_PART(a, xs, w, 0.0)
     SLI_EACH8(SLI_COLUMN, 0)
     SLV_STORE(buf, a)
@@ -134,7 +120,6 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
         SLV_BELOW(v, w - 1)
         SLI_DOTS_OWN
     }
-    SLI_CLEAR_WIDE
     SLV_WIDEN(t, l, w, SLI_TILE)
     SLV_LOAD_PART(z, xs, w, 0.0)
     SLV_LOAD_PART(v, d, w, 1.0)
@@ -152,6 +137,71 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
     SLI_ROW(1)
     SLI_EACH8(SLI_GET, 0)
 }
+
+#else
+/* In plain C, loops that take the width as a variable are as fast as copies. */
+#define SLI_BY_WIDTH(call) call(w)
+
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_forward)(sl_int w, sl_int below, const sl_int *rows,
+                                                      const SLV_VALUE *l, double *xs, double *x,
+                                                      double *buf) {
+    sl_int row, i, k;
+    double a[SLI_TILE] = {0.0}, b[SLI_TILE], y[SLI_TILE];
+    memcpy(a, xs, (size_t)w * sizeof(double));
+    for (k = 0; k < w; k++) {
+        y[k] = a[k];
+        SLI_LOOP(SLI_TILE, a[i_] -= l[SLI_TILE * k + i_] * y[k])
+    }
+    memcpy(buf, a, sizeof a);
+    memcpy(xs, a, (size_t)w * sizeof(double));
+    for (row = SLI_TILE; row < w + below; row += SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
+        l += SLI_TILE * w;
+        SLV_ZERO(a)
+        SLV_ZERO(b)
+        for (k = 0; k + 2 <= w; k += 2) {
+            SLI_PREFETCH(l + SLI_TILE * k, SLI_PREFETCH_DISTANCE);
+            SLI_LOOP(SLI_TILE, a[i_] -= l[SLI_TILE * k + i_] * y[k])
+            SLI_LOOP(SLI_TILE, b[i_] -= l[SLI_TILE * k + SLI_TILE + i_] * y[k + 1])
+        }
+        if (k < w) {
+            SLI_LOOP(SLI_TILE, a[i_] -= l[SLI_TILE * k + i_] * y[k])
+        }
+        SLI_LOOP(SLI_TILE, buf[row + i_] = a[i_] + b[i_])
+    }
+    for (i = 0; i < below; i++) {
+        x[rows[i]] += buf[w + i];
+    }
+}
+
+/* l: the end of the panel. A tile takes the rows from..end of x, others count as 0. */
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_backward)(sl_int w, sl_int below, const sl_int *rows,
+                                                       const SLV_VALUE *l, const double *d,
+                                                       double *xs, const double *x) {
+    double a[SLI_TILE] = {0.0}, v[SLI_TILE] = {0.0};
+    sl_int row = (w + below - 1) / SLI_TILE * SLI_TILE, j, k;
+    for (; row >= 0; row -= SLI_TILE) { /* x(j) -= L(rows, j)' x(rows) */
+        const sl_int from = sli_max(row, w), end = sli_min(row + SLI_TILE, w + below);
+        l -= SLI_TILE * w;
+        SLV_ZERO(v)
+        for (j = from; j < end; j++) {
+            v[j - row] = x[rows[j - w]];
+        }
+        for (k = from < end ? w - 1 : -1; k >= 0; k--) {
+            SLI_PREFETCH(l + SLI_TILE * k, -SLI_PREFETCH_DISTANCE);
+            SLV_SUM_DOT(a[k], l + SLI_TILE * k, v)
+        }
+    }
+    for (k = 0; k < w; k++) {
+        a[k] += xs[k] / d[k];
+    }
+    for (k = w - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
+        for (j = 0; j < k; j++) {
+            a[j] = SLV_FNMA1((double)l[SLI_TILE * j + k], a[k], a[j]);
+        }
+    }
+    memcpy(xs, a, (size_t)w * sizeof(double));
+}
+#endif
 
 /* A run of supernodes of one column from step s on, in scalars: most have few rows below. Where
  * R->plain has the rows below each, only the first step of the run is read. Returns the step after
@@ -316,6 +366,3 @@ SLV_FUNCTION static const sli_step *SLV_SWEEP(backward_small)(const sli_step *s,
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
 #undef SLI_BY_WIDTH
-#undef SLI_CLEAR_ALL
-#undef SLI_CLEAR_WIDE
-#undef SLI_CLEAR

@@ -60,8 +60,8 @@ static void sli_submatrix_visit(const sli_submatrix *s, sl_int *position, sl_mat
 }
 
 /* Makes A[R, R]. position: count + 1 of scratch. from: NULL, or set to an array of its own. */
-static sl_status sli_submatrix_make(sl_matrix **out, sl_int **from, const sli_submatrix *s,
-                                    sl_int *position, const sl_allocator *a) {
+SLI_HOT static sl_status sli_submatrix_make(sl_matrix **out, sl_int **from, const sli_submatrix *s,
+                                            sl_int *position, const sl_allocator *a) {
     sl_matrix *M = NULL;
     sl_status status;
     sl_int k;

@@ -259,7 +259,7 @@ static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front
         f->D = SLI_TAKE(&b, double, f->columns);
         f->E = SLI_TAKE(&b, double, f->columns);
         f->values = SLI_TAKE(&b, double, (uint64_t)f->rows *(uint64_t)f->rows);
-        if (b.overflow) {            /* untested: on 32 bits only */
+        if (b.overflow) {                                   /* untested: on 32 bits only */
             return sli_refuse(SL_ERR_TOO_LARGE, "a front"); /* untested: the same */
         }
         if (pass == 0 && b.used > p->front_size) {
@@ -320,8 +320,8 @@ static sl_status sli_search_keep(sli_pivot_search *p, sl_int s, const sli_dense_
 }
 
 /* Selects the pivots of supernode s and of what its children delayed. */
-static sl_status sli_search_supernode(sli_pivot_search *p, const sl_csc *A, sl_int s,
-                                      sl_stats *stats) {
+SLI_HOT static sl_status sli_search_supernode(sli_pivot_search *p, const sl_csc *A, sl_int s,
+                                              sl_stats *stats) {
     const sl_symbolic *S = p->S;
     sli_dense_front f;
     sl_status status = sli_search_front(p, s, &f);

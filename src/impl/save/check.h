@@ -24,7 +24,7 @@ static int sli_check_perm(const sl_symbolic *S) {
 /* Do the supernodes divide the columns, and are their trees numbered in postorder? In a postorder
  * the children of s are s - 1, then the supernode before the first descendant of s - 1, and so on.
  * Each supernode is visited from its parent once. */
-static int sli_check_supers(const sl_symbolic *S) {
+SLI_HOT static int sli_check_supers(const sl_symbolic *S) {
     sl_int s, c, k = 0, children = 0, visited = 0;
     if (S->super_first[0] != 0 || S->super_first[S->n_supers] != S->n) {
         return 0;
@@ -68,7 +68,7 @@ static int sli_check_parent(const sl_symbolic *S, sl_int k, sl_int up) {
 }
 
 /* Is the elimination tree that of the supernodes, and do the counts fit into them? */
-static int sli_check_tree(const sl_symbolic *S, const sli_saved_analysis *a) {
+SLI_HOT static int sli_check_tree(const sl_symbolic *S, const sli_saved_analysis *a) {
     sl_off nnz_l = 0;
     sl_int k, roots = 0;
     for (k = 0; k < S->n; k++) {
@@ -142,7 +142,7 @@ static sl_off sli_check_panel(const sl_symbolic *S, sl_int s, sl_int width, sl_o
                : sli_panel_start(next, end) - begin;
 }
 
-static int sli_check_structure(const sl_symbolic *S) {
+SLI_HOT static int sli_check_structure(const sl_symbolic *S) {
     sl_int s, tallest = 0, widest = 0;
     if (S->rows_begin[0] != 0 || S->panel_begin[0] != 0) {
         return 0;
@@ -200,7 +200,7 @@ static int sli_check_scatter_panel(const sl_symbolic *S, sl_int s, sl_int width,
 
 /* Does the scatter map go from entries of A to entries of L, with the rows of each supernode
  * ascending? */
-static int sli_check_scatter(const sl_symbolic *S) {
+SLI_HOT static int sli_check_scatter(const sl_symbolic *S) {
     sl_int s;
     if (S->scatter_begin[0] != 0) {
         return 0;
@@ -329,7 +329,7 @@ static int sli_check_blocks(const sl_factor *F) {
 
 /* Do the pivots have the counted signs, and is each null or regularized one listed? 2x2 pivots have
  * any signs: those of their eigenvalues depend on rounding if one is almost 0. */
-static int sli_check_factor(const sl_factor *F) {
+SLI_HOT static int sli_check_factor(const sl_factor *F) {
     const sl_factor_info *info = &F->stats.factor;
     const sl_int n = F->S->n;
     sl_int k, positive = 0, negative = 0, nulls = 0, shifted = 0, blocks = 0;

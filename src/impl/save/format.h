@@ -128,7 +128,7 @@ SLI_NOINLINE static void sli_saved_add(sli_saved *f, uint32_t id, uint32_t word,
     f->used[k] = used * word;
 }
 
-SLI_NOINLINE static void sli_saved_add_analysis(sli_saved *f, const sl_symbolic *S) {
+SLI_COLD static void sli_saved_add_analysis(sli_saved *f, const sl_symbolic *S) {
     const sli_saved_analysis *a = &f->analysis;
     const uint64_t n = (uint64_t)a->n, supers = (uint64_t)a->supers, rows = (uint64_t)a->rows,
                    entries = (uint64_t)a->entries, nodes = (uint64_t)a->nodes;
@@ -265,8 +265,8 @@ static void sli_saved_add_selected(sli_saved *f, const sl_selected *Z) {
 
 /* Appends the sections of an analysis and a factor to the empty table, from their numbers and,
  * where they are known, their arrays. */
-SLI_NOINLINE static void sli_saved_add_base(sli_saved *f, const sl_symbolic *S, const sl_factor *F,
-                                            int has_factor) {
+SLI_COLD static void sli_saved_add_base(sli_saved *f, const sl_symbolic *S, const sl_factor *F,
+                                        int has_factor) {
     f->header.sections = 0;
     sli_saved_add(f, SLI_SECTION_ANALYSIS, 8, &f->analysis, sizeof f->analysis / 8,
                   sizeof f->analysis / 8);
@@ -307,7 +307,7 @@ static sli_checksum sli_checksum_begin(void) {
     return c;
 }
 
-static void sli_checksum_add(sli_checksum *c, const void *data, size_t bytes) {
+SLI_HOT static void sli_checksum_add(sli_checksum *c, const void *data, size_t bytes) {
     (void)sli_hash_stripes(c->chain, data, bytes, SLI_HASH_BYTES, 0);
     c->bytes += sli_round_up(bytes);
 }

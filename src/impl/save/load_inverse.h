@@ -91,8 +91,8 @@ static sl_status sli_selected_of_memory(sl_selected **out, sl_selected *draft, s
 
 /* Reads the lists, makes the object and reads its numbers. lists: scratch, or NULL if they are
  * mapped. */
-static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected **out, sl_selected *draft,
-                                          sli_block *lists) {
+SLI_COLD static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected **out,
+                                                   sl_selected *draft, sli_block *lists) {
     const uint32_t k = r->first_selected;
     const sl_int count = draft->traversal.forest.count;
     const uint64_t bytes = r->saved.table[k + 3].bytes;
@@ -123,8 +123,8 @@ static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected **out, sl_
 }
 
 /* Creates the selected inverse. On error *out is NULL or to be released. */
-static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S, const sl_factor *F,
-                                   sl_selected **out) {
+SLI_COLD static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S,
+                                            const sl_factor *F, sl_selected **out) {
     const sli_section *table = &r->saved.table[r->first_selected];
     sli_block lists = {NULL, 0, 0};
     sli_saved_part part;

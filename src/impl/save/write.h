@@ -99,8 +99,8 @@ static void sli_put(sli_sink *to, const void *data, size_t bytes) {
 
 /* Writes `bytes` bytes, of which `used` are data and the others 0. If to is NULL, adds them to a
  * checksum instead. */
-static void sli_put_filled(sli_sink *to, sli_checksum *sum, const void *data, uint64_t used,
-                           uint64_t bytes) {
+SLI_HOT static void sli_put_filled(sli_sink *to, sli_checksum *sum, const void *data, uint64_t used,
+                                   uint64_t bytes) {
     static const unsigned char zeros[1024] = {0};
     uint64_t left = bytes - used;
     if (to == NULL) {
@@ -149,7 +149,8 @@ static void sli_put_regions(const sli_saved *f, uint32_t id, sli_sink *to, sli_c
 }
 
 /* Writes section k, or adds it to a checksum. */
-static void sli_put_section(const sli_saved *f, uint32_t k, sli_sink *to, sli_checksum *sum) {
+SLI_HOT static void sli_put_section(const sli_saved *f, uint32_t k, sli_sink *to,
+                                    sli_checksum *sum) {
     const uint32_t id = f->table[k].id;
     if (id > SLI_SECTION_REGIONS && id < SLI_SECTION_SELECTED) {
         sli_put_regions(f, id, to, sum);
@@ -200,7 +201,7 @@ static sl_status sli_save_check(const sl_saved_set *set) {
 }
 
 /* Checks the arguments of a save and fills in everything but the checksums. */
-static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
+SLI_COLD static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
     const sl_factor *F = set->factor;
     const sl_status status = F != NULL && F->type->half
                                  ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_STORAGE_COMPLEX is not saved")
@@ -242,7 +243,7 @@ static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
 }
 
 /* Computes the checksums, then writes everything. */
-static void sli_save_write(sli_saved *f, sli_sink *to) {
+SLI_COLD static void sli_save_write(sli_saved *f, sli_sink *to) {
     unsigned char prefix[sizeof(sli_saved_header) + SLI_SECTIONS_MAX * sizeof(sli_section)];
     const size_t size = (size_t)sli_saved_prefix(f);
     uint32_t k;
