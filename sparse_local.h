@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c2dc8f62efa4961d
+ * FNV-1a of the lines after this comment, without the license: ba4ca8779702c4a4
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,28 +36,28 @@
  *   3029 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3069 impl/ base: the compiler, status, memory, sorting, threads
  *   4260 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5141 impl/ matrix: sparse matrices of the caller and of the library
- *   5776 impl/ ordering: fill-reducing orderings of a graph
- *  10387 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12615 impl/ factor: the numbers of L and D
- *  15971 impl/ solve: full and local solves
- *  17642 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19571 impl/ pivots: the order of the pivots by the values of a matrix
- *  19980 impl/ float: L and fronts in single precision
- *  20431 impl/ inverse: entries of the inverse, regions
- *  23509 impl/ change: a factor that follows changes of its matrix
- *  29549 impl/ dirichlet: rows fixed at given values
- *  30137 impl/ dirichlet: by a factor of all rows
- *  30355 impl/ io: files that are replaced only when they are complete
- *  30573 impl/ files: Matrix Market files, 64-bit indices
- *  31193 impl/ save: factors in files
- *  33199 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33884 impl/ batch: diagonals of many inverses
- *  34028 impl/ complex: complex Hermitian systems over real factors
- *  34590 impl/ complex: entries of the inverse
- *  34650 impl/ packs: the tables through which the core calls packs
- *  34698 impl/ last: undefine every internal macro
- *  35045 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5158 impl/ matrix: sparse matrices of the caller and of the library
+ *   5793 impl/ ordering: fill-reducing orderings of a graph
+ *  10404 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12632 impl/ factor: the numbers of L and D
+ *  15988 impl/ solve: full and local solves
+ *  17659 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19588 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19997 impl/ float: L and fronts in single precision
+ *  20448 impl/ inverse: entries of the inverse, regions
+ *  23526 impl/ change: a factor that follows changes of its matrix
+ *  29566 impl/ dirichlet: rows fixed at given values
+ *  30154 impl/ dirichlet: by a factor of all rows
+ *  30372 impl/ io: files that are replaced only when they are complete
+ *  30590 impl/ files: Matrix Market files, 64-bit indices
+ *  31210 impl/ save: factors in files
+ *  33216 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33901 impl/ batch: diagonals of many inverses
+ *  34045 impl/ complex: complex Hermitian systems over real factors
+ *  34607 impl/ complex: entries of the inverse
+ *  34667 impl/ packs: the tables through which the core calls packs
+ *  34715 impl/ last: undefine every internal macro
+ *  35064 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4810,6 +4810,23 @@ typedef struct sli_kernels {
     int i_; \
     for (i_ = 0; i_ < (count); i_++) { \
       statement; \
+    } \
+  }
+
+#define SLI_EACH_ARRAY(op, k) \
+  { \
+    int k_; \
+    for (k_ = 0; k_ < SLI_TILE; k_++) { \
+      double *ak_ = a[k_]; \
+      op(k_, k)(void) ak_; \
+    } \
+  }
+#define SLI_EACH_ARRAY_AGAIN(op, k) \
+  { \
+    int j_; \
+    for (j_ = 0; j_ < SLI_TILE; j_++) { \
+      double *aj_ = a[j_]; \
+      op(j_, k) \
     } \
   }
 
@@ -34774,6 +34791,8 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_IS_IN
 #undef SLI_EACH4_AGAIN
 #undef SLI_EACH8_AGAIN
+#undef SLI_EACH_ARRAY
+#undef SLI_EACH_ARRAY_AGAIN
 #undef SLI_HIGH4
 #undef SLI_HIGH8
 #undef SLI_LOW4
@@ -36186,8 +36205,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #define SLV_FNMA1(a, b, c) ((c) - (a) * (b))
 #define SLV_DECLARE(a) double a[SLI_TILE];
 #define SLV_ZERO(a) SLI_LOOP(SLI_TILE, a[i_] = 0.0)
-#define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
-#define SLV_STORE(p, a) memcpy((p), a, sizeof a);
+#define SLV_LOAD(a, p) memcpy(a, (p), SLI_TILE * sizeof(double));
+#define SLV_STORE(p, a) memcpy((p), a, SLI_TILE * sizeof(double));
 #define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
 #define SLV_TURN_ALL(a, b, re, im) \
   { \
@@ -36265,6 +36284,9 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #define SLV_OWN_SMALL
 #define SLV_NAME_PIVOTS SLV_NAME
 #define SLV_OWN_PIVOTS
+#if defined(SLI_X86) || defined(SLI_ARM)
+#define SLV_ARRAYS
+#endif
 #endif
 
 #ifdef SLI_SECTION_CHANGE
@@ -36663,6 +36685,15 @@ SLV_FUNCTION static void SLV_NAME(gather)(const sli_inverse_front *f, const doub
 
 #undef SLI_OFFSET
 
+#if defined(SLV_ARRAYS)
+#define SLI_EACH SLI_EACH_ARRAY
+#define SLI_EACH_AGAIN SLI_EACH_ARRAY_AGAIN
+#define SLI_DECLARE_ALL SLV_DECLARE(a[SLI_TILE])
+#else
+#define SLI_EACH SLI_EACH8
+#define SLI_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLI_DECLARE_ALL SLI_EACH8(SLI_DECLARE, 0)
+#endif
 #define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
 #define SLI_LOAD(k, p) SLV_LOAD(a##k, (p) + SLI_TILE * (k))
 #define SLI_STORE(k, p) SLV_STORE((p) + SLI_TILE * (k), a##k)
@@ -36673,17 +36704,20 @@ SLV_FUNCTION static void SLV_NAME(gather)(const sli_inverse_front *f, const doub
   }
 #define SLI_SOLVE(k, unused) \
   if (SLI_IS_IN(k, columns)) { \
-    SLI_EACH8_AGAIN(SLI_BEFORE, k) \
+    SLI_EACH_AGAIN(SLI_BEFORE, k) \
   }
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(solve_triangle)(const double *l, double *x, sl_int columns) {
   SLV_DECLARE(b)
-  SLI_EACH8(SLI_DECLARE, 0)
-  SLI_EACH8(SLI_LOAD, x)
-  SLI_EACH8(SLI_SOLVE, 0)
-  SLI_EACH8(SLI_STORE, x)
+  SLI_DECLARE_ALL
+  SLI_EACH(SLI_LOAD, x)
+  SLI_EACH(SLI_SOLVE, 0)
+  SLI_EACH(SLI_STORE, x)
 }
 
+#undef SLI_EACH
+#undef SLI_EACH_AGAIN
+#undef SLI_DECLARE_ALL
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE
@@ -37214,7 +37248,10 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
 }
 /* end of product.inl.h */
 
-#if SLV_COMPLEX
+#if defined(SLV_ARRAYS)
+#define SLI_EACH SLI_EACH_ARRAY
+#define SLI_EACH_AGAIN SLI_EACH_ARRAY_AGAIN
+#elif SLV_COMPLEX
 #define SLI_EACH SLI_EACH4
 #define SLI_EACH_AGAIN SLI_EACH4_AGAIN
 #else
@@ -37237,6 +37274,11 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
   SLV_FNMA(m, b, x)
 
 #define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
+#if defined(SLV_ARRAYS)
+#define SLI_DECLARE_ALL SLV_DECLARE(a[SLI_TILE])
+#else
+#define SLI_DECLARE_ALL SLI_EACH(SLI_DECLARE, 0)
+#endif
 #if SLV_COMPLEX
 #define SLI_DECLARE_TURNED(k, unused) SLV_DECLARE(e##k)
 #define SLI_CLEAR_TURNED(k, unused) SLV_ZERO(e##k)
@@ -37356,7 +37398,7 @@ SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
   SLV_DECLARE(b)
   SLV_DECLARE(l)
   SLV_DECLARE(m)
-  SLI_EACH(SLI_DECLARE, 0)
+  SLI_DECLARE_ALL
   SLI_DECLARE_TURNED(0, 0)
   SLV_LOAD(m, magnitude)
   SLI_EACH(SLI_LOAD_FRONT, 0)
@@ -37392,7 +37434,7 @@ SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_i
     SLV_DECLARE(b)
     SLV_DECLARE(l)
     SLV_DECLARE(m)
-    SLI_EACH(SLI_DECLARE, 0)
+    SLI_DECLARE_ALL
     SLI_EACH(SLI_DECLARE_TURNED, 0)
     SLI_EACH(SLI_CLEAR_TURNED, 0)
     SLV_LOAD_TILES(m, sums, second_sums)
@@ -37424,6 +37466,7 @@ SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_i
 #undef SLI_CLEAR_TURNED
 #undef SLI_EACH
 #undef SLI_EACH_AGAIN
+#undef SLI_DECLARE_ALL
 
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(catch_up)(const sli_front *f, sl_int first, sl_int c0,
                          sl_int c1, sl_int t0, sl_int t1, SLV_VALUE *B) {
@@ -39599,6 +39642,7 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_OWN_SMALL
 #undef SLV_NAME_PIVOTS
 #undef SLV_OWN_PIVOTS
+#undef SLV_ARRAYS
 #undef SLV_ISA
 #undef SLV_FUNCTION
 #undef SLV_DECLARE

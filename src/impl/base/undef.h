@@ -77,6 +77,8 @@
 #undef SLI_IS_IN
 #undef SLI_EACH4_AGAIN
 #undef SLI_EACH8_AGAIN
+#undef SLI_EACH_ARRAY
+#undef SLI_EACH_ARRAY_AGAIN
 #undef SLI_HIGH4
 #undef SLI_HIGH8
 #undef SLI_LOW4

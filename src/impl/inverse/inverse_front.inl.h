@@ -58,6 +58,15 @@ SLV_FUNCTION static void SLV_NAME(gather)(const sli_inverse_front *f, const doub
 
 #undef SLI_OFFSET
 
+#if defined(SLV_ARRAYS)
+#define SLI_EACH SLI_EACH_ARRAY
+#define SLI_EACH_AGAIN SLI_EACH_ARRAY_AGAIN
+#define SLI_DECLARE_ALL SLV_DECLARE(a[SLI_TILE])
+#else
+#define SLI_EACH SLI_EACH8
+#define SLI_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLI_DECLARE_ALL SLI_EACH8(SLI_DECLARE, 0)
+#endif
 #define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
 #define SLI_LOAD(k, p) SLV_LOAD(a##k, (p) + SLI_TILE * (k))
 #define SLI_STORE(k, p) SLV_STORE((p) + SLI_TILE * (k), a##k)
@@ -68,18 +77,21 @@ SLV_FUNCTION static void SLV_NAME(gather)(const sli_inverse_front *f, const doub
     }
 #define SLI_SOLVE(k, unused) \
     if (SLI_IS_IN(k, columns)) { \
-        SLI_EACH8_AGAIN(SLI_BEFORE, k) \
+        SLI_EACH_AGAIN(SLI_BEFORE, k) \
     }
 
 /* x := x L'^-1 for the 8 x 8 unit triangle at l: x(rows, k) -= x(rows, j) L(k, j) for j < k. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(solve_triangle)(const double *l, double *x, sl_int columns) {
     SLV_DECLARE(b)
-    SLI_EACH8(SLI_DECLARE, 0)
-    SLI_EACH8(SLI_LOAD, x)
-    SLI_EACH8(SLI_SOLVE, 0)
-    SLI_EACH8(SLI_STORE, x)
+    SLI_DECLARE_ALL
+    SLI_EACH(SLI_LOAD, x)
+    SLI_EACH(SLI_SOLVE, 0)
+    SLI_EACH(SLI_STORE, x)
 }
 
+#undef SLI_EACH
+#undef SLI_EACH_AGAIN
+#undef SLI_DECLARE_ALL
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE

@@ -4,7 +4,10 @@
 
 /* A column tile has 8 columns or, of a complex matrix, 4. Column k then has the pivot in lane 2k,
  * and entries of L are conjugated where they are those of the pivots' rows. */
-#if SLV_COMPLEX
+#if defined(SLV_ARRAYS)
+#define SLI_EACH SLI_EACH_ARRAY
+#define SLI_EACH_AGAIN SLI_EACH_ARRAY_AGAIN
+#elif SLV_COMPLEX
 #define SLI_EACH SLI_EACH4
 #define SLI_EACH_AGAIN SLI_EACH4_AGAIN
 #else
@@ -30,6 +33,11 @@
     SLV_FNMA(m, b, x)
 
 #define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
+#if defined(SLV_ARRAYS)
+#define SLI_DECLARE_ALL SLV_DECLARE(a[SLI_TILE])
+#else
+#define SLI_DECLARE_ALL SLI_EACH(SLI_DECLARE, 0)
+#endif
 #if SLV_COMPLEX
 #define SLI_DECLARE_TURNED(k, unused) SLV_DECLARE(e##k)
 #define SLI_CLEAR_TURNED(k, unused) SLV_ZERO(e##k) /* gcc does not see that it is set */
@@ -158,7 +166,7 @@ SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
     SLV_DECLARE(b)
     SLV_DECLARE(l)
     SLV_DECLARE(m)
-    SLI_EACH(SLI_DECLARE, 0)
+    SLI_DECLARE_ALL
     SLI_DECLARE_TURNED(0, 0)
     SLV_LOAD(m, magnitude)
     SLI_EACH(SLI_LOAD_FRONT, 0)
@@ -196,7 +204,7 @@ SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_i
         SLV_DECLARE(b)
         SLV_DECLARE(l)
         SLV_DECLARE(m)
-        SLI_EACH(SLI_DECLARE, 0)
+        SLI_DECLARE_ALL
         SLI_EACH(SLI_DECLARE_TURNED, 0)
         SLI_EACH(SLI_CLEAR_TURNED, 0)
         SLV_LOAD_TILES(m, sums, second_sums)
@@ -228,6 +236,7 @@ SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_i
 #undef SLI_CLEAR_TURNED
 #undef SLI_EACH
 #undef SLI_EACH_AGAIN
+#undef SLI_DECLARE_ALL
 
 /* Applies column tiles first .. c0-1 to column tiles c0 .. c1-1 of row tiles t0 .. t1-1. */
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(catch_up)(const sli_front *f, sl_int first, sl_int c0,

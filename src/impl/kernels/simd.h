@@ -25,6 +25,7 @@
  *  SLV_NAME_2(f)          the same of a complex sweep for 2 right-hand sides
  *  SLV_NAME_SMALL(f)      name of sweep f for one right-hand side and a supernode of at most 8
  *                         columns; with SLV_OWN_SMALL it is compiled for this instruction set
+ *  SLV_ARRAYS             defined: vectors are arrays, and tiles of fronts are computed in loops
  *  SLV_NAME_PIVOTS(f)     name of the function for a tile of pivots; SLV_OWN_PIVOTS: the same
  *  SLV_ISA, SLV_FUNCTION  its sl_isa; the attributes of a function
  *  SLV_FNMA1(a, b, c)     scalars: c - a b, fused where the vectors are
@@ -149,6 +150,24 @@
         int i_; \
         for (i_ = 0; i_ < (count); i_++) { \
             statement; \
+        } \
+    }
+
+/* SLI_EACH8 of vectors in an array a: in op, a##k and a##j are ak_ and aj_. */
+#define SLI_EACH_ARRAY(op, k) \
+    { \
+        int k_; \
+        for (k_ = 0; k_ < SLI_TILE; k_++) { \
+            double *ak_ = a[k_]; \
+            op(k_, k)(void) ak_; \
+        } \
+    }
+#define SLI_EACH_ARRAY_AGAIN(op, k) \
+    { \
+        int j_; \
+        for (j_ = 0; j_ < SLI_TILE; j_++) { \
+            double *aj_ = a[j_]; \
+            op(j_, k) \
         } \
     }
 

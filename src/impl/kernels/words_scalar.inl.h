@@ -6,8 +6,8 @@
 #define SLV_FNMA1(a, b, c) ((c) - (a) * (b)) /* c - a b */
 #define SLV_DECLARE(a) double a[SLI_TILE];
 #define SLV_ZERO(a) SLI_LOOP(SLI_TILE, a[i_] = 0.0)
-#define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
-#define SLV_STORE(p, a) memcpy((p), a, sizeof a);
+#define SLV_LOAD(a, p) memcpy(a, (p), SLI_TILE * sizeof(double));
+#define SLV_STORE(p, a) memcpy((p), a, SLI_TILE * sizeof(double));
 #define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
 #define SLV_TURN_ALL(a, b, re, im) \
     { \
@@ -85,3 +85,6 @@
 #define SLV_OWN_SMALL
 #define SLV_NAME_PIVOTS SLV_NAME
 #define SLV_OWN_PIVOTS
+#if defined(SLI_X86) || defined(SLI_ARM) /* few processors there run plain C */
+#define SLV_ARRAYS
+#endif

@@ -10,6 +10,7 @@
 #undef SLV_OWN_SMALL
 #undef SLV_NAME_PIVOTS
 #undef SLV_OWN_PIVOTS
+#undef SLV_ARRAYS
 #undef SLV_ISA
 #undef SLV_FUNCTION
 #undef SLV_DECLARE
