@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: ba4ca8779702c4a4
+ * FNV-1a of the lines after this comment, without the license: 9834301ba1bbc555
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -45,9 +45,9 @@
  *  19588 impl/ pivots: the order of the pivots by the values of a matrix
  *  19997 impl/ float: L and fronts in single precision
  *  20448 impl/ inverse: entries of the inverse, regions
- *  23526 impl/ change: a factor that follows changes of its matrix
- *  29566 impl/ dirichlet: rows fixed at given values
- *  30154 impl/ dirichlet: by a factor of all rows
+ *  23511 impl/ change: a factor that follows changes of its matrix
+ *  29551 impl/ dirichlet: rows fixed at given values
+ *  30139 impl/ dirichlet: by a factor of all rows
  *  30372 impl/ io: files that are replaced only when they are complete
  *  30590 impl/ files: Matrix Market files, 64-bit indices
  *  31210 impl/ save: factors in files
@@ -15275,7 +15275,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
   return status;
 }
 
-SLI_COLD static const char *sli_factor_choices_wrong(const sl_options *opt) {
+static const char *sli_factor_choices_wrong(const sl_options *opt) {
   return (unsigned)opt->method > (unsigned)SL_METHOD_SUPERNODAL
          ? "options.method is not a value of sl_method"
        : (unsigned)opt->storage > (unsigned)SL_STORAGE_COMPLEX
@@ -21124,21 +21124,6 @@ SLI_INLINE const sli_costs *sli_costs_of(sl_isa isa) {
 #define SLI_REUSE_FRONT 400e-9
 #define SLI_REUSE_SUPER 150e-9
 #define SLI_REUSE_ENTRY 0.5e-9
-
-#define SLI_PINS_ENTRY 0.12e-9
-#define SLI_PINS_JOINT 0.26
-#define SLI_PINS_BLOCK 1.05
-#define SLI_PINS_PRODUCT 0.04e-9
-#define SLI_PINS_NUMBER 1e-9
-#define SLI_PINS_PIN 1e-6
-#define SLI_PINS_DENSE 0.13e-9
-
-#define SLI_DIRICHLET_ANALYSIS 280e-9
-#define SLI_DIRICHLET_ROW 120e-9
-#define SLI_DIRICHLET_COPY 1.2e-9
-#define SLI_DIRICHLET_PROBE 2e-9
-#define SLI_DIRICHLET_PINS 3.0
-#define SLI_DIRICHLET_LOST 1000.0
 
 /* src/impl/inverse/unit_vectors.h: forward sweeps of unit vectors, in blocks of up to 8 of similar reach */
 
@@ -30153,6 +30138,21 @@ SL_API sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D) {
 #if defined(SL_WITH_DIRICHLET) && defined(SL_WITH_CHANGE)
 /* src/impl/dirichlet/dirichlet_reuse.h: rows fixed at given values, by a factor of all rows: restriction or pins */
 
+#define SLI_PINS_ENTRY 0.12e-9
+#define SLI_PINS_JOINT 0.26
+#define SLI_PINS_BLOCK 1.05
+#define SLI_PINS_PRODUCT 0.04e-9
+#define SLI_PINS_NUMBER 1e-9
+#define SLI_PINS_PIN 1e-6
+#define SLI_PINS_DENSE 0.13e-9
+
+#define SLI_DIRICHLET_ANALYSIS 280e-9
+#define SLI_DIRICHLET_ROW 120e-9
+#define SLI_DIRICHLET_COPY 1.2e-9
+#define SLI_DIRICHLET_PROBE 2e-9
+#define SLI_DIRICHLET_PINS 3.0
+#define SLI_DIRICHLET_LOST 1000.0
+
 static int sli_dirichlet_is_factor_of(const sl_factor *F, const sl_csc *A) {
   sl_factor as;
   if (sli_factor_fits(F, A) != SL_OK || F->E != NULL) {
@@ -30562,7 +30562,7 @@ static int sli_replace(const sli_output *o, int *is_only_copy) {
   return 0;
 }
 
-SLI_COLD static sl_status sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
+static sl_status sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
   int ok = fflush(o->file) == 0 && complete, has_name = 1, is_only_copy = 0;
   sl_status status;
 #if defined(SLI_UNNAMED_FILES)
@@ -31423,7 +31423,7 @@ SLI_NOINLINE static void sli_saved_add(sli_saved *f, uint32_t id, uint32_t word,
   f->used[k] = used * word;
 }
 
-SLI_COLD static void sli_saved_add_analysis(sli_saved *f, const sl_symbolic *S) {
+SLI_NOINLINE static void sli_saved_add_analysis(sli_saved *f, const sl_symbolic *S) {
   const sli_saved_analysis *a = &f->analysis;
   const uint64_t n = (uint64_t)a->n, supers = (uint64_t)a->supers, rows = (uint64_t)a->rows,
            entries = (uint64_t)a->entries, nodes = (uint64_t)a->nodes;
@@ -34526,8 +34526,8 @@ static sl_status sli_complex_fill(const sli_complex_set *set, sl_int n, int is_c
                    "a row or column is out of range");
 }
 
-SLI_COLD static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n,
-                          const sl_allocator *a, sl_stats *stats) {
+static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n, const sl_allocator *a,
+                     sl_stats *stats) {
   sli_block b = {NULL, 0, 0};
   sl_status status = sli_complex_check(n, &c->first);
   status = status == SL_OK ? sli_complex_check(n, &c->second) : status;

@@ -70,8 +70,8 @@ static sl_status sli_complex_fill(const sli_complex_set *set, sl_int n, int is_c
 }
 
 /* Allocates and expands the sets, whose rows are those of a real system of n rows. */
-SLI_COLD static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n,
-                                                  const sl_allocator *a, sl_stats *stats) {
+static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n, const sl_allocator *a,
+                                         sl_stats *stats) {
     sli_block b = {NULL, 0, 0};
     sl_status status = sli_complex_check(n, &c->first);
     status = status == SL_OK ? sli_complex_check(n, &c->second) : status;

@@ -165,7 +165,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
 
 /* What is wrong with the options of a factorization, which are not NULL, or NULL. Null pivots are
  * either skipped or regularized, so the two options exclude each other. */
-SLI_COLD static const char *sli_factor_choices_wrong(const sl_options *opt) {
+static const char *sli_factor_choices_wrong(const sl_options *opt) {
     return (unsigned)opt->method > (unsigned)SL_METHOD_SUPERNODAL
                ? "options.method is not a value of sl_method"
            : (unsigned)opt->storage > (unsigned)SL_STORAGE_COMPLEX

@@ -53,22 +53,4 @@ SLI_INLINE const sli_costs *sli_costs_of(sl_isa isa) {
 #define SLI_REUSE_SUPER 150e-9
 #define SLI_REUSE_ENTRY 0.5e-9
 
-/* Seconds of the parts of new pins, measured on grids of 1e4 to 1e6 rows. */
-#define SLI_PINS_ENTRY 0.12e-9   /* an entry of L in a forward sweep of one row, */
-#define SLI_PINS_JOINT 0.26      /* the same for each row of a block, relative to that, */
-#define SLI_PINS_BLOCK 1.05      /* and for a block that is not full */
-#define SLI_PINS_PRODUCT 0.04e-9 /* a product of a sum with another pin */
-#define SLI_PINS_NUMBER 1e-9     /* a number of the vectors of a new pin */
-#define SLI_PINS_PIN 1e-6        /* a new pin */
-#define SLI_PINS_DENSE 0.13e-9   /* a product in the factor of K */
-
-/* Seconds of the ways to fix rows, measured on grids of 1e4 and 9e4 rows. */
-#define SLI_DIRICHLET_ANALYSIS 280e-9 /* an entry of A that is analyzed, ordering included */
-#define SLI_DIRICHLET_ROW 120e-9      /* a row of a restriction */
-#define SLI_DIRICHLET_COPY 1.2e-9     /* an entry of L that it copies */
-#define SLI_DIRICHLET_PROBE 2e-9      /* an entry of L, or of A, in a test solve with pins */
-#define SLI_DIRICHLET_PINS 3.0        /* of the seconds above: what pins took */
-/* Pins may lose so many times epsilon, as a backward error. */
-#define SLI_DIRICHLET_LOST 1000.0
-
 #endif

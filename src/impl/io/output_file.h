@@ -216,7 +216,7 @@ static int sli_replace(const sli_output *o, int *is_only_copy) {
 }
 
 /* Closes the file and, if it is complete, gives it its name. Returns whether both succeeded. */
-SLI_COLD static sl_status sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
+static sl_status sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
     int ok = fflush(o->file) == 0 && complete, has_name = 1, is_only_copy = 0;
     sl_status status;
 #if defined(SLI_UNNAMED_FILES)

@@ -128,7 +128,7 @@ SLI_NOINLINE static void sli_saved_add(sli_saved *f, uint32_t id, uint32_t word,
     f->used[k] = used * word;
 }
 
-SLI_COLD static void sli_saved_add_analysis(sli_saved *f, const sl_symbolic *S) {
+SLI_NOINLINE static void sli_saved_add_analysis(sli_saved *f, const sl_symbolic *S) {
     const sli_saved_analysis *a = &f->analysis;
     const uint64_t n = (uint64_t)a->n, supers = (uint64_t)a->supers, rows = (uint64_t)a->rows,
                    entries = (uint64_t)a->entries, nodes = (uint64_t)a->nodes;
