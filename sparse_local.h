@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 9834301ba1bbc555
+ * FNV-1a of the lines after this comment, without the license: 7b95fecd9dc39d45
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40,24 +40,24 @@
  *   5793 impl/ ordering: fill-reducing orderings of a graph
  *  10404 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12632 impl/ factor: the numbers of L and D
- *  15988 impl/ solve: full and local solves
- *  17659 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19588 impl/ pivots: the order of the pivots by the values of a matrix
- *  19997 impl/ float: L and fronts in single precision
- *  20448 impl/ inverse: entries of the inverse, regions
- *  23511 impl/ change: a factor that follows changes of its matrix
- *  29551 impl/ dirichlet: rows fixed at given values
- *  30139 impl/ dirichlet: by a factor of all rows
- *  30372 impl/ io: files that are replaced only when they are complete
- *  30590 impl/ files: Matrix Market files, 64-bit indices
- *  31210 impl/ save: factors in files
- *  33216 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33901 impl/ batch: diagonals of many inverses
- *  34045 impl/ complex: complex Hermitian systems over real factors
- *  34607 impl/ complex: entries of the inverse
- *  34667 impl/ packs: the tables through which the core calls packs
- *  34715 impl/ last: undefine every internal macro
- *  35064 impl/ templates: the header includes them from itself, once for each instruction set
+ *  15987 impl/ solve: full and local solves
+ *  17658 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19587 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19996 impl/ float: L and fronts in single precision
+ *  20447 impl/ inverse: entries of the inverse, regions
+ *  23510 impl/ change: a factor that follows changes of its matrix
+ *  29550 impl/ dirichlet: rows fixed at given values
+ *  30138 impl/ dirichlet: by a factor of all rows
+ *  30371 impl/ io: files that are replaced only when they are complete
+ *  30589 impl/ files: Matrix Market files, 64-bit indices
+ *  31209 impl/ save: factors in files
+ *  33215 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33900 impl/ batch: diagonals of many inverses
+ *  34044 impl/ complex: complex Hermitian systems over real factors
+ *  34606 impl/ complex: entries of the inverse
+ *  34666 impl/ packs: the tables through which the core calls packs
+ *  34714 impl/ last: undefine every internal macro
+ *  35063 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13814,8 +13814,8 @@ SLI_COLD static void sli_null_finite_check(const sl_factor *F, const sli_source 
   }
 }
 
-SLI_COLD static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
-                         sli_failure *failure) {
+static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
+                    sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const int is_one = F->null.vectors == 1,
         by_columns = from->A != NULL && !F->null.has_duplicates;
@@ -14778,8 +14778,7 @@ static void sli_anchor_columns_clear(sl_factor *F) {
   }
 }
 
-SLI_COLD static sl_status sli_nulls_find(sl_factor *F, const sli_source *from,
-                     sli_failure *failure) {
+static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failure *failure) {
   sl_status status;
   sl_int k, m, regular = 0;
   F->null.count = 0;

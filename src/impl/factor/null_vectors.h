@@ -99,8 +99,8 @@ SLI_COLD static void sli_null_finite_check(const sl_factor *F, const sli_source 
 /* Finds the components of A and those whose null vector is known, and with them the kind of every
  * pivot. Refuses a matrix whose diagonal shows that it is indefinite. An entry that is not finite
  * is left to the factorization. */
-SLI_COLD static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
-                                                 sli_failure *failure) {
+static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
+                                        sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const int is_one = F->null.vectors == 1,
               by_columns = from->A != NULL && !F->null.has_duplicates;

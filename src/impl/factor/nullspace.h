@@ -231,8 +231,7 @@ static void sli_anchor_columns_clear(sl_factor *F) {
 
 /* Finds the null pivots of a new factorization, counts the components without one, and prepares
  * solves. */
-SLI_COLD static sl_status sli_nulls_find(sl_factor *F, const sli_source *from,
-                                         sli_failure *failure) {
+static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failure *failure) {
     sl_status status;
     sl_int k, m, regular = 0;
     F->null.count = 0;
