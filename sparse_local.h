@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7b95fecd9dc39d45
+ * FNV-1a of the lines after this comment, without the license: fc09422778254bc9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,26 +38,26 @@
  *   4260 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5158 impl/ matrix: sparse matrices of the caller and of the library
  *   5793 impl/ ordering: fill-reducing orderings of a graph
- *  10404 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12632 impl/ factor: the numbers of L and D
- *  15987 impl/ solve: full and local solves
- *  17658 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19587 impl/ pivots: the order of the pivots by the values of a matrix
- *  19996 impl/ float: L and fronts in single precision
- *  20447 impl/ inverse: entries of the inverse, regions
- *  23510 impl/ change: a factor that follows changes of its matrix
- *  29550 impl/ dirichlet: rows fixed at given values
- *  30138 impl/ dirichlet: by a factor of all rows
- *  30371 impl/ io: files that are replaced only when they are complete
- *  30589 impl/ files: Matrix Market files, 64-bit indices
- *  31209 impl/ save: factors in files
- *  33215 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33900 impl/ batch: diagonals of many inverses
- *  34044 impl/ complex: complex Hermitian systems over real factors
- *  34606 impl/ complex: entries of the inverse
- *  34666 impl/ packs: the tables through which the core calls packs
- *  34714 impl/ last: undefine every internal macro
- *  35063 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10445 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12673 impl/ factor: the numbers of L and D
+ *  16028 impl/ solve: full and local solves
+ *  17699 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19628 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20037 impl/ float: L and fronts in single precision
+ *  20488 impl/ inverse: entries of the inverse, regions
+ *  23551 impl/ change: a factor that follows changes of its matrix
+ *  29591 impl/ dirichlet: rows fixed at given values
+ *  30179 impl/ dirichlet: by a factor of all rows
+ *  30412 impl/ io: files that are replaced only when they are complete
+ *  30630 impl/ files: Matrix Market files, 64-bit indices
+ *  31250 impl/ save: factors in files
+ *  33256 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33941 impl/ batch: diagonals of many inverses
+ *  34085 impl/ complex: complex Hermitian systems over real factors
+ *  34647 impl/ complex: entries of the inverse
+ *  34707 impl/ packs: the tables through which the core calls packs
+ *  34755 impl/ last: undefine every internal macro
+ *  35109 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -6328,6 +6328,7 @@ typedef struct sli_level {
   sl_int *weight;
   sl_int *coarse;
   sl_off hub_degree;
+  int is_even;
   void *block;
 } sli_level;
 
@@ -6429,6 +6430,11 @@ static void sli_contract_count(void *data, const sli_range *r) {
   t->first[r->item + 1] = r->last;
 }
 
+SLI_INLINE sl_int sli_contract_weight(const sli_level *g, sl_int v, sl_off e) {
+  return g->edge == NULL && sli_level_is_hub(g, g->to[e]) ? 0 : sli_level_edge(g, v, e);
+}
+
+#define SLI_CONTRACT_LAST ((sl_off)1 << 31)
 static void sli_contract_range(void *data, const sli_range *r) {
   sli_contraction *t = (sli_contraction *)data;
   const sli_level *g = t->g;
@@ -6449,12 +6455,13 @@ static void sli_contract_range(void *data, const sli_range *r) {
         if (u == k) {
           continue;
         }
-        if (at[u] < first) {
-          at[u] = count;
+        if (at[u] < first * SLI_CONTRACT_LAST) {
+          at[u] = count * SLI_CONTRACT_LAST + v;
           c->to[count] = u;
-          c->edge[count++] = sli_level_edge(g, v, e);
-        } else {
-          c->edge[at[u]] += sli_level_edge(g, v, e);
+          c->edge[count++] = sli_contract_weight(g, v, e);
+        } else if (g->edge != NULL || (at[u] & (SLI_CONTRACT_LAST - 1)) != v) {
+          at[u] += v - (at[u] & (SLI_CONTRACT_LAST - 1));
+          c->edge[at[u] / SLI_CONTRACT_LAST] += sli_contract_weight(g, v, e);
         }
       }
     }
@@ -6620,23 +6627,29 @@ SLI_INLINE int sli_level_is_wide(const sli_level *g) {
 }
 
 #define SLI_BALL_PAIRS 4
+#define SLI_PATCH_WEIGHT 48
+#define SLI_PATCH_DEGREE 9
+#define SLI_PATCH_EVEN 8
 
-SLI_INLINE sl_int sli_cluster_ball(const sli_level *g, sl_int v, sl_int heaviest, sl_int number,
-                   sli_clusters *clusters) {
+SLI_INLINE sl_int sli_cluster_grow(const sli_level *g, sl_int v, sl_int heaviest, int is_patch,
+                   sl_int number, sli_clusters *clusters) {
   int64_t weight = sli_level_weight(g, v);
-  sl_int members = clusters->start[number];
+  sl_int members = clusters->start[number], m = members;
   sl_off e;
   clusters->member[members++] = v;
   g->coarse[v] = number;
-  for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-    const sl_int u = g->to[e];
-    if (g->coarse[u] == -1 && weight + sli_level_weight(g, u) <= heaviest &&
-      !sli_level_is_hub(g, u)) {
-      weight += sli_level_weight(g, u);
-      clusters->member[members++] = u;
-      g->coarse[u] = number;
+  do {
+    v = clusters->member[m++];
+    for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+      const sl_int u = g->to[e];
+      if (g->coarse[u] == -1 && weight + sli_level_weight(g, u) <= heaviest &&
+        !sli_level_is_hub(g, u)) {
+        weight += sli_level_weight(g, u);
+        clusters->member[members++] = u;
+        g->coarse[u] = number;
+      }
     }
-  }
+  } while (is_patch && m < members && weight < heaviest);
   clusters->start[number + 1] = members;
   return (sl_int)weight;
 }
@@ -6661,7 +6674,8 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
     const sl_off at = sli_visited(k);
     if (at < g->n && g->coarse[at] == -1 && !sli_level_is_hub(g, (sl_int)at) &&
       (!has_balls || sli_cluster_is_free(g, (sl_int)at))) {
-      weight[count] = sli_cluster_ball(g, (sl_int)at, heaviest, count, clusters);
+      weight[count] =
+        sli_cluster_grow(g, (sl_int)at, heaviest, has_balls && g->is_even, count, clusters);
       count++;
     }
   }
@@ -6684,7 +6698,7 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
     if (g->coarse[v] < -1) {
       g->coarse[v] = -2 - g->coarse[v];
     } else if (g->coarse[v] == -1) {
-      sli_cluster_ball(g, v, sli_level_is_hub(g, v) ? 0 : heaviest, count++, clusters);
+      sli_cluster_grow(g, v, sli_level_is_hub(g, v) ? 0 : heaviest, 0, count++, clusters);
     }
   }
   memset(clusters->start, 0, ((size_t)count + 1) * sizeof(sl_int));
@@ -6718,7 +6732,9 @@ static sl_status sli_coarsen(sli_coarsening *t, const sli_level *g, sli_level *c
     const sl_int times = sli_level_is_wide(g) ? SLI_NEIGHBORHOOD_PAIRS
                : t->has_balls       ? SLI_BALL_PAIRS
                           : 1;
-    const sl_int most = times * sli_min(t->heaviest, INT32_MAX / times);
+    const sl_int most = t->has_balls && g->is_even
+                ? SLI_PATCH_WEIGHT
+                : times * sli_min(t->heaviest, INT32_MAX / times);
     count = sli_cluster_neighborhoods(g, most, t->has_balls, &t->clusters, t->mate);
   }
   if (count > g->n / 2) {
@@ -7003,9 +7019,10 @@ static void sli_subgraph_layout(sli_subgraph *sub, sli_block *b, sl_int n, sl_of
   sub->scratch = SLI_TAKE(b, sl_int, 8 * (uint64_t)n);
 }
 
-SLI_INLINE void sli_subgraph_add(sli_subgraph *sub, sl_int v, int layer) {
+SLI_INLINE void sli_subgraph_add(sli_subgraph *sub, sl_int v, int layer, int side) {
   sub->local[v] = sub->n;
   sub->layer[sub->n] = (unsigned char)layer;
+  sub->side[sub->n] = sub->home[sub->n] = (unsigned char)side;
   sub->vertex[sub->n++] = v;
 }
 
@@ -7028,7 +7045,6 @@ static void sli_subgraph_edges(sli_subgraph *sub, const sli_labelling *in, sl_in
     sub->begin[k] = count;
     sub->weight[k] = sli_level_weight(g, v);
     sub->external[k] = 0;
-    sub->side[k] = sub->home[k] = sli_shared_read(label + v) > node;
     for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
       const sl_int u = g->to[e];
       if (sub->local[u] != -1) {
@@ -7042,12 +7058,50 @@ static void sli_subgraph_edges(sli_subgraph *sub, const sli_labelling *in, sl_in
   sub->begin[sub->n] = count;
 }
 
+static void sli_subgraph_arcs(sli_subgraph *sub, const sli_labelling *in, sl_int node) {
+  const sli_level *g = in->g;
+  const int last = sub->n > 0 ? sub->layer[sub->n - 1] : 0;
+  sl_int *to = sub->to, *at = sub->scratch, *left = sub->edge, k;
+  sl_off e, count = 0;
+  for (k = 0; k < sub->n; k++) {
+    at[k] = sub->side[k] == 0 ? -1 - sub->layer[k] : sub->layer[k];
+  }
+  for (k = 0; k < sub->n; k++) {
+    const sl_int v = sub->vertex[k], here = at[k];
+    const int is_last = sub->layer[k] == last;
+    sl_off front = count;
+    sl_int n_left = 0;
+    sub->begin[k] = count;
+    sub->weight[k] = sli_level_weight(g, v);
+    sub->external[k] = 0;
+    for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+      const sl_int u = g->to[e], there = sub->local[u];
+      if (there == -1) {
+        sub->external[k] |= is_last && sli_label_tree_is_below(
+                           in->tree, node, sli_shared_read(in->label + u));
+      } else if (at[there] < here) {
+        left[n_left++] = there;
+      } else {
+        to[count++] = there;
+        if (at[there] > here) {
+          to[count - 1] = to[front];
+          to[front++] = there;
+        }
+      }
+    }
+    while (n_left > 0) {
+      to[count++] = left[--n_left];
+    }
+  }
+  sub->begin[sub->n] = count;
+}
+
 static void sli_subgraph_leaf(sli_subgraph *sub, const sli_labelling *in, sl_int node,
                 const sl_int *vertices, sl_int count) {
   sl_int k;
   sub->n = 0;
   for (k = 0; k < count; k++) {
-    sli_subgraph_add(sub, vertices[k], 0);
+    sli_subgraph_add(sub, vertices[k], 0, 0);
   }
   sli_subgraph_edges(sub, in, node);
   sub->total[0] = in->tree->weight[node];
@@ -7078,7 +7132,7 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_labelling *in, sl_int
       crosses = sli_label_tree_is_below(t, node, other) && (other > node) != side;
     }
     if (crosses) {
-      sli_subgraph_add(sub, v, 0);
+      sli_subgraph_add(sub, v, 0, side);
     }
   }
   for (layer = 1; layer <= layers && (layer == 1 || sub->n < most); layer++) {
@@ -7086,14 +7140,15 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_labelling *in, sl_int
     for (; head < end; head++) {
       for (e = g->begin[sub->vertex[head]]; e < g->begin[sub->vertex[head] + 1]; e++) {
         const sl_int u = g->to[e];
-        if (sub->local[u] == -1 &&
-          sli_label_tree_is_below(t, node, sli_shared_read(label + u))) {
-          sli_subgraph_add(sub, u, layer);
+        if (sub->local[u] == -1) {
+          const sl_int own = sli_shared_read(label + u);
+          if (sli_label_tree_is_below(t, node, own)) {
+            sli_subgraph_add(sub, u, layer, own > node);
+          }
         }
       }
     }
   }
-  sli_subgraph_edges(sub, in, node);
   sub->total[0] = t->weight[t->left[node]];
   sub->total[1] = t->weight[t->right[node]];
 }
@@ -7473,66 +7528,49 @@ static void sli_flow_terminals(sli_flow *f) {
   }
 }
 
-static void sli_flow_sort_edges(sli_flow *f) {
-  sli_subgraph *sub = f->sub;
-  sl_int v;
-  for (v = 0; v < sub->n; v++) {
-    const int here = sub->side[v] == 0 ? -1 - sub->layer[v] : sub->layer[v];
-    sl_off e, front = sub->begin[v], back = sub->begin[v + 1];
-    for (e = front; e < back;) {
-      const sl_int u = sub->to[e];
-      const int other = sub->side[u] == 0 ? -1 - sub->layer[u] : sub->layer[u];
-      if (other > here) {
-        sub->to[e++] = sub->to[front];
-        sub->to[front++] = u;
-      } else if (other < here) {
-        sub->to[e] = sub->to[--back];
-        sub->to[back] = u;
-      } else {
-        e++;
-      }
-    }
+SLI_INLINE sl_int sli_flow_next_state(sli_flow *f, sl_int v, sl_int round) {
+  const sl_off end = f->sub->begin[v + 1];
+  sl_off e = f->next[v];
+  while (e < end && f->seen[2 * f->sub->to[e]] == round) {
+    e++;
   }
+  f->next[v] = e;
+  return e < end                                                    ? 2 * f->sub->to[e]
+       : f->before[v] != SLI_FLOW_NONE && f->seen[2 * v] != round ? 2 * v
+                                    : -1;
 }
 
-static sl_int sli_flow_next_state(sli_flow *f, sl_int v, sl_int round) {
-  const sli_subgraph *sub = f->sub;
-  for (; f->next[v] < sub->begin[v + 1]; f->next[v]++) {
-    const sl_int u = sub->to[f->next[v]];
-    if (f->seen[2 * u] != round) {
-      return 2 * u;
+SLI_INLINE sl_int sli_flow_push(sli_flow *f, sl_int state, sl_int round, sl_int length) {
+  const sl_int v = state >> 1;
+  f->seen[state] = round;
+  f->path[length++] = state;
+  if (state == 2 * v) {
+    if (f->before[v] != SLI_FLOW_NONE) {
+      return length;
     }
+    f->seen[state + 1] = round;
+    f->path[length++] = state + 1;
   }
-  return f->before[v] != SLI_FLOW_NONE && f->seen[2 * v] != round ? 2 * v : -1;
+  f->next[v] = f->sub->begin[v];
+  return length;
 }
 
 static sl_int sli_flow_find_path(sli_flow *f, sl_int v, sl_int round) {
-  sl_int length = 0, state = 2 * v;
-  f->path[length++] = state;
-  f->seen[state] = round;
+  sl_int length = sli_flow_push(f, 2 * v, round, 0);
   while (length > 0) {
+    const sl_int state = f->path[length - 1];
     sl_int next_state = -1;
-    state = f->path[length - 1];
-    v = state / 2;
-    if (state % 2 == 1) {
+    v = state >> 1;
+    if (state != 2 * v) {
       if (f->terminal[v] == 2) {
         break;
       }
       next_state = sli_flow_next_state(f, v, round);
-    } else if (f->before[v] == SLI_FLOW_NONE) {
-      next_state = 2 * v + 1;
-    } else if (f->before[v] >= 0) {
+      length -= next_state == -1 && f->before[v] == SLI_FLOW_NONE;
+    } else if (f->before[v] >= 0 && f->seen[2 * f->before[v] + 1] != round) {
       next_state = 2 * f->before[v] + 1;
     }
-    if (next_state == -1 || f->seen[next_state] == round) {
-      length--;
-      continue;
-    }
-    f->seen[next_state] = round;
-    f->path[length++] = next_state;
-    if (next_state % 2 == 1) {
-      f->next[next_state / 2] = f->sub->begin[next_state / 2];
-    }
+    length = next_state == -1 ? length - 1 : sli_flow_push(f, next_state, round, length);
   }
   return length;
 }
@@ -7689,7 +7727,6 @@ static void sli_subgraph_separate(sli_subgraph *sub, unsigned char *terminal, sl
   f.next = next;
   f.terminal = terminal;
   sli_flow_terminals(&f);
-  sli_flow_sort_edges(&f);
   if (sub->n > INT32_MAX / 2 || !sli_flow_maximize(&f, &last)) { /* untested: 2^30 vertices */
     sli_separator_from_border(sub);
     return;
@@ -8281,7 +8318,7 @@ static void sli_dissect_visit(sli_dissection *d,
 /* src/impl/ordering/dissect.h: multilevel nested dissection of a connected graph */
 
 #define SLI_DISSECT_LEAF 160
-#define SLI_DISSECT_BISECT_MIN 70
+#define SLI_DISSECT_BISECT_MIN 30
 #define SLI_DISSECT_BISECT_MIN_VOLUME 200
 #define SLI_DISSECT_SHRINK 10
 #define SLI_DISSECT_SHRINK_VOLUME 2
@@ -8292,7 +8329,7 @@ static void sli_dissect_visit(sli_dissection *d,
 #define SLI_DISSECT_TRIES 2
 #define SLI_DISSECT_SMALL 10000
 #define SLI_DISSECT_LAYERS 3
-#define SLI_DISSECT_BAND_FROM 1000
+#define SLI_DISSECT_BAND_FROM 700
 #define SLI_SEPARATOR_BALANCE 70
 
 static void sli_dissect_bisect(sli_subgraph *sub, int is_first) {
@@ -8304,6 +8341,7 @@ static void sli_dissect_refine(sli_dissection *d, sli_dissect_worker *w, sl_int 
   const sli_labelling in = sli_dissect_labelling(d);
   sli_fm m;
   sli_subgraph_band(&w->subgraph, &in, node, &w->borders, SLI_DISSECT_LAYERS);
+  sli_subgraph_edges(&w->subgraph, &in, node);
   m = sli_fm_of(&w->subgraph);
   sli_fm_refine(&m, 2);
   sli_subgraph_apply(&w->subgraph, &in, node, &w->borders);
@@ -8335,7 +8373,7 @@ static int sli_dissect_layers(const sli_dissection *d, sl_int weight) {
     return weight > SLI_DISSECT_BAND_FROM;
   }
   for (; weight > SLI_DISSECT_BAND_FROM; weight /= 4) {
-    layers += weight > 4 * SLI_DISSECT_BAND_FROM ? d->band_growth : sli_min(d->band_growth, 1);
+    layers += d->band_growth;
   }
   return layers;
 }
@@ -8346,6 +8384,7 @@ static void sli_dissect_separate(sli_dissection *d, sli_dissect_worker *w, sl_in
   int layers = sli_dissect_layers(d, d->tree.weight[node]);
   for (;; layers /= 2) {
     sli_subgraph_band(sub, &in, node, &w->borders, layers);
+    sli_subgraph_arcs(sub, &in, node);
     sli_subgraph_separate(sub, sub->locked, sub->scratch, w->next);
     if (layers == 0 || sli_dissect_is_balanced(sub)) {
       break;
@@ -8366,53 +8405,10 @@ static void sli_dissect_project(sli_dissection *d) {
   d->other = coarser;
 }
 
-static void sli_weigh_range(void *data, const sli_range *r) {
-  const sli_dissection *d = (const sli_dissection *)data;
-  const sli_level *finest = &d->levels[0], *g = &d->levels[d->n_levels - 1];
-  sl_off e, *at = sli_shares_scratch(&d->ranges, r->worker);
-  sl_int k, i, *seen = (sl_int *)(void *)(at + g->n);
-  memset(seen, -1, (size_t)g->n * sizeof(sl_int));
-  for (k = r->first; k < r->last; k++) {
-    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-      at[g->to[e]] = e;
-      g->edge[e] = 0;
-    }
-    for (i = d->begin[k]; i < d->begin[k + 1]; i++) {
-      const sl_int v = d->order[i];
-      for (e = finest->begin[v]; e < finest->begin[v + 1]; e++) {
-        const sl_int c = d->label[finest->to[e]];
-        if (c != k && seen[c] != v && !sli_level_is_hub(finest, finest->to[e])) {
-          seen[c] = v;
-          g->edge[at[c]] += sli_level_edge(finest, v, e);
-        }
-      }
-    }
-  }
-}
-
-static void sli_weigh_labels(void *data, const sli_range *r) {
-  const sli_dissection *d = (const sli_dissection *)data;
-  sl_int v;
-  int m;
-  for (v = r->first; v < r->last; v++) {
-    sl_int c = v;
-    for (m = 0; m < d->n_levels - 1; m++) {
-      c = d->levels[m].coarse[c];
-    }
-    d->label[v] = c;
-  }
-}
-
 static void sli_weigh_edges(sli_dissection *d) {
   const sli_level *g = &d->levels[d->n_levels - 1];
-  const sl_int n = d->levels[0].n;
-  sl_int *to = d->workers->subgraph.to, *count = d->workers->subgraph.edge;
+  sl_int *to = d->workers->subgraph.to, *count = d->workers->subgraph.edge, k;
   sl_off e, *at = d->ranges.scratch;
-  sl_int k;
-  sli_range_run(d->team, n, sli_shares_count(d->team, n), sli_weigh_labels, d);
-  d->level = 0;
-  sli_dissect_sort(d, g->n);
-  sli_range_run(d->team, g->n, sli_shares_count(d->team, n), sli_weigh_range, d);
   memcpy(at, g->begin, (size_t)g->n * sizeof(sl_off));
   for (k = 0; k < g->n; k++) {
     for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
@@ -8439,10 +8435,43 @@ static sl_int sli_dissect_bisect_min(const sli_dissection *d) {
   return d->is_volume ? SLI_DISSECT_BISECT_MIN_VOLUME : SLI_DISSECT_BISECT_MIN;
 }
 
+static int sli_level_has_edge(const sli_level *g, sl_int v, sl_int u) {
+  sl_off e = g->begin[v];
+  while (e < g->begin[v + 1] && g->to[e] != u) {
+    e++;
+  }
+  return e < g->begin[v + 1];
+}
+
+static int sli_level_has_triangle(const sli_level *g, sl_int v) {
+  int found = g->begin[v + 1] - g->begin[v] >= SLI_HUB_LEAST;
+  sl_off e, k;
+  for (e = g->begin[v]; e < g->begin[v + 1] && !found; e++) {
+    for (k = g->begin[g->to[e]]; k < g->begin[g->to[e] + 1] && !found; k++) {
+      found = sli_level_has_edge(g, v, g->to[k]);
+    }
+  }
+  return found;
+}
+
+static int sli_level_is_crossed(const sli_level *g) {
+  const sl_int step = g->n / 64 + 1;
+  sl_int v, tried = 0, triangles = 0;
+  if (2 * g->begin[g->n] <= 9 * (sl_off)g->n) {
+    return 0;
+  }
+  for (v = 0; v < g->n; v += step) {
+    tried++;
+    triangles += sli_level_has_triangle(g, v);
+  }
+  return triangles <= tried / 8;
+}
+
 static void sli_dissect_recognize(sli_dissection *d) {
   d->is_volume = sli_level_exceeds(&d->levels[1], SLI_VOLUME_DEGREE);
   d->may_be_seven_point = !sli_level_exceeds(&d->levels[0], SLI_SEVEN_POINT_DEGREE) &&
-              sli_level_exceeds(&d->levels[1], SLI_SEVEN_POINT_DEGREE + 1);
+              (sli_level_exceeds(&d->levels[1], SLI_SEVEN_POINT_DEGREE + 1) ||
+               sli_level_is_crossed(&d->levels[0]));
 }
 
 static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
@@ -8469,11 +8498,11 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
     }
     if (last == 1) {
       sli_dissect_recognize(d);
+      sli_weigh_edges(d);
     }
     most = n / (d->is_volume ? SLI_DISSECT_SHRINK_VOLUME : SLI_DISSECT_SHRINK);
     if (*working == -1 && last > 0 && g->n <= most) {
       *working = last;
-      sli_weigh_edges(d);
     }
     if (g->n <= sli_min(sli_dissect_bisect_min(d), most) || d->n_levels == SLI_LEVELS_MAX) {
       break;
@@ -9050,10 +9079,13 @@ static sl_int sli_nd_component(sli_nd *w, sl_int root) {
   for (head = 0; head < tail; head++) {
     w->begin[head] = edges;
     for (e = G->begin[w->row[head]]; e < G->begin[w->row[head] + 1]; e++) {
-      edges += w->local[G->to[e]] != -2;
-      if (w->local[G->to[e]] == -1) {
-        w->local[G->to[e]] = tail;
-        w->row[tail++] = G->to[e];
+      const sl_int u = G->to[e];
+      if (w->local[u] == -1) {
+        w->local[u] = tail;
+        w->row[tail++] = u;
+      }
+      if (w->local[u] >= 0) {
+        w->to[edges++] = w->local[u];
       }
     }
   }
@@ -9061,41 +9093,31 @@ static sl_int sli_nd_component(sli_nd *w, sl_int root) {
   return tail;
 }
 
-static void sli_nd_fill(void *data, const sli_range *r) {
-  const sli_nd *w = (const sli_nd *)data;
-  const sli_graph *G = w->G;
-  sl_int k;
-  sl_off e, edges = w->begin[r->first];
-  for (k = r->first; k < r->last; k++) {
-    for (e = G->begin[w->row[k]]; e < G->begin[w->row[k] + 1]; e++) {
-      if (w->local[G->to[e]] >= 0) {
-        w->to[edges++] = w->local[G->to[e]];
-      }
-    }
-  }
-}
-
-static void sli_nd_find_hubs(sli_level *g) {
+static void sli_nd_count_degrees(sli_level *g) {
   const sl_off edges = g->begin[g->n], times = SLI_HUB_TIMES * (edges / g->n);
   const sl_off least = times > SLI_HUB_LEAST ? times : SLI_HUB_LEAST;
   sl_int v, count = 0;
+  uint64_t squares = 0;
   for (v = 0; v < g->n; v++) {
-    count += g->begin[v + 1] - g->begin[v] >= least;
+    const uint64_t degree = (uint64_t)(g->begin[v + 1] - g->begin[v]);
+    count += (sl_off)degree >= least;
+    squares += degree * degree;
   }
-  g->hub_degree = count > 0 && count <= g->n / SLI_HUB_SHARE &&
-              edges < INT32_MAX / (2 * SLI_HUB_EDGES)
-            ? least
-            : 0;
+  g->is_even = 4 * edges >= 15 * (sl_off)g->n && edges <= SLI_PATCH_DEGREE * (sl_off)g->n &&
+         100 * squares <= (uint64_t)((100 + SLI_PATCH_EVEN) * edges / g->n * edges);
+  g->hub_degree =
+    count > 0 && count <= g->n / SLI_HUB_SHARE && edges < INT32_MAX / (2 * SLI_HUB_EDGES)
+      ? least
+      : 0;
 }
 
 static void sli_nd_graph(sli_nd *w, sl_int count) {
   sl_int k;
   w->d.levels[0].n = count;
-  sli_range_run(w->d.team, count, sli_shares_count(w->d.team, count), sli_nd_fill, w);
   w->d.levels[0].begin = w->begin;
   w->d.levels[0].to = w->to;
   w->d.levels[0].weight = w->weight != NULL ? w->weights : NULL;
-  sli_nd_find_hubs(&w->d.levels[0]);
+  sli_nd_count_degrees(&w->d.levels[0]);
   w->d.total = count;
   w->d.first = w->is_small && !sli_level_is_wide(&w->d.levels[0]) ? 0 : SLI_DISSECT_FIRST;
   if (w->weight != NULL) {
@@ -9110,7 +9132,7 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
 static sl_status sli_nd_label(sli_nd *w) {
   sli_dissection *d = &w->d;
   d->is_volume = d->may_be_seven_point = 0;
-  d->band_growth = d->has_labels ? 1 : 3;
+  d->band_growth = 1;
   if (d->has_labels) {
     return SL_OK;
   }
@@ -9261,6 +9283,23 @@ static int sli_compress_is_indistinguishable(const sli_graph *G, sl_int u, sl_in
   }
 }
 
+#define SLI_COMPRESS_SAMPLE 16
+
+static int sli_compress_is_likely(const sli_graph *G) {
+  sl_int v;
+  sl_off e;
+  for (v = 0; v < G->n; v += SLI_COMPRESS_SAMPLE) {
+    for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+      const sl_int u = G->to[e];
+      if (sli_graph_degree(G, u) == sli_graph_degree(G, v) &&
+        sli_compress_is_indistinguishable(G, u, v)) {
+        return 1;
+      }
+    }
+  }
+  return 0;
+}
+
 typedef struct sli_compress_search {
   const sli_graph *G;
   sl_int *first;
@@ -9360,7 +9399,9 @@ static sl_status sli_order_compressed(const sli_order_job *job) {
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   memset(&c, 0, sizeof c);
-  c.G.n = sli_compress_find(G, job->scratch, (uint32_t *)(void *)job->perm, job->team);
+  c.G.n = !sli_compress_is_likely(G)
+        ? G->n
+        : sli_compress_find(G, job->scratch, (uint32_t *)(void *)job->perm, job->team);
   if (100 * (int64_t)c.G.n > SLI_COMPRESS_SHARE * (int64_t)G->n) {
     return sli_order_nd(job);
   }
@@ -34950,6 +34991,10 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_DISSECT_TRIES_FIRST
 #undef SLI_DISSECT_TRIES
 #undef SLI_BALL_PAIRS
+#undef SLI_PATCH_DEGREE
+#undef SLI_PATCH_EVEN
+#undef SLI_PATCH_WEIGHT
+#undef SLI_CONTRACT_LAST
 #undef SLI_DISSECT_LAYERS
 #undef SLI_DISSECT_BAND_FROM
 #undef SLI_SEPARATOR_BALANCE
@@ -34965,6 +35010,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_PEEL_LEAVES
 #undef SLI_PEEL_ENDS
 #undef SLI_COMPRESS_SHARE
+#undef SLI_COMPRESS_SAMPLE
 #undef SLI_LEVELSET_BALANCE
 #undef SLI_REACH_WALK
 #undef SLI_LANES_MAX

@@ -114,10 +114,10 @@ static int is_worse_than_metis(const char *name, order_quality ours, order_quali
  * only the borders; with all border vertices of one side as separators. Two of the grids fail
  * without the bands.
  *
- *    five-point    1.13 (1.09, 1.17, 1.30): without diagonals METIS finds better separators
- *    triangulated  1.06 (1.02, 1.05, 1.17)
- *    jittered      1.06 (1.03, 1.08, 1.28)
- *    volume        1.06 (0.84, 0.84, 0.93)
+ *    five-point    1.13 (1.10, 1.17, 1.30): without diagonals METIS finds better separators
+ *    triangulated  1.06 (1.03, 1.05, 1.17)
+ *    jittered      1.06 (1.04, 1.08, 1.28)
+ *    volume        1.06 (0.83, 0.84, 0.93)
  */
 static void fill_is_near_that_of_metis(void **state) {
     (void)state;
@@ -153,12 +153,12 @@ static const struct {
     ordering_mesh kind;
     double path; /* limit of the path weight; one seed of METIS scatters by 3 to 6 % */
 } meshes[] = {{"jittered", MESH_JITTERED, 1.06}, {"archipelago", MESH_ARCHIPELAGO, 1.10},
-              {"spiral", MESH_SPIRAL, 1.06},     {"comb", MESH_COMB, 1.06},
+              {"spiral", MESH_SPIRAL, 1.08},     {"comb", MESH_COMB, 1.06},
               {"torus", MESH_TORUS, 1.08},       {"scroll", MESH_SCROLL, 1.06}};
 
 enum { MESHES = sizeof meshes / sizeof *meshes };
 
-/* Measured: fill 0.94 to 1.05, path weight 1.01 to 1.09, 1.04 in the mean of the five. */
+/* Measured: fill 0.95 to 1.06, path weight 1.00 to 1.06. */
 static void meshes_are_near_metis(void **state) {
     (void)state;
     static const sl_int sides[SIZES] = {130, 150, 170};

@@ -127,33 +127,33 @@ static void same_bits(sl_isa isa, const uint64_t *expected) {
 }
 
 static void plain_c_has_the_same_bits(void **state) {
-    static const uint64_t expected[KINDS] = {0x37d2ff7744f39c06u, 0xe909ed16c509e360u,
-                                             0xc938a926f3d3563cu, 0xab3358fdeeee892du,
-                                             0xdc24a36aa0dadc6du};
+    static const uint64_t expected[KINDS] = {0x1682820571fb68aau, 0xe909ed16c509e360u,
+                                             0xc938a926f3d3563cu, 0xec697af0beac984bu,
+                                             0x56ff904400b6c781u};
     (void)state;
     same_bits(SL_ISA_SCALAR, expected);
 }
 
 static void avx2_has_the_same_bits(void **state) {
-    static const uint64_t expected[KINDS] = {0x38ac25ad7d9336b9u, 0xa1d949d8d611cbc6u,
-                                             0x5ff3cbee940c51deu, 0x62a8f49fd886f893u,
-                                             0xb80584ac951994c2u};
+    static const uint64_t expected[KINDS] = {0xcbba500ba627f194u, 0xa1d949d8d611cbc6u,
+                                             0x5ff3cbee940c51deu, 0xd40c771e747ab3fcu,
+                                             0x289b0c04dd8de4c3u};
     (void)state;
     same_bits(SL_ISA_AVX2, expected);
 }
 
 static void avx512_has_the_same_bits(void **state) {
-    static const uint64_t expected[KINDS] = {0x575d8ce7d8bf91bcu, 0xa1d949d8d611cbc6u,
-                                             0x58a7bad220a1fd9au, 0x6c2bed584f31684fu,
-                                             0x567fe0554f6c1bcdu};
+    static const uint64_t expected[KINDS] = {0x6327077f2bc711cdu, 0xa1d949d8d611cbc6u,
+                                             0x58a7bad220a1fd9au, 0xe098c66af662e37du,
+                                             0x150437ddf350f54du};
     (void)state;
     same_bits(SL_ISA_AVX512, expected);
 }
 
 static void neon_has_the_same_bits(void **state) {
-    static const uint64_t expected[KINDS] = {0x60f9bf38ddcd49edu, 0x805d07fa5c585d48u,
-                                             0x52b5639a6941d75au, 0x2b3c5258e3ed288cu,
-                                             0x66fe99727f136918u};
+    static const uint64_t expected[KINDS] = {0xfb77763f37ec94cdu, 0x805d07fa5c585d48u,
+                                             0x52b5639a6941d75au, 0x76d3c2118a48329bu,
+                                             0x1f906d2d76397f49u};
     (void)state;
     same_bits(SL_ISA_NEON, expected);
 }

@@ -129,25 +129,38 @@ SLI_INLINE int sli_level_is_wide(const sli_level *g) {
 
 /* The weight of a ball is at most this many times that of the heaviest pair. */
 #define SLI_BALL_PAIRS 4
+/* In a graph that is even, as that of a surface, balls grow to patches of this weight: dissecting
+ * patches of 20 vertices instead of balls and pairs takes a fourth less time, with the same fill
+ * and paths in the mean of 12 meshes. In graphs of random points and networks, L would have 3 to 9
+ * percent more entries. */
+#define SLI_PATCH_WEIGHT 48
+/* A graph is even if its vertices have at most DEGREE neighbors in the mean, and the mean square of
+ * these numbers exceeds the square of the mean by at most EVEN percent: 1 to 5 on surfaces, 11 for
+ * points at random. */
+#define SLI_PATCH_DEGREE 9
+#define SLI_PATCH_EVEN 8
 
-/* Appends a cluster of v and, unless it gets too heavy, those neighbors that are in none. Returns
- * its weight. */
-SLI_INLINE sl_int sli_cluster_ball(const sli_level *g, sl_int v, sl_int heaviest, sl_int number,
-                                   sli_clusters *clusters) {
+/* Appends a cluster of v and, unless it gets too heavy, those neighbors that are in none; of a
+ * patch, also their neighbors and so on. Returns its weight. */
+SLI_INLINE sl_int sli_cluster_grow(const sli_level *g, sl_int v, sl_int heaviest, int is_patch,
+                                   sl_int number, sli_clusters *clusters) {
     int64_t weight = sli_level_weight(g, v);
-    sl_int members = clusters->start[number];
+    sl_int members = clusters->start[number], m = members;
     sl_off e;
     clusters->member[members++] = v;
     g->coarse[v] = number;
-    for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-        const sl_int u = g->to[e];
-        if (g->coarse[u] == -1 && weight + sli_level_weight(g, u) <= heaviest &&
-            !sli_level_is_hub(g, u)) {
-            weight += sli_level_weight(g, u);
-            clusters->member[members++] = u;
-            g->coarse[u] = number;
+    do {
+        v = clusters->member[m++];
+        for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+            const sl_int u = g->to[e];
+            if (g->coarse[u] == -1 && weight + sli_level_weight(g, u) <= heaviest &&
+                !sli_level_is_hub(g, u)) {
+                weight += sli_level_weight(g, u);
+                clusters->member[members++] = u;
+                g->coarse[u] = number;
+            }
         }
-    }
+    } while (is_patch && m < members && weight < heaviest);
     clusters->start[number + 1] = members;
     return (sl_int)weight;
 }
@@ -178,7 +191,8 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
         const sl_off at = sli_visited(k);
         if (at < g->n && g->coarse[at] == -1 && !sli_level_is_hub(g, (sl_int)at) &&
             (!has_balls || sli_cluster_is_free(g, (sl_int)at))) {
-            weight[count] = sli_cluster_ball(g, (sl_int)at, heaviest, count, clusters);
+            weight[count] =
+                sli_cluster_grow(g, (sl_int)at, heaviest, has_balls && g->is_even, count, clusters);
             count++;
         }
     }
@@ -201,7 +215,7 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
         if (g->coarse[v] < -1) {
             g->coarse[v] = -2 - g->coarse[v];
         } else if (g->coarse[v] == -1) {
-            sli_cluster_ball(g, v, sli_level_is_hub(g, v) ? 0 : heaviest, count++, clusters);
+            sli_cluster_grow(g, v, sli_level_is_hub(g, v) ? 0 : heaviest, 0, count++, clusters);
         }
     }
     memset(clusters->start, 0, ((size_t)count + 1) * sizeof(sl_int));
@@ -240,7 +254,9 @@ static sl_status sli_coarsen(sli_coarsening *t, const sli_level *g, sli_level *c
         const sl_int times = sli_level_is_wide(g) ? SLI_NEIGHBORHOOD_PAIRS
                              : t->has_balls       ? SLI_BALL_PAIRS
                                                   : 1;
-        const sl_int most = times * sli_min(t->heaviest, INT32_MAX / times);
+        const sl_int most = t->has_balls && g->is_even
+                                ? SLI_PATCH_WEIGHT
+                                : times * sli_min(t->heaviest, INT32_MAX / times);
         count = sli_cluster_neighborhoods(g, most, t->has_balls, &t->clusters, t->mate);
     }
     if (count > g->n / 2) {

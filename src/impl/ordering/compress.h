@@ -30,6 +30,24 @@ static int sli_compress_is_indistinguishable(const sli_graph *G, sl_int u, sl_in
     }
 }
 
+/* One row in this many is looked at to see whether there may be any. */
+#define SLI_COMPRESS_SAMPLE 16
+
+static int sli_compress_is_likely(const sli_graph *G) {
+    sl_int v;
+    sl_off e;
+    for (v = 0; v < G->n; v += SLI_COMPRESS_SAMPLE) {
+        for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+            const sl_int u = G->to[e];
+            if (sli_graph_degree(G, u) == sli_graph_degree(G, v) &&
+                sli_compress_is_indistinguishable(G, u, v)) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
 /* The search for indistinguishable rows, by ranges of rows. */
 typedef struct sli_compress_search {
     const sli_graph *G;
@@ -139,7 +157,9 @@ static sl_status sli_order_compressed(const sli_order_job *job) {
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     memset(&c, 0, sizeof c);
-    c.G.n = sli_compress_find(G, job->scratch, (uint32_t *)(void *)job->perm, job->team);
+    c.G.n = !sli_compress_is_likely(G)
+                ? G->n
+                : sli_compress_find(G, job->scratch, (uint32_t *)(void *)job->perm, job->team);
     if (100 * (int64_t)c.G.n > SLI_COMPRESS_SHARE * (int64_t)G->n) {
         return sli_order_nd(job);
     }

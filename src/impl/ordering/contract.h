@@ -11,13 +11,14 @@ typedef struct sli_level {
     sl_int n;
     sl_off *begin; /* n + 1 */
     sl_int *to;    /* begin[n] */
-    /* begin[n]: number of finest edges, or after sli_weigh_edges what a separator costs; NULL: 1
-     * each, or see SLI_HUB_EDGES */
+    /* begin[n]: what a separator costs there, see sli_weigh_edges; NULL: 1 each, or see
+     * SLI_HUB_EDGES */
     sl_int *edge;
-    sl_int *weight; /* n: number of finest vertices; NULL: 1 each */
-    sl_int *coarse; /* n: the vertex of the next coarser level that contains this one */
+    sl_int *weight;    /* n: number of finest vertices; NULL: 1 each */
+    sl_int *coarse;    /* n: the vertex of the next coarser level that contains this one */
     sl_off hub_degree; /* a vertex with this many neighbors is a hub; 0: there is none */
-    void *block;    /* the allocation that holds all arrays */
+    int is_even;       /* of the finest level: see SLI_PATCH_EVEN */
+    void *block;       /* the allocation that holds all arrays */
 } sli_level;
 
 /* The vertices of each cluster, a vertex of the next coarser level: those of cluster k are
@@ -134,7 +135,15 @@ static void sli_contract_count(void *data, const sli_range *r) {
     t->first[r->item + 1] = r->last;
 }
 
-/* Contracts a range of clusters. */
+/* The weight of a finest edge in a cluster's edge. */
+SLI_INLINE sl_int sli_contract_weight(const sli_level *g, sl_int v, sl_off e) {
+    return g->edge == NULL && sli_level_is_hub(g, g->to[e]) ? 0 : sli_level_edge(g, v, e);
+}
+
+/* Contracts a range of clusters. Weights of edges are added; from the finest level, they are the
+ * number of vertices of a cluster that have neighbors in the other. at[u] is, for the edge to u,
+ * its position times LAST, plus the last vertex that has an edge there. */
+#define SLI_CONTRACT_LAST ((sl_off)1 << 31)
 static void sli_contract_range(void *data, const sli_range *r) {
     sli_contraction *t = (sli_contraction *)data;
     const sli_level *g = t->g;
@@ -155,12 +164,13 @@ static void sli_contract_range(void *data, const sli_range *r) {
                 if (u == k) {
                     continue;
                 }
-                if (at[u] < first) {
-                    at[u] = count;
+                if (at[u] < first * SLI_CONTRACT_LAST) {
+                    at[u] = count * SLI_CONTRACT_LAST + v;
                     c->to[count] = u;
-                    c->edge[count++] = sli_level_edge(g, v, e);
-                } else {
-                    c->edge[at[u]] += sli_level_edge(g, v, e);
+                    c->edge[count++] = sli_contract_weight(g, v, e);
+                } else if (g->edge != NULL || (at[u] & (SLI_CONTRACT_LAST - 1)) != v) {
+                    at[u] += v - (at[u] & (SLI_CONTRACT_LAST - 1));
+                    c->edge[at[u] / SLI_CONTRACT_LAST] += sli_contract_weight(g, v, e);
                 }
             }
         }

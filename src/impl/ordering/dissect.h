@@ -11,13 +11,13 @@
 /* A leaf is bisected on the coarsest level on which it has more vertices than BISECT_MIN. Leaves
  * are bisected only on levels of at most n / SHRINK vertices, in volumes on the first coarser one,
  * too: separators have a larger share of the vertices there, and clusters make them rougher. */
-#define SLI_DISSECT_BISECT_MIN 70
+#define SLI_DISSECT_BISECT_MIN 30
 #define SLI_DISSECT_BISECT_MIN_VOLUME 200
 #define SLI_DISSECT_SHRINK 10
-#define SLI_DISSECT_SHRINK_VOLUME 2 /* at least, for sli_weigh_edges */
+#define SLI_DISSECT_SHRINK_VOLUME 2
 /* The first coarser level of a graph has up to 6 neighbors for each vertex on surfaces, 7.4 to 9 in
- * wide graphs of them, 7.1 to 9.3 in 7-point volumes and plates, whose finest level has up to 6,
- * and 12 to 17 in volumes of tetrahedra or 27 points. */
+ * wide graphs of them, 7.7 to 9.7 in 7-point volumes and thick plates, whose finest level has up to
+ * 6, and 12 to 17 in volumes of tetrahedra or 27 points. */
 #define SLI_SEVEN_POINT_DEGREE 6
 #define SLI_VOLUME_DEGREE 10
 /* Tries of graph growing: TRIES_FIRST while the tree has fewer than FIRST nodes, because the first
@@ -32,7 +32,7 @@
 /* Layers on each side of a border whose vertices may change sides: LAYERS on coarse levels, one for
  * the final separators, and more from BAND_FROM finest vertices on. */
 #define SLI_DISSECT_LAYERS 3
-#define SLI_DISSECT_BAND_FROM 1000
+#define SLI_DISSECT_BAND_FROM 700
 /* Largest percentage of the weight that one side of a separator may have. It exceeds
  * SLI_BISECT_BALANCE because the last step may lose some balance for a smaller separator. */
 #define SLI_SEPARATOR_BALANCE 70
@@ -48,6 +48,7 @@ static void sli_dissect_refine(sli_dissection *d, sli_dissect_worker *w, sl_int 
     const sli_labelling in = sli_dissect_labelling(d);
     sli_fm m;
     sli_subgraph_band(&w->subgraph, &in, node, &w->borders, SLI_DISSECT_LAYERS);
+    sli_subgraph_edges(&w->subgraph, &in, node);
     m = sli_fm_of(&w->subgraph);
     sli_fm_refine(&m, 2);
     sli_subgraph_apply(&w->subgraph, &in, node, &w->borders);
@@ -85,7 +86,7 @@ static int sli_dissect_layers(const sli_dissection *d, sl_int weight) {
         return weight > SLI_DISSECT_BAND_FROM;
     }
     for (; weight > SLI_DISSECT_BAND_FROM; weight /= 4) {
-        layers += weight > 4 * SLI_DISSECT_BAND_FROM ? d->band_growth : sli_min(d->band_growth, 1);
+        layers += d->band_growth;
     }
     return layers;
 }
@@ -99,6 +100,7 @@ static void sli_dissect_separate(sli_dissection *d, sli_dissect_worker *w, sl_in
     int layers = sli_dissect_layers(d, d->tree.weight[node]);
     for (;; layers /= 2) {
         sli_subgraph_band(sub, &in, node, &w->borders, layers);
+        sli_subgraph_arcs(sub, &in, node);
         sli_subgraph_separate(sub, sub->locked, sub->scratch, w->next);
         if (layers == 0 || sli_dissect_is_balanced(sub)) {
             break;
@@ -120,59 +122,13 @@ static void sli_dissect_project(sli_dissection *d) {
     d->other = coarser;
 }
 
-/* Counts the vertices on one side of each edge, for a range of vertices of the last level. */
-static void sli_weigh_range(void *data, const sli_range *r) {
-    const sli_dissection *d = (const sli_dissection *)data;
-    const sli_level *finest = &d->levels[0], *g = &d->levels[d->n_levels - 1];
-    sl_off e, *at = sli_shares_scratch(&d->ranges, r->worker);
-    sl_int k, i, *seen = (sl_int *)(void *)(at + g->n);
-    memset(seen, -1, (size_t)g->n * sizeof(sl_int));
-    for (k = r->first; k < r->last; k++) {
-        for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-            at[g->to[e]] = e;
-            g->edge[e] = 0;
-        }
-        for (i = d->begin[k]; i < d->begin[k + 1]; i++) {
-            const sl_int v = d->order[i];
-            for (e = finest->begin[v]; e < finest->begin[v + 1]; e++) {
-                const sl_int c = d->label[finest->to[e]];
-                if (c != k && seen[c] != v && !sli_level_is_hub(finest, finest->to[e])) {
-                    seen[c] = v;
-                    g->edge[at[c]] += sli_level_edge(finest, v, e);
-                }
-            }
-        }
-    }
-}
-
-/* Labels a range of the finest vertices with those of the last level that contain them. */
-static void sli_weigh_labels(void *data, const sli_range *r) {
-    const sli_dissection *d = (const sli_dissection *)data;
-    sl_int v;
-    int m;
-    for (v = r->first; v < r->last; v++) {
-        sl_int c = v;
-        for (m = 0; m < d->n_levels - 1; m++) {
-            c = d->levels[m].coarse[c];
-        }
-        d->label[v] = c;
-    }
-}
-
-/* Sets the weight of each edge of the last level to the number of finest vertices on both sides of
+/* Makes the weight of each edge of the last level the number of finest vertices on both sides of
  * the border that it represents: what a vertex separator there costs. The number of finest edges
- * would charge a diagonal border in a square grid twice as much as a straight one. The level has at
- * most half as many vertices as the ranges have room. */
+ * would charge a diagonal border in a square grid twice as much as a straight one. */
 static void sli_weigh_edges(sli_dissection *d) {
     const sli_level *g = &d->levels[d->n_levels - 1];
-    const sl_int n = d->levels[0].n;
-    sl_int *to = d->workers->subgraph.to, *count = d->workers->subgraph.edge;
+    sl_int *to = d->workers->subgraph.to, *count = d->workers->subgraph.edge, k;
     sl_off e, *at = d->ranges.scratch;
-    sl_int k;
-    sli_range_run(d->team, n, sli_shares_count(d->team, n), sli_weigh_labels, d);
-    d->level = 0;
-    sli_dissect_sort(d, g->n);
-    sli_range_run(d->team, g->n, sli_shares_count(d->team, n), sli_weigh_range, d);
     /* The weights so far count the vertices of one side; add those of the other side from the
      * transposed lists. */
     memcpy(at, g->begin, (size_t)g->n * sizeof(sl_off));
@@ -201,11 +157,47 @@ static sl_int sli_dissect_bisect_min(const sli_dissection *d) {
     return d->is_volume ? SLI_DISSECT_BISECT_MIN_VOLUME : SLI_DISSECT_BISECT_MIN;
 }
 
+static int sli_level_has_edge(const sli_level *g, sl_int v, sl_int u) {
+    sl_off e = g->begin[v];
+    while (e < g->begin[v + 1] && g->to[e] != u) {
+        e++;
+    }
+    return e < g->begin[v + 1];
+}
+
+/* Is v in a triangle? Hubs are. */
+static int sli_level_has_triangle(const sli_level *g, sl_int v) {
+    int found = g->begin[v + 1] - g->begin[v] >= SLI_HUB_LEAST;
+    sl_off e, k;
+    for (e = g->begin[v]; e < g->begin[v + 1] && !found; e++) {
+        for (k = g->begin[g->to[e]]; k < g->begin[g->to[e] + 1] && !found; k++) {
+            found = sli_level_has_edge(g, v, g->to[k]);
+        }
+    }
+    return found;
+}
+
+/* Has a graph more edges than a planar one without triangles, 2 n, and nearly no triangles? So it
+ * is in 7-point plates of two layers, too, whose first coarser level is as that of a surface. */
+static int sli_level_is_crossed(const sli_level *g) {
+    const sl_int step = g->n / 64 + 1;
+    sl_int v, tried = 0, triangles = 0;
+    if (2 * g->begin[g->n] <= 9 * (sl_off)g->n) {
+        return 0;
+    }
+    for (v = 0; v < g->n; v += step) {
+        tried++;
+        triangles += sli_level_has_triangle(g, v);
+    }
+    return triangles <= tried / 8;
+}
+
 /* Reads from the first coarser level whether the graph is a volume. */
 static void sli_dissect_recognize(sli_dissection *d) {
     d->is_volume = sli_level_exceeds(&d->levels[1], SLI_VOLUME_DEGREE);
     d->may_be_seven_point = !sli_level_exceeds(&d->levels[0], SLI_SEVEN_POINT_DEGREE) &&
-                            sli_level_exceeds(&d->levels[1], SLI_SEVEN_POINT_DEGREE + 1);
+                            (sli_level_exceeds(&d->levels[1], SLI_SEVEN_POINT_DEGREE + 1) ||
+                             sli_level_is_crossed(&d->levels[0]));
 }
 
 /* Makes the coarser levels, in addition to those that there are. *working := the finest level on
@@ -235,11 +227,11 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
         }
         if (last == 1) {
             sli_dissect_recognize(d);
+            sli_weigh_edges(d);
         }
         most = n / (d->is_volume ? SLI_DISSECT_SHRINK_VOLUME : SLI_DISSECT_SHRINK);
         if (*working == -1 && last > 0 && g->n <= most) {
             *working = last;
-            sli_weigh_edges(d);
         }
         if (g->n <= sli_min(sli_dissect_bisect_min(d), most) || d->n_levels == SLI_LEVELS_MAX) {
             break;

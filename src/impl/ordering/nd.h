@@ -113,8 +113,8 @@ static void sli_nd_layout(sli_nd *w, sli_block *b) {
 }
 
 /* Collects the rows reachable from root in breadth-first order, which also numbers the component:
- * neighbors are then close in memory, however the caller numbers them. Counts their edges, without
- * dense rows. */
+ * neighbors are then close in memory, however the caller numbers them. Builds their graph, without
+ * dense rows: once the neighbors of a row have been collected, all of them have numbers. */
 static sl_int sli_nd_component(sli_nd *w, sl_int root) {
     const sli_graph *G = w->G;
     sl_int head, tail = 0;
@@ -124,10 +124,13 @@ static sl_int sli_nd_component(sli_nd *w, sl_int root) {
     for (head = 0; head < tail; head++) {
         w->begin[head] = edges;
         for (e = G->begin[w->row[head]]; e < G->begin[w->row[head] + 1]; e++) {
-            edges += w->local[G->to[e]] != -2;
-            if (w->local[G->to[e]] == -1) {
-                w->local[G->to[e]] = tail;
-                w->row[tail++] = G->to[e];
+            const sl_int u = G->to[e];
+            if (w->local[u] == -1) {
+                w->local[u] = tail;
+                w->row[tail++] = u;
+            }
+            if (w->local[u] >= 0) {
+                w->to[edges++] = w->local[u];
             }
         }
     }
@@ -135,45 +138,36 @@ static sl_int sli_nd_component(sli_nd *w, sl_int root) {
     return tail;
 }
 
-/* Fills the edges of a range of rows. */
-static void sli_nd_fill(void *data, const sli_range *r) {
-    const sli_nd *w = (const sli_nd *)data;
-    const sli_graph *G = w->G;
-    sl_int k;
-    sl_off e, edges = w->begin[r->first];
-    for (k = r->first; k < r->last; k++) {
-        for (e = G->begin[w->row[k]]; e < G->begin[w->row[k] + 1]; e++) {
-            if (w->local[G->to[e]] >= 0) {
-                w->to[edges++] = w->local[G->to[e]];
-            }
-        }
-    }
-}
-
-/* Finds out which degree makes a vertex of a connected graph a hub, if few are. */
-static void sli_nd_find_hubs(sli_level *g) {
+/* Finds out whether a connected graph is even, and which degree makes a vertex a hub, if few
+ * are. */
+static void sli_nd_count_degrees(sli_level *g) {
     const sl_off edges = g->begin[g->n], times = SLI_HUB_TIMES * (edges / g->n);
     const sl_off least = times > SLI_HUB_LEAST ? times : SLI_HUB_LEAST;
     sl_int v, count = 0;
+    uint64_t squares = 0;
     for (v = 0; v < g->n; v++) {
-        count += g->begin[v + 1] - g->begin[v] >= least;
+        const uint64_t degree = (uint64_t)(g->begin[v + 1] - g->begin[v]);
+        count += (sl_off)degree >= least;
+        squares += degree * degree;
     }
+    /* no row is dense: the squares are less than 2^51 */
+    g->is_even = 4 * edges >= 15 * (sl_off)g->n && edges <= SLI_PATCH_DEGREE * (sl_off)g->n &&
+                 100 * squares <= (uint64_t)((100 + SLI_PATCH_EVEN) * edges / g->n * edges);
     /* gains of bisections, up to twice the weight of all edges of a vertex, are below 2^31 */
-    g->hub_degree = count > 0 && count <= g->n / SLI_HUB_SHARE &&
-                            edges < INT32_MAX / (2 * SLI_HUB_EDGES)
-                        ? least
-                        : 0;
+    g->hub_degree =
+        count > 0 && count <= g->n / SLI_HUB_SHARE && edges < INT32_MAX / (2 * SLI_HUB_EDGES)
+            ? least
+            : 0;
 }
 
-/* Builds the graph of the current component, which has `count` rows, without dense rows. */
+/* Takes the graph of the current component, which has `count` rows. */
 static void sli_nd_graph(sli_nd *w, sl_int count) {
     sl_int k;
     w->d.levels[0].n = count;
-    sli_range_run(w->d.team, count, sli_shares_count(w->d.team, count), sli_nd_fill, w);
     w->d.levels[0].begin = w->begin;
     w->d.levels[0].to = w->to;
     w->d.levels[0].weight = w->weight != NULL ? w->weights : NULL;
-    sli_nd_find_hubs(&w->d.levels[0]);
+    sli_nd_count_degrees(&w->d.levels[0]);
     w->d.total = count;
     w->d.first = w->is_small && !sli_level_is_wide(&w->d.levels[0]) ? 0 : SLI_DISSECT_FIRST;
     if (w->weight != NULL) {
@@ -185,12 +179,11 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
     }
 }
 
-/* Finds labels of the current component by the requested method, unless it has some by levels. The
- * cruder the borders of a method, the wider the bands in which they are refined. */
+/* Finds labels of the current component, unless it has some by levels. */
 static sl_status sli_nd_label(sli_nd *w) {
     sli_dissection *d = &w->d;
     d->is_volume = d->may_be_seven_point = 0; /* unless the first coarser level shows it */
-    d->band_growth = d->has_labels ? 1 : 3;
+    d->band_growth = 1;
     if (d->has_labels) {
         return SL_OK;
     }

@@ -42,72 +42,55 @@ static void sli_flow_terminals(sli_flow *f) {
     }
 }
 
-/* Sorts the edges of each vertex: those towards the right first, those towards the left last.
- * Straight paths leave the most room for others. */
-static void sli_flow_sort_edges(sli_flow *f) {
-    sli_subgraph *sub = f->sub;
-    sl_int v;
-    for (v = 0; v < sub->n; v++) {
-        const int here = sub->side[v] == 0 ? -1 - sub->layer[v] : sub->layer[v];
-        sl_off e, front = sub->begin[v], back = sub->begin[v + 1];
-        for (e = front; e < back;) {
-            const sl_int u = sub->to[e];
-            const int other = sub->side[u] == 0 ? -1 - sub->layer[u] : sub->layer[u];
-            if (other > here) {
-                sub->to[e++] = sub->to[front];
-                sub->to[front++] = u;
-            } else if (other < here) {
-                sub->to[e] = sub->to[--back];
-                sub->to[back] = u;
-            } else {
-                e++;
-            }
-        }
+/* The state to visit next from the exit of v, or -1 if none is left. */
+SLI_INLINE sl_int sli_flow_next_state(sli_flow *f, sl_int v, sl_int round) {
+    const sl_off end = f->sub->begin[v + 1];
+    sl_off e = f->next[v];
+    while (e < end && f->seen[2 * f->sub->to[e]] == round) {
+        e++;
     }
+    f->next[v] = e;
+    /* Go back through the vertex if a path leaves it here. */
+    return e < end                                                    ? 2 * f->sub->to[e]
+           : f->before[v] != SLI_FLOW_NONE && f->seen[2 * v] != round ? 2 * v
+                                                                      : -1;
 }
 
-/* The state to visit next from the exit of v, or -1 if none is left. */
-static sl_int sli_flow_next_state(sli_flow *f, sl_int v, sl_int round) {
-    const sli_subgraph *sub = f->sub;
-    for (; f->next[v] < sub->begin[v + 1]; f->next[v]++) {
-        const sl_int u = sub->to[f->next[v]];
-        if (f->seen[2 * u] != round) {
-            return 2 * u;
+/* Appends a state to the path, and behind the entrance of a vertex on no path its exit, which
+ * nothing else leads to. Returns the new length. */
+SLI_INLINE sl_int sli_flow_push(sli_flow *f, sl_int state, sl_int round, sl_int length) {
+    const sl_int v = state >> 1;
+    f->seen[state] = round;
+    f->path[length++] = state;
+    if (state == 2 * v) {
+        if (f->before[v] != SLI_FLOW_NONE) {
+            return length;
         }
+        f->seen[state + 1] = round;
+        f->path[length++] = state + 1;
     }
-    /* Go back through the vertex if a path leaves it here. */
-    return f->before[v] != SLI_FLOW_NONE && f->seen[2 * v] != round ? 2 * v : -1;
+    f->next[v] = f->sub->begin[v];
+    return length;
 }
 
 /* Searches for an augmenting path from the entrance of v to a sink. Returns its number of states, 0
  * if there is none. */
 static sl_int sli_flow_find_path(sli_flow *f, sl_int v, sl_int round) {
-    sl_int length = 0, state = 2 * v;
-    f->path[length++] = state;
-    f->seen[state] = round;
+    sl_int length = sli_flow_push(f, 2 * v, round, 0);
     while (length > 0) {
+        const sl_int state = f->path[length - 1];
         sl_int next_state = -1;
-        state = f->path[length - 1];
-        v = state / 2;
-        if (state % 2 == 1) {
+        v = state >> 1;
+        if (state != 2 * v) {
             if (f->terminal[v] == 2) { /* no path ends here yet: its entrance would lead back */
                 break;
             }
             next_state = sli_flow_next_state(f, v, round);
-        } else if (f->before[v] == SLI_FLOW_NONE) {
-            next_state = 2 * v + 1;
-        } else if (f->before[v] >= 0) { /* go back along the path that enters here */
-            next_state = 2 * f->before[v] + 1;
+            length -= next_state == -1 && f->before[v] == SLI_FLOW_NONE;
+        } else if (f->before[v] >= 0 && f->seen[2 * f->before[v] + 1] != round) {
+            next_state = 2 * f->before[v] + 1; /* go back along the path that enters here */
         }
-        if (next_state == -1 || f->seen[next_state] == round) {
-            length--;
-            continue;
-        }
-        f->seen[next_state] = round;
-        f->path[length++] = next_state;
-        if (next_state % 2 == 1) {
-            f->next[next_state / 2] = f->sub->begin[next_state / 2];
-        }
+        length = next_state == -1 ? length - 1 : sli_flow_push(f, next_state, round, length);
     }
     return length;
 }
@@ -280,7 +263,6 @@ static void sli_subgraph_separate(sli_subgraph *sub, unsigned char *terminal, sl
     f.next = next;
     f.terminal = terminal;
     sli_flow_terminals(&f);
-    sli_flow_sort_edges(&f);
     if (sub->n > INT32_MAX / 2 || !sli_flow_maximize(&f, &last)) { /* untested: 2^30 vertices */
         sli_separator_from_border(sub);
         return;

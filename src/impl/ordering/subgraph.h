@@ -44,9 +44,10 @@ static void sli_subgraph_layout(sli_subgraph *sub, sli_block *b, sl_int n, sl_of
 }
 
 /* Adds vertex v of the level. */
-SLI_INLINE void sli_subgraph_add(sli_subgraph *sub, sl_int v, int layer) {
+SLI_INLINE void sli_subgraph_add(sli_subgraph *sub, sl_int v, int layer, int side) {
     sub->local[v] = sub->n;
     sub->layer[sub->n] = (unsigned char)layer;
+    sub->side[sub->n] = sub->home[sub->n] = (unsigned char)side;
     sub->vertex[sub->n++] = v;
 }
 
@@ -71,7 +72,6 @@ static void sli_subgraph_edges(sli_subgraph *sub, const sli_labelling *in, sl_in
         sub->begin[k] = count;
         sub->weight[k] = sli_level_weight(g, v);
         sub->external[k] = 0;
-        sub->side[k] = sub->home[k] = sli_shared_read(label + v) > node;
         for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
             const sl_int u = g->to[e];
             if (sub->local[u] != -1) {
@@ -85,13 +85,54 @@ static void sli_subgraph_edges(sli_subgraph *sub, const sli_labelling *in, sl_in
     sub->begin[sub->n] = count;
 }
 
+/* The same for a search from the left to the right, without weights of edges: those towards the
+ * right come first, those towards the left last, as straight paths leave the most room for others.
+ * `external` is whether an edge leaves the band: only vertices of the last layer may have one. */
+static void sli_subgraph_arcs(sli_subgraph *sub, const sli_labelling *in, sl_int node) {
+    const sli_level *g = in->g;
+    const int last = sub->n > 0 ? sub->layer[sub->n - 1] : 0;
+    sl_int *to = sub->to, *at = sub->scratch, *left = sub->edge, k;
+    sl_off e, count = 0;
+    for (k = 0; k < sub->n; k++) {
+        at[k] = sub->side[k] == 0 ? -1 - sub->layer[k] : sub->layer[k];
+    }
+    for (k = 0; k < sub->n; k++) {
+        const sl_int v = sub->vertex[k], here = at[k];
+        const int is_last = sub->layer[k] == last;
+        sl_off front = count;
+        sl_int n_left = 0;
+        sub->begin[k] = count;
+        sub->weight[k] = sli_level_weight(g, v);
+        sub->external[k] = 0;
+        for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+            const sl_int u = g->to[e], there = sub->local[u];
+            if (there == -1) {
+                sub->external[k] |= is_last && sli_label_tree_is_below(
+                                                   in->tree, node, sli_shared_read(in->label + u));
+            } else if (at[there] < here) {
+                left[n_left++] = there;
+            } else {
+                to[count++] = there;
+                if (at[there] > here) {
+                    to[count - 1] = to[front];
+                    to[front++] = there;
+                }
+            }
+        }
+        while (n_left > 0) {
+            to[count++] = left[--n_left];
+        }
+    }
+    sub->begin[sub->n] = count;
+}
+
 /* Makes the subgraph of a leaf's vertices. */
 static void sli_subgraph_leaf(sli_subgraph *sub, const sli_labelling *in, sl_int node,
                               const sl_int *vertices, sl_int count) {
     sl_int k;
     sub->n = 0;
     for (k = 0; k < count; k++) {
-        sli_subgraph_add(sub, vertices[k], 0);
+        sli_subgraph_add(sub, vertices[k], 0, 0);
     }
     sli_subgraph_edges(sub, in, node);
     sub->total[0] = in->tree->weight[node];
@@ -128,7 +169,7 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_labelling *in, sl_int
             crosses = sli_label_tree_is_below(t, node, other) && (other > node) != side;
         }
         if (crosses) {
-            sli_subgraph_add(sub, v, 0);
+            sli_subgraph_add(sub, v, 0, side);
         }
     }
     for (layer = 1; layer <= layers && (layer == 1 || sub->n < most); layer++) {
@@ -136,14 +177,15 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_labelling *in, sl_int
         for (; head < end; head++) {
             for (e = g->begin[sub->vertex[head]]; e < g->begin[sub->vertex[head] + 1]; e++) {
                 const sl_int u = g->to[e];
-                if (sub->local[u] == -1 &&
-                    sli_label_tree_is_below(t, node, sli_shared_read(label + u))) {
-                    sli_subgraph_add(sub, u, layer);
+                if (sub->local[u] == -1) {
+                    const sl_int own = sli_shared_read(label + u);
+                    if (sli_label_tree_is_below(t, node, own)) {
+                        sli_subgraph_add(sub, u, layer, own > node);
+                    }
                 }
             }
         }
     }
-    sli_subgraph_edges(sub, in, node);
     sub->total[0] = t->weight[t->left[node]];
     sub->total[1] = t->weight[t->right[node]];
 }
