@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: fc09422778254bc9
+ * FNV-1a of the lines after this comment, without the license: 510d588fc9b0f97a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,28 +36,28 @@
  *   3029 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3069 impl/ base: the compiler, status, memory, sorting, threads
  *   4260 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5158 impl/ matrix: sparse matrices of the caller and of the library
- *   5793 impl/ ordering: fill-reducing orderings of a graph
- *  10445 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12673 impl/ factor: the numbers of L and D
- *  16028 impl/ solve: full and local solves
- *  17699 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19628 impl/ pivots: the order of the pivots by the values of a matrix
- *  20037 impl/ float: L and fronts in single precision
- *  20488 impl/ inverse: entries of the inverse, regions
- *  23551 impl/ change: a factor that follows changes of its matrix
- *  29591 impl/ dirichlet: rows fixed at given values
- *  30179 impl/ dirichlet: by a factor of all rows
- *  30412 impl/ io: files that are replaced only when they are complete
- *  30630 impl/ files: Matrix Market files, 64-bit indices
- *  31250 impl/ save: factors in files
- *  33256 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33941 impl/ batch: diagonals of many inverses
- *  34085 impl/ complex: complex Hermitian systems over real factors
- *  34647 impl/ complex: entries of the inverse
- *  34707 impl/ packs: the tables through which the core calls packs
- *  34755 impl/ last: undefine every internal macro
- *  35109 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5159 impl/ matrix: sparse matrices of the caller and of the library
+ *   5794 impl/ ordering: fill-reducing orderings of a graph
+ *  10446 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12674 impl/ factor: the numbers of L and D
+ *  16029 impl/ solve: full and local solves
+ *  17702 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19631 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20040 impl/ float: L and fronts in single precision
+ *  20491 impl/ inverse: entries of the inverse, regions
+ *  23554 impl/ change: a factor that follows changes of its matrix
+ *  29594 impl/ dirichlet: rows fixed at given values
+ *  30182 impl/ dirichlet: by a factor of all rows
+ *  30415 impl/ io: files that are replaced only when they are complete
+ *  30633 impl/ files: Matrix Market files, 64-bit indices
+ *  31253 impl/ save: factors in files
+ *  33259 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33944 impl/ batch: diagonals of many inverses
+ *  34088 impl/ complex: complex Hermitian systems over real factors
+ *  34650 impl/ complex: entries of the inverse
+ *  34710 impl/ packs: the tables through which the core calls packs
+ *  34758 impl/ last: undefine every internal macro
+ *  35112 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1264,7 +1264,7 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *                row-major if ldx is SL_ROWS(ld). May be B itself (then ldx = ldb). On error
  *                untouched.
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements, or row-major as X.
- *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 32, then 16,
+ *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 64, 32, 16,
  *                then up to 8, for which a solution has the same bits. 8 take as long as two to
  *                three single solves, 32 as long as six to eight.
  *  W      [in,out]  workspace; NULL: allocated for this call.
@@ -1272,7 +1272,7 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *           has no solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: a number
  *           of B is not: X is written; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
- *           min(nrhs, 32)). If consistency is checked, right-hand sides beyond the eighth take an
+ *           min(nrhs, 64)). If consistency is checked, right-hand sides beyond the eighth take an
  *           additional forward sweep.
  *  Threads  any number at once on one F, each with its own W. A single right-hand side, and more
  *           than 8, of a regular A are distributed over the threads that W was created with, with
@@ -4318,6 +4318,7 @@ enum {
   SLI_NRHS_8,
   SLI_NRHS_16,
   SLI_NRHS_32,
+  SLI_NRHS_64,
   SLI_SWEEP_KINDS,
   SLI_NRHS_KINDS = SLI_NRHS_16
 };
@@ -4888,7 +4889,7 @@ typedef struct sli_kernels {
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
 #define SLW_NRHS 2
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 /* The header includes itself from here on: its templates, at the end, are compiled once for
  * each instruction set. SL_HEADER is the name of this file. */
 #if defined(__has_include)
@@ -4964,7 +4965,7 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
 #define SLW_NRHS 8
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #define SLI_SECTION_LANES_AVX2
 #define SLI_SECTION_COPY_ROWS
 #define SLI_SECTION_MULTI_RHS
@@ -4994,7 +4995,7 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
 #define SLW_NRHS 16
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #define SLI_SECTION_LANES_AVX512
 #define SLI_SECTION_COPY_ROWS
 #define SLI_SECTION_MULTI_RHS
@@ -5022,7 +5023,7 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
 #define SLW_NRHS 8
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #define SLI_SECTION_LANES_NEON
 #define SLI_SECTION_COPY_ROWS
 #define SLI_SECTION_MULTI_RHS
@@ -16199,7 +16200,7 @@ static sl_status sli_query_check(const sli_query *q, const sl_factor *F) {
 
 SLI_COLD static sl_status sli_refuse_region(void) {
   return sli_refuse(SL_ERR_UNSUPPORTED, "this call takes no plan in a region: create one without "
-                       "options.region");
+                      "options.region");
 }
 
 SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
@@ -16208,14 +16209,16 @@ SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
        : nrhs <= 4  ? SLI_NRHS_4
        : nrhs <= 8  ? SLI_NRHS_8
        : nrhs <= 16 ? SLI_NRHS_16
-            : SLI_NRHS_32;
+       : nrhs <= 32 ? SLI_NRHS_32
+            : SLI_NRHS_64;
 }
 
 SLI_INLINE sl_int sli_block_size(sl_int nrhs, sl_int most) {
-  return sli_min(nrhs, most) >= 32 ? 32 : sli_min(nrhs, most) >= 16 ? 16 : sli_min(nrhs, 8);
+  const sl_int size = sli_min(nrhs, most);
+  return size >= 64 ? 64 : size >= 32 ? 32 : size >= 16 ? 16 : sli_min(nrhs, 8);
 }
 
-#define SLI_BLOCK_MOST 32
+#define SLI_BLOCK_MOST 64
 SLI_INLINE sl_int sli_block_most(const sl_factor *F) {
   return F->null.checks || F->null.is_centered || F->null.count > 0 ? 8 : SLI_BLOCK_MOST;
 }
@@ -20240,7 +20243,7 @@ typedef struct sli_float_kernels {
 #define SLV_SINGLE 1
 #define SLV_COMPLEX 0
 #define SLW_NRHS 2
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #define SLI_SECTION_WORDS_SCALAR
 #define SLI_SECTION_LANES_SCALAR
 #define SLI_SECTION_SWEEPS
@@ -20264,7 +20267,7 @@ typedef struct sli_float_kernels {
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
 #define SLW_NRHS 8
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #define SLI_SECTION_LANES_AVX2
 #define SLI_SECTION_MULTI_RHS
 #define SLI_SECTION_MULTI_RHS_TILES
@@ -20287,7 +20290,7 @@ typedef struct sli_float_kernels {
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
 #define SLW_NRHS 16
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #define SLI_SECTION_LANES_AVX512
 #define SLI_SECTION_MULTI_RHS
 #define SLI_SECTION_MULTI_RHS_TILES
@@ -20309,7 +20312,7 @@ typedef struct sli_float_kernels {
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
 #define SLW_NRHS 8
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #define SLI_SECTION_LANES_NEON
 #define SLI_SECTION_MULTI_RHS
 #define SLI_SECTION_MULTI_RHS_TILES
@@ -34093,7 +34096,7 @@ typedef struct sli_complex_kernels {
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 1
 #define SLW_NRHS 2
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #define SLI_SECTION_WORDS_SCALAR
 #define SLI_SECTION_LANES_SCALAR
 #define SLI_SECTION_FRONT
@@ -34111,7 +34114,7 @@ typedef struct sli_complex_kernels {
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 1
 #define SLW_NRHS 4
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #define SLI_SECTION_WORDS_AVX2
 #define SLI_SECTION_LANES_AVX2
 #define SLI_SECTION_FRONT
@@ -34146,7 +34149,7 @@ typedef struct sli_complex_kernels {
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
 #define SLW_NRHS 16
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #define SLI_SECTION_LANES_AVX512
 #define SLI_SECTION_COMPLEX_GROUPS
 #define SLI_SECTION_MULTI_RHS_TILES
@@ -34162,7 +34165,7 @@ typedef struct sli_complex_kernels {
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 1
 #define SLW_NRHS 4
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #define SLI_SECTION_WORDS_NEON
 #define SLI_SECTION_LANES_NEON
 #define SLI_SECTION_FRONT
@@ -38996,9 +38999,10 @@ SLI_GROUPED_KERNELS(4)
 #if SLW_NRHS <= 8 && SLW_GROUPS >= 8
 SLI_GROUPED_KERNELS(8)
 #endif
-#if SLW_GROUPS == 32
+#if SLW_GROUPS == 64
 SLI_GROUPED_KERNELS(16)
 SLI_GROUPED_KERNELS(32)
+SLI_GROUPED_KERNELS(64)
 #endif
 #undef SLI_GROUPED_KERNELS
 #endif
@@ -39469,9 +39473,11 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const vo
 
 static const sli_complex_kernels SLV_NAME(complex_kernels) = {
   {{SLV_NAME(complex_forward), SLV_NAME_2(complex_forward), SLV_NAME_4(complex_forward),
-    SLV_NAME(complex_forward8), SLV_NAME(complex_forward16), SLV_NAME(complex_forward32)},
+    SLV_NAME(complex_forward8), SLV_NAME(complex_forward16), SLV_NAME(complex_forward32),
+    SLV_NAME(complex_forward64)},
    {SLV_NAME(complex_backward), SLV_NAME_2(complex_backward), SLV_NAME_4(complex_backward),
-    SLV_NAME(complex_backward8), SLV_NAME(complex_backward16), SLV_NAME(complex_backward32)}},
+    SLV_NAME(complex_backward8), SLV_NAME(complex_backward16), SLV_NAME(complex_backward32),
+    SLV_NAME(complex_backward64)}},
   {SLV_NAME(complex_pivots), SLV_NAME(complex_rows), SLV_NAME(complex_update),
    SLV_NAME(complex_assemble)}};
 #endif
@@ -39487,9 +39493,11 @@ static const sli_complex_kernels SLV_NAME(complex_kernels) = {
 
 static const sli_float_kernels SLV_NAME(float_kernels) = {
   {{SLV_NAME(single_forward), SLV_NAME(single_forward2), SLV_NAME_4(single_forward),
-    SLV_NAME(single_forward8), SLV_NAME(single_forward16), SLV_NAME(single_forward32)},
+    SLV_NAME(single_forward8), SLV_NAME(single_forward16), SLV_NAME(single_forward32),
+    SLV_NAME(single_forward64)},
    {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
-    SLV_NAME(single_backward8), SLV_NAME(single_backward16), SLV_NAME(single_backward32)}},
+    SLV_NAME(single_backward8), SLV_NAME(single_backward16), SLV_NAME(single_backward32),
+    SLV_NAME(single_backward64)}},
   {SLV_NAME(single_pivots), SLV_NAME(single_rows), SLV_NAME(single_update),
    SLV_NAME(single_assemble)}};
 #endif
@@ -39632,9 +39640,9 @@ SLV_FUNCTION static void SLV_NAME(separate)(double *M, size_t ldm, const double 
 static const sli_kernels SLV_NAME(kernels) = {
   SLV_ISA,
   {{SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_4(forward), SLV_NAME(forward8),
-    SLV_NAME(forward16), SLV_NAME(forward32)},
+    SLV_NAME(forward16), SLV_NAME(forward32), SLV_NAME(forward64)},
    {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME_4(backward), SLV_NAME(backward8),
-    SLV_NAME(backward16), SLV_NAME(backward32)}},
+    SLV_NAME(backward16), SLV_NAME(backward32), SLV_NAME(backward64)}},
   {SLV_NAME(pivots), SLV_NAME(rows), SLV_NAME(update), SLV_NAME(assemble)},
   SLV_NAME(row),
   SLV_NAME(interleave),

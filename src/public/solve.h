@@ -81,7 +81,7 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *                row-major if ldx is SL_ROWS(ld). May be B itself (then ldx = ldb). On error
  *                untouched.
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements, or row-major as X.
- *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 32, then 16,
+ *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 64, 32, 16,
  *                then up to 8, for which a solution has the same bits. 8 take as long as two to
  *                three single solves, 32 as long as six to eight.
  *  W      [in,out]  workspace; NULL: allocated for this call.
@@ -89,7 +89,7 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *           has no solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: a number
  *           of B is not: X is written; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
- *           min(nrhs, 32)). If consistency is checked, right-hand sides beyond the eighth take an
+ *           min(nrhs, 64)). If consistency is checked, right-hand sides beyond the eighth take an
  *           additional forward sweep.
  *  Threads  any number at once on one F, each with its own W. A single right-hand side, and more
  *           than 8, of a regular A are distributed over the threads that W was created with, with

@@ -122,7 +122,7 @@ static factored_t grids(const sl_int *side, sl_int count) {
 }
 
 /* As many subtrees as are kept, of which some could be divided; one worker where a set is given;
- * blocks of 32 right-hand sides. */
+ * blocks of 64 right-hand sides. */
 static void many_trees_give_the_same_bits(void **state) {
     (void)state;
     enum { TREES = 100, SIDE = 4, ROWS = TREES * SIDE * SIDE };

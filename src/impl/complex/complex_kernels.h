@@ -13,7 +13,7 @@ typedef struct sli_complex_kernels {
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 1
 #define SLW_NRHS 2
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #include "../kernels/words_scalar.inl.h"
 #include "../kernels/lanes_scalar.inl.h"
 #include "../kernels/front.inl.h"
@@ -30,7 +30,7 @@ typedef struct sli_complex_kernels {
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 1
 #define SLW_NRHS 4
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #include "../kernels/words_avx2.inl.h"
 #include "../kernels/lanes_avx2.inl.h"
 #include "../kernels/front.inl.h"
@@ -62,7 +62,7 @@ typedef struct sli_complex_kernels {
 #include "../kernels/multi_rhs_tiles.inl.h"
 #include "../kernels/lanes_undef.inl.h"
 #define SLW_NRHS 16
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #include "../kernels/lanes_avx512.inl.h"
 #include "complex_groups.inl.h"
 #include "../kernels/multi_rhs_tiles.inl.h"
@@ -77,7 +77,7 @@ typedef struct sli_complex_kernels {
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 1
 #define SLW_NRHS 4
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #include "../kernels/words_neon.inl.h"
 #include "../kernels/lanes_neon.inl.h"
 #include "../kernels/front.inl.h"

@@ -16,7 +16,7 @@ typedef struct sli_float_kernels {
 #define SLV_SINGLE 1
 #define SLV_COMPLEX 0
 #define SLW_NRHS 2
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #include "../kernels/words_scalar.inl.h"
 #include "../kernels/lanes_scalar.inl.h"
 #include "../kernels/sweeps.inl.h"
@@ -38,7 +38,7 @@ typedef struct sli_float_kernels {
 #include "../kernels/multi_rhs_tiles.inl.h"
 #include "../kernels/lanes_undef.inl.h"
 #define SLW_NRHS 8
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #include "../kernels/lanes_avx2.inl.h"
 #include "../kernels/multi_rhs.inl.h"
 #include "../kernels/multi_rhs_tiles.inl.h"
@@ -59,7 +59,7 @@ typedef struct sli_float_kernels {
 #include "../kernels/multi_rhs_tiles.inl.h"
 #include "../kernels/lanes_undef.inl.h"
 #define SLW_NRHS 16
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #include "../kernels/lanes_avx512.inl.h"
 #include "../kernels/multi_rhs.inl.h"
 #include "../kernels/multi_rhs_tiles.inl.h"
@@ -79,7 +79,7 @@ typedef struct sli_float_kernels {
 #include "../kernels/multi_rhs_tiles.inl.h"
 #include "../kernels/lanes_undef.inl.h"
 #define SLW_NRHS 8
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #include "../kernels/lanes_neon.inl.h"
 #include "../kernels/multi_rhs.inl.h"
 #include "../kernels/multi_rhs_tiles.inl.h"

@@ -23,7 +23,7 @@
 #include "lanes_undef.inl.h"
 
 #define SLW_NRHS 16
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #include "lanes_avx512.inl.h"
 #include "copy_rows.inl.h"
 #include "multi_rhs.inl.h"

@@ -20,7 +20,7 @@
 #include "lanes_undef.inl.h"
 
 #define SLW_NRHS 8
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #include "lanes_neon.inl.h"
 #include "copy_rows.inl.h"
 #include "multi_rhs.inl.h"

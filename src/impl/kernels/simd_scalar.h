@@ -10,7 +10,7 @@
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
 #define SLW_NRHS 2
-#define SLW_GROUPS 32
+#define SLW_GROUPS 64
 #include "words_scalar.inl.h"
 #include "lanes_scalar.inl.h"
 #include "copy_rows.inl.h"

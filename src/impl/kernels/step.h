@@ -24,8 +24,8 @@ SLI_INLINE sl_int sli_step_columns(const sli_step *s) {
 }
 
 /* Right-hand sides are interleaved: row i of x is x[i nrhs] .. x[i nrhs + nrhs - 1], with nrhs = 1,
- * 2, 4 or 8, and for sweeps also 16 or 32. A table of kernels has one kernel for each; nrhs is
- * 1 << kind. A right-hand side has the same bits in sweeps of 8, 16 and 32. */
+ * 2, 4 or 8, and for sweeps also 16, 32 or 64. A table of kernels has one kernel for each; nrhs is
+ * 1 << kind. A right-hand side has the same bits in sweeps of 8 and more. */
 enum {
     SLI_NRHS_1,
     SLI_NRHS_2,
@@ -33,6 +33,7 @@ enum {
     SLI_NRHS_8,
     SLI_NRHS_16,
     SLI_NRHS_32,
+    SLI_NRHS_64,
     SLI_SWEEP_KINDS,
     SLI_NRHS_KINDS = SLI_NRHS_16
 };

@@ -90,7 +90,7 @@ static sl_status sli_query_check(const sli_query *q, const sl_factor *F) {
 /* Refuses a plan in a region, for a call that needs the paths to the roots. */
 SLI_COLD static sl_status sli_refuse_region(void) {
     return sli_refuse(SL_ERR_UNSUPPORTED, "this call takes no plan in a region: create one without "
-                                           "options.region");
+                                          "options.region");
 }
 
 /* The sweep kernel for a block of nrhs right-hand sides. It takes 1 << kind of them. */
@@ -100,18 +100,21 @@ SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
            : nrhs <= 4  ? SLI_NRHS_4
            : nrhs <= 8  ? SLI_NRHS_8
            : nrhs <= 16 ? SLI_NRHS_16
-                        : SLI_NRHS_32;
+           : nrhs <= 32 ? SLI_NRHS_32
+                        : SLI_NRHS_64;
 }
 
-/* The size of the next block of at most `most` of nrhs right-hand sides: 32, 16 or up to 8. Blocks
- * of 16 and 32 are always full, so that the bits of a right-hand side are those of blocks of 8. */
+/* The size of the next block of at most `most` of nrhs right-hand sides: 64, 32, 16 or up to 8.
+ * Blocks of 16 and more are full, so that the bits of a right-hand side are those of blocks of 8.
+ */
 SLI_INLINE sl_int sli_block_size(sl_int nrhs, sl_int most) {
-    return sli_min(nrhs, most) >= 32 ? 32 : sli_min(nrhs, most) >= 16 ? 16 : sli_min(nrhs, 8);
+    const sl_int size = sli_min(nrhs, most);
+    return size >= 64 ? 64 : size >= 32 ? 32 : size >= 16 ? 16 : sli_min(nrhs, 8);
 }
 
 /* The largest blocks: a sweep over L is shared by all right-hand sides of a block, which takes as
  * many vectors. What else a call does with a block, for singular matrices, is written for 8. */
-#define SLI_BLOCK_MOST 32
+#define SLI_BLOCK_MOST 64
 SLI_INLINE sl_int sli_block_most(const sl_factor *F) {
     return F->null.checks || F->null.is_centered || F->null.count > 0 ? 8 : SLI_BLOCK_MOST;
 }

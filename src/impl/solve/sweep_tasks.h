@@ -27,7 +27,7 @@ typedef struct sli_sweep_task {
  * behind the vector. Kernels for one right-hand side add the whole contribution of a supernode to
  * a row at once; a slot that begins as -0 then holds just that. Those for more do not.
  *
- * More than 8 right-hand sides are distributed by blocks of 8, 16 or 32. */
+ * More than 8 right-hand sides are distributed by blocks of 8 to 64. */
 typedef struct sli_sweep_tasks {
     const sl_factor *F;
     const sli_query *q;
