@@ -150,8 +150,8 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #define SLI_NOINLINE __attribute__((unused, noinline)) /* keeps rare code out of hot functions */
 /* The same, compiled for few bytes: errors, and calls whose time is that of what they call. What
  * only such functions call is compiled like them, but for SLI_HOT. Other functions call them under
- * a condition, because compilers take the way to them for rare: no public call is cold, or the loops
- * of its callers would be compiled for few bytes, too. */
+ * a condition, because compilers take the way to them for rare: no public call is cold, or its
+ * callers' loops would be compiled for few bytes, too. */
 #define SLI_COLD __attribute__((unused, noinline, cold))
 #define SLI_HOT __attribute__((unused, noinline, hot)) /* loops that cold functions call */
 #define SLI_TARGET(list) __attribute__((target(list)))
