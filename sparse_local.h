@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 510d588fc9b0f97a
+ * FNV-1a of the lines after this comment, without the license: 049369618ae591d7
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,25 +39,25 @@
  *   5159 impl/ matrix: sparse matrices of the caller and of the library
  *   5794 impl/ ordering: fill-reducing orderings of a graph
  *  10446 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12674 impl/ factor: the numbers of L and D
- *  16029 impl/ solve: full and local solves
- *  17702 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19631 impl/ pivots: the order of the pivots by the values of a matrix
- *  20040 impl/ float: L and fronts in single precision
- *  20491 impl/ inverse: entries of the inverse, regions
- *  23554 impl/ change: a factor that follows changes of its matrix
- *  29594 impl/ dirichlet: rows fixed at given values
- *  30182 impl/ dirichlet: by a factor of all rows
- *  30415 impl/ io: files that are replaced only when they are complete
- *  30633 impl/ files: Matrix Market files, 64-bit indices
- *  31253 impl/ save: factors in files
- *  33259 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33944 impl/ batch: diagonals of many inverses
- *  34088 impl/ complex: complex Hermitian systems over real factors
- *  34650 impl/ complex: entries of the inverse
- *  34710 impl/ packs: the tables through which the core calls packs
- *  34758 impl/ last: undefine every internal macro
- *  35112 impl/ templates: the header includes them from itself, once for each instruction set
+ *  12675 impl/ factor: the numbers of L and D
+ *  16030 impl/ solve: full and local solves
+ *  17703 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19632 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20041 impl/ float: L and fronts in single precision
+ *  20492 impl/ inverse: entries of the inverse, regions
+ *  23555 impl/ change: a factor that follows changes of its matrix
+ *  29595 impl/ dirichlet: rows fixed at given values
+ *  30183 impl/ dirichlet: by a factor of all rows
+ *  30416 impl/ io: files that are replaced only when they are complete
+ *  30634 impl/ files: Matrix Market files, 64-bit indices
+ *  31254 impl/ save: factors in files
+ *  33260 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33945 impl/ batch: diagonals of many inverses
+ *  34089 impl/ complex: complex Hermitian systems over real factors
+ *  34651 impl/ complex: entries of the inverse
+ *  34711 impl/ packs: the tables through which the core calls packs
+ *  34759 impl/ last: undefine every internal macro
+ *  35114 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -10838,6 +10838,7 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
 #define SLI_ZEROS_MOST 70
 
 #define SLI_LARGE_ENTRIES 200000
+#define SLI_LARGE_COLUMN 16
 #define SLI_ZEROS_MOST_LARGE 40
 #define SLI_ZEROS_MOST_COLUMN 25
 
@@ -10847,7 +10848,7 @@ static int sli_is_large(const sl_int *counts, sl_int n) {
   for (k = 0; k < n; k++) {
     entries += counts[k];
   }
-  return entries >= SLI_LARGE_ENTRIES;
+  return entries >= SLI_LARGE_ENTRIES && entries < SLI_LARGE_COLUMN * (sl_off)n;
 }
 
 SLI_INLINE sl_off sli_zeros_most(const sli_amalgamation *g, sl_int c) {
@@ -35030,6 +35031,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_ZEROS_MOST_LARGE
 #undef SLI_ZEROS_MOST_COLUMN
 #undef SLI_LARGE_ENTRIES
+#undef SLI_LARGE_COLUMN
 #undef SLI_COST_PLAIN
 #undef SLI_COST_PLAIN_ROW
 #undef SLI_COST_TURN

@@ -41,9 +41,9 @@ static int differs(const char *what, int kind, uint64_t found, uint64_t expected
 static void patterns_have_one_order(void **state) {
     (void)state;
     static const uint64_t expected[ORDER_KINDS] = {
-        0xbe83de22f7a63927u, 0xc1b1f4d265fdab6eu, 0x915e32c108ebf82fu, 0x0cfe3a9fd8947d53u,
+        0x4035d4567a22f408u, 0xcc109cf9fb3ca7eeu, 0x685748ab606c2388u, 0x0cfe3a9fd8947d53u,
         0x4c85b3d7f50377e2u, 0x68b423cdef7047ddu, 0x614797e153fdd6a7u, 0xbb0528b341735586u,
-        0xc4c40ac0e2af41e1u, 0xad2de8c7aef859dbu, 0x32f3c34d2e8bafb5u, 0xb34750e774348122u};
+        0xc4c40ac0e2af41e1u, 0xe7c6abf44e7c61edu, 0xe82aec00002b29f7u, 0xb34750e774348122u};
     int wrong = 0;
     for (int kind = 0; kind < ORDER_KINDS; kind++) {
         gen_list_t t = pattern(kind);
@@ -59,9 +59,9 @@ static void patterns_have_one_order(void **state) {
 static void supernodes_merge_alike(void **state) {
     (void)state;
     static const uint64_t expected[ORDER_KINDS] = {
-        0xae75f227239bfd47u, 0x98320e799c7a8fbau, 0x50364d666f2b6653u, 0xf513c2d215e99609u,
-        0x70f50bee38c1015bu, 0xaad9ad7b2565d7f1u, 0x47d3e18ba729aa7du, 0xafe81187501aa080u,
-        0x9b5f8d43cd61984du, 0x89b7bf654cfc724bu, 0x724ff3414badf6d5u, 0x6cdf58c04a3571c1u};
+        0x36b11a895d45e647u, 0x8e4c1fc09de9778bu, 0xaeb9db1896d2cb15u, 0xc482cb0fa06db42fu,
+        0x70f50bee38c1015bu, 0x3c3fd7ef3a302431u, 0x47d3e18ba729aa7du, 0xa30368e394f2698du,
+        0x7505d325720be2cfu, 0x6d3478c9736f7064u, 0x4968518d1eb52765u, 0xf9e5b6879196299du};
     int wrong = 0;
     for (int kind = 0; kind < ORDER_KINDS; kind++) {
         sl_options opt = options_none();

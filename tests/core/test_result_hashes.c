@@ -127,33 +127,33 @@ static void same_bits(sl_isa isa, const uint64_t *expected) {
 }
 
 static void plain_c_has_the_same_bits(void **state) {
-    static const uint64_t expected[KINDS] = {0x342002d419831d73u, 0xe909ed16c509e360u,
-                                             0xc938a926f3d3563cu, 0x7aec05683536c77fu,
-                                             0x07f5f6e1b9a172d7u};
+    static const uint64_t expected[KINDS] = {0x1682820571fb68aau, 0xe909ed16c509e360u,
+                                             0xc938a926f3d3563cu, 0xec697af0beac984bu,
+                                             0x56ff904400b6c781u};
     (void)state;
     same_bits(SL_ISA_SCALAR, expected);
 }
 
 static void avx2_has_the_same_bits(void **state) {
-    static const uint64_t expected[KINDS] = {0x1a41e8b52e9574eau, 0xa1d949d8d611cbc6u,
-                                             0x5ff3cbee940c51deu, 0x363b9e96dc571bd0u,
-                                             0xb7b53b33d67bbe1au};
+    static const uint64_t expected[KINDS] = {0xcbba500ba627f194u, 0xa1d949d8d611cbc6u,
+                                             0x5ff3cbee940c51deu, 0xd40c771e747ab3fcu,
+                                             0x289b0c04dd8de4c3u};
     (void)state;
     same_bits(SL_ISA_AVX2, expected);
 }
 
 static void avx512_has_the_same_bits(void **state) {
-    static const uint64_t expected[KINDS] = {0x168e862434e6f2d9u, 0xa1d949d8d611cbc6u,
-                                             0x58a7bad220a1fd9au, 0x8e24d7d944045125u,
-                                             0xbca9d330d7ecbd6cu};
+    static const uint64_t expected[KINDS] = {0x6327077f2bc711cdu, 0xa1d949d8d611cbc6u,
+                                             0x58a7bad220a1fd9au, 0xe098c66af662e37du,
+                                             0x150437ddf350f54du};
     (void)state;
     same_bits(SL_ISA_AVX512, expected);
 }
 
 static void neon_has_the_same_bits(void **state) {
-    static const uint64_t expected[KINDS] = {0x0175a9793aa54d45u, 0x805d07fa5c585d48u,
-                                             0x52b5639a6941d75au, 0x04d00f325926ba0cu,
-                                             0x1a8e610cfc1c4f89u};
+    static const uint64_t expected[KINDS] = {0xfb77763f37ec94cdu, 0x805d07fa5c585d48u,
+                                             0x52b5639a6941d75au, 0x76d3c2118a48329bu,
+                                             0x1f906d2d76397f49u};
     (void)state;
     same_bits(SL_ISA_NEON, expected);
 }

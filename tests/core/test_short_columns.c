@@ -21,30 +21,39 @@ static gen_list_t path_with_chords(sl_int n, sl_int every) {
 }
 
 /* The numbers that L has for each of its entries, by the default order. */
-static double stored(sl_int n, sl_int every, sl_purpose purpose, double *entries) {
-    gen_list_t t = path_with_chords(n, every);
-    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+static double stored_of(const sl_csc *A, sl_purpose purpose, double *entries) {
     sl_options opt = options_none();
     sl_symbolic *S = NULL;
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
     opt.purpose = purpose;
-    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, &stats));
+    SL_CHECK(sl_symbolic_create(&S, A, &opt, &stats));
     *entries = (double)stats.symbolic.nnz_l;
     sl_symbolic_free(S);
-    gen_matrix_free(&M);
-    gen_list_free(&t);
     return (double)stats.symbolic.nnz_panels / *entries;
 }
 
+static double stored(sl_int n, sl_int every, sl_purpose purpose, double *entries) {
+    gen_list_t t = path_with_chords(n, every);
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    const double numbers = stored_of(&M.view, purpose, entries);
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+    return numbers;
+}
+
 /* Below 200,000 entries a path is in supernodes that solves go through faster, in the cache. From
- * there on its columns are apart. */
+ * there on its columns are apart, but not those of a grid, which has more entries in each. */
 static void a_large_path_is_in_columns(void **state) {
     (void)state;
     double small, large;
     assert_true(stored(60000, 0, SL_PURPOSE_MANY_SOLVES, &small) > 4.0);
     assert_true(stored(70000, 0, SL_PURPOSE_MANY_SOLVES, &large) < 1.05);
     assert_true(small < 200000 && large > 200000);
+    gen_matrix_t grid = gen_matrix(GEN_GRID2, 10000, 1, 1);
+    assert_true(stored_of(&grid.view, SL_PURPOSE_MANY_SOLVES, &large) > 1.3);
+    assert_true(large > 200000);
+    gen_matrix_free(&grid);
 }
 
 /* Where the numbers of rows below vary, some columns are merged, and few zeros are stored. */
