@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 049369618ae591d7
+ * FNV-1a of the lines after this comment, without the license: cd977607963550d0
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -27,37 +27,37 @@
  *   2245 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
  *   2277 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
  *   2466 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2567 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2676 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2717 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2805 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2915 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2952 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   3029 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3069 impl/ base: the compiler, status, memory, sorting, threads
- *   4260 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5159 impl/ matrix: sparse matrices of the caller and of the library
- *   5794 impl/ ordering: fill-reducing orderings of a graph
- *  10446 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12675 impl/ factor: the numbers of L and D
- *  16030 impl/ solve: full and local solves
- *  17703 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19632 impl/ pivots: the order of the pivots by the values of a matrix
- *  20041 impl/ float: L and fronts in single precision
- *  20492 impl/ inverse: entries of the inverse, regions
- *  23555 impl/ change: a factor that follows changes of its matrix
- *  29595 impl/ dirichlet: rows fixed at given values
- *  30183 impl/ dirichlet: by a factor of all rows
- *  30416 impl/ io: files that are replaced only when they are complete
- *  30634 impl/ files: Matrix Market files, 64-bit indices
- *  31254 impl/ save: factors in files
- *  33260 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33945 impl/ batch: diagonals of many inverses
- *  34089 impl/ complex: complex Hermitian systems over real factors
- *  34651 impl/ complex: entries of the inverse
- *  34711 impl/ packs: the tables through which the core calls packs
- *  34759 impl/ last: undefine every internal macro
- *  35114 impl/ templates: the header includes them from itself, once for each instruction set
+ *   2568 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2677 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2718 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2806 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2916 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2953 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   3030 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3070 impl/ base: the compiler, status, memory, sorting, threads
+ *   4261 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5160 impl/ matrix: sparse matrices of the caller and of the library
+ *   5795 impl/ ordering: fill-reducing orderings of a graph
+ *  10447 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12676 impl/ factor: the numbers of L and D
+ *  16031 impl/ solve: full and local solves
+ *  17704 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19633 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20042 impl/ float: L and fronts in single precision
+ *  20493 impl/ inverse: entries of the inverse, regions
+ *  23556 impl/ change: a factor that follows changes of its matrix
+ *  29596 impl/ dirichlet: rows fixed at given values
+ *  30184 impl/ dirichlet: by a factor of all rows
+ *  30417 impl/ io: files that are replaced only when they are complete
+ *  30635 impl/ files: Matrix Market files, 64-bit indices
+ *  31255 impl/ save: factors in files
+ *  33261 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33946 impl/ batch: diagonals of many inverses
+ *  34090 impl/ complex: complex Hermitian systems over real factors
+ *  34652 impl/ complex: entries of the inverse
+ *  34712 impl/ packs: the tables through which the core calls packs
+ *  34760 impl/ last: undefine every internal macro
+ *  35115 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2494,6 +2494,7 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *           there are 2x2 pivots, or L is in float; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
  *           written once for 8 vectors. Changes that may fail take another forward sweep or a copy.
+ *           The first change of a definite factor allocates 9 bytes a row, for drift.
  *  Threads  exclusive use of F.
  *  Source   [DH01], with the factorization of [Bie76] for several vectors.
  *  Manual   tools/docs/changes.md

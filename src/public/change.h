@@ -34,6 +34,7 @@
  *           there are 2x2 pivots, or L is in float; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
  *           written once for 8 vectors. Changes that may fail take another forward sweep or a copy.
+ *           The first change of a definite factor allocates 9 bytes a row, for drift.
  *  Threads  exclusive use of F.
  *  Source   [DH01], with the factorization of [Bie76] for several vectors.
  *  Manual   tools/docs/changes.md
