@@ -118,8 +118,8 @@ static void distance_cost_does_not_depend_on_the_mesh(void **state) {
         roots[k] = entries_read(&f.poisson_stats);
         heat[k] = entries_read(&g.heat_stats);
         poisson[k] = entries_read(&g.poisson_stats);
-        print_message("%d^2: %.0f to the roots, %.0f in the region, difference %.1e\n", (int)side,
-                      roots[k], poisson[k], worst / near.radius);
+        print_message("%d^2: %.0f to the roots, %.0f and %.0f in the region, difference %.1e\n",
+                      (int)side, roots[k], heat[k], poisson[k], worst / near.radius);
         heat_field_free(&g);
         heat_field_free(&f);
         heat_patch_free(&place);
@@ -127,7 +127,7 @@ static void distance_cost_does_not_depend_on_the_mesh(void **state) {
     }
     for (int k = 1; k < 3; k++) {
         assert_true(roots[k] > 1.3 * roots[k - 1]);
-        assert_true(heat[k] < 1.4 * heat[0] && poisson[k] < 1.4 * poisson[0]);
+        assert_true(heat[k] < 1.6 * heat[0] && poisson[k] < 1.6 * poisson[0]);
     }
 }
 
