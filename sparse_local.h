@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: cd977607963550d0
+ * FNV-1a of the lines after this comment, without the license: bb8da7c36862a596
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,26 +38,26 @@
  *   4261 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5160 impl/ matrix: sparse matrices of the caller and of the library
  *   5795 impl/ ordering: fill-reducing orderings of a graph
- *  10447 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12676 impl/ factor: the numbers of L and D
- *  16031 impl/ solve: full and local solves
- *  17704 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19633 impl/ pivots: the order of the pivots by the values of a matrix
- *  20042 impl/ float: L and fronts in single precision
- *  20493 impl/ inverse: entries of the inverse, regions
- *  23556 impl/ change: a factor that follows changes of its matrix
- *  29596 impl/ dirichlet: rows fixed at given values
- *  30184 impl/ dirichlet: by a factor of all rows
- *  30417 impl/ io: files that are replaced only when they are complete
- *  30635 impl/ files: Matrix Market files, 64-bit indices
- *  31255 impl/ save: factors in files
- *  33261 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33946 impl/ batch: diagonals of many inverses
- *  34090 impl/ complex: complex Hermitian systems over real factors
- *  34652 impl/ complex: entries of the inverse
- *  34712 impl/ packs: the tables through which the core calls packs
- *  34760 impl/ last: undefine every internal macro
- *  35115 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10449 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12678 impl/ factor: the numbers of L and D
+ *  16033 impl/ solve: full and local solves
+ *  17706 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19635 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20044 impl/ float: L and fronts in single precision
+ *  20495 impl/ inverse: entries of the inverse, regions
+ *  23558 impl/ change: a factor that follows changes of its matrix
+ *  29598 impl/ dirichlet: rows fixed at given values
+ *  30186 impl/ dirichlet: by a factor of all rows
+ *  30419 impl/ io: files that are replaced only when they are complete
+ *  30637 impl/ files: Matrix Market files, 64-bit indices
+ *  31257 impl/ save: factors in files
+ *  33263 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33948 impl/ batch: diagonals of many inverses
+ *  34092 impl/ complex: complex Hermitian systems over real factors
+ *  34654 impl/ complex: entries of the inverse
+ *  34714 impl/ packs: the tables through which the core calls packs
+ *  34762 impl/ last: undefine every internal macro
+ *  35117 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -6436,13 +6436,15 @@ SLI_INLINE sl_int sli_contract_weight(const sli_level *g, sl_int v, sl_off e) {
   return g->edge == NULL && sli_level_is_hub(g, g->to[e]) ? 0 : sli_level_edge(g, v, e);
 }
 
-#define SLI_CONTRACT_LAST ((sl_off)1 << 31)
+#define SLI_CONTRACT_BITS 31
 static void sli_contract_range(void *data, const sli_range *r) {
   sli_contraction *t = (sli_contraction *)data;
   const sli_level *g = t->g;
   const sli_clusters *clusters = t->clusters;
   sli_level *c = t->c;
   sl_off e, count = t->begin[r->item], *at = sli_shares_scratch(t->ranges, r->worker);
+  const int bits = g->begin[g->n] >> 32 == 0 ? SLI_CONTRACT_BITS : 0;
+  const sl_off low = ((sl_off)1 << bits) - 1;
   sl_int k, m;
   memset(at, -1, (size_t)c->n * sizeof(sl_off));
   for (k = r->first; k < r->last; k++) {
@@ -6457,13 +6459,13 @@ static void sli_contract_range(void *data, const sli_range *r) {
         if (u == k) {
           continue;
         }
-        if (at[u] < first * SLI_CONTRACT_LAST) {
-          at[u] = count * SLI_CONTRACT_LAST + v;
+        if (at[u] < first << bits) {
+          at[u] = (count << bits) + (v & low);
           c->to[count] = u;
           c->edge[count++] = sli_contract_weight(g, v, e);
-        } else if (g->edge != NULL || (at[u] & (SLI_CONTRACT_LAST - 1)) != v) {
-          at[u] += v - (at[u] & (SLI_CONTRACT_LAST - 1));
-          c->edge[at[u] / SLI_CONTRACT_LAST] += sli_contract_weight(g, v, e);
+        } else if (g->edge != NULL || (at[u] & low) != (v & low)) {
+          at[u] += (v & low) - (at[u] & low);
+          c->edge[at[u] >> bits] += sli_contract_weight(g, v, e);
         }
       }
     }
@@ -34999,7 +35001,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_PATCH_DEGREE
 #undef SLI_PATCH_EVEN
 #undef SLI_PATCH_WEIGHT
-#undef SLI_CONTRACT_LAST
+#undef SLI_CONTRACT_BITS
 #undef SLI_DISSECT_LAYERS
 #undef SLI_DISSECT_BAND_FROM
 #undef SLI_SEPARATOR_BALANCE

@@ -142,14 +142,17 @@ SLI_INLINE sl_int sli_contract_weight(const sli_level *g, sl_int v, sl_off e) {
 
 /* Contracts a range of clusters. Weights of edges are added; from the finest level, they are the
  * number of vertices of a cluster that have neighbors in the other. at[u] is, for the edge to u,
- * its position times LAST, plus the last vertex that has an edge there. */
-#define SLI_CONTRACT_LAST ((sl_off)1 << 31)
+ * its position in the upper bits, and in the lower ones the last vertex that has an edge there;
+ * with 2^32 edges there is no room for that, and these weights are 1. */
+#define SLI_CONTRACT_BITS 31
 static void sli_contract_range(void *data, const sli_range *r) {
     sli_contraction *t = (sli_contraction *)data;
     const sli_level *g = t->g;
     const sli_clusters *clusters = t->clusters;
     sli_level *c = t->c;
     sl_off e, count = t->begin[r->item], *at = sli_shares_scratch(t->ranges, r->worker);
+    const int bits = g->begin[g->n] >> 32 == 0 ? SLI_CONTRACT_BITS : 0;
+    const sl_off low = ((sl_off)1 << bits) - 1;
     sl_int k, m;
     memset(at, -1, (size_t)c->n * sizeof(sl_off));
     for (k = r->first; k < r->last; k++) {
@@ -164,13 +167,13 @@ static void sli_contract_range(void *data, const sli_range *r) {
                 if (u == k) {
                     continue;
                 }
-                if (at[u] < first * SLI_CONTRACT_LAST) {
-                    at[u] = count * SLI_CONTRACT_LAST + v;
+                if (at[u] < first << bits) {
+                    at[u] = (count << bits) + (v & low);
                     c->to[count] = u;
                     c->edge[count++] = sli_contract_weight(g, v, e);
-                } else if (g->edge != NULL || (at[u] & (SLI_CONTRACT_LAST - 1)) != v) {
-                    at[u] += v - (at[u] & (SLI_CONTRACT_LAST - 1));
-                    c->edge[at[u] / SLI_CONTRACT_LAST] += sli_contract_weight(g, v, e);
+                } else if (g->edge != NULL || (at[u] & low) != (v & low)) {
+                    at[u] += (v & low) - (at[u] & low);
+                    c->edge[at[u] >> bits] += sli_contract_weight(g, v, e);
                 }
             }
         }
