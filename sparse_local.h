@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: bb8da7c36862a596
+ * FNV-1a of the lines after this comment, without the license: d374d99b032a7a18
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,29 +35,29 @@
  *   2953 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   3030 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3070 impl/ base: the compiler, status, memory, sorting, threads
- *   4261 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5160 impl/ matrix: sparse matrices of the caller and of the library
- *   5795 impl/ ordering: fill-reducing orderings of a graph
- *  10449 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12678 impl/ factor: the numbers of L and D
- *  16033 impl/ solve: full and local solves
- *  17706 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19635 impl/ pivots: the order of the pivots by the values of a matrix
- *  20044 impl/ float: L and fronts in single precision
- *  20495 impl/ inverse: entries of the inverse, regions
- *  23558 impl/ change: a factor that follows changes of its matrix
- *  29598 impl/ dirichlet: rows fixed at given values
- *  30186 impl/ dirichlet: by a factor of all rows
- *  30419 impl/ io: files that are replaced only when they are complete
- *  30637 impl/ files: Matrix Market files, 64-bit indices
- *  31257 impl/ save: factors in files
- *  33263 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33948 impl/ batch: diagonals of many inverses
- *  34092 impl/ complex: complex Hermitian systems over real factors
- *  34654 impl/ complex: entries of the inverse
- *  34714 impl/ packs: the tables through which the core calls packs
- *  34762 impl/ last: undefine every internal macro
- *  35117 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4266 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5165 impl/ matrix: sparse matrices of the caller and of the library
+ *   5800 impl/ ordering: fill-reducing orderings of a graph
+ *  10454 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12683 impl/ factor: the numbers of L and D
+ *  16038 impl/ solve: full and local solves
+ *  17711 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19640 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20049 impl/ float: L and fronts in single precision
+ *  20500 impl/ inverse: entries of the inverse, regions
+ *  23563 impl/ change: a factor that follows changes of its matrix
+ *  29603 impl/ dirichlet: rows fixed at given values
+ *  30191 impl/ dirichlet: by a factor of all rows
+ *  30424 impl/ io: files that are replaced only when they are complete
+ *  30642 impl/ files: Matrix Market files, 64-bit indices
+ *  31262 impl/ save: factors in files
+ *  33268 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33953 impl/ batch: diagonals of many inverses
+ *  34097 impl/ complex: complex Hermitian systems over real factors
+ *  34659 impl/ complex: entries of the inverse
+ *  34719 impl/ packs: the tables through which the core calls packs
+ *  34767 impl/ last: undefine every internal macro
+ *  35122 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3236,7 +3236,8 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #if defined(SLI_GNU)
 #define SLI_FNMA1(a, b, c) __builtin_fma(-(a), b, c)
 #elif defined(SLI_X86)
-#define SLI_FNMA1(a, b, c) _mm_cvtsd_f64(_mm_fnmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c)))
+#define SLI_FNMA1(a, b, c) \
+  _mm_cvtsd_f64(_mm_fnmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c)))
 #else
 #define SLI_FNMA1(a, b, c) fma(-(a), b, c)
 #endif
@@ -3653,14 +3654,20 @@ SLI_NOINLINE static const char *sli_options_wrong(const sl_options *opt, int rea
 #define SLI_PAGE ((size_t)65536)
 #define SLI_SMALL_PAGE ((size_t)4096)
 
+#if defined(SLI_HUGE_PAGES)
+SLI_INLINE void sli_advise(void *block, size_t bytes, int advice) {
+  const int keep = errno;
+  (void)sli_madvise(block, bytes, advice);
+  errno = keep;
+}
+#endif
+
 SLI_INLINE void sli_advise_huge_pages(void *block, size_t bytes) {
 #if defined(SLI_HUGE_PAGES)
   if (block != NULL && bytes >= SLI_HUGE_BLOCK) { /* untested: memory that ends */
     const size_t skipped = (SLI_PAGE - (uintptr_t)block % SLI_PAGE) % SLI_PAGE;
-    const int keep = errno;
-    (void)sli_madvise((char *)block + skipped, (bytes - skipped) / SLI_PAGE * SLI_PAGE,
-              SLI_HUGE_PAGES);
-    errno = keep;
+    sli_advise((char *)block + skipped, (bytes - skipped) / SLI_PAGE * SLI_PAGE,
+           SLI_HUGE_PAGES);
   }
 #else
   (void)block;
@@ -3763,9 +3770,7 @@ SLI_INLINE void sli_populate(const sl_allocator *a, const sli_block *b) {
 #if defined(SLI_POPULATE)
   if (b->base != NULL && a->allocate == sli_malloc_default && b->used < SLI_HUGE_BLOCK &&
     (uintptr_t)b->base % SLI_SMALL_PAGE == SLI_ALIGN) {
-    const int keep = errno;
-    (void)sli_madvise(b->base - SLI_ALIGN, b->used, SLI_POPULATE);
-    errno = keep;
+    sli_advise(b->base - SLI_ALIGN, b->used, SLI_POPULATE);
   }
 #else
   (void)a;
@@ -15499,7 +15504,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
   draft.kernels =
     kernels != NULL ? kernels : sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
   draft.type = sli_storage_type_of(opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
-  if (draft.type == NULL) {                 /* untested: all packs are there */
+  if (draft.type == NULL) { /* untested: all packs are there */
     return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
               sli_storage_needs(opt->storage));
   }

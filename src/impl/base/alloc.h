@@ -13,15 +13,22 @@
 #define SLI_PAGE ((size_t)65536) /* a multiple of the page sizes of systems */
 #define SLI_SMALL_PAGE ((size_t)4096)
 
-/* Asks for huge pages; a block that gets none works as well. errno is unchanged. */
+#if defined(SLI_HUGE_PAGES)
+/* A block that does not get what it is advised for works as well. errno is unchanged. */
+SLI_INLINE void sli_advise(void *block, size_t bytes, int advice) {
+    const int keep = errno;
+    (void)sli_madvise(block, bytes, advice);
+    errno = keep;
+}
+#endif
+
+/* Asks for huge pages. */
 SLI_INLINE void sli_advise_huge_pages(void *block, size_t bytes) {
 #if defined(SLI_HUGE_PAGES)
     if (block != NULL && bytes >= SLI_HUGE_BLOCK) { /* untested: memory that ends */
         const size_t skipped = (SLI_PAGE - (uintptr_t)block % SLI_PAGE) % SLI_PAGE;
-        const int keep = errno;
-        (void)sli_madvise((char *)block + skipped, (bytes - skipped) / SLI_PAGE * SLI_PAGE,
-                          SLI_HUGE_PAGES);
-        errno = keep;
+        sli_advise((char *)block + skipped, (bytes - skipped) / SLI_PAGE * SLI_PAGE,
+                   SLI_HUGE_PAGES);
     }
 #else
     (void)block;
@@ -140,9 +147,7 @@ SLI_INLINE void sli_populate(const sl_allocator *a, const sli_block *b) {
 #if defined(SLI_POPULATE)
     if (b->base != NULL && a->allocate == sli_malloc_default && b->used < SLI_HUGE_BLOCK &&
         (uintptr_t)b->base % SLI_SMALL_PAGE == SLI_ALIGN) {
-        const int keep = errno;
-        (void)sli_madvise(b->base - SLI_ALIGN, b->used, SLI_POPULATE);
-        errno = keep;
+        sli_advise(b->base - SLI_ALIGN, b->used, SLI_POPULATE);
     }
 #else
     (void)a;
