@@ -13,11 +13,11 @@ deps-arpack: ## ARPACK with OpenBLAS
 
 # Peers in their best setting: OpenBLAS chooses its kernels itself, whatever core the environment names.
 PEER_ENV = env -u OPENBLAS_CORETYPE -u OPENBLAS_L2_SIZE
-# Eigen chooses its vector instructions at compile time: its best setting is -march=native, for its own file only.
+# Eigen chooses its vector instructions at compile time: its best setting is -march=native without assertions, for its own file only.
 bench-peers: deps deps-peers sparse_local.h ## the questions peers, peers_harmonic, peers_shifted, peers_complex, peers_kkt, peers_kinds, peers_small and peers_multifrontal: against CHOLMOD, Eigen, LDL, MUMPS and Scotch
 	@+$(SUB_MAKE) run-bench B=build/peers QUESTION_DEFAULT="peers peers_harmonic peers_shifted peers_complex peers_kkt peers_kinds peers_small peers_multifrontal" LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
 	CFLAGS='-DSL_BENCH_PEERS $(OPENMP) $(CFLAGS)' INCLUDES='-isystem /usr/include/suitesparse -isystem /usr/include/eigen3 -isystem /usr/include/scotch' \
-	CXXFLAGS='-DSL_BENCH_PEERS -O3 -march=native $(CXXFLAGS)' PEER_LIBS='-lcholmod -lldl -lamd -ldmumps_seq -lmumps_common_seq -lmpiseq_seq -lscotch -lscotcherr -lopenblas' \
+	CXXFLAGS='-DSL_BENCH_PEERS -O3 -DNDEBUG -march=native $(CXXFLAGS)' PEER_LIBS='-lcholmod -lldl -lamd -ldmumps_seq -lmumps_common_seq -lmpiseq_seq -lscotch -lscotcherr -lopenblas' \
 	PEER_OBJECTS='$(addprefix build/peers/obj/,$(addsuffix .o,$(basename $(PEERS))))'
 
 ARPACK_OBJECTS = $(patsubst %.c,build/arpack/obj/%.o,$(wildcard bench/eigen/*.c))

@@ -10,6 +10,19 @@ enum { MAX_ROWS = 10 };
 
 static const double max_flops_eigen = 5e10, min_panels_brief = 5e7;
 
+/* P A P' with ascending rows, which Eigen needs: transposes have them. */
+static sl_matrix *permute_sorted(const sl_csc *A, const sl_int *perm) {
+    sl_matrix *permuted = NULL, *transposed = NULL, *sorted = NULL;
+    bench_must(sl_matrix_submatrix(&permuted, A, perm, A->n_cols, NULL, NULL), "permuting");
+    sl_csc view = sl_matrix_view(permuted);
+    bench_must(sl_matrix_transpose(&transposed, &view, NULL), "transposing");
+    view = sl_matrix_view(transposed);
+    bench_must(sl_matrix_transpose(&sorted, &view, NULL), "transposing");
+    sl_matrix_free(transposed);
+    sl_matrix_free(permuted);
+    return sorted;
+}
+
 comparison *comparison_create(const bench_run *run, const bench_system *system, sl_int max_rhs) {
     comparison *cmp = bench_alloc(1, sizeof *cmp);
     const sl_int *perm = sl_symbolic_view(system->S).perm;
@@ -41,9 +54,7 @@ comparison *comparison_create(const bench_run *run, const bench_system *system, 
     cmp->cholmod = peer_cholmod_create(&system->A, perm);
     if (system->stats.symbolic.flops < max_flops_eigen) {
         bench_progress("[%s: Eigen]\n", system->name);
-        bench_must(sl_matrix_submatrix(&cmp->permuted, &system->A, perm, system->A.n_cols, NULL,
-                                       NULL),
-                   "permuting for Eigen");
+        cmp->permuted = permute_sorted(&system->A, perm);
         const sl_csc C = sl_matrix_view(cmp->permuted);
         cmp->eigen = peer_eigen_create(&C);
         const double start = bench_now();
