@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d374d99b032a7a18
+ * FNV-1a of the lines after this comment, without the license: 02314ce0b87d3010
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -26,38 +26,38 @@
  *   2117 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
  *   2245 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
  *   2277 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2466 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2568 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2677 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2718 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2806 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2916 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2953 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   3030 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3070 impl/ base: the compiler, status, memory, sorting, threads
- *   4266 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5165 impl/ matrix: sparse matrices of the caller and of the library
- *   5800 impl/ ordering: fill-reducing orderings of a graph
- *  10454 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12683 impl/ factor: the numbers of L and D
- *  16038 impl/ solve: full and local solves
- *  17711 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19640 impl/ pivots: the order of the pivots by the values of a matrix
- *  20049 impl/ float: L and fronts in single precision
- *  20500 impl/ inverse: entries of the inverse, regions
- *  23563 impl/ change: a factor that follows changes of its matrix
- *  29603 impl/ dirichlet: rows fixed at given values
- *  30191 impl/ dirichlet: by a factor of all rows
- *  30424 impl/ io: files that are replaced only when they are complete
- *  30642 impl/ files: Matrix Market files, 64-bit indices
- *  31262 impl/ save: factors in files
- *  33268 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33953 impl/ batch: diagonals of many inverses
- *  34097 impl/ complex: complex Hermitian systems over real factors
- *  34659 impl/ complex: entries of the inverse
- *  34719 impl/ packs: the tables through which the core calls packs
- *  34767 impl/ last: undefine every internal macro
- *  35122 impl/ templates: the header includes them from itself, once for each instruction set
+ *   2458 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2560 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2669 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2710 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2798 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2908 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2945 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   3022 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3062 impl/ base: the compiler, status, memory, sorting, threads
+ *   4258 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5157 impl/ matrix: sparse matrices of the caller and of the library
+ *   5792 impl/ ordering: fill-reducing orderings of a graph
+ *  10446 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12675 impl/ factor: the numbers of L and D
+ *  16030 impl/ solve: full and local solves
+ *  17703 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19632 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20041 impl/ float: L and fronts in single precision
+ *  20492 impl/ inverse: entries of the inverse, regions
+ *  23555 impl/ change: a factor that follows changes of its matrix
+ *  29595 impl/ dirichlet: rows fixed at given values
+ *  30183 impl/ dirichlet: by a factor of all rows
+ *  30416 impl/ io: files that are replaced only when they are complete
+ *  30634 impl/ files: Matrix Market files, 64-bit indices
+ *  31254 impl/ save: factors in files
+ *  33251 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33936 impl/ batch: diagonals of many inverses
+ *  34080 impl/ complex: complex Hermitian systems over real factors
+ *  34642 impl/ complex: entries of the inverse
+ *  34702 impl/ packs: the tables through which the core calls packs
+ *  34750 impl/ last: undefine every internal macro
+ *  35105 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2331,33 +2331,26 @@ typedef enum sl_load_checks {
     SL_LOAD_VERIFIED
 } sl_load_checks;
 
-/** The bytes that a set takes when it is saved.
+/** Saves a set in the caller's memory, or only counts its bytes.
  *
- *  bytes  [out]  a multiple of 64.
- *  set    [in]   an analysis and what belongs to it. A selected inverse may be saved without a
- *                factor; regions may not. The same region may be given more than once.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, n_regions below 0, or regions without a factor;
- *           SL_ERR_STALE: a failed factor, or a selected inverse or region that is not of its
- *           present numbers; SL_ERR_STATE: objects of different analyses, or from a file that a
- *           newer version has written and this one reads in part; SL_ERR_UNSUPPORTED:
- *           SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds.
- *  Cost     O(1 + n_regions).
- *  Threads  reads the objects.
- */
-SL_API SL_WARN_UNUSED sl_status sl_save_bytes(size_t *bytes, const sl_saved_set *set);
-
-/** Saves a set in the caller's memory.
- *
- *  memory  [out]  of `bytes` bytes, at least those of sl_save_bytes; the rest is not written. For
- *                 sl_map_memory it must be aligned to 64 bytes.
- *  bytes   [in]   the size of memory.
- *  set     [in]   as in sl_save_bytes.
- *  Returns  as sl_save_bytes; SL_ERR_ARGUMENT: also if memory is too small.
- *  Cost     reads the objects twice.
+ *  memory  [out]     of any alignment; sl_map_memory needs 64 bytes. Not written on error, nor
+ *                    beyond what the set takes. NULL: nothing is saved, only *bytes is set.
+ *  bytes   [in,out]  in: the size of memory; not read if that is NULL. Out: what the set takes, a
+ *                    multiple of 64, also if memory is too small; as before on any other error.
+ *  set     [in]      an analysis and what belongs to it. A selected inverse may be saved without a
+ *                    factor; regions may not. The same region may be given more than once.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: memory is too small, bytes, set or an object of it is NULL,
+ *           n_regions is below 0, or regions without a factor; SL_ERR_STALE: a failed factor, or a
+ *           selected inverse or region that is not of its present numbers; SL_ERR_STATE: objects of
+ *           different analyses, or from a file that a newer version has written and this one reads
+ *           in part; SL_ERR_UNSUPPORTED: SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t
+ *           holds.
+ *  Cost     reads the objects twice; O(1 + n_regions) without memory.
  *  Threads  reads the objects.
  *  Example  tests/core/test_save.c, test_saved_set.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_save_memory(void *memory, size_t bytes, const sl_saved_set *set);
+SL_API SL_WARN_UNUSED sl_status sl_save_memory(void *memory, size_t *bytes,
+                                               const sl_saved_set *set);
 
 /** Saves a set in a file.
  *
@@ -2367,9 +2360,9 @@ SL_API SL_WARN_UNUSED sl_status sl_save_memory(void *memory, size_t bytes, const
  *  systems. A device or a symbolic link is written in place.
  *
  *  path  [in]  the name of the file.
- *  set   [in]  as in sl_save_bytes.
+ *  set   [in]  as in sl_save_memory.
  *  opt   [in]  allocator; may be NULL.
- *  Returns  as sl_save_bytes; SL_ERR_IO; SL_ERR_MEMORY.
+ *  Returns  as sl_save_memory; SL_ERR_IO; SL_ERR_MEMORY.
  *  Cost     reads the objects twice; waits until the file is on its device.
  *  Threads  reads the objects.
  *  Example  tests/core/test_save_file.c
@@ -2453,7 +2446,6 @@ SL_API SL_WARN_UNUSED sl_status sl_map_file(sl_saved_set *set, const char *path,
 SL_API void sl_saved_set_free(sl_saved_set *set);
 
 #else
-#define sl_save_bytes(...) sl_save_bytes_needs_SL_WITH_SAVE
 #define sl_save_memory(...) sl_save_memory_needs_SL_WITH_SAVE
 #define sl_save_file(...) sl_save_file_needs_SL_WITH_SAVE
 #define sl_load_memory(...) sl_load_memory_needs_SL_WITH_SAVE
@@ -32431,27 +32423,18 @@ SLI_COLD static void sli_save_write(sli_saved *f, sli_sink *to) {
   }
 }
 
-SL_API sl_status sl_save_bytes(size_t *bytes, const sl_saved_set *set) {
+SL_API sl_status sl_save_memory(void *memory, size_t *bytes, const sl_saved_set *set) {
   sli_saved f;
+  sli_sink to;
   sl_status status;
   status = sli_argument(bytes == NULL ? "bytes is NULL" : set == NULL ? "set is NULL" : NULL);
   status = status == SL_OK ? sli_save_prepare(&f, set) : status;
   if (status == SL_OK) {
+    const int is_short = memory != NULL && *bytes < f.header.bytes;
     *bytes = (size_t)f.header.bytes;
+    status = sli_argument(is_short ? "memory is smaller than the set" : NULL);
   }
-  return status;
-}
-
-SL_API sl_status sl_save_memory(void *memory, size_t bytes, const sl_saved_set *set) {
-  sli_saved f;
-  sli_sink to;
-  sl_status status = set == NULL ? sli_argument("set is NULL") : sli_save_prepare(&f, set);
-  if (status == SL_OK) {
-    status = sli_argument(memory == NULL           ? "memory is NULL"
-                : bytes < f.header.bytes ? "bytes is below sl_save_bytes"
-                             : NULL);
-  }
-  if (status == SL_OK) {
+  if (status == SL_OK && memory != NULL) {
     to.memory = (unsigned char *)memory;
     to.file = NULL;
     to.has_failed = 0;

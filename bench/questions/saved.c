@@ -345,7 +345,7 @@ void bench_saved(bench_run *run) {
     c.buffer = bench_alloc(CHUNK, 1);
     c.rng = 5;
     const sl_saved_set set = set_of(&c);
-    bench_must(sl_save_bytes(&c.bytes, &set), "saving");
+    bench_must(sl_save_memory(NULL, &c.bytes, &set), "saving");
     bench_must(sl_save_file(c.path, &set, NULL), "saving");
     if (check_bits(run, &c)) {
         bench_report *report = bench_report_open(run, "saved", "factors in files",

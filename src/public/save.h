@@ -59,33 +59,26 @@ typedef enum sl_load_checks {
     SL_LOAD_VERIFIED
 } sl_load_checks;
 
-/** The bytes that a set takes when it is saved.
+/** Saves a set in the caller's memory, or only counts its bytes.
  *
- *  bytes  [out]  a multiple of 64.
- *  set    [in]   an analysis and what belongs to it. A selected inverse may be saved without a
- *                factor; regions may not. The same region may be given more than once.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, n_regions below 0, or regions without a factor;
- *           SL_ERR_STALE: a failed factor, or a selected inverse or region that is not of its
- *           present numbers; SL_ERR_STATE: objects of different analyses, or from a file that a
- *           newer version has written and this one reads in part; SL_ERR_UNSUPPORTED:
- *           SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds.
- *  Cost     O(1 + n_regions).
- *  Threads  reads the objects.
- */
-SL_API SL_WARN_UNUSED sl_status sl_save_bytes(size_t *bytes, const sl_saved_set *set);
-
-/** Saves a set in the caller's memory.
- *
- *  memory  [out]  of `bytes` bytes, at least those of sl_save_bytes; the rest is not written. For
- *                 sl_map_memory it must be aligned to 64 bytes.
- *  bytes   [in]   the size of memory.
- *  set     [in]   as in sl_save_bytes.
- *  Returns  as sl_save_bytes; SL_ERR_ARGUMENT: also if memory is too small.
- *  Cost     reads the objects twice.
+ *  memory  [out]     of any alignment; sl_map_memory needs 64 bytes. Not written on error, nor
+ *                    beyond what the set takes. NULL: nothing is saved, only *bytes is set.
+ *  bytes   [in,out]  in: the size of memory; not read if that is NULL. Out: what the set takes, a
+ *                    multiple of 64, also if memory is too small; as before on any other error.
+ *  set     [in]      an analysis and what belongs to it. A selected inverse may be saved without a
+ *                    factor; regions may not. The same region may be given more than once.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: memory is too small, bytes, set or an object of it is NULL,
+ *           n_regions is below 0, or regions without a factor; SL_ERR_STALE: a failed factor, or a
+ *           selected inverse or region that is not of its present numbers; SL_ERR_STATE: objects of
+ *           different analyses, or from a file that a newer version has written and this one reads
+ *           in part; SL_ERR_UNSUPPORTED: SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t
+ *           holds.
+ *  Cost     reads the objects twice; O(1 + n_regions) without memory.
  *  Threads  reads the objects.
  *  Example  tests/core/test_save.c, test_saved_set.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_save_memory(void *memory, size_t bytes, const sl_saved_set *set);
+SL_API SL_WARN_UNUSED sl_status sl_save_memory(void *memory, size_t *bytes,
+                                               const sl_saved_set *set);
 
 /** Saves a set in a file.
  *
@@ -95,9 +88,9 @@ SL_API SL_WARN_UNUSED sl_status sl_save_memory(void *memory, size_t bytes, const
  *  systems. A device or a symbolic link is written in place.
  *
  *  path  [in]  the name of the file.
- *  set   [in]  as in sl_save_bytes.
+ *  set   [in]  as in sl_save_memory.
  *  opt   [in]  allocator; may be NULL.
- *  Returns  as sl_save_bytes; SL_ERR_IO; SL_ERR_MEMORY.
+ *  Returns  as sl_save_memory; SL_ERR_IO; SL_ERR_MEMORY.
  *  Cost     reads the objects twice; waits until the file is on its device.
  *  Threads  reads the objects.
  *  Example  tests/core/test_save_file.c

@@ -268,9 +268,9 @@ static void loaded_factors_allocate_when_they_are_refactored(void **state) {
     size_t size, bytes = 0;
     coefficients_of(c, 1, 1);
     sl_factor *made = matrix_pair_factor(&y, c, NULL);
-    SL_CHECK(pair_save_bytes(&size, y.S, made));
+    SL_CHECK(pair_save_memory(NULL, &size, y.S, made));
     unsigned char *memory = (unsigned char *)test_array(size, 1);
-    SL_CHECK(pair_save_memory(memory, size, y.S, made));
+    SL_CHECK(pair_save_memory(memory, &size, y.S, made));
     for (int turn = 0; turn < 2; turn++) {
         counter_t counter = counter_make();
         sl_options opt = options_counted(&counter);

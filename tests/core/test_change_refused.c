@@ -32,10 +32,10 @@ static subject_t subject_make(int history, double growth_limit) {
     }
     if (history == LOADED || history == MAPPED) {
         size_t bytes;
-        SL_CHECK(pair_save_bytes(&bytes, s.S, s.F));
+        SL_CHECK(pair_save_memory(NULL, &bytes, s.S, s.F));
         s.memory = test_reals(bytes / 8 + 8);
         void *at = (char *)s.memory + (64 - (uintptr_t)s.memory % 64) % 64;
-        SL_CHECK(pair_save_memory(at, bytes, s.S, s.F));
+        SL_CHECK(pair_save_memory(at, &bytes, s.S, s.F));
         SL_CHECK(history == LOADED
                      ? pair_load_memory(&s.S, &s.owned, at, bytes, SL_LOAD_VERIFIED, NULL)
                      : pair_map_memory(&s.S, &s.owned, at, bytes, SL_LOAD_VERIFIED, NULL));
@@ -63,9 +63,9 @@ static image_t image_make(const subject_t *s) {
     image_t m;
     double b[N];
     gen_reals(b, N, 7);
-    SL_CHECK(pair_save_bytes(&m.size, s->S, s->F));
+    SL_CHECK(pair_save_memory(NULL, &m.size, s->S, s->F));
     m.bytes = test_reals(m.size / 8 + 1);
-    SL_CHECK(pair_save_memory(m.bytes, m.size, s->S, s->F));
+    SL_CHECK(pair_save_memory(m.bytes, &m.size, s->S, s->F));
     SL_CHECK(sl_factor_solve(s->F, m.x, N, b, N, 1, NULL));
     return m;
 }

@@ -227,11 +227,11 @@ static void mapped_factors_are_refused(void **state) {
     sl_int i = 3;
     double d = 1.0;
     SL_CHECK(sl_factor_change(c.y.F, NULL, &i, &i, &d, 1, NULL, NULL));
-    SL_CHECK(pair_save_bytes(&bytes, c.y.S, c.y.F));
+    SL_CHECK(pair_save_memory(NULL, &bytes, c.y.S, c.y.F));
     double *memory = test_reals(bytes / sizeof(double) + 16);
     unsigned char *block = (unsigned char *)memory;
     block += (64 - (uintptr_t)block % 64) % 64;
-    SL_CHECK(pair_save_memory(block, bytes, c.y.S, c.y.F));
+    SL_CHECK(pair_save_memory(block, &bytes, c.y.S, c.y.F));
     SL_CHECK(pair_map_memory(&S, &F, block, bytes, SL_LOAD_VERIFIED, NULL));
     SL_EXPECT(SL_ERR_READ_ONLY, sl_factor_change(F, NULL, &i, &i, &d, 1, NULL, NULL));
     sl_factor_free(F);

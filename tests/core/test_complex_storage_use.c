@@ -67,7 +67,7 @@ static void what_is_not_complex_is_refused(void **state) {
     opt = options_none();
     opt.regularization = 1e-3;
     assert_int_equal(create(y.S, &y.A, opt), SL_ERR_UNSUPPORTED);
-    assert_int_equal(pair_save_bytes(&bytes, y.S, y.F[1]), SL_ERR_UNSUPPORTED);
+    assert_int_equal(pair_save_memory(NULL, &bytes, y.S, y.F[1]), SL_ERR_UNSUPPORTED);
     const sl_int p[2] = {0, 1}, row = 3;
     const double one = 1.0;
     const sl_csc V = {y.n, 1, p, &row, &one};

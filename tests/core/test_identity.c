@@ -178,7 +178,7 @@ static void assert_saving(sl_status expected, sl_symbolic *S, sl_factor *F, sl_s
     all.selected = Z;
     all.regions = regions;
     all.n_regions = R != NULL;
-    SL_EXPECT(expected, sl_save_bytes(&bytes, &all));
+    SL_EXPECT(expected, sl_save_memory(NULL, &bytes, &all));
 }
 
 /* A plan, a factor and a region keep an analysis that was released. They do not belong to one that

@@ -205,7 +205,7 @@ static void a_refused_region_takes_other_numbers_later(void **state) {
     set_of.factor = good.F;
     set_of.regions = &R;
     set_of.n_regions = 1;
-    SL_EXPECT(SL_ERR_STALE, sl_save_bytes(&bytes, &set_of));
+    SL_EXPECT(SL_ERR_STALE, sl_save_memory(NULL, &bytes, &set_of));
     SL_EXPECT(SL_ERR_STALE, sl_plan_solve(P, bad, after, (size_t)count, b, (size_t)count, 1, NULL));
     SL_EXPECT(SL_ERR_STALE,
               sl_plan_solve(P, good.F, after, (size_t)count, b, (size_t)count, 1, NULL));

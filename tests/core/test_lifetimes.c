@@ -148,10 +148,10 @@ static void objects_of_a_mapped_set(void **state) {
     memset(&mapped, 0, sizeof mapped);
     set_of.symbolic = y.S;
     set_of.factor = y.F;
-    SL_CHECK(sl_save_bytes(&bytes, &set_of));
+    SL_CHECK(sl_save_memory(NULL, &bytes, &set_of));
     char *block = (char *)test_array(bytes + 64, 1);
     char *at = block + (64 - (uintptr_t)block % 64) % 64;
-    SL_CHECK(sl_save_memory(at, bytes, &set_of));
+    SL_CHECK(sl_save_memory(at, &bytes, &set_of));
     SL_CHECK(sl_map_memory(&mapped, at, bytes, SL_LOAD_CHECKED, NULL));
     sl_symbolic_free(mapped.symbolic);
     SL_CHECK(sl_factor_solve(mapped.factor, got, N, b, N, 1, NULL));

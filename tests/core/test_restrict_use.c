@@ -28,7 +28,7 @@ static void numbers_of_a_restriction_stay(void **state) {
         assert_int_equal(sl_factor_change(t.G, B, &row, &row, &one, 1, NULL, NULL),
                          SL_ERR_READ_ONLY);
         assert_int_equal(sl_factor_update(t.G, &V, NULL, NULL, NULL), SL_ERR_READ_ONLY);
-        assert_int_equal(pair_save_bytes(&bytes, t.S, t.G), SL_ERR_STATE);
+        assert_int_equal(pair_save_memory(NULL, &bytes, t.S, t.G), SL_ERR_STATE);
         assert_int_equal(sl_factor_rcond(t.G, B, &rcond, NULL), SL_ERR_OTHER_PATTERN);
         assert_int_equal(
             sl_factor_refine(t.G, B, x, (size_t)t.count, b, (size_t)t.count, 1, 1, NULL, NULL),

@@ -286,7 +286,7 @@ static void later_versions_are_read_only_or_refused(void **state) {
         assert_same_answers(y.F, F);
         SL_EXPECT(SL_ERR_READ_ONLY, sl_factor_refactor(F, &y.M.view, NULL));
         SL_EXPECT(SL_ERR_STATE,
-                  pair_save_bytes(&size, S, F)); /* it would lose the unknown section */
+                  pair_save_memory(NULL, &size, S, F)); /* it would lose the unknown section */
         sl_factor_free(F);
         sl_symbolic_free(S);
     }

@@ -54,7 +54,8 @@ static void two_loads_are_independent(void **state) {
     sl_factor_free(F[1]);
     sl_symbolic_free(S[1]);
     assert_same_answers(y.F, F[2]);
-    SL_EXPECT(SL_ERR_STATE, pair_save_memory(m.bytes, m.size, S[2], y.F)); /* of another analysis */
+    /* of another analysis */
+    SL_EXPECT(SL_ERR_STATE, pair_save_memory(m.bytes, &m.size, S[2], y.F));
     sl_factor_free(F[2]);
     sl_symbolic_free(S[2]);
     saved_free(&m);
@@ -320,18 +321,17 @@ static void wrong_arguments_are_refused(void **state) {
     saved_call_t calls[2] = {pair_load_memory, pair_map_memory};
     size_t size = 0;
     sl_options opt = options_none();
-    SL_EXPECT(SL_ERR_ARGUMENT, pair_save_bytes(NULL, y.S, y.F));
-    SL_EXPECT(SL_ERR_ARGUMENT, pair_save_bytes(&size, NULL, y.F));
-    SL_EXPECT(SL_ERR_STATE, pair_save_bytes(&size, y.S, z.F));
-    SL_EXPECT(SL_ERR_ARGUMENT, pair_save_memory(NULL, m.size, y.S, y.F));
-    SL_EXPECT(SL_ERR_ARGUMENT, pair_save_memory(m.bytes, m.size - 1, y.S, y.F));
-    SL_EXPECT(SL_ERR_ARGUMENT, pair_save_memory(m.bytes, m.size, NULL, y.F));
+    SL_EXPECT(SL_ERR_ARGUMENT, pair_save_memory(NULL, NULL, y.S, y.F));
+    SL_EXPECT(SL_ERR_ARGUMENT, pair_save_memory(NULL, &size, NULL, y.F));
+    SL_EXPECT(SL_ERR_STATE, pair_save_memory(NULL, &size, y.S, z.F));
+    SL_EXPECT(SL_ERR_ARGUMENT, pair_save_memory(m.bytes, NULL, y.S, y.F));
+    SL_EXPECT(SL_ERR_ARGUMENT, pair_save_memory(m.bytes, &m.size, NULL, y.F));
     SL_EXPECT(SL_ERR_ARGUMENT, pair_save_file(NULL, y.S, y.F, NULL));
     double *zeros = test_reals((size_t)y.M.p[25]);
     sl_csc bad = y.M.view;
     bad.x = zeros;
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(y.F, &bad, NULL));
-    SL_EXPECT(SL_ERR_STALE, pair_save_bytes(&size, y.S, y.F)); /* a failed factor */
+    SL_EXPECT(SL_ERR_STALE, pair_save_memory(NULL, &size, y.S, y.F)); /* a failed factor */
     assert_int_equal(size, 0);
     for (int k = 0; k < 2; k++) {
         sl_symbolic *S = y.S;

@@ -25,7 +25,7 @@ static void refactor(const set_case_t *q, const sl_saved_set *got, const saved_t
         const sl_selected *Z = k == 2 ? got->selected : NULL; /* as it was made */
         if (!is_mapped) { /* the factor has other numbers now, if the same ones */
             size_t bytes = 0;
-            SL_EXPECT(SL_ERR_STALE, sl_save_bytes(&bytes, got));
+            SL_EXPECT(SL_ERR_STALE, sl_save_memory(NULL, &bytes, got));
         }
         SL_EXPECT(expected, sl_region_refactor(got->regions[k], F, Z, NULL));
     }
@@ -236,6 +236,44 @@ static void a_set_is_saved_in_a_file(void **state) {
 
 /* ---- arguments ---- */
 
+static void assert_filled(const unsigned char *bytes, size_t count) {
+    for (size_t k = 0; k < count; k++) {
+        assert_int_equal(bytes[k], 0x5A);
+    }
+}
+
+/* Memory may be larger than the set and of any alignment. If it is too small, nothing is written
+ * but the size that is needed. */
+static void memory_of_any_size(void **state) {
+    (void)state;
+    sl_options from = options_none();
+    set_case_t q = set_case_make(SAVED_DEFINITE, GEN_GRID2, 100, 0, 0, &from);
+    saved_t m = set_save(set_of(&q)), other = saved_of_size(m.size + 70);
+    const size_t small[4] = {0, 1, 64, m.size - 1}, enough[3] = {m.size, m.size + 1, SIZE_MAX};
+    for (int k = 0; k < 4; k++) {
+        size_t size = small[k];
+        memset(other.bytes, 0x5A, other.size);
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_save_memory(other.bytes, &size, set_of(&q)));
+        assert_true(size == m.size);
+        assert_filled(other.bytes, other.size);
+        size = small[k];
+        SL_CHECK(sl_save_memory(NULL, &size, set_of(&q)));
+        assert_true(size == m.size);
+    }
+    for (int k = 0; k < 3; k++) {
+        size_t size = enough[k];
+        memset(other.bytes, 0x5A, other.size);
+        SL_CHECK(sl_save_memory(other.bytes + k, &size, set_of(&q)));
+        assert_true(size == m.size);
+        assert_filled(other.bytes, (size_t)k);
+        assert_memory_equal(other.bytes + k, m.bytes, m.size);
+        assert_filled(other.bytes + k + m.size, other.size - m.size - (size_t)k);
+    }
+    saved_free(&other);
+    saved_free(&m);
+    set_case_free(&q);
+}
+
 static void what_does_not_belong_together_is_refused(void **state) {
     (void)state;
     sl_options from = options_none();
@@ -244,14 +282,13 @@ static void what_does_not_belong_together_is_refused(void **state) {
     sl_saved_set set = *set_of(&q), got = {0};
     saved_t m = set_save(&set);
     sl_region *mixed[2] = {q.regions[0], NULL};
-    size_t size = 7;
+    size_t size = 7, kept = m.size;
 #define REFUSED(status, what) \
-    SL_EXPECT(status, sl_save_bytes(&size, what)); \
-    SL_EXPECT(status, sl_save_memory(m.bytes, m.size, what)); \
+    SL_EXPECT(status, sl_save_memory(NULL, &size, what)); \
+    SL_EXPECT(status, sl_save_memory(m.bytes, &kept, what)); \
     SL_EXPECT(status, sl_save_file(NOWHERE, what, NULL))
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_bytes(NULL, &set));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_memory(NULL, m.size, &set));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_memory(m.bytes, m.size - 1, &set));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_memory(NULL, NULL, &set));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_memory(m.bytes, NULL, &set));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_save_file(NULL, &set, NULL));
     REFUSED(SL_ERR_ARGUMENT, NULL);
     set.symbolic = NULL;
@@ -279,7 +316,8 @@ static void what_does_not_belong_together_is_refused(void **state) {
     set = q.set;
     set.factor = z.set.factor;
     REFUSED(SL_ERR_STATE, &set);
-    assert_int_equal(size, 7);
+    assert_int_equal(size, 7); /* as before */
+    assert_true(kept == m.size);
     /* the numbers of the factor change, those of the others do not */
     SL_CHECK(sl_factor_refactor(q.c.y.F, &q.c.y.M.view, NULL));
     REFUSED(SL_ERR_STALE, set_of(&q));
@@ -408,6 +446,7 @@ int main(void) {
         cmocka_unit_test(the_same_objects_give_the_same_bytes),
         cmocka_unit_test(the_other_byte_order_is_loaded),
         cmocka_unit_test(a_set_is_saved_in_a_file),
+        cmocka_unit_test(memory_of_any_size),
         cmocka_unit_test(what_does_not_belong_together_is_refused),
         cmocka_unit_test(a_set_without_a_list_is_released),
         cmocka_unit_test(parts_of_another_factor_are_refused),

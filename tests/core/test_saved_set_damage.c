@@ -38,10 +38,10 @@ static void use(const sl_saved_set *set, const sl_csc *A) {
     sl_region *R = NULL;
     sl_stats stats;
     size_t size = 0;
-    const sl_status status = sl_save_bytes(&size, set);
+    const sl_status status = sl_save_memory(NULL, &size, set);
     assert_true(status == SL_OK || status == SL_ERR_STATE); /* as if of a later version */
     saved_t again = saved_of_size(size);
-    SL_EXPECT(status, sl_save_memory(again.bytes, size, set));
+    SL_EXPECT(status, sl_save_memory(again.bytes, &size, set));
     saved_free(&again);
     for (sl_int k = 0; k < set->n_regions; k++) {
         sl_region_stats(set->regions[k], &stats);

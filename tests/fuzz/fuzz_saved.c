@@ -119,7 +119,7 @@ static void use_set(const sl_saved_set *set) {
     sl_region *R = NULL;
     size_t size = 0;
     PROMISE(x != NULL);
-    ignore(sl_save_bytes(&size, set));
+    ignore(sl_save_memory(NULL, &size, set));
     for (sl_int k = 0; k < set->n_regions; k++) {
         use_region(set, set->regions[k]);
     }

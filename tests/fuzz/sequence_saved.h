@@ -44,13 +44,13 @@ static void copy(input_t *in) {
         return;
     }
     fill(in, B, MOST);
-    sl_status status = pair_save_bytes(&bytes, analyses[f->analysis].S, f->F);
+    sl_status status = pair_save_memory(NULL, &bytes, analyses[f->analysis].S, f->F);
     PROMISE(status == (f->is_valid ? SL_OK : SL_ERR_STALE));
     if (status != SL_OK) {
         return;
     }
     unsigned char *block, *aligned = aligned_room(bytes, &block);
-    PROMISE(pair_save_memory(aligned, bytes, analyses[f->analysis].S, f->F) == SL_OK);
+    PROMISE(pair_save_memory(aligned, &bytes, analyses[f->analysis].S, f->F) == SL_OK);
     const sl_options opt = load_options(f);
     const sl_load_checks checks = (sl_load_checks)(form / 2 % 3);
     status = form % 2 ? pair_map_memory(&S, &F, aligned, bytes, checks, &opt)
@@ -155,14 +155,14 @@ static void copy_set(input_t *in) {
             may_be_saved &= may_belong(f, regions[k].analysis, regions[k].a);
         }
     }
-    sl_status status = sl_save_bytes(&bytes, &set);
+    sl_status status = sl_save_memory(NULL, &bytes, &set);
     PROMISE(status == SL_OK || is_apart(status));
     PROMISE(is_apart(status) || (may_be_saved && (f->is_valid || !set.factor)));
     if (status != SL_OK) {
         return;
     }
     unsigned char *block, *aligned = aligned_room(bytes, &block);
-    PROMISE(sl_save_memory(aligned, bytes, &set) == SL_OK);
+    PROMISE(sl_save_memory(aligned, &bytes, &set) == SL_OK);
     const sl_options opt = load_options(f);
     const sl_load_checks checks = (sl_load_checks)(form / 4 % 3);
     status = form / 2 % 2 ? sl_map_memory(&loaded, aligned, bytes, checks, &opt)

@@ -132,21 +132,15 @@ static sl_saved_set saved_set(arguments_t *a) {
     return set;
 }
 
-static sl_status save_bytes(arguments_t *a) {
-    const sl_saved_set set = saved_set(a);
-    size_t bytes = 0;
-    return sl_save_bytes(&bytes, &set);
-}
-
 static sl_status save_memory(arguments_t *a) {
     const sl_saved_set set = saved_set(a);
     sl_saved_set good = set;
     size_t bytes = 0;
     good.symbolic = o->good.S;
     good.factor = o->good.F;
-    SL_CHECK(sl_save_bytes(&bytes, &good));
+    SL_CHECK(sl_save_memory(NULL, &bytes, &good));
     void *memory = test_array(bytes, 1);
-    const sl_status status = sl_save_memory(memory, bytes, &set);
+    const sl_status status = sl_save_memory(memory, &bytes, &set);
     free(memory);
     return status;
 }
@@ -305,7 +299,6 @@ static const struct {
     {"sl_pins_release", pins_release, PINS_ | LIST_},
     {"sl_pins_refactor", pins_refactor, PINS_},
     {"sl_pins_solve", pins_solve, PINS_ | X_ | LDX_ | B_ | LDB_ | NRHS_},
-    {"sl_save_bytes", save_bytes, S_ | FAILED_ | OTHER_},
     {"sl_save_memory", save_memory, S_ | FAILED_ | OTHER_},
     {"sl_save_file", save_file, S_ | FAILED_ | OTHER_},
     {"sl_batch_solve", batch_solve, SOLVE_},

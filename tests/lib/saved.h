@@ -21,11 +21,11 @@ static inline saved_t saved_of_size(size_t size) {
 
 static inline saved_t saved_make(const sl_symbolic *S, const sl_factor *F) {
     size_t size = 1;
-    SL_CHECK(pair_save_bytes(&size, S, F));
+    SL_CHECK(pair_save_memory(NULL, &size, S, F));
     assert_int_equal(size % 64, 0);
     saved_t m = saved_of_size(size);
     memset(m.bytes, 0xA5, size);
-    SL_CHECK(pair_save_memory(m.bytes, size, S, F));
+    SL_CHECK(pair_save_memory(m.bytes, &size, S, F));
     return m;
 }
 

@@ -16,12 +16,7 @@ static inline sl_saved_set pair_set(const sl_symbolic *S, const sl_factor *F) {
     return set;
 }
 
-static inline sl_status pair_save_bytes(size_t *bytes, const sl_symbolic *S, const sl_factor *F) {
-    const sl_saved_set set = pair_set(S, F);
-    return sl_save_bytes(bytes, &set);
-}
-
-static inline sl_status pair_save_memory(void *memory, size_t bytes, const sl_symbolic *S,
+static inline sl_status pair_save_memory(void *memory, size_t *bytes, const sl_symbolic *S,
                                          const sl_factor *F) {
     const sl_saved_set set = pair_set(S, F);
     return sl_save_memory(memory, bytes, &set);

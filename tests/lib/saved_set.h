@@ -63,11 +63,11 @@ static inline void set_case_free(set_case_t *q) {
 
 static inline saved_t set_save(const sl_saved_set *set) {
     size_t size = 1;
-    SL_CHECK(sl_save_bytes(&size, set));
+    SL_CHECK(sl_save_memory(NULL, &size, set));
     assert_int_equal(size % 64, 0);
     saved_t m = saved_of_size(size);
     memset(m.bytes, 0xA5, size);
-    SL_CHECK(sl_save_memory(m.bytes, size, set));
+    SL_CHECK(sl_save_memory(m.bytes, &size, set));
     return m;
 }
 

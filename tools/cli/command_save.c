@@ -69,7 +69,7 @@ static void make_pair(heat_solver *s, intrinsic *surface, const mesh *m, const h
 static double write_set(const char *path, const sl_saved_set *set) {
     size_t bytes = 0;
     app_stage("save");
-    app_must(sl_save_bytes(&bytes, set), "save", NULL);
+    app_must(sl_save_memory(NULL, &bytes, set), "save", NULL);
     app_must(sl_save_file(path, set, NULL), path, NULL);
     app_progress_end();
     return 1e-6 * (double)bytes;

@@ -263,27 +263,18 @@ SLI_COLD static void sli_save_write(sli_saved *f, sli_sink *to) {
     }
 }
 
-SL_API sl_status sl_save_bytes(size_t *bytes, const sl_saved_set *set) {
+SL_API sl_status sl_save_memory(void *memory, size_t *bytes, const sl_saved_set *set) {
     sli_saved f;
+    sli_sink to;
     sl_status status;
     status = sli_argument(bytes == NULL ? "bytes is NULL" : set == NULL ? "set is NULL" : NULL);
     status = status == SL_OK ? sli_save_prepare(&f, set) : status;
     if (status == SL_OK) {
+        const int is_short = memory != NULL && *bytes < f.header.bytes;
         *bytes = (size_t)f.header.bytes;
+        status = sli_argument(is_short ? "memory is smaller than the set" : NULL);
     }
-    return status;
-}
-
-SL_API sl_status sl_save_memory(void *memory, size_t bytes, const sl_saved_set *set) {
-    sli_saved f;
-    sli_sink to;
-    sl_status status = set == NULL ? sli_argument("set is NULL") : sli_save_prepare(&f, set);
-    if (status == SL_OK) {
-        status = sli_argument(memory == NULL           ? "memory is NULL"
-                              : bytes < f.header.bytes ? "bytes is below sl_save_bytes"
-                                                       : NULL);
-    }
-    if (status == SL_OK) {
+    if (status == SL_OK && memory != NULL) {
         to.memory = (unsigned char *)memory;
         to.file = NULL;
         to.has_failed = 0;

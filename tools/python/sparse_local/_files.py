@@ -41,9 +41,9 @@ class Files:
     def to_bytes(self):
         """The analysis and the factor as bytes, as save writes them; pickle uses this."""
         size = ctypes.c_size_t()
-        check(lib.sl_save_bytes(ctypes.byref(size), self._set()))
+        check(lib.sl_save_memory(None, ctypes.byref(size), self._set()))
         memory = np.empty(size.value, dtype=np.uint8)
-        check(lib.sl_save_memory(arrays.address(memory), memory.size, self._set()))
+        check(lib.sl_save_memory(arrays.address(memory), ctypes.byref(size), self._set()))
         return memory.tobytes()
 
     def _set(self):
