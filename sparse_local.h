@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 02314ce0b87d3010
+ * FNV-1a of the lines after this comment, without the license: 33aace4f433b35eb
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -46,18 +46,18 @@
  *  20041 impl/ float: L and fronts in single precision
  *  20492 impl/ inverse: entries of the inverse, regions
  *  23555 impl/ change: a factor that follows changes of its matrix
- *  29595 impl/ dirichlet: rows fixed at given values
- *  30183 impl/ dirichlet: by a factor of all rows
- *  30416 impl/ io: files that are replaced only when they are complete
- *  30634 impl/ files: Matrix Market files, 64-bit indices
- *  31254 impl/ save: factors in files
- *  33251 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33936 impl/ batch: diagonals of many inverses
- *  34080 impl/ complex: complex Hermitian systems over real factors
- *  34642 impl/ complex: entries of the inverse
- *  34702 impl/ packs: the tables through which the core calls packs
- *  34750 impl/ last: undefine every internal macro
- *  35105 impl/ templates: the header includes them from itself, once for each instruction set
+ *  29590 impl/ dirichlet: rows fixed at given values
+ *  30178 impl/ dirichlet: by a factor of all rows
+ *  30411 impl/ io: files that are replaced only when they are complete
+ *  30629 impl/ files: Matrix Market files, 64-bit indices
+ *  31249 impl/ save: factors in files
+ *  33246 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33931 impl/ batch: diagonals of many inverses
+ *  34075 impl/ complex: complex Hermitian systems over real factors
+ *  34637 impl/ complex: entries of the inverse
+ *  34697 impl/ packs: the tables through which the core calls packs
+ *  34745 impl/ last: undefine every internal macro
+ *  35100 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -23868,18 +23868,6 @@ static int sli_nulls_remain(const sl_factor *F) {
   return 1;
 }
 
-static void sli_reached_begin(sli_kept *p, const sl_factor *F, sl_int *from) {
-  sl_int s;
-  memset(p, 0, sizeof *p);
-  p->F = F;
-  p->copied.from = from;
-  p->copied.copy = sli_kept_run;
-  p->is_subset = 1;
-  for (s = 0; s < F->S->n_supers; s++) {
-    from[s] = s;
-  }
-}
-
 static void sli_reached_mark(const sl_symbolic *S, sl_int *from, sl_int k) {
   sl_int s;
   for (s = S->super_of[k]; s != -1 && from[s] != -1; s = S->super_parent[s]) {
@@ -23941,6 +23929,9 @@ static sl_status sli_changes_check(const sl_factor *F, const sl_csc *A, const sl
 static void sli_changes_mark(const sli_changes *c, const sl_symbolic *S, const sl_csc *A,
                sl_int *from) {
   sl_int k, p;
+  for (k = 0; k < S->n_supers; k++) {
+    from[k] = k;
+  }
   for (k = 0; k < c->n_seeds; k++) {
     sli_reached_mark(S, from, sli_key(c->seeds[k]));
   }
@@ -23975,8 +23966,12 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
     from = SLI_TAKE(&b, sl_int, F->S->n_supers);
   }
   if (status == SL_OK) {
-    sli_reached_begin(&kept, F, from);
     sli_changes_mark(c, F->S, A, from);
+    memset(&kept, 0, sizeof kept);
+    kept.F = F;
+    kept.copied.from = from;
+    kept.copied.copy = sli_kept_run;
+    kept.is_subset = 1;
     status = sli_kept_room(&kept, F, &room);
   }
   if (status == SL_OK) {

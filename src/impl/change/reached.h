@@ -23,19 +23,6 @@ static int sli_nulls_remain(const sl_factor *F) {
     return 1;
 }
 
-/* Nothing is reached: all supernodes keep the numbers of F. from: n_supers */
-static void sli_reached_begin(sli_kept *p, const sl_factor *F, sl_int *from) {
-    sl_int s;
-    memset(p, 0, sizeof *p);
-    p->F = F;
-    p->copied.from = from;
-    p->copied.copy = sli_kept_run;
-    p->is_subset = 1;
-    for (s = 0; s < F->S->n_supers; s++) {
-        from[s] = s;
-    }
-}
-
 /* Column k of L is reached, and all columns on its path to the root. */
 static void sli_reached_mark(const sl_symbolic *S, sl_int *from, sl_int k) {
     sl_int s;
@@ -100,10 +87,13 @@ static sl_status sli_changes_check(const sl_factor *F, const sl_csc *A, const sl
     return SL_OK;
 }
 
-/* Marks what the changes reach. */
+/* from: n_supers; -1 marks what the changes reach, the others keep their numbers. */
 static void sli_changes_mark(const sli_changes *c, const sl_symbolic *S, const sl_csc *A,
                              sl_int *from) {
     sl_int k, p;
+    for (k = 0; k < S->n_supers; k++) {
+        from[k] = k;
+    }
     for (k = 0; k < c->n_seeds; k++) {
         sli_reached_mark(S, from, sli_key(c->seeds[k]));
     }
@@ -139,8 +129,12 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
         from = SLI_TAKE(&b, sl_int, F->S->n_supers);
     }
     if (status == SL_OK) {
-        sli_reached_begin(&kept, F, from);
         sli_changes_mark(c, F->S, A, from);
+        memset(&kept, 0, sizeof kept);
+        kept.F = F;
+        kept.copied.from = from;
+        kept.copied.copy = sli_kept_run;
+        kept.is_subset = 1;
         status = sli_kept_room(&kept, F, &room);
     }
     if (status == SL_OK) {
