@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 33aace4f433b35eb
+ * FNV-1a of the lines after this comment, without the license: 87aef38ed86edabb
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,28 +36,28 @@
  *   3022 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3062 impl/ base: the compiler, status, memory, sorting, threads
  *   4258 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5157 impl/ matrix: sparse matrices of the caller and of the library
- *   5792 impl/ ordering: fill-reducing orderings of a graph
- *  10446 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12675 impl/ factor: the numbers of L and D
- *  16030 impl/ solve: full and local solves
- *  17703 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19632 impl/ pivots: the order of the pivots by the values of a matrix
- *  20041 impl/ float: L and fronts in single precision
- *  20492 impl/ inverse: entries of the inverse, regions
- *  23555 impl/ change: a factor that follows changes of its matrix
- *  29590 impl/ dirichlet: rows fixed at given values
- *  30178 impl/ dirichlet: by a factor of all rows
- *  30411 impl/ io: files that are replaced only when they are complete
- *  30629 impl/ files: Matrix Market files, 64-bit indices
- *  31249 impl/ save: factors in files
- *  33246 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33931 impl/ batch: diagonals of many inverses
- *  34075 impl/ complex: complex Hermitian systems over real factors
- *  34637 impl/ complex: entries of the inverse
- *  34697 impl/ packs: the tables through which the core calls packs
- *  34745 impl/ last: undefine every internal macro
- *  35100 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5158 impl/ matrix: sparse matrices of the caller and of the library
+ *   5793 impl/ ordering: fill-reducing orderings of a graph
+ *  10447 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12676 impl/ factor: the numbers of L and D
+ *  16031 impl/ solve: full and local solves
+ *  17704 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19633 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20042 impl/ float: L and fronts in single precision
+ *  20493 impl/ inverse: entries of the inverse, regions
+ *  23556 impl/ change: a factor that follows changes of its matrix
+ *  29591 impl/ dirichlet: rows fixed at given values
+ *  30179 impl/ dirichlet: by a factor of all rows
+ *  30412 impl/ io: files that are replaced only when they are complete
+ *  30630 impl/ files: Matrix Market files, 64-bit indices
+ *  31250 impl/ save: factors in files
+ *  33247 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33932 impl/ batch: diagonals of many inverses
+ *  34076 impl/ complex: complex Hermitian systems over real factors
+ *  34638 impl/ complex: entries of the inverse
+ *  34698 impl/ packs: the tables through which the core calls packs
+ *  34746 impl/ last: undefine every internal macro
+ *  35103 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4895,6 +4895,7 @@ typedef struct sli_kernels {
 #error "sparse_local.h was renamed: define SL_HEADER as its new name, in quotes"
 #endif
 #endif
+#define SLI_SELF_INCLUSION
 #define SLI_SECTION_WORDS_SCALAR
 #define SLI_SECTION_LANES_SCALAR
 #define SLI_SECTION_COPY_ROWS
@@ -34743,6 +34744,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #endif
 /* last: undefine every internal macro */
 /* src/impl/base/undef.h: undefines every internal macro */
+#undef SLI_SELF_INCLUSION
 #undef SLI_METIS
 #undef SLI_GNU
 #undef SLI_WINDOWS
@@ -35089,14 +35091,15 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #endif
 
 /* templates: the header includes them from itself, once for each instruction set */
+#if defined(SLI_SELF_INCLUSION) && \
+    (SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0)
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
 
 #ifdef SLI_SECTION_FRONTS
 #undef SLI_SECTION_FRONTS
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/factor/fronts.inl.h: the fronts of the supernodal factorization, for one type of numbers */
 
 SLI_INLINE SLF_VALUE *SLF_NAME(update_matrix)(const sl_factor *F, sl_int s, sl_int worker) {
@@ -35617,11 +35620,6 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_SECTION_FRONTS_UNDEF
 #undef SLI_SECTION_FRONTS_UNDEF
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/factor/fronts_undef.inl.h: undefines the parameters of fronts.inl.h */
 
 #undef SLF_NAME
@@ -35634,11 +35632,6 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_SECTION_WORDS_NEON
 #undef SLI_SECTION_WORDS_NEON
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/kernels/words_neon.inl.h: the vocabulary SLV_ in NEON: a vector of 8 doubles is four registers */
 
 #define SLV_NAME(f) sli_##f##_neon
@@ -35783,11 +35776,6 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_SECTION_LANES_NEON
 #undef SLI_SECTION_LANES_NEON
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/kernels/lanes_neon.inl.h: the vocabulary SLW_ in NEON, for SLW_NRHS right-hand sides */
 
 #if SLW_NRHS == 2
@@ -35862,11 +35850,6 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_SECTION_WORDS_AVX512
 #undef SLI_SECTION_WORDS_AVX512
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/kernels/words_avx512.inl.h: the vocabulary SLV_ in AVX-512F: a vector of 8 doubles is one register */
 
 #define SLV_NAME(f) sli_##f##_avx512
@@ -35972,11 +35955,6 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_SECTION_LANES_AVX512
 #undef SLI_SECTION_LANES_AVX512
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/kernels/lanes_avx512.inl.h: the vocabulary SLW_ in AVX-512F, for SLW_NRHS right-hand sides */
 
 #if SLW_NRHS == 8
@@ -36019,11 +35997,6 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_SECTION_WORDS_AVX2
 #undef SLI_SECTION_WORDS_AVX2
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/kernels/words_avx2.inl.h: the vocabulary SLV_ in AVX2 and FMA: a vector of 8 doubles is two registers */
 
 #define SLV_NAME(f) sli_##f##_avx2
@@ -36166,11 +36139,6 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_SECTION_LANES_AVX2
 #undef SLI_SECTION_LANES_AVX2
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/kernels/lanes_avx2.inl.h: the vocabulary SLW_ in AVX2 and FMA, for SLW_NRHS right-hand sides */
 
 #if SLW_NRHS == 2
@@ -36228,11 +36196,6 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_SECTION_WORDS_SCALAR
 #undef SLI_SECTION_WORDS_SCALAR
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/kernels/words_scalar.inl.h: the vocabulary SLV_ in plain C: a vector is an array */
 
 #define SLV_NAME(f) sli_##f##_scalar
@@ -36327,11 +36290,6 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_SECTION_CHANGE
 #undef SLI_SECTION_CHANGE
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/change/change.inl.h: rank-k change of the rows of a panel, for 2, 4 and 8 vectors; of a panel for 1 */
 
 #define SLI_DECLARE(r, unused) SLV_DECLARE(w##r)
@@ -36593,11 +36551,6 @@ static const sli_change_kernels SLV_NAME(change_kernels) = {
 
 #ifdef SLI_SECTION_LANES_SCALAR
 #undef SLI_SECTION_LANES_SCALAR
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/kernels/lanes_scalar.inl.h: the vocabulary SLW_ in plain C, for SLW_NRHS right-hand sides */
 
 #if SLW_NRHS == 2
@@ -36625,11 +36578,6 @@ static const sli_change_kernels SLV_NAME(change_kernels) = {
 
 #ifdef SLI_SECTION_PRODUCTS
 #undef SLI_SECTION_PRODUCTS
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/inverse/products.inl.h: sums of products of 8 by 8 right-hand sides, for blocks of the inverse */
 
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
@@ -36663,11 +36611,6 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
 
 #ifdef SLI_SECTION_INVERSE_FRONT
 #undef SLI_SECTION_INVERSE_FRONT
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/inverse/inverse_front.inl.h: gathers a front of the inverse from its parent and completes it */
 
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(block1)(const SLV_VALUE *A, const SLV_VALUE *B,
@@ -36992,11 +36935,6 @@ SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_inverse_front *f, double 
 
 #ifdef SLI_SECTION_INVERSE_SET
 #undef SLI_SECTION_INVERSE_SET
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/inverse/inverse_set.inl.h: the table of the kernels of the inverse, for one instruction set */
 
 static const sli_inverse_kernels SLV_NAME(inverse_kernels) = {
@@ -37005,11 +36943,6 @@ static const sli_inverse_kernels SLV_NAME(inverse_kernels) = {
 
 #ifdef SLI_SECTION_COPY_ROWS
 #undef SLI_SECTION_COPY_ROWS
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/kernels/copy_rows.inl.h: rows of several right-hand sides to a buffer and back */
 
 SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
@@ -37043,11 +36976,6 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
 
 #ifdef SLI_SECTION_FRONT
 #undef SLI_SECTION_FRONT
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/kernels/front.inl.h: factors the panel of a front, computes its update matrix, assembles a front */
 
 /* src/impl/kernels/product.inl.h: C -= A D B' on tiles, the inner loop of the factorization */
@@ -37598,11 +37526,6 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
 
 #ifdef SLI_SECTION_COMPLEX_GROUPS
 #undef SLI_SECTION_COMPLEX_GROUPS
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/complex/complex_groups.inl.h: what row tiles of L do to 2 or more right-hand sides of a complex matrix */
 
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
@@ -37689,11 +37612,6 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
 
 #ifdef SLI_SECTION_SWEEPS
 #undef SLI_SECTION_SWEEPS
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/kernels/sweeps.inl.h: the sweeps for one and two right-hand sides, for one type of L */
 
 /* src/impl/kernels/unit_triangle.inl.h: one right-hand side through the unit triangle of a diagonal tile */
@@ -38513,11 +38431,6 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 
 #ifdef SLI_SECTION_MULTI_RHS
 #undef SLI_SECTION_MULTI_RHS
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/kernels/multi_rhs.inl.h: what row tiles of L do to several right-hand sides of a real matrix */
 
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
@@ -38757,11 +38670,6 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, 
 
 #ifdef SLI_SECTION_MULTI_RHS_TILES
 #undef SLI_SECTION_MULTI_RHS_TILES
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/kernels/multi_rhs_tiles.inl.h: several right-hand sides through supernodes of any width, by row tiles */
 
 #define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below_rows[r] * stride)
@@ -39034,11 +38942,6 @@ SLI_GROUPED_KERNELS(64)
 
 #ifdef SLI_SECTION_COMPLEX_SMALL
 #undef SLI_SECTION_COMPLEX_SMALL
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/complex/complex_small.inl.h: one right-hand side through a supernode of 1 to 4 complex columns */
 
 #define SLI_XT(j, k) \
@@ -39230,11 +39133,6 @@ SLV_NAME(complex_backward_small)(const sli_step *s, const sli_step *begin, const
 
 #ifdef SLI_SECTION_COMPLEX_ROWS
 #undef SLI_SECTION_COMPLEX_ROWS
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/complex/complex_rows.inl.h: sweeps over L of a complex Hermitian matrix, of which every other column is */
 
 #define SLI_HALF (SLI_TILE / 2)
@@ -39452,11 +39350,6 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const vo
 
 #ifdef SLI_SECTION_COMPLEX_SET
 #undef SLI_SECTION_COMPLEX_SET
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/complex/complex_set.inl.h: the table of the kernels of complex matrices, for one instruction set */
 
 static const sli_complex_kernels SLV_NAME(complex_kernels) = {
@@ -39472,11 +39365,6 @@ static const sli_complex_kernels SLV_NAME(complex_kernels) = {
 
 #ifdef SLI_SECTION_FLOAT_SET
 #undef SLI_SECTION_FLOAT_SET
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/float/float_set.inl.h: the table of the kernels of L in float, for one instruction set */
 
 static const sli_float_kernels SLV_NAME(float_kernels) = {
@@ -39492,11 +39380,6 @@ static const sli_float_kernels SLV_NAME(float_kernels) = {
 
 #ifdef SLI_SECTION_KERNEL_SET
 #undef SLI_SECTION_KERNEL_SET
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/kernels/kernel_set.inl.h: the other kernels of one instruction set, and its table */
 
 /* src/impl/kernels/row.inl.h: one row of L in the up-looking factorization */
@@ -39639,11 +39522,6 @@ static const sli_kernels SLV_NAME(kernels) = {
 
 #ifdef SLI_SECTION_LANES_UNDEF
 #undef SLI_SECTION_LANES_UNDEF
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/kernels/lanes_undef.inl.h: undefines the SIMD vocabulary of one number of right-hand sides */
 
 #undef SLW_NAME
@@ -39666,11 +39544,6 @@ static const sli_kernels SLV_NAME(kernels) = {
 
 #ifdef SLI_SECTION_WORDS_UNDEF
 #undef SLI_SECTION_WORDS_UNDEF
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
 /* src/impl/kernels/words_undef.inl.h: undefines the SIMD vocabulary after the last template of a file simd_*.h */
 
 #undef SLV_SINGLE

@@ -79,8 +79,8 @@ void self_include(job *j);
  * batch; where it begins one, as the words of an instruction set do, it comes before all others. */
 void add_to_batch(job *j, const char *path);
 
-/* Emits the templates, each in a section of its own. The file that is found by SL_HEADER may be
- * another version of the header, which would be noticed late or never. */
+/* Emits the templates, each in a section of its own. Before them the header that includes itself,
+ * SLI_SELF_INCLUSION, checks that SL_HEADER is not another version of it. */
 void emit_sections(job *j);
 
 /* Emits a file line by line. Depth 0 is the manifest, whose first line the banner replaces. */

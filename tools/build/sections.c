@@ -52,7 +52,7 @@ void self_include(job *j) {
         emit_lines(j, check_before);
         emit_format(j, "#error \"%s was renamed: define SL_HEADER as its new name, in quotes\"\n",
                     j->name);
-        emit_lines(j, "#endif\n#endif\n");
+        emit_lines(j, "#endif\n#endif\n#define SLI_SELF_INCLUSION\n");
     }
     for (size_t k = 0; k < j->n_batch; k++) {
         section_macro(macro, j->batch[k]);
@@ -89,21 +89,22 @@ void emit_sections(job *j) {
     emit_lines(j, "\n");
     enter(j, "", heading);
     emit_lines(j, heading);
+    emit_lines(j, "#if defined(SLI_SELF_INCLUSION) && \\\n");
+    for (int v = 0; v < 3; v++) {
+        static const char *const names[3] = {"MAJOR", "MINOR", "PATCH"};
+        char check[64];
+        snprintf(check, sizeof check, "    %sSL_VERSION_%s != %s%s", v ? " " : "(", names[v],
+                 j->version[v], v < 2 ? " || \\\n" : ")\n");
+        emit_lines(j, check);
+    }
+    emit_format(j, "#error \"%s: SL_HEADER names another version of the header\"\n", j->name);
+    emit_lines(j, "#endif\n");
     for (size_t k = 0; k < j->n_sections; k++) {
         char macro[PATH_SIZE + 16];
         section_macro(macro, j->sections[k]);
         emit_lines(j, "\n");
         emit_format(j, "#ifdef %s\n", macro);
         emit_format(j, "#undef %s\n", macro);
-        for (int v = 0; v < 3; v++) {
-            static const char *const names[3] = {"MAJOR", "MINOR", "PATCH"};
-            char check[64];
-            snprintf(check, sizeof check, "%s SL_VERSION_%s != %s%s", v ? "    " : "#if", names[v],
-                     j->version[v], v < 2 ? " || \\\n" : "\n");
-            emit_lines(j, check);
-        }
-        emit_format(j, "#error \"%s: SL_HEADER names another version of the header\"\n", j->name);
-        emit_lines(j, "#endif\n");
         expand(j, j->sections[k], 1);
         emit_lines(j, "#endif\n");
     }

@@ -1,4 +1,5 @@
 /* undef.h: undefines every internal macro */
+#undef SLI_SELF_INCLUSION
 #undef SLI_METIS
 #undef SLI_GNU
 #undef SLI_WINDOWS
