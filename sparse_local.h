@@ -1,63 +1,63 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 87aef38ed86edabb
+ * FNV-1a of the lines after this comment, without the license: 4b002e8d74d34b0b
  * The comments of the implementation are in src/impl.
  *
  * Contents
  *     65 intro.h      what the library does, a quick start, which call for which question, references
- *    190 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    234 config.h     macros that a user may define before the include, the version, and the integer types
- *    317 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    497 options.h    options of all calls, threads, and the allocator
- *    644 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    886 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    988 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1064 factor.h     the numerical factorization P A P' = L D L'
- *   1189 solve.h      full solves, and the workspace of all solves
+ *    193 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    237 config.h     macros that a user may define before the include, the version, and the integer types
+ *    320 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    500 options.h    options of all calls, threads, and the allocator
+ *    647 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    889 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    990 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1066 factor.h     the numerical factorization P A P' = L D L'
+ *   1190 solve.h      full solves, and the workspace of all solves
  *   1286 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1365 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
- *   1457 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1556 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1596 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1704 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1783 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1869 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1965 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2077 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2117 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2245 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2277 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2458 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2560 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2669 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2710 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2798 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2908 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2945 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   3022 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3062 impl/ base: the compiler, status, memory, sorting, threads
- *   4258 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5158 impl/ matrix: sparse matrices of the caller and of the library
- *   5793 impl/ ordering: fill-reducing orderings of a graph
- *  10447 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12676 impl/ factor: the numbers of L and D
- *  16031 impl/ solve: full and local solves
- *  17704 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19633 impl/ pivots: the order of the pivots by the values of a matrix
- *  20042 impl/ float: L and fronts in single precision
- *  20493 impl/ inverse: entries of the inverse, regions
- *  23556 impl/ change: a factor that follows changes of its matrix
- *  29591 impl/ dirichlet: rows fixed at given values
- *  30179 impl/ dirichlet: by a factor of all rows
- *  30412 impl/ io: files that are replaced only when they are complete
- *  30630 impl/ files: Matrix Market files, 64-bit indices
- *  31250 impl/ save: factors in files
- *  33247 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33932 impl/ batch: diagonals of many inverses
- *  34076 impl/ complex: complex Hermitian systems over real factors
- *  34638 impl/ complex: entries of the inverse
- *  34698 impl/ packs: the tables through which the core calls packs
- *  34746 impl/ last: undefine every internal macro
- *  35103 impl/ templates: the header includes them from itself, once for each instruction set
+ *   1360 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
+ *   1450 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1545 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1583 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1682 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1758 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1843 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1934 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2042 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2082 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2207 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2239 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2420 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2518 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2621 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2662 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2749 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2855 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2891 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2967 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3006 impl/ base: the compiler, status, memory, sorting, threads
+ *   4202 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5102 impl/ matrix: sparse matrices of the caller and of the library
+ *   5737 impl/ ordering: fill-reducing orderings of a graph
+ *  10391 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12620 impl/ factor: the numbers of L and D
+ *  15975 impl/ solve: full and local solves
+ *  17648 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19577 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19986 impl/ float: L and fronts in single precision
+ *  20437 impl/ inverse: entries of the inverse, regions
+ *  23500 impl/ change: a factor that follows changes of its matrix
+ *  29535 impl/ dirichlet: rows fixed at given values
+ *  30123 impl/ dirichlet: by a factor of all rows
+ *  30356 impl/ io: files that are replaced only when they are complete
+ *  30574 impl/ files: Matrix Market files, 64-bit indices
+ *  31194 impl/ save: factors in files
+ *  33191 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33876 impl/ batch: diagonals of many inverses
+ *  34020 impl/ complex: complex Hermitian systems over real factors
+ *  34582 impl/ complex: entries of the inverse
+ *  34642 impl/ packs: the tables through which the core calls packs
+ *  34690 impl/ last: undefine every internal macro
+ *  35047 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -128,14 +128,16 @@
  *              in supernodal panels; D is diagonal. A reach is a set of columns closed under
  *              parent. nnz counts stored entries.
  * Conventions  Every function that can fail returns sl_status. On error, outputs are NULL or
- *              untouched, and sl_error_text says why. Options and stats may be NULL. Dense
- *              arguments are column-major with a leading dimension in elements; solves take
- *              row-major ones, too (SL_ROWS). Row numbers are the caller's, also in errors. A b-set
- *              comes before an x-set, and a length follows its array. The library never prints or
- *              aborts. Threads share no mutable globals: each keeps its last error, and with
- *              SL_NO_THREAD_LOCAL nothing. For METIS, an option, see sl_symbolic_create. What is
- *              marked EXPERIMENTAL may change in any version; all else keeps its promises from 1.0
- *              on.
+ *              untouched, and sl_error_text says why. Options and stats may be NULL. So may W, a
+ *              workspace: the call then allocates one for itself. An sl_NAME is released by
+ *              sl_NAME_free, which accepts NULL. Dense arguments are column-major with a leading
+ *              dimension in elements; solves take row-major ones, too (SL_ROWS). Row numbers are
+ *              the caller's, also in errors. A b-set comes before an x-set, and a length follows
+ *              its array; a set is empty if its length is 0 and its pointer is not NULL. The
+ *              library never prints or aborts. Threads share no mutable globals: each keeps its
+ *              last error, and with SL_NO_THREAD_LOCAL nothing. For METIS, an option, see
+ *              sl_symbolic_create. What is marked EXPERIMENTAL may change in any version; all else
+ *              keeps its promises from 1.0 on.
  * Lifetimes    An object keeps what it was made from: a factor, a plan, a region and a selected
  *              inverse their analysis, a plan its region, pins their factor. So all of them may be
  *              freed in any order, and on any threads with gcc, clang and MSVC; other compilers
@@ -143,7 +145,8 @@
  *              are not kept.
  * Threads      An analysis, a plan, a selected inverse and a region are immutable after their
  *              creation; a factor is const during solves. Any number of threads may solve with one
- *              factor, each with its own sl_work.
+ *              factor, each with its own sl_work. A call needs exclusive use of objects and arrays
+ *              that it takes without const; others it reads, as any number of calls may at once.
  * Manual       tools/docs/NAME.md in the repository, and the page NAME.html that make docs writes:
  *              details and measurements that a contract leaves out.
  */
@@ -887,16 +890,15 @@ SL_API size_t sl_stats_size(void);
 
 /** Creates a matrix from triplets: equal positions are summed, rows are ascending.
  *
- *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
+ *  out    [out]  the matrix.
  *  count  [in]   number of triplets.
  *  i, j   [in]   count row indices in 0..n_rows-1 and column indices in 0..n_cols-1, any order.
  *  x      [in]   count values; NULL: a pattern without values.
- *  opt    [in]   allocator; may be NULL.
- *  stats  [out]  error.row, error.column: an index out of range; may be NULL.
+ *  opt    [in]   allocator.
+ *  stats  [out]  error.row, error.column: an index out of range.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE: more than 2^31 - 1 triplets, or more than
  *           2^31 - 8 rows or columns; SL_ERR_MEMORY.
  *  Cost     O(count + n_rows + n_cols).
- *  Threads  any number with different outputs.
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows,
                                                         sl_int n_cols, sl_off count,
@@ -919,7 +921,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_cs
  *  column are in any order; duplicates stay.
  *
  *  rows   [in]   count rows of A in 0..n-1, any order, none twice.
- *  stats  [out]  error.row: a row out of range or given twice; may be NULL.
+ *  stats  [out]  error.row: a row out of range or given twice.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also not square; SL_ERR_PATTERN; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
@@ -931,12 +933,12 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_submatrix(sl_matrix **out, const sl_cs
 /** The arrays of a matrix; valid as long as M. A NULL M gives a 0 x 0 view. */
 SL_API sl_csc sl_matrix_view(const sl_matrix *M);
 
-/** Releases a matrix; NULL is allowed. */
+/** Releases a matrix. */
 SL_API void sl_matrix_free(sl_matrix *M);
 
 /** Checks a view: sizes, positions ascending from 0, indices in range.
  *
- *  stats  [out]  error.column and, for an index out of range, error.row; may be NULL.
+ *  stats  [out]  error.column and, for an index out of range, error.row.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: A or one of its arrays is NULL; SL_ERR_PATTERN;
  *           SL_ERR_TOO_LARGE: more rows or columns than sl_csc allows.
  *  Cost     O(n_cols + nnz).
@@ -948,8 +950,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_check(const sl_csc *A, sl_stats *stats);
  *  If A stores both triangles, checks that its pattern is symmetric.
  *
  *  out    [out]  the triangle; on error untouched.
- *  opt    [in]   allocator, triangle; may be NULL.
- *  stats  [out]  error.row, error.column: an entry without its mirror image; may be NULL.
+ *  opt    [in]   allocator, triangle.
+ *  stats  [out]  error.row, error.column: an entry without its mirror image.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
  */
@@ -994,12 +996,12 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
  *  supernodes is replaced by an equivalent one, of the same fill: sl_symbolic_view's perm is the
  *  order used.
  *
- *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free.
+ *  out    [out]  the analysis.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
  *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, metis_options,
- *                block_size, purpose; may be NULL. block_size is used by all but
- *                SL_ORDERING_GIVEN and SL_ORDERING_NATURAL; every ordering refuses an invalid one.
- *  stats  [out]  symbolic; may be NULL.
+ *                block_size, purpose. block_size is used by all but SL_ORDERING_GIVEN and
+ *                SL_ORDERING_NATURAL; every ordering refuses an invalid one.
+ *  stats  [out]  symbolic.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first
  *           offending position), or another option that is not allowed; SL_ERR_PATTERN;
  *           SL_ERR_UNSUPPORTED: METIS is not compiled in; SL_ERR_ORDERING: METIS failed;
@@ -1019,7 +1021,7 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
                                                    const sl_options *opt, sl_stats *stats);
 
-/** Releases an analysis; NULL is allowed. Objects made from it keep it as long as they need it: all
+/** Releases an analysis. Objects made from it keep it as long as they need it: all
  *  objects may be freed in any order (intro.h). */
 SL_API void sl_symbolic_free(sl_symbolic *S);
 
@@ -1071,13 +1073,13 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  most about epsilon * stats.factor.growth. If that is not small enough, or if pivots were
  *  regularized, call sl_factor_refine, and trust X if it returns SL_OK.
  *
- *  out    [out]  the factor, or NULL on error; release with sl_factor_free.
+ *  out    [out]  the factor.
  *  S      [in]   analysis of A's pattern; kept by the factor.
  *  A      [in]   n x n with values; the analyzed pattern with its entries in the same order.
  *  opt    [in]   allocator, threads, isa, method, null_pivots, null_tolerance, mass,
  *                consistency_tolerance, regularization, signs, null_vector, null_vector_count,
- *                growth_limit, error_limit, storage, definite; may be NULL.
- *  stats  [out]  factor; may be NULL.
+ *                growth_limit, error_limit, storage, definite.
+ *  stats  [out]  factor.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, or at error.row a
  *           weight, sign or null vector that is not allowed; SL_ERR_OTHER_PATTERN: not the analyzed
  *           one, from error.row, error.column on; SL_ERR_PATTERN: malformed, or two triangles whose
@@ -1113,17 +1115,16 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *                   SL_ERR_PIVOT, _NOT_FINITE, _INACCURATE and _UNSUPPORTED it has no numbers, and
  *                   every solve refuses it until a refactor succeeds.
  *  A      [in]      the analyzed pattern, new values. Two triangles are not compared.
- *  stats  [out]     factor; may be NULL.
+ *  stats  [out]     factor.
  *  Returns  as sl_factor_create; SL_ERR_READ_ONLY: a mapped factor (sl_map_file). SL_ERR_MEMORY and
  *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load_file),
  *           which allocates its fronts; SL_ERR_UNSUPPORTED only with SL_STORAGE_COMPLEX.
  *  Cost     as sl_factor_create, without its memory.
- *  Threads  exclusive use of F.
  *  Example  tests/core/test_factor.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats);
 
-/** Releases a factor; NULL is allowed. */
+/** Releases a factor. */
 SL_API void sl_factor_free(sl_factor *F);
 
 /** Fills the factor group of stats. */
@@ -1143,7 +1144,7 @@ typedef enum sl_pivot_kind {
  *  shifts    [out]  the diagonal entries of E in these rows, 0 for null pivots; may be NULL.
  *  capacity  [in]   length of rows and shifts.
  *  count     [out]  how many there are; may exceed capacity.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor.  Cost  O(count).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE.  Cost  O(count).
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_pivot_rows(const sl_factor *F, sl_pivot_kind kind,
                                                      sl_int *rows, double *shifts, sl_int capacity,
@@ -1156,7 +1157,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_pivot_rows(const sl_factor *F, sl_pivo
  *  number of rows. If regularization changed pivots: the determinant of A + E. Computed as a sum of
  *  logarithms, which cannot overflow.
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor.  Cost  O(n).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE.  Cost  O(n).
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det,
                                                  double *sign);
@@ -1166,10 +1167,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log
  *  Contains the entries that are not exactly 0: zeros from relaxation and padding are left out, and
  *  so is an entry that became 0 by cancellation.
  *
- *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
- *  opt    [in]   allocator; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_TOO_LARGE: 2^31 or more
- *           entries; SL_ERR_MEMORY.
+ *  out    [out]  the matrix.
+ *  opt    [in]   allocator.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_TOO_LARGE: 2^31 or more entries;
+ *           SL_ERR_MEMORY.
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F,
                                                 const sl_options *opt);
@@ -1208,13 +1209,13 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
 
 /** Creates an empty workspace for one thread. It grows when a call needs more and never shrinks.
  *
- *  out  [out]  the workspace, or NULL on error; release with sl_work_free.
- *  opt  [in]   allocator, threads: full solves with this workspace use them; may be NULL.
+ *  out  [out]  the workspace.
+ *  opt  [in]   allocator, threads: full solves with this workspace use them.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY.
  */
 SL_API SL_WARN_UNUSED sl_status sl_work_create(sl_work **out, const sl_options *opt);
 
-/** Releases a workspace; NULL is allowed. */
+/** Releases a workspace. */
 SL_API void sl_work_free(sl_work *W);
 
 /** Bytes that a workspace holds now; NULL has 0. */
@@ -1267,10 +1268,9 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 64, 32, 16,
  *                then up to 8, for which a solution has the same bits. 8 take as long as two to
  *                three single solves, 32 as long as six to eight.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_INCONSISTENT: a column of B
- *           has no solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: a number
- *           of B is not: X is written; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_INCONSISTENT: a column of B has no
+ *           solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: a number of B is not: X
+ *           is written; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
  *           min(nrhs, 64)). If consistency is checked, right-hand sides beyond the eighth take an
  *           additional forward sweep.
@@ -1291,16 +1291,16 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, s
  *  roots and the backward sweep those from xset. Each reach is found separately, in time
  *  proportional to its own size.
  *
- *  out    [out]  the plan, or NULL on error; release with sl_plan_free.
+ *  out    [out]  the plan.
  *  S      [in]   analysis of A, n columns; kept by the plan.
  *  bset   [in]   nb rows of A in 0..n-1, any order; b is 0 in the others, and values of a row given
  *                twice add up. NULL (nb is ignored): all n.
  *  xset   [in]   nx rows of A in 0..n-1, any order; a row given twice is answered twice. NULL (nx
  *                is ignored): all n. For an empty set pass a pointer that is not NULL, and nb or nx
  *                = 0; it is not dereferenced.
- *  opt    [in]   allocator, region; may be NULL. If both sets are inside the region, the sweeps end
- *                at its boundary. If they are not, or if one is NULL, the region is not used.
- *  stats  [out]  plan; error.row: an index out of range; may be NULL.
+ *  opt    [in]   allocator, region. If both sets are inside the region, the sweeps end at its
+ *                boundary. If they are not, or if one is NULL, the region is not used.
+ *  stats  [out]  plan; error.row: an index out of range.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a region of another analysis; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     O(nb + nx + rows of the supernodes reached), with a logarithmic factor for rows that
@@ -1314,7 +1314,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_create(sl_plan **out, const sl_symbolic 
                                                const sl_int *bset, sl_int nb, const sl_int *xset,
                                                sl_int nx, const sl_options *opt, sl_stats *stats);
 
-/** Releases a plan; NULL is allowed. */
+/** Releases a plan. */
 SL_API void sl_plan_free(sl_plan *P);
 
 /** Fills the plan group of stats. */
@@ -1332,15 +1332,12 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *  B      [in]   nb x nrhs, column-major, leading dimension ldb elements, or row-major as X; rows
  *                in the order of bset.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
- *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed factor, or, in a region, one whose
  *           numbers are not those that the region was computed from; SL_ERR_STATE: a factor of
  *           another analysis; SL_ERR_INCONSISTENT, _NOT_FINITE: as in sl_factor_solve, of what x
  *           depends on; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     2 (b_entries + x_entries) + 4 region_entries flops per right-hand side; nothing O(n);
  *           no allocation once W has grown.
- *  Threads  any number at once on one P and one F, each with its own W.
- *  Example  tests/core/test_plan.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X,
                                               size_t ldx, const double *B, size_t ldb, sl_int nrhs,
@@ -1349,12 +1346,10 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor 
 /** One local solve without a plan: sl_plan_create and sl_plan_solve in the caller's workspace.
  *
  *  F, bset, nb, xset, nx, X, ldx, B, ldb, nrhs, W as in these two calls; no region.
- *  stats  [out]  plan (bytes is 0); error.row: an index out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_INCONSISTENT, _NOT_FINITE:
- *           as in sl_plan_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  stats  [out]  plan (bytes is 0); error.row: an index out of range.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_INCONSISTENT, _NOT_FINITE: as in
+ *           sl_plan_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the sum of both calls; no allocation once W has grown.
- *  Threads  any number at once on one F, each with its own W.
- *  Example  tests/core/test_plan.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int nb,
                                                const sl_int *xset, sl_int nx, double *X, size_t ldx,
@@ -1371,15 +1366,15 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int 
  *  is there already, and the pack of pins is compiled in, the cheapest of three ways is taken, by
  *  counted cost (stats.dirichlet): the same, sl_factor_restrict, or pins on that factor.
  *
- *  out    [out]  the object, or NULL on error; release with sl_dirichlet_free.
+ *  out    [out]  the object.
  *  A      [in]   n x n with values, symmetric, not kept. Entries between fixed rows are not read,
  *                and two triangles not compared.
  *  rows   [in]   count rows of A in 0..n-1 that are fixed, any order, none twice; from none to all.
  *  F      [in]   a factor of A, or NULL. Used only if it was computed from the values of A, and opt
  *                has none of perm, mass, signs, null_vector, regularization, SL_NULL_PIVOT_SKIP.
  *  opt    [in]   allocator, threads, and what sl_symbolic_create and sl_factor_create read, in rows
- *                of A: perm, mass, signs and null_vector have n entries; may be NULL.
- *  stats  [out]  dirichlet, symbolic, factor; errors are in rows of A; may be NULL.
+ *                of A: perm, mass, signs and null_vector have n entries.
+ *  stats  [out]  dirichlet, symbolic, factor; errors are in rows of A.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
  *           SL_ERR_PIVOT: A[free, free] is singular, as where no row of a component of a Laplacian
  *           is fixed (error.row); others as sl_symbolic_create and sl_factor_create.
@@ -1393,18 +1388,17 @@ SL_API SL_WARN_UNUSED sl_status sl_dirichlet_create(sl_dirichlet **out, const sl
                                                     const sl_factor *F, const sl_options *opt,
                                                     sl_stats *stats);
 
-/** Releases the object; NULL is allowed. */
+/** Releases the object. */
 SL_API void sl_dirichlet_free(sl_dirichlet *D);
 
 /** Takes new values of A. An object that uses a factor of A gets one of its own.
  *
  *  A      [in]   the pattern that sl_dirichlet_create was given, its entries in the same order.
- *  stats  [out]  dirichlet, factor; errors are in rows of A; may be NULL.
+ *  stats  [out]  dirichlet, factor; errors are in rows of A.
  *  Returns  as sl_dirichlet_create; SL_ERR_OTHER_PATTERN: another pattern. After SL_ERR_PIVOT,
  *           _NOT_FINITE, _INACCURATE and _UNSUPPORTED solves are refused until a
  *           refactorization succeeds; after other errors D is as before.
  *  Cost     a refactorization of A[free, free]; nothing is allocated, except for its first factor.
- *  Threads  exclusive use of D.
  */
 SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A,
                                                       sl_stats *stats);
@@ -1420,7 +1414,6 @@ SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_
  *  G     [in]   count x nrhs, column-major, leading dimension ldg elements, or row-major as X: the
  *               values, in the order of rows. May be NULL if count = 0.
  *  nrhs  [in]   number of right-hand sides, 0 or more.
- *  W     [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed refactorization, or the factor whose
  *           pins are used has changed; SL_ERR_NOT_FINITE, SL_ERR_INCONSISTENT: as sl_factor_solve;
  *           SL_ERR_INACCURATE: as sl_pins_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
@@ -1491,12 +1484,10 @@ typedef enum sl_part {
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements, or by SL_ROWS; in the
  *                order of A with SL_PART_P, else of the pivots.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_PIVOT: SL_PART_SQRT_D with
- *           a negative pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots; SL_ERR_TOO_LARGE;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_PIVOT: SL_PART_SQRT_D with a negative
+ *           pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     2 nnz_panels flops per right-hand side for each of L and L'; O(n) for the others.
- *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/core/test_parts.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_solve_part(const sl_factor *F, unsigned parts, double *X,
@@ -1534,8 +1525,6 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_multiply_part(const sl_factor *F, unsi
  *  Returns  as sl_factor_solve_part; SL_ERR_ARGUMENT: other parts; SL_ERR_STATE: a factor of
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region.
  *  Cost     2 b_entries or 2 x_entries flops per right-hand side; nothing O(n).
- *  Threads  any number at once on one P and one F, each with its own W.
- *  Example  tests/core/test_parts.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F,
                                                    unsigned parts, double *X, size_t ldx,
@@ -1581,12 +1570,10 @@ typedef struct sl_pseudo_inverse {
  *
  *  F      [in]      a factor of A, n x n.
  *  P      [in,out]  component, Q and K NULL: only columns is written. On error columns may be.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, or too few columns; SL_ERR_STALE: failed factor;
- *           SL_ERR_UNSUPPORTED: 2x2 pivots; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, or too few columns; SL_ERR_STALE; SL_ERR_UNSUPPORTED:
+ *           2x2 pivots; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     a full solve for each column, half a one where null vectors are not known, and
  *           O(n columns^2).
- *  Threads  any number at once on one F, each with its own W.
  *  Manual   tools/docs/singular.md
  *  Example  tests/core/test_pseudo.c
  */
@@ -1611,14 +1598,11 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_
  *  B      [in]      n x nrhs, column-major, leading dimension ldb elements.
  *  steps  [in]      maximum number of corrections per column, 0 or more; 0 only measures, and does
  *                   not return SL_ERR_INACCURATE.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  stats  [out]     refine; may be NULL.
- *  Returns  SL_OK; SL_ERR_INACCURATE: see above; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor;
- *           SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W
- *           could not grow.
+ *  stats  [out]     refine.
+ *  Returns  SL_OK; SL_ERR_INACCURATE: see above; SL_ERR_ARGUMENT; SL_ERR_STALE;
+ *           SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     one product with A, and another product and a solve per step; W grows to
  *           O(n min(nrhs, 8)).
- *  Threads  any number at once on one F, each with its own W.
  *  Source   [Sk80]: one step makes a solver stable row by row.
  *  Manual   tools/docs/indefinite.md
  *  Example  tests/core/test_refine.c
@@ -1640,13 +1624,12 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
  *  steps  [in]   maximum number of corrections per column, 0 or more; 0 only measures.
  *  stats  [out]  refine, with backward_error = max |E (x - previous x)| / max |b|, or that of
  *                rounding where it is larger; error.row with SL_ERR_ARGUMENT: a regularized row
- *                outside the reaches; may be NULL.
+ *                outside the reaches.
  *  Returns  as sl_plan_solve; SL_ERR_INACCURATE: this backward error is above options.error_limit
  *           of the factor after one or more steps, and X is written; SL_ERR_UNSUPPORTED: a plan in
  *           a region and a factor with regularized rows.
  *  Cost     1 + steps local solves; nothing O(n); no allocation once W has grown, by 16 numbers per
  *           row of the x-set.
- *  Threads  any number at once on one P and one F, each with its own W.
  *  Manual   tools/docs/indefinite.md
  *  Example  tests/core/test_refine_local.c
  */
@@ -1667,11 +1650,9 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_refined(const sl_plan *P, const sl
  *
  *  A      [in]      the matrix that F is a factor of.
  *  rcond  [out]     the estimate.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_OTHER_PATTERN: not the
- *           analyzed pattern; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_OTHER_PATTERN: not the analyzed pattern;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 to 10 solves, each with a product with A.
- *  Threads  any number at once on one F, each with its own W.
  *  Source   [Hi88]
  *  Example  tests/core/test_condition.c
  */
@@ -1690,11 +1671,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rcond(const sl_factor *F, const sl_csc
  *  Y      [out]  null rows x nrhs, column-major, leading dimension ldy elements; must not overlap
  *                B.
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W
- *           could not grow.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the forward sweep of sl_factor_solve.
- *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/core/test_consistency.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy,
@@ -1718,17 +1696,15 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
  *                       SL_GUARANTEED: a proved bound, by rounding errors a priori and the smallest
  *                       eigenvalue of A, which a second factor of A with a smaller diagonal proves;
  *                       as a rule 1e3 to 1e6 times larger. Barring underflow.
- *  W          [in,out]  workspace; NULL: allocated for this call.
- *  stats      [out]     certificate; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_STATE: guaranteed, and
- *           other values than those of F; SL_ERR_OTHER_PATTERN: not the analyzed pattern;
- *           SL_ERR_UNSUPPORTED: negative or regularized pivots, complex storage, options.mass with
- *           several or unknown null vectors; guaranteed also null pivots, L in float, restrictions;
- *           SL_ERR_INACCURATE: eta exceeds 1/16, as with an A that is not that of F;
- *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY. On errors F has no eta.
+ *  stats      [out]     certificate.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_STATE: guaranteed, and other values than
+ *           those of F; SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_UNSUPPORTED:
+ *           negative or regularized pivots, complex storage, options.mass with several or unknown
+ *           null vectors; guaranteed also null pivots, L in float, restrictions; SL_ERR_INACCURATE:
+ *           eta exceeds 1/16, as with an A that is not that of F; SL_ERR_TOO_LARGE, SL_ERR_MEMORY.
+ *           On errors F has no eta.
  *  Cost     estimated: 15 to 20 full solves; W grows by 20 n numbers. Guaranteed: 7 to 10
  *           factorizations; memory of a second factor while it runs.
- *  Threads  the caller serializes calls that change F.
  *  Source   [Ru06] for the eigenvalue; the bounds are derived in the manual.
  *  Manual   tools/docs/bounds.md
  *  Example  tests/core/test_bounds.c
@@ -1752,14 +1728,13 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_certify(sl_factor *F, const sl_csc *A,
  *  scales  [in,out]  4 nx + 2 numbers that depend on P and the numbers of F alone, all 0 before the
  *                    first call: computed in a call that finds those of another plan or of other
  *                    numbers. NULL: computed in every call.
- *  stats   [out]     certificate; may be NULL.
+ *  stats   [out]     certificate.
  *  Returns  as sl_plan_solve; also SL_ERR_STALE: F is not certified; SL_ERR_UNSUPPORTED: a plan in
  *           a region.
  *  Cost     that of sl_plan_solve and O(columns of the reach of b + nx) per right-hand side; the
  *           scales take nx forward sweeps in blocks of 8.
  *  Threads  as sl_plan_solve; scales are written by a call that computes them.
  *  Manual   tools/docs/bounds.md
- *  Example  tests/core/test_bounds.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl_factor *F,
                                                       double *X, size_t ldx, double *bounds,
@@ -1795,11 +1770,10 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
  *
  * All calls below
  *  F      [in]      a factor of A, n x n.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  stats  [out]     inverse; error.row, error.column: an index out of range. May be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, a negative count, an index out of range; SL_ERR_STALE:
- *           failed factor; SL_ERR_UNSUPPORTED: a factor with 2x2 pivots; SL_ERR_TOO_LARGE,
- *           SL_ERR_MEMORY: W could not grow. On error nothing is written.
+ *  stats  [out]     inverse; error.row, error.column: an index out of range.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, a negative count, an index out of range; SL_ERR_STALE;
+ *           SL_ERR_UNSUPPORTED: a factor with 2x2 pivots; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. On error
+ *           nothing is written.
  *  Cost     sweeps take 2 entries flops per lane, and 8 lanes take as long as two to three, so that
  *           many requests should share a call. A single pair is a local solve if that is cheaper.
  *           Nothing O(n), except for NULL sets; no allocation once W has grown to the largest reach
@@ -1877,17 +1851,16 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_bilinear(const sl_factor *F, double *
  *  selected inverse. Where that would lose digits, as pivots have both signs (inverse.h), the
  *  columns are solved for, up to 8 at a time. Entries of null pivots that were skipped are 0.
  *
- *  out    [out]  the selected inverse, or NULL on error; release with sl_selected_free. It does not
- *                change if F is refactored or released, until sl_selected_refactor.
+ *  out    [out]  the selected inverse. It does not change if F is refactored or released, until
+ *                sl_selected_refactor.
  *  F      [in]   the factor; its analysis is kept by the object.
  *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                ignored): all n. For an empty set pass a pointer that is not NULL and count = 0;
- *                it is not dereferenced.
- *  opt    [in]   allocator, threads; may be NULL. The object keeps the threads; without, those of
- *                F. The instruction set is that of F.
- *  stats  [out]  selected; error.row: a row out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_UNSUPPORTED: 2x2 pivots;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *                ignored): all n.
+ *  opt    [in]   allocator, threads. The object keeps the threads; without, those of F. The
+ *                instruction set is that of F.
+ *  stats  [out]  selected; error.row: a row out of range.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_UNSUPPORTED: 2x2 pivots; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
  *  Cost     about twice the flops of the factorization of the same supernodes; of columns that are
  *           solved for, some 10 to 100 times as long. Keeps entries doubles (stats.selected) and
  *           28 bytes per supernode, 44 with several threads. Temporary memory: 8 height^2 bytes
@@ -1908,18 +1881,16 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_create(sl_selected **out, const sl_f
  *
  *  Z      [in,out]  unchanged on error.
  *  F      [in]      a factor over the analysis that Z was made for.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_STATE: a factor of another
- *           analysis; SL_ERR_READ_ONLY: Z is mapped; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_STATE: a factor of another analysis;
+ *           SL_ERR_READ_ONLY: Z is mapped; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     as sl_selected_create; no allocation once W has grown. Up to twice as fast, since the
  *           memory is mapped already.
  *  Threads  exclusive use of Z; runs on the threads that Z was made with.
- *  Example  tests/core/test_selected.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_selected_refactor(sl_selected *Z, const sl_factor *F,
                                                      sl_work *W);
 
-/** Releases a selected inverse; NULL is allowed. */
+/** Releases a selected inverse. */
 SL_API void sl_selected_free(sl_selected *Z);
 
 /** Entries (A^-1)_ij on the pattern of L, or diagonal entries.
@@ -1929,14 +1900,12 @@ SL_API void sl_selected_free(sl_selected *Z);
  *  rows     [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
  *                  ignored): all n, which needs columns = NULL.
  *  columns  [in]   count columns of A in 0..n-1; NULL: columns = rows, the diagonal.
- *  stats    [out]  error.row, and error.column if columns are given; may be NULL.
+ *  stats    [out]  error.row, and error.column if columns are given.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or an index out of range; SL_ERR_OTHER_PATTERN: an entry
  *           that is not in the pattern of L or that the set of Z does not reach. error.row and
  *           error.column name it.
  *  Cost     O(count) binary searches; of the diagonal O(count), with a logarithmic factor if Z was
  *           made for a set.
- *  Threads  any number at once.
- *  Example  tests/core/test_selected.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_selected_entries(const sl_selected *Z, double *out,
                                                     const sl_int *rows, const sl_int *columns,
@@ -1988,21 +1957,19 @@ SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats);
  *  possible. Few large subtrees have a short boundary and large panels; with no subtree at all, the
  *  set itself is the boundary. The other rows of the subtrees belong to the region too.
  *
- *  out    [out]  the region, or NULL on error; release with sl_region_free. For options.region of
- *                sl_plan_create.
+ *  out    [out]  the region. For options.region of sl_plan_create.
  *  F      [in]   the factor, whose analysis the object keeps. When F is refactored, or a
  *                refactorization fails, plans in the region are refused until sl_region_refactor.
  *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                ignored): all n. For an empty set pass a pointer that is not NULL and count = 0;
- *                it is not dereferenced.
+ *                ignored): all n.
  *  Z      [in]   a selected inverse of the present numbers of F, or NULL. It is used if it contains
  *                all entries needed, for example those of a single row or of the subtree of one
  *                supernode; such a region is then preferred if it costs a solve at most twice as
  *                much. Otherwise forward sweeps compute the entries, as in sl_inverse_block.
- *  opt    [in]   allocator, region_bytes; may be NULL. Subtrees are chosen so that
- *                stats.region.bytes is at most region_bytes. If only a region without boundary
- *                fits, solves go to the roots of the tree.
- *  stats  [out]  region; error.row: a row out of range; may be NULL.
+ *  opt    [in]   allocator, region_bytes. Subtrees are chosen so that stats.region.bytes is at most
+ *                region_bytes. If only a region without boundary fits, solves go to the roots of
+ *                the tree.
+ *  stats  [out]  region; error.row: a row out of range.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor, or Z is not of the present F;
  *           SL_ERR_UNSUPPORTED: a factor made with options.mass or with 2x2 pivots;
  *           SL_ERR_INACCURATE: solves would lose digits; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
@@ -2027,19 +1994,17 @@ SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_facto
  *  F      [in]      a factor over the analysis that R was made for; from now on the only one that R
  *                   accepts.
  *  Z      [in]      as in sl_region_create; may be NULL.
- *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor, or Z is not of the present F;
  *           SL_ERR_STATE: a factor of another analysis; SL_ERR_READ_ONLY: R is mapped;
  *           SL_ERR_UNSUPPORTED, SL_ERR_INACCURATE: as sl_region_create; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     as sl_region_create without the plan; no allocation once W has grown.
  *  Threads  exclusive use of R and of its plans.
- *  Example  tests/core/test_region.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_region_refactor(sl_region *R, const sl_factor *F,
                                                    const sl_selected *Z, sl_work *W);
 
-/** Releases a region; NULL is allowed. */
+/** Releases a region. */
 SL_API void sl_region_free(sl_region *R);
 
 /** Fills the region group of stats. */
@@ -2143,16 +2108,15 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
 
 /** C = c_1 A_1 + .. + c_k A_k of symmetric matrices, as its lower triangle with ascending rows.
  *
- *  out           [out]  the matrix, n x n, or NULL on error; release with sl_matrix_free.
+ *  out           [out]  the matrix, n x n.
  *  coefficients  [in]   count numbers; NULL: the union of the patterns, without values.
  *  terms         [in]   count >= 1 square matrices of one size, each with any triangle, read as a
  *                       factorization reads them. Entries whose sum is 0 stay in the pattern.
- *  opt           [in]   allocator, triangle; may be NULL.
- *  stats         [out]  error.row, error.column: a malformed entry; may be NULL.
+ *  opt           [in]   allocator, triangle.
+ *  stats         [out]  error.row, error.column: a malformed entry.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: different sizes, no term, no values; SL_ERR_PATTERN;
  *           SL_ERR_TOO_LARGE: 2^31 or more entries in total; SL_ERR_MEMORY.
  *  Cost     O(n + entries of all terms).
- *  Threads  any number with different outputs.
  *  Example  tests/core/test_matrix_sum.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients,
@@ -2167,13 +2131,12 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coe
  *                 order, duplicates summed. Its pattern is a subset of the analyzed one; values may
  *                 be anything.
  *  stats   [out]  error.row, error.column: the first stored entry outside the analyzed pattern, or
- *                 a malformed one; may be NULL.
+ *                 a malformed one.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, no values; SL_ERR_PATTERN: malformed, or both
  *           triangles with an unsymmetric pattern; SL_ERR_OTHER_PATTERN: another size, or an entry
  *           outside the analyzed pattern; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + entries of S and of K); temporary memory from the allocator of S.
  *  Threads  reads S; any number with different arrays.
- *  Example  tests/core/test_matrix_sum.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values,
                                                     const sl_csc *K, sl_stats *stats);
@@ -2196,10 +2159,10 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_scatter(const sl_symbolic *S, double
  *                       column per factor.
  *  values        [in]   terms arrays in the order of S (sl_symbolic_scatter); not kept.
  *  terms         [in]   0 or more; the sum of no terms is the zero matrix.
- *  opt           [in]   as in sl_factor_create; may be NULL.
+ *  opt           [in]   as in sl_factor_create.
  *  failed        [out]  the first factor that failed, or -1; may be NULL.
  *  stats         [out]  error and factor: those of the failed factor, else of the last one; seconds
- *                       and bytes are sums over all factors. May be NULL.
+ *                       and bytes are sums over all factors.
  *  Returns  SL_OK, or the status of the first factor that failed: as sl_factor_create, but never
  *           SL_ERR_PATTERN or SL_ERR_OTHER_PATTERN. SL_ERR_NOT_FINITE: a coefficient (error.value,
  *           no row) or a sum, at error.row >= error.column.
@@ -2226,7 +2189,6 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, c
  *           SL_ERR_TOO_LARGE: only with the first refactorization of a loaded factor. After these
  *           no factor has changed. Else the status of the first factor that failed.
  *  Threads  exclusive use of the factors.
- *  Example  tests/core/test_combination.c, test_batch_factor.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
                                                   const double *coefficients,
@@ -2256,7 +2218,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_refactor(sl_factor *const *factors, sl_
  *  works    [in,out]  one workspace per thread, as in sl_batch_solve, or NULL: allocated for this
  *                     call.
  *  failed   [out]     the factor that caused the error, or -1; may be NULL.
- *  stats    [out]     error.row: an index out of range; may be NULL.
+ *  stats    [out]     error.row: an index out of range.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range; SL_ERR_STALE: a failed factor;
  *           SL_ERR_STATE: factors of several analyses; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     that of sl_inverse_diagonal for each factor, distributed.
@@ -2474,9 +2436,8 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *                   it has no numbers.
  *  V      [in]      n x k, any k, in the rows of A; duplicates are summed, zeros ignored.
  *  sigma  [in]      k weights of any sign; NULL: all 1.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  stats  [out]     change, factor; may be NULL. For pivots of both signs growth, pivot_min and
- *                   pivot_max become bounds until the next refactorization.
+ *  stats  [out]     change, factor. For pivots of both signs growth, pivot_min and pivot_max become
+ *                   bounds until the next refactorization.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also if V does not have n rows; SL_ERR_PATTERN: V is malformed;
  *           SL_ERR_OTHER_PATTERN: row error.row of V is not in the column of L of error.column;
  *           SL_ERR_PIVOT: a pivot would change its sign or vanish, at error.row; SL_ERR_NOT_FINITE:
@@ -2487,7 +2448,6 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
  *           written once for 8 vectors. Changes that may fail take another forward sweep or a copy.
  *           The first change of a definite factor allocates 9 bytes a row, for drift.
- *  Threads  exclusive use of F.
  *  Source   [DH01], with the factorization of [Bie76] for several vectors.
  *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_change.c
@@ -2515,13 +2475,11 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, 
  *                       sides; repeated ones add up. L must have an entry there; all entries of A
  *                       do.
  *  deltas         [in]  count changes.
- *  W              [in,out]  workspace; NULL: allocated for this call.
- *  stats          [out]     change, factor; may be NULL.
+ *  stats          [out]     change, factor.
  *  Returns  as sl_factor_refactor and sl_factor_update; SL_ERR_ARGUMENT: also an index out of
  *           range, at error.row and error.column.
  *  Cost     that of the way, and at most a few percent of a refactorization to count flops;
  *           nothing of O(n) or O(nnz) for rank-one changes.
- *  Threads  exclusive use of F.
  *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_change_choice.c
  */
@@ -2541,7 +2499,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
  *  columns  [in]      count columns of A, in which A stores changed entries; any order, repetitions
  *                     allowed.
  *  stats    [out]     factor, of all of L and A: the growth is that of sl_factor_refactor, to
- *                     rounding; may be NULL.
+ *                     rounding.
  *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error.row); SL_ERR_STALE:
  *           F has no numbers; SL_ERR_READ_ONLY: F is mapped.
  *  Cost     the fronts reached, and the update matrices of the subtrees below them, from L: about
@@ -2575,12 +2533,12 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const s
  *  check C' x = g in each tree of the factor and report the loss (SL_ERR_INACCURATE). Local solves
  *  check the equalities whose rows are all in their reach.
  *
- *  out  [out]  the set, or NULL on error; release with sl_pins_free.
+ *  out  [out]  the set.
  *  F    [in]   the factor; kept by the object. When F changes, solves are refused until
  *              sl_pins_refactor.
- *  opt  [in]   allocator; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_UNSUPPORTED: pivots of both
- *           signs, or 2x2 pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
+ *  opt  [in]   allocator.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_UNSUPPORTED: pivots of both signs, or 2x2
+ *           pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
  *  Cost     O(1); with SL_NULL_PIVOT_SKIP 8 bytes per row.
  *  Source   capacitance matrix of a change of low rank, as in [Hager89].
  *  Example  tests/core/test_pins.c
@@ -2588,14 +2546,14 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const s
 SL_API SL_WARN_UNUSED sl_status sl_pins_create(sl_pins **out, const sl_factor *F,
                                                const sl_options *opt);
 
-/** Releases a set of pins; NULL is allowed. */
+/** Releases a set of pins. */
 SL_API void sl_pins_free(sl_pins *P);
 
 /** Adds pins, all or none: x is held at values in rows of A. They become the last ones of P, in the
  *  order of rows.
  *
  *  rows   [in]   count >= 0 rows in 0..n-1.
- *  stats  [out]  pins; error.row; may be NULL.
+ *  stats  [out]  pins; error.row.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: a row is held already, by its pin or by a
  *           combination of the others, up to rounding; SL_ERR_STALE: F has changed;
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
@@ -2603,7 +2561,6 @@ SL_API void sl_pins_free(sl_pins *P);
  *  Cost     for each pin, a forward sweep, which up to 8 nearby rows share, k products over shared
  *           columns and O(k^2), with k pins before it; keeps 16 bytes per column of the path, and 4
  *           per row below its supernodes. 100 pins together take half as long as one by one.
- *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count,
                                             sl_stats *stats);
@@ -2621,21 +2578,18 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *r
 /** Releases pins, all or none. The others move together and keep their order.
  *
  *  indices  [in]   count >= 0 different numbers of pins, 0-based, in any order.
- *  stats    [out]  pins, of which count is the number that is left; may be NULL.
+ *  stats    [out]  pins, of which count is the number that is left.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     O(k^2) for each.
- *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count,
                                                 sl_stats *stats);
 
 /** Takes the present numbers of the factor, after it has changed.
  *
- *  stats  [out]  pins; error.row; may be NULL.
- *  Returns  as sl_pins_add; SL_ERR_STALE: failed factor. On error solves are refused until a later
- *           call succeeds.
+ *  stats  [out]  pins; error.row.
+ *  Returns  as sl_pins_add; SL_ERR_STALE. On error solves are refused until a later call succeeds.
  *  Cost     that of sl_pins_add for all pins.
- *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
 
@@ -2651,7 +2605,6 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
  *                values in rows that are pins are not used.
  *  G      [in]   k x nrhs, column-major, leading dimension ldg elements: the values, in the order
  *                of the pins.
- *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: F has changed; SL_ERR_STATE: the plan is of
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: C' x = g
  *           does not hold to 1e-8 of x or, where g is 0, of b / max |a|, or rounding hides whether
@@ -2660,7 +2613,6 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
  *           before it; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     for each right-hand side a solve, k products over shared columns, twice, and O(k^2);
  *           as much for each null vector of components with pins.
- *  Threads  any number at once on one P, each with its own W.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
                                               size_t ldx, const double *B, size_t ldb,
@@ -2681,14 +2633,14 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *p
  *  pivots by null_tolerance: a component of a singular Laplacian that is in R as a whole gives
  *  SL_ERR_PIVOT.
  *
- *  S      [out]  the analysis, or NULL on error; release with sl_symbolic_free.
- *  G      [out]  the factor, or NULL on error; release with sl_factor_free.
+ *  S      [out]  the analysis.
+ *  G      [out]  the factor.
  *  F      [in]   a factor of A.
  *  A      [in]   the matrix that F was computed from. Read only in the columns of R that are
  *                computed again; neither its pattern nor its two triangles are compared.
  *  rows   [in]   count rows of A in 0..n-1, any order, no duplicates.
- *  opt    [in]   allocator; may be NULL.
- *  stats  [out]  restriction, factor; errors are in rows of A; may be NULL.
+ *  opt    [in]   allocator.
+ *  stats  [out]  restriction, factor; errors are in rows of A.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
  *           SL_ERR_OTHER_PATTERN: A differs in size, entries or triangle from the analyzed matrix;
  *           SL_ERR_PATTERN: error.column of it is malformed; SL_ERR_PIVOT, _NOT_FINITE,
@@ -2718,16 +2670,16 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **
  *  rows have other neighbors, or the edits are not local, this call does so itself
  *  (stats.edit.is_anew).
  *
- *  out     [out]  the analysis of B, or NULL on error; release with sl_symbolic_free. It does not
- *                 depend on S. It has no separator tree, unless it is a new one.
+ *  out     [out]  the analysis of B. It does not depend on S. It has no separator tree, unless it
+ *                 is a new one.
  *  S       [in]   an analysis of A.
  *  A       [in]   the matrix that S was created from; values are not read.
  *  B       [in]   n x n, symmetric, any n; values are not read; not kept.
  *  new_of  [in]   rows of A: new_of[i] is the row of B that row i of A has become, or -1 if it is
  *                 gone. Rows of B that do not occur are new.
  *  opt     [in]   allocator, triangle, relaxation; with a new order all that sl_symbolic_create
- *                 reads; may be NULL.
- *  stats   [out]  symbolic, edit; may be NULL.
+ *                 reads.
+ *  stats   [out]  symbolic, edit.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
  *           the row of A), and as sl_symbolic_create; SL_ERR_OTHER_PATTERN: A does not have the
  *           analyzed pattern; SL_ERR_PATTERN: B is malformed or not symmetric; SL_ERR_UNSUPPORTED:
@@ -2755,15 +2707,14 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
  *  as accurate as those of a new factor, but their last bits may differ. Copied pivots are not
  *  judged again by the null tolerance, whose default depends on n.
  *
- *  out     [out]  the factor of B, or NULL on error; release with sl_factor_free. It does not
- *                 depend on F.
+ *  out     [out]  the factor of B. It does not depend on F.
  *  F       [in]   a factor of A. It stays as it is, and so must its analysis during the call.
  *  S       [in]   an analysis of B, such as that of sl_symbolic_edit; kept by out.
  *  B       [in]   n x n, the matrix that S was created from. Two triangles are not compared.
  *  new_of  [in]   rows of A: new_of[i] is the row of B that row i of A has become, or -1 if it is
  *                 gone. After several edits, the composition of their maps.
- *  opt     [in]   as for sl_factor_create; may be NULL.
- *  stats   [out]  factor, reuse; may be NULL.
+ *  opt     [in]   as for sl_factor_create.
+ *  stats   [out]  factor, reuse.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
  *           the row of A); SL_ERR_STALE: F has no numbers; otherwise as sl_factor_create.
  *  Cost     O(n + nnz + rows of supernodes), a copy of L, and stats.reuse.flops. Where 0.1 % of a
@@ -2837,14 +2788,13 @@ typedef struct sl_hermitian {
  *  beside the diagonal: with options.block_size 2 the columns of a block then follow each other in
  *  one supernode.
  *
- *  out    [out]  2n x 2n, or NULL on error; release with sl_matrix_free.
- *  opt    [in]   allocator; may be NULL.
- *  stats  [out]  error.row, error.column, in complex rows; may be NULL.
+ *  out    [out]  2n x 2n.
+ *  opt    [in]   allocator.
+ *  stats  [out]  error.row, error.column, in complex rows.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also im without x, or a diagonal entry with an imaginary part
  *           that is not 0; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^30 - 4 rows, or more than
  *           2^31 - 1 entries, of which a complex one is 4; SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
- *  Threads  any number with different outputs.
  *  Example  tests/core/test_complex.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H,
@@ -2854,12 +2804,10 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_hermitian(sl_matrix **out, const 
  *  sl_factor_refactor.
  *
  *  M      [in,out]  of sl_matrix_from_hermitian, with values; on error untouched.
- *  stats  [out]     error.row, error.column, in complex rows; may be NULL.
+ *  stats  [out]     error.row, error.column, in complex rows.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a pattern without values; SL_ERR_PATTERN;
  *           SL_ERR_OTHER_PATTERN: not that of M.
  *  Cost     O(n + nnz).
- *  Threads  exclusive use of M.
- *  Example  tests/core/test_complex.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_refill_hermitian(sl_matrix *M, const sl_hermitian *H,
                                                            sl_stats *stats);
@@ -2882,7 +2830,6 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_rows(sl_int *out, const sl_int *rows,
  *  Returns  as sl_plan_create; SL_ERR_ARGUMENT also if S has an odd number of columns.
  *  Cost     as sl_plan_create.
  *  Threads  as sl_plan_create.
- *  Example  tests/core/test_complex.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S,
                                                        const sl_int *bset, sl_int nb,
@@ -2931,7 +2878,6 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_block(const sl_factor *F, dou
  *  Returns  as sl_inverse_pairs; SL_ERR_ARGUMENT also if F has an odd number of rows.
  *  Cost     sl_inverse_pairs of 2 count entries; allocates the sets.
  *  Threads  as sl_inverse_pairs.
- *  Example  tests/core/test_complex.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out,
                                                          const sl_int *rows, const sl_int *columns,
@@ -2952,10 +2898,10 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_pairs(const sl_factor *F, dou
  *  general file gives its entries as they are. Duplicates are summed. A pattern file gives a matrix
  *  with x = NULL.
  *
- *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
+ *  out    [out]  the matrix.
  *  path   [in]   name of the file.
- *  opt    [in]   allocator; may be NULL.
- *  stats  [out]  error; may be NULL.
+ *  opt    [in]   allocator.
+ *  stats  [out]  error.
  *  Returns  SL_OK; SL_ERR_IO: no such file, or malformed at error.line, also by a line of 65536
  *           bytes or more that is not a comment; SL_ERR_UNSUPPORTED: complex, array or
  *           skew-symmetric, which error.what names; SL_ERR_PATTERN: a symmetric file with an entry
@@ -2999,14 +2945,13 @@ typedef struct sl_csc64 {
  *  of the view (sl_matrix_view) to the caller's values. With A->x = NULL only the indices are
  *  copied.
  *
- *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
- *  opt    [in]   allocator; may be NULL.
+ *  out    [out]  the matrix.
+ *  opt    [in]   allocator.
  *  stats  [out]  error.column: positions that are not ascending; with error.row, if it fits its
- *                type, an index out of range; may be NULL.
+ *                type, an index out of range.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^31 - 8 rows or
  *           columns, or more than 2^31 - 1 entries; SL_ERR_MEMORY.
  *  Cost     O(n_cols + nnz).
- *  Threads  any number with different outputs.
  *  Example  tests/core/test_csc64.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A,
@@ -3029,11 +2974,10 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_c
  *  gives SL_ERR_UNSUPPORTED. Factors with 2x2 pivots are supernodal; entries of the inverse,
  *  selected inverses and regions refuse them with SL_ERR_UNSUPPORTED.
  *
- *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free. It has no separator
- *                tree.
+ *  out    [out]  the analysis. It has no separator tree.
  *  A      [in]   n x n, symmetric, with values; not kept.
  *  opt    [in]   as sl_symbolic_create; the ordering is the one to start from.
- *  stats  [out]  symbolic, pairs and delayed included; may be NULL.
+ *  stats  [out]  symbolic, pairs and delayed included.
  *  Returns  as sl_symbolic_create; SL_ERR_ARGUMENT: A has no values; SL_ERR_NOT_FINITE: an entry at
  *           error.row, error.column. A singular matrix is analyzed; its factorization is refused.
  *  Cost     two analyses, of which one orders, and a factorization in plain C on one thread, which

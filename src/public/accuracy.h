@@ -21,14 +21,11 @@
  *  B      [in]      n x nrhs, column-major, leading dimension ldb elements.
  *  steps  [in]      maximum number of corrections per column, 0 or more; 0 only measures, and does
  *                   not return SL_ERR_INACCURATE.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  stats  [out]     refine; may be NULL.
- *  Returns  SL_OK; SL_ERR_INACCURATE: see above; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor;
- *           SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W
- *           could not grow.
+ *  stats  [out]     refine.
+ *  Returns  SL_OK; SL_ERR_INACCURATE: see above; SL_ERR_ARGUMENT; SL_ERR_STALE;
+ *           SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     one product with A, and another product and a solve per step; W grows to
  *           O(n min(nrhs, 8)).
- *  Threads  any number at once on one F, each with its own W.
  *  Source   [Sk80]: one step makes a solver stable row by row.
  *  Manual   tools/docs/indefinite.md
  *  Example  tests/core/test_refine.c
@@ -50,13 +47,12 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
  *  steps  [in]   maximum number of corrections per column, 0 or more; 0 only measures.
  *  stats  [out]  refine, with backward_error = max |E (x - previous x)| / max |b|, or that of
  *                rounding where it is larger; error.row with SL_ERR_ARGUMENT: a regularized row
- *                outside the reaches; may be NULL.
+ *                outside the reaches.
  *  Returns  as sl_plan_solve; SL_ERR_INACCURATE: this backward error is above options.error_limit
  *           of the factor after one or more steps, and X is written; SL_ERR_UNSUPPORTED: a plan in
  *           a region and a factor with regularized rows.
  *  Cost     1 + steps local solves; nothing O(n); no allocation once W has grown, by 16 numbers per
  *           row of the x-set.
- *  Threads  any number at once on one P and one F, each with its own W.
  *  Manual   tools/docs/indefinite.md
  *  Example  tests/core/test_refine_local.c
  */
@@ -77,11 +73,9 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_refined(const sl_plan *P, const sl
  *
  *  A      [in]      the matrix that F is a factor of.
  *  rcond  [out]     the estimate.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_OTHER_PATTERN: not the
- *           analyzed pattern; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_OTHER_PATTERN: not the analyzed pattern;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 to 10 solves, each with a product with A.
- *  Threads  any number at once on one F, each with its own W.
  *  Source   [Hi88]
  *  Example  tests/core/test_condition.c
  */
@@ -100,11 +94,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rcond(const sl_factor *F, const sl_csc
  *  Y      [out]  null rows x nrhs, column-major, leading dimension ldy elements; must not overlap
  *                B.
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W
- *           could not grow.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the forward sweep of sl_factor_solve.
- *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/core/test_consistency.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy,

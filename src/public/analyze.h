@@ -12,12 +12,12 @@
  *  supernodes is replaced by an equivalent one, of the same fill: sl_symbolic_view's perm is the
  *  order used.
  *
- *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free.
+ *  out    [out]  the analysis.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
  *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, metis_options,
- *                block_size, purpose; may be NULL. block_size is used by all but
- *                SL_ORDERING_GIVEN and SL_ORDERING_NATURAL; every ordering refuses an invalid one.
- *  stats  [out]  symbolic; may be NULL.
+ *                block_size, purpose. block_size is used by all but SL_ORDERING_GIVEN and
+ *                SL_ORDERING_NATURAL; every ordering refuses an invalid one.
+ *  stats  [out]  symbolic.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first
  *           offending position), or another option that is not allowed; SL_ERR_PATTERN;
  *           SL_ERR_UNSUPPORTED: METIS is not compiled in; SL_ERR_ORDERING: METIS failed;
@@ -37,7 +37,7 @@
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
                                                    const sl_options *opt, sl_stats *stats);
 
-/** Releases an analysis; NULL is allowed. Objects made from it keep it as long as they need it: all
+/** Releases an analysis. Objects made from it keep it as long as they need it: all
  *  objects may be freed in any order (intro.h). */
 SL_API void sl_symbolic_free(sl_symbolic *S);
 

@@ -21,17 +21,15 @@
  *                       SL_GUARANTEED: a proved bound, by rounding errors a priori and the smallest
  *                       eigenvalue of A, which a second factor of A with a smaller diagonal proves;
  *                       as a rule 1e3 to 1e6 times larger. Barring underflow.
- *  W          [in,out]  workspace; NULL: allocated for this call.
- *  stats      [out]     certificate; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_STATE: guaranteed, and
- *           other values than those of F; SL_ERR_OTHER_PATTERN: not the analyzed pattern;
- *           SL_ERR_UNSUPPORTED: negative or regularized pivots, complex storage, options.mass with
- *           several or unknown null vectors; guaranteed also null pivots, L in float, restrictions;
- *           SL_ERR_INACCURATE: eta exceeds 1/16, as with an A that is not that of F;
- *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY. On errors F has no eta.
+ *  stats      [out]     certificate.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_STATE: guaranteed, and other values than
+ *           those of F; SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_UNSUPPORTED:
+ *           negative or regularized pivots, complex storage, options.mass with several or unknown
+ *           null vectors; guaranteed also null pivots, L in float, restrictions; SL_ERR_INACCURATE:
+ *           eta exceeds 1/16, as with an A that is not that of F; SL_ERR_TOO_LARGE, SL_ERR_MEMORY.
+ *           On errors F has no eta.
  *  Cost     estimated: 15 to 20 full solves; W grows by 20 n numbers. Guaranteed: 7 to 10
  *           factorizations; memory of a second factor while it runs.
- *  Threads  the caller serializes calls that change F.
  *  Source   [Ru06] for the eigenvalue; the bounds are derived in the manual.
  *  Manual   tools/docs/bounds.md
  *  Example  tests/core/test_bounds.c
@@ -55,14 +53,13 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_certify(sl_factor *F, const sl_csc *A,
  *  scales  [in,out]  4 nx + 2 numbers that depend on P and the numbers of F alone, all 0 before the
  *                    first call: computed in a call that finds those of another plan or of other
  *                    numbers. NULL: computed in every call.
- *  stats   [out]     certificate; may be NULL.
+ *  stats   [out]     certificate.
  *  Returns  as sl_plan_solve; also SL_ERR_STALE: F is not certified; SL_ERR_UNSUPPORTED: a plan in
  *           a region.
  *  Cost     that of sl_plan_solve and O(columns of the reach of b + nx) per right-hand side; the
  *           scales take nx forward sweeps in blocks of 8.
  *  Threads  as sl_plan_solve; scales are written by a call that computes them.
  *  Manual   tools/docs/bounds.md
- *  Example  tests/core/test_bounds.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl_factor *F,
                                                       double *X, size_t ldx, double *bounds,

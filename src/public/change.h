@@ -22,9 +22,8 @@
  *                   it has no numbers.
  *  V      [in]      n x k, any k, in the rows of A; duplicates are summed, zeros ignored.
  *  sigma  [in]      k weights of any sign; NULL: all 1.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  stats  [out]     change, factor; may be NULL. For pivots of both signs growth, pivot_min and
- *                   pivot_max become bounds until the next refactorization.
+ *  stats  [out]     change, factor. For pivots of both signs growth, pivot_min and pivot_max become
+ *                   bounds until the next refactorization.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also if V does not have n rows; SL_ERR_PATTERN: V is malformed;
  *           SL_ERR_OTHER_PATTERN: row error.row of V is not in the column of L of error.column;
  *           SL_ERR_PIVOT: a pivot would change its sign or vanish, at error.row; SL_ERR_NOT_FINITE:
@@ -35,7 +34,6 @@
  *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
  *           written once for 8 vectors. Changes that may fail take another forward sweep or a copy.
  *           The first change of a definite factor allocates 9 bytes a row, for drift.
- *  Threads  exclusive use of F.
  *  Source   [DH01], with the factorization of [Bie76] for several vectors.
  *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_change.c
@@ -63,13 +61,11 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, 
  *                       sides; repeated ones add up. L must have an entry there; all entries of A
  *                       do.
  *  deltas         [in]  count changes.
- *  W              [in,out]  workspace; NULL: allocated for this call.
- *  stats          [out]     change, factor; may be NULL.
+ *  stats          [out]     change, factor.
  *  Returns  as sl_factor_refactor and sl_factor_update; SL_ERR_ARGUMENT: also an index out of
  *           range, at error.row and error.column.
  *  Cost     that of the way, and at most a few percent of a refactorization to count flops;
  *           nothing of O(n) or O(nnz) for rank-one changes.
- *  Threads  exclusive use of F.
  *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_change_choice.c
  */
@@ -89,7 +85,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
  *  columns  [in]      count columns of A, in which A stores changed entries; any order, repetitions
  *                     allowed.
  *  stats    [out]     factor, of all of L and A: the growth is that of sl_factor_refactor, to
- *                     rounding; may be NULL.
+ *                     rounding.
  *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error.row); SL_ERR_STALE:
  *           F has no numbers; SL_ERR_READ_ONLY: F is mapped.
  *  Cost     the fronts reached, and the update matrices of the subtrees below them, from L: about

@@ -45,14 +45,13 @@ typedef struct sl_hermitian {
  *  beside the diagonal: with options.block_size 2 the columns of a block then follow each other in
  *  one supernode.
  *
- *  out    [out]  2n x 2n, or NULL on error; release with sl_matrix_free.
- *  opt    [in]   allocator; may be NULL.
- *  stats  [out]  error.row, error.column, in complex rows; may be NULL.
+ *  out    [out]  2n x 2n.
+ *  opt    [in]   allocator.
+ *  stats  [out]  error.row, error.column, in complex rows.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also im without x, or a diagonal entry with an imaginary part
  *           that is not 0; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^30 - 4 rows, or more than
  *           2^31 - 1 entries, of which a complex one is 4; SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
- *  Threads  any number with different outputs.
  *  Example  tests/core/test_complex.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H,
@@ -62,12 +61,10 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_hermitian(sl_matrix **out, const 
  *  sl_factor_refactor.
  *
  *  M      [in,out]  of sl_matrix_from_hermitian, with values; on error untouched.
- *  stats  [out]     error.row, error.column, in complex rows; may be NULL.
+ *  stats  [out]     error.row, error.column, in complex rows.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a pattern without values; SL_ERR_PATTERN;
  *           SL_ERR_OTHER_PATTERN: not that of M.
  *  Cost     O(n + nnz).
- *  Threads  exclusive use of M.
- *  Example  tests/core/test_complex.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_refill_hermitian(sl_matrix *M, const sl_hermitian *H,
                                                            sl_stats *stats);
@@ -90,7 +87,6 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_rows(sl_int *out, const sl_int *rows,
  *  Returns  as sl_plan_create; SL_ERR_ARGUMENT also if S has an odd number of columns.
  *  Cost     as sl_plan_create.
  *  Threads  as sl_plan_create.
- *  Example  tests/core/test_complex.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S,
                                                        const sl_int *bset, sl_int nb,

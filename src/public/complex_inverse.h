@@ -28,7 +28,6 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_block(const sl_factor *F, dou
  *  Returns  as sl_inverse_pairs; SL_ERR_ARGUMENT also if F has an odd number of rows.
  *  Cost     sl_inverse_pairs of 2 count entries; allocates the sets.
  *  Threads  as sl_inverse_pairs.
- *  Example  tests/core/test_complex.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out,
                                                          const sl_int *rows, const sl_int *columns,

@@ -7,16 +7,15 @@
 
 /** Creates a matrix from triplets: equal positions are summed, rows are ascending.
  *
- *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
+ *  out    [out]  the matrix.
  *  count  [in]   number of triplets.
  *  i, j   [in]   count row indices in 0..n_rows-1 and column indices in 0..n_cols-1, any order.
  *  x      [in]   count values; NULL: a pattern without values.
- *  opt    [in]   allocator; may be NULL.
- *  stats  [out]  error.row, error.column: an index out of range; may be NULL.
+ *  opt    [in]   allocator.
+ *  stats  [out]  error.row, error.column: an index out of range.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE: more than 2^31 - 1 triplets, or more than
  *           2^31 - 8 rows or columns; SL_ERR_MEMORY.
  *  Cost     O(count + n_rows + n_cols).
- *  Threads  any number with different outputs.
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows,
                                                         sl_int n_cols, sl_off count,
@@ -39,7 +38,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_cs
  *  column are in any order; duplicates stay.
  *
  *  rows   [in]   count rows of A in 0..n-1, any order, none twice.
- *  stats  [out]  error.row: a row out of range or given twice; may be NULL.
+ *  stats  [out]  error.row: a row out of range or given twice.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also not square; SL_ERR_PATTERN; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
@@ -51,12 +50,12 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_submatrix(sl_matrix **out, const sl_cs
 /** The arrays of a matrix; valid as long as M. A NULL M gives a 0 x 0 view. */
 SL_API sl_csc sl_matrix_view(const sl_matrix *M);
 
-/** Releases a matrix; NULL is allowed. */
+/** Releases a matrix. */
 SL_API void sl_matrix_free(sl_matrix *M);
 
 /** Checks a view: sizes, positions ascending from 0, indices in range.
  *
- *  stats  [out]  error.column and, for an index out of range, error.row; may be NULL.
+ *  stats  [out]  error.column and, for an index out of range, error.row.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: A or one of its arrays is NULL; SL_ERR_PATTERN;
  *           SL_ERR_TOO_LARGE: more rows or columns than sl_csc allows.
  *  Cost     O(n_cols + nnz).
@@ -68,8 +67,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_check(const sl_csc *A, sl_stats *stats);
  *  If A stores both triangles, checks that its pattern is symmetric.
  *
  *  out    [out]  the triangle; on error untouched.
- *  opt    [in]   allocator, triangle; may be NULL.
- *  stats  [out]  error.row, error.column: an entry without its mirror image; may be NULL.
+ *  opt    [in]   allocator, triangle.
+ *  stats  [out]  error.row, error.column: an entry without its mirror image.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
  */

@@ -11,15 +11,15 @@
  *  is there already, and the pack of pins is compiled in, the cheapest of three ways is taken, by
  *  counted cost (stats.dirichlet): the same, sl_factor_restrict, or pins on that factor.
  *
- *  out    [out]  the object, or NULL on error; release with sl_dirichlet_free.
+ *  out    [out]  the object.
  *  A      [in]   n x n with values, symmetric, not kept. Entries between fixed rows are not read,
  *                and two triangles not compared.
  *  rows   [in]   count rows of A in 0..n-1 that are fixed, any order, none twice; from none to all.
  *  F      [in]   a factor of A, or NULL. Used only if it was computed from the values of A, and opt
  *                has none of perm, mass, signs, null_vector, regularization, SL_NULL_PIVOT_SKIP.
  *  opt    [in]   allocator, threads, and what sl_symbolic_create and sl_factor_create read, in rows
- *                of A: perm, mass, signs and null_vector have n entries; may be NULL.
- *  stats  [out]  dirichlet, symbolic, factor; errors are in rows of A; may be NULL.
+ *                of A: perm, mass, signs and null_vector have n entries.
+ *  stats  [out]  dirichlet, symbolic, factor; errors are in rows of A.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
  *           SL_ERR_PIVOT: A[free, free] is singular, as where no row of a component of a Laplacian
  *           is fixed (error.row); others as sl_symbolic_create and sl_factor_create.
@@ -33,18 +33,17 @@ SL_API SL_WARN_UNUSED sl_status sl_dirichlet_create(sl_dirichlet **out, const sl
                                                     const sl_factor *F, const sl_options *opt,
                                                     sl_stats *stats);
 
-/** Releases the object; NULL is allowed. */
+/** Releases the object. */
 SL_API void sl_dirichlet_free(sl_dirichlet *D);
 
 /** Takes new values of A. An object that uses a factor of A gets one of its own.
  *
  *  A      [in]   the pattern that sl_dirichlet_create was given, its entries in the same order.
- *  stats  [out]  dirichlet, factor; errors are in rows of A; may be NULL.
+ *  stats  [out]  dirichlet, factor; errors are in rows of A.
  *  Returns  as sl_dirichlet_create; SL_ERR_OTHER_PATTERN: another pattern. After SL_ERR_PIVOT,
  *           _NOT_FINITE, _INACCURATE and _UNSUPPORTED solves are refused until a
  *           refactorization succeeds; after other errors D is as before.
  *  Cost     a refactorization of A[free, free]; nothing is allocated, except for its first factor.
- *  Threads  exclusive use of D.
  */
 SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A,
                                                       sl_stats *stats);
@@ -60,7 +59,6 @@ SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_
  *  G     [in]   count x nrhs, column-major, leading dimension ldg elements, or row-major as X: the
  *               values, in the order of rows. May be NULL if count = 0.
  *  nrhs  [in]   number of right-hand sides, 0 or more.
- *  W     [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed refactorization, or the factor whose
  *           pins are used has changed; SL_ERR_NOT_FINITE, SL_ERR_INCONSISTENT: as sl_factor_solve;
  *           SL_ERR_INACCURATE: as sl_pins_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.

@@ -14,16 +14,16 @@
  *  rows have other neighbors, or the edits are not local, this call does so itself
  *  (stats.edit.is_anew).
  *
- *  out     [out]  the analysis of B, or NULL on error; release with sl_symbolic_free. It does not
- *                 depend on S. It has no separator tree, unless it is a new one.
+ *  out     [out]  the analysis of B. It does not depend on S. It has no separator tree, unless it
+ *                 is a new one.
  *  S       [in]   an analysis of A.
  *  A       [in]   the matrix that S was created from; values are not read.
  *  B       [in]   n x n, symmetric, any n; values are not read; not kept.
  *  new_of  [in]   rows of A: new_of[i] is the row of B that row i of A has become, or -1 if it is
  *                 gone. Rows of B that do not occur are new.
  *  opt     [in]   allocator, triangle, relaxation; with a new order all that sl_symbolic_create
- *                 reads; may be NULL.
- *  stats   [out]  symbolic, edit; may be NULL.
+ *                 reads.
+ *  stats   [out]  symbolic, edit.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
  *           the row of A), and as sl_symbolic_create; SL_ERR_OTHER_PATTERN: A does not have the
  *           analyzed pattern; SL_ERR_PATTERN: B is malformed or not symmetric; SL_ERR_UNSUPPORTED:
@@ -51,15 +51,14 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
  *  as accurate as those of a new factor, but their last bits may differ. Copied pivots are not
  *  judged again by the null tolerance, whose default depends on n.
  *
- *  out     [out]  the factor of B, or NULL on error; release with sl_factor_free. It does not
- *                 depend on F.
+ *  out     [out]  the factor of B. It does not depend on F.
  *  F       [in]   a factor of A. It stays as it is, and so must its analysis during the call.
  *  S       [in]   an analysis of B, such as that of sl_symbolic_edit; kept by out.
  *  B       [in]   n x n, the matrix that S was created from. Two triangles are not compared.
  *  new_of  [in]   rows of A: new_of[i] is the row of B that row i of A has become, or -1 if it is
  *                 gone. After several edits, the composition of their maps.
- *  opt     [in]   as for sl_factor_create; may be NULL.
- *  stats   [out]  factor, reuse; may be NULL.
+ *  opt     [in]   as for sl_factor_create.
+ *  stats   [out]  factor, reuse.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
  *           the row of A); SL_ERR_STALE: F has no numbers; otherwise as sl_factor_create.
  *  Cost     O(n + nnz + rows of supernodes), a copy of L, and stats.reuse.flops. Where 0.1 % of a

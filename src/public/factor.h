@@ -13,13 +13,13 @@
  *  most about epsilon * stats.factor.growth. If that is not small enough, or if pivots were
  *  regularized, call sl_factor_refine, and trust X if it returns SL_OK.
  *
- *  out    [out]  the factor, or NULL on error; release with sl_factor_free.
+ *  out    [out]  the factor.
  *  S      [in]   analysis of A's pattern; kept by the factor.
  *  A      [in]   n x n with values; the analyzed pattern with its entries in the same order.
  *  opt    [in]   allocator, threads, isa, method, null_pivots, null_tolerance, mass,
  *                consistency_tolerance, regularization, signs, null_vector, null_vector_count,
- *                growth_limit, error_limit, storage, definite; may be NULL.
- *  stats  [out]  factor; may be NULL.
+ *                growth_limit, error_limit, storage, definite.
+ *  stats  [out]  factor.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, or at error.row a
  *           weight, sign or null vector that is not allowed; SL_ERR_OTHER_PATTERN: not the analyzed
  *           one, from error.row, error.column on; SL_ERR_PATTERN: malformed, or two triangles whose
@@ -55,17 +55,16 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *                   SL_ERR_PIVOT, _NOT_FINITE, _INACCURATE and _UNSUPPORTED it has no numbers, and
  *                   every solve refuses it until a refactor succeeds.
  *  A      [in]      the analyzed pattern, new values. Two triangles are not compared.
- *  stats  [out]     factor; may be NULL.
+ *  stats  [out]     factor.
  *  Returns  as sl_factor_create; SL_ERR_READ_ONLY: a mapped factor (sl_map_file). SL_ERR_MEMORY and
  *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load_file),
  *           which allocates its fronts; SL_ERR_UNSUPPORTED only with SL_STORAGE_COMPLEX.
  *  Cost     as sl_factor_create, without its memory.
- *  Threads  exclusive use of F.
  *  Example  tests/core/test_factor.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats);
 
-/** Releases a factor; NULL is allowed. */
+/** Releases a factor. */
 SL_API void sl_factor_free(sl_factor *F);
 
 /** Fills the factor group of stats. */
@@ -85,7 +84,7 @@ typedef enum sl_pivot_kind {
  *  shifts    [out]  the diagonal entries of E in these rows, 0 for null pivots; may be NULL.
  *  capacity  [in]   length of rows and shifts.
  *  count     [out]  how many there are; may exceed capacity.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor.  Cost  O(count).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE.  Cost  O(count).
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_pivot_rows(const sl_factor *F, sl_pivot_kind kind,
                                                      sl_int *rows, double *shifts, sl_int capacity,
@@ -98,7 +97,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_pivot_rows(const sl_factor *F, sl_pivo
  *  number of rows. If regularization changed pivots: the determinant of A + E. Computed as a sum of
  *  logarithms, which cannot overflow.
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor.  Cost  O(n).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE.  Cost  O(n).
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det,
                                                  double *sign);
@@ -108,10 +107,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log
  *  Contains the entries that are not exactly 0: zeros from relaxation and padding are left out, and
  *  so is an entry that became 0 by cancellation.
  *
- *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
- *  opt    [in]   allocator; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_TOO_LARGE: 2^31 or more
- *           entries; SL_ERR_MEMORY.
+ *  out    [out]  the matrix.
+ *  opt    [in]   allocator.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_TOO_LARGE: 2^31 or more entries;
+ *           SL_ERR_MEMORY.
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F,
                                                 const sl_options *opt);

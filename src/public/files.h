@@ -12,10 +12,10 @@
  *  general file gives its entries as they are. Duplicates are summed. A pattern file gives a matrix
  *  with x = NULL.
  *
- *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
+ *  out    [out]  the matrix.
  *  path   [in]   name of the file.
- *  opt    [in]   allocator; may be NULL.
- *  stats  [out]  error; may be NULL.
+ *  opt    [in]   allocator.
+ *  stats  [out]  error.
  *  Returns  SL_OK; SL_ERR_IO: no such file, or malformed at error.line, also by a line of 65536
  *           bytes or more that is not a comment; SL_ERR_UNSUPPORTED: complex, array or
  *           skew-symmetric, which error.what names; SL_ERR_PATTERN: a symmetric file with an entry
@@ -59,14 +59,13 @@ typedef struct sl_csc64 {
  *  of the view (sl_matrix_view) to the caller's values. With A->x = NULL only the indices are
  *  copied.
  *
- *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
- *  opt    [in]   allocator; may be NULL.
+ *  out    [out]  the matrix.
+ *  opt    [in]   allocator.
  *  stats  [out]  error.column: positions that are not ascending; with error.row, if it fits its
- *                type, an index out of range; may be NULL.
+ *                type, an index out of range.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^31 - 8 rows or
  *           columns, or more than 2^31 - 1 entries; SL_ERR_MEMORY.
  *  Cost     O(n_cols + nnz).
- *  Threads  any number with different outputs.
  *  Example  tests/core/test_csc64.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A,

@@ -18,11 +18,10 @@
  *
  * All calls below
  *  F      [in]      a factor of A, n x n.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  stats  [out]     inverse; error.row, error.column: an index out of range. May be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, a negative count, an index out of range; SL_ERR_STALE:
- *           failed factor; SL_ERR_UNSUPPORTED: a factor with 2x2 pivots; SL_ERR_TOO_LARGE,
- *           SL_ERR_MEMORY: W could not grow. On error nothing is written.
+ *  stats  [out]     inverse; error.row, error.column: an index out of range.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, a negative count, an index out of range; SL_ERR_STALE;
+ *           SL_ERR_UNSUPPORTED: a factor with 2x2 pivots; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. On error
+ *           nothing is written.
  *  Cost     sweeps take 2 entries flops per lane, and 8 lanes take as long as two to three, so that
  *           many requests should share a call. A single pair is a local solve if that is cheaper.
  *           Nothing O(n), except for NULL sets; no allocation once W has grown to the largest reach

@@ -40,12 +40,10 @@ typedef enum sl_part {
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements, or by SL_ROWS; in the
  *                order of A with SL_PART_P, else of the pivots.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_PIVOT: SL_PART_SQRT_D with
- *           a negative pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots; SL_ERR_TOO_LARGE;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_PIVOT: SL_PART_SQRT_D with a negative
+ *           pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     2 nnz_panels flops per right-hand side for each of L and L'; O(n) for the others.
- *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/core/test_parts.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_solve_part(const sl_factor *F, unsigned parts, double *X,
@@ -83,8 +81,6 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_multiply_part(const sl_factor *F, unsi
  *  Returns  as sl_factor_solve_part; SL_ERR_ARGUMENT: other parts; SL_ERR_STATE: a factor of
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region.
  *  Cost     2 b_entries or 2 x_entries flops per right-hand side; nothing O(n).
- *  Threads  any number at once on one P and one F, each with its own W.
- *  Example  tests/core/test_parts.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F,
                                                    unsigned parts, double *X, size_t ldx,

@@ -21,12 +21,12 @@
  *  check C' x = g in each tree of the factor and report the loss (SL_ERR_INACCURATE). Local solves
  *  check the equalities whose rows are all in their reach.
  *
- *  out  [out]  the set, or NULL on error; release with sl_pins_free.
+ *  out  [out]  the set.
  *  F    [in]   the factor; kept by the object. When F changes, solves are refused until
  *              sl_pins_refactor.
- *  opt  [in]   allocator; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_UNSUPPORTED: pivots of both
- *           signs, or 2x2 pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
+ *  opt  [in]   allocator.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_UNSUPPORTED: pivots of both signs, or 2x2
+ *           pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
  *  Cost     O(1); with SL_NULL_PIVOT_SKIP 8 bytes per row.
  *  Source   capacitance matrix of a change of low rank, as in [Hager89].
  *  Example  tests/core/test_pins.c
@@ -34,14 +34,14 @@
 SL_API SL_WARN_UNUSED sl_status sl_pins_create(sl_pins **out, const sl_factor *F,
                                                const sl_options *opt);
 
-/** Releases a set of pins; NULL is allowed. */
+/** Releases a set of pins. */
 SL_API void sl_pins_free(sl_pins *P);
 
 /** Adds pins, all or none: x is held at values in rows of A. They become the last ones of P, in the
  *  order of rows.
  *
  *  rows   [in]   count >= 0 rows in 0..n-1.
- *  stats  [out]  pins; error.row; may be NULL.
+ *  stats  [out]  pins; error.row.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: a row is held already, by its pin or by a
  *           combination of the others, up to rounding; SL_ERR_STALE: F has changed;
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
@@ -49,7 +49,6 @@ SL_API void sl_pins_free(sl_pins *P);
  *  Cost     for each pin, a forward sweep, which up to 8 nearby rows share, k products over shared
  *           columns and O(k^2), with k pins before it; keeps 16 bytes per column of the path, and 4
  *           per row below its supernodes. 100 pins together take half as long as one by one.
- *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count,
                                             sl_stats *stats);
@@ -67,21 +66,18 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *r
 /** Releases pins, all or none. The others move together and keep their order.
  *
  *  indices  [in]   count >= 0 different numbers of pins, 0-based, in any order.
- *  stats    [out]  pins, of which count is the number that is left; may be NULL.
+ *  stats    [out]  pins, of which count is the number that is left.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     O(k^2) for each.
- *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count,
                                                 sl_stats *stats);
 
 /** Takes the present numbers of the factor, after it has changed.
  *
- *  stats  [out]  pins; error.row; may be NULL.
- *  Returns  as sl_pins_add; SL_ERR_STALE: failed factor. On error solves are refused until a later
- *           call succeeds.
+ *  stats  [out]  pins; error.row.
+ *  Returns  as sl_pins_add; SL_ERR_STALE. On error solves are refused until a later call succeeds.
  *  Cost     that of sl_pins_add for all pins.
- *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
 
@@ -97,7 +93,6 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
  *                values in rows that are pins are not used.
  *  G      [in]   k x nrhs, column-major, leading dimension ldg elements: the values, in the order
  *                of the pins.
- *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: F has changed; SL_ERR_STATE: the plan is of
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: C' x = g
  *           does not hold to 1e-8 of x or, where g is 0, of b / max |a|, or rounding hides whether
@@ -106,7 +101,6 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
  *           before it; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     for each right-hand side a solve, k products over shared columns, twice, and O(k^2);
  *           as much for each null vector of components with pins.
- *  Threads  any number at once on one P, each with its own W.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
                                               size_t ldx, const double *B, size_t ldb,

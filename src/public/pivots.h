@@ -12,11 +12,10 @@
  *  gives SL_ERR_UNSUPPORTED. Factors with 2x2 pivots are supernodal; entries of the inverse,
  *  selected inverses and regions refuse them with SL_ERR_UNSUPPORTED.
  *
- *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free. It has no separator
- *                tree.
+ *  out    [out]  the analysis. It has no separator tree.
  *  A      [in]   n x n, symmetric, with values; not kept.
  *  opt    [in]   as sl_symbolic_create; the ordering is the one to start from.
- *  stats  [out]  symbolic, pairs and delayed included; may be NULL.
+ *  stats  [out]  symbolic, pairs and delayed included.
  *  Returns  as sl_symbolic_create; SL_ERR_ARGUMENT: A has no values; SL_ERR_NOT_FINITE: an entry at
  *           error.row, error.column. A singular matrix is analyzed; its factorization is refused.
  *  Cost     two analyses, of which one orders, and a factorization in plain C on one thread, which

@@ -10,16 +10,16 @@
  *  roots and the backward sweep those from xset. Each reach is found separately, in time
  *  proportional to its own size.
  *
- *  out    [out]  the plan, or NULL on error; release with sl_plan_free.
+ *  out    [out]  the plan.
  *  S      [in]   analysis of A, n columns; kept by the plan.
  *  bset   [in]   nb rows of A in 0..n-1, any order; b is 0 in the others, and values of a row given
  *                twice add up. NULL (nb is ignored): all n.
  *  xset   [in]   nx rows of A in 0..n-1, any order; a row given twice is answered twice. NULL (nx
  *                is ignored): all n. For an empty set pass a pointer that is not NULL, and nb or nx
  *                = 0; it is not dereferenced.
- *  opt    [in]   allocator, region; may be NULL. If both sets are inside the region, the sweeps end
- *                at its boundary. If they are not, or if one is NULL, the region is not used.
- *  stats  [out]  plan; error.row: an index out of range; may be NULL.
+ *  opt    [in]   allocator, region. If both sets are inside the region, the sweeps end at its
+ *                boundary. If they are not, or if one is NULL, the region is not used.
+ *  stats  [out]  plan; error.row: an index out of range.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a region of another analysis; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     O(nb + nx + rows of the supernodes reached), with a logarithmic factor for rows that
@@ -33,7 +33,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_create(sl_plan **out, const sl_symbolic 
                                                const sl_int *bset, sl_int nb, const sl_int *xset,
                                                sl_int nx, const sl_options *opt, sl_stats *stats);
 
-/** Releases a plan; NULL is allowed. */
+/** Releases a plan. */
 SL_API void sl_plan_free(sl_plan *P);
 
 /** Fills the plan group of stats. */
@@ -51,15 +51,12 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *  B      [in]   nb x nrhs, column-major, leading dimension ldb elements, or row-major as X; rows
  *                in the order of bset.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
- *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed factor, or, in a region, one whose
  *           numbers are not those that the region was computed from; SL_ERR_STATE: a factor of
  *           another analysis; SL_ERR_INCONSISTENT, _NOT_FINITE: as in sl_factor_solve, of what x
  *           depends on; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     2 (b_entries + x_entries) + 4 region_entries flops per right-hand side; nothing O(n);
  *           no allocation once W has grown.
- *  Threads  any number at once on one P and one F, each with its own W.
- *  Example  tests/core/test_plan.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X,
                                               size_t ldx, const double *B, size_t ldb, sl_int nrhs,
@@ -68,12 +65,10 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor 
 /** One local solve without a plan: sl_plan_create and sl_plan_solve in the caller's workspace.
  *
  *  F, bset, nb, xset, nx, X, ldx, B, ldb, nrhs, W as in these two calls; no region.
- *  stats  [out]  plan (bytes is 0); error.row: an index out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_INCONSISTENT, _NOT_FINITE:
- *           as in sl_plan_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  stats  [out]  plan (bytes is 0); error.row: an index out of range.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_INCONSISTENT, _NOT_FINITE: as in
+ *           sl_plan_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the sum of both calls; no allocation once W has grown.
- *  Threads  any number at once on one F, each with its own W.
- *  Example  tests/core/test_plan.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int nb,
                                                const sl_int *xset, sl_int nx, double *X, size_t ldx,

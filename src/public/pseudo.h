@@ -30,12 +30,10 @@ typedef struct sl_pseudo_inverse {
  *
  *  F      [in]      a factor of A, n x n.
  *  P      [in,out]  component, Q and K NULL: only columns is written. On error columns may be.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, or too few columns; SL_ERR_STALE: failed factor;
- *           SL_ERR_UNSUPPORTED: 2x2 pivots; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, or too few columns; SL_ERR_STALE; SL_ERR_UNSUPPORTED:
+ *           2x2 pivots; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     a full solve for each column, half a one where null vectors are not known, and
  *           O(n columns^2).
- *  Threads  any number at once on one F, each with its own W.
  *  Manual   tools/docs/singular.md
  *  Example  tests/core/test_pseudo.c
  */

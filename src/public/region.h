@@ -29,21 +29,19 @@
  *  possible. Few large subtrees have a short boundary and large panels; with no subtree at all, the
  *  set itself is the boundary. The other rows of the subtrees belong to the region too.
  *
- *  out    [out]  the region, or NULL on error; release with sl_region_free. For options.region of
- *                sl_plan_create.
+ *  out    [out]  the region. For options.region of sl_plan_create.
  *  F      [in]   the factor, whose analysis the object keeps. When F is refactored, or a
  *                refactorization fails, plans in the region are refused until sl_region_refactor.
  *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                ignored): all n. For an empty set pass a pointer that is not NULL and count = 0;
- *                it is not dereferenced.
+ *                ignored): all n.
  *  Z      [in]   a selected inverse of the present numbers of F, or NULL. It is used if it contains
  *                all entries needed, for example those of a single row or of the subtree of one
  *                supernode; such a region is then preferred if it costs a solve at most twice as
  *                much. Otherwise forward sweeps compute the entries, as in sl_inverse_block.
- *  opt    [in]   allocator, region_bytes; may be NULL. Subtrees are chosen so that
- *                stats.region.bytes is at most region_bytes. If only a region without boundary
- *                fits, solves go to the roots of the tree.
- *  stats  [out]  region; error.row: a row out of range; may be NULL.
+ *  opt    [in]   allocator, region_bytes. Subtrees are chosen so that stats.region.bytes is at most
+ *                region_bytes. If only a region without boundary fits, solves go to the roots of
+ *                the tree.
+ *  stats  [out]  region; error.row: a row out of range.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor, or Z is not of the present F;
  *           SL_ERR_UNSUPPORTED: a factor made with options.mass or with 2x2 pivots;
  *           SL_ERR_INACCURATE: solves would lose digits; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
@@ -68,19 +66,17 @@ SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_facto
  *  F      [in]      a factor over the analysis that R was made for; from now on the only one that R
  *                   accepts.
  *  Z      [in]      as in sl_region_create; may be NULL.
- *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor, or Z is not of the present F;
  *           SL_ERR_STATE: a factor of another analysis; SL_ERR_READ_ONLY: R is mapped;
  *           SL_ERR_UNSUPPORTED, SL_ERR_INACCURATE: as sl_region_create; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     as sl_region_create without the plan; no allocation once W has grown.
  *  Threads  exclusive use of R and of its plans.
- *  Example  tests/core/test_region.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_region_refactor(sl_region *R, const sl_factor *F,
                                                    const sl_selected *Z, sl_work *W);
 
-/** Releases a region; NULL is allowed. */
+/** Releases a region. */
 SL_API void sl_region_free(sl_region *R);
 
 /** Fills the region group of stats. */

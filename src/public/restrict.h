@@ -18,14 +18,14 @@
  *  pivots by null_tolerance: a component of a singular Laplacian that is in R as a whole gives
  *  SL_ERR_PIVOT.
  *
- *  S      [out]  the analysis, or NULL on error; release with sl_symbolic_free.
- *  G      [out]  the factor, or NULL on error; release with sl_factor_free.
+ *  S      [out]  the analysis.
+ *  G      [out]  the factor.
  *  F      [in]   a factor of A.
  *  A      [in]   the matrix that F was computed from. Read only in the columns of R that are
  *                computed again; neither its pattern nor its two triangles are compared.
  *  rows   [in]   count rows of A in 0..n-1, any order, no duplicates.
- *  opt    [in]   allocator; may be NULL.
- *  stats  [out]  restriction, factor; errors are in rows of A; may be NULL.
+ *  opt    [in]   allocator.
+ *  stats  [out]  restriction, factor; errors are in rows of A.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
  *           SL_ERR_OTHER_PATTERN: A differs in size, entries or triangle from the analyzed matrix;
  *           SL_ERR_PATTERN: error.column of it is malformed; SL_ERR_PIVOT, _NOT_FINITE,

@@ -14,17 +14,16 @@
  *  selected inverse. Where that would lose digits, as pivots have both signs (inverse.h), the
  *  columns are solved for, up to 8 at a time. Entries of null pivots that were skipped are 0.
  *
- *  out    [out]  the selected inverse, or NULL on error; release with sl_selected_free. It does not
- *                change if F is refactored or released, until sl_selected_refactor.
+ *  out    [out]  the selected inverse. It does not change if F is refactored or released, until
+ *                sl_selected_refactor.
  *  F      [in]   the factor; its analysis is kept by the object.
  *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                ignored): all n. For an empty set pass a pointer that is not NULL and count = 0;
- *                it is not dereferenced.
- *  opt    [in]   allocator, threads; may be NULL. The object keeps the threads; without, those of
- *                F. The instruction set is that of F.
- *  stats  [out]  selected; error.row: a row out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_UNSUPPORTED: 2x2 pivots;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *                ignored): all n.
+ *  opt    [in]   allocator, threads. The object keeps the threads; without, those of F. The
+ *                instruction set is that of F.
+ *  stats  [out]  selected; error.row: a row out of range.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_UNSUPPORTED: 2x2 pivots; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
  *  Cost     about twice the flops of the factorization of the same supernodes; of columns that are
  *           solved for, some 10 to 100 times as long. Keeps entries doubles (stats.selected) and
  *           28 bytes per supernode, 44 with several threads. Temporary memory: 8 height^2 bytes
@@ -45,18 +44,16 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_create(sl_selected **out, const sl_f
  *
  *  Z      [in,out]  unchanged on error.
  *  F      [in]      a factor over the analysis that Z was made for.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_STATE: a factor of another
- *           analysis; SL_ERR_READ_ONLY: Z is mapped; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_STATE: a factor of another analysis;
+ *           SL_ERR_READ_ONLY: Z is mapped; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     as sl_selected_create; no allocation once W has grown. Up to twice as fast, since the
  *           memory is mapped already.
  *  Threads  exclusive use of Z; runs on the threads that Z was made with.
- *  Example  tests/core/test_selected.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_selected_refactor(sl_selected *Z, const sl_factor *F,
                                                      sl_work *W);
 
-/** Releases a selected inverse; NULL is allowed. */
+/** Releases a selected inverse. */
 SL_API void sl_selected_free(sl_selected *Z);
 
 /** Entries (A^-1)_ij on the pattern of L, or diagonal entries.
@@ -66,14 +63,12 @@ SL_API void sl_selected_free(sl_selected *Z);
  *  rows     [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
  *                  ignored): all n, which needs columns = NULL.
  *  columns  [in]   count columns of A in 0..n-1; NULL: columns = rows, the diagonal.
- *  stats    [out]  error.row, and error.column if columns are given; may be NULL.
+ *  stats    [out]  error.row, and error.column if columns are given.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or an index out of range; SL_ERR_OTHER_PATTERN: an entry
  *           that is not in the pattern of L or that the set of Z does not reach. error.row and
  *           error.column name it.
  *  Cost     O(count) binary searches; of the diagonal O(count), with a logarithmic factor if Z was
  *           made for a set.
- *  Threads  any number at once.
- *  Example  tests/core/test_selected.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_selected_entries(const sl_selected *Z, double *out,
                                                     const sl_int *rows, const sl_int *columns,

@@ -32,16 +32,15 @@
 
 /** C = c_1 A_1 + .. + c_k A_k of symmetric matrices, as its lower triangle with ascending rows.
  *
- *  out           [out]  the matrix, n x n, or NULL on error; release with sl_matrix_free.
+ *  out           [out]  the matrix, n x n.
  *  coefficients  [in]   count numbers; NULL: the union of the patterns, without values.
  *  terms         [in]   count >= 1 square matrices of one size, each with any triangle, read as a
  *                       factorization reads them. Entries whose sum is 0 stay in the pattern.
- *  opt           [in]   allocator, triangle; may be NULL.
- *  stats         [out]  error.row, error.column: a malformed entry; may be NULL.
+ *  opt           [in]   allocator, triangle.
+ *  stats         [out]  error.row, error.column: a malformed entry.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: different sizes, no term, no values; SL_ERR_PATTERN;
  *           SL_ERR_TOO_LARGE: 2^31 or more entries in total; SL_ERR_MEMORY.
  *  Cost     O(n + entries of all terms).
- *  Threads  any number with different outputs.
  *  Example  tests/core/test_matrix_sum.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients,
@@ -56,13 +55,12 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coe
  *                 order, duplicates summed. Its pattern is a subset of the analyzed one; values may
  *                 be anything.
  *  stats   [out]  error.row, error.column: the first stored entry outside the analyzed pattern, or
- *                 a malformed one; may be NULL.
+ *                 a malformed one.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, no values; SL_ERR_PATTERN: malformed, or both
  *           triangles with an unsymmetric pattern; SL_ERR_OTHER_PATTERN: another size, or an entry
  *           outside the analyzed pattern; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + entries of S and of K); temporary memory from the allocator of S.
  *  Threads  reads S; any number with different arrays.
- *  Example  tests/core/test_matrix_sum.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values,
                                                     const sl_csc *K, sl_stats *stats);
@@ -85,10 +83,10 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_scatter(const sl_symbolic *S, double
  *                       column per factor.
  *  values        [in]   terms arrays in the order of S (sl_symbolic_scatter); not kept.
  *  terms         [in]   0 or more; the sum of no terms is the zero matrix.
- *  opt           [in]   as in sl_factor_create; may be NULL.
+ *  opt           [in]   as in sl_factor_create.
  *  failed        [out]  the first factor that failed, or -1; may be NULL.
  *  stats         [out]  error and factor: those of the failed factor, else of the last one; seconds
- *                       and bytes are sums over all factors. May be NULL.
+ *                       and bytes are sums over all factors.
  *  Returns  SL_OK, or the status of the first factor that failed: as sl_factor_create, but never
  *           SL_ERR_PATTERN or SL_ERR_OTHER_PATTERN. SL_ERR_NOT_FINITE: a coefficient (error.value,
  *           no row) or a sum, at error.row >= error.column.
@@ -115,7 +113,6 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, c
  *           SL_ERR_TOO_LARGE: only with the first refactorization of a loaded factor. After these
  *           no factor has changed. Else the status of the first factor that failed.
  *  Threads  exclusive use of the factors.
- *  Example  tests/core/test_combination.c, test_batch_factor.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
                                                   const double *coefficients,

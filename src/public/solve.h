@@ -25,13 +25,13 @@
 
 /** Creates an empty workspace for one thread. It grows when a call needs more and never shrinks.
  *
- *  out  [out]  the workspace, or NULL on error; release with sl_work_free.
- *  opt  [in]   allocator, threads: full solves with this workspace use them; may be NULL.
+ *  out  [out]  the workspace.
+ *  opt  [in]   allocator, threads: full solves with this workspace use them.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY.
  */
 SL_API SL_WARN_UNUSED sl_status sl_work_create(sl_work **out, const sl_options *opt);
 
-/** Releases a workspace; NULL is allowed. */
+/** Releases a workspace. */
 SL_API void sl_work_free(sl_work *W);
 
 /** Bytes that a workspace holds now; NULL has 0. */
@@ -84,10 +84,9 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 64, 32, 16,
  *                then up to 8, for which a solution has the same bits. 8 take as long as two to
  *                three single solves, 32 as long as six to eight.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor; SL_ERR_INCONSISTENT: a column of B
- *           has no solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: a number
- *           of B is not: X is written; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_INCONSISTENT: a column of B has no
+ *           solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: a number of B is not: X
+ *           is written; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
  *           min(nrhs, 64)). If consistency is checked, right-hand sides beyond the eighth take an
  *           additional forward sweep.
