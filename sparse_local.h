@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4b002e8d74d34b0b
+ * FNV-1a of the lines after this comment, without the license: 61526a6199b026bd
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -3072,7 +3072,7 @@ extern int sli_fsync(int file) __asm__("fsync");
 extern int sli_fileno(FILE *file) __asm__("fileno");
 extern FILE *sli_fdopen(int file, const char *mode) __asm__("fdopen");
 extern int sli_linkat(int from_folder, const char *from, int to_folder, const char *to,
-            int flags) __asm__("linkat");
+    int flags) __asm__("linkat");
 #define SLI_USLEEP 1
 extern int sli_usleep(unsigned microseconds) __asm__("usleep");
 #endif
@@ -3103,7 +3103,7 @@ extern int sli_usleep(unsigned microseconds) __asm__("usleep");
 extern "C" {
 #endif
 __declspec(dllimport) int __stdcall MoveFileExA(const char *from, const char *to,
-                        unsigned long flags);
+    unsigned long flags);
 __declspec(dllimport) unsigned long __stdcall GetFileAttributesA(const char *path);
 __declspec(dllimport) void __stdcall Sleep(unsigned long milliseconds);
 #if !defined(SL_NO_MMAP)
@@ -3116,18 +3116,18 @@ typedef unsigned long sli_windows_size;
 typedef struct _SECURITY_ATTRIBUTES *sli_windows_security;
 typedef union _LARGE_INTEGER *sli_windows_number;
 __declspec(dllimport) void *__stdcall CreateFileA(const char *path, unsigned long access,
-                          unsigned long share, sli_windows_security s,
-                          unsigned long disposition, unsigned long flags,
-                          void *model);
+    unsigned long share, sli_windows_security s,
+    unsigned long disposition, unsigned long flags,
+    void *model);
 __declspec(dllimport) int __stdcall GetFileSizeEx(void *file, sli_windows_number size);
 __declspec(dllimport) void *__stdcall CreateFileMappingA(void *file, sli_windows_security s,
-                             unsigned long protection,
-                             unsigned long size_high,
-                             unsigned long size_low, const char *name);
+    unsigned long protection,
+    unsigned long size_high,
+    unsigned long size_low, const char *name);
 __declspec(dllimport) void *__stdcall MapViewOfFile(void *section, unsigned long access,
-                          unsigned long offset_high,
-                          unsigned long offset_low,
-                          sli_windows_size bytes);
+    unsigned long offset_high,
+    unsigned long offset_low,
+    sli_windows_size bytes);
 __declspec(dllimport) int __stdcall UnmapViewOfFile(const void *bytes);
 __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #endif
@@ -3400,7 +3400,7 @@ static SLI_THREAD_LOCAL sli_last_error sli_last;
 #endif
 
 SLI_NOINLINE static sl_status sli_fail_at(sl_stats *stats, sl_status status, sl_int row,
-                      sl_int column, double value, const char *what) {
+    sl_int column, double value, const char *what) {
   sl_error e;
   e.row = row;
   e.column = column;
@@ -3479,9 +3479,9 @@ SLI_NOINLINE static void sli_error_line(sl_stats *stats, sl_off line) {
 
 SLI_COLD static sl_status sli_file_fails(const char *what) {
   return sli_fail_at(NULL, SL_ERR_IO, -1, -1, (double)errno,
-             errno == ENOENT   ? "there is no such file or folder"
-             : errno == EACCES ? "permission is denied"
-                     : what);
+      errno == ENOENT ? "there is no such file or folder"
+      : errno == EACCES ? "permission is denied"
+      : what);
 }
 
 static int sli_error_place(char *place, size_t size, sl_status status, const sl_error *e) {
@@ -3491,7 +3491,7 @@ static int sli_error_place(char *place, size_t size, sl_status status, const sl_
   for (k = 0; k < 4; k++) {
     if (numbers[k] != (k < 3 ? -1.0 : 0.0)) {
       length += snprintf(place + length, size - (size_t)length, "%s%s %.10g",
-                 length == 0 ? " (" : ", ", names[k], numbers[k]);
+          length == 0 ? " (" : ", ", names[k], numbers[k]);
     }
   }
   return length;
@@ -3512,9 +3512,9 @@ SL_API size_t sl_error_text(char *buffer, size_t size, sl_status status, const s
     has_place = sli_error_place(place, sizeof place, status, e) > 0;
   }
   return (size_t)snprintf(buffer, size, "%.*s%s%s%s%s",
-              (int)(what != NULL ? strcspn(text, ":") : strlen(text)), text,
-              what != NULL ? ": " : "", what != NULL ? what : "",
-              has_place ? place : "", has_place ? ")" : "");
+      (int)(what != NULL ? strcspn(text, ":") : strlen(text)), text,
+      what != NULL ? ": " : "", what != NULL ? what : "",
+      has_place ? place : "", has_place ? ")" : "");
 }
 
 /* src/impl/base/options.h: initializes options and checks them in every call */
@@ -3603,7 +3603,7 @@ SLI_INLINE void sli_advise_huge_pages(void *block, size_t bytes) {
   if (block != NULL && bytes >= SLI_HUGE_BLOCK) { /* untested: memory that ends */
     const size_t skipped = (SLI_PAGE - (uintptr_t)block % SLI_PAGE) % SLI_PAGE;
     sli_advise((char *)block + skipped, (bytes - skipped) / SLI_PAGE * SLI_PAGE,
-           SLI_HUGE_PAGES);
+        SLI_HUGE_PAGES);
   }
 #else
   (void)block;
@@ -3674,7 +3674,7 @@ SLI_INLINE void *sli_take_inline(sli_block *b, uint64_t count, size_t size) {
   const size_t at = b->used, half = SIZE_MAX >> (4 * sizeof(size_t));
   size_t bytes = SIZE_MAX;
   if (count < half ||
-    count <= (SIZE_MAX - SLI_ALIGN) / size) {
+      count <= (SIZE_MAX - SLI_ALIGN) / size) {
     bytes = ((size_t)count * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
   }
   if (bytes > SIZE_MAX - at) {
@@ -3705,7 +3705,7 @@ SLI_NOINLINE static sl_status sli_block_alloc(sli_block *b, const sl_allocator *
 SLI_INLINE void sli_populate(const sl_allocator *a, const sli_block *b) {
 #if defined(SLI_POPULATE)
   if (b->base != NULL && a->allocate == sli_malloc_default && b->used < SLI_HUGE_BLOCK &&
-    (uintptr_t)b->base % SLI_SMALL_PAGE == SLI_ALIGN) {
+      (uintptr_t)b->base % SLI_SMALL_PAGE == SLI_ALIGN) {
     sli_advise(b->base - SLI_ALIGN, b->used, SLI_POPULATE);
   }
 #else
@@ -3716,7 +3716,7 @@ SLI_INLINE void sli_populate(const sl_allocator *a, const sli_block *b) {
 
 #define SLI_LAYOUT(b, a, status) \
   for (int sli_pass = 0; sli_pass < 2 && (status) == SL_OK; \
-     (status) = sli_pass++ == 0 ? sli_block_alloc((b), (a)) : SL_OK)
+      (status) = sli_pass++ == 0 ? sli_block_alloc((b), (a)) : SL_OK)
 
 #define SLI_TAKE(b, type, count) ((type *)sli_take((b), (uint64_t)(count), sizeof(type)))
 #define SLI_TAKE_INLINE(b, type, count) \
@@ -3756,7 +3756,7 @@ static void sli_arena_release(void *context, void *block) {
 }
 
 SLI_INLINE sl_allocator sli_arena_start(sli_arena *l, const sli_block *b, size_t from,
-                    const sl_allocator *more) {
+    const sl_allocator *more) {
   sl_allocator a;
   a.allocate = sli_arena_allocate;
   a.release = sli_arena_release;
@@ -3803,7 +3803,7 @@ SLI_ALWAYS_INLINE uint64_t sli_word(const void *bytes, sli_hashed kind) {
   uint64_t word;
   memcpy(&word, bytes, sizeof word);
 #if defined(SLI_BIG_ENDIAN)
-  word = kind == SLI_HASH_WORDS  ? word
+  word = kind == SLI_HASH_WORDS ? word
        : kind == SLI_HASH_INTS ? word << 32 | word >> 32
                    : __builtin_bswap64(word);
 #else
@@ -3813,7 +3813,7 @@ SLI_ALWAYS_INLINE uint64_t sli_word(const void *bytes, sli_hashed kind) {
 }
 
 SLI_ALWAYS_INLINE uint64_t sli_hash_stripe(uint64_t *chain, const unsigned char *bytes,
-                       sli_hashed kind, uint64_t room) {
+    sli_hashed kind, uint64_t room) {
   uint64_t beyond = 0;
   int c;
   SLI_UNROLL
@@ -3842,7 +3842,7 @@ SLI_INLINE sli_hash sli_hash_end(const uint64_t *chain, uint64_t bytes) {
 }
 
 SLI_ALWAYS_INLINE uint64_t sli_hash_stripes(uint64_t *chain, const void *data, size_t bytes,
-                      sli_hashed kind, uint64_t room) {
+    sli_hashed kind, uint64_t room) {
   uint64_t found = 0;
   const unsigned char *at = (const unsigned char *)data;
   size_t left = bytes;
@@ -3858,7 +3858,7 @@ SLI_ALWAYS_INLINE uint64_t sli_hash_stripes(uint64_t *chain, const void *data, s
 }
 
 SLI_ALWAYS_INLINE sli_hash sli_hash_checked(sli_hash h, const void *data, size_t bytes,
-                      sli_hashed kind, uint64_t room, uint64_t *beyond) {
+    sli_hashed kind, uint64_t room, uint64_t *beyond) {
   uint64_t chain[4];
   sli_hash_begin(h, chain);
   *beyond = sli_hash_stripes(chain, data, bytes, kind, room);
@@ -3894,7 +3894,7 @@ static int sli_hash_indices(sli_hash *h, const sl_int *a, sl_int count, sl_int n
   const uint64_t room = ((uint64_t)1 << 31) - (uint64_t)n;
   uint64_t beyond;
   *h = sli_hash_checked(*h, a, (size_t)count * sizeof *a, SLI_HASH_INTS, room << 32 | room,
-              &beyond);
+      &beyond);
   return count == 0 || (beyond & 0x8000000080000000u) == 0;
 }
 
@@ -4065,7 +4065,7 @@ static void sli_spawn(sl_int count, void (*body)(void *data, sl_int k), void *da
 #endif
 
 static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *data, sl_int k),
-             void *data) {
+    void *data) {
   sl_int k;
   if (t->run != NULL && count > 1) {
     t->run(t->context, count, body, data);
@@ -4133,7 +4133,7 @@ static void sli_team_draw(sli_team *team, sl_int worker) {
 }
 
 static void sli_team_loop(sli_team *team, sl_int count, sl_int *list,
-              void (*run)(void *data, sl_int item, sl_int worker), void *data) {
+    void (*run)(void *data, sl_int item, sl_int worker), void *data) {
   if (team->workers == 1) {
     sl_int k;
     team->list = list;
@@ -4187,7 +4187,7 @@ SLI_INLINE sli_team sli_team_of(sl_int workers) {
 }
 
 static void sli_team_run(const sl_threads *t, sl_int workers,
-             void (*lead)(sli_team *team, void *data), void *data) {
+    void (*lead)(sli_team *team, void *data), void *data) {
   sli_team team = sli_team_of(workers);
   if (workers == 1) {
     lead(&team, data);
@@ -4279,7 +4279,7 @@ typedef struct sli_reach {
 typedef void (*sli_forward_kernel)(const sli_reach *R, const void *L, double *x, double *scratch);
 
 typedef void (*sli_backward_kernel)(const sli_reach *R, const void *L, const double *D, double *x,
-                  double *scratch);
+    double *scratch);
 
 typedef struct sli_sweeps {
   sli_forward_kernel forward[SLI_SWEEP_KINDS];
@@ -4287,8 +4287,8 @@ typedef struct sli_sweeps {
 } sli_sweeps;
 
 typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_int *rows,
-                 const double *D, double *x_super, double *x, double *scratch,
-                 double *pivot, double *magnitude);
+    const double *D, double *x_super, double *x, double *scratch,
+    double *pivot, double *magnitude);
 
 SLI_INLINE size_t sli_sweep_scratch(sl_int height, sl_int width, sl_int nrhs) {
   const size_t tile = SLI_TILE;
@@ -4312,7 +4312,7 @@ SLI_INLINE int sli_steps_exceed_cache(sl_int count, const sli_step *s, sl_int nr
 }
 
 SLI_NOINLINE static void sli_step_prefetch(const sli_step *s, const sl_int *rows, const double *x,
-                       sl_int nrhs) {
+    sl_int nrhs) {
   const sl_int columns = sli_min(sli_step_columns(s), SLI_ROWS_FETCHED);
   const sl_int below = sli_min(s->below, SLI_ROWS_FETCHED);
   sl_int k, r;
@@ -4372,7 +4372,7 @@ SLI_INLINE int sli_is_null(double pivot, double magnitude, double tolerance) {
 }
 
 SLI_INLINE int sli_is_null_by_rule(const sli_pivot_rule *rule, sl_int k, double pivot,
-                   double magnitude) {
+    double magnitude) {
   return sli_is_null(pivot, magnitude, rule->null_tolerance) &&
        sli_is_null(pivot, magnitude, sli_rule_tolerance(rule, k));
 }
@@ -4382,7 +4382,7 @@ SLI_NOINLINE static float sli_to_float(double d) {
 }
 
 SLI_INLINE double sli_pivot_skipped(const sli_pivot_rule *rule, sl_int k, double d,
-                  double magnitude) {
+    double magnitude) {
   const int is_null = sli_is_null_by_rule(rule, k, d, magnitude);
   const double sign = rule->signs[k] < 0 ? -1.0 : 1.0, least = rule->epsilon * magnitude;
   const int is_wrong = d * sign < 0.0;
@@ -4403,7 +4403,7 @@ SLI_INLINE double sli_pivot_skipped(const sli_pivot_rule *rule, sl_int k, double
 }
 
 SLI_NOINLINE static double sli_pivot_by_rule(const sli_pivot_rule *rule, sl_int k, double d,
-                       double magnitude) {
+    double magnitude) {
   int is_null, sign;
   double least;
   if (rule->regularization == 0.0) {
@@ -4471,11 +4471,11 @@ typedef void (*sli_pivots_kernel)(const sli_front *f, sl_int c0, void *scratch);
 typedef void (*sli_rows_kernel)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1, void *scratch);
 
 typedef void (*sli_update_kernel)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0, sl_int t1,
-                  void *scratch);
+    void *scratch);
 
 typedef void (*sli_assemble_kernel)(const sli_front *f, const void *from, sl_int skipped,
-                  const sl_int *relative, sl_int columns, sl_int first,
-                  sl_int last);
+    const sl_int *relative, sl_int columns, sl_int first,
+    sl_int last);
 
 typedef struct sli_front_kernels {
   sli_pivots_kernel pivots;
@@ -4516,7 +4516,7 @@ SLI_INLINE sli_pair_steps sli_pair_eliminate(double a, double b, double e) {
 }
 
 SLI_INLINE void sli_pair_solve(const sli_pair_steps *steps, double x, double y, double *l,
-                 double *m) {
+    double *m) {
   const double first = steps->is_swapped ? y : x, second = steps->is_swapped ? x : y;
   *m = (second - steps->factor * first) / steps->m;
   *l = (first - steps->coefficient * *m) / steps->l;
@@ -4545,7 +4545,7 @@ SLI_INLINE double sli_pair_gain(const sli_pair *D, double l, double m) {
 }
 
 SLI_NOINLINE static int sli_pair_is_null(double a, double b, double e, double m_a, double m_b,
-                     double tolerance) {
+    double tolerance) {
   const double f = a / m_a, g = b / m_b, h = e / (sqrt(m_a) * sqrt(m_b));
   const double most = fabs(f) > fabs(g) ? fabs(f) : fabs(g);
   if (e == 0.0) {
@@ -4558,7 +4558,7 @@ SLI_NOINLINE static int sli_pair_is_null(double a, double b, double e, double m_
 }
 
 static void sli_pair_by_rule(const sli_pivot_rule *rule, sl_int k, double *a, double *b, double e,
-               const double *magnitude) {
+    const double *magnitude) {
   const double sign = *a + *b < 0.0 ? -1.0 : 1.0, other = e != 0.0 ? fabs(e) : 1.0;
   const int is_null =
     sli_pair_is_null(*a, *b, e, magnitude[0], magnitude[1], sli_rule_tolerance(rule, k));
@@ -4572,7 +4572,7 @@ static void sli_pair_by_rule(const sli_pivot_rule *rule, sl_int k, double *a, do
 }
 
 SLI_INLINE void sli_pair_subtract(double *p, sl_int i, sl_int columns, const double *l,
-                  const double *x) {
+    const double *x) {
   sl_int r;
   for (; i < columns; i++) {
     for (r = i; r < SLI_TILE; r++) {
@@ -4582,7 +4582,7 @@ SLI_INLINE void sli_pair_subtract(double *p, sl_int i, sl_int columns, const dou
 }
 
 static void sli_pair_tile_single(const sli_front *f, sl_int first, sl_int k, sl_int columns,
-                 double *p, double *reciprocals) {
+    double *p, double *reciprocals) {
   double *magnitude = f->magnitude + first, d = p[SLI_TILE * k + k];
   double l[SLI_TILE], x[SLI_TILE];
   sl_int r;
@@ -4604,7 +4604,7 @@ static void sli_pair_tile_single(const sli_front *f, sl_int first, sl_int k, sl_
 }
 
 static void sli_pair_tile_double(const sli_front *f, sl_int first, sl_int k, sl_int columns,
-                 double *p, double *reciprocals) {
+    double *p, double *reciprocals) {
   double *magnitude = f->magnitude + first, *u = p + SLI_TILE * k, *v = u + SLI_TILE;
   double a = u[k], b = v[k + 1], x[2][SLI_TILE], l[2][SLI_TILE];
   const double e = u[k + 1];
@@ -4694,9 +4694,9 @@ static void sli_pair_pack(const double *l, const double *E, sl_int length, doubl
 /* src/impl/kernels/table.h: the table of kernels, which every instruction set fills */
 
 typedef void (*sli_interleave_kernel)(double *v, sl_int stride, const sl_int *index, sl_int count,
-                    const double *M, size_t ldm, int is_streamed);
+    const double *M, size_t ldm, int is_streamed);
 typedef void (*sli_separate_kernel)(double *M, size_t ldm, const double *v, sl_int stride,
-                  const sl_int *index, sl_int count);
+    const sl_int *index, sl_int count);
 
 typedef struct sli_kernels {
   sl_isa isa;
@@ -4860,15 +4860,15 @@ typedef struct sli_kernels {
 
 SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_lanes_from(int k) {
   return _mm256_castsi256_pd(
-    _mm256_cmpgt_epi64(_mm256_set_epi64x(3, 2, 1, 0), _mm256_set1_epi64x(k - 1)));
+      _mm256_cmpgt_epi64(_mm256_set_epi64x(3, 2, 1, 0), _mm256_set1_epi64x(k - 1)));
 }
 
 SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_load_part(const double *p, int count, double rest) {
   const __m256d others = sli_lanes_from(count);
   return _mm256_blendv_pd(
-    _mm256_maskload_pd(p, _mm256_castpd_si256(_mm256_xor_pd(
-                  others, _mm256_castsi256_pd(_mm256_set1_epi64x(-1))))),
-    _mm256_set1_pd(rest), others);
+      _mm256_maskload_pd(p, _mm256_castpd_si256(_mm256_xor_pd(
+      others, _mm256_castsi256_pd(_mm256_set1_epi64x(-1))))),
+      _mm256_set1_pd(rest), others);
 }
 
 SLI_INLINE int sli_count4(unsigned mask) {
@@ -4892,7 +4892,7 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_keep(__m256i index) {
 
 SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d keep) {
   return _mm256_and_pd(_mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(a), index)),
-             keep);
+      keep);
 }
 
 #define SLV_SINGLE 0
@@ -5020,8 +5020,8 @@ static sl_isa sli_cpu_best(void) {
 #if defined(SLI_X86) && defined(SLI_GNU) && !defined(_WIN32)
   __builtin_cpu_init();
   if (!__builtin_cpu_supports("avx2") || /* untested: without AVX2 */
-    !__builtin_cpu_supports("fma")) {  /* untested: the same */
-    return SL_ISA_SCALAR;              /* untested: the same */
+      !__builtin_cpu_supports("fma")) { /* untested: the same */
+    return SL_ISA_SCALAR; /* untested: the same */
   }
 #if defined(SLI_AVX512)
   if (__builtin_cpu_supports("avx512f")) { /* untested: with AVX2 alone */
@@ -5114,9 +5114,9 @@ SLI_INLINE sl_int sli_nnz(const sl_csc *A) {
 }
 
 static sl_status sli_csc_check_sizes(int64_t n_rows, int64_t n_cols, const void *p) {
-  const sl_status status = sli_argument(n_rows < 0 || n_cols < 0  ? "A has a size below 0"
-                      : n_cols > 0 && p == NULL ? "A.p is NULL"
-                                  : NULL);
+  const sl_status status = sli_argument(n_rows < 0 || n_cols < 0 ? "A has a size below 0"
+      : n_cols > 0 && p == NULL ? "A.p is NULL"
+      : NULL);
   return status == SL_OK && (n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX)
          ? sli_refuse(SL_ERR_TOO_LARGE, "A has more than 2^31 - 8 rows or columns")
          : status;
@@ -5156,7 +5156,7 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
       if (A->i[p] < 0 || A->i[p] >= A->n_rows) {
         return sli_fail_at(stats, SL_ERR_PATTERN, A->i[p], j, 0.0,
-                   "a row of A is out of range; rows count from 0");
+            "a row of A is out of range; rows count from 0");
       }
     }
   }
@@ -5164,7 +5164,7 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
 }
 
 SLI_INLINE sl_triangle sli_triangle_of(sl_int below, sl_int above) {
-  return below >= 0   ? above >= 0 ? SL_TRIANGLE_NONE : SL_TRIANGLE_UPPER
+  return below >= 0 ? above >= 0 ? SL_TRIANGLE_NONE : SL_TRIANGLE_UPPER
        : above >= 0 ? SL_TRIANGLE_LOWER
             : SL_TRIANGLE_BOTH;
 }
@@ -5224,7 +5224,7 @@ static void sli_matrix_layout(sl_matrix *M, sli_block *b, size_t nnz, int has_va
 }
 
 static sl_status sli_matrix_new(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int nnz,
-                int has_values, const sl_allocator *a) {
+    int has_values, const sl_allocator *a) {
   sl_matrix draft;
   sli_block b = {NULL, 0, 0};
   sl_status status;
@@ -5304,7 +5304,7 @@ typedef struct sli_triplet_list {
 } sli_triplet_list;
 
 static sl_status sli_from_triplets(sl_matrix **out, const sli_triplet_list *t,
-                   const sl_allocator *a) {
+    const sl_allocator *a) {
   const sl_int n_rows = t->n_rows, n_cols = t->n_cols, count = t->count;
   const sl_int *i = t->i, *j = t->j;
   const double *x = t->x;
@@ -5340,8 +5340,8 @@ static sl_status sli_from_triplets(sl_matrix **out, const sli_triplet_list *t,
 }
 
 SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols,
-                     sl_off count, const sl_int *i, const sl_int *j,
-                     const double *x, const sl_options *opt, sl_stats *stats) {
+    sl_off count, const sl_int *i, const sl_int *j,
+    const double *x, const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
   sli_triplet_list t;
   sl_off k;
@@ -5349,12 +5349,12 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
   sli_stats_clear_error(stats);
   status = sli_begin(out);
   if (status == SL_OK) {
-    status = sli_argument(n_rows < 0               ? "n_rows is below 0"
-                : n_cols < 0             ? "n_cols is below 0"
-                : count < 0              ? "count is below 0"
-                : count > 0 && i == NULL ? "i is NULL"
-                : count > 0 && j == NULL ? "j is NULL"
-                             : sli_options_wrong(opt, SLI_READS_NOTHING));
+    status = sli_argument(n_rows < 0 ? "n_rows is below 0"
+        : n_cols < 0 ? "n_cols is below 0"
+        : count < 0 ? "count is below 0"
+        : count > 0 && i == NULL ? "i is NULL"
+        : count > 0 && j == NULL ? "j is NULL"
+        : sli_options_wrong(opt, SLI_READS_NOTHING));
   }
   if (status == SL_OK && (count > INT32_MAX || n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX)) {
     status = sli_refuse(SL_ERR_TOO_LARGE, "more than 2^31 - 1 triplets, or 2^31 - 8 rows");
@@ -5365,7 +5365,7 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
   for (k = 0; k < count; k++) {
     if (i[k] < 0 || i[k] >= n_rows || j[k] < 0 || j[k] >= n_cols) {
       return sli_fail_at(stats, SL_ERR_ARGUMENT, i[k], j[k], (double)k,
-                 "a triplet is out of range; rows count from 0");
+          "a triplet is out of range; rows count from 0");
     }
   }
   t.n_rows = n_rows;
@@ -5413,7 +5413,7 @@ SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_
 /* src/impl/matrix/csc_triangle.h: the triangle that a factorization reads; checks that a pattern is symmetric */
 
 static sl_status sli_csc_check_symmetry(const sl_csc *A, const sl_csc *T, sl_int *mark,
-                    sl_stats *stats) {
+    sl_stats *stats) {
   sl_int j, p;
   memset(mark, 0, (size_t)A->n_cols * sizeof(sl_int));
   for (j = 0; j < A->n_cols; j++) {
@@ -5423,7 +5423,7 @@ static sl_status sli_csc_check_symmetry(const sl_csc *A, const sl_csc *T, sl_int
     for (p = T->p[j]; p < T->p[j + 1]; p++) {
       if (mark[T->i[p]] != j + 1) {
         return sli_fail_at(stats, SL_ERR_PATTERN, j, T->i[p], 0.0,
-                   "both triangles are stored, and this entry in one of them only");
+            "both triangles are stored, and this entry in one of them only");
       }
     }
   }
@@ -5431,7 +5431,7 @@ static sl_status sli_csc_check_symmetry(const sl_csc *A, const sl_csc *T, sl_int
 }
 
 static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle found, sl_triangle *out,
-                  const sl_options *opt, sl_stats *stats) {
+    const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
   const sl_triangle wanted = opt == NULL ? SL_TRIANGLE_NONE : opt->triangle;
   sl_csc pattern = *A, T;
@@ -5465,13 +5465,13 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle found, sl_triangl
 }
 
 SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
-                 sl_stats *stats) {
+    sl_stats *stats) {
   sl_status status = sl_csc_check(A, stats);
   if (status == SL_OK) {
     status =
-      sli_argument(out == NULL              ? "out is NULL"
-             : A->n_rows != A->n_cols ? "A is not square"
-                          : sli_options_wrong(opt, SLI_READS_TRIANGLE));
+      sli_argument(out == NULL ? "out is NULL"
+          : A->n_rows != A->n_cols ? "A is not square"
+          : sli_options_wrong(opt, SLI_READS_TRIANGLE));
   }
   if (status == SL_OK) {
     status = sli_csc_triangle(A, sli_triangle_scan(A), out, opt, stats);
@@ -5482,7 +5482,7 @@ SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_opt
 /* src/impl/matrix/csc_products.h: products with a matrix in compressed columns, its norm, residuals */
 
 static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, double *y,
-              const double *x) {
+    const double *x) {
   sl_int j, p;
   for (j = 0; j < A->n_cols; j++) {
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
@@ -5498,32 +5498,32 @@ static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, 
 }
 
 static const char *sli_product_wrong(const sl_csc *A, sl_int nrhs, int is_square) {
-  return A == NULL                             ? "A is NULL"
-       : nrhs < 0                            ? "nrhs is below 0"
-       : A->n_rows < 0 || A->n_cols < 0      ? "A has a size below 0"
-       : A->n_cols > 0 && A->p == NULL       ? "A.p is NULL"
-       : sli_nnz(A) > 0 && A->i == NULL      ? "A.i is NULL"
-       : sli_nnz(A) > 0 && A->x == NULL      ? "A.x is NULL"
+  return A == NULL ? "A is NULL"
+       : nrhs < 0 ? "nrhs is below 0"
+       : A->n_rows < 0 || A->n_cols < 0 ? "A has a size below 0"
+       : A->n_cols > 0 && A->p == NULL ? "A.p is NULL"
+       : sli_nnz(A) > 0 && A->i == NULL ? "A.i is NULL"
+       : sli_nnz(A) > 0 && A->x == NULL ? "A.x is NULL"
        : is_square && A->n_rows != A->n_cols ? "A is not square"
                          : NULL;
 }
 
 SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y, size_t ldy,
-                 const double *X, size_t ldx, sl_int nrhs) {
+    const double *X, size_t ldx, sl_int nrhs) {
   sl_triangle triangle;
   sl_int r;
   sl_status status = sli_argument(reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED
-                    ? "reading is not a value of sl_reading"
-                    : sli_product_wrong(A, nrhs, reading == SL_AS_SYMMETRIC));
+      ? "reading is not a value of sl_reading"
+      : sli_product_wrong(A, nrhs, reading == SL_AS_SYMMETRIC));
   if (status != SL_OK || nrhs == 0 || A->n_rows == 0) {
     return status;
   }
-  status = sli_argument(Y == NULL                    ? "Y is NULL"
-              : !sli_is_ld(ldy, A->n_rows) ? "ldy is below the rows of A"
-              : !sli_is_ld(ldx, A->n_cols) ? "ldx is below the columns of A"
-              : A->n_cols > 0 && X == NULL ? "X is NULL"
-              : A->n_cols > 0 && X == Y    ? "X is Y"
-                             : NULL);
+  status = sli_argument(Y == NULL ? "Y is NULL"
+      : !sli_is_ld(ldy, A->n_rows) ? "ldy is below the rows of A"
+      : !sli_is_ld(ldx, A->n_cols) ? "ldx is below the columns of A"
+      : A->n_cols > 0 && X == NULL ? "X is NULL"
+      : A->n_cols > 0 && X == Y ? "X is Y"
+      : NULL);
   if (status != SL_OK) {
     return status;
   }
@@ -5565,8 +5565,8 @@ static double sli_backward_error(double r, double a, double x, double b) {
 }
 
 SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double *backward_error,
-                 const double *X, size_t ldx, const double *B, size_t ldb,
-                 sl_int nrhs) {
+    const double *X, size_t ldx, const double *B, size_t ldb,
+    sl_int nrhs) {
   double norm = 0.0;
   sl_int r, n;
   size_t rows;
@@ -5584,16 +5584,16 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
     return SL_OK;
   }
   status =
-    sli_argument(B == NULL                          ? "B is NULL"
-           : R == NULL                        ? "R is NULL"
-           : X == NULL                        ? "X is NULL"
-           : !sli_is_ld(ldb, n)               ? "ldb is below n"
-           : !sli_is_ld(ldr, n)               ? "ldr is below n"
-           : !sli_is_ld(ldx, n)               ? "ldx is below n"
-           : R == X                           ? "R is X"
-           : R == B && ldr != ldb             ? "R is B with another leading dimension"
-           : R == B && backward_error != NULL ? "R is B, and backward_error is wanted"
-                            : NULL);
+    sli_argument(B == NULL ? "B is NULL"
+        : R == NULL ? "R is NULL"
+        : X == NULL ? "X is NULL"
+        : !sli_is_ld(ldb, n) ? "ldb is below n"
+        : !sli_is_ld(ldr, n) ? "ldr is below n"
+        : !sli_is_ld(ldx, n) ? "ldx is below n"
+        : R == X ? "R is X"
+        : R == B && ldr != ldb ? "R is B with another leading dimension"
+        : R == B && backward_error != NULL ? "R is B, and backward_error is wanted"
+        : NULL);
   if (status != SL_OK) {
     return status;
   }
@@ -5641,7 +5641,7 @@ typedef struct sli_submatrix {
 } sli_submatrix;
 
 static void sli_submatrix_visit(const sli_submatrix *s, sl_int *position, sl_matrix *M,
-                sl_int *from) {
+    sl_int *from) {
   const sl_csc *A = s->A;
   sl_int j, p;
   for (j = 0; j < A->n_cols; j++) {
@@ -5669,7 +5669,7 @@ static void sli_submatrix_visit(const sli_submatrix *s, sl_int *position, sl_mat
 }
 
 SLI_HOT static sl_status sli_submatrix_make(sl_matrix **out, sl_int **from, const sli_submatrix *s,
-                      sl_int *position, const sl_allocator *a) {
+    sl_int *position, const sl_allocator *a) {
   sl_matrix *M = NULL;
   sl_status status;
   sl_int k;
@@ -5694,7 +5694,7 @@ SLI_HOT static sl_status sli_submatrix_make(sl_matrix **out, sl_int **from, cons
 }
 
 SL_API sl_status sl_matrix_submatrix(sl_matrix **out, const sl_csc *A, const sl_int *rows,
-                   sl_int count, const sl_options *opt, sl_stats *stats) {
+    sl_int count, const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
   sli_block b = {NULL, 0, 0};
   sli_submatrix s;
@@ -5705,10 +5705,10 @@ SL_API sl_status sl_matrix_submatrix(sl_matrix **out, const sl_csc *A, const sl_
   status = status == SL_OK ? sl_csc_check(A, stats) : status;
   if (status == SL_OK) {
     status =
-      sli_argument(A->n_rows != A->n_cols      ? "A is not square"
-             : count < 0                 ? "count is below 0"
-             : count > 0 && rows == NULL ? "rows is NULL"
-                           : sli_options_wrong(opt, SLI_READS_NOTHING));
+      sli_argument(A->n_rows != A->n_cols ? "A is not square"
+          : count < 0 ? "count is below 0"
+          : count > 0 && rows == NULL ? "rows is NULL"
+          : sli_options_wrong(opt, SLI_READS_NOTHING));
   }
   SLI_LAYOUT(&b, &a, status) {
     where = SLI_TAKE(&b, sl_int, A->n_cols);
@@ -5720,7 +5720,7 @@ SL_API sl_status sl_matrix_submatrix(sl_matrix **out, const sl_csc *A, const sl_
   bad = sli_rows_invert(rows, count, A->n_cols, where);
   if (bad >= 0) {
     status = sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0,
-               "a row is out of range or given twice");
+        "a row is out of range or given twice");
   } else {
     s.A = A;
     s.triangle = SL_TRIANGLE_NONE;
@@ -5750,7 +5750,7 @@ typedef struct sli_graph {
 } sli_graph;
 
 SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, const sl_int *column,
-                 sl_triangle triangle, sl_int block) {
+    sl_triangle triangle, sl_int block) {
   const sl_int nnz = sli_nnz(A);
   sl_int v, p;
   sl_off total = 0;
@@ -5853,7 +5853,7 @@ SLI_INLINE int sli_graph_is_dense_row(const sli_graph *G, sl_int v) {
 }
 
 static void sli_postorder(const sl_int *parent, const sl_int *sequence, sl_int n, sl_int *post,
-              sl_int *child, sl_int *sibling) {
+    sl_int *child, sl_int *sibling) {
   sl_int k, j, at = 0, roots = -1;
   for (k = 0; k < n; k++) {
     child[sequence == NULL ? k : sequence[k]] = -1;
@@ -5946,7 +5946,7 @@ typedef struct sli_order_job {
 } sli_order_job;
 
 SLI_COLD static sl_status sli_order_refuse(const sli_order_job *job, sl_status status,
-                       const char *what) {
+    const char *what) {
   return sli_fail_at(job->stats, status, -1, -1, 0.0, what);
 }
 
@@ -6343,7 +6343,7 @@ static void sli_range_item(void *data, sl_int item, sl_int worker) {
 }
 
 static void sli_range_run(sli_team *team, sl_int n, sl_int count, sli_range_body *body,
-              void *data) {
+    void *data) {
   sli_range_loop l = {n, count, body, data};
   sli_team_loop(team, count, NULL, sli_range_item, &l);
 }
@@ -6416,7 +6416,7 @@ static void sli_contract_range(void *data, const sli_range *r) {
 }
 
 static void sli_contract(const sli_level *g, const sli_clusters *clusters, sli_level *c,
-             sli_shares *ranges) {
+    sli_shares *ranges) {
   const sl_int count = sli_shares_count(ranges->team, c->n);
   sl_off total;
   sl_int k, item;
@@ -6447,7 +6447,7 @@ static void sli_contract(const sli_level *g, const sli_clusters *clusters, sli_l
 }
 
 static sl_status sli_coarsen_clusters(const sli_level *g, sl_int n, const sli_clusters *clusters,
-                    sli_level *c, sli_shares *ranges, const sl_allocator *a) {
+    sli_level *c, sli_shares *ranges, const sl_allocator *a) {
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   c->n = n;
@@ -6490,7 +6490,7 @@ static sl_int sli_match_best(const sli_level *g, sl_int v, sl_int heaviest, cons
   for (k = 0; k < degree; k++, e = e + 1 == first + degree ? first : e + 1) {
     const sl_int u = g->to[e], weight = sli_level_weight(g, u), edge = sli_level_edge(g, v, e);
     if (mate[u] == -1 && weight <= heaviest - own &&
-      (int64_t)edge * best_weight > (int64_t)best_edge * weight) {
+        (int64_t)edge * best_weight > (int64_t)best_edge * weight) {
       best = u;
       best_edge = edge;
       best_weight = weight;
@@ -6533,7 +6533,7 @@ static sl_int sli_match_two_hop(const sli_level *g, sl_int heaviest, sl_int *mat
         continue;
       }
       if (unmatched != -1 &&
-        sli_level_weight(g, u) <= heaviest - sli_level_weight(g, unmatched)) {
+          sli_level_weight(g, u) <= heaviest - sli_level_weight(g, unmatched)) {
         mate[u] = unmatched;
         mate[unmatched] = u;
         unmatched = -1;
@@ -6578,7 +6578,7 @@ SLI_INLINE int sli_level_is_wide(const sli_level *g) {
 #define SLI_PATCH_EVEN 8
 
 SLI_INLINE sl_int sli_cluster_grow(const sli_level *g, sl_int v, sl_int heaviest, int is_patch,
-                   sl_int number, sli_clusters *clusters) {
+    sl_int number, sli_clusters *clusters) {
   int64_t weight = sli_level_weight(g, v);
   sl_int members = clusters->start[number], m = members;
   sl_off e;
@@ -6589,7 +6589,7 @@ SLI_INLINE sl_int sli_cluster_grow(const sli_level *g, sl_int v, sl_int heaviest
     for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
       const sl_int u = g->to[e];
       if (g->coarse[u] == -1 && weight + sli_level_weight(g, u) <= heaviest &&
-        !sli_level_is_hub(g, u)) {
+          !sli_level_is_hub(g, u)) {
         weight += sli_level_weight(g, u);
         clusters->member[members++] = u;
         g->coarse[u] = number;
@@ -6609,7 +6609,7 @@ SLI_INLINE int sli_cluster_is_free(const sli_level *g, sl_int v) {
 }
 
 static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int has_balls,
-                    sli_clusters *clusters, sl_int *weight) {
+    sli_clusters *clusters, sl_int *weight) {
   sl_int v, best, count = 0, members = 0;
   sl_off e, k;
   for (v = 0; v < g->n; v++) {
@@ -6619,7 +6619,7 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
   for (k = 0; k < (sl_off)g->n + 511; k++) {
     const sl_off at = sli_visited(k);
     if (at < g->n && g->coarse[at] == -1 && !sli_level_is_hub(g, (sl_int)at) &&
-      (!has_balls || sli_cluster_is_free(g, (sl_int)at))) {
+        (!has_balls || sli_cluster_is_free(g, (sl_int)at))) {
       weight[count] =
         sli_cluster_grow(g, (sl_int)at, heaviest, has_balls && g->is_even, count, clusters);
       count++;
@@ -6635,7 +6635,7 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
       best = c >= 0 && (best == -1 || weight[c] < weight[best]) ? c : best;
     }
     if (best != -1 && weight[best] <= heaviest - sli_level_weight(g, v) &&
-      !sli_level_is_hub(g, v)) {
+        !sli_level_is_hub(g, v)) {
       weight[best] += sli_level_weight(g, v);
       g->coarse[v] = -2 - best;
     }
@@ -6676,7 +6676,7 @@ static sl_status sli_coarsen(sli_coarsening *t, const sli_level *g, sli_level *c
   *shrunk = 1;
   if (g->edge == NULL) {
     const sl_int times = sli_level_is_wide(g) ? SLI_NEIGHBORHOOD_PAIRS
-               : t->has_balls       ? SLI_BALL_PAIRS
+               : t->has_balls ? SLI_BALL_PAIRS
                           : 1;
     const sl_int most = t->has_balls && g->is_even
                 ? SLI_PATCH_WEIGHT
@@ -6770,7 +6770,7 @@ SLI_INLINE sl_int sli_label_tree_first(const sli_label_tree *t) {
 }
 
 static void sli_label_tree_renumber(sl_int *a, const sl_int *number, sl_int count, int values,
-                  sl_int *scratch) {
+    sl_int *scratch) {
   sl_int k;
   memcpy(scratch, a, (size_t)count * sizeof(sl_int));
   for (k = 0; k < count; k++) {
@@ -6870,11 +6870,11 @@ static int sli_borders_take(sli_borders *l) {
   sli_lock(&p->lock);
   chunk = p->failed ? 0 : sli_border_chunk(p->count, &first);
   if (!p->failed && chunk == SLI_BORDERS_CHUNKS) { /* untested: 2^31 */
-    p->failed = 1;                               /* untested: the same */
+    p->failed = 1; /* untested: the same */
   }
   if (!p->failed && p->chunk[chunk] == NULL) {
     p->chunk[chunk] = (sli_border *)sli_alloc(p->a, ((size_t)SLI_BORDERS_FIRST << chunk) *
-                              sizeof(sli_border));
+        sizeof(sli_border));
     p->failed = p->chunk[chunk] == NULL;
   }
   if (!p->failed) {
@@ -7024,7 +7024,7 @@ static void sli_subgraph_arcs(sli_subgraph *sub, const sli_labelling *in, sl_int
       const sl_int u = g->to[e], there = sub->local[u];
       if (there == -1) {
         sub->external[k] |= is_last && sli_label_tree_is_below(
-                           in->tree, node, sli_shared_read(in->label + u));
+            in->tree, node, sli_shared_read(in->label + u));
       } else if (at[there] < here) {
         left[n_left++] = there;
       } else {
@@ -7043,7 +7043,7 @@ static void sli_subgraph_arcs(sli_subgraph *sub, const sli_labelling *in, sl_int
 }
 
 static void sli_subgraph_leaf(sli_subgraph *sub, const sli_labelling *in, sl_int node,
-                const sl_int *vertices, sl_int count) {
+    const sl_int *vertices, sl_int count) {
   sl_int k;
   sub->n = 0;
   for (k = 0; k < count; k++) {
@@ -7057,7 +7057,7 @@ static void sli_subgraph_leaf(sli_subgraph *sub, const sli_labelling *in, sl_int
 #define SLI_BAND_SHARE 30
 
 static void sli_subgraph_band(sli_subgraph *sub, const sli_labelling *in, sl_int node,
-                const sli_borders *l, int layers) {
+    const sli_borders *l, int layers) {
   const sli_level *g = in->g;
   const sli_label_tree *t = in->tree;
   const sl_int *label = in->label;
@@ -7100,7 +7100,7 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_labelling *in, sl_int
 }
 
 static void sli_relabel_vertex(const sli_labelling *in, sl_int v, sl_int to, sl_int node,
-                 sli_borders *l) {
+    sli_borders *l) {
   const sli_level *g = in->g;
   const sli_label_tree *t = in->tree;
   sl_int *label = in->label;
@@ -7120,7 +7120,7 @@ static void sli_relabel_vertex(const sli_labelling *in, sl_int v, sl_int to, sl_
   for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
     const sl_int other = sli_shared_read(label + g->to[e]);
     if (other != to && other != node && (other > node) == (to > node) &&
-      sli_label_tree_is_below(t, node, other)) {
+        sli_label_tree_is_below(t, node, other)) {
       const sl_int border = sli_label_tree_lca(t, to, other);
       sli_borders_add(l, border, v);
       sli_borders_add(l, border, g->to[e]);
@@ -7137,7 +7137,7 @@ static sl_int sli_subgraph_adjacent_leaf(const sli_labelling *in, sl_int node, s
   for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
     const sl_int other = sli_shared_read(label + g->to[e]);
     if (other != node && sli_label_tree_is_below(t, node, other) && (other > node) == side &&
-      sli_level_edge(g, v, e) > most) {
+        sli_level_edge(g, v, e) > most) {
       most = sli_level_edge(g, v, e);
       best = other;
     }
@@ -7146,7 +7146,7 @@ static sl_int sli_subgraph_adjacent_leaf(const sli_labelling *in, sl_int node, s
 }
 
 static void sli_subgraph_apply(sli_subgraph *sub, const sli_labelling *in, sl_int node,
-                 sli_borders *l) {
+    sli_borders *l) {
   sl_int *moved = sub->scratch, count = 0, k, left;
   for (k = 0; k < sub->n; k++) {
     if (sub->side[k] == 2) {
@@ -7264,8 +7264,8 @@ static int sli_fm_choose(const sli_fm *m) {
     const sli_heap *h = &m->heap[side];
     if (h->count > 0 && sli_fm_may_move(m, h->item[0].vertex)) {
       if (best == -1 || h->item[0].key > m->heap[best].item[0].key ||
-        (h->item[0].key == m->heap[best].item[0].key &&
-         m->sub->total[side] > m->sub->total[best])) {
+          (h->item[0].key == m->heap[best].item[0].key &&
+          m->sub->total[side] > m->sub->total[best])) {
         best = side;
       }
     }
@@ -7366,7 +7366,7 @@ static int64_t sli_fm_refine(sli_fm *m, int rounds) {
 }
 
 static sl_int sli_subgraph_farthest(const sli_subgraph *sub, sl_int v, sl_int *queue,
-                  unsigned char *seen) {
+    unsigned char *seen) {
   sl_int head, tail = 0;
   sl_off e;
   memset(seen, 0, (size_t)sub->n);
@@ -7452,7 +7452,7 @@ typedef struct sli_flow {
   unsigned char *terminal;
 } sli_flow;
 
-enum { SLI_FLOW_NONE = -1, SLI_FLOW_END = -2  };
+enum { SLI_FLOW_NONE = -1, SLI_FLOW_END = -2 };
 
 #if !defined(SLI_FLOW_ROUNDS)
 #define SLI_FLOW_ROUNDS 60
@@ -7481,7 +7481,7 @@ SLI_INLINE sl_int sli_flow_next_state(sli_flow *f, sl_int v, sl_int round) {
     e++;
   }
   f->next[v] = e;
-  return e < end                                                    ? 2 * f->sub->to[e]
+  return e < end ? 2 * f->sub->to[e]
        : f->before[v] != SLI_FLOW_NONE && f->seen[2 * v] != round ? 2 * v
                                     : -1;
 }
@@ -7646,7 +7646,7 @@ static void sli_flow_balance(sli_flow *f, sl_int mark) {
   for (k = 0; k < 2 * sub->n && left < half; k++) {
     v = k < sub->n ? sub->n - 1 - k : k - sub->n;
     if (sub->side[v] == (k >= sub->n) && f->seen[2 * v + 1] != mark &&
-      f->seen[2 * v + 1] != -1) {
+        f->seen[2 * v + 1] != -1) {
       left += sli_flow_extend_source_side(f, v, mark);
     }
   }
@@ -7661,7 +7661,7 @@ static void sli_separator_from_border(sli_subgraph *sub) {
 }
 
 static void sli_subgraph_separate(sli_subgraph *sub, unsigned char *terminal, sl_int *scratch,
-                  sl_off *next) {
+    sl_off *next) {
   const size_t n = (size_t)sub->n;
   sl_int v, last = 0;
   sli_flow f;
@@ -7720,7 +7720,7 @@ SLI_ALWAYS_INLINE sl_int sli_lowest_bit(uint64_t w) {
 }
 
 SLI_ALWAYS_INLINE uint32_t sli_mindeg_join(uint64_t *other, const uint64_t *row, size_t words,
-                       sl_int v) {
+    sl_int v) {
   uint32_t degree = 0;
   size_t k;
   other[v / 64] &= ~((uint64_t)1 << (v % 64));
@@ -7808,7 +7808,7 @@ SLI_TARGET("avx2,popcnt") static void sli_mindeg_run_avx2(sli_mindeg *m, sl_int 
 #endif
 
 static int sli_mindeg_fill(sli_mindeg *m, const sli_level *g, const sl_int *vertices, sl_int count,
-               sl_int *local) {
+    sl_int *local) {
   sl_int k, bits = count;
   sl_off e;
   int fits;
@@ -7849,7 +7849,7 @@ static int sli_mindeg_fill(sli_mindeg *m, const sli_level *g, const sl_int *vert
 }
 
 static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices, sl_int count,
-               sl_int *local, sl_int *order) {
+    sl_int *local, sl_int *order) {
   sl_int k;
   if (!sli_mindeg_fill(m, g, vertices, count, local)) {
     return;
@@ -7934,7 +7934,7 @@ SLI_ALWAYS_INLINE int sli_small_fill(sli_small *m, const sli_order_job *job, siz
 }
 
 SLI_ALWAYS_INLINE sl_int sli_small_eliminate(sli_small *m, sl_int v, size_t words, sl_int *order,
-                       sl_int at) {
+    sl_int at) {
   uint64_t *row = m->rows + (size_t)v * words, left[SLI_SMALL_WORDS], gone[SLI_SMALL_WORDS];
   const sl_int degree = sli_small_count(row, words) - 1, first = at;
   uint32_t height = sli_small_height(m, v) + 1;
@@ -7974,7 +7974,7 @@ SLI_ALWAYS_INLINE sl_int sli_small_eliminate(sli_small *m, sl_int v, size_t word
         other[w] &= ~gone[w];
       }
       m->key[u] = sli_small_key(m, sli_small_count(other, words) - 1,
-                    before > height ? before : height, u);
+          before > height ? before : height, u);
     }
   }
   return at;
@@ -8167,7 +8167,7 @@ static void sli_dissect_split_item(void *data, sl_int node, sl_int worker) {
   const sl_int leaf[2] = {d->tree.left[node], d->tree.right[node]};
   sl_int k, weight[2] = {0, 0};
   sli_subgraph_leaf(sub, &in, node, d->order + d->begin[node],
-            d->begin[node + 1] - d->begin[node]);
+      d->begin[node + 1] - d->begin[node]);
   d->bisect(sub, leaf[0] < d->first);
   for (k = 0; k < sub->n; k++) {
     const int side = sub->side[k];
@@ -8180,13 +8180,13 @@ static void sli_dissect_split_item(void *data, sl_int node, sl_int worker) {
 }
 
 static sl_int sli_dissect_split(sli_dissection *d, sl_int most,
-                void (*bisect)(sli_subgraph *sub, int is_first)) {
+    void (*bisect)(sli_subgraph *sub, int is_first)) {
   const sl_int nodes = d->tree.count;
   sl_int node, split = 0;
   sli_dissect_sort(d, d->tree.count);
   for (node = 0; node < nodes; node++) {
     if (sli_label_tree_is_leaf(&d->tree, node) && d->begin[node + 1] - d->begin[node] > most &&
-      d->tree.weight[node] > d->leaf_size && d->tree.count < d->tree.room - 1) {
+        d->tree.weight[node] > d->leaf_size && d->tree.count < d->tree.room - 1) {
       sli_label_tree_split(&d->tree, node);
       d->nodes[split++] = node;
     }
@@ -8245,8 +8245,8 @@ static void sli_dissect_join_borders(sli_dissection *d) {
 }
 
 static void sli_dissect_visit(sli_dissection *d,
-                void (*visit)(sli_dissection *d, sli_dissect_worker *w,
-                      sl_int node)) {
+    void (*visit)(sli_dissection *d, sli_dissect_worker *w,
+    sl_int node)) {
   sl_int k;
   d->pool.count = 0;
   for (k = 0; k < d->team->workers; k++) {
@@ -8482,7 +8482,7 @@ static sl_status sli_dissect_levels(sli_dissection *d) {
   sli_dissect_start(d);
   for (;;) {
     while (sli_dissect_split(d, d->level == working ? 1 : sli_dissect_bisect_min(d),
-                 sli_dissect_bisect) > 0) {
+        sli_dissect_bisect) > 0) {
     }
     if (d->level == working) {
       break;
@@ -8570,7 +8570,7 @@ static sli_tree_cost sli_dissect_cost(sli_dissection *d) {
 #define SLI_LEVELSET_BALANCE 65
 
 static sl_int sli_levelset_search(const sli_subgraph *sub, sl_int from, sl_int *order,
-                  sl_int *distance) {
+    sl_int *distance) {
   sl_int v, head = 0, tail = 0, unseen = 0;
   sl_off e;
   for (v = 0; v < sub->n; v++) {
@@ -8607,7 +8607,7 @@ static void sli_levelset_bisect(sli_subgraph *sub, int is_first) {
   int64_t cost = 0;
   const sl_int end = sli_subgraph_farthest(sub, 0, order, sub->locked);
   n_sets = sli_levelset_search(sub, sli_subgraph_farthest(sub, end, order, sub->locked), order,
-                 distance);
+      distance);
   (void)is_first;
   memset(size, 0, (size_t)n_sets * sizeof(sl_int));
   for (k = 0; k < n; k++) {
@@ -8747,7 +8747,7 @@ static int sli_thin_search(sli_thin *t, sl_int root) {
     ends = t->is_narrow ? 0 : squares / last * (squares / last) / 3;
     even = last + SLI_THIN_EVEN * n / 100 + ends;
     if (size > 4 * SLI_THIN_WIDTH || squares > SLI_THIN_WIDTH * (last + n / 16) ||
-      squares > even * even / levels) {
+        squares > even * even / levels) {
       return 0;
     }
     first = last;
@@ -8759,7 +8759,7 @@ static int sli_thin_search(sli_thin *t, sl_int root) {
   even = n + n / 200 + ends;
   return t->is_narrow ||
        (squares <= even * even / levels && 2 * (int64_t)levels >= squares / n * SLI_THIN_LONG &&
-      sli_is_lattice(t->g));
+        sli_is_lattice(t->g));
 }
 
 static sl_int sli_thin_cut(const sli_thin *t, const sli_thin_part *p, int64_t *least) {
@@ -8780,7 +8780,7 @@ static sl_int sli_thin_cut(const sli_thin *t, const sli_thin_part *p, int64_t *l
 }
 
 static void sli_thin_split(sli_thin *t, const sli_thin_part *p, sl_int cut, sl_int end,
-               sl_int above, sl_int above_next) {
+    sl_int above, sl_int above_next) {
   const sl_int next = t->begin[cut + 1], before = cut - p->first + (end > t->begin[cut]);
   const sl_int behind = p->first + p->levels - 1 - cut;
   sli_thin_push(t, p->first, end, before, above);
@@ -8790,7 +8790,7 @@ static void sli_thin_split(sli_thin *t, const sli_thin_part *p, sl_int cut, sl_i
 }
 
 static sl_int sli_thin_dissect(sli_thin *t, sli_dissect_worker *w, const sl_int *row, sl_int *perm,
-                 sl_int end, sl_int *node_of) {
+    sl_int end, sl_int *node_of) {
   int64_t least;
   sl_int k, node;
   for (node = 0; t->parts > 0; node++) {
@@ -8831,7 +8831,7 @@ static int sli_thin_renew(sli_thin *t, sli_thin_part *p, sl_int root) {
 }
 
 static sl_int sli_thin_turn(sli_thin *t, sli_thin_part *p, sl_int cut, int64_t least,
-              sl_int *scratch) {
+    sl_int *scratch) {
   const sli_thin_part before = *p;
   const size_t size = (size_t)(p->end - p->first), levels = (size_t)p->levels;
   int64_t cost;
@@ -8868,7 +8868,7 @@ static void sli_thin_label(sli_thin *t, sli_dissection *d) {
     const int may_cut = size > t->leaf && tree->count < tree->room - 1;
     sl_int cut = may_cut ? sli_thin_cut(t, &p, &least) : -1;
     if (cut != -1 && (int64_t)p.levels * p.levels < 2 * (int64_t)size &&
-      t->marks < INT32_MAX - 2 * size) {
+        t->marks < INT32_MAX - 2 * size) {
       cut = sli_thin_turn(t, &p, cut, least, (sl_int *)(void *)d->workers[0].next);
     }
     tree->weight[node] = size;
@@ -8885,7 +8885,7 @@ static void sli_thin_label(sli_thin *t, sli_dissection *d) {
 }
 
 static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl_int at,
-              sli_septree *septree) {
+    sli_septree *septree) {
   const sl_int n = d->levels[0].n;
   sl_int k, nodes, last, *scratch = d->workers[0].subgraph.scratch;
   sli_thin t;
@@ -8928,7 +8928,7 @@ static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl
 #define SLI_SEPTREE_NODES 16
 
 static void sli_septree_sort_separator(const sli_dissection *d, sli_dissect_worker *w, sl_int node,
-                     sl_int *vertices, sl_int count) {
+    sl_int *vertices, sl_int count) {
   const sli_level *g = &d->levels[0];
   uint64_t *list = (uint64_t *)(void *)w->next;
   uint64_t *scratch = (uint64_t *)(void *)w->subgraph.begin;
@@ -8963,13 +8963,13 @@ static void sli_septree_item(void *data, sl_int item, sl_int worker) {
       sli_septree_sort_separator(d, w, node, mine, count);
     } else if (count > 1) {
       sli_mindeg_order(&w->mindeg, &d->levels[0], mine, count, w->subgraph.local,
-               w->subgraph.scratch);
+          w->subgraph.scratch);
     }
   }
 }
 
 static void sli_septree_append(sli_dissection *d, const sl_int *row, sl_int *perm, sl_int at,
-                 sli_septree *septree) {
+    sli_septree *septree) {
   const sli_label_tree *t = &d->tree;
   sl_int node, k, up, *number = d->nodes;
   sli_dissect_sort(d, t->count);
@@ -9110,7 +9110,7 @@ static sl_status sli_nd_dissect(sli_nd *w) {
         d->leaf_size = SLI_ND_THIN_LEAF;
       }
     } while (rounds-- > 0 && /* untested: there are fewer rounds */
-         sli_dissect_split(d, 2 * d->leaf_size, sli_dissect_bisect) > 0);
+        sli_dissect_split(d, 2 * d->leaf_size, sli_dissect_bisect) > 0);
     d->leaf_size = SLI_DISSECT_LEAF;
     status = d->pool.failed ? sli_no_memory() : SL_OK;
   }
@@ -9152,7 +9152,7 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
       sli_nd_graph(w, count);
       w->d.has_labels = 0;
       if (w->weight == NULL && count > w->d.leaf_size &&
-        sli_order_thin(&w->d, w->row, perm, at, septree)) {
+          sli_order_thin(&w->d, w->row, perm, at, septree)) {
         at += count;
         continue;
       }
@@ -9238,7 +9238,7 @@ static int sli_compress_is_likely(const sli_graph *G) {
     for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
       const sl_int u = G->to[e];
       if (sli_graph_degree(G, u) == sli_graph_degree(G, v) &&
-        sli_compress_is_indistinguishable(G, u, v)) {
+          sli_compress_is_indistinguishable(G, u, v)) {
         return 1;
       }
     }
@@ -9324,7 +9324,7 @@ static void sli_compress_fill(sli_compressed *c, const sli_graph *G) {
 }
 
 static void sli_compress_expand(const sli_compressed *c, sl_int rows, sl_int *perm,
-                sli_septree *septree, sl_int *start) {
+    sli_septree *septree, sl_int *start) {
   sl_int k, v, at = 0;
   for (k = 0; k < c->G.n; k++) {
     start[c->perm[k]] = at;
@@ -9406,7 +9406,7 @@ static int sli_metis_options_are_valid(const sl_int *options) {
 }
 
 static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count,
-              const sl_int *local, idx_t *xadj, idx_t *adjncy) {
+    const sl_int *local, idx_t *xadj, idx_t *adjncy) {
   sl_int k;
   idx_t edges = 0;
   for (k = 0; k < count; k++) {
@@ -9434,8 +9434,8 @@ static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_
     edges += G->begin[vertices[k] + 1] - G->begin[vertices[k]];
   }
   if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) { /* untested: 2^31 edges */
-    return sli_order_refuse(job, SL_ERR_TOO_LARGE,         /* untested: the same */
-                "METIS has 32-bit indices");
+    return sli_order_refuse(job, SL_ERR_TOO_LARGE, /* untested: the same */
+        "METIS has 32-bit indices");
   }
   SLI_LAYOUT(&b, job->a, status) {
     xadj = SLI_TAKE(&b, idx_t, (size_t)count + 1);
@@ -9516,7 +9516,7 @@ typedef struct sli_levels {
 } sli_levels;
 
 static sl_int sli_levels_search(sli_levels *l, sl_int root, sl_int start, sl_int mark,
-                int64_t most) {
+    int64_t most) {
   const sli_graph *G = l->G;
   sl_int *queue = l->queue, *seen = l->seen;
   sl_int first = start, last, tail = start, before = 0, k;
@@ -9708,7 +9708,7 @@ static void sli_quotient_collect(sli_quotient *q) {
 }
 
 SLI_INLINE sl_off sli_quotient_gather(sli_quotient *q, sl_off from, sl_int count, sl_off to,
-                    sl_int *total) {
+    sl_int *total) {
   for (; count > 0; count--) {
     const sl_int v = q->list[from++], weight = q->weight[v];
     if (weight > 0) {
@@ -9972,7 +9972,7 @@ static void sli_quotient_cost(const sli_quotient *q, sl_int *below, sli_order_co
 }
 
 static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, sli_order_cost *cost,
-                  const sl_allocator *a) {
+    const sl_allocator *a) {
   sli_quotient q;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
@@ -10123,7 +10123,7 @@ static int sli_graph_shape(const sli_order_job *job, int64_t *entries) {
     }
   }
   *entries = l.entries;
-  return l.entries > most                                 ? SLI_IS_EXPANDING
+  return l.entries > most ? SLI_IS_EXPANDING
        : l.entries <= 32 * n && l.entries <= n * n / 32 ? SLI_IS_THIN
                               : 0;
 }
@@ -10135,10 +10135,10 @@ static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
   sli_graph_facts f;
   memset(&f, 0, sizeof f);
   f.edges = G->begin[n];
-  f.bits = job->ordering == SL_ORDERING_METIS    ? SLI_WANTS_METIS
+  f.bits = job->ordering == SL_ORDERING_METIS ? SLI_WANTS_METIS
        : job->ordering == SL_ORDERING_MINDEG ? SLI_WANTS_MINDEG
-       : is_for_one                          ? SLI_WANTS_ONE_FACTOR
-       : job->block == 1                     ? SLI_WANTS_MANY_SOLVES
+       : is_for_one ? SLI_WANTS_ONE_FACTOR
+       : job->block == 1 ? SLI_WANTS_MANY_SOLVES
                            : 0;
   if ((f.bits & (SLI_WANTS_ONE_FACTOR | SLI_WANTS_MANY_SOLVES)) == 0) {
     return f;
@@ -10149,7 +10149,7 @@ static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
     f.bits |= sli_graph_shape(job, &f.levels);
   }
   if (!is_for_one && job->is_peeled && (f.bits & SLI_IS_THIN) == 0 &&
-    sli_graph_is_bipartite(G, job->perm, job->scratch)) {
+      sli_graph_is_bipartite(G, job->perm, job->scratch)) {
     f.bits |= SLI_IS_BIPARTITE;
   }
   return f;
@@ -10185,12 +10185,12 @@ static sl_status sli_order_given(const sli_order_job *job) {
   sl_int bad;
   if (given == NULL && n > 0) {
     return sli_order_refuse(job, SL_ERR_ARGUMENT,
-                "options.perm is NULL though ordering is GIVEN");
+        "options.perm is NULL though ordering is GIVEN");
   }
   bad = sli_rows_invert(given, n, n, job->scratch);
   if (bad >= 0) {
     return sli_fail_at(job->stats, SL_ERR_ARGUMENT, bad, -1, given[bad],
-               "options.perm has a row out of range or twice at this position");
+        "options.perm has a row out of range or twice at this position");
   }
   if (n > 0) {
     memcpy(job->perm, given, (size_t)n * sizeof(sl_int));
@@ -10327,7 +10327,7 @@ static const char *sli_order_options_wrong(const sl_options *opt, sl_int n) {
 static int sli_order_is_hurried(const sl_options *opt) {
   return opt != NULL &&
        (opt->ordering == SL_ORDERING_MINDEG ||
-      (opt->ordering == SL_ORDERING_ND && opt->purpose == SL_PURPOSE_ONE_FACTOR));
+        (opt->ordering == SL_ORDERING_ND && opt->purpose == SL_PURPOSE_ONE_FACTOR));
 }
 
 static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
@@ -10365,7 +10365,7 @@ static sl_status sli_order(sli_order_job *job) {
     return sli_metis_options_are_valid(opt->metis_options)
            ? sli_order_by_graph(job)
            : sli_order_refuse(job, SL_ERR_ARGUMENT,
-                    "an entry of options.metis_options is not known");
+               "an entry of options.metis_options is not known");
 #else
     return sli_order_refuse(job, SL_ERR_UNSUPPORTED, "options.ordering needs SL_METIS");
 #endif
@@ -10376,14 +10376,14 @@ static sl_status sli_order(sli_order_job *job) {
       return SL_OK;
     }
     if (job->block == 1 && job->ordering == SL_ORDERING_ND &&
-      job->A->n_cols <= (job->is_hurried ? SLI_SMALL_ROWS_ONE_FACTOR : SLI_SMALL_ROWS) &&
-      sli_order_small(job)) {
+        job->A->n_cols <= (job->is_hurried ? SLI_SMALL_ROWS_ONE_FACTOR : SLI_SMALL_ROWS) &&
+        sli_order_small(job)) {
       return SL_OK;
     }
     return sli_order_by_graph(job);
   default:
     return sli_order_refuse(job, SL_ERR_ARGUMENT,
-                "options.ordering is not a value of sl_ordering");
+        "options.ordering is not a value of sl_ordering");
   }
 }
 
@@ -10525,7 +10525,7 @@ static sli_merge sli_merge_compact(sli_merge m) {
 }
 
 SLI_ALWAYS_INLINE void sli_merge_rows(sli_merge *m, const sl_int *rows, sl_int count,
-                    size_t stride) {
+    size_t stride) {
   const sl_int *last = rows + (size_t)count * stride;
   sl_int *list = m->list, *mark = m->mark;
   const sl_int id = m->id;
@@ -10543,7 +10543,7 @@ SLI_ALWAYS_INLINE void sli_merge_column(sli_merge *m, sl_int k) {
   sl_int *counts = m->counts, c;
   const size_t before = m->end;
   sli_merge_rows(m, m->entry + SLI_ENTRY * (size_t)m->begin[k], m->begin[k + 1] - m->begin[k],
-           SLI_ENTRY);
+      SLI_ENTRY);
   for (c = m->child[k]; c != -1; c = m->sibling[c]) {
     sli_merge_rows(m, m->list + m->from[c], counts[c] - 1, 1);
     m->moved += (uint64_t)counts[c];
@@ -10636,7 +10636,7 @@ static sli_tree_result sli_tree_and_counts(const sli_tree_job *job) {
 }
 
 static void sli_tree_of_rows(sl_int n, const sl_int *at, const sl_int *rows, sl_int *parent,
-               sl_int *ancestor) {
+    sl_int *ancestor) {
   sl_int j, k, p = 0;
   for (k = 0; k < n; k++) {
     parent[k] = ancestor[k] = -1;
@@ -10686,7 +10686,7 @@ static void sli_tree_sequence(const sli_tree_job *job, sl_int *sequence, uint64_
 }
 
 static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *new_of,
-            sl_int *parent, sl_int *scratch) {
+    sl_int *parent, sl_int *scratch) {
   sl_int *fresh = scratch, *number = scratch + n, k;
   for (k = 0; k < n; k++) {
     fresh[k] = old_of[order[k]];
@@ -10733,7 +10733,7 @@ static void sli_find_other_children(sl_int n, const sl_int *parent, sl_int *othe
 }
 
 static sl_int sli_fundamental_find(sli_amalgamation *g, const sl_int *parent, const sl_int *counts,
-                   const sl_int *other, int splits) {
+    const sl_int *other, int splits) {
   const sl_int n = g->n;
   sl_int j, s = -1;
   g->first[0] = 0;
@@ -10762,7 +10762,7 @@ static int sli_has_root_pairs(const sli_amalgamation *g, const sl_int *counts) {
 }
 
 static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts,
-              const sl_int *other, sl_int *super_of, sli_amalgamation *g) {
+    const sl_int *other, sl_int *super_of, sli_amalgamation *g) {
   sl_int s;
   g->n = n;
   g->super_of = super_of;
@@ -10797,7 +10797,7 @@ static int sli_is_large(const sl_int *counts, sl_int n) {
 }
 
 SLI_INLINE sl_off sli_zeros_most(const sli_amalgamation *g, sl_int c) {
-  return !g->is_large       ? SLI_ZEROS_MOST
+  return !g->is_large ? SLI_ZEROS_MOST
        : g->width[c] == 1 ? SLI_ZEROS_MOST_COLUMN
                 : SLI_ZEROS_MOST_LARGE;
 }
@@ -10811,9 +10811,9 @@ SLI_INLINE sl_off sli_zeros_most(const sli_amalgamation *g, sl_int c) {
 SLI_ALWAYS_INLINE sl_off sli_supernode_cost(const sli_amalgamation *g, sl_int width, sl_int below) {
   return sli_tile_offset(width, sli_tiles(width + below)) + SLI_COST_ROW * (sl_off)below +
        (g->is_for_one_factor ? SLI_COST_SUPER_ONE_FACTOR : SLI_COST_SUPER) +
-       (width <= SLI_TILE      ? 0
-      : g->is_for_one_factor ? SLI_COST_WIDE_ONE_FACTOR
-                   : SLI_COST_WIDE);
+       (width <= SLI_TILE ? 0
+        : g->is_for_one_factor ? SLI_COST_WIDE_ONE_FACTOR
+           : SLI_COST_WIDE);
 }
 
 #define SLI_COST_PLAIN 12
@@ -10821,7 +10821,7 @@ SLI_ALWAYS_INLINE sl_off sli_supernode_cost(const sli_amalgamation *g, sl_int wi
 #define SLI_COST_TURN 30
 
 static sl_int sli_apart_cost(const sli_amalgamation *g, sl_int s, const sl_int *child,
-               const sl_int *sibling) {
+    const sl_int *sibling) {
   sl_int c = g->is_large && g->below[s] < SLI_TILE ? -1 : child[s];
   while (c != -1 && g->below[c] == 1) {
     c = sibling[c];
@@ -10849,7 +10849,7 @@ SLI_INLINE void sli_amalgamate_child(sli_amalgamation *g, sl_int p, sl_int c, sl
   const sl_off merged = sli_supernode_cost(g, width, below);
   const int is_tied = g->is_tied != NULL && g->is_tied[c];
   if (is_tied || (g->relaxes && 100 * zeros <= sli_zeros_most(g, c) * stored &&
-          merged <= g->cost[c] + *cost && !sli_overfills_tile(g, c, p))) {
+      merged <= g->cost[c] + *cost && !sli_overfills_tile(g, c, p))) {
     g->width[p] = width;
     g->zeros[p] = zeros;
     g->merged_into[c] = p;
@@ -10860,7 +10860,7 @@ SLI_INLINE void sli_amalgamate_child(sli_amalgamation *g, sl_int p, sl_int c, sl
 }
 
 static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, uint64_t *list,
-               uint64_t *scratch) {
+    uint64_t *scratch) {
   sl_int s, c, k, count;
   for (s = 0; s < g->count; s++) {
     child[s] = -1;
@@ -10890,7 +10890,7 @@ static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, 
 }
 
 static sl_int sli_find_tops(sli_amalgamation *g, const sl_int *sequence, sl_int *top, sl_int *tree,
-              sl_int *number) {
+    sl_int *number) {
   sl_int s, k, count = 0;
   for (s = g->count - 1; s >= 0; s--) {
     g->merged_into[s] = g->merged_into[s] == s ? s : g->merged_into[g->merged_into[s]];
@@ -10928,8 +10928,8 @@ static sl_int sli_find_tops(sli_amalgamation *g, const sl_int *sequence, sl_int 
 #define SLI_SORTED_ROWS 255
 
 static const sl_int *sli_sort_siblings(const sli_amalgamation *g, const sl_int *top,
-                     const sl_int *tree, sl_int count, sl_int *children,
-                     sl_int *order) {
+    const sl_int *tree, sl_int count, sl_int *children,
+    sl_int *order) {
   sl_int begin[SLI_SORTED_ROWS + 2], s, k, pass, most = 0;
   if (count <= SLI_SORTED_CHILDREN) {
     return NULL;
@@ -10960,7 +10960,7 @@ static const sl_int *sli_sort_siblings(const sli_amalgamation *g, const sl_int *
 }
 
 static int sli_number_supernodes(sli_amalgamation *g, const sl_int *sequence, sl_int *order,
-                 sl_int *scratch) {
+    sl_int *scratch) {
   const sl_int n = g->n;
   sl_int *super_of = g->super_of, *top = scratch, *tree = scratch + n,
        *post = scratch + 2 * (size_t)n, *at = scratch + 3 * (size_t)n,
@@ -11015,7 +11015,7 @@ SLI_INLINE sl_int sli_part_end(const unsigned char *is_first, sl_int from, sl_in
 }
 
 static sl_int sli_find_parts(const sli_amalgamation *g, const unsigned char *is_first,
-               sl_int *first, sl_int *below, sl_int *part) {
+    sl_int *first, sl_int *below, sl_int *part) {
   sl_int s, k, count = 0;
   for (s = 0; s < g->count; s++) {
     for (k = g->first[s]; k < g->first[s + 1]; count++) {
@@ -11031,7 +11031,7 @@ static sl_int sli_find_parts(const sli_amalgamation *g, const unsigned char *is_
 }
 
 static int sli_split_pairs(sli_amalgamation *g, const sl_int *parent, const unsigned char *is_first,
-               sl_int *earlier, sl_int *order, sl_int *scratch) {
+    sl_int *earlier, sl_int *order, sl_int *scratch) {
   const sl_int n = g->n;
   sl_int *super_of = g->super_of, *tree = scratch, *post = tree + n, *number = post + n,
        *below = number + n;
@@ -11206,7 +11206,7 @@ static void sli_structure_sort(const sli_analysis *w, sl_int *to, sl_int *at) {
 }
 
 static void sli_structure_start(const sli_analysis *w, const sl_symbolic *S,
-                sli_structure_super *all) {
+    sli_structure_super *all) {
   sl_int s;
   for (s = 0; s < S->n_supers; s++) {
     sli_structure_super *v = &all[s];
@@ -11231,8 +11231,8 @@ SLI_ALWAYS_INLINE void sli_structure_add(sli_structure_super *v, sl_int k) {
 }
 
 SLI_ALWAYS_INLINE void sli_structure_climb(sli_structure_super *all, sli_structure_super *v,
-                       sl_int k, sl_int *rows, sl_int *relative,
-                       int has_parts) {
+    sl_int k, sl_int *rows, sl_int *relative,
+    int has_parts) {
   while (v->last != k) {
     sli_structure_super *up = all + v->up;
     const sl_off at = v->rows + v->height;
@@ -11244,7 +11244,7 @@ SLI_ALWAYS_INLINE void sli_structure_climb(sli_structure_super *all, sli_structu
 }
 
 SLI_ALWAYS_INLINE void sli_structure_rows(const sli_analysis *w, const sl_symbolic *S,
-                      sli_structure_super *all, int has_parts) {
+    sli_structure_super *all, int has_parts) {
   const sl_int *super_of = S->super_of, *row = w->spare, *at = w->scratch, *old_of = w->old_of;
   sl_int *rows = S->rows, *relative = S->relative, *from = S->scatter_from, k;
   const sl_int n = w->n;
@@ -11345,7 +11345,7 @@ SLI_INLINE sl_int sli_last_tile(const sl_symbolic *S, sl_int s) {
 }
 
 static void sli_scatter_map_pivots(const sl_symbolic *S, sl_int s, sl_off m, sl_int *tile,
-                   sl_int *k, sl_int *j) {
+    sl_int *k, sl_int *j) {
   const sl_int first = S->super_first[s], w = S->steps[s].width;
   sl_off in_tile = S->scatter_to[m] - S->panel_begin[s];
   sl_int local;
@@ -11449,7 +11449,7 @@ SLI_INLINE int sli_front_is_large(const sl_symbolic *S, sl_int s) {
 
 SLI_INLINE sl_off sli_large_scratch(const sli_step *s) {
   return 2 * (SLI_TILE * (sl_off)sli_tiles(s->width + s->below) +
-        SLI_FRONT_RECIPROCALS * (sl_off)sli_front_groups(s->width));
+      SLI_FRONT_RECIPROCALS * (sl_off)sli_front_groups(s->width));
 }
 
 static sl_int sli_large_pieces(const sli_step *s, sl_int workers, sl_int *tiles) {
@@ -11464,7 +11464,7 @@ typedef struct sli_stacks {
 } sli_stacks;
 
 static void sli_stacks_push(sli_stacks *k, const sli_schedule *p, const sl_symbolic *S, sl_int s,
-              const sl_int *side) {
+    const sl_int *side) {
   const int own = side[s];
   const sl_off size = sli_passed_size(p, S, s);
   sl_int c;
@@ -11477,13 +11477,13 @@ static void sli_stacks_push(sli_stacks *k, const sli_schedule *p, const sl_symbo
 }
 
 SLI_INLINE sl_off sli_waiting_size(const sli_schedule *p, const sl_symbolic *S, sl_int s,
-                   int is_top) {
+    int is_top) {
   return sli_passed_size(p, S, s) +
        (is_top && sli_front_is_large(S, s) ? sli_large_scratch(&S->steps[s]) : 0);
 }
 
 static sl_off sli_waiting_largest(const sl_symbolic *S, const sl_off *size, const sl_off *subtree,
-                  sl_int s, sl_int *child, sl_off *others) {
+    sl_int s, sl_int *child, sl_off *others) {
   sl_off sum = 0, most = 0, both;
   sl_int c;
   *child = -1;
@@ -11500,7 +11500,7 @@ static sl_off sli_waiting_largest(const sl_symbolic *S, const sl_off *size, cons
 }
 
 static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int *side,
-               sl_off *size, sl_off *subtree) {
+    sl_off *size, sl_off *subtree) {
   sl_off others;
   sl_int m, c, child;
   for (m = 0; m < p->n_tasks; m++) {
@@ -11538,7 +11538,7 @@ static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int
 }
 
 static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int *side, sl_off *size,
-              sl_off *subtree) {
+    sl_off *subtree) {
   sl_int m, s;
   p->own = 0;
   for (m = 0; m < p->n_tasks; m++) {
@@ -11557,7 +11557,7 @@ static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int 
 }
 
 static void sli_find_tasks(sli_schedule *p, const sli_forest *f, sli_schedule_work *w,
-               double limit) {
+    double limit) {
   const double scale = 1e9 / limit;
   sl_int s;
   p->n_tasks = p->n_tops = 0;
@@ -11659,14 +11659,14 @@ static int sli_is_direct(const sl_symbolic *S, sl_int s) {
 }
 
 static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, int plain,
-                sli_schedule_work *w) {
+    sli_schedule_work *w) {
   const sli_forest f = {S->n_supers, S->super_parent, S->first_descendant};
   sl_int s;
   for (s = 0; s < S->n_supers; s++) {
     p->is_plain[s] =
       (unsigned char)(plain == SLI_PLAIN_NOT || !sli_is_plain(S, s) ? SLI_PLAIN_NOT
-              : plain == SLI_PLAIN && sli_is_direct(S, s)   ? SLI_PLAIN_DIRECT
-                                      : plain);
+          : plain == SLI_PLAIN && sli_is_direct(S, s) ? SLI_PLAIN_DIRECT
+          : plain);
   }
   if (p->workers > 1) {
     for (s = 0; s < S->n_supers; s++) {
@@ -11722,7 +11722,7 @@ static void sli_schedule_fill_tops(sli_schedule *p, const sl_symbolic *S) {
 }
 
 static void sli_schedule_work_layout(sli_schedule_work *w, sli_block *b, sl_int count,
-                   sl_int workers) {
+    sl_int workers) {
   w->flops = SLI_TAKE(b, double, count);
   w->path = SLI_TAKE(b, double, count);
   w->load = SLI_TAKE(b, double, workers);
@@ -11907,7 +11907,7 @@ static double sli_analysis_lap(sli_analysis *w) {
 }
 
 static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *team,
-                sl_stats *stats) {
+    sl_stats *stats) {
   double lap;
   sl_int k;
   for (k = 0; k < w->n; k++) {
@@ -11921,7 +11921,7 @@ static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *
 }
 
 static void sli_analysis_costs(const sli_analysis *w, sl_int *size, double *entries,
-                 double *paths) {
+    double *paths) {
   sl_int k;
   *entries = *paths = 0.0;
   for (k = 0; k < w->n; k++) {
@@ -11937,7 +11937,7 @@ static void sli_analysis_costs(const sli_analysis *w, sl_int *size, double *entr
 }
 
 static void sli_analyze_both(sli_analysis *w, const sl_options *opt, sli_team *team,
-               sl_stats *stats) {
+    sl_stats *stats) {
   double entries[2], paths[2];
   sl_int *const orders[3] = {w->choice.other, w->perm, w->choice.other};
   int k, count = 2;
@@ -12012,7 +12012,7 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) 
   }
   sli_fill_panels(w, S);
   for (k = 0; k < S->n && S->n_pairs > 0; k++) {
-    S->pairs[k] = w->is_first[k]                ? SLI_PAIR_FIRST
+    S->pairs[k] = w->is_first[k] ? SLI_PAIR_FIRST
             : k > 0 && w->is_first[k - 1] ? SLI_PAIR_SECOND
                           : SLI_PAIR_NONE;
   }
@@ -12026,7 +12026,7 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) 
 }
 
 static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_analysis *w,
-                  sl_stats *stats) {
+    sl_stats *stats) {
   sli_block b = {NULL, 0, 0};
   sl_off rows = 0;
   sl_int s, plain = 0;
@@ -12131,20 +12131,20 @@ static const char *sli_symbolic_options_wrong(const sl_options *opt) {
 }
 
 static sl_status sli_symbolic_check(const sl_csc *A, const sl_options *opt, sli_hash *pattern,
-                  sl_stats *stats) {
+    sl_stats *stats) {
   sl_status status = SL_OK;
   if (!sli_csc_has_pattern(A) || !sli_pattern_hash(A, pattern)) {
     status = sl_csc_check(A, stats);
   }
   if (status == SL_OK) {
     status = sli_argument(A->n_rows != A->n_cols ? "A is not square"
-                           : sli_symbolic_options_wrong(opt));
+        : sli_symbolic_options_wrong(opt));
   }
   return status;
 }
 
 static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const unsigned char *pairs,
-                   const sl_options *opt, sl_stats *stats) {
+    const sl_options *opt, sl_stats *stats) {
   static const sl_threads sli_no_threads = {0, NULL, NULL};
   sli_symbolic_job j;
   uint64_t small[SLI_ANALYSIS_SMALL / sizeof(uint64_t)];
@@ -12181,13 +12181,13 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
   }
   if (status == SL_OK) {
     status = sli_csc_triangle(A, sli_csc_columns(A, j.w.column), &j.found.symbolic.triangle,
-                  opt, stats);
+        opt, stats);
   }
   if (status == SL_OK) {
     j.for_order = sli_arena_start(&arena, &b, j.w.ordered, &j.a);
     j.found.symbolic.seconds_analyze = sli_analysis_lap(&j.w);
     sli_team_run(opt != NULL ? &opt->threads : &sli_no_threads,
-           sli_max(sli_order_workers(A, opt), j.w.workers), sli_symbolic_run, &j);
+        sli_max(sli_order_workers(A, opt), j.w.workers), sli_symbolic_run, &j);
     status = j.status;
     if (status != SL_OK) {
       (void)sli_fail_as(stats, status, &j.found.error);
@@ -12202,7 +12202,7 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
 }
 
 SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
-                  sl_stats *stats) {
+    sl_stats *stats) {
   return sli_symbolic_create(out, A, NULL, opt, stats);
 }
 
@@ -12255,9 +12255,9 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S) {
 /* src/impl/analysis/same_pattern.h: checks that a matrix has the analyzed pattern; says where it differs */
 
 static sl_status sli_pattern_check_size(const sl_symbolic *S, const sl_csc *A, int needs_values) {
-  const sl_status status = sli_argument(A == NULL                       ? "A is NULL"
-                      : A->n_cols > 0 && A->p == NULL ? "A.p is NULL"
-                                      : NULL);
+  const sl_status status = sli_argument(A == NULL ? "A is NULL"
+      : A->n_cols > 0 && A->p == NULL ? "A.p is NULL"
+      : NULL);
   if (status != SL_OK) {
     return status;
   }
@@ -12267,12 +12267,12 @@ static sl_status sli_pattern_check_size(const sl_symbolic *S, const sl_csc *A, i
   if (sli_nnz(A) != S->nnz_input) {
     return sli_nnz(A) < 0 ? sli_refuse(SL_ERR_PATTERN, "A.p descends")
                 : sli_refuse(SL_ERR_OTHER_PATTERN, "A has more or fewer entries than "
-                                 "the analyzed matrix");
+                    "the analyzed matrix");
   }
-  return sli_argument(S->nnz_input == 0              ? NULL
-            : A->i == NULL                 ? "A.i is NULL"
-            : needs_values && A->x == NULL ? "A.x is NULL"
-                             : NULL);
+  return sli_argument(S->nnz_input == 0 ? NULL
+      : A->i == NULL ? "A.i is NULL"
+      : needs_values && A->x == NULL ? "A.x is NULL"
+      : NULL);
 }
 
 SLI_COLD static sl_int sli_pattern_difference(const sl_symbolic *S, const sl_csc *A) {
@@ -12301,14 +12301,14 @@ SLI_COLD static sl_status sli_pattern_refuse(const sl_symbolic *S, const sl_csc 
   }
   found = sli_triangle_scan(A);
   if ((found == SL_TRIANGLE_LOWER || found == SL_TRIANGLE_UPPER) &&
-    found + S->stats.symbolic.triangle == SL_TRIANGLE_LOWER + SL_TRIANGLE_UPPER) {
+      found + S->stats.symbolic.triangle == SL_TRIANGLE_LOWER + SL_TRIANGLE_UPPER) {
     return sli_refuse(SL_ERR_OTHER_PATTERN, "A stores the other triangle");
   }
   p = sli_pattern_difference(S, A);
   return p == sli_nnz(A)
          ? sli_refuse(SL_ERR_OTHER_PATTERN, "entries that are not read are others")
          : sli_fail_at(NULL, SL_ERR_OTHER_PATTERN, A->i[p], sli_column_of(A, p), 0.0,
-               "from this one on, entries are others, or in another order");
+             "from this one on, entries are others, or in another order");
 }
 
 static sl_status sli_pattern_check(const sl_symbolic *S, const sl_csc *A, int needs_values) {
@@ -12367,7 +12367,7 @@ SLI_INLINE sl_int sli_extent_end(const sl_symbolic *S, const sli_region_extent *
 }
 
 SLI_INLINE sl_int sli_next_seed(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
-                sl_int *k) {
+    sl_int *k) {
   const sl_int here = S->super_of[sli_key(seeds[*k])];
   sl_int s = here;
   while (++*k < count) {
@@ -12385,7 +12385,7 @@ SLI_INLINE sl_off sli_entries_from(sl_int width, sl_int below, sl_int first_tile
 }
 
 static void sli_reach_add_path(const sl_symbolic *S, sl_int k, sl_int low, sl_int high,
-                 sli_reach *R) {
+    sli_reach *R) {
   sl_int s = S->super_of[k];
   while (s != -1 && s < high && S->first_descendant[s] > low) {
     const sl_int first = S->super_first[s], width = S->super_first[s + 1] - first;
@@ -12402,13 +12402,13 @@ static void sli_reach_add_path(const sl_symbolic *S, sl_int k, sl_int low, sl_in
 }
 
 SLI_INLINE void sli_reach_add(const sl_symbolic *S, sl_int k, sl_int before, sl_int behind,
-                sli_reach *R) {
+    sli_reach *R) {
   sli_reach_add_path(S, k, before < 0 ? -1 : S->super_of[before],
-             behind < 0 ? S->n_supers : S->super_of[behind], R);
+      behind < 0 ? S->n_supers : S->super_of[behind], R);
 }
 
 static void sli_reach_measure_within(const sl_symbolic *S, const sli_region_extent *extent,
-                   const uint64_t *seeds, sl_int count, sli_reach *R) {
+    const uint64_t *seeds, sl_int count, sli_reach *R) {
   sl_int k, low = -1;
   memset(R, 0, sizeof *R);
   for (k = 0; k < count; k++) {
@@ -12420,7 +12420,7 @@ static void sli_reach_measure_within(const sl_symbolic *S, const sli_region_exte
 }
 
 SLI_INLINE void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
-                  sli_reach *R) {
+    sli_reach *R) {
   sli_reach_measure_within(S, NULL, seeds, count, R);
 }
 
@@ -12470,7 +12470,7 @@ SLI_INLINE sl_int sli_reach_find(const sli_step *steps, sl_int low, sl_int high,
 #define SLI_REACH_WALK 8
 
 static void sli_reach_map_rows(const sl_int *rows, sl_int inside, const sli_step *steps,
-                 sl_int count, sl_int at, sl_int *indices) {
+    sl_int count, sl_int at, sl_int *indices) {
   sl_int i = 0;
   while (i < inside) {
     sl_int end, shift, walked = 0;
@@ -12487,7 +12487,7 @@ static void sli_reach_map_rows(const sl_int *rows, sl_int inside, const sli_step
 }
 
 static void sli_extent_map_rows(const sli_region_extent *extent, sl_int base, const sl_int *rows,
-                sl_int count, sl_int *indices) {
+    sl_int count, sl_int *indices) {
   sl_int i, at = 0;
   for (i = 0; i < count; i++) {
     at += sli_lower_bound(extent->rows + at, extent->n_rows - at, rows[i]);
@@ -12501,8 +12501,8 @@ typedef struct sli_reach_arrays {
 } sli_reach_arrays;
 
 static void sli_reach_fill_within(const sl_symbolic *S, const sli_region_extent *extent,
-                  const uint64_t *seeds, sl_int count,
-                  const sli_reach_arrays *arrays, sli_reach *R) {
+    const uint64_t *seeds, sl_int count,
+    const sli_reach_arrays *arrays, sli_reach *R) {
   sli_step *steps = arrays->steps;
   sl_int *rows = arrays->rows;
   sl_int k = 0, at, s, next, end;
@@ -12538,7 +12538,7 @@ static void sli_reach_fill_within(const sl_symbolic *S, const sli_region_extent 
     if (extent != NULL) {
       inside = sli_lower_bound(from, below, S->super_first[sli_extent_end(S, extent, own)]);
       sli_extent_map_rows(extent, R->columns, from + inside, below - inside,
-                rows + R->n_rows + inside);
+          rows + R->n_rows + inside);
     }
     sli_reach_map_rows(from, inside, steps, R->count, at, rows + R->n_rows);
     R->n_rows += below;
@@ -12549,7 +12549,7 @@ static void sli_reach_fill_within(const sl_symbolic *S, const sli_region_extent 
 }
 
 SLI_INLINE void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
-                 sli_step *steps, sl_int *rows, sli_reach *R) {
+    sli_step *steps, sl_int *rows, sli_reach *R) {
   sli_reach_arrays arrays;
   arrays.steps = steps;
   arrays.rows = rows;
@@ -12604,7 +12604,7 @@ SLI_INLINE int sli_intersection_next(sli_intersection *m) {
         m->a++;
         m->b++;
       } while (m->a < m->a_end && m->b < m->b_end && m->a->panel == m->b->panel &&
-           m->a->column == m->b->column);
+          m->a->column == m->b->column);
       return 1;
     }
     if (m->a->panel < m->b->panel) {
@@ -12797,7 +12797,7 @@ SLI_INLINE sl_status sli_inverse_check(const sl_factor *F) {
 
 SLI_COLD static sl_status sli_refuse_mapped(void) {
   return sli_refuse(SL_ERR_READ_ONLY, "it is mapped (sl_load_file copies it), of "
-                    "sl_factor_restrict, or saved by a newer version");
+      "sl_factor_restrict, or saved by a newer version");
 }
 
 SLI_INLINE sl_status sli_factor_may_change(const sl_factor *F) {
@@ -12805,7 +12805,7 @@ SLI_INLINE sl_status sli_factor_may_change(const sl_factor *F) {
 }
 
 SLI_INLINE sl_status sli_fail(sli_failure *f, sl_status status, sl_int super, sl_int pivot,
-                sl_off position, double value) {
+    sl_off position, double value) {
   f->status = status;
   f->super = super;
   f->pivot = pivot;
@@ -12847,11 +12847,11 @@ struct sli_storage_type {
   const sli_front_kernels *(*front)(const sli_kernels *kernels);
 
   sl_status (*factor)(sl_factor *F, const sli_source *from, sl_int first, sl_int last,
-            sl_int worker, sli_failure *failure);
+      sl_int worker, sli_failure *failure);
   sli_front (*shared)(const sl_factor *F, sl_int s, sl_int group);
   void (*clear)(const sli_front *f, sl_int t0, sl_int t1);
   sl_status (*load)(sl_factor *F, const sli_source *from, const sli_front *f,
-            sli_failure *failure);
+      sli_failure *failure);
   void (*assemble)(const sl_factor *F, const sli_front *f, sl_int worker, sl_int t0, sl_int t1);
   sl_status (*finish)(const sl_factor *F, const sli_front *f, sli_failure *failure);
 
@@ -12886,11 +12886,11 @@ SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) 
 }
 
 SLI_INLINE void sli_forward_sweep(const sl_factor *F, int kind, const sli_reach *R, double *x,
-                  double *scratch) {
+    double *scratch) {
   F->sweeps->forward[kind](R, F->values, x, scratch);
 }
 SLI_INLINE void sli_backward_sweep(const sl_factor *F, int kind, const sli_reach *R,
-                   const double *D, double *x, double *scratch) {
+    const double *D, double *x, double *scratch) {
   F->sweeps->backward[kind](R, F->values, D, x, scratch);
 }
 
@@ -12976,14 +12976,14 @@ SLI_INLINE void sli_record_magnitude(const sl_factor *F, sl_int s, sl_int k, dou
 }
 
 SLI_COLD static sl_status sli_refuse_pivot(const sl_factor *F, sl_int s, sl_int k, double pivot,
-                       double magnitude, sli_failure *failure) {
+    double magnitude, sli_failure *failure) {
   (void)sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
   failure->bound = fmax(sli_rule_tolerance(&F->rule, k), 0.0) * magnitude;
   return failure->status;
 }
 
 SLI_COLD static sl_status sli_check_small(const sl_factor *F, sl_int s, sl_int k, double pivot,
-                      double magnitude, sli_failure *failure) {
+    double magnitude, sli_failure *failure) {
   if (!sli_is_null(pivot, magnitude, sli_rule_tolerance(&F->rule, k))) {
     return SL_OK;
   }
@@ -12997,7 +12997,7 @@ SLI_COLD static sl_status sli_check_small(const sl_factor *F, sl_int s, sl_int k
 }
 
 SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, double pivot,
-                   double magnitude, sli_failure *failure) {
+    double magnitude, sli_failure *failure) {
   sli_record_magnitude(F, s, k, magnitude);
   if (!sli_is_finite(pivot)) {
     return sli_fail(failure, SL_ERR_NOT_FINITE, s, k, -1, pivot);
@@ -13006,14 +13006,14 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, dou
     return sli_check_small(F, s, k, pivot, magnitude, failure);
   }
   if (F->null.mode == SL_NULL_PIVOT_SKIP && !sli_is_skipped(F, k) &&
-    !(pivot * F->rule.signs[k] > 0.0)) {
+      !(pivot * F->rule.signs[k] > 0.0)) {
     return sli_refuse_pivot(F, s, k, pivot, magnitude, failure);
   }
   return SL_OK;
 }
 
 SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int s, sl_int k, const double *magnitude,
-                  sli_failure *failure) {
+    sli_failure *failure) {
   double a, b, e;
   sl_int r;
   if (F->S->pairs[k] == SLI_PAIR_SECOND) {
@@ -13027,12 +13027,12 @@ SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int s, sl_int k, cons
   }
   if (!sli_is_finite(a) || !sli_is_finite(b) || !sli_is_finite(e)) {
     return sli_fail(failure, SL_ERR_NOT_FINITE, s, k, -1,
-            !sli_is_finite(a)   ? a
-            : !sli_is_finite(b) ? b
-                      : e);
+        !sli_is_finite(a) ? a
+        : !sli_is_finite(b) ? b
+        : e);
   }
   if (!F->rule.replaces &&
-    sli_pair_is_null(a, b, e, magnitude[0], magnitude[1], sli_rule_tolerance(&F->rule, k))) {
+      sli_pair_is_null(a, b, e, magnitude[0], magnitude[1], sli_rule_tolerance(&F->rule, k))) {
     return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, a);
   }
   return SL_OK;
@@ -13171,7 +13171,7 @@ SLI_INLINE void sli_null_add(sli_null_row *rows, sl_int i, sl_int j, double a) {
 }
 
 static int sli_null_add_columns(sli_null_row *rows, const sl_csc *A, sl_triangle triangle,
-                double *diagonal) {
+    double *diagonal) {
   int has_zero = 0;
   sl_int j, p;
   for (j = 0; j < A->n_cols; j++) {
@@ -13227,8 +13227,8 @@ SLI_INLINE void sli_null_map_join(const sli_null_walk *w, const sli_null_map_sta
 }
 
 SLI_HOT static void sli_null_add_entries(const sli_null_walk *w, sli_null_map_state *p,
-                     sl_off first, sl_int count, const double *values,
-                     const sl_int *from) {
+    sl_off first, sl_int count, const double *values,
+    const sl_int *from) {
   const sl_symbolic *S = p->S;
   sl_int m;
   for (m = count - 1; m >= 0; m--) {
@@ -13250,7 +13250,7 @@ SLI_HOT static void sli_null_add_entries(const sli_null_walk *w, sli_null_map_st
 }
 
 SLI_HOT static void sli_null_add_map(const sli_null_walk *w, const sl_symbolic *S,
-                   const sli_source *from, double *diagonal) {
+    const sli_source *from, double *diagonal) {
   double sums[SLI_SUM_ENTRIES];
   sli_null_map_state p;
   memset(&p, 0, sizeof p);
@@ -13287,8 +13287,8 @@ static int sli_map_has_duplicates(const sl_symbolic *S) {
 }
 
 SLI_HOT static sli_null_walk sli_null_product(const sl_symbolic *S, const sli_source *from,
-                        int by_columns, sli_null_row *rows, const double *z,
-                        double *diagonal) {
+    int by_columns, sli_null_row *rows, const double *z,
+    double *diagonal) {
   sli_null_walk w;
   sl_int i;
   w.rows = rows;
@@ -13320,7 +13320,7 @@ SLI_INLINE int sli_null_row_is_zero(const sli_null_row *row) {
 }
 
 static void sli_null_components(const sli_null_walk *w, const sl_symbolic *S, const double *z,
-                sl_int *last, double *most) {
+    sl_int *last, double *most) {
   sl_int k, i;
   for (k = S->n - 1; k >= 0; k--) {
     sl_int up = S->parent[k];
@@ -13419,7 +13419,7 @@ static void sli_null_invert(double *a, sl_int m) {
 
 #define SLI_NULL_DEPENDENT 1e-11
 #define SLI_NULL_ANCHOR 0.3
-enum { SLI_NULL_IS_ANCHOR = -2  };
+enum { SLI_NULL_IS_ANCHOR = -2 };
 
 typedef struct sli_null_part {
   sl_factor *F;
@@ -13484,7 +13484,7 @@ static void sli_null_scale(const sli_null_part *p, sl_int j) {
 }
 
 static double sli_null_violation(const sli_null_part *p, const double *q, sl_int vectors,
-                 double *x) {
+    double *x) {
   const double *product = p->F->null.products, *sizes = product + (size_t)p->count * p->n;
   double most = 0.0, y[SLI_NULL_VECTORS_MAX];
   sl_int k, j;
@@ -13611,7 +13611,7 @@ SLI_HOT static void sli_null_orthonormalize(sli_null_part *p) {
 }
 
 static double sli_null_distance(const sli_null_part *p, sl_int k, const double *q, sl_int vectors,
-                double *x) {
+    double *x) {
   sl_int j;
   for (j = 0; j < p->rank; j++) {
     x[j] = p->z[(size_t)k + (size_t)j * p->n];
@@ -13702,7 +13702,7 @@ static void sli_null_bases_test(sl_factor *F, const sli_source *from, int by_col
 }
 
 static sl_status sli_null_bases(sl_factor *F, const sli_source *from, int by_columns,
-                sli_failure *failure) {
+    sli_failure *failure) {
   const sl_symbolic *S = F->S;
   sl_int anchors[SLI_NULL_VECTORS_MAX], k, j, rank, used = 0;
   memcpy(F->null.g, F->null.z, (size_t)S->n * (size_t)F->null.vectors * sizeof(double));
@@ -13782,7 +13782,7 @@ static double sli_null_rounding(sl_int n, double epsilon) {
 }
 
 SLI_COLD static void sli_null_finite_check(const sl_factor *F, const sli_source *from,
-                       sli_failure *failure) {
+    sli_failure *failure) {
   const sl_symbolic *S = F->S;
   sl_off m;
   sl_int s;
@@ -13803,7 +13803,7 @@ SLI_COLD static void sli_null_finite_check(const sl_factor *F, const sli_source 
 }
 
 static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
-                    sli_failure *failure) {
+    sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const int is_one = F->null.vectors == 1,
         by_columns = from->A != NULL && !F->null.has_duplicates;
@@ -13831,7 +13831,7 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
   if (refused < S->n) {
     memset(F->D, 0, (size_t)S->n * sizeof(double));
     return sli_fail(failure, SL_ERR_PIVOT, S->super_of[refused], refused, -1,
-            diagonal[sli_null_walk_row(&w, refused)]);
+        diagonal[sli_null_walk_row(&w, refused)]);
   }
   F->rule.rounding = F->null.rounding;
   sli_null_kinds_fill(F, &w, diagonal);
@@ -13891,7 +13891,7 @@ static int sli_null_suspect_fits(const sl_factor *F) {
 }
 
 SLI_COLD static sl_int sli_null_suspects_find(sl_factor *F, const sli_source *from, sl_int **list,
-                        sli_failure *failure) {
+    sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
   void *room = sli_null_suspect_fits(F) ? NULL : sli_judge_memory(F, S->n, SLI_SUSPECT_ROW);
@@ -13976,7 +13976,7 @@ static int sli_front_is_regular(const sl_factor *F, const sli_front *f, sl_int s
 }
 
 static void sli_front_eliminate(const sli_front_kernels *kernels, const sli_front *f,
-                double *scratch) {
+    double *scratch) {
   const sl_int tiles = sli_front_tiles(f), ends = sli_tiles(f->width);
   sl_int c0;
   for (c0 = 0; c0 < ends; c0 += SLI_GROUP_TILES) {
@@ -13989,7 +13989,7 @@ static void sli_front_eliminate(const sli_front_kernels *kernels, const sli_fron
 }
 
 static void sli_front_update(const sli_front_kernels *kernels, const sli_front *f,
-               double *scratch) {
+    double *scratch) {
   const sl_int whole = f->width / SLI_TILE, tiles = sli_front_tiles(f);
   if (f->below > 0 && !f->is_small) {
     kernels->update(f, whole, tiles, whole, tiles, scratch);
@@ -14081,8 +14081,8 @@ static void sli_row_solve(sl_factor *F, sl_int s, sl_int q, double *pivot, doubl
   const sl_symbolic *S = F->S;
   const sl_int first = S->super_first[s];
   F->kernels->row((double *)F->values + S->steps[s].panel, S->steps[s].width, q,
-          S->rows + S->rows_begin[s], F->D + first, F->row.x + first, F->row.x,
-          F->work.buffer, pivot, magnitude);
+      S->rows + S->rows_begin[s], F->D + first, F->row.x + first, F->row.x,
+      F->work.buffer, pivot, magnitude);
 }
 
 static void sli_row_solve_all(sl_factor *F, sl_int k, double *pivot, double *magnitude) {
@@ -14189,7 +14189,7 @@ SLI_INLINE int sli_piece_has_update(const sli_step *s, const sli_top *top, sl_in
 }
 
 SLI_INLINE int sli_piece_is_ready(const sli_step *s, const sli_top *top, sl_int piece,
-                  sl_int step) {
+    sl_int step) {
   const sl_int last = sli_piece_last_step(s, piece), group = step - SLI_STEP_ROWS;
   if (step <= SLI_STEP_ASSEMBLE) {
     return step == SLI_STEP_CLEAR || top->is_loaded;
@@ -14270,8 +14270,8 @@ static sli_task sli_job_draw(sli_job *job) {
       return task;
     }
     if ((!sli_is_float(job->F) || job->F->work.panel_room == 0 || job->in_turn == -1 ||
-       job->in_turn == at) &&
-      sli_top_draw(job, at, &task)) {
+        job->in_turn == at) &&
+        sli_top_draw(job, at, &task)) {
       job->in_turn = at;
       p->tops[at].is_begun = 1;
       return task;
@@ -14357,7 +14357,7 @@ static void sli_subtrees_run(sl_factor *F, const sli_source *from, sl_int bundle
 }
 
 static sl_status sli_task_run(sl_factor *F, const sli_source *from, const sli_task *task,
-                sl_int worker) {
+    sl_int worker) {
   const sl_int s = task->kind == SLI_TASK_SUBTREES ? 0 : F->schedule.top[task->at];
   sli_failure failure;
   sli_front f;
@@ -14459,7 +14459,7 @@ static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_fail
 /* src/impl/factor/null_center.h: constants for centered solves where components have several null vectors */
 
 SLI_HOT static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root,
-                      sli_failure *failure) {
+    sli_failure *failure) {
   const size_t n = (size_t)F->S->n;
   sl_int m = sli_lower_bound(F->null.pivots, F->null.count, first), count = 0, k = root, i, j;
   const double rounding = 16.0 * F->S->n * DBL_EPSILON;
@@ -14525,7 +14525,7 @@ SLI_HOT static void sli_center_multiply(sl_factor *F) {
 }
 
 SLI_HOT static sl_status sli_center_finish(sl_factor *F, sl_int first, sl_int root,
-                       sli_failure *failure) {
+    sli_failure *failure) {
   const size_t n = (size_t)F->S->n, count = (size_t)F->null.vectors;
   double q[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX] = {0.0}, size = 0.0;
   size_t i, j;
@@ -14590,7 +14590,7 @@ static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats
     const double m = mass[S->perm[k]];
     if (!sli_is_finite(m)) {
       return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[k], -1, m,
-                 "options.mass is not finite");
+          "options.mass is not finite");
     }
     F->null.mass[k] = m;
     any |= m != 0.0;
@@ -14651,7 +14651,7 @@ static void sli_anchor_weights(const sl_factor *F, double *weights) {
 }
 
 static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double total, sl_int m,
-                 sli_failure *failure) {
+    sli_failure *failure) {
   const sl_int anchor = m < F->null.n_anchors ? F->null.anchors[m] : F->S->n;
   double *v = F->null.center, a, sum = 0.0, z_m = 0.0, size = 0.0;
   sl_int k;
@@ -14718,7 +14718,7 @@ static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
 }
 
 static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
-                    sli_failure *failure) {
+    sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const sli_reach all = sli_reach_all(S);
   double *z = F->null.vectors == 1 ? F->null.g : F->null.products;
@@ -14742,7 +14742,7 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
   }
   sli_backward_sweep(F, SLI_NRHS_1, &all, F->D, z, F->null.sweep);
   w = sli_null_product(S, from, from->A != NULL && !F->null.has_duplicates, F->null.rows, z,
-             NULL);
+      NULL);
   for (k = 0; k < S->n && status == SL_OK; k++) {
     if (!(fabs(w.rows[k].product) <= 1e-4 * w.rows[k].size)) {
       status = sli_fail(failure, SL_ERR_PIVOT, S->super_of[first], first, -1, 0.0);
@@ -14777,7 +14777,7 @@ static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failur
     }
   }
   for (m = 0; m < F->null.count;
-     m++) {
+      m++) {
     double *mark = &F->null.rounding[F->null.last[F->null.pivots[m]]];
     regular -= *mark >= 0.0;
     *mark = -1.0;
@@ -14831,7 +14831,7 @@ SLI_INLINE double sli_growth(double magnitude, double entry) {
 }
 
 SLI_COLD static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl_int last,
-                      double entry, sli_failure *failure) {
+    double entry, sli_failure *failure) {
   const double bound = F->growth_limit * entry;
   sl_int s = first, k, cause;
   while (s < last && !(sli_growth(F->extents[s].magnitude, entry) > F->growth_limit)) {
@@ -14976,7 +14976,7 @@ SLI_COLD static int sli_judge_is_null(sli_judge *judge, sl_int k) {
 }
 
 SLI_COLD static sl_status sli_judge_begin(sli_judge *judge, sl_factor *F, sl_int k,
-                      sli_failure *failure) {
+    sli_failure *failure) {
   judge->F = F;
   judge->reads = SLI_JUDGE_READS * (double)F->S->panel_begin[F->S->n_supers];
   judge->z = (double *)sli_judge_memory(F, F->S->n, 3 * sizeof(double));
@@ -14989,7 +14989,7 @@ SLI_COLD static sl_status sli_judge_begin(sli_judge *judge, sl_factor *F, sl_int
 }
 
 SLI_COLD static sl_status sli_judge_end(sli_judge *judge, sl_int k, double bound,
-                    sli_failure *failure) {
+    sli_failure *failure) {
   const sl_factor *F = judge->F;
   (void)sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, F->D[k]);
   failure->bound = judge->error > 0.0 ? judge->error : bound;
@@ -15065,7 +15065,7 @@ static int sli_judge_last(sli_judge *judge, sl_int last) {
 }
 
 SLI_COLD static sl_status sli_lasts_judge(sl_factor *F, const sl_int *last, sl_int count,
-                      sli_failure *failure) {
+    sli_failure *failure) {
   sli_judge judge;
   sl_int m;
   if (sli_judge_begin(&judge, F, last[0], failure) != SL_OK) {
@@ -15097,7 +15097,7 @@ SLI_COLD static sl_status sli_signs_judge(sl_factor *F, sli_failure *failure) {
       sli_judge judge;
       is_mixed = 1;
       if (size <= 0.125 * sli_null_rounding(k - first + 1, F->rule.epsilon) * most &&
-        sli_judge_begin(&judge, F, k, failure) == SL_OK) {
+          sli_judge_begin(&judge, F, k, failure) == SL_OK) {
         sli_judge_weigh(&judge, S->first_descendant[S->super_of[k]], S->super_of[k]);
         if (sli_judge_is_null(&judge, k)) {
           (void)sli_judge_end(&judge, k, 0.0, failure);
@@ -15212,10 +15212,10 @@ static sl_status sli_factor_schedule(sl_factor *F) {
   }
   if (status == SL_OK) {
     sli_schedule_fill(&F->schedule, S,
-              sli_is_single(F)  ? SLI_PLAIN_NOT
-              : sli_is_float(F) ? SLI_PLAIN_PASSED
-                      : SLI_PLAIN,
-              &w);
+        sli_is_single(F) ? SLI_PLAIN_NOT
+        : sli_is_float(F) ? SLI_PLAIN_PASSED
+        : SLI_PLAIN,
+        &w);
     sli_free(&F->allocator, b.base);
     b.base = NULL;
     b.used = 0;
@@ -15273,7 +15273,7 @@ static const char *sli_factor_choices_wrong(const sl_options *opt) {
        : opt->consistency_tolerance != opt->consistency_tolerance
          ? "options.consistency_tolerance is NaN"
        : opt->growth_limit != opt->growth_limit ? "options.growth_limit is NaN"
-       : opt->error_limit != opt->error_limit   ? "options.error_limit is NaN"
+       : opt->error_limit != opt->error_limit ? "options.error_limit is NaN"
        : !(opt->regularization >= 0.0) || !sli_is_finite(opt->regularization)
          ? "options.regularization is below 0 or not finite"
        : opt->regularization != 0.0 && opt->null_pivots == SL_NULL_PIVOT_SKIP
@@ -15314,7 +15314,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
   F->null.is_centered = F->null.mode == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
   F->is_definite = opt != NULL && opt->definite != 0;
   F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
-                sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
+      sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
   F->error_limit = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
 }
 
@@ -15329,7 +15329,7 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
     for (i = 0; i < S->n; i++) {
       if (opt->signs[i] < -1 || opt->signs[i] > 1) {
         return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, (double)opt->signs[i],
-                   "options.signs has a value other than -1, 0 and 1");
+            "options.signs has a value other than -1, 0 and 1");
       }
       F->rule.signs[S->iperm[i]] = (signed char)opt->signs[i];
     }
@@ -15343,7 +15343,7 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
           opt->null_vector == NULL ? 1.0 : opt->null_vector[column + (size_t)i];
         if (!sli_is_finite(z)) {
           return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, z,
-                     "options.null_vector is not finite");
+              "options.null_vector is not finite");
         }
         F->null.z[column + (size_t)S->iperm[i]] = z;
       }
@@ -15366,7 +15366,7 @@ static int sli_updates_exceed(const sl_symbolic *S) {
 }
 
 static sl_method sli_method(const sl_symbolic *S, const sli_storage_type *type,
-              const sl_options *opt) {
+    const sl_options *opt) {
   if (S->n_pairs > 0 || type->storage != SL_STORAGE_DOUBLE) {
     return SL_METHOD_SUPERNODAL;
   }
@@ -15392,7 +15392,7 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
   if (opt != NULL && F->method == SL_METHOD_SUPERNODAL) {
     F->threads = opt->threads;
     F->schedule.workers = sli_min(sli_workers_for(&opt->threads, sli_schedule_flops(F->S)),
-                    sli_max(F->S->n_supers, 1));
+        sli_max(F->S->n_supers, 1));
   }
   if (F->kernels == NULL) {
     F->kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
@@ -15423,13 +15423,13 @@ static void sli_factor_clear_gaps(sl_factor *F) {
     if (S->steps[s].width == 1) {
       const sl_off end = S->panel_begin[s] + 1 + S->steps[s].below;
       memset((char *)F->values + (size_t)end * F->type->value_bytes, 0,
-           (size_t)(S->panel_begin[s + 1] - end) * F->type->value_bytes);
+          (size_t)(S->panel_begin[s + 1] - end) * F->type->value_bytes);
     }
   }
 }
 
 static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
-                   const sli_kernels *kernels, sl_stats *stats) {
+    const sli_kernels *kernels, sl_stats *stats) {
   const double started = sli_factor_clock(S);
   const sl_allocator a = sli_allocator(opt);
   sl_factor draft;
@@ -15443,7 +15443,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
   draft.type = sli_storage_type_of(opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
   if (draft.type == NULL) { /* untested: all packs are there */
     return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
-              sli_storage_needs(opt->storage));
+        sli_storage_needs(opt->storage));
   }
   if (draft.kernels != NULL && draft.type->sweeps(draft.kernels) == NULL) {
     draft.type = draft.type->in_double;
@@ -15455,7 +15455,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
       ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_NULL_PIVOT_SKIP with an analysis for 2x2 pivots")
     : draft.type->suits != NULL && !draft.type->suits(&draft)
       ? sli_refuse(SL_ERR_UNSUPPORTED,
-             "options.storage does not suit the analysis or options")
+          "options.storage does not suit the analysis or options")
       : sli_factor_use(&draft, opt);
   SLI_LAYOUT(&b, &a, status) {
     (void)sli_take(&b, 1, sizeof(sl_factor));
@@ -15486,7 +15486,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
 }
 
 static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
-                sl_stats *stats) {
+    sl_stats *stats) {
   return sli_factor_new_with(out, S, opt, NULL, stats);
 }
 
@@ -15516,8 +15516,8 @@ SLI_COLD static sl_status sli_symmetry_report(const sl_csc *A, sl_int r, sl_stat
     if (!sli_is_finite(mirror) || !sli_is_finite(entry)) {
       const int is_mirror = !sli_is_finite(mirror);
       return sli_fail_at(stats, SL_ERR_NOT_FINITE, is_mirror ? A->i[q] : r,
-                 is_mirror ? r : A->i[q], is_mirror ? mirror : entry,
-                 "an entry of A is not finite");
+          is_mirror ? r : A->i[q], is_mirror ? mirror : entry,
+          "an entry of A is not finite");
     }
     if (fabs(entry - mirror) > fmax(most, SLI_ASYMMETRY_MOST * fabs(entry))) {
       most = fabs(entry - mirror);
@@ -15527,12 +15527,12 @@ SLI_COLD static sl_status sli_symmetry_report(const sl_csc *A, sl_int r, sl_stat
   }
   return column == -1 ? SL_OK
             : sli_fail_at(stats, SL_ERR_PATTERN, r, column, value,
-                    "the values of the two triangles differ; options.triangle "
-                    "chooses one");
+                "the values of the two triangles differ; options.triangle "
+                "chooses one");
 }
 
 static sl_status sli_symmetry_check(const sl_symbolic *S, const sl_csc *A, const sl_allocator *a,
-                  sl_stats *stats) {
+    sl_stats *stats) {
   sl_status status = SL_OK;
   double *difference = NULL, *magnitude = NULL;
   sli_block b = {NULL, 0, 0};
@@ -15562,7 +15562,7 @@ static sl_status sli_symmetry_check(const sl_symbolic *S, const sl_csc *A, const
   }
   for (j = 0; j < S->n && status == SL_OK; j++) {
     if (!sli_is_finite(difference[j]) ||
-      fabs(difference[j]) > SLI_ASYMMETRY_MOST * magnitude[j]) {
+        fabs(difference[j]) > SLI_ASYMMETRY_MOST * magnitude[j]) {
       status = sli_symmetry_report(A, j, stats);
     }
   }
@@ -15592,10 +15592,10 @@ SLI_COLD static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, cons
     column = sli_min(S->perm[k], S->perm[j]);
   }
   (void)sli_fail_at(&F->stats, f->status, row, column, f->value,
-            f->position < 0 ? "a coefficient is not finite"
-            : f->status == SL_ERR_NOT_FINITE
-              ? "an entry of A is not finite"
-              : "an entry of A exceeds the range of float");
+      f->position < 0 ? "a coefficient is not finite"
+      : f->status == SL_ERR_NOT_FINITE
+      ? "an entry of A is not finite"
+      : "an entry of A exceeds the range of float");
 }
 
 SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_failure *f) {
@@ -15634,13 +15634,13 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
 }
 
 SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f,
-                       int has_pivots) {
+    int has_pivots) {
   sl_int n_done = F->S->n;
   F->stats.null_bound = f->bound > 0.0 ? f->bound : 0.0;
   if (f->status != SL_OK && f->pivot >= 0) {
     n_done = has_pivots ? n_done : f->pivot;
     (void)sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value,
-              sli_factor_advice(F, f));
+        sli_factor_advice(F, f));
   } else if (f->status != SL_OK) {
     n_done = F->S->super_first[f->super];
     sli_factor_report_entry(F, A, f);
@@ -15662,7 +15662,7 @@ static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {
 }
 
 static void sli_factor_outcome(sl_factor *F, const sl_csc *A, const sli_failure *failure,
-                 int has_pivots) {
+    int has_pivots) {
   if (!has_pivots) {
     F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
   }
@@ -15686,7 +15686,7 @@ static void sli_factor_identify_numbers(sl_factor *F) {
 }
 
 static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failure *failure,
-                 double started, sl_stats *stats) {
+    double started, sl_stats *stats) {
   double ended;
   int has_pivots, suspects;
   sli_stats_clear_error(&F->stats);
@@ -15704,11 +15704,11 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
   }
   sli_factor_outcome(F, from->A, failure, has_pivots);
   if (sli_signs_are_suspected(F) && failure->status == SL_OK &&
-    sli_signs_judge(F, failure) != SL_OK) {
+      sli_signs_judge(F, failure) != SL_OK) {
     sli_factor_outcome(F, from->A, failure, 0);
   }
   if (F->is_definite && has_pivots && F->stats.factor.negative > 0 &&
-    failure->status != SL_ERR_PIVOT) {
+      failure->status != SL_ERR_PIVOT) {
     sli_refuse_negative(F, failure);
     sli_factor_outcome(F, from->A, failure, 1);
   }
@@ -15755,13 +15755,13 @@ static void sli_factor_begin(sl_factor *F) {
 }
 
 SLI_NOINLINE static sl_status sli_factor_eliminate(sl_factor *F, const sli_source *from,
-                           sli_failure *failure) {
+    sli_failure *failure) {
   return F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, from, failure)
                        : sli_uplooking(F, from, failure);
 }
 
 SLI_COLD static void sli_factor_suspect(sl_factor *F, const sli_source *from,
-                    sli_failure *failure) {
+    sli_failure *failure) {
   sl_int *last = NULL;
   const sl_int count = sli_null_suspects_find(F, from, &last, failure);
   sli_factor_clear_gaps(F);
@@ -15775,7 +15775,7 @@ SLI_COLD static void sli_factor_suspect(sl_factor *F, const sli_source *from,
 }
 
 static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double started,
-                  sl_stats *stats) {
+    sl_stats *stats) {
   sli_failure failure;
   sl_int t;
   memset(&failure, 0, sizeof failure);
@@ -15794,7 +15794,7 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
     (void)sli_null_vectors_check(F, from, &failure);
   }
   if (failure.status == SL_OK && sli_factor_eliminate(F, from, &failure) == SL_OK &&
-    sli_null_is_suspected(F) && sli_nulls_judge(F, -1, &failure) == SL_OK) {
+      sli_null_is_suspected(F) && sli_nulls_judge(F, -1, &failure) == SL_OK) {
     sli_factor_suspect(F, from, &failure);
   }
   return sli_factor_done(F, from, &failure, started, stats);
@@ -15816,8 +15816,8 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
 }
 
 static sl_status sli_factor_create_from(sl_factor **out, const sl_symbolic *S,
-                    const sli_source *from, const sl_options *opt,
-                    sl_stats *stats) {
+    const sli_source *from, const sl_options *opt,
+    sl_stats *stats) {
   sl_factor *F = NULL;
   sl_status status = sli_factor_new(&F, S, opt, stats);
   if (status == SL_OK) {
@@ -15833,7 +15833,7 @@ static sl_status sli_factor_create_from(sl_factor **out, const sl_symbolic *S,
 }
 
 SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
-                  const sl_options *opt, sl_stats *stats) {
+    const sl_options *opt, sl_stats *stats) {
   const sli_source from = sli_source_matrix(A);
   const sl_allocator a = sli_allocator(opt);
   sl_status status;
@@ -15859,10 +15859,10 @@ SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats) {
 SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, double *sign) {
   double sum = 0.0;
   sl_int k;
-  sl_status status = sli_argument(F == NULL             ? "F is NULL"
-                  : log_abs_det == NULL ? "log_abs_det is NULL"
-                  : sign == NULL        ? "sign is NULL"
-                              : NULL);
+  sl_status status = sli_argument(F == NULL ? "F is NULL"
+      : log_abs_det == NULL ? "log_abs_det is NULL"
+      : sign == NULL ? "sign is NULL"
+      : NULL);
   status = status == SL_OK ? sli_factor_has_numbers(F) : status;
   if (status != SL_OK) {
     return status;
@@ -15882,16 +15882,16 @@ SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, doubl
 }
 
 SL_API sl_status sl_factor_pivot_rows(const sl_factor *F, sl_pivot_kind kind, sl_int *rows,
-                    double *shifts, sl_int capacity, sl_int *count) {
+    double *shifts, sl_int capacity, sl_int *count) {
   const sl_int *pivots;
   sl_int m;
-  sl_status status = sli_argument(F == NULL                      ? "F is NULL"
-                  : count == NULL                ? "count is NULL"
-                  : capacity < 0                 ? "capacity is below 0"
-                  : capacity > 0 && rows == NULL ? "rows is NULL"
-                  : kind != SL_PIVOT_NULL && kind != SL_PIVOT_REGULARIZED
-                    ? "kind is not a value of sl_pivot_kind"
-                    : NULL);
+  sl_status status = sli_argument(F == NULL ? "F is NULL"
+      : count == NULL ? "count is NULL"
+      : capacity < 0 ? "capacity is below 0"
+      : capacity > 0 && rows == NULL ? "rows is NULL"
+      : kind != SL_PIVOT_NULL && kind != SL_PIVOT_REGULARIZED
+      ? "kind is not a value of sl_pivot_kind"
+      : NULL);
   status = status == SL_OK ? sli_factor_has_numbers(F) : status;
   if (status != SL_OK) {
     return status;
@@ -15949,7 +15949,7 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
   count = sli_factor_entries(F, NULL);
   if (count > INT32_MAX) { /* untested: 2^31 entries */
     return sli_refuse(SL_ERR_TOO_LARGE,
-              "L has more than 2^31 - 1 entries"); /* untested: the same */
+        "L has more than 2^31 - 1 entries"); /* untested: the same */
   }
   status = sli_matrix_new(out, F->S->n, F->S->n, (sl_int)count, 1, &a);
   if (status == SL_OK) {
@@ -16137,23 +16137,23 @@ SLI_COLD static sl_status sli_query_refuse_analysis(void) {
 
 static sl_status sli_query_check(const sli_query *q, const sl_factor *F) {
   return sli_query_fits(q, F) ? SL_OK
-       : !F->is_valid       ? sli_factor_has_numbers(F)
+       : !F->is_valid ? sli_factor_has_numbers(F)
        : F->S == q->S
          ? sli_refuse(SL_ERR_STALE, "the region of the plan is not of the present F: "
-                      "sl_region_refactor")
+             "sl_region_refactor")
          : sli_query_refuse_analysis();
 }
 
 SLI_COLD static sl_status sli_refuse_region(void) {
   return sli_refuse(SL_ERR_UNSUPPORTED, "this call takes no plan in a region: create one without "
-                      "options.region");
+      "options.region");
 }
 
 SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
-  return nrhs <= 1    ? SLI_NRHS_1
-       : nrhs == 2  ? SLI_NRHS_2
-       : nrhs <= 4  ? SLI_NRHS_4
-       : nrhs <= 8  ? SLI_NRHS_8
+  return nrhs <= 1 ? SLI_NRHS_1
+       : nrhs == 2 ? SLI_NRHS_2
+       : nrhs <= 4 ? SLI_NRHS_4
+       : nrhs <= 8 ? SLI_NRHS_8
        : nrhs <= 16 ? SLI_NRHS_16
        : nrhs <= 32 ? SLI_NRHS_32
             : SLI_NRHS_64;
@@ -16184,7 +16184,7 @@ static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q,
          ? v->y
          : SLI_TAKE_INLINE(b, double, (uint64_t)q->backward.columns *(uint64_t)lanes);
   v->product = SLI_TAKE_INLINE(
-    b, double, q->ending == NULL ? 0 : q->ending->calls->vectors(q->ending, lanes));
+      b, double, q->ending == NULL ? 0 : q->ending->calls->vectors(q->ending, lanes));
   v->scratch = SLI_TAKE_INLINE(b, double, most > across ? most : across);
 }
 
@@ -16266,12 +16266,12 @@ static sl_status sli_rhs_check(const sli_rhs *r, sl_int nx, sl_int nb) {
   if (r->nrhs == 0 || (r->nrhs > 0 && !bad_x && !bad_b && !is_misaligned)) {
     return SL_OK;
   }
-  return sli_argument(r->nrhs < 0             ? "nrhs is below 0"
-            : bad_x && r->X == NULL ? "X is NULL"
-            : bad_x                 ? "ldx is below the rows of X, or with SL_ROWS nrhs"
-            : bad_b && r->B == NULL ? "B is NULL"
-            : bad_b                 ? "ldb is below the rows of B, or with SL_ROWS nrhs"
-                        : "X is B, but ldx is not ldb");
+  return sli_argument(r->nrhs < 0 ? "nrhs is below 0"
+      : bad_x && r->X == NULL ? "X is NULL"
+      : bad_x ? "ldx is below the rows of X, or with SL_ROWS nrhs"
+      : bad_b && r->B == NULL ? "B is NULL"
+      : bad_b ? "ldb is below the rows of B, or with SL_ROWS nrhs"
+      : "X is B, but ldx is not ldb");
 }
 
 SLI_INLINE sl_status sli_rhs_check_columns(const sli_rhs *r, sl_int nx, sl_int nb) {
@@ -16296,7 +16296,7 @@ SLI_ALWAYS_INLINE sli_rows sli_rows_of(const sl_int *index, sl_int count, sl_int
 }
 
 SLI_ALWAYS_INLINE void sli_pack_rows(double *v, sli_rows rows, const double *M, sli_dense at,
-                   sl_int columns) {
+    sl_int columns) {
   sl_int k, r;
   for (k = 0; k < rows.count; k++) {
     if (rows.lanes >= 4) { /* untested: constant */
@@ -16322,7 +16322,7 @@ static void sli_pack_sums(double *v, sli_rows rows, const double *M, sli_dense a
 }
 
 SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v, sli_rows rows,
-                     sl_int columns) {
+    sl_int columns) {
   sl_int k, r;
   for (k = 0; k < rows.count; k++) {
     if (rows.lanes >= 4) { /* untested: constant */
@@ -16361,15 +16361,15 @@ static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sl
     for (first = 0; first < count; first += sli_min(SLI_PACK_CHUNK, count - first)) {
       for (r = 0; r < nrhs; r += 8) {
         F->kernels->interleave(
-          y + r, lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first),
-          B + (size_t)first + (size_t)r * at.column, at.column, is_streamed);
+            y + r, lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first),
+            B + (size_t)first + (size_t)r * at.column, at.column, is_streamed);
       }
     }
   } else if (nrhs % 8 == 0) {
     sl_int r;
     for (r = 0; r < nrhs; r += 8) {
       sli_pack_rows(y + r, sli_rows_of(index, count, lanes), B + r, sli_dense_by_rows(at.row),
-              8);
+          8);
     }
   } else if (nrhs == 3) {
     sli_pack_rows(y, sli_rows_of(index, count, 4), B, at, 3);
@@ -16383,7 +16383,7 @@ static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sl
 }
 
 static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
-             const double *x) {
+    const double *x) {
   double *X = rhs->X;
   const sli_dense at = sli_dense_of(rhs->ldx);
   const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs);
@@ -16393,14 +16393,14 @@ static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rh
     for (first = 0; first < count; first += sli_min(SLI_PACK_CHUNK, count - first)) {
       for (r = 0; r < nrhs; r += 8) {
         F->kernels->separate(X + (size_t)first + (size_t)r * at.column, at.column, x + r,
-                   lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first));
+            lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first));
       }
     }
   } else if (nrhs % 8 == 0) {
     sl_int r;
     for (r = 0; r < nrhs; r += 8) {
       sli_unpack_rows(X + r, sli_dense_by_rows(at.row), x + r,
-              sli_rows_of(index, count, lanes), 8);
+          sli_rows_of(index, count, lanes), 8);
     }
   } else if (nrhs == 3) {
     sli_unpack_rows(X, at, x, sli_rows_of(index, count, 4), 3);
@@ -16414,7 +16414,7 @@ static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rh
 /* src/impl/solve/singular.h: solves with null pivots: the consistency check, and centering */
 
 SLI_ALWAYS_INLINE void sli_chains_norm(double *chains, const double *row, sl_int columns,
-                     sl_int lanes) {
+    sl_int lanes) {
   const ptrdiff_t count = (ptrdiff_t)columns * lanes;
   ptrdiff_t f = 0;
   sl_int q;
@@ -16430,7 +16430,7 @@ SLI_ALWAYS_INLINE void sli_chains_norm(double *chains, const double *row, sl_int
 }
 
 SLI_ALWAYS_INLINE void sli_chains_dot(double *chains, const double *v, const double *row,
-                    sl_int columns, sl_int lanes) {
+    sl_int columns, sl_int lanes) {
   const ptrdiff_t count = (ptrdiff_t)columns * lanes;
   ptrdiff_t f = 0;
   double sums[SLI_TILE];
@@ -16470,7 +16470,7 @@ static void sli_chains_sum(const double *chains, sl_int lanes, double *sums) {
   }
 
 static void sli_chains_add(double *chains, const double *v, const double *row, sl_int columns,
-               sl_int lanes) {
+    sl_int lanes) {
 #define SLI_CALL(constant) sli_chains_dot(chains, v, row, columns, constant)
   SLI_FOR_LANES(lanes, SLI_CALL)
 #undef SLI_CALL
@@ -16526,13 +16526,13 @@ typedef struct sli_null_dot {
 } sli_null_dot;
 
 static int sli_null_dot_next(const sl_factor *F, const sli_packed *b, sl_int first, sl_int root,
-               sli_null_dot *dot) {
+    sli_null_dot *dot) {
   const sl_int last = sli_tree_range_of(F->S, &b->R->steps[root]).root, lanes = b->lanes;
   double chains[SLI_TILE];
   const double *z;
   sl_int column = -1, r;
   for (; dot->next < F->null.count && F->null.pivots[dot->next] <= last && column == -1;
-     dot->next++) {
+      dot->next++) {
     dot->number = dot->next;
     dot->null = F->null.pivots[dot->next];
     column = sli_null_column(F, dot->null);
@@ -16557,11 +16557,11 @@ static int sli_null_dot_next(const sl_factor *F, const sli_packed *b, sl_int fir
 
 SLI_INLINE sl_int sli_null_first(const sl_factor *F, const sli_reach *R, sl_int root) {
   return sli_lower_bound(F->null.pivots, F->null.count,
-               sli_tree_range_of(F->S, &R->steps[root]).first);
+      sli_tree_range_of(F->S, &R->steps[root]).first);
 }
 
 static int sli_null_dots(const sl_factor *F, const sli_packed *b, const double *norms, double *Y,
-             size_t ldy, sl_int nrhs) {
+    size_t ldy, sl_int nrhs) {
   const sli_reach *R = b->R;
   sl_int first = 0, s, r;
   for (s = 0; s < R->count; s++) {
@@ -16595,7 +16595,7 @@ static int sli_is_consistent(const sl_factor *F, const sli_packed *y, const doub
     }
     tree = sli_tree_range_of(F->S, &R->steps[s]);
     for (m = sli_lower_bound(F->null.pivots, F->null.count, tree.first);
-       m < F->null.count && F->null.pivots[m] <= tree.root; m++) {
+        m < F->null.count && F->null.pivots[m] <= tree.root; m++) {
       const int is_judged =
         F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
       const sl_int at = is_judged ? -1 : sli_reach_index_of(R, F->null.pivots[m]);
@@ -16615,7 +16615,7 @@ typedef struct sli_center_terms {
 } sli_center_terms;
 
 static void sli_center_tree_terms(const sl_factor *F, const sli_packed *y, sl_int first,
-                  sl_int root, sl_int m, sli_center_terms *terms) {
+    sl_int root, sl_int m, sli_center_terms *terms) {
   const sl_int lanes = y->lanes, count = terms->count;
   sl_int s, j, r, at;
   for (j = 0; j < count; j++) {
@@ -16623,7 +16623,7 @@ static void sli_center_tree_terms(const sl_factor *F, const sli_packed *y, sl_in
     for (s = first; s <= root; s++) {
       const sli_step *step = &y->R->steps[s];
       sli_chains_add(chains, F->null.center + (size_t)j * (size_t)F->S->n + step->column,
-               y->v + (ptrdiff_t)step->base * lanes, sli_step_columns(step), lanes);
+          y->v + (ptrdiff_t)step->base * lanes, sli_step_columns(step), lanes);
     }
     sli_chains_sum(chains, lanes, terms->c[(j + count / 2) % count]);
   }
@@ -16636,7 +16636,7 @@ static void sli_center_tree_terms(const sl_factor *F, const sli_packed *y, sl_in
 }
 
 SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const double *D,
-                      sl_int columns, const double *c, sl_int lanes) {
+    sl_int columns, const double *c, sl_int lanes) {
   sl_int k, r;
   for (k = 0; k < columns; k++, row += lanes) {
     const double w = v[k] * D[k];
@@ -16657,7 +16657,7 @@ static void sli_center_clear(const sl_factor *F, const sli_packed *x, sl_int m, 
 }
 
 static void sli_center_step(const sl_factor *F, const sli_packed *x, const sli_step *step,
-              const sli_center_terms *terms) {
+    const sli_center_terms *terms) {
   double *row = x->v + (ptrdiff_t)step->base * x->lanes;
   const sl_int columns = sli_step_columns(step);
   sl_int j;
@@ -16671,7 +16671,7 @@ static void sli_center_step(const sl_factor *F, const sli_packed *x, const sli_s
 }
 
 static void sli_center(const sl_factor *F, const sli_packed *y, const sli_packed *x,
-             const sl_int *uses) {
+    const sl_int *uses) {
   const int is_one = F->null.vectors == 1;
   const sl_int *list = is_one ? F->null.anchors : F->null.pivots;
   const sl_int listed = is_one ? F->null.n_anchors : F->null.count;
@@ -16687,7 +16687,7 @@ static void sli_center(const sl_factor *F, const sli_packed *y, const sli_packed
     tree = sli_tree_range_of(F->S, &y->R->steps[root]);
     m = sli_lower_bound(list, listed, tree.first);
     if (m < listed && list[m] <= tree.root &&
-      (uses == NULL || uses[sli_lower_bound(F->null.pivots, F->null.count, list[m])] == 0)) {
+        (uses == NULL || uses[sli_lower_bound(F->null.pivots, F->null.count, list[m])] == 0)) {
       sli_center_tree_terms(F, y, first, root, m, &terms);
       if (!is_one) {
         sli_center_clear(F, x, m, tree.root);
@@ -16730,12 +16730,12 @@ static void sli_pairs_apply(const sl_factor *F, const sli_reach *R, double *x, s
 }
 
 static void sli_backward(const sl_factor *F, const sli_reach *R, int kind, double *x,
-             double *scratch) {
+    double *scratch) {
   if (F->E != NULL) {
     sli_pairs_apply(F, R, x, (sl_int)1 << kind);
   }
   sli_backward_sweep(F, kind, R, F->null.is_centered || F->E != NULL ? F->divisors : F->D, x,
-             scratch);
+      scratch);
 }
 
 SLI_INLINE int sli_are_finite(const double *x, ptrdiff_t count) {
@@ -16747,7 +16747,7 @@ SLI_INLINE int sli_are_finite(const double *x, ptrdiff_t count) {
 }
 
 static int sli_reach_is_finite(const sl_factor *F, const sli_reach *R, const double *x,
-                 sl_int lanes) {
+    sl_int lanes) {
   const sl_symbolic *S = F->S;
   const int is_full = R->count == S->n_supers;
   sl_int s = R->count - 1;
@@ -16759,7 +16759,7 @@ static int sli_reach_is_finite(const sl_factor *F, const sli_reach *R, const dou
     const sli_step *step = &R->steps[s];
     if (step->up == -1) {
       is_finite &= sli_are_finite(
-        x + (ptrdiff_t)(step->base + sli_step_columns(step) - 1) * lanes, lanes);
+          x + (ptrdiff_t)(step->base + sli_step_columns(step) - 1) * lanes, lanes);
     }
     s = S->stats.symbolic.components == 1 ? -1 : is_full ? S->first_descendant[s] - 1 : s - 1;
   }
@@ -16811,8 +16811,8 @@ static void sli_sweep_tasks_add(sli_sweep_tasks *t, sl_int first, sl_int last, s
     while (low > first) {
       const sl_int next = S->first_descendant[low - 1];
       if (t->n_tasks < SLI_SOLVE_TASKS - 1 &&
-        (sli_sweep_entries(S, low, s) >= least ||
-         sli_sweep_entries(S, next, low - 1) >= least)) {
+          (sli_sweep_entries(S, low, s) >= least ||
+          sli_sweep_entries(S, next, low - 1) >= least)) {
         break;
       }
       low = next;
@@ -16837,7 +16837,7 @@ static double sli_sweep_tasks_path(const sli_sweep_tasks *t, sl_int workers, sl_
     sum += entries;
     most = entries > most ? entries : most;
     if (task->first < task->last && S->first_descendant[task->last] == task->first &&
-      entries > most_tree) {
+        entries > most_tree) {
       most_tree = entries;
       *largest = m;
     }
@@ -16911,8 +16911,8 @@ static void sli_sweep_tasks_finish(sli_sweep_tasks *t) {
         S->steps[s].below - sli_sweep_leaves_at(S, s, S->super_first[task->last + 1]);
     }
     for (k = m; k > 0 && sli_sweep_entries(S, t->tasks[t->order[k - 1]].first,
-                         t->tasks[t->order[k - 1]].last) < size;
-       k--) {
+        t->tasks[t->order[k - 1]].last) < size;
+        k--) {
       t->order[k] = t->order[k - 1];
     }
     t->order[k] = m;
@@ -16929,7 +16929,7 @@ static void sli_sweep_tasks_layout(sli_sweep_tasks *t, sli_block *b) {
 }
 
 static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const sli_query *q,
-                 const sli_rhs *rhs, const sl_threads *threads) {
+    const sli_rhs *rhs, const sl_threads *threads) {
   const sl_symbolic *S = F->S;
   const sl_int nrhs = rhs->nrhs;
   sl_off entries = S->panel_begin[S->n_supers] / SLI_SOLVE_ENTRIES;
@@ -16943,7 +16943,7 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
   }
   workers = entries < workers ? (sl_int)entries : workers;
   if (workers < 2 || (nrhs > 1 && nrhs <= 8) || q->b_index != S->iperm ||
-    q->x_index != S->iperm || F->null.checks || F->null.count > 0) {
+      q->x_index != S->iperm || F->null.checks || F->null.count > 0) {
     return;
   }
   t->F = F;
@@ -16965,7 +16965,7 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
   }
   sli_sweep_tasks_finish(t);
   if (t->n_slots > SLI_ROWS_MAX - S->n) { /* untested: 2^31 rows */
-    return;                             /* untested: the same */
+    return; /* untested: the same */
   }
   t->workers = workers;
   sli_sweep_tasks_layout(t, &b);
@@ -16991,7 +16991,7 @@ static void sli_sweep_tasks_unpack(const sli_sweep_tasks *t, sl_int first, sl_in
 }
 
 static void sli_sweep_tasks_steps(const sli_sweep_tasks *t, sl_int first, sl_int last,
-                  const sl_int *rows, double *scratch) {
+    const sl_int *rows, double *scratch) {
   const sl_symbolic *S = t->F->S;
   sli_reach R = t->q->forward;
   if (first <= last) {
@@ -17002,7 +17002,7 @@ static void sli_sweep_tasks_steps(const sli_sweep_tasks *t, sl_int first, sl_int
 }
 
 static void sli_sweep_tasks_backward(const sli_sweep_tasks *t, sl_int first, sl_int last,
-                   double *scratch) {
+    double *scratch) {
   const sl_symbolic *S = t->F->S;
   sli_reach R = t->q->backward;
   sli_reach_cut(&R, first, last + 1 - first);
@@ -17012,7 +17012,7 @@ static void sli_sweep_tasks_backward(const sli_sweep_tasks *t, sl_int first, sl_
 }
 
 static void sli_sweep_tasks_forward(const sli_sweep_tasks *t, const sli_sweep_task *task,
-                  double *scratch, sl_int *rows) {
+    double *scratch, sl_int *rows) {
   const sl_symbolic *S = t->F->S;
   const sl_int end = S->super_first[task->last + 1];
   sl_int s, from = task->first, slot = task->slots, k;
@@ -17062,9 +17062,9 @@ static void sli_sweep_tasks_forward_item(void *data, sl_int item, sl_int worker)
   const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
   const sl_symbolic *S = t->F->S;
   sli_sweep_tasks_forward(t, &t->tasks[t->order[item]],
-              t->scratch +
-                (size_t)worker * sli_sweep_scratch(S->tallest, S->widest, 1),
-              t->rows + (size_t)worker * (size_t)S->tallest);
+      t->scratch +
+      (size_t)worker * sli_sweep_scratch(S->tallest, S->widest, 1),
+      t->rows + (size_t)worker * (size_t)S->tallest);
 }
 
 static void sli_sweep_tasks_backward_item(void *data, sl_int item, sl_int worker) {
@@ -17072,8 +17072,8 @@ static void sli_sweep_tasks_backward_item(void *data, sl_int item, sl_int worker
   const sl_symbolic *S = t->F->S;
   const sli_sweep_task *task = &t->tasks[t->order[item]];
   sli_sweep_tasks_backward(t, task->first, task->last,
-               t->scratch +
-                 (size_t)worker * sli_sweep_scratch(S->tallest, S->widest, 1));
+      t->scratch +
+      (size_t)worker * sli_sweep_scratch(S->tallest, S->widest, 1));
   sli_sweep_tasks_unpack(t, task->first, task->last);
 }
 
@@ -17090,7 +17090,7 @@ static void sli_sweep_tasks_lead(sli_team *team, void *data) {
 }
 
 static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, void *memory,
-                void (*run_block)(void *data, sl_int item, sl_int worker)) {
+    void (*run_block)(void *data, sl_int item, sl_int worker)) {
   sli_block b = {NULL, 0, 0};
   t->memory = memory;
   t->run_block = run_block;
@@ -17109,12 +17109,12 @@ static void sli_sweep_transfer(const sli_query *q, const double *y, double *x, s
   memset(x, 0, (size_t)q->backward.columns * (size_t)lanes * sizeof(double));
   while (sli_intersection_next(&m)) {
     memcpy(x + (ptrdiff_t)m.in_b * lanes, y + (ptrdiff_t)m.in_a * lanes,
-         (size_t)m.count * (size_t)lanes * sizeof(double));
+        (size_t)m.count * (size_t)lanes * sizeof(double));
   }
 }
 
 static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-                sl_int nrhs) {
+    sl_int nrhs) {
   const int kind = sli_lanes_kind(nrhs);
   const sli_reach *R = &q->forward;
   sli_packed b;
@@ -17150,7 +17150,7 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
 }
 
 static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-              const sli_rhs *rhs) {
+    const sli_rhs *rhs) {
   sli_pack(F, q, v->y, rhs);
   if (F->null.checks) {
     const sl_int lanes = (sl_int)1 << sli_lanes_kind(rhs->nrhs);
@@ -17158,7 +17158,7 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
     double norms[SLI_TILE];
     sli_norms(&b, norms);
     if (F->null.vectors > 1 && (q->ending == NULL || q->ending->rows == 0) &&
-      !sli_null_dots(F, &b, norms, NULL, 0, lanes)) {
+        !sli_null_dots(F, &b, norms, NULL, 0, lanes)) {
       return 0;
     }
     sli_sweep_forward(F, q, v, rhs->nrhs);
@@ -17169,7 +17169,7 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
 }
 
 static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-                 sl_int nrhs) {
+    sl_int nrhs) {
   const int kind = sli_lanes_kind(nrhs);
   const sl_int lanes = (sl_int)1 << kind;
   if (!q->is_shared) {
@@ -17188,16 +17188,16 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
 
 SLI_COLD static sl_status sli_not_finite(void) {
   return sli_refuse(SL_ERR_NOT_FINITE,
-            "a right-hand side or a given value is not finite, or x overflows");
+      "a right-hand side or a given value is not finite, or x overflows");
 }
 
 SLI_COLD static sl_status sli_inconsistent(void) {
   return sli_refuse(SL_ERR_INCONSISTENT,
-            "B has a part along a null vector, beyond options.consistency_tolerance");
+      "B has a part along a null vector, beyond options.consistency_tolerance");
 }
 
 static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
-                 void *memory) {
+    void *memory) {
   sl_int r;
   for (r = 0; r < rhs->nrhs; r += sli_min(8, rhs->nrhs - r)) {
     const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
@@ -17210,14 +17210,14 @@ static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const s
 }
 
 static int sli_sweep_is_finite(const sl_factor *F, const sli_query *q, const double *x,
-                 sl_int lanes) {
+    sl_int lanes) {
   const ptrdiff_t rows = q->ending == NULL ? 0 : q->ending->rows;
   return sli_reach_is_finite(F, &q->backward, x, lanes) &&
        sli_are_finite(x + (q->backward.columns - rows) * lanes, rows * lanes);
 }
 
 static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
-                  void *memory) {
+    void *memory) {
   sl_status status = SL_OK;
   sl_int r, count;
   for (r = 0; r < rhs->nrhs; r += count) {
@@ -17239,7 +17239,7 @@ static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, const 
 }
 
 static sl_status sli_sweep(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
-               void *memory) {
+    void *memory) {
   sl_status status = SL_OK;
   if (F->null.checks && rhs->nrhs > 8 && q->nb > 0) {
     const sli_rhs later = sli_rhs_part(rhs, 8, rhs->nrhs - 8);
@@ -17253,20 +17253,20 @@ static void sli_sweep_tasks_block(void *data, sl_int m, sl_int worker) {
   const sl_int first = m * t->share;
   const sli_rhs part = sli_rhs_part(&t->rhs, first, sli_min(t->share, t->rhs.nrhs - first));
   if (sli_sweep_blocks(t->F, t->q, &part,
-             (unsigned char *)t->memory + (size_t)worker * t->bytes) != SL_OK) {
+      (unsigned char *)t->memory + (size_t)worker * t->bytes) != SL_OK) {
     sli_atomic_write(&t->has_failed, 1);
   }
 }
 
 static sl_status sli_query_prepare(sli_sweep_tasks *t, const sl_factor *F, const sli_query *q,
-                   const sli_rhs *rhs, sl_work *W) {
+    const sli_rhs *rhs, sl_work *W) {
   sli_sweep_tasks_plan(t, F, q, rhs, &W->threads);
   return sli_work_grow(W, t->workers > 1 ? t->total
-                       : sli_vectors_bytes(q, rhs->nrhs, sli_block_most(F)));
+      : sli_vectors_bytes(q, rhs->nrhs, sli_block_most(F)));
 }
 
 static sl_status sli_query_run(sli_sweep_tasks *t, const sl_factor *F, const sli_query *q,
-                 const sli_rhs *rhs, sl_work *W) {
+    const sli_rhs *rhs, sl_work *W) {
   if (t->workers > 1) {
     sli_sweep_tasks_run(t, &W->threads, W->block, sli_sweep_tasks_block);
     return sli_atomic_read(&t->has_failed) ? sli_not_finite() : SL_OK;
@@ -17275,7 +17275,7 @@ static sl_status sli_query_run(sli_sweep_tasks *t, const sl_factor *F, const sli
 }
 
 static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
-                 sl_work *W) {
+    sl_work *W) {
   sl_work own;
   sl_status status;
   sli_sweep_tasks t;
@@ -17297,7 +17297,7 @@ static sl_status sli_solve(const sl_factor *F, const sli_query *q, const sli_rhs
 }
 
 SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, const double *B,
-                 size_t ldb, sl_int nrhs, sl_work *W) {
+    size_t ldb, sl_int nrhs, sl_work *W) {
   const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sli_query q;
   if (F == NULL) {
@@ -17359,7 +17359,7 @@ static sl_status sli_set_sort(const sl_symbolic *S, sli_set *set, sl_stats *stat
     const sl_int i = set->rows[k];
     if (i < 0 || i >= S->n) {
       return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, 0.0,
-                 "a row of bset or xset is out of range");
+          "a row of bset or xset is out of range");
     }
     set->seeds[k] = sli_keyed(S->iperm[i], k);
   }
@@ -17413,7 +17413,7 @@ static int sli_reach_equal(const sli_reach *a, const sli_reach *b) {
 }
 
 static void sli_query_fill(sli_query *q, const sl_symbolic *S, const sli_ending *ending, sli_set *b,
-               sli_set *x) {
+    sli_set *x) {
   q->S = S;
   q->ending = ending;
   q->nb = b->count;
@@ -17440,7 +17440,7 @@ static void sli_query_stats(const sli_query *q, sl_stats *stats) {
 }
 
 static sl_status sli_check_sets(const sl_int *bset, sl_int nb, const sl_int *xset, sl_int nx) {
-  return bset != NULL && nb < 0   ? sli_argument("nb is below 0")
+  return bset != NULL && nb < 0 ? sli_argument("nb is below 0")
        : xset != NULL && nx < 0 ? sli_argument("nx is below 0")
                   : SL_OK;
 }
@@ -17454,7 +17454,7 @@ struct sl_plan {
 };
 
 static sl_status sli_plan_make(sl_plan **out, const sl_symbolic *S, const sli_ending *ending,
-                 sli_set *b, sli_set *x, const sl_allocator *a) {
+    sli_set *b, sli_set *x, const sl_allocator *a) {
   sli_block kept = {NULL, 0, 0};
   sl_plan *P = NULL;
   sli_query query;
@@ -17482,8 +17482,8 @@ static sl_status sli_plan_make(sl_plan **out, const sl_symbolic *S, const sli_en
 }
 
 SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_int *bset, sl_int nb,
-                const sl_int *xset, sl_int nx, const sl_options *opt,
-                sl_stats *stats) {
+    const sl_int *xset, sl_int nx, const sl_options *opt,
+    sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
   sli_block seeds = {NULL, 0, 0};
   const sli_ending *ending = opt == NULL ? NULL : (const sli_ending *)(const void *)opt->region;
@@ -17540,9 +17540,9 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats) {
 }
 
 SL_API sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
-                 const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
+    const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
   const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
-  return P == NULL   ? sli_argument("P is NULL")
+  return P == NULL ? sli_argument("P is NULL")
        : F == NULL ? sli_argument("F is NULL")
              : sli_solve(F, &P->query, &rhs, W);
 }
@@ -17604,9 +17604,9 @@ static const sli_stage sli_local_stages[3] = {{sli_local_layout_seeds, sli_local
                         {sli_local_layout_vectors, NULL}};
 
 SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int nb,
-                const sl_int *xset, sl_int nx, double *X, size_t ldx,
-                const double *B, size_t ldb, sl_int nrhs, sl_work *W,
-                sl_stats *stats) {
+    const sl_int *xset, sl_int nx, double *X, size_t ldx,
+    const double *B, size_t ldb, sl_int nrhs, sl_work *W,
+    sl_stats *stats) {
   const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sl_work own;
   sli_local l;
@@ -17659,7 +17659,7 @@ typedef struct sli_parts {
 } sli_parts;
 
 static sli_query sli_parts_query(const sli_query *from, const sli_reach *R, int takes_bset,
-                 int gives_xset) {
+    int gives_xset) {
   sli_query q = *from;
   q.forward = q.backward = *R;
   q.is_shared = 1;
@@ -17700,7 +17700,7 @@ static double sli_parts_pivot(const sli_parts *p, sl_int k) {
 }
 
 static void sli_parts_scale_step(const sli_parts *p, const sli_step *step, double *row,
-                 sl_int lanes) {
+    sl_int lanes) {
   const sl_factor *F = p->F;
   sl_int k, r;
   for (k = step->column; k < step->column + sli_step_columns(step); k++, row += lanes) {
@@ -17735,7 +17735,7 @@ static void sli_parts_scale(const sli_parts *p, double *x, sl_int lanes) {
 }
 
 static void sli_column_multiply(const sl_factor *F, sl_int s, sl_int j, int is_transposed,
-                double *x, sl_int lanes) {
+    double *x, sl_int lanes) {
   const sli_step *step = &F->S->steps[s];
   const sl_int *rows = F->S->rows + F->S->rows_begin[s];
   double *xj = x + (ptrdiff_t)(step->base + j) * lanes;
@@ -17755,7 +17755,7 @@ static void sli_column_multiply(const sl_factor *F, sl_int s, sl_int j, int is_t
 }
 
 SLI_HOT static void sli_lower_multiply(const sl_factor *F, int is_transposed, double *x,
-                     sl_int lanes) {
+    sl_int lanes) {
   const sl_symbolic *S = F->S;
   sl_int at, s, k, j;
   for (at = 0; at < S->n_supers; at++) {
@@ -17793,8 +17793,8 @@ static void sli_parts_apply(const sli_parts *p, const sli_vectors *v, int kind) 
 static sl_status sli_parts_check(const sl_factor *F, unsigned parts) {
   const unsigned both = SL_PART_D | SL_PART_SQRT_D;
   sl_status status = sli_argument(parts >= 2u * SL_PART_PT ? "parts has a bit that is not known"
-                  : (parts & both) == both ? "parts has both D and sqrt(D)"
-                               : NULL);
+      : (parts & both) == both ? "parts has both D and sqrt(D)"
+      : NULL);
   status = status == SL_OK ? sli_factor_has_numbers(F) : status;
   if (status == SL_OK && parts & SL_PART_SQRT_D && F->stats.factor.negative > 0) {
     status = sli_refuse(SL_ERR_PIVOT, "SL_PART_SQRT_D with a pivot below 0");
@@ -17834,7 +17834,7 @@ static sl_status sli_parts_run(sli_parts *p, const sli_rhs *rhs, sl_work *W) {
 }
 
 static sl_status sli_factor_part(const sl_factor *F, unsigned parts, int is_product,
-                 const sli_rhs *rhs, sl_work *W) {
+    const sli_rhs *rhs, sl_work *W) {
   sli_query all;
   sli_parts p;
   if (F == NULL) {
@@ -17850,30 +17850,30 @@ static sl_status sli_factor_part(const sl_factor *F, unsigned parts, int is_prod
 }
 
 SL_API sl_status sl_factor_solve_part(const sl_factor *F, unsigned parts, double *X, size_t ldx,
-                    const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
+    const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
   const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   return sli_factor_part(F, parts, 0, &rhs, W);
 }
 
 SL_API sl_status sl_factor_multiply_part(const sl_factor *F, unsigned parts, double *X, size_t ldx,
-                     const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
+    const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
   const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   return sli_factor_part(F, parts, 1, &rhs, W);
 }
 
 SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsigned parts, double *X,
-                  size_t ldx, const double *B, size_t ldb, sl_int nrhs,
-                  sl_work *W) {
+    size_t ldx, const double *B, size_t ldb, sl_int nrhs,
+    sl_work *W) {
   const unsigned ends = parts & ~(unsigned)(SL_PART_D | SL_PART_SQRT_D);
   const int is_forward = ends == (SL_PART_P | SL_PART_L);
   const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sli_parts p;
   sl_status status =
-    sli_argument(P == NULL   ? "P is NULL"
-           : F == NULL ? "F is NULL"
-           : !is_forward && ends != (SL_PART_LT | SL_PART_PT)
-             ? "parts of a plan are P and L, or L' and P', each with or without D"
-             : NULL);
+    sli_argument(P == NULL ? "P is NULL"
+        : F == NULL ? "F is NULL"
+        : !is_forward && ends != (SL_PART_LT | SL_PART_PT)
+        ? "parts of a plan are P and L, or L' and P', each with or without D"
+        : NULL);
   if (status == SL_OK && F->S != P->query.S) {
     status = sli_query_refuse_analysis();
   }
@@ -17887,21 +17887,21 @@ SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsign
   p.F = F;
   p.parts = parts;
   p.q = sli_parts_query(&P->query, is_forward ? &P->query.forward : &P->query.backward,
-              is_forward, !is_forward);
+      is_forward, !is_forward);
   return sli_parts_run(&p, &rhs, W);
 }
 
 SL_API sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns, sl_int capacity,
-                 sl_int *count) {
+    sl_int *count) {
   const sli_reach *R;
   sl_int s, k, at = 0;
-  sl_status status = sli_argument(P == NULL                         ? "P is NULL"
-                  : count == NULL                   ? "count is NULL"
-                  : capacity < 0                    ? "capacity is below 0"
-                  : capacity > 0 && columns == NULL ? "columns is NULL"
-                  : part != SL_PART_L && part != SL_PART_LT
-                    ? "part is neither SL_PART_L nor SL_PART_LT"
-                    : NULL);
+  sl_status status = sli_argument(P == NULL ? "P is NULL"
+      : count == NULL ? "count is NULL"
+      : capacity < 0 ? "capacity is below 0"
+      : capacity > 0 && columns == NULL ? "columns is NULL"
+      : part != SL_PART_L && part != SL_PART_LT
+      ? "part is neither SL_PART_L nor SL_PART_LT"
+      : NULL);
   if (status == SL_OK && P->query.ending != NULL) {
     status = sli_refuse_region();
   }
@@ -17938,7 +17938,7 @@ static sli_pseudo_tree sli_pseudo_tree_of(const sl_factor *F, sl_int s) {
 }
 
 static double sli_pseudo_dot(const sl_factor *F, const sli_pseudo_tree *t, const double *a,
-               const double *b) {
+    const double *b) {
   double sum = 0.0;
   sl_int k;
   for (k = t->first; k <= t->root; k++) {
@@ -17948,7 +17948,7 @@ static double sli_pseudo_dot(const sl_factor *F, const sli_pseudo_tree *t, const
 }
 
 static void sli_pseudo_add(const sl_factor *F, const sli_pseudo_tree *t, double *a, double scale,
-               const double *b, double factor) {
+    const double *b, double factor) {
   sl_int k;
   for (k = t->first; k <= t->root; k++) {
     const sl_int row = F->S->perm[k];
@@ -17986,7 +17986,7 @@ static double sli_pseudo_orthonormalize(const sl_factor *F, const sli_pseudo_tre
 }
 
 static void sli_pseudo_halve(const sl_factor *F, const sli_pseudo_tree *t, const double *Q,
-               double *K) {
+    double *K) {
   const size_t n = (size_t)F->S->n;
   sl_int c, b;
   for (c = 0; c < t->count; c++) {
@@ -18019,11 +18019,11 @@ SL_API sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_pseudo_inverse 
   size_t n;
   sl_status status;
   status =
-    sli_argument(F == NULL   ? "F is NULL"
-           : P == NULL ? "P is NULL"
-           : (P->Q == NULL) != (P->K == NULL) || (P->Q == NULL) != (P->component == NULL)
-             ? "P has only some of component, Q and K"
-             : NULL);
+    sli_argument(F == NULL ? "F is NULL"
+        : P == NULL ? "P is NULL"
+        : (P->Q == NULL) != (P->K == NULL) || (P->Q == NULL) != (P->component == NULL)
+        ? "P has only some of component, Q and K"
+        : NULL);
   status = status == SL_OK ? sli_parts_check(F, all) : status;
   if (status == SL_OK && F->E != NULL) {
     status = sli_refuse(SL_ERR_UNSUPPORTED, "the pseudo-inverse with 2x2 pivots");
@@ -18094,7 +18094,7 @@ static void sli_refinement_layout(sli_refinement *f, sli_block *b, sl_int column
 }
 
 SLI_HOT static double sli_row_error(const sli_refinement *f, double *r, const double *x,
-                  const double *b) {
+    const double *b) {
   const sl_csc *A = f->A;
   double *size = f->size, worst = 0.0;
   sl_int i, j, p;
@@ -18158,7 +18158,7 @@ static void sli_refine_block(sli_refinement *f, const sli_rhs *rhs, sl_int steps
   sl_int c, step, todo = 0;
   for (c = 0; c < rhs->nrhs; c++) {
     f->error[c] = sli_row_error(f, f->R + n * (size_t)c, rhs->X + rhs->ldx * (size_t)c,
-                  rhs->B + rhs->ldb * (size_t)c);
+        rhs->B + rhs->ldb * (size_t)c);
     f->is_done[c] = f->error[c] <= DBL_EPSILON;
     f->is_slow[c] = 0;
     todo += !f->is_done[c];
@@ -18169,7 +18169,7 @@ static void sli_refine_block(sli_refinement *f, const sli_rhs *rhs, sl_int steps
     for (c = 0; c < rhs->nrhs; c++) {
       if (!f->is_done[c]) {
         if (sli_refine_column(f, c, rhs->X + rhs->ldx * (size_t)c,
-                    rhs->B + rhs->ldb * (size_t)c)) {
+            rhs->B + rhs->ldb * (size_t)c)) {
           f->steps = sli_max(f->steps, step);
         }
         todo += !f->is_done[c];
@@ -18183,20 +18183,20 @@ SLI_INLINE double sli_max_error(double a, double b) {
 }
 
 static sl_status sli_refine_done(const sl_factor *F, sl_stats *stats, sl_int most, sl_int steps,
-                 double error) {
+    double error) {
   if (stats != NULL) {
     stats->refine.steps = steps;
     stats->refine.backward_error = error;
   }
   return most > 0 && !(error <= F->error_limit) && sli_is_finite(F->error_limit)
          ? sli_fail_at(NULL, SL_ERR_INACCURATE, -1, -1, error,
-               "the backward error, value, is above options.error_limit")
+             "the backward error, value, is above options.error_limit")
          : SL_OK;
 }
 
 SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X, size_t ldx,
-                  const double *B, size_t ldb, sl_int nrhs, sl_int steps,
-                  sl_work *W, sl_stats *stats) {
+    const double *B, size_t ldb, sl_int nrhs, sl_int steps,
+    sl_work *W, sl_stats *stats) {
   const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sli_block b = {NULL, 0, 0};
   sli_refinement f;
@@ -18297,7 +18297,7 @@ static sl_int sli_local_refinement_find(sli_local_refinement *f) {
 }
 
 static void sli_local_refinement_step(sli_local_refinement *f, const sli_rhs *rhs,
-                    const double *norms, sl_int step) {
+    const double *norms, sl_int step) {
   const sl_int columns = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(columns);
   const sli_vectors v = sli_vectors_of(f->q, columns, f->memory);
   const size_t nx = (size_t)f->q->nx;
@@ -18336,7 +18336,7 @@ static void sli_local_refinement_step(sli_local_refinement *f, const sli_rhs *rh
 }
 
 static void sli_local_refinement_norms(const sli_local_refinement *f, const sli_rhs *rhs,
-                     double *norms) {
+    double *norms) {
   const sl_int columns = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(columns);
   const sli_vectors v = sli_vectors_of(f->q, columns, f->memory);
   sl_int k, c;
@@ -18381,7 +18381,7 @@ static double sli_local_rounding(const sl_factor *F) {
 }
 
 static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, sl_int steps,
-                  sl_work *W, sl_stats *stats) {
+    sl_work *W, sl_stats *stats) {
   sli_block b = {NULL, 0, 0};
   double worst = 0.0;
   sl_status status;
@@ -18395,7 +18395,7 @@ static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, s
   c = sli_local_refinement_find(f);
   if (c != -1) {
     return sli_fail_at(stats, SL_ERR_ARGUMENT, f->F->S->perm[c], -1, f->F->rule.shifts[c],
-               "xset lacks this row, whose pivot was regularized");
+        "xset lacks this row, whose pivot was regularized");
   }
   for (r = 0; r < rhs->nrhs; r += sli_min(8, rhs->nrhs - r)) {
     const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
@@ -18412,17 +18412,17 @@ static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, s
 }
 
 SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
-                     const double *B, size_t ldb, sl_int nrhs, sl_int steps,
-                     sl_work *W, sl_stats *stats) {
+    const double *B, size_t ldb, sl_int nrhs, sl_int steps,
+    sl_work *W, sl_stats *stats) {
   const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sli_local_refinement f;
   sl_work own;
   sl_status status;
   sli_stats_clear_error(stats);
-  status = sli_argument(P == NULL   ? "P is NULL"
-              : F == NULL ? "F is NULL"
-              : steps < 0 ? "steps is below 0"
-                    : NULL);
+  status = sli_argument(P == NULL ? "P is NULL"
+      : F == NULL ? "F is NULL"
+      : steps < 0 ? "steps is below 0"
+      : NULL);
   status = status == SL_OK ? sli_rhs_check_columns(&rhs, P->query.nx, P->query.nb) : status;
   if (status != SL_OK) {
     return sli_report(stats, status);
@@ -18445,7 +18445,7 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
   f.F = F;
   f.q = &P->query;
   f.room = sli_min(F->stats.factor.regularized,
-           sli_min(P->query.forward.columns, P->query.backward.columns));
+      sli_min(P->query.forward.columns, P->query.backward.columns));
   own = sli_work_own(&F->allocator);
   status = sli_local_refine(&f, &rhs, steps, W == NULL ? &own : W, stats);
   sli_free(&own.allocator, own.block);
@@ -18539,7 +18539,7 @@ static double sli_inverse_norm(sli_norm_estimate *p) {
   for (turn = 0; !sli_norm_estimate_signs(p); turn++) {
     const sl_int last = j;
     if (turn == 4) { /* untested: there are fewer turns */
-      break;       /* untested: the same */
+      break; /* untested: the same */
     }
     memcpy(p->v, p->signs, (size_t)n * sizeof(double));
     (void)sli_norm_estimate_solve(p);
@@ -18623,7 +18623,7 @@ static void sli_defects(const sl_factor *F, const sli_query *q, const sli_rhs *r
 }
 
 SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, const double *B,
-                   size_t ldb, sl_int nrhs, sl_work *W) {
+    size_t ldb, sl_int nrhs, sl_work *W) {
   const sli_rhs rhs = sli_rhs_of(Y, ldy, B, ldb, nrhs);
   sli_block b = {NULL, 0, 0};
   sl_work own;
@@ -18696,7 +18696,7 @@ static double sli_guarantee_gamma(const sli_guarantee_work *p) {
 }
 
 SLI_HOT static void sli_magnitudes_tile(const sl_factor *F, sl_int s, sl_int tile,
-                    int is_transposed, double *z) {
+    int is_transposed, double *z) {
   const sli_step *step = &F->S->steps[s];
   const sl_int *below = F->S->rows + F->S->rows_begin[s] - step->width;
   const sl_int first = SLI_TILE * tile, columns = sli_min(step->width, first + SLI_TILE);
@@ -18820,7 +18820,7 @@ static int sli_guarantee_roots(const sli_guarantee_work *p, const sl_csc *A) {
 }
 
 SLI_HOT static double sli_guarantee_try(sli_guarantee_work *p, const sl_csc *A, double shift,
-                    sl_status *status) {
+    sl_status *status) {
   const double kept = 1.0 - shift;
   sl_csc shifted = *A;
   sl_int j, q;
@@ -18840,7 +18840,7 @@ SLI_HOT static double sli_guarantee_try(sli_guarantee_work *p, const sl_csc *A, 
     *status = sl_factor_refactor(p->G, &shifted, NULL);
   }
   if (*status == SL_ERR_PIVOT || *status == SL_ERR_INACCURATE ||
-    (*status == SL_OK && p->G->stats.factor.negative > 0)) {
+      (*status == SL_OK && p->G->stats.factor.negative > 0)) {
     *status = SL_OK;
     return 0.0;
   }
@@ -18854,16 +18854,16 @@ static int sli_guarantee_fits(const sl_factor *F, const sl_csc *A) {
 }
 
 static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
-                 sl_certificate_info *info) {
+    sl_certificate_info *info) {
   sli_block b = {NULL, 0, 0};
   sli_guarantee_work p;
   sl_status status;
   double shift, lowest = 0.0;
   int attempt;
   if (F->null.count > 0 || F->type->storage != SL_STORAGE_DOUBLE || F->S->nnz_input < 0 ||
-    sli_map_has_duplicates(F->S)) {
+      sli_map_has_duplicates(F->S)) {
     return sli_refuse(SL_ERR_UNSUPPORTED, "SL_GUARANTEED with null pivots, L in float, "
-                        "duplicate entries of A or sl_factor_restrict");
+        "duplicate entries of A or sl_factor_restrict");
   }
   if (!sli_guarantee_fits(F, A)) {
     return sli_refuse(SL_ERR_STATE, "A is not the matrix that F was computed from");
@@ -18878,7 +18878,7 @@ static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
   sli_guarantee_layout(&p, &b, A);
   if (!sli_guarantee_roots(&p, A)) {
     return sli_refuse(SL_ERR_UNSUPPORTED, "SL_GUARANTEED with a diagonal entry or pivot out "
-                        "of range");
+        "of range");
   }
   p.gamma = sli_guarantee_gamma(&p);
   shift = sli_eigenvalue_estimate(&p) / 2.0;
@@ -19145,7 +19145,7 @@ static sl_status sli_certify_suits(const sl_factor *F) {
   const char *what = NULL;
   sl_int m;
   if (F->stats.factor.negative > 0 || F->stats.factor.regularized > 0 || F->E != NULL ||
-    F->type->half > 0) {
+      F->type->half > 0) {
     what = "bounds with negative, regularized or 2x2 pivots or SL_STORAGE_COMPLEX";
   }
   for (m = 0; F->null.is_centered && m < F->null.n_anchors; m++) {
@@ -19177,7 +19177,7 @@ static sl_status sli_certify_fits(const sl_factor *F, const sl_csc *A, sl_triang
 }
 
 static sl_status sli_certify(sl_factor *F, const sl_csc *A, sl_certainty certainty, sl_work *W,
-               sl_certificate_info *info) {
+    sl_certificate_info *info) {
   sli_probes p;
   sl_status status;
   memset(&p, 0, sizeof p);
@@ -19198,16 +19198,16 @@ static sl_status sli_certify(sl_factor *F, const sl_csc *A, sl_certainty certain
 }
 
 SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty certainty,
-                   sl_work *W, sl_stats *stats) {
+    sl_work *W, sl_stats *stats) {
   const double started = sli_seconds();
   sl_certificate_info info;
   sl_work own;
   sl_status status;
   sli_stats_clear_error(stats);
   status = sli_argument(F == NULL ? "F is NULL"
-              : certainty != SL_ESTIMATED && certainty != SL_GUARANTEED
-                ? "certainty is neither SL_ESTIMATED nor SL_GUARANTEED"
-                : NULL);
+      : certainty != SL_ESTIMATED && certainty != SL_GUARANTEED
+      ? "certainty is neither SL_ESTIMATED nor SL_GUARANTEED"
+      : NULL);
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
@@ -19218,7 +19218,7 @@ SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty c
   sli_free(&own.allocator, own.block);
   if (status == SL_OK && F->stats.factor.weak > 0) {
     status = sli_refuse(SL_ERR_INACCURATE, "a pivot within rounding of 0 was kept: "
-                         "stats.factor.weak");
+        "stats.factor.weak");
   }
   if (status == SL_OK && !(info.eta <= SLI_ETA_MOST)) {
     status = sli_refuse(SL_ERR_INACCURATE, "eta is too large for bounds: A is ill-conditioned");
@@ -19286,9 +19286,9 @@ static sli_hash sli_scales_identity(const sli_bounds *p) {
   sli_hash h = p->F->identity;
   h = sli_hash_words(h, null->squares, null->is_centered ? null->n_anchors : 0);
   h = sli_hash_ints(h, (const sl_int *)(const void *)p->q->forward.steps,
-            (sl_off)p->q->forward.count * (sl_off)(sizeof(sli_step) / sizeof(sl_int)));
+      (sl_off)p->q->forward.count * (sl_off)(sizeof(sli_step) / sizeof(sl_int)));
   h = sli_hash_ints(h, (const sl_int *)(const void *)p->q->backward.steps,
-            (sl_off)p->q->backward.count * (sl_off)(sizeof(sli_step) / sizeof(sl_int)));
+      (sl_off)p->q->backward.count * (sl_off)(sizeof(sli_step) / sizeof(sl_int)));
   return sli_hash_ints(h, p->q->x_index, p->q->nx);
 }
 
@@ -19300,12 +19300,12 @@ static sl_int sli_path_joint(const sli_bounds *p, sl_int s, sl_int *anchor) {
     root = s;
   }
   *anchor = sli_anchor_in(p->F, S->super_first[S->first_descendant[root]],
-              S->super_first[root + 1] - 1);
+      S->super_first[root + 1] - 1);
   return at;
 }
 
 static void sli_scales_add(const sli_bounds *p, const sli_step *step, sl_int from, sl_int lanes,
-               sl_int count, double (*squares)[SLI_TILE]) {
+    sl_int count, double (*squares)[SLI_TILE]) {
   const double *y = p->y + (ptrdiff_t)step->base * lanes;
   sl_int k, r;
   for (k = 0; k < sli_step_columns(step); k++, y += lanes) {
@@ -19336,7 +19336,7 @@ static void sli_scales_block(sli_bounds *p, sl_int first, sl_int count) {
     const sl_int last = R.steps[s].column + sli_step_columns(&R.steps[s]) - 1;
     const sl_int in_b = sli_reach_step_of(&p->q->forward, last);
     sli_scales_add(p, &R.steps[s], in_b == -1 ? last + 1 : p->q->forward.steps[in_b].column,
-             lanes, count, squares);
+        lanes, count, squares);
   }
   for (r = 0; r < count; r++) {
     const uint64_t row = p->order[first + r];
@@ -19355,7 +19355,7 @@ static void sli_scales_block(sli_bounds *p, sl_int first, sl_int count) {
       scale[SLI_SCALE_JOINT] = SLI_JOINT_CENTERED;
     }
     if (sli_is_skipped(p->F, sli_key(row)) &&
-      !(m != -1 && p->F->null.anchors[m] == sli_key(row))) {
+        !(m != -1 && p->F->null.anchors[m] == sli_key(row))) {
       scale[SLI_SCALE_JOINT] = SLI_JOINT_NULL;
     }
   }
@@ -19397,7 +19397,7 @@ static double sli_norms_one(const double *D, const double *y, sl_int columns) {
 }
 
 static void sli_norms_step(const double *D, const double *y, sl_int columns, sl_int lanes,
-               double *own) {
+    double *own) {
   sl_int k, r;
   memset(own, 0, (size_t)lanes * sizeof(double));
   for (k = 0; k < columns; k++, y += lanes) {
@@ -19409,7 +19409,7 @@ static void sli_norms_step(const double *D, const double *y, sl_int columns, sl_
 }
 
 static double sli_norm_of(const sli_bounds *p, double square, const double *y, sl_int r,
-              sl_int lanes) {
+    sl_int lanes) {
   const sli_reach *R = &p->q->forward;
   sl_int s, k;
   if (square >= SLI_SQUARE_LEAST) {
@@ -19418,7 +19418,7 @@ static double sli_norm_of(const sli_bounds *p, double square, const double *y, s
   for (s = 0; s < R->count; s++) {
     for (k = 0; k < sli_step_columns(&R->steps[s]); k++) {
       if (y[(ptrdiff_t)(R->steps[s].base + k) * lanes + r] != 0.0 &&
-        !sli_is_skipped(p->F, R->steps[s].column + k)) {
+          !sli_is_skipped(p->F, R->steps[s].column + k)) {
         return HUGE_VAL;
       }
     }
@@ -19507,7 +19507,7 @@ static sl_status sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, doub
 
 static sl_status sli_bounds_run(sli_bounds *p, const sli_rhs *rhs, double *bounds, sl_work *W) {
   const sli_hash identity = sli_scales_identity(p);
-  const int needs = p->scales == NULL                                    ? SLI_NEEDS_SCALES
+  const int needs = p->scales == NULL ? SLI_NEEDS_SCALES
             : memcmp(p->scales, &identity, sizeof identity) == 0 ? SLI_NEEDS_NOTHING
                                        : SLI_NEEDS_ROOM;
   sli_block b = {NULL, 0, 0};
@@ -19529,8 +19529,8 @@ static sl_status sli_bounds_run(sli_bounds *p, const sli_rhs *rhs, double *bound
 }
 
 SL_API sl_status sl_plan_solve_bounded(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
-                     double *bounds, const double *B, size_t ldb, sl_int nrhs,
-                     double *scales, sl_work *W, sl_stats *stats) {
+    double *bounds, const double *B, size_t ldb, sl_int nrhs,
+    double *scales, sl_work *W, sl_stats *stats) {
   const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sli_bounds p;
   sl_work own;
@@ -19539,13 +19539,13 @@ SL_API sl_status sl_plan_solve_bounded(const sl_plan *P, const sl_factor *F, dou
   status = sli_argument(P == NULL ? "P is NULL" : F == NULL ? "F is NULL" : NULL);
   status = status == SL_OK ? sli_rhs_check(&rhs, P->query.nx, P->query.nb) : status;
   if (status == SL_OK && nrhs > 0 && P->query.nx > 0) {
-    status = sli_argument(bounds == NULL               ? "bounds is NULL"
-                : bounds == X || bounds == B ? "bounds is X or B"
-                               : NULL);
+    status = sli_argument(bounds == NULL ? "bounds is NULL"
+        : bounds == X || bounds == B ? "bounds is X or B"
+        : NULL);
   }
   status = status == SL_OK ? sli_query_check(&P->query, F) : status;
   if (status == SL_OK && (F->certificate.certainty == SL_UNCERTIFIED ||
-              F->certificate.generation != F->generation)) {
+      F->certificate.generation != F->generation)) {
     status = sli_refuse(SL_ERR_STALE, "the present F is not certified: sl_factor_certify");
   }
   if (status == SL_OK && P->query.ending != NULL) {
@@ -19611,7 +19611,7 @@ SLI_INLINE double *sli_dense_column(const sli_dense_front *f, sl_int j) {
 }
 
 static double sli_column_max(const double *column, sl_int first, sl_int last, sl_int a, sl_int b,
-               sl_int *row) {
+    sl_int *row) {
   double most = 0.0;
   sl_int i;
   for (i = first; i < last; i++) {
@@ -19765,7 +19765,7 @@ SLI_INLINE void sli_dense_add(const sli_dense_front *f, sl_int i, sl_int j, doub
 }
 
 static sl_status sli_search_load(const sli_pivot_search *p, const sl_csc *A, sl_int s,
-                 const sli_dense_front *f, sl_stats *stats) {
+    const sli_dense_front *f, sl_stats *stats) {
   const sl_symbolic *S = p->S;
   sl_int tile = sli_last_tile(S, s), i, j;
   sl_off m;
@@ -19773,7 +19773,7 @@ static sl_status sli_search_load(const sli_pivot_search *p, const sl_csc *A, sl_
     const sl_int from = S->scatter_from[m];
     if (!sli_is_finite(A->x[from])) {
       return sli_fail_at(stats, SL_ERR_NOT_FINITE, A->i[from], sli_column_of(A, from),
-                 A->x[from], "an entry of A is not finite");
+          A->x[from], "an entry of A is not finite");
     }
     sli_scatter_map_pivots(S, s, m, &tile, &i, &j);
     sli_dense_add(f, p->local[i], p->local[j], A->x[from]);
@@ -19782,7 +19782,7 @@ static sl_status sli_search_load(const sli_pivot_search *p, const sl_csc *A, sl_
 }
 
 static void sli_search_assemble(const sli_pivot_search *p, const sli_contribution *c,
-                const sli_dense_front *f) {
+    const sli_dense_front *f) {
   sl_int i, j;
   for (j = 0; j < c->count; j++) {
     const double *column = c->values + (size_t)c->count * (size_t)j;
@@ -19808,7 +19808,7 @@ static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front
     f->D = SLI_TAKE(&b, double, f->columns);
     f->E = SLI_TAKE(&b, double, f->columns);
     f->values = SLI_TAKE(&b, double, (uint64_t)f->rows *(uint64_t)f->rows);
-    if (b.overflow) {                                   /* untested: on 32 bits only */
+    if (b.overflow) { /* untested: on 32 bits only */
       return sli_refuse(SL_ERR_TOO_LARGE, "a front"); /* untested: the same */
     }
     if (pass == 0 && b.used > p->front_size) {
@@ -19842,7 +19842,7 @@ static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front
 }
 
 static sl_status sli_search_keep(sli_pivot_search *p, sl_int s, const sli_dense_front *f,
-                 sl_int pivots) {
+    sl_int pivots) {
   sli_contribution *c = &p->contributions[s];
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
@@ -19861,14 +19861,14 @@ static sl_status sli_search_keep(sli_pivot_search *p, sl_int s, const sli_dense_
   memcpy(c->index, f->index + pivots, (size_t)c->count * sizeof(sl_int));
   for (j = 0; j < c->count; j++) {
     memcpy(c->values + (size_t)c->count * (size_t)j + j,
-         sli_dense_column(f, pivots + j) + pivots + j,
-         (size_t)(c->count - j) * sizeof(double));
+        sli_dense_column(f, pivots + j) + pivots + j,
+        (size_t)(c->count - j) * sizeof(double));
   }
   return SL_OK;
 }
 
 SLI_HOT static sl_status sli_search_supernode(sli_pivot_search *p, const sl_csc *A, sl_int s,
-                        sl_stats *stats) {
+    sl_stats *stats) {
   const sl_symbolic *S = p->S;
   sli_dense_front f;
   sl_status status = sli_search_front(p, s, &f);
@@ -19921,7 +19921,7 @@ static sl_status sli_search_run(sli_pivot_search *p, const sl_csc *A, sl_stats *
 /* src/impl/pivots/pivoted.h: sl_symbolic_create_pivoted: an analysis whose order follows the values of a matrix */
 
 static sl_status sli_pivoted_analyze(sl_symbolic **out, const sli_pivot_search *p, const sl_csc *A,
-                   const sl_options *opt, sl_stats *stats) {
+    const sl_options *opt, sl_stats *stats) {
   sl_options given = sli_options_with(&p->allocator);
   const sl_symbolic_info *first = &p->S->stats.symbolic;
   sl_int k, pairs = 0;
@@ -19951,7 +19951,7 @@ static sl_status sli_pivoted_analyze(sl_symbolic **out, const sli_pivot_search *
 }
 
 SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
-                      const sl_options *opt, sl_stats *stats) {
+    const sl_options *opt, sl_stats *stats) {
   double started;
   sli_pivot_search p;
   sl_symbolic *S = NULL;
@@ -20052,7 +20052,7 @@ SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
 #define SLV_DIVIDE(a, b, c) a = _mm256_div_ps(b, c);
 #define SLV_BELOW(a, k) \
   a = _mm256_and_ps(a, _mm256_castsi256_ps(_mm256_cmpgt_epi32( \
-               _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32(k))));
+      _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32(k))));
 #define SLV_AHEAD 1
 #define SLV_TILES 2
 #define SLV_COLUMNS 4
@@ -20063,9 +20063,9 @@ SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
   (void)(lanes);
 #define SLV_EXPAND_ADD(to, from) \
   _mm256_store_ps( \
-    (to), _mm256_add_ps( \
-          _mm256_load_ps(to), \
-          _mm256_and_ps(_mm256_permutevar8x32_ps(_mm256_loadu_ps(from), order_), keep_)));
+      (to), _mm256_add_ps( \
+      _mm256_load_ps(to), \
+      _mm256_and_ps(_mm256_permutevar8x32_ps(_mm256_loadu_ps(from), order_), keep_)));
 #define SLV_VECTOR_TILES 1
 #define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
 #define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
@@ -20097,7 +20097,7 @@ SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
 #define SLV_VECTOR_TILES 2
 #define SLV_LOAD_TILES(a, p, q) \
   a = _mm512_castpd_ps( \
-    _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(SLV_HALF(p)), SLV_HALF(q), 1));
+      _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(SLV_HALF(p)), SLV_HALF(q), 1));
 #define SLV_STORE_TILES(p, q, a) \
   SLV_STORE(p, a) \
   _mm256_store_ps((q), SLV_HALF_OF(a, 1));
@@ -20115,15 +20115,15 @@ SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
 #define SLV_EXPAND(mask, lanes, count) \
   const __mmask16 expand_ = (__mmask16)(mask); \
   const __m512i order_ = _mm512_maskz_expand_epi32( \
-    expand_, _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0)); \
+      expand_, _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0)); \
   (void)(lanes);
 #define SLV_EXPAND_ADD(to, from) \
   _mm256_store_ps( \
-    (to), _mm256_add_ps( \
-          _mm256_load_ps(to), \
-          SLV_HALF_OF(_mm512_maskz_permutexvar_ps( \
-                  expand_, order_, _mm512_castps256_ps512(_mm256_loadu_ps(from))), \
-                0)));
+      (to), _mm256_add_ps( \
+      _mm256_load_ps(to), \
+      SLV_HALF_OF(_mm512_maskz_permutexvar_ps( \
+      expand_, order_, _mm512_castps256_ps512(_mm256_loadu_ps(from))), \
+      0)));
 #define SLI_SECTION_FRONT
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
@@ -20158,9 +20158,9 @@ SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
     static const int32_t lanes_[SLI_TILE] = {0, 1, 2, 3, 4, 5, 6, 7}; \
     const int32x4_t k_ = vdupq_n_s32(k); \
     a##_0 = vreinterpretq_f32_u32( \
-      vandq_u32(vreinterpretq_u32_f32(a##_0), vcgtq_s32(vld1q_s32(lanes_), k_))); \
+        vandq_u32(vreinterpretq_u32_f32(a##_0), vcgtq_s32(vld1q_s32(lanes_), k_))); \
     a##_1 = vreinterpretq_f32_u32( \
-      vandq_u32(vreinterpretq_u32_f32(a##_1), vcgtq_s32(vld1q_s32(lanes_ + 4), k_))); \
+        vandq_u32(vreinterpretq_u32_f32(a##_1), vcgtq_s32(vld1q_s32(lanes_ + 4), k_))); \
   }
 #define SLV_AHEAD 1
 #define SLV_TILES 2
@@ -20285,7 +20285,7 @@ SLI_INLINE float sli_single(double a) {
 }
 
 SLI_INLINE sl_status sli_check_single(const sl_factor *F, const sli_front *f, sl_int column,
-                    sli_failure *failure) {
+    sli_failure *failure) {
   const sl_int s = f->super, k = f->column + column;
   const float pivot = f->single.D[column], magnitude = f->single.magnitude[column];
   const int is_null = F->null.mode == SL_NULL_PIVOT_SKIP && pivot == FLT_MAX;
@@ -20302,7 +20302,7 @@ SLI_INLINE sl_status sli_check_single(const sl_factor *F, const sli_front *f, sl
 }
 
 SLI_INLINE int sli_rounding_harms(const sl_factor *F, const sli_front *f, sl_int r, sl_int j,
-                  double l) {
+    double l) {
   const double d =
     f->E != NULL && f->E[j] != 0.0 ? fmax(fabs(f->D[j]), fabs(f->E[j])) : fabs(f->D[j]);
   if (fabs(l) > (double)FLT_MAX || d == SLI_NULL_PIVOT) {
@@ -20332,7 +20332,7 @@ static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sli_fai
       for (r = 0; r < SLI_TILE && odd; r++) {
         if (sli_rounding_harms(F, f, SLI_TILE * t + r, j, from[r])) {
           return sli_fail(failure, SL_ERR_INACCURATE, s, F->S->steps[s].column + j, -1,
-                  f->D[j]);
+              f->D[j]);
         }
       }
       for (r = 0; r < SLI_TILE && (w > 1 || SLI_TILE * t + r < rows); r++) {
@@ -20474,7 +20474,7 @@ SLI_INLINE sl_off sli_inverse_scratch(sl_int height, sl_int width) {
 }
 
 typedef void (*sli_gather_kernel)(const sli_inverse_front *f, const double *from, sl_int height,
-                  const sl_int *relative, sl_int t0, sl_int t1);
+    const sl_int *relative, sl_int t0, sl_int t1);
 
 typedef void (*sli_takahashi_kernel)(const sli_inverse_front *f, double *scratch);
 
@@ -20492,7 +20492,7 @@ typedef struct sli_tile_range {
 } sli_tile_range;
 
 SLI_INLINE sli_tile_range sli_inverse_tiles(const sli_inverse_front *f, sl_int j0,
-                      sli_inverse_phase phase) {
+    sli_inverse_phase phase) {
   const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below;
   sli_tile_range range = {0, sli_tiles(m)};
   if (phase != SLI_INVERSE_TRIANGLE && phase != SLI_INVERSE_SQUARE) {
@@ -20503,8 +20503,8 @@ SLI_INLINE sli_tile_range sli_inverse_tiles(const sli_inverse_front *f, sl_int j
 }
 
 typedef void (*sli_inverse_phase_kernel)(const sli_inverse_front *f, sl_int j0,
-                     sli_inverse_phase phase, sl_int t0, sl_int t1,
-                     double *scratch);
+    sli_inverse_phase phase, sl_int t0, sl_int t1,
+    double *scratch);
 
 /* src/impl/inverse/inverse_kernels.h: the kernels of the inverse, for every instruction set */
 
@@ -20684,7 +20684,7 @@ static void sli_traversal_link(sli_traversal *t) {
 }
 
 static void sli_traversal_push(sli_traversal *t, sli_stacks *stacks, sl_int k, int is_root,
-                 int is_last, int is_leaf) {
+    int is_last, int is_leaf) {
   const sl_int parent = t->forest.parent[k];
   sl_off *begin = t->schedule.stack_begin, *top = stacks->top;
   const int side = is_root ? 0 : begin[parent] >= 0;
@@ -20701,7 +20701,7 @@ static void sli_traversal_push(sli_traversal *t, sli_stacks *stacks, sl_int k, i
 }
 
 SLI_INLINE void sli_traversal_settle(sli_traversal *t, const sli_stacks *stacks, sl_int k,
-                   sl_off from) {
+    sl_off from) {
   sl_off *begin = &t->schedule.stack_begin[k];
   *begin += from + (*begin < 0 ? stacks->most : 0);
 }
@@ -20714,7 +20714,7 @@ static sl_off sli_traversal_stack_task(sli_traversal *t, sl_int first, sl_int la
   for (k = last; k >= first; k--) {
     const int is_root = parent[k] == -1 || parent[k] > last;
     sli_traversal_push(t, &stacks, k, is_root, !is_root && low[parent[k]] == low[k],
-               low[k] == k);
+        low[k] == k);
   }
   for (k = first; k <= last; k++) {
     sli_traversal_settle(t, &stacks, k, from);
@@ -20739,7 +20739,7 @@ static sl_off sli_traversal_stack_tops(sli_traversal *t, sl_off from) {
   for (m = p->n_tops - 1; m >= 0; m--) {
     const sl_int k = p->top[m];
     sli_traversal_push(t, &stacks, k, parent[k] == -1, parent[k] != -1 && child[parent[k]] == k,
-               child[k] == -1);
+        child[k] == -1);
   }
   for (m = 0; m < p->n_tops; m++) {
     sli_traversal_settle(t, &stacks, p->top[m], from);
@@ -20831,7 +20831,7 @@ static sl_int sli_traversal_count_columns(const sli_traversal *t) {
 /* src/impl/inverse/traversal_run.h: runs a top-down traversal: computes front after front, calls a visitor */
 
 static sl_int sli_tile_range_begin(sl_int first, sl_int last, sl_int k, sl_int workers,
-                   int is_triangle) {
+    int is_triangle) {
   const double share = (double)k / workers;
   return first + (sl_int)((last - first) * (is_triangle ? sqrt(share) : share));
 }
@@ -20849,7 +20849,7 @@ static void sli_panel_widen(const sl_factor *F, sl_int s, double *to) {
 }
 
 typedef void (*sli_visitor)(void *context, sl_int k, const sli_inverse_front *f, sl_int t0,
-              sl_int t1);
+    sl_int t1);
 
 typedef struct sli_traversal_run {
   const sl_factor *F;
@@ -20873,11 +20873,11 @@ SLI_INLINE int sli_traverse_copies(const sl_factor *F, sl_int width) {
 }
 
 static void sli_traversal_layout_run(sli_traversal_run *run, const sli_traversal *traversal,
-                   sl_storage storage, sli_block *b) {
+    sl_storage storage, sli_block *b) {
   run->fronts = SLI_TAKE(b, double, traversal->schedule.stack);
   run->scratch = SLI_TAKE(
-    b, double,
-    (uint64_t)traversal->schedule.workers *(uint64_t)sli_traverse_scratch(traversal, storage));
+      b, double,
+      (uint64_t)traversal->schedule.workers *(uint64_t)sli_traverse_scratch(traversal, storage));
 }
 
 static sli_inverse_front sli_traverse_front(const sli_traversal_run *run, sl_int k) {
@@ -20895,15 +20895,15 @@ static sli_inverse_front sli_traverse_front(const sli_traversal_run *run, sl_int
 }
 
 static void sli_traverse_gather(const sli_traversal_run *run, sl_int k, const sli_inverse_front *f,
-                sl_int t0, sl_int t1) {
+    sl_int t0, sl_int t1) {
   const sli_traversal *traversal = run->traversal;
   const sl_int up = traversal->forest.parent[k];
   if (up != -1) {
     const sli_inverse_front parent = sli_traverse_front(run, up);
     sli_inverse_kernels_of(run->F->kernels->isa)
       ->gather(f, parent.front, parent.width + parent.below,
-           traversal->S->relative + traversal->S->rows_begin[traversal->supers[k]], t0,
-           t1);
+          traversal->S->relative + traversal->S->rows_begin[traversal->supers[k]], t0,
+          t1);
   }
 }
 
@@ -20925,7 +20925,7 @@ static void sli_traverse_prefetch(const sl_factor *F, sl_int s) {
 }
 
 static double *sli_traverse_begin(const sli_traversal_run *run, sl_int k, sli_inverse_front *f,
-                  sl_int worker) {
+    sl_int worker) {
   const sl_off room = sli_traverse_scratch(run->traversal, run->F->type->storage);
   double *scratch = run->scratch + (ptrdiff_t)(room * worker);
   if (sli_traverse_copies(run->F, f->width)) {
@@ -20936,7 +20936,7 @@ static double *sli_traverse_begin(const sli_traversal_run *run, sl_int k, sli_in
 }
 
 static void sli_traverse_complete(const sli_traversal_run *run, sl_int k, sli_inverse_front *f,
-                  sl_int worker) {
+    sl_int worker) {
   double *scratch = sli_traverse_begin(run, k, f, worker);
   if (k > 0) {
     sli_traverse_prefetch(run->F, run->traversal->supers[k - 1]);
@@ -20980,8 +20980,8 @@ static void sli_traverse_gather_range(void *data, sl_int k, sl_int worker) {
   const sl_int tiles = sli_tiles(run->front.width + run->front.below);
   (void)worker;
   sli_traverse_gather(run, run->at, &run->front,
-            sli_tile_range_begin(first, tiles, k, workers, 0),
-            sli_tile_range_begin(first, tiles, k + 1, workers, 0));
+      sli_tile_range_begin(first, tiles, k, workers, 0),
+      sli_tile_range_begin(first, tiles, k + 1, workers, 0));
 }
 
 static void sli_traverse_phase_range(void *data, sl_int k, sl_int worker) {
@@ -21002,7 +21002,7 @@ static void sli_traverse_visit_range(void *data, sl_int k, sl_int worker) {
   const sl_int tiles = sli_tiles(run->front.width + run->front.below);
   (void)worker;
   run->visit(run->context, run->at, &run->front, sli_tile_range_begin(0, tiles, k, workers, 0),
-         sli_tile_range_begin(0, tiles, k + 1, workers, 0));
+      sli_tile_range_begin(0, tiles, k + 1, workers, 0));
   sli_traverse_gather_task_roots(run, k, workers);
 }
 
@@ -21013,7 +21013,7 @@ static void sli_traverse_shared(sli_traversal_run *run, sli_team *team) {
   (void)sli_traverse_begin(run, run->at, &run->front, 0);
   sli_team_loop(team, workers, NULL, sli_traverse_gather_range, run);
   for (run->group = sli_inverse_last_group(&run->front);
-     run->group + SLI_INVERSE_COLUMNS > run->front.first; run->group -= SLI_INVERSE_COLUMNS) {
+      run->group + SLI_INVERSE_COLUMNS > run->front.first; run->group -= SLI_INVERSE_COLUMNS) {
     for (phase = 0; phase < SLI_INVERSE_PHASES; phase++) {
       run->phase = (sli_inverse_phase)phase;
       sli_team_loop(team, workers, NULL, sli_traverse_phase_range, run);
@@ -21029,7 +21029,7 @@ SLI_HOT static void sli_traverse_lead(sli_team *team, void *data) {
   for (m = schedule->n_tops - 1; m >= 0; m--) {
     run->at = schedule->top[m];
     if (2.0 * sli_front_flops(&run->traversal->S->steps[run->traversal->supers[run->at]]) >=
-      SLI_SHARED_FLOPS) {
+        SLI_SHARED_FLOPS) {
       sli_traverse_shared(run, team);
     } else {
       sli_inverse_front f = sli_traverse_front(run, run->at);
@@ -21048,27 +21048,27 @@ static void sli_traverse(sli_traversal_run *run) {
 /* src/impl/inverse/row_sets.h: sets of rows of A: checks their range, sorts them by column of L */
 
 static sl_status sli_check_rows(const sl_symbolic *S, const sl_int *rows, sl_int count,
-                int is_column, sl_stats *stats) {
+    int is_column, sl_stats *stats) {
   sl_int k;
   for (k = 0; k < count && rows != NULL; k++) {
     if (rows[k] < 0 || rows[k] >= S->n) {
       return sli_fail_at(stats, SL_ERR_ARGUMENT, is_column ? -1 : rows[k],
-                 is_column ? rows[k] : -1, 0.0,
-                 is_column ? "a column is out of range" : "a row is out of range");
+          is_column ? rows[k] : -1, 0.0,
+          is_column ? "a column is out of range" : "a row is out of range");
     }
   }
   return SL_OK;
 }
 
 static sl_status sli_check_entries(const sl_factor *F, const sl_int *rows, sl_int n_rows,
-                   const sl_int *columns, sl_int n_columns, sl_stats *stats) {
+    const sl_int *columns, sl_int n_columns, sl_stats *stats) {
   sl_status status = sli_inverse_check(F);
   status = status == SL_OK ? sli_check_rows(F->S, rows, n_rows, 0, stats) : status;
   return status == SL_OK ? sli_check_rows(F->S, columns, n_columns, 1, stats) : status;
 }
 
 static sl_status sli_sort_rows(const sl_symbolic *S, const sl_int *rows, sl_int count,
-                 uint64_t *seeds, uint64_t *scratch, sl_stats *stats) {
+    uint64_t *seeds, uint64_t *scratch, sl_stats *stats) {
   const sl_status status = sli_check_rows(S, rows, count, 0, stats);
   sl_int k;
   for (k = 0; k < count && status == SL_OK; k++) {
@@ -21144,7 +21144,7 @@ static int sli_rhs_block_add(sli_rhs_block *block, sl_int column, const sl_symbo
   }
   if (S != NULL) {
     sli_reach_add(S, column, at > 0 ? sli_key(block->seeds[at - 1]) : -1,
-            at < block->count ? sli_key(block->seeds[at]) : -1, &block->size);
+        at < block->count ? sli_key(block->seeds[at]) : -1, &block->size);
   }
   for (k = block->count++; k > at; k--) {
     block->seeds[k] = block->seeds[k - 1];
@@ -21164,7 +21164,7 @@ typedef struct sli_requests {
 } sli_requests;
 
 static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, const sl_int *columns,
-                  sl_int count) {
+    sl_int count) {
   sli_requests r;
   memset(&r, 0, sizeof r);
   r.S = F->S;
@@ -21213,7 +21213,7 @@ static void sli_requests_sort(sli_requests *r) {
 }
 
 SLI_INLINE int sli_rhs_block_add_request(sli_rhs_block *block, const sli_requests *r, sl_int k,
-                     const sl_symbolic *S) {
+    const sl_symbolic *S) {
   const sl_int at = sli_value(r->order[k]);
   return sli_rhs_block_add(block, sli_request_row(r, at), S) &&
        sli_rhs_block_add(block, sli_request_column(r, at), S);
@@ -21227,8 +21227,8 @@ static sl_int sli_rhs_block_choose(const sli_requests *r, sl_int k, sli_rhs_bloc
   memset(&block, 0, sizeof block);
   *best = block;
   for (; k < r->count && k - from < SLI_BLOCK_REQUESTS_MAX &&
-       sli_rhs_block_add_request(&block, r, k, r->S);
-     k++) {
+      sli_rhs_block_add_request(&block, r, k, r->S);
+      k++) {
     const double time = r->lanes_cost[sli_lanes_kind(block.count)] *
               (double)block.size.entries / (double)(k - from + 1);
     if (block_size == 0 || time <= least) {
@@ -21241,7 +21241,7 @@ static sl_int sli_rhs_block_choose(const sli_requests *r, sl_int k, sli_rhs_bloc
 }
 
 static void sli_rhs_block_rebuild(const sli_requests *r, sl_int k, sl_int block_size,
-                  sli_rhs_block *block) {
+    sli_rhs_block *block) {
   memset(block, 0, sizeof *block);
   for (; block_size > 0; block_size--, k++) {
     (void)sli_rhs_block_add_request(block, r, k, NULL);
@@ -21303,7 +21303,7 @@ static void sli_forward_layout_run(sli_forward *f, sli_block *b, const sli_capac
 }
 
 static void sli_forward_layout_workers(sli_forward *f, sli_block *b, const sli_capacity *capacity,
-                     sl_int workers) {
+    sl_int workers) {
   const uint64_t count = (uint64_t)workers;
   const sli_capacity all = {capacity->steps * count, capacity->rows * count,
                 capacity->values * count, capacity->scratch * count};
@@ -21312,7 +21312,7 @@ static void sli_forward_layout_workers(sli_forward *f, sli_block *b, const sli_c
 }
 
 static sli_forward sli_forward_of_worker(const sli_forward *all, const sli_capacity *capacity,
-                     sl_int worker) {
+    sl_int worker) {
   sli_forward f = *all;
   f.steps += (ptrdiff_t)capacity->steps * worker;
   f.rows += (ptrdiff_t)capacity->rows * worker;
@@ -21338,7 +21338,7 @@ static void sli_forward_run(sli_forward *f, const sl_factor *F, sl_stats *stats)
 }
 
 static void sli_forward_unit_vectors(sli_forward *f, const sl_factor *F, const sli_rhs_block *block,
-                   sl_stats *stats) {
+    sl_stats *stats) {
   sl_int k, at = 0;
   sli_reach_fill(F->S, block->seeds, block->count, f->steps, f->rows, &f->reach);
   sli_forward_clear(f, block->count);
@@ -21367,7 +21367,7 @@ SLI_ALWAYS_INLINE void sli_divide_lanes(double *z, const double *y, double d, sl
 }
 
 static void sli_pair_sums(const sl_factor *F, const sli_forward *f, sl_int count,
-              const sl_int *first, const sl_int *second, double *sums) {
+    const sl_int *first, const sl_int *second, double *sums) {
   sl_int s, k, m;
   for (m = 0; m < count; m++) {
     sums[m] = 0.0;
@@ -21441,7 +21441,7 @@ static void sli_bilinear_layout_sweep(void *form, sli_block *b) {
 }
 
 SLI_INLINE void sli_bilinear_add(const sli_bilinear *q, sl_int column, sl_int row, sl_int lane,
-                 double b) {
+    double b) {
   if (!sli_is_skipped(q->F, column)) {
     q->forward.y[(ptrdiff_t)row * q->forward.lanes + lane] += b;
   }
@@ -21488,8 +21488,8 @@ static sl_status sli_bilinear_run(sli_bilinear *q, double *out, sl_work *W, sl_s
 }
 
 SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_int *bset,
-                   const double *b, sl_int nb, const sl_int *cset,
-                   const double *c, sl_int nc, sl_work *W, sl_stats *stats) {
+    const double *b, sl_int nb, const sl_int *cset,
+    const double *c, sl_int nc, sl_work *W, sl_stats *stats) {
   sl_work own;
   sli_bilinear q;
   sl_status status;
@@ -21498,11 +21498,11 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
   if (status == SL_OK) {
     nc = cset == NULL ? F->S->n : nc;
     nb = bset == NULL ? F->S->n : nb;
-    status = sli_argument(nc < 0                ? "nc is below 0"
-                : nb < 0              ? "nb is below 0"
-                : nc > 0 && c == NULL ? "c is NULL"
-                : nb > 0 && b == NULL ? "b is NULL"
-                          : NULL);
+    status = sli_argument(nc < 0 ? "nc is below 0"
+        : nb < 0 ? "nb is below 0"
+        : nc > 0 && c == NULL ? "c is NULL"
+        : nb > 0 && b == NULL ? "b is NULL"
+        : NULL);
   }
   if (status == SL_OK && cset != NULL && bset != NULL && nc > INT32_MAX - nb) {
     status = sli_refuse(SL_ERR_TOO_LARGE, "nb + nc exceeds 2^31 - 1");
@@ -21580,7 +21580,7 @@ static void sli_loss_layout(sli_loss *q, sli_block *b) {
 }
 
 SLI_NOINLINE static const double *sli_loss_widen(const sl_factor *F, sl_off at, sl_int rows,
-                         double *room) {
+    double *room) {
   sl_int r;
   for (r = 0; r < SLI_TILE; r++) {
     room[r] = r < rows ? sli_entry(F, at + r) : 0.0;
@@ -21589,7 +21589,7 @@ SLI_NOINLINE static const double *sli_loss_widen(const sl_factor *F, sl_off at, 
 }
 
 SLI_INLINE const double *sli_loss_tile(const sl_factor *F, const sli_step *step, sl_int t, sl_int j,
-                     double *room) {
+    double *room) {
   const sl_off at = step->panel + sli_tile_offset(step->width, t) + (sl_off)SLI_TILE * j;
   return F->type->entry == NULL && step->width > 1
          ? (const double *)F->values + at
@@ -21602,7 +21602,7 @@ SLI_INLINE double sli_loss_sum(const double *l, const double *s) {
 }
 
 static void sli_loss_subtract(const sl_factor *F, const sli_step *step, sl_int j, double *x,
-                double y) {
+    double y) {
   double room[SLI_TILE];
   sl_int t, r;
   for (t = j / SLI_TILE; t < sli_tiles(step->width + step->below); t++) {
@@ -21896,7 +21896,7 @@ static void sli_entries_layout_run(void *call, sli_block *b) {
 }
 
 static void sli_entries_visit(void *call, sl_int index, const sli_inverse_front *f, sl_int t0,
-                sl_int t1) {
+    sl_int t1) {
   const sli_entries *q = (const sli_entries *)call;
   const sl_symbolic *S = q->F->S;
   const sl_int s = q->traversal.supers[index], first = S->super_first[s], h = f->width + f->below;
@@ -21921,7 +21921,7 @@ static void sli_entries_visit(void *call, sl_int index, const sli_inverse_front 
 }
 
 static void sli_entries_write(const sli_entries *q, const sli_forward *f,
-                const sli_rhs_block *block, sl_int k, sl_int block_size) {
+    const sli_rhs_block *block, sl_int k, sl_int block_size) {
   sl_int first[SLI_BLOCK_REQUESTS_MAX], second[SLI_BLOCK_REQUESTS_MAX], m;
   double sums[SLI_BLOCK_REQUESTS_MAX];
   for (m = 0; m < block_size; m++) {
@@ -21980,7 +21980,7 @@ static void sli_entries_clear_nulls(const sli_entries *q) {
 }
 
 static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int *rows,
-                  const sl_int *columns, sl_int count) {
+    const sl_int *columns, sl_int count) {
   sli_entries q;
   memset(&q, 0, sizeof q);
   q.F = F;
@@ -22034,9 +22034,9 @@ static sl_status sli_inverse_entries(sli_entries *q, sl_work *W, sl_stats *stats
   const sli_requests *r = &q->requests;
   sl_work own;
   sl_status status;
-  status = sli_argument(r->count < 0                     ? "count is below 0"
-              : r->count > 0 && q->out == NULL ? "out is NULL"
-                               : NULL);
+  status = sli_argument(r->count < 0 ? "count is below 0"
+      : r->count > 0 && q->out == NULL ? "out is NULL"
+      : NULL);
   if (status == SL_OK) {
     status = sli_check_entries(q->F, r->rows, r->count, r->columns, r->count, stats);
   }
@@ -22051,7 +22051,7 @@ static sl_status sli_inverse_entries(sli_entries *q, sl_work *W, sl_stats *stats
 }
 
 SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_int *rows,
-                   sl_int count, sl_work *W, sl_stats *stats) {
+    sl_int count, sl_work *W, sl_stats *stats) {
   sli_entries q;
   sli_stats_clear_error(stats);
   if (F == NULL) {
@@ -22077,7 +22077,7 @@ static int sli_entry_is_local(const sl_symbolic *S, sl_int a, sl_int b) {
 }
 
 static sl_status sli_entry_by_local_solve(const sl_factor *F, double *out, sl_int row,
-                      sl_int column, sl_work *W, sl_stats *stats) {
+    sl_int column, sl_work *W, sl_stats *stats) {
   const double one = 1.0;
   sl_stats found;
   sl_status status = sl_local_solve(F, &column, 1, &row, 1, out, 1, &one, 1, 1, W, &found);
@@ -22093,19 +22093,19 @@ static sl_status sli_entry_by_local_solve(const sl_factor *F, double *out, sl_in
 }
 
 SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
-                  const sl_int *columns, sl_int count, sl_work *W,
-                  sl_stats *stats) {
+    const sl_int *columns, sl_int count, sl_work *W,
+    sl_stats *stats) {
   sli_entries q;
   sli_stats_clear_error(stats);
   if (F == NULL || (count > 0 && (rows == NULL || columns == NULL))) {
-    return sli_report(stats, sli_argument(F == NULL      ? "F is NULL"
-                        : rows == NULL ? "rows is NULL"
-                               : "columns is NULL"));
+    return sli_report(stats, sli_argument(F == NULL ? "F is NULL"
+        : rows == NULL ? "rows is NULL"
+        : "columns is NULL"));
   }
   if (count == 1 && out != NULL && rows[0] != columns[0] && F->null.count == 0) {
     sl_status status = sli_check_entries(F, rows, 1, columns, 1, stats);
     if (status != SL_OK ||
-      sli_entry_is_local(F->S, F->S->iperm[rows[0]], F->S->iperm[columns[0]])) {
+        sli_entry_is_local(F->S, F->S->iperm[rows[0]], F->S->iperm[columns[0]])) {
       status = status == SL_OK
              ? sli_entry_by_local_solve(F, out, rows[0], columns[0], W, stats)
              : status;
@@ -22133,7 +22133,7 @@ static void sli_forward_divide(const sl_factor *F, const sli_forward *f, double 
 }
 
 static void sli_cross_sums(const sl_factor *F, const sli_forward *f, const sli_forward *g,
-               const double *z, double *sums) {
+    const double *z, double *sums) {
   sli_intersection m = sli_intersection_of(&f->reach, &g->reach);
   sl_int k, i, j;
   memset(sums, 0, SLI_LANES_MAX * SLI_LANES_MAX * sizeof(double));
@@ -22216,7 +22216,7 @@ static void sli_inverse_block_layout_sweeps(void *block, sli_block *b) {
 }
 
 static void sli_swept_block_make(sli_swept_block *s, const sl_factor *F, const sli_requests *r,
-                 sl_int k, sl_int block_size, sl_stats *stats) {
+    sl_int k, sl_int block_size, sl_stats *stats) {
   s->first = k;
   s->block_size = block_size;
   sli_rhs_block_rebuild(r, k, block_size, &s->block);
@@ -22224,7 +22224,7 @@ static void sli_swept_block_make(sli_swept_block *s, const sl_factor *F, const s
 }
 
 static void sli_inverse_block_write(const sli_inverse_block *q, const sli_swept_block *a,
-                  const sli_swept_block *b) {
+    const sli_swept_block *b) {
   const sli_requests *streamed = q->is_symmetric ? &q->kept : &q->streamed;
   SLI_ALIGNED(double sums[SLI_LANES_MAX * SLI_LANES_MAX]);
   sl_int i, j;
@@ -22293,7 +22293,7 @@ static sl_status sli_inverse_block_run(sli_inverse_block *q, sl_work *W, sl_stat
 }
 
 static sli_inverse_block sli_inverse_all_pairs_of(const sl_factor *F, const sl_int *rows,
-                          sl_int count) {
+    sl_int count) {
   sli_inverse_block q;
   memset(&q, 0, sizeof q);
   q.F = F;
@@ -22303,9 +22303,9 @@ static sli_inverse_block sli_inverse_all_pairs_of(const sl_factor *F, const sl_i
 }
 
 static sl_status sli_inverse_all_pairs(const sl_factor *F, const sl_int *rows, sl_int count,
-                     void (*write)(void *context, sl_int row, sl_int column,
-                           double z),
-                     void *context, sl_work *W) {
+    void (*write)(void *context, sl_int row, sl_int column,
+    double z),
+    void *context, sl_work *W) {
   sli_inverse_block q = sli_inverse_all_pairs_of(F, rows, count);
   q.write = write;
   q.context = context;
@@ -22313,21 +22313,21 @@ static sl_status sli_inverse_all_pairs(const sl_factor *F, const sl_int *rows, s
 }
 
 SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, const sl_int *rows,
-                  sl_int n_rows, const sl_int *columns, sl_int n_columns,
-                  sl_work *W, sl_stats *stats) {
+    sl_int n_rows, const sl_int *columns, sl_int n_columns,
+    sl_work *W, sl_stats *stats) {
   const int rows_are_streamed = n_rows > n_columns, is_empty = n_rows == 0 || n_columns == 0;
   sl_work own;
   sli_inverse_block q;
   sl_status status;
   sli_stats_clear_error(stats);
-  status = sli_argument(F == NULL                              ? "F is NULL"
-              : n_rows < 0                           ? "n_rows is below 0"
-              : n_columns < 0                        ? "n_columns is below 0"
-              : n_rows > 0 && rows == NULL           ? "rows is NULL"
-              : n_columns > 0 && columns == NULL     ? "columns is NULL"
-              : !is_empty && Z == NULL               ? "Z is NULL"
-              : !is_empty && !sli_is_ld(ldz, n_rows) ? "ldz is below n_rows"
-                                 : NULL);
+  status = sli_argument(F == NULL ? "F is NULL"
+      : n_rows < 0 ? "n_rows is below 0"
+      : n_columns < 0 ? "n_columns is below 0"
+      : n_rows > 0 && rows == NULL ? "rows is NULL"
+      : n_columns > 0 && columns == NULL ? "columns is NULL"
+      : !is_empty && Z == NULL ? "Z is NULL"
+      : !is_empty && !sli_is_ld(ldz, n_rows) ? "ldz is below n_rows"
+      : NULL);
   status =
     status == SL_OK ? sli_check_entries(F, rows, n_rows, columns, n_columns, stats) : status;
   if (status != SL_OK) {
@@ -22373,7 +22373,7 @@ static void sli_selected_layout(sl_selected *Z, sli_block *b) {
 }
 
 static sl_status sli_selected_plan(sl_selected **out, sl_selected *draft, const uint64_t *seeds,
-                   sl_int n_seeds) {
+    sl_int n_seeds) {
   const sl_symbolic *S = draft->traversal.S;
   sli_block work = {NULL, 0, 0}, kept = {NULL, 0, 0};
   sl_status status = SL_OK;
@@ -22402,7 +22402,7 @@ static sl_status sli_selected_plan(sl_selected **out, sl_selected *draft, const 
 }
 
 SLI_COLD static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const sl_int *set,
-                       sl_int count, const sl_options *opt, sl_stats *stats) {
+    sl_int count, const sl_options *opt, sl_stats *stats) {
   const sl_symbolic *S = F->S;
   sli_block b = {NULL, 0, 0};
   uint64_t *seeds = NULL, *scratch = NULL;
@@ -22433,7 +22433,7 @@ SLI_COLD static sl_status sli_selected_new(sl_selected **out, const sl_factor *F
 }
 
 static void sli_selected_visit(void *context, sl_int k, const sli_inverse_front *f, sl_int t0,
-                 sl_int t1) {
+    sl_int t1) {
   const sl_selected *Z = (const sl_selected *)context;
   const sl_int w = f->width, h = w + f->below;
   double *panel = Z->Z + Z->begin[k];
@@ -22453,7 +22453,7 @@ static void sli_selected_visit(void *context, sl_int k, const sli_inverse_front 
     memcpy(tile, from, SLI_TILE * (size_t)columns * sizeof *tile);
     for (j = 0; j < columns && rows < SLI_TILE; j++) {
       memset(tile + SLI_TILE * (ptrdiff_t)j + rows, 0,
-           (size_t)(SLI_TILE - rows) * sizeof *tile);
+          (size_t)(SLI_TILE - rows) * sizeof *tile);
     }
   }
 }
@@ -22597,7 +22597,7 @@ static sl_status sli_selected_alloc_values(sl_selected *Z) {
 }
 
 SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const sl_int *set,
-                  sl_int count, const sl_options *opt, sl_stats *stats) {
+    sl_int count, const sl_options *opt, sl_stats *stats) {
   const double started = sli_seconds();
   sl_selected *Z = NULL;
   sl_status status;
@@ -22605,9 +22605,9 @@ SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const
   status = sli_begin(out);
   if (status == SL_OK) {
     status =
-      sli_argument(F == NULL                  ? "F is NULL"
-             : set != NULL && count < 0 ? "count is below 0"
-                          : sli_options_wrong(opt, SLI_READS_NOTHING));
+      sli_argument(F == NULL ? "F is NULL"
+          : set != NULL && count < 0 ? "count is below 0"
+          : sli_options_wrong(opt, SLI_READS_NOTHING));
   }
   status = status == SL_OK ? sli_inverse_check(F) : status;
   if (status != SL_OK) {
@@ -22670,7 +22670,7 @@ static sl_off sli_selected_position(const sl_selected *Z, sl_int k, sl_int l) {
 }
 
 static sl_status sli_selected_read(const sl_selected *Z, double *out, const sl_int *rows,
-                   const sl_int *columns, sl_int count, sl_stats *stats) {
+    const sl_int *columns, sl_int count, sl_stats *stats) {
   const sl_symbolic *S = Z->traversal.S;
   sl_int k;
   int pass;
@@ -22680,12 +22680,12 @@ static sl_status sli_selected_read(const sl_selected *Z, double *out, const sl_i
       sl_off at;
       if (pass == 0 && (i < 0 || i >= S->n || j < 0 || j >= S->n)) {
         return sli_fail_at(stats, SL_ERR_ARGUMENT, i, columns == NULL ? -1 : j, 0.0,
-                   "a row or column is out of range");
+            "a row or column is out of range");
       }
       at = sli_selected_position(Z, S->iperm[i], S->iperm[j]);
       if (at == -1) {
         return sli_fail_at(stats, SL_ERR_OTHER_PATTERN, i, columns == NULL ? -1 : j, 0.0,
-                   "Z does not have this entry");
+            "Z does not have this entry");
       }
       if (pass == 1) {
         out[k] = Z->Z[at];
@@ -22707,13 +22707,13 @@ static void sli_selected_read_diagonal(const sl_selected *Z, double *out) {
 }
 
 SL_API sl_status sl_selected_entries(const sl_selected *Z, double *out, const sl_int *rows,
-                   const sl_int *columns, sl_int count, sl_stats *stats) {
+    const sl_int *columns, sl_int count, sl_stats *stats) {
   sl_status status;
   sli_stats_clear_error(stats);
-  status = sli_argument(Z == NULL                         ? "Z is NULL"
-              : rows == NULL && columns != NULL ? "rows is NULL, but columns is not"
-              : rows != NULL && count < 0       ? "count is below 0"
-                              : NULL);
+  status = sli_argument(Z == NULL ? "Z is NULL"
+      : rows == NULL && columns != NULL ? "rows is NULL, but columns is not"
+      : rows != NULL && count < 0 ? "count is below 0"
+      : NULL);
   if (status == SL_OK) {
     count = rows == NULL ? Z->traversal.S->n : count;
     status = sli_argument(count > 0 && out == NULL ? "out is NULL" : NULL);
@@ -22828,7 +22828,7 @@ SLI_INLINE size_t sli_region_scratch(const sl_region *R, sl_int lanes) {
 }
 
 static void sli_region_apply(const sl_region *R, const sli_ending_use *boundary,
-               const sli_kernels *kernels, int kind, const sli_vectors *v) {
+    const sli_kernels *kernels, int kind, const sli_vectors *v) {
   static const double sli_ones[SLI_REGION_COLUMNS] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
   const sli_sweeps *sweeps = &kernels->sweeps;
   const sl_int n = R->extent.n_rows;
@@ -22974,7 +22974,7 @@ static void sli_choice_improve(sli_choice *c) {
   int is_better = 1;
   for (pass = 0; is_better; pass++) {
     if (pass == SLI_REGION_PASSES) { /* untested: there are fewer passes */
-      break;                       /* untested: the same */
+      break; /* untested: the same */
     }
     is_better = 0;
     for (k = 0; k < c->reach.count; k++) {
@@ -23013,8 +23013,8 @@ static void sli_choice_single_subtree(sli_choice *c) {
     const sl_int s = S->super_of[step->column];
     inside += sli_choice_step_cost(step);
     if (s >= last && S->first_descendant[s] <= first &&
-      inside + sli_choice_boundary_cost(step->below) <= least &&
-      sli_region_bytes_fit(step->below, 1, c->bytes_max)) {
+        inside + sli_choice_boundary_cost(step->below) <= least &&
+        sli_region_bytes_fit(step->below, 1, c->bytes_max)) {
       least = inside + sli_choice_boundary_cost(step->below);
       best = k;
     }
@@ -23100,12 +23100,12 @@ static int sli_region_belongs(const sli_ending *e, const sl_symbolic *S) {
 }
 
 static int sli_set_is_within(const sl_symbolic *S, const sli_set *set,
-               const sli_region_extent *extent) {
+    const sli_region_extent *extent) {
   sl_int k;
   for (k = 0; set->rows != NULL && k < set->count; k++) {
     const sl_int column = sli_key(set->seeds[k]);
     if (sli_extent_find(S, extent, S->super_of[column]) == -1 &&
-      sli_extent_boundary(extent, column) == -1) {
+        sli_extent_boundary(extent, column) == -1) {
       return 0;
     }
   }
@@ -23186,7 +23186,7 @@ static size_t sli_region_scratch_of(const sli_ending *e, sl_int lanes) {
 }
 
 static void sli_region_cross(const sl_factor *F, const sli_query *q, int kind,
-               const sli_vectors *v) {
+    const sli_vectors *v) {
   const ptrdiff_t n = q->ending->rows;
   sli_vectors boundary = *v;
   boundary.y += (q->forward.columns - n) << kind;
@@ -23199,8 +23199,8 @@ static void sli_region_give_back(const sli_ending *e) {
 }
 
 static const sli_ending_calls sli_region_calls = {
-  sli_region_belongs,    sli_region_place,      sli_region_finish, sli_region_holds,
-  sli_region_vectors_of, sli_region_scratch_of, sli_region_cross,  sli_region_give_back};
+  sli_region_belongs, sli_region_place, sli_region_finish, sli_region_holds,
+  sli_region_vectors_of, sli_region_scratch_of, sli_region_cross, sli_region_give_back};
 
 SLI_INLINE void sli_region_begin(sl_region *R) {
   R->ending.calls = &sli_region_calls;
@@ -23251,7 +23251,7 @@ static void sli_region_from_choice(sl_region *R, const sli_choice *c) {
 }
 
 static sl_status sli_region_new(sl_region **out, const sli_choice *start, const sl_int *set,
-                const sl_allocator *a, sl_stats *stats) {
+    const sl_allocator *a, sl_stats *stats) {
   const sl_symbolic *S = start->S;
   sli_block seeds = {NULL, 0, 0}, rest = {NULL, 0, 0}, kept = {NULL, 0, 0};
   sli_choice c = *start;
@@ -23366,7 +23366,7 @@ static int sli_region_loss_is_small(const sl_region *R, const sl_factor *F, sl_w
 }
 
 static sl_status sli_region_fill(sl_region *R, const sl_factor *F, const sl_selected *Z,
-                 sl_work *W) {
+    sl_work *W) {
   const double started = sli_seconds();
   sl_work own = sli_work_own(&R->allocator);
   sl_status status = SL_OK;
@@ -23383,7 +23383,7 @@ static sl_status sli_region_fill(sl_region *R, const sl_factor *F, const sl_sele
     if (!sli_region_loss_is_small(R, F, W)) {
       R->numbers.generation = 0;
       status = sli_refuse(SL_ERR_INACCURATE, "pivots of both signs: solves that end at the "
-                           "boundary would lose too many digits");
+          "boundary would lose too many digits");
     }
     R->seconds = sli_seconds() - started;
   }
@@ -23402,8 +23402,8 @@ static sl_status sli_region_check_factor(const sl_factor *F, const sl_selected *
 }
 
 SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_int *set,
-                  sl_int count, const sl_selected *Z, const sl_options *opt,
-                  sl_stats *stats) {
+    sl_int count, const sl_selected *Z, const sl_options *opt,
+    sl_stats *stats) {
   const double started = sli_seconds();
   const sl_allocator a = sli_allocator(opt);
   sl_region *R = NULL;
@@ -23413,9 +23413,9 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
   status = sli_begin(out);
   if (status == SL_OK) {
     status = sli_argument(F == NULL ? "F is NULL"
-                : set != NULL && count < 0
-                  ? "count is below 0"
-                  : sli_options_wrong(opt, SLI_READS_REGION_BYTES));
+        : set != NULL && count < 0
+        ? "count is below 0"
+        : sli_options_wrong(opt, SLI_READS_REGION_BYTES));
   }
   if (status != SL_OK) {
     return sli_report(stats, status);
@@ -23441,7 +23441,7 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
 }
 
 SL_API sl_status sl_region_refactor(sl_region *R, const sl_factor *F, const sl_selected *Z,
-                  sl_work *W) {
+    sl_work *W) {
   sl_status status = sli_argument(R == NULL ? "R is NULL" : F == NULL ? "F is NULL" : NULL);
   if (status == SL_OK && F->S != R->S) {
     status = sli_refuse(SL_ERR_STATE, "R and F are of different analyses");
@@ -23509,7 +23509,7 @@ typedef struct sli_ranks {
 } sli_ranks;
 
 typedef sl_int (*sli_ranks_kernel)(sli_ranks *u, const double *l, sl_int columns, const double *d,
-                   const double *w, double *c);
+    const double *w, double *c);
 
 typedef struct sli_rank_one {
   double *panel;
@@ -23603,7 +23603,7 @@ static sl_status sli_kept_room(sli_kept *p, const sl_factor *G, sli_block *b) {
 }
 
 static void sli_kept_rows(double *to, const double *from, sl_int w, const sl_int *keep,
-              sl_int count) {
+    sl_int count) {
   const sl_int tiles = sli_tiles(w + count);
   sl_int t, j, r;
   for (r = 0; r < count && w == 1; r++) {
@@ -23613,7 +23613,7 @@ static void sli_kept_rows(double *to, const double *from, sl_int w, const sl_int
     const double *at[SLI_TILE];
     double *tile = to + sli_tile_offset(w, t);
     for (r = 0; r < SLI_TILE; r++) {
-      const sl_int local = SLI_TILE * t + r, row = local < w           ? local
+      const sl_int local = SLI_TILE * t + r, row = local < w ? local
                              : local < w + count ? keep[local - w]
                                        : -1;
       at[r] = row == -1 ? NULL : from + sli_panel_at(w, row, 0);
@@ -23655,7 +23655,7 @@ static void sli_kept_copy(sl_factor *G, sl_int s, sl_int *keep) {
   memcpy(G->D + own->column, F->D + step->column, (size_t)w * sizeof(double));
   if (F->rule.shifts != NULL) {
     memcpy(G->rule.shifts + own->column, F->rule.shifts + step->column,
-         (size_t)w * sizeof(double));
+        (size_t)w * sizeof(double));
   }
   G->extents[s] = F->extents[there];
   if (G->extents[s].pivot != -1) {
@@ -23674,7 +23674,7 @@ typedef struct sli_descendant {
 } sli_descendant;
 
 static void sli_gather_update(const sl_factor *F, const sli_gather_work *p, const sli_front *f,
-                const sli_descendant *d, double *update) {
+    const sli_descendant *d, double *update) {
   const sl_symbolic *S = F->S;
   const sl_int *rows = S->rows + S->rows_begin[d->super];
   const sl_int first = d->first, last = d->last;
@@ -23693,15 +23693,15 @@ static void sli_gather_update(const sl_factor *F, const sli_gather_work *p, cons
   from.update = update;
   for (t = c0; t < tiles; t++) {
     memset(from.update + sli_triangle_offset(t - c0), 0,
-         (size_t)sli_min(t + 1 - c0, c1 - c0) * SLI_TILE * SLI_TILE * sizeof(double));
+        (size_t)sli_min(t + 1 - c0, c1 - c0) * SLI_TILE * SLI_TILE * sizeof(double));
   }
   F->kernels->front.update(&from, c0, c1, c0, tiles, p->buffer);
   F->kernels->front.assemble(f, from.update, (w + first) % SLI_TILE, p->relative, last - first, 0,
-                 from.below - first);
+      from.below - first);
 }
 
 static void sli_gather_magnitudes(const sl_factor *F, const sli_gather_work *p, const sli_front *f,
-                  const sli_descendant *d) {
+    const sli_descendant *d) {
   const sli_front from = sli_double_front_of(F, d->super, 0);
   const sl_int w = from.width;
   sl_int r, j;
@@ -23720,14 +23720,14 @@ static void sli_gather_magnitudes(const sl_factor *F, const sli_gather_work *p, 
 }
 
 static void sli_kept_update_own(const sl_factor *G, const sli_gather_work *p, const sli_front *f,
-                sl_int s, int has_one_sign) {
+    sl_int s, int has_one_sign) {
   sl_int k;
   for (k = 0; k < f->below; k++) {
     p->relative[k] = f->width + k;
   }
   if (f->width == 1) {
     sli_plain_assemble(f, (const double *)G->values + G->S->steps[s].panel + 1, *f->D,
-               p->relative, 0, f->below);
+        p->relative, 0, f->below);
     return;
   }
   sli_front_update(&G->kernels->front, f, p->buffer);
@@ -23741,7 +23741,7 @@ static void sli_kept_update_own(const sl_factor *G, const sli_gather_work *p, co
 }
 
 static void sli_kept_update(const sl_factor *G, const sli_gather_work *p, sl_int s, sl_int worker,
-              int has_one_sign, double *update) {
+    int has_one_sign, double *update) {
   const sl_symbolic *S = G->S;
   const sli_front f = sli_double_front_of(G, s, worker);
   const sl_int *rows = S->rows + S->rows_begin[s];
@@ -23754,7 +23754,7 @@ static void sli_kept_update(const sl_factor *G, const sli_gather_work *p, sl_int
     f.magnitude[k] = 0.0;
   }
   memset(f.update, 0,
-       (size_t)sli_triangle_offset(sli_update_tiles(f.width, f.below)) * sizeof(double));
+      (size_t)sli_triangle_offset(sli_update_tiles(f.width, f.below)) * sizeof(double));
   sli_kept_update_own(G, p, &f, s, has_one_sign);
   for (d = s - 1; d >= S->first_descendant[s];) {
     const sl_int below = S->steps[d].below;
@@ -23792,7 +23792,7 @@ static void sli_kept_run(sl_factor *G, sl_int s, sl_int worker) {
   }
   if (up != -1 && p->copied.from[up] == -1 && !G->schedule.is_plain[s]) {
     sli_kept_update(G, &work, s, worker, p->has_one_sign,
-            p->update + (ptrdiff_t)(p->update_room * worker));
+        p->update + (ptrdiff_t)(p->update_room * worker));
   }
 }
 
@@ -23821,7 +23821,7 @@ static void sli_reached_mark(const sl_symbolic *S, sl_int *from, sl_int k) {
 }
 
 static sl_status sli_reached_numbers(sl_factor *F, const sli_kept *p, const sli_source *from,
-                   double started, sl_stats *stats) {
+    double started, sl_stats *stats) {
   sli_failure failure;
   memset(&failure, 0, sizeof failure);
   if (F->null.mode == SL_NULL_PIVOT_SKIP) {
@@ -23849,13 +23849,13 @@ typedef struct sli_changes {
 } sli_changes;
 
 static sl_status sli_changes_check(const sl_factor *F, const sl_csc *A, const sli_changes *c,
-                   uint64_t *entries, sl_stats *stats) {
+    uint64_t *entries, sl_stats *stats) {
   sl_status status;
   sl_int k;
-  status = sli_argument(F == NULL                            ? "F is NULL"
-              : c->count < 0                       ? "count is below 0"
-              : c->count > 0 && c->columns == NULL ? "columns is NULL"
-                                 : NULL);
+  status = sli_argument(F == NULL ? "F is NULL"
+      : c->count < 0 ? "count is below 0"
+      : c->count > 0 && c->columns == NULL ? "columns is NULL"
+      : NULL);
   status = status == SL_OK ? sli_factor_may_change(F) : status;
   status = status == SL_OK ? sli_factor_fits(F, A) : status;
   if (status != SL_OK) {
@@ -23864,7 +23864,7 @@ static sl_status sli_changes_check(const sl_factor *F, const sl_csc *A, const sl
   for (k = 0, *entries = 0; k < c->count; k++) {
     if (c->columns[k] < 0 || c->columns[k] >= F->S->n) {
       return sli_fail_at(stats, SL_ERR_ARGUMENT, c->columns[k], -1, 0.0,
-                 "a column is out of range");
+          "a column is out of range");
     }
     *entries += (uint64_t)(A->p[c->columns[k] + 1] - A->p[c->columns[k]]);
   }
@@ -23872,7 +23872,7 @@ static sl_status sli_changes_check(const sl_factor *F, const sl_csc *A, const sl
 }
 
 static void sli_changes_mark(const sli_changes *c, const sl_symbolic *S, const sl_csc *A,
-               sl_int *from) {
+    sl_int *from) {
   sl_int k, p;
   for (k = 0; k < S->n_supers; k++) {
     from[k] = k;
@@ -23889,7 +23889,7 @@ static void sli_changes_mark(const sli_changes *c, const sl_symbolic *S, const s
 }
 
 static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_changes *c,
-                    sl_stats *stats) {
+    sl_stats *stats) {
   const double started = sli_seconds();
   const sli_source source = sli_source_matrix(A);
   sli_block b = {NULL, 0, 0}, room = {NULL, 0, 0};
@@ -23903,7 +23903,7 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
     return sli_report(stats, status);
   }
   if (F->method != SL_METHOD_SUPERNODAL || F->type->storage != SL_STORAGE_DOUBLE ||
-    F->type->accepts != NULL || entries >= (uint64_t)sli_nnz(A)) {
+      F->type->accepts != NULL || entries >= (uint64_t)sli_nnz(A)) {
     return sl_factor_refactor(F, A, stats);
   }
   status = sli_factor_prepare(F);
@@ -23939,7 +23939,7 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
 }
 
 SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
-                      sl_int count, sl_stats *stats) {
+    sl_int count, sl_stats *stats) {
   sli_changes c;
   c.columns = columns;
   c.count = count;
@@ -24053,7 +24053,7 @@ SLI_INLINE int sli_update_kind(sl_int count) {
 }
 
 static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, sl_int lanes,
-                int has_trial) {
+    int has_trial) {
   const uint64_t many = (uint64_t)lanes;
   u->state = SLI_TAKE(b, sli_ranks, 1);
   u->steps = SLI_TAKE(b, sli_step, R->count);
@@ -24081,7 +24081,7 @@ static void sli_update_open(sli_update *u, const sli_step *step) {
 static void sli_update_close(sli_update *u, const sli_step *step) {
   if (step->width == 1) {
     memcpy((double *)u->F->values + step->panel, u->column,
-         (size_t)(1 + step->below) * sizeof(double));
+        (size_t)(1 + step->below) * sizeof(double));
   }
 }
 
@@ -24118,7 +24118,7 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
     return sli_refuse(SL_ERR_NOT_FINITE, NULL);
   }
   if (fabs(e) < DBL_MIN || (u->keeps_signs && (e < 0.0) != (d < 0.0)) ||
-    (fabs(e) < fabs(d) && (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude)))) {
+      (fabs(e) < fabs(d) && (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude)))) {
     return sli_refuse(SL_ERR_PIVOT, NULL);
   }
   if (!u->is_trial) {
@@ -24131,7 +24131,7 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
 }
 
 static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, const double *e,
-                   const double *magnitudes) {
+    const double *magnitudes) {
   sl_factor *F = u->F;
   sl_factor_info *info = &F->stats.factor;
   const double known = F->extents[F->S->super_of[k]].magnitude;
@@ -24153,8 +24153,8 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
     }
   }
   if (are_usual && least >= DBL_MIN && top <= DBL_MAX &&
-    (!shrink || u->is_tried ||
-     (least > u->least && !sli_is_null(least, most + known, F->rule.null_tolerance)))) {
+      (!shrink || u->is_tried ||
+      (least > u->least && !sli_is_null(least, most + known, F->rule.null_tolerance)))) {
     if (!u->is_trial) {
       memcpy(D, e, (size_t)count * sizeof *D);
       info->pivot_min = least < info->pivot_min ? least : info->pivot_min;
@@ -24194,7 +24194,7 @@ static void sli_update_lose(sli_update *u, sl_int v) {
 }
 
 static sl_status sli_update_pivots(sli_update *u, sl_int k, sl_int columns, const double *l,
-                   const double *w, double *c) {
+    const double *w, double *c) {
   sl_factor *F = u->F;
   const sl_int done =
     sli_change_kernels_of(F->kernels->isa)->ranks(u->state, l, columns, F->D + k, w, c);
@@ -24227,16 +24227,16 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
 }
 
 static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t, sl_int from,
-              sl_int to) {
+    sl_int to) {
   const sl_int entered = step->first_tile;
   sli_change_kernels_of(u->F->kernels->isa)
     ->change[u->kind - 1](u->panel + sli_panel_at(step->width, SLI_TILE * t, from), to - from,
-                u->c + 2 * (ptrdiff_t)u->lanes * (from - SLI_TILE * entered),
-                u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
+        u->c + 2 * (ptrdiff_t)u->lanes * (from - SLI_TILE * entered),
+        u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
 }
 
 static void sli_update_move(const sli_update *u, const sli_step *step, const sl_int *rows,
-              int is_back) {
+    int is_back) {
   const sli_kernels *kernels = u->F->kernels;
   const sl_int lanes = u->lanes, own = sli_step_columns(step), all = own + step->below;
   sl_int t, i, r, at[SLI_TILE];
@@ -24265,7 +24265,7 @@ static void sli_update_move(const sli_update *u, const sli_step *step, const sl_
 }
 
 static void sli_update_gains(const sli_update *u, const sli_step *step, const sl_int *rows,
-               double sign) {
+    double sign) {
   const sl_factor *F = u->F;
   const sl_int start = step->column - SLI_TILE * step->first_tile;
   sl_int r, j;
@@ -24319,11 +24319,11 @@ static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_i
     for (t = c0; t < tiles && status == SL_OK; t++) {
       if (t > c0) {
         sli_update_rows(u, step, t, SLI_TILE * c0,
-                sli_min(SLI_TILE * sli_min(t, c1), step->width));
+            sli_min(SLI_TILE * sli_min(t, c1), step->width));
       }
       if (t < c1) {
         status = sli_update_tile(u, step, t,
-                     u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
+            u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
       }
     }
   }
@@ -24534,8 +24534,8 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
       const sli_step *up = &S->steps[S->super_parent[s]];
       one.first_tile = to[0] / SLI_TILE;
       memset(next + SLI_TILE * one.first_tile, 0,
-           SLI_TILE * (size_t)(sli_tiles(up->width + up->below) - one.first_tile) *
-             sizeof *next);
+          SLI_TILE * (size_t)(sli_tiles(up->width + up->below) - one.first_tile) *
+          sizeof *next);
       for (i = 0; i < step->below; i++) {
         next[to[i]] = w[step->width + i];
       }
@@ -24603,9 +24603,9 @@ static sl_status sli_rank_check(const sl_factor *F) {
     return status;
   }
   return sli_refuse(SL_ERR_UNSUPPORTED, F->E != NULL ? "an update with 2x2 pivots"
-                      : F->null.count > 0
-                        ? "an update with null pivots"
-                        : "an update of L in float or complex");
+      : F->null.count > 0
+      ? "an update with null pivots"
+      : "an update of L in float or complex");
 }
 
 static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first) {
@@ -24622,7 +24622,7 @@ static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first
     const sl_int *rows = s == -1 ? NULL : S->rows + S->rows_begin[s];
     if (!sli_is_finite(V->x[p])) {
       return sli_fail_at(q->stats, SL_ERR_NOT_FINITE, V->i[p], v, V->x[p],
-                 "an entry of V is not finite");
+          "an entry of V is not finite");
     }
     if (V->x[p] == 0.0 || sigma == 0.0 || k < S->super_first[s + 1]) {
       continue;
@@ -24630,7 +24630,7 @@ static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first
     at = sli_lower_bound(rows, S->steps[s].below, k);
     if (at == S->steps[s].below || rows[at] != k) {
       return sli_fail_at(q->stats, SL_ERR_OTHER_PATTERN, V->i[p], S->perm[first], V->x[p],
-                 "L has no such entry: the changed matrix has more entries");
+          "L has no such entry: the changed matrix has more entries");
     }
   }
   return SL_OK;
@@ -24654,11 +24654,11 @@ SLI_INLINE int sli_rank_is_path(const sli_rank *q, sl_int count) {
 static int sli_rank_may_overflow(const sli_rank *q, double size) {
   const sl_factor_info *info = &q->u.F->stats.factor;
   return !(size <= SLI_RANK_LARGE && info->pivot_max <= SLI_RANK_LARGE &&
-       info->pivot_min >= SLI_RANK_SMALL);
+      info->pivot_min >= SLI_RANK_SMALL);
 }
 
 static void sli_rank_group(const sli_rank *q, sl_int first, sl_int last, sl_int *group,
-               uint64_t *seeds) {
+    uint64_t *seeds) {
   uint64_t unused[SLI_TILE];
   sl_int k;
   for (k = first; k < last; k++) {
@@ -24733,7 +24733,7 @@ static void sli_rank_sort(void *data) {
   sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
   q->has_log = q->u.sign == 0.0 || q->needs_log || sli_rank_may_overflow(q, size) ||
          (rest > 0 && (q->count > SLI_TILE ||
-                 (q->count > 1 && q->whole.entries <= SLI_RANK_LOGGED))) ||
+             (q->count > 1 && q->whole.entries <= SLI_RANK_LOGGED))) ||
          q->u.F->growth_limit < 2.0;
   q->has_trial = rest > 0 && !q->has_log;
   sli_rank_measure(q);
@@ -24761,7 +24761,7 @@ static void sli_rank_layout(void *data, sli_block *b) {
     R.n_rows = 0;
   }
   sli_update_layout(&q->u, b, &R, (sl_int)1 << sli_update_kind(sli_min(q->count, 8)),
-            q->has_trial);
+      q->has_trial);
   if (q->has_log) {
     q->log = SLI_TAKE(b, double, sli_rank_panels(S, q->whole_seeds, q->count));
     q->log_D = SLI_TAKE(b, double, q->whole.columns);
@@ -24792,14 +24792,14 @@ static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
       double *loss = F->history.loss + step->column;
       sli_loss_open(F, s);
       memcpy(restores ? loss : log_loss, restores ? log_loss : loss,
-           (size_t)columns * sizeof(double));
+          (size_t)columns * sizeof(double));
       log_loss += columns;
     }
     memcpy(restores ? L : log, restores ? log : L, size * sizeof(double));
     memcpy(restores ? F->D + step->column : log_D, restores ? log_D : F->D + step->column,
-         (size_t)columns * sizeof(double));
+        (size_t)columns * sizeof(double));
     memcpy(restores ? extent : &q->log_extents[k], restores ? &q->log_extents[k] : extent,
-         sizeof *extent);
+        sizeof *extent);
     log += size;
     log_D += columns;
   }
@@ -24837,7 +24837,7 @@ static void sli_rank_note(const sli_update *u) {
   info->growth =
     u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0)) : fmax(info->growth * rise, growth);
   F->history.drift = fmax(F->history.drift * rise + DBL_EPSILON * fmax(1.0, most),
-              DBL_EPSILON * u->lost);
+      DBL_EPSILON * u->lost);
   if (u->sign == 0.0) {
     F->history.error += DBL_EPSILON * fmax(F->history.scale, scale);
     F->history.drift = fmax(F->history.drift, scale > 0.0 ? F->history.error / scale : 0.0);
@@ -24898,7 +24898,7 @@ static sl_status sli_rank_run(sli_rank *q) {
   if (before.factor.growth > F->growth_limit) {
     const sl_int k = sli_key(q->seeds[0]);
     return sli_fail_at(q->stats, SL_ERR_INACCURATE, F->S->perm[k], -1, F->D[k],
-               sli_growth_exceeded);
+        sli_growth_exceeded);
   }
   if (F->history.updates == 0) {
     F->history.scale = F->history.lowest = before.factor.entry_max;
@@ -24927,16 +24927,16 @@ static sl_status sli_rank_run(sli_rank *q) {
     F->stats = before;
     F->history = history;
   } else if (q->is_changed) { /* untested: rounding has taken all digits of a pivot, */
-    F->is_valid = 0;        /* untested: although the trial found it far from 0 */
-    F->status = status;     /* untested: the same */
-    F->generation++;        /* untested: the same */
+    F->is_valid = 0; /* untested: although the trial found it far from 0 */
+    F->status = status; /* untested: the same */
+    F->generation++; /* untested: the same */
   }
   return sli_fail_at(q->stats, status, F->S->perm[q->u.pivot], -1, q->u.value,
-             status == SL_ERR_INACCURATE ? sli_growth_exceeded
-             : status == SL_ERR_NOT_FINITE
-               ? "the change would make this pivot infinite"
-               : "the change would make this pivot null or of "
-               "the other sign; F is as before");
+      status == SL_ERR_INACCURATE ? sli_growth_exceeded
+      : status == SL_ERR_NOT_FINITE
+      ? "the change would make this pivot infinite"
+      : "the change would make this pivot null or of "
+      "the other sign; F is as before");
 }
 
 static double sli_rank_least(const sl_factor *F) {
@@ -24999,7 +24999,7 @@ static sl_status sli_rank_apply(sli_rank *q, const sli_stage *stages, int count,
 }
 
 SL_API sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *sigma, sl_work *W,
-                  sl_stats *stats) {
+    sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
   sli_rank q;
   sl_status status;
@@ -25009,8 +25009,8 @@ SL_API sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *s
   status = status == SL_OK ? sl_csc_check(V, stats) : status;
   if (status == SL_OK) {
     status = sli_argument(V->n_rows != F->S->n ? "V has another number of rows than F"
-                : sli_nnz(V) > 0 && V->x == NULL ? "V.x is NULL"
-                                 : NULL);
+        : sli_nnz(V) > 0 && V->x == NULL ? "V.x is NULL"
+        : NULL);
   }
   if (status != SL_OK) {
     return sli_report(stats, status);
@@ -25157,14 +25157,14 @@ static const sli_stage sli_edges_stages[3] = {{sli_edges_layout, sli_edges_fill}
                         {sli_rank_layout, NULL}};
 
 static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const sl_int *columns,
-                 const double *deltas, sl_int count, sl_stats *stats) {
+    const double *deltas, sl_int count, sl_stats *stats) {
   sl_int k;
-  const sl_status status = sli_argument(F == NULL                      ? "F is NULL"
-                      : count < 0                    ? "count is below 0"
-                      : count > 0 && rows == NULL    ? "rows is NULL"
-                      : count > 0 && columns == NULL ? "columns is NULL"
-                      : count > 0 && deltas == NULL  ? "deltas is NULL"
-                                     : NULL);
+  const sl_status status = sli_argument(F == NULL ? "F is NULL"
+      : count < 0 ? "count is below 0"
+      : count > 0 && rows == NULL ? "rows is NULL"
+      : count > 0 && columns == NULL ? "columns is NULL"
+      : count > 0 && deltas == NULL ? "deltas is NULL"
+      : NULL);
   if (status != SL_OK) {
     return status;
   }
@@ -25174,18 +25174,18 @@ static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const s
   for (k = 0; k < count; k++) {
     if (rows[k] < 0 || rows[k] >= F->S->n || columns[k] < 0 || columns[k] >= F->S->n) {
       return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], columns[k], deltas[k],
-                 "a row or column is out of range");
+          "a row or column is out of range");
     }
     if (!sli_is_finite(deltas[k])) {
       return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], columns[k], deltas[k],
-                 "a delta is not finite");
+          "a delta is not finite");
     }
   }
   return SL_OK;
 }
 
 static void sli_edges_begin(sli_rank *q, const sl_int *rows, const sl_int *columns,
-              const double *deltas, sl_int count) {
+    const double *deltas, sl_int count) {
   q->entry_rows = rows;
   q->entry_columns = columns;
   q->deltas = deltas;
@@ -25249,7 +25249,7 @@ static int sli_choose_is_reached(const sli_change_choice *c, const sl_symbolic *
 }
 
 static double sli_choose_step(const sli_change_choice *c, const sl_symbolic *S, sl_int s,
-                sl_int *visits) {
+    sl_int *visits) {
   double flops = sli_choose_front(S, s);
   sl_int k;
   for (k = s - 1; k >= S->first_descendant[s]; k = S->first_descendant[k] - 1) {
@@ -25372,7 +25372,7 @@ static void sli_choose_estimate(sli_change_choice *c, const sli_rank *q) {
   }
   c->flops_update = 4.0 * SLI_TILE * passes * (double)R.entries;
   c->update = sli_choose_update(q, passes * (double)R.entries,
-                  (double)SLI_TILE * passes * R.columns, c->flops_update);
+      (double)SLI_TILE * passes * R.columns, c->flops_update);
 }
 
 static sl_status sli_choose_count(sli_change_choice *c, sli_rank *q, sl_work *W) {
@@ -25383,7 +25383,7 @@ static sl_status sli_choose_count(sli_change_choice *c, sli_rank *q, sl_work *W)
 }
 
 static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc *A, sl_work *W,
-                sl_change_method *method) {
+    sl_change_method *method) {
   sl_factor *F = q->u.F;
   const int can_update = sli_rank_is_suited(F) && F->is_valid;
   const uint64_t generation = F->generation;
@@ -25457,8 +25457,8 @@ static sl_status sli_choose_cheapest(sli_rank *q, const sl_csc *A, sl_work *W, d
 }
 
 SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,
-                  const sl_int *columns, const double *deltas, sl_int count,
-                  sl_work *W, sl_stats *stats) {
+    const sl_int *columns, const double *deltas, sl_int count,
+    sl_work *W, sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
   sli_rank q;
   sl_status status;
@@ -25532,7 +25532,7 @@ static sl_status sli_pins_are_current(const sl_pins *P) {
   const sl_status status = sli_factor_has_numbers(P->F);
   return status == SL_OK && !sli_numbers_are_of(&P->numbers, P->F)
          ? sli_refuse(SL_ERR_STALE,
-              "F has changed since the pins were made: sl_pins_refactor")
+             "F has changed since the pins were made: sl_pins_refactor")
          : status;
 }
 
@@ -25578,7 +25578,7 @@ static int sli_pin_null(const sl_factor *F, const sli_pin_part *part, sl_int nul
 }
 
 SLI_HOT static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, int fills,
-                       sl_int *row) {
+    sl_int *row) {
   const sl_int *iperm = F->S->iperm;
   sli_pin_part p;
   pin->n_nulls = 0;
@@ -25587,7 +25587,7 @@ SLI_HOT static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, i
     sl_int m;
     p.tree = sli_tree_of(F->S, iperm[pin->rows[p.first]]);
     for (p.last = p.first + 1;
-       p.last < pin->count && iperm[pin->rows[p.last]] <= p.tree.root;) {
+        p.last < pin->count && iperm[pin->rows[p.last]] <= p.tree.root;) {
       p.last++;
     }
     m = sli_lower_bound(F->null.pivots, F->null.count, p.tree.first);
@@ -25732,7 +25732,7 @@ static void sli_pins_nulls_begin(const sli_pins_nulls *w, const sl_pins *P) {
 /* src/impl/change/pins_capacitance.h: the sweeps of pins, and the factor of their capacitance matrix */
 
 static void sli_pin_clear_nulls(const sl_pins *P, const sli_pin *pin, const sli_reach *R, double *y,
-                sl_int lanes) {
+    sl_int lanes) {
   sl_int k;
   for (k = 0; k < pin->n_nulls; k++) {
     const ptrdiff_t at = sli_reach_index_of(R, P->F->null.pivots[pin->nulls[k]]);
@@ -25779,7 +25779,7 @@ SLI_INLINE sli_equality sli_equality_of(const sl_int *rows, const double *values
 }
 
 static sl_status sli_pin_new(sli_pin **out, const sl_pins *P, sli_set *set, sl_int count,
-               const sli_reach *R) {
+    const sli_reach *R) {
   sli_pin pin;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
@@ -25802,7 +25802,7 @@ static sl_status sli_pin_new(sli_pin **out, const sl_pins *P, sli_set *set, sl_i
 }
 
 static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sli_equality *e,
-                int is_swept, sl_stats *stats) {
+    int is_swept, sl_stats *stats) {
   const sl_symbolic *S = P->F->S;
   sli_block seeds = {NULL, 0, 0};
   sli_set set = sli_set_of(S, e->rows, e->count);
@@ -25842,7 +25842,7 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sli_equal
 }
 
 static void sli_pin_dot(const sli_pin *pin, const sli_reach *R, const double *x, sl_int lanes,
-            double *sums) {
+    double *sums) {
   sli_intersection m = sli_intersection_of(&pin->R, R);
   double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   while (sli_intersection_next(&m)) {
@@ -25852,7 +25852,7 @@ static void sli_pin_dot(const sli_pin *pin, const sli_reach *R, const double *x,
 }
 
 static void sli_pin_add(const sli_pin *pin, const sli_reach *R, double *x, sl_int lanes,
-            const double *f) {
+    const double *f) {
   sli_intersection m = sli_intersection_of(&pin->R, R);
   sl_int k, r;
   while (sli_intersection_next(&m)) {
@@ -25890,7 +25890,7 @@ static sl_status sli_pins_factor(sl_pins *P, sl_int k) {
 }
 
 SLI_COLD static sl_status sli_pins_refuse(const sl_pins *P, sl_status status, sl_int row,
-                      sl_int count, sl_stats *stats) {
+    sl_int count, sl_stats *stats) {
   const char *what = status == SL_ERR_PIVOT ? "it depends on the other pins and equalities"
                         : "numbers of F overflow in its solution";
   sl_int k;
@@ -25949,7 +25949,7 @@ static sl_status sli_pins_grow(sl_pins *P, sl_int more) {
   for (i = 0; i < P->n_pins; i++) {
     pins[i] = P->pins[i];
     memcpy(K + (size_t)i * (size_t)capacity, P->K + (size_t)i * (size_t)P->capacity,
-         ((size_t)i + 1) * sizeof *K);
+        ((size_t)i + 1) * sizeof *K);
   }
   sli_free(&P->allocator, P->pins);
   P->pins = pins;
@@ -25985,7 +25985,7 @@ static sl_status sli_pins_push(sl_pins *P, const sli_equality *e, sl_stats *stat
 }
 
 SLI_HOT static void sli_capacitance_solve(const double *K, size_t ld, sl_int count, double *f,
-                      sl_int lanes) {
+    sl_int lanes) {
   sl_int i, j, r;
   for (i = 1; i < count; i++) {
     double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, sums[SLI_TILE];
@@ -26021,7 +26021,7 @@ static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
 #define SLI_PINS_SINGLY 4
 
 static sl_status sli_pins_sweep_block(sl_pins *P, sli_inverse_block *q, sl_int k, sl_int first,
-                    sl_stats *stats) {
+    sl_stats *stats) {
   const uint64_t *order = q->kept.order + first;
   const sli_forward *f = &q->sweeps[k].forward;
   const double one = 1.0;
@@ -26055,7 +26055,7 @@ static sl_status sli_pins_sweep_block(sl_pins *P, sli_inverse_block *q, sl_int k
 }
 
 static void sli_pins_fill_entries(const sl_pins *P, const sli_inverse_block *q, sl_int p,
-                  const sli_swept_block *b, const double *sums) {
+    const sli_swept_block *b, const double *sums) {
   sl_int j;
   for (j = 0; j < b->block_size; j++) {
     const sl_int r = P->n_pins + sli_value(q->kept.order[b->first + j]);
@@ -26080,7 +26080,7 @@ static sl_status sli_pins_push_blocks(sl_pins *P, sli_inverse_block *q, sl_stats
       sli_cross_sums(q->F, &a->forward, &b->forward, q->divided, sums);
       for (j = 0; j < a->block_size; j++) {
         sli_pins_fill_entries(P, q, P->n_pins + sli_value(q->kept.order[a->first + j]), b,
-                    sums + SLI_LANES_MAX * j);
+            sums + SLI_LANES_MAX * j);
       }
     }
     first += b->block_size;
@@ -26095,7 +26095,7 @@ static sl_status sli_pins_push_blocks(sl_pins *P, sli_inverse_block *q, sl_stats
 }
 
 static sl_status sli_pins_push_rows(sl_pins *P, const sl_int *rows, sl_int count,
-                  sl_stats *stats) {
+    sl_stats *stats) {
   const double one = 1.0;
   const sl_int before = P->n_pins;
   sl_work W = sli_work_own(&P->allocator);
@@ -26167,14 +26167,14 @@ static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P
     sli_capacitance_factor(w->S, ld, a);
     if (!(row[a] * P->sign > 0.0)) {
       return sli_refuse(SL_ERR_INACCURATE,
-                "pins that nearly depend on each other, by null vectors of F");
+          "pins that nearly depend on each other, by null vectors of F");
     }
   }
   return SL_OK;
 }
 
 static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli_packed *b,
-              const double *norms) {
+    const double *norms) {
   const sl_factor *F = P->F;
   const sli_reach *R = b->R;
   const sl_int lanes = b->lanes;
@@ -26189,7 +26189,7 @@ static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli
     while (sli_null_dot_next(F, b, first, s, &dot)) {
       if (P->uses[dot.number] > 0) {
         memcpy(w->s + (ptrdiff_t)w->place[dot.number] * lanes, dot.sums,
-             (size_t)lanes * sizeof(double));
+            (size_t)lanes * sizeof(double));
         continue;
       }
       for (r = 0; r < lanes && F->null.checks; r++) {
@@ -26204,14 +26204,14 @@ static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli
     const sl_int null = F->null.pivots[w->numbers[k]], at = sli_reach_index_of(R, null);
     if (at != -1 && sli_null_column(F, null) == -1) {
       memcpy(w->s + (ptrdiff_t)k * lanes, b->v + (ptrdiff_t)at * lanes,
-           (size_t)lanes * sizeof(double));
+          (size_t)lanes * sizeof(double));
     }
   }
   return 1;
 }
 
 static int sli_pins_clear(const sl_pins *P, const sli_reach *R, double *y, sl_int lanes,
-              const double *norms) {
+    const double *norms) {
   const sl_factor *F = P->F;
   sl_int m, r;
   for (m = 0; m < F->null.count; m++) {
@@ -26231,7 +26231,7 @@ static int sli_pins_clear(const sl_pins *P, const sli_reach *R, double *y, sl_in
 }
 
 static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f, sl_int lanes,
-              const double *norms) {
+    const double *norms) {
   const size_t count = (size_t)P->n_pins;
   sl_int p, k, r;
   for (k = 0; k < w->count * lanes; k++) {
@@ -26265,7 +26265,7 @@ static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f
   }
   for (k = 0; k < w->count * lanes && P->F->null.consistency >= 0.0; k++) {
     if (w->is_free[k / lanes] &&
-      fabs(w->defects[k]) > P->F->null.consistency * w->sizes[k]) {
+        fabs(w->defects[k]) > P->F->null.consistency * w->sizes[k]) {
       return 0;
     }
   }
@@ -26273,7 +26273,7 @@ static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f
 }
 
 static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w, double *x,
-               sl_int lanes) {
+    sl_int lanes) {
   const sl_factor *F = P->F;
   const sli_reach *R = &q->backward;
   sl_int first = 0, root, s, m, k, r;
@@ -26395,17 +26395,17 @@ static void sli_pins_drop(sl_pins *P, sl_int index) {
 }
 
 SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const double *values,
-                    sl_int count, sl_stats *stats) {
+    sl_int count, sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
   const sli_equality e = sli_equality_of(rows, values, count);
   sl_status status;
   sl_int k;
   sli_stats_clear_error(stats);
-  status = sli_argument(P == NULL        ? "P is NULL"
-              : count < 1      ? "count is below 1"
-              : rows == NULL   ? "rows is NULL"
-              : values == NULL ? "values is NULL"
-                       : NULL);
+  status = sli_argument(P == NULL ? "P is NULL"
+      : count < 1 ? "count is below 1"
+      : rows == NULL ? "rows is NULL"
+      : values == NULL ? "values is NULL"
+      : NULL);
   status = status == SL_OK ? sli_pins_are_current(P) : status;
   if (status != SL_OK) {
     return sli_report(stats, status);
@@ -26413,7 +26413,7 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
   for (k = 0; k < count; k++) {
     if (!sli_is_finite(values[k])) {
       return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k],
-                 "a value of the equality is not finite");
+          "a value of the equality is not finite");
     }
   }
   status = sli_pins_push(P, &e, stats);
@@ -26428,10 +26428,10 @@ SL_API sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count, sl_st
   sl_status status;
   sl_int k;
   sli_stats_clear_error(stats);
-  status = sli_argument(P == NULL                   ? "P is NULL"
-              : count < 0                 ? "count is below 0"
-              : count > 0 && rows == NULL ? "rows is NULL"
-                            : NULL);
+  status = sli_argument(P == NULL ? "P is NULL"
+      : count < 0 ? "count is below 0"
+      : count > 0 && rows == NULL ? "rows is NULL"
+      : NULL);
   status = status == SL_OK ? sli_pins_are_current(P) : status;
   if (status == SL_OK && count > INT32_MAX - P->n_pins) {
     status = sli_refuse(SL_ERR_TOO_LARGE, "more than 2^31 - 1 pins");
@@ -26455,10 +26455,10 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
   sl_status status;
   sl_int k;
   sli_stats_clear_error(stats);
-  status = sli_argument(P == NULL                      ? "P is NULL"
-              : count < 0                    ? "count is below 0"
-              : count > 0 && indices == NULL ? "indices is NULL"
-                             : NULL);
+  status = sli_argument(P == NULL ? "P is NULL"
+      : count < 0 ? "count is below 0"
+      : count > 0 && indices == NULL ? "indices is NULL"
+      : NULL);
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
@@ -26475,7 +26475,7 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
   for (k = 0; k < count && status == SL_OK; k++) {
     if (indices[k] < 0 || indices[k] >= P->n_pins || gone[indices[k]]) {
       status = sli_fail_at(stats, SL_ERR_ARGUMENT, -1, -1, (double)indices[k],
-                 "no pin has this index, value, or it is given twice");
+          "no pin has this index, value, or it is given twice");
     } else {
       gone[indices[k]] = 1;
     }
@@ -26665,8 +26665,8 @@ static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
         }
       }
       if (s != -1 && fabs(sum) > SLI_PINS_LOST * (size + fabs(g)) &&
-        (g != 0.0 ||
-         fabs(sum) > SLI_PINS_LOST * weight * sli_pins_least(w, R->steps[s].column, r))) {
+          (g != 0.0 ||
+          fabs(sum) > SLI_PINS_LOST * weight * sli_pins_least(w, R->steps[s].column, r))) {
         return 0;
       }
     }
@@ -26743,8 +26743,8 @@ SLI_HOT static sl_status sli_pins_block(sli_pins_solve *w) {
 }
 
 SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X, size_t ldx,
-                 const double *B, size_t ldb, const double *G, size_t ldg,
-                 sl_int nrhs, sl_work *W) {
+    const double *B, size_t ldb, const double *G, size_t ldg,
+    sl_int nrhs, sl_work *W) {
   const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sli_block counted = {NULL, 0, 0};
   sli_pins_solve w;
@@ -26759,9 +26759,9 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
   all = sli_query_all(P->F->S);
   status = sli_rhs_check_columns(&rhs, q->nx, q->nb);
   if (status == SL_OK && nrhs > 0 && P->n_pins > 0) {
-    status = sli_argument(G == NULL                    ? "G is NULL"
-                : !sli_is_ld(ldg, P->n_pins) ? "ldg is below the number of pins"
-                               : NULL);
+    status = sli_argument(G == NULL ? "G is NULL"
+        : !sli_is_ld(ldg, P->n_pins) ? "ldg is below the number of pins"
+        : NULL);
   }
   status = status == SL_OK ? sli_pins_are_current(P) : status;
   status = status == SL_OK ? sli_query_check(q, P->F) : status;
@@ -26899,7 +26899,7 @@ static void sli_subset_hash(sli_subset *R) {
 }
 
 SLI_HOT static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_int *rows,
-                     sl_int *rank_of, sl_stats *stats) {
+    sl_int *rank_of, sl_stats *stats) {
   static const char sli_row_twice[] = "a row is given twice";
   sl_int k, rank = 0;
   if (!R->is_hashed) {
@@ -26933,7 +26933,7 @@ SLI_HOT static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, co
       rank_of[R->row_of[k]] = k;
       if (k > 0 && R->columns[k] == R->columns[k - 1]) {
         return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[R->columns[k]], -1, 0.0,
-                   sli_row_twice);
+            sli_row_twice);
       }
     }
     return SL_OK;
@@ -27190,7 +27190,7 @@ static void sli_restriction_cliques(sli_restriction *r) {
     if (sli_restriction_is_root(r, q)) {
       for (at = r->below_begin[q] + 1; at < r->below_begin[q + 1]; at++) {
         sli_restriction_enter(r, r->fresh_of[r->below[at]],
-                    r->fresh_of[r->below[r->below_begin[q]]], -1);
+            r->fresh_of[r->below[r->below_begin[q]]], -1);
       }
     }
   }
@@ -27340,7 +27340,7 @@ static void sli_restriction_tree(sli_restriction *r, const sl_allocator *a, sl_s
 }
 
 static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator *a,
-                     sl_stats *stats) {
+    sl_stats *stats) {
   sli_analysis *w = &r->w;
   sl_symbolic *T = &r->T;
   sli_block b = {NULL, 0, 0};
@@ -27475,8 +27475,8 @@ SLI_HOT static void sli_joint_fill_kept(sl_symbolic *S, const sli_restriction *r
     const sl_int parent = from->parent[k];
     const sl_int rank = parent < end ? -1 : sli_subset_find(&r->R, parent);
     S->parent[k + base] = parent != -1 && parent < end ? parent + base
-                : rank != -1                 ? r->column_of[rank]
-                : below > 0                  ? S->rows[begin]
+                : rank != -1 ? r->column_of[rank]
+                : below > 0 ? S->rows[begin]
                                : -1;
     S->counts[k + base] = sli_min(from->counts[k], end - k + below);
   }
@@ -27550,7 +27550,7 @@ static sl_symbolic sli_restriction_draft(const sli_restriction *r, const sl_allo
 }
 
 static sl_status sli_restriction_make(sl_symbolic **out, sli_restriction *r, const sl_allocator *a,
-                    sl_stats *stats) {
+    sl_stats *stats) {
   sl_symbolic draft = sli_restriction_draft(r, a);
   sli_restriction_tree(r, a, stats);
   (void)sli_analysis_lap(&r->w);
@@ -27559,7 +27559,7 @@ static sl_status sli_restriction_make(sl_symbolic **out, sli_restriction *r, con
 }
 
 static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_allocator *a,
-                sl_stats *stats) {
+    sl_stats *stats) {
   sl_symbolic draft = sli_restriction_draft(r, a);
   sli_block b = {NULL, 0, 0};
   sli_joint j;
@@ -27568,7 +27568,7 @@ static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_
   SLI_LAYOUT(&b, a, status) {
     (void)sli_take(&b, 1, sizeof(sl_symbolic));
     sli_symbolic_layout(&draft, &b, r->below_begin[r->n_kept] + r->T.rows_begin[r->T.n_supers],
-              r->n_entries);
+        r->n_entries);
     stats->symbolic.bytes = b.used;
   }
   if (status != SL_OK) {
@@ -27587,14 +27587,14 @@ static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_
 /* src/impl/change/restrict.h: sl_factor_restrict: the factor of A[R, R] from that of A */
 
 static sl_status sli_restrict_check(const sl_factor *F, const sli_restriction *r,
-                  sli_failure *failure) {
+    sli_failure *failure) {
   sl_int q, k;
   for (q = 0; q < r->n_kept && F->null.count > 0; q++) {
     const sl_int s = r->kept[q];
     for (k = F->S->super_first[s]; k < F->S->super_first[s + 1]; k++) {
       if (sli_is_skipped(F, k)) {
         return sli_fail(failure, SL_ERR_PIVOT, r->kept_new[q],
-                r->column_of[r->first_rank[q] + k - F->S->super_first[s]], -1, 0.0);
+            r->column_of[r->first_rank[q] + k - F->S->super_first[s]], -1, 0.0);
       }
     }
   }
@@ -27602,7 +27602,7 @@ static sl_status sli_restrict_check(const sl_factor *F, const sli_restriction *r
 }
 
 static void sli_restrict_keep(const sl_factor *G, sli_restriction *r, sl_int *from,
-                sl_int *columns) {
+    sl_int *columns) {
   sl_int q, k;
   for (q = 0; q < G->S->n_supers; q++) {
     from[q] = -1;
@@ -27618,7 +27618,7 @@ static void sli_restrict_keep(const sl_factor *G, sli_restriction *r, sl_int *fr
 }
 
 static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_restriction *r,
-                    sl_stats *stats) {
+    sl_stats *stats) {
   const double started = sli_seconds();
   const sli_source source = sli_source_matrix(&r->B);
   sli_kept kept;
@@ -27661,7 +27661,7 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
 }
 
 static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction *r,
-                     const sl_allocator *a, sl_int *signs) {
+    const sl_allocator *a, sl_int *signs) {
   sl_options opt = sli_options_with(a);
   sl_int k;
   opt.null_tolerance = sli_tolerance_option(F);
@@ -27679,7 +27679,7 @@ static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction
 }
 
 static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, const sl_factor *F,
-                   sli_restriction *r, const sl_options *rules, sl_stats *stats) {
+    sli_restriction *r, const sl_options *rules, sl_stats *stats) {
   sl_options opt = *rules;
   sl_factor *G = NULL;
   sl_status status;
@@ -27722,14 +27722,14 @@ static sl_status sli_restrict_report(const sli_restriction *r, sl_status status,
       found.error.column = r->rows[found.error.column];
     }
   } else if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE ||
-         status == SL_ERR_NOT_FINITE) {
+      status == SL_ERR_NOT_FINITE) {
     found.error.row = r->rows[found.error.row];
   }
   return sli_fail_as(stats, status, &found.error);
 }
 
 static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_factor *F,
-                  sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
+    sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
   const double started = sli_seconds();
   const sl_options rules = sli_restrict_options(F, r, a, (sl_int *)(void *)r->scratch);
   sl_stats found;
@@ -27750,24 +27750,24 @@ static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_facto
 }
 
 static sl_status sli_restrict_arguments(const sl_factor *F, const sl_csc *A, const sl_int *rows,
-                    sl_int count, const sl_options *opt) {
+    sl_int count, const sl_options *opt) {
   sl_status status =
-    sli_argument(F == NULL                   ? "F is NULL"
-           : A == NULL                 ? "A is NULL"
-           : count < 0                 ? "count is below 0"
-           : count > 0 && rows == NULL ? "rows is NULL"
-                         : sli_options_wrong(opt, SLI_READS_NOTHING));
+    sli_argument(F == NULL ? "F is NULL"
+        : A == NULL ? "A is NULL"
+        : count < 0 ? "count is below 0"
+        : count > 0 && rows == NULL ? "rows is NULL"
+        : sli_options_wrong(opt, SLI_READS_NOTHING));
   status = status == SL_OK ? sli_factor_has_numbers(F) : status;
   if (status == SL_OK && (F->E != NULL || F->S->nnz_input < 0)) {
     status = sli_refuse(SL_ERR_UNSUPPORTED, F->E != NULL ? "the restriction of 2x2 pivots"
-                               : "the restriction of a restriction");
+        : "the restriction of a restriction");
   }
   return status == SL_OK ? sli_pattern_check_size(F->S, A, 1) : status;
 }
 
 SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_factor *F,
-                  const sl_csc *A, const sl_int *rows, sl_int count,
-                  const sl_options *opt, sl_stats *stats) {
+    const sl_csc *A, const sl_int *rows, sl_int count,
+    const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
   const double started = stats == NULL ? 0.0 : sli_seconds();
   sli_restriction r;
@@ -27873,7 +27873,7 @@ static void sli_edit_layout(sli_edit *e, sli_block *b) {
 }
 
 static sl_status sli_edit_columns(const sl_symbolic *S, const sl_int *new_of, sl_int n,
-                  sl_int *column_of, sl_stats *stats) {
+    sl_int *column_of, sl_stats *stats) {
   sl_int j;
   for (j = 0; j < n; j++) {
     column_of[j] = -1;
@@ -27882,7 +27882,7 @@ static sl_status sli_edit_columns(const sl_symbolic *S, const sl_int *new_of, sl
     const sl_int row = new_of[j];
     if (row < -1 || row >= n || (row >= 0 && column_of[row] != -1)) {
       return sli_fail_at(stats, SL_ERR_ARGUMENT, j, -1, (double)row,
-                 "new_of of this row, value, is out of range or given twice");
+          "new_of of this row, value, is out of range or given twice");
     }
     if (row >= 0) {
       column_of[row] = S->iperm[j];
@@ -28023,7 +28023,7 @@ static void sli_edit_grow(sli_edit *e, int layer) {
   sl_int j, p;
   for (j = 0; j < e->n; j++) {
     for (p = is_whole && e->is_active[j] != layer ? B->p[j + 1] : B->p[j]; p < B->p[j + 1];
-       p++) {
+        p++) {
       const int a = e->is_active[j], b = e->is_active[B->i[p]];
       if (a == 0 && b == layer && sli_is_read(e->triangle, B->i[p], j)) {
         e->is_active[j] = (unsigned char)(layer + 1);
@@ -28070,7 +28070,7 @@ static void sli_edit_scan(sli_edit *e) {
     const int is_active = e->is_active[j];
     for (p = B->p[j]; p < B->p[j + 1]; p++) {
       if ((is_active || e->is_active[B->i[p]]) && B->i[p] != j &&
-        sli_is_read(e->triangle, B->i[p], j)) {
+          sli_is_read(e->triangle, B->i[p], j)) {
         sli_edit_enter(e, j, B->i[p]);
         sli_edit_enter(e, B->i[p], j);
       }
@@ -28377,13 +28377,13 @@ static sl_int sli_band_kinds(sli_band *w) {
   sl_off at;
   for (k = 0; k < w->n; k++) {
     const int is_outer = e->is_active[w->row[k]] == SLI_EDIT_LAYERS;
-    const int side = k < w->n_movable             ? -1
+    const int side = k < w->n_movable ? -1
              : w->from[k] == w->branch[0] ? 0
              : w->from[k] == w->branch[1] ? 1
                             : 2;
     w->kind[k] = side == 2 || (side == -1 && is_outer) ? SLI_BAND_OUT
-           : !is_outer                           ? SLI_BAND_INNER
-           : side == 0                           ? SLI_BAND_LEFT
+           : !is_outer ? SLI_BAND_INNER
+           : side == 0 ? SLI_BAND_LEFT
                                : SLI_BAND_RIGHT;
   }
   for (k = 0; k < w->n; k++) {
@@ -28392,7 +28392,7 @@ static sl_int sli_band_kinds(sli_band *w) {
     for (at = e->begin[own]; kind == SLI_BAND_INNER && at < e->begin[own + 1]; at++) {
       const sl_int v = e->cursor[e->to[at]] - 1;
       const int other = v == -1 ? -1 : w->kind[v] & 3;
-      w->kind[k] |= other == SLI_BAND_LEFT    ? SLI_BAND_FIRST
+      w->kind[k] |= other == SLI_BAND_LEFT ? SLI_BAND_FIRST
               : other == SLI_BAND_RIGHT ? SLI_BAND_LAST
                           : 0;
       is_fixed |= k < w->n_movable && v >= w->n_movable && other == SLI_BAND_OUT;
@@ -28606,7 +28606,7 @@ static void sli_edit_append(sli_edit *e, sl_int s) {
     e->fresh[e->n_fresh++] = row;
   }
   for (k = s < S->n_supers ? S->super_first[s] : 0; s < S->n_supers && k < S->super_first[s + 1];
-     k++) {
+      k++) {
     row = e->new_of[S->perm[k]];
     if (sli_edit_stays(e, row, s)) {
       e->fresh[e->n_fresh++] = row;
@@ -28662,7 +28662,7 @@ static void sli_edit_graph(const sli_edit *e, sli_graph *G) {
 }
 
 static sl_status sli_edit_make_graph(sli_edit *e, sli_graph *G, sli_block *edges,
-                   const sl_allocator *a) {
+    const sl_allocator *a) {
   const sl_int count = e->n_grouped;
   sl_off total = 0;
   sl_status status = SL_OK;
@@ -28805,7 +28805,7 @@ static void sli_edit_list_graph(const sli_edit *e, sli_restriction *r) {
 }
 
 static sl_status sli_edit_analyze_fresh(sli_edit *e, sli_restriction *r, sl_relaxation relaxation,
-                    const sl_allocator *a, sl_stats *stats) {
+    const sl_allocator *a, sl_stats *stats) {
   sl_status status;
   sl_int k;
   for (k = 0; k < e->n; k++) {
@@ -28871,7 +28871,7 @@ static void sli_edit_join_kept(sli_edit_join *j, sli_joint *at, sl_int s) {
     j->T->counts[column] = S->counts[k];
   }
   sli_joint_add(at, S->super_first[s + 1] - S->super_first[s],
-          S->rows_begin[s + 1] - S->rows_begin[s]);
+      S->rows_begin[s + 1] - S->rows_begin[s]);
 }
 
 static void sli_edit_join_number(sli_edit_join *j) {
@@ -28920,7 +28920,7 @@ static void sli_edit_join_maps(sli_edit_join *j) {
   }
   for (s = 0; s < S->n_supers; s++) {
     for (k = S->super_first[s]; j->e->mark[s] != SLI_NODE_KEPT && k < S->super_first[s + 1];
-       k++) {
+        k++) {
       const sl_int row = j->e->new_of[S->perm[k]];
       j->column_new[k] = row == -1 ? -1 : j->T->iperm[row];
     }
@@ -28986,7 +28986,7 @@ static void sli_edit_join_map(sli_edit_join *j, sl_int s, int is_moved) {
     sl_int k, column, last = sli_last_tile(S, s);
     const sl_int local = row < width ? row
                      : width + sli_lower_bound(T->rows + T->rows_begin[to],
-                                   below, sli_key(j->list[m]));
+                         below, sli_key(j->list[m]));
     sli_scatter_map_pivots(S, s, from, &last, &k, &column);
     T->scatter_from[base + m] = j->e->position[S->scatter_from[from]];
     T->scatter_to[base + m] =
@@ -29058,7 +29058,7 @@ static void sli_edit_join_fill(sli_edit_join *j, sl_stats *stats) {
 }
 
 static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const sl_allocator *a,
-                  sl_stats *stats) {
+    sl_stats *stats) {
   const sl_symbolic *S = j->e->S;
   sl_symbolic draft;
   sli_block b = {NULL, 0, 0};
@@ -29105,16 +29105,16 @@ static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const s
 #define SLI_EDIT_DUE 1.1
 
 static sl_status sli_edit_arguments(const sl_symbolic *S, const sl_csc *A, const sl_csc *B,
-                  const sl_int *new_of, const sl_options *opt) {
-  sl_status status = sli_argument(S == NULL                    ? "S is NULL"
-                  : A == NULL                  ? "A is NULL"
-                  : B == NULL                  ? "B is NULL"
-                  : S->n > 0 && new_of == NULL ? "new_of is NULL"
-                                 : sli_symbolic_options_wrong(opt));
+    const sl_int *new_of, const sl_options *opt) {
+  sl_status status = sli_argument(S == NULL ? "S is NULL"
+      : A == NULL ? "A is NULL"
+      : B == NULL ? "B is NULL"
+      : S->n > 0 && new_of == NULL ? "new_of is NULL"
+      : sli_symbolic_options_wrong(opt));
   if (status == SL_OK && (S->is_pivoted || S->nnz_input < 0)) {
     status = sli_refuse(SL_ERR_UNSUPPORTED, S->is_pivoted
-                          ? "an analysis of sl_symbolic_create_pivoted"
-                          : "an analysis of sl_factor_restrict");
+        ? "an analysis of sl_symbolic_create_pivoted"
+        : "an analysis of sl_factor_restrict");
   }
   return status == SL_OK ? sli_pattern_check(S, A, 0) : status;
 }
@@ -29160,7 +29160,7 @@ static sl_status sli_edit_find(sli_edit *e, int *is_local, const sl_allocator *a
 }
 
 static sl_status sli_edit_analyze(sl_symbolic **out, sli_edit *e, const sl_options *opt,
-                  const sl_allocator *a, double started, sl_stats *stats) {
+    const sl_allocator *a, double started, sl_stats *stats) {
   const double ordered = sli_seconds();
   sli_edit_join j;
   sl_stats found;
@@ -29170,7 +29170,7 @@ static sl_status sli_edit_analyze(sl_symbolic **out, sli_edit *e, const sl_optio
   j.e = e;
   found.symbolic.triangle = e->triangle;
   status = sli_edit_analyze_fresh(e, &j.r, opt == NULL ? SL_RELAXATION_DEFAULT : opt->relaxation,
-                  a, &found);
+      a, &found);
   found.symbolic.seconds_tree = sli_seconds() - ordered;
   if (status == SL_OK) {
     status = sli_edit_join_make(out, &j, a, &found);
@@ -29188,7 +29188,7 @@ static sl_status sli_edit_analyze(sl_symbolic **out, sli_edit *e, const sl_optio
 }
 
 static void sli_edit_count(sl_symbolic *T, const sli_edit *e, int is_anew, double started,
-               sl_edit_info *info) {
+    sl_edit_info *info) {
   const sl_symbolic *S = e->S;
   const sl_symbolic_info *now = &T->stats.symbolic, *before = &S->stats.symbolic;
   memset(info, 0, sizeof *info);
@@ -29211,8 +29211,8 @@ static void sli_edit_count(sl_symbolic *T, const sli_edit *e, int is_anew, doubl
 }
 
 SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const sl_csc *A,
-                  const sl_csc *B, const sl_int *new_of, const sl_options *opt,
-                  sl_stats *stats) {
+    const sl_csc *B, const sl_int *new_of, const sl_options *opt,
+    sl_stats *stats) {
   const double started = sli_seconds();
   const sl_allocator a = sli_allocator(opt);
   sli_edit e;
@@ -29321,13 +29321,13 @@ static sl_int sli_reuse_candidate(const sli_reuse *r, sl_int s, int *is_moved) {
   const sl_int *rows = T->rows + T->rows_begin[s], *of;
   sl_int k;
   if (there == -1 || S->super_first[there] != first || S->steps[there].width != own->width ||
-    S->steps[there].below != own->below ||
-    there - S->first_descendant[there] != s - T->first_descendant[s]) {
+      S->steps[there].below != own->below ||
+      there - S->first_descendant[there] != s - T->first_descendant[s]) {
     return -1;
   }
   for (k = 0; k < own->width; k++) {
     if (r->columns[own->column + k] != first + k ||
-      !sli_reuse_is_alike(r, own->column + k, first + k)) {
+        !sli_reuse_is_alike(r, own->column + k, first + k)) {
       return -1;
     }
   }
@@ -29427,11 +29427,11 @@ static int sli_reuse_find(sli_reuse *r) {
   for (is_sample = 1; is_sample >= 0; is_sample--) {
     for (s = 0; s < T->n_supers; s++) {
       if (r->from[s] == SLI_REUSE_UNKNOWN &&
-        is_sample == (s % SLI_REUSE_SAMPLED < SLI_REUSE_SAMPLE)) {
+          is_sample == (s % SLI_REUSE_SAMPLED < SLI_REUSE_SAMPLE)) {
         sli_reuse_compare(r, s);
       }
       if (r->flops >
-        (is_sample ? SLI_REUSE_MOST_OF_SAMPLE : SLI_REUSE_MOST) * r->flops_anew) {
+          (is_sample ? SLI_REUSE_MOST_OF_SAMPLE : SLI_REUSE_MOST) * r->flops_anew) {
         return 0;
       }
     }
@@ -29487,17 +29487,17 @@ static sl_status sli_reuse_numbers(sli_reuse *r, sl_stats *stats) {
 }
 
 SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_symbolic *S,
-                const sl_csc *B, const sl_int *new_of, const sl_options *opt,
-                sl_stats *stats) {
+    const sl_csc *B, const sl_int *new_of, const sl_options *opt,
+    sl_stats *stats) {
   const double started = sli_seconds();
   sli_reuse r;
   sl_status status;
   sli_stats_clear_error(stats);
   status = sli_begin(out);
   if (status == SL_OK) {
-    status = sli_argument(F == NULL   ? "F is NULL"
-                : S == NULL ? "S is NULL"
-                      : sli_factor_options_wrong(opt));
+    status = sli_argument(F == NULL ? "F is NULL"
+        : S == NULL ? "S is NULL"
+        : sli_factor_options_wrong(opt));
   }
   status = status == SL_OK ? sli_factor_has_numbers(F) : status;
   if (status == SL_OK && F->S->n > 0 && new_of == NULL) {
@@ -29537,7 +29537,7 @@ SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_sy
 typedef struct sli_dirichlet_ways {
   sl_status (*take)(sl_dirichlet *D, const sl_factor *F, const sl_csc *A, sl_stats *stats);
   sl_status (*solve)(const sl_dirichlet *D, const sli_rhs *rhs, const double *G, size_t ldg,
-             sl_work *W);
+      sl_work *W);
   void (*release)(sl_dirichlet *D);
 } sli_dirichlet_ways;
 
@@ -29563,7 +29563,7 @@ struct sl_dirichlet {
 };
 
 static sl_int sli_dirichlet_couple(sl_dirichlet *D, const sl_csc *A, sl_triangle triangle,
-                   const sl_int *where) {
+    const sl_int *where) {
   sl_int j, p, count = 0;
   for (j = 0; j < A->n_cols; j++) {
     const sl_int c = where[j];
@@ -29584,13 +29584,13 @@ static sl_int sli_dirichlet_couple(sl_dirichlet *D, const sl_csc *A, sl_triangle
 }
 
 static sl_status sli_dirichlet_check_values(const sl_dirichlet *D, const sl_csc *A,
-                      sl_stats *stats) {
+    sl_stats *stats) {
   sl_int k;
   for (k = 0; k < D->n_couplings; k++) {
     const sl_int p = D->coupling_from[k];
     if (!sli_is_finite(A->x[p])) {
       return sli_fail_at(stats, SL_ERR_NOT_FINITE, A->i[p], sli_column_of(A, p), A->x[p],
-                 "an entry of A is not finite");
+          "an entry of A is not finite");
     }
   }
   return SL_OK;
@@ -29641,7 +29641,7 @@ typedef struct sli_dirichlet_arrays {
 } sli_dirichlet_arrays;
 
 static void sli_dirichlet_arrays_layout(sli_dirichlet_arrays *r, sli_block *b,
-                    const sl_options *opt, sl_int n) {
+    const sl_options *opt, sl_int n) {
   const uint64_t count = (uint64_t)n;
   r->perm =
     opt->ordering != SL_ORDERING_GIVEN || opt->perm == NULL ? NULL : SLI_TAKE(b, sl_int, count);
@@ -29652,8 +29652,8 @@ static void sli_dirichlet_arrays_layout(sli_dirichlet_arrays *r, sli_block *b,
 }
 
 static sl_status sli_dirichlet_arrays_fill(const sli_dirichlet_arrays *r, const sl_dirichlet *D,
-                       const sl_options *opt, const sl_int *where,
-                       sl_int *scratch, sl_stats *stats) {
+    const sl_options *opt, const sl_int *where,
+    sl_int *scratch, sl_stats *stats) {
   const sl_int m = D->n_free;
   const size_t vectors = opt->null_vector_count == 0 ? 1 : opt->null_vector_count;
   sl_int k, at = 0;
@@ -29662,7 +29662,7 @@ static sl_status sli_dirichlet_arrays_fill(const sli_dirichlet_arrays *r, const 
     k = sli_rows_invert(opt->perm, D->n, D->n, scratch);
     if (k >= 0) {
       return sli_fail_at(stats, SL_ERR_ARGUMENT, k, -1, 0.0,
-                 "options.perm has a row out of range or twice at this position");
+          "options.perm has a row out of range or twice at this position");
     }
     for (k = 0; k < D->n; k++) {
       if (where[opt->perm[k]] >= 0) {
@@ -29720,9 +29720,9 @@ SL_API void sl_dirichlet_free(sl_dirichlet *D) {
 }
 
 SLI_COLD static sl_status sli_dirichlet_factor(sl_dirichlet *D, const sl_csc *A,
-                         const sli_dirichlet_arrays *arrays,
-                         const sl_int *where, sl_int *scratch,
-                         sl_stats *stats) {
+    const sli_dirichlet_arrays *arrays,
+    const sl_int *where, sl_int *scratch,
+    sl_stats *stats) {
   sl_options analysis = D->analysis, factorization = D->factorization;
   sli_submatrix s;
   sl_csc view;
@@ -29778,16 +29778,16 @@ static void sli_dirichlet_options(sl_dirichlet *D, const sl_options *opt) {
 }
 
 static sl_status sli_dirichlet_check(const sl_csc *A, const sl_int *rows, sl_int count,
-                   const sl_options *opt, sl_stats *stats) {
+    const sl_options *opt, sl_stats *stats) {
   sl_status status = sl_csc_check(A, stats);
   if (status == SL_OK) {
-    status = sli_argument(A->n_rows != A->n_cols           ? "A is not square"
-                : sli_nnz(A) > 0 && A->x == NULL ? "A.x is NULL"
-                : count < 0                      ? "count is below 0"
-                : count > 0 && rows == NULL
-                  ? "rows is NULL"
-                  : sli_options_wrong(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE |
-                                 SLI_READS_FACTOR | SLI_READS_ISA));
+    status = sli_argument(A->n_rows != A->n_cols ? "A is not square"
+        : sli_nnz(A) > 0 && A->x == NULL ? "A.x is NULL"
+        : count < 0 ? "count is below 0"
+        : count > 0 && rows == NULL
+        ? "rows is NULL"
+        : sli_options_wrong(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE |
+        SLI_READS_FACTOR | SLI_READS_ISA));
   }
   if (status == SL_OK && opt != NULL) {
     status = sli_argument(sli_factor_choices_wrong(opt));
@@ -29809,7 +29809,7 @@ static void sli_dirichlet_layout(sl_dirichlet *D, sli_block *b) {
 }
 
 static sl_status sli_dirichlet_new(sl_dirichlet **out, const sl_csc *A, const sl_int *rows,
-                   sl_dirichlet *draft, sl_int *where, sl_stats *stats) {
+    sl_dirichlet *draft, sl_int *where, sl_stats *stats) {
   sli_block b = {NULL, 0, 0};
   sl_dirichlet *D;
   sl_status status = SL_OK;
@@ -29817,7 +29817,7 @@ static sl_status sli_dirichlet_new(sl_dirichlet **out, const sl_csc *A, const sl
   const sl_int bad = sli_rows_invert(rows, draft->n_fixed, draft->n, where);
   if (bad >= 0) {
     return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0,
-               "a row is out of range or given twice");
+        "a row is out of range or given twice");
   }
   for (k = 0; k < draft->n; k++) {
     where[k] = where[k] < 0 ? free_row++ : -1 - where[k];
@@ -29854,9 +29854,9 @@ static sl_status sli_dirichlet_new(sl_dirichlet **out, const sl_csc *A, const sl
 static int sli_dirichlet_may_reuse(const sl_factor *F, const sl_options *opt) {
   return F != NULL &&
        (opt == NULL ||
-      ((opt->perm == NULL || opt->ordering != SL_ORDERING_GIVEN) && opt->mass == NULL &&
-       opt->signs == NULL && opt->null_vector == NULL &&
-       opt->null_pivots == SL_NULL_PIVOT_REFUSE && opt->regularization == 0.0)) &&
+        ((opt->perm == NULL || opt->ordering != SL_ORDERING_GIVEN) && opt->mass == NULL &&
+         opt->signs == NULL && opt->null_vector == NULL &&
+         opt->null_pivots == SL_NULL_PIVOT_REFUSE && opt->regularization == 0.0)) &&
        F->type->storage == (opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
 }
 
@@ -29868,8 +29868,8 @@ static void sli_dirichlet_done(sl_dirichlet *D, double started, sl_stats *stats)
 }
 
 static sl_status sli_dirichlet_begin(sl_dirichlet *D, const sl_csc *A, const sl_factor *F,
-                   const sl_options *opt, const sl_int *where, sl_int *scratch,
-                   sl_stats *stats) {
+    const sl_options *opt, const sl_int *where, sl_int *scratch,
+    sl_stats *stats) {
   const sl_options none = sli_options_with(&D->allocator);
   const sl_options *arrays_of = opt == NULL ? &none : opt;
   const sli_dirichlet_ways *ways = sli_dirichlet_ways_of();
@@ -29897,8 +29897,8 @@ static sl_status sli_dirichlet_begin(sl_dirichlet *D, const sl_csc *A, const sl_
 }
 
 SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const sl_int *rows,
-                   sl_int count, const sl_factor *F, const sl_options *opt,
-                   sl_stats *stats) {
+    sl_int count, const sl_factor *F, const sl_options *opt,
+    sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
   sli_block b = {NULL, 0, 0};
   sl_dirichlet draft, *D = NULL;
@@ -29970,12 +29970,12 @@ SL_API sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A, sl_stat
   sli_hash pattern;
   sl_status status;
   sli_stats_clear_error(stats);
-  status = sli_argument(D == NULL                 ? "D is NULL"
-              : !sli_csc_has_pattern(A) ? "A is NULL, or has no size, p or i"
-                          : NULL);
+  status = sli_argument(D == NULL ? "D is NULL"
+      : !sli_csc_has_pattern(A) ? "A is NULL, or has no size, p or i"
+      : NULL);
   if (status == SL_OK &&
-    (A->n_rows != D->n || A->n_cols != D->n || !sli_pattern_hash(A, &pattern) ||
-     !sli_hash_equals(pattern, D->pattern))) {
+      (A->n_rows != D->n || A->n_cols != D->n || !sli_pattern_hash(A, &pattern) ||
+      !sli_hash_equals(pattern, D->pattern))) {
     status = sli_refuse(SL_ERR_OTHER_PATTERN, "A has another pattern than at the creation");
   }
   if (status == SL_OK) {
@@ -30015,7 +30015,7 @@ static void sli_dirichlet_gather(const sl_dirichlet *D, const sli_rhs *rhs) {
 }
 
 static void sli_dirichlet_subtract(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
-                   size_t ldg) {
+    size_t ldg) {
   const sli_dense x = sli_dense_of(rhs->ldx), g = sli_dense_of(ldg);
   sl_int k, r;
   for (k = 0; k < D->n_couplings; k++) {
@@ -30042,7 +30042,7 @@ static void sli_dirichlet_scatter(const sl_dirichlet *D, const sli_rhs *rhs) {
 }
 
 static int sli_dirichlet_set_fixed(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
-                   size_t ldg) {
+    size_t ldg) {
   const sli_dense x = sli_dense_of(rhs->ldx), g = sli_dense_of(ldg);
   sl_int k, r;
   int is_finite = 1;
@@ -30057,7 +30057,7 @@ static int sli_dirichlet_set_fixed(const sl_dirichlet *D, const sli_rhs *rhs, co
 }
 
 static sl_status sli_dirichlet_run(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
-                   size_t ldg, sl_work *W) {
+    size_t ldg, sl_work *W) {
   const sli_rhs in_place = sli_rhs_of(rhs->X, rhs->ldx, rhs->X, rhs->ldx, rhs->nrhs);
   const sli_query q = sli_query_all(D->S);
   sli_sweep_tasks t;
@@ -30072,17 +30072,17 @@ static sl_status sli_dirichlet_run(const sl_dirichlet *D, const sli_rhs *rhs, co
 }
 
 SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx, const double *B,
-                  size_t ldb, const double *G, size_t ldg, sl_int nrhs,
-                  sl_work *W) {
+    size_t ldb, const double *G, size_t ldg, sl_int nrhs,
+    sl_work *W) {
   sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sl_work own;
   sl_status status;
   if (D == NULL ||
-    (nrhs > 0 && D->n_fixed > 0 && (G == NULL || !sli_dense_spans(ldg, D->n_fixed, nrhs)))) {
-    return sli_argument(D == NULL   ? "D is NULL"
-              : G == NULL ? "G is NULL"
-                    : "ldg is below the number of fixed rows, or with SL_ROWS "
-                      "nrhs");
+      (nrhs > 0 && D->n_fixed > 0 && (G == NULL || !sli_dense_spans(ldg, D->n_fixed, nrhs)))) {
+    return sli_argument(D == NULL ? "D is NULL"
+        : G == NULL ? "G is NULL"
+        : "ldg is below the number of fixed rows, or with SL_ROWS "
+        "nrhs");
   }
   status = sli_rhs_check(&rhs, D->n, B == NULL ? 0 : D->n);
   if (status != SL_OK || nrhs == 0 || D->n == 0) {
@@ -30204,7 +30204,7 @@ static void sli_dirichlet_count(const sli_dirichlet_choice *c, sl_dirichlet *D) 
 }
 
 static sl_status sli_dirichlet_probe(const sl_dirichlet *D, const sl_csc *A, const sl_pins *P,
-                   int *is_good) {
+    int *is_good) {
   const size_t n = (size_t)D->n;
   uint64_t random = 1;
   sli_block b = {NULL, 0, 0};
@@ -30240,7 +30240,7 @@ static sl_status sli_dirichlet_probe(const sl_dirichlet *D, const sl_csc *A, con
 }
 
 static sl_status sli_dirichlet_pin(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
-                   sl_stats *stats) {
+    sl_stats *stats) {
   const sl_options only_memory = sli_options_with(&D->allocator);
   sl_pins *P = NULL;
   int is_good = 0;
@@ -30259,7 +30259,7 @@ static sl_status sli_dirichlet_pin(sl_dirichlet *D, const sl_factor *F, const sl
 }
 
 static sl_status sli_dirichlet_restrict(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
-                    sl_stats *stats) {
+    sl_stats *stats) {
   const sl_options only_memory = sli_options_with(&D->allocator);
   D->info.method = SL_DIRICHLET_RESTRICTION;
   return sl_factor_restrict(&D->S, &D->F, F, A, D->free_rows, D->n_free, &only_memory, stats);
@@ -30270,7 +30270,7 @@ SLI_INLINE int sli_dirichlet_is_over(sl_status status) {
 }
 
 SLI_COLD static sl_status sli_dirichlet_take(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
-                       sl_stats *stats) {
+    sl_stats *stats) {
   sli_dirichlet_choice c;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
@@ -30290,18 +30290,18 @@ SLI_COLD static sl_status sli_dirichlet_take(sl_dirichlet *D, const sl_factor *F
   sli_dirichlet_count(&c, D);
   sli_free(&D->allocator, b.base);
   if (D->info.seconds_pins > 0.0 &&
-    D->info.seconds_pins <= fmin(D->info.seconds_restriction, D->info.seconds_submatrix)) {
+      D->info.seconds_pins <= fmin(D->info.seconds_restriction, D->info.seconds_submatrix)) {
     status = sli_dirichlet_pin(D, F, A, stats);
   }
   if (!sli_dirichlet_is_over(status) && D->pins == NULL &&
-    D->info.seconds_restriction <= D->info.seconds_submatrix) {
+      D->info.seconds_restriction <= D->info.seconds_submatrix) {
     status = sli_dirichlet_restrict(D, F, A, stats);
   }
   return sli_dirichlet_is_over(status) ? status : SL_OK;
 }
 
 static void sli_dirichlet_copy(double *to, sli_dense t, const double *from, sli_dense f,
-                 sl_int rows, sl_int columns) {
+    sl_int rows, sl_int columns) {
   sl_int k, r;
   for (k = 0; k < rows; k++) {
     for (r = 0; r < columns; r++) {
@@ -30312,7 +30312,7 @@ static void sli_dirichlet_copy(double *to, sli_dense t, const double *from, sli_
 }
 
 static sl_status sli_dirichlet_solve_pins(const sl_dirichlet *D, const sli_rhs *rhs,
-                      const double *G, size_t ldg, sl_work *W) {
+    const double *G, size_t ldg, sl_work *W) {
   const sl_pins *P = (const sl_pins *)D->pins;
   const size_t n = (size_t)D->n, m = (size_t)D->n_fixed;
   sli_block b = {NULL, 0, 0};
@@ -30397,10 +30397,10 @@ static int sli_is_replaceable(const char *path, int *exists) {
 static int sli_take_attributes(const char *name, const char *old_name) {
   struct stat made, old;
   int can = stat(name, &made) == 0 && stat(old_name, &old) == 0; /* untested: one vanished */
-  can = can && made.st_dev == old.st_dev;                        /* untested: a mount point */
+  can = can && made.st_dev == old.st_dev; /* untested: a mount point */
   can = can && made.st_uid == old.st_uid && made.st_gid == old.st_gid; /* untested: a group */
   return can && ((made.st_mode & 0777) == (old.st_mode & 0777) ||
-           chmod(name, old.st_mode & 0777) == 0); /* untested: an owner may */
+      chmod(name, old.st_mode & 0777) == 0); /* untested: an owner may */
 }
 #else
 static int sli_is_replaceable(const char *path, int *exists) {
@@ -30489,7 +30489,7 @@ static int sli_create_beside(sli_output *o, int exists) {
   }
 #if defined(SLI_POSIX)
   if (exists && !o->is_unnamed &&
-    !sli_take_attributes(o->temporary, o->path)) { /* untested: a mount point */
+      !sli_take_attributes(o->temporary, o->path)) { /* untested: a mount point */
     fclose(o->file);
     o->file = NULL;
     remove(o->temporary);
@@ -30605,7 +30605,7 @@ static sl_status sli_csc64_copy(const sl_csc64 *A, sl_matrix *M, sl_stats *stats
       if (i < 0 || i >= A->n_rows) {
         const sl_int row = i < INT32_MIN || i > INT32_MAX ? -1 : (sl_int)i;
         return sli_fail_at(stats, SL_ERR_PATTERN, row, j, 0.0,
-                   "a row of A is out of range; rows count from 0");
+            "a row of A is out of range; rows count from 0");
       }
       M->i[p] = (sl_int)i;
     }
@@ -30617,7 +30617,7 @@ static sl_status sli_csc64_copy(const sl_csc64 *A, sl_matrix *M, sl_stats *stats
 }
 
 SL_API sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A, const sl_options *opt,
-                    sl_stats *stats) {
+    sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
   sl_matrix *M = NULL;
   sl_status status;
@@ -30785,7 +30785,7 @@ static void sli_find_point(char *point) {
   char half[SLI_POINT_MAX + 3];
   const int length = snprintf(half, sizeof half, "%.1f", 0.5);
   if (length < 3 || length >= (int)sizeof half) { /* untested: no locale is like this */
-    memcpy(half, "0.5", 4);                     /* untested: the same */
+    memcpy(half, "0.5", 4); /* untested: the same */
   }
   half[strlen(half) - 1] = '\0';
   memcpy(point, half + 1, strlen(half));
@@ -30867,14 +30867,14 @@ static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric)
     }
   }
   if (!sli_token_is(token[0], "%%matrixmarket") || !sli_token_is(token[1], "matrix") ||
-    !sli_token_in(token[2], sli_formats) || !sli_token_in(token[3], sli_fields) ||
-    !sli_token_in(token[4], sli_symmetries)) {
+      !sli_token_in(token[2], sli_formats) || !sli_token_in(token[3], sli_fields) ||
+      !sli_token_in(token[4], sli_symmetries)) {
     return sli_malformed(r, sli_not_ours);
   }
   *has_values = !sli_token_is(token[3], "pattern");
   *symmetric = sli_token_is(token[4], "symmetric") || sli_token_is(token[4], "hermitian");
-  r->what = sli_token_is(token[2], "array")            ? "array"
-        : sli_token_is(token[3], "complex")        ? "complex"
+  r->what = sli_token_is(token[2], "array") ? "array"
+        : sli_token_is(token[3], "complex") ? "complex"
         : sli_token_is(token[4], "skew-symmetric") ? "skew-symmetric"
                              : NULL;
   return r->what == NULL ? SL_OK : sli_refuse(SL_ERR_UNSUPPORTED, r->what);
@@ -30888,7 +30888,7 @@ typedef struct sli_triplets {
 } sli_triplets;
 
 static sl_status sli_triplets_grow(sli_triplets *t, sl_off room, int has_values,
-                   const sl_allocator *a) {
+    const sl_allocator *a) {
   sli_block b = {NULL, 0, 0};
   sli_triplets larger = *t;
   sl_status status = SL_OK;
@@ -30915,7 +30915,7 @@ static sl_status sli_triplets_grow(sli_triplets *t, sl_off room, int has_values,
 }
 
 static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int has_values,
-                  sli_triplets *t, const sl_allocator *a) {
+    sli_triplets *t, const sl_allocator *a) {
   const char *s, *e;
   sl_off row, column;
   sl_status status;
@@ -30928,12 +30928,12 @@ static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int has_val
       }
     }
     if (!sli_next_line(r, &s, &e, 0) || !sli_token_int(&s, e, 1, size[0], &row) ||
-      !sli_token_int(&s, e, 1, size[1], &column) ||
-      (has_values && !sli_token_double(r, &s, e, &t->x[t->count])) || !sli_line_ends(s, e)) {
+        !sli_token_int(&s, e, 1, size[1], &column) ||
+        (has_values && !sli_token_double(r, &s, e, &t->x[t->count])) || !sli_line_ends(s, e)) {
       return sli_malformed(r,
-                 r->at == r->end && r->file == NULL
-                   ? "fewer entries than the header says, or a malformed one"
-                   : "an entry is malformed or out of range; rows count from 1");
+          r->at == r->end && r->file == NULL
+          ? "fewer entries than the header says, or a malformed one"
+          : "an entry is malformed or out of range; rows count from 1");
     }
     t->i[t->count] = (sl_int)row - 1;
     t->j[t->count] = (sl_int)column - 1;
@@ -30972,7 +30972,7 @@ static sl_status sli_check_mirrored(const sl_matrix *M, sli_reader *r) {
 }
 
 static sl_status sli_fold_entries(const sli_triplet_list *list, sli_triplets *t, sli_reader *r,
-                  const sl_allocator *a) {
+    const sl_allocator *a) {
   sl_status status = SL_OK;
   sl_off k;
   if (sli_has_both_triangles(t)) {
@@ -31013,10 +31013,10 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
     }
   }
   if (!sli_line_ends(s, e) || (symmetric && size[0] != size[1]) ||
-    (r->buffer == NULL && size[2] > (r->end - r->at) / 4 + 1)) {
+      (r->buffer == NULL && size[2] > (r->end - r->at) / 4 + 1)) {
     return sli_malformed(r,
-               "the line of sizes is wrong: more on it, a symmetric matrix that is "
-               "not square, or more entries than the text can hold");
+        "the line of sizes is wrong: more on it, a symmetric matrix that is "
+        "not square, or more entries than the text can hold");
   }
   memset(&t, 0, sizeof t);
   room = r->buffer == NULL || size[2] < SLI_ENTRIES_FIRST ? size[2] : SLI_ENTRIES_FIRST;
@@ -31038,7 +31038,7 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
 }
 
 static sl_status sli_read_matrix(sl_matrix **out, sli_reader *r, const sl_allocator *a,
-                 sl_stats *stats) {
+    sl_stats *stats) {
   const int saved = errno;
   sl_status status;
   sli_find_point(r->point);
@@ -31057,7 +31057,7 @@ static sl_status sli_read_matrix(sl_matrix **out, sli_reader *r, const sl_alloca
 }
 
 SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
-                 const sl_options *opt, sl_stats *stats) {
+    const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
   sli_reader r;
   sl_status status;
@@ -31077,7 +31077,7 @@ SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t lengt
 }
 
 SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_options *opt,
-                sl_stats *stats) {
+    sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
   const int saved = errno;
   sli_reader r;
@@ -31150,16 +31150,16 @@ static int sli_write(FILE *file, const sl_csc *A, sl_reading reading, sl_triangl
     }
   }
   ok = fprintf(file, "%%%%MatrixMarket matrix coordinate %s %s\n%ld %ld %ld\n",
-         A->x != NULL ? "real" : "pattern",
-         reading == SL_AS_SYMMETRIC ? "symmetric" : "general", (long)A->n_rows,
-         (long)A->n_cols, (long)count) > 0;
+      A->x != NULL ? "real" : "pattern",
+      reading == SL_AS_SYMMETRIC ? "symmetric" : "general", (long)A->n_rows,
+      (long)A->n_cols, (long)count) > 0;
   for (j = 0; j < A->n_cols && ok; j++) {
     for (p = A->p[j]; p < A->p[j + 1] && ok; p++) {
       const sl_int i = A->i[p];
       if (sli_is_read(triangle, i, j)) {
         const int flip = reading == SL_AS_SYMMETRIC && i < j;
         ok = sli_write_entry(file, flip ? j : i, flip ? i : j,
-                   A->x != NULL ? A->x + p : NULL);
+            A->x != NULL ? A->x + p : NULL);
       }
     }
   }
@@ -31175,9 +31175,9 @@ SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *p
   sli_output output;
   if (status == SL_OK) {
     status = sli_argument(path == NULL ? "path is NULL"
-                : reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED
-                  ? "reading is not a value of sl_reading"
-                  : NULL);
+        : reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED
+        ? "reading is not a value of sl_reading"
+        : NULL);
   }
   status = status == SL_OK ? sli_output_open(&output, path, &a) : status;
   if (status == SL_OK) {
@@ -31216,7 +31216,7 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
     }
     if (fstat(file, &found) != 0 || !S_ISREG(found.st_mode) || found.st_size <= 0) {
       status = sli_refuse(SL_ERR_IO, sli_no_file);
-    } else if ((uint64_t)found.st_size > SIZE_MAX / 2) {      /* untested: on 32 bits only */
+    } else if ((uint64_t)found.st_size > SIZE_MAX / 2) { /* untested: on 32 bits only */
       status = sli_refuse(SL_ERR_TOO_LARGE, sli_huge_file); /* untested: the same */
     }
     if (status == SL_OK) {
@@ -31398,7 +31398,7 @@ SLI_INLINE uint64_t sli_saved_prefix(const sli_saved *f) {
 }
 
 SLI_NOINLINE static void sli_saved_add(sli_saved *f, uint32_t id, uint32_t word, const void *data,
-                     uint64_t count, uint64_t used) {
+    uint64_t count, uint64_t used) {
   const uint32_t k = f->header.sections++;
   f->table[k].id = id;
   f->table[k].word = word;
@@ -31503,8 +31503,8 @@ static int sli_saved_add_regions(sli_saved *f, const sl_saved_set *set) {
   f->set = set;
   for (m = 0; m < SLI_REGION_SECTIONS; m++) {
     sli_saved_add(f, (uint32_t)SLI_SECTION_REGIONS + (uint32_t)m, sli_region_words[m],
-            m == 0 ? &f->regions : NULL, m == 0 ? sizeof f->regions / 8 : 0,
-            m == 0 ? sizeof f->regions / 8 : 0);
+        m == 0 ? &f->regions : NULL, m == 0 ? sizeof f->regions / 8 : 0,
+        m == 0 ? sizeof f->regions / 8 : 0);
   }
   for (k = 0; k < set->n_regions; k++) {
     const sli_saved_region record = sli_saved_region_of(set->regions[k]);
@@ -31514,7 +31514,7 @@ static int sli_saved_add_regions(sli_saved *f, const sl_saved_set *set) {
       f->table[first + (uint32_t)m].bytes += bytes[m];
     }
     if (f->table[first + 3].bytes >> 62 != 0) { /* untested: 2^62 bytes */
-      return 0;                               /* untested: the same */
+      return 0; /* untested: the same */
     }
   }
   return 1;
@@ -31533,17 +31533,17 @@ static void sli_saved_add_selected(sli_saved *f, const sl_selected *Z) {
   data[3] = Z->Z;
   for (m = 0; m < SLI_SELECTED_SECTIONS; m++) {
     sli_saved_add(f, (uint32_t)SLI_SECTION_SELECTED + (uint32_t)m, sli_selected_words[m],
-            data[m], counts[m], counts[m]);
+        data[m], counts[m], counts[m]);
   }
 }
 
 SLI_COLD static void sli_saved_add_base(sli_saved *f, const sl_symbolic *S, const sl_factor *F,
-                    int has_factor) {
+    int has_factor) {
   f->header.sections = 0;
   sli_saved_add(f, SLI_SECTION_ANALYSIS, 8, &f->analysis, sizeof f->analysis / 8,
-          sizeof f->analysis / 8);
+      sizeof f->analysis / 8);
   sli_saved_add(f, SLI_SECTION_FACTOR, 8, &f->factor, has_factor ? sizeof f->factor / 8 : 0,
-          has_factor ? sizeof f->factor / 8 : 0);
+      has_factor ? sizeof f->factor / 8 : 0);
   sli_saved_add_analysis(f, S);
   sli_saved_add_factor(f, F, has_factor);
 }
@@ -31640,7 +31640,7 @@ SLI_COLD static sl_status sli_damaged_sum(void) {
 
 static sl_status sli_decode_header(sli_saved_header *h, int *swapped) {
   if (memcmp(h->magic, sli_saved_magic, sizeof sli_saved_magic) != 0 ||
-    (h->order_mark != SLI_ORDER_MARK && h->order_mark != SLI_ORDER_MARK_SWAPPED)) {
+      (h->order_mark != SLI_ORDER_MARK && h->order_mark != SLI_ORDER_MARK_SWAPPED)) {
     return sli_not_saved();
   }
   *swapped = h->order_mark != SLI_ORDER_MARK;
@@ -31662,16 +31662,16 @@ static int sli_decode_analysis(const sli_saved_analysis *a, sl_symbolic *S) {
   const int64_t many = INT64_C(1) << 58;
   sl_symbolic_info *info = &S->stats.symbolic;
   if (!sli_count_is_valid(a->n, SLI_ROWS_MAX) || !sli_count_is_valid(a->supers, a->n) ||
-    (a->n > 0) != (a->supers > 0) || !sli_count_is_valid(a->nodes, a->n + 1) ||
-    !sli_count_is_valid(a->nnz_input, INT32_MAX) || !sli_count_is_valid(a->rows, many) ||
-    !sli_count_is_valid(a->entries, a->nnz_input) || !sli_count_is_valid(a->panels, many) ||
-    !sli_count_is_valid(a->tallest, a->n) || !sli_count_is_valid(a->widest, a->n) ||
-    !sli_count_is_valid(a->triangle, SL_TRIANGLE_BOTH) || !sli_count_is_valid(a->nnz_l, many) ||
-    !sli_count_is_valid(a->fundamental, a->n) || !sli_count_is_valid(a->tree_height, a->n) ||
-    !sli_count_is_valid(a->components, a->n) || !sli_count_is_valid(a->is_pivoted, 1) ||
-    !sli_count_is_valid(a->pairs, a->is_pivoted ? a->n / 2 : 0) ||
-    !sli_count_is_valid(a->delayed, a->is_pivoted ? INT32_MAX : 0) || !(a->flops >= 0.0) ||
-    !sli_is_finite(a->flops)) {
+      (a->n > 0) != (a->supers > 0) || !sli_count_is_valid(a->nodes, a->n + 1) ||
+      !sli_count_is_valid(a->nnz_input, INT32_MAX) || !sli_count_is_valid(a->rows, many) ||
+      !sli_count_is_valid(a->entries, a->nnz_input) || !sli_count_is_valid(a->panels, many) ||
+      !sli_count_is_valid(a->tallest, a->n) || !sli_count_is_valid(a->widest, a->n) ||
+      !sli_count_is_valid(a->triangle, SL_TRIANGLE_BOTH) || !sli_count_is_valid(a->nnz_l, many) ||
+      !sli_count_is_valid(a->fundamental, a->n) || !sli_count_is_valid(a->tree_height, a->n) ||
+      !sli_count_is_valid(a->components, a->n) || !sli_count_is_valid(a->is_pivoted, 1) ||
+      !sli_count_is_valid(a->pairs, a->is_pivoted ? a->n / 2 : 0) ||
+      !sli_count_is_valid(a->delayed, a->is_pivoted ? INT32_MAX : 0) || !(a->flops >= 0.0) ||
+      !sli_is_finite(a->flops)) {
     return 0;
   }
   S->n = (sl_int)a->n;
@@ -31706,25 +31706,25 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   const int64_t n = S->n;
   sl_factor_info *info = &F->stats.factor;
   if ((g->method != SL_METHOD_UP_LOOKING && g->method != SL_METHOD_SUPERNODAL) ||
-    !sli_count_is_valid(g->null_pivots, SL_NULL_PIVOT_SKIP) ||
-    !sli_count_is_valid(g->has_mass, skips) || !sli_count_is_valid(g->checks, skips) ||
-    !sli_count_is_valid(g->nulls, skips ? n : 0) || g->null != g->nulls ||
-    !sli_count_is_valid(g->is_centered, g->nulls > 0 && g->has_mass) ||
-    !sli_count_is_valid(g->anchors, g->is_centered ? S->stats.symbolic.components : 0) ||
-    !(g->regularization >= 0.0) || !sli_is_finite(g->regularization) ||
-    (skips && (g->regularization != 0.0 || S->is_pivoted)) ||
-    (S->n_pairs > 0 && g->method != SL_METHOD_SUPERNODAL) || !(g->growth_limit > 0.0) ||
-    !(g->error_limit > 0.0) || !(g->growth >= 0.0) || !(g->entry_max >= 0.0) ||
-    !sli_count_is_valid(g->has_signs, g->regularization != 0.0) ||
-    !sli_count_is_valid(g->regularized, g->regularization != 0.0 ? n : 0) ||
-    !sli_count_is_valid(g->positive, n) || !sli_count_is_valid(g->negative, n) ||
-    !sli_count_is_valid(g->weak, n) || !sli_count_is_valid(g->regular, n) ||
-    !sli_count_is_valid(g->null_vectors, skips ? SLI_NULL_VECTORS_MAX : 1) ||
-    !sli_count_is_valid(g->storage,
-              g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT_FRONTS : 0) ||
-    !sli_count_is_valid(g->certainty, SL_GUARANTEED) || !(g->eta >= 0.0) || g->eta > 1.0 ||
-    !(g->drift >= 0.0) || g->null_tolerance != g->null_tolerance ||
-    g->consistency != g->consistency) {
+      !sli_count_is_valid(g->null_pivots, SL_NULL_PIVOT_SKIP) ||
+      !sli_count_is_valid(g->has_mass, skips) || !sli_count_is_valid(g->checks, skips) ||
+      !sli_count_is_valid(g->nulls, skips ? n : 0) || g->null != g->nulls ||
+      !sli_count_is_valid(g->is_centered, g->nulls > 0 && g->has_mass) ||
+      !sli_count_is_valid(g->anchors, g->is_centered ? S->stats.symbolic.components : 0) ||
+      !(g->regularization >= 0.0) || !sli_is_finite(g->regularization) ||
+      (skips && (g->regularization != 0.0 || S->is_pivoted)) ||
+      (S->n_pairs > 0 && g->method != SL_METHOD_SUPERNODAL) || !(g->growth_limit > 0.0) ||
+      !(g->error_limit > 0.0) || !(g->growth >= 0.0) || !(g->entry_max >= 0.0) ||
+      !sli_count_is_valid(g->has_signs, g->regularization != 0.0) ||
+      !sli_count_is_valid(g->regularized, g->regularization != 0.0 ? n : 0) ||
+      !sli_count_is_valid(g->positive, n) || !sli_count_is_valid(g->negative, n) ||
+      !sli_count_is_valid(g->weak, n) || !sli_count_is_valid(g->regular, n) ||
+      !sli_count_is_valid(g->null_vectors, skips ? SLI_NULL_VECTORS_MAX : 1) ||
+      !sli_count_is_valid(g->storage,
+      g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT_FRONTS : 0) ||
+      !sli_count_is_valid(g->certainty, SL_GUARANTEED) || !(g->eta >= 0.0) || g->eta > 1.0 ||
+      !(g->drift >= 0.0) || g->null_tolerance != g->null_tolerance ||
+      g->consistency != g->consistency) {
     return 0;
   }
   F->S = S;
@@ -31791,7 +31791,7 @@ SLI_HOT static int sli_check_supers(const sl_symbolic *S) {
   for (s = 0; s < S->n_supers; s++) {
     const sl_int up = S->super_parent[s], first = S->first_descendant[s];
     if (S->super_first[s + 1] <= k || S->super_first[s + 1] > S->n ||
-      (up != -1 && (up <= s || up >= S->n_supers)) || first < 0 || first > s) {
+        (up != -1 && (up <= s || up >= S->n_supers)) || first < 0 || first > s) {
       return 0;
     }
     for (; k < S->super_first[s + 1]; k++) {
@@ -31830,7 +31830,7 @@ SLI_HOT static int sli_check_tree(const sl_symbolic *S, const sli_saved_analysis
   for (k = 0; k < S->n; k++) {
     const sl_int s = S->super_of[k], end = S->super_first[s + 1];
     if (!sli_check_parent(S, k, S->parent[k]) || S->counts[k] < 1 ||
-      S->counts[k] > end - k + S->steps[s].below) {
+        S->counts[k] > end - k + S->steps[s].below) {
       return 0;
     }
     roots += S->parent[k] == -1;
@@ -31840,7 +31840,7 @@ SLI_HOT static int sli_check_tree(const sl_symbolic *S, const sli_saved_analysis
 }
 
 static int sli_check_relative(const sl_symbolic *S, sl_int up, const sl_int *rows,
-                const sl_int *local, sl_int count) {
+    const sl_int *local, sl_int count) {
   const sl_int first = S->super_first[up], width = S->super_first[up + 1] - first;
   const sl_int *below = S->rows + S->rows_begin[up];
   const uint32_t n_below = (uint32_t)(S->rows_begin[up + 1] - S->rows_begin[up]);
@@ -31865,9 +31865,9 @@ static int sli_check_front(const sl_symbolic *S, sl_int s) {
   const sli_step *step = &S->steps[s];
   sl_int k, last = end - 1, ascend = 1;
   if (step->panel != S->panel_begin[s] || step->column != first || step->base != first ||
-    step->width != end - first || step->first_tile != 0 || step->up != up ||
-    step->below != S->rows_begin[s + 1] - S->rows_begin[s] ||
-    (step->below == 0) != (up == -1)) {
+      step->width != end - first || step->first_tile != 0 || step->up != up ||
+      step->below != S->rows_begin[s + 1] - S->rows_begin[s] ||
+      (step->below == 0) != (up == -1)) {
     return 0;
   }
   if (up == -1) {
@@ -31904,7 +31904,7 @@ SLI_HOT static int sli_check_structure(const sl_symbolic *S) {
     }
     below = S->rows_begin[s + 1] - S->rows_begin[s];
     if (below > S->n - S->super_first[s + 1] ||
-      S->panel_begin[s + 1] != S->panel_begin[s] + sli_check_panel(S, s, width, below)) {
+        S->panel_begin[s + 1] != S->panel_begin[s] + sli_check_panel(S, s, width, below)) {
       return 0;
     }
     widest = sli_max(widest, width);
@@ -31952,9 +31952,9 @@ SLI_HOT static int sli_check_scatter(const sl_symbolic *S) {
   }
   for (s = 0; s < S->n_supers; s++) {
     if (S->scatter_begin[s + 1] < S->scatter_begin[s] ||
-      S->scatter_begin[s + 1] > S->scatter_begin[S->n_supers] ||
-      !sli_check_scatter_panel(S, s, S->steps[s].width,
-                   S->steps[s].width + S->steps[s].below)) {
+        S->scatter_begin[s + 1] > S->scatter_begin[S->n_supers] ||
+        !sli_check_scatter_panel(S, s, S->steps[s].width,
+        S->steps[s].width + S->steps[s].below)) {
       return 0;
     }
   }
@@ -31988,7 +31988,7 @@ static int sli_check_pairs(const sl_symbolic *S) {
       continue;
     }
     if (S->pairs[k] != SLI_PAIR_FIRST || (k - S->super_first[s]) % SLI_TILE == SLI_TILE - 1 ||
-      k + 1 == S->super_first[s + 1] || S->pairs[k + 1] != SLI_PAIR_SECOND) {
+        k + 1 == S->super_first[s + 1] || S->pairs[k + 1] != SLI_PAIR_SECOND) {
       return 0;
     }
     count++;
@@ -32000,8 +32000,8 @@ static int sli_check_pairs(const sl_symbolic *S) {
 static int sli_check_analysis(const sl_symbolic *S, const sli_saved_analysis *a) {
   sl_symbolic same;
   if (!sli_check_perm(S) || !sli_check_supers(S) || !sli_check_structure(S) ||
-    !sli_check_tree(S, a) || !sli_check_scatter(S) || !sli_check_pairs(S) ||
-    !sli_check_nodes(S)) {
+      !sli_check_tree(S, a) || !sli_check_scatter(S) || !sli_check_pairs(S) ||
+      !sli_check_nodes(S)) {
     return 0;
   }
   same = *S;
@@ -32050,7 +32050,7 @@ static int sli_check_extents(const sl_factor *F) {
     const sl_int least = e->magnitude > 0.0 ? S->super_first[s] : -1,
            most = e->magnitude > 0.0 ? S->super_first[s + 1] - 1 : -1;
     if (!(e->entry >= 0.0) || !sli_is_finite(e->entry) || !(e->magnitude >= 0.0) ||
-      e->pivot < least || e->pivot > most || e->suspects != 0) {
+        e->pivot < least || e->pivot > most || e->suspects != 0) {
       return 0;
     }
   }
@@ -32072,9 +32072,9 @@ SLI_HOT static int sli_check_factor(const sl_factor *F) {
   const sl_int n = F->S->n;
   sl_int k, positive = 0, negative = 0, nulls = 0, shifted = 0, blocks = 0;
   if (!sli_check_columns(F->null.pivots, F->null.count, n) ||
-    !sli_check_columns(F->rule.regularized, info->regularized, n) ||
-    (F->null.is_centered && !sli_check_anchors(F)) || !sli_check_extents(F) ||
-    !sli_check_blocks(F)) {
+      !sli_check_columns(F->rule.regularized, info->regularized, n) ||
+      (F->null.is_centered && !sli_check_anchors(F)) || !sli_check_extents(F) ||
+      !sli_check_blocks(F)) {
     return 0;
   }
   for (k = 0; k < n; k++) {
@@ -32083,8 +32083,8 @@ SLI_HOT static int sli_check_factor(const sl_factor *F) {
       return 0;
     }
     if (F->null.mode == SL_NULL_PIVOT_SKIP &&
-      (F->rule.kinds[k] < SLI_PIVOT_UNKNOWN || F->rule.kinds[k] > SLI_PIVOT_WEAK ||
-       (F->null.vectors == 1 && F->null.g[k] != 0.0 && F->null.g[k] != F->null.z[k]))) {
+        (F->rule.kinds[k] < SLI_PIVOT_UNKNOWN || F->rule.kinds[k] > SLI_PIVOT_WEAK ||
+        (F->null.vectors == 1 && F->null.g[k] != 0.0 && F->null.g[k] != F->null.z[k]))) {
       return 0;
     }
     if (sli_is_skipped(F, k)) {
@@ -32094,7 +32094,7 @@ SLI_HOT static int sli_check_factor(const sl_factor *F) {
       continue;
     }
     if (sli_is_regularized(F, k) &&
-      (shifted == info->regularized || F->rule.regularized[shifted++] != k)) {
+        (shifted == info->regularized || F->rule.regularized[shifted++] != k)) {
       return 0;
     }
     if (F->E != NULL && F->S->pairs[k] != SLI_PAIR_NONE) {
@@ -32207,7 +32207,7 @@ static void sli_put(sli_sink *to, const void *data, size_t bytes) {
 }
 
 SLI_HOT static void sli_put_filled(sli_sink *to, sli_checksum *sum, const void *data, uint64_t used,
-                   uint64_t bytes) {
+    uint64_t bytes) {
   static const unsigned char zeros[1024] = {0};
   uint64_t left = bytes - used;
   if (to == NULL) {
@@ -32247,13 +32247,13 @@ static void sli_put_regions(const sli_saved *f, uint32_t id, sli_sink *to, sli_c
     } else {
       const int is_roots = id == SLI_SECTION_REGION_ROOTS;
       sli_put_piece(to, sum, is_roots ? R->extent.roots : R->extent.rows,
-              4 * (uint64_t)(is_roots ? R->extent.n_roots : R->extent.n_rows));
+          4 * (uint64_t)(is_roots ? R->extent.n_roots : R->extent.n_rows));
     }
   }
 }
 
 SLI_HOT static void sli_put_section(const sli_saved *f, uint32_t k, sli_sink *to,
-                  sli_checksum *sum) {
+    sli_checksum *sum) {
   const uint32_t id = f->table[k].id;
   if (id > SLI_SECTION_REGIONS && id < SLI_SECTION_SELECTED) {
     sli_put_regions(f, id, to, sum);
@@ -32268,17 +32268,17 @@ static sl_status sli_save_check(const sl_saved_set *set) {
   const sl_selected *Z = set->selected;
   sl_int k;
   sl_status status =
-    sli_argument(S == NULL                                    ? "set.symbolic is NULL"
-           : set->n_regions < 0                         ? "set.n_regions is below 0"
-           : set->n_regions > 0 && F == NULL            ? "regions without set.factor"
-           : set->n_regions > 0 && set->regions == NULL ? "set.regions is NULL"
-                                  : NULL);
+    sli_argument(S == NULL ? "set.symbolic is NULL"
+        : set->n_regions < 0 ? "set.n_regions is below 0"
+        : set->n_regions > 0 && F == NULL ? "regions without set.factor"
+        : set->n_regions > 0 && set->regions == NULL ? "set.regions is NULL"
+        : NULL);
   for (k = 0; status == SL_OK && k < set->n_regions; k++) {
     status = sli_argument(set->regions[k] == NULL ? "a region is NULL" : NULL);
   }
   if (status == SL_OK && S->is_partial) {
     status = sli_refuse(SL_ERR_STATE, "an analysis of sl_factor_restrict, or from a file of a "
-                      "newer version");
+        "newer version");
   }
   status = status == SL_OK && F != NULL ? sli_factor_has_numbers(F) : status;
   if (status != SL_OK) {
@@ -32339,8 +32339,8 @@ SLI_COLD static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set
     sli_saved_add_selected(f, set->selected);
   }
   fits = fits && sli_saved_place(f) && f->header.bytes <= SIZE_MAX; /* untested: 2^62 bytes */
-  return fits ? SL_OK                                               /* untested: the same */
-        : sli_refuse(SL_ERR_TOO_LARGE, "the saved bytes");    /* untested: the same */
+  return fits ? SL_OK /* untested: the same */
+        : sli_refuse(SL_ERR_TOO_LARGE, "the saved bytes"); /* untested: the same */
 }
 
 SLI_COLD static void sli_save_write(sli_saved *f, sli_sink *to) {
@@ -32390,9 +32390,9 @@ SL_API sl_status sl_save_file(const char *path, const sl_saved_set *set, const s
   sli_saved f;
   sli_sink to;
   sl_status status;
-  status = sli_argument(path == NULL  ? "path is NULL"
-              : set == NULL ? "set is NULL"
-                    : sli_options_wrong(opt, SLI_READS_NOTHING));
+  status = sli_argument(path == NULL ? "path is NULL"
+      : set == NULL ? "set is NULL"
+      : sli_options_wrong(opt, SLI_READS_NOTHING));
   status = status == SL_OK ? sli_save_prepare(&f, set) : status;
   status = status == SL_OK ? sli_output_open(&output, path, &a) : status;
   if (status == SL_OK) {
@@ -32477,7 +32477,7 @@ static sl_status sli_read_table(sli_reading *r) {
 }
 
 static int sli_sections_are(const sli_saved *f, uint32_t k, uint32_t id, const uint32_t *words,
-              uint32_t count) {
+    uint32_t count) {
   uint32_t m;
   if (f->header.sections - k < count) {
     return 0;
@@ -32491,7 +32491,7 @@ static int sli_sections_are(const sli_saved *f, uint32_t k, uint32_t id, const u
 }
 
 static int sli_table_is_expected(const sli_saved *f, const sli_saved *expected,
-                 uint32_t *first_region, uint32_t *first_selected) {
+    uint32_t *first_region, uint32_t *first_selected) {
   uint32_t k, known = expected->header.sections;
   uint64_t at = sli_saved_prefix(f);
   *first_region = *first_selected = 0;
@@ -32501,7 +32501,7 @@ static int sli_table_is_expected(const sli_saved *f, const sli_saved *expected,
   for (k = 0; k < f->header.sections; k++) {
     const sli_section *s = &f->table[k], *e = &expected->table[k];
     if (s->offset != at || s->bytes > f->header.bytes - at ||
-      (k < known && (s->id != e->id || s->word != e->word || s->bytes != e->bytes))) {
+        (k < known && (s->id != e->id || s->word != e->word || s->bytes != e->bytes))) {
       return 0;
     }
     at += sli_round_up(s->bytes);
@@ -32511,12 +32511,12 @@ static int sli_table_is_expected(const sli_saved *f, const sli_saved *expected,
   }
   if (f->header.write_version > SLI_WRITE_VERSION_PLAIN) {
     if (sli_sections_are(f, known, SLI_SECTION_REGIONS, sli_region_words,
-               SLI_REGION_SECTIONS)) {
+        SLI_REGION_SECTIONS)) {
       *first_region = known;
       known += SLI_REGION_SECTIONS;
     }
     if (sli_sections_are(f, known, SLI_SECTION_SELECTED, sli_selected_words,
-               SLI_SELECTED_SECTIONS)) {
+        SLI_SELECTED_SECTIONS)) {
       *first_selected = known;
       known += SLI_SELECTED_SECTIONS;
     }
@@ -32566,11 +32566,11 @@ static sl_status sli_read_front(sli_reading *r) {
     }
     if (r->F.type == NULL) { /* untested: all storages are there */
       return sli_refuse(SL_ERR_UNSUPPORTED,
-                sli_storage_needs(SL_STORAGE_FLOAT)); /* untested: the same */
+          sli_storage_needs(SL_STORAGE_FLOAT)); /* untested: the same */
     }
   }
   if ((r->F.type->storage != SL_STORAGE_DOUBLE) !=
-    (f->header.read_version > SLI_READ_VERSION_DOUBLE)) {
+      (f->header.read_version > SLI_READ_VERSION_DOUBLE)) {
     return sli_damaged();
   }
   memset(&expected, 0, sizeof expected);
@@ -32578,7 +32578,7 @@ static sl_status sli_read_front(sli_reading *r) {
   expected.factor = f->factor;
   sli_saved_add_base(&expected, &r->S, &r->F, r->has_factor);
   if (!sli_saved_place(&expected) ||
-    !sli_table_is_expected(f, &expected, &r->first_region, &r->first_selected)) {
+      !sli_table_is_expected(f, &expected, &r->first_region, &r->first_selected)) {
     return sli_damaged();
   }
   f->first_array = expected.first_array;
@@ -32644,8 +32644,8 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
   S->stats.symbolic.bytes = m.head + m.bytes;
   S->is_partial = r->saved.header.write_version > SLI_WRITE_VERSION;
   if (S->rows_begin[S->n_supers] != a->rows || S->panel_begin[S->n_supers] != a->panels ||
-    S->scatter_begin[S->n_supers] != a->entries ||
-    (r->checks != SL_LOAD_TRUSTED && !sli_check_analysis(S, a))) {
+      S->scatter_begin[S->n_supers] != a->entries ||
+      (r->checks != SL_LOAD_TRUSTED && !sli_check_analysis(S, a))) {
     sli_free(&r->allocator, m.block);
     return sli_damaged();
   }
@@ -32673,8 +32673,8 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
   m.last = m.first + SLI_FACTOR_SECTIONS + (F->type->storage != SL_STORAGE_DOUBLE);
   m.head = sizeof *F;
   m.bytes = b.used;
-  if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F) {    /* untested: on 32 bits only */
-    status = sli_refuse(SL_ERR_TOO_LARGE, "the factor");  /* untested: the same */
+  if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F) { /* untested: on 32 bits only */
+    status = sli_refuse(SL_ERR_TOO_LARGE, "the factor"); /* untested: the same */
   }
   status = status == SL_OK ? sli_read_image(r, &m) : status;
   if (status != SL_OK) {
@@ -32712,20 +32712,20 @@ static sl_status sli_read_section(sli_reading *r, uint32_t k, void **data) {
 }
 
 static sl_status sli_read_part(sli_reading *r, uint32_t k, const sl_symbolic *S, const sl_factor *F,
-                 int64_t most, sli_saved_part *part) {
+    int64_t most, sli_saved_part *part) {
   const sl_status status = sli_read_numbers(r, (sl_int)k, part, sizeof *part);
   if (status != SL_OK) {
     return status;
   }
   return S->n_pairs == 0 && sli_count_is_valid(part->count, most) &&
            (F == NULL ||
-          (part->identity[0] == F->identity.a && part->identity[1] == F->identity.b))
+            (part->identity[0] == F->identity.a && part->identity[1] == F->identity.b))
          ? SL_OK
          : sli_damaged();
 }
 
 static int sli_check_selected(const sl_symbolic *S, const sl_int *supers, const sl_off *begin,
-                sl_int count) {
+    sl_int count) {
   sl_int k;
   if (!sli_check_columns(supers, count, S->n_supers) || begin[0] != 0) {
     return 0;
@@ -32734,7 +32734,7 @@ static int sli_check_selected(const sl_symbolic *S, const sl_int *supers, const 
     const sl_int s = supers[k], up = S->super_parent[s];
     const sl_int at = up == -1 ? k : sli_lower_bound(supers, count, up);
     if (at == count || (up != -1 && supers[at] != up) ||
-      begin[k + 1] != begin[k] + S->panel_begin[s + 1] - S->panel_begin[s]) {
+        begin[k + 1] != begin[k] + S->panel_begin[s + 1] - S->panel_begin[s]) {
       return 0;
     }
   }
@@ -32742,7 +32742,7 @@ static int sli_check_selected(const sl_symbolic *S, const sl_int *supers, const 
 }
 
 static sl_status sli_selected_of_list(sl_selected **out, sl_selected *draft, const sl_int *supers,
-                    uint64_t *seeds) {
+    uint64_t *seeds) {
   const sl_symbolic *S = draft->traversal.S;
   const sl_int count = draft->traversal.forest.count;
   sl_status status;
@@ -32758,7 +32758,7 @@ static sl_status sli_selected_of_list(sl_selected **out, sl_selected *draft, con
 }
 
 static sl_status sli_selected_of_memory(sl_selected **out, sl_selected *draft, sl_int *supers,
-                    sl_off *begin) {
+    sl_off *begin) {
   draft->traversal.supers = supers;
   draft->begin = begin;
   draft->is_mapped = 1;
@@ -32773,7 +32773,7 @@ static sl_status sli_selected_of_memory(sl_selected **out, sl_selected *draft, s
 }
 
 SLI_COLD static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected **out,
-                           sl_selected *draft, sli_block *lists) {
+    sl_selected *draft, sli_block *lists) {
   const uint32_t k = r->first_selected;
   const sl_int count = draft->traversal.forest.count;
   const uint64_t bytes = r->saved.table[k + 3].bytes;
@@ -32789,8 +32789,8 @@ SLI_COLD static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected *
   }
   ends = (const sl_off *)begin;
   if (bytes % sizeof(double) != 0 || (uint64_t)ends[count] != bytes / sizeof(double) ||
-    ((r->checks != SL_LOAD_TRUSTED || !r->is_mapped) &&
-     !sli_check_selected(draft->traversal.S, (const sl_int *)supers, ends, count))) {
+      ((r->checks != SL_LOAD_TRUSTED || !r->is_mapped) &&
+      !sli_check_selected(draft->traversal.S, (const sl_int *)supers, ends, count))) {
     return sli_damaged();
   }
   status = r->is_mapped ? sli_selected_of_memory(out, draft, (sl_int *)supers, (sl_off *)begin)
@@ -32804,14 +32804,14 @@ SLI_COLD static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected *
 }
 
 SLI_COLD static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S,
-                      const sl_factor *F, sl_selected **out) {
+    const sl_factor *F, sl_selected **out) {
   const sli_section *table = &r->saved.table[r->first_selected];
   sli_block lists = {NULL, 0, 0};
   sli_saved_part part;
   sl_selected draft;
   sl_status status = sli_read_part(r, r->first_selected, S, F, S->n_supers, &part);
   if (status != SL_OK || table[1].bytes != 4 * (uint64_t)part.count ||
-    table[2].bytes != 8 * ((uint64_t)part.count + 1)) {
+      table[2].bytes != 8 * ((uint64_t)part.count + 1)) {
     return status != SL_OK ? status : sli_damaged();
   }
   memset(&draft, 0, sizeof draft);
@@ -32846,7 +32846,7 @@ typedef struct sli_saved_regions {
 } sli_saved_regions;
 
 static int sli_check_records(const sli_reading *r, const sl_symbolic *S,
-               const sli_saved_regions *q) {
+    const sli_saved_regions *q) {
   const sli_section *table = &r->saved.table[r->first_region];
   const sli_saved_region *record = (const sli_saved_region *)q->list;
   uint64_t left[SLI_REGION_SECTIONS - 1], bytes[SLI_REGION_SECTIONS - 1];
@@ -32857,8 +32857,8 @@ static int sli_check_records(const sli_reading *r, const sl_symbolic *S,
   }
   for (k = 0; k < q->count; k++, record++) {
     if (!sli_count_is_valid(record->roots, S->n_supers) ||
-      !sli_count_is_valid(record->rows, S->n) || !sli_count_is_valid(record->is_copied, 1) ||
-      4 * (uint64_t)record->rows > left[2]) {
+        !sli_count_is_valid(record->rows, S->n) || !sli_count_is_valid(record->is_copied, 1) ||
+        4 * (uint64_t)record->rows > left[2]) {
       return 0;
     }
     sli_saved_region_bytes(record, bytes);
@@ -32891,8 +32891,8 @@ static int sli_check_extent(const sl_symbolic *S, const sli_region_extent *exten
 }
 
 static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
-                   const sli_saved_region *record, const sl_int *roots,
-                   const sl_int *rows, sl_region **out) {
+    const sli_saved_region *record, const sl_int *roots,
+    const sl_int *rows, sl_region **out) {
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   sl_region draft;
@@ -32908,8 +32908,8 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
   draft.is_mapped = r->is_mapped;
   draft.is_immutable = r->is_mapped || F->S->is_partial;
   if (!sli_check_columns(roots, draft.extent.n_roots, F->S->n_supers) ||
-    !sli_check_columns(rows, draft.extent.n_rows, F->S->n) ||
-    (r->checks != SL_LOAD_TRUSTED && !sli_check_extent(F->S, &draft.extent))) {
+      !sli_check_columns(rows, draft.extent.n_rows, F->S->n) ||
+      (r->checks != SL_LOAD_TRUSTED && !sli_check_extent(F->S, &draft.extent))) {
     return sli_damaged();
   }
   SLI_LAYOUT(&b, &r->allocator, status) {
@@ -32956,7 +32956,7 @@ static sl_status sli_read_regions_numbers(sli_reading *r, const sl_saved_set *se
 }
 
 static sl_status sli_read_regions_lists(sli_reading *r, const sl_factor *F, sli_saved_regions *q,
-                    sl_saved_set *set) {
+    sl_saved_set *set) {
   const uint32_t first = r->first_region;
   const sli_saved_region *record;
   const sl_int *roots, *rows;
@@ -32998,7 +32998,7 @@ static sl_status sli_read_regions(sli_reading *r, const sl_factor *F, sl_saved_s
   }
   status = sli_read_part(r, r->first_region, F->S, F, INT32_MAX, &part);
   if (status != SL_OK || part.count == 0 ||
-    table[1].bytes != sizeof(sli_saved_region) * (uint64_t)part.count) {
+      table[1].bytes != sizeof(sli_saved_region) * (uint64_t)part.count) {
     return status != SL_OK ? status : sli_damaged();
   }
   q.count = (sl_int)part.count;
@@ -33043,7 +33043,7 @@ static sl_status sli_read(sli_reading *r, sl_saved_set *set) {
   sl_status status = sli_read_front(r);
   if (status == SL_OK && r->is_mapped && r->swapped) {
     return sli_refuse(SL_ERR_UNSUPPORTED, "the byte order is not that of this processor: "
-                        "sl_load_file");
+        "sl_load_file");
   }
   status = status == SL_OK ? sli_read_analysis(r, &set->symbolic) : status;
   if (status == SL_OK && wanted != SL_SAVED_ANALYSIS && r->has_factor) {
@@ -33082,7 +33082,7 @@ static sl_status sli_read_path(sli_reading *r, const char *path, sl_saved_set *s
 }
 
 static sl_status sli_read_memory(sli_reading *r, const void *memory, size_t bytes,
-                 sl_saved_set *set) {
+    sl_saved_set *set) {
   r->memory = (const unsigned char *)memory;
   r->size = bytes;
   return sli_read(r, set);
@@ -33105,7 +33105,7 @@ static sl_status sli_map_path(sli_reading *r, const char *path, sl_saved_set *se
 }
 
 static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load_checks checks,
-                const sl_options *opt) {
+    const sl_options *opt) {
   const int saved = errno;
   const int is_file = from->path != NULL;
   sl_saved_content wanted;
@@ -33119,11 +33119,11 @@ static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load
   memset(set, 0, sizeof *set);
   set->wanted = wanted;
   status = sli_argument(
-    (unsigned)wanted > (unsigned)SL_SAVED_ANALYSIS
+      (unsigned)wanted > (unsigned)SL_SAVED_ANALYSIS
       ? "set.wanted is not a value of sl_saved_content: is the set initialized?"
-    : (unsigned)checks > (unsigned)SL_LOAD_VERIFIED ? "checks is not a value of sl_load_checks"
-    : !is_file && from->memory == NULL              ? "path or memory is NULL"
-    : !is_file && from->is_mapped && (uintptr_t)from->memory % SLI_ALIGN != 0
+      : (unsigned)checks > (unsigned)SL_LOAD_VERIFIED ? "checks is not a value of sl_load_checks"
+      : !is_file && from->memory == NULL ? "path or memory is NULL"
+      : !is_file && from->is_mapped && (uintptr_t)from->memory % SLI_ALIGN != 0
       ? "memory is not aligned to 64 bytes"
       : sli_options_wrong(opt, SLI_READS_ISA));
   if (status != SL_OK) {
@@ -33162,25 +33162,25 @@ static sli_origin sli_origin_in_file(const char *path, int is_mapped) {
 }
 
 SL_API sl_status sl_load_memory(sl_saved_set *set, const void *memory, size_t bytes,
-                sl_load_checks checks, const sl_options *opt) {
+    sl_load_checks checks, const sl_options *opt) {
   const sli_origin from = sli_origin_in_memory(memory, bytes, 0);
   return sli_read_set(&from, set, checks, opt);
 }
 
 SL_API sl_status sl_map_memory(sl_saved_set *set, const void *memory, size_t bytes,
-                 sl_load_checks checks, const sl_options *opt) {
+    sl_load_checks checks, const sl_options *opt) {
   const sli_origin from = sli_origin_in_memory(memory, bytes, 1);
   return sli_read_set(&from, set, checks, opt);
 }
 
 SL_API sl_status sl_load_file(sl_saved_set *set, const char *path, sl_load_checks checks,
-                const sl_options *opt) {
+    const sl_options *opt) {
   const sli_origin from = sli_origin_in_file(path, 0);
   return sli_read_set(&from, set, checks, opt);
 }
 
 SL_API sl_status sl_map_file(sl_saved_set *set, const char *path, sl_load_checks checks,
-               const sl_options *opt) {
+    const sl_options *opt) {
   const sli_origin from = sli_origin_in_file(path, 1);
   return sli_read_set(&from, set, checks, opt);
 }
@@ -33197,7 +33197,7 @@ typedef struct sli_summands {
 } sli_summands;
 
 static sl_status sli_sum_check(const double *coefficients, const sl_csc *terms, sl_int count,
-                 sl_off *entries, sl_stats *stats) {
+    sl_off *entries, sl_stats *stats) {
   sl_int t;
   *entries = 0;
   for (t = 0; t < count; t++) {
@@ -33207,10 +33207,10 @@ static sl_status sli_sum_check(const double *coefficients, const sl_csc *terms, 
       return status;
     }
     if (A->n_rows != A->n_cols || A->n_cols != terms[0].n_cols ||
-      (coefficients != NULL && sli_nnz(A) > 0 && A->x == NULL)) {
-      return sli_argument(A->n_rows != A->n_cols         ? "a term is not square"
-                : A->n_cols != terms[0].n_cols ? "terms have different sizes"
-                                 : "a term has no values, x");
+        (coefficients != NULL && sli_nnz(A) > 0 && A->x == NULL)) {
+      return sli_argument(A->n_rows != A->n_cols ? "a term is not square"
+          : A->n_cols != terms[0].n_cols ? "terms have different sizes"
+          : "a term has no values, x");
     }
     *entries += sli_nnz(A);
   }
@@ -33236,7 +33236,7 @@ static void sli_sum_append(sli_summands *all, const sl_csc *A, sl_triangle trian
 }
 
 SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, const sl_csc *terms,
-                 sl_int count, const sl_options *opt, sl_stats *stats) {
+    sl_int count, const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
   sli_block b = {NULL, 0, 0};
   sli_summands all = {0, NULL, NULL, NULL};
@@ -33247,8 +33247,8 @@ SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, cons
   status = sli_begin(out);
   if (status == SL_OK) {
     status = sli_argument(terms == NULL ? "terms is NULL"
-                : count < 1   ? "count is below 1"
-                      : sli_options_wrong(opt, SLI_READS_TRIANGLE));
+        : count < 1 ? "count is below 1"
+        : sli_options_wrong(opt, SLI_READS_TRIANGLE));
   }
   status = status == SL_OK ? sli_sum_check(coefficients, terms, count, &entries, stats) : status;
   SLI_LAYOUT(&b, &a, status) {
@@ -33289,7 +33289,7 @@ typedef struct sli_scatter_work {
 } sli_scatter_work;
 
 static void sli_scatter_layout(sli_scatter_work *w, sli_block *b, const sl_symbolic *S,
-                 sl_int entries) {
+    sl_int entries) {
   sl_off most = 0;
   sl_int s;
   for (s = 0; s < S->n_supers; s++) {
@@ -33306,7 +33306,7 @@ static void sli_scatter_layout(sli_scatter_work *w, sli_block *b, const sl_symbo
 }
 
 static void sli_scatter_sort(const sl_symbolic *S, sli_scatter_work *w, const sl_csc *K,
-               sl_triangle triangle) {
+    sl_triangle triangle) {
   const sl_int *iperm = S->iperm;
   sl_int j, p, total = 0;
   memset(w->begin, 0, ((size_t)S->n + 1) * sizeof(sl_int));
@@ -33349,7 +33349,7 @@ static void sli_scatter_list(const sl_symbolic *S, sli_scatter_work *w, sl_int s
 }
 
 static sl_int sli_scatter_find(sli_scatter_work *w, sl_int j, sl_int head, sl_int start,
-                 sl_int missing) {
+    sl_int missing) {
   sl_int m, q;
   for (m = head; m != -1; m = w->next[m]) {
     w->index[w->row[m]] = start + m;
@@ -33376,7 +33376,7 @@ static sl_int sli_scatter_find_all(const sl_symbolic *S, sli_scatter_work *w) {
       for (j = first; j < last; j++) {
         if (w->begin[j] < w->begin[j + 1]) {
           missing = sli_scatter_find(w, j, w->head[j - first],
-                         (sl_int)S->scatter_begin[s], missing);
+              (sl_int)S->scatter_begin[s], missing);
         }
       }
     }
@@ -33389,7 +33389,7 @@ SLI_INLINE sl_int sli_symbolic_entries(const sl_symbolic *S) {
 }
 
 SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const sl_csc *K,
-                   sl_stats *stats) {
+    sl_stats *stats) {
   sl_options opt;
   sli_scatter_work w;
   sli_block b = {NULL, 0, 0};
@@ -33399,10 +33399,10 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
   sli_stats_clear_error(stats);
   status = S == NULL ? sli_argument("S is NULL") : sl_csc_check(K, stats);
   if (status == SL_OK) {
-    status = sli_argument(K->n_rows != K->n_cols                          ? "A is not square"
-                : sli_nnz(K) > 0 && K->x == NULL                ? "A.x is NULL"
-                : sli_symbolic_entries(S) > 0 && values == NULL ? "values is NULL"
-                                        : NULL);
+    status = sli_argument(K->n_rows != K->n_cols ? "A is not square"
+        : sli_nnz(K) > 0 && K->x == NULL ? "A.x is NULL"
+        : sli_symbolic_entries(S) > 0 && values == NULL ? "values is NULL"
+        : NULL);
   }
   if (status == SL_OK && K->n_cols != S->n) {
     status = sli_refuse(SL_ERR_OTHER_PATTERN, "A has another size than the analyzed matrix");
@@ -33430,7 +33430,7 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
     }
   } else {
     status = sli_fail_at(stats, SL_ERR_OTHER_PATTERN, K->i[missing], sli_column_of(K, missing),
-               K->x[missing], "this entry is not in the analyzed pattern");
+        K->x[missing], "this entry is not in the analyzed pattern");
   }
   sli_free(&S->allocator, b.base);
   return sli_report(stats, status);
@@ -33473,8 +33473,8 @@ static void *sli_solve_batch_memory(const sli_solve_batch *b, sl_int k) {
 }
 
 static sl_status sli_solve_batch_columns(const sli_solve_batch *b, const sl_request *r,
-                     const sli_query *q, sl_int first, sl_int last,
-                     void *memory) {
+    const sli_query *q, sl_int first, sl_int last,
+    void *memory) {
   const sl_factor *F = sli_request_factor(b, r);
   const sli_rhs all = sli_rhs_of(r->X, r->ldx, r->B, r->ldb, r->nrhs);
   const sli_rhs part = sli_rhs_part(&all, first, last - first);
@@ -33499,7 +33499,7 @@ static void sli_solve_batch_worker(void *data, sl_int k) {
     const sl_int last =
       k + 1 == b->workers ? r->nrhs : sli_blocks_before(to, before, weight, r->nrhs);
     if (first < last && q.nx > 0 &&
-      sli_solve_batch_columns(b, r, &q, first, last, memory) != SL_OK) {
+        sli_solve_batch_columns(b, r, &q, first, last, memory) != SL_OK) {
       failed = failed == -1 ? m : failed;
     }
     before += weight * (sli_tiles(r->nrhs));
@@ -33561,7 +33561,7 @@ static sl_status sli_check_works(sl_work *const *works, sl_int workers) {
 }
 
 static sl_status sli_solve_batch_reserve(sli_solve_batch *b, sl_work *const *works,
-                     const sl_allocator *a) {
+    const sl_allocator *a) {
   sli_block block = {NULL, 0, 0};
   sl_status status = works == NULL ? SL_OK : sli_check_works(works, b->workers);
   sl_int k;
@@ -33582,7 +33582,7 @@ static sl_status sli_solve_batch_reserve(sli_solve_batch *b, sl_work *const *wor
 }
 
 SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, sl_int count,
-                const sl_options *opt, sl_work *const *works, sl_int *failed) {
+    const sl_options *opt, sl_work *const *works, sl_int *failed) {
   const sl_threads serial = {0, NULL, NULL};
   const sl_threads *threads = opt == NULL ? &serial : &opt->threads;
   sli_solve_batch b;
@@ -33593,9 +33593,9 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
     *failed = -1;
   }
   status =
-    sli_argument(count < 0                       ? "count is below 0"
-           : count > 0 && requests == NULL ? "requests is NULL"
-                           : sli_options_wrong(opt, SLI_READS_NOTHING));
+    sli_argument(count < 0 ? "count is below 0"
+        : count > 0 && requests == NULL ? "requests is NULL"
+        : sli_options_wrong(opt, SLI_READS_NOTHING));
   status = status == SL_OK && F != NULL ? sli_factor_has_numbers(F) : status;
   if (status != SL_OK) {
     return status;
@@ -33630,12 +33630,12 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
 /* src/impl/batch/batch_factor.h: factors weighted sums of value arrays; a worker takes whole factors */
 
 static sl_status sli_source_of_sum(const sl_symbolic *S, const double *coefficients,
-                   const double *const *values, sl_int terms, sli_source *from) {
+    const double *const *values, sl_int terms, sli_source *from) {
   sl_int t;
   if (terms < 0 || (terms > 0 && (coefficients == NULL || values == NULL))) {
-    return sli_argument(terms < 0              ? "terms is below 0"
-              : coefficients == NULL ? "coefficients is NULL"
-                           : "values is NULL");
+    return sli_argument(terms < 0 ? "terms is below 0"
+        : coefficients == NULL ? "coefficients is NULL"
+        : "values is NULL");
   }
   for (t = 0; t < terms; t++) {
     if (values[t] == NULL && S->scatter_begin[S->n_supers] > 0) {
@@ -33703,7 +33703,7 @@ static sl_int sli_factor_batch_run(sli_factor_batch *f, const sl_threads *thread
 }
 
 static void sli_factor_batch_stats(const sli_factor_batch *f, sl_int at, double started,
-                   sl_stats *stats) {
+    sl_stats *stats) {
   const sl_factor *F = f->factors[sli_min(at, f->count - 1)];
   sl_int k;
   if (stats == NULL || F == NULL) {
@@ -33722,7 +33722,7 @@ static void sli_factor_batch_stats(const sli_factor_batch *f, sl_int at, double 
 }
 
 static sl_int sli_factor_batch_create(sl_factor **out, sl_int count, const sl_symbolic *S,
-                    const sl_options *opt, sl_status *status, sl_stats *first) {
+    const sl_options *opt, sl_status *status, sl_stats *first) {
   const sl_threads no_threads = {0, NULL, NULL};
   const sl_int workers = opt == NULL ? 1 : sli_workers(&opt->threads);
   sl_options serial;
@@ -33744,9 +33744,9 @@ static sl_int sli_factor_batch_create(sl_factor **out, sl_int count, const sl_sy
 }
 
 SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symbolic *S,
-                 const double *coefficients, const double *const *values,
-                 sl_int terms, const sl_options *opt, sl_int *failed,
-                 sl_stats *stats) {
+    const double *coefficients, const double *const *values,
+    sl_int terms, const sl_options *opt, sl_int *failed,
+    sl_stats *stats) {
   const sl_threads serial = {0, NULL, NULL};
   double started;
   sli_factor_batch f;
@@ -33760,10 +33760,10 @@ SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symboli
   for (k = 0; k < count && out != NULL; k++) {
     out[k] = NULL;
   }
-  status = sli_argument(count < 0                  ? "count is below 0"
-              : count > 0 && out == NULL ? "out is NULL"
-              : S == NULL                ? "S is NULL"
-                           : sli_factor_options_wrong(opt));
+  status = sli_argument(count < 0 ? "count is below 0"
+      : count > 0 && out == NULL ? "out is NULL"
+      : S == NULL ? "S is NULL"
+      : sli_factor_options_wrong(opt));
   f.factors = out;
   f.count = count;
   if (status == SL_OK) {
@@ -33832,9 +33832,9 @@ static sl_status sli_factor_batch_prepare(sl_factor *const *factors, sl_int coun
 }
 
 SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
-                   const double *coefficients, const double *const *values,
-                   sl_int terms, const sl_options *opt, sl_int *failed,
-                   sl_stats *stats) {
+    const double *coefficients, const double *const *values,
+    sl_int terms, const sl_options *opt, sl_int *failed,
+    sl_stats *stats) {
   const sl_threads serial = {0, NULL, NULL};
   const sl_threads *threads = opt == NULL ? &serial : &opt->threads;
   const double started = sli_seconds();
@@ -33846,9 +33846,9 @@ SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
     *failed = -1;
   }
   status =
-    sli_argument(count < 0                      ? "count is below 0"
-           : count > 0 && factors == NULL ? "factors is NULL"
-                          : sli_options_wrong(opt, SLI_READS_NOTHING));
+    sli_argument(count < 0 ? "count is below 0"
+        : count > 0 && factors == NULL ? "factors is NULL"
+        : sli_options_wrong(opt, SLI_READS_NOTHING));
   status = status == SL_OK ? sli_factor_batch_check(factors, count, &at) : status;
   if (status == SL_OK && count > 0) {
     status = sli_source_of_sum(factors[0]->S, coefficients, values, terms, &f.source);
@@ -33905,7 +33905,7 @@ SLI_HOT static void sli_diagonal_batch_worker(void *data, sl_int w) {
 }
 
 static sl_status sli_diagonal_batch_check(const sli_diagonal_batch *d, sl_int *at,
-                      sl_stats *stats) {
+    sl_stats *stats) {
   for (*at = 0; *at < d->count; ++*at) {
     const sl_factor *F = d->factors[*at];
     const sl_status status =
@@ -33926,7 +33926,7 @@ static sl_status sli_diagonal_batch_reserve(const sli_diagonal_batch *d) {
   sl_int k;
   for (k = 0; k < d->count && status == SL_OK; k++) {
     if (k == 0 || d->factors[k]->kernels != d->factors[k - 1]->kernels || d->workers == 1 ||
-      sli_has_both_signs(d->factors[k])) {
+        sli_has_both_signs(d->factors[k])) {
       sli_entries q = sli_diagonal_batch_entries(d, k);
       status = sli_entries_prepare(&q, d->works[0]);
     }
@@ -33969,9 +33969,9 @@ static sl_status sli_diagonal_batch_run(sli_diagonal_batch *d, const sl_threads 
 }
 
 SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count, double *out,
-                   size_t ldo, const sl_int *rows, sl_int n_rows,
-                   const sl_options *opt, sl_work *const *works, sl_int *failed,
-                   sl_stats *stats) {
+    size_t ldo, const sl_int *rows, sl_int n_rows,
+    const sl_options *opt, sl_work *const *works, sl_int *failed,
+    sl_stats *stats) {
   const sl_threads serial = {0, NULL, NULL};
   const sl_threads *threads = opt == NULL ? &serial : &opt->threads;
   sli_diagonal_batch d;
@@ -33982,9 +33982,9 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
     *failed = -1;
   }
   status =
-    sli_argument(count < 0                      ? "count is below 0"
-           : count > 0 && factors == NULL ? "factors is NULL"
-                          : sli_options_wrong(opt, SLI_READS_NOTHING));
+    sli_argument(count < 0 ? "count is below 0"
+        : count > 0 && factors == NULL ? "factors is NULL"
+        : sli_options_wrong(opt, SLI_READS_NOTHING));
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
@@ -34005,10 +34005,10 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
     return sli_report(stats, status);
   }
   n_rows = d.n_rows = rows == NULL ? factors[0]->S->n : n_rows;
-  status = sli_argument(n_rows < 0                              ? "n_rows is below 0"
-              : n_rows > 0 && out == NULL             ? "out is NULL"
-              : n_rows > 0 && !sli_is_ld(ldo, n_rows) ? "ldo is below n_rows"
-                                  : NULL);
+  status = sli_argument(n_rows < 0 ? "n_rows is below 0"
+      : n_rows > 0 && out == NULL ? "out is NULL"
+      : n_rows > 0 && !sli_is_ld(ldo, n_rows) ? "ldo is below n_rows"
+      : NULL);
   status = status == SL_OK && works != NULL ? sli_check_works(works, d.workers) : status;
   status = status == SL_OK && n_rows > 0 ? sli_diagonal_batch_run(&d, threads) : status;
   return sli_report(stats, status);
@@ -34160,8 +34160,8 @@ static int sli_matrix_is_complex(const sl_csc *A) {
       const sl_int row = p < middle ? A->i[p] : A->i[q];
       if (row / 2 != j / 2) {
         if (row % 2 != 0 || p + 1 >= middle || q + 1 >= end || A->i[p + 1] != row + 1 ||
-          A->i[q] != row || A->i[q + 1] != row + 1 || A->x[q + 1] != A->x[p] ||
-          A->x[q] != -A->x[p + 1]) {
+            A->i[q] != row || A->i[q + 1] != row + 1 || A->x[q + 1] != A->x[p] ||
+            A->x[q] != -A->x[p + 1]) {
           return 0;
         }
         p += 2;
@@ -34170,8 +34170,8 @@ static int sli_matrix_is_complex(const sl_csc *A) {
         const sl_int p_zero = p + 1 < middle && A->i[p + 1] == j + 1;
         const sl_int q_zero = q < end && A->i[q] == j;
         if (row != j || p >= middle || (p_zero && A->x[p + 1] != 0.0) ||
-          (q_zero && A->x[q] != 0.0) || q + q_zero >= end || A->i[q + q_zero] != j + 1 ||
-          A->x[q + q_zero] != A->x[p]) {
+            (q_zero && A->x[q] != 0.0) || q + q_zero >= end || A->i[q + q_zero] != j + 1 ||
+            A->x[q + q_zero] != A->x[p]) {
           return 0;
         }
         p += 1 + p_zero;
@@ -34188,11 +34188,11 @@ static int sli_complex_suits(const sl_factor *F) {
 
 static int sli_complex_keeps(const sl_int *rows, sl_int count, const sl_symbolic *S) {
   return sli_are_pairs(rows, count) && /* untested: the order keeps pairs together */
-       sli_rows_are_paired(S);       /* untested: the same */
+       sli_rows_are_paired(S); /* untested: the same */
 }
 
 static void sli_complex_accepts(const sl_symbolic *S, const sli_source *from,
-                sli_failure *failure) {
+    sli_failure *failure) {
   sl_int s;
   sl_off m;
   if (from->A != NULL && sli_matrix_is_complex(from->A)) {
@@ -34277,9 +34277,9 @@ static sl_status sli_hermitian_check(const sl_hermitian *H, sl_stats *stats) {
   sl_status status;
   sl_int j, p;
   sli_stats_clear_error(stats);
-  status = sli_argument(H == NULL                       ? "H is NULL"
-              : H->x == NULL && H->im != NULL ? "H.x is NULL, but H.im is not"
-                              : NULL);
+  status = sli_argument(H == NULL ? "H is NULL"
+      : H->x == NULL && H->im != NULL ? "H.x is NULL, but H.im is not"
+      : NULL);
   if (status != SL_OK) {
     return status;
   }
@@ -34293,7 +34293,7 @@ static sl_status sli_hermitian_check(const sl_hermitian *H, sl_stats *stats) {
       const double im = H->im != NULL ? H->im[p] : H->x[2 * (size_t)p + 1];
       if (H->i[p] == j && !(im == 0.0)) {
         return sli_fail_at(stats, SL_ERR_ARGUMENT, j, j, im,
-                   "a diagonal entry of H has an imaginary part");
+            "a diagonal entry of H has an imaginary part");
       }
     }
   }
@@ -34334,7 +34334,7 @@ typedef struct sli_hermitian_column {
 } sli_hermitian_column;
 
 static sli_hermitian_column sli_hermitian_entry(const sl_hermitian *H, sli_hermitian_sides sides,
-                        sl_int p, sl_int j, int second) {
+    sl_int p, sl_int j, int second) {
   const double a = H->x == NULL ? 0.0 : H->im != NULL ? H->x[p] : H->x[2 * (size_t)p];
   const double b = H->x == NULL ? 0.0 : H->im != NULL ? H->im[p] : H->x[2 * (size_t)p + 1];
   sli_hermitian_column out;
@@ -34387,13 +34387,13 @@ static sl_status sli_hermitian_compare(const sl_hermitian *H, const sl_matrix *M
         for (k = 0; k < e.count; k++, at++) {
           if (at >= end || M->i[at] != e.row + k) {
             return sli_fail_at(stats, SL_ERR_OTHER_PATTERN, H->i[p], j, 0.0,
-                       "M was not made from the pattern of H");
+                "M was not made from the pattern of H");
           }
         }
       }
       if (at != end) {
         return sli_fail_at(stats, SL_ERR_OTHER_PATTERN, -1, j, 0.0,
-                   "M was not made from the pattern of H");
+            "M was not made from the pattern of H");
       }
     }
   }
@@ -34401,7 +34401,7 @@ static sl_status sli_hermitian_compare(const sl_hermitian *H, const sl_matrix *M
 }
 
 SL_API sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H,
-                      const sl_options *opt, sl_stats *stats) {
+    const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
   sl_matrix *M;
   sl_status status;
@@ -34416,7 +34416,7 @@ SL_API sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H
   count = sli_hermitian_entries(H, sli_hermitian_sides_of(H));
   if (count > INT32_MAX) { /* untested: 2^29 entries */
     status = sli_refuse(SL_ERR_TOO_LARGE, "M would have 2^31 entries"); /* untested: the same */
-    return sli_report(stats, status);                                   /* untested: the same */
+    return sli_report(stats, status); /* untested: the same */
   }
   status = sli_matrix_new(&M, 2 * H->n, 2 * H->n, (sl_int)count, H->x != NULL, &a);
   if (status == SL_OK) {
@@ -34429,10 +34429,10 @@ SL_API sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H
 SL_API sl_status sl_matrix_refill_hermitian(sl_matrix *M, const sl_hermitian *H, sl_stats *stats) {
   sl_status status = sli_hermitian_check(H, stats);
   if (status == SL_OK) {
-    status = sli_argument(M == NULL      ? "M is NULL"
-                : M->x == NULL ? "M has no values"
-                : H->x == NULL ? "H.x is NULL"
-                       : NULL);
+    status = sli_argument(M == NULL ? "M is NULL"
+        : M->x == NULL ? "M has no values"
+        : H->x == NULL ? "H.x is NULL"
+        : NULL);
   }
   status = status == SL_OK ? sli_hermitian_compare(H, M, stats) : status;
   if (status == SL_OK) {
@@ -34480,7 +34480,7 @@ typedef struct sli_complex_sets {
 } sli_complex_sets;
 
 static sli_complex_sets sli_complex_sets_of(const sl_int *first, sl_int n_first,
-                      const sl_int *second, sl_int n_second, int is_block) {
+    const sl_int *second, sl_int n_second, int is_block) {
   sli_complex_sets c;
   memset(&c, 0, sizeof c);
   c.first.rows = first;
@@ -34492,17 +34492,17 @@ static sli_complex_sets sli_complex_sets_of(const sl_int *first, sl_int n_first,
 }
 
 static sl_status sli_complex_fill(const sli_complex_set *set, sl_int n, int is_columns,
-                  sl_stats *stats) {
+    sl_stats *stats) {
   const sl_int bad =
     set->rows == NULL ? -1 : sli_complex_expand(set->rows, set->count, n, set->real);
   return bad == -1 ? SL_OK
            : sli_fail_at(stats, SL_ERR_ARGUMENT, is_columns ? -1 : set->rows[bad],
-                   is_columns ? set->rows[bad] : -1, 0.0,
-                   "a row or column is out of range");
+               is_columns ? set->rows[bad] : -1, 0.0,
+               "a row or column is out of range");
 }
 
 static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n, const sl_allocator *a,
-                     sl_stats *stats) {
+    sl_stats *stats) {
   sli_block b = {NULL, 0, 0};
   sl_status status = sli_complex_check(n, &c->first);
   status = status == SL_OK ? sli_complex_check(n, &c->second) : status;
@@ -34527,23 +34527,23 @@ static const sl_int *sli_complex_real(const sli_complex_set *set) {
 }
 
 SL_API sl_status sl_complex_rows(sl_int *out, const sl_int *rows, sl_int count) {
-  sl_status status = sli_argument(count < 0                   ? "count is below 0"
-                  : count > SLI_ROWS_MAX / 2  ? "count is above 2^30 - 4"
-                  : count > 0 && out == NULL  ? "out is NULL"
-                  : count > 0 && rows == NULL ? "rows is NULL"
-                                : NULL);
+  sl_status status = sli_argument(count < 0 ? "count is below 0"
+      : count > SLI_ROWS_MAX / 2 ? "count is above 2^30 - 4"
+      : count > 0 && out == NULL ? "out is NULL"
+      : count > 0 && rows == NULL ? "rows is NULL"
+      : NULL);
   if (status == SL_OK) {
     const sl_int bad = sli_complex_expand(rows, count, SLI_ROWS_MAX / 2, out);
     status = bad == -1 ? SL_OK
                : sli_fail_at(NULL, SL_ERR_ARGUMENT, rows[bad], -1, 0.0,
-                     "a row is out of range");
+                   "a row is out of range");
   }
   return status;
 }
 
 SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, const sl_int *bset,
-                    sl_int nb, const sl_int *xset, sl_int nx,
-                    const sl_options *opt, sl_stats *stats) {
+    sl_int nb, const sl_int *xset, sl_int nx,
+    const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
   sli_complex_sets c;
   sl_status status;
@@ -34559,7 +34559,7 @@ SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, con
   status = sli_complex_sets_create(&c, S->n, &a, stats);
   if (status == SL_OK) {
     status = sl_plan_create(out, S, sli_complex_real(&c.first), bset == NULL ? 0 : 2 * nb,
-                sli_complex_real(&c.second), xset == NULL ? 0 : 2 * nx, opt, stats);
+        sli_complex_real(&c.second), xset == NULL ? 0 : 2 * nx, opt, stats);
     sli_free(&a, c.memory);
   }
   return sli_report(stats, status);
@@ -34582,17 +34582,17 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 /* src/impl/complex/complex_inverse.h: entries of the inverse of complex matrices */
 
 SL_API sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t ldz,
-                      const sl_int *rows, sl_int n_rows, const sl_int *columns,
-                      sl_int n_columns, sl_work *W, sl_stats *stats) {
+    const sl_int *rows, sl_int n_rows, const sl_int *columns,
+    sl_int n_columns, sl_work *W, sl_stats *stats) {
   sli_complex_sets c;
   sl_status status;
   sl_int k;
   sli_stats_clear_error(stats);
-  status = sli_argument(F == NULL                           ? "F is NULL"
-              : ldz > SIZE_MAX / 2                ? "ldz is too large"
-              : rows == NULL && n_rows != 0       ? "rows is NULL"
-              : columns == NULL && n_columns != 0 ? "columns is NULL"
-                                : NULL);
+  status = sli_argument(F == NULL ? "F is NULL"
+      : ldz > SIZE_MAX / 2 ? "ldz is too large"
+      : rows == NULL && n_rows != 0 ? "rows is NULL"
+      : columns == NULL && n_columns != 0 ? "columns is NULL"
+      : NULL);
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
@@ -34600,27 +34600,27 @@ SL_API sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t 
   status = sli_complex_sets_create(&c, F->S->n, &F->allocator, stats);
   if (status == SL_OK) {
     for (k = 0; k < n_columns;
-       k++) {
+        k++) {
       c.second.real[k] = 2 * columns[k];
     }
     status = sl_inverse_block(F, Z, 2 * ldz, c.first.real, 2 * n_rows, c.second.real, n_columns,
-                  W, stats);
+        W, stats);
     sli_free(&F->allocator, c.memory);
   }
   return sli_report(stats, status);
 }
 
 SL_API sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
-                      const sl_int *columns, sl_int count, sl_work *W,
-                      sl_stats *stats) {
+    const sl_int *columns, sl_int count, sl_work *W,
+    sl_stats *stats) {
   sli_complex_sets c;
   sl_status status;
   sl_int k;
   sli_stats_clear_error(stats);
-  status = sli_argument(F == NULL                       ? "F is NULL"
-              : rows == NULL && count != 0    ? "rows is NULL"
-              : columns == NULL && count != 0 ? "columns is NULL"
-                              : NULL);
+  status = sli_argument(F == NULL ? "F is NULL"
+      : rows == NULL && count != 0 ? "rows is NULL"
+      : columns == NULL && count != 0 ? "columns is NULL"
+      : NULL);
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
@@ -34628,7 +34628,7 @@ SL_API sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out, const
   status = sli_complex_sets_create(&c, F->S->n, &F->allocator, stats);
   if (status == SL_OK) {
     for (k = 0; k < count;
-       k++) {
+        k++) {
       c.second.real[2 * (size_t)k + 1] = c.second.real[2 * (size_t)k];
     }
     status = sl_inverse_pairs(F, out, c.first.real, c.second.real, 2 * count, W, stats);
@@ -35063,16 +35063,16 @@ static void SLF_NAME(front_clear)(const sli_front *f, sl_int t0, sl_int t1) {
   const sl_off from = sli_tile_offset(w, t0), size = sli_tile_offset(w, t1) - from;
   const sl_off at = sli_triangle_offset(u0), end = sli_triangle_offset(t1 - whole);
   memset(SLF_OF(f, panel) + (from >> SLF_HALF), 0,
-       (size_t)(size >> SLF_HALF) * sizeof(SLF_VALUE));
+      (size_t)(size >> SLF_HALF) * sizeof(SLF_VALUE));
   if (f->below > 0 && t1 > whole) {
     memset(SLF_OF(f, update) + (at >> SLF_HALF), 0,
-         (size_t)((end - at) >> SLF_HALF) * sizeof(SLF_VALUE));
+        (size_t)((end - at) >> SLF_HALF) * sizeof(SLF_VALUE));
   }
 }
 
 SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SLF_VALUE *panel,
-                        const sli_loading *e, uint64_t *marks,
-                        sli_failure *failure) {
+    const sli_loading *e, uint64_t *marks,
+    sli_failure *failure) {
   const sl_off *to = F->S->scatter_to, begin = F->S->steps[s].panel;
   const sl_off ahead = F->S->scatter_begin[F->S->n_supers] - SLI_ENTRIES_AHEAD;
   const double *x = e->x;
@@ -35090,7 +35090,7 @@ SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SL
 #if SLF_SINGLE
     if (!(size <= SLI_SINGLE_MOST)) {
       return sli_fail(failure, sli_is_finite(a) ? SL_ERR_INACCURATE : SL_ERR_NOT_FINITE, s,
-              -1, m, a);
+          -1, m, a);
     }
     panel[to[m] - begin] += sli_single(a);
 #else
@@ -35118,7 +35118,7 @@ SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SL
 }
 
 static sl_status SLF_NAME(panel_load)(const sl_factor *F, const sli_source *from, sl_int s,
-                    SLF_VALUE *panel, sli_failure *failure) {
+    SLF_VALUE *panel, sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const sl_off end = S->scatter_begin[s + 1];
   sli_loading e;
@@ -35143,7 +35143,7 @@ static sl_status SLF_NAME(panel_load)(const sl_factor *F, const sli_source *from
 }
 
 static sl_status SLF_NAME(front_load)(sl_factor *F, const sli_source *from, const sli_front *f,
-                    sli_failure *failure) {
+    sli_failure *failure) {
   SLF_VALUE *panel = SLF_OF(f, panel), *magnitude = SLF_OF(f, magnitude);
   const sl_status status = SLF_NAME(panel_load)(F, from, f->super, panel, failure);
   const sl_int w = f->width, rows = SLI_TILE * sli_front_tiles(f);
@@ -35170,7 +35170,7 @@ static sl_status SLF_NAME(front_load)(sl_factor *F, const sli_source *from, cons
 
 #if !SLF_SINGLE && !SLF_HALF
 static void sli_plain_assemble(const sli_front *f, const double *l, double d,
-                 const sl_int *relative, sl_int first, sl_int last) {
+    const sl_int *relative, sl_int first, sl_int last) {
   const sl_int w = f->width, whole = w / SLI_TILE;
   double *magnitude = f->magnitude;
   double *const panel = f->panel, *const update = f->update;
@@ -35199,7 +35199,7 @@ SLI_INLINE double *sli_plain_column(const sl_factor *F, sl_int s, sl_int worker)
 }
 
 SLI_INLINE void sli_plain_take(const sl_factor *F, sl_int c, sl_int worker, double *pivot,
-                 double *magnitude) {
+    double *magnitude) {
   const sli_step *child = &F->S->steps[c];
   if (F->schedule.is_plain[c]) {
     const double l = sli_plain_column(F, c, worker)[1];
@@ -35246,7 +35246,7 @@ typedef struct sli_plain_work {
 } sli_plain_work;
 
 SLI_ALWAYS_INLINE int sli_plain_regular(const sl_factor *F, const sli_plain_work *w, sl_int s,
-                    sl_int below, sl_int worker) {
+    sl_int below, sl_int worker) {
   const sl_int first = w->low[s], k = w->steps[s].column;
   const double *x = w->x;
   const sl_int *at = w->at;
@@ -35277,7 +35277,7 @@ SLI_ALWAYS_INLINE int sli_plain_regular(const sl_factor *F, const sli_plain_work
 }
 
 SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl_int s, sl_int last,
-                     sl_int worker) {
+    sl_int worker) {
   const sl_symbolic *S = F->S;
   sli_plain_work w;
   w.x = x;
@@ -35303,7 +35303,7 @@ SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl
 }
 
 SLI_NOINLINE static sl_status sli_column_end(const sl_factor *F, sl_int s, sl_int worker, double *l,
-                       const double *magnitude, sli_failure *failure) {
+    const double *magnitude, sli_failure *failure) {
   const sl_int k = F->S->steps[s].column, below = F->S->steps[s].below;
   const sl_int end = SLI_TILE * sli_tiles(1 + below);
   sl_status status = sli_check_pivot(F, s, k, F->D[k], *magnitude, failure);
@@ -35322,7 +35322,7 @@ SLI_NOINLINE static sl_status sli_column_end(const sl_factor *F, sl_int s, sl_in
 }
 
 static sl_status sli_plain_factor(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
-                  sli_failure *failure) {
+    sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const sli_step *step = &S->steps[s];
   const sl_int k = step->column, below = step->below;
@@ -35348,7 +35348,7 @@ static sl_status sli_plain_factor(sl_factor *F, const sli_source *from, sl_int s
 #endif
 
 static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_int worker,
-                   sl_int t0, sl_int t1) {
+    sl_int t0, sl_int t1) {
   const sl_symbolic *S = F->S;
   const sl_int tiles = sli_front_tiles(f);
   sl_int c, k;
@@ -35363,7 +35363,7 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
 #if !SLF_SINGLE && !SLF_HALF
     if (F->schedule.is_plain[c]) {
       sli_plain_assemble(f, sli_plain_column(F, c, worker) + 1, F->D[child->column], relative,
-                 first, last);
+          first, last);
       continue;
     }
 #endif
@@ -35393,7 +35393,7 @@ static void SLF_NAME(front_hand_over)(const sli_front *f) {
 }
 
 static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
-                     sli_failure *failure) {
+    sli_failure *failure) {
   sl_status status = SL_OK;
   sl_int k;
 #if SLF_SINGLE
@@ -35402,7 +35402,7 @@ static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
   }
   if (f->width == 1) {
     memcpy((SLF_VALUE *)F->values + F->S->steps[f->super].panel, f->single.panel,
-         (size_t)(1 + f->below) * sizeof(SLF_VALUE));
+        (size_t)(1 + f->below) * sizeof(SLF_VALUE));
   }
 #else
   const sl_int count = sli_front_is_regular(F, f, f->super) ? 0 : f->width;
@@ -35416,14 +35416,14 @@ static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
     status = F->type->store(F, f, failure);
   } else if (f->width == 1 && F->type->store == NULL) {
     memcpy((double *)F->values + F->S->steps[f->super].panel, f->panel,
-         (size_t)(1 + f->below) * sizeof(double));
+        (size_t)(1 + f->below) * sizeof(double));
   }
 #endif
   return status;
 }
 
 static sl_status SLF_NAME(front_finish)(const sl_factor *F, const sli_front *f,
-                    sli_failure *failure) {
+    sli_failure *failure) {
   SLF_NAME(front_hand_over)(f);
   return SLF_NAME(front_check)(F, f, failure);
 }
@@ -35434,7 +35434,7 @@ typedef struct sli_short {
 } sli_short;
 
 SLI_INLINE void sli_short_assemble(const sl_factor *F, const sli_short *f, sl_int c,
-                   sl_int worker) {
+    sl_int worker) {
   const sli_step *child = &F->S->steps[c];
   const sl_int *relative = F->S->relative + F->S->rows_begin[c];
   const sl_int below = child->below, skipped = child->width % SLI_TILE;
@@ -35468,7 +35468,7 @@ SLI_INLINE void sli_short_assemble(const sl_factor *F, const sli_short *f, sl_in
 }
 
 static sl_status sli_short_factor(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
-                  sli_failure *failure) {
+    sli_failure *failure) {
   const sli_step *step = &F->S->steps[s];
   const sl_int below = step->below;
   double x[SLI_TILE], pivot;
@@ -35508,7 +35508,7 @@ static sl_status sli_short_factor(sl_factor *F, const sli_source *from, sl_int s
 #endif
 
 static sl_status SLF_NAME(front_factor)(sl_factor *F, const sli_source *from, sl_int s,
-                    sl_int worker, sli_failure *failure) {
+    sl_int worker, sli_failure *failure) {
   sli_front f = SLF_NAME(front_of)(F, s, worker);
   const sl_int tiles = sli_front_tiles(&f);
   double *scratch = F->work.buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
@@ -35534,7 +35534,7 @@ static sl_status SLF_NAME(front_factor)(sl_factor *F, const sli_source *from, sl
 }
 
 static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int first, sl_int last,
-                  sl_int worker, sli_failure *failure) {
+    sl_int worker, sli_failure *failure) {
   sl_status status = SL_OK;
   sl_int s;
   for (s = first; s <= last && status == SL_OK; s++) {
@@ -35647,11 +35647,11 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
     SLV_LOAD(a, part_) \
   }
 #define SLV_LANE(b, a, k) \
-  b##_0 = b##_1 = b##_2 = b##_3 = vdupq_n_f64(vgetq_lane_f64((k) < 2   ? a##_0 \
-                                 : (k) < 4 ? a##_1 \
-                                 : (k) < 6 ? a##_2 \
-                                     : a##_3, \
-                                 (k) % 2));
+  b##_0 = b##_1 = b##_2 = b##_3 = vdupq_n_f64(vgetq_lane_f64((k) < 2 ? a##_0 \
+      : (k) < 4 ? a##_1 \
+      : (k) < 6 ? a##_2 \
+      : a##_3, \
+      (k) % 2));
 #define SLV_GATHER_2(x, i, j) vcombine_f64(vld1_f64((x) + (i)), vld1_f64((x) + (j)))
 #define SLV_GATHER(a, x, at) \
   a##_0 = SLV_GATHER_2(x, at(0), at(1)), a##_1 = SLV_GATHER_2(x, at(2), at(3)), \
@@ -35693,8 +35693,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   a##_2 = vdivq_f64(b##_2, c##_2), a##_3 = vdivq_f64(b##_3, c##_3);
 #define SLV_BELOW_2(a, k) \
   a = vreinterpretq_f64_u64(vandq_u64(vreinterpretq_u64_f64(a), \
-                    vcombine_u64(vcreate_u64((k) < 0 ? ~(uint64_t)0 : 0), \
-                           vcreate_u64((k) < 1 ? ~(uint64_t)0 : 0))));
+      vcombine_u64(vcreate_u64((k) < 0 ? ~(uint64_t)0 : 0), \
+      vcreate_u64((k) < 1 ? ~(uint64_t)0 : 0))));
 #define SLV_BELOW(a, k) \
   SLV_BELOW_2(a##_0, k) \
   SLV_BELOW_2(a##_1, (k)-2) SLV_BELOW_2(a##_2, (k)-4) SLV_BELOW_2(a##_3, (k)-6)
@@ -35829,7 +35829,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #define SLV_LANE(b, a, k) b = _mm512_maskz_permutexvar_pd(0xff, _mm512_set1_epi64(k), a);
 #define SLV_GATHER(a, x, at) \
   a = _mm512_set_pd((x)[at(7)], (x)[at(6)], (x)[at(5)], (x)[at(4)], (x)[at(3)], (x)[at(2)], \
-            (x)[at(1)], (x)[at(0)]);
+      (x)[at(1)], (x)[at(0)]);
 #define SLV_SUM_DECLARE(a) SLV_DECLARE(a)
 #define SLV_SUM_ZERO(a) SLV_ZERO(a)
 #define SLV_SUM_LOAD(a, p) SLV_LOAD(a, p)
@@ -35839,10 +35839,10 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   _mm512_add_pd(_mm512_maskz_unpacklo_pd(0xff, a, b), _mm512_maskz_unpackhi_pd(0xff, a, b))
 #define SLV_SUM_4(a, b) \
   _mm512_add_pd(_mm512_maskz_shuffle_f64x2(0xff, a, b, 0x88), \
-          _mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd))
+      _mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd))
 #define SLV_SUMS(r, a) \
   r = SLV_SUM_4(SLV_SUM_4(SLV_SUM_2(a##0, a##1), SLV_SUM_2(a##2, a##3)), \
-          SLV_SUM_4(SLV_SUM_2(a##4, a##5), SLV_SUM_2(a##6, a##7)));
+      SLV_SUM_4(SLV_SUM_2(a##4, a##5), SLV_SUM_2(a##6, a##7)));
 #define SLV_BLOCKS_EVEN(a, b) _mm512_maskz_shuffle_f64x2(0xff, a, b, 0x88)
 #define SLV_BLOCKS_ODD(a, b) _mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd)
 #define SLV_TRANSPOSE_4(to, from, unpack) \
@@ -35879,8 +35879,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   (void)(lanes);
 #define SLV_EXPAND_ADD(to, from) \
   _mm512_store_pd( \
-    (to), _mm512_add_pd(_mm512_load_pd(to), \
-              _mm512_maskz_permutexvar_pd(expand_, order_, _mm512_loadu_pd(from))));
+      (to), _mm512_add_pd(_mm512_load_pd(to), \
+      _mm512_maskz_permutexvar_pd(expand_, order_, _mm512_loadu_pd(from))));
 #define SLV_DUP_LOW(e, l) \
   e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0), SLV_READ(l));
 #define SLV_DUP_HIGH(e, l) \
@@ -36000,7 +36000,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   a = _mm256_fnmadd_pd(SLV_READ((l) + 4), v##_1, a);
 #define SLV_SUM_4(a, b, c, d) \
   _mm256_add_pd(_mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x20), \
-          _mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x31))
+      _mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x31))
 #define SLV_SUMS(r, a) \
   r##_0 = SLV_SUM_4(a##0, a##1, a##2, a##3), r##_1 = SLV_SUM_4(a##4, a##5, a##6, a##7);
 #define SLV_TRANSPOSE_4(to, from) \
@@ -36040,7 +36040,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #define SLV_LOAD_PINNED(a, p) \
   a##_0 = _mm256_load_pd(p); \
   a##_1 = _mm256_load_pd((p) + 4); \
-  SLI_PIN(a##_0);  \
+  SLI_PIN(a##_0); \
   SLI_PIN(a##_1);
 #define SLV_BROADCAST(b, p) b##_0 = b##_1 = _mm256_broadcast_sd(p);
 #define SLV_MULTIPLY(a, b, c) \
@@ -36057,10 +36057,10 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   (void)(lanes);
 #define SLV_EXPAND_ADD(to, from) \
   _mm256_store_pd((to), _mm256_add_pd(_mm256_load_pd(to), \
-                    sli_expand_4(_mm256_loadu_pd(from), low_, keep_low_))); \
+      sli_expand_4(_mm256_loadu_pd(from), low_, keep_low_))); \
   _mm256_store_pd((to) + 4, _mm256_add_pd(_mm256_load_pd((to) + 4), \
-                      sli_expand_4(_mm256_loadu_pd((from) + second_), high_, \
-                             keep_high_)));
+      sli_expand_4(_mm256_loadu_pd((from) + second_), high_, \
+      keep_high_)));
 #define SLV_DUP_AT(e, l) \
   { \
     const __m256d l_ = SLV_READ(l); \
@@ -36239,15 +36239,15 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #define SLI_DECLARE(r, unused) SLV_DECLARE(w##r)
 #define SLI_LOAD(r, unused) SLV_LOAD(w##r, w + SLI_TILE * (r))
 #define SLI_STORE(r, unused) SLV_STORE(w + SLI_TILE * (r), w##r)
-#define SLI_CARRY(r, unused)  \
+#define SLI_CARRY(r, unused) \
   SLV_BROADCAST(s, c + (r)) \
   SLV_FNMA(w##r, a, s)
-#define SLI_CHANGE(r, ranks)  \
+#define SLI_CHANGE(r, ranks) \
   SLV_BROADCAST(s, c + (ranks) + (r)) \
   SLV_FNMA(a, w##r, s)
 #define SLI_CHANGE_KERNEL(name, ranks, each) \
   SLV_FUNCTION static void SLV_NAME(name)(double *l, sl_int columns, const double *c, \
-                      double *w) { \
+      double *w) { \
     sl_int j; \
     SLV_DECLARE(a) \
     SLV_DECLARE(s) \
@@ -36268,8 +36268,8 @@ SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
 #undef SLI_CHANGE
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(change_rows)(const sli_ranks *u, const double *l,
-                           sl_int columns, const double *w, double *f,
-                           double *y) {
+    sl_int columns, const double *w, double *f,
+    double *y) {
   const sl_int ranks = u->ranks;
   sl_int i, j, r;
   SLV_DECLARE(a)
@@ -36302,7 +36302,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(change_rows)(const sli_ranks *u, const dou
 }
 
 SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l, sl_int columns,
-                          const double *d, const double *w, double *c) {
+    const double *d, const double *w, double *c) {
   SLI_ALIGNED(double f[SLI_TILE * SLI_TILE]);
   SLI_ALIGNED(double y[SLI_TILE * SLI_TILE]);
   SLI_ALIGNED(double b[SLI_TILE]);
@@ -36377,8 +36377,8 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
   }
 #define SLI_TILES_KERNEL(name, each) \
   SLV_FUNCTION SLI_INLINE void SLV_NAME(name)(double *const *tiles, ptrdiff_t first, \
-                        ptrdiff_t last, const double *y, const double *b, \
-                        double *w, int is_trial) { \
+      ptrdiff_t last, const double *y, const double *b, \
+      double *w, int is_trial) { \
     ptrdiff_t j; \
     SLV_DECLARE(a) \
     SLV_DECLARE(s) \
@@ -36399,7 +36399,7 @@ SLI_TILES_KERNEL(change_tiles, SLI_EACH4)
 #define SLI_AFTER(k) ((k) + 1)
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(sli_rank_one *u, double *l, sl_int j,
-                           sl_int columns) {
+    sl_int columns) {
   double *const b = u->b + j, *const w = u->w + j;
   SLI_ALIGNED(double z[SLI_TILE]);
   double g[SLI_TILE + 1];
@@ -36530,7 +36530,7 @@ static const sli_change_kernels SLV_NAME(change_kernels) = {
 #define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)
 
 SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
-                      double *sums) {
+    double *sums) {
   enum { distance = SLW_NRHS };
   sl_int row, k;
   for (row = 0; row < SLW_NRHS; row += SLW_ROWS) {
@@ -36558,12 +36558,12 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
 /* src/impl/inverse/inverse_front.inl.h: gathers a front of the inverse from its parent and completes it */
 
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(block1)(const SLV_VALUE *A, const SLV_VALUE *B,
-                         sl_int length, SLV_VALUE *C, sl_int columns) {
+    sl_int length, SLV_VALUE *C, sl_int columns) {
   SLV_FRONT(rows1)(A, A, B, length, C, C, columns);
 }
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, sl_int length,
-                       double *C, sl_int columns) {
+    double *C, sl_int columns) {
   sl_int k;
   for (k = 0; k < columns; k += SLV_COLUMNS) {
     SLV_NAME(block1)(A, B + k, length, C + SLI_TILE * (ptrdiff_t)k, columns - k);
@@ -36586,8 +36586,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int columns) {
 #define SLI_OFFSET(k) offset[k]
 
 SLV_FUNCTION static void SLV_NAME(gather)(const sli_inverse_front *f, const double *from,
-                      sl_int height, const sl_int *relative, sl_int t0,
-                      sl_int t1) {
+    sl_int height, const sl_int *relative, sl_int t0,
+    sl_int t1) {
   const sl_int w = f->width, u = f->below;
   sl_int t, i;
   for (t = sli_max(t0, w / SLI_TILE); t < t1; t++) {
@@ -36648,7 +36648,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(solve_triangle)(const double *l, double *x
 #undef SLI_SOLVE
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(group_triangle)(const sli_inverse_front *f, sl_int j0,
-                            sl_int c0, sl_int c1, double *scratch) {
+    sl_int c0, sl_int c1, double *scratch) {
   const sl_int m = sli_inverse_group_columns(f, j0), tiles = sli_tiles(m),
          tile_size = SLI_TILE * SLI_TILE;
   double *N = scratch + SLI_INVERSE_ROW * (ptrdiff_t)c0,
@@ -36684,7 +36684,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_triangle)(const sli_inverse_front *f
 }
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_inverse_front *f, sl_int j0,
-                           sl_int t0, sl_int t1, double *scratch) {
+    sl_int t0, sl_int t1, double *scratch) {
   const sl_int m = sli_inverse_group_columns(f, j0), tile_size = SLI_TILE * SLI_TILE;
   const ptrdiff_t stride = sli_inverse_stride(f, j0);
   const double *N = scratch;
@@ -36704,8 +36704,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_inverse_front *f,
 
 #if SLV_TILES > SLV_VECTOR_TILES
 SLV_FUNCTION SLI_INLINE void SLV_NAME(group_tiles)(const double *A, const double *B, sl_int length,
-                           double *C, sl_int columns, ptrdiff_t tile,
-                           sl_int after, ptrdiff_t stride) {
+    double *C, sl_int columns, ptrdiff_t tile,
+    sl_int after, ptrdiff_t stride) {
   const double *rows[SLV_TILES], *next[SLV_TILES];
   double *to[SLV_TILES];
   sl_int c, k;
@@ -36725,7 +36725,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_tiles)(const double *A, const double
 #endif
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_inverse_front *f, sl_int j0,
-                           sl_int t0, sl_int t1, double *scratch) {
+    sl_int t0, sl_int t1, double *scratch) {
   const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below, first = j0 + m;
   const ptrdiff_t stride = sli_inverse_stride(f, j0), tile_size = SLI_TILE * SLI_TILE;
   const double *W = sli_inverse_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
@@ -36761,7 +36761,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_inverse_front *f,
 }
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(merge)(double *to, const double *from, sl_int lanes,
-                       sl_int first, sl_int last) {
+    sl_int first, sl_int last) {
   sl_int k, i;
   SLV_DECLARE(a)
   for (k = first; k < last; k++) {
@@ -36777,7 +36777,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(merge)(double *to, const double *from, sl_
 }
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, sl_int last,
-                        double *to, sl_int columns) {
+    double *to, sl_int columns) {
   if (columns == SLI_TILE && first == 0 && last == SLI_TILE) {
     SLV_TRANSPOSE(to, from)
   } else {
@@ -36788,7 +36788,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, 
 }
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_inverse_front *f, sl_int j0,
-                          sl_int t0, sl_int t1) {
+    sl_int t0, sl_int t1) {
   const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below;
   const ptrdiff_t tile_size = SLI_TILE * SLI_TILE;
   sl_int t, c;
@@ -36805,7 +36805,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_inverse_front *f, 
 }
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_inverse_front *f, sl_int j0,
-                          sl_int t0, sl_int t1, double *scratch) {
+    sl_int t0, sl_int t1, double *scratch) {
   const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below, first = j0 + m;
   const sl_int tile_size = SLI_TILE * SLI_TILE;
   const ptrdiff_t stride = sli_inverse_stride(f, j0);
@@ -36840,8 +36840,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_inverse_front *f, 
 }
 
 SLV_FUNCTION static void SLV_NAME(inverse_phase)(const sli_inverse_front *f, sl_int j0,
-                         sli_inverse_phase phase, sl_int t0, sl_int t1,
-                         double *scratch) {
+    sli_inverse_phase phase, sl_int t0, sl_int t1,
+    double *scratch) {
   switch (phase) {
   case SLI_INVERSE_TRIANGLE:
     SLV_NAME(group_triangle)(f, j0, t0, t1, scratch);
@@ -36863,7 +36863,7 @@ SLV_FUNCTION static void SLV_NAME(inverse_phase)(const sli_inverse_front *f, sl_
 SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_inverse_front *f, double *scratch) {
   sl_int j0;
   for (j0 = sli_inverse_last_group(f); j0 + SLI_INVERSE_COLUMNS > f->first;
-     j0 -= SLI_INVERSE_COLUMNS) {
+      j0 -= SLI_INVERSE_COLUMNS) {
     const sli_tile_range group = sli_inverse_tiles(f, j0, SLI_INVERSE_TRIANGLE);
     const sli_tile_range below = sli_inverse_tiles(f, j0, SLI_INVERSE_WEIGHTS);
     SLV_NAME(group_triangle)(f, j0, group.first, group.last, scratch);
@@ -36890,14 +36890,14 @@ static const sli_inverse_kernels SLV_NAME(inverse_kernels) = {
 /* src/impl/kernels/copy_rows.inl.h: rows of several right-hand sides to a buffer and back */
 
 SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
-                         const sl_int *rows, const double *own,
-                         const double *x, sl_int stride) {
+    const sl_int *rows, const double *own,
+    const double *x, sl_int stride) {
   sl_int r;
   SLW_DECLARE(b)
   for (r = 0; r < SLW_ROWS; r++) {
     if (r < inner + below) {
       SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * stride
-                  : x + (ptrdiff_t)rows[r - inner] * stride)
+          : x + (ptrdiff_t)rows[r - inner] * stride)
     } else {
       SLW_ZERO(b)
     }
@@ -36906,14 +36906,14 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int
 }
 
 SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
-                        const sl_int *rows, double *own, double *x,
-                        sl_int stride) {
+    const sl_int *rows, double *own, double *x,
+    sl_int stride) {
   sl_int r;
   SLW_DECLARE(b)
   for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
     SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_NRHS)
     SLW_STORE(r < inner ? own + (ptrdiff_t)r * stride : x + (ptrdiff_t)rows[r - inner] * stride,
-          b)
+        b)
   }
 }
 #endif
@@ -36986,9 +36986,9 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
   SLI_STORE_PAIR(0, 1, v) \
   SLI_STORE_PAIR(2, 3, v)
 #endif
-#define SLI_FETCH(k, v)  \
+#define SLI_FETCH(k, v) \
   SLI_PREFETCH(Cp##v, sizeof(SLV_VALUE) * SLI_TILE / SLV_PARTS * (SLV_COLUMNS + (k)));
-#define SLI_UPDATE(k, unused)  \
+#define SLI_UPDATE(k, unused) \
   SLV_BROADCAST(b, B + (k)) \
   SLV_FNMA(c0##k, a0, b)
 #define SLI_UPDATE2(k, unused) \
@@ -36996,8 +36996,8 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
   SLI_WORD(FNMA, 1)(c1##k, a1, b)
 
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows1)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
-                        const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
-                        SLV_VALUE *Cq0, sl_int columns) {
+    const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
+    SLV_VALUE *Cq0, sl_int columns) {
   sl_int j;
   SLV_DECLARE(a0)
   SLV_DECLARE(b)
@@ -37014,10 +37014,10 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows1)(const SLV_VALUE *Ap0, const SLV_VA
 
 #if SLV_TILES > SLV_VECTOR_TILES
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
-                        const SLV_VALUE *Ap1, const SLV_VALUE *Aq1,
-                        const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
-                        SLV_VALUE *Cq0, SLV_VALUE *Cp1, SLV_VALUE *Cq1,
-                        sl_int columns, const SLV_VALUE *ahead) {
+    const SLV_VALUE *Ap1, const SLV_VALUE *Aq1,
+    const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
+    SLV_VALUE *Cq0, SLV_VALUE *Cp1, SLV_VALUE *Cq1,
+    sl_int columns, const SLV_VALUE *ahead) {
   sl_int j;
   SLV_DECLARE(a0)
   SLI_WORD(DECLARE, 1)(a1)
@@ -37060,15 +37060,15 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VA
 
 #if SLV_TILES > SLV_VECTOR_TILES
 SLV_FUNCTION SLI_INLINE const SLV_VALUE *SLV_FRONT(ahead)(const SLV_VALUE *const *A, sl_int length,
-                              sl_int part) {
+    sl_int part) {
   const sl_int parts = SLI_TILE / SLV_AHEAD, at = sli_min(part, SLV_TILES * parts - 1);
   return A[at / parts] + at % parts * SLV_AHEAD * (ptrdiff_t)length;
 }
 
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(whole)(const SLV_VALUE *const *A, const SLV_VALUE *B,
-                        sl_int length, SLV_VALUE *const *C, ptrdiff_t to,
-                        sl_int columns, const SLV_VALUE *const *next,
-                        sl_int k) {
+    sl_int length, SLV_VALUE *const *C, ptrdiff_t to,
+    sl_int columns, const SLV_VALUE *const *next,
+    sl_int k) {
 #if defined(SLV_HAS_HALF)
   sl_int m;
   for (m = 0; m < 2; m++) {
@@ -37088,7 +37088,7 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(whole)(const SLV_VALUE *const *A, const S
 #endif
 
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(pack)(const SLV_VALUE *l, const SLV_VALUE *d, sl_int length,
-                       SLV_VALUE *B) {
+    SLV_VALUE *B) {
   sl_int j;
   SLV_DECLARE(a)
   SLV_DECLARE(b)
@@ -37101,10 +37101,10 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(pack)(const SLV_VALUE *l, const SLV_VALUE
 }
 
 SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, const SLV_VALUE *D,
-                      const double *E, sl_int t0, sl_int t1, sl_int c0,
-                      sl_int c1, sl_int j0, sl_int j1, SLV_VALUE *target,
-                      sl_int target_width, sl_int target_first,
-                      SLV_VALUE *B) {
+    const double *E, sl_int t0, sl_int t1, sl_int c0,
+    sl_int c1, sl_int j0, sl_int j1, SLV_VALUE *target,
+    sl_int target_width, sl_int target_first,
+    SLV_VALUE *B) {
   const sl_int step = SLV_TILES, parts = SLV_PARTS, tile_size = SLI_TILE * SLI_TILE;
   sl_int j, t, c, k, r, m;
   for (j = j0 / parts; j < j1 / parts; j += SLI_CHUNK_COLUMNS) {
@@ -37287,7 +37287,7 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
 
 #if defined(SLV_OWN_PIVOTS)
 SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
-                        SLV_VALUE *reciprocals) {
+    SLV_VALUE *reciprocals) {
   const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first) / SLV_PARTS;
   const sl_int all = columns + (f->is_small ? f->below : 0);
 #if !SLV_COMPLEX
@@ -37323,7 +37323,7 @@ SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
 #endif
 
 SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
-                        const SLV_VALUE *reciprocals) {
+    const SLV_VALUE *reciprocals) {
   const sl_int w = f->width, first = SLI_TILE * c;
   const sl_int columns = sli_min(SLI_TILE, w - first) / SLV_PARTS;
   SLV_VALUE *panel = SLV_OF(f, panel) + SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
@@ -37377,7 +37377,7 @@ SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_i
 #undef SLI_DECLARE_ALL
 
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(catch_up)(const sli_front *f, sl_int first, sl_int c0,
-                         sl_int c1, sl_int t0, sl_int t1, SLV_VALUE *B) {
+    sl_int c1, sl_int t0, sl_int t1, SLV_VALUE *B) {
   if (c0 > first) {
     SLV_FRONT(product)
     (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, t0, t1, c0, c1, SLI_TILE * first,
@@ -37405,7 +37405,7 @@ SLV_FUNCTION static void SLV_FRONT(pivots)(const sli_front *f, sl_int c0, void *
 }
 
 SLV_FUNCTION static void SLV_FRONT(rows)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
-                     void *scratch) {
+    void *scratch) {
   SLV_VALUE *B = (SLV_VALUE *)scratch;
   const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
   sl_int c;
@@ -37418,7 +37418,7 @@ SLV_FUNCTION static void SLV_FRONT(rows)(const sli_front *f, sl_int c0, sl_int t
 }
 
 SLV_FUNCTION static void SLV_FRONT(update)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0,
-                       sl_int t1, void *scratch) {
+    sl_int t1, void *scratch) {
   SLV_VALUE *B = (SLV_VALUE *)scratch;
   const sl_int w = f->width, last = sli_min(c1, t1);
   sl_int c;
@@ -37430,8 +37430,8 @@ SLV_FUNCTION static void SLV_FRONT(update)(const sli_front *f, sl_int c0, sl_int
 }
 
 SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *from, sl_int skipped,
-                       const sl_int *relative, sl_int columns, sl_int first,
-                       sl_int last) {
+    const sl_int *relative, sl_int columns, sl_int first,
+    sl_int last) {
   const sl_int w = f->width, whole = w / SLI_TILE;
   sl_int row, end, i;
   for (row = first; row < last; row = end) {
@@ -37449,7 +37449,7 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
     sl_int lanes[SLI_TILE];
     unsigned mask = 0;
     for (end = row;
-       end < last && end - row < SLI_TILE - lane && relative[end] / SLI_TILE == tile; end++) {
+        end < last && end - row < SLI_TILE - lane && relative[end] / SLI_TILE == tile; end++) {
       lanes[end - row] = relative[end] % SLI_TILE;
       mask |= 1u << lanes[end - row];
     }
@@ -37620,7 +37620,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(tile_backward)(const SLV_VALUE *l, double
   }
 
 SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *values, double *x,
-                       double *buf) {
+    double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   const sli_step *s = R->steps, *end = s + R->count;
   const sl_int *rows = R->rows;
@@ -37641,7 +37641,7 @@ SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *val
     }
     memcpy(buf + 2 * (ptrdiff_t)first, xs, columns * sizeof(double));
     memset(buf + 2 * (ptrdiff_t)w, 0,
-         2 * (size_t)(SLI_TILE * sli_tiles(height) - w) * sizeof(double));
+        2 * (size_t)(SLI_TILE * sli_tiles(height) - w) * sizeof(double));
     for (row = first; row < height; row += SLI_TILE) {
       const sl_int final = sli_min(row, w), inner = sli_clamp(w - row, SLI_TILE);
       const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first;
@@ -37658,7 +37658,7 @@ SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *val
       SLV_ZERO(f0)
       SLV_ZERO(f1)
       for (j = first; j + 2 <= final;
-         j += 2, l += 2 * SLI_TILE) {
+          j += 2, l += 2 * SLI_TILE) {
         SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
         SLI_PAIR_AXPY(f, l + SLI_TILE, buf + 2 * (ptrdiff_t)j + 2)
       }
@@ -37698,7 +37698,7 @@ SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *val
   SLV_FNMA(a, t1, v1)
 
 SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *values,
-                        const double *D, double *x, double *buf) {
+    const double *D, double *x, double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   const sli_step *s = R->steps + R->count;
   const sl_int *rows_end = R->rows + R->n_rows;
@@ -37777,7 +37777,7 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *va
       }
     }
     memcpy(xs + 2 * (ptrdiff_t)first, buf + 2 * (ptrdiff_t)first,
-         2 * (size_t)(w - first) * sizeof(double));
+        2 * (size_t)(w - first) * sizeof(double));
   }
 }
 
@@ -37812,8 +37812,8 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *va
   }
 
 SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, sl_int below,
-                               const sl_int *rows, const SLV_VALUE *l,
-                               double *xs, double *x, double *buf) {
+    const sl_int *rows, const SLV_VALUE *l,
+    double *xs, double *x, double *buf) {
   sl_int row, i;
   SLV_DECLARE(a)
   SLV_DECLARE(b)
@@ -37860,16 +37860,16 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, sl_
     xs[k] = r##k; \
   }
 #define SLI_XT(j, k) \
-  if ((j) < (k) && (k) < w) {  \
+  if ((j) < (k) && (k) < w) { \
     r##j = SLV_FNMA1(t[SLI_TILE * (j) + (k)], r##k, r##j); \
   }
 #define SLI_ROW(k) \
   SLI_XT(6, k) SLI_XT(5, k) SLI_XT(4, k) SLI_XT(3, k) SLI_XT(2, k) SLI_XT(1, k) SLI_XT(0, k)
 
 SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl_int below,
-                                const sl_int *rows,
-                                const SLV_VALUE *l, const double *d,
-                                double *xs, const double *x) {
+    const sl_int *rows,
+    const SLV_VALUE *l, const double *d,
+    double *xs, const double *x) {
   const sl_int count = (w + below) % SLI_TILE;
   sl_int row = w + below - count, at = below;
   double r[SLI_TILE];
@@ -37919,8 +37919,8 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
 #define SLI_BY_WIDTH(call) call(w)
 
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_forward)(sl_int w, sl_int below, const sl_int *rows,
-                            const SLV_VALUE *l, double *xs, double *x,
-                            double *buf) {
+    const SLV_VALUE *l, double *xs, double *x,
+    double *buf) {
   sl_int row, i, k;
   double a[SLI_TILE] = {0.0}, b[SLI_TILE], y[SLI_TILE];
   memcpy(a, xs, (size_t)w * sizeof(double));
@@ -37950,8 +37950,8 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_forward)(sl_int w, sl_int below, co
 }
 
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_backward)(sl_int w, sl_int below, const sl_int *rows,
-                             const SLV_VALUE *l, const double *d,
-                             double *xs, const double *x) {
+    const SLV_VALUE *l, const double *d,
+    double *xs, const double *x) {
   double a[SLI_TILE] = {0.0}, v[SLI_TILE] = {0.0};
   sl_int row = (w + below - 1) / SLI_TILE * SLI_TILE, j, k;
   for (; row >= 0; row -= SLI_TILE) {
@@ -37979,9 +37979,9 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_backward)(sl_int w, sl_int below, c
 #endif
 
 SLV_FUNCTION SLI_INLINE const sli_step *SLV_SWEEP(forward_plain)(const sli_step *s,
-                                 const sli_reach *R,
-                                 const sl_int **next_rows,
-                                 const SLV_VALUE *L, double *x) {
+    const sli_reach *R,
+    const sl_int **next_rows,
+    const SLV_VALUE *L, double *x) {
   const sli_step *end = R->steps + R->count, *first = s;
   const sl_int *plain = R->plain == NULL ? NULL : R->plain + (s - R->steps);
   const sl_int *last = R->plain == NULL ? NULL : R->plain + R->count;
@@ -38017,7 +38017,7 @@ SLV_FUNCTION SLI_INLINE const sli_step *SLV_SWEEP(forward_plain)(const sli_step 
 
 SLV_FUNCTION SLI_INLINE const sli_step *
 SLV_SWEEP(backward_plain)(const sli_step *s, const sli_reach *R, const sl_int **rows_end,
-              const SLV_VALUE *L, const double *D, double *x) {
+    const SLV_VALUE *L, const double *D, double *x) {
   const sl_int *begin = R->plain, *rows = *rows_end;
   const sl_int *plain = begin == NULL ? NULL : begin + (s - 1 - R->steps);
   const sli_step *last = s--;
@@ -38070,9 +38070,9 @@ SLV_SWEEP(backward_plain)(const sli_step *s, const sli_reach *R, const sl_int **
 #define SLI_BACKWARD(k) SLV_SWEEP(small_backward)(k, below, rows, l, d, xs, x)
 
 SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, const sli_reach *R,
-                               const sl_int **next_rows,
-                               const SLV_VALUE *L, double *x,
-                               double *buf) {
+    const sl_int **next_rows,
+    const SLV_VALUE *L, double *x,
+    double *buf) {
   const sl_int *rows = *next_rows;
   const sli_step *end = R->steps + R->count;
   while (s < end && s->width <= SLI_TILE) {
@@ -38092,9 +38092,9 @@ SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, 
 }
 
 SLV_FUNCTION static const sli_step *SLV_SWEEP(backward_small)(const sli_step *s, const sli_reach *R,
-                                const sl_int **rows_end,
-                                const SLV_VALUE *L, const double *D,
-                                double *x) {
+    const sl_int **rows_end,
+    const SLV_VALUE *L, const double *D,
+    double *x) {
   const sl_int *rows = *rows_end;
   const sli_step *begin = R->steps;
   while (s > begin && s[-1].width <= SLI_TILE) {
@@ -38137,8 +38137,8 @@ SLV_FUNCTION static const sli_step *SLV_SWEEP(backward_small)(const sli_step *s,
 /* src/impl/kernels/single_rhs.inl.h: sweeps for one right-hand side, vectorized over the 8 rows of a tile */
 
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(panel_forward)(const SLV_VALUE *tile, sl_int t0,
-                            sl_int width, sl_int columns, sl_int rows,
-                            double *buf) {
+    sl_int width, sl_int columns, sl_int rows,
+    double *buf) {
   const sl_int first = SLI_TILE * t0;
   sl_int t, j, k;
   for (t = t0; SLI_TILE * t < rows; t++) {
@@ -38179,7 +38179,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(panel_forward)(const SLV_VALUE *tile, sl_
 }
 
 SLV_FUNCTION static void SLV_SWEEP(forward)(const sli_reach *R, const void *values, double *x,
-                      double *buf) {
+    double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   const sli_step *s = R->steps, *end = s + R->count;
   const sl_int *rows = R->rows;
@@ -38212,7 +38212,7 @@ SLV_FUNCTION static void SLV_SWEEP(forward)(const sli_reach *R, const void *valu
 #define SLI_ROW_AT_PART(k) rows[at + sli_clamp((k)-inner, part - 1)]
 
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots1)(const SLV_VALUE *l, const double *x, sl_int first,
-                        sl_int final, double *sums) {
+    sl_int final, double *sums) {
   ptrdiff_t j;
   SLV_DECLARE(v)
   SLV_SUM_DECLARE(a)
@@ -38226,8 +38226,8 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots1)(const SLV_VALUE *l, const double *
 }
 
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots2)(const SLV_VALUE *l0, const SLV_VALUE *l1,
-                        const double *x, sl_int first, sl_int final,
-                        double *sums) {
+    const double *x, sl_int first, sl_int final,
+    double *sums) {
   ptrdiff_t j;
   SLV_DECLARE(v0)
   SLV_DECLARE(v1)
@@ -38257,8 +38257,8 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots2)(const SLV_VALUE *l0, const SLV_VAL
 #define SLI_SHARED SLI_INLINE
 #endif
 SLV_FUNCTION SLI_SHARED void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inner,
-                         const double *sums, const double *d, double *xs,
-                         double *buf) {
+    const double *sums, const double *d, double *xs,
+    double *buf) {
   double r[SLI_TILE];
   sl_int j, k;
   SLV_DECLARE(v)
@@ -38292,7 +38292,7 @@ SLV_FUNCTION SLI_SHARED void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inne
 #define SLI_FEW_STEPS 512
 
 SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *values,
-                       const double *D, double *x, double *buf) {
+    const double *D, double *x, double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   const int by_two = R->count <= SLI_FEW_STEPS;
   const sli_step *begin = R->steps, *s = begin + R->count;
@@ -38473,9 +38473,9 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 #endif
 
 SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_int stride,
-                               sl_int below, const sl_int *rows,
-                               const SLV_VALUE *l, double *xs,
-                               double *x) {
+    sl_int below, const sl_int *rows,
+    const SLV_VALUE *l, double *xs,
+    double *x) {
   sl_int lane = w, i;
   SLW_EACH(SLI_DECLARE, 0)
   SLW_DECLARE(b)
@@ -38520,9 +38520,9 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_
   }
 
 SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl_int stride,
-                                sl_int below, const sl_int *rows,
-                                const SLV_VALUE *l, const double *d,
-                                double *xs, const double *x) {
+    sl_int below, const sl_int *rows,
+    const SLV_VALUE *l, const double *d,
+    double *xs, const double *x) {
   sl_int i = below - 1, lane = (w + i) % SLI_TILE;
   SLW_EACH(SLI_DECLARE, 0)
   SLW_DECLARE(b)
@@ -38563,14 +38563,14 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
 #endif
 
 SLV_FUNCTION static void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
-                          const sl_int *rows, const SLV_VALUE *l,
-                          double *xs, double *x) {
+    const sl_int *rows, const SLV_VALUE *l,
+    double *xs, double *x) {
   SLI_BY_WIDTH(SLI_FORWARD);
 }
 
 SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_int below,
-                           const sl_int *rows, const SLV_VALUE *l,
-                           const double *d, double *xs, const double *x) {
+    const sl_int *rows, const SLV_VALUE *l,
+    const double *d, double *xs, const double *x) {
   SLI_BY_WIDTH(SLI_BACKWARD);
 }
 
@@ -38591,17 +38591,17 @@ SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_i
 #undef SLI_CLEAR_WIDE
 #else
 SLV_FUNCTION SLI_INLINE void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
-                            const sl_int *rows, const SLV_VALUE *l,
-                            double *xs, double *x) {
+    const sl_int *rows, const SLV_VALUE *l,
+    double *xs, double *x) {
   const sl_int half = SLW_NRHS / 2;
   SLW_SWEEP_HALF(forward_small)(w, stride, below, rows, l, xs, x);
   SLW_SWEEP_HALF(forward_small)(w, stride, below, rows, l, xs + half, x + half);
 }
 
 SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_int below,
-                             const sl_int *rows, const SLV_VALUE *l,
-                             const double *d, double *xs,
-                             const double *x) {
+    const sl_int *rows, const SLV_VALUE *l,
+    const double *d, double *xs,
+    const double *x) {
   const sl_int half = SLW_NRHS / 2;
   SLW_SWEEP_HALF(backward_small)(w, stride, below, rows, l, d, xs, x);
   SLW_SWEEP_HALF(backward_small)(w, stride, below, rows, l, d, xs + half, x + half);
@@ -38630,7 +38630,7 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, 
 #endif
 
 SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *values, double *x,
-                       double *buf SLI_STRIDE_PARAMETER) {
+    double *buf SLI_STRIDE_PARAMETER) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   const sli_step *s = R->steps;
   const sl_int *rows = R->rows;
@@ -38697,7 +38697,7 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
           SLW_EACH(SLI_LOAD, p)
         }
         for (j = first; j < final;
-           j += SLI_PARTS, l += SLI_TILE, xj += SLI_PARTS * (ptrdiff_t)stride) {
+            j += SLI_PARTS, l += SLI_TILE, xj += SLI_PARTS * (ptrdiff_t)stride) {
           SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
           SLI_APPLY_COLUMN
         }
@@ -38721,8 +38721,8 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
 }
 
 SLV_FUNCTION static void SLI_KERNEL(backward)(const sli_reach *R, const void *values,
-                        const double *D, double *x,
-                        double *buf SLI_STRIDE_PARAMETER) {
+    const double *D, double *x,
+    double *buf SLI_STRIDE_PARAMETER) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   const sli_step *s = R->steps;
   const sl_int *rows_end = R->rows + R->n_rows;
@@ -38823,11 +38823,11 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(const sli_reach *R, const void *va
 #if defined(SLW_GROUPS)
 #define SLI_GROUPED_KERNELS(lanes) \
   SLV_FUNCTION static void SLI_TABLE(forward##lanes)(const sli_reach *R, const void *values, \
-                             double *x, double *buf) { \
+      double *x, double *buf) { \
     SLI_KERNEL(forward)(R, values, x, buf, lanes); \
   } \
   SLV_FUNCTION static void SLI_TABLE(backward##lanes)(const sli_reach *R, const void *values, \
-                            const double *D, double *x, double *buf) { \
+      const double *D, double *x, double *buf) { \
     SLI_KERNEL(backward)(R, values, D, x, buf, lanes); \
   }
 #if SLW_NRHS == 2
@@ -38931,9 +38931,9 @@ SLI_GROUPED_KERNELS(64)
   }
 
 SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_forward)(const sl_int w, sl_int below,
-                                  const sl_int *rows,
-                                  const double *l, double *xs,
-                                  double *x, double *buf) {
+    const sl_int *rows,
+    const double *l, double *xs,
+    double *x, double *buf) {
   sl_int row, i;
   SLV_DECLARE(a)
   SLV_DECLARE(b)
@@ -38975,7 +38975,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_forward)(const sl_int
 
 SLV_FUNCTION SLI_ALWAYS_INLINE void
 SLV_NAME(complex_small_backward)(const sl_int w, sl_int below, const sl_int *rows, const double *l,
-                 const double *d, double *xs, const double *x) {
+    const double *d, double *xs, const double *x) {
   const sl_int count = (w + below) % SLI_TILE;
   sl_int row = w + below - count, at = below, k;
   double r[SLI_TILE];
@@ -39029,7 +39029,7 @@ SLV_NAME(complex_small_backward)(const sl_int w, sl_int below, const sl_int *row
 
 SLV_FUNCTION SLI_INLINE const sli_step *
 SLV_NAME(complex_forward_small)(const sli_step *s, const sli_step *end, const sl_int **next_rows,
-                const double *L, double *x, double *buf) {
+    const double *L, double *x, double *buf) {
   const sl_int *rows = *next_rows;
   for (; s < end && s->width <= SLI_TILE; s++) {
     const sl_int w = s->width, below = s->below;
@@ -39044,7 +39044,7 @@ SLV_NAME(complex_forward_small)(const sli_step *s, const sli_step *end, const sl
 
 SLV_FUNCTION SLI_INLINE const sli_step *
 SLV_NAME(complex_backward_small)(const sli_step *s, const sli_step *begin, const sl_int **rows_end,
-                 const double *L, const double *D, double *x) {
+    const double *L, const double *D, double *x) {
   const sl_int *rows = *rows_end;
   for (; s > begin && s[-1].width <= SLI_TILE; s--) {
     const sl_int w = s[-1].width, below = s[-1].below;
@@ -39100,9 +39100,9 @@ SLV_NAME(complex_backward_small)(const sli_step *s, const sli_step *begin, const
   }
 
 SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(complex_forward_step)(const sli_step *s,
-                                   const sl_int *rows,
-                                   const double *L, double *x,
-                                   double *buf) {
+    const sl_int *rows,
+    const double *L, double *x,
+    double *buf) {
   const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
   const double *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / 2;
   double *xs = x + s->base;
@@ -39125,7 +39125,7 @@ SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(complex_forward_step)(const sli_s
     SLV_ZERO(b0)
     SLV_ZERO(b1)
     for (j = first; j + 4 <= final;
-       j += 4, l += 2 * SLI_TILE) {
+        j += 4, l += 2 * SLI_TILE) {
       SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
       SLI_PREFETCH(l + SLI_TILE, SLI_PREFETCH_DISTANCE);
       SLV_AXPY(a0, l, buf + j)
@@ -39163,7 +39163,7 @@ SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(complex_forward_step)(const sli_s
 }
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_dots)(const double *tile, const double *x,
-                          sl_int first, sl_int final, double *sums) {
+    sl_int first, sl_int final, double *sums) {
   ptrdiff_t j;
   SLV_DECLARE(v)
   SLV_DECLARE(u)
@@ -39190,8 +39190,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_dots)(const double *tile, const do
     SLV_SUM_ZERO(a##k) \
   }
 SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int inner,
-                            const double *sums, const double *d,
-                            double *xs, double *buf) {
+    const double *sums, const double *d,
+    double *xs, double *buf) {
   double r[SLI_TILE], b[SLI_TILE];
   sl_int k;
   SLV_DECLARE(v)
@@ -39215,7 +39215,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int 
 
 SLV_FUNCTION SLI_NOINLINE static void
 SLV_NAME(complex_backward_step)(const sli_step *s, const sl_int *rows, const double *L,
-                const double *D, double *x, double *buf) {
+    const double *D, double *x, double *buf) {
   const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
   const double *tile = L + (s->panel + sli_panel_size(w, s->below)) / 2;
   const double *d = D + s->column - first;
@@ -39253,7 +39253,7 @@ SLV_NAME(complex_backward_step)(const sli_step *s, const sl_int *rows, const dou
 }
 
 SLV_FUNCTION static void SLV_NAME(complex_forward)(const sli_reach *R, const void *values,
-                           double *x, double *buf) {
+    double *x, double *buf) {
   const double *L = (const double *)values;
   const sli_step *s = R->steps, *end = s + R->count;
   const sl_int *rows = R->rows;
@@ -39268,7 +39268,7 @@ SLV_FUNCTION static void SLV_NAME(complex_forward)(const sli_reach *R, const voi
 }
 
 SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const void *values,
-                          const double *D, double *x, double *buf) {
+    const double *D, double *x, double *buf) {
   const double *L = (const double *)values;
   const sli_step *begin = R->steps, *s = begin + R->count;
   const sl_int *rows = R->rows + R->n_rows;
@@ -39329,8 +39329,8 @@ static const sli_float_kernels SLV_NAME(float_kernels) = {
 /* src/impl/kernels/row.inl.h: one row of L in the up-looking factorization */
 
 SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
-                     const double *D, double *xs, double *x, double *buf,
-                     double *pivot, double *magnitude) {
+    const double *D, double *xs, double *x, double *buf,
+    double *pivot, double *magnitude) {
   const sl_int columns = sli_min(q, w);
   double *lq = panel + sli_panel_at(w, q, 0);
   double d = *pivot, size = *magnitude;
@@ -39385,8 +39385,8 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
   }
 
 SLV_FUNCTION static void SLV_NAME(interleave)(double *v, sl_int stride, const sl_int *index,
-                        sl_int count, const double *M, size_t ldm,
-                        int is_streamed) {
+    sl_int count, const double *M, size_t ldm,
+    int is_streamed) {
   SLI_ALIGNED(double from[SLI_TILE * SLI_TILE]);
   SLI_ALIGNED(double to[SLI_TILE * SLI_TILE]);
   sl_int k, r;
@@ -39420,7 +39420,7 @@ SLV_FUNCTION static void SLV_NAME(interleave)(double *v, sl_int stride, const sl
 }
 
 SLV_FUNCTION static void SLV_NAME(separate)(double *M, size_t ldm, const double *v, sl_int stride,
-                      const sl_int *index, sl_int count) {
+    const sl_int *index, sl_int count) {
   SLI_ALIGNED(double from[SLI_TILE * SLI_TILE]);
   SLI_ALIGNED(double to[SLI_TILE * SLI_TILE]);
   sl_int k, r;

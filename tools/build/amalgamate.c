@@ -24,11 +24,11 @@
  * each takes a compiler 50 ms. A template that another template includes is expanded in place; it
  * may be included only once.
  *
- * Parts below impl/ are indented by two columns a level instead of four, and their comments stay
- * behind, because a header is read by its users and copied in one piece: that makes OUT smaller by
- * a fifth. Whoever reads the implementation reads it in the folder of the manifest. Two kinds of
- * comments are kept: the first line of a file, and reasons why no test reaches a line, which
- * the measurement of coverage reads.
+ * Parts below impl/ are indented by two columns a level instead of four, and their comments and
+ * the alignment of continued lines stay behind, because a header is read by its users and copied in
+ * one piece: that makes OUT smaller by a fifth. Whoever reads the implementation reads it in the
+ * folder of the manifest. Two kinds of comments are kept: the first line of a file, and reasons why
+ * no test reaches a line, which the measurement of coverage reads.
  *
  * The first line of a file, "name.h: what it does", gets the path of the file and so marks where it
  * begins. A template inside another one also has a line where it ends. Includes in angle brackets

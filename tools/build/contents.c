@@ -18,43 +18,57 @@ void emit(job *j, const char *line, size_t length) {
     }
 }
 
-/* Follows comments and parentheses over a line of the implementation. */
-static void follow_text(job *j, const char *line, size_t length) {
-    for (size_t k = 0; k < length; k++) {
-        const char c = line[k], next = k + 1 < length ? line[k + 1] : '\n';
+/* Appends a part of a line of the implementation and follows its comments and parentheses. Leaves
+ * out blanks that align text, unless comments are kept. */
+static void append_code(job *j, text *to, const char *line, size_t length) {
+    for (size_t k = 0, end; k < length; k = end) {
+        const char c = line[k];
+        size_t kept = 1;
+        end = k + 1;
         if (j->is_in_comment) {
-            if (c == '*' && next == '/') j->is_in_comment = 0, k++;
-        } else if (c == '/' && next == '*') {
-            j->is_in_comment = 1, k++;
+            if (c == '*' && line[end] == '/') j->is_in_comment = 0, kept = 2;
+        } else if (c == '/' && line[end] == '*') {
+            j->is_in_comment = 1, kept = 2;
         } else if (c == '"' || c == '\'') {
-            for (k++; k < length && line[k] != c; k++)
-                k += line[k] == '\\';
+            for (; kept < length - k && line[k + kept] != c; kept++)
+                kept += line[k + kept] == '\\';
+            kept = kept < length - k ? kept + 1 : length - k;
         } else if (c == '(') {
             j->n_parentheses++;
         } else if (c == ')' && j->n_parentheses > 0) {
             j->n_parentheses--;
+        } else if (c == ' ' && !j->keeps_comments) {
+            end += strspn(line + end, " ");
         }
+        append(to, line + k, kept);
+        end = end > k + kept ? end : k + kept;
     }
 }
 
 void emit_from(job *j, const char *path, const char *line, size_t length) {
+    text code = {NULL, 0, 0};
     if (j->is_selection && strncmp(line, "#define SL_HEADER ", 18) == 0) {
         emit_format(j, "#define SL_HEADER \"%s\"\n", j->name);
         return;
     }
-    if (strncmp(path, "impl/", 5) == 0) {
-        const size_t blanks = strspn(line, " ");
-        const int continues = j->keeps_comments && (j->is_in_comment || j->n_parentheses > 0);
-        if (!continues || blanks == 0) {
-            j->dropped = blanks / 4 * 2;
-            if (!j->is_in_comment) j->n_parentheses = 0;
-        }
-        const size_t dropped = j->dropped < blanks ? j->dropped : blanks;
-        follow_text(j, line, length);
-        line += dropped;
-        length -= dropped;
+    if (strncmp(path, "impl/", 5) != 0) {
+        emit(j, line, length);
+        return;
     }
-    emit(j, line, length);
+    const size_t blanks = strspn(line, " ");
+    const int continues = j->is_in_comment || j->n_parentheses > 0;
+    if (!continues || blanks == 0) {
+        j->dropped = blanks / 4 * 2;
+        j->indentation = blanks - j->dropped;
+        if (!j->is_in_comment) j->n_parentheses = 0;
+    }
+    size_t dropped = j->dropped < blanks ? j->dropped : blanks;
+    if (!j->keeps_comments && blanks > dropped && blanks - dropped > j->indentation + 4)
+        dropped = blanks - j->indentation - 4;
+    append(&code, line + dropped, blanks - dropped);
+    append_code(j, &code, line + blanks, length - blanks);
+    emit(j, code.bytes, code.length);
+    free(code.bytes);
 }
 
 void emit_lines(job *j, const char *lines) {

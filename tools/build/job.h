@@ -24,7 +24,7 @@ typedef struct job {
     int keeps_comments;
     int is_in_comment; /* the next line of the implementation begins there, */
     int n_parentheses; /* or within as many parentheses */
-    size_t dropped;    /* columns of the last line that did not */
+    size_t dropped, indentation; /* columns of the last line that did not: left out, kept */
     text body;
     size_t lines;
     entry entries[ENTRIES_MAX];
@@ -49,8 +49,8 @@ typedef struct job {
 void emit(job *j, const char *line, size_t length);
 
 /* Emits a line of the file `path`; in the implementation, with half of each four columns of its
- * indentation. If comments are kept, lines that continue a comment or an expression in parentheses
- * move with its first line, so that they stay aligned. */
+ * indentation. Lines that continue a comment or an expression in parentheses move with its first
+ * line: if comments are kept, they stay aligned, else they are indented by up to four columns. */
 void emit_from(job *j, const char *path, const char *line, size_t length);
 
 void emit_lines(job *j, const char *lines);
