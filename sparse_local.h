@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 61526a6199b026bd
+ * FNV-1a of the lines after this comment, without the license: 3fdfe1e970e33bc9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -8,56 +8,56 @@
  *    237 config.h     macros that a user may define before the include, the version, and the integer types
  *    320 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    500 options.h    options of all calls, threads, and the allocator
- *    647 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    889 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    990 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1066 factor.h     the numerical factorization P A P' = L D L'
- *   1190 solve.h      full solves, and the workspace of all solves
- *   1286 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1360 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
- *   1450 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1545 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1583 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1682 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1758 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1843 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1934 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2042 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2082 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2207 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2239 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2420 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2518 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2621 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2662 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2749 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2855 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2891 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2967 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3006 impl/ base: the compiler, status, memory, sorting, threads
- *   4202 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5102 impl/ matrix: sparse matrices of the caller and of the library
- *   5737 impl/ ordering: fill-reducing orderings of a graph
- *  10391 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12620 impl/ factor: the numbers of L and D
- *  15975 impl/ solve: full and local solves
- *  17648 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19577 impl/ pivots: the order of the pivots by the values of a matrix
- *  19986 impl/ float: L and fronts in single precision
- *  20437 impl/ inverse: entries of the inverse, regions
- *  23500 impl/ change: a factor that follows changes of its matrix
- *  29535 impl/ dirichlet: rows fixed at given values
- *  30123 impl/ dirichlet: by a factor of all rows
- *  30356 impl/ io: files that are replaced only when they are complete
- *  30574 impl/ files: Matrix Market files, 64-bit indices
- *  31194 impl/ save: factors in files
- *  33191 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33876 impl/ batch: diagonals of many inverses
- *  34020 impl/ complex: complex Hermitian systems over real factors
- *  34582 impl/ complex: entries of the inverse
- *  34642 impl/ packs: the tables through which the core calls packs
- *  34690 impl/ last: undefine every internal macro
- *  35047 impl/ templates: the header includes them from itself, once for each instruction set
+ *    628 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    871 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    972 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1048 factor.h     the numerical factorization P A P' = L D L'
+ *   1172 solve.h      full solves, and the workspace of all solves
+ *   1268 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1342 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
+ *   1432 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1527 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1565 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1664 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1740 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1825 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1916 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2024 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2064 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2183 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2215 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2396 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2494 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2597 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2638 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2725 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2831 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2867 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2943 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2982 impl/ base: the compiler, status, memory, sorting, threads
+ *   4178 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5078 impl/ matrix: sparse matrices of the caller and of the library
+ *   5713 impl/ ordering: fill-reducing orderings of a graph
+ *  10367 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12596 impl/ factor: the numbers of L and D
+ *  15951 impl/ solve: full and local solves
+ *  17624 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19553 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19962 impl/ float: L and fronts in single precision
+ *  20413 impl/ inverse: entries of the inverse, regions
+ *  23476 impl/ change: a factor that follows changes of its matrix
+ *  29511 impl/ dirichlet: rows fixed at given values
+ *  30099 impl/ dirichlet: by a factor of all rows
+ *  30332 impl/ io: files that are replaced only when they are complete
+ *  30550 impl/ files: Matrix Market files, 64-bit indices
+ *  31170 impl/ save: factors in files
+ *  33167 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33852 impl/ batch: diagonals of many inverses
+ *  33996 impl/ complex: complex Hermitian systems over real factors
+ *  34558 impl/ complex: entries of the inverse
+ *  34618 impl/ packs: the tables through which the core calls packs
+ *  34666 impl/ last: undefine every internal macro
+ *  35023 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -525,25 +525,9 @@ typedef struct sl_allocator {
     void *context;
 } sl_allocator;
 
-/** Options. Every call takes this struct and reads the fields listed for it; all zero, or a NULL
- *  pointer, means defaults.
- *
- *  | call                                       | fields that it reads                     |
- *  |--------------------------------------------|------------------------------------------|
- *  | every call with an sl_options argument     | size, allocator                          |
- *  | sl_symbolic_create, _create_pivoted        | threads, ordering .. purpose             |
- *  | sl_csc_triangle, sl_matrix_sum             | triangle                                 |
- *  | sl_factor_create, sl_batch_factor          | threads, isa .. signs,                   |
- *  |                                            | null_vector .. storage                   |
- *  | sl_dirichlet_create                        | threads, ordering .. signs,              |
- *  |                                            | null_vector .. storage                   |
- *  | sl_batch_solve, _refactor, _diagonal       | threads                                  |
- *  | sl_selected_create, sl_work_create         | threads                                  |
- *  | sl_load_memory, _file; sl_map_memory, _file | threads, isa                             |
- *  | sl_plan_create, sl_complex_plan_create     | region                                   |
- *  | sl_region_create                           | region_bytes                             |
- *
- *  With SL_VERIFY a call refuses a field that is set and that it does not read.
+/** Options. Every call takes this struct and reads the allocator, `size`, and the fields that its
+ *  declaration lists under opt. All zero, or a NULL pointer, means defaults. With SL_VERIFY a call
+ *  refuses a field that is set and that it does not read.
  */
 typedef struct sl_options {
     /* sizeof(sl_options), set by sl_options_init; 0 means the same; else SL_ERR_ARGUMENT */
@@ -623,9 +607,6 @@ typedef struct sl_options {
     /* the columns of null_vector, at most 32: the null vectors of each component are combinations
      * of them (tools/docs/singular.md). Column-major, leading dimension n; 0: 1 */
     size_t null_vector_count;
-    /* SL_STORAGE_FLOAT keeps L in half the bytes, SL_STORAGE_FLOAT_FRONTS also computes it in
-     * float; solutions have the accuracy of float until they are refined (tools/docs/float.md).
-     * SL_STORAGE_COMPLEX keeps half of L, in full accuracy (complex.h) */
     sl_storage storage;
 
     /* 1: A is positive definite. A negative pivot is refused with SL_ERR_PIVOT and its row, for
@@ -672,9 +653,9 @@ typedef struct sl_symbolic_info {
     sl_int components;             /* roots of the elimination tree */
     sl_int pairs;                  /* 2x2 pivots, of sl_symbolic_create_pivoted; else 0 */
     sl_int delayed;                /* times it moved a column to the parent's front; else 0 */
-    /* processor seconds of the ordering, of all threads; all are 0 below 1000 entries of A */
+    /* of the ordering; all are 0 below 1000 entries of A */
     double seconds_order;
-    double seconds_analyze;        /* processor seconds of the rest of the analysis, of which: */
+    double seconds_analyze;        /* of the rest of the analysis, of which: */
     double seconds_tree;           /* P A P', elimination tree, column counts and supernodes */
     double seconds_structure;      /* rows of L and the map of A into L */
     size_t bytes;
@@ -701,9 +682,9 @@ typedef struct sl_factor_info {
      * of the pattern: about 1 to 2 for definite matrices, whatever their scaling. The backward
      * error of a solve without refinement is at most about growth * epsilon (sl_factor_create) */
     double growth;
-    /* processor seconds of schedule and memory in sl_factor_create; 0 below 4000 values of L */
+    /* of schedule and memory in sl_factor_create; 0 below 4000 values of L */
     double seconds_setup;
-    double seconds; /* processor seconds of the numbers, summed over all threads */
+    double seconds; /* of the numbers */
     size_t bytes;
 } sl_factor_info;
 
@@ -734,7 +715,7 @@ typedef struct sl_selected_info {
     sl_int supernodes; /* supernodes whose part of the inverse is kept */
     sl_int columns;    /* their columns */
     sl_off entries;    /* doubles kept */
-    double seconds;    /* processor seconds, summed over all threads */
+    double seconds;
     size_t bytes;
 } sl_selected_info;
 
@@ -745,7 +726,7 @@ typedef struct sl_region_info {
     sl_int subtrees; /* subtrees of supernodes in its interior */
     sl_off entries;  /* doubles of the inverse that are kept */
     int is_copied;   /* 1: copied from a selected inverse; 0: computed by forward sweeps */
-    double seconds;  /* processor seconds */
+    double seconds;
     size_t bytes;
 } sl_region_info;
 
@@ -761,7 +742,7 @@ typedef struct sl_certificate_info {
     sl_int solves;         /* full solves that found eta; 0 if it was there */
     double eta;            /* the largest relative error in the energy norm */
     double eigenvalue_min; /* guaranteed: a lower bound, of A scaled to a unit diagonal; else 0 */
-    double seconds;        /* processor seconds */
+    double seconds;
 } sl_certificate_info;
 
 /** A change of a factor in place: sl_factor_update, sl_factor_change. */
@@ -780,7 +761,7 @@ typedef struct sl_change_info {
      * sl_factor_change, else 0 */
     double flops_changed;
     double flops_refactor; /* of sl_factor_refactor; of sl_factor_change, else 0 */
-    double seconds;        /* processor seconds */
+    double seconds;
 } sl_change_info;
 
 /** The factor of a principal submatrix: sl_factor_restrict. */
@@ -790,7 +771,7 @@ typedef struct sl_restrict_info {
     sl_off entries;  /* doubles of L that were copied */
     int is_anew;     /* 1: too few columns to copy: all were analyzed and computed */
     int padding;     /* not written */
-    double seconds;  /* processor seconds, analysis included */
+    double seconds;  /* analysis included */
 } sl_restrict_info;
 
 /** An analysis that follows an edit of the pattern: sl_symbolic_edit. */
@@ -804,7 +785,7 @@ typedef struct sl_edit_info {
     /* nnz_l relative to that of a new order, which is estimated: the entries of the last one, times
      * the growth of the entries of A since then. A loaded analysis counts as a new one */
     double growth;
-    double seconds; /* processor seconds, all included */
+    double seconds; /* all included */
 } sl_edit_info;
 
 /** A factor that follows an edit of the pattern: sl_factor_edit. */
@@ -816,13 +797,13 @@ typedef struct sl_reuse_info {
     double flops_anew;       /* of all columns */
     int is_anew;             /* 1: a whole factorization */
     sl_change_reason reason; /* why: SL_CHANGE_CHEAPEST, _UNSUITED, _REFUSED */
-    double seconds;          /* processor seconds, summed over all threads */
+    double seconds;
 } sl_reuse_info;
 
 /** A set of pins: sl_pins_add, _add_equality, _release, _refactor. */
 typedef struct sl_pins_info {
     sl_int count;   /* pins and equalities */
-    double seconds; /* processor seconds of the call; from some stats.factor.seconds on,
+    double seconds; /* of the call; from some stats.factor.seconds on,
                      * sl_dirichlet_create holds the same rows sooner */
 } sl_pins_info;
 
@@ -835,11 +816,12 @@ typedef struct sl_dirichlet_info {
     double seconds_submatrix;
     double seconds_restriction; /* the same */
     double seconds_pins;        /* the same; 0 also where pins are not possible */
-    double seconds;             /* processor seconds of the call */
+    double seconds;             /* of the call */
 } sl_dirichlet_info;
 
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
  *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
+ *  Seconds are processor time, the sum over all threads.
  */
 typedef struct sl_stats {
     sl_error error;
@@ -2097,13 +2079,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
  * A plan belongs to the analysis. It serves all of these factors, one by one or in a batch whose
  * requests name their factors.
  *
- * Heat-kernel signatures: let M be the masses and K = L the positive semidefinite cotangent
- * Laplacian. One implicit step of length t is (M + t L) u(t) = M u(0). For unit heat in vertex i,
- * u(0) = e_i / M(i,i); the heat kernel is then approximated by h_t(i,j) = (A_t^-1)(i,j), and
- * h_t(i,i) is the signature of i at time t, the auto-diffusion of [HDA17] 5, which solves with
- * b = e_i. It is a density: the masses integrate h_t(i,j) to 1 over j. The share of the heat that
- * remains at i is h_t(i,i) M(i,i). To compare times, divide each column by the trace, the sum over
- * i of these shares.
+ * Manual   tools/docs/inverse.md: heat-kernel signatures
  */
 
 /** C = c_1 A_1 + .. + c_k A_k of symmetric matrices, as its lower triangle with ascending rows.

@@ -30,25 +30,9 @@ typedef struct sl_allocator {
     void *context;
 } sl_allocator;
 
-/** Options. Every call takes this struct and reads the fields listed for it; all zero, or a NULL
- *  pointer, means defaults.
- *
- *  | call                                       | fields that it reads                     |
- *  |--------------------------------------------|------------------------------------------|
- *  | every call with an sl_options argument     | size, allocator                          |
- *  | sl_symbolic_create, _create_pivoted        | threads, ordering .. purpose             |
- *  | sl_csc_triangle, sl_matrix_sum             | triangle                                 |
- *  | sl_factor_create, sl_batch_factor          | threads, isa .. signs,                   |
- *  |                                            | null_vector .. storage                   |
- *  | sl_dirichlet_create                        | threads, ordering .. signs,              |
- *  |                                            | null_vector .. storage                   |
- *  | sl_batch_solve, _refactor, _diagonal       | threads                                  |
- *  | sl_selected_create, sl_work_create         | threads                                  |
- *  | sl_load_memory, _file; sl_map_memory, _file | threads, isa                             |
- *  | sl_plan_create, sl_complex_plan_create     | region                                   |
- *  | sl_region_create                           | region_bytes                             |
- *
- *  With SL_VERIFY a call refuses a field that is set and that it does not read.
+/** Options. Every call takes this struct and reads the allocator, `size`, and the fields that its
+ *  declaration lists under opt. All zero, or a NULL pointer, means defaults. With SL_VERIFY a call
+ *  refuses a field that is set and that it does not read.
  */
 typedef struct sl_options {
     /* sizeof(sl_options), set by sl_options_init; 0 means the same; else SL_ERR_ARGUMENT */
@@ -128,9 +112,6 @@ typedef struct sl_options {
     /* the columns of null_vector, at most 32: the null vectors of each component are combinations
      * of them (tools/docs/singular.md). Column-major, leading dimension n; 0: 1 */
     size_t null_vector_count;
-    /* SL_STORAGE_FLOAT keeps L in half the bytes, SL_STORAGE_FLOAT_FRONTS also computes it in
-     * float; solutions have the accuracy of float until they are refined (tools/docs/float.md).
-     * SL_STORAGE_COMPLEX keeps half of L, in full accuracy (complex.h) */
     sl_storage storage;
 
     /* 1: A is positive definite. A negative pivot is refused with SL_ERR_PIVOT and its row, for

@@ -21,13 +21,7 @@
  * A plan belongs to the analysis. It serves all of these factors, one by one or in a batch whose
  * requests name their factors.
  *
- * Heat-kernel signatures: let M be the masses and K = L the positive semidefinite cotangent
- * Laplacian. One implicit step of length t is (M + t L) u(t) = M u(0). For unit heat in vertex i,
- * u(0) = e_i / M(i,i); the heat kernel is then approximated by h_t(i,j) = (A_t^-1)(i,j), and
- * h_t(i,i) is the signature of i at time t, the auto-diffusion of [HDA17] 5, which solves with
- * b = e_i. It is a density: the masses integrate h_t(i,j) to 1 over j. The share of the heat that
- * remains at i is h_t(i,i) M(i,i). To compare times, divide each column by the trace, the sum over
- * i of these shares.
+ * Manual   tools/docs/inverse.md: heat-kernel signatures
  */
 
 /** C = c_1 A_1 + .. + c_k A_k of symmetric matrices, as its lower triangle with ascending rows.

@@ -30,9 +30,9 @@ typedef struct sl_symbolic_info {
     sl_int components;             /* roots of the elimination tree */
     sl_int pairs;                  /* 2x2 pivots, of sl_symbolic_create_pivoted; else 0 */
     sl_int delayed;                /* times it moved a column to the parent's front; else 0 */
-    /* processor seconds of the ordering, of all threads; all are 0 below 1000 entries of A */
+    /* of the ordering; all are 0 below 1000 entries of A */
     double seconds_order;
-    double seconds_analyze;        /* processor seconds of the rest of the analysis, of which: */
+    double seconds_analyze;        /* of the rest of the analysis, of which: */
     double seconds_tree;           /* P A P', elimination tree, column counts and supernodes */
     double seconds_structure;      /* rows of L and the map of A into L */
     size_t bytes;
@@ -59,9 +59,9 @@ typedef struct sl_factor_info {
      * of the pattern: about 1 to 2 for definite matrices, whatever their scaling. The backward
      * error of a solve without refinement is at most about growth * epsilon (sl_factor_create) */
     double growth;
-    /* processor seconds of schedule and memory in sl_factor_create; 0 below 4000 values of L */
+    /* of schedule and memory in sl_factor_create; 0 below 4000 values of L */
     double seconds_setup;
-    double seconds; /* processor seconds of the numbers, summed over all threads */
+    double seconds; /* of the numbers */
     size_t bytes;
 } sl_factor_info;
 
@@ -92,7 +92,7 @@ typedef struct sl_selected_info {
     sl_int supernodes; /* supernodes whose part of the inverse is kept */
     sl_int columns;    /* their columns */
     sl_off entries;    /* doubles kept */
-    double seconds;    /* processor seconds, summed over all threads */
+    double seconds;
     size_t bytes;
 } sl_selected_info;
 
@@ -103,7 +103,7 @@ typedef struct sl_region_info {
     sl_int subtrees; /* subtrees of supernodes in its interior */
     sl_off entries;  /* doubles of the inverse that are kept */
     int is_copied;   /* 1: copied from a selected inverse; 0: computed by forward sweeps */
-    double seconds;  /* processor seconds */
+    double seconds;
     size_t bytes;
 } sl_region_info;
 
@@ -119,7 +119,7 @@ typedef struct sl_certificate_info {
     sl_int solves;         /* full solves that found eta; 0 if it was there */
     double eta;            /* the largest relative error in the energy norm */
     double eigenvalue_min; /* guaranteed: a lower bound, of A scaled to a unit diagonal; else 0 */
-    double seconds;        /* processor seconds */
+    double seconds;
 } sl_certificate_info;
 
 /** A change of a factor in place: sl_factor_update, sl_factor_change. */
@@ -138,7 +138,7 @@ typedef struct sl_change_info {
      * sl_factor_change, else 0 */
     double flops_changed;
     double flops_refactor; /* of sl_factor_refactor; of sl_factor_change, else 0 */
-    double seconds;        /* processor seconds */
+    double seconds;
 } sl_change_info;
 
 /** The factor of a principal submatrix: sl_factor_restrict. */
@@ -148,7 +148,7 @@ typedef struct sl_restrict_info {
     sl_off entries;  /* doubles of L that were copied */
     int is_anew;     /* 1: too few columns to copy: all were analyzed and computed */
     int padding;     /* not written */
-    double seconds;  /* processor seconds, analysis included */
+    double seconds;  /* analysis included */
 } sl_restrict_info;
 
 /** An analysis that follows an edit of the pattern: sl_symbolic_edit. */
@@ -162,7 +162,7 @@ typedef struct sl_edit_info {
     /* nnz_l relative to that of a new order, which is estimated: the entries of the last one, times
      * the growth of the entries of A since then. A loaded analysis counts as a new one */
     double growth;
-    double seconds; /* processor seconds, all included */
+    double seconds; /* all included */
 } sl_edit_info;
 
 /** A factor that follows an edit of the pattern: sl_factor_edit. */
@@ -174,13 +174,13 @@ typedef struct sl_reuse_info {
     double flops_anew;       /* of all columns */
     int is_anew;             /* 1: a whole factorization */
     sl_change_reason reason; /* why: SL_CHANGE_CHEAPEST, _UNSUITED, _REFUSED */
-    double seconds;          /* processor seconds, summed over all threads */
+    double seconds;
 } sl_reuse_info;
 
 /** A set of pins: sl_pins_add, _add_equality, _release, _refactor. */
 typedef struct sl_pins_info {
     sl_int count;   /* pins and equalities */
-    double seconds; /* processor seconds of the call; from some stats.factor.seconds on,
+    double seconds; /* of the call; from some stats.factor.seconds on,
                      * sl_dirichlet_create holds the same rows sooner */
 } sl_pins_info;
 
@@ -193,11 +193,12 @@ typedef struct sl_dirichlet_info {
     double seconds_submatrix;
     double seconds_restriction; /* the same */
     double seconds_pins;        /* the same; 0 also where pins are not possible */
-    double seconds;             /* processor seconds of the call */
+    double seconds;             /* of the call */
 } sl_dirichlet_info;
 
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
  *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
+ *  Seconds are processor time, the sum over all threads.
  */
 typedef struct sl_stats {
     sl_error error;
