@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 3fdfe1e970e33bc9
+ * FNV-1a of the lines after this comment, without the license: 8b4368c859d92c21
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,29 +35,29 @@
  *   2867 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   2943 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   2982 impl/ base: the compiler, status, memory, sorting, threads
- *   4178 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5078 impl/ matrix: sparse matrices of the caller and of the library
- *   5713 impl/ ordering: fill-reducing orderings of a graph
- *  10367 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12596 impl/ factor: the numbers of L and D
- *  15951 impl/ solve: full and local solves
- *  17624 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19553 impl/ pivots: the order of the pivots by the values of a matrix
- *  19962 impl/ float: L and fronts in single precision
- *  20413 impl/ inverse: entries of the inverse, regions
- *  23476 impl/ change: a factor that follows changes of its matrix
- *  29511 impl/ dirichlet: rows fixed at given values
- *  30099 impl/ dirichlet: by a factor of all rows
- *  30332 impl/ io: files that are replaced only when they are complete
- *  30550 impl/ files: Matrix Market files, 64-bit indices
- *  31170 impl/ save: factors in files
- *  33167 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33852 impl/ batch: diagonals of many inverses
- *  33996 impl/ complex: complex Hermitian systems over real factors
- *  34558 impl/ complex: entries of the inverse
- *  34618 impl/ packs: the tables through which the core calls packs
- *  34666 impl/ last: undefine every internal macro
- *  35023 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4194 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5094 impl/ matrix: sparse matrices of the caller and of the library
+ *   5729 impl/ ordering: fill-reducing orderings of a graph
+ *  10375 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12604 impl/ factor: the numbers of L and D
+ *  15959 impl/ solve: full and local solves
+ *  17632 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19561 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19970 impl/ float: L and fronts in single precision
+ *  20421 impl/ inverse: entries of the inverse, regions
+ *  23484 impl/ change: a factor that follows changes of its matrix
+ *  29509 impl/ dirichlet: rows fixed at given values
+ *  30097 impl/ dirichlet: by a factor of all rows
+ *  30330 impl/ io: files that are replaced only when they are complete
+ *  30548 impl/ files: Matrix Market files, 64-bit indices
+ *  31168 impl/ save: factors in files
+ *  33165 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33850 impl/ batch: diagonals of many inverses
+ *  33994 impl/ complex: complex Hermitian systems over real factors
+ *  34556 impl/ complex: entries of the inverse
+ *  34616 impl/ packs: the tables through which the core calls packs
+ *  34664 impl/ last: undefine every internal macro
+ *  35021 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3939,6 +3939,22 @@ static void sli_sort(uint64_t *a, sl_int count, uint64_t *scratch) {
   }
 }
 
+SLI_INLINE sl_off sli_starts(sl_off *begin, sl_int n) {
+  sl_off total = 0;
+  sl_int k;
+  for (k = 0; k <= n; k++) {
+    const sl_off here = begin[k];
+    begin[k] = total;
+    total += here;
+  }
+  return begin[n];
+}
+
+SLI_INLINE void sli_starts_restore(sl_off *begin, sl_int n) {
+  memmove(begin + 1, begin, (size_t)n * sizeof(sl_off));
+  begin[0] = 0;
+}
+
 /* src/impl/base/parallel.h: runs work items on the caller's threads; a team of workers that share loops */
 
 SLI_INLINE sl_int sli_workers(const sl_threads *t) {
@@ -5728,8 +5744,7 @@ typedef struct sli_graph {
 SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, const sl_int *column,
     sl_triangle triangle, sl_int block) {
   const sl_int nnz = sli_nnz(A);
-  sl_int v, p;
-  sl_off total = 0;
+  sl_int p;
   memset(G->begin, 0, ((size_t)G->n + 1) * sizeof(sl_off));
   for (p = 0; p < nnz; p++) {
     const sl_int j = column[p], at = block == 1 ? j : j / block;
@@ -5738,11 +5753,7 @@ SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, const sl_int *colu
     G->begin[u] += is_edge;
     G->begin[at] += is_edge;
   }
-  for (v = 0; v <= G->n; v++) {
-    const sl_off here = G->begin[v];
-    G->begin[v] = total;
-    total += here;
-  }
+  (void)sli_starts(G->begin, G->n);
   for (p = 0; p < nnz; p++) {
     const sl_int j = column[p], at = block == 1 ? j : j / block;
     const sl_int u = block == 1 ? A->i[p] : A->i[p] / block;
@@ -5751,10 +5762,7 @@ SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, const sl_int *colu
       G->to[G->begin[u]++] = at;
     }
   }
-  if (G->n > 0) {
-    memmove(G->begin + 1, G->begin, (size_t)G->n * sizeof(sl_off));
-  }
-  G->begin[0] = 0;
+  sli_starts_restore(G->begin, G->n);
 }
 
 SLI_INLINE int sli_graph_is_sorted(const sli_graph *G) {
@@ -23772,6 +23780,18 @@ static void sli_kept_run(sl_factor *G, sl_int s, sl_int worker) {
   }
 }
 
+static sli_kept sli_kept_of(const sl_factor *F, const sl_int *from, const sl_int *columns,
+    int is_subset) {
+  sli_kept p;
+  memset(&p, 0, sizeof p);
+  p.F = F;
+  p.copied.from = from;
+  p.copied.copy = sli_kept_run;
+  p.columns = columns;
+  p.is_subset = is_subset;
+  return p;
+}
+
 /* src/impl/change/reached.h: refactors after local changes: keeps the supernodes that they do not reach */
 
 static int sli_nulls_remain(const sl_factor *F) {
@@ -23888,11 +23908,7 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
   }
   if (status == SL_OK) {
     sli_changes_mark(c, F->S, A, from);
-    memset(&kept, 0, sizeof kept);
-    kept.F = F;
-    kept.copied.from = from;
-    kept.copied.copy = sli_kept_run;
-    kept.is_subset = 1;
+    kept = sli_kept_of(F, from, NULL, 1);
     status = sli_kept_room(&kept, F, &room);
   }
   if (status == SL_OK) {
@@ -27375,6 +27391,35 @@ typedef struct sli_joint {
   sl_off rows, panel;
 } sli_joint;
 
+static sl_status sli_joint_room(sl_symbolic **out, sl_symbolic *draft, sl_off rows, sl_off entries,
+    sl_stats *stats) {
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  SLI_LAYOUT(&b, &draft->allocator, status) {
+    (void)sli_take(&b, 1, sizeof(sl_symbolic));
+    sli_symbolic_layout(draft, &b, rows, entries);
+    stats->symbolic.bytes = b.used;
+  }
+  if (status == SL_OK) {
+    *out = (sl_symbolic *)(void *)b.base;
+    **out = *draft;
+  }
+  return status;
+}
+
+SLI_INLINE sli_joint sli_joint_start(sl_symbolic *S) {
+  sli_joint j;
+  memset(&j, 0, sizeof j);
+  j.S = S;
+  return j;
+}
+
+SLI_INLINE void sli_joint_end(const sli_joint *j) {
+  j->S->super_first[j->super] = j->column;
+  j->S->rows_begin[j->super] = j->rows;
+  j->S->panel_begin[j->super] = j->panel;
+}
+
 static void sli_joint_add(sli_joint *j, sl_int width, sl_off below) {
   sl_symbolic *S = j->S;
   sl_int k;
@@ -27403,8 +27448,9 @@ SLI_HOT static void sli_joint_add_kept(sli_joint *j, sli_restriction *r, sl_int 
   }
 }
 
-static void sli_joint_number(sli_joint *j, sli_restriction *r) {
+static void sli_joint_number(sl_symbolic *S, sli_restriction *r) {
   const sl_symbolic *T = &r->T;
+  sli_joint j = sli_joint_start(S);
   sl_int q, t, k;
   for (t = 0; t <= T->n_supers; t++) {
     r->head[t] = -1;
@@ -27419,19 +27465,17 @@ static void sli_joint_number(sli_joint *j, sli_restriction *r) {
       r->head[t] = q;
     }
   }
-  sli_joint_add_kept(j, r, r->head[T->n_supers]);
+  sli_joint_add_kept(&j, r, r->head[T->n_supers]);
   for (t = 0; t < T->n_supers; t++) {
     const sl_int first = T->super_first[t], width = T->super_first[t + 1] - first;
-    sli_joint_add_kept(j, r, r->head[t]);
+    sli_joint_add_kept(&j, r, r->head[t]);
     for (k = 0; k < width; k++) {
-      r->column_of[r->fresh[r->w.old_of[first + k]]] = j->column + k;
+      r->column_of[r->fresh[r->w.old_of[first + k]]] = j.column + k;
     }
-    r->T_new[t] = j->super;
-    sli_joint_add(j, width, T->rows_begin[t + 1] - T->rows_begin[t]);
+    r->T_new[t] = j.super;
+    sli_joint_add(&j, width, T->rows_begin[t + 1] - T->rows_begin[t]);
   }
-  j->S->super_first[j->super] = j->column;
-  j->S->rows_begin[j->super] = j->rows;
-  j->S->panel_begin[j->super] = j->panel;
+  sli_joint_end(&j);
 }
 
 SLI_HOT static void sli_joint_fill_kept(sl_symbolic *S, const sli_restriction *r, sl_int q) {
@@ -27483,6 +27527,16 @@ static void sli_joint_fill_fresh(sl_symbolic *S, const sli_restriction *r, sl_in
   }
 }
 
+static void sli_joint_complete(sl_symbolic *S, sl_int *scratch, sl_stats *stats) {
+  sli_fill_steps(S);
+  sli_fill_descendants(S);
+  sli_fill_relative(S, scratch);
+  sli_fill_identity(S, stats->symbolic.triangle);
+  stats->symbolic.nnz_a = S->scatter_begin[S->n_supers];
+  sli_analyze_stats(S, scratch, stats);
+  S->stats.symbolic = stats->symbolic;
+}
+
 static void sli_joint_fill(sl_symbolic *S, sli_restriction *r, sl_stats *stats) {
   sl_int *scratch = (sl_int *)(void *)r->list;
   sl_int s, q, k;
@@ -27505,12 +27559,7 @@ static void sli_joint_fill(sl_symbolic *S, sli_restriction *r, sl_stats *stats) 
   for (s = 0; s < S->n_supers; s++) {
     S->scatter_begin[s + 1] += S->scatter_begin[s];
   }
-  sli_fill_steps(S);
-  sli_fill_descendants(S);
-  sli_fill_relative(S, scratch);
-  sli_fill_identity(S, stats->symbolic.triangle);
-  stats->symbolic.nnz_a = at;
-  sli_analyze_stats(S, scratch, stats);
+  sli_joint_complete(S, scratch, stats);
 }
 
 static sl_symbolic sli_restriction_draft(const sli_restriction *r, const sl_allocator *a) {
@@ -27537,27 +27586,17 @@ static sl_status sli_restriction_make(sl_symbolic **out, sli_restriction *r, con
 static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_allocator *a,
     sl_stats *stats) {
   sl_symbolic draft = sli_restriction_draft(r, a);
-  sli_block b = {NULL, 0, 0};
-  sli_joint j;
   sl_status status = sli_restriction_analyze(r, a, stats);
   draft.n_supers = r->n_kept + r->T.n_supers;
-  SLI_LAYOUT(&b, a, status) {
-    (void)sli_take(&b, 1, sizeof(sl_symbolic));
-    sli_symbolic_layout(&draft, &b, r->below_begin[r->n_kept] + r->T.rows_begin[r->T.n_supers],
-        r->n_entries);
-    stats->symbolic.bytes = b.used;
+  if (status == SL_OK) {
+    const sl_off rows = r->below_begin[r->n_kept] + r->T.rows_begin[r->T.n_supers];
+    status = sli_joint_room(out, &draft, rows, r->n_entries, stats);
   }
-  if (status != SL_OK) {
-    return status;
+  if (status == SL_OK) {
+    sli_joint_number(*out, r);
+    sli_joint_fill(*out, r, stats);
   }
-  memset(&j, 0, sizeof j);
-  j.S = &draft;
-  sli_joint_number(&j, r);
-  sli_joint_fill(&draft, r, stats);
-  draft.stats.symbolic = stats->symbolic;
-  *out = (sl_symbolic *)(void *)b.base;
-  **out = draft;
-  return SL_OK;
+  return status;
 }
 
 /* src/impl/change/restrict.h: sl_factor_restrict: the factor of A[R, R] from that of A */
@@ -27608,14 +27647,9 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
       columns = SLI_TAKE(&b, sl_int, G->S->n);
     }
   }
-  memset(&kept, 0, sizeof kept);
+  kept = sli_kept_of(F, from, columns, 1);
   if (status == SL_OK && r->n_kept > 0) {
     sli_restrict_keep(G, r, from, columns);
-    kept.F = F;
-    kept.copied.from = from;
-    kept.copied.copy = sli_kept_run;
-    kept.columns = columns;
-    kept.is_subset = 1;
     status = sli_kept_room(&kept, G, &room);
   }
   if (status == SL_OK) {
@@ -28056,8 +28090,7 @@ static void sli_edit_scan(sli_edit *e) {
 
 static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
   sli_block b = {NULL, 0, 0};
-  sl_off total = 0;
-  sl_int k;
+  sl_off total;
   sl_status status = SL_OK;
   SLI_LAYOUT(&b, a, status) {
     e->begin = SLI_TAKE(&b, sl_off, (uint64_t)e->n_near + 1);
@@ -28071,11 +28104,7 @@ static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
   memset(e->begin, 0, ((size_t)e->n_near + 1) * sizeof(sl_off));
   e->to = NULL;
   sli_edit_scan(e);
-  for (k = 0; k <= e->n_near; k++) {
-    const sl_off here = e->begin[k];
-    e->begin[k] = total;
-    total += here;
-  }
+  total = sli_starts(e->begin, e->n_near);
   memset(&b, 0, sizeof b);
   SLI_LAYOUT(&b, a, status) {
     e->to = SLI_TAKE(&b, sl_int, total);
@@ -28085,8 +28114,7 @@ static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
     return status;
   }
   sli_edit_scan(e);
-  memmove(e->begin + 1, e->begin, (size_t)e->n_near * sizeof(sl_off));
-  e->begin[0] = 0;
+  sli_starts_restore(e->begin, e->n_near);
   return SL_OK;
 }
 
@@ -28640,7 +28668,7 @@ static void sli_edit_graph(const sli_edit *e, sli_graph *G) {
 static sl_status sli_edit_make_graph(sli_edit *e, sli_graph *G, sli_block *edges,
     const sl_allocator *a) {
   const sl_int count = e->n_grouped;
-  sl_off total = 0;
+  sl_off total;
   sl_status status = SL_OK;
   sl_int k;
   for (k = 0; k < e->n; k++) {
@@ -28651,18 +28679,13 @@ static sl_status sli_edit_make_graph(sli_edit *e, sli_graph *G, sli_block *edges
   }
   memset(G->begin, 0, ((size_t)count + 1) * sizeof(sl_off));
   sli_edit_graph(e, G);
-  for (k = 0; k <= count; k++) {
-    const sl_off here = G->begin[k];
-    G->begin[k] = total;
-    total += here;
-  }
+  total = sli_starts(G->begin, count);
   SLI_LAYOUT(edges, a, status) {
     G->to = SLI_TAKE(edges, sl_int, total);
   }
   if (status == SL_OK) {
     sli_edit_graph(e, G);
-    memmove(G->begin + 1, G->begin, (size_t)count * sizeof(sl_off));
-    G->begin[0] = 0;
+    sli_starts_restore(G->begin, count);
     status = sli_graph_make_canonical(G, a);
   }
   return status;
@@ -28852,10 +28875,8 @@ static void sli_edit_join_kept(sli_edit_join *j, sli_joint *at, sl_int s) {
 
 static void sli_edit_join_number(sli_edit_join *j) {
   const sl_symbolic *S = j->e->S, *fresh = &j->r.T;
-  sli_joint at;
+  sli_joint at = sli_joint_start(j->T);
   sl_int s, t, k, root;
-  memset(&at, 0, sizeof at);
-  at.S = j->T;
   for (t = 0; t <= fresh->n_supers; t++) {
     j->r.head[t] = -1;
   }
@@ -28883,9 +28904,7 @@ static void sli_edit_join_number(sli_edit_join *j) {
       sli_joint_add(&at, width, fresh->rows_begin[t + 1] - fresh->rows_begin[t]);
     }
   }
-  j->T->super_first[at.super] = at.column;
-  j->T->rows_begin[at.super] = at.rows;
-  j->T->panel_begin[at.super] = at.panel;
+  sli_joint_end(&at);
 }
 
 static void sli_edit_join_maps(sli_edit_join *j) {
@@ -28973,7 +28992,7 @@ static void sli_edit_join_map(sli_edit_join *j, sl_int s, int is_moved) {
 static void sli_edit_join_count(sli_edit_join *j) {
   const sl_symbolic *S = j->e->S, *fresh = &j->r.T;
   sl_symbolic *T = j->T;
-  sl_off m, total = 0;
+  sl_off m;
   sl_int s, t;
   memset(T->scatter_begin, 0, ((size_t)T->n_supers + 1) * sizeof(sl_off));
   for (s = 0; s < S->n_supers; s++) {
@@ -28986,11 +29005,7 @@ static void sli_edit_join_count(sli_edit_join *j) {
       T->scatter_begin[j->r.T_new[t]] += fresh->scatter_from[m] != -1;
     }
   }
-  for (s = 0; s <= T->n_supers; s++) {
-    const sl_off here = T->scatter_begin[s];
-    T->scatter_begin[s] = total;
-    total += here;
-  }
+  (void)sli_starts(T->scatter_begin, T->n_supers);
 }
 
 static sl_int sli_edit_join_fundamental(const sl_symbolic *T, sl_int *children) {
@@ -29024,20 +29039,14 @@ static void sli_edit_join_fill(sli_edit_join *j, sl_stats *stats) {
     sl_off at = T->scatter_begin[j->r.T_new[t]];
     sli_joint_fill_fresh(T, &j->r, t, &at);
   }
-  sli_fill_steps(T);
-  sli_fill_descendants(T);
-  sli_fill_relative(T, j->e->cursor);
-  sli_fill_identity(T, stats->symbolic.triangle);
-  stats->symbolic.nnz_a = T->scatter_begin[T->n_supers];
-  sli_analyze_stats(T, j->e->cursor, stats);
   stats->symbolic.supernodes_fundamental = sli_edit_join_fundamental(T, j->e->cursor);
+  sli_joint_complete(T, j->e->cursor, stats);
 }
 
 static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const sl_allocator *a,
     sl_stats *stats) {
   const sl_symbolic *S = j->e->S;
   sl_symbolic draft;
-  sli_block b = {NULL, 0, 0};
   sl_off rows, entries = 0;
   sl_int s, k;
   sl_status status = sli_edit_join_room(j, a);
@@ -29058,20 +29067,12 @@ static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const s
   for (k = 0; k < j->r.n_entries; k++) {
     entries += j->r.entry_from[k] != -1;
   }
-  SLI_LAYOUT(&b, a, status) {
-    (void)sli_take(&b, 1, sizeof(sl_symbolic));
-    sli_symbolic_layout(&draft, &b, rows, entries);
-    stats->symbolic.bytes = b.used;
+  status = status == SL_OK ? sli_joint_room(out, &draft, rows, entries, stats) : status;
+  if (status == SL_OK) {
+    j->T = *out;
+    sli_edit_join_fill(j, stats);
   }
-  if (status != SL_OK) {
-    return status;
-  }
-  j->T = &draft;
-  sli_edit_join_fill(j, stats);
-  draft.stats.symbolic = stats->symbolic;
-  *out = (sl_symbolic *)(void *)b.base;
-  **out = draft;
-  return SL_OK;
+  return status;
 }
 
 /* src/impl/change/edit.h: sl_symbolic_edit: the analysis of an edited matrix from that of the matrix before */
@@ -29268,10 +29269,7 @@ static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *s
   for (k = 0; k < T->n; k++) {
     r->columns[k] = r->row_columns[T->perm[k]];
   }
-  r->kept.F = r->F;
-  r->kept.copied.from = r->from;
-  r->kept.copied.copy = sli_kept_run;
-  r->kept.columns = r->columns;
+  r->kept = sli_kept_of(r->F, r->from, r->columns, 0);
   return status;
 }
 

@@ -73,4 +73,23 @@ static void sli_sort(uint64_t *a, sl_int count, uint64_t *scratch) {
     }
 }
 
+/* Turns the lengths of n lists, and begin[n] = 0, into their starts: sums of the lengths before.
+ * Returns the sum of all. */
+SLI_INLINE sl_off sli_starts(sl_off *begin, sl_int n) {
+    sl_off total = 0;
+    sl_int k;
+    for (k = 0; k <= n; k++) {
+        const sl_off here = begin[k];
+        begin[k] = total;
+        total += here;
+    }
+    return begin[n];
+}
+
+/* Undoes that each start has advanced to the end of its list. */
+SLI_INLINE void sli_starts_restore(sl_off *begin, sl_int n) {
+    memmove(begin + 1, begin, (size_t)n * sizeof(sl_off));
+    begin[0] = 0;
+}
+
 #endif

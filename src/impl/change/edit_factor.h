@@ -57,10 +57,7 @@ static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *s
     for (k = 0; k < T->n; k++) {
         r->columns[k] = r->row_columns[T->perm[k]];
     }
-    r->kept.F = r->F;
-    r->kept.copied.from = r->from;
-    r->kept.copied.copy = sli_kept_run;
-    r->kept.columns = r->columns;
+    r->kept = sli_kept_of(r->F, r->from, r->columns, 0);
     return status;
 }
 

@@ -56,10 +56,8 @@ static void sli_edit_join_kept(sli_edit_join *j, sli_joint *at, sl_int s) {
  * Kept trees without a row below come first of all. */
 static void sli_edit_join_number(sli_edit_join *j) {
     const sl_symbolic *S = j->e->S, *fresh = &j->r.T;
-    sli_joint at;
+    sli_joint at = sli_joint_start(j->T);
     sl_int s, t, k, root;
-    memset(&at, 0, sizeof at);
-    at.S = j->T;
     for (t = 0; t <= fresh->n_supers; t++) {
         j->r.head[t] = -1;
     }
@@ -87,9 +85,7 @@ static void sli_edit_join_number(sli_edit_join *j) {
             sli_joint_add(&at, width, fresh->rows_begin[t + 1] - fresh->rows_begin[t]);
         }
     }
-    j->T->super_first[at.super] = at.column;
-    j->T->rows_begin[at.super] = at.rows;
-    j->T->panel_begin[at.super] = at.panel;
+    sli_joint_end(&at);
 }
 
 /* Completes the maps from rows and from columns of S to the final columns. */
@@ -183,7 +179,7 @@ static void sli_edit_join_map(sli_edit_join *j, sl_int s, int is_moved) {
 static void sli_edit_join_count(sli_edit_join *j) {
     const sl_symbolic *S = j->e->S, *fresh = &j->r.T;
     sl_symbolic *T = j->T;
-    sl_off m, total = 0;
+    sl_off m;
     sl_int s, t;
     memset(T->scatter_begin, 0, ((size_t)T->n_supers + 1) * sizeof(sl_off));
     for (s = 0; s < S->n_supers; s++) {
@@ -196,11 +192,7 @@ static void sli_edit_join_count(sli_edit_join *j) {
             T->scatter_begin[j->r.T_new[t]] += fresh->scatter_from[m] != -1;
         }
     }
-    for (s = 0; s <= T->n_supers; s++) {
-        const sl_off here = T->scatter_begin[s];
-        T->scatter_begin[s] = total;
-        total += here;
-    }
+    (void)sli_starts(T->scatter_begin, T->n_supers);
 }
 
 /* The number of fundamental supernodes: a column continues one if it has one child, of one entry
@@ -237,13 +229,8 @@ static void sli_edit_join_fill(sli_edit_join *j, sl_stats *stats) {
         sl_off at = T->scatter_begin[j->r.T_new[t]];
         sli_joint_fill_fresh(T, &j->r, t, &at);
     }
-    sli_fill_steps(T);
-    sli_fill_descendants(T);
-    sli_fill_relative(T, j->e->cursor);
-    sli_fill_identity(T, stats->symbolic.triangle);
-    stats->symbolic.nnz_a = T->scatter_begin[T->n_supers];
-    sli_analyze_stats(T, j->e->cursor, stats);
     stats->symbolic.supernodes_fundamental = sli_edit_join_fundamental(T, j->e->cursor);
+    sli_joint_complete(T, j->e->cursor, stats);
 }
 
 /* Creates the analysis of B. */
@@ -251,7 +238,6 @@ static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const s
                                     sl_stats *stats) {
     const sl_symbolic *S = j->e->S;
     sl_symbolic draft;
-    sli_block b = {NULL, 0, 0};
     sl_off rows, entries = 0;
     sl_int s, k;
     sl_status status = sli_edit_join_room(j, a);
@@ -272,20 +258,12 @@ static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const s
     for (k = 0; k < j->r.n_entries; k++) {
         entries += j->r.entry_from[k] != -1;
     }
-    SLI_LAYOUT(&b, a, status) {
-        (void)sli_take(&b, 1, sizeof(sl_symbolic));
-        sli_symbolic_layout(&draft, &b, rows, entries);
-        stats->symbolic.bytes = b.used;
+    status = status == SL_OK ? sli_joint_room(out, &draft, rows, entries, stats) : status;
+    if (status == SL_OK) {
+        j->T = *out;
+        sli_edit_join_fill(j, stats);
     }
-    if (status != SL_OK) {
-        return status;
-    }
-    j->T = &draft;
-    sli_edit_join_fill(j, stats);
-    draft.stats.symbolic = stats->symbolic;
-    *out = (sl_symbolic *)(void *)b.base;
-    **out = draft;
-    return SL_OK;
+    return status;
 }
 
 #endif

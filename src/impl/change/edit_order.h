@@ -100,7 +100,7 @@ static void sli_edit_graph(const sli_edit *e, sli_graph *G) {
 static sl_status sli_edit_make_graph(sli_edit *e, sli_graph *G, sli_block *edges,
                                      const sl_allocator *a) {
     const sl_int count = e->n_grouped;
-    sl_off total = 0;
+    sl_off total;
     sl_status status = SL_OK;
     sl_int k;
     for (k = 0; k < e->n; k++) {
@@ -111,18 +111,13 @@ static sl_status sli_edit_make_graph(sli_edit *e, sli_graph *G, sli_block *edges
     }
     memset(G->begin, 0, ((size_t)count + 1) * sizeof(sl_off));
     sli_edit_graph(e, G);
-    for (k = 0; k <= count; k++) {
-        const sl_off here = G->begin[k];
-        G->begin[k] = total;
-        total += here;
-    }
+    total = sli_starts(G->begin, count);
     SLI_LAYOUT(edges, a, status) {
         G->to = SLI_TAKE(edges, sl_int, total);
     }
     if (status == SL_OK) {
         sli_edit_graph(e, G);
-        memmove(G->begin + 1, G->begin, (size_t)count * sizeof(sl_off));
-        G->begin[0] = 0;
+        sli_starts_restore(G->begin, count);
         status = sli_graph_make_canonical(G, a);
     }
     return status;

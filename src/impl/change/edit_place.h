@@ -75,8 +75,7 @@ static void sli_edit_scan(sli_edit *e) {
 /* Lists the neighbors of each near row. */
 static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
     sli_block b = {NULL, 0, 0};
-    sl_off total = 0;
-    sl_int k;
+    sl_off total;
     sl_status status = SL_OK;
     SLI_LAYOUT(&b, a, status) {
         e->begin = SLI_TAKE(&b, sl_off, (uint64_t)e->n_near + 1);
@@ -90,11 +89,7 @@ static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
     memset(e->begin, 0, ((size_t)e->n_near + 1) * sizeof(sl_off));
     e->to = NULL;
     sli_edit_scan(e);
-    for (k = 0; k <= e->n_near; k++) {
-        const sl_off here = e->begin[k];
-        e->begin[k] = total;
-        total += here;
-    }
+    total = sli_starts(e->begin, e->n_near);
     memset(&b, 0, sizeof b);
     SLI_LAYOUT(&b, a, status) {
         e->to = SLI_TAKE(&b, sl_int, total);
@@ -104,8 +99,7 @@ static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
         return status;
     }
     sli_edit_scan(e);
-    memmove(e->begin + 1, e->begin, (size_t)e->n_near * sizeof(sl_off));
-    e->begin[0] = 0;
+    sli_starts_restore(e->begin, e->n_near);
     return SL_OK;
 }
 

@@ -255,4 +255,17 @@ static void sli_kept_run(sl_factor *G, sl_int s, sl_int worker) {
     }
 }
 
+/* Of F, what `from` and `columns` say; without its scratch. */
+static sli_kept sli_kept_of(const sl_factor *F, const sl_int *from, const sl_int *columns,
+                            int is_subset) {
+    sli_kept p;
+    memset(&p, 0, sizeof p);
+    p.F = F;
+    p.copied.from = from;
+    p.copied.copy = sli_kept_run;
+    p.columns = columns;
+    p.is_subset = is_subset;
+    return p;
+}
+
 #endif

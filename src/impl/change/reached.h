@@ -130,11 +130,7 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
     }
     if (status == SL_OK) {
         sli_changes_mark(c, F->S, A, from);
-        memset(&kept, 0, sizeof kept);
-        kept.F = F;
-        kept.copied.from = from;
-        kept.copied.copy = sli_kept_run;
-        kept.is_subset = 1;
+        kept = sli_kept_of(F, from, NULL, 1);
         status = sli_kept_room(&kept, F, &room);
     }
     if (status == SL_OK) {

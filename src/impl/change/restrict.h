@@ -55,14 +55,9 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
             columns = SLI_TAKE(&b, sl_int, G->S->n);
         }
     }
-    memset(&kept, 0, sizeof kept);
+    kept = sli_kept_of(F, from, columns, 1);
     if (status == SL_OK && r->n_kept > 0) {
         sli_restrict_keep(G, r, from, columns);
-        kept.F = F;
-        kept.copied.from = from;
-        kept.copied.copy = sli_kept_run;
-        kept.columns = columns;
-        kept.is_subset = 1;
         status = sli_kept_room(&kept, G, &room);
     }
     if (status == SL_OK) {

@@ -11,6 +11,37 @@ typedef struct sli_joint {
     sl_off rows, panel;
 } sli_joint;
 
+/* Allocates the analysis of a draft, whose n and n_supers are known. */
+static sl_status sli_joint_room(sl_symbolic **out, sl_symbolic *draft, sl_off rows, sl_off entries,
+                                sl_stats *stats) {
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    SLI_LAYOUT(&b, &draft->allocator, status) {
+        (void)sli_take(&b, 1, sizeof(sl_symbolic));
+        sli_symbolic_layout(draft, &b, rows, entries);
+        stats->symbolic.bytes = b.used;
+    }
+    if (status == SL_OK) {
+        *out = (sl_symbolic *)(void *)b.base;
+        **out = *draft;
+    }
+    return status;
+}
+
+SLI_INLINE sli_joint sli_joint_start(sl_symbolic *S) {
+    sli_joint j;
+    memset(&j, 0, sizeof j);
+    j.S = S;
+    return j;
+}
+
+/* Ends the numbering behind the last supernode. */
+SLI_INLINE void sli_joint_end(const sli_joint *j) {
+    j->S->super_first[j->super] = j->column;
+    j->S->rows_begin[j->super] = j->rows;
+    j->S->panel_begin[j->super] = j->panel;
+}
+
 /* Appends the next supernode, whose columns are numbered already. */
 static void sli_joint_add(sli_joint *j, sl_int width, sl_off below) {
     sl_symbolic *S = j->S;
@@ -43,8 +74,9 @@ SLI_HOT static void sli_joint_add_kept(sli_joint *j, sli_restriction *r, sl_int 
 
 /* Numbers supernodes and columns: each new supernode follows its children, the new ones first.
  * Roots that have no row of R below them come first of all. */
-static void sli_joint_number(sli_joint *j, sli_restriction *r) {
+static void sli_joint_number(sl_symbolic *S, sli_restriction *r) {
     const sl_symbolic *T = &r->T;
+    sli_joint j = sli_joint_start(S);
     sl_int q, t, k;
     for (t = 0; t <= T->n_supers; t++) {
         r->head[t] = -1;
@@ -59,19 +91,17 @@ static void sli_joint_number(sli_joint *j, sli_restriction *r) {
             r->head[t] = q;
         }
     }
-    sli_joint_add_kept(j, r, r->head[T->n_supers]);
+    sli_joint_add_kept(&j, r, r->head[T->n_supers]);
     for (t = 0; t < T->n_supers; t++) {
         const sl_int first = T->super_first[t], width = T->super_first[t + 1] - first;
-        sli_joint_add_kept(j, r, r->head[t]);
+        sli_joint_add_kept(&j, r, r->head[t]);
         for (k = 0; k < width; k++) {
-            r->column_of[r->fresh[r->w.old_of[first + k]]] = j->column + k;
+            r->column_of[r->fresh[r->w.old_of[first + k]]] = j.column + k;
         }
-        r->T_new[t] = j->super;
-        sli_joint_add(j, width, T->rows_begin[t + 1] - T->rows_begin[t]);
+        r->T_new[t] = j.super;
+        sli_joint_add(&j, width, T->rows_begin[t + 1] - T->rows_begin[t]);
     }
-    j->S->super_first[j->super] = j->column;
-    j->S->rows_begin[j->super] = j->rows;
-    j->S->panel_begin[j->super] = j->panel;
+    sli_joint_end(&j);
 }
 
 /* Fills the tree and the rows of kept supernode q. A column whose parent was removed gets the next
@@ -126,6 +156,17 @@ static void sli_joint_fill_fresh(sl_symbolic *S, const sli_restriction *r, sl_in
     }
 }
 
+/* Fills what follows from the supernodes, their rows and the map of entries. scratch: n */
+static void sli_joint_complete(sl_symbolic *S, sl_int *scratch, sl_stats *stats) {
+    sli_fill_steps(S);
+    sli_fill_descendants(S);
+    sli_fill_relative(S, scratch);
+    sli_fill_identity(S, stats->symbolic.triangle);
+    stats->symbolic.nnz_a = S->scatter_begin[S->n_supers];
+    sli_analyze_stats(S, scratch, stats);
+    S->stats.symbolic = stats->symbolic;
+}
+
 /* Fills everything that follows the numbering. The map of entries has those of new supernodes. */
 static void sli_joint_fill(sl_symbolic *S, sli_restriction *r, sl_stats *stats) {
     sl_int *scratch = (sl_int *)(void *)r->list; /* count: the subset is sorted */
@@ -149,12 +190,7 @@ static void sli_joint_fill(sl_symbolic *S, sli_restriction *r, sl_stats *stats) 
     for (s = 0; s < S->n_supers; s++) {
         S->scatter_begin[s + 1] += S->scatter_begin[s];
     }
-    sli_fill_steps(S);
-    sli_fill_descendants(S);
-    sli_fill_relative(S, scratch);
-    sli_fill_identity(S, stats->symbolic.triangle);
-    stats->symbolic.nnz_a = at;
-    sli_analyze_stats(S, scratch, stats);
+    sli_joint_complete(S, scratch, stats);
 }
 
 /* An analysis of A[R, R] without arrays. */
@@ -184,27 +220,17 @@ static sl_status sli_restriction_make(sl_symbolic **out, sli_restriction *r, con
 static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_allocator *a,
                                 sl_stats *stats) {
     sl_symbolic draft = sli_restriction_draft(r, a);
-    sli_block b = {NULL, 0, 0};
-    sli_joint j;
     sl_status status = sli_restriction_analyze(r, a, stats);
     draft.n_supers = r->n_kept + r->T.n_supers;
-    SLI_LAYOUT(&b, a, status) {
-        (void)sli_take(&b, 1, sizeof(sl_symbolic));
-        sli_symbolic_layout(&draft, &b, r->below_begin[r->n_kept] + r->T.rows_begin[r->T.n_supers],
-                            r->n_entries);
-        stats->symbolic.bytes = b.used;
+    if (status == SL_OK) {
+        const sl_off rows = r->below_begin[r->n_kept] + r->T.rows_begin[r->T.n_supers];
+        status = sli_joint_room(out, &draft, rows, r->n_entries, stats);
     }
-    if (status != SL_OK) {
-        return status;
+    if (status == SL_OK) {
+        sli_joint_number(*out, r);
+        sli_joint_fill(*out, r, stats);
     }
-    memset(&j, 0, sizeof j);
-    j.S = &draft;
-    sli_joint_number(&j, r);
-    sli_joint_fill(&draft, r, stats);
-    draft.stats.symbolic = stats->symbolic;
-    *out = (sl_symbolic *)(void *)b.base;
-    **out = draft;
-    return SL_OK;
+    return status;
 }
 
 #endif

@@ -29,8 +29,7 @@ typedef struct sli_graph {
 SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, const sl_int *column,
                                sl_triangle triangle, sl_int block) {
     const sl_int nnz = sli_nnz(A);
-    sl_int v, p;
-    sl_off total = 0;
+    sl_int p;
     memset(G->begin, 0, ((size_t)G->n + 1) * sizeof(sl_off));
     for (p = 0; p < nnz; p++) {
         const sl_int j = column[p], at = block == 1 ? j : j / block;
@@ -39,12 +38,8 @@ SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, const sl_int *colu
         G->begin[u] += is_edge;
         G->begin[at] += is_edge;
     }
-    for (v = 0; v <= G->n; v++) {
-        const sl_off here = G->begin[v];
-        G->begin[v] = total;
-        total += here;
-    }
-    for (p = 0; p < nnz; p++) { /* each begin advances to its list's end; shifted back below */
+    (void)sli_starts(G->begin, G->n);
+    for (p = 0; p < nnz; p++) {
         const sl_int j = column[p], at = block == 1 ? j : j / block;
         const sl_int u = block == 1 ? A->i[p] : A->i[p] / block;
         if (u != at && sli_is_read(triangle, A->i[p], j)) {
@@ -52,10 +47,7 @@ SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, const sl_int *colu
             G->to[G->begin[u]++] = at;
         }
     }
-    if (G->n > 0) {
-        memmove(G->begin + 1, G->begin, (size_t)G->n * sizeof(sl_off));
-    }
-    G->begin[0] = 0;
+    sli_starts_restore(G->begin, G->n);
 }
 
 /* Returns whether every adjacency list is strictly ascending. It is when the rows of each column of
