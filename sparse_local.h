@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 8b4368c859d92c21
+ * FNV-1a of the lines after this comment, without the license: ceb62b6387c45630
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,24 +35,24 @@
  *   2867 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   2943 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   2982 impl/ base: the compiler, status, memory, sorting, threads
- *   4194 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5094 impl/ matrix: sparse matrices of the caller and of the library
- *   5729 impl/ ordering: fill-reducing orderings of a graph
- *  10375 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12604 impl/ factor: the numbers of L and D
- *  15959 impl/ solve: full and local solves
- *  17632 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19561 impl/ pivots: the order of the pivots by the values of a matrix
- *  19970 impl/ float: L and fronts in single precision
- *  20421 impl/ inverse: entries of the inverse, regions
- *  23484 impl/ change: a factor that follows changes of its matrix
- *  29509 impl/ dirichlet: rows fixed at given values
- *  30097 impl/ dirichlet: by a factor of all rows
- *  30330 impl/ io: files that are replaced only when they are complete
- *  30548 impl/ files: Matrix Market files, 64-bit indices
- *  31168 impl/ save: factors in files
- *  33165 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33850 impl/ batch: diagonals of many inverses
+ *   4204 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5104 impl/ matrix: sparse matrices of the caller and of the library
+ *   5739 impl/ ordering: fill-reducing orderings of a graph
+ *  10385 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12613 impl/ factor: the numbers of L and D
+ *  15967 impl/ solve: full and local solves
+ *  17640 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19569 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19978 impl/ float: L and fronts in single precision
+ *  20429 impl/ inverse: entries of the inverse, regions
+ *  23492 impl/ change: a factor that follows changes of its matrix
+ *  29517 impl/ dirichlet: rows fixed at given values
+ *  30105 impl/ dirichlet: by a factor of all rows
+ *  30337 impl/ io: files that are replaced only when they are complete
+ *  30555 impl/ files: Matrix Market files, 64-bit indices
+ *  31175 impl/ save: factors in files
+ *  33172 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33853 impl/ batch: diagonals of many inverses
  *  33994 impl/ complex: complex Hermitian systems over real factors
  *  34556 impl/ complex: entries of the inverse
  *  34616 impl/ packs: the tables through which the core calls packs
@@ -3277,6 +3277,11 @@ SLI_INLINE int sli_is_finite(double a) {
   return a - a == 0.0;
 }
 
+SLI_INLINE double sli_random(uint64_t *state) {
+  *state = *state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+  return 0.5 + (double)(*state >> 40) / 33554432.0;
+}
+
 #if defined(__APPLE__)
 #define SLI_FSYNC 1
 SLI_INLINE int sli_fsync(int file) {
@@ -3556,6 +3561,11 @@ SLI_NOINLINE static const char *sli_options_wrong(const sl_options *opt, int rea
        : (opt->allocator.allocate == NULL) != (opt->allocator.release == NULL)
          ? "options.allocator has only one of its two functions"
          : NULL;
+}
+
+SLI_INLINE const sl_threads *sli_threads_of(const sl_options *opt) {
+  static const sl_threads sli_no_threads = {0, NULL, NULL};
+  return opt == NULL ? &sli_no_threads : &opt->threads;
 }
 
 /* src/impl/base/alloc.h: the allocator: 64-byte aligned blocks, cut into arrays with overflow checks */
@@ -12129,7 +12139,6 @@ static sl_status sli_symbolic_check(const sl_csc *A, const sl_options *opt, sli_
 
 static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const unsigned char *pairs,
     const sl_options *opt, sl_stats *stats) {
-  static const sl_threads sli_no_threads = {0, NULL, NULL};
   sli_symbolic_job j;
   uint64_t small[SLI_ANALYSIS_SMALL / sizeof(uint64_t)];
   sli_block b = {NULL, 0, 0};
@@ -12170,8 +12179,8 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
   if (status == SL_OK) {
     j.for_order = sli_arena_start(&arena, &b, j.w.ordered, &j.a);
     j.found.symbolic.seconds_analyze = sli_analysis_lap(&j.w);
-    sli_team_run(opt != NULL ? &opt->threads : &sli_no_threads,
-        sli_max(sli_order_workers(A, opt), j.w.workers), sli_symbolic_run, &j);
+    sli_team_run(sli_threads_of(opt), sli_max(sli_order_workers(A, opt), j.w.workers),
+        sli_symbolic_run, &j);
     status = j.status;
     if (status != SL_OK) {
       (void)sli_fail_as(stats, status, &j.found.error);
@@ -14720,8 +14729,7 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
   for (m = 0; m < F->null.count; m++) {
     k = F->null.pivots[m];
     if (F->rule.kinds[k] == SLI_PIVOT_UNKNOWN) {
-      random = random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-      z[k] = SLI_NULL_PIVOT * (0.5 + (double)(random >> 40) / 33554432.0);
+      z[k] = SLI_NULL_PIVOT * sli_random(&random);
     }
   }
   sli_backward_sweep(F, SLI_NRHS_1, &all, F->D, z, F->null.sweep);
@@ -21563,6 +21571,16 @@ static void sli_loss_layout(sli_loss *q, sli_block *b) {
   q->up = SLI_TAKE(b, double, tallest);
 }
 
+static void sli_loss_layout_traversal(sli_loss *q, sli_block *b, const sl_factor *F,
+    const sli_traversal *traversal) {
+  q->F = F;
+  q->limit = SLI_LOSS_LIMIT;
+  q->supers = traversal->supers;
+  q->parent = traversal->forest.parent;
+  q->count = traversal->forest.count;
+  sli_loss_layout(q, b);
+}
+
 SLI_NOINLINE static const double *sli_loss_widen(const sl_factor *F, sl_off at, sl_int rows,
     double *room) {
   sl_int r;
@@ -21830,12 +21848,7 @@ static void sli_entries_plan(void *call) {
 static void sli_entries_layout_loss(void *call, sli_block *b) {
   sli_entries *q = (sli_entries *)call;
   if (q->method == SL_INVERSE_SELECTED) {
-    q->loss.F = q->F;
-    q->loss.limit = SLI_LOSS_LIMIT;
-    q->loss.supers = q->traversal.supers;
-    q->loss.parent = q->traversal.forest.parent;
-    q->loss.count = q->traversal.forest.count;
-    sli_loss_layout(&q->loss, b);
+    sli_loss_layout_traversal(&q->loss, b, q->F, &q->traversal);
   }
 }
 
@@ -22456,12 +22469,7 @@ static void sli_selected_layout_loss(void *context, sli_block *b) {
   sli_selected_run *q = (sli_selected_run *)context;
   q->is_lossy = 0;
   if (sli_has_both_signs(q->F)) {
-    q->loss.F = q->F;
-    q->loss.limit = SLI_LOSS_LIMIT;
-    q->loss.supers = q->Z->traversal.supers;
-    q->loss.parent = q->Z->traversal.forest.parent;
-    q->loss.count = q->Z->traversal.forest.count;
-    sli_loss_layout(&q->loss, b);
+    sli_loss_layout_traversal(&q->loss, b, q->F, &q->Z->traversal);
   }
 }
 
@@ -30196,8 +30204,7 @@ static sl_status sli_dirichlet_probe(const sl_dirichlet *D, const sl_csc *A, con
     return status;
   }
   for (k = 0; k < D->n; k++) {
-    random = random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    r[k] = 0.5 + (double)(random >> 40) / 33554432.0;
+    r[k] = sli_random(&random);
   }
   memset(zeros, 0, (size_t)D->n_fixed * sizeof(double));
   status = sl_pins_solve(P, NULL, x, n, r, n, zeros, (size_t)D->n_fixed, 1, NULL);
@@ -33557,8 +33564,7 @@ static sl_status sli_solve_batch_reserve(sli_solve_batch *b, sl_work *const *wor
 
 SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, sl_int count,
     const sl_options *opt, sl_work *const *works, sl_int *failed) {
-  const sl_threads serial = {0, NULL, NULL};
-  const sl_threads *threads = opt == NULL ? &serial : &opt->threads;
+  const sl_threads *threads = sli_threads_of(opt);
   sli_solve_batch b;
   sl_status status;
   sl_int at = -1;
@@ -33697,14 +33703,13 @@ static void sli_factor_batch_stats(const sli_factor_batch *f, sl_int at, double 
 
 static sl_int sli_factor_batch_create(sl_factor **out, sl_int count, const sl_symbolic *S,
     const sl_options *opt, sl_status *status, sl_stats *first) {
-  const sl_threads no_threads = {0, NULL, NULL};
-  const sl_int workers = opt == NULL ? 1 : sli_workers(&opt->threads);
+  const sl_int workers = sli_workers(sli_threads_of(opt));
   sl_options serial;
   sl_int k, at = count;
   memset(&serial, 0, sizeof serial);
   if (opt != NULL) {
     serial = *opt;
-    serial.threads = no_threads;
+    serial.threads = *sli_threads_of(NULL);
   }
   for (k = 0; k < count; k++) {
     const sl_status here =
@@ -33721,7 +33726,6 @@ SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symboli
     const double *coefficients, const double *const *values,
     sl_int terms, const sl_options *opt, sl_int *failed,
     sl_stats *stats) {
-  const sl_threads serial = {0, NULL, NULL};
   double started;
   sli_factor_batch f;
   sl_stats first;
@@ -33748,7 +33752,7 @@ SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symboli
   }
   n_created = sli_factor_batch_create(out, count, S, opt, &status, &first);
   started = sli_seconds();
-  at = sli_factor_batch_run(&f, opt == NULL ? &serial : &opt->threads);
+  at = sli_factor_batch_run(&f, sli_threads_of(opt));
   if (at < n_created) {
     status = out[at]->status;
     first.error = out[at]->stats.error;
@@ -33809,8 +33813,7 @@ SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
     const double *coefficients, const double *const *values,
     sl_int terms, const sl_options *opt, sl_int *failed,
     sl_stats *stats) {
-  const sl_threads serial = {0, NULL, NULL};
-  const sl_threads *threads = opt == NULL ? &serial : &opt->threads;
+  const sl_threads *threads = sli_threads_of(opt);
   const double started = sli_seconds();
   sli_factor_batch f;
   sl_status status;
@@ -33856,14 +33859,13 @@ typedef struct sli_diagonal_batch {
   size_t ldo;
   const sl_int *rows;
   sl_int n_rows;
-  sl_threads serial;
   sl_work *const *works;
 } sli_diagonal_batch;
 
 static sli_entries sli_diagonal_batch_entries(const sli_diagonal_batch *d, sl_int k) {
   sli_entries q =
     sli_entries_of(d->factors[k], d->out + (size_t)k * d->ldo, d->rows, d->rows, d->n_rows);
-  q.threads = d->workers > 1 ? &d->serial : q.threads;
+  q.threads = d->workers > 1 ? sli_threads_of(NULL) : q.threads;
   return q;
 }
 
@@ -33946,8 +33948,7 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
     size_t ldo, const sl_int *rows, sl_int n_rows,
     const sl_options *opt, sl_work *const *works, sl_int *failed,
     sl_stats *stats) {
-  const sl_threads serial = {0, NULL, NULL};
-  const sl_threads *threads = opt == NULL ? &serial : &opt->threads;
+  const sl_threads *threads = sli_threads_of(opt);
   sli_diagonal_batch d;
   sl_status status;
   sl_int at = -1;
@@ -33962,7 +33963,6 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
-  d.serial = serial;
   d.factors = factors;
   d.count = count;
   d.workers = sli_min(sli_workers(threads), count);

@@ -242,7 +242,7 @@ static void sli_analyze_both(sli_analysis *w, const sl_options *opt, sli_team *t
     }
 }
 
-/* Fills the statistics. depth: n of scratch. */
+/* Fills the counts. depth: n of scratch. */
 static void sli_analyze_stats(const sl_symbolic *S, sl_int *depth, sl_stats *stats) {
     sl_int k;
     stats->symbolic.n = S->n;
@@ -448,7 +448,6 @@ static sl_status sli_symbolic_check(const sl_csc *A, const sl_options *opt, sli_
  * order, and pairs[k] = 1 if its rows k and k + 1 are a 2x2 pivot. */
 static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const unsigned char *pairs,
                                      const sl_options *opt, sl_stats *stats) {
-    static const sl_threads sli_no_threads = {0, NULL, NULL};
     sli_symbolic_job j;
     uint64_t small[SLI_ANALYSIS_SMALL / sizeof(uint64_t)];
     sli_block b = {NULL, 0, 0};
@@ -489,8 +488,8 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     if (status == SL_OK) {
         j.for_order = sli_arena_start(&arena, &b, j.w.ordered, &j.a);
         j.found.symbolic.seconds_analyze = sli_analysis_lap(&j.w);
-        sli_team_run(opt != NULL ? &opt->threads : &sli_no_threads,
-                     sli_max(sli_order_workers(A, opt), j.w.workers), sli_symbolic_run, &j);
+        sli_team_run(sli_threads_of(opt), sli_max(sli_order_workers(A, opt), j.w.workers),
+                     sli_symbolic_run, &j);
         status = j.status;
         if (status != SL_OK) {
             (void)sli_fail_as(stats, status, &j.found.error);

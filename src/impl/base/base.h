@@ -330,6 +330,12 @@ SLI_INLINE int sli_is_finite(double a) {
     return a - a == 0.0;
 }
 
+/* A pseudo-random number from 0.5 to 1. */
+SLI_INLINE double sli_random(uint64_t *state) {
+    *state = *state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return 0.5 + (double)(*state >> 40) / 33554432.0;
+}
+
 #if defined(__APPLE__)
 #define SLI_FSYNC 1
 SLI_INLINE int sli_fsync(int file) {

@@ -73,4 +73,10 @@ SLI_NOINLINE static const char *sli_options_wrong(const sl_options *opt, int rea
                : NULL;
 }
 
+/* The threads of the options; none without options. */
+SLI_INLINE const sl_threads *sli_threads_of(const sl_options *opt) {
+    static const sl_threads sli_no_threads = {0, NULL, NULL};
+    return opt == NULL ? &sli_no_threads : &opt->threads;
+}
+
 #endif

@@ -15,7 +15,6 @@ typedef struct sli_diagonal_batch {
     size_t ldo;
     const sl_int *rows; /* NULL: all n_rows */
     sl_int n_rows;
-    sl_threads serial;
     sl_work *const *works; /* one per worker, with room for every factor */
 } sli_diagonal_batch;
 
@@ -23,7 +22,7 @@ typedef struct sli_diagonal_batch {
 static sli_entries sli_diagonal_batch_entries(const sli_diagonal_batch *d, sl_int k) {
     sli_entries q =
         sli_entries_of(d->factors[k], d->out + (size_t)k * d->ldo, d->rows, d->rows, d->n_rows);
-    q.threads = d->workers > 1 ? &d->serial : q.threads;
+    q.threads = d->workers > 1 ? sli_threads_of(NULL) : q.threads;
     return q;
 }
 
@@ -112,8 +111,7 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
                                    size_t ldo, const sl_int *rows, sl_int n_rows,
                                    const sl_options *opt, sl_work *const *works, sl_int *failed,
                                    sl_stats *stats) {
-    const sl_threads serial = {0, NULL, NULL};
-    const sl_threads *threads = opt == NULL ? &serial : &opt->threads;
+    const sl_threads *threads = sli_threads_of(opt);
     sli_diagonal_batch d;
     sl_status status;
     sl_int at = -1;
@@ -128,7 +126,6 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
-    d.serial = serial;
     d.factors = factors;
     d.count = count;
     d.workers = sli_min(sli_workers(threads), count);

@@ -112,14 +112,13 @@ static void sli_factor_batch_stats(const sli_factor_batch *f, sl_int at, double 
  * or count. first: the error of that one. */
 static sl_int sli_factor_batch_create(sl_factor **out, sl_int count, const sl_symbolic *S,
                                       const sl_options *opt, sl_status *status, sl_stats *first) {
-    const sl_threads no_threads = {0, NULL, NULL};
-    const sl_int workers = opt == NULL ? 1 : sli_workers(&opt->threads);
+    const sl_int workers = sli_workers(sli_threads_of(opt));
     sl_options serial;
     sl_int k, at = count;
     memset(&serial, 0, sizeof serial);
     if (opt != NULL) {
         serial = *opt;
-        serial.threads = no_threads;
+        serial.threads = *sli_threads_of(NULL);
     }
     for (k = 0; k < count; k++) {
         const sl_status here =
@@ -136,7 +135,6 @@ SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symboli
                                  const double *coefficients, const double *const *values,
                                  sl_int terms, const sl_options *opt, sl_int *failed,
                                  sl_stats *stats) {
-    const sl_threads serial = {0, NULL, NULL};
     double started;
     sli_factor_batch f;
     sl_stats first;
@@ -163,7 +161,7 @@ SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symboli
     }
     n_created = sli_factor_batch_create(out, count, S, opt, &status, &first);
     started = sli_seconds();
-    at = sli_factor_batch_run(&f, opt == NULL ? &serial : &opt->threads);
+    at = sli_factor_batch_run(&f, sli_threads_of(opt));
     if (at < n_created) {
         status = out[at]->status;
         first.error = out[at]->stats.error;
@@ -226,8 +224,7 @@ SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
                                    const double *coefficients, const double *const *values,
                                    sl_int terms, const sl_options *opt, sl_int *failed,
                                    sl_stats *stats) {
-    const sl_threads serial = {0, NULL, NULL};
-    const sl_threads *threads = opt == NULL ? &serial : &opt->threads;
+    const sl_threads *threads = sli_threads_of(opt);
     const double started = sli_seconds();
     sli_factor_batch f;
     sl_status status;

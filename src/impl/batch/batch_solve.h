@@ -166,8 +166,7 @@ static sl_status sli_solve_batch_reserve(sli_solve_batch *b, sl_work *const *wor
 
 SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, sl_int count,
                                 const sl_options *opt, sl_work *const *works, sl_int *failed) {
-    const sl_threads serial = {0, NULL, NULL};
-    const sl_threads *threads = opt == NULL ? &serial : &opt->threads;
+    const sl_threads *threads = sli_threads_of(opt);
     sli_solve_batch b;
     sl_status status;
     sl_int at = -1;

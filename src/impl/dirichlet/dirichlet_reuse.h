@@ -117,8 +117,7 @@ static sl_status sli_dirichlet_probe(const sl_dirichlet *D, const sl_csc *A, con
         return status;
     }
     for (k = 0; k < D->n; k++) {
-        random = random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-        r[k] = 0.5 + (double)(random >> 40) / 33554432.0;
+        r[k] = sli_random(&random);
     }
     memset(zeros, 0, (size_t)D->n_fixed * sizeof(double));
     status = sl_pins_solve(P, NULL, x, n, r, n, zeros, (size_t)D->n_fixed, 1, NULL);

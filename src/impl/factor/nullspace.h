@@ -196,9 +196,8 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
     for (m = 0; m < F->null.count; m++) {
         k = F->null.pivots[m];
         if (F->rule.kinds[k] == SLI_PIVOT_UNKNOWN) {
-            random = random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
             /* divided by D(k), which is SLI_NULL_PIVOT, it is between 0.5 and 1 */
-            z[k] = SLI_NULL_PIVOT * (0.5 + (double)(random >> 40) / 33554432.0);
+            z[k] = SLI_NULL_PIVOT * sli_random(&random);
         }
     }
     sli_backward_sweep(F, SLI_NRHS_1, &all, F->D, z, F->null.sweep);

@@ -162,12 +162,7 @@ static void sli_entries_plan(void *call) {
 static void sli_entries_layout_loss(void *call, sli_block *b) {
     sli_entries *q = (sli_entries *)call;
     if (q->method == SL_INVERSE_SELECTED) {
-        q->loss.F = q->F;
-        q->loss.limit = SLI_LOSS_LIMIT;
-        q->loss.supers = q->traversal.supers;
-        q->loss.parent = q->traversal.forest.parent;
-        q->loss.count = q->traversal.forest.count;
-        sli_loss_layout(&q->loss, b);
+        sli_loss_layout_traversal(&q->loss, b, q->F, &q->traversal);
     }
 }
 

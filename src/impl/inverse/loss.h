@@ -72,6 +72,17 @@ static void sli_loss_layout(sli_loss *q, sli_block *b) {
     q->up = SLI_TAKE(b, double, tallest);
 }
 
+/* The supernodes of a traversal. */
+static void sli_loss_layout_traversal(sli_loss *q, sli_block *b, const sl_factor *F,
+                                      const sli_traversal *traversal) {
+    q->F = F;
+    q->limit = SLI_LOSS_LIMIT;
+    q->supers = traversal->supers;
+    q->parent = traversal->forest.parent;
+    q->count = traversal->forest.count;
+    sli_loss_layout(q, b);
+}
+
 /* A tile of a column of L in another storage or without padding, as doubles. */
 SLI_NOINLINE static const double *sli_loss_widen(const sl_factor *F, sl_off at, sl_int rows,
                                                  double *room) {

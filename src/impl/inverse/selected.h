@@ -135,12 +135,7 @@ static void sli_selected_layout_loss(void *context, sli_block *b) {
     sli_selected_run *q = (sli_selected_run *)context;
     q->is_lossy = 0;
     if (sli_has_both_signs(q->F)) {
-        q->loss.F = q->F;
-        q->loss.limit = SLI_LOSS_LIMIT;
-        q->loss.supers = q->Z->traversal.supers;
-        q->loss.parent = q->Z->traversal.forest.parent;
-        q->loss.count = q->Z->traversal.forest.count;
-        sli_loss_layout(&q->loss, b);
+        sli_loss_layout_traversal(&q->loss, b, q->F, &q->Z->traversal);
     }
 }
 
