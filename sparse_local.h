@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: ceb62b6387c45630
+ * FNV-1a of the lines after this comment, without the license: c348030b2c85ac92
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,26 +38,26 @@
  *   4204 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5104 impl/ matrix: sparse matrices of the caller and of the library
  *   5739 impl/ ordering: fill-reducing orderings of a graph
- *  10385 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12613 impl/ factor: the numbers of L and D
- *  15967 impl/ solve: full and local solves
- *  17640 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19569 impl/ pivots: the order of the pivots by the values of a matrix
- *  19978 impl/ float: L and fronts in single precision
- *  20429 impl/ inverse: entries of the inverse, regions
- *  23492 impl/ change: a factor that follows changes of its matrix
- *  29517 impl/ dirichlet: rows fixed at given values
- *  30105 impl/ dirichlet: by a factor of all rows
- *  30337 impl/ io: files that are replaced only when they are complete
- *  30555 impl/ files: Matrix Market files, 64-bit indices
- *  31175 impl/ save: factors in files
- *  33172 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33853 impl/ batch: diagonals of many inverses
- *  33994 impl/ complex: complex Hermitian systems over real factors
- *  34556 impl/ complex: entries of the inverse
- *  34616 impl/ packs: the tables through which the core calls packs
- *  34664 impl/ last: undefine every internal macro
- *  35021 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10382 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12610 impl/ factor: the numbers of L and D
+ *  15964 impl/ solve: full and local solves
+ *  17637 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19566 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19975 impl/ float: L and fronts in single precision
+ *  20426 impl/ inverse: entries of the inverse, regions
+ *  23489 impl/ change: a factor that follows changes of its matrix
+ *  29514 impl/ dirichlet: rows fixed at given values
+ *  30102 impl/ dirichlet: by a factor of all rows
+ *  30334 impl/ io: files that are replaced only when they are complete
+ *  30552 impl/ files: Matrix Market files, 64-bit indices
+ *  31172 impl/ save: factors in files
+ *  33169 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33850 impl/ batch: diagonals of many inverses
+ *  33991 impl/ complex: complex Hermitian systems over real factors
+ *  34553 impl/ complex: entries of the inverse
+ *  34613 impl/ packs: the tables through which the core calls packs
+ *  34661 impl/ last: undefine every internal macro
+ *  35018 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -8056,7 +8056,7 @@ typedef struct sli_dissection {
   sl_int first;
   int is_volume, may_be_seven_point;
   int has_labels;
-  int band_growth;
+  int is_levelset;
   sli_label_tree tree, other_tree;
   sli_border_pool pool;
   sli_dissect_worker *workers;
@@ -8306,14 +8306,14 @@ static int sli_dissect_is_balanced(const sli_subgraph *sub) {
 
 static int sli_dissect_layers(const sli_dissection *d, sl_int weight) {
   int layers = 1;
-  if (d->is_volume) {
+  if (d->is_volume || d->is_levelset) {
     return 1;
   }
   if (sli_level_is_wide(&d->levels[0])) {
     return weight > SLI_DISSECT_BAND_FROM;
   }
   for (; weight > SLI_DISSECT_BAND_FROM; weight /= 4) {
-    layers += d->band_growth;
+    layers++;
   }
   return layers;
 }
@@ -8637,7 +8637,7 @@ static sl_status sli_dissect_graph(sli_dissection *d) {
   sli_dissect_swap(d);
   sli_dissect_levelset(d);
   if (sli_tree_cost_is_less(sli_dissect_cost(d), multilevel)) {
-    d->band_growth = 0;
+    d->is_levelset = 1;
   } else {
     sli_dissect_swap(d);
   }
@@ -9072,11 +9072,8 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
 static sl_status sli_nd_label(sli_nd *w) {
   sli_dissection *d = &w->d;
   d->is_volume = d->may_be_seven_point = 0;
-  d->band_growth = 1;
-  if (d->has_labels) {
-    return SL_OK;
-  }
-  return sli_dissect_graph(d);
+  d->is_levelset = 0;
+  return d->has_labels ? SL_OK : sli_dissect_graph(d);
 }
 
 static int sli_nd_is_thin(const sli_dissection *d) {

@@ -79,14 +79,14 @@ static int sli_dissect_is_balanced(const sli_subgraph *sub) {
  * volumes. */
 static int sli_dissect_layers(const sli_dissection *d, sl_int weight) {
     int layers = 1;
-    if (d->is_volume) {
+    if (d->is_volume || d->is_levelset) {
         return 1;
     }
     if (sli_level_is_wide(&d->levels[0])) {
         return weight > SLI_DISSECT_BAND_FROM;
     }
     for (; weight > SLI_DISSECT_BAND_FROM; weight /= 4) {
-        layers += d->band_growth;
+        layers++;
     }
     return layers;
 }

@@ -152,7 +152,7 @@ static sl_status sli_dissect_graph(sli_dissection *d) {
     sli_dissect_swap(d);
     sli_dissect_levelset(d);
     if (sli_tree_cost_is_less(sli_dissect_cost(d), multilevel)) {
-        d->band_growth = 0;
+        d->is_levelset = 1;
     } else {
         sli_dissect_swap(d);
     }

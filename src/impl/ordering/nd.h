@@ -183,11 +183,8 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
 static sl_status sli_nd_label(sli_nd *w) {
     sli_dissection *d = &w->d;
     d->is_volume = d->may_be_seven_point = 0; /* unless the first coarser level shows it */
-    d->band_growth = 1;
-    if (d->has_labels) {
-        return SL_OK;
-    }
-    return sli_dissect_graph(d);
+    d->is_levelset = 0;
+    return d->has_labels ? SL_OK : sli_dissect_graph(d);
 }
 
 /* Returns whether the mean separator is small. Leaves are then thin, too: minimum degree eliminates
