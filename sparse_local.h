@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c348030b2c85ac92
+ * FNV-1a of the lines after this comment, without the license: 4841dc265b3b3e68
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -37,27 +37,27 @@
  *   2982 impl/ base: the compiler, status, memory, sorting, threads
  *   4204 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5104 impl/ matrix: sparse matrices of the caller and of the library
- *   5739 impl/ ordering: fill-reducing orderings of a graph
- *  10382 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12610 impl/ factor: the numbers of L and D
- *  15964 impl/ solve: full and local solves
- *  17637 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19566 impl/ pivots: the order of the pivots by the values of a matrix
- *  19975 impl/ float: L and fronts in single precision
- *  20426 impl/ inverse: entries of the inverse, regions
- *  23489 impl/ change: a factor that follows changes of its matrix
- *  29514 impl/ dirichlet: rows fixed at given values
- *  30102 impl/ dirichlet: by a factor of all rows
- *  30334 impl/ io: files that are replaced only when they are complete
- *  30552 impl/ files: Matrix Market files, 64-bit indices
- *  31172 impl/ save: factors in files
- *  33169 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33850 impl/ batch: diagonals of many inverses
- *  33991 impl/ complex: complex Hermitian systems over real factors
- *  34553 impl/ complex: entries of the inverse
- *  34613 impl/ packs: the tables through which the core calls packs
- *  34661 impl/ last: undefine every internal macro
- *  35018 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5733 impl/ ordering: fill-reducing orderings of a graph
+ *  10376 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12604 impl/ factor: the numbers of L and D
+ *  15958 impl/ solve: full and local solves
+ *  17631 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19560 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19969 impl/ float: L and fronts in single precision
+ *  20420 impl/ inverse: entries of the inverse, regions
+ *  23483 impl/ change: a factor that follows changes of its matrix
+ *  29508 impl/ dirichlet: rows fixed at given values
+ *  30096 impl/ dirichlet: by a factor of all rows
+ *  30328 impl/ io: files that are replaced only when they are complete
+ *  30546 impl/ files: Matrix Market files, 64-bit indices
+ *  31166 impl/ save: factors in files
+ *  33163 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33844 impl/ batch: diagonals of many inverses
+ *  33985 impl/ complex: complex Hermitian systems over real factors
+ *  34547 impl/ complex: entries of the inverse
+ *  34607 impl/ packs: the tables through which the core calls packs
+ *  34655 impl/ last: undefine every internal macro
+ *  35011 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5218,25 +5218,21 @@ SLI_INLINE int sli_is_read(sl_triangle triangle, sl_int row, sl_int column) {
        (triangle == SL_TRIANGLE_UPPER ? row <= column : row >= column);
 }
 
-static void sli_matrix_layout(sl_matrix *M, sli_block *b, size_t nnz, int has_values) {
-  (void)sli_take(b, 1, sizeof(sl_matrix));
-  M->p = SLI_TAKE(b, sl_int, (size_t)M->n_cols + 1);
-  M->i = SLI_TAKE(b, sl_int, nnz);
-  M->x = has_values ? SLI_TAKE(b, double, nnz) : NULL;
-}
-
 static sl_status sli_matrix_new(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int nnz,
     int has_values, const sl_allocator *a) {
   sl_matrix draft;
   sli_block b = {NULL, 0, 0};
-  sl_status status;
+  sl_status status = SL_OK;
   draft.allocator = *a;
   draft.n_rows = n_rows;
   draft.n_cols = n_cols;
-  sli_matrix_layout(&draft, &b, (size_t)nnz, has_values);
-  status = sli_block_alloc(&b, a);
+  SLI_LAYOUT(&b, a, status) {
+    (void)sli_take(&b, 1, sizeof(sl_matrix));
+    draft.p = SLI_TAKE(&b, sl_int, (size_t)n_cols + 1);
+    draft.i = SLI_TAKE(&b, sl_int, nnz);
+    draft.x = has_values ? SLI_TAKE(&b, double, nnz) : NULL;
+  }
   if (status == SL_OK) {
-    sli_matrix_layout(&draft, &b, (size_t)nnz, has_values);
     *out = (sl_matrix *)(void *)b.base;
     **out = draft;
   }
@@ -5382,7 +5378,7 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
 SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_options *opt) {
   const sl_allocator a = sli_allocator(opt);
   sl_status status;
-  sl_int j, p, k;
+  sl_int j, p;
   sl_matrix *T;
   status = sli_begin(out);
   status = status == SL_OK ? sli_argument(sli_options_wrong(opt, SLI_READS_NOTHING)) : status;
@@ -5404,9 +5400,7 @@ SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_
       }
     }
   }
-  for (k = A->n_rows; k > 0; k--) {
-    T->p[k] = T->p[k - 1];
-  }
+  memmove(T->p + 1, T->p, (size_t)A->n_rows * sizeof(sl_int));
   T->p[0] = 0;
   *out = T;
   return SL_OK;
@@ -34996,7 +34990,6 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_POWER_STEPS
 #undef SLI_INVERSE_STEPS
 #undef SLI_OTHER_ROUNDINGS
-#undef SLI_JOINT_CENTERED
 #undef SLI_JOINT_NULL
 #undef SLI_JOINT_CENTERED
 #undef SLI_NORM_FLOOR

@@ -131,26 +131,21 @@ SLI_INLINE int sli_is_read(sl_triangle triangle, sl_int row, sl_int column) {
            (triangle == SL_TRIANGLE_UPPER ? row <= column : row >= column);
 }
 
-/* Lays out a matrix with room for nnz entries. */
-static void sli_matrix_layout(sl_matrix *M, sli_block *b, size_t nnz, int has_values) {
-    (void)sli_take(b, 1, sizeof(sl_matrix));
-    M->p = SLI_TAKE(b, sl_int, (size_t)M->n_cols + 1);
-    M->i = SLI_TAKE(b, sl_int, nnz);
-    M->x = has_values ? SLI_TAKE(b, double, nnz) : NULL;
-}
-
 static sl_status sli_matrix_new(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int nnz,
                                 int has_values, const sl_allocator *a) {
     sl_matrix draft;
     sli_block b = {NULL, 0, 0};
-    sl_status status;
+    sl_status status = SL_OK;
     draft.allocator = *a;
     draft.n_rows = n_rows;
     draft.n_cols = n_cols;
-    sli_matrix_layout(&draft, &b, (size_t)nnz, has_values);
-    status = sli_block_alloc(&b, a);
+    SLI_LAYOUT(&b, a, status) {
+        (void)sli_take(&b, 1, sizeof(sl_matrix));
+        draft.p = SLI_TAKE(&b, sl_int, (size_t)n_cols + 1);
+        draft.i = SLI_TAKE(&b, sl_int, nnz);
+        draft.x = has_values ? SLI_TAKE(&b, double, nnz) : NULL;
+    }
     if (status == SL_OK) {
-        sli_matrix_layout(&draft, &b, (size_t)nnz, has_values);
         *out = (sl_matrix *)(void *)b.base;
         **out = draft;
     }

@@ -128,7 +128,7 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
 SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_options *opt) {
     const sl_allocator a = sli_allocator(opt);
     sl_status status;
-    sl_int j, p, k;
+    sl_int j, p;
     sl_matrix *T;
     status = sli_begin(out);
     status = status == SL_OK ? sli_argument(sli_options_wrong(opt, SLI_READS_NOTHING)) : status;
@@ -150,9 +150,8 @@ SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_
             }
         }
     }
-    for (k = A->n_rows; k > 0; k--) { /* each start has moved to the end of its column */
-        T->p[k] = T->p[k - 1];
-    }
+    /* each start has moved to the end of its column */
+    memmove(T->p + 1, T->p, (size_t)A->n_rows * sizeof(sl_int));
     T->p[0] = 0;
     *out = T;
     return SL_OK;
