@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4841dc265b3b3e68
+ * FNV-1a of the lines after this comment, without the license: 1c39ece83f1f823d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -10,54 +10,54 @@
  *    500 options.h    options of all calls, threads, and the allocator
  *    628 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
  *    871 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    972 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1048 factor.h     the numerical factorization P A P' = L D L'
- *   1172 solve.h      full solves, and the workspace of all solves
- *   1268 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1342 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
- *   1432 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1527 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1565 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1664 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1740 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1825 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1916 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2024 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2064 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2183 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2215 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2396 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2494 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2597 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2638 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2725 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2831 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2867 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2943 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2982 impl/ base: the compiler, status, memory, sorting, threads
- *   4204 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5104 impl/ matrix: sparse matrices of the caller and of the library
- *   5733 impl/ ordering: fill-reducing orderings of a graph
- *  10376 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12604 impl/ factor: the numbers of L and D
- *  15958 impl/ solve: full and local solves
- *  17631 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19560 impl/ pivots: the order of the pivots by the values of a matrix
- *  19969 impl/ float: L and fronts in single precision
- *  20420 impl/ inverse: entries of the inverse, regions
- *  23483 impl/ change: a factor that follows changes of its matrix
- *  29508 impl/ dirichlet: rows fixed at given values
- *  30096 impl/ dirichlet: by a factor of all rows
- *  30328 impl/ io: files that are replaced only when they are complete
- *  30546 impl/ files: Matrix Market files, 64-bit indices
- *  31166 impl/ save: factors in files
- *  33163 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33844 impl/ batch: diagonals of many inverses
- *  33985 impl/ complex: complex Hermitian systems over real factors
- *  34547 impl/ complex: entries of the inverse
- *  34607 impl/ packs: the tables through which the core calls packs
- *  34655 impl/ last: undefine every internal macro
- *  35011 impl/ templates: the header includes them from itself, once for each instruction set
+ *    973 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1049 factor.h     the numerical factorization P A P' = L D L'
+ *   1174 solve.h      full solves, and the workspace of all solves
+ *   1270 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1346 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
+ *   1437 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1534 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1573 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1676 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1753 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1838 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1930 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2038 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2078 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2198 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2230 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2411 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2511 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2618 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2659 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2746 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2854 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2890 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2967 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3006 impl/ base: the compiler, status, memory, sorting, threads
+ *   4228 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5128 impl/ matrix: sparse matrices of the caller and of the library
+ *   5757 impl/ ordering: fill-reducing orderings of a graph
+ *  10400 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12628 impl/ factor: the numbers of L and D
+ *  15982 impl/ solve: full and local solves
+ *  17655 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19584 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19993 impl/ float: L and fronts in single precision
+ *  20444 impl/ inverse: entries of the inverse, regions
+ *  23507 impl/ change: a factor that follows changes of its matrix
+ *  29532 impl/ dirichlet: rows fixed at given values
+ *  30120 impl/ dirichlet: by a factor of all rows
+ *  30352 impl/ io: files that are replaced only when they are complete
+ *  30570 impl/ files: Matrix Market files, 64-bit indices
+ *  31190 impl/ save: factors in files
+ *  33187 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33868 impl/ batch: diagonals of many inverses
+ *  34009 impl/ complex: complex Hermitian systems over real factors
+ *  34571 impl/ complex: entries of the inverse
+ *  34631 impl/ packs: the tables through which the core calls packs
+ *  34679 impl/ last: undefine every internal macro
+ *  35035 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -881,6 +881,7 @@ SL_API size_t sl_stats_size(void);
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE: more than 2^31 - 1 triplets, or more than
  *           2^31 - 8 rows or columns; SL_ERR_MEMORY.
  *  Cost     O(count + n_rows + n_cols).
+ *  Threads  any number with different outputs.
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows,
                                                         sl_int n_cols, sl_off count,
@@ -1102,6 +1103,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load_file),
  *           which allocates its fronts; SL_ERR_UNSUPPORTED only with SL_STORAGE_COMPLEX.
  *  Cost     as sl_factor_create, without its memory.
+ *  Threads  exclusive use of F.
  *  Example  tests/core/test_factor.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats);
@@ -1320,6 +1322,7 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *           depends on; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     2 (b_entries + x_entries) + 4 region_entries flops per right-hand side; nothing O(n);
  *           no allocation once W has grown.
+ *  Threads  any number at once on one P and one F, each with its own W.
  */
 SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X,
                                               size_t ldx, const double *B, size_t ldb, sl_int nrhs,
@@ -1332,6 +1335,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor 
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_INCONSISTENT, _NOT_FINITE: as in
  *           sl_plan_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the sum of both calls; no allocation once W has grown.
+ *  Threads  any number at once on one F, each with its own W.
  */
 SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int nb,
                                                const sl_int *xset, sl_int nx, double *X, size_t ldx,
@@ -1381,6 +1385,7 @@ SL_API void sl_dirichlet_free(sl_dirichlet *D);
  *           _NOT_FINITE, _INACCURATE and _UNSUPPORTED solves are refused until a
  *           refactorization succeeds; after other errors D is as before.
  *  Cost     a refactorization of A[free, free]; nothing is allocated, except for its first factor.
+ *  Threads  exclusive use of D.
  */
 SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A,
                                                       sl_stats *stats);
@@ -1470,6 +1475,7 @@ typedef enum sl_part {
  *           pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     2 nnz_panels flops per right-hand side for each of L and L'; O(n) for the others.
+ *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/core/test_parts.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_solve_part(const sl_factor *F, unsigned parts, double *X,
@@ -1507,6 +1513,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_multiply_part(const sl_factor *F, unsi
  *  Returns  as sl_factor_solve_part; SL_ERR_ARGUMENT: other parts; SL_ERR_STATE: a factor of
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region.
  *  Cost     2 b_entries or 2 x_entries flops per right-hand side; nothing O(n).
+ *  Threads  any number at once on one P and one F, each with its own W.
  */
 SL_API SL_WARN_UNUSED sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F,
                                                    unsigned parts, double *X, size_t ldx,
@@ -1556,6 +1563,7 @@ typedef struct sl_pseudo_inverse {
  *           2x2 pivots; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     a full solve for each column, half a one where null vectors are not known, and
  *           O(n columns^2).
+ *  Threads  any number at once on one F, each with its own W.
  *  Manual   tools/docs/singular.md
  *  Example  tests/core/test_pseudo.c
  */
@@ -1585,6 +1593,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_
  *           SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     one product with A, and another product and a solve per step; W grows to
  *           O(n min(nrhs, 8)).
+ *  Threads  any number at once on one F, each with its own W.
  *  Source   [Sk80]: one step makes a solver stable row by row.
  *  Manual   tools/docs/indefinite.md
  *  Example  tests/core/test_refine.c
@@ -1612,6 +1621,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
  *           a region and a factor with regularized rows.
  *  Cost     1 + steps local solves; nothing O(n); no allocation once W has grown, by 16 numbers per
  *           row of the x-set.
+ *  Threads  any number at once on one P and one F, each with its own W.
  *  Manual   tools/docs/indefinite.md
  *  Example  tests/core/test_refine_local.c
  */
@@ -1635,6 +1645,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_refined(const sl_plan *P, const sl
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_OTHER_PATTERN: not the analyzed pattern;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 to 10 solves, each with a product with A.
+ *  Threads  any number at once on one F, each with its own W.
  *  Source   [Hi88]
  *  Example  tests/core/test_condition.c
  */
@@ -1655,6 +1666,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rcond(const sl_factor *F, const sl_csc
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the forward sweep of sl_factor_solve.
+ *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/core/test_consistency.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy,
@@ -1687,6 +1699,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
  *           On errors F has no eta.
  *  Cost     estimated: 15 to 20 full solves; W grows by 20 n numbers. Guaranteed: 7 to 10
  *           factorizations; memory of a second factor while it runs.
+ *  Threads  the caller serializes calls that change F.
  *  Source   [Ru06] for the eigenvalue; the bounds are derived in the manual.
  *  Manual   tools/docs/bounds.md
  *  Example  tests/core/test_bounds.c
@@ -1888,6 +1901,7 @@ SL_API void sl_selected_free(sl_selected *Z);
  *           error.column name it.
  *  Cost     O(count) binary searches; of the diagonal O(count), with a logarithmic factor if Z was
  *           made for a set.
+ *  Threads  any number at once.
  */
 SL_API SL_WARN_UNUSED sl_status sl_selected_entries(const sl_selected *Z, double *out,
                                                     const sl_int *rows, const sl_int *columns,
@@ -2093,6 +2107,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
  *  Returns  SL_OK; SL_ERR_ARGUMENT: different sizes, no term, no values; SL_ERR_PATTERN;
  *           SL_ERR_TOO_LARGE: 2^31 or more entries in total; SL_ERR_MEMORY.
  *  Cost     O(n + entries of all terms).
+ *  Threads  any number with different outputs.
  *  Example  tests/core/test_matrix_sum.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients,
@@ -2424,6 +2439,7 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
  *           written once for 8 vectors. Changes that may fail take another forward sweep or a copy.
  *           The first change of a definite factor allocates 9 bytes a row, for drift.
+ *  Threads  exclusive use of F.
  *  Source   [DH01], with the factorization of [Bie76] for several vectors.
  *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_change.c
@@ -2456,6 +2472,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, 
  *           range, at error.row and error.column.
  *  Cost     that of the way, and at most a few percent of a refactorization to count flops;
  *           nothing of O(n) or O(nnz) for rank-one changes.
+ *  Threads  exclusive use of F.
  *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_change_choice.c
  */
@@ -2537,6 +2554,7 @@ SL_API void sl_pins_free(sl_pins *P);
  *  Cost     for each pin, a forward sweep, which up to 8 nearby rows share, k products over shared
  *           columns and O(k^2), with k pins before it; keeps 16 bytes per column of the path, and 4
  *           per row below its supernodes. 100 pins together take half as long as one by one.
+ *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count,
                                             sl_stats *stats);
@@ -2557,6 +2575,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *r
  *  stats    [out]  pins, of which count is the number that is left.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     O(k^2) for each.
+ *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count,
                                                 sl_stats *stats);
@@ -2566,6 +2585,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, const sl_int *indice
  *  stats  [out]  pins; error.row.
  *  Returns  as sl_pins_add; SL_ERR_STALE. On error solves are refused until a later call succeeds.
  *  Cost     that of sl_pins_add for all pins.
+ *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
 
@@ -2589,6 +2609,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
  *           before it; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     for each right-hand side a solve, k products over shared columns, twice, and O(k^2);
  *           as much for each null vector of components with pins.
+ *  Threads  any number at once on one P, each with its own W.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
                                               size_t ldx, const double *B, size_t ldb,
@@ -2771,6 +2792,7 @@ typedef struct sl_hermitian {
  *           that is not 0; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^30 - 4 rows, or more than
  *           2^31 - 1 entries, of which a complex one is 4; SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
+ *  Threads  any number with different outputs.
  *  Example  tests/core/test_complex.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H,
@@ -2784,6 +2806,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_hermitian(sl_matrix **out, const 
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a pattern without values; SL_ERR_PATTERN;
  *           SL_ERR_OTHER_PATTERN: not that of M.
  *  Cost     O(n + nnz).
+ *  Threads  exclusive use of M.
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_refill_hermitian(sl_matrix *M, const sl_hermitian *H,
                                                            sl_stats *stats);
@@ -2928,6 +2951,7 @@ typedef struct sl_csc64 {
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^31 - 8 rows or
  *           columns, or more than 2^31 - 1 entries; SL_ERR_MEMORY.
  *  Cost     O(n_cols + nnz).
+ *  Threads  any number with different outputs.
  *  Example  tests/core/test_csc64.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A,

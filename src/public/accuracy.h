@@ -26,6 +26,7 @@
  *           SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     one product with A, and another product and a solve per step; W grows to
  *           O(n min(nrhs, 8)).
+ *  Threads  any number at once on one F, each with its own W.
  *  Source   [Sk80]: one step makes a solver stable row by row.
  *  Manual   tools/docs/indefinite.md
  *  Example  tests/core/test_refine.c
@@ -53,6 +54,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
  *           a region and a factor with regularized rows.
  *  Cost     1 + steps local solves; nothing O(n); no allocation once W has grown, by 16 numbers per
  *           row of the x-set.
+ *  Threads  any number at once on one P and one F, each with its own W.
  *  Manual   tools/docs/indefinite.md
  *  Example  tests/core/test_refine_local.c
  */
@@ -76,6 +78,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_refined(const sl_plan *P, const sl
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_OTHER_PATTERN: not the analyzed pattern;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 to 10 solves, each with a product with A.
+ *  Threads  any number at once on one F, each with its own W.
  *  Source   [Hi88]
  *  Example  tests/core/test_condition.c
  */
@@ -96,6 +99,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rcond(const sl_factor *F, const sl_csc
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the forward sweep of sl_factor_solve.
+ *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/core/test_consistency.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy,

@@ -30,6 +30,7 @@
  *           On errors F has no eta.
  *  Cost     estimated: 15 to 20 full solves; W grows by 20 n numbers. Guaranteed: 7 to 10
  *           factorizations; memory of a second factor while it runs.
+ *  Threads  the caller serializes calls that change F.
  *  Source   [Ru06] for the eigenvalue; the bounds are derived in the manual.
  *  Manual   tools/docs/bounds.md
  *  Example  tests/core/test_bounds.c

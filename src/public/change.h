@@ -34,6 +34,7 @@
  *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
  *           written once for 8 vectors. Changes that may fail take another forward sweep or a copy.
  *           The first change of a definite factor allocates 9 bytes a row, for drift.
+ *  Threads  exclusive use of F.
  *  Source   [DH01], with the factorization of [Bie76] for several vectors.
  *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_change.c
@@ -66,6 +67,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, 
  *           range, at error.row and error.column.
  *  Cost     that of the way, and at most a few percent of a refactorization to count flops;
  *           nothing of O(n) or O(nnz) for rank-one changes.
+ *  Threads  exclusive use of F.
  *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_change_choice.c
  */

@@ -52,6 +52,7 @@ typedef struct sl_hermitian {
  *           that is not 0; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^30 - 4 rows, or more than
  *           2^31 - 1 entries, of which a complex one is 4; SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
+ *  Threads  any number with different outputs.
  *  Example  tests/core/test_complex.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H,
@@ -65,6 +66,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_hermitian(sl_matrix **out, const 
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a pattern without values; SL_ERR_PATTERN;
  *           SL_ERR_OTHER_PATTERN: not that of M.
  *  Cost     O(n + nnz).
+ *  Threads  exclusive use of M.
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_refill_hermitian(sl_matrix *M, const sl_hermitian *H,
                                                            sl_stats *stats);

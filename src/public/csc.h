@@ -16,6 +16,7 @@
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE: more than 2^31 - 1 triplets, or more than
  *           2^31 - 8 rows or columns; SL_ERR_MEMORY.
  *  Cost     O(count + n_rows + n_cols).
+ *  Threads  any number with different outputs.
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows,
                                                         sl_int n_cols, sl_off count,

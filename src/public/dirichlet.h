@@ -44,6 +44,7 @@ SL_API void sl_dirichlet_free(sl_dirichlet *D);
  *           _NOT_FINITE, _INACCURATE and _UNSUPPORTED solves are refused until a
  *           refactorization succeeds; after other errors D is as before.
  *  Cost     a refactorization of A[free, free]; nothing is allocated, except for its first factor.
+ *  Threads  exclusive use of D.
  */
 SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A,
                                                       sl_stats *stats);

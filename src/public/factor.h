@@ -60,6 +60,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load_file),
  *           which allocates its fronts; SL_ERR_UNSUPPORTED only with SL_STORAGE_COMPLEX.
  *  Cost     as sl_factor_create, without its memory.
+ *  Threads  exclusive use of F.
  *  Example  tests/core/test_factor.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats);

@@ -66,6 +66,7 @@ typedef struct sl_csc64 {
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^31 - 8 rows or
  *           columns, or more than 2^31 - 1 entries; SL_ERR_MEMORY.
  *  Cost     O(n_cols + nnz).
+ *  Threads  any number with different outputs.
  *  Example  tests/core/test_csc64.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A,

@@ -44,6 +44,7 @@ typedef enum sl_part {
  *           pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     2 nnz_panels flops per right-hand side for each of L and L'; O(n) for the others.
+ *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/core/test_parts.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_solve_part(const sl_factor *F, unsigned parts, double *X,
@@ -81,6 +82,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_multiply_part(const sl_factor *F, unsi
  *  Returns  as sl_factor_solve_part; SL_ERR_ARGUMENT: other parts; SL_ERR_STATE: a factor of
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region.
  *  Cost     2 b_entries or 2 x_entries flops per right-hand side; nothing O(n).
+ *  Threads  any number at once on one P and one F, each with its own W.
  */
 SL_API SL_WARN_UNUSED sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F,
                                                    unsigned parts, double *X, size_t ldx,

@@ -49,6 +49,7 @@ SL_API void sl_pins_free(sl_pins *P);
  *  Cost     for each pin, a forward sweep, which up to 8 nearby rows share, k products over shared
  *           columns and O(k^2), with k pins before it; keeps 16 bytes per column of the path, and 4
  *           per row below its supernodes. 100 pins together take half as long as one by one.
+ *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count,
                                             sl_stats *stats);
@@ -69,6 +70,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *r
  *  stats    [out]  pins, of which count is the number that is left.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     O(k^2) for each.
+ *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count,
                                                 sl_stats *stats);
@@ -78,6 +80,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, const sl_int *indice
  *  stats  [out]  pins; error.row.
  *  Returns  as sl_pins_add; SL_ERR_STALE. On error solves are refused until a later call succeeds.
  *  Cost     that of sl_pins_add for all pins.
+ *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
 
@@ -101,6 +104,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
  *           before it; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     for each right-hand side a solve, k products over shared columns, twice, and O(k^2);
  *           as much for each null vector of components with pins.
+ *  Threads  any number at once on one P, each with its own W.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
                                               size_t ldx, const double *B, size_t ldb,

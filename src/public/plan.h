@@ -57,6 +57,7 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *           depends on; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     2 (b_entries + x_entries) + 4 region_entries flops per right-hand side; nothing O(n);
  *           no allocation once W has grown.
+ *  Threads  any number at once on one P and one F, each with its own W.
  */
 SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X,
                                               size_t ldx, const double *B, size_t ldb, sl_int nrhs,
@@ -69,6 +70,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor 
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_INCONSISTENT, _NOT_FINITE: as in
  *           sl_plan_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the sum of both calls; no allocation once W has grown.
+ *  Threads  any number at once on one F, each with its own W.
  */
 SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int nb,
                                                const sl_int *xset, sl_int nx, double *X, size_t ldx,

@@ -34,6 +34,7 @@ typedef struct sl_pseudo_inverse {
  *           2x2 pivots; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     a full solve for each column, half a one where null vectors are not known, and
  *           O(n columns^2).
+ *  Threads  any number at once on one F, each with its own W.
  *  Manual   tools/docs/singular.md
  *  Example  tests/core/test_pseudo.c
  */

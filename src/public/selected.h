@@ -69,6 +69,7 @@ SL_API void sl_selected_free(sl_selected *Z);
  *           error.column name it.
  *  Cost     O(count) binary searches; of the diagonal O(count), with a logarithmic factor if Z was
  *           made for a set.
+ *  Threads  any number at once.
  */
 SL_API SL_WARN_UNUSED sl_status sl_selected_entries(const sl_selected *Z, double *out,
                                                     const sl_int *rows, const sl_int *columns,

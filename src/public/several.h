@@ -35,6 +35,7 @@
  *  Returns  SL_OK; SL_ERR_ARGUMENT: different sizes, no term, no values; SL_ERR_PATTERN;
  *           SL_ERR_TOO_LARGE: 2^31 or more entries in total; SL_ERR_MEMORY.
  *  Cost     O(n + entries of all terms).
+ *  Threads  any number with different outputs.
  *  Example  tests/core/test_matrix_sum.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients,
