@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 1c39ece83f1f823d
+ * FNV-1a of the lines after this comment, without the license: 70a389c038f46fd7
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -10,54 +10,54 @@
  *    500 options.h    options of all calls, threads, and the allocator
  *    628 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
  *    871 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    973 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1049 factor.h     the numerical factorization P A P' = L D L'
- *   1174 solve.h      full solves, and the workspace of all solves
- *   1270 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1346 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
- *   1437 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1534 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1573 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1676 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1753 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1838 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1930 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2038 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2078 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2198 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2230 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2411 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2511 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2618 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2659 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2746 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2854 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2890 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2967 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3006 impl/ base: the compiler, status, memory, sorting, threads
- *   4228 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5128 impl/ matrix: sparse matrices of the caller and of the library
- *   5757 impl/ ordering: fill-reducing orderings of a graph
- *  10400 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12628 impl/ factor: the numbers of L and D
- *  15982 impl/ solve: full and local solves
- *  17655 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19584 impl/ pivots: the order of the pivots by the values of a matrix
- *  19993 impl/ float: L and fronts in single precision
- *  20444 impl/ inverse: entries of the inverse, regions
- *  23507 impl/ change: a factor that follows changes of its matrix
- *  29532 impl/ dirichlet: rows fixed at given values
- *  30120 impl/ dirichlet: by a factor of all rows
- *  30352 impl/ io: files that are replaced only when they are complete
- *  30570 impl/ files: Matrix Market files, 64-bit indices
- *  31190 impl/ save: factors in files
- *  33187 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33868 impl/ batch: diagonals of many inverses
- *  34009 impl/ complex: complex Hermitian systems over real factors
- *  34571 impl/ complex: entries of the inverse
- *  34631 impl/ packs: the tables through which the core calls packs
- *  34679 impl/ last: undefine every internal macro
- *  35035 impl/ templates: the header includes them from itself, once for each instruction set
+ *    972 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1047 factor.h     the numerical factorization P A P' = L D L'
+ *   1172 solve.h      full solves, and the workspace of all solves
+ *   1268 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1344 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
+ *   1435 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1528 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1567 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1668 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1745 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1830 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1922 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2028 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2068 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2188 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2219 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2400 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2500 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2607 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2648 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2734 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2841 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2875 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2952 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2991 impl/ base: the compiler, status, memory, sorting, threads
+ *   4213 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5113 impl/ matrix: sparse matrices of the caller and of the library
+ *   5742 impl/ ordering: fill-reducing orderings of a graph
+ *  10385 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12613 impl/ factor: the numbers of L and D
+ *  15967 impl/ solve: full and local solves
+ *  17640 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19569 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19978 impl/ float: L and fronts in single precision
+ *  20429 impl/ inverse: entries of the inverse, regions
+ *  23492 impl/ change: a factor that follows changes of its matrix
+ *  29517 impl/ dirichlet: rows fixed at given values
+ *  30105 impl/ dirichlet: by a factor of all rows
+ *  30337 impl/ io: files that are replaced only when they are complete
+ *  30555 impl/ files: Matrix Market files, 64-bit indices
+ *  31175 impl/ save: factors in files
+ *  33172 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33853 impl/ batch: diagonals of many inverses
+ *  33994 impl/ complex: complex Hermitian systems over real factors
+ *  34556 impl/ complex: entries of the inverse
+ *  34616 impl/ packs: the tables through which the core calls packs
+ *  34664 impl/ last: undefine every internal macro
+ *  35020 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -129,15 +129,15 @@
  *              parent. nnz counts stored entries.
  * Conventions  Every function that can fail returns sl_status. On error, outputs are NULL or
  *              untouched, and sl_error_text says why. Options and stats may be NULL. So may W, a
- *              workspace: the call then allocates one for itself. An sl_NAME is released by
- *              sl_NAME_free, which accepts NULL. Dense arguments are column-major with a leading
- *              dimension in elements; solves take row-major ones, too (SL_ROWS). Row numbers are
- *              the caller's, also in errors. A b-set comes before an x-set, and a length follows
- *              its array; a set is empty if its length is 0 and its pointer is not NULL. The
- *              library never prints or aborts. Threads share no mutable globals: each keeps its
- *              last error, and with SL_NO_THREAD_LOCAL nothing. For METIS, an option, see
- *              sl_symbolic_create. What is marked EXPERIMENTAL may change in any version; all else
- *              keeps its promises from 1.0 on.
+ *              workspace: the call then allocates one for itself. Each kind of object has a call
+ *              that releases it, such as sl_factor_free, which accepts NULL. Dense arguments are
+ *              column-major with a leading dimension in elements; solves take row-major ones, too
+ *              (SL_ROWS). Row numbers are the caller's, also in errors. A b-set comes before an
+ *              x-set, and a length follows its array; a set is empty if its length is 0 and its
+ *              pointer is not NULL. The library never prints or aborts. Threads share no mutable
+ *              globals: each keeps its last error, and with SL_NO_THREAD_LOCAL nothing. For METIS,
+ *              an option, see sl_symbolic_create. What is marked EXPERIMENTAL may change in any
+ *              version; all else keeps its promises from 1.0 on.
  * Lifetimes    An object keeps what it was made from: a factor, a plan, a region and a selected
  *              inverse their analysis, a plan its region, pins their factor. So all of them may be
  *              freed in any order, and on any threads with gcc, clang and MSVC; other compilers
@@ -945,9 +945,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *ou
  *
  *  reading  [in]   SL_AS_SYMMETRIC: A is square, and one triangle defines it, the lower one if both
  *                  are stored; SL_AS_STORED: any shape.
- *  Y        [out]  n_rows x nrhs, column-major, leading dimension ldy elements; must not overlap X
- *                  (Y = X is refused).
- *  X        [in]   n_cols x nrhs, column-major, leading dimension ldx elements.
+ *  Y        [out]  n_rows x nrhs, leading dimension ldy; must not overlap X (Y = X is refused).
+ *  X        [in]   n_cols x nrhs, leading dimension ldx.
  *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is not checked (sl_csc_check).
  *  Cost     O(nnz nrhs).
  */
@@ -958,9 +957,9 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_multiply(const sl_csc *A, sl_reading read
 /** R = B - A X for a symmetric A, and the backward error of each column.
  *
  *  A               [in]   as SL_AS_SYMMETRIC in sl_csc_multiply.
- *  R               [out]  n x nrhs, column-major, leading dimension ldr elements. May be B itself
- *                         (then ldr = ldb) if backward_error is NULL; must not overlap X.
- *  X, B            [in]   n x nrhs, column-major, leading dimensions ldx and ldb elements.
+ *  R               [out]  n x nrhs, leading dimension ldr. May be B itself (then ldr = ldb) if
+ *                         backward_error is NULL; must not overlap X.
+ *  X, B            [in]   n x nrhs, leading dimensions ldx and ldb.
  *  backward_error  [out]  nrhs numbers ||r|| / (||A|| ||x|| + ||b||) in the infinity norm; 0 if r =
  *                         0, NaN if r has a NaN or the denominator overflows; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is not checked.
@@ -1004,8 +1003,7 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
                                                    const sl_options *opt, sl_stats *stats);
 
-/** Releases an analysis. Objects made from it keep it as long as they need it: all
- *  objects may be freed in any order (intro.h). */
+/** Releases an analysis. Objects made from it keep it as long as they need it. */
 SL_API void sl_symbolic_free(sl_symbolic *S);
 
 /** Fills the symbolic group of stats. */
@@ -1381,7 +1379,7 @@ SL_API void sl_dirichlet_free(sl_dirichlet *D);
  *
  *  A      [in]   the pattern that sl_dirichlet_create was given, its entries in the same order.
  *  stats  [out]  dirichlet, factor; errors are in rows of A.
- *  Returns  as sl_dirichlet_create; SL_ERR_OTHER_PATTERN: another pattern. After SL_ERR_PIVOT,
+ *  Returns  as sl_dirichlet_create; SL_ERR_OTHER_PATTERN. After SL_ERR_PIVOT,
  *           _NOT_FINITE, _INACCURATE and _UNSUPPORTED solves are refused until a
  *           refactorization succeeds; after other errors D is as before.
  *  Cost     a refactorization of A[free, free]; nothing is allocated, except for its first factor.
@@ -1392,14 +1390,14 @@ SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_
 
 /** Solves for x in the free rows, for any values of the fixed ones.
  *
- *  X     [out]  n x nrhs, column-major, leading dimension ldx elements, rows in the order of A;
- *               row-major if ldx is SL_ROWS(ld). Fixed rows are g. May be B itself (then ldx =
- *               ldb). Overwritten also after SL_ERR_INCONSISTENT, _NOT_FINITE and _INACCURATE;
- *               after other errors untouched.
- *  B     [in]   n x nrhs, column-major, leading dimension ldb elements, or row-major as X; fixed
- *               rows are not used. NULL: b = 0.
- *  G     [in]   count x nrhs, column-major, leading dimension ldg elements, or row-major as X: the
- *               values, in the order of rows. May be NULL if count = 0.
+ *  X     [out]  n x nrhs, leading dimension ldx, rows in the order of A; row-major if ldx is
+ *               SL_ROWS(ld). Fixed rows are g. May be B itself (then ldx = ldb). Overwritten also
+ *               after SL_ERR_INCONSISTENT, _NOT_FINITE and _INACCURATE; after other errors
+ *               untouched.
+ *  B     [in]   n x nrhs, leading dimension ldb, or row-major as X; fixed rows are not used. NULL:
+ *               b = 0.
+ *  G     [in]   count x nrhs, leading dimension ldg, or row-major as X: the values, in the order of
+ *               rows. May be NULL if count = 0.
  *  nrhs  [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed refactorization, or the factor whose
  *           pins are used has changed; SL_ERR_NOT_FINITE, SL_ERR_INCONSISTENT: as sl_factor_solve;
@@ -1465,11 +1463,10 @@ typedef enum sl_part {
  *
  *  F      [in]   factor of A, n x n.
  *  parts  [in]   any of sl_part, but not both SL_PART_D and SL_PART_SQRT_D; 0 copies B.
- *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, or by SL_ROWS; in the
- *                order of A with SL_PART_PT, else of the pivots. May be B itself (then ldx = ldb).
- *                On error untouched.
- *  B      [in]   n x nrhs, column-major, leading dimension ldb elements, or by SL_ROWS; in the
- *                order of A with SL_PART_P, else of the pivots.
+ *  X      [out]  n x nrhs, leading dimension ldx, or by SL_ROWS; in the order of A with SL_PART_PT,
+ *                else of the pivots. May be B itself (then ldx = ldb). On error untouched.
+ *  B      [in]   n x nrhs, leading dimension ldb, or by SL_ROWS; in the order of A with SL_PART_P,
+ *                else of the pivots.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_PIVOT: SL_PART_SQRT_D with a negative
  *           pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots; SL_ERR_TOO_LARGE;
@@ -1506,10 +1503,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_multiply_part(const sl_factor *F, unsi
  *  covariance A^-1 has there. The results are the rows of sl_factor_solve_part, bit for bit.
  *
  *  P, F   [in]   a plan without a region, and a factor over its analysis.
- *  X      [out]  column-major, leading dimension ldx elements, or by SL_ROWS. May be B itself (then
- *                ldx = ldb). On error untouched.
- *  B      [in]   column-major, leading dimension ldb elements, or by SL_ROWS.
- *  nrhs, W       as in sl_plan_solve.
+ *  X, B, ldx, ldb, nrhs, W  as in sl_plan_solve, but for their rows.
  *  Returns  as sl_factor_solve_part; SL_ERR_ARGUMENT: other parts; SL_ERR_STATE: a factor of
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region.
  *  Cost     2 b_entries or 2 x_entries flops per right-hand side; nothing O(n).
@@ -1582,10 +1576,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_
  *
  *  F      [in]      a factor of A, or of a matrix close to A.
  *  A      [in]      the matrix, with the analyzed pattern.
- *  X      [in,out]  n x nrhs, column-major, leading dimension ldx elements: solutions from
- *                   sl_factor_solve, or any other start; must not overlap B. On errors other than
- *                   SL_ERR_INACCURATE untouched.
- *  B      [in]      n x nrhs, column-major, leading dimension ldb elements.
+ *  X      [in,out]  n x nrhs, leading dimension ldx: solutions from sl_factor_solve, or any other
+ *                   start; must not overlap B. On errors other than SL_ERR_INACCURATE untouched.
+ *  B      [in]      n x nrhs, leading dimension ldb.
  *  steps  [in]      maximum number of corrections per column, 0 or more; 0 only measures, and does
  *                   not return SL_ERR_INACCURATE.
  *  stats  [out]     refine.
@@ -1661,9 +1654,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rcond(const sl_factor *F, const sl_csc
  *  Laplacian, Y contains the sums of B over the components.
  *
  *  F      [in]   a factor made with SL_NULL_PIVOT_SKIP; without null pivots Y has no rows.
- *  Y      [out]  null rows x nrhs, column-major, leading dimension ldy elements; must not overlap
- *                B.
- *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
+ *  Y      [out]  null rows x nrhs, leading dimension ldy; must not overlap B.
+ *  B      [in]   n x nrhs, leading dimension ldb.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the forward sweep of sl_factor_solve.
  *  Threads  any number at once on one F, each with its own W.
@@ -1805,7 +1797,7 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_pairs(const sl_factor *F, double *out
 
 /** A dense block of the inverse: Z(i, j) = (A^-1)(rows[i], columns[j]).
  *
- *  Z        [out]  n_rows x n_columns, column-major, leading dimension ldz >= n_rows elements.
+ *  Z        [out]  n_rows x n_columns, leading dimension ldz >= n_rows.
  *  rows     [in]   n_rows rows of A in 0..n-1, any order, repetitions allowed.
  *  columns  [in]   n_columns rows of A, likewise. If it is the same array as rows, of the same
  *                  length, each sweep and each entry is computed once and the block is exactly
@@ -1990,10 +1982,8 @@ SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_facto
  *  F      [in]      a factor over the analysis that R was made for; from now on the only one that R
  *                   accepts.
  *  Z      [in]      as in sl_region_create; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: failed factor, or Z is not of the present F;
- *           SL_ERR_STATE: a factor of another analysis; SL_ERR_READ_ONLY: R is mapped;
- *           SL_ERR_UNSUPPORTED, SL_ERR_INACCURATE: as sl_region_create; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
+ *  Returns  as sl_region_create; SL_ERR_STATE: a factor of another analysis; SL_ERR_READ_ONLY: R is
+ *           mapped.
  *  Cost     as sl_region_create without the plan; no allocation once W has grown.
  *  Threads  exclusive use of R and of its plans.
  */
@@ -2201,8 +2191,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_refactor(sl_factor *const *factors, sl_
  *  sl_inverse_diagonal.
  *
  *  factors  [in]      count factors of one analysis, repetitions allowed.
- *  out      [out]     n_rows x count, column-major, leading dimension ldo >= n_rows elements. On
- *                     error untouched.
+ *  out      [out]     n_rows x count, leading dimension ldo >= n_rows. On error untouched.
  *  rows     [in]      n_rows rows of A, any order, repetitions allowed; NULL (n_rows is ignored):
  *                     all n.
  *  opt      [in]      threads; NULL: the calling thread only. Each thread takes whole factors.
@@ -2708,12 +2697,11 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
  *  F       [in]   a factor of A. It stays as it is, and so must its analysis during the call.
  *  S       [in]   an analysis of B, such as that of sl_symbolic_edit; kept by out.
  *  B       [in]   n x n, the matrix that S was created from. Two triangles are not compared.
- *  new_of  [in]   rows of A: new_of[i] is the row of B that row i of A has become, or -1 if it is
- *                 gone. After several edits, the composition of their maps.
+ *  new_of  [in]   as in sl_symbolic_edit; after several edits, the composition of their maps.
  *  opt     [in]   as for sl_factor_create.
  *  stats   [out]  factor, reuse.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
- *           the row of A); SL_ERR_STALE: F has no numbers; otherwise as sl_factor_create.
+ *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: also for new_of, as sl_symbolic_edit;
+ *           SL_ERR_STALE: F has no numbers.
  *  Cost     O(n + nnz + rows of supernodes), a copy of L, and stats.reuse.flops. Where 0.1 % of a
  *           mesh of 1e6 vertices is remeshed in one place, about a third of a new factorization; at
  *           most a tenth more than that where little is worth keeping.
@@ -2827,8 +2815,7 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_rows(sl_int *out, const sl_int *rows,
  *                sl_plan_solve then have 2 nb and 2 nx doubles for each right-hand side.
  *  stats  [out]  as in sl_plan_create; error.row is a complex row.
  *  Returns  as sl_plan_create; SL_ERR_ARGUMENT also if S has an odd number of columns.
- *  Cost     as sl_plan_create.
- *  Threads  as sl_plan_create.
+ *  Cost, Threads  as sl_plan_create.
  */
 SL_API SL_WARN_UNUSED sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S,
                                                        const sl_int *bset, sl_int nb,
@@ -2873,10 +2860,8 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_block(const sl_factor *F, dou
  *  (H^-1)(rows[k], columns[k]).
  *
  *  rows, columns  [in]  count complex rows each, any order, repetitions allowed.
- *  W, stats  as in sl_inverse_pairs; error.row and error.column are complex rows.
- *  Returns  as sl_inverse_pairs; SL_ERR_ARGUMENT also if F has an odd number of rows.
  *  Cost     sl_inverse_pairs of 2 count entries; allocates the sets.
- *  Threads  as sl_inverse_pairs.
+ *  W, stats, Returns, Threads  as sl_complex_inverse_block.
  */
 SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out,
                                                          const sl_int *rows, const sl_int *columns,

@@ -15,10 +15,9 @@
  *
  *  F      [in]      a factor of A, or of a matrix close to A.
  *  A      [in]      the matrix, with the analyzed pattern.
- *  X      [in,out]  n x nrhs, column-major, leading dimension ldx elements: solutions from
- *                   sl_factor_solve, or any other start; must not overlap B. On errors other than
- *                   SL_ERR_INACCURATE untouched.
- *  B      [in]      n x nrhs, column-major, leading dimension ldb elements.
+ *  X      [in,out]  n x nrhs, leading dimension ldx: solutions from sl_factor_solve, or any other
+ *                   start; must not overlap B. On errors other than SL_ERR_INACCURATE untouched.
+ *  B      [in]      n x nrhs, leading dimension ldb.
  *  steps  [in]      maximum number of corrections per column, 0 or more; 0 only measures, and does
  *                   not return SL_ERR_INACCURATE.
  *  stats  [out]     refine.
@@ -94,9 +93,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rcond(const sl_factor *F, const sl_csc
  *  Laplacian, Y contains the sums of B over the components.
  *
  *  F      [in]   a factor made with SL_NULL_PIVOT_SKIP; without null pivots Y has no rows.
- *  Y      [out]  null rows x nrhs, column-major, leading dimension ldy elements; must not overlap
- *                B.
- *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
+ *  Y      [out]  null rows x nrhs, leading dimension ldy; must not overlap B.
+ *  B      [in]   n x nrhs, leading dimension ldb.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the forward sweep of sl_factor_solve.
  *  Threads  any number at once on one F, each with its own W.

@@ -37,8 +37,7 @@
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
                                                    const sl_options *opt, sl_stats *stats);
 
-/** Releases an analysis. Objects made from it keep it as long as they need it: all
- *  objects may be freed in any order (intro.h). */
+/** Releases an analysis. Objects made from it keep it as long as they need it. */
 SL_API void sl_symbolic_free(sl_symbolic *S);
 
 /** Fills the symbolic group of stats. */

@@ -8,8 +8,7 @@
  *  sl_inverse_diagonal.
  *
  *  factors  [in]      count factors of one analysis, repetitions allowed.
- *  out      [out]     n_rows x count, column-major, leading dimension ldo >= n_rows elements. On
- *                     error untouched.
+ *  out      [out]     n_rows x count, leading dimension ldo >= n_rows. On error untouched.
  *  rows     [in]      n_rows rows of A, any order, repetitions allowed; NULL (n_rows is ignored):
  *                     all n.
  *  opt      [in]      threads; NULL: the calling thread only. Each thread takes whole factors.

@@ -87,8 +87,7 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_rows(sl_int *out, const sl_int *rows,
  *                sl_plan_solve then have 2 nb and 2 nx doubles for each right-hand side.
  *  stats  [out]  as in sl_plan_create; error.row is a complex row.
  *  Returns  as sl_plan_create; SL_ERR_ARGUMENT also if S has an odd number of columns.
- *  Cost     as sl_plan_create.
- *  Threads  as sl_plan_create.
+ *  Cost, Threads  as sl_plan_create.
  */
 SL_API SL_WARN_UNUSED sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S,
                                                        const sl_int *bset, sl_int nb,

@@ -24,10 +24,8 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_block(const sl_factor *F, dou
  *  (H^-1)(rows[k], columns[k]).
  *
  *  rows, columns  [in]  count complex rows each, any order, repetitions allowed.
- *  W, stats  as in sl_inverse_pairs; error.row and error.column are complex rows.
- *  Returns  as sl_inverse_pairs; SL_ERR_ARGUMENT also if F has an odd number of rows.
  *  Cost     sl_inverse_pairs of 2 count entries; allocates the sets.
- *  Threads  as sl_inverse_pairs.
+ *  W, stats, Returns, Threads  as sl_complex_inverse_block.
  */
 SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out,
                                                          const sl_int *rows, const sl_int *columns,

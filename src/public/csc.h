@@ -80,9 +80,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *ou
  *
  *  reading  [in]   SL_AS_SYMMETRIC: A is square, and one triangle defines it, the lower one if both
  *                  are stored; SL_AS_STORED: any shape.
- *  Y        [out]  n_rows x nrhs, column-major, leading dimension ldy elements; must not overlap X
- *                  (Y = X is refused).
- *  X        [in]   n_cols x nrhs, column-major, leading dimension ldx elements.
+ *  Y        [out]  n_rows x nrhs, leading dimension ldy; must not overlap X (Y = X is refused).
+ *  X        [in]   n_cols x nrhs, leading dimension ldx.
  *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is not checked (sl_csc_check).
  *  Cost     O(nnz nrhs).
  */
@@ -93,9 +92,9 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_multiply(const sl_csc *A, sl_reading read
 /** R = B - A X for a symmetric A, and the backward error of each column.
  *
  *  A               [in]   as SL_AS_SYMMETRIC in sl_csc_multiply.
- *  R               [out]  n x nrhs, column-major, leading dimension ldr elements. May be B itself
- *                         (then ldr = ldb) if backward_error is NULL; must not overlap X.
- *  X, B            [in]   n x nrhs, column-major, leading dimensions ldx and ldb elements.
+ *  R               [out]  n x nrhs, leading dimension ldr. May be B itself (then ldr = ldb) if
+ *                         backward_error is NULL; must not overlap X.
+ *  X, B            [in]   n x nrhs, leading dimensions ldx and ldb.
  *  backward_error  [out]  nrhs numbers ||r|| / (||A|| ||x|| + ||b||) in the infinity norm; 0 if r =
  *                         0, NaN if r has a NaN or the denominator overflows; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is not checked.

@@ -40,7 +40,7 @@ SL_API void sl_dirichlet_free(sl_dirichlet *D);
  *
  *  A      [in]   the pattern that sl_dirichlet_create was given, its entries in the same order.
  *  stats  [out]  dirichlet, factor; errors are in rows of A.
- *  Returns  as sl_dirichlet_create; SL_ERR_OTHER_PATTERN: another pattern. After SL_ERR_PIVOT,
+ *  Returns  as sl_dirichlet_create; SL_ERR_OTHER_PATTERN. After SL_ERR_PIVOT,
  *           _NOT_FINITE, _INACCURATE and _UNSUPPORTED solves are refused until a
  *           refactorization succeeds; after other errors D is as before.
  *  Cost     a refactorization of A[free, free]; nothing is allocated, except for its first factor.
@@ -51,14 +51,14 @@ SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_
 
 /** Solves for x in the free rows, for any values of the fixed ones.
  *
- *  X     [out]  n x nrhs, column-major, leading dimension ldx elements, rows in the order of A;
- *               row-major if ldx is SL_ROWS(ld). Fixed rows are g. May be B itself (then ldx =
- *               ldb). Overwritten also after SL_ERR_INCONSISTENT, _NOT_FINITE and _INACCURATE;
- *               after other errors untouched.
- *  B     [in]   n x nrhs, column-major, leading dimension ldb elements, or row-major as X; fixed
- *               rows are not used. NULL: b = 0.
- *  G     [in]   count x nrhs, column-major, leading dimension ldg elements, or row-major as X: the
- *               values, in the order of rows. May be NULL if count = 0.
+ *  X     [out]  n x nrhs, leading dimension ldx, rows in the order of A; row-major if ldx is
+ *               SL_ROWS(ld). Fixed rows are g. May be B itself (then ldx = ldb). Overwritten also
+ *               after SL_ERR_INCONSISTENT, _NOT_FINITE and _INACCURATE; after other errors
+ *               untouched.
+ *  B     [in]   n x nrhs, leading dimension ldb, or row-major as X; fixed rows are not used. NULL:
+ *               b = 0.
+ *  G     [in]   count x nrhs, leading dimension ldg, or row-major as X: the values, in the order of
+ *               rows. May be NULL if count = 0.
  *  nrhs  [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed refactorization, or the factor whose
  *           pins are used has changed; SL_ERR_NOT_FINITE, SL_ERR_INCONSISTENT: as sl_factor_solve;

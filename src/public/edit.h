@@ -55,12 +55,11 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
  *  F       [in]   a factor of A. It stays as it is, and so must its analysis during the call.
  *  S       [in]   an analysis of B, such as that of sl_symbolic_edit; kept by out.
  *  B       [in]   n x n, the matrix that S was created from. Two triangles are not compared.
- *  new_of  [in]   rows of A: new_of[i] is the row of B that row i of A has become, or -1 if it is
- *                 gone. After several edits, the composition of their maps.
+ *  new_of  [in]   as in sl_symbolic_edit; after several edits, the composition of their maps.
  *  opt     [in]   as for sl_factor_create.
  *  stats   [out]  factor, reuse.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
- *           the row of A); SL_ERR_STALE: F has no numbers; otherwise as sl_factor_create.
+ *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: also for new_of, as sl_symbolic_edit;
+ *           SL_ERR_STALE: F has no numbers.
  *  Cost     O(n + nnz + rows of supernodes), a copy of L, and stats.reuse.flops. Where 0.1 % of a
  *           mesh of 1e6 vertices is remeshed in one place, about a third of a new factorization; at
  *           most a tenth more than that where little is worth keeping.

@@ -67,15 +67,15 @@
  *              parent. nnz counts stored entries.
  * Conventions  Every function that can fail returns sl_status. On error, outputs are NULL or
  *              untouched, and sl_error_text says why. Options and stats may be NULL. So may W, a
- *              workspace: the call then allocates one for itself. An sl_NAME is released by
- *              sl_NAME_free, which accepts NULL. Dense arguments are column-major with a leading
- *              dimension in elements; solves take row-major ones, too (SL_ROWS). Row numbers are
- *              the caller's, also in errors. A b-set comes before an x-set, and a length follows
- *              its array; a set is empty if its length is 0 and its pointer is not NULL. The
- *              library never prints or aborts. Threads share no mutable globals: each keeps its
- *              last error, and with SL_NO_THREAD_LOCAL nothing. For METIS, an option, see
- *              sl_symbolic_create. What is marked EXPERIMENTAL may change in any version; all else
- *              keeps its promises from 1.0 on.
+ *              workspace: the call then allocates one for itself. Each kind of object has a call
+ *              that releases it, such as sl_factor_free, which accepts NULL. Dense arguments are
+ *              column-major with a leading dimension in elements; solves take row-major ones, too
+ *              (SL_ROWS). Row numbers are the caller's, also in errors. A b-set comes before an
+ *              x-set, and a length follows its array; a set is empty if its length is 0 and its
+ *              pointer is not NULL. The library never prints or aborts. Threads share no mutable
+ *              globals: each keeps its last error, and with SL_NO_THREAD_LOCAL nothing. For METIS,
+ *              an option, see sl_symbolic_create. What is marked EXPERIMENTAL may change in any
+ *              version; all else keeps its promises from 1.0 on.
  * Lifetimes    An object keeps what it was made from: a factor, a plan, a region and a selected
  *              inverse their analysis, a plan its region, pins their factor. So all of them may be
  *              freed in any order, and on any threads with gcc, clang and MSVC; other compilers

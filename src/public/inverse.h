@@ -58,7 +58,7 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_pairs(const sl_factor *F, double *out
 
 /** A dense block of the inverse: Z(i, j) = (A^-1)(rows[i], columns[j]).
  *
- *  Z        [out]  n_rows x n_columns, column-major, leading dimension ldz >= n_rows elements.
+ *  Z        [out]  n_rows x n_columns, leading dimension ldz >= n_rows.
  *  rows     [in]   n_rows rows of A in 0..n-1, any order, repetitions allowed.
  *  columns  [in]   n_columns rows of A, likewise. If it is the same array as rows, of the same
  *                  length, each sweep and each entry is computed once and the block is exactly

@@ -34,11 +34,10 @@ typedef enum sl_part {
  *
  *  F      [in]   factor of A, n x n.
  *  parts  [in]   any of sl_part, but not both SL_PART_D and SL_PART_SQRT_D; 0 copies B.
- *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, or by SL_ROWS; in the
- *                order of A with SL_PART_PT, else of the pivots. May be B itself (then ldx = ldb).
- *                On error untouched.
- *  B      [in]   n x nrhs, column-major, leading dimension ldb elements, or by SL_ROWS; in the
- *                order of A with SL_PART_P, else of the pivots.
+ *  X      [out]  n x nrhs, leading dimension ldx, or by SL_ROWS; in the order of A with SL_PART_PT,
+ *                else of the pivots. May be B itself (then ldx = ldb). On error untouched.
+ *  B      [in]   n x nrhs, leading dimension ldb, or by SL_ROWS; in the order of A with SL_PART_P,
+ *                else of the pivots.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_PIVOT: SL_PART_SQRT_D with a negative
  *           pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots; SL_ERR_TOO_LARGE;
@@ -75,10 +74,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_multiply_part(const sl_factor *F, unsi
  *  covariance A^-1 has there. The results are the rows of sl_factor_solve_part, bit for bit.
  *
  *  P, F   [in]   a plan without a region, and a factor over its analysis.
- *  X      [out]  column-major, leading dimension ldx elements, or by SL_ROWS. May be B itself (then
- *                ldx = ldb). On error untouched.
- *  B      [in]   column-major, leading dimension ldb elements, or by SL_ROWS.
- *  nrhs, W       as in sl_plan_solve.
+ *  X, B, ldx, ldb, nrhs, W  as in sl_plan_solve, but for their rows.
  *  Returns  as sl_factor_solve_part; SL_ERR_ARGUMENT: other parts; SL_ERR_STATE: a factor of
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region.
  *  Cost     2 b_entries or 2 x_entries flops per right-hand side; nothing O(n).
