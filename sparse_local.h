@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 70a389c038f46fd7
+ * FNV-1a of the lines after this comment, without the license: 47d1d376f49ca7c1
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,28 +36,28 @@
  *   2952 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   2991 impl/ base: the compiler, status, memory, sorting, threads
  *   4213 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5113 impl/ matrix: sparse matrices of the caller and of the library
- *   5742 impl/ ordering: fill-reducing orderings of a graph
- *  10385 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12613 impl/ factor: the numbers of L and D
- *  15967 impl/ solve: full and local solves
- *  17640 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19569 impl/ pivots: the order of the pivots by the values of a matrix
- *  19978 impl/ float: L and fronts in single precision
- *  20429 impl/ inverse: entries of the inverse, regions
- *  23492 impl/ change: a factor that follows changes of its matrix
- *  29517 impl/ dirichlet: rows fixed at given values
- *  30105 impl/ dirichlet: by a factor of all rows
- *  30337 impl/ io: files that are replaced only when they are complete
- *  30555 impl/ files: Matrix Market files, 64-bit indices
- *  31175 impl/ save: factors in files
- *  33172 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33853 impl/ batch: diagonals of many inverses
- *  33994 impl/ complex: complex Hermitian systems over real factors
- *  34556 impl/ complex: entries of the inverse
- *  34616 impl/ packs: the tables through which the core calls packs
- *  34664 impl/ last: undefine every internal macro
- *  35020 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5131 impl/ matrix: sparse matrices of the caller and of the library
+ *   5760 impl/ ordering: fill-reducing orderings of a graph
+ *  10403 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12631 impl/ factor: the numbers of L and D
+ *  15984 impl/ solve: full and local solves
+ *  17646 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19575 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19984 impl/ float: L and fronts in single precision
+ *  20435 impl/ inverse: entries of the inverse, regions
+ *  23498 impl/ change: a factor that follows changes of its matrix
+ *  29523 impl/ dirichlet: rows fixed at given values
+ *  30111 impl/ dirichlet: by a factor of all rows
+ *  30343 impl/ io: files that are replaced only when they are complete
+ *  30561 impl/ files: Matrix Market files, 64-bit indices
+ *  31181 impl/ save: factors in files
+ *  33178 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33859 impl/ batch: diagonals of many inverses
+ *  34000 impl/ complex: complex Hermitian systems over real factors
+ *  34562 impl/ complex: entries of the inverse
+ *  34622 impl/ packs: the tables through which the core calls packs
+ *  34670 impl/ last: undefine every internal macro
+ *  35026 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4276,6 +4276,19 @@ enum {
   SLI_NRHS_KINDS = SLI_NRHS_16
 };
 
+typedef struct sli_rows {
+  const sl_int *index;
+  sl_int count, lanes;
+} sli_rows;
+
+SLI_ALWAYS_INLINE sli_rows sli_rows_of(const sl_int *index, sl_int count, sl_int lanes) {
+  sli_rows rows;
+  rows.index = index;
+  rows.count = count;
+  rows.lanes = lanes;
+  return rows;
+}
+
 typedef struct sli_reach {
   sl_int count;
   sl_int columns;
@@ -4297,9 +4310,15 @@ typedef struct sli_sweeps {
   sli_backward_kernel backward[SLI_SWEEP_KINDS];
 } sli_sweeps;
 
-typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_int *rows,
-    const double *D, double *x_super, double *x, double *scratch,
-    double *pivot, double *magnitude);
+typedef struct sli_row {
+  double *L;
+  const double *D;
+  double *x;
+  double *scratch;
+  double pivot, magnitude;
+} sli_row;
+
+typedef void (*sli_row_kernel)(sli_row *k, const sli_step *s, sl_int q, const sl_int *rows);
 
 SLI_INLINE size_t sli_sweep_scratch(sl_int height, sl_int width, sl_int nrhs) {
   const size_t tile = SLI_TILE;
@@ -4704,10 +4723,9 @@ static void sli_pair_pack(const double *l, const double *E, sl_int length, doubl
 
 /* src/impl/kernels/table.h: the table of kernels, which every instruction set fills */
 
-typedef void (*sli_interleave_kernel)(double *v, sl_int stride, const sl_int *index, sl_int count,
-    const double *M, size_t ldm, int is_streamed);
-typedef void (*sli_separate_kernel)(double *M, size_t ldm, const double *v, sl_int stride,
-    const sl_int *index, sl_int count);
+typedef void (*sli_interleave_kernel)(double *v, sli_rows rows, const double *M, size_t ldm,
+    int is_streamed);
+typedef void (*sli_separate_kernel)(double *M, size_t ldm, const double *v, sli_rows rows);
 
 typedef struct sli_kernels {
   sl_isa isa;
@@ -14070,15 +14088,7 @@ static void sli_row_link(sl_factor *F, sl_int s) {
   }
 }
 
-static void sli_row_solve(sl_factor *F, sl_int s, sl_int q, double *pivot, double *magnitude) {
-  const sl_symbolic *S = F->S;
-  const sl_int first = S->super_first[s];
-  F->kernels->row((double *)F->values + S->steps[s].panel, S->steps[s].width, q,
-      S->rows + S->rows_begin[s], F->D + first, F->row.x + first, F->row.x,
-      F->work.buffer, pivot, magnitude);
-}
-
-static void sli_row_solve_all(sl_factor *F, sl_int k, double *pivot, double *magnitude) {
+static void sli_row_solve(sl_factor *F, sl_int k, sli_row *row) {
   const sl_symbolic *S = F->S;
   const sl_int own = S->super_of[k];
   uint64_t *list = F->row.list + S->n_supers;
@@ -14090,26 +14100,32 @@ static void sli_row_solve_all(sl_factor *F, sl_int k, double *pivot, double *mag
   sli_sort(list, count, F->row.list_scratch);
   for (m = 0; m < count; m++) {
     s = sli_key(list[m]);
-    sli_row_solve(F, s, S->steps[s].width + F->row.position[s], pivot, magnitude);
+    F->kernels->row(row, &S->steps[s], S->steps[s].width + F->row.position[s],
+        S->rows + S->rows_begin[s]);
     F->row.position[s]++;
     sli_row_link(F, s);
   }
   if (k > S->super_first[own]) {
-    sli_row_solve(F, own, k - S->super_first[own], pivot, magnitude);
+    F->kernels->row(row, &S->steps[own], k - S->super_first[own], NULL);
   }
 }
 
 static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure *failure) {
   const sl_symbolic *S = F->S;
   sl_status status = SL_OK;
+  sli_row row;
   sl_int k;
+  row.L = (double *)F->values;
+  row.D = F->D;
+  row.x = F->row.x;
+  row.scratch = F->work.buffer;
   for (k = 0; k < S->n; k++) {
     F->row.head[k] = -1;
     F->row.x[k] = 0.0;
   }
   for (k = 0; k < S->n && status == SL_OK; k++) {
     const sl_int s = S->super_of[k], q = k - S->super_first[s];
-    double *panel = (double *)F->values + S->steps[s].panel, *diagonal, pivot, magnitude;
+    double *panel = row.L + S->steps[s].panel, *diagonal, pivot;
     if (q == 0) {
       const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
       memset(panel, 0, (size_t)size * sizeof(double));
@@ -14119,13 +14135,14 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
       }
     }
     diagonal = panel + sli_panel_at(S->steps[s].width, q, q);
-    pivot = *diagonal;
-    magnitude = fabs(pivot);
+    row.pivot = *diagonal;
+    row.magnitude = fabs(row.pivot);
     *diagonal = 0.0;
-    sli_row_solve_all(F, k, &pivot, &magnitude);
-    pivot = F->rule.replaces ? sli_pivot_by_rule(&F->rule, k, pivot, magnitude) : pivot;
+    sli_row_solve(F, k, &row);
+    pivot =
+      F->rule.replaces ? sli_pivot_by_rule(&F->rule, k, row.pivot, row.magnitude) : row.pivot;
     F->D[k] = pivot;
-    status = sli_check_pivot(F, s, k, pivot, magnitude, failure);
+    status = sli_check_pivot(F, s, k, pivot, row.magnitude, failure);
     if (q == S->steps[s].width - 1) {
       F->row.position[s] = 0;
       sli_row_link(F, s);
@@ -16274,19 +16291,6 @@ SLI_INLINE sl_status sli_rhs_check_columns(const sli_rhs *r, sl_int nx, sl_int n
 
 #define SLI_ROWS_AHEAD 32
 
-typedef struct sli_rows {
-  const sl_int *index;
-  sl_int count, lanes;
-} sli_rows;
-
-SLI_ALWAYS_INLINE sli_rows sli_rows_of(const sl_int *index, sl_int count, sl_int lanes) {
-  sli_rows rows;
-  rows.index = index;
-  rows.count = count;
-  rows.lanes = lanes;
-  return rows;
-}
-
 SLI_ALWAYS_INLINE void sli_pack_rows(double *v, sli_rows rows, const double *M, sli_dense at,
     sl_int columns) {
   sl_int k, r;
@@ -16349,12 +16353,13 @@ static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sl
     sli_pack_sums(y, sli_rows_of(index, count, lanes), B, at, nrhs);
   } else if (nrhs % 8 == 0 && at.row == 1) {
     const int is_streamed = (size_t)count * (size_t)lanes > SLI_STREAMED;
-    sl_int first, r;
-    for (first = 0; first < count; first += sli_min(SLI_PACK_CHUNK, count - first)) {
+    sl_int first, chunk, r;
+    for (first = 0; first < count; first += chunk) {
+      chunk = sli_min(SLI_PACK_CHUNK, count - first);
       for (r = 0; r < nrhs; r += 8) {
-        F->kernels->interleave(
-            y + r, lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first),
-            B + (size_t)first + (size_t)r * at.column, at.column, is_streamed);
+        F->kernels->interleave(y + r, sli_rows_of(index + first, chunk, lanes),
+            B + (size_t)first + (size_t)r * at.column, at.column,
+            is_streamed);
       }
     }
   } else if (nrhs % 8 == 0) {
@@ -16381,11 +16386,12 @@ static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rh
   const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs);
   const sl_int *index = q->x_index, count = q->nx;
   if (nrhs % 8 == 0 && at.row == 1) {
-    sl_int first, r;
-    for (first = 0; first < count; first += sli_min(SLI_PACK_CHUNK, count - first)) {
+    sl_int first, chunk, r;
+    for (first = 0; first < count; first += chunk) {
+      chunk = sli_min(SLI_PACK_CHUNK, count - first);
       for (r = 0; r < nrhs; r += 8) {
         F->kernels->separate(X + (size_t)first + (size_t)r * at.column, at.column, x + r,
-            lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first));
+            sli_rows_of(index + first, chunk, lanes));
       }
     }
   } else if (nrhs % 8 == 0) {
@@ -24250,9 +24256,9 @@ static void sli_update_move(const sli_update *u, const sli_step *step, const sl_
       at[i] = t + i < own ? step->base + t + i : rows[t + i - own];
     }
     if (lanes == SLI_TILE && is_back) {
-      kernels->interleave(u->x, lanes, at, count, w, SLI_TILE, 0);
+      kernels->interleave(u->x, sli_rows_of(at, count, lanes), w, SLI_TILE, 0);
     } else if (lanes == SLI_TILE) {
-      kernels->separate(w, SLI_TILE, u->x, lanes, at, count);
+      kernels->separate(w, SLI_TILE, u->x, sli_rows_of(at, count, lanes));
     } else {
       for (i = 0; i < count; i++) {
         for (r = 0; r < lanes; r++) {
@@ -36862,15 +36868,14 @@ static const sli_inverse_kernels SLV_NAME(inverse_kernels) = {
 #undef SLI_SECTION_COPY_ROWS
 /* src/impl/kernels/copy_rows.inl.h: rows of several right-hand sides to a buffer and back */
 
-SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
-    const sl_int *rows, const double *own,
-    const double *x, sl_int stride) {
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, const double *own,
+    sli_rows below, const double *x) {
   sl_int r;
   SLW_DECLARE(b)
   for (r = 0; r < SLW_ROWS; r++) {
-    if (r < inner + below) {
-      SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * stride
-          : x + (ptrdiff_t)rows[r - inner] * stride)
+    if (r < inner + below.count) {
+      SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * below.lanes
+          : x + (ptrdiff_t)below.index[r - inner] * below.lanes)
     } else {
       SLW_ZERO(b)
     }
@@ -36878,14 +36883,14 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int
   }
 }
 
-SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
-    const sl_int *rows, double *own, double *x,
-    sl_int stride) {
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, double *own,
+    sli_rows below, double *x) {
   sl_int r;
   SLW_DECLARE(b)
-  for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
+  for (r = 0; r < SLW_ROWS && r < inner + below.count; r++) {
     SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_NRHS)
-    SLW_STORE(r < inner ? own + (ptrdiff_t)r * stride : x + (ptrdiff_t)rows[r - inner] * stride,
+    SLW_STORE(r < inner ? own + (ptrdiff_t)r * below.lanes
+        : x + (ptrdiff_t)below.index[r - inner] * below.lanes,
         b)
   }
 }
@@ -37784,9 +37789,12 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *va
     } \
   }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, sl_int below,
-    const sl_int *rows, const SLV_VALUE *l,
-    double *xs, double *x, double *buf) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, const sli_step *s,
+    const sl_int *rows, const SLV_VALUE *L,
+    double *x, double *buf) {
+  const sl_int below = s->below;
+  const SLV_VALUE *l = L + s->panel;
+  double *xs = x + s->base;
   sl_int row, i;
   SLV_DECLARE(a)
   SLV_DECLARE(b)
@@ -37839,11 +37847,14 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, sl_
 #define SLI_ROW(k) \
   SLI_XT(6, k) SLI_XT(5, k) SLI_XT(4, k) SLI_XT(3, k) SLI_XT(2, k) SLI_XT(1, k) SLI_XT(0, k)
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, const sli_step *s,
     const sl_int *rows,
-    const SLV_VALUE *l, const double *d,
-    double *xs, const double *x) {
-  const sl_int count = (w + below) % SLI_TILE;
+    const SLV_VALUE *L, const double *D,
+    double *x) {
+  const sl_int below = s->below, count = (w + below) % SLI_TILE;
+  const SLV_VALUE *l = L + s->panel + sli_panel_size(w, below);
+  const double *d = D + s->column;
+  double *xs = x + s->base;
   sl_int row = w + below - count, at = below;
   double r[SLI_TILE];
   SLV_WIDE(t, SLI_TILE)
@@ -37891,9 +37902,12 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
 #else
 #define SLI_BY_WIDTH(call) call(w)
 
-SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_forward)(sl_int w, sl_int below, const sl_int *rows,
-    const SLV_VALUE *l, double *xs, double *x,
-    double *buf) {
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_forward)(sl_int w, const sli_step *s,
+    const sl_int *rows, const SLV_VALUE *L,
+    double *x, double *buf) {
+  const sl_int below = s->below;
+  const SLV_VALUE *l = L + s->panel;
+  double *xs = x + s->base;
   sl_int row, i, k;
   double a[SLI_TILE] = {0.0}, b[SLI_TILE], y[SLI_TILE];
   memcpy(a, xs, (size_t)w * sizeof(double));
@@ -37922,9 +37936,13 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_forward)(sl_int w, sl_int below, co
   }
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_backward)(sl_int w, sl_int below, const sl_int *rows,
-    const SLV_VALUE *l, const double *d,
-    double *xs, const double *x) {
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_backward)(sl_int w, const sli_step *s,
+    const sl_int *rows, const SLV_VALUE *L,
+    const double *D, double *x) {
+  const sl_int below = s->below;
+  const SLV_VALUE *l = L + s->panel + sli_panel_size(w, below);
+  const double *d = D + s->column;
+  double *xs = x + s->base;
   double a[SLI_TILE] = {0.0}, v[SLI_TILE] = {0.0};
   sl_int row = (w + below - 1) / SLI_TILE * SLI_TILE, j, k;
   for (; row >= 0; row -= SLI_TILE) {
@@ -38039,8 +38057,8 @@ SLV_SWEEP(backward_plain)(const sli_step *s, const sli_reach *R, const sl_int **
   return last - (from - xs);
 }
 
-#define SLI_FORWARD(k) SLV_SWEEP(small_forward)(k, below, rows, l, xs, x, buf)
-#define SLI_BACKWARD(k) SLV_SWEEP(small_backward)(k, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLV_SWEEP(small_forward)(k, s, rows, L, x, buf)
+#define SLI_BACKWARD(k) SLV_SWEEP(small_backward)(k, s, rows, L, D, x)
 
 SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, const sli_reach *R,
     const sl_int **next_rows,
@@ -38049,16 +38067,13 @@ SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, 
   const sl_int *rows = *next_rows;
   const sli_step *end = R->steps + R->count;
   while (s < end && s->width <= SLI_TILE) {
-    const sl_int w = s->width, below = s->below;
-    const SLV_VALUE *l = L + s->panel;
-    double *xs = x + s->base;
+    const sl_int w = s->width;
     if (w == 1) {
       s = SLV_SWEEP(forward_plain)(s, R, &rows, L, x);
       continue;
     }
     SLI_BY_WIDTH(SLI_FORWARD);
-    rows += below;
-    s++;
+    rows += (s++)->below;
   }
   *next_rows = rows;
   return s;
@@ -38071,17 +38086,13 @@ SLV_FUNCTION static const sli_step *SLV_SWEEP(backward_small)(const sli_step *s,
   const sl_int *rows = *rows_end;
   const sli_step *begin = R->steps;
   while (s > begin && s[-1].width <= SLI_TILE) {
-    const sl_int w = s[-1].width, below = s[-1].below;
-    const SLV_VALUE *l = L + s[-1].panel + sli_panel_size(w, below);
-    const double *d = D + s[-1].column;
-    double *xs = x + s[-1].base;
+    const sl_int w = s[-1].width;
     if (w == 1) {
       s = SLV_SWEEP(backward_plain)(s, R, &rows, L, D, x);
       continue;
     }
-    rows -= below;
+    rows -= (--s)->below;
     SLI_BY_WIDTH(SLI_BACKWARD);
-    s--;
   }
   *rows_end = rows;
   return s;
@@ -38445,10 +38456,10 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 #define SLI_CLEAR_WIDE
 #endif
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_int stride,
-    sl_int below, const sl_int *rows,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli_rows below,
     const SLV_VALUE *l, double *xs,
     double *x) {
+  const sl_int stride = below.lanes;
   sl_int lane = w, i;
   SLW_EACH(SLI_DECLARE, 0)
   SLW_DECLARE(b)
@@ -38462,8 +38473,8 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_
   SLW_EACH(SLI_LOAD_OWN, xs)
   SLW_EACH(SLI_COLUMN_OWN, 0)
   SLW_EACH(SLI_STORE_OWN, xs)
-  for (i = 0; i < below; lane++, i++) {
-    double *to = x + (ptrdiff_t)rows[i] * stride;
+  for (i = 0; i < below.count; lane++, i++) {
+    double *to = x + (ptrdiff_t)below.index[i] * stride;
     if (lane == SLI_TILE) {
       lane = 0;
       l += SLI_TILE * w;
@@ -38492,11 +38503,11 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_
     SLW_ADD(a##k, b) \
   }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl_int stride,
-    sl_int below, const sl_int *rows,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sli_rows below,
     const SLV_VALUE *l, const double *d,
     double *xs, const double *x) {
-  sl_int i = below - 1, lane = (w + i) % SLI_TILE;
+  const sl_int stride = below.lanes;
+  sl_int i = below.count - 1, lane = (w + i) % SLI_TILE;
   SLW_EACH(SLI_DECLARE, 0)
   SLW_DECLARE(b)
   SLW_ENTRIES(v, SLI_TILE)
@@ -38513,11 +38524,11 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
       SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
       SLW_LOW(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
     }
-    SLW_LOAD(b, x + (ptrdiff_t)rows[i] * stride)
+    SLW_LOAD(b, x + (ptrdiff_t)below.index[i] * stride)
     SLW_HIGH(SLI_ABOVE_OWN, 0)
     SLW_LOW(SLI_ABOVE_OWN, 0)
   }
-  if (w == SLI_TILE && below > 0) {
+  if (w == SLI_TILE && below.count > 0) {
     l -= SLI_TILE * w;
     SLW_SET_ENTRIES(v, l, w, SLI_TILE)
   }
@@ -38527,22 +38538,20 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
   SLW_EACH(SLI_STORE_OWN, xs)
 }
 
-#define SLI_FORWARD(k) SLW_SWEEP(small_forward)(k, stride, below, rows, l, xs, x)
-#define SLI_BACKWARD(k) SLW_SWEEP(small_backward)(k, stride, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLW_SWEEP(small_forward)(k, below, l, xs, x)
+#define SLI_BACKWARD(k) SLW_SWEEP(small_backward)(k, below, l, d, xs, x)
 #if defined(SLW_GROUPS)
 #define SLI_BY_WIDTH(call) call(w)
 #else
 #define SLI_BY_WIDTH(call) SLI_CASES(call)
 #endif
 
-SLV_FUNCTION static void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
-    const sl_int *rows, const SLV_VALUE *l,
+SLV_FUNCTION static void SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l,
     double *xs, double *x) {
   SLI_BY_WIDTH(SLI_FORWARD);
 }
 
-SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_int below,
-    const sl_int *rows, const SLV_VALUE *l,
+SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_rows below, const SLV_VALUE *l,
     const double *d, double *xs, const double *x) {
   SLI_BY_WIDTH(SLI_BACKWARD);
 }
@@ -38563,21 +38572,19 @@ SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_i
 #undef SLI_BY_WIDTH
 #undef SLI_CLEAR_WIDE
 #else
-SLV_FUNCTION SLI_INLINE void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
-    const sl_int *rows, const SLV_VALUE *l,
+SLV_FUNCTION SLI_INLINE void SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l,
     double *xs, double *x) {
   const sl_int half = SLW_NRHS / 2;
-  SLW_SWEEP_HALF(forward_small)(w, stride, below, rows, l, xs, x);
-  SLW_SWEEP_HALF(forward_small)(w, stride, below, rows, l, xs + half, x + half);
+  SLW_SWEEP_HALF(forward_small)(w, below, l, xs, x);
+  SLW_SWEEP_HALF(forward_small)(w, below, l, xs + half, x + half);
 }
 
-SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_int below,
-    const sl_int *rows, const SLV_VALUE *l,
+SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sli_rows below, const SLV_VALUE *l,
     const double *d, double *xs,
     const double *x) {
   const sl_int half = SLW_NRHS / 2;
-  SLW_SWEEP_HALF(backward_small)(w, stride, below, rows, l, d, xs, x);
-  SLW_SWEEP_HALF(backward_small)(w, stride, below, rows, l, d, xs + half, x + half);
+  SLW_SWEEP_HALF(backward_small)(w, below, l, d, xs, x);
+  SLW_SWEEP_HALF(backward_small)(w, below, l, d, xs + half, x + half);
 }
 #endif
 /* end of multi_rhs_small.inl.h */
@@ -38589,8 +38596,8 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, 
 #undef SLI_SECTION_MULTI_RHS_TILES
 /* src/impl/kernels/multi_rhs_tiles.inl.h: several right-hand sides through supernodes of any width, by row tiles */
 
-#define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below_rows[r] * stride)
-#define SLI_STORE_BELOW(r, p) SLW_STORE((p) + (ptrdiff_t)below_rows[r] * stride, a##r)
+#define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below.index[r] * stride)
+#define SLI_STORE_BELOW(r, p) SLW_STORE((p) + (ptrdiff_t)below.index[r] * stride, a##r)
 
 #if defined(SLW_GROUPS)
 #define SLI_STRIDE_PARAMETER , sl_int stride
@@ -38643,8 +38650,9 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
 #endif
 #if defined(SLI_SMALL)
     if (w <= SLI_TILE) {
+      const sli_rows below = sli_rows_of(rows, s->below, stride);
       for (group = 0; group < stride; group += SLW_NRHS) {
-        SLW_SWEEP(forward_small)(w, stride, s->below, rows, tile, xs + group, x + group);
+        SLW_SWEEP(forward_small)(w, below, tile, xs + group, x + group);
       }
       continue;
     }
@@ -38652,10 +38660,10 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
     for (row = first; row < height; row += SLW_ROWS) {
       const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
       const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-      const sl_int below = height - (sl_int)row - inner;
-      const int is_below = SLI_IS_DIRECT && inner == 0 && below >= SLW_ROWS;
+      const sli_rows below =
+        sli_rows_of(rows + (row + inner - w), height - (sl_int)row - inner, stride);
+      const int is_below = SLI_IS_DIRECT && inner == 0 && below.count >= SLW_ROWS;
       const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
-      const sl_int *below_rows = rows + (row + inner - w);
       for (group = 0; group < stride; group += SLW_NRHS) {
         double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
         const SLV_VALUE *l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t)first + lane;
@@ -38665,7 +38673,7 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
           SLW_EACH(SLI_LOAD_BELOW, x + group)
         } else {
           if (inner < SLW_ROWS) {
-            SLW_NAME(rows_in)(buf, inner, below, below_rows, own, x + group, stride);
+            SLW_NAME(rows_in)(buf, inner, own, below, x + group);
           }
           SLW_EACH(SLI_LOAD, p)
         }
@@ -38683,7 +38691,7 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
         }
         SLW_EACH(SLI_STORE, p)
         if (inner < SLW_ROWS) {
-          SLW_NAME(rows_out)(buf, inner, below, below_rows, own, x + group, stride);
+          SLW_NAME(rows_out)(buf, inner, own, below, x + group);
         }
       }
       if (lane + SLW_ROWS == SLI_TILE) {
@@ -38737,9 +38745,10 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(const sli_reach *R, const void *va
 #endif
 #if defined(SLI_SMALL)
     if (w <= SLI_TILE) {
+      const sli_rows below = sli_rows_of(rows_end, s->below, stride);
       for (group = 0; group < stride; group += SLW_NRHS) {
         SLW_SWEEP(backward_small)
-        (w, stride, s->below, rows_end, tile - SLI_TILE * w, d, xs + group, x + group);
+        (w, below, tile - SLI_TILE * w, d, xs + group, x + group);
       }
       continue;
     }
@@ -38755,9 +38764,9 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(const sli_reach *R, const void *va
     for (row = SLI_TILE * sli_tiles(height) - SLW_ROWS; row >= first; row -= SLW_ROWS) {
       const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
       const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-      const sl_int below = height - (sl_int)row - inner;
+      const sli_rows below =
+        sli_rows_of(rows_end + (row + inner - w), height - (sl_int)row - inner, stride);
       const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
-      const sl_int *below_rows = rows_end + (row + inner - w);
       if (lane + SLW_ROWS == SLI_TILE) {
         tile -= SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
       }
@@ -38766,11 +38775,11 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(const sli_reach *R, const void *va
         double *xj = xs + (ptrdiff_t) final * stride + group;
         const SLV_VALUE *l = tile + SLI_TILE / SLI_PARTS * row + lane;
         SLW_EACH(SLI_DECLARE, 0)
-        if (SLI_IS_DIRECT && inner == 0 && below >= SLW_ROWS) {
+        if (SLI_IS_DIRECT && inner == 0 && below.count >= SLW_ROWS) {
           SLW_EACH(SLI_LOAD_BELOW, x + group)
         } else {
           if (inner < SLW_ROWS) {
-            SLW_NAME(rows_in)(buf, inner, below, below_rows, own, x + group, stride);
+            SLW_NAME(rows_in)(buf, inner, own, below, x + group);
           }
           SLW_EACH(SLI_LOAD, p)
         }
@@ -38778,7 +38787,7 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(const sli_reach *R, const void *va
           SLI_TRIANGLE_UP
           SLW_EACH(SLI_STORE, p)
           if (inner < SLW_ROWS) {
-            SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x, stride);
+            SLW_NAME(rows_out)(buf, inner, own, sli_rows_of(NULL, 0, stride), x);
           }
         }
         l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t) final + lane;
@@ -38903,10 +38912,12 @@ SLI_GROUPED_KERNELS(64)
     SLV_DOT(b, l + SLI_TILE / 2 * (k), y##m) \
   }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_forward)(const sl_int w, sl_int below,
-    const sl_int *rows,
-    const double *l, double *xs,
-    double *x, double *buf) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void
+SLV_NAME(complex_small_forward)(const sl_int w, const sli_step *s, const sl_int *rows,
+    const double *L, double *x, double *buf) {
+  const sl_int below = s->below;
+  const double *l = L + s->panel / 2;
+  double *xs = x + s->base;
   sl_int row, i;
   SLV_DECLARE(a)
   SLV_DECLARE(b)
@@ -38947,9 +38958,12 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_forward)(const sl_int
 #define SLI_ROW_AT_OWN(k) rows[sli_clamp((k)-w, at - 1)]
 
 SLV_FUNCTION SLI_ALWAYS_INLINE void
-SLV_NAME(complex_small_backward)(const sl_int w, sl_int below, const sl_int *rows, const double *l,
-    const double *d, double *xs, const double *x) {
-  const sl_int count = (w + below) % SLI_TILE;
+SLV_NAME(complex_small_backward)(const sl_int w, const sli_step *s, const sl_int *rows,
+    const double *L, const double *D, double *x) {
+  const sl_int below = s->below, count = (w + below) % SLI_TILE;
+  const double *l = L + (s->panel + sli_panel_size(w, below)) / 2;
+  const double *d = D + s->column;
+  double *xs = x + s->base;
   sl_int row = w + below - count, at = below, k;
   double r[SLI_TILE];
   SLV_DECLARE(u)
@@ -38997,19 +39011,17 @@ SLV_NAME(complex_small_backward)(const sl_int w, sl_int below, const sl_int *row
   default: \
     call(8); \
   }
-#define SLI_FORWARD(k) SLV_NAME(complex_small_forward)(k, below, rows, l, xs, x, buf)
-#define SLI_BACKWARD(k) SLV_NAME(complex_small_backward)(k, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLV_NAME(complex_small_forward)(k, s, rows, L, x, buf)
+#define SLI_BACKWARD(k) SLV_NAME(complex_small_backward)(k, s, rows, L, D, x)
 
 SLV_FUNCTION SLI_INLINE const sli_step *
 SLV_NAME(complex_forward_small)(const sli_step *s, const sli_step *end, const sl_int **next_rows,
     const double *L, double *x, double *buf) {
   const sl_int *rows = *next_rows;
   for (; s < end && s->width <= SLI_TILE; s++) {
-    const sl_int w = s->width, below = s->below;
-    const double *l = L + s->panel / 2;
-    double *xs = x + s->base;
+    const sl_int w = s->width;
     SLI_EACH_WIDTH(SLI_FORWARD);
-    rows += below;
+    rows += s->below;
   }
   *next_rows = rows;
   return s;
@@ -39019,12 +39031,9 @@ SLV_FUNCTION SLI_INLINE const sli_step *
 SLV_NAME(complex_backward_small)(const sli_step *s, const sli_step *begin, const sl_int **rows_end,
     const double *L, const double *D, double *x) {
   const sl_int *rows = *rows_end;
-  for (; s > begin && s[-1].width <= SLI_TILE; s--) {
-    const sl_int w = s[-1].width, below = s[-1].below;
-    const double *l = L + (s[-1].panel + sli_panel_size(w, below)) / 2;
-    const double *d = D + s[-1].column;
-    double *xs = x + s[-1].base;
-    rows -= below;
+  while (s > begin && s[-1].width <= SLI_TILE) {
+    const sl_int w = (--s)->width;
+    rows -= s->below;
     SLI_EACH_WIDTH(SLI_BACKWARD);
   }
   *rows_end = rows;
@@ -39301,12 +39310,13 @@ static const sli_float_kernels SLV_NAME(float_kernels) = {
 
 /* src/impl/kernels/row.inl.h: one row of L in the up-looking factorization */
 
-SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
-    const double *D, double *xs, double *x, double *buf,
-    double *pivot, double *magnitude) {
-  const sl_int columns = sli_min(q, w);
-  double *lq = panel + sli_panel_at(w, q, 0);
-  double d = *pivot, size = *magnitude;
+SLV_FUNCTION static void SLV_NAME(row)(sli_row *k, const sli_step *s, sl_int q,
+    const sl_int *rows) {
+  const sl_int w = s->width, columns = sli_min(q, w);
+  const double *D = k->D + s->column;
+  double *panel = k->L + s->panel, *lq = panel + sli_panel_at(w, q, 0);
+  double *x = k->x, *xs = x + s->column, *buf = k->scratch;
+  double d = k->pivot, size = k->magnitude;
   sl_int i;
   for (i = 0; i < columns; i++) {
     buf[i] = lq[SLI_TILE * i] + xs[i];
@@ -39331,8 +39341,8 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
     d = SLV_FNMA1(l, buf[i], d);
     size += fabs(l * buf[i]);
   }
-  *pivot = d;
-  *magnitude = size;
+  k->pivot = d;
+  k->magnitude = size;
 }
 /* end of row.inl.h */
 /* src/impl/kernels/interleave.inl.h: 8 columns of a dense block to interleaved rows of a vector, and back */
@@ -39357,9 +39367,10 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
     SLI_PREFETCH(M + (size_t)r * ldm + k, SLI_BYTES_BEFORE); \
   }
 
-SLV_FUNCTION static void SLV_NAME(interleave)(double *v, sl_int stride, const sl_int *index,
-    sl_int count, const double *M, size_t ldm,
+SLV_FUNCTION static void SLV_NAME(interleave)(double *v, sli_rows rows, const double *M, size_t ldm,
     int is_streamed) {
+  const sl_int *index = rows.index;
+  const sl_int count = rows.count, stride = rows.lanes;
   SLI_ALIGNED(double from[SLI_TILE * SLI_TILE]);
   SLI_ALIGNED(double to[SLI_TILE * SLI_TILE]);
   sl_int k, r;
@@ -39392,8 +39403,9 @@ SLV_FUNCTION static void SLV_NAME(interleave)(double *v, sl_int stride, const sl
   }
 }
 
-SLV_FUNCTION static void SLV_NAME(separate)(double *M, size_t ldm, const double *v, sl_int stride,
-    const sl_int *index, sl_int count) {
+SLV_FUNCTION static void SLV_NAME(separate)(double *M, size_t ldm, const double *v, sli_rows rows) {
+  const sl_int *index = rows.index;
+  const sl_int count = rows.count, stride = rows.lanes;
   SLI_ALIGNED(double from[SLI_TILE * SLI_TILE]);
   SLI_ALIGNED(double to[SLI_TILE * SLI_TILE]);
   sl_int k, r;

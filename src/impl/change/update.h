@@ -55,9 +55,9 @@ static void sli_update_move(const sli_update *u, const sli_step *step, const sl_
             at[i] = t + i < own ? step->base + t + i : rows[t + i - own];
         }
         if (lanes == SLI_TILE && is_back) {
-            kernels->interleave(u->x, lanes, at, count, w, SLI_TILE, 0);
+            kernels->interleave(u->x, sli_rows_of(at, count, lanes), w, SLI_TILE, 0);
         } else if (lanes == SLI_TILE) {
-            kernels->separate(w, SLI_TILE, u->x, lanes, at, count);
+            kernels->separate(w, SLI_TILE, u->x, sli_rows_of(at, count, lanes));
         } else {
             for (i = 0; i < count; i++) {
                 for (r = 0; r < lanes; r++) {

@@ -48,10 +48,12 @@
         SLV_DOT(b, l + SLI_TILE / 2 * (k), y##m) \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_forward)(const sl_int w, sl_int below,
-                                                                    const sl_int *rows,
-                                                                    const double *l, double *xs,
-                                                                    double *x, double *buf) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void
+SLV_NAME(complex_small_forward)(const sl_int w, const sli_step *s, const sl_int *rows,
+                                const double *L, double *x, double *buf) {
+    const sl_int below = s->below;
+    const double *l = L + s->panel / 2;
+    double *xs = x + s->base;
     sl_int row, i;
     SLV_DECLARE(a)
     SLV_DECLARE(b)
@@ -93,11 +95,13 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_forward)(const sl_int
 #define SLI_ROW_AT_PART(k) rows[at + sli_min(k, count - 1)]
 #define SLI_ROW_AT_OWN(k) rows[sli_clamp((k)-w, at - 1)]
 
-/* l: the end of the panel */
 SLV_FUNCTION SLI_ALWAYS_INLINE void
-SLV_NAME(complex_small_backward)(const sl_int w, sl_int below, const sl_int *rows, const double *l,
-                                 const double *d, double *xs, const double *x) {
-    const sl_int count = (w + below) % SLI_TILE;
+SLV_NAME(complex_small_backward)(const sl_int w, const sli_step *s, const sl_int *rows,
+                                 const double *L, const double *D, double *x) {
+    const sl_int below = s->below, count = (w + below) % SLI_TILE;
+    const double *l = L + (s->panel + sli_panel_size(w, below)) / 2; /* its end */
+    const double *d = D + s->column;
+    double *xs = x + s->base;
     sl_int row = w + below - count, at = below, k;
     double r[SLI_TILE];
     SLV_DECLARE(u)
@@ -145,8 +149,8 @@ SLV_NAME(complex_small_backward)(const sl_int w, sl_int below, const sl_int *row
     default: \
         call(8); \
     }
-#define SLI_FORWARD(k) SLV_NAME(complex_small_forward)(k, below, rows, l, xs, x, buf)
-#define SLI_BACKWARD(k) SLV_NAME(complex_small_backward)(k, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLV_NAME(complex_small_forward)(k, s, rows, L, x, buf)
+#define SLI_BACKWARD(k) SLV_NAME(complex_small_backward)(k, s, rows, L, D, x)
 
 /* Runs of such supernodes, as in small_supernode.inl.h. */
 SLV_FUNCTION SLI_INLINE const sli_step *
@@ -154,11 +158,9 @@ SLV_NAME(complex_forward_small)(const sli_step *s, const sli_step *end, const sl
                                 const double *L, double *x, double *buf) {
     const sl_int *rows = *next_rows;
     for (; s < end && s->width <= SLI_TILE; s++) {
-        const sl_int w = s->width, below = s->below;
-        const double *l = L + s->panel / 2;
-        double *xs = x + s->base;
+        const sl_int w = s->width;
         SLI_EACH_WIDTH(SLI_FORWARD);
-        rows += below;
+        rows += s->below;
     }
     *next_rows = rows;
     return s;
@@ -168,12 +170,9 @@ SLV_FUNCTION SLI_INLINE const sli_step *
 SLV_NAME(complex_backward_small)(const sli_step *s, const sli_step *begin, const sl_int **rows_end,
                                  const double *L, const double *D, double *x) {
     const sl_int *rows = *rows_end;
-    for (; s > begin && s[-1].width <= SLI_TILE; s--) {
-        const sl_int w = s[-1].width, below = s[-1].below;
-        const double *l = L + (s[-1].panel + sli_panel_size(w, below)) / 2;
-        const double *d = D + s[-1].column;
-        double *xs = x + s[-1].base;
-        rows -= below;
+    while (s > begin && s[-1].width <= SLI_TILE) {
+        const sl_int w = (--s)->width;
+        rows -= s->below;
         SLI_EACH_WIDTH(SLI_BACKWARD);
     }
     *rows_end = rows;

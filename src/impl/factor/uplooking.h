@@ -15,18 +15,9 @@ static void sli_row_link(sl_factor *F, sl_int s) {
     }
 }
 
-/* Computes local row q of supernode s. See sli_row_kernel. */
-static void sli_row_solve(sl_factor *F, sl_int s, sl_int q, double *pivot, double *magnitude) {
-    const sl_symbolic *S = F->S;
-    const sl_int first = S->super_first[s];
-    F->kernels->row((double *)F->values + S->steps[s].panel, S->steps[s].width, q,
-                    S->rows + S->rows_begin[s], F->D + first, F->row.x + first, F->row.x,
-                    F->work.buffer, pivot, magnitude);
-}
-
 /* Computes row k: first from the supernodes linked to it, ascending so that descendants come first,
  * then from its own. */
-static void sli_row_solve_all(sl_factor *F, sl_int k, double *pivot, double *magnitude) {
+static void sli_row_solve(sl_factor *F, sl_int k, sli_row *row) {
     const sl_symbolic *S = F->S;
     const sl_int own = S->super_of[k];
     uint64_t *list = F->row.list + S->n_supers; /* filled from its end: in a star it is ascending */
@@ -38,12 +29,13 @@ static void sli_row_solve_all(sl_factor *F, sl_int k, double *pivot, double *mag
     sli_sort(list, count, F->row.list_scratch);
     for (m = 0; m < count; m++) {
         s = sli_key(list[m]);
-        sli_row_solve(F, s, S->steps[s].width + F->row.position[s], pivot, magnitude);
+        F->kernels->row(row, &S->steps[s], S->steps[s].width + F->row.position[s],
+                        S->rows + S->rows_begin[s]);
         F->row.position[s]++;
         sli_row_link(F, s);
     }
     if (k > S->super_first[own]) {
-        sli_row_solve(F, own, k - S->super_first[own], pivot, magnitude);
+        F->kernels->row(row, &S->steps[own], k - S->super_first[own], NULL);
     }
 }
 
@@ -51,14 +43,19 @@ static void sli_row_solve_all(sl_factor *F, sl_int k, double *pivot, double *mag
 static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sl_status status = SL_OK;
+    sli_row row;
     sl_int k;
+    row.L = (double *)F->values;
+    row.D = F->D;
+    row.x = F->row.x;
+    row.scratch = F->work.buffer;
     for (k = 0; k < S->n; k++) {
         F->row.head[k] = -1;
         F->row.x[k] = 0.0;
     }
     for (k = 0; k < S->n && status == SL_OK; k++) {
         const sl_int s = S->super_of[k], q = k - S->super_first[s];
-        double *panel = (double *)F->values + S->steps[s].panel, *diagonal, pivot, magnitude;
+        double *panel = row.L + S->steps[s].panel, *diagonal, pivot;
         if (q == 0) {
             const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
             memset(panel, 0, (size_t)size * sizeof(double));
@@ -68,13 +65,14 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
             }
         }
         diagonal = panel + sli_panel_at(S->steps[s].width, q, q);
-        pivot = *diagonal;
-        magnitude = fabs(pivot);
+        row.pivot = *diagonal;
+        row.magnitude = fabs(row.pivot);
         *diagonal = 0.0;
-        sli_row_solve_all(F, k, &pivot, &magnitude);
-        pivot = F->rule.replaces ? sli_pivot_by_rule(&F->rule, k, pivot, magnitude) : pivot;
+        sli_row_solve(F, k, &row);
+        pivot =
+            F->rule.replaces ? sli_pivot_by_rule(&F->rule, k, row.pivot, row.magnitude) : row.pivot;
         F->D[k] = pivot;
-        status = sli_check_pivot(F, s, k, pivot, magnitude, failure);
+        status = sli_check_pivot(F, s, k, pivot, row.magnitude, failure);
         if (q == S->steps[s].width - 1) {
             F->row.position[s] = 0;
             sli_row_link(F, s);

@@ -24,9 +24,10 @@
     }
 
 /* See sli_interleave_kernel. Blocks of 8 x 8 are transposed in registers. */
-SLV_FUNCTION static void SLV_NAME(interleave)(double *v, sl_int stride, const sl_int *index,
-                                              sl_int count, const double *M, size_t ldm,
+SLV_FUNCTION static void SLV_NAME(interleave)(double *v, sli_rows rows, const double *M, size_t ldm,
                                               int is_streamed) {
+    const sl_int *index = rows.index;
+    const sl_int count = rows.count, stride = rows.lanes;
     SLI_ALIGNED(double from[SLI_TILE * SLI_TILE]);
     SLI_ALIGNED(double to[SLI_TILE * SLI_TILE]);
     sl_int k, r;
@@ -59,8 +60,9 @@ SLV_FUNCTION static void SLV_NAME(interleave)(double *v, sl_int stride, const sl
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(separate)(double *M, size_t ldm, const double *v, sl_int stride,
-                                            const sl_int *index, sl_int count) {
+SLV_FUNCTION static void SLV_NAME(separate)(double *M, size_t ldm, const double *v, sli_rows rows) {
+    const sl_int *index = rows.index;
+    const sl_int count = rows.count, stride = rows.lanes;
     SLI_ALIGNED(double from[SLI_TILE * SLI_TILE]);
     SLI_ALIGNED(double to[SLI_TILE * SLI_TILE]);
     sl_int k, r;

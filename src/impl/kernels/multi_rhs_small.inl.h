@@ -3,8 +3,7 @@
 #if !defined(SLW_HALF)
 /* A supernode of 1 to 8 columns. The width is a compile-time constant, as in small_supernode.inl.h,
  * but not with SLW_GROUPS.
- * The rows of its columns stay in registers; the rows below are read one after another. The
- * distance between rows of x is `stride`. */
+ * The rows of its columns stay in registers; the rows below are read one after another. */
 #define SLI_LOAD_OWN(k, p) \
     if (SLI_IS_IN(k, w)) { \
         SLW_LOAD(a##k, (p) + (k)*stride) \
@@ -35,10 +34,10 @@
 #define SLI_CLEAR_WIDE
 #endif
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_int stride,
-                                                             sl_int below, const sl_int *rows,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli_rows below,
                                                              const SLV_VALUE *l, double *xs,
                                                              double *x) {
+    const sl_int stride = below.lanes;
     sl_int lane = w, i;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -52,8 +51,8 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_
     SLW_EACH(SLI_LOAD_OWN, xs)
     SLW_EACH(SLI_COLUMN_OWN, 0)
     SLW_EACH(SLI_STORE_OWN, xs)
-    for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
-        double *to = x + (ptrdiff_t)rows[i] * stride;
+    for (i = 0; i < below.count; lane++, i++) { /* x(i) -= L(i, j) x(j) */
+        double *to = x + (ptrdiff_t)below.index[i] * stride;
         if (lane == SLI_TILE) {
             lane = 0;
             l += SLI_TILE * w;
@@ -83,11 +82,11 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_
     }
 
 /* l: the last tile of the panel */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl_int stride,
-                                                              sl_int below, const sl_int *rows,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sli_rows below,
                                                               const SLV_VALUE *l, const double *d,
                                                               double *xs, const double *x) {
-    sl_int i = below - 1, lane = (w + i) % SLI_TILE;
+    const sl_int stride = below.lanes;
+    sl_int i = below.count - 1, lane = (w + i) % SLI_TILE;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
     SLW_ENTRIES(v, SLI_TILE)
@@ -104,11 +103,11 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
             SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
             SLW_LOW(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
         }
-        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * stride)
+        SLW_LOAD(b, x + (ptrdiff_t)below.index[i] * stride)
         SLW_HIGH(SLI_ABOVE_OWN, 0)
         SLW_LOW(SLI_ABOVE_OWN, 0)
     }
-    if (w == SLI_TILE && below > 0) {
+    if (w == SLI_TILE && below.count > 0) {
         l -= SLI_TILE * w;
         SLW_SET_ENTRIES(v, l, w, SLI_TILE)
     }
@@ -118,22 +117,20 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
     SLW_EACH(SLI_STORE_OWN, xs)
 }
 
-#define SLI_FORWARD(k) SLW_SWEEP(small_forward)(k, stride, below, rows, l, xs, x)
-#define SLI_BACKWARD(k) SLW_SWEEP(small_backward)(k, stride, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLW_SWEEP(small_forward)(k, below, l, xs, x)
+#define SLI_BACKWARD(k) SLW_SWEEP(small_backward)(k, below, l, d, xs, x)
 #if defined(SLW_GROUPS)
 #define SLI_BY_WIDTH(call) call(w) /* as fast by branches, with rows of many right-hand sides */
 #else
 #define SLI_BY_WIDTH(call) SLI_CASES(call)
 #endif
 
-SLV_FUNCTION static void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
-                                                  const sl_int *rows, const SLV_VALUE *l,
+SLV_FUNCTION static void SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l,
                                                   double *xs, double *x) {
     SLI_BY_WIDTH(SLI_FORWARD);
 }
 
-SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_int below,
-                                                   const sl_int *rows, const SLV_VALUE *l,
+SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_rows below, const SLV_VALUE *l,
                                                    const double *d, double *xs, const double *x) {
     SLI_BY_WIDTH(SLI_BACKWARD);
 }
@@ -155,20 +152,18 @@ SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_i
 #undef SLI_CLEAR_WIDE
 #else
 /* First one half of the right-hand sides, then the other. */
-SLV_FUNCTION SLI_INLINE void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
-                                                      const sl_int *rows, const SLV_VALUE *l,
+SLV_FUNCTION SLI_INLINE void SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l,
                                                       double *xs, double *x) {
     const sl_int half = SLW_NRHS / 2;
-    SLW_SWEEP_HALF(forward_small)(w, stride, below, rows, l, xs, x);
-    SLW_SWEEP_HALF(forward_small)(w, stride, below, rows, l, xs + half, x + half);
+    SLW_SWEEP_HALF(forward_small)(w, below, l, xs, x);
+    SLW_SWEEP_HALF(forward_small)(w, below, l, xs + half, x + half);
 }
 
-SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_int below,
-                                                       const sl_int *rows, const SLV_VALUE *l,
+SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sli_rows below, const SLV_VALUE *l,
                                                        const double *d, double *xs,
                                                        const double *x) {
     const sl_int half = SLW_NRHS / 2;
-    SLW_SWEEP_HALF(backward_small)(w, stride, below, rows, l, d, xs, x);
-    SLW_SWEEP_HALF(backward_small)(w, stride, below, rows, l, d, xs + half, x + half);
+    SLW_SWEEP_HALF(backward_small)(w, below, l, d, xs, x);
+    SLW_SWEEP_HALF(backward_small)(w, below, l, d, xs + half, x + half);
 }
 #endif

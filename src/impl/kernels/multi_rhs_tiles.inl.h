@@ -14,8 +14,8 @@
  * where a0, a1, .. are SLW_ROWS rows in registers. */
 
 /* Rows below the diagonal block, at their positions in x. */
-#define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below_rows[r] * stride)
-#define SLI_STORE_BELOW(r, p) SLW_STORE((p) + (ptrdiff_t)below_rows[r] * stride, a##r)
+#define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below.index[r] * stride)
+#define SLI_STORE_BELOW(r, p) SLW_STORE((p) + (ptrdiff_t)below.index[r] * stride, a##r)
 
 #if defined(SLW_GROUPS)
 #define SLI_STRIDE_PARAMETER , sl_int stride
@@ -70,8 +70,9 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
 #endif
 #if defined(SLI_SMALL)
         if (w <= SLI_TILE) {
+            const sli_rows below = sli_rows_of(rows, s->below, stride);
             for (group = 0; group < stride; group += SLW_NRHS) {
-                SLW_SWEEP(forward_small)(w, stride, s->below, rows, tile, xs + group, x + group);
+                SLW_SWEEP(forward_small)(w, below, tile, xs + group, x + group);
             }
             continue;
         }
@@ -79,10 +80,10 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
         for (row = first; row < height; row += SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            const sl_int below = height - (sl_int)row - inner;
-            const int is_below = SLI_IS_DIRECT && inner == 0 && below >= SLW_ROWS;
+            const sli_rows below =
+                sli_rows_of(rows + (row + inner - w), height - (sl_int)row - inner, stride);
+            const int is_below = SLI_IS_DIRECT && inner == 0 && below.count >= SLW_ROWS;
             const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
-            const sl_int *below_rows = rows + (row + inner - w);
             for (group = 0; group < stride; group += SLW_NRHS) {
                 double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
                 const SLV_VALUE *l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t)first + lane;
@@ -92,7 +93,7 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
                     SLW_EACH(SLI_LOAD_BELOW, x + group)
                 } else {
                     if (inner < SLW_ROWS) {
-                        SLW_NAME(rows_in)(buf, inner, below, below_rows, own, x + group, stride);
+                        SLW_NAME(rows_in)(buf, inner, own, below, x + group);
                     }
                     SLW_EACH(SLI_LOAD, p)
                 }
@@ -110,7 +111,7 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
                 }
                 SLW_EACH(SLI_STORE, p)
                 if (inner < SLW_ROWS) {
-                    SLW_NAME(rows_out)(buf, inner, below, below_rows, own, x + group, stride);
+                    SLW_NAME(rows_out)(buf, inner, own, below, x + group);
                 }
             }
             if (lane + SLW_ROWS == SLI_TILE) {
@@ -166,9 +167,10 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(const sli_reach *R, const void *va
 #endif
 #if defined(SLI_SMALL)
         if (w <= SLI_TILE) {
+            const sli_rows below = sli_rows_of(rows_end, s->below, stride);
             for (group = 0; group < stride; group += SLW_NRHS) {
                 SLW_SWEEP(backward_small)
-                (w, stride, s->below, rows_end, tile - SLI_TILE * w, d, xs + group, x + group);
+                (w, below, tile - SLI_TILE * w, d, xs + group, x + group);
             }
             continue;
         }
@@ -184,9 +186,9 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(const sli_reach *R, const void *va
         for (row = SLI_TILE * sli_tiles(height) - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            const sl_int below = height - (sl_int)row - inner;
+            const sli_rows below =
+                sli_rows_of(rows_end + (row + inner - w), height - (sl_int)row - inner, stride);
             const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
-            const sl_int *below_rows = rows_end + (row + inner - w);
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile -= SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
@@ -195,11 +197,11 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(const sli_reach *R, const void *va
                 double *xj = xs + (ptrdiff_t) final * stride + group;
                 const SLV_VALUE *l = tile + SLI_TILE / SLI_PARTS * row + lane;
                 SLW_EACH(SLI_DECLARE, 0)
-                if (SLI_IS_DIRECT && inner == 0 && below >= SLW_ROWS) {
+                if (SLI_IS_DIRECT && inner == 0 && below.count >= SLW_ROWS) {
                     SLW_EACH(SLI_LOAD_BELOW, x + group)
                 } else {
                     if (inner < SLW_ROWS) {
-                        SLW_NAME(rows_in)(buf, inner, below, below_rows, own, x + group, stride);
+                        SLW_NAME(rows_in)(buf, inner, own, below, x + group);
                     }
                     SLW_EACH(SLI_LOAD, p)
                 }
@@ -207,7 +209,7 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(const sli_reach *R, const void *va
                     SLI_TRIANGLE_UP
                     SLW_EACH(SLI_STORE, p)
                     if (inner < SLW_ROWS) {
-                        SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x, stride);
+                        SLW_NAME(rows_out)(buf, inner, own, sli_rows_of(NULL, 0, stride), x);
                     }
                 }
                 l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t) final + lane;

@@ -1,12 +1,13 @@
 /* row.inl.h: one row of L in the up-looking factorization */
 
 /* See sli_row_kernel. */
-SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
-                                       const double *D, double *xs, double *x, double *buf,
-                                       double *pivot, double *magnitude) {
-    const sl_int columns = sli_min(q, w);
-    double *lq = panel + sli_panel_at(w, q, 0);
-    double d = *pivot, size = *magnitude;
+SLV_FUNCTION static void SLV_NAME(row)(sli_row *k, const sli_step *s, sl_int q,
+                                       const sl_int *rows) {
+    const sl_int w = s->width, columns = sli_min(q, w);
+    const double *D = k->D + s->column;
+    double *panel = k->L + s->panel, *lq = panel + sli_panel_at(w, q, 0);
+    double *x = k->x, *xs = x + s->column, *buf = k->scratch;
+    double d = k->pivot, size = k->magnitude;
     sl_int i;
     for (i = 0; i < columns; i++) { /* y = row of A minus the updates of descendants */
         buf[i] = lq[SLI_TILE * i] + xs[i];
@@ -31,6 +32,6 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
         d = SLV_FNMA1(l, buf[i], d);
         size += fabs(l * buf[i]);
     }
-    *pivot = d;
-    *magnitude = size;
+    k->pivot = d;
+    k->magnitude = size;
 }

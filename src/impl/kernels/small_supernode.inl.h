@@ -29,9 +29,12 @@
         } \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, sl_int below,
-                                                             const sl_int *rows, const SLV_VALUE *l,
-                                                             double *xs, double *x, double *buf) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, const sli_step *s,
+                                                             const sl_int *rows, const SLV_VALUE *L,
+                                                             double *x, double *buf) {
+    const sl_int below = s->below;
+    const SLV_VALUE *l = L + s->panel;
+    double *xs = x + s->base;
     sl_int row, i;
     SLV_DECLARE(a)
     SLV_DECLARE(b)
@@ -88,12 +91,14 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, sl_
 #define SLI_ROW(k) \
     SLI_XT(6, k) SLI_XT(5, k) SLI_XT(4, k) SLI_XT(3, k) SLI_XT(2, k) SLI_XT(1, k) SLI_XT(0, k)
 
-/* l: the end of the panel */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, const sli_step *s,
                                                               const sl_int *rows,
-                                                              const SLV_VALUE *l, const double *d,
-                                                              double *xs, const double *x) {
-    const sl_int count = (w + below) % SLI_TILE;
+                                                              const SLV_VALUE *L, const double *D,
+                                                              double *x) {
+    const sl_int below = s->below, count = (w + below) % SLI_TILE;
+    const SLV_VALUE *l = L + s->panel + sli_panel_size(w, below); /* its end */
+    const double *d = D + s->column;
+    double *xs = x + s->base;
     sl_int row = w + below - count, at = below;
     double r[SLI_TILE];
     SLV_WIDE(t, SLI_TILE)
@@ -142,9 +147,12 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
 /* In plain C, loops that take the width as a variable are as fast as copies. */
 #define SLI_BY_WIDTH(call) call(w)
 
-SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_forward)(sl_int w, sl_int below, const sl_int *rows,
-                                                      const SLV_VALUE *l, double *xs, double *x,
-                                                      double *buf) {
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_forward)(sl_int w, const sli_step *s,
+                                                      const sl_int *rows, const SLV_VALUE *L,
+                                                      double *x, double *buf) {
+    const sl_int below = s->below;
+    const SLV_VALUE *l = L + s->panel;
+    double *xs = x + s->base;
     sl_int row, i, k;
     double a[SLI_TILE] = {0.0}, b[SLI_TILE], y[SLI_TILE];
     memcpy(a, xs, (size_t)w * sizeof(double));
@@ -173,10 +181,14 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_forward)(sl_int w, sl_int below, co
     }
 }
 
-/* l: the end of the panel. A tile takes the rows from..end of x, others count as 0. */
-SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_backward)(sl_int w, sl_int below, const sl_int *rows,
-                                                       const SLV_VALUE *l, const double *d,
-                                                       double *xs, const double *x) {
+/* A tile takes the rows from..end of x, others count as 0. */
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_backward)(sl_int w, const sli_step *s,
+                                                       const sl_int *rows, const SLV_VALUE *L,
+                                                       const double *D, double *x) {
+    const sl_int below = s->below;
+    const SLV_VALUE *l = L + s->panel + sli_panel_size(w, below); /* its end */
+    const double *d = D + s->column;
+    double *xs = x + s->base;
     double a[SLI_TILE] = {0.0}, v[SLI_TILE] = {0.0};
     sl_int row = (w + below - 1) / SLI_TILE * SLI_TILE, j, k;
     for (; row >= 0; row -= SLI_TILE) { /* x(j) -= L(rows, j)' x(rows) */
@@ -295,8 +307,8 @@ SLV_SWEEP(backward_plain)(const sli_step *s, const sli_reach *R, const sl_int **
     return last - (from - xs);
 }
 
-#define SLI_FORWARD(k) SLV_SWEEP(small_forward)(k, below, rows, l, xs, x, buf)
-#define SLI_BACKWARD(k) SLV_SWEEP(small_backward)(k, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLV_SWEEP(small_forward)(k, s, rows, L, x, buf)
+#define SLI_BACKWARD(k) SLV_SWEEP(small_backward)(k, s, rows, L, D, x)
 
 /* A run of such supernodes from step s on, up to one that is wider. Returns the step
  * after the run and moves next_rows on. A function for runs, because a call for each supernode took
@@ -308,16 +320,13 @@ SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, 
     const sl_int *rows = *next_rows;
     const sli_step *end = R->steps + R->count;
     while (s < end && s->width <= SLI_TILE) {
-        const sl_int w = s->width, below = s->below;
-        const SLV_VALUE *l = L + s->panel;
-        double *xs = x + s->base;
+        const sl_int w = s->width;
         if (w == 1) {
             s = SLV_SWEEP(forward_plain)(s, R, &rows, L, x);
             continue;
         }
         SLI_BY_WIDTH(SLI_FORWARD);
-        rows += below;
-        s++;
+        rows += (s++)->below;
     }
     *next_rows = rows;
     return s;
@@ -332,17 +341,13 @@ SLV_FUNCTION static const sli_step *SLV_SWEEP(backward_small)(const sli_step *s,
     const sl_int *rows = *rows_end;
     const sli_step *begin = R->steps;
     while (s > begin && s[-1].width <= SLI_TILE) {
-        const sl_int w = s[-1].width, below = s[-1].below;
-        const SLV_VALUE *l = L + s[-1].panel + sli_panel_size(w, below);
-        const double *d = D + s[-1].column;
-        double *xs = x + s[-1].base;
+        const sl_int w = s[-1].width;
         if (w == 1) {
             s = SLV_SWEEP(backward_plain)(s, R, &rows, L, D, x);
             continue;
         }
-        rows -= below;
+        rows -= (--s)->below;
         SLI_BY_WIDTH(SLI_BACKWARD);
-        s--;
     }
     *rows_end = rows;
     return s;

@@ -38,6 +38,20 @@ enum {
     SLI_NRHS_KINDS = SLI_NRHS_16
 };
 
+/* Rows of such a block: their positions, and the right-hand sides of a row. */
+typedef struct sli_rows {
+    const sl_int *index; /* count */
+    sl_int count, lanes;
+} sli_rows;
+
+SLI_ALWAYS_INLINE sli_rows sli_rows_of(const sl_int *index, sl_int count, sl_int lanes) {
+    sli_rows rows;
+    rows.index = index;
+    rows.count = count;
+    rows.lanes = lanes;
+    return rows;
+}
+
 /* A compiled reach: its supernodes ascending, each from the first column needed, and the rows below
  * them as indices into a compact vector that has the columns of the reach only. */
 typedef struct sli_reach {
@@ -67,13 +81,19 @@ typedef struct sli_sweeps {
     sli_backward_kernel backward[SLI_SWEEP_KINDS];
 } sli_sweeps;
 
-/* Row q of a panel in the up-looking factorization. On entry the panel holds the row of A, and
- * x_super and x hold minus the updates so far. Computes the row of L, adds its updates to the rows
- * of x before q, and clears x_super. D: pivots of the supernode. *pivot -= l' D l for the row l;
- * *magnitude += |l' D l|, summed entry by entry. */
-typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_int *rows,
-                               const double *D, double *x_super, double *x, double *scratch,
-                               double *pivot, double *magnitude);
+/* The row that the up-looking factorization computes. */
+typedef struct sli_row {
+    double *L;
+    const double *D;
+    double *x;       /* n: minus the updates so far */
+    double *scratch; /* for a sweep */
+    double pivot, magnitude;
+} sli_row;
+
+/* Its part l in a supernode: local row q of the panel, which holds the row of A on entry. Computes
+ * l, adds its updates to the rows of x before q, and clears x on the columns of the supernode.
+ * pivot -= l' D l; magnitude += |l' D l|, summed entry by entry. rows: below the supernode. */
+typedef void (*sli_row_kernel)(sli_row *k, const sli_step *s, sl_int q, const sl_int *rows);
 
 /* Doubles of scratch for a step of a given height (width + below) and width. Kernels for 1 and 2
  * right-hand sides copy all rows and keep 8 partial sums for each column. The others work on x in

@@ -7,13 +7,12 @@
 #include "pairs.h"
 #include "step.h"
 
-/* Copies rows 0 .. count-1 of 8 columns of M, ldm apart, to v + index[k] stride, and back. v is
- * 64-byte aligned, stride is a multiple of 8. is_streamed: v is not read before it would have left
- * the caches. */
-typedef void (*sli_interleave_kernel)(double *v, sl_int stride, const sl_int *index, sl_int count,
-                                      const double *M, size_t ldm, int is_streamed);
-typedef void (*sli_separate_kernel)(double *M, size_t ldm, const double *v, sl_int stride,
-                                    const sl_int *index, sl_int count);
+/* Copies 8 columns of M, ldm apart, to the given rows of v, and back. v is 64-byte aligned, the
+ * rows have a multiple of 8 lanes. is_streamed: v is not read before it would have left the caches.
+ */
+typedef void (*sli_interleave_kernel)(double *v, sli_rows rows, const double *M, size_t ldm,
+                                      int is_streamed);
+typedef void (*sli_separate_kernel)(double *M, size_t ldm, const double *v, sli_rows rows);
 
 /* The kernels of the core. A pack has tables of its own, one for each instruction set, in the order
  * of sli_isa_row. */

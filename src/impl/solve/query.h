@@ -248,20 +248,6 @@ SLI_INLINE sl_status sli_rhs_check_columns(const sli_rhs *r, sl_int nx, sl_int n
  * n = 1e6 2 times faster; with one it costs 3 percent of a solve. */
 #define SLI_ROWS_AHEAD 32
 
-/* Rows of an interleaved block of vectors. */
-typedef struct sli_rows {
-    const sl_int *index; /* count */
-    sl_int count, lanes;
-} sli_rows;
-
-SLI_ALWAYS_INLINE sli_rows sli_rows_of(const sl_int *index, sl_int count, sl_int lanes) {
-    sli_rows rows;
-    rows.index = index;
-    rows.count = count;
-    rows.lanes = lanes;
-    return rows;
-}
-
 /* Copies the rows of M to the given rows of v. Called with a constant number of columns and with
  * one of the two strides 1: moving rows in and out is a fifth of a full solve, and an inner loop of
  * variable length would double that. */
@@ -335,12 +321,13 @@ static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sl
         sli_pack_sums(y, sli_rows_of(index, count, lanes), B, at, nrhs);
     } else if (nrhs % 8 == 0 && at.row == 1) {
         const int is_streamed = (size_t)count * (size_t)lanes > SLI_STREAMED;
-        sl_int first, r;
-        for (first = 0; first < count; first += sli_min(SLI_PACK_CHUNK, count - first)) {
+        sl_int first, chunk, r;
+        for (first = 0; first < count; first += chunk) {
+            chunk = sli_min(SLI_PACK_CHUNK, count - first);
             for (r = 0; r < nrhs; r += 8) {
-                F->kernels->interleave(
-                    y + r, lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first),
-                    B + (size_t)first + (size_t)r * at.column, at.column, is_streamed);
+                F->kernels->interleave(y + r, sli_rows_of(index + first, chunk, lanes),
+                                       B + (size_t)first + (size_t)r * at.column, at.column,
+                                       is_streamed);
             }
         }
     } else if (nrhs % 8 == 0) {
@@ -368,11 +355,12 @@ static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rh
     const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs);
     const sl_int *index = q->x_index, count = q->nx;
     if (nrhs % 8 == 0 && at.row == 1) {
-        sl_int first, r;
-        for (first = 0; first < count; first += sli_min(SLI_PACK_CHUNK, count - first)) {
+        sl_int first, chunk, r;
+        for (first = 0; first < count; first += chunk) {
+            chunk = sli_min(SLI_PACK_CHUNK, count - first);
             for (r = 0; r < nrhs; r += 8) {
                 F->kernels->separate(X + (size_t)first + (size_t)r * at.column, at.column, x + r,
-                                     lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first));
+                                     sli_rows_of(index + first, chunk, lanes));
             }
         }
     } else if (nrhs % 8 == 0) {
