@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 47d1d376f49ca7c1
+ * FNV-1a of the lines after this comment, without the license: 617449f476d9554b
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -46,18 +46,18 @@
  *  19984 impl/ float: L and fronts in single precision
  *  20435 impl/ inverse: entries of the inverse, regions
  *  23498 impl/ change: a factor that follows changes of its matrix
- *  29523 impl/ dirichlet: rows fixed at given values
- *  30111 impl/ dirichlet: by a factor of all rows
- *  30343 impl/ io: files that are replaced only when they are complete
- *  30561 impl/ files: Matrix Market files, 64-bit indices
- *  31181 impl/ save: factors in files
- *  33178 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33859 impl/ batch: diagonals of many inverses
- *  34000 impl/ complex: complex Hermitian systems over real factors
- *  34562 impl/ complex: entries of the inverse
- *  34622 impl/ packs: the tables through which the core calls packs
- *  34670 impl/ last: undefine every internal macro
- *  35026 impl/ templates: the header includes them from itself, once for each instruction set
+ *  29556 impl/ dirichlet: rows fixed at given values
+ *  30144 impl/ dirichlet: by a factor of all rows
+ *  30376 impl/ io: files that are replaced only when they are complete
+ *  30594 impl/ files: Matrix Market files, 64-bit indices
+ *  31214 impl/ save: factors in files
+ *  33211 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33892 impl/ batch: diagonals of many inverses
+ *  34033 impl/ complex: complex Hermitian systems over real factors
+ *  34595 impl/ complex: entries of the inverse
+ *  34655 impl/ packs: the tables through which the core calls packs
+ *  34703 impl/ last: undefine every internal macro
+ *  35059 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -23993,10 +23993,10 @@ SLI_INLINE void sli_loss_open(sl_factor *F, sl_int s) {
   F->history.known[s] = 1;
 }
 
-static double sli_update_magnitude(const sl_factor *F, sl_int k) {
+static double sli_update_entry(const sl_factor *F, sl_int k, double *magnitude) {
   const sl_symbolic *S = F->S;
   const sl_int own = S->super_of[k];
-  double sum = 0.0;
+  double sum = 0.0, entry = F->D[k];
   sl_int d, j;
   for (d = own; d >= S->first_descendant[own];) {
     const sli_step *step = &S->steps[d];
@@ -24010,10 +24010,18 @@ static double sli_update_magnitude(const sl_factor *F, sl_int k) {
     for (j = 0; j < sli_min(r, step->width) && (d == own || rows[at] == k); j++) {
       const double l = sli_entry(F, step->panel + sli_panel_at(step->width, r, j));
       sum += fabs(l * F->D[step->column + j] * l);
+      entry += l * F->D[step->column + j] * l;
     }
     d--;
   }
-  return 2.0 * sum + fabs(F->D[k]);
+  *magnitude = 2.0 * sum + fabs(F->D[k]);
+  return entry;
+}
+
+static double sli_update_magnitude(const sl_factor *F, sl_int k) {
+  double magnitude;
+  (void)sli_update_entry(F, k, &magnitude);
+  return magnitude;
 }
 
 /* src/impl/change/update_pivots.h: the state of a rank-k change, and the pivots that it changes */
@@ -24032,6 +24040,7 @@ typedef struct sli_update {
   double loss;
   double lost;
   double fall;
+  sl_int row;
   double least;
   double shrink;
   double top;
@@ -24375,6 +24384,7 @@ static double sli_update_largest(const sli_update *u, sl_int count) {
 static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
   const sl_symbolic *S = u->F->S;
   const sl_csc *V = u->V;
+  double largest = -1.0;
   sl_int r, p;
   u->kind = sli_update_kind(count);
   u->lanes = (sl_int)1 << u->kind;
@@ -24400,6 +24410,8 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
         u->gain[at] +=
           u->sign == 0.0 ? fabs(alpha * x * x) : fmax(0.0, 2.0 * u->sign * alpha * x * x);
         most = fmax(most, x * x);
+        u->row = fabs(alpha * x * x) > largest ? S->iperm[V->i[p]] : u->row;
+        largest = fmax(largest, fabs(alpha * x * x));
       }
     }
     u->fall += u->sign * alpha > 0.0 ? 0.0 : fabs(alpha) * most;
@@ -24830,13 +24842,34 @@ static void sli_rank_unmark(sl_factor *F, const sli_step *steps, sl_int count) {
   }
 }
 
+static double sli_rank_shown(const sli_update *u) {
+  const sl_factor *F = u->F;
+  const sl_symbolic *S = F->S;
+  double unused, most = fabs(sli_update_entry(F, u->row, &unused));
+  sl_int s, d, r;
+  for (s = 0; s < u->R.count; s++) {
+    const sl_int root = S->super_of[u->R.steps[s].column];
+    for (d = S->first_descendant[root]; d <= root && u->R.steps[s].up == -1; d++) {
+      const sli_step *leaf = &S->steps[d];
+      double l = S->first_descendant[d] == d ? 1.0 : 0.0;
+      for (r = 1; r < leaf->width + leaf->below && l > 0.0; r++) {
+        l = fmax(l, fabs(sli_entry(F, leaf->panel + sli_panel_at(leaf->width, r, 0))));
+      }
+      most = fmax(most, l * fabs(F->D[leaf->column]));
+    }
+  }
+  return most;
+}
+
 static void sli_rank_note(const sli_update *u) {
   sl_factor *F = u->F;
   sl_factor_info *info = &F->stats.factor;
-  const double least = u->sign != 0.0 ? u->top : DBL_EPSILON * F->history.scale;
-  const double scale = fmax(fabs(F->history.scale - u->fall), least);
+  const double left = fabs(F->history.scale - u->fall);
   const double own = fmin(u->entry, fabs(u->entry - u->fall));
-  const double local = fmax(fmin(own, scale), least);
+  const int has_fallen = 16.0 * left < info->entry_max || 16.0 * own < u->entry;
+  const double shown = u->sign == 0.0 && has_fallen ? sli_rank_shown(u) : 0.0;
+  const double least = u->sign != 0.0 ? u->top : fmax(DBL_EPSILON * F->history.scale, shown);
+  const double scale = fmax(left, least), local = fmax(fmin(own, scale), least);
   const double rise = scale > 0.0 ? fmax(1.0, F->history.lowest / scale) : 1.0;
   const double growth = local > 0.0 ? u->growth / local : 0.0;
   const double most = local > 0.0 ? u->most / local * u->loss : 0.0;

@@ -183,6 +183,46 @@ static void growth_is_relative_to_what_remains(void **state) {
     sl_symbolic_free(S);
 }
 
+/* A change as large as the largest |a| may take it away or double it, and others may be as large:
+ * what L D L' shows of the matrix decides. */
+static void a_change_as_large_as_the_matrix(void **state) {
+    (void)state;
+    enum { CASES = 5 };
+    static const struct {
+        double a[3], delta;
+        sl_int row;
+        double growth;
+    } cases[CASES] = {
+        {{2.0, 0.5, -1.5}, 2.0, 0, 2.0},  /* doubled */
+        {{0.5, 0.5, -2.0}, -2.0, 1, 2.0}, /* doubled, in the row that is eliminated last */
+        {{1.0, 0.5, -1.0}, 1.0, 1, 2.0},  /* gone, beside another 1 on the diagonal */
+        {{1e-8, 1.0, 1.0}, -1.0, 1, 3e8}, /* gone, beside another 1 off the diagonal */
+        {{0.5, 0.5, -2.0}, 4.0, 1, 5.0},  /* negated */
+    };
+    static const sl_int p[4] = {0, 2, 3, 4}, i[4] = {0, 1, 1, 2};
+    for (int c = 0; c < CASES; c++) {
+        double x[4] = {cases[c].a[0], cases[c].a[1], cases[c].a[2], 1e-3};
+        const double b[3] = {0.7, -0.4, 0.2};
+        double y[3], r[3], error;
+        const sl_csc A = {3, 3, p, i, x};
+        sl_factor *F;
+        sl_stats stats;
+        sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_NONE);
+        SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
+        SL_CHECK(sl_factor_change(F, NULL, &cases[c].row, &cases[c].row, &cases[c].delta, 1, NULL,
+                                  &stats));
+        assert_int_equal(stats.change.method, SL_CHANGE_UPDATE);
+        assert_true(stats.factor.growth <= cases[c].growth);
+        assert_true(stats.change.drift <= 4.0 * DBL_EPSILON * cases[c].growth);
+        x[cases[c].row == 0 ? 0 : 2] += cases[c].delta;
+        SL_CHECK(sl_factor_solve(F, y, 3, b, 3, 1, NULL));
+        SL_CHECK(sl_csc_residual(&A, r, 3, &error, y, 3, b, 3, 1));
+        assert_true(error <= 4.0 * DBL_EPSILON * stats.factor.growth);
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+    }
+}
+
 /* The last pivot becomes far smaller than the terms that it was computed from, though not than the
  * change: it is null. */
 static void a_pivot_of_rounding_is_null(void **state) {
@@ -401,6 +441,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(drift_is_relative_to_what_remains),
         cmocka_unit_test(growth_is_relative_to_what_remains),
+        cmocka_unit_test(a_change_as_large_as_the_matrix),
         cmocka_unit_test(zeros_change_nothing),
         cmocka_unit_test(matrices_of_zeros_are_changed),
         cmocka_unit_test(matrices_of_zeros_have_no_scale),

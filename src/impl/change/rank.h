@@ -302,18 +302,42 @@ static void sli_rank_unmark(sl_factor *F, const sli_step *steps, sl_int count) {
     }
 }
 
+/* The largest |a| that L D L' shows in the trees of a pass: of columns that no other one updates,
+ * and a_kk of the row that the pass changes most. Not 0, as no pivot is. */
+static double sli_rank_shown(const sli_update *u) {
+    const sl_factor *F = u->F;
+    const sl_symbolic *S = F->S;
+    double unused, most = fabs(sli_update_entry(F, u->row, &unused));
+    sl_int s, d, r;
+    for (s = 0; s < u->R.count; s++) {
+        const sl_int root = S->super_of[u->R.steps[s].column];
+        for (d = S->first_descendant[root]; d <= root && u->R.steps[s].up == -1; d++) {
+            const sli_step *leaf = &S->steps[d];
+            double l = S->first_descendant[d] == d ? 1.0 : 0.0;
+            for (r = 1; r < leaf->width + leaf->below && l > 0.0; r++) {
+                l = fmax(l, fabs(sli_entry(F, leaf->panel + sli_panel_at(leaf->width, r, 0))));
+            }
+            most = fmax(most, l * fabs(F->D[leaf->column]));
+        }
+    }
+    return most;
+}
+
 /* Updates growth and drift after a pass. They are relative to the largest |a|: where that becomes
  * less than it ever was they rise. Where it rises and falls again, the errors that were made above
  * remain, by rows if all pivots have one sign. Only a bound from below is known of it: a pivot, if
- * all have one sign, and the difference of the bound before and what the pass changes. The pass is
+ * all have one sign, and the difference of the bound before and what the pass changes. That falls
+ * also where |a| doubles: once it is a small part of the first one, L D L' shows more. The pass is
  * compared with its own columns, as other components may be larger. */
 static void sli_rank_note(const sli_update *u) {
     sl_factor *F = u->F;
     sl_factor_info *info = &F->stats.factor;
-    const double least = u->sign != 0.0 ? u->top : DBL_EPSILON * F->history.scale;
-    const double scale = fmax(fabs(F->history.scale - u->fall), least);
+    const double left = fabs(F->history.scale - u->fall);
     const double own = fmin(u->entry, fabs(u->entry - u->fall));
-    const double local = fmax(fmin(own, scale), least);
+    const int has_fallen = 16.0 * left < info->entry_max || 16.0 * own < u->entry;
+    const double shown = u->sign == 0.0 && has_fallen ? sli_rank_shown(u) : 0.0;
+    const double least = u->sign != 0.0 ? u->top : fmax(DBL_EPSILON * F->history.scale, shown);
+    const double scale = fmax(left, least), local = fmax(fmin(own, scale), least);
     const double rise = scale > 0.0 ? fmax(1.0, F->history.lowest / scale) : 1.0;
     const double growth = local > 0.0 ? u->growth / local : 0.0;
     const double most = local > 0.0 ? u->most / local * u->loss : 0.0;

@@ -183,6 +183,7 @@ static double sli_update_largest(const sli_update *u, sl_int count) {
 static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
     const sl_symbolic *S = u->F->S;
     const sl_csc *V = u->V;
+    double largest = -1.0;
     sl_int r, p;
     u->kind = sli_update_kind(count);
     u->lanes = (sl_int)1 << u->kind;
@@ -208,6 +209,8 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
                 u->gain[at] +=
                     u->sign == 0.0 ? fabs(alpha * x * x) : fmax(0.0, 2.0 * u->sign * alpha * x * x);
                 most = fmax(most, x * x);
+                u->row = fabs(alpha * x * x) > largest ? S->iperm[V->i[p]] : u->row;
+                largest = fmax(largest, fabs(alpha * x * x));
             }
         }
         u->fall += u->sign * alpha > 0.0 ? 0.0 : fabs(alpha) * most;

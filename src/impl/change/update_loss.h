@@ -49,12 +49,12 @@ SLI_INLINE void sli_loss_open(sl_factor *F, sl_int s) {
     F->history.known[s] = 1;
 }
 
-/* The sum of the magnitudes |a_kk| + sum |l_kj d_j l_kj| that pivot k was computed from, at most.
- * O(descendants). */
-static double sli_update_magnitude(const sl_factor *F, sl_int k) {
+/* Returns a_kk, as L D L' has it. *magnitude := the sum of the magnitudes |a_kk| + sum
+ * |l_kj d_j l_kj| that pivot k was computed from, at most. O(descendants). */
+static double sli_update_entry(const sl_factor *F, sl_int k, double *magnitude) {
     const sl_symbolic *S = F->S;
     const sl_int own = S->super_of[k];
-    double sum = 0.0;
+    double sum = 0.0, entry = F->D[k];
     sl_int d, j;
     for (d = own; d >= S->first_descendant[own];) {
         const sli_step *step = &S->steps[d];
@@ -68,10 +68,18 @@ static double sli_update_magnitude(const sl_factor *F, sl_int k) {
         for (j = 0; j < sli_min(r, step->width) && (d == own || rows[at] == k); j++) {
             const double l = sli_entry(F, step->panel + sli_panel_at(step->width, r, j));
             sum += fabs(l * F->D[step->column + j] * l);
+            entry += l * F->D[step->column + j] * l;
         }
         d--;
     }
-    return 2.0 * sum + fabs(F->D[k]);
+    *magnitude = 2.0 * sum + fabs(F->D[k]);
+    return entry;
+}
+
+static double sli_update_magnitude(const sl_factor *F, sl_int k) {
+    double magnitude;
+    (void)sli_update_entry(F, k, &magnitude);
+    return magnitude;
 }
 
 #endif

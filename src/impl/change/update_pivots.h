@@ -31,6 +31,7 @@ typedef struct sli_update {
     double loss;   /* of digits in a pivot, which later ones multiply: of pivots of both signs */
     double lost;   /* by the worst row, relative to the magnitudes that are left of it */
     double fall;   /* by at most this much the pass changes the largest |a| */
+    sl_int row;    /* the pivot whose row it changes most */
     double least;  /* a smaller pivot may be null, and is refused where it was larger */
     double shrink; /* of a trial: the least ratio of a new pivot to the old one */
     double top;    /* the largest new pivot */
