@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 617449f476d9554b
+ * FNV-1a of the lines after this comment, without the license: 10ab720584e157f6
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -46,18 +46,18 @@
  *  19984 impl/ float: L and fronts in single precision
  *  20435 impl/ inverse: entries of the inverse, regions
  *  23498 impl/ change: a factor that follows changes of its matrix
- *  29556 impl/ dirichlet: rows fixed at given values
- *  30144 impl/ dirichlet: by a factor of all rows
- *  30376 impl/ io: files that are replaced only when they are complete
- *  30594 impl/ files: Matrix Market files, 64-bit indices
- *  31214 impl/ save: factors in files
- *  33211 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33892 impl/ batch: diagonals of many inverses
- *  34033 impl/ complex: complex Hermitian systems over real factors
- *  34595 impl/ complex: entries of the inverse
- *  34655 impl/ packs: the tables through which the core calls packs
- *  34703 impl/ last: undefine every internal macro
- *  35059 impl/ templates: the header includes them from itself, once for each instruction set
+ *  29567 impl/ dirichlet: rows fixed at given values
+ *  30155 impl/ dirichlet: by a factor of all rows
+ *  30387 impl/ io: files that are replaced only when they are complete
+ *  30605 impl/ files: Matrix Market files, 64-bit indices
+ *  31225 impl/ save: factors in files
+ *  33222 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33903 impl/ batch: diagonals of many inverses
+ *  34044 impl/ complex: complex Hermitian systems over real factors
+ *  34606 impl/ complex: entries of the inverse
+ *  34666 impl/ packs: the tables through which the core calls packs
+ *  34714 impl/ last: undefine every internal macro
+ *  35070 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -23503,6 +23503,7 @@ typedef struct sli_ranks {
   double U[SLI_TILE][SLI_TILE];
   double alpha[SLI_TILE];
   double e[SLI_TILE], magnitude[SLI_TILE];
+  double squares[SLI_TILE];
   sl_int ranks, lanes;
 } sli_ranks;
 
@@ -24038,6 +24039,7 @@ typedef struct sli_update {
   int kind;
   double most;
   double loss;
+  double swept;
   double lost;
   double fall;
   sl_int row;
@@ -24223,14 +24225,22 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
   double *l = u->panel + sli_panel_at(step->width, first, first);
   double *at = u->c + 2 * (ptrdiff_t)u->lanes * (first - SLI_TILE * step->first_tile);
   const sl_int k = step->column + first - SLI_TILE * step->first_tile;
-  const sl_status status = sli_update_pivots(u, k, columns, l, w, at);
+  double alpha[SLI_TILE];
+  sl_status status;
   sl_int j, r;
+  memcpy(alpha, u->state->alpha, sizeof alpha);
+  status = sli_update_pivots(u, k, columns, l, w, at);
   for (j = 0; j < columns && u->sign == 0.0 && status == SL_OK; j++) {
     if (first + j + 1 < step->width + step->below) {
       u->loss = fmax(u->loss, u->state->magnitude[j] / fabs(u->state->e[j]));
     }
   }
   if (status == SL_OK) {
+    for (r = 0; r < u->state->ranks && u->state->ranks > 1; r++) {
+      const double before = fabs(alpha[r]), now = fabs(u->state->alpha[r]);
+      const double term = (before < now ? before : now) * u->state->squares[r];
+      u->swept = term > u->swept ? term : u->swept;
+    }
     sli_change_kernels_of(u->F->kernels->isa)->change[u->kind - 1](l, columns, at, w);
     for (r = 0; r < columns; r++) {
       for (j = r; j < columns; j++) {
@@ -24391,7 +24401,7 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
   u->state->ranks = count;
   u->state->lanes = u->lanes;
   u->most = u->fall = u->top = u->entry = u->growth = 0.0;
-  u->loss = 1.0;
+  u->loss = u->swept = 1.0;
   u->lost = 0.0;
   memset(u->state->U, 0, sizeof u->state->U);
   memset(u->x, 0, (size_t)u->R.columns * (size_t)u->lanes * sizeof(double));
@@ -24523,7 +24533,7 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
   one.b = u->b;
   one.first_tile = (sli_key(seed) - S->super_first[s]) / SLI_TILE;
   u->most = u->top = u->entry = u->growth = 0.0;
-  u->loss = 1.0;
+  u->loss = u->swept = 1.0;
   u->lost = 0.0;
   for (rest = u->V->p[v + 1] - u->V->p[v]; s != -1 && status == SL_OK; s = S->super_parent[s]) {
     const sli_step *step = &S->steps[s];
@@ -24872,7 +24882,8 @@ static void sli_rank_note(const sli_update *u) {
   const double scale = fmax(left, least), local = fmax(fmin(own, scale), least);
   const double rise = scale > 0.0 ? fmax(1.0, F->history.lowest / scale) : 1.0;
   const double growth = local > 0.0 ? u->growth / local : 0.0;
-  const double most = local > 0.0 ? u->most / local * u->loss : 0.0;
+  const double swept = u->sign != 0.0 ? sqrt(u->swept) : u->swept;
+  const double most = local > 0.0 ? u->most / local * u->loss * swept : 0.0;
   info->growth =
     u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0)) : fmax(info->growth * rise, growth);
   F->history.drift = fmax(F->history.drift * rise + DBL_EPSILON * fmax(1.0, most),
@@ -36325,6 +36336,8 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
   SLV_DECLARE(s)
   SLV_DECLARE(t)
   SLV_DECLARE(p)
+  SLV_DECLARE(squares)
+  SLV_ZERO(squares)
   SLV_NAME(change_rows)(u, l, columns, w, f, y);
   for (j = 0; j < columns; j++) {
     double e = d[j], inverse = 1.0 / e, magnitude = fabs(e);
@@ -36365,8 +36378,8 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
     inverse = -inverse;
     SLV_BROADCAST(p, &inverse)
     SLV_MULTIPLY(x, t, p)
+    SLV_LOAD(a, y + SLI_TILE * j)
     if (lanes == SLI_TILE) {
-      SLV_LOAD(a, y + SLI_TILE * j)
       SLV_STORE(c, a)
       SLV_STORE(c + SLI_TILE, x)
     } else {
@@ -36374,8 +36387,13 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
       memcpy(c, y + SLI_TILE * j, (size_t)lanes * sizeof *c);
       memcpy(c + lanes, b, (size_t)lanes * sizeof *c);
     }
+    inverse = -fabs(inverse);
+    SLV_BROADCAST(p, &inverse)
+    SLV_MULTIPLY(a, a, a)
+    SLV_FNMA(squares, a, p)
     c += 2 * lanes;
   }
+  SLV_STORE(u->squares, squares)
   return columns;
 }
 

@@ -83,6 +83,8 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
     SLV_DECLARE(s)
     SLV_DECLARE(t)
     SLV_DECLARE(p)
+    SLV_DECLARE(squares)
+    SLV_ZERO(squares)
     SLV_NAME(change_rows)(u, l, columns, w, f, y);
     for (j = 0; j < columns; j++) {
         double e = d[j], inverse = 1.0 / e, magnitude = fabs(e);
@@ -123,8 +125,8 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
         inverse = -inverse;
         SLV_BROADCAST(p, &inverse)
         SLV_MULTIPLY(x, t, p)
+        SLV_LOAD(a, y + SLI_TILE * j)
         if (lanes == SLI_TILE) {
-            SLV_LOAD(a, y + SLI_TILE * j)
             SLV_STORE(c, a)
             SLV_STORE(c + SLI_TILE, x)
         } else {
@@ -132,8 +134,13 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
             memcpy(c, y + SLI_TILE * j, (size_t)lanes * sizeof *c);
             memcpy(c + lanes, b, (size_t)lanes * sizeof *c);
         }
+        inverse = -fabs(inverse);
+        SLV_BROADCAST(p, &inverse)
+        SLV_MULTIPLY(a, a, a)
+        SLV_FNMA(squares, a, p)
         c += 2 * lanes;
     }
+    SLV_STORE(u->squares, squares)
     return columns;
 }
 

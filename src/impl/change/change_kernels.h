@@ -13,6 +13,7 @@ typedef struct sli_ranks {
     double U[SLI_TILE][SLI_TILE]; /* column by column, with a unit diagonal */
     double alpha[SLI_TILE];
     double e[SLI_TILE], magnitude[SLI_TILE]; /* new pivots, and the sums that they are made of */
+    double squares[SLI_TILE];                /* of each vector: the sum of y^2 / |e| */
     sl_int ranks, lanes;
 } sli_ranks;
 

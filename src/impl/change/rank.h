@@ -340,7 +340,8 @@ static void sli_rank_note(const sli_update *u) {
     const double scale = fmax(left, least), local = fmax(fmin(own, scale), least);
     const double rise = scale > 0.0 ? fmax(1.0, F->history.lowest / scale) : 1.0;
     const double growth = local > 0.0 ? u->growth / local : 0.0;
-    const double most = local > 0.0 ? u->most / local * u->loss : 0.0;
+    const double swept = u->sign != 0.0 ? sqrt(u->swept) : u->swept;
+    const double most = local > 0.0 ? u->most / local * u->loss * swept : 0.0;
     info->growth =
         u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0)) : fmax(info->growth * rise, growth);
     F->history.drift = fmax(F->history.drift * rise + DBL_EPSILON * fmax(1.0, most),

@@ -14,7 +14,8 @@
  *
  * e is the new pivot. W loses row and column, and is nonzero on the paths of its columns only. M is
  * kept as U diag(alpha) U' with a unit upper triangular U, and updated in this form [Bie76]: so its
- * signs stay those of the changes, and rounding is that of k changes one after the other. */
+ * signs stay those of the changes, and rounding is that of k changes one after the other, times
+ * what L^-1 W has grown to: W is swept by the old L alone. */
 
 /* The state of a change. Vectors in a compact vector of their reach, interleaved. */
 typedef struct sli_update {
@@ -29,6 +30,7 @@ typedef struct sli_update {
     int kind;
     double most;   /* the largest sum of magnitudes that a pivot of the pass was computed from */
     double loss;   /* of digits in a pivot, which later ones multiply: of pivots of both signs */
+    double swept;  /* of several vectors: alpha y^2 of L^-1 W over the sum for the pivot, at most */
     double lost;   /* by the worst row, relative to the magnitudes that are left of it */
     double fall;   /* by at most this much the pass changes the largest |a| */
     sl_int row;    /* the pivot whose row it changes most */
