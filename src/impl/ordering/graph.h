@@ -4,6 +4,7 @@
 
 #include "../base/alloc.h"
 #include "../base/hash.h"
+#include "../base/sort.h"
 #include "../matrix/csc.h"
 
 /* The lower triangle of a permuted symmetric pattern, by columns, unsorted. Duplicate entries are
