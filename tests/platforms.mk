@@ -9,7 +9,7 @@ JUDGE_SEED ?= 1
 FUZZ_SEED ?= 0
 
 .PHONY: deps-locales deps-tcc deps-mingw deps-wasm deps-cov deps-chromium deps-mpi test-exchange test-tcc deps-compilers test-compilers platforms platform-table \
-	races valgrind test-stack test-msan test-mingw test-mingw-clang test-wasm cov mcdc fuzz run-fuzz judge test-view cluster test-cluster
+	races valgrind test-stack test-msan test-mingw test-mingw-clang test-wasm cov mcdc fuzz run-fuzz judge evidence test-view cluster test-cluster
 
 # ---- packages ----
 
@@ -233,18 +233,24 @@ $(B)/run/%: $(B)/obj/tests/fuzz/fuzz_%.o $(LIBRARY) $(IMPL)
 
 # New inputs stay under B: those worth keeping are copied to tests/fuzz/corpus by hand. The runs are
 # short: tracing every comparison of the header (above) and the schedule by entropy take longer than
-# the calls themselves. The dictionaries know the words that the traces would find.
-run-fuzz: $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/run/%)
-	@for program in $^; do name=$${program##*/}; words=tests/fuzz/$$name.dict; \
-	mkdir -p $(B)/found/$$name tests/fuzz/corpus/$$name; \
-	ASAN_OPTIONS=malloc_context_size=4:quarantine_size_mb=1:max_malloc_fill_size=0 $$program -max_total_time=$(FUZZ_SECONDS) -seed=$(FUZZ_SEED) -max_len=2048 -entropic=0 -print_funcs=0 -reduce_inputs=0 -print_final_stats=1 \
-	$$([ ! -e $$words ] || echo -dict=$$words) -artifact_prefix=$(B)/found/crash-$$name- \
-	$(B)/found/$$name tests/fuzz/corpus/$$name >$(B)/$$name.log 2>&1 || { tail -n 60 $(B)/$$name.log; exit 1; }; \
-	awk -v name=$$name '/number_of_executed_units/ { runs = $$2 } /average_exec_per_sec/ { rate = $$2 } \
-	END { printf "fuzz %s: %d executions, %d a second\n", name, runs, rate }' $(B)/$$name.log; done
+# the calls themselves. The dictionaries know the words that the traces would find. With -j several run at once.
+FUZZ_RUNS = $(FUZZERS:tests/fuzz/fuzz_%.c=run-fuzz-%)
+.PHONY: $(FUZZ_RUNS)
+run-fuzz: $(FUZZ_RUNS)
+
+$(FUZZ_RUNS): run-fuzz-%: $(B)/run/%
+	@mkdir -p $(B)/found/$* tests/fuzz/corpus/$*
+	@ASAN_OPTIONS=malloc_context_size=4:quarantine_size_mb=1:max_malloc_fill_size=0 $(B)/run/$* -max_total_time=$(FUZZ_SECONDS) -seed=$(FUZZ_SEED) \
+	-max_len=2048 -entropic=0 -print_funcs=0 -reduce_inputs=0 -print_final_stats=1 $(patsubst %,-dict=%,$(wildcard tests/fuzz/$*.dict)) \
+	-artifact_prefix=$(B)/found/crash-$*- $(B)/found/$* tests/fuzz/corpus/$* >$(B)/$*.log 2>&1 || { tail -n 60 $(B)/$*.log; exit 1; }
+	@awk -v name=$* '/number_of_executed_units/ { runs = $$2 } /average_exec_per_sec/ { rate = $$2 } \
+	END { printf "fuzz %s: %d executions, %d a second\n", name, runs, rate }' $(B)/$*.log
 
 judge: deps $(B)/tests/core/test_judge ## JUDGE_COUNT random systems from JUDGE_SEED on: wrong answers with SL_OK and without a signal
 	@JUDGE_COUNT=$(JUDGE_COUNT) JUDGE_SEED=$(JUDGE_SEED) $(B)/tests/core/test_judge
+
+evidence: ## what tests/README.md says of a release: all of its targets beside fuzzers of two hours each, then make test-page
+	@+tests/lib/evidence.sh 7200
 
 # ---- a browser, a cluster ----
 

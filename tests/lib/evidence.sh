@@ -1,0 +1,39 @@
+#!/bin/sh
+# evidence.sh: what a release is tested with, target by target, beside all fuzzers (make evidence)
+#
+#     tests/lib/evidence.sh SECONDS [TARGET ...]
+#
+# SECONDS: how long each fuzzer runs. Without targets: all of them. Each has a log in
+# build/evidence, whose last line is printed. Fails if a target does. make test-page reads what all
+# have left.
+
+seconds=$1
+shift
+targets=${*:-test sanitize races cov mcdc test-msan valgrind test-openmp test-pthreads test-clang
+    test-cxx test-no-metis test-no-simd test-packs test-compilers platforms test-mingw
+    test-mingw-clang test-wasm judge}
+jobs=$(getconf _NPROCESSORS_ONLN)
+make="${MAKE:-make} --no-print-directory"
+mkdir -p build/evidence
+failed=
+
+say() {
+    printf '%s  %-18s %s\n' "$(date +%H:%M)" "$1" "$(tail -n 1 "build/evidence/$1.log")"
+}
+
+# The fuzzers are built first: their time is that of their runs.
+$make -j"$jobs" fuzz FUZZ_SECONDS=1 >build/evidence/fuzz.log 2>&1 || failed=' fuzz'
+$make -j8 fuzz FUZZ_SECONDS="$seconds" >build/evidence/fuzz.log 2>&1 &
+fuzzers=$!
+for target in $targets; do
+    $make -j"$jobs" "$target" JUDGE_COUNT=1000000 >"build/evidence/$target.log" 2>&1 </dev/null ||
+        failed="$failed $target"
+    say "$target"
+done
+wait $fuzzers || failed="$failed fuzz"
+say fuzz
+$make test-page
+processor=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)
+echo "machine: $processor, $jobs cores; $(cc --version | head -n 1)"
+[ -z "$failed" ] || echo "failed:$failed"
+[ -z "$failed" ]
