@@ -231,6 +231,41 @@ static void other_graphs_are_left_to_multilevel_dissection(void **state) {
     }
 }
 
+/* A strip 40 rows across, without some of its diagonals, or with a row that is next to the 48 around
+ * it. */
+static gen_matrix_t changed_strip(int has_gaps) {
+    const shape_t strip = {"strip", 40, 300, 0, 0, 0.0, 0.0};
+    gen_list_t whole = gen_list(0), t = gen_list(0);
+    uint64_t seed = 7;
+    add_shape(&whole, &strip);
+    t.n = whole.n;
+    for (size_t k = 0; k < whole.count; k++) {
+        const sl_int i = whole.row[k], j = whole.col[k];
+        if (!has_gaps || i - j != 41 || gen_real(&seed) > 0.0) {
+            gen_add(&t, i, j, 1.0);
+        }
+    }
+    for (sl_int k = 0; k < 49 && !has_gaps; k++) {
+        const sl_int hub = 150 * 40 + 20, row = hub + 40 * (k / 7 - 3) + k % 7 - 3;
+        const sl_int step = row > hub ? row - hub : hub - row;
+        if (step != 0 && step != 1 && step != 40 && step != 41) {
+            gen_add(&t, hub, row, 1.0);
+        }
+    }
+    gen_list_free(&whole);
+    return stored(&t, 0);
+}
+
+/* A wide strip is dissected along its levels if nearly all rows have as many neighbors. */
+static void wide_strips_are_lattices(void **state) {
+    (void)state;
+    for (int has_gaps = 0; has_gaps < 2; has_gaps++) {
+        gen_matrix_t M = changed_strip(has_gaps);
+        assert_int_equal(is_thin(&M.view), !has_gaps);
+        gen_matrix_free(&M);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(thin_graphs_have_little_fill),
@@ -238,6 +273,7 @@ int main(void) {
         cmocka_unit_test(one_level_may_be_large),
         cmocka_unit_test(parts_need_not_be_connected),
         cmocka_unit_test(other_graphs_are_left_to_multilevel_dissection),
+        cmocka_unit_test(wide_strips_are_lattices),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

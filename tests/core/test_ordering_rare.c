@@ -1,0 +1,108 @@
+/* test_ordering_rare.c: what only graphs beyond memory reach, by direct calls: hubs of many edges,
+ * hierarchies that do not shrink, rows of equal keys, levels of no lattice */
+#include "tests/lib/no_kernels.h"
+#define SPARSE_LOCAL_IMPLEMENTATION
+#include "tests/lib/check_factor.h"
+
+/* There are hubs up to a number of edges; beyond, sums of their costs would overflow. */
+static void hubs_of_too_many_edges_are_no_hubs(void **state) {
+    (void)state;
+    enum { N = 128 };
+    for (int turn = 0; turn < 2; turn++) {
+        const sl_off edges = turn == 0 ? 200000000 : 300000000;
+        sl_off begin[N + 1];
+        sli_level g;
+        memset(&g, 0, sizeof g);
+        g.n = N;
+        g.begin = begin;
+        for (sl_int v = 0; v <= N; v++) { /* the last vertex has nine tenths of the edges */
+            begin[v] = v == N ? edges : edges / 10 / (N - 1) * v;
+        }
+        sli_nd_count_degrees(&g);
+        assert_int_equal(g.hub_degree, turn == 0 ? 3 * (edges / N) : 0);
+    }
+}
+
+/* A path of vertices of which no two may be one. */
+static void a_hierarchy_that_does_not_shrink_ends(void **state) {
+    (void)state;
+    enum { N = 1000 };
+    static sli_dissection d;
+    static sl_off begin[N + 1];
+    static sl_int to[2 * N], weight[N], mate[N], member[N], start[N + 2], coarse[N];
+    sli_level *g = &d.levels[0];
+    sl_off edges = 0;
+    int working;
+    for (sl_int v = 0; v < N; v++) {
+        begin[v] = edges;
+        weight[v] = 100;
+        if (v > 0) {
+            to[edges++] = v - 1;
+        }
+        if (v + 1 < N) {
+            to[edges++] = v + 1;
+        }
+    }
+    begin[N] = edges;
+    g->n = N;
+    g->begin = begin;
+    g->to = to;
+    g->weight = weight;
+    g->coarse = coarse;
+    d.n_levels = 1;
+    d.total = N; /* as if the mean weight were 1 */
+    d.order = mate;
+    d.other = member;
+    d.begin = start;
+    SL_CHECK(sli_dissect_coarsen(&d, &working));
+    assert_int_equal(d.n_levels, 1);
+    assert_int_equal(working, 0);
+    assert_null(d.levels[1].block);
+}
+
+/* Rows of equal keys are compared: those of a square with the diagonal 0 - 2, and with a row that
+ * hangs on 0. */
+static void rows_of_equal_keys_may_differ(void **state) {
+    (void)state;
+    static sl_off begin[2][6] = {{0, 3, 5, 8, 10, 10}, {0, 4, 6, 9, 11, 12}};
+    static sl_int to[2][12] = {{1, 2, 3, 0, 2, 0, 1, 3, 0, 2}, {1, 2, 3, 4, 0, 2, 0, 1, 3, 0, 2, 0}};
+    for (int hangs = 0; hangs < 2; hangs++) {
+        const sli_graph G = {5, begin[hangs], to[hangs]};
+        assert_int_equal(sli_compress_is_indistinguishable(&G, 0, 2), !hangs);
+        assert_int_equal(sli_compress_is_indistinguishable(&G, 2, 0), !hangs);
+        assert_false(sli_compress_is_indistinguishable(&G, 0, 1));
+        assert_false(sli_compress_is_indistinguishable(&G, 1, 2));
+    }
+}
+
+/* The cost of columns by themselves is that of their rows, unless the sum would overflow. */
+static void columns_of_too_many_rows_are_merged(void **state) {
+    (void)state;
+    sl_int child = -1, sibling = -1, width = 1, below = INT32_MAX / 16;
+    sli_amalgamation g;
+    memset(&g, 0, sizeof g);
+    g.width = &width;
+    g.below = &below;
+    assert_int_equal(sli_apart_cost(&g, 0, &child, &sibling), INT32_MAX);
+    below--;
+    assert_in_range(sli_apart_cost(&g, 0, &child, &sibling), below, INT32_MAX - 1);
+}
+
+/* The tolerance of pivots grows with the rows, up to a limit. */
+static void the_null_tolerance_has_a_limit(void **state) {
+    (void)state;
+    assert_true(sli_null_tolerance(8000, DBL_EPSILON) == 1064.0 * DBL_EPSILON);
+    assert_true(sli_null_tolerance(INT32_MAX, DBL_EPSILON) < 0.03125);
+    assert_true(sli_null_tolerance(INT32_MAX, FLT_EPSILON) == 0.03125);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hubs_of_too_many_edges_are_no_hubs),
+        cmocka_unit_test(a_hierarchy_that_does_not_shrink_ends),
+        cmocka_unit_test(rows_of_equal_keys_may_differ),
+        cmocka_unit_test(columns_of_too_many_rows_are_merged),
+        cmocka_unit_test(the_null_tolerance_has_a_limit),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
