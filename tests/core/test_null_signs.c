@@ -11,7 +11,7 @@ static gen_matrix_t path_of_pivots(double last) {
     const double middle = 200.0 * DBL_EPSILON;
     const double block[9] = {1.0, 0.0, 0.0, 1.0, 1.0 + middle,
                              0.0, 0.0, middle, middle + last * DBL_EPSILON};
-    return beside(block, 3, 3);
+    return beside(block, 3, 5);
 }
 
 static void a_sign_within_its_error_is_refused(void **state) {
@@ -34,7 +34,7 @@ static void a_sign_within_its_error_is_refused(void **state) {
         gen_matrix_free(&A);
         A = path_of_pivots(4.0); /* its sign is that of the others */
         SL_CHECK(factor_and_solve(&A, &opt, &stats));
-        assert_int_equal(stats.factor.positive, 3);
+        assert_int_equal(stats.factor.positive, 5);
         gen_matrix_free(&A);
     }
 }
@@ -55,77 +55,110 @@ static void a_null_pivot_of_a_definite_matrix_is_null(void **state) {
     gen_matrix_free(&A);
 }
 
-/* A small pivot that no memory is there to judge is refused as such, in definite matrices too. */
+/* A small pivot, or one of another sign, that no memory is there to judge is refused as such, in
+ * definite matrices too: every allocation of the judgement fails once. */
 static void without_memory_definite_matrices_are_not_blamed(void **state) {
     (void)state;
     static const double block[4] = {1.0, 0.0, 1.0, 1.0 + 1e-14};
-    gen_matrix_t A = beside(block, 2, 2);
-    counter_t counter = counter_make();
-    sl_options opt = options_counted(&counter);
-    sl_symbolic *S = NULL;
-    sl_factor *F = NULL;
+    for (int turn = 0; turn < 2; turn++) {
+        gen_matrix_t A = turn == 0 ? beside(block, 2, 2) : path_of_pivots(4.0);
+        gen_matrix_t B = turn == 0 ? beside(block, 2, 2) : path_of_pivots(-4.0);
+        counter_t counter = counter_make();
+        sl_options opt = options_counted(&counter);
+        sl_symbolic *S = NULL;
+        sl_factor *F = NULL;
+        sl_stats stats;
+        int failed = 0, has_failed = 1;
+        opt.ordering = SL_ORDERING_NATURAL;
+        opt.definite = 1;
+        SL_CHECK(sl_symbolic_create(&S, &A.view, FOR_ANALYSIS(&opt), NULL));
+        SL_CHECK(sl_factor_create(&F, S, &A.view, FOR_FACTOR(&opt), NULL));
+        for (int64_t k = 0; has_failed; k++, failed += has_failed) {
+            counter.fail_at = (int64_t)counter.calls + k;
+            const sl_status status = sl_factor_refactor(F, &B.view, &stats);
+            has_failed = status != SL_OK && strstr(stats.error.what, "no memory") != NULL;
+            SL_EXPECT(has_failed || turn == 1 ? SL_ERR_PIVOT : SL_OK, status);
+        }
+        assert_int_equal(failed, turn == 0 ? 1 : 2);
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+        gen_matrix_free(&A);
+        gen_matrix_free(&B);
+        COUNTER_CLEAN(&counter);
+    }
+}
+
+/* A small pivot that is right, beside a tree whose pivots grow: the growth is what is reported, also
+ * where they are in a restriction only, without the first row and the last one. */
+static void growth_beside_a_small_pivot_is_reported(void **state) {
+    (void)state;
+    enum { N = 6 };
+    static const sl_int inner[4] = {1, 2, 3, 4};
+    double block[N * N] = {0.0};
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL, *T = NULL;
+    sl_factor *F = NULL, *G = NULL;
     sl_stats stats;
-    opt.definite = 1;
+    CELL(block, N, 0, 0) = CELL(block, N, 1, 1) = CELL(block, N, 2, 1) = 1.0;
+    CELL(block, N, 1, 0) = 0.5;
+    CELL(block, N, 2, 2) = 1.0 + 1e-14;
+    CELL(block, N, 3, 3) = 1e-9;
+    CELL(block, N, 4, 3) = CELL(block, N, 5, 4) = 1.0;
+    CELL(block, N, 5, 5) = 1e9;
+    gen_matrix_t A = beside(block, N, N);
+    opt.ordering = SL_ORDERING_NATURAL;
+    opt.growth_limit = 1e6;
     SL_CHECK(sl_symbolic_create(&S, &A.view, FOR_ANALYSIS(&opt), NULL));
-    SL_CHECK(sl_factor_create(&F, S, &A.view, FOR_FACTOR(&opt), NULL));
-    counter.fail_at = (int64_t)counter.calls;
-    SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(F, &A.view, &stats));
-    assert_non_null(strstr(stats.error.what, "no memory"));
-    SL_CHECK(sl_factor_refactor(F, &A.view, &stats));
+    SL_CHECK(sl_factor_create(&F, S, &A.view, FOR_FACTOR(&opt), &stats));
+    assert_true(stats.factor.growth < 10.0);
+    SL_EXPECT(SL_ERR_INACCURATE, sl_factor_restrict(&T, &G, F, &A.view, inner, 4, NULL, &stats));
+    assert_in_range(stats.error.row, 3, 4);
+    assert_true(stats.factor.growth > 1e8 && stats.factor.growth < 1e10);
     sl_factor_free(F);
     sl_symbolic_free(S);
     gen_matrix_free(&A);
-    COUNTER_CLEAN(&counter);
-}
-
-/* A small pivot that is right, beside a tree whose pivots grow: the growth is what is reported. */
-static void growth_beside_a_small_pivot_is_reported(void **state) {
-    (void)state;
-    static const double block[16] = {1.0, 0.0, 0.0, 0.0, 1.0, 1.0 + 1e-14, 0.0, 0.0,
-                                     0.0, 0.0, 1e-9, 0.0, 0.0, 0.0, 1.0, 0.0};
-    gen_matrix_t A = beside(block, 4, 4);
-    for (int m = 0; m < 2; m++) {
-        sl_options opt = options_none();
-        sl_stats stats;
-        opt.method = methods[m];
-        opt.ordering = SL_ORDERING_NATURAL;
-        opt.growth_limit = 1e6;
-        SL_EXPECT(SL_ERR_INACCURATE, factor_and_solve(&A, &opt, &stats));
-        assert_true(stats.error.row >= 2);
-        assert_true(stats.factor.growth > 1e8 && stats.factor.growth < 1e10);
-        opt.growth_limit = -1.0;
-        SL_CHECK(factor_and_solve(&A, &opt, &stats));
-        assert_int_equal(stats.factor.negative, 1);
-    }
+    CELL(block, N, 1, 0) = CELL(block, N, 5, 4) = 0.0;
+    A = beside(block, N, N);
+    SL_EXPECT(SL_ERR_INACCURATE, factor_and_solve(&A, &opt, &stats));
+    assert_in_range(stats.error.row, 3, 4);
+    opt.growth_limit = -1.0;
+    SL_CHECK(factor_and_solve(&A, &opt, &stats));
+    assert_int_equal(stats.factor.negative, 1);
     gen_matrix_free(&A);
 }
 
-/* A component that has constants as a null vector within rounding, apart from the shift of its
- * heavy springs: neither its last pivot nor that of a light row, with an edge to the last one, is
- * null, small as they are against those of the springs. */
+/* I / 2 + 3e14 D'D of second differences D, as of a stiff smoother, and a light row that is joined to
+ * the last one. Constants are a null vector within rounding, but neither the last pivot nor that of
+ * the light row is null, small as both are against those of the smoother. */
 static void light_rows_beside_heavy_ones_are_kept(void **state) {
     (void)state;
-    enum { N = 400 };
-    gen_list_t t = gen_list(N);
-    double diagonal[N] = {0.0};
-    for (sl_int k = 0; k < N - 1; k++) { /* row 100 is joined to the last one only */
-        const sl_int next = k == 100 ? N - 1 : k == 99 ? 101 : k + 1;
-        const double weight = k == 100 ? 1.0 : 1e14;
-        gen_add(&t, next, k, -weight);
-        diagonal[k] += weight + (k == 100 ? 0.0 : 1.0);
-        diagonal[next] += weight;
-    }
-    for (sl_int k = 0; k < N; k++) {
-        gen_add(&t, k, k, diagonal[k]);
-    }
-    gen_matrix_t A = gen_store(&t, gen_style(0), 1);
+    enum { N = 20000, LIGHT = N - 1 };
+    static const double d[3] = {1.0, -2.0, 1.0};
+    double *band = test_reals(3 * N);
+    gen_list_t t = gen_list(N + 1);
     sl_options opt = options_none();
     sl_stats stats;
+    for (sl_int k = 0; k < 9 * (N - 2); k++) {
+        const sl_int first = k / 9, a = k % 3, b = k / 3 % 3;
+        if (b <= a) {
+            band[3 * (first + a) + a - b] += 3e14 * d[a] * d[b];
+        }
+    }
+    for (sl_int k = 0; k < N; k++) {
+        for (sl_int j = 0; j < 3 && j <= k; j++) {
+            const double shift = j > 0 ? 0.0 : k < N - 1 ? 0.5 : 1.5;
+            gen_add(&t, k + (k >= LIGHT), k - j + (k - j >= LIGHT), band[3 * k + j] + shift);
+        }
+    }
+    gen_add(&t, LIGHT, LIGHT, 1.0);
+    gen_add(&t, N, LIGHT, -1.0);
+    gen_matrix_t A = gen_store(&t, gen_style(0), 1);
     opt.ordering = SL_ORDERING_NATURAL;
     SL_CHECK(factor_and_solve(&A, &opt, &stats));
-    assert_int_equal(stats.factor.positive, N);
+    assert_int_equal(stats.factor.positive, N + 1);
     gen_matrix_free(&A);
     gen_list_free(&t);
+    free(band);
 }
 
 /* Shifts are those of regularized pivots; null pivots have none. */
