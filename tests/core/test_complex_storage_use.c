@@ -79,6 +79,9 @@ static void what_is_not_complex_is_refused(void **state) {
     SL_CHECK(sl_symbolic_scatter(y.S, terms, &y.A, NULL));
     assert_int_equal(sl_batch_factor(&G, 1, y.S, &one, term, 1, &opt, NULL, NULL),
                      SL_ERR_UNSUPPORTED);
+    const double none = (double)NAN; /* a coefficient that is not finite is refused as such */
+    assert_int_equal(sl_batch_factor(&G, 1, y.S, &none, term, 1, &opt, NULL, NULL),
+                     SL_ERR_NOT_FINITE);
     assert_int_equal(create_pivoted(&y.A), SL_ERR_UNSUPPORTED);
     free(terms);
     free(x);

@@ -1,5 +1,6 @@
 /* test_threads.c: factorizations by several threads: the same bits, errors and memory */
 #define _POSIX_C_SOURCE 200112L /* nanosleep */
+#include "tests/lib/complex_pair.h"
 #include "tests/lib/threads.h"
 
 static void assert_same_bits_for_any_thread_count(gen_kind_t kind, sl_int size, sl_isa isa) {
@@ -89,6 +90,40 @@ static void large_fronts_with_rows_below_give_the_same_bits(void **state) {
             sl_factor_free(F);
         }
         factored_free(&y);
+    }
+}
+
+/* There is no view of L of a complex matrix. */
+static void assert_same_lower(const sl_factor *F, const sl_factor *G, sl_int n) {
+    sl_matrix *L = NULL, *M = NULL;
+    SL_CHECK(sl_factor_lower(&L, F, NULL));
+    SL_CHECK(sl_factor_lower(&M, G, NULL));
+    const sl_csc l = sl_matrix_view(L), m = sl_matrix_view(M);
+    assert_int_equal(l.p[n], m.p[n]);
+    assert_memory_equal(l.x, m.x, (size_t)l.p[n] * sizeof *l.x);
+    assert_memory_equal(sl_factor_view(F).D, sl_factor_view(G).D, (size_t)n * sizeof(double));
+    sl_matrix_free(L);
+    sl_matrix_free(M);
+}
+
+/* Those of complex matrices, half of whose numbers are kept, the separators of grids. */
+static void large_complex_fronts_give_the_same_bits(void **state) {
+    (void)state;
+    const isa_list_t isas = isas_present();
+    for (int k = 0; k < 2 * isas.count; k++) {
+        pair_t y = pair_make(k % 2 ? GEN_GRID2 : GEN_GRID3, 512, 0, isas.isa[k / 2]);
+        for (sl_int count = 2; count <= 5; count++) {
+            int calls = 0;
+            sl_factor *F = NULL;
+            sl_options opt = options_with_threads(runs[count % RUNS], count, &calls);
+            opt.isa = isas.isa[k / 2];
+            opt.storage = SL_STORAGE_COMPLEX;
+            SL_CHECK(sl_factor_create(&F, y.S, &y.A, &opt, NULL));
+            assert_true(calls > 0);
+            assert_same_lower(F, y.F[1], y.n);
+            sl_factor_free(F);
+        }
+        pair_free(&y);
     }
 }
 
@@ -270,6 +305,7 @@ int main(void) {
         cmocka_unit_test(bits_do_not_depend_on_the_thread_count),
         cmocka_unit_test(large_fronts_give_the_same_bits),
         cmocka_unit_test(large_fronts_with_rows_below_give_the_same_bits),
+        cmocka_unit_test(large_complex_fronts_give_the_same_bits),
         cmocka_unit_test(large_fronts_are_kept),
         cmocka_unit_test(local_refactorizations_give_the_same_bits),
         cmocka_unit_test(failures_in_large_fronts_are_reported),

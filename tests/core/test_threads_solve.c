@@ -134,6 +134,7 @@ static void many_trees_give_the_same_bits(void **state) {
     factored_t y = grids(side, TREES);
     check_workers(y.F, NULL, ROWS, 1, 8);
     check_workers(y.F, NULL, ROWS, 130, 2);
+    check_workers(y.F, NULL, ROWS, 260, 2);
     for (int k = 0; k < 2; k++) {
         sl_plan *P = NULL;
         SL_CHECK(sl_plan_create(&P, y.S, k == 0 ? NULL : set, k == 0 ? 0 : 3, k == 0 ? set : NULL,

@@ -32,6 +32,7 @@ static const option_t options[] = {
     {"null_vector", READS_FACTOR},
     {"null_vector_count", READS_FACTOR},
     {"storage", READS_FACTOR},
+    {"definite", READS_FACTOR},
     {"region", READS_REGION},
     {"region_bytes", READS_REGION_BYTES},
 };
@@ -112,6 +113,9 @@ static sl_options with_option(const option_fixture_t *f, int k) {
         opt.storage = SL_STORAGE_FLOAT;
         break;
     case 20:
+        opt.definite = 1;
+        break;
+    case 21:
         opt.region = f->region;
         break;
     default:
