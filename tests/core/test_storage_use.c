@@ -32,7 +32,7 @@ static void entries_beyond_float_are_refused_beside_null_vectors(void **state) {
     static const sl_int p[6] = {0, 3, 5, 6, 8, 9}, i[9] = {0, 1, 2, 1, 2, 2, 3, 4, 4};
     static const double x[9] = {1.0, -2.0, 1.0, 4.0, -2.0, 1.0, 1.0, 1e-40, 3e-80};
     static const double Z[10] = {1.0, 1.0, 1.0, 1.0, 1.0, 0.0, 1.0, 2.0, 1.0, 1.0};
-    const sl_csc A = {5, 5, p, i, x};
+    sl_csc A = {5, 5, p, i, x};
     sl_options opt = options_none();
     sl_factor *F = NULL;
     sl_stats stats;
@@ -46,6 +46,13 @@ static void entries_beyond_float_are_refused_beside_null_vectors(void **state) {
     opt.storage = SL_STORAGE_FLOAT;
     SL_EXPECT(SL_ERR_INACCURATE, sl_factor_create(&F, S, &A, &opt, &stats));
     assert_int_equal(stats.error.row, 3);
+    /* a row as small as what a null pivot leaves, a a' / DBL_MAX, is not refused */
+    static const double small[9] = {1.0, -2.0, 1.0, 4.0, -2.0, 1.0, 1.0, 1e-140, 3e-280};
+    A.x = small;
+    SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
+    assert_int_equal(stats.factor.null, 2);
+    assert_true(fabs(sl_factor_view(F).D[4] - 2e-280) < 1e-290);
+    sl_factor_free(F);
     sl_symbolic_free(S);
 }
 
