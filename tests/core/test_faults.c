@@ -104,77 +104,6 @@ static void minimum_degree_on_any_processor(void **state) {
     gen_list_free(&t);
 }
 
-#if defined(__x86_64__) && !defined(SL_NO_SIMD) && !defined(_WIN32)
-
-/* The first row has no diagonal, and 9 neighbors more if it is `few`. */
-static gen_matrix_t without_diagonal(gen_kind_t kind, sl_int n, int is_few) {
-    gen_list_t t = gen_make(kind, n, 1, 3);
-    size_t kept = 0;
-    for (sl_int row = 2; row < 11 && is_few; row++) {
-        gen_add(&t, row, 0, 1.0);
-    }
-    for (size_t k = 0; k < t.count; k++) {
-        if (t.row[k] > 0) {
-            t.row[kept] = t.row[k];
-            t.col[kept] = t.col[k];
-            t.x[kept++] = t.x[k];
-        }
-    }
-    t.count = kept;
-    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
-    gen_list_free(&t);
-    return M;
-}
-
-/* The order of a small matrix, if it has one, by the instructions that every processor has, and by
- * AVX2 and popcnt. Returns whether there is one. */
-static int small_orders(const sl_csc *A, int is_hurried) {
-    enum { MOST = sizeof((sli_small *)0)->key / sizeof(uint32_t) };
-    static uint64_t rows[MOST * MOST / 64];
-    static sl_int column[MOST * MOST], perm[2][MOST];
-    sli_order_job job;
-    sli_small m;
-    memset(&job, 0, sizeof job);
-    job.A = A;
-    job.column = column;
-    job.triangle = SL_TRIANGLE_LOWER;
-    job.is_hurried = is_hurried;
-    m.n = A->n_cols;
-    m.floor = is_hurried ? 1 : 3;
-    m.rows = rows;
-    for (sl_int j = 0; j < m.n; j++) {
-        for (sl_int p = A->p[j]; p < A->p[j + 1]; p++) {
-            column[p] = j;
-        }
-    }
-    memset(perm, -1, sizeof perm);
-    job.perm = perm[0];
-    const int has = sli_small_run(&m, &job);
-    job.perm = perm[1];
-    assert_int_equal(has, sli_small_run_avx2(&m, &job));
-    assert_memory_equal(perm[0], perm[1], sizeof perm[0]);
-    assert_int_equal(perm[0][m.n - 1] != -1, has);
-    return has;
-}
-
-static void small_orders_on_any_processor(void **state) {
-    (void)state;
-    static const sl_int sizes[6] = {9, 30, 64, 65, 100, 256};
-    static const gen_kind_t kinds[4] = {GEN_PATH, GEN_GRID2, GEN_DENSE, GEN_STAR};
-    int found[2] = {0, 0};
-    for (int turn = 0; turn < 6 * 4 * 6 && isas_present().count > 1; turn++) {
-        const sl_int n = sizes[turn % 6];
-        const gen_kind_t kind = kinds[turn / 6 % 4];
-        const int which = turn / 24 % 3;
-        gen_matrix_t M = which == 0 ? gen_matrix(kind, n, 1, 3) : without_diagonal(kind, n, which - 1);
-        found[small_orders(&M.view, turn / 72)]++;
-        gen_matrix_free(&M);
-    }
-    assert_int_equal(found[0] > 0, found[1] > 0);
-}
-
-#endif
-
 /* Larger leaves keep their order: the bit matrix has no room for them. */
 static void large_leaves_keep_their_order(void **state) {
     (void)state;
@@ -396,9 +325,6 @@ int main(void) {
 #endif
         cmocka_unit_test(borders_separate),
         cmocka_unit_test(minimum_degree_on_any_processor),
-#if defined(__x86_64__) && !defined(SL_NO_SIMD) && !defined(_WIN32)
-        cmocka_unit_test(small_orders_on_any_processor),
-#endif
         cmocka_unit_test(large_leaves_keep_their_order),
         cmocka_unit_test(levels_end),
         cmocka_unit_test(marks_begin_again),

@@ -9,8 +9,8 @@ static const sl_method methods[2] = {SL_METHOD_SUPERNODAL, SL_METHOD_UP_LOOKING}
  * pivot is right, and has an error that the third one inherits. */
 static gen_matrix_t path_of_pivots(double last) {
     const double middle = 200.0 * DBL_EPSILON;
-    const double block[9] = {1.0, 0.0, 0.0, 1.0, 1.0 + middle,
-                             0.0, 0.0, middle, middle + last * DBL_EPSILON};
+    const double block[9] = {
+        1.0, 0.0, 0.0, 1.0, 1.0 + middle, 0.0, 0.0, middle, middle + last * DBL_EPSILON};
     return beside(block, 3, 5);
 }
 

@@ -1,6 +1,5 @@
-/* test_ordering_rare.c: what only graphs beyond memory reach, by direct calls: hubs of many edges,
- * hierarchies that do not shrink, rows of equal keys, levels of no lattice */
-#include "tests/lib/no_kernels.h"
+/* test_ordering_rare.c: what only other processors and sizes beyond memory reach, by direct calls:
+ * small orders without AVX2, hubs of many edges, hierarchies that do not shrink, rows of equal keys */
 #define SPARSE_LOCAL_IMPLEMENTATION
 #include "tests/lib/check_factor.h"
 
@@ -65,7 +64,8 @@ static void a_hierarchy_that_does_not_shrink_ends(void **state) {
 static void rows_of_equal_keys_may_differ(void **state) {
     (void)state;
     static sl_off begin[2][6] = {{0, 3, 5, 8, 10, 10}, {0, 4, 6, 9, 11, 12}};
-    static sl_int to[2][12] = {{1, 2, 3, 0, 2, 0, 1, 3, 0, 2}, {1, 2, 3, 4, 0, 2, 0, 1, 3, 0, 2, 0}};
+    static sl_int to[2][12] = {{1, 2, 3, 0, 2, 0, 1, 3, 0, 2},
+                               {1, 2, 3, 4, 0, 2, 0, 1, 3, 0, 2, 0}};
     for (int hangs = 0; hangs < 2; hangs++) {
         const sli_graph G = {5, begin[hangs], to[hangs]};
         assert_int_equal(sli_compress_is_indistinguishable(&G, 0, 2), !hangs);
@@ -96,6 +96,91 @@ static void the_null_tolerance_has_a_limit(void **state) {
     assert_true(sli_null_tolerance(INT32_MAX, FLT_EPSILON) == 0.03125);
 }
 
+#if defined(__x86_64__) && !defined(SL_NO_SIMD) && !defined(_WIN32)
+
+/* The first row has no diagonal, and 9 neighbors more if it is `few`. */
+static gen_matrix_t without_diagonal(gen_kind_t kind, sl_int n, int is_few) {
+    gen_list_t t = gen_make(kind, n, 1, 3);
+    size_t kept = 0;
+    for (sl_int row = 2; row < 11 && is_few; row++) {
+        gen_add(&t, row, 0, 1.0);
+    }
+    for (size_t k = 0; k < t.count; k++) {
+        if (t.row[k] > 0) {
+            t.row[kept] = t.row[k];
+            t.col[kept] = t.col[k];
+            t.x[kept++] = t.x[k];
+        }
+    }
+    t.count = kept;
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    gen_list_free(&t);
+    return M;
+}
+
+/* The order of a small matrix, if it has one, by the instructions that every processor has, and by
+ * AVX2 and popcnt. Returns whether there is one. */
+static int small_orders(const sl_csc *A, int is_hurried) {
+    enum { MOST = sizeof((sli_small *)0)->key / sizeof(uint32_t) };
+    static uint64_t rows[MOST * MOST / 64];
+    static sl_int column[MOST * MOST], perm[2][MOST];
+    sli_order_job job;
+    sli_small m;
+    memset(&job, 0, sizeof job);
+    job.A = A;
+    job.column = column;
+    job.triangle = SL_TRIANGLE_LOWER;
+    job.is_hurried = is_hurried;
+    m.n = A->n_cols;
+    m.floor = is_hurried ? 1 : 3;
+    m.rows = rows;
+    for (sl_int j = 0; j < m.n; j++) {
+        for (sl_int p = A->p[j]; p < A->p[j + 1]; p++) {
+            column[p] = j;
+        }
+    }
+    memset(perm, -1, sizeof perm);
+    job.perm = perm[0];
+    const int has = sli_small_run(&m, &job);
+    job.perm = perm[1];
+    assert_int_equal(has, sli_small_run_avx2(&m, &job));
+    assert_memory_equal(perm[0], perm[1], sizeof perm[0]);
+    assert_int_equal(perm[0][m.n - 1] != -1, has);
+    return has;
+}
+
+static void small_orders_on_any_processor(void **state) {
+    (void)state;
+    static const sl_int sizes[6] = {9, 30, 64, 65, 100, 256};
+    static const gen_kind_t kinds[4] = {GEN_PATH, GEN_GRID2, GEN_DENSE, GEN_STAR};
+    int found[2] = {0, 0};
+    for (int turn = 0; turn < 6 * 4 * 6 && isas_present().count > 1; turn++) {
+        const sl_int n = sizes[turn % 6];
+        const gen_kind_t kind = kinds[turn / 6 % 4];
+        const int which = turn / 24 % 3;
+        gen_matrix_t M =
+            which == 0 ? gen_matrix(kind, n, 1, 3) : without_diagonal(kind, n, which - 1);
+        found[small_orders(&M.view, turn / 72)]++;
+        gen_matrix_free(&M);
+    }
+    assert_int_equal(found[0] > 0, found[1] > 0);
+    /* a row in two has three neighbors, the others none: peeled if the first factor is hurried */
+    gen_list_t t = gen_list(100);
+    for (sl_int k = 0; k < 100; k++) {
+        for (sl_int j = k < 52 ? k / 4 * 4 : k; j <= k; j++) {
+            gen_add(&t, k, j, 1.0);
+        }
+    }
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    for (int is_hurried = 0; is_hurried < 2 && isas_present().count > 1; is_hurried++) {
+        assert_int_equal(small_orders(&M.view, is_hurried), !is_hurried);
+    }
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+}
+
+#endif
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hubs_of_too_many_edges_are_no_hubs),
@@ -103,6 +188,9 @@ int main(void) {
         cmocka_unit_test(rows_of_equal_keys_may_differ),
         cmocka_unit_test(columns_of_too_many_rows_are_merged),
         cmocka_unit_test(the_null_tolerance_has_a_limit),
+#if defined(__x86_64__) && !defined(SL_NO_SIMD) && !defined(_WIN32)
+        cmocka_unit_test(small_orders_on_any_processor),
+#endif
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -269,46 +269,6 @@ static void changes_are_followed(void **state) {
     }
 }
 
-/* The restriction to all rows but the bounds, which are the leaves, keeps nothing. */
-static void a_restriction_computes_them_anew(void **state) {
-    (void)state;
-    enum { POINTS = 400, ROWS = 5 + 2 * POINTS };
-    const isa_list_t isas = isas_present();
-    sl_int rows[ROWS];
-    for (sl_int k = 0; k < ROWS; k++) {
-        rows[k] = k;
-    }
-    for (int k = 0; k < isas.count; k++) {
-        gen_matrix_t M = separable(5, POINTS, 0);
-        gen_list_t t = gen_list(ROWS);
-        sl_options opt = options_none();
-        sl_symbolic *S = NULL, *T = NULL;
-        sl_factor *F = NULL, *G = NULL;
-        sl_stats stats;
-        opt.isa = isas.isa[k];
-        SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
-        SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
-        SL_CHECK(sl_factor_restrict(&T, &G, F, &M.view, rows, ROWS, NULL, &stats));
-        assert_true(stats.restriction.is_anew);
-        for (sl_int j = 0; j < ROWS; j++) {
-            for (sl_int q = M.p[j]; q < M.p[j + 1]; q++) {
-                if (M.i[q] < ROWS) {
-                    gen_add(&t, M.i[q], j, M.x[q]);
-                }
-            }
-        }
-        gen_matrix_t leading = gen_store(&t, gen_style(0), 1);
-        NOTHING_WRONG(check_factor(G, &leading.view));
-        sl_factor_free(G);
-        sl_symbolic_free(T);
-        sl_factor_free(F);
-        sl_symbolic_free(S);
-        gen_list_free(&t);
-        gen_matrix_free(&leading);
-        gen_matrix_free(&M);
-    }
-}
-
 /* A file of the time when panels of one column were padded to whole tiles: this system's. */
 static void padded_files_are_read(void **state) {
     (void)state;
@@ -354,7 +314,6 @@ int main(void) {
         cmocka_unit_test(a_null_pivot_is_named),
         cmocka_unit_test(a_diagonal_may_be_missing),
         cmocka_unit_test(changes_are_followed),
-        cmocka_unit_test(a_restriction_computes_them_anew),
         cmocka_unit_test(padded_files_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

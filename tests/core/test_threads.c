@@ -213,6 +213,41 @@ static void failures_in_large_fronts_are_reported(void **state) {
     factored_free(&y);
 }
 
+/* A path whose first pivot is 0, before paths and a small pivot, which other threads meet first. */
+static void small_pivots_after_a_failure_do_not_matter(void **state) {
+    (void)state;
+    enum { PATH = 200, PATHS = 3, N = PATHS * PATH + 2 };
+    gen_list_t t = gen_list(N);
+    for (sl_int k = 0; k < N - 2; k++) {
+        gen_add(&t, k, k, k == 0 ? 0.0 : 4.0);
+        if (k % PATH > 0) {
+            gen_add(&t, k, k - 1, -1.0);
+        }
+    }
+    gen_add(&t, N - 2, N - 2, 1.0);
+    gen_add(&t, N - 1, N - 2, 1.0);
+    gen_add(&t, N - 1, N - 1, 1.0 + 1e-14);
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    opt.ordering = SL_ORDERING_NATURAL;
+    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+    for (sl_int count = 1; count <= 4; count++) {
+        for (int run = 0; run < RUNS; run++) {
+            int calls = 0;
+            sl_factor *F = NULL;
+            sl_stats stats;
+            opt = options_with_threads(runs[run], count, &calls);
+            SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, &opt, &stats));
+            assert_int_equal(calls > 0, count > 1);
+            assert_int_equal(stats.error.row, 0);
+        }
+    }
+    sl_symbolic_free(S);
+    gen_list_free(&t);
+    gen_matrix_free(&M);
+}
+
 /* The first failure in elimination order is reported, whichever thread meets it. */
 static void errors_do_not_depend_on_the_thread_count(void **state) {
     (void)state;
@@ -309,6 +344,7 @@ int main(void) {
         cmocka_unit_test(large_fronts_are_kept),
         cmocka_unit_test(local_refactorizations_give_the_same_bits),
         cmocka_unit_test(failures_in_large_fronts_are_reported),
+        cmocka_unit_test(small_pivots_after_a_failure_do_not_matter),
         cmocka_unit_test(errors_do_not_depend_on_the_thread_count),
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(unusual_thread_counts_are_handled),
