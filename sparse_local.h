@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: cb767fa2447628b2
+ * FNV-1a of the lines after this comment, without the license: 347368863543d0b6
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,26 +38,26 @@
  *   4213 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5131 impl/ matrix: sparse matrices of the caller and of the library
  *   5760 impl/ ordering: fill-reducing orderings of a graph
- *  10403 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12631 impl/ factor: the numbers of L and D
- *  15984 impl/ solve: full and local solves
- *  17646 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19575 impl/ pivots: the order of the pivots by the values of a matrix
- *  19984 impl/ float: L and fronts in single precision
- *  20435 impl/ inverse: entries of the inverse, regions
- *  23498 impl/ change: a factor that follows changes of its matrix
- *  29567 impl/ dirichlet: rows fixed at given values
- *  30155 impl/ dirichlet: by a factor of all rows
- *  30387 impl/ io: files that are replaced only when they are complete
- *  30605 impl/ files: Matrix Market files, 64-bit indices
- *  31225 impl/ save: factors in files
- *  33222 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33903 impl/ batch: diagonals of many inverses
- *  34044 impl/ complex: complex Hermitian systems over real factors
- *  34606 impl/ complex: entries of the inverse
- *  34666 impl/ packs: the tables through which the core calls packs
- *  34714 impl/ last: undefine every internal macro
- *  35070 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10409 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12643 impl/ factor: the numbers of L and D
+ *  15998 impl/ solve: full and local solves
+ *  17660 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19589 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19998 impl/ float: L and fronts in single precision
+ *  20449 impl/ inverse: entries of the inverse, regions
+ *  23512 impl/ change: a factor that follows changes of its matrix
+ *  29581 impl/ dirichlet: rows fixed at given values
+ *  30169 impl/ dirichlet: by a factor of all rows
+ *  30401 impl/ io: files that are replaced only when they are complete
+ *  30619 impl/ files: Matrix Market files, 64-bit indices
+ *  31239 impl/ save: factors in files
+ *  33236 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33917 impl/ batch: diagonals of many inverses
+ *  34058 impl/ complex: complex Hermitian systems over real factors
+ *  34620 impl/ complex: entries of the inverse
+ *  34680 impl/ packs: the tables through which the core calls packs
+ *  34729 impl/ last: undefine every internal macro
+ *  35085 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -6400,7 +6400,8 @@ static void sli_contract_range(void *data, const sli_range *r) {
   const sli_clusters *clusters = t->clusters;
   sli_level *c = t->c;
   sl_off e, count = t->begin[r->item], *at = sli_shares_scratch(t->ranges, r->worker);
-  const int bits = g->begin[g->n] >> 32 == 0 ? SLI_CONTRACT_BITS : 0;
+  const int bits =
+    g->begin[g->n] >> 32 == 0 ? SLI_CONTRACT_BITS : 0; /* branches untested: 2^32 edges */
   const sl_off low = ((sl_off)1 << bits) - 1;
   sl_int k, m;
   memset(at, -1, (size_t)c->n * sizeof(sl_off));
@@ -7931,7 +7932,8 @@ SLI_ALWAYS_INLINE int sli_small_fill(sli_small *m, const sli_order_job *job, siz
     uint64_t *row = m->rows + (size_t)v * words;
     const sl_int degree = sli_small_count(row, words);
     const sl_int has_diagonal = (sl_int)(row[v / 64] >> (v % 64) & 1);
-    if (!has_diagonal && degree >= 8 && degree * degree >= m->n) {
+    if (!has_diagonal && degree >= 8 &&
+        degree * degree >= m->n) { /* branches untested: n is 9 .. 64 in a copy */
       return 0;
     }
     row[v / 64] |= (uint64_t)1 << (v % 64);
@@ -7939,10 +7941,11 @@ SLI_ALWAYS_INLINE int sli_small_fill(sli_small *m, const sli_order_job *job, siz
     few += degree - has_diagonal <= 2;
     edges += degree - has_diagonal;
   }
-  if ((m->n > 64 && few > m->n / 2) || (job->is_hurried && edges < 2 * m->n)) {
+  if ((m->n > 64 && few > m->n / 2) || /* branches untested: n is 9 .. 64, or more, in copies */
+      (job->is_hurried && edges < 2 * m->n)) {
     return 0;
   }
-  for (; v == 0 || v % 8 != 0; v++) {
+  for (; v == 0 || v % 8 != 0; v++) { /* branches untested: the same */
     m->key[v] = SLI_MINDEG_ELIMINATED;
   }
   return 1;
@@ -8000,7 +8003,7 @@ SLI_ALWAYS_INLINE sl_int sli_small_best(const sli_small *m) {
   sl_int v, k;
   if (m->n <= 32) {
     uint32_t first = m->key[0];
-    for (v = 1; v < m->n; v++) {
+    for (v = 1; v < m->n; v++) { /* branches untested: the same */
       first = m->key[v] < first ? m->key[v] : first;
     }
     return (sl_int)(first & 255u);
@@ -8025,7 +8028,8 @@ SLI_ALWAYS_INLINE int sli_small_run_body(sli_small *m, const sli_order_job *job,
     return 0;
   }
   while (at < m->n) {
-    at = sli_small_eliminate(m, sli_small_best(m), words, job->perm, at);
+    at = sli_small_eliminate(m, sli_small_best(m), words, /* branches untested: the same */
+        job->perm, at);
   }
   return 1;
 }
@@ -8854,7 +8858,8 @@ static sl_int sli_thin_turn(sli_thin *t, sli_thin_part *p, sl_int cut, int64_t l
   memcpy(t->kept, t->queue + p->first, size * sizeof(sl_int));
   memcpy(scratch, t->begin + p->first, levels * sizeof(sl_int));
   memcpy(scratch + size, t->ahead + p->first, levels * sizeof(sl_int));
-  if (sli_thin_renew(t, p, t->queue[p->first]) && sli_thin_renew(t, p, t->queue[p->end - 1])) {
+  if (sli_thin_renew(t, p, t->queue[p->first]) &&
+      sli_thin_renew(t, p, t->queue[p->end - 1])) { /* branches untested: it is connected */
     const sl_int turned = sli_thin_cut(t, p, &cost);
     if (cost <= least / 10 * 9) {
       return turned;
@@ -8880,10 +8885,11 @@ static void sli_thin_label(sli_thin *t, sli_dissection *d) {
   while (t->parts > 0) {
     sli_thin_part p = t->part[--t->parts];
     const sl_int size = p.end - p.first, node = p.above;
-    const int may_cut = size > t->leaf && tree->count < tree->room - 1;
+    const int may_cut = size > t->leaf &&
+              tree->count < tree->room - 1; /* branches untested: tiny leaves */
     sl_int cut = may_cut ? sli_thin_cut(t, &p, &least) : -1;
     if (cut != -1 && (int64_t)p.levels * p.levels < 2 * (int64_t)size &&
-        t->marks < INT32_MAX - 2 * size) {
+        t->marks < INT32_MAX - 2 * size) { /* branches untested: 2^31 marks */
       cut = sli_thin_turn(t, &p, cut, least, (sl_int *)(void *)d->workers[0].next);
     }
     tree->weight[node] = size;
@@ -10220,7 +10226,7 @@ static sl_status sli_order_reduced(const sli_order_job *job) {
   sli_graph_facts f = sli_graph_describe(job);
   sl_status status = SL_OK;
   while (status == SL_OK) {
-    switch (sli_order_choose(&f)) {
+    switch (sli_order_choose(&f)) { /* branches untested: each has a case */
     case SLI_TRY_LEVELS:
       f.bits |= SLI_TRIED_LEVELS | (sli_order_levels(job) ? SLI_IS_NARROW : 0);
       break;
@@ -11245,13 +11251,15 @@ SLI_ALWAYS_INLINE void sli_structure_add(sli_structure_super *v, sl_int k) {
 SLI_ALWAYS_INLINE void sli_structure_climb(sli_structure_super *all, sli_structure_super *v,
     sl_int k, sl_int *rows, sl_int *relative,
     int has_parts) {
-  while (v->last != k) {
+  while (v->last != k) { /* branches untested: has_parts is constant in each copy */
     sli_structure_super *up = all + v->up;
     const sl_off at = v->rows + v->height;
     rows[at] = k;
     relative[at] = up->height - (up->last == k);
     sli_structure_add(v, k);
-    v = has_parts && up->bottom != v->bottom ? all + up->bottom : up;
+    v = has_parts && up->bottom != v->bottom /* branches untested: the same */
+        ? all + up->bottom
+        : up;
   }
 }
 
@@ -11265,14 +11273,16 @@ SLI_ALWAYS_INLINE void sli_structure_rows(const sli_analysis *w, const sl_symbol
     const sl_int *end = w->spare + 2 * (size_t)at[old_of[k]];
     sli_structure_super *own = all + super_of[k];
     sli_structure_add(own, k);
-    if (has_parts) {
+    if (has_parts) { /* branches untested: the same */
       sli_structure_climb(all, all + own->bottom, k, rows, relative, 1);
     }
     for (; row < end; row += 2) {
       const sl_int column = row[0];
       sli_structure_super *v = all + super_of[column];
       sl_int e;
-      sli_structure_climb(all, has_parts ? all + v->bottom : v, k, rows, relative, has_parts);
+      sli_structure_climb(all,
+          has_parts ? all + v->bottom : v, /* branches untested: the same */
+          k, rows, relative, has_parts);
       e = v->next++;
       from[e] = row[1];
       to[e] = v->to + SLI_TILE * (sl_off)column;
@@ -11528,7 +11538,9 @@ static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int
     const sl_int s = m >= p->n_tasks ? p->top[m - p->n_tasks] : p->last[m];
     sl_off at;
     if (S->super_parent[s] == -1) {
-      p->stack_begin[s] = p->stack + (side[s] == 0 ? 0 : subtree[s] - size[s]);
+      p->stack_begin[s] = p->stack + (side[s] == 0 /* branches untested: of a root */
+          ? 0
+          : subtree[s] - size[s]);
       p->stack += subtree[s];
     }
     if (m < p->n_tasks || S->first_descendant[s] == s) {
@@ -14874,7 +14886,8 @@ static int sli_growth_check(sl_factor *F, sli_failure *failure) {
     growth = sli_growth(magnitude, entry);
     info->growth = growth > info->growth ? growth : info->growth;
     info->entry_max = entry > info->entry_max ? entry : info->entry_max;
-    if (growth > F->growth_limit && (failure->status == SL_OK || has_refused)) {
+    if (growth > F->growth_limit &&
+        (failure->status == SL_OK || has_refused)) { /* branches untested: no other failure */
       has_refused = 1;
       (void)sli_growth_refuse(F, first, root, entry, failure);
     }
@@ -15452,7 +15465,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
   draft.type = sli_storage_type_of(opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
   if (draft.type == NULL) { /* untested: all packs are there */
     return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
-        sli_storage_needs(opt->storage));
+        sli_storage_needs(opt->storage)); /* untested: the same */
   }
   if (draft.kernels != NULL && draft.type->sweeps(draft.kernels) == NULL) {
     draft.type = draft.type->in_double;
@@ -15717,7 +15730,7 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
     sli_factor_outcome(F, from->A, failure, 0);
   }
   if (F->is_definite && has_pivots && F->stats.factor.negative > 0 &&
-      failure->status != SL_ERR_PIVOT) {
+      failure->status != SL_ERR_PIVOT) { /* branches untested: without pivots */
     sli_refuse_negative(F, failure);
     sli_factor_outcome(F, from->A, failure, 1);
   }
@@ -15774,7 +15787,8 @@ SLI_COLD static void sli_factor_suspect(sl_factor *F, const sli_source *from,
   sl_int *last = NULL;
   const sl_int count = sli_null_suspects_find(F, from, &last, failure);
   sli_factor_clear_gaps(F);
-  if (failure->status == SL_OK && sli_factor_eliminate(F, from, failure) == SL_OK) {
+  if (failure->status == SL_OK &&
+      sli_factor_eliminate(F, from, failure) == SL_OK) { /* branches untested: as before */
     sli_suspects_clear(F);
     if (count > 0) {
       (void)sli_lasts_judge(F, last, count, failure);
@@ -15957,7 +15971,7 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
   }
   count = sli_factor_entries(F, NULL);
   if (count > INT32_MAX) { /* untested: 2^31 entries */
-    return sli_refuse(SL_ERR_TOO_LARGE,
+    return sli_refuse(SL_ERR_TOO_LARGE, /* untested: the same */
         "L has more than 2^31 - 1 entries"); /* untested: the same */
   }
   status = sli_matrix_new(out, F->S->n, F->S->n, (sl_int)count, 1, &a);
@@ -16258,7 +16272,7 @@ SLI_INLINE sli_rhs sli_rhs_of(double *X, size_t ldx, const double *B, size_t ldb
 
 SLI_INLINE sli_rhs sli_rhs_part(const sli_rhs *all, sl_int first, sl_int count) {
   sli_rhs r = *all;
-  if (r.X != NULL) {
+  if (r.X != NULL) { /* branches untested: all callers have it */
     r.X += (size_t)first * sli_dense_of(r.ldx).column;
   }
   if (r.B != NULL) {
@@ -34671,7 +34685,7 @@ SL_API sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out, const
 #endif
 
 static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
-  switch (storage) {
+  switch (storage) { /* branches untested: all packs are there */
   case SL_STORAGE_DOUBLE:
     return &sli_storage_double;
 #if defined(SL_WITH_FLOAT)
@@ -34684,14 +34698,15 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
   case SL_STORAGE_COMPLEX:
     return &sli_storage_complex;
 #endif
-  default:
-    return NULL;
+  default: /* untested: the same */
+    return NULL; /* untested: the same */
   }
 }
 
-static const char *sli_storage_needs(sl_storage storage) {
-  return storage == SL_STORAGE_COMPLEX ? "options.storage needs SL_WITH_COMPLEX"
-                     : "options.storage needs SL_WITH_FLOAT";
+static const char *sli_storage_needs(sl_storage storage) { /* untested: the same */
+  return storage == SL_STORAGE_COMPLEX /* untested: the same */
+         ? "options.storage needs SL_WITH_COMPLEX"
+         : "options.storage needs SL_WITH_FLOAT"; /* untested: the same */
 }
 
 #if defined(SL_WITH_DIRICHLET)
@@ -35103,7 +35118,7 @@ SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SL
   double largest = F->extents[s].entry;
   uint64_t mark = 0;
   sl_off m;
-  for (m = e->first; m < e->last; m++) {
+  for (m = e->first; m < e->last; m++) { /* branches untested: no complex matrix is a sum */
     if (scatter_from != NULL && m < ahead) { /* untested: constant */
       SLI_PREFETCH(x + scatter_from[m + SLI_ENTRIES_AHEAD], 0);
     }
@@ -35117,11 +35132,11 @@ SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SL
     }
     panel[to[m] - begin] += sli_single(a);
 #else
-    if (!(size <= DBL_MAX)) {
+    if (!(size <= DBL_MAX)) { /* branches untested: the same */
       return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
     }
 #if SLF_HALF
-    if ((to[m] & SLI_TILE) == 0) {
+    if ((to[m] & SLI_TILE) == 0) { /* branches untested: the same */
       panel[sli_half_at(to[m] - begin)] += a;
     }
 #else
@@ -35131,7 +35146,7 @@ SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SL
       mark += sli_mark_entry(a, to[m] - begin);
     }
 #endif
-    largest = size > largest ? size : largest;
+    largest = size > largest ? size : largest; /* branches untested: the same */
   }
   F->extents[s].entry = largest;
   if (marks != NULL) { /* untested: the same */
@@ -35252,7 +35267,8 @@ SLI_INLINE uint64_t sli_plain_mark(const double *x, const sl_int *at, sl_int cou
 }
 
 SLI_INLINE int sli_plain_runs(const sl_factor *F, const sli_source *from) {
-  return from->A != NULL && F->work.copied == NULL && F->history.marks != NULL &&
+  return from->A != NULL && F->work.copied == NULL &&
+       F->history.marks != NULL && /* branches untested: of a restriction, none is direct */
        !F->rule.replaces;
 }
 
@@ -35437,7 +35453,7 @@ static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
   }
   if (status == SL_OK && F->type->store != NULL) {
     status = F->type->store(F, f, failure);
-  } else if (f->width == 1 && F->type->store == NULL) {
+  } else if (f->width == 1 && F->type->store == NULL) { /* branches untested: see above */
     memcpy((double *)F->values + F->S->steps[f->super].panel, f->panel,
         (size_t)(1 + f->below) * sizeof(double));
   }
@@ -37484,7 +37500,9 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
     }
     {
       SLV_EXPAND(mask, lanes, end - row)
-      for (i = 0; i < end && i < columns; i += SLV_PARTS) {
+      for (i = 0; i < end && /* branches untested: it ends before `columns` */
+          i < columns;
+          i += SLV_PARTS) {
         const int is_below = relative[i] >= w;
         SLV_VALUE *target =
           to[is_below] + (at[is_below] + SLI_TILE / SLV_PARTS * (ptrdiff_t)relative[i]);

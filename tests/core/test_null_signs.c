@@ -88,8 +88,8 @@ static void without_memory_definite_matrices_are_not_blamed(void **state) {
     }
 }
 
-/* A small pivot that is right, beside a tree whose pivots grow: the growth is what is reported, also
- * where they are in a restriction only, without the first row and the last one. */
+/* A small pivot that is right, beside a tree whose pivots grow: the growth is reported, also
+ * where both are in a restriction only, without the first row and the last one. */
 static void growth_beside_a_small_pivot_is_reported(void **state) {
     (void)state;
     enum { N = 6 };
@@ -127,9 +127,9 @@ static void growth_beside_a_small_pivot_is_reported(void **state) {
     gen_matrix_free(&A);
 }
 
-/* I / 2 + 3e14 D'D of second differences D, as of a stiff smoother, and a light row that is joined to
- * the last one. Constants are a null vector within rounding, but neither the last pivot nor that of
- * the light row is null, small as both are against those of the smoother. */
+/* I / 2 + 3e14 D'D of second differences D, as of a stiff smoother, and a light row that is joined
+ * to the last one. Constants are a null vector within rounding, but neither the last pivot nor that
+ * of the light row is null, small as both are against those of the smoother. */
 static void light_rows_beside_heavy_ones_are_kept(void **state) {
     (void)state;
     enum { N = 20000, LIGHT = N - 1 };

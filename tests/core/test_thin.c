@@ -231,8 +231,8 @@ static void other_graphs_are_left_to_multilevel_dissection(void **state) {
     }
 }
 
-/* A strip 40 rows across, without some of its diagonals, or with a row that is next to the 48 around
- * it. */
+/* A strip 40 rows across, without some of its diagonals, or with one row that is next to all 48
+ * around it. */
 static gen_matrix_t changed_strip(int has_gaps) {
     const shape_t strip = {"strip", 40, 300, 0, 0, 0.0, 0.0};
     gen_list_t whole = gen_list(0), t = gen_list(0);

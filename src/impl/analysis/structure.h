@@ -86,13 +86,15 @@ SLI_ALWAYS_INLINE void sli_structure_add(sli_structure_super *v, sl_int k) {
 SLI_ALWAYS_INLINE void sli_structure_climb(sli_structure_super *all, sli_structure_super *v,
                                            sl_int k, sl_int *rows, sl_int *relative,
                                            int has_parts) {
-    while (v->last != k) {
+    while (v->last != k) { /* branches untested: has_parts is constant in each copy */
         sli_structure_super *up = all + v->up;
         const sl_off at = v->rows + v->height;
         rows[at] = k;
         relative[at] = up->height - (up->last == k);
         sli_structure_add(v, k);
-        v = has_parts && up->bottom != v->bottom ? all + up->bottom : up;
+        v = has_parts && up->bottom != v->bottom /* branches untested: the same */
+                ? all + up->bottom
+                : up;
     }
 }
 
@@ -109,14 +111,16 @@ SLI_ALWAYS_INLINE void sli_structure_rows(const sli_analysis *w, const sl_symbol
         const sl_int *end = w->spare + 2 * (size_t)at[old_of[k]];
         sli_structure_super *own = all + super_of[k];
         sli_structure_add(own, k);
-        if (has_parts) {
+        if (has_parts) { /* branches untested: the same */
             sli_structure_climb(all, all + own->bottom, k, rows, relative, 1);
         }
         for (; row < end; row += 2) {
             const sl_int column = row[0];
             sli_structure_super *v = all + super_of[column];
             sl_int e;
-            sli_structure_climb(all, has_parts ? all + v->bottom : v, k, rows, relative, has_parts);
+            sli_structure_climb(all,
+                                has_parts ? all + v->bottom : v, /* branches untested: the same */
+                                k, rows, relative, has_parts);
             e = v->next++;
             from[e] = row[1];
             to[e] = v->to + SLI_TILE * (sl_off)column;

@@ -158,7 +158,7 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
         sli_factor_outcome(F, from->A, failure, 0);
     }
     if (F->is_definite && has_pivots && F->stats.factor.negative > 0 &&
-        failure->status != SL_ERR_PIVOT) {
+        failure->status != SL_ERR_PIVOT) { /* branches untested: without pivots */
         sli_refuse_negative(F, failure);
         sli_factor_outcome(F, from->A, failure, 1);
     }
@@ -220,8 +220,9 @@ SLI_COLD static void sli_factor_suspect(sl_factor *F, const sli_source *from,
     sl_int *last = NULL;
     const sl_int count = sli_null_suspects_find(F, from, &last, failure);
     sli_factor_clear_gaps(F);
-    if (failure->status == SL_OK && sli_factor_eliminate(F, from, failure) == SL_OK) {
-        sli_suspects_clear(F); /* they have been judged */
+    if (failure->status == SL_OK &&
+        sli_factor_eliminate(F, from, failure) == SL_OK) { /* branches untested: as before */
+        sli_suspects_clear(F);                             /* they have been judged */
         if (count > 0) {
             (void)sli_lasts_judge(F, last, count, failure);
         }

@@ -106,8 +106,8 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
         return status;
     }
     count = sli_factor_entries(F, NULL);
-    if (count > INT32_MAX) { /* untested: 2^31 entries */
-        return sli_refuse(SL_ERR_TOO_LARGE,
+    if (count > INT32_MAX) {                                   /* untested: 2^31 entries */
+        return sli_refuse(SL_ERR_TOO_LARGE,                    /* untested: the same */
                           "L has more than 2^31 - 1 entries"); /* untested: the same */
     }
     status = sli_matrix_new(out, F->S->n, F->S->n, (sl_int)count, 1, &a);

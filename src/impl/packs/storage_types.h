@@ -11,7 +11,7 @@
 #endif
 
 static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
-    switch (storage) {
+    switch (storage) { /* branches untested: all packs are there */
     case SL_STORAGE_DOUBLE:
         return &sli_storage_double;
 #if defined(SL_WITH_FLOAT)
@@ -24,14 +24,15 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
     case SL_STORAGE_COMPLEX:
         return &sli_storage_complex;
 #endif
-    default:
-        return NULL;
+    default:         /* untested: the same */
+        return NULL; /* untested: the same */
     }
 }
 
-static const char *sli_storage_needs(sl_storage storage) {
-    return storage == SL_STORAGE_COMPLEX ? "options.storage needs SL_WITH_COMPLEX"
-                                         : "options.storage needs SL_WITH_FLOAT";
+static const char *sli_storage_needs(sl_storage storage) { /* untested: the same */
+    return storage == SL_STORAGE_COMPLEX                   /* untested: the same */
+               ? "options.storage needs SL_WITH_COMPLEX"
+               : "options.storage needs SL_WITH_FLOAT"; /* untested: the same */
 }
 
 #endif

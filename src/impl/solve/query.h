@@ -209,7 +209,7 @@ SLI_INLINE sli_rhs sli_rhs_of(double *X, size_t ldx, const double *B, size_t ldb
 /* Right-hand sides first .. first+count-1. X or B is NULL if it has no rows. */
 SLI_INLINE sli_rhs sli_rhs_part(const sli_rhs *all, sl_int first, sl_int count) {
     sli_rhs r = *all;
-    if (r.X != NULL) {
+    if (r.X != NULL) { /* branches untested: all callers have it */
         r.X += (size_t)first * sli_dense_of(r.ldx).column;
     }
     if (r.B != NULL) {
