@@ -182,38 +182,104 @@ static void a_lost_matrix_is_not_solved(void **state) {
     subject_free(&s);
 }
 
-/* A large pass of several vectors is tried before; where the trial is close the pass has a log. */
+enum { SIDE = 300, MANY = SIDE * SIDE, COUNT = 8 };
+
+/* A grid whose L has more entries on the paths of eight vectors than a log of one pass may have:
+ * they are tried before. The first vector is at `row`, the others change next to nothing. */
+typedef struct large_t {
+    factored_t y;
+    sl_int p[COUNT + 1], rows[COUNT];
+    double x[COUNT], sigma[COUNT], *D; /* the pivots before */
+    sl_csc V;
+} large_t;
+
+static void large_make(large_t *t) {
+    t->y = factored_make(GEN_GRID2, MANY, 1, 0, NULL);
+    t->D = test_reals(MANY);
+    memcpy(t->D, sl_factor_view(t->y.F).D, MANY * sizeof *t->D);
+    for (sl_int k = 0; k < COUNT; k++) {
+        t->p[k] = k;
+        t->rows[k] = k * (MANY / COUNT) + 77;
+        t->x[k] = 1.0;
+        t->sigma[k] = -1e-9;
+    }
+    t->p[COUNT] = COUNT;
+    const sl_csc V = {MANY, COUNT, t->p, t->rows, t->x};
+    t->V = V;
+}
+
+static void large_free(large_t *t) {
+    factored_free(&t->y);
+    free(t->D);
+}
+
+/* The change with allocation k failing; *count := the allocations. On failure no pivot changes. */
+static sl_status large_change(large_t *t, int64_t k, size_t *count, sl_stats *stats) {
+    counter_t counter = counter_make();
+    sl_work *W = work_failing(&counter, k);
+    const size_t before = counter.calls;
+    const sl_status status = sl_factor_update(t->y.F, &t->V, t->sigma, W, stats);
+    *count = counter.calls - before;
+    sl_work_free(W);
+    COUNTER_CLEAN(&counter);
+    if (status != SL_OK) {
+        assert_memory_equal(sl_factor_view(t->y.F).D, t->D, MANY * sizeof *t->D);
+    }
+    return status;
+}
+
+/* A trial that takes the last pivot to 1e-5 of it is close: the pass then has a log, too, for which
+ * there may be no memory. */
 static void a_close_trial_is_logged(void **state) {
     (void)state;
-    enum { SIDE = 300, MANY = SIDE * SIDE, COUNT = 8 };
-    factored_t y = factored_make(GEN_GRID2, MANY, 1, 0, NULL);
-    sl_int p[COUNT + 1], rows[COUNT];
-    double x[COUNT], sigma[COUNT], *b = test_reals(MANY), *z = test_reals(MANY);
-    const sl_csc V = {MANY, COUNT, p, rows, x};
+    large_t t;
     sl_stats stats;
-    for (sl_int k = 0; k < COUNT; k++) {
-        p[k] = k;
-        rows[k] = k * (MANY / COUNT) + 77;
-        x[k] = 1.0;
-        sigma[k] = -1e-9;
-    }
-    p[COUNT] = COUNT;
-    b[rows[0]] = 1.0;
-    SL_CHECK(sl_factor_solve(y.F, z, MANY, b, MANY, 1, NULL));
+    large_make(&t);
+    const sl_int last = sl_symbolic_view(t.y.S).perm[MANY - 1];
+    double *b = test_reals(MANY), *z = test_reals(MANY);
+    size_t allocations[2] = {0, 0};
+    t.rows[0] = last;
+    b[last] = 1.0;
+    SL_CHECK(sl_factor_solve(t.y.F, z, MANY, b, MANY, 1, NULL));
     for (int close = 0; close < 2; close++) {
-        sigma[0] = -(close ? 1.0 - 1e-5 : 0.5) / z[rows[0]];
-        SL_CHECK(sl_factor_update(y.F, &V, sigma, NULL, &stats));
+        t.sigma[0] = -(close ? 1.0 - 1e-5 : 0.5) / z[last];
+        for (int64_t k = 0; k < (int64_t)allocations[0] + close; k++) {
+            size_t count = 0;
+            SL_EXPECT(SL_ERR_MEMORY, large_change(&t, k, &count, NULL));
+        }
+        SL_CHECK(large_change(&t, -1, &allocations[close], &stats));
         assert_true(stats.change.entries > 1 << 19);
-        SL_CHECK(sl_factor_solve(y.F, b, MANY, b, MANY, 1, NULL));
-        const double wanted = z[rows[0]] / (close ? 1e-5 : 0.5);
-        assert_true(fabs(b[rows[0]] - wanted) <= 1e-4 * wanted);
-        SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
+        SL_CHECK(sl_factor_solve(t.y.F, b, MANY, b, MANY, 1, NULL));
+        const double wanted = z[last] / (close ? 1e-5 : 0.5);
+        assert_true(fabs(b[last] - wanted) <= 1e-4 * wanted);
+        SL_CHECK(sl_factor_refactor(t.y.F, &t.y.M.view, NULL));
         memset(b, 0, MANY * sizeof *b);
-        b[rows[0]] = 1.0;
+        b[last] = 1.0;
     }
+    assert_int_equal(allocations[1], allocations[0] + 1);
     free(b);
     free(z);
-    factored_free(&y);
+    large_free(&t);
+}
+
+/* A trial that ends in the first tile of a wide supernode. */
+static void a_trial_may_fail(void **state) {
+    (void)state;
+    large_t t;
+    sl_stats stats;
+    large_make(&t);
+    const sl_symbolic_arrays v = sl_symbolic_view(t.y.S);
+    const sl_int first = v.super_first[v.n_supers - 1];
+    size_t count = 0;
+    assert_true(v.super_first[v.n_supers] - first > 16);
+    t.rows[0] = v.perm[first];
+    t.sigma[0] = -1.5 * t.D[first];
+    SL_EXPECT(SL_ERR_PIVOT, large_change(&t, -1, &count, &stats));
+    assert_int_equal(stats.error.row, v.perm[first]);
+    t.sigma[0] = -0.5 * t.D[first];
+    SL_CHECK(large_change(&t, -1, &count, &stats));
+    assert_true(fabs(sl_factor_view(t.y.F).D[first] - 0.5 * t.D[first]) <= 1e-6 * t.D[first]);
+    large_free(&t);
 }
 
 int main(void) {
@@ -222,6 +288,7 @@ int main(void) {
         cmocka_unit_test(the_drift_of_a_loaded_factor_is_refused),
         cmocka_unit_test(a_lost_matrix_is_not_solved),
         cmocka_unit_test(a_close_trial_is_logged),
+        cmocka_unit_test(a_trial_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
