@@ -172,6 +172,26 @@ static void growth_beyond_the_limit_is_refused(void **state) {
     two_free(&t);
 }
 
+/* What an entry off the diagonal leaves in row 1 is 16 times its pivot, and not its entry of the
+ * diagonal: the change is not split by the scales of the rows, and both pivots are exact. */
+static void a_small_pivot_is_no_light_row(void **state) {
+    (void)state;
+    static const sl_int row = 1, column = 0;
+    static const double delta = -0.25;
+    const double small = ldexp(1.0, -20);
+    sl_stats stats;
+    two_t t;
+    two_make(&t, 1.0, 1.0, 1.0 + small, 0.0);
+    assert_true(sl_factor_view(t.F).D[1] == small);
+    SL_CHECK(sl_factor_change(t.F, NULL, &row, &column, &delta, 1, NULL, &stats));
+    assert_int_equal(stats.change.method, SL_CHANGE_UPDATE);
+    assert_int_equal(stats.change.ranks, 3); /* the edge, and two entries of the diagonal */
+    const double *D = sl_factor_view(t.F).D, wanted = 1.0 + small - 0.75 * 0.75;
+    assert_true(fabs(D[0] - 1.0) <= stats.change.drift);
+    assert_true(fabs(D[1] - wanted) <= stats.change.drift && stats.change.drift < 1e-12);
+    two_free(&t);
+}
+
 /* The first of the rank-one changes that make up an entry overflows; the matrix itself does not. */
 static void overflows_of_updates_are_refactored(void **state) {
     (void)state;
@@ -324,6 +344,7 @@ int main(void) {
         cmocka_unit_test(upper_triangles_are_recomputed),
         cmocka_unit_test(pivoted_factors_are_recomputed),
         cmocka_unit_test(growth_beyond_the_limit_is_refused),
+        cmocka_unit_test(a_small_pivot_is_no_light_row),
         cmocka_unit_test(overflows_of_updates_are_refactored),
         cmocka_unit_test(small_pivots_beside_heavy_rows_are_kept),
         cmocka_unit_test(changes_of_a_zero_matrix),

@@ -169,6 +169,35 @@ static void a_singular_matrix_is_noticed(void **state) {
     assert_true(suspected > 0);
 }
 
+/* A number that is not finite, in a column that is computed: the error is that of a new factor. */
+static void numbers_that_are_not_finite_are_noticed(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_GRID2, 400, 1, 0, NULL);
+    const sl_int n = y.M.view.n_cols, last = sl_symbolic_view(y.S).perm[n - 1];
+    sl_int *map = test_ints((size_t)n);
+    sl_factor *G = (sl_factor *)(void *)map, *H = NULL;
+    sl_stats got, wanted;
+    for (sl_int k = 0; k < n; k++) {
+        map[k] = k;
+    }
+    for (int is_nan = 0; is_nan < 2; is_nan++) { /* a finite one keeps most columns */
+        y.M.x[y.M.p[last]] = is_nan ? (double)NAN : 9.0;
+        assert_int_equal(y.M.i[y.M.p[last]], last);
+        SL_EXPECT(is_nan ? SL_ERR_NOT_FINITE : SL_OK,
+                  sl_factor_edit(&G, y.F, y.S, &y.M.view, map, NULL, &got));
+        SL_EXPECT(is_nan ? SL_ERR_NOT_FINITE : SL_OK,
+                  sl_factor_create(&H, y.S, &y.M.view, NULL, &wanted));
+        assert_true(is_nan || (2 * got.reuse.kept > n && got.reuse.kept < n));
+        assert_true((G == NULL) == is_nan);
+        assert_int_equal(got.error.row, wanted.error.row);
+        assert_int_equal(got.error.row, is_nan ? last : -1);
+        sl_factor_free(G);
+        sl_factor_free(H);
+    }
+    free(map);
+    factored_free(&y);
+}
+
 /* The leaves of a star, each with an edge to row LEAVES, but leaf 0 to row `to`. */
 enum { LEAVES = 60 };
 
@@ -221,6 +250,7 @@ int main(void) {
         cmocka_unit_test(another_kind_of_a_pivot_is_noticed),
         cmocka_unit_test(another_row_is_noticed),
         cmocka_unit_test(a_singular_matrix_is_noticed),
+        cmocka_unit_test(numbers_that_are_not_finite_are_noticed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
