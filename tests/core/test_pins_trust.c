@@ -77,7 +77,7 @@ static void forces_of_pins_alone_are_judged(void **state) {
     (void)state;
     enum { CASES = 12 };
     static const sl_int bset[1] = {HALF + 3};
-    static const double b = 1.0, g[2] = {1.0, 0.0};
+    static const double b = 1.0, g[2] = {0.0, 1.0};
     int refused[2] = {0, 0};
     for (int k = 0; k < CASES; k++) {
         const int firm = k % 2;
