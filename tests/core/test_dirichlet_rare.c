@@ -1,0 +1,208 @@
+/* test_dirichlet_rare.c: fixed rows with factors that do not suit, and refactorizations that fail */
+#include "tests/lib/dirichlet.h"
+
+/* Two paths 0-1-2 and 3-4-5 of springs of 1. */
+static const sl_int two_p[7] = {0, 2, 4, 5, 7, 9, 10}, two_i[10] = {0, 1, 1, 2, 2, 3, 4, 4, 5, 5};
+static const double two_x[10] = {1, -1, 2, -1, 1, 1, -1, 2, -1, 1};
+static const sl_csc two_paths = {6, 6, two_p, two_i, two_x};
+
+/* [a b 0; b c 1; 0 1 2] */
+static const sl_int three_p[4] = {0, 2, 4, 5}, three_i[5] = {0, 1, 1, 2, 2};
+
+/* An indefinite matrix of free rows where it has to be definite: the error is not that they are
+ * singular. */
+static void a_negative_pivot_is_named_by_its_row(void **state) {
+    (void)state;
+    static const sl_int fixed[1] = {1};
+    static const double x[5] = {1.0, 0.5, 1.0, 1.0, -2.0};
+    const sl_csc A = {3, 3, three_p, three_i, x};
+    sl_options opt = options_none();
+    sl_dirichlet *D = NULL;
+    sl_stats stats;
+    opt.definite = 1;
+    SL_EXPECT(SL_ERR_PIVOT, sl_dirichlet_create(&D, &A, fixed, 1, NULL, &opt, &stats));
+    assert_null(D);
+    assert_int_equal(stats.error.row, 2);
+    assert_null(strstr(stats.error.what, "singular"));
+    opt.definite = 0;
+    SL_CHECK(sl_dirichlet_create(&D, &A, fixed, 1, NULL, &opt, &stats));
+    assert_int_equal(stats.factor.negative, 1);
+    sl_dirichlet_free(D);
+}
+
+/* Blocks are kept if all of them are free as a whole: here the last one is not. */
+static void the_last_block_may_be_cut(void **state) {
+    (void)state;
+    static const sl_int last[2] = {5, 2};
+    static const double x[10] = {2, -1, 3, -1, 2, 2, -1, 3, -1, 2};
+    sl_csc A = two_paths;
+    sl_options opt = options_none();
+    A.x = x;
+    opt.block_size = 2;
+    for (sl_int count = 1; count <= 2; count++) { /* or, without row 2, blocks begin elsewhere */
+        sl_dirichlet *D = NULL;
+        SL_CHECK(sl_dirichlet_create(&D, &A, last, count, NULL, &opt, NULL));
+        dirichlet_check_all(D, &A, last, count);
+        sl_dirichlet_free(D);
+    }
+}
+
+/* Patterns with another number of columns, and what is no pattern. */
+static void what_is_no_pattern_is_refused(void **state) {
+    (void)state;
+    static const sl_int rows[2] = {0, 3}, wide[8] = {0, 2, 4, 5, 7, 9, 10, 10};
+    static const sl_int down[7] = {0, 2, 4, 3, 7, 9, 10};
+    static const double g[2] = {1.0, 2.0};
+    double before[6], after[6];
+    sl_csc A[2] = {two_paths, two_paths};
+    sl_dirichlet *D = NULL;
+    A[0].n_cols = 7;
+    A[0].p = wide;
+    A[1].p = down;
+    SL_CHECK(sl_dirichlet_create(&D, &two_paths, rows, 2, NULL, NULL, NULL));
+    SL_CHECK(sl_dirichlet_solve(D, before, 6, NULL, 0, g, 2, 1, NULL));
+    for (int k = 0; k < 2; k++) {
+        SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_dirichlet_refactor(D, &A[k], NULL));
+        SL_CHECK(sl_dirichlet_solve(D, after, 6, NULL, 0, g, 2, 1, NULL));
+        assert_memory_equal(before, after, sizeof before);
+    }
+    sl_dirichlet_free(D);
+}
+
+/* Too much growth of the free rows 0 and 1: refused until other values come. */
+static void growth_is_refused_until_other_values_come(void **state) {
+    (void)state;
+    static const sl_int fixed[1] = {2};
+    static const double g = 3.0;
+    double x[5] = {2.0, 0.5, 1.0, 1.0, 2.0}, y[3], z[3];
+    const sl_csc A = {3, 3, three_p, three_i, x};
+    sl_dirichlet *D = NULL;
+    sl_stats stats;
+    SL_CHECK(sl_dirichlet_create(&D, &A, fixed, 1, NULL, NULL, NULL));
+    SL_CHECK(sl_dirichlet_solve(D, y, 3, NULL, 0, &g, 1, 1, NULL));
+    x[0] = x[2] = 1e-17;
+    SL_EXPECT(SL_ERR_INACCURATE, sl_dirichlet_refactor(D, &A, &stats));
+    assert_in_range(stats.error.row, 0, 1);
+    SL_EXPECT(SL_ERR_STALE, sl_dirichlet_solve(D, z, 3, NULL, 0, &g, 1, 1, NULL));
+    x[0] = 2.0;
+    x[2] = 1.0;
+    SL_CHECK(sl_dirichlet_refactor(D, &A, NULL));
+    SL_CHECK(sl_dirichlet_solve(D, z, 3, NULL, 0, &g, 1, 1, NULL));
+    assert_memory_equal(y, z, sizeof y);
+    sl_dirichlet_free(D);
+}
+
+/* Pins need no kernels of their own. A factor of the free rows does: it is refused where this
+ * machine does not have them. */
+static void a_factor_of_its_own_may_be_unsupported(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_GRID2, 400, 1, 0, NULL);
+    static const sl_int row[1] = {7};
+    static const double g = 1.0;
+    double x[400];
+    sl_options opt = options_none();
+    sl_dirichlet *D = NULL;
+    sl_stats stats;
+    for (opt.isa = SL_ISA_SCALAR; isa_is_present(opt.isa);) {
+        opt.isa = (sl_isa)(opt.isa + 1);
+        assert_in_range(opt.isa, SL_ISA_SCALAR, SL_ISA_NEON);
+    }
+    SL_CHECK(sl_dirichlet_create(&D, &y.M.view, row, 1, y.F, &opt, &stats));
+    assert_int_equal(stats.dirichlet.method, SL_DIRICHLET_PINS);
+    SL_CHECK(sl_dirichlet_solve(D, x, 400, NULL, 0, &g, 1, 1, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_dirichlet_refactor(D, &y.M.view, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_dirichlet_solve(D, x, 400, NULL, 0, &g, 1, 1, NULL));
+    sl_dirichlet_free(D);
+    factored_free(&y);
+}
+
+/* A factor with a pair of pivots is not used, nor are pins on one with several null vectors. */
+static void factors_that_do_not_suit_are_not_used(void **state) {
+    (void)state;
+    static const sl_int middle[2] = {1, 4};
+    static const double x[5] = {1e-3, 1.0, 1e-3, 1.0, 2.0};
+    static const double ones[12] = {1, 1, 1, 0, 0, 0, 0, 0, 0, 1, 1, 1};
+    const sl_csc A = {3, 3, three_p, three_i, x};
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_dirichlet *D = NULL;
+    sl_stats stats;
+    SL_CHECK(sl_symbolic_create_pivoted(&S, &A, NULL, NULL));
+    assert_non_null(sl_symbolic_view(S).pairs);
+    SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
+    SL_CHECK(sl_dirichlet_create(&D, &A, middle, 1, F, NULL, &stats));
+    assert_int_equal(stats.dirichlet.method, SL_DIRICHLET_SUBMATRIX);
+    dirichlet_check_all(D, &A, middle, 1);
+    sl_dirichlet_free(D);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    for (size_t vectors = 1; vectors <= 2; vectors++) {
+        sl_options opt = options_none();
+        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.null_vector = vectors == 1 ? NULL : ones;
+        opt.null_vector_count = vectors;
+        SL_CHECK(sl_symbolic_create(&S, &two_paths, NULL, NULL));
+        SL_CHECK(sl_factor_create(&F, S, &two_paths, &opt, &stats));
+        assert_int_equal(stats.factor.null, 2);
+        SL_CHECK(sl_dirichlet_create(&D, &two_paths, middle, 2, F, NULL, &stats));
+        assert_true((stats.dirichlet.seconds_pins > 0.0) == (vectors == 1));
+        assert_true(vectors == 1 || stats.dirichlet.method != SL_DIRICHLET_PINS);
+        dirichlet_check_all(D, &two_paths, middle, 2);
+        sl_dirichlet_free(D);
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+    }
+}
+
+/* A star whose L is dense, as its center comes first, a path, and rows alone. One row of the star
+ * and those alone are fixed. A restriction computes the star again; so does a new factor, whose
+ * estimate is the part of the whole that free rows are. */
+static void a_restriction_may_be_the_slower_way(void **state) {
+    (void)state;
+    enum { STAR = 600, PATH = 500, ALONE = 2000, N = STAR + PATH + ALONE };
+    gen_list_t t = gen_list(N);
+    sl_int *rows = test_ints(ALONE + 1);
+    sl_factor *F = NULL;
+    sl_dirichlet *D = NULL;
+    sl_stats stats;
+    for (sl_int k = 0; k < N; k++) {
+        gen_add(&t, k, k, k == 0 ? STAR : 3.0);
+        if (k > 0 && k < STAR + PATH && k != STAR) {
+            gen_add(&t, k, k < STAR ? 0 : k - 1, 1.0);
+        }
+    }
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    sl_options opt = options_none();
+    sl_symbolic *S = analyze_natural(&M.view, SL_RELAXATION_DEFAULT);
+    opt.isa = SL_ISA_SCALAR; /* the star takes longer than many fronts of one row */
+    SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+    rows[0] = 7;
+    for (sl_int k = 0; k < ALONE; k++) {
+        rows[1 + k] = STAR + PATH + k;
+    }
+    SL_CHECK(sl_dirichlet_create(&D, &M.view, rows, ALONE + 1, F, NULL, &stats));
+    assert_true(stats.dirichlet.seconds_pins > stats.dirichlet.seconds_submatrix);
+    assert_true(stats.dirichlet.seconds_restriction > stats.dirichlet.seconds_submatrix);
+    assert_int_equal(stats.dirichlet.method, SL_DIRICHLET_SUBMATRIX);
+    const dirichlet_t p = {&M.view, rows, ALONE + 1, 2, 0, 0, 0, 1, 0};
+    dirichlet_check(D, &p, NULL);
+    sl_dirichlet_free(D);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+    free(rows);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_negative_pivot_is_named_by_its_row),
+        cmocka_unit_test(the_last_block_may_be_cut),
+        cmocka_unit_test(what_is_no_pattern_is_refused),
+        cmocka_unit_test(growth_is_refused_until_other_values_come),
+        cmocka_unit_test(a_factor_of_its_own_may_be_unsupported),
+        cmocka_unit_test(factors_that_do_not_suit_are_not_used),
+        cmocka_unit_test(a_restriction_may_be_the_slower_way),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
