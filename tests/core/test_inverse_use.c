@@ -1,4 +1,4 @@
-/* test_inverse_use.c: entries, blocks and forms of the inverse: memory, invalid arguments */
+/* test_inverse_use.c: entries, blocks and forms of the inverse: memory, range, invalid arguments */
 #include "tests/lib/check_inverse.h"
 
 /* ---- memory ---- */
@@ -99,6 +99,87 @@ static void every_allocation_may_fail(void **state) {
     }
 }
 
+/* One pair, by a local solve. */
+static void allocations_of_one_pair_may_fail(void **state) {
+    (void)state;
+    static const sl_int row[1] = {3}, column[1] = {396};
+    counter_t counter = counter_make();
+    sl_options opt = options_counted(&counter);
+    factored_t y = factored_make(GEN_GRID2, 400, 1, 0, &opt);
+    sl_status status = SL_ERR_MEMORY;
+    double out = 4321.5;
+    sl_stats stats;
+    sl_int failures = 0;
+    for (int64_t k = 0; status != SL_OK; k++) {
+        assert_true(out == 4321.5);
+        counter.fail_at = (int64_t)counter.calls + k;
+        status = sl_inverse_pairs(y.F, &out, row, column, 1, NULL, &stats);
+        assert_true(status == SL_OK || status == SL_ERR_MEMORY);
+        failures += status != SL_OK;
+    }
+    assert_true(out != 4321.5 && failures > 0);
+    assert_int_equal(stats.inverse.method, SL_INVERSE_FORWARD);
+    counter.fail_at = -1;
+    factored_free(&y);
+    COUNTER_CLEAN(&counter);
+}
+
+/* ---- single pairs of large factors, and beyond the range of double ---- */
+
+/* A band of 100 in natural order: the paths of two rows have 6e5 numbers of L. */
+static void a_pair_with_long_paths(void **state) {
+    (void)state;
+    enum { WIDTH = 100, N = 60 * WIDTH };
+    static const sl_int rows[3] = {0, N - 1, 17}, columns[3] = {N / 2, 0, 4};
+    uint64_t seed = 3;
+    gen_list_t t = gen_list(N);
+    gen_edges_grid(&t, WIDTH, N / WIDTH, 1, &seed);
+    gen_dominate(&t, 1, &seed);
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    sl_symbolic *S = analyze_natural(&M.view, SL_RELAXATION_DEFAULT);
+    sl_factor *F = NULL;
+    double *b = test_reals(N), *x = test_reals(N);
+    SL_CHECK(sl_factor_create(&F, S, &M.view, NULL, NULL));
+    assert_true(sl_symbolic_view(S).panel_begin[sl_symbolic_view(S).n_supers] > 500000);
+    for (int k = 0; k < 3; k++) {
+        double got = 0.0;
+        memset(b, 0, N * sizeof *b);
+        b[columns[k]] = 1.0;
+        SL_CHECK(sl_factor_solve(F, x, N, b, N, 1, NULL));
+        SL_CHECK(sl_inverse_pairs(F, &got, rows + k, columns + k, 1, NULL, NULL));
+        assert_true(fabs(got - x[rows[k]]) <= pass_figure(N) * fabs(x[columns[k]]));
+    }
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+    free(b);
+    free(x);
+}
+
+/* L(2, 0) and L(2, 1) are 128 and the last pivot is 2^-1020: their entry of the inverse, which a
+ * local solve computes, is 2^1034. One that does not fit is infinite in every call. */
+static void an_entry_may_overflow(void **state) {
+    (void)state;
+    static const sl_int p[4] = {0, 2, 4, 5}, i[5] = {0, 2, 1, 2, 2};
+    static const sl_int rows[2] = {0, 2}, columns[2] = {1, 2};
+    const double small = ldexp(1.0, -1000), beside = ldexp(1.0, -993), last = ldexp(1.0, -1020);
+    const double x[5] = {small, beside, small, beside, ldexp(1.0, -985) + last};
+    const sl_csc A = {3, 3, p, i, x};
+    sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_NONE);
+    sl_factor *F = NULL;
+    double one = 0.0, two[2];
+    SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
+    assert_true(sl_factor_view(F).D[2] == last);
+    SL_CHECK(sl_inverse_pairs(F, &one, rows, columns, 1, NULL, NULL));
+    SL_CHECK(sl_inverse_pairs(F, two, rows, columns, 2, NULL, NULL));
+    assert_true(one == HUGE_VAL && two[0] == HUGE_VAL && two[1] == 1.0 / last);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
+/* ---- bytes ---- */
+
 /* Bytes of a workspace for a fixed patch near a corner, per column of its reach, which grows like
  * sqrt(n) on grids. */
 static void bytes_of_a_patch(sl_int side, double bytes[CALLS], sl_int *reach) {
@@ -185,6 +266,7 @@ static void invalid_arguments_are_refused(void **state) {
     assert_int_equal(stats.error.row, 25);
     REFUSED(sl_inverse_pairs(NULL, out, good, good, 3, NULL, NULL));
     REFUSED(sl_inverse_pairs(y.F, NULL, good, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_pairs(y.F, NULL, good, good + 1, 1, NULL, NULL));
     REFUSED(sl_inverse_pairs(y.F, out, NULL, good, 3, NULL, NULL));
     REFUSED(sl_inverse_pairs(y.F, out, good, NULL, 3, NULL, NULL));
     REFUSED(sl_inverse_pairs(y.F, out, good, good, -1, NULL, NULL));
@@ -260,6 +342,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_grown_workspace_allocates_nothing),
         cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(allocations_of_one_pair_may_fail),
+        cmocka_unit_test(a_pair_with_long_paths),
+        cmocka_unit_test(an_entry_may_overflow),
         cmocka_unit_test(memory_does_not_grow_with_n),
         cmocka_unit_test(invalid_arguments_are_refused),
         cmocka_unit_test(an_empty_matrix_has_an_empty_inverse),

@@ -1,4 +1,4 @@
-/* test_region_rare.c: regions beside wide subtrees, unknown weights and null pivots */
+/* test_region_rare.c: regions beside wide subtrees, unknown weights, null pivots, no memory */
 #include "tests/lib/check_region.h"
 
 /* With a selected inverse: the subtree of the set would cost less, but the 30 rows below it do not
@@ -141,11 +141,54 @@ static void null_pivots_match_the_full_solve(void **state) {
     }
 }
 
+/* With pivots of both signs, what is lost on the way to the boundary takes memory, too. */
+static void memory_may_end_with_both_signs(void **state) {
+    (void)state;
+    enum { SET = 160 };
+    factored_t y = factored_make(GEN_GRID2, 2500, 0, 0, NULL);
+    const sl_int n = y.M.view.n_cols, *perm = sl_symbolic_view(y.S).perm;
+    sl_int set[SET], failures[2] = {0, 0};
+    sl_stats stats;
+    for (sl_int k = 0; k < SET; k++) { /* neighbors far from the root, in two places */
+        set[k] = perm[k < SET / 2 ? k : n / 2 + k];
+    }
+    for (int again = 0; again < 2; again++) {
+        sl_status status = SL_ERR_MEMORY;
+        for (int64_t k = 0; status != SL_OK; k++) {
+            counter_t c = counter_make();
+            const sl_options opt = options_counted(&c);
+            sl_region *R = NULL;
+            c.fail_at = again ? -1 : k;
+            status = sl_region_create(&R, y.F, set, SET, NULL, &opt, &stats);
+            if (again) {
+                SL_CHECK(status);
+                c.fail_at = (int64_t)c.calls + k;
+                status = sl_region_refactor(R, y.F, NULL, NULL);
+            }
+            assert_true(status == SL_OK || status == SL_ERR_MEMORY);
+            assert_true(again || (R != NULL) == (status == SL_OK));
+            failures[again] += status != SL_OK;
+            c.fail_at = -1;
+            if (R != NULL && status != SL_OK) {
+                SL_CHECK(sl_region_refactor(R, y.F, NULL, NULL));
+            }
+            if (R != NULL) {
+                NOTHING_WRONG(check_region(R, set, SET));
+            }
+            sl_region_free(R);
+            COUNTER_CLEAN(&c);
+        }
+        assert_true(failures[again] > 0 && stats.region.subtrees > 1);
+    }
+    factored_free(&y);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_subtree_may_be_too_wide),
         cmocka_unit_test(null_pivots_match_the_full_solve),
         cmocka_unit_test(unknown_weights_and_shifts_are_refused),
+        cmocka_unit_test(memory_may_end_with_both_signs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
