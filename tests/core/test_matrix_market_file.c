@@ -239,6 +239,59 @@ static void files_are_read_across_the_buffer(void **state) {
     free(text);
 }
 
+/* A malformed entry that ends with the buffer is not taken for the end of the file, where entries
+ * may be missing. */
+static void a_malformed_entry_at_the_end_of_the_buffer(void **state) {
+    (void)state;
+    static const char start[] = BANNER("real general") "2 2 2\n", bad[] = "\n1 x 1.5\n",
+                      more[] = "2 2 2.5\n";
+    enum { BUFFER = 65536 };
+    char *text = (char *)test_array(BUFFER + sizeof more, 1);
+    memcpy(text, start, sizeof start - 1);
+    memset(text + sizeof start - 1, '%', BUFFER - sizeof start + 1);
+    memcpy(text + BUFFER - sizeof bad + 1, bad, sizeof bad - 1);
+    memcpy(text + BUFFER, more, sizeof more - 1);
+    for (int ends = 0; ends < 2; ends++) {
+        char path[512];
+        sl_matrix *M = NULL;
+        sl_stats stats;
+        write_temporary(path, sizeof path, text, ends ? BUFFER - 1 : BUFFER + sizeof more - 1);
+        SL_EXPECT(SL_ERR_IO, sl_matrix_read(&M, path, NULL, &stats));
+        assert_int_equal(stats.error.line, 4);
+        assert_true((strstr(stats.error.what, "fewer entries") != NULL) == ends);
+        assert_non_null(strstr(stats.error.what, "malformed"));
+        unlink(path);
+    }
+    free(text);
+}
+
+/* A symmetric matrix with entries in both triangles, of different rows, takes memory to compare
+ * them. */
+static void memory_may_end_with_both_triangles(void **state) {
+    (void)state;
+    static const char text[] = BANNER("real symmetric") "3 3 3\n2 1 4\n1 3 5\n3 3 6\n";
+    sl_status status = SL_ERR_MEMORY;
+    int failures = 0;
+    for (int64_t k = 0; status != SL_OK; k++) {
+        counter_t c = counter_make();
+        sl_options opt = options_counted(&c);
+        sl_matrix *M = NULL;
+        c.fail_at = k;
+        status = sl_matrix_parse(&M, text, sizeof text - 1, &opt, NULL);
+        assert_int_equal(status, M ? SL_OK : SL_ERR_MEMORY);
+        failures += status != SL_OK;
+        if (M) {
+            const sl_csc A = sl_matrix_view(M);
+            double *a = ref_dense(&A);
+            assert_true(a[1] == 4.0 && a[2] == 5.0 && a[8] == 6.0 && a[0] == 0.0);
+            free(a);
+        }
+        sl_matrix_free(M);
+        COUNTER_CLEAN(&c);
+    }
+    assert_in_range(failures, 3, 20);
+}
+
 /* A file that promises many entries takes memory for those it has. */
 static void memory_grows_with_the_entries(void **state) {
     (void)state;
@@ -311,6 +364,8 @@ int main(void) {
         cmocka_unit_test(a_full_disk_is_reported),
         cmocka_unit_test(a_file_without_end_is_refused),
         cmocka_unit_test(files_are_read_across_the_buffer),
+        cmocka_unit_test(a_malformed_entry_at_the_end_of_the_buffer),
+        cmocka_unit_test(memory_may_end_with_both_triangles),
         cmocka_unit_test(memory_grows_with_the_entries),
         cmocka_unit_test(more_entries_than_expected_are_read),
         cmocka_unit_test(a_long_last_line_is_refused),
