@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 347368863543d0b6
+ * FNV-1a of the lines after this comment, without the license: d755ad600aceae58
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -52,12 +52,12 @@
  *  30619 impl/ files: Matrix Market files, 64-bit indices
  *  31239 impl/ save: factors in files
  *  33236 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33917 impl/ batch: diagonals of many inverses
- *  34058 impl/ complex: complex Hermitian systems over real factors
- *  34620 impl/ complex: entries of the inverse
- *  34680 impl/ packs: the tables through which the core calls packs
- *  34729 impl/ last: undefine every internal macro
- *  35085 impl/ templates: the header includes them from itself, once for each instruction set
+ *  33918 impl/ batch: diagonals of many inverses
+ *  34059 impl/ complex: complex Hermitian systems over real factors
+ *  34621 impl/ complex: entries of the inverse
+ *  34681 impl/ packs: the tables through which the core calls packs
+ *  34730 impl/ last: undefine every internal macro
+ *  35086 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -27213,7 +27213,7 @@ static sl_status sli_restriction_work(sli_restriction *r, uint64_t entries, cons
   sli_analysis *w = &r->w;
   sli_block b = {NULL, 0, 0};
   sl_status status =
-    entries > INT32_MAX /* untested: 2^31 entries */
+    entries > INT32_MAX
       ? sli_refuse(SL_ERR_TOO_LARGE, "more than 2^31 - 1 entries of new columns")
       : SL_OK;
   SLI_LAYOUT(&b, a, status) {
@@ -31776,7 +31776,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   F->method = (sl_method)g->method;
   F->type = sli_storage_type_of((sl_storage)g->storage);
   if (F->type == NULL) { /* untested: all storages are there */
-    return 1;
+    return 1; /* untested: the same */
   }
   F->null.mode = (sl_null_pivots)g->null_pivots;
   F->null.checks = (int)g->checks;
@@ -32610,7 +32610,7 @@ static sl_status sli_read_front(sli_reading *r) {
       return status != SL_OK ? status : sli_damaged();
     }
     if (r->F.type == NULL) { /* untested: all storages are there */
-      return sli_refuse(SL_ERR_UNSUPPORTED,
+      return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
           sli_storage_needs(SL_STORAGE_FLOAT)); /* untested: the same */
     }
   }
@@ -33260,8 +33260,9 @@ static sl_status sli_sum_check(const double *coefficients, const sl_csc *terms, 
     *entries += sli_nnz(A);
   }
   return *entries > INT32_MAX /* untested: 2^31 entries */
-         ? sli_refuse(SL_ERR_TOO_LARGE, "terms have more than 2^31 - 1 entries")
-         : SL_OK;
+         ? sli_refuse(SL_ERR_TOO_LARGE, /* untested: the same */
+             "terms have more than 2^31 - 1 entries")
+         : SL_OK; /* untested: the same */
 }
 
 static void sli_sum_append(sli_summands *all, const sl_csc *A, sl_triangle triangle, double c) {

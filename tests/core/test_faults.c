@@ -318,6 +318,26 @@ static void sizes_beyond_memory_are_refused(void **state) {
     assert_int_equal(counter.calls, 0);
 }
 
+/* More new columns than 32 bits count, and the error that a restriction gives for them: no way to
+ * fix rows is tried after it. */
+static void more_entries_than_indices_are_refused(void **state) {
+    (void)state;
+    counter_t counter = counter_make();
+    const sl_options opt = options_counted(&counter);
+    sli_restriction r;
+    memset(&r, 0, sizeof r);
+    const sl_status status = sli_restriction_work(&r, (uint64_t)INT32_MAX + 1, &opt.allocator);
+    assert_int_equal(status, SL_ERR_TOO_LARGE);
+    assert_null(r.blocks[2]);
+    assert_int_equal(counter.calls, 0);
+    assert_true(sli_dirichlet_is_over(status) && !sli_dirichlet_is_over(SL_ERR_PIVOT));
+    r.n_fresh = 2;
+    SL_CHECK(sli_restriction_work(&r, 3, &opt.allocator));
+    assert_true(r.entry_column == r.entry_row + 3);
+    sli_free(&opt.allocator, r.blocks[2]);
+    COUNTER_CLEAN(&counter);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
 #if defined(SL_METIS) && !defined(SL_NO_METIS)
@@ -334,6 +354,7 @@ int main(void) {
 #endif
         cmocka_unit_test(orderings_may_lack_memory),
         cmocka_unit_test(sizes_beyond_memory_are_refused),
+        cmocka_unit_test(more_entries_than_indices_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,8 +32,9 @@ static sl_status sli_sum_check(const double *coefficients, const sl_csc *terms, 
         *entries += sli_nnz(A);
     }
     return *entries > INT32_MAX /* untested: 2^31 entries */
-               ? sli_refuse(SL_ERR_TOO_LARGE, "terms have more than 2^31 - 1 entries")
-               : SL_OK;
+               ? sli_refuse(SL_ERR_TOO_LARGE, /* untested: the same */
+                            "terms have more than 2^31 - 1 entries")
+               : SL_OK; /* untested: the same */
 }
 
 /* Appends c A. c is ignored if only patterns are summed. */

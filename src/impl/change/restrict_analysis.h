@@ -11,7 +11,7 @@ static sl_status sli_restriction_work(sli_restriction *r, uint64_t entries, cons
     sli_analysis *w = &r->w;
     sli_block b = {NULL, 0, 0};
     sl_status status =
-        entries > INT32_MAX /* untested: 2^31 entries */
+        entries > INT32_MAX
             ? sli_refuse(SL_ERR_TOO_LARGE, "more than 2^31 - 1 entries of new columns")
             : SL_OK;
     SLI_LAYOUT(&b, a, status) {

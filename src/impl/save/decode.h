@@ -144,7 +144,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     F->method = (sl_method)g->method;
     F->type = sli_storage_type_of((sl_storage)g->storage);
     if (F->type == NULL) { /* untested: all storages are there */
-        return 1;
+        return 1;          /* untested: the same */
     }
     F->null.mode = (sl_null_pivots)g->null_pivots;
     F->null.checks = (int)g->checks;

@@ -173,7 +173,7 @@ static sl_status sli_read_front(sli_reading *r) {
             return status != SL_OK ? status : sli_damaged();
         }
         if (r->F.type == NULL) { /* untested: all storages are there */
-            return sli_refuse(SL_ERR_UNSUPPORTED,
+            return sli_refuse(SL_ERR_UNSUPPORTED,                   /* untested: the same */
                               sli_storage_needs(SL_STORAGE_FLOAT)); /* untested: the same */
         }
     }
