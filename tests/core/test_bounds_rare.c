@@ -41,8 +41,8 @@ static void shifts_beyond_the_smallest_eigenvalue(void **state) {
                                   0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0};
     static const sl_int p3[4] = {0, 3, 5, 6}, i3[6] = {0, 1, 2, 1, 2, 2};
     const double part = 1.0 - 1e-13, small = ldexp(1.0, -20), square = small * small;
-    const double x3[6] = {square,  0.3125 * part * small, 0.51875 * part * square, 1.0,
-                          0.65 * part * small, square};
+    const double x3[6] = {square, 0.3125 * part * small, 0.51875 * part * square,
+                          1.0,    0.65 * part * small,   square};
     const sl_csc A[2] = {{8, 8, p8, i8, x8}, {3, 3, p3, i3, x3}};
     const double smallest[2] = {0.1, 0.3026};
     for (int k = 0; k < 2; k++) {
@@ -81,7 +81,8 @@ static void regularized_pivots_have_no_bounds(void **state) {
 }
 
 /* A tree without a null pivot before one that is centered, whose null pivot is a row of x, too. So
- * is a row of zeros, which an explicit zero joins to this tree: its x is 0. Weights of 2^-1040 have products with epsilon that are 0: eta lacks no more than these. */
+ * is a row of zeros, which an explicit zero joins to this tree: its x is 0. Weights of 2^-1040 have
+ * products with epsilon that are 0: eta lacks no more than these. */
 static void one_tree_of_two_is_centered(void **state) {
     (void)state;
     static const sl_int p[8] = {0, 2, 4, 5, 7, 9, 11, 12};

@@ -108,8 +108,8 @@ static void lost_digits_are_counted(void **state) {
                        : sl_factor_change(F, NULL, &row, &column, &delta, 1, NULL, &stats));
         SL_CHECK(sl_factor_solve(F, x, 2, b, 2, 1, NULL));
         SL_CHECK(sl_csc_residual(&A, r, 2, &eta, x, 2, b, 2, 1));
-        const double error = fmax(fabs(r[0]), fabs(r[1])) /
-                             (fabs(a[1]) * fmax(fabs(x[0]), fabs(x[1])) + 0.7);
+        const double error =
+            fmax(fabs(r[0]), fabs(r[1])) / (fabs(a[1]) * fmax(fabs(x[0]), fabs(x[1])) + 0.7);
         assert_true(error <= stats.change.drift + DBL_EPSILON * stats.factor.growth);
         assert_true(k % 2 == 0 || stats.change.drift <= 1e-11);
         sl_factor_free(F);

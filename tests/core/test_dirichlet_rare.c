@@ -1,4 +1,4 @@
-/* test_dirichlet_rare.c: fixed rows with factors that do not suit, and refactorizations that fail */
+/* test_dirichlet_rare.c: fixed rows: factors that do not suit, refactorizations that fail */
 #include "tests/lib/dirichlet.h"
 
 /* Two paths 0-1-2 and 3-4-5 of springs of 1. */
