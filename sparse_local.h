@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d755ad600aceae58
+ * FNV-1a of the lines after this comment, without the license: 0fe52962399eea9f
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40,24 +40,24 @@
  *   5760 impl/ ordering: fill-reducing orderings of a graph
  *  10409 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12643 impl/ factor: the numbers of L and D
- *  15998 impl/ solve: full and local solves
- *  17660 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19589 impl/ pivots: the order of the pivots by the values of a matrix
- *  19998 impl/ float: L and fronts in single precision
- *  20449 impl/ inverse: entries of the inverse, regions
- *  23512 impl/ change: a factor that follows changes of its matrix
- *  29581 impl/ dirichlet: rows fixed at given values
- *  30169 impl/ dirichlet: by a factor of all rows
- *  30401 impl/ io: files that are replaced only when they are complete
- *  30619 impl/ files: Matrix Market files, 64-bit indices
- *  31239 impl/ save: factors in files
- *  33236 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33918 impl/ batch: diagonals of many inverses
- *  34059 impl/ complex: complex Hermitian systems over real factors
- *  34621 impl/ complex: entries of the inverse
- *  34681 impl/ packs: the tables through which the core calls packs
- *  34730 impl/ last: undefine every internal macro
- *  35086 impl/ templates: the header includes them from itself, once for each instruction set
+ *  16000 impl/ solve: full and local solves
+ *  17662 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19591 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20000 impl/ float: L and fronts in single precision
+ *  20451 impl/ inverse: entries of the inverse, regions
+ *  23514 impl/ change: a factor that follows changes of its matrix
+ *  29589 impl/ dirichlet: rows fixed at given values
+ *  30177 impl/ dirichlet: by a factor of all rows
+ *  30409 impl/ io: files that are replaced only when they are complete
+ *  30627 impl/ files: Matrix Market files, 64-bit indices
+ *  31247 impl/ save: factors in files
+ *  33244 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33926 impl/ batch: diagonals of many inverses
+ *  34067 impl/ complex: complex Hermitian systems over real factors
+ *  34629 impl/ complex: entries of the inverse
+ *  34689 impl/ packs: the tables through which the core calls packs
+ *  34738 impl/ last: undefine every internal macro
+ *  35094 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12713,6 +12713,8 @@ typedef struct sli_history {
   double drift;
   double scale;
   double lowest;
+  double high;
+  double checked;
   double error;
   double *loss;
   unsigned char *known;
@@ -23517,8 +23519,10 @@ typedef struct sli_ranks {
   double U[SLI_TILE][SLI_TILE];
   double alpha[SLI_TILE];
   double e[SLI_TILE], magnitude[SLI_TILE];
-  double squares[SLI_TILE];
+  double unit[SLI_TILE], square[SLI_TILE];
+  double swept[SLI_TILE];
   sl_int ranks, lanes;
+  int is_mixed;
 } sli_ranks;
 
 typedef sl_int (*sli_ranks_kernel)(sli_ranks *u, const double *l, sl_int columns, const double *d,
@@ -23951,8 +23955,9 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
       F->history.known[k] &= from[k] != -1;
     }
     status = sli_reached_numbers(F, &kept, &source, started, stats);
-    F->history.scale = F->history.lowest =
-      fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
+    F->history.high = F->stats.factor.entry_max;
+    F->history.scale = F->history.lowest = F->history.checked =
+      fmin(F->history.high, F->stats.factor.pivot_max);
   }
   sli_free(&F->allocator, room.base);
   sli_free(&F->allocator, b.base);
@@ -24239,21 +24244,18 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
   double *l = u->panel + sli_panel_at(step->width, first, first);
   double *at = u->c + 2 * (ptrdiff_t)u->lanes * (first - SLI_TILE * step->first_tile);
   const sl_int k = step->column + first - SLI_TILE * step->first_tile;
-  double alpha[SLI_TILE];
-  sl_status status;
+  const sl_status status = sli_update_pivots(u, k, columns, l, w, at);
   sl_int j, r;
-  memcpy(alpha, u->state->alpha, sizeof alpha);
-  status = sli_update_pivots(u, k, columns, l, w, at);
   for (j = 0; j < columns && u->sign == 0.0 && status == SL_OK; j++) {
     if (first + j + 1 < step->width + step->below) {
       u->loss = fmax(u->loss, u->state->magnitude[j] / fabs(u->state->e[j]));
     }
   }
   if (status == SL_OK) {
-    for (r = 0; r < u->state->ranks && u->state->ranks > 1; r++) {
-      const double before = fabs(alpha[r]), now = fabs(u->state->alpha[r]);
-      const double term = (before < now ? before : now) * u->state->squares[r];
-      u->swept = term > u->swept ? term : u->swept;
+    for (j = 0; j < columns && u->state->ranks > 1; j++) {
+      if (u->state->swept[j] > u->swept * u->state->magnitude[j]) {
+        u->swept = u->state->swept[j] / u->state->magnitude[j];
+      }
     }
     sli_change_kernels_of(u->F->kernels->isa)->change[u->kind - 1](l, columns, at, w);
     for (r = 0; r < columns; r++) {
@@ -24413,6 +24415,7 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
   u->kind = sli_update_kind(count);
   u->lanes = (sl_int)1 << u->kind;
   u->state->ranks = count;
+  u->state->is_mixed = u->sign == 0.0;
   u->state->lanes = u->lanes;
   u->most = u->fall = u->top = u->entry = u->growth = 0.0;
   u->loss = u->swept = 1.0;
@@ -24439,6 +24442,8 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
       }
     }
     u->fall += u->sign * alpha > 0.0 ? 0.0 : fabs(alpha) * most;
+    u->state->unit[r] = most > 0.0 ? 1.0 / sqrt(most) : 0.0;
+    u->state->square[r] = most;
   }
   u->fall = u->sign == 0.0 ? sli_update_largest(u, count) : u->fall;
 }
@@ -24888,9 +24893,9 @@ static double sli_rank_shown(const sli_update *u) {
 static void sli_rank_note(const sli_update *u) {
   sl_factor *F = u->F;
   sl_factor_info *info = &F->stats.factor;
-  const double left = fabs(F->history.scale - u->fall);
+  const double left = fmax(F->history.scale - u->fall, u->fall - F->history.high);
   const double own = fmin(u->entry, fabs(u->entry - u->fall));
-  const int has_fallen = 16.0 * left < info->entry_max || 16.0 * own < u->entry;
+  const int has_fallen = 16.0 * left < F->history.checked || 16.0 * own < u->entry;
   const double shown = u->sign == 0.0 && has_fallen ? sli_rank_shown(u) : 0.0;
   const double least = u->sign != 0.0 ? u->top : fmax(DBL_EPSILON * F->history.scale, shown);
   const double scale = fmax(left, least), local = fmax(fmin(own, scale), least);
@@ -24908,6 +24913,8 @@ static void sli_rank_note(const sli_update *u) {
   }
   F->history.lowest = fmin(F->history.lowest, scale);
   F->history.scale = scale;
+  F->history.high = u->sign != 0.0 ? DBL_MAX : F->history.high + u->fall;
+  F->history.checked = shown > 0.0 ? scale : F->history.checked;
 }
 
 static sl_status sli_rank_passes(sli_rank *q) {
@@ -24965,7 +24972,8 @@ static sl_status sli_rank_run(sli_rank *q) {
         sli_growth_exceeded);
   }
   if (F->history.updates == 0) {
-    F->history.scale = F->history.lowest = before.factor.entry_max;
+    F->history.scale = F->history.lowest = F->history.checked = before.factor.entry_max;
+    F->history.high = F->history.drift > 0.0 ? DBL_MAX : before.factor.entry_max;
     F->history.error = 0.0;
   }
   history = F->history;
@@ -36353,16 +36361,17 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
   SLV_DECLARE(s)
   SLV_DECLARE(t)
   SLV_DECLARE(p)
-  SLV_DECLARE(squares)
-  SLV_ZERO(squares)
   SLV_NAME(change_rows)(u, l, columns, w, f, y);
   for (j = 0; j < columns; j++) {
-    double e = d[j], inverse = 1.0 / e, magnitude = fabs(e);
+    double e = d[j], inverse = 1.0 / e, magnitude = fabs(e), swept = 0.0, most = 0.0;
     SLV_ZERO(s)
     SLV_ZERO(t)
     for (r = 0; r < ranks; r++) {
       const double before = e, g = f[SLI_TILE * r + j];
       const double beta = -u->alpha[r] * g, q = g * inverse;
+      const double z = fabs(y[SLI_TILE * j + r]) * u->unit[r];
+      most = u->is_mixed && most > z ? most : z;
+      swept += fabs(u->alpha[r]) * u->square[r] * most * most;
       if (g == 0.0) {
         continue;
       }
@@ -36389,14 +36398,15 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
     }
     u->e[j] = e;
     u->magnitude[j] = magnitude;
+    u->swept[j] = swept;
     if (!(fabs(e) > 0.0)) {
       return j + 1;
     }
     inverse = -inverse;
     SLV_BROADCAST(p, &inverse)
     SLV_MULTIPLY(x, t, p)
-    SLV_LOAD(a, y + SLI_TILE * j)
     if (lanes == SLI_TILE) {
+      SLV_LOAD(a, y + SLI_TILE * j)
       SLV_STORE(c, a)
       SLV_STORE(c + SLI_TILE, x)
     } else {
@@ -36404,13 +36414,8 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
       memcpy(c, y + SLI_TILE * j, (size_t)lanes * sizeof *c);
       memcpy(c + lanes, b, (size_t)lanes * sizeof *c);
     }
-    inverse = -fabs(inverse);
-    SLV_BROADCAST(p, &inverse)
-    SLV_MULTIPLY(a, a, a)
-    SLV_FNMA(squares, a, p)
     c += 2 * lanes;
   }
-  SLV_STORE(u->squares, squares)
   return columns;
 }
 

@@ -83,16 +83,17 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
     SLV_DECLARE(s)
     SLV_DECLARE(t)
     SLV_DECLARE(p)
-    SLV_DECLARE(squares)
-    SLV_ZERO(squares)
     SLV_NAME(change_rows)(u, l, columns, w, f, y);
     for (j = 0; j < columns; j++) {
-        double e = d[j], inverse = 1.0 / e, magnitude = fabs(e);
+        double e = d[j], inverse = 1.0 / e, magnitude = fabs(e), swept = 0.0, most = 0.0;
         SLV_ZERO(s)
         SLV_ZERO(t)
         for (r = 0; r < ranks; r++) {
             const double before = e, g = f[SLI_TILE * r + j];
             const double beta = -u->alpha[r] * g, q = g * inverse;
+            const double z = fabs(y[SLI_TILE * j + r]) * u->unit[r];
+            most = u->is_mixed && most > z ? most : z;
+            swept += fabs(u->alpha[r]) * u->square[r] * most * most;
             if (g == 0.0) { /* not on the path of this vector */
                 continue;
             }
@@ -119,14 +120,15 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
         }
         u->e[j] = e;
         u->magnitude[j] = magnitude;
+        u->swept[j] = swept;
         if (!(fabs(e) > 0.0)) {
             return j + 1;
         }
         inverse = -inverse;
         SLV_BROADCAST(p, &inverse)
         SLV_MULTIPLY(x, t, p)
-        SLV_LOAD(a, y + SLI_TILE * j)
         if (lanes == SLI_TILE) {
+            SLV_LOAD(a, y + SLI_TILE * j)
             SLV_STORE(c, a)
             SLV_STORE(c + SLI_TILE, x)
         } else {
@@ -134,13 +136,8 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
             memcpy(c, y + SLI_TILE * j, (size_t)lanes * sizeof *c);
             memcpy(c + lanes, b, (size_t)lanes * sizeof *c);
         }
-        inverse = -fabs(inverse);
-        SLV_BROADCAST(p, &inverse)
-        SLV_MULTIPLY(a, a, a)
-        SLV_FNMA(squares, a, p)
         c += 2 * lanes;
     }
-    SLV_STORE(u->squares, squares)
     return columns;
 }
 

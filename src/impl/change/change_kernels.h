@@ -13,8 +13,10 @@ typedef struct sli_ranks {
     double U[SLI_TILE][SLI_TILE]; /* column by column, with a unit diagonal */
     double alpha[SLI_TILE];
     double e[SLI_TILE], magnitude[SLI_TILE]; /* new pivots, and the sums that they are made of */
-    double squares[SLI_TILE];                /* of each vector: the sum of y^2 / |e| */
+    double unit[SLI_TILE], square[SLI_TILE]; /* 1 / the largest entry of a vector, and its square */
+    double swept[SLI_TILE]; /* of each pivot: the sum of alpha y^2 with y by the old L, at most */
     sl_int ranks, lanes;
+    int is_mixed; /* pivots have both signs: f(r) has the errors of the vectors before it, too */
 } sli_ranks;
 
 /* The pivots of one column tile l: changes u and fills c, as sli_change_kernel takes it. d: the

@@ -326,15 +326,15 @@ static double sli_rank_shown(const sli_update *u) {
 /* Updates growth and drift after a pass. They are relative to the largest |a|: where that becomes
  * less than it ever was they rise. Where it rises and falls again, the errors that were made above
  * remain, by rows if all pivots have one sign. Only a bound from below is known of it: a pivot, if
- * all have one sign, and the difference of the bound before and what the pass changes. That falls
- * also where |a| doubles: once it is a small part of the first one, L D L' shows more. The pass is
+ * all have one sign, and the difference of a bound before and what the pass changes. That falls
+ * also where |a| doubles: once it is a small part of what it was, L D L' shows more. The pass is
  * compared with its own columns, as other components may be larger. */
 static void sli_rank_note(const sli_update *u) {
     sl_factor *F = u->F;
     sl_factor_info *info = &F->stats.factor;
-    const double left = fabs(F->history.scale - u->fall);
+    const double left = fmax(F->history.scale - u->fall, u->fall - F->history.high);
     const double own = fmin(u->entry, fabs(u->entry - u->fall));
-    const int has_fallen = 16.0 * left < info->entry_max || 16.0 * own < u->entry;
+    const int has_fallen = 16.0 * left < F->history.checked || 16.0 * own < u->entry;
     const double shown = u->sign == 0.0 && has_fallen ? sli_rank_shown(u) : 0.0;
     const double least = u->sign != 0.0 ? u->top : fmax(DBL_EPSILON * F->history.scale, shown);
     const double scale = fmax(left, least), local = fmax(fmin(own, scale), least);
@@ -352,6 +352,8 @@ static void sli_rank_note(const sli_update *u) {
     }
     F->history.lowest = fmin(F->history.lowest, scale);
     F->history.scale = scale;
+    F->history.high = u->sign != 0.0 ? DBL_MAX : F->history.high + u->fall;
+    F->history.checked = shown > 0.0 ? scale : F->history.checked;
 }
 
 /* Runs all passes. Where a trial of several vectors was close it changes nothing and asks for a
@@ -412,7 +414,8 @@ static sl_status sli_rank_run(sli_rank *q) {
                            sli_growth_exceeded);
     }
     if (F->history.updates == 0) {
-        F->history.scale = F->history.lowest = before.factor.entry_max;
+        F->history.scale = F->history.lowest = F->history.checked = before.factor.entry_max;
+        F->history.high = F->history.drift > 0.0 ? DBL_MAX : before.factor.entry_max;
         F->history.error = 0.0;
     }
     history = F->history;

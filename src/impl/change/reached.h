@@ -144,8 +144,9 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
             F->history.known[k] &= from[k] != -1; /* it loses what it has lost */
         }
         status = sli_reached_numbers(F, &kept, &source, started, stats);
-        F->history.scale = F->history.lowest =
-            fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
+        F->history.high = F->stats.factor.entry_max;
+        F->history.scale = F->history.lowest = F->history.checked =
+            fmin(F->history.high, F->stats.factor.pivot_max);
     }
     sli_free(&F->allocator, room.base);
     sli_free(&F->allocator, b.base);

@@ -10,11 +10,8 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
     double *l = u->panel + sli_panel_at(step->width, first, first);
     double *at = u->c + 2 * (ptrdiff_t)u->lanes * (first - SLI_TILE * step->first_tile);
     const sl_int k = step->column + first - SLI_TILE * step->first_tile;
-    double alpha[SLI_TILE];
-    sl_status status;
+    const sl_status status = sli_update_pivots(u, k, columns, l, w, at);
     sl_int j, r;
-    memcpy(alpha, u->state->alpha, sizeof alpha);
-    status = sli_update_pivots(u, k, columns, l, w, at);
     for (j = 0; j < columns && u->sign == 0.0 && status == SL_OK; j++) {
         if (first + j + 1 < step->width + step->below) {
             u->loss = fmax(u->loss, u->state->magnitude[j] / fabs(u->state->e[j]));
@@ -22,12 +19,11 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
     }
     if (status == SL_OK) {
         /* a vector adds alpha f^2 to a pivot, where f is y or, beyond the first vector, a
-         * difference of what the old L has made of W: it has the digits of the larger y. Where a
-         * pivot grows alpha falls, before f cancels; where it falls, f was large before */
-        for (r = 0; r < u->state->ranks && u->state->ranks > 1; r++) {
-            const double before = fabs(alpha[r]), now = fabs(u->state->alpha[r]);
-            const double term = (before < now ? before : now) * u->state->squares[r];
-            u->swept = term > u->swept ? term : u->swept;
+         * difference of what the old L has made of W: it has the digits of the larger y */
+        for (j = 0; j < columns && u->state->ranks > 1; j++) {
+            if (u->state->swept[j] > u->swept * u->state->magnitude[j]) {
+                u->swept = u->state->swept[j] / u->state->magnitude[j];
+            }
         }
         sli_change_kernels_of(u->F->kernels->isa)->change[u->kind - 1](l, columns, at, w);
         /* the kernel has changed the part above them, too; memset is slow for a few bytes */
@@ -199,6 +195,7 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
     u->kind = sli_update_kind(count);
     u->lanes = (sl_int)1 << u->kind;
     u->state->ranks = count;
+    u->state->is_mixed = u->sign == 0.0;
     u->state->lanes = u->lanes;
     u->most = u->fall = u->top = u->entry = u->growth = 0.0;
     u->loss = u->swept = 1.0;
@@ -225,6 +222,8 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
             }
         }
         u->fall += u->sign * alpha > 0.0 ? 0.0 : fabs(alpha) * most;
+        u->state->unit[r] = most > 0.0 ? 1.0 / sqrt(most) : 0.0;
+        u->state->square[r] = most;
     }
     u->fall = u->sign == 0.0 ? sli_update_largest(u, count) : u->fall;
 }

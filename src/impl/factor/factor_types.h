@@ -97,6 +97,8 @@ typedef struct sli_history {
     double drift;   /* the rounding errors that they have added, relative to the largest entry */
     double scale;   /* of the matrix as they have changed it: the largest entry, or less */
     double lowest;  /* the least that it has been */
+    double high;    /* the largest entry, or more */
+    double checked; /* `scale` when L D L' was last asked for it */
     double error;   /* the rounding errors that changes have added: epsilon times their scales */
     /* by rows, from the first change on where all pivots have one sign (change/update_loss.h): */
     double *loss;         /* n: the sum of all numbers that a pivot was computed from */
