@@ -123,14 +123,14 @@ static void exact_free(exact_t *e) {
     gen_matrix_free(&e->M);
 }
 
-/* Full solves, half solves and products for 1 to 9 right-hand sides. */
+/* Full solves, half solves and products for 1 to 9 right-hand sides, and for 16 and more. */
 static void exact_solves(const exact_t *e) {
     static const unsigned parts[5] = {SL_PART_P | SL_PART_L, SL_PART_LT | SL_PART_PT, SL_PART_L,
                                       SL_PART_LT, SL_PART_P | SL_PART_L | SL_PART_SQRT_D};
     const size_t n = (size_t)e->n;
-    double *B = test_reals(9 * n), *X = test_reals(9 * n), *Y = test_reals(9 * n);
-    gen_reals(B, 9 * n, 3);
-    for (sl_int nrhs = 1; nrhs <= 9; nrhs++) {
+    double *B = test_reals(17 * n), *X = test_reals(17 * n), *Y = test_reals(17 * n);
+    gen_reals(B, 17 * n, 3);
+    for (sl_int nrhs = 1; nrhs <= 17; nrhs += nrhs == 9 ? 7 : 1) {
         const size_t count = n * (size_t)nrhs;
         SL_CHECK(sl_factor_solve(e->F[0], X, n, B, n, nrhs, NULL));
         SL_CHECK(sl_factor_solve(e->F[1], Y, n, B, n, nrhs, NULL));
@@ -188,10 +188,10 @@ static void exact_inverses(const exact_t *e) {
 static void an_exact_factor_gives_the_same_bits(void **state) {
     (void)state;
     const isa_list_t isas = isas_with_storages();
-    static const sl_int sizes[5] = {1, 7, 40, 90, 150};
-    for (int k = 0; k < 10 * isas.count; k++) {
+    static const sl_int sizes[6] = {1, 7, 8, 40, 90, 150};
+    for (int k = 0; k < 12 * isas.count; k++) {
         for (sl_int dense = 0; dense <= 40; dense += 9) {
-            exact_t e = exact_make(sizes[k % 5], dense, floats[k / 5 % 2], isas.isa[k / 10]);
+            exact_t e = exact_make(sizes[k % 6], dense, floats[k / 6 % 2], isas.isa[k / 12]);
             exact_solves(&e);
             exact_inverses(&e);
             exact_free(&e);
