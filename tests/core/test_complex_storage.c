@@ -67,6 +67,39 @@ static void l_is_a_factor_of_blocks(void **state) {
     pair_free(&y);
 }
 
+/* L does not depend on the scale, also where pivots have no reciprocal. */
+static void pivots_without_reciprocal_are_divided_by(void **state) {
+    (void)state;
+    const isa_list_t isas = isas_present();
+    for (int k = 0; k < 4 * isas.count; k++) {
+        pair_t y = pair_make(k % 2 ? GEN_DENSE : GEN_GRID2, k % 2 ? 30 : 100, 0, isas.isa[k / 4]);
+        const size_t n = (size_t)y.n, entries = (size_t)y.A.p[y.n];
+        const int power = k / 2 % 2 ? 1000 : -1000;
+        double *x = test_reals(entries), *D = test_reals(n);
+        sl_csc A = y.A;
+        A.x = x;
+        for (size_t e = 0; e < entries; e++) {
+            x[e] = ldexp(y.A.x[e], power);
+        }
+        double *before = lower_of(y.F[1], y.n);
+        memcpy(D, sl_factor_view(y.F[1]).D, n * sizeof *D);
+        SL_CHECK(sl_factor_refactor(y.F[1], &A, NULL));
+        double *after = lower_of(y.F[1], y.n);
+        for (size_t e = 0; e < n * n; e++) {
+            assert_true(fabs(after[e] - before[e]) <= 1e-13);
+        }
+        for (size_t j = 0; j < n; j++) {
+            const double d = ldexp(sl_factor_view(y.F[1]).D[j], -power);
+            assert_true(fabs(d - D[j]) <= 1e-12 * fabs(D[j]));
+        }
+        free(before);
+        free(after);
+        free(D);
+        free(x);
+        pair_free(&y);
+    }
+}
+
 /* Any number of right-hand sides solve to rounding; local solves have the bits of full ones, also
  * of sets that divide pairs. */
 static void check_solves(const pair_t *y, sl_isa isa) {
@@ -239,6 +272,7 @@ static void restrictions_are_complex(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(l_is_a_factor_of_blocks),
+        cmocka_unit_test(pivots_without_reciprocal_are_divided_by),
         cmocka_unit_test(solves_are_exact_and_local),
         cmocka_unit_test(other_calls_agree),
         cmocka_unit_test(memory_is_halved),
