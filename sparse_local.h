@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 0fe52962399eea9f
+ * FNV-1a of the lines after this comment, without the license: eb3a278a8b1e3c28
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,25 +39,25 @@
  *   5131 impl/ matrix: sparse matrices of the caller and of the library
  *   5760 impl/ ordering: fill-reducing orderings of a graph
  *  10409 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12643 impl/ factor: the numbers of L and D
- *  16000 impl/ solve: full and local solves
- *  17662 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19591 impl/ pivots: the order of the pivots by the values of a matrix
- *  20000 impl/ float: L and fronts in single precision
- *  20451 impl/ inverse: entries of the inverse, regions
- *  23514 impl/ change: a factor that follows changes of its matrix
- *  29589 impl/ dirichlet: rows fixed at given values
- *  30177 impl/ dirichlet: by a factor of all rows
- *  30409 impl/ io: files that are replaced only when they are complete
- *  30627 impl/ files: Matrix Market files, 64-bit indices
- *  31247 impl/ save: factors in files
- *  33244 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33926 impl/ batch: diagonals of many inverses
- *  34067 impl/ complex: complex Hermitian systems over real factors
- *  34629 impl/ complex: entries of the inverse
- *  34689 impl/ packs: the tables through which the core calls packs
- *  34738 impl/ last: undefine every internal macro
- *  35094 impl/ templates: the header includes them from itself, once for each instruction set
+ *  12642 impl/ factor: the numbers of L and D
+ *  15999 impl/ solve: full and local solves
+ *  17661 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19590 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19999 impl/ float: L and fronts in single precision
+ *  20450 impl/ inverse: entries of the inverse, regions
+ *  23513 impl/ change: a factor that follows changes of its matrix
+ *  29588 impl/ dirichlet: rows fixed at given values
+ *  30176 impl/ dirichlet: by a factor of all rows
+ *  30408 impl/ io: files that are replaced only when they are complete
+ *  30626 impl/ files: Matrix Market files, 64-bit indices
+ *  31246 impl/ save: factors in files
+ *  33243 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33925 impl/ batch: diagonals of many inverses
+ *  34066 impl/ complex: complex Hermitian systems over real factors
+ *  34628 impl/ complex: entries of the inverse
+ *  34688 impl/ packs: the tables through which the core calls packs
+ *  34737 impl/ last: undefine every internal macro
+ *  35093 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -8028,8 +8028,8 @@ SLI_ALWAYS_INLINE int sli_small_run_body(sli_small *m, const sli_order_job *job,
     return 0;
   }
   while (at < m->n) {
-    at = sli_small_eliminate(m, sli_small_best(m), words, /* branches untested: the same */
-        job->perm, at);
+    at = sli_small_eliminate(m, sli_small_best(m), words,
+        job->perm, at); /* branches untested: the same */
   }
   return 1;
 }
@@ -8858,8 +8858,8 @@ static sl_int sli_thin_turn(sli_thin *t, sli_thin_part *p, sl_int cut, int64_t l
   memcpy(t->kept, t->queue + p->first, size * sizeof(sl_int));
   memcpy(scratch, t->begin + p->first, levels * sizeof(sl_int));
   memcpy(scratch + size, t->ahead + p->first, levels * sizeof(sl_int));
-  if (sli_thin_renew(t, p, t->queue[p->first]) &&
-      sli_thin_renew(t, p, t->queue[p->end - 1])) { /* branches untested: it is connected */
+  if (sli_thin_renew(t, p, t->queue[p->first]) && /* branches untested: it is connected */
+      sli_thin_renew(t, p, t->queue[p->end - 1])) {
     const sl_int turned = sli_thin_cut(t, p, &cost);
     if (cost <= least / 10 * 9) {
       return turned;
@@ -11259,7 +11259,7 @@ SLI_ALWAYS_INLINE void sli_structure_climb(sli_structure_super *all, sli_structu
     sli_structure_add(v, k);
     v = has_parts && up->bottom != v->bottom /* branches untested: the same */
         ? all + up->bottom
-        : up;
+        : up; /* branches untested: the same */
   }
 }
 
@@ -11280,9 +11280,8 @@ SLI_ALWAYS_INLINE void sli_structure_rows(const sli_analysis *w, const sl_symbol
       const sl_int column = row[0];
       sli_structure_super *v = all + super_of[column];
       sl_int e;
-      sli_structure_climb(all,
-          has_parts ? all + v->bottom : v, /* branches untested: the same */
-          k, rows, relative, has_parts);
+      sli_structure_climb(all, /* branches untested: the same */
+          has_parts ? all + v->bottom : v, k, rows, relative, has_parts);
       e = v->next++;
       from[e] = row[1];
       to[e] = v->to + SLI_TILE * (sl_off)column;
@@ -11538,9 +11537,9 @@ static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int
     const sl_int s = m >= p->n_tasks ? p->top[m - p->n_tasks] : p->last[m];
     sl_off at;
     if (S->super_parent[s] == -1) {
-      p->stack_begin[s] = p->stack + (side[s] == 0 /* branches untested: of a root */
-          ? 0
-          : subtree[s] - size[s]);
+      p->stack_begin[s] =
+        p->stack +
+        (side[s] == 0 ? 0 : subtree[s] - size[s]); /* branches untested: of a root */
       p->stack += subtree[s];
     }
     if (m < p->n_tasks || S->first_descendant[s] == s) {
@@ -15789,8 +15788,8 @@ SLI_COLD static void sli_factor_suspect(sl_factor *F, const sli_source *from,
   sl_int *last = NULL;
   const sl_int count = sli_null_suspects_find(F, from, &last, failure);
   sli_factor_clear_gaps(F);
-  if (failure->status == SL_OK &&
-      sli_factor_eliminate(F, from, failure) == SL_OK) { /* branches untested: as before */
+  if (failure->status == SL_OK && /* branches untested: as before */
+      sli_factor_eliminate(F, from, failure) == SL_OK) {
     sli_suspects_clear(F);
     if (count > 0) {
       (void)sli_lasts_judge(F, last, count, failure);

@@ -204,9 +204,9 @@ static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int
         const sl_int s = m >= p->n_tasks ? p->top[m - p->n_tasks] : p->last[m];
         sl_off at;
         if (S->super_parent[s] == -1) {
-            p->stack_begin[s] = p->stack + (side[s] == 0 /* branches untested: of a root */
-                                                ? 0
-                                                : subtree[s] - size[s]);
+            p->stack_begin[s] =
+                p->stack +
+                (side[s] == 0 ? 0 : subtree[s] - size[s]); /* branches untested: of a root */
             p->stack += subtree[s];
         }
         if (m < p->n_tasks || S->first_descendant[s] == s) {

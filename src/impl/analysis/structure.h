@@ -94,7 +94,7 @@ SLI_ALWAYS_INLINE void sli_structure_climb(sli_structure_super *all, sli_structu
         sli_structure_add(v, k);
         v = has_parts && up->bottom != v->bottom /* branches untested: the same */
                 ? all + up->bottom
-                : up;
+                : up; /* branches untested: the same */
     }
 }
 
@@ -118,9 +118,8 @@ SLI_ALWAYS_INLINE void sli_structure_rows(const sli_analysis *w, const sl_symbol
             const sl_int column = row[0];
             sli_structure_super *v = all + super_of[column];
             sl_int e;
-            sli_structure_climb(all,
-                                has_parts ? all + v->bottom : v, /* branches untested: the same */
-                                k, rows, relative, has_parts);
+            sli_structure_climb(all, /* branches untested: the same */
+                                has_parts ? all + v->bottom : v, k, rows, relative, has_parts);
             e = v->next++;
             from[e] = row[1];
             to[e] = v->to + SLI_TILE * (sl_off)column;

@@ -220,9 +220,9 @@ SLI_COLD static void sli_factor_suspect(sl_factor *F, const sli_source *from,
     sl_int *last = NULL;
     const sl_int count = sli_null_suspects_find(F, from, &last, failure);
     sli_factor_clear_gaps(F);
-    if (failure->status == SL_OK &&
-        sli_factor_eliminate(F, from, failure) == SL_OK) { /* branches untested: as before */
-        sli_suspects_clear(F);                             /* they have been judged */
+    if (failure->status == SL_OK && /* branches untested: as before */
+        sli_factor_eliminate(F, from, failure) == SL_OK) {
+        sli_suspects_clear(F); /* they have been judged */
         if (count > 0) {
             (void)sli_lasts_judge(F, last, count, failure);
         }

@@ -164,8 +164,8 @@ SLI_ALWAYS_INLINE int sli_small_run_body(sli_small *m, const sli_order_job *job,
         return 0;
     }
     while (at < m->n) {
-        at = sli_small_eliminate(m, sli_small_best(m), words, /* branches untested: the same */
-                                 job->perm, at);
+        at = sli_small_eliminate(m, sli_small_best(m), words,
+                                 job->perm, at); /* branches untested: the same */
     }
     return 1;
 }

@@ -221,8 +221,8 @@ static sl_int sli_thin_turn(sli_thin *t, sli_thin_part *p, sl_int cut, int64_t l
     memcpy(t->kept, t->queue + p->first, size * sizeof(sl_int));
     memcpy(scratch, t->begin + p->first, levels * sizeof(sl_int));
     memcpy(scratch + size, t->ahead + p->first, levels * sizeof(sl_int));
-    if (sli_thin_renew(t, p, t->queue[p->first]) &&
-        sli_thin_renew(t, p, t->queue[p->end - 1])) { /* branches untested: it is connected */
+    if (sli_thin_renew(t, p, t->queue[p->first]) && /* branches untested: it is connected */
+        sli_thin_renew(t, p, t->queue[p->end - 1])) {
         const sl_int turned = sli_thin_cut(t, p, &cost);
         if (cost <= least / 10 * 9) {
             return turned;
