@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: eb3a278a8b1e3c28
+ * FNV-1a of the lines after this comment, without the license: edf49a4af1a289f3
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -46,18 +46,18 @@
  *  19999 impl/ float: L and fronts in single precision
  *  20450 impl/ inverse: entries of the inverse, regions
  *  23513 impl/ change: a factor that follows changes of its matrix
- *  29588 impl/ dirichlet: rows fixed at given values
- *  30176 impl/ dirichlet: by a factor of all rows
- *  30408 impl/ io: files that are replaced only when they are complete
- *  30626 impl/ files: Matrix Market files, 64-bit indices
- *  31246 impl/ save: factors in files
- *  33243 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33925 impl/ batch: diagonals of many inverses
- *  34066 impl/ complex: complex Hermitian systems over real factors
- *  34628 impl/ complex: entries of the inverse
- *  34688 impl/ packs: the tables through which the core calls packs
- *  34737 impl/ last: undefine every internal macro
- *  35093 impl/ templates: the header includes them from itself, once for each instruction set
+ *  29590 impl/ dirichlet: rows fixed at given values
+ *  30179 impl/ dirichlet: by a factor of all rows
+ *  30411 impl/ io: files that are replaced only when they are complete
+ *  30629 impl/ files: Matrix Market files, 64-bit indices
+ *  31249 impl/ save: factors in files
+ *  33246 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33928 impl/ batch: diagonals of many inverses
+ *  34069 impl/ complex: complex Hermitian systems over real factors
+ *  34631 impl/ complex: entries of the inverse
+ *  34691 impl/ packs: the tables through which the core calls packs
+ *  34740 impl/ last: undefine every internal macro
+ *  35096 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -25050,7 +25050,7 @@ static sl_status sli_rank_run_logged(sli_rank *q, const sli_stage *stages, int c
   const int is_counted = q->count > 0 && q->u.sign != 0.0;
   sl_status status = is_counted ? sli_loss_begin(q->u.F) : SL_OK;
   status = status == SL_OK ? sli_rank_run(q) : status;
-  if (q->needs_log && !q->has_log) {
+  if (q->needs_log && !q->has_log) { /* branches untested: no log is asked for twice */
     status = sli_work_stages(W, stages, count, q);
     status = status == SL_OK ? sli_rank_run(q) : status;
   }
@@ -26711,7 +26711,9 @@ SLI_COLD static double sli_pins_least(const sli_pins_solve *w, sl_int k, sl_int 
     root = S->super_parent[root];
   }
   s = sli_reach_step_of(&w->q->forward, S->super_first[root + 1] - 1);
-  return s == -1 || !(largest > 0.0) ? 0.0 : w->forces[(ptrdiff_t)s * w->lanes + r] / largest;
+  return s == -1 || !(largest > 0.0) /* branches untested: without pivots no pin is off */
+         ? 0.0
+         : w->forces[(ptrdiff_t)s * w->lanes + r] / largest;
 }
 
 static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
@@ -30141,7 +30143,8 @@ SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx
   if (status != SL_OK || nrhs == 0 || D->n == 0) {
     return status;
   }
-  if (D->is_stale || (D->pins == NULL && !D->F->is_valid)) {
+  if (D->is_stale ||
+      (D->pins == NULL && !D->F->is_valid)) { /* branches untested: then it is stale, too */
     return sli_refuse(SL_ERR_STALE, "the last sl_dirichlet_refactor has failed");
   }
   own = sli_work_own(&D->allocator);
@@ -31315,7 +31318,7 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
 }
 
 static void sli_unmap(const void *bytes, size_t size) {
-  if (bytes != NULL) {
+  if (bytes != NULL) { /* branches untested: it has been mapped */
 #if defined(SLI_MMAP)
     munmap((void *)(uintptr_t)bytes, size);
 #elif defined(SLI_MAP_VIEW)

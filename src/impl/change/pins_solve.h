@@ -102,7 +102,9 @@ SLI_COLD static double sli_pins_least(const sli_pins_solve *w, sl_int k, sl_int 
         root = S->super_parent[root];
     }
     s = sli_reach_step_of(&w->q->forward, S->super_first[root + 1] - 1);
-    return s == -1 || !(largest > 0.0) ? 0.0 : w->forces[(ptrdiff_t)s * w->lanes + r] / largest;
+    return s == -1 || !(largest > 0.0) /* branches untested: without pivots no pin is off */
+               ? 0.0
+               : w->forces[(ptrdiff_t)s * w->lanes + r] / largest;
 }
 
 /* Is C' x = g, for the equalities whose rows are all in the vector? */

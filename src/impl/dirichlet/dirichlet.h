@@ -409,7 +409,8 @@ SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx
     if (status != SL_OK || nrhs == 0 || D->n == 0) {
         return status;
     }
-    if (D->is_stale || (D->pins == NULL && !D->F->is_valid)) {
+    if (D->is_stale ||
+        (D->pins == NULL && !D->F->is_valid)) { /* branches untested: then it is stale, too */
         return sli_refuse(SL_ERR_STALE, "the last sl_dirichlet_refactor has failed");
     }
     own = sli_work_own(&D->allocator);
