@@ -1,63 +1,63 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: edf49a4af1a289f3
+ * FNV-1a of the lines after this comment, without the license: 94688252bd0c4c17
  * The comments of the implementation are in src/impl.
  *
  * Contents
  *     65 intro.h      what the library does, a quick start, which call for which question, references
- *    193 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    237 config.h     macros that a user may define before the include, the version, and the integer types
- *    320 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    500 options.h    options of all calls, threads, and the allocator
- *    628 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    871 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    972 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1047 factor.h     the numerical factorization P A P' = L D L'
- *   1172 solve.h      full solves, and the workspace of all solves
- *   1268 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1344 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
- *   1435 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1528 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1567 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1668 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1745 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1830 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1922 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2028 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2068 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2188 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2219 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2400 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2500 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2607 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2648 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2734 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2841 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2875 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2952 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2991 impl/ base: the compiler, status, memory, sorting, threads
- *   4213 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5131 impl/ matrix: sparse matrices of the caller and of the library
- *   5760 impl/ ordering: fill-reducing orderings of a graph
- *  10409 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12642 impl/ factor: the numbers of L and D
- *  15999 impl/ solve: full and local solves
- *  17661 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19590 impl/ pivots: the order of the pivots by the values of a matrix
- *  19999 impl/ float: L and fronts in single precision
- *  20450 impl/ inverse: entries of the inverse, regions
- *  23513 impl/ change: a factor that follows changes of its matrix
- *  29590 impl/ dirichlet: rows fixed at given values
- *  30179 impl/ dirichlet: by a factor of all rows
- *  30411 impl/ io: files that are replaced only when they are complete
- *  30629 impl/ files: Matrix Market files, 64-bit indices
- *  31249 impl/ save: factors in files
- *  33246 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33928 impl/ batch: diagonals of many inverses
- *  34069 impl/ complex: complex Hermitian systems over real factors
- *  34631 impl/ complex: entries of the inverse
- *  34691 impl/ packs: the tables through which the core calls packs
- *  34740 impl/ last: undefine every internal macro
- *  35096 impl/ templates: the header includes them from itself, once for each instruction set
+ *    194 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    238 config.h     macros that a user may define before the include, the version, and the integer types
+ *    321 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    501 options.h    options of all calls, threads, and the allocator
+ *    629 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    873 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    974 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1049 factor.h     the numerical factorization P A P' = L D L'
+ *   1174 solve.h      full solves, and the workspace of all solves
+ *   1270 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1346 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
+ *   1437 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1530 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1569 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1670 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1747 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1832 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1924 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2030 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2070 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2190 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2221 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2402 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2502 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2610 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2651 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2737 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2845 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2879 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2956 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2995 impl/ base: the compiler, status, memory, sorting, threads
+ *   4217 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5135 impl/ matrix: sparse matrices of the caller and of the library
+ *   5764 impl/ ordering: fill-reducing orderings of a graph
+ *  10413 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12646 impl/ factor: the numbers of L and D
+ *  16003 impl/ solve: full and local solves
+ *  17665 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19594 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20003 impl/ float: L and fronts in single precision
+ *  20454 impl/ inverse: entries of the inverse, regions
+ *  23517 impl/ change: a factor that follows changes of its matrix
+ *  29600 impl/ dirichlet: rows fixed at given values
+ *  30189 impl/ dirichlet: by a factor of all rows
+ *  30421 impl/ io: files that are replaced only when they are complete
+ *  30639 impl/ files: Matrix Market files, 64-bit indices
+ *  31259 impl/ save: factors in files
+ *  33256 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33938 impl/ batch: diagonals of many inverses
+ *  34079 impl/ complex: complex Hermitian systems over real factors
+ *  34641 impl/ complex: entries of the inverse
+ *  34701 impl/ packs: the tables through which the core calls packs
+ *  34750 impl/ last: undefine every internal macro
+ *  35106 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -146,7 +146,8 @@
  * Threads      An analysis, a plan, a selected inverse and a region are immutable after their
  *              creation; a factor is const during solves. Any number of threads may solve with one
  *              factor, each with its own sl_work. A call needs exclusive use of objects and arrays
- *              that it takes without const; others it reads, as any number of calls may at once.
+ *              that it takes without const, but for one that it frees; others it reads, as any
+ *              number of calls may at once.
  * Manual       tools/docs/NAME.md in the repository, and the page NAME.html that make docs writes:
  *              details and measurements that a contract leaves out.
  */
@@ -754,7 +755,8 @@ typedef struct sl_change_info {
     sl_off entries;          /* doubles of L that rank-one changes read and write */
     sl_off updates;          /* rank-one changes since the last complete factorization */
     /* an estimate of the backward error that they have added: the sum over all passes of epsilon
-     * times the largest number a pivot was computed from, relative to the largest |a| */
+     * times the largest number a pivot was computed from, relative to the largest |a|; more where
+     * the rows or the vectors of a call have lost more (tools/docs/changes.md) */
     double drift;
     double flops_update;   /* of the rank-one changes, about; 0 if F cannot be changed so */
     /* of sl_factor_refactor_changed, counted up to the cost of the cheapest way; of
@@ -1576,9 +1578,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_
  *
  *  F      [in]      a factor of A, or of a matrix close to A.
  *  A      [in]      the matrix, with the analyzed pattern.
- *  X      [in,out]  n x nrhs, leading dimension ldx: solutions from sl_factor_solve, or any other
- *                   start; must not overlap B. On errors other than SL_ERR_INACCURATE untouched.
- *  B      [in]      n x nrhs, leading dimension ldb.
+ *  X      [in,out]  n x nrhs, column-major: solutions from sl_factor_solve, or any other start;
+ *                   must not overlap B. On errors other than SL_ERR_INACCURATE untouched.
+ *  B      [in]      n x nrhs, column-major.
  *  steps  [in]      maximum number of corrections per column, 0 or more; 0 only measures, and does
  *                   not return SL_ERR_INACCURATE.
  *  stats  [out]     refine.
@@ -2572,7 +2574,8 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, const sl_int *indice
 /** Takes the present numbers of the factor, after it has changed.
  *
  *  stats  [out]  pins; error.row.
- *  Returns  as sl_pins_add; SL_ERR_STALE. On error solves are refused until a later call succeeds.
+ *  Returns  as sl_pins_add; SL_ERR_STALE: failed factor. On error solves are refused until a later
+ *           call succeeds.
  *  Cost     that of sl_pins_add for all pins.
  *  Threads  exclusive use of P; F is read.
  */
@@ -2813,6 +2816,7 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_rows(sl_int *out, const sl_int *rows,
  *  S      [in]   analysis of the real matrix, 2n columns; kept by the plan.
  *  bset, nb, xset, nx  [in]  as in sl_plan_create, in complex rows 0..n-1. B and X of
  *                sl_plan_solve then have 2 nb and 2 nx doubles for each right-hand side.
+ *  opt    [in]   allocator, region.
  *  stats  [out]  as in sl_plan_create; error.row is a complex row.
  *  Returns  as sl_plan_create; SL_ERR_ARGUMENT also if S has an odd number of columns.
  *  Cost, Threads  as sl_plan_create.
@@ -24252,8 +24256,9 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
   }
   if (status == SL_OK) {
     for (j = 0; j < columns && u->state->ranks > 1; j++) {
-      if (u->state->swept[j] > u->swept * u->state->magnitude[j]) {
-        u->swept = u->state->swept[j] / u->state->magnitude[j];
+      const double sum = u->state->magnitude[j] * (double)u->state->ranks;
+      if (u->state->swept[j] > u->swept * sum) {
+        u->swept = u->state->swept[j] / sum;
       }
     }
     sli_change_kernels_of(u->F->kernels->isa)->change[u->kind - 1](l, columns, at, w);
@@ -24889,6 +24894,11 @@ static double sli_rank_shown(const sli_update *u) {
   return most;
 }
 
+static double sli_rank_swept(const sli_update *u) {
+  const double most = 8.0 * (double)sli_max(u->state->ranks, 1);
+  return u->sign != 0.0 ? sqrt(u->swept) * fmin(u->swept, most) : u->swept;
+}
+
 static void sli_rank_note(const sli_update *u) {
   sl_factor *F = u->F;
   sl_factor_info *info = &F->stats.factor;
@@ -24900,7 +24910,7 @@ static void sli_rank_note(const sli_update *u) {
   const double scale = fmax(left, least), local = fmax(fmin(own, scale), least);
   const double rise = scale > 0.0 ? fmax(1.0, F->history.lowest / scale) : 1.0;
   const double growth = local > 0.0 ? u->growth / local : 0.0;
-  const double swept = u->sign != 0.0 ? sqrt(u->swept) : u->swept;
+  const double swept = sli_rank_swept(u);
   const double most = local > 0.0 ? u->most / local * u->loss * swept : 0.0;
   info->growth =
     u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0)) : fmax(info->growth * rise, growth);

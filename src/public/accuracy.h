@@ -15,9 +15,9 @@
  *
  *  F      [in]      a factor of A, or of a matrix close to A.
  *  A      [in]      the matrix, with the analyzed pattern.
- *  X      [in,out]  n x nrhs, leading dimension ldx: solutions from sl_factor_solve, or any other
- *                   start; must not overlap B. On errors other than SL_ERR_INACCURATE untouched.
- *  B      [in]      n x nrhs, leading dimension ldb.
+ *  X      [in,out]  n x nrhs, column-major: solutions from sl_factor_solve, or any other start;
+ *                   must not overlap B. On errors other than SL_ERR_INACCURATE untouched.
+ *  B      [in]      n x nrhs, column-major.
  *  steps  [in]      maximum number of corrections per column, 0 or more; 0 only measures, and does
  *                   not return SL_ERR_INACCURATE.
  *  stats  [out]     refine.

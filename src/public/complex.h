@@ -85,6 +85,7 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_rows(sl_int *out, const sl_int *rows,
  *  S      [in]   analysis of the real matrix, 2n columns; kept by the plan.
  *  bset, nb, xset, nx  [in]  as in sl_plan_create, in complex rows 0..n-1. B and X of
  *                sl_plan_solve then have 2 nb and 2 nx doubles for each right-hand side.
+ *  opt    [in]   allocator, region.
  *  stats  [out]  as in sl_plan_create; error.row is a complex row.
  *  Returns  as sl_plan_create; SL_ERR_ARGUMENT also if S has an odd number of columns.
  *  Cost, Threads  as sl_plan_create.

@@ -84,7 +84,8 @@
  * Threads      An analysis, a plan, a selected inverse and a region are immutable after their
  *              creation; a factor is const during solves. Any number of threads may solve with one
  *              factor, each with its own sl_work. A call needs exclusive use of objects and arrays
- *              that it takes without const; others it reads, as any number of calls may at once.
+ *              that it takes without const, but for one that it frees; others it reads, as any
+ *              number of calls may at once.
  * Manual       tools/docs/NAME.md in the repository, and the page NAME.html that make docs writes:
  *              details and measurements that a contract leaves out.
  */

@@ -78,7 +78,8 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, const sl_int *indice
 /** Takes the present numbers of the factor, after it has changed.
  *
  *  stats  [out]  pins; error.row.
- *  Returns  as sl_pins_add; SL_ERR_STALE. On error solves are refused until a later call succeeds.
+ *  Returns  as sl_pins_add; SL_ERR_STALE: failed factor. On error solves are refused until a later
+ *           call succeeds.
  *  Cost     that of sl_pins_add for all pins.
  *  Threads  exclusive use of P; F is read.
  */

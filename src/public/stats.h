@@ -131,7 +131,8 @@ typedef struct sl_change_info {
     sl_off entries;          /* doubles of L that rank-one changes read and write */
     sl_off updates;          /* rank-one changes since the last complete factorization */
     /* an estimate of the backward error that they have added: the sum over all passes of epsilon
-     * times the largest number a pivot was computed from, relative to the largest |a| */
+     * times the largest number a pivot was computed from, relative to the largest |a|; more where
+     * the rows or the vectors of a call have lost more (tools/docs/changes.md) */
     double drift;
     double flops_update;   /* of the rank-one changes, about; 0 if F cannot be changed so */
     /* of sl_factor_refactor_changed, counted up to the cost of the cheapest way; of

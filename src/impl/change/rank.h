@@ -323,6 +323,13 @@ static double sli_rank_shown(const sli_update *u) {
     return most;
 }
 
+/* What the pivots of a pass have lost to the size of L^-1 W, relative to rounding. Vectors and
+ * pivots add up to that: 8 for each vector at most has been seen. */
+static double sli_rank_swept(const sli_update *u) {
+    const double most = 8.0 * (double)sli_max(u->state->ranks, 1);
+    return u->sign != 0.0 ? sqrt(u->swept) * fmin(u->swept, most) : u->swept;
+}
+
 /* Updates growth and drift after a pass. They are relative to the largest |a|: where that becomes
  * less than it ever was they rise. Where it rises and falls again, the errors that were made above
  * remain, by rows if all pivots have one sign. Only a bound from below is known of it: a pivot, if
@@ -340,7 +347,7 @@ static void sli_rank_note(const sli_update *u) {
     const double scale = fmax(left, least), local = fmax(fmin(own, scale), least);
     const double rise = scale > 0.0 ? fmax(1.0, F->history.lowest / scale) : 1.0;
     const double growth = local > 0.0 ? u->growth / local : 0.0;
-    const double swept = u->sign != 0.0 ? sqrt(u->swept) : u->swept;
+    const double swept = sli_rank_swept(u);
     const double most = local > 0.0 ? u->most / local * u->loss * swept : 0.0;
     info->growth =
         u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0)) : fmax(info->growth * rise, growth);

@@ -21,8 +21,9 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
         /* a vector adds alpha f^2 to a pivot, where f is y or, beyond the first vector, a
          * difference of what the old L has made of W: it has the digits of the larger y */
         for (j = 0; j < columns && u->state->ranks > 1; j++) {
-            if (u->state->swept[j] > u->swept * u->state->magnitude[j]) {
-                u->swept = u->state->swept[j] / u->state->magnitude[j];
+            const double sum = u->state->magnitude[j] * (double)u->state->ranks;
+            if (u->state->swept[j] > u->swept * sum) {
+                u->swept = u->state->swept[j] / sum;
             }
         }
         sli_change_kernels_of(u->F->kernels->isa)->change[u->kind - 1](l, columns, at, w);
