@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 94688252bd0c4c17
+ * FNV-1a of the lines after this comment, without the license: 9597cdc467dae164
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -23522,7 +23522,7 @@ typedef struct sli_ranks {
   double U[SLI_TILE][SLI_TILE];
   double alpha[SLI_TILE];
   double e[SLI_TILE], magnitude[SLI_TILE];
-  double unit[SLI_TILE], square[SLI_TILE];
+  double square[SLI_TILE], unit[SLI_TILE];
   double swept[SLI_TILE];
   sl_int ranks, lanes;
   int is_mixed;
@@ -24446,7 +24446,7 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
       }
     }
     u->fall += u->sign * alpha > 0.0 ? 0.0 : fabs(alpha) * most;
-    u->state->unit[r] = most > 0.0 ? 1.0 / sqrt(most) : 0.0;
+    u->state->unit[r] = most > 0.0 ? 1.0 / most : 0.0;
     u->state->square[r] = most;
   }
   u->fall = u->sign == 0.0 ? sli_update_largest(u, count) : u->fall;
@@ -36381,9 +36381,13 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
     for (r = 0; r < ranks; r++) {
       const double before = e, g = f[SLI_TILE * r + j];
       const double beta = -u->alpha[r] * g, q = g * inverse;
-      const double z = fabs(y[SLI_TILE * j + r]) * u->unit[r];
-      most = u->is_mixed && most > z ? most : z;
-      swept += fabs(u->alpha[r]) * u->square[r] * most * most;
+      double square = y[SLI_TILE * j + r] * y[SLI_TILE * j + r];
+      if (u->is_mixed) {
+        square *= u->unit[r];
+        most = most > square ? most : square;
+        square = most * u->square[r];
+      }
+      swept += fabs(u->alpha[r]) * square;
       if (g == 0.0) {
         continue;
       }

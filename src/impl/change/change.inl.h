@@ -91,9 +91,13 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
         for (r = 0; r < ranks; r++) {
             const double before = e, g = f[SLI_TILE * r + j];
             const double beta = -u->alpha[r] * g, q = g * inverse;
-            const double z = fabs(y[SLI_TILE * j + r]) * u->unit[r];
-            most = u->is_mixed && most > z ? most : z;
-            swept += fabs(u->alpha[r]) * u->square[r] * most * most;
+            double square = y[SLI_TILE * j + r] * y[SLI_TILE * j + r];
+            if (u->is_mixed) {
+                square *= u->unit[r];
+                most = most > square ? most : square;
+                square = most * u->square[r];
+            }
+            swept += fabs(u->alpha[r]) * square;
             if (g == 0.0) { /* not on the path of this vector */
                 continue;
             }

@@ -13,7 +13,7 @@ typedef struct sli_ranks {
     double U[SLI_TILE][SLI_TILE]; /* column by column, with a unit diagonal */
     double alpha[SLI_TILE];
     double e[SLI_TILE], magnitude[SLI_TILE]; /* new pivots, and the sums that they are made of */
-    double unit[SLI_TILE], square[SLI_TILE]; /* 1 / the largest entry of a vector, and its square */
+    double square[SLI_TILE], unit[SLI_TILE]; /* of the largest entry of each vector, and 1 / it */
     double swept[SLI_TILE]; /* of each pivot: the sum of alpha y^2 with y by the old L, at most */
     sl_int ranks, lanes;
     int is_mixed; /* pivots have both signs: f(r) has the errors of the vectors before it, too */

@@ -223,7 +223,7 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
             }
         }
         u->fall += u->sign * alpha > 0.0 ? 0.0 : fabs(alpha) * most;
-        u->state->unit[r] = most > 0.0 ? 1.0 / sqrt(most) : 0.0;
+        u->state->unit[r] = most > 0.0 ? 1.0 / most : 0.0;
         u->state->square[r] = most;
     }
     u->fall = u->sign == 0.0 ? sli_update_largest(u, count) : u->fall;
