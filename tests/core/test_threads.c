@@ -71,6 +71,17 @@ static factored_t two_large_fronts(sl_int w, sl_int h, sl_isa isa, sl_storage st
     return y;
 }
 
+/* A factor by `count` workers. calls: of the pool that runs them. */
+static sl_factor *factor_by_threads(sl_symbolic *S, const sl_csc *A, sl_int count, sl_isa isa,
+                                    sl_storage storage, int *calls) {
+    sl_factor *F = NULL;
+    sl_options opt = options_with_threads(runs[count % RUNS], count, calls);
+    opt.isa = isa;
+    opt.storage = storage;
+    SL_CHECK(sl_factor_create(&F, S, A, &opt, NULL));
+    return F;
+}
+
 /* Both fronts are factored at the same time, or one after the other where L alone is in float. */
 static void large_fronts_with_rows_below_give_the_same_bits(void **state) {
     (void)state;
@@ -81,11 +92,8 @@ static void large_fronts_with_rows_below_give_the_same_bits(void **state) {
         factored_t y = two_large_fronts(101, 150, isas.isa[k / 3], storage);
         for (sl_int count = 2; count <= 5; count++) {
             int calls = 0;
-            sl_factor *F = NULL;
-            sl_options opt = options_with_threads(runs[count % RUNS], count, &calls);
-            opt.isa = isas.isa[k / 3];
-            opt.storage = storage;
-            SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
+            sl_factor *F =
+                factor_by_threads(y.S, &y.M.view, count, isas.isa[k / 3], storage, &calls);
             assert_same_bits(F, y.F);
             sl_factor_free(F);
         }
@@ -114,11 +122,8 @@ static void large_complex_fronts_give_the_same_bits(void **state) {
         pair_t y = pair_make(k % 2 ? GEN_GRID2 : GEN_GRID3, 512, 0, isas.isa[k / 2]);
         for (sl_int count = 2; count <= 5; count++) {
             int calls = 0;
-            sl_factor *F = NULL;
-            sl_options opt = options_with_threads(runs[count % RUNS], count, &calls);
-            opt.isa = isas.isa[k / 2];
-            opt.storage = SL_STORAGE_COMPLEX;
-            SL_CHECK(sl_factor_create(&F, y.S, &y.A, &opt, NULL));
+            sl_factor *F =
+                factor_by_threads(y.S, &y.A, count, isas.isa[k / 2], SL_STORAGE_COMPLEX, &calls);
             assert_true(calls > 0);
             assert_same_lower(F, y.F[1], y.n);
             sl_factor_free(F);
