@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 9597cdc467dae164
+ * FNV-1a of the lines after this comment, without the license: 29438c14a8d3cef1
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -27,37 +27,37 @@
  *   2190 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
  *   2221 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
  *   2402 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2502 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2610 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2651 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2737 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2845 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2879 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2956 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2995 impl/ base: the compiler, status, memory, sorting, threads
- *   4217 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5135 impl/ matrix: sparse matrices of the caller and of the library
- *   5764 impl/ ordering: fill-reducing orderings of a graph
- *  10413 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12646 impl/ factor: the numbers of L and D
- *  16003 impl/ solve: full and local solves
- *  17665 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19594 impl/ pivots: the order of the pivots by the values of a matrix
- *  20003 impl/ float: L and fronts in single precision
- *  20454 impl/ inverse: entries of the inverse, regions
- *  23517 impl/ change: a factor that follows changes of its matrix
- *  29600 impl/ dirichlet: rows fixed at given values
- *  30189 impl/ dirichlet: by a factor of all rows
- *  30421 impl/ io: files that are replaced only when they are complete
- *  30639 impl/ files: Matrix Market files, 64-bit indices
- *  31259 impl/ save: factors in files
- *  33256 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33938 impl/ batch: diagonals of many inverses
- *  34079 impl/ complex: complex Hermitian systems over real factors
- *  34641 impl/ complex: entries of the inverse
- *  34701 impl/ packs: the tables through which the core calls packs
- *  34750 impl/ last: undefine every internal macro
- *  35106 impl/ templates: the header includes them from itself, once for each instruction set
+ *   2503 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2611 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2652 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2738 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2846 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2880 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2957 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2996 impl/ base: the compiler, status, memory, sorting, threads
+ *   4218 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5136 impl/ matrix: sparse matrices of the caller and of the library
+ *   5765 impl/ ordering: fill-reducing orderings of a graph
+ *  10414 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12647 impl/ factor: the numbers of L and D
+ *  16004 impl/ solve: full and local solves
+ *  17666 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19595 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20004 impl/ float: L and fronts in single precision
+ *  20455 impl/ inverse: entries of the inverse, regions
+ *  23518 impl/ change: a factor that follows changes of its matrix
+ *  29601 impl/ dirichlet: rows fixed at given values
+ *  30190 impl/ dirichlet: by a factor of all rows
+ *  30422 impl/ io: files that are replaced only when they are complete
+ *  30640 impl/ files: Matrix Market files, 64-bit indices
+ *  31260 impl/ save: factors in files
+ *  33257 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33939 impl/ batch: diagonals of many inverses
+ *  34080 impl/ complex: complex Hermitian systems over real factors
+ *  34642 impl/ complex: entries of the inverse
+ *  34702 impl/ packs: the tables through which the core calls packs
+ *  34751 impl/ last: undefine every internal macro
+ *  35107 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2462,7 +2462,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, 
  *  Returns  as sl_factor_refactor and sl_factor_update; SL_ERR_ARGUMENT: also an index out of
  *           range, at error.row and error.column.
  *  Cost     that of the way, and at most a few percent of a refactorization to count flops;
- *           nothing of O(n) or O(nnz) for rank-one changes.
+ *           nothing of O(n) or O(nnz) for rank-one changes, but for one look at L where pivots have
+ *           both signs and the largest |a| may have fallen to a sixteenth.
  *  Threads  exclusive use of F.
  *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_change_choice.c

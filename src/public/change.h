@@ -66,7 +66,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, 
  *  Returns  as sl_factor_refactor and sl_factor_update; SL_ERR_ARGUMENT: also an index out of
  *           range, at error.row and error.column.
  *  Cost     that of the way, and at most a few percent of a refactorization to count flops;
- *           nothing of O(n) or O(nnz) for rank-one changes.
+ *           nothing of O(n) or O(nnz) for rank-one changes, but for one look at L where pivots have
+ *           both signs and the largest |a| may have fallen to a sixteenth.
  *  Threads  exclusive use of F.
  *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_change_choice.c
