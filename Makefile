@@ -281,7 +281,9 @@ sanitize: deps deps-png sparse_local.h ## the tests with address and undefined-b
 
 # ---- bench ----
 
-$(B)/bench: $(call object,$(BENCH_SOURCES:.c=)) $(PEER_OBJECTS) $(LIBRARY) $(IMPL)
+# Without the program's commands and, but for plots, its pictures. The header takes longest and is first.
+BENCH_TOOLS = $(filter-out tools/cli/% tools/draw/%,$(TOOLS)) tools/draw/plot.c tools/draw/colors.c
+$(B)/bench: $(IMPL) $(call object,$(BENCH_SOURCES:.c=) $(BENCH_TOOLS:.c=)) $(PEER_OBJECTS)
 	$(call say,LINK)
 	$(Q)$(LINK) $(OPENMP) -o $@ $^ $(PEER_LIBS) $(LIBS) -lpthread
 

@@ -15,14 +15,11 @@ typedef struct question {
 } question;
 
 /* What a newcomer wants to know; without a name and at the default size, only these are run. */
-enum { N_FIRST = 9 };
+enum { N_FIRST = 6 };
 
 static const question questions[] = {
     {"cold", "from the matrix to the first solution: each stage, by purpose and threads",
      bench_cold},
-    {"vertex_pairs",
-     "b and x at one vertex; random pairs by one or two reaches ([HDA17] section 5)",
-     bench_vertex_pairs},
     {"locality", "the same local solve on meshes of growing size; plans of long chains",
      bench_locality},
     {"patches",
@@ -32,12 +29,15 @@ static const question questions[] = {
     {"multi_rhs", "1 to 8 right-hand sides in one call against one call each", bench_multi_rhs},
     {"harmonic", "harmonic, biharmonic, triharmonic systems: analysis, factorization, full solve",
      bench_harmonic},
+    {"change", "entries changed by rank-one updates against refactorizations; pins", bench_change},
+    /* by name, or of BENCH=quick and BENCH=full */
+    {"vertex_pairs",
+     "b and x at one vertex; random pairs by one or two reaches ([HDA17] section 5)",
+     bench_vertex_pairs},
     {"inverse_entries", "entries and blocks of the inverse: forward sweeps against local solves",
      bench_inverse_entries},
     {"neumann", "zero-mean solutions of singular Laplacians against shifted ones; refinement",
      bench_neumann},
-    {"change", "entries changed by rank-one updates against refactorizations; pins", bench_change},
-    /* by name, or of BENCH=quick and BENCH=full */
     {"change_patch", "the weights of a patch changed: the way that is chosen against each way",
      bench_change_patch},
     {"scaling", "ordering, analysis, factorization and nnz(L) as n grows ([HDA17] Figure 6)",

@@ -65,7 +65,7 @@ static const char *time_of(double seconds) {
     return text;
 }
 
-/* ---- a sentence or two for each of the first questions ---- */
+/* ---- a sentence or two for each question that a newcomer has ---- */
 
 static void say_cold(void) {
     const kept_row *all = find("cold", "many solves", "together", 0, NULL);

@@ -197,6 +197,12 @@ static void change_free(change *c) {
     free(c);
 }
 
+/* F := the factor of A again. */
+static void restore(change *c) {
+    bench_must(sl_factor_refactor(c->F, &c->system->A, NULL), "refactorization");
+    bench_must(sl_pins_refactor(c->pins, NULL), "pins");
+}
+
 /* An update and its downdate leave a factor of A. */
 static int change_check(bench_run *run, change *c) {
     size_t n = (size_t)c->system->n;
@@ -209,8 +215,7 @@ static int change_check(bench_run *run, change *c) {
     eight_change(c, -c->w);
     bench_must(sl_factor_solve(c->F, x, n, b, n, 1, NULL), "solve");
     int held = bench_check_residual(run, c->system, x, b, 1, "update and downdate");
-    bench_must(sl_factor_refactor(c->F, &c->system->A, NULL), "refactorization");
-    bench_must(sl_pins_refactor(c->pins, NULL), "pins");
+    restore(c);
     free(x);
     free(b);
     return held;
@@ -227,8 +232,6 @@ static double race(bench_run *run, bench_report *report, change *c, const char *
     row.time = sample;
     row.baseline = baseline > 0 ? baseline : sample.median;
     bench_report_row(report, c->system, &row);
-    bench_must(sl_factor_refactor(c->F, &c->system->A, NULL), "refactorization");
-    bench_must(sl_pins_refactor(c->pins, NULL), "pins");
     return sample.median;
 }
 
@@ -244,6 +247,7 @@ static void time_system(bench_run *run, bench_report *report, const bench_system
              (bench_contender){.call = call_eight, .ready = ready_eight}, one);
         race(run, report, c, "refactor changed", (bench_contender){.call = call_changed}, one);
         race(run, report, c, "refactor", (bench_contender){.call = call_refactor}, one);
+        restore(c);
         race(run, report, c, "pin, solve, release", (bench_contender){.call = call_pin}, one);
         race(run, report, c, "100 pins",
              (bench_contender){.call = call_hundred, .ready = ready_hundred}, one);

@@ -48,7 +48,7 @@ static void one_count(bench_run *run, bench_report *report, bench_plot *plot, be
 /* For the full solves, B is random in all n rows. */
 static void one_system(bench_run *run, bench_report *report, bench_plot *plot,
                        const bench_system *system) {
-    static const int counts[] = {1, 2, 3, 4, 6, 8};
+    static const int counts[] = {1, 2, 4, 8};
     static const contestants full = {"full", bench_call_full, bench_call_full_one_by_one};
     static const contestants interleaved = {"full, inter.", bench_call_full_interleaved,
                                             bench_call_full_one_by_one};
