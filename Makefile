@@ -222,7 +222,7 @@ programs: $(B)/sparse-local ## build/sparse-local: the paper's experiments on me
 # ---- tests ----
 
 # Compiling the tests takes longer than running them.
-$(B)/obj/tests/%.o: OPT := $(OPT:-O2=-O1)
+$(B)/obj/tests/%.o: private OPT := $(OPT:-O2=-O1)
 
 $(B)/tests/%: $(B)/obj/tests/%.o $(LIBRARY) $(IMPL)
 	@mkdir -p $(@D)
