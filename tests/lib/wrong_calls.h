@@ -1,0 +1,292 @@
+/* wrong_calls.h: wrong calls that sl_error_text has a sentence for: arguments, options, pins */
+#ifndef SL_TEST_WRONG_CALLS_H
+#define SL_TEST_WRONG_CALLS_H
+
+#include "factored.h"
+
+enum { N = 100 };
+
+/* What the wrong calls are made with. */
+typedef struct wrong_t {
+    factored_t y, other; /* two analyses of one matrix */
+    sl_factor *failed;   /* without numbers */
+    sl_matrix *upper;    /* the transpose of the matrix */
+    double x[2 * N], b[2 * N];
+} wrong_t;
+
+static wrong_t w;
+
+static inline void wrong_set_up(void) {
+    sl_options natural = options_none();
+    sl_stats stats;
+    double *zeros;
+    sl_csc bad;
+    natural.ordering = SL_ORDERING_NATURAL;
+    w.y = factored_make(GEN_GRID2, N, 1, 0, NULL);
+    w.other = factored_make(GEN_GRID2, N, 1, 0, &natural);
+    SL_CHECK(sl_matrix_transpose(&w.upper, &w.y.M.view, NULL));
+    SL_CHECK(sl_factor_create(&w.failed, w.y.S, &w.y.M.view, NULL, NULL));
+    zeros = test_reals((size_t)w.y.M.p[N]);
+    bad = w.y.M.view;
+    bad.x = zeros;
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(w.failed, &bad, &stats));
+    free(zeros);
+    gen_reals(w.b, 2 * N, 3);
+}
+
+static inline void wrong_tear_down(void) {
+    sl_matrix_free(w.upper);
+    sl_factor_free(w.failed);
+    factored_free(&w.y);
+    factored_free(&w.other);
+}
+
+#define WRONG(name) static inline sl_status name(sl_stats *stats)
+
+/* ---- arguments ---- */
+
+WRONG(no_factor) {
+    (void)stats;
+    return sl_factor_solve(NULL, w.x, N, w.b, N, 1, NULL);
+}
+
+WRONG(small_ldx) {
+    (void)stats;
+    return sl_factor_solve(w.y.F, w.x, N - 1, w.b, N, 1, NULL);
+}
+
+WRONG(small_ldb) {
+    const sl_int row = 3;
+    return sl_local_solve(w.y.F, NULL, 0, &row, 1, w.x, 1, w.b, 7, 1, NULL, stats);
+}
+
+WRONG(in_place) {
+    (void)stats;
+    return sl_factor_solve(w.y.F, w.x, N, w.x, N + 1, 1, NULL);
+}
+
+WRONG(no_such_row) {
+    const sl_int row = N;
+    return sl_local_solve(w.y.F, &row, 1, &row, 1, w.x, 1, w.b, 1, 1, NULL, stats);
+}
+
+WRONG(no_numbers) {
+    (void)stats;
+    return sl_factor_solve(w.failed, w.x, N, w.b, N, 1, NULL);
+}
+
+WRONG(other_analysis) {
+    sl_plan *P = NULL;
+    (void)stats;
+    SL_CHECK(sl_plan_create(&P, w.y.S, NULL, 0, NULL, 0, NULL, NULL));
+    const sl_status status = sl_plan_solve(P, w.other.F, w.x, N, w.b, N, 1, NULL);
+    sl_plan_free(P);
+    return status;
+}
+
+/* ---- options ---- */
+
+/* An analysis with options that something is wrong with. */
+static inline sl_status analyze(const sl_options *opt, sl_stats *stats) {
+    sl_symbolic *S = NULL;
+    const sl_status status = sl_symbolic_create(&S, &w.y.M.view, opt, stats);
+    assert_true(status != SL_OK && S == NULL);
+    return status;
+}
+
+static inline sl_status factor(const sl_options *opt, sl_stats *stats) {
+    sl_factor *F = NULL;
+    const sl_status status = sl_factor_create(&F, w.y.S, &w.y.M.view, opt, stats);
+    assert_true(status != SL_OK && F == NULL);
+    return status;
+}
+
+WRONG(no_perm) {
+    sl_options opt = options_none();
+    opt.ordering = SL_ORDERING_GIVEN;
+    return analyze(&opt, stats);
+}
+
+WRONG(row_twice_in_perm) {
+    sl_options opt = options_none();
+    sl_int perm[N];
+    for (sl_int k = 0; k < N; k++) {
+        perm[k] = k;
+    }
+    perm[7] = 2;
+    opt.ordering = SL_ORDERING_GIVEN;
+    opt.perm = perm;
+    return analyze(&opt, stats);
+}
+
+WRONG(not_initialized) {
+    sl_options opt;
+    memset(&opt, 0x5a, sizeof opt);
+    return analyze(&opt, stats);
+}
+
+WRONG(reserved) {
+    sl_options opt = options_none();
+    opt.reserved_int = 1;
+    return analyze(&opt, stats);
+}
+
+WRONG(negative_threads) {
+    sl_options opt = options_none();
+    opt.threads.count = -1;
+    return factor(&opt, stats);
+}
+
+WRONG(half_an_allocator) {
+    counter_t c = counter_make();
+    sl_options opt = options_counted(&c);
+    opt.allocator.release = NULL;
+    return factor(&opt, stats);
+}
+
+WRONG(blocks_do_not_divide) {
+    sl_options opt = options_none();
+    opt.block_size = 3;
+    return analyze(&opt, stats);
+}
+
+WRONG(no_ordering) {
+    sl_options opt = options_none();
+    opt.ordering = (sl_ordering)2;
+    return analyze(&opt, stats);
+}
+
+WRONG(regularized_and_skipped) {
+    sl_options opt = options_none();
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.regularization = 1e-8;
+    return factor(&opt, stats);
+}
+
+WRONG(wrong_sign) {
+    sl_options opt = options_none();
+    sl_int signs[N] = {1, 1, 1, 7};
+    opt.regularization = 1e-8;
+    opt.signs = signs;
+    return factor(&opt, stats);
+}
+
+WRONG(infinite_weight) {
+    sl_options opt = options_none();
+    for (int k = 0; k < N; k++) {
+        w.x[k] = 1;
+    }
+    w.x[4] = (double)INFINITY;
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.mass = w.x;
+    return factor(&opt, stats);
+}
+
+/* ---- patterns ---- */
+
+WRONG(counted_from_1) {
+    const sl_int p[] = {0, 1, 2}, i[] = {1, 2};
+    const double x[] = {1, 1};
+    const sl_csc A = {2, 2, p, i, x};
+    sl_symbolic *S = NULL;
+    return sl_symbolic_create(&S, &A, NULL, stats);
+}
+
+WRONG(other_triangle) {
+    const sl_csc A = sl_matrix_view(w.upper);
+    return sl_factor_refactor(w.y.F, &A, stats);
+}
+
+/* Two rows of one column swapped: the matrix is the same, its pattern is not the analyzed one. */
+WRONG(rows_swapped) {
+    const sl_csc *A = &w.y.M.view;
+    sl_int *i = test_ints((size_t)A->p[N]), p;
+    sl_csc B = *A;
+    memcpy(i, A->i, (size_t)A->p[N] * sizeof *i);
+    p = A->p[5];
+    i[p] = A->i[p + 1];
+    i[p + 1] = A->i[p];
+    B.i = i;
+    const sl_status status = sl_factor_refactor(w.y.F, &B, stats);
+    free(i);
+    return status;
+}
+
+WRONG(not_read) {
+    static const sl_int p[] = {0, 2, 3, 5}, i[] = {0, 1, 1, 0, 2}, other[] = {0, 1, 1, 1, 2};
+    static const double x[] = {2, 1, 2, 1, 2};
+    sl_csc A = {3, 3, p, i, x};
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    opt.triangle = SL_TRIANGLE_LOWER;
+    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+    A.i = other;
+    opt.triangle = SL_TRIANGLE_NONE;
+    sl_status status = sl_factor_create(&F, S, &A, &opt, stats);
+    sl_symbolic_free(S);
+    return status;
+}
+
+WRONG(another_size) {
+    const sl_int p[] = {0, 1}, i[] = {0};
+    const double x[] = {1};
+    const sl_csc A = {1, 1, p, i, x};
+    return sl_factor_refactor(w.y.F, &A, stats);
+}
+
+/* ---- pins, entries of L, memory ---- */
+
+WRONG(pinned_twice) {
+    const sl_int row = 5;
+    sl_pins *P = NULL;
+    SL_CHECK(sl_pins_create(&P, w.y.F, NULL));
+    SL_CHECK(sl_pins_add(P, &row, 1, NULL));
+    const sl_status status = sl_pins_add(P, &row, 1, stats);
+    sl_pins_free(P);
+    return status;
+}
+
+WRONG(depends_on_pins) {
+    const sl_int rows[] = {5, 6};
+    const double ones[] = {1, 1};
+    sl_pins *P = NULL;
+    SL_CHECK(sl_pins_create(&P, w.y.F, NULL));
+    SL_CHECK(sl_pins_add(P, rows, 2, NULL));
+    const sl_status status = sl_pins_add_equality(P, rows, ones, 2, stats);
+    sl_pins_free(P);
+    return status;
+}
+
+WRONG(old_pins) {
+    const double g = 1;
+    const sl_int row = 5;
+    sl_pins *P = NULL;
+    (void)stats;
+    SL_CHECK(sl_pins_create(&P, w.y.F, NULL));
+    SL_CHECK(sl_pins_add(P, &row, 1, NULL));
+    SL_CHECK(sl_factor_refactor(w.y.F, &w.y.M.view, NULL));
+    const sl_status status = sl_pins_solve(P, NULL, w.x, N, w.b, N, &g, 1, 1, NULL);
+    sl_pins_free(P);
+    return status;
+}
+
+WRONG(not_in_l) {
+    const sl_int row = 0, column = N - 1;
+    const double delta = 1;
+    factored_t path = factored_make(GEN_PATH, N, 1, 0, NULL);
+    const sl_status status = sl_factor_change(path.F, NULL, &row, &column, &delta, 1, NULL, stats);
+    factored_free(&path);
+    return status;
+}
+
+WRONG(no_memory) {
+    sl_work *W = NULL;
+    (void)stats;
+    counter_t c = counter_make();
+    c.fail_at = 0;
+    const sl_options opt = options_counted(&c);
+    return sl_work_create(&W, &opt);
+}
+
+#endif
