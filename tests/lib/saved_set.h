@@ -18,6 +18,8 @@ typedef struct set_case_t {
 typedef sl_status (*set_call_t)(sl_saved_set *set, const void *memory, size_t bytes,
                                 sl_load_checks checks, const sl_options *opt);
 
+static const set_call_t set_calls[2] = {sl_load_memory, sl_map_memory};
+
 /* is_whole: the selected inverse is that of all rows, not of a few. */
 static inline set_case_t set_case_make(int way, gen_kind_t kind, sl_int size, int style,
                                        int is_whole, const sl_options *from) {
