@@ -1,13 +1,9 @@
 /* test_eigen_names.cpp: programs written for Eigen's classes, with ours in their place */
-#include "tools/adapters/sparse_local_eigen.hpp"
-
-#include <Eigen/Dense>
-
-#include "check.hpp"
+#include "eigen_check.hpp"
 
 #include <sstream>
 
-typedef Eigen::SparseMatrix<double> Sparse;
+using check::Sparse;
 typedef Eigen::SparseMatrix<std::complex<double>> Hermitian;
 
 /* Classes, all members of which are compiled. */
@@ -19,19 +15,16 @@ template class sl::BasicSolver<sl::SimplicialLLT<Eigen::SparseMatrix<std::comple
 
 namespace {
 
-typedef Eigen::VectorXd Vector;
-typedef Eigen::MatrixXd Dense;
+using check::all_nan;
+using check::close;
+using check::Dense;
+using check::grid_matrix;
+using check::some_vector;
+using check::Vector;
 typedef std::complex<double> Complex;
 typedef Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> Permutation;
 
-/* The lower triangle of a grid with side x side vertices. */
-Sparse grid_matrix(int side, double shift = 0.1) {
-    const check::Grid grid(side, shift);
-    return Eigen::Map<const Sparse>(grid.n, grid.n, grid.p[std::size_t(grid.n)], grid.p.data(),
-                                    grid.i.data(), grid.x.data());
-}
-
-/* The same with edges that turn, both triangles; Hermitian. */
+/* A grid with edges that turn, both triangles; Hermitian. */
 Hermitian turning_matrix(int side, double shift = 0.1) {
     const Sparse full = grid_matrix(side, shift).selfadjointView<Eigen::Lower>();
     Hermitian A = full.cast<Complex>();
@@ -44,24 +37,8 @@ Hermitian turning_matrix(int side, double shift = 0.1) {
     return A;
 }
 
-Vector some_vector(Eigen::Index n) {
-    Vector b(n);
-    for (Eigen::Index k = 0; k < n; k++)
-        b[k] = std::sin(1.0 + double(k));
-    return b;
-}
-
 Eigen::VectorXcd some_complex(Eigen::Index n) {
     return some_vector(n).cast<Complex>() + Complex(0, 1) * some_vector(2 * n).tail(n);
-}
-
-template <class A, class B> bool close(const A &a, const B &b, double tolerance = 1e-12) {
-    return a.rows() == b.rows() && a.cols() == b.cols() &&
-           (a.size() == 0 || double((a - b).cwiseAbs().maxCoeff()) <= tolerance);
-}
-
-template <class A> bool all_nan(const A &a) {
-    return a.size() > 0 && (a.array() != a.array()).all();
 }
 
 template <class Solver> void views_of(const Sparse &A, bool &is_right) {

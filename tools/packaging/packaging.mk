@@ -30,11 +30,11 @@ ADAPTERS = $(wildcard tools/adapters/*.hpp)
 EIGEN = -isystem /usr/include/eigen3
 # test_raii is built with exceptions and without
 # test_clients is run by a target of its own
-ADAPTER_NAMES = test_raii test_returning test_eigen test_eigen_names
+ADAPTER_NAMES = test_raii test_returning test_eigen test_eigen_hostile test_eigen_names
 
 # $(1) compiler, $(2) standard, $(3) program, $(4) source, $(5) flags
 define adapter_program
-build/adapters/$(1)-$(2)-$(3): tests/adapters/$(4).cpp tests/adapters/check.hpp $(ADAPTERS) $$(IMPL)
+build/adapters/$(1)-$(2)-$(3): tests/adapters/$(4).cpp $(wildcard tests/adapters/*.hpp) $(ADAPTERS) $$(IMPL)
 	@mkdir -p $$(@D)
 	$$(call say,CXX )
 	$$(Q)$(1) -std=c++$(2) -O0 $$(WARN_BOTH) -I. $(EIGEN) $(5) -o $$@ $$< $$(IMPL) $$(LIBS) -lpthread
@@ -43,6 +43,7 @@ $(foreach cxx,$(ADAPTER_CXX),$(foreach std,$(ADAPTER_STD),\
 	$(eval $(call adapter_program,$(cxx),$(std),test_raii,test_raii,))\
 	$(eval $(call adapter_program,$(cxx),$(std),test_returning,test_raii,-fno-exceptions))\
 	$(eval $(call adapter_program,$(cxx),$(std),test_eigen,test_eigen,))\
+	$(eval $(call adapter_program,$(cxx),$(std),test_eigen_hostile,test_eigen_hostile,))\
 	$(eval $(call adapter_program,$(cxx),$(std),test_eigen_names,test_eigen_names,))\
 	$(eval $(call adapter_program,$(cxx),$(std),test_clients,test_clients,))))
 ADAPTER_PROGRAMS = $(foreach cxx,$(ADAPTER_CXX),$(foreach std,$(ADAPTER_STD),\
