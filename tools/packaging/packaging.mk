@@ -198,7 +198,7 @@ deps-octave: ## Octave and its mkoctfile, 200 MB
 
 octave: deps-octave $(OCTAVE_MEX) ## build/octave: the mex file of tools/octave
 
-$(OCTAVE_MEX): tools/octave/sparse_local_mex.c tools/octave/sparse_local_make.m sparse_local.h
+$(OCTAVE_MEX): $(wildcard tools/octave/*.[ch]) tools/octave/sparse_local_make.m sparse_local.h
 	@mkdir -p $(@D)
 	$(call say,MEX )
 	$(Q)$(OCTAVE) -qfH --path tools/octave --eval "sparse_local_make('$(@D)'$(foreach f,-Wall -Wextra -Werror $(OCTAVE_FLAGS),, '$(f)'))"
