@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 29438c14a8d3cef1
+ * FNV-1a of the lines after this comment, without the license: 5fd31e00e7e15afe
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,25 +39,25 @@
  *   5136 impl/ matrix: sparse matrices of the caller and of the library
  *   5765 impl/ ordering: fill-reducing orderings of a graph
  *  10414 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12647 impl/ factor: the numbers of L and D
- *  16004 impl/ solve: full and local solves
- *  17666 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19595 impl/ pivots: the order of the pivots by the values of a matrix
- *  20004 impl/ float: L and fronts in single precision
- *  20455 impl/ inverse: entries of the inverse, regions
- *  23518 impl/ change: a factor that follows changes of its matrix
- *  29601 impl/ dirichlet: rows fixed at given values
- *  30190 impl/ dirichlet: by a factor of all rows
- *  30422 impl/ io: files that are replaced only when they are complete
- *  30640 impl/ files: Matrix Market files, 64-bit indices
- *  31260 impl/ save: factors in files
- *  33257 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33939 impl/ batch: diagonals of many inverses
- *  34080 impl/ complex: complex Hermitian systems over real factors
- *  34642 impl/ complex: entries of the inverse
- *  34702 impl/ packs: the tables through which the core calls packs
- *  34751 impl/ last: undefine every internal macro
- *  35107 impl/ templates: the header includes them from itself, once for each instruction set
+ *  12649 impl/ factor: the numbers of L and D
+ *  16006 impl/ solve: full and local solves
+ *  17668 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19597 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20006 impl/ float: L and fronts in single precision
+ *  20457 impl/ inverse: entries of the inverse, regions
+ *  23520 impl/ change: a factor that follows changes of its matrix
+ *  29603 impl/ dirichlet: rows fixed at given values
+ *  30192 impl/ dirichlet: by a factor of all rows
+ *  30424 impl/ io: files that are replaced only when they are complete
+ *  30642 impl/ files: Matrix Market files, 64-bit indices
+ *  31262 impl/ save: factors in files
+ *  33259 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33941 impl/ batch: diagonals of many inverses
+ *  34082 impl/ complex: complex Hermitian systems over real factors
+ *  34644 impl/ complex: entries of the inverse
+ *  34704 impl/ packs: the tables through which the core calls packs
+ *  34753 impl/ last: undefine every internal macro
+ *  35109 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -10946,6 +10946,8 @@ static sl_int sli_find_tops(sli_amalgamation *g, const sl_int *sequence, sl_int 
   }
   return count;
 }
+
+/* src/impl/analysis/supernode_order.h: the final order of supernodes and columns, each 2x2 pivot in one tile */
 
 #define SLI_SORTED_CHILDREN 64
 #define SLI_SORTED_ROWS 255

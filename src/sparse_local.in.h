@@ -125,6 +125,7 @@ extern "C" {
 #include "impl/analysis/symbolic_types.h"
 #include "impl/analysis/etree.h"
 #include "impl/analysis/supernodes.h"
+#include "impl/analysis/supernode_order.h"
 #include "impl/analysis/pattern.h"
 #include "impl/analysis/structure.h"
 #include "impl/analysis/schedule.h"
