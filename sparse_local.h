@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 5fd31e00e7e15afe
+ * FNV-1a of the lines after this comment, without the license: 073a7b9d0bb92d1c
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,25 +39,25 @@
  *   5136 impl/ matrix: sparse matrices of the caller and of the library
  *   5765 impl/ ordering: fill-reducing orderings of a graph
  *  10414 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12649 impl/ factor: the numbers of L and D
- *  16006 impl/ solve: full and local solves
- *  17668 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19597 impl/ pivots: the order of the pivots by the values of a matrix
- *  20006 impl/ float: L and fronts in single precision
- *  20457 impl/ inverse: entries of the inverse, regions
- *  23520 impl/ change: a factor that follows changes of its matrix
- *  29603 impl/ dirichlet: rows fixed at given values
- *  30192 impl/ dirichlet: by a factor of all rows
- *  30424 impl/ io: files that are replaced only when they are complete
- *  30642 impl/ files: Matrix Market files, 64-bit indices
- *  31262 impl/ save: factors in files
- *  33259 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33941 impl/ batch: diagonals of many inverses
- *  34082 impl/ complex: complex Hermitian systems over real factors
- *  34644 impl/ complex: entries of the inverse
- *  34704 impl/ packs: the tables through which the core calls packs
- *  34753 impl/ last: undefine every internal macro
- *  35109 impl/ templates: the header includes them from itself, once for each instruction set
+ *  12651 impl/ factor: the numbers of L and D
+ *  16008 impl/ solve: full and local solves
+ *  17670 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19599 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20008 impl/ float: L and fronts in single precision
+ *  20459 impl/ inverse: entries of the inverse, regions
+ *  23522 impl/ change: a factor that follows changes of its matrix
+ *  29605 impl/ dirichlet: rows fixed at given values
+ *  30194 impl/ dirichlet: by a factor of all rows
+ *  30426 impl/ io: files that are replaced only when they are complete
+ *  30644 impl/ files: Matrix Market files, 64-bit indices
+ *  31264 impl/ save: factors in files
+ *  33261 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33943 impl/ batch: diagonals of many inverses
+ *  34084 impl/ complex: complex Hermitian systems over real factors
+ *  34646 impl/ complex: entries of the inverse
+ *  34706 impl/ packs: the tables through which the core calls packs
+ *  34755 impl/ last: undefine every internal macro
+ *  35111 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11761,7 +11761,7 @@ static void sli_schedule_work_layout(sli_schedule_work *w, sli_block *b, sl_int 
   w->scratch = SLI_TAKE(b, uint64_t, count);
 }
 
-/* src/impl/analysis/symbolic.h: the analysis: from the pattern of A to the supernodes and the storage of L */
+/* src/impl/analysis/symbolic_build.h: from an order of the rows to the analysis: tree, supernodes, all arrays */
 
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
   const uint64_t n = (uint64_t)rows;
@@ -12092,6 +12092,8 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
   **out = *draft;
   return SL_OK;
 }
+
+/* src/impl/analysis/symbolic.h: sl_symbolic_create: checks, ordering, the object; its release and its arrays */
 
 typedef struct sli_symbolic_job {
   sl_symbolic **out;

@@ -129,6 +129,7 @@ extern "C" {
 #include "impl/analysis/pattern.h"
 #include "impl/analysis/structure.h"
 #include "impl/analysis/schedule.h"
+#include "impl/analysis/symbolic_build.h"
 #include "impl/analysis/symbolic.h"
 #include "impl/analysis/same_pattern.h"
 #include "impl/analysis/reach.h"

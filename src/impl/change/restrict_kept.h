@@ -2,7 +2,7 @@
 #ifndef SLI_CHANGE_RESTRICT_KEPT_H
 #define SLI_CHANGE_RESTRICT_KEPT_H
 
-#include "../analysis/symbolic.h"
+#include "../analysis/symbolic_build.h"
 #include "subset.h"
 
 /* Below this share of kept columns none is kept. Bands, checkerboards and random rows of which 36

@@ -3,7 +3,7 @@
 #define SLI_SAVE_FORMAT_H
 
 #include "../../public/save.h"
-#include "../analysis/symbolic.h"
+#include "../analysis/symbolic_build.h"
 #include "../factor/factor_setup.h"
 #include "../inverse/selected.h"
 #include "../inverse/region_types.h"

@@ -1,0 +1,358 @@
+/* symbolic_build.h: from an order of the rows to the analysis: tree, supernodes, all arrays */
+#ifndef SLI_ANALYSIS_SYMBOLIC_BUILD_H
+#define SLI_ANALYSIS_SYMBOLIC_BUILD_H
+
+#include "structure.h"
+#include "supernode_order.h"
+
+/* What the ordering fills comes first. Then follows memory that the ordering may use until it is
+ * done: a graph and a quotient graph need some 64 n + 18 nnz bytes. */
+static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
+    const uint64_t n = (uint64_t)rows; /* 5 n may exceed 2^32 */
+    w->n = rows;
+    w->column = SLI_TAKE(b, sl_int, nnz);
+    w->perm = SLI_TAKE(b, sl_int, n);
+    w->choice.other = SLI_TAKE(b, sl_int, n);
+    w->scratch = SLI_TAKE(b, sl_int, 5 * n);
+    w->septree.node_of = SLI_TAKE(b, sl_int, n);
+    w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
+    w->ordered = b->used;
+    w->columns.begin = SLI_TAKE(b, sl_int, n + 1);
+    w->columns.entry = SLI_TAKE(b, sl_int, SLI_ENTRY * (uint64_t)nnz);
+    w->old_of = SLI_TAKE(b, sl_int, n);
+    w->new_of = SLI_TAKE(b, sl_int, n);
+    w->parent = SLI_TAKE(b, sl_int, n); /* sli_pattern_fill uses 7 n from here on */
+    w->choice.parent = w->parent;       /* the ordering of a forest needs none of this memory */
+    w->counts = SLI_TAKE(b, sl_int, n);
+    w->super_of = SLI_TAKE(b, sl_int, n);
+    w->amalgamation.first = SLI_TAKE(b, sl_int, n + 1);
+    w->amalgamation.parent = SLI_TAKE(b, sl_int, n);
+    w->amalgamation.width = SLI_TAKE(b, sl_int, n);
+    w->amalgamation.below = SLI_TAKE(b, sl_int, n);
+    w->list = SLI_TAKE(b, uint64_t, 5 * (n + 16) * (uint64_t)(w->workers / 8 + 1));
+    if (w->list != NULL) { /* none of these is used together with the room of the workers */
+        w->room = (sl_int *)(void *)w->list;
+        w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
+        w->amalgamation.cost = w->amalgamation.zeros + n;
+        w->amalgamation.merged_into = (sl_int *)(void *)(w->amalgamation.cost + n);
+        w->amalgamation.apart = w->amalgamation.merged_into + n;
+    }
+    if (w->pairs != NULL) {
+        w->amalgamation.is_tied = SLI_TAKE(b, unsigned char, n);
+        w->is_first = SLI_TAKE(b, unsigned char, n);
+        w->earlier = SLI_TAKE(b, sl_int, n);
+    }
+    w->spare = SLI_TAKE(b, sl_int, 3 * (uint64_t)nnz + 512);
+}
+
+/* Bytes of the stack that small analyses use instead of memory of the allocator. */
+#define SLI_ANALYSIS_SMALL 16384
+
+/* Do all of these arrays fit there? */
+static int sli_analysis_is_small(const sli_analysis *w, sl_int rows, sl_int nnz) {
+    return rows < 64 && nnz < 256 && w->pairs == NULL && w->workers <= 1;
+}
+
+/* All arrays. A saved analysis has them in this order (save/format.h). */
+static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
+    const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
+    S->perm = SLI_TAKE(b, sl_int, n);
+    S->iperm = SLI_TAKE(b, sl_int, n);
+    S->parent = SLI_TAKE(b, sl_int, n);
+    S->counts = SLI_TAKE(b, sl_int, n);
+    S->super_of = SLI_TAKE(b, sl_int, n);
+    S->super_first = SLI_TAKE(b, sl_int, supers + 1);
+    S->super_parent = SLI_TAKE(b, sl_int, supers);
+    S->rows_begin = SLI_TAKE(b, sl_off, supers + 1);
+    S->rows = SLI_TAKE(b, sl_int, rows);
+    S->panel_begin = SLI_TAKE(b, sl_off, supers + 1);
+    S->steps = SLI_TAKE(b, sli_step, supers);
+    S->first_descendant = SLI_TAKE(b, sl_int, supers);
+    S->pairs = SLI_TAKE(b, unsigned char, S->n_pairs > 0 ? n : 0);
+    S->relative = SLI_TAKE(b, sl_int, rows);
+    S->scatter_begin = SLI_TAKE(b, sl_off, supers + 1);
+    S->scatter_from = SLI_TAKE(b, sl_int, entries);
+    S->scatter_to = SLI_TAKE(b, sl_off, entries);
+    S->node_of = SLI_TAKE(b, sl_int, S->n_nodes > 0 ? n : 0);
+    S->node_parent = SLI_TAKE(b, sl_int, S->n_nodes);
+    S->node_level = SLI_TAKE(b, sl_int, S->n_nodes);
+}
+
+/* Renumbers the tree and the counts: order[k] = the old number of column k. */
+static void sli_analysis_reorder(sli_analysis *w, const sl_int *order) {
+    sl_int k = 0;
+    while (k < w->n && order[k] == k) {
+        k++;
+    }
+    if (k == w->n) {
+        return;
+    }
+    for (k = 0; k < w->n; k++) {
+        w->scratch[k] = w->counts[order[k]];
+    }
+    memcpy(w->counts, w->scratch, (size_t)w->n * sizeof(sl_int));
+    sli_relabel(order, w->n, w->old_of, w->new_of, w->parent, w->scratch);
+}
+
+/* Marks the supernodes whose last column is the first of a 2x2 pivot. */
+static void sli_analysis_tie(sli_analysis *w) {
+    sl_int s;
+    for (s = 0; s < w->amalgamation.count; s++) {
+        w->amalgamation.is_tied[s] = w->pairs[w->old_of[w->amalgamation.first[s + 1] - 1]];
+    }
+}
+
+/* Splits supernodes so that each 2x2 pivot is in one tile. Its two columns have the same rows. */
+static void sli_analysis_split(sli_analysis *w, sl_int *order) {
+    sl_int k;
+    for (k = 0; k < w->n; k++) {
+        w->is_first[k] = w->pairs[w->old_of[k]];
+        SLI_ASSERT(!w->is_first[k] || w->old_of[k + 1] == w->old_of[k] + 1);
+    }
+    for (k = w->n - 1; k >= 0; k--) {
+        w->counts[k] = w->is_first[k] ? w->counts[k + 1] + 1 : w->counts[k];
+    }
+    if (sli_split_pairs(&w->amalgamation, w->parent, w->is_first, w->earlier, order, w->scratch)) {
+        sli_analysis_reorder(w, order);
+        for (k = 0; k < w->n; k++) {
+            w->is_first[k] = w->pairs[w->old_of[k]];
+        }
+    }
+}
+
+/* Finds tree and counts. Returns whether the columns need no postorder. */
+static int sli_analyze_columns(sli_analysis *w, int keeps_order) {
+    sl_int *sequence = (sl_int *)(void *)w->list;
+    sli_tree_result result;
+    sli_tree_job job;
+    job.n = w->n;
+    job.columns = &w->columns;
+    job.parent = w->parent;
+    job.counts = w->counts;
+    job.list = w->spare;
+    job.scratch = w->scratch;
+    job.sequence = NULL;
+    job.keeps_order = keeps_order;
+    result = sli_tree_and_counts(&job);
+    if (result == SLI_TREE_TOO_LONG) {
+        sli_tree_sequence(&job, sequence, w->list + w->n);
+        job.sequence = sequence;
+        result = sli_tree_and_counts(&job);
+    }
+    return result == SLI_TREE_IN_ORDER;
+}
+
+/* Finds tree, counts and supernodes, and renumbers the columns to their final order. */
+static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *stats) {
+    const sl_int n = w->n;
+    const int keeps_order =
+        opt != NULL && (opt->ordering == SL_ORDERING_GIVEN || opt->ordering == SL_ORDERING_NATURAL);
+    sl_int *order = (sl_int *)(void *)w->list; /* the numbering needs all of scratch */
+    sl_int *child = w->scratch, *more = w->scratch + n, *sequence = NULL, k;
+    sli_order_natural(n, w->old_of);
+    sli_order_natural(n, w->new_of);
+    for (k = 0; k < n && w->choice.has_tree; k++) {
+        w->counts[k] = 1 + (w->parent[k] != -1);
+    }
+    if (w->choice.has_tree) {
+        sli_find_other_children(n, w->parent, more);
+    } else if (!sli_analyze_columns(w, keeps_order)) { /* otherwise more is filled */
+        sli_postorder(w->parent, NULL, n, order, child, more);
+        sli_analysis_reorder(w, order);
+        sequence = keeps_order ? w->new_of : NULL;
+        sli_find_other_children(n, w->parent, more);
+    }
+    w->amalgamation.relaxes = opt == NULL || opt->relaxation != SL_RELAXATION_NONE;
+    sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
+    stats->symbolic.supernodes_fundamental = w->amalgamation.count;
+    w->amalgamation.is_large = sli_is_large(w->counts, n);
+    w->amalgamation.is_for_one_factor = opt != NULL && opt->purpose == SL_PURPOSE_ONE_FACTOR;
+    if (w->pairs != NULL) {
+        sli_analysis_tie(w);
+    }
+    w->amalgamation.merges = w->amalgamation.relaxes || w->pairs != NULL;
+    if (w->amalgamation.merges) {
+        sli_amalgamate(&w->amalgamation, child, more, w->list, w->list + n);
+    }
+    if (sli_number_supernodes(&w->amalgamation, sequence, order, w->scratch)) {
+        sli_analysis_reorder(w, order);
+    }
+    if (w->pairs != NULL) {
+        sli_analysis_split(w, order);
+    }
+}
+
+/* The processor seconds since the last call. */
+static double sli_analysis_lap(sli_analysis *w) {
+    const double before = w->clock;
+    w->clock = sli_seconds_for(w->clock_entries);
+    return w->clock - before;
+}
+
+/* Finds everything that depends on the order in w->perm. */
+static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *team,
+                              sl_stats *stats) {
+    double lap;
+    sl_int k;
+    for (k = 0; k < w->n; k++) {
+        w->scratch[w->perm[k]] = k;
+    }
+    sli_pattern_fill(w, stats->symbolic.triangle, team);
+    sli_analyze_tree(w, opt, stats);
+    lap = sli_analysis_lap(w);
+    stats->symbolic.seconds_tree += lap;
+    stats->symbolic.seconds_analyze += lap;
+}
+
+/* The entries of L, and those on the paths from all columns to the roots. size: n of scratch. */
+static void sli_analysis_costs(const sli_analysis *w, sl_int *size, double *entries,
+                               double *paths) {
+    sl_int k;
+    *entries = *paths = 0.0;
+    for (k = 0; k < w->n; k++) {
+        size[k] = 1;
+    }
+    for (k = 0; k < w->n; k++) {
+        *entries += w->counts[k];
+        *paths += (double)w->counts[k] * size[k];
+        if (w->parent[k] != -1) {
+            size[w->parent[k]] += size[k];
+        }
+    }
+}
+
+/* Analyzes the other order, then the first one, which stays unless it has more entries and longer
+ * paths. */
+static void sli_analyze_both(sli_analysis *w, const sl_options *opt, sli_team *team,
+                             sl_stats *stats) {
+    double entries[2], paths[2];
+    sl_int *const orders[3] = {w->choice.other, w->perm, w->choice.other};
+    int k, count = 2;
+    for (k = 0; k < count; k++) {
+        w->perm = orders[k];
+        (void)sli_csc_columns(w->A, w->column);
+        sli_analyze_order(w, opt, team, stats);
+        if (k < 2) {
+            sli_analysis_costs(w, w->scratch, &entries[k], &paths[k]);
+        }
+        if (k == 1 && entries[0] < entries[1] && paths[0] < paths[1]) {
+            w->septree.count = 0;
+            count = 3;
+        }
+    }
+}
+
+/* Fills the counts. depth: n of scratch. */
+static void sli_analyze_stats(const sl_symbolic *S, sl_int *depth, sl_stats *stats) {
+    sl_int k;
+    stats->symbolic.n = S->n;
+    stats->symbolic.supernodes = S->n_supers;
+    stats->symbolic.nnz_panels = S->panel_begin[S->n_supers];
+    for (k = S->n - 1; k >= 0; k--) {
+        const double count = S->counts[k];
+        depth[k] = S->parent[k] == -1 ? 1 : depth[S->parent[k]] + 1;
+        stats->symbolic.tree_height = sli_max(stats->symbolic.tree_height, depth[k]);
+        stats->symbolic.components += S->parent[k] == -1;
+        stats->symbolic.nnz_l += S->counts[k];
+        stats->symbolic.flops += count * count;
+    }
+}
+
+/* Copies the separator tree, indexed by columns of L. Parents have higher numbers. */
+static void sli_fill_septree(sl_symbolic *S, const sli_septree *septree) {
+    sl_int k;
+    for (k = 0; k < S->n && S->n_nodes > 0; k++) {
+        S->node_of[k] = septree->node_of[S->perm[k]];
+    }
+    for (k = S->n_nodes - 1; k >= 0; k--) {
+        S->node_parent[k] = septree->parent[k];
+        S->node_level[k] = septree->parent[k] == -1 ? 0 : S->node_level[septree->parent[k]] + 1;
+    }
+}
+
+/* Hashes what determines the object: the identity of a factor begins with it. */
+static void sli_fill_identity(sl_symbolic *S, sl_triangle triangle) {
+    const sl_int kind = (sl_int)triangle;
+    sl_int k;
+    S->identity = sli_hash_ints(S->pattern, &kind, 1);
+    S->identity = sli_hash_ints(S->identity, S->perm, S->n);
+    S->identity = sli_hash_ints(S->identity, S->super_first, (sl_off)S->n_supers + 1);
+    for (k = 0; k < S->n && S->n_pairs > 0; k++) {
+        if (S->pairs[k] == SLI_PAIR_FIRST) {
+            S->identity = sli_hash_ints(S->identity, &k, 1);
+        }
+    }
+}
+
+/* Copies the tree out of the scratch and fills everything that depends on it. */
+static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) {
+    const size_t bytes = (size_t)S->n * sizeof(sl_int);
+    sl_int s, k;
+    for (k = 0; k < S->n; k++) {
+        S->perm[k] = w->perm[w->old_of[k]];
+        S->iperm[S->perm[k]] = k;
+    }
+    memcpy(S->parent, w->parent, bytes);
+    memcpy(S->counts, w->counts, bytes);
+    memcpy(S->super_of, w->super_of, bytes);
+    memcpy(S->super_first, w->amalgamation.first, ((size_t)S->n_supers + 1) * sizeof(sl_int));
+    memcpy(S->super_parent, w->amalgamation.parent, (size_t)S->n_supers * sizeof(sl_int));
+    S->rows_begin[0] = 0;
+    for (s = 0; s < S->n_supers; s++) {
+        S->rows_begin[s + 1] = S->rows_begin[s] + w->amalgamation.below[s];
+    }
+    sli_fill_panels(w, S);
+    for (k = 0; k < S->n && S->n_pairs > 0; k++) {
+        S->pairs[k] = w->is_first[k]                ? SLI_PAIR_FIRST
+                      : k > 0 && w->is_first[k - 1] ? SLI_PAIR_SECOND
+                                                    : SLI_PAIR_NONE;
+    }
+    sli_fill_descendants(S);
+    sli_fill_structure(w, S);
+    sli_fill_steps(S);
+    sli_fill_plain(S);
+    sli_fill_septree(S, &w->septree);
+    sli_fill_identity(S, stats->symbolic.triangle);
+    sli_analyze_stats(S, w->scratch, stats);
+}
+
+/* Creates the analysis from the tree. draft has its allocator and its pattern. */
+static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_analysis *w,
+                                    sl_stats *stats) {
+    sli_block b = {NULL, 0, 0};
+    sl_off rows = 0;
+    sl_int s, plain = 0;
+    sl_status status = SL_OK;
+    draft->n = w->n;
+    draft->n_supers = w->amalgamation.count;
+    draft->n_nodes = w->septree.count;
+    for (s = 0; w->pairs != NULL && s < w->n; s++) {
+        draft->n_pairs += w->pairs[s];
+    }
+    stats->symbolic.pairs = draft->n_pairs;
+    stats->symbolic.nnz_a = w->columns.begin[w->n];
+    for (s = 0; s < w->amalgamation.count; s++) {
+        rows += w->amalgamation.below[s];
+        plain += w->amalgamation.width[s] == 1;
+    }
+    SLI_LAYOUT(&b, &draft->allocator, status) {
+        (void)sli_take(&b, 1, sizeof(sl_symbolic));
+        sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a);
+        if (sli_is_mostly_plain(plain, draft->n_supers)) {
+            draft->plain = SLI_TAKE(&b, sl_int, draft->n_supers);
+        }
+        stats->symbolic.bytes = b.used;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_symbolic_fill(draft, w, stats);
+    stats->symbolic.seconds_structure = sli_analysis_lap(w);
+    stats->symbolic.seconds_analyze += stats->symbolic.seconds_structure;
+    draft->stats.symbolic = stats->symbolic;
+    *out = (sl_symbolic *)(void *)b.base;
+    **out = *draft;
+    return SL_OK;
+}
+
+#endif
