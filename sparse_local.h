@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 073a7b9d0bb92d1c
+ * FNV-1a of the lines after this comment, without the license: 69de866319a8f831
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -46,18 +46,18 @@
  *  20008 impl/ float: L and fronts in single precision
  *  20459 impl/ inverse: entries of the inverse, regions
  *  23522 impl/ change: a factor that follows changes of its matrix
- *  29605 impl/ dirichlet: rows fixed at given values
- *  30194 impl/ dirichlet: by a factor of all rows
- *  30426 impl/ io: files that are replaced only when they are complete
- *  30644 impl/ files: Matrix Market files, 64-bit indices
- *  31264 impl/ save: factors in files
- *  33261 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33943 impl/ batch: diagonals of many inverses
- *  34084 impl/ complex: complex Hermitian systems over real factors
- *  34646 impl/ complex: entries of the inverse
- *  34706 impl/ packs: the tables through which the core calls packs
- *  34755 impl/ last: undefine every internal macro
- *  35111 impl/ templates: the header includes them from itself, once for each instruction set
+ *  29607 impl/ dirichlet: rows fixed at given values
+ *  30196 impl/ dirichlet: by a factor of all rows
+ *  30428 impl/ io: files that are replaced only when they are complete
+ *  30646 impl/ files: Matrix Market files, 64-bit indices
+ *  31266 impl/ save: factors in files
+ *  33263 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33945 impl/ batch: diagonals of many inverses
+ *  34086 impl/ complex: complex Hermitian systems over real factors
+ *  34648 impl/ complex: entries of the inverse
+ *  34708 impl/ packs: the tables through which the core calls packs
+ *  34757 impl/ last: undefine every internal macro
+ *  35113 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -24605,7 +24605,7 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
   return status;
 }
 
-/* src/impl/change/rank.h: rank-k changes of a factor: the vectors, their passes, and the log that undoes them */
+/* src/impl/change/rank_vectors.h: rank-k changes: the state; the vectors, checked, sorted, measured by passes */
 
 typedef struct sli_rank {
   sli_update u;
@@ -24641,12 +24641,8 @@ typedef struct sli_rank {
 
 #define SLI_RANK_LOGGED (1 << 19)
 
-#define SLI_RANK_CLOSE 1e-3
-
 #define SLI_RANK_LARGE 1e100
 #define SLI_RANK_SMALL 1e-100
-
-static const char sli_growth_exceeded[] = "pivot growth exceeds options.growth_limit";
 
 static int sli_rank_is_suited(const sl_factor *F) {
   return F->E == NULL && F->null.count == 0 && F->type->storage == SL_STORAGE_DOUBLE;
@@ -24794,6 +24790,12 @@ static void sli_rank_sort(void *data) {
   q->has_trial = rest > 0 && !q->has_log;
   sli_rank_measure(q);
 }
+
+/* src/impl/change/rank.h: sl_factor_update: passes of a rank-k change, their growth, the log that undoes them */
+
+#define SLI_RANK_CLOSE 1e-3
+
+static const char sli_growth_exceeded[] = "pivot growth exceeds options.growth_limit";
 
 static uint64_t sli_rank_panels(const sl_symbolic *S, const uint64_t *seeds, sl_int count) {
   uint64_t size = 0;

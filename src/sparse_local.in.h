@@ -218,6 +218,7 @@ extern "C" {
 #include "impl/change/update_pivots.h"
 #include "impl/change/update.h"
 #include "impl/change/path.h"
+#include "impl/change/rank_vectors.h"
 #include "impl/change/rank.h"
 #include "impl/change/edges.h"
 #include "impl/change/choose.h"

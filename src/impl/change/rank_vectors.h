@@ -1,0 +1,207 @@
+/* rank_vectors.h: rank-k changes: the state; the vectors, checked, sorted, measured by passes */
+#ifndef SLI_CHANGE_RANK_VECTORS_H
+#define SLI_CHANGE_RANK_VECTORS_H
+
+#include "update.h"
+
+/* A rank-k change in progress. */
+typedef struct sli_rank {
+    sli_update u;                             /* first: its passes */
+    const sl_symbolic *S;                     /* of the factor */
+    const sl_int *entry_rows, *entry_columns; /* a change given by entries */
+    const double *deltas;
+    sl_int n_entries;
+    int is_balanced; /* the entries are split by the scales of their rows */
+    sl_stats *stats;
+    sl_status status;
+    sl_int count;    /* vectors that change something */
+    sl_int updates;  /* those of the sign of the pivots: they come first */
+    int has_trial;   /* its only pass may fail: it is tried first */
+    int has_log;     /* a later pass may fail, growth may become too large, or numbers overflow */
+    int needs_log;   /* the trial was close: the pass itself, rounded otherwise, may fail */
+    sl_int logged;   /* steps in the log */
+    int is_changed;  /* a pass has begun to change F */
+    double flops;    /* entries of L that the passes change, times their vectors' cost */
+    double pivots;   /* pivots that they change, times their vectors */
+    sl_off entries;  /* entries of L that the passes change */
+    sli_reach whole; /* of all vectors */
+    uint64_t *seeds, *scratch, *whole_seeds; /* vectors: first pivot and number */
+    double *log, *log_D, *log_loss;
+    uint64_t *log_marks;
+    sli_extent *log_extents;
+    sli_step *log_steps;
+
+    /* a change given by entries, as vectors */
+    sl_csc V;
+    sl_int *p, *i;
+    double *x, *sigma, *diagonal;
+    uint64_t *order, *order_scratch;
+} sli_rank;
+
+/* Up to so many entries of L a pass of several vectors keeps a copy of them. As long as it stays in
+ * the caches, that takes less time than a trial. */
+#define SLI_RANK_LOGGED (1 << 19)
+
+/* Beyond these sizes of pivots and changes, numbers of a pass may overflow. */
+#define SLI_RANK_LARGE 1e100
+#define SLI_RANK_SMALL 1e-100
+
+/* Can F have rank-one changes? In float each one would round all of its columns again. */
+static int sli_rank_is_suited(const sl_factor *F) {
+    return F->E == NULL && F->null.count == 0 && F->type->storage == SL_STORAGE_DOUBLE;
+}
+
+/* May F be changed in place? */
+static sl_status sli_rank_check(const sl_factor *F) {
+    sl_status status = sli_factor_has_numbers(F);
+    status = status == SL_OK ? sli_factor_may_change(F) : status;
+    if (status != SL_OK || sli_rank_is_suited(F)) {
+        return status;
+    }
+    return sli_refuse(SL_ERR_UNSUPPORTED, F->E != NULL ? "an update with 2x2 pivots"
+                                          : F->null.count > 0
+                                              ? "an update with null pivots"
+                                              : "an update of L in float or complex");
+}
+
+/* Checks vector v: its entries are finite, and its rows are below each other in L. */
+static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first) {
+    const sl_symbolic *S = q->S;
+    const sl_csc *V = q->u.V;
+    const double sigma = q->u.sigma == NULL ? 1.0 : q->u.sigma[v];
+    sl_int s, p, at;
+    if (!sli_is_finite(sigma)) {
+        return sli_fail_at(q->stats, SL_ERR_NOT_FINITE, -1, v, sigma, "sigma is not finite");
+    }
+    s = first < S->n ? S->super_of[first] : -1;
+    for (p = V->p[v]; p < V->p[v + 1]; p++) {
+        const sl_int k = S->iperm[V->i[p]];
+        const sl_int *rows = s == -1 ? NULL : S->rows + S->rows_begin[s];
+        if (!sli_is_finite(V->x[p])) {
+            return sli_fail_at(q->stats, SL_ERR_NOT_FINITE, V->i[p], v, V->x[p],
+                               "an entry of V is not finite");
+        }
+        if (V->x[p] == 0.0 || sigma == 0.0 || k < S->super_first[s + 1]) {
+            continue;
+        }
+        at = sli_lower_bound(rows, S->steps[s].below, k);
+        if (at == S->steps[s].below || rows[at] != k) {
+            return sli_fail_at(q->stats, SL_ERR_OTHER_PATTERN, V->i[p], S->perm[first], V->x[p],
+                               "L has no such entry: the changed matrix has more entries");
+        }
+    }
+    return SL_OK;
+}
+
+static void sli_rank_layout_seeds(void *data, sli_block *b) {
+    sli_rank *q = (sli_rank *)data;
+    q->seeds = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
+    q->scratch = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
+    q->whole_seeds = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
+}
+
+/* The end of the pass that begins with vector k. */
+SLI_INLINE sl_int sli_rank_pass(const sli_rank *q, sl_int k) {
+    return sli_min(k + SLI_TILE, q->count);
+}
+
+/* Is a pass of `count` vectors one path through the tree? */
+SLI_INLINE int sli_rank_is_path(const sli_rank *q, sl_int count) {
+    return count == 1 && q->u.sign != 0.0;
+}
+
+/* May numbers of a pass overflow? size: the largest change of an entry of A by one vector. */
+static int sli_rank_may_overflow(const sli_rank *q, double size) {
+    const sl_factor_info *info = &q->u.F->stats.factor;
+    return !(size <= SLI_RANK_LARGE && info->pivot_max <= SLI_RANK_LARGE &&
+             info->pivot_min >= SLI_RANK_SMALL);
+}
+
+/* Lists the vectors of a pass, updates first, and its seeds. */
+static void sli_rank_group(const sli_rank *q, sl_int first, sl_int last, sl_int *group,
+                           uint64_t *seeds) {
+    uint64_t unused[SLI_TILE];
+    sl_int k;
+    for (k = first; k < last; k++) {
+        group[k - first] = sli_value(q->seeds[k]);
+        seeds[k - first] = q->seeds[k];
+    }
+    sli_sort(seeds, last - first, unused);
+}
+
+/* Measures the passes. A pass of k vectors reads and writes its entries once, with 4 k flops each.
+ */
+static void sli_rank_measure(sli_rank *q) {
+    sl_int k, last, group[SLI_TILE];
+    uint64_t seeds[SLI_TILE];
+    q->flops = q->pivots = 0.0;
+    q->entries = 0;
+    for (k = 0; k < q->count; k = last) {
+        sli_reach R = q->whole;
+        last = sli_rank_pass(q, k);
+        if (last - k < q->count) {
+            sli_rank_group(q, k, last, group, seeds);
+            sli_reach_measure(q->S, seeds, last - k, &R);
+        }
+        q->flops += 4.0 * (double)R.entries * (double)((sl_int)1 << sli_lanes_kind(last - k));
+        q->pivots += (double)R.columns * (double)(last - k);
+        q->entries += R.entries;
+    }
+}
+
+/* The largest change of an entry of the diagonal of A by vector v. */
+static double sli_rank_size(const sl_csc *V, sl_int v, double sigma) {
+    double most = 0.0;
+    sl_int p;
+    for (p = V->p[v]; p < V->p[v + 1]; p++) {
+        most = fmax(most, fabs(V->x[p]));
+    }
+    return fabs(sigma) * most * most;
+}
+
+/* Checks and sorts the vectors, those of the sign of the pivots first, and measures their reach. */
+static void sli_rank_sort(void *data) {
+    sli_rank *q = (sli_rank *)data;
+    const sl_symbolic *S = q->S;
+    const sl_csc *V = q->u.V;
+    double size = 0.0;
+    sl_int v, rest = 0;
+    q->count = 0;
+    for (v = 0; v < V->n_cols && q->status == SL_OK; v++) {
+        const double sigma = q->u.sigma == NULL ? 1.0 : q->u.sigma[v];
+        const sl_int first = sli_update_first(S, V, v);
+        q->status = sli_rank_check_vector(q, v, first);
+        size = fmax(size, sli_rank_size(V, v, sigma));
+        if (first < S->n && sigma != 0.0) {
+            if (sigma * (q->u.sign < 0.0 ? -1.0 : 1.0) > 0.0) {
+                q->seeds[q->count++] = sli_keyed(first, v);
+            } else {
+                q->whole_seeds[rest++] = sli_keyed(first, v);
+            }
+        }
+    }
+    memset(&q->whole, 0, sizeof q->whole);
+    if (q->status != SL_OK) {
+        return;
+    }
+    q->updates = q->count;
+    sli_sort(q->seeds, q->count, q->scratch);
+    sli_sort(q->whole_seeds, rest, q->scratch);
+    if (rest > 0) {
+        memcpy(q->seeds + q->count, q->whole_seeds, (size_t)rest * sizeof *q->seeds);
+    }
+    q->count += rest;
+    if (q->count > 0) {
+        memcpy(q->whole_seeds, q->seeds, (size_t)q->count * sizeof *q->seeds);
+    }
+    sli_sort(q->whole_seeds, q->count, q->scratch);
+    sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
+    q->has_log = q->u.sign == 0.0 || q->needs_log || sli_rank_may_overflow(q, size) ||
+                 (rest > 0 && (q->count > SLI_TILE ||
+                               (q->count > 1 && q->whole.entries <= SLI_RANK_LOGGED))) ||
+                 q->u.F->growth_limit < 2.0; /* else pivots of one sign do not exceed it */
+    q->has_trial = rest > 0 && !q->has_log;  /* pivots that grow are not refused */
+    sli_rank_measure(q);
+}
+
+#endif
