@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 69de866319a8f831
+ * FNV-1a of the lines after this comment, without the license: d98811748f3add72
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35112,6 +35112,8 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_SECTION_FRONTS
 /* src/impl/factor/fronts.inl.h: the fronts of the supernodal factorization, for one type of numbers */
 
+/* src/impl/factor/front_load.inl.h: where a front is, and the entries of A that it begins with */
+
 SLI_INLINE SLF_VALUE *SLF_NAME(update_matrix)(const sl_factor *F, sl_int s, sl_int worker) {
   const sl_off begin = F->schedule.stack_begin[s], own = F->schedule.own;
   const sl_off at = begin < own ? begin + worker * own : begin;
@@ -35233,8 +35235,10 @@ static sl_status SLF_NAME(front_load)(sl_factor *F, const sli_source *from, cons
 #endif
   return status;
 }
-
+/* end of front_load.inl.h */
 #if !SLF_SINGLE && !SLF_HALF
+/* src/impl/factor/plain_columns.inl.h: plain columns, in double: their pivots and L, and what they pass up */
+
 static void sli_plain_assemble(const sli_front *f, const double *l, double d,
     const sl_int *relative, sl_int first, sl_int last) {
   const sl_int w = f->width, whole = w / SLI_TILE;
@@ -35412,6 +35416,7 @@ static sl_status sli_plain_factor(sl_factor *F, const sli_source *from, sl_int s
   }
   return sli_column_end(F, s, worker, l, &magnitude, failure);
 }
+/* end of plain_columns.inl.h */
 #endif
 
 static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_int worker,

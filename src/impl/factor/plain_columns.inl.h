@@ -1,0 +1,195 @@
+/* plain_columns.inl.h: plain columns, in double: their pivots and L, and what they pass up */
+
+/* Adds -l d l' to a front, in rows first .. last-1 of the column l, which has these relative
+ * indices, and what it adds to the diagonal to the magnitudes. */
+static void sli_plain_assemble(const sli_front *f, const double *l, double d,
+                               const sl_int *relative, sl_int first, sl_int last) {
+    const sl_int w = f->width, whole = w / SLI_TILE;
+    double *magnitude = f->magnitude; /* in registers: what is stored may change f */
+    double *const panel = f->panel, *const update = f->update;
+    sl_int r, k;
+    for (r = first; r < last; r++) {
+        const uint32_t row = (uint32_t)relative[r], lane = row % SLI_TILE;
+        const sl_int tile = (sl_int)(row / SLI_TILE);
+        const double x = l[r] * d;
+        double *to = panel + sli_tile_offset(w, tile) + lane;
+        for (k = 0; k <= r && relative[k] < w; k++) {
+            to[SLI_TILE * (ptrdiff_t)relative[k]] -= x * l[k];
+        }
+        if (k <= r) {
+            to = update + sli_triangle_offset(tile - whole) + lane;
+            for (; k <= r; k++) {
+                to[SLI_TILE * (ptrdiff_t)(relative[k] - SLI_TILE * whole)] -= x * l[k];
+            }
+        }
+        magnitude[row] += fabs(x * l[r]);
+    }
+}
+
+/* Plain column s in double. */
+SLI_INLINE double *sli_plain_column(const sl_factor *F, sl_int s, sl_int worker) {
+    return F->schedule.is_plain[s] != SLI_PLAIN_PASSED ? (double *)F->values + F->S->steps[s].panel
+                                                       : sli_double_update_matrix(F, s, worker);
+}
+
+/* What child c with one row below adds to a plain column: *pivot changes, and *magnitude grows. */
+SLI_INLINE void sli_plain_take(const sl_factor *F, sl_int c, sl_int worker, double *pivot,
+                               double *magnitude) {
+    const sli_step *child = &F->S->steps[c];
+    if (F->schedule.is_plain[c]) {
+        const double l = sli_plain_column(F, c, worker)[1];
+        const double product = l * F->D[child->column] * l;
+        *pivot -= product;
+        *magnitude += fabs(product);
+    } else { /* the one entry of its update matrix, and the magnitude */
+        const double *from = sli_double_update_matrix(F, c, worker);
+        const sl_int at = child->width % SLI_TILE;
+        *pivot += from[(SLI_TILE + 1) * at];
+        *magnitude += from[sli_triangle_offset(1) + at];
+    }
+}
+
+/* The mark of a plain column with these entries, in their order, and the largest magnitude, as sets
+ * of bits: the order is the same, and NaN come last. */
+SLI_INLINE uint64_t sli_plain_mark(const double *x, const sl_int *at, sl_int count, double *most) {
+    uint64_t mark = SLI_MARK_BEGIN, place = SLI_HASH_2, largest = 0;
+    sl_int m;
+    for (m = 0; m < count; m++, place += SLI_HASH_3) {
+        uint64_t bits;
+        memcpy(&bits, &x[at[m]], sizeof bits);
+        mark += sli_mark_bits(bits, place);
+        bits &= UINT64_MAX >> 1;
+        largest = bits > largest ? bits : largest;
+    }
+    memcpy(most, &largest, sizeof largest);
+    return mark;
+}
+
+/* Can a factorization take runs of plain columns? */
+SLI_INLINE int sli_plain_runs(const sl_factor *F, const sli_source *from) {
+    return from->A != NULL && F->work.copied == NULL &&
+           F->history.marks != NULL && /* branches untested: of a restriction, none is direct */
+           !F->rule.replaces;
+}
+
+/* What a run of plain columns reads and writes: copies of F and its analysis, as a compiler cannot
+ * know that numbers that are stored do not change these addresses. */
+typedef struct sli_plain_work {
+    const double *x;   /* of A */
+    const sl_int *at;  /* the first entry of the column in the map */
+    const sl_int *low; /* first descendants */
+    const sli_step *steps;
+    const unsigned char *is_plain;
+    sli_extent *extents;
+    uint64_t *marks;
+    double *L, *D;
+    double tolerance;
+} sli_plain_work;
+
+/* Computes plain column s, which has so many rows below. Returns 0 if it is not regular. */
+SLI_ALWAYS_INLINE int sli_plain_regular(const sl_factor *F, const sli_plain_work *w, sl_int s,
+                                        sl_int below, sl_int worker) {
+    const sl_int first = w->low[s], k = w->steps[s].column;
+    const double *x = w->x;
+    const sl_int *at = w->at;
+    double *l = w->L + w->steps[s].panel, pivot = 0.0 + x[*at], magnitude = fabs(pivot), size;
+    sli_extent *extent = &w->extents[s];
+    sl_int c, m;
+    w->marks[s] = sli_plain_mark(x, at, below + 1, &extent->entry);
+    for (c = s - 1; c >= first; c = w->low[c] - 1) {
+        if (w->is_plain[c]) {
+            const double own = w->L[w->steps[c].panel + 1];
+            const double product = own * w->D[w->steps[c].column] * own;
+            pivot -= product;
+            magnitude += fabs(product);
+        } else {
+            sli_plain_take(F, c, worker, &pivot, &magnitude);
+        }
+    }
+    *l = 0.0;
+    for (m = 1; m <= below; m++) {
+        l[m] = (0.0 + x[at[m]]) / pivot; /* no -0, as in a sum of entries */
+    }
+    size = fabs(pivot);
+    w->D[k] = pivot;
+    extent->magnitude = magnitude;
+    extent->pivot = k;
+    extent->suspects = 0;
+    return (size > w->tolerance * magnitude) & (size <= DBL_MAX) & (extent->entry <= DBL_MAX);
+}
+
+/* Computes plain columns from supernode s up to `last` while each is regular: its entries of A are
+ * its rows one by one, as most are, and there is nothing to refuse and nothing to replace. Returns
+ * the supernode after them. What it leaves is computed again from the start. */
+SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl_int s, sl_int last,
+                                         sl_int worker) {
+    const sl_symbolic *S = F->S;
+    sli_plain_work w;
+    w.x = x;
+    w.at = S->scatter_from + S->scatter_begin[s];
+    w.low = S->first_descendant;
+    w.steps = S->steps;
+    w.is_plain = F->schedule.is_plain;
+    w.extents = F->extents;
+    w.marks = F->history.marks;
+    w.L = (double *)F->values;
+    w.D = F->D;
+    w.tolerance = F->rule.null_tolerance > 0.0 ? F->rule.null_tolerance : 0.0;
+    for (; s <= last && w.is_plain[s] == SLI_PLAIN_DIRECT; s++) {
+        const sl_int below = w.steps[s].below;
+        const int is_regular = below == 1 ? sli_plain_regular(F, &w, s, 1, worker)
+                                          : sli_plain_regular(F, &w, s, below, worker);
+        if (!is_regular) {
+            break;
+        }
+        w.at += 1 + below;
+    }
+    return s;
+}
+
+/* Ends column s: refuses its pivot as sli_check_pivot does, and stores l unless it is in L.
+ * magnitude: of all rows or, if it is plain, of the first one. */
+SLI_NOINLINE static sl_status sli_column_end(const sl_factor *F, sl_int s, sl_int worker, double *l,
+                                             const double *magnitude, sli_failure *failure) {
+    const sl_int k = F->S->steps[s].column, below = F->S->steps[s].below;
+    const sl_int end = SLI_TILE * sli_tiles(1 + below);
+    sl_status status = sli_check_pivot(F, s, k, F->D[k], *magnitude, failure);
+    if (status == SL_OK && F->type->store != NULL) {
+        sli_front f = sli_front_in_double(F, s, worker);
+        sl_int r;
+        f.panel = l;
+        for (r = 0; r < end; r++) {
+            l[r] = r > below ? 0.0 : l[r];
+            f.magnitude[r] =
+                r > below || F->schedule.is_plain[s] ? fabs(l[r] * *f.D * l[r]) : magnitude[r];
+        }
+        status = F->type->store(F, &f, failure);
+    }
+    return status;
+}
+
+/* Computes plain column s: its pivot and its entries of L. */
+static sl_status sli_plain_factor(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
+                                  sli_failure *failure) {
+    const sl_symbolic *S = F->S;
+    const sli_step *step = &S->steps[s];
+    const sl_int k = step->column, below = step->below;
+    double *l = sli_plain_column(F, s, worker), pivot, magnitude;
+    sl_int c, r;
+    memset(l, 0, (size_t)(1 + below) * sizeof(double));
+    if (sli_double_panel_load(F, from, s, l, failure) != SL_OK) {
+        return failure->status;
+    }
+    pivot = *l;
+    magnitude = fabs(pivot);
+    for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+        sli_plain_take(F, c, worker, &pivot, &magnitude);
+    }
+    pivot = F->rule.replaces ? sli_pivot_by_rule(&F->rule, k, pivot, magnitude) : pivot;
+    F->D[k] = pivot;
+    *l = 0.0;
+    for (r = 1; r <= below; r++) {
+        l[r] /= pivot;
+    }
+    return sli_column_end(F, s, worker, l, &magnitude, failure);
+}
