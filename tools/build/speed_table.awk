@@ -99,15 +99,16 @@ END {
         exit 1
     }
     printf "%s.\n\n", machine
-    print "Each cell: the median time of this library; the time of the fastest peer as a multiple"
-    print "of it; the physical limit as a share of our time. The limit is the least time in"
-    print "which the machine can read L or do the operations. Peers run in their best and in their"
-    print "default settings, and the fastest counts. CHOLMOD with its own ordering: `M` METIS, `C`"
-    print "nothing set. CHOLMOD in our ordering: `S` supernodal, `s` simplicial, `B` cholmod_solve2"
-    print "with Bset, `F` a full solve in its fastest setting, `U` cholmod_updown on vectors that"
-    print "were permuted before, `R` cholmod_rowdel and rowadd. Eigen SimplicialLDLT: `A` with AMD,"
-    print "its default, `E` in our ordering. \"For one factor\": `options.purpose` is"
-    print "`SL_PURPOSE_ONE_FACTOR`; by default the order suits many local solves."
+    print "Each cell has the median time of this library, the time of the fastest peer as a"
+    print "multiple of it, and the physical limit as a share of our time. The limit is the least"
+    print "time in which the machine can read L or do the operations. Peers run in their best and"
+    print "in their default settings, and a letter names the fastest. CHOLMOD with its own"
+    print "ordering: `M` METIS, `C` nothing set. CHOLMOD in our ordering: `S` supernodal, `s`"
+    print "simplicial, `B` cholmod_solve2 with Bset, `F` a full solve in its fastest setting, `U`"
+    print "cholmod_updown on vectors that were permuted before, `R` cholmod_rowdel and rowadd."
+    print "Eigen SimplicialLDLT: `A` with AMD, its default, `E` in our ordering. \"For one factor\""
+    print "means that `options.purpose` is `SL_PURPOSE_ONE_FACTOR`; by default the order suits"
+    print "many local solves."
     for (t = 1; t <= n_tables; t++) table(t)
     if (n_kinds > 0) table_of_kinds()
 }
@@ -168,13 +169,14 @@ function mean_and_worst(kind, name) {
 }
 
 function table_of_kinds(r, k, line) {
-    print "\nSmall systems of many kinds, from the matrix to a factor: geometric means over the"
-    print "systems of a kind, with the worst of them in parentheses. The first two columns are the"
-    print "time of the fastest peer, in its own ordering, as a multiple of ours, by default and for"
-    print "one factor. Then the orderings alone: the time of METIS_NodeND as a multiple of ours by"
-    print "default, and the time of AMD as a multiple of ours for one factor. The last two compare"
-    print "the order by default with that of METIS: entries of L, and the mean path weight, which"
-    print "is what a local solve reads."
+    print "\nSystems of 400 to 100,000 rows of many kinds are taken from the matrix to a factor."
+    print "The table has geometric means over the systems of a kind, with the worst of them in"
+    print "parentheses. The first two columns are the time of the fastest peer, in its own"
+    print "ordering, as a multiple of ours, by default and for one factor. The next two are about"
+    print "the orderings alone: the time of METIS_NodeND as a multiple of ours by default, and"
+    print "the time of AMD as a multiple of ours for one factor. The last two compare our default"
+    print "order with that of METIS: the entries of L, and the mean path weight, which is what a"
+    print "local solve reads."
     print "\n| kinds of systems | order + analyze + factor | the same, for one factor | order" \
           " | order, for one factor | nnz(L) | path weight |"
     print "|---|---|---|---|---|---|---|"
