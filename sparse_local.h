@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d98811748f3add72
+ * FNV-1a of the lines after this comment, without the license: 995e0a3a6b9b3eb1
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -9,7 +9,7 @@
  *    321 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    501 options.h    options of all calls, threads, and the allocator
  *    629 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    873 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    873 csc.h        sparse matrices: creation, checks, products, residuals
  *    974 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
  *   1049 factor.h     the numerical factorization P A P' = L D L'
  *   1174 solve.h      full solves, and the workspace of all solves
@@ -26,48 +26,48 @@
  *   2070 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
  *   2190 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
  *   2221 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2402 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2503 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2611 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2652 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2738 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2846 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2880 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2957 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2996 impl/ base: the compiler, status, memory, sorting, threads
- *   4218 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5136 impl/ matrix: sparse matrices of the caller and of the library
- *   5765 impl/ ordering: fill-reducing orderings of a graph
- *  10414 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12651 impl/ factor: the numbers of L and D
- *  16008 impl/ solve: full and local solves
- *  17670 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19599 impl/ pivots: the order of the pivots by the values of a matrix
- *  20008 impl/ float: L and fronts in single precision
- *  20459 impl/ inverse: entries of the inverse, regions
- *  23522 impl/ change: a factor that follows changes of its matrix
- *  29607 impl/ dirichlet: rows fixed at given values
- *  30196 impl/ dirichlet: by a factor of all rows
- *  30428 impl/ io: files that are replaced only when they are complete
- *  30646 impl/ files: Matrix Market files, 64-bit indices
- *  31266 impl/ save: factors in files
- *  33263 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33945 impl/ batch: diagonals of many inverses
- *  34086 impl/ complex: complex Hermitian systems over real factors
- *  34648 impl/ complex: entries of the inverse
- *  34708 impl/ packs: the tables through which the core calls packs
- *  34757 impl/ last: undefine every internal macro
- *  35113 impl/ templates: the header includes them from itself, once for each instruction set
+ *   2401 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2502 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2610 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2651 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2737 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2845 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2879 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2956 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2995 impl/ base: the compiler, status, memory, sorting, threads
+ *   4217 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5135 impl/ matrix: sparse matrices of the caller and of the library
+ *   5764 impl/ ordering: fill-reducing orderings of a graph
+ *  10413 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12650 impl/ factor: the numbers of L and D
+ *  16007 impl/ solve: full and local solves
+ *  17669 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19598 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20007 impl/ float: L and fronts in single precision
+ *  20458 impl/ inverse: entries of the inverse, regions
+ *  23521 impl/ change: a factor that follows changes of its matrix
+ *  29606 impl/ dirichlet: rows fixed at given values
+ *  30195 impl/ dirichlet: by a factor of all rows
+ *  30427 impl/ io: files that are replaced only when they are complete
+ *  30645 impl/ files: Matrix Market files, 64-bit indices
+ *  31265 impl/ save: factors in files
+ *  33262 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33944 impl/ batch: diagonals of many inverses
+ *  34085 impl/ complex: complex Hermitian systems over real factors
+ *  34647 impl/ complex: entries of the inverse
+ *  34707 impl/ packs: the tables through which the core calls packs
+ *  34756 impl/ last: undefine every internal macro
+ *  35112 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
 #define SPARSE_LOCAL_H
 /* src/public/intro.h: what the library does, a quick start, which call for which question, references */
 
-/* sparse_local.h factors a sparse symmetric matrix once, P A P' = L D L', and then answers many
- * small questions from that factor: b is nonzero in a few rows, x is wanted in a few others. The
- * elimination tree determines which columns of L can matter. The answer is the same as that of a
- * full solve; its cost depends on the question and not on the size of the matrix [HDA17].
+/* sparse_local.h factors a sparse symmetric matrix once, P A P' = L D L', and then solves A x = b
+ * where b is nonzero in a few rows and x is wanted in a few others. Such a local solve reads only
+ * the columns of L on the paths from those rows to the roots of the elimination tree. Its answer
+ * has the bits of a full solve [HDA17].
  *
  * Quick start (in one source file; link with -lm):
  *
@@ -146,8 +146,8 @@
  * Threads      An analysis, a plan, a selected inverse and a region are immutable after their
  *              creation; a factor is const during solves. Any number of threads may solve with one
  *              factor, each with its own sl_work. A call needs exclusive use of objects and arrays
- *              that it takes without const, but for one that it frees; others it reads, as any
- *              number of calls may at once.
+ *              that it takes without const, except for one that it frees. The others may be read by
+ *              any number of calls at once.
  * Manual       tools/docs/NAME.md in the repository, and the page NAME.html that make docs writes:
  *              details and measurements that a contract leaves out.
  */
@@ -254,7 +254,7 @@
  *                                link with -pthread.
  *  SL_NO_CLOCK                   makes all times in the statistics 0, for systems without clock();
  *                                set automatically for WASI.
- *  SL_NO_THREAD_LOCAL            keeps no reason of the last error by thread (sl_error_text).
+ *  SL_NO_THREAD_LOCAL            does not keep the last error of each thread (sl_error_text).
  *  SL_NO_MMAP                    leaves out sl_map_file, and with it the headers of the system that
  *                                map files.
  *  SL_API                        linkage of the public functions, for a shared library: for example
@@ -435,8 +435,8 @@ typedef enum sl_method {
 } sl_method;
 
 /** How a factor keeps L. B, X and the arithmetic of solves are double in any case. Accuracy and
- *  limits: tools/docs/float.md. Of the others, plain C (SL_ISA_SCALAR, processors without AVX2) has
- *  no kernels where SIMD is compiled in: a factor then keeps L in double, as stats.storage says. */
+ *  limits: tools/docs/float.md. If SIMD is compiled in, plain C (SL_ISA_SCALAR, processors without
+ *  AVX2) has no kernels but those of double: L is then in double, as stats.storage says. */
 typedef enum sl_storage {
     SL_STORAGE_DOUBLE = 0,
     SL_STORAGE_FLOAT,        /* half the bytes of L, its accuracy until refined */
@@ -526,9 +526,9 @@ typedef struct sl_allocator {
     void *context;
 } sl_allocator;
 
-/** Options. Every call takes this struct and reads the allocator, `size`, and the fields that its
- *  declaration lists under opt. All zero, or a NULL pointer, means defaults. With SL_VERIFY a call
- *  refuses a field that is set and that it does not read.
+/** Options. A call reads the allocator, `size`, and the fields that its declaration lists under
+ *  opt. All zero, or a NULL pointer, means defaults. With SL_VERIFY a call refuses a field that is
+ *  set and that it does not read.
  */
 typedef struct sl_options {
     /* sizeof(sl_options), set by sl_options_init; 0 means the same; else SL_ERR_ARGUMENT */
@@ -566,8 +566,8 @@ typedef struct sl_options {
     sl_null_pivots null_pivots;
     /* a pivot d is null if |d| <= null_tolerance * (sum of the magnitudes it was computed from);
      * not read where a known null vector decides (tools/docs/singular.md); 0: if it is within the
-     * rounding error that L shows, or where null pivots are replaced, (64 + k/8) epsilon with the
-     * k rows of its subtree; negative: only an exact zero is null */
+     * rounding error that L shows; where null pivots are skipped or replaced, (64 + k/8) epsilon
+     * with the k rows of its subtree; negative: only an exact zero is null */
     double null_tolerance;
     /* with SL_NULL_PIVOT_SKIP: n weights m, copied. In each component with a null pivot the
      * solution has sum m x = 0, and b is made consistent by a multiple of m; with several null
@@ -805,7 +805,7 @@ typedef struct sl_reuse_info {
 /** A set of pins: sl_pins_add, _add_equality, _release, _refactor. */
 typedef struct sl_pins_info {
     sl_int count;   /* pins and equalities */
-    double seconds; /* of the call; from some stats.factor.seconds on,
+    double seconds; /* of the call; where it is about stats.factor.seconds or more,
                      * sl_dirichlet_create holds the same rows sooner */
 } sl_pins_info;
 
@@ -870,7 +870,7 @@ SL_API size_t sl_error_text(char *buffer, size_t size, sl_status status, const s
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */
 SL_API size_t sl_stats_size(void);
 
-/* src/public/csc.h: sparse matrices: creation, checks, products, residuals, Matrix Market files */
+/* src/public/csc.h: sparse matrices: creation, checks, products, residuals */
 
 /** Creates a matrix from triplets: equal positions are summed, rows are ascending.
  *
@@ -1180,8 +1180,8 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
  *
  *      sl_factor_solve(F, X, SL_ROWS(8), B, SL_ROWS(8), 8, W);
  *
- *  ld must be at least the number of right-hand sides, and have its top bit clear, which says the
- *  layout. X and B of a call may have different layouts, unless they are one array. Accepted by
+ *  ld must be at least the number of right-hand sides. Its top bit, which says the layout, must be
+ *  clear. X and B of a call may have different layouts, unless they are one array. Accepted by
  *  sl_factor_solve, sl_plan_solve, sl_local_solve, sl_dirichlet_solve, the requests of
  *  sl_batch_solve, and the half solves and products of parts.h; all other calls refuse it with
  *  SL_ERR_ARGUMENT.
@@ -1249,9 +1249,9 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *                row-major if ldx is SL_ROWS(ld). May be B itself (then ldx = ldb). On error
  *                untouched.
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements, or row-major as X.
- *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 64, 32, 16,
- *                then up to 8, for which a solution has the same bits. 8 take as long as two to
- *                three single solves, 32 as long as six to eight.
+ *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 64, 32 and
+ *                16, with the bits of blocks of 8, then of up to 8. 8 take as long as two to three
+ *                single solves, 32 as long as six to eight.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_INCONSISTENT: a column of B has no
  *           solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: a number of B is not, or
  *           X overflows: X is written; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
@@ -1348,9 +1348,9 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int 
 /** Prepares solves of A x = b in the free rows, where x is given in the others: Dirichlet problems,
  *  harmonic maps, interpolation. For definite A, x minimizes x' A x / 2 - b' x under x(rows) = g.
  *
- *  The free rows have a factor of A[free, free] of their own; A may be singular. If a factor of A
- *  is there already, and the pack of pins is compiled in, the cheapest of three ways is taken, by
- *  counted cost (stats.dirichlet): the same, sl_factor_restrict, or pins on that factor.
+ *  The free rows have a factor of A[free, free] of their own; A may be singular. If a factor F of A
+ *  is given, and the pack of changes is on, the cheapest of three ways is taken, by counted cost
+ *  (stats.dirichlet): the same, sl_factor_restrict, or pins on F.
  *
  *  out    [out]  the object.
  *  A      [in]   n x n with values, symmetric, not kept. Entries between fixed rows are not read,
@@ -1550,14 +1550,14 @@ typedef struct sl_pseudo_inverse {
  *      log pdet:  sl_factor_logdet + log_det.
  *
  *  A statistician's marginal variances under a sum-to-zero constraint are the diagonal of A^+.
- *  Components that entries of A that are 0 join count as one, with all of their null vectors. Rows
- *  of Q and K are 0 in regular components, columns where a component has fewer null vectors.
+ *  Components joined by entries that are 0 count as one, with all of their null vectors. Rows of Q
+ *  and K are 0 in regular components; so are columns where a component has fewer null vectors.
  *
  *  F      [in]      a factor of A, n x n.
  *  P      [in,out]  component, Q and K NULL: only columns is written. On error columns may be.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, or too few columns; SL_ERR_STALE; SL_ERR_UNSUPPORTED:
  *           2x2 pivots; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     a full solve for each column, half a one where null vectors are not known, and
+ *  Cost     a full solve for each column, half a solve more where null vectors are not known, and
  *           O(n columns^2).
  *  Threads  any number at once on one F, each with its own W.
  *  Manual   tools/docs/singular.md
@@ -1601,8 +1601,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
 /** sl_plan_solve with a regularized factor, L D L' = P (A + E) P', refined to solve A x = b.
  *
  *  Removes the error of regularization; rounding errors remain as in sl_plan_solve. Their backward
- *  error is taken to be epsilon times the growth (stats.factor), at least, where L is in float with
- *  the epsilon of float. If nothing was regularized, x is that of sl_plan_solve.
+ *  error is taken to be at least epsilon times the growth (stats.factor), with the epsilon of float
+ *  where L is in float. If nothing was regularized, x is that of sl_plan_solve.
  *
  *  P      [in]   a plan whose two reaches contain every regularized row of the components of b.
  *                This holds if these rows are in both sets.
@@ -1754,8 +1754,8 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
  *
  * If pivots have both signs, selected inversion may lose the square of stats.factor.growth, where
  * solves lose growth itself. A bound on the loss is computed first, from L. Beyond 1e-10, relative
- * to an entry of the inverse, sweeps take the place of selected inversion: they are right, and take
- * the whole diagonal some 10 to 100 times as long.
+ * to an entry of the inverse, sweeps take the place of selected inversion. They are accurate, but
+ * take some 10 to 100 times as long for the whole diagonal.
  *
  * All calls below
  *  F      [in]      a factor of A, n x n.
@@ -1854,9 +1854,9 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_bilinear(const sl_factor *F, double *
  *           solved for, some 10 to 100 times as long. Keeps entries doubles (stats.selected) and
  *           28 bytes per supernode, 44 with several threads. Temporary memory: 8 height^2 bytes
  *           per active front, where height counts the columns of a supernode and the rows below
- *           them. Active are the fronts on the path from the current
- *           supernode to its root that have unvisited children; with several threads, those of
- *           every thread and the roots of the subtrees distributed among them, a few dozen.
+ *           them. A front is active if it is on the path from the current supernode to its root and
+ *           has unvisited children. With several threads, this holds for each of them, and the
+ *           roots of the subtrees that they share are active, too: a few dozen.
  *  Threads  reads F; the object is immutable and may be shared. The same bits for any number of
  *           threads.
  *  Source   [ET75]; supernodal: [SelInv].
@@ -2367,7 +2367,7 @@ SL_API SL_WARN_UNUSED sl_status sl_map_memory(sl_saved_set *set, const void *mem
 
 /** sl_map_memory of a file that is mapped into memory, read-only and shared with other processes.
  *
- *  The file is unmapped when the analysis is released. Replace it by sl_save_file or by renaming:
+ *  The file is unmapped when the last object is released. Replace it by sl_save_file or a rename:
  *  the system stops a process that reads a part of a mapped file that was cut off, and changes show
  *  in the factor. Pages are read when they are first needed.
  *
@@ -2382,10 +2382,9 @@ SL_API SL_WARN_UNUSED sl_status sl_map_file(sl_saved_set *set, const char *path,
 /** Releases what a load put into a set, then sets it to all zero: regions and their array, selected
  *  inverse, factor, and the analysis at last.
  *
- *  To keep an object, copy its pointer and set the field to NULL before. It must be released before
- *  the analysis it is over; release an analysis that was kept with sl_symbolic_free, after the
- *  others. A set that the caller has filled in to save owns nothing: do not pass it. NULL is
- *  allowed.
+ *  To keep an object, copy its pointer and set the field to NULL before. Objects that are kept may
+ *  be freed in any order. A set that the caller has filled in to save owns nothing: do not pass it.
+ *  NULL is allowed.
  */
 SL_API void sl_saved_set_free(sl_saved_set *set);
 
@@ -2413,9 +2412,9 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *  null pivot on its way. Errors add up: refactor if growth or stats.change.drift is too large.
  *  Drift counts what a row loses relative to its own entries, if all pivots have one sign.
  *
- *  F      [in,out]  the factor. On error it is as before, bit for bit. Only where rounding
- *                   takes every digit of a pivot that a trial had found above 1e-3 of the old one
- *                   it has no numbers.
+ *  F      [in,out]  the factor. On error it is as before, bit for bit. It has no numbers only where
+ *                   rounding takes every digit of a pivot that a trial had found above 1e-3 of the
+ *                   old one.
  *  V      [in]      n x k, any k, in the rows of A; duplicates are summed, zeros ignored.
  *  sigma  [in]      k weights of any sign; NULL: all 1.
  *  stats  [out]     change, factor. For pivots of both signs growth, pivot_min and pivot_max become
@@ -2426,7 +2425,7 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *           an entry of V at error.row, a weight (error.row = -1) or a pivot; SL_ERR_INACCURATE:
  *           growth beyond its limit, that of a loaded factor with its drift; SL_ERR_STALE: F has no
  *           numbers; SL_ERR_READ_ONLY: F is mapped; SL_ERR_UNSUPPORTED: null pivots were skipped,
- *           there are 2x2 pivots, or L is in float; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           there are 2x2 pivots, or L is not in double; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
  *           written once for 8 vectors. Changes that may fail take another forward sweep or a copy.
  *           The first change of a definite factor allocates 9 bytes a row, for drift.
@@ -2478,8 +2477,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
  *  up-looking factor is recomputed completely.
  *
  *  F        [in,out]  the factor of a matrix that differs from A in the given columns only.
- *                     Unchanged after SL_ERR_ARGUMENT, _PATTERN, _STATE and _MEMORY; without
- *                     numbers after other errors.
+ *                     Unchanged after SL_ERR_ARGUMENT, _PATTERN, _OTHER_PATTERN, _READ_ONLY and
+ *                     _MEMORY; without numbers after other errors.
  *  A        [in]      the analyzed pattern, new values.
  *  columns  [in]      count columns of A, in which A stores changed entries; any order, repetitions
  *                     allowed.
@@ -2759,7 +2758,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor 
  * [a -b; b a] as well, and SL_STORAGE_COMPLEX (EXPERIMENTAL) computes and keeps the first column of
  * each: half the operations and half the memory. Solves read half as much, and share each read of L
  * as those of real matrices do: up to 32 right-hand sides. Every call on factors takes both
- * storages, except that L as complex is not changed, restricted or saved. */
+ * storages, except that L as complex is not changed in place or saved. */
 
 /** View of a complex Hermitian matrix in compressed columns: one triangle or both, entries and
  *  duplicates as in sl_csc. The imaginary parts of diagonal entries are 0. */

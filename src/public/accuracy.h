@@ -38,8 +38,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
 /** sl_plan_solve with a regularized factor, L D L' = P (A + E) P', refined to solve A x = b.
  *
  *  Removes the error of regularization; rounding errors remain as in sl_plan_solve. Their backward
- *  error is taken to be epsilon times the growth (stats.factor), at least, where L is in float with
- *  the epsilon of float. If nothing was regularized, x is that of sl_plan_solve.
+ *  error is taken to be at least epsilon times the growth (stats.factor), with the epsilon of float
+ *  where L is in float. If nothing was regularized, x is that of sl_plan_solve.
  *
  *  P      [in]   a plan whose two reaches contain every regularized row of the components of b.
  *                This holds if these rows are in both sets.

@@ -17,9 +17,9 @@
  *  null pivot on its way. Errors add up: refactor if growth or stats.change.drift is too large.
  *  Drift counts what a row loses relative to its own entries, if all pivots have one sign.
  *
- *  F      [in,out]  the factor. On error it is as before, bit for bit. Only where rounding
- *                   takes every digit of a pivot that a trial had found above 1e-3 of the old one
- *                   it has no numbers.
+ *  F      [in,out]  the factor. On error it is as before, bit for bit. It has no numbers only where
+ *                   rounding takes every digit of a pivot that a trial had found above 1e-3 of the
+ *                   old one.
  *  V      [in]      n x k, any k, in the rows of A; duplicates are summed, zeros ignored.
  *  sigma  [in]      k weights of any sign; NULL: all 1.
  *  stats  [out]     change, factor. For pivots of both signs growth, pivot_min and pivot_max become
@@ -30,7 +30,7 @@
  *           an entry of V at error.row, a weight (error.row = -1) or a pivot; SL_ERR_INACCURATE:
  *           growth beyond its limit, that of a loaded factor with its drift; SL_ERR_STALE: F has no
  *           numbers; SL_ERR_READ_ONLY: F is mapped; SL_ERR_UNSUPPORTED: null pivots were skipped,
- *           there are 2x2 pivots, or L is in float; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           there are 2x2 pivots, or L is not in double; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
  *           written once for 8 vectors. Changes that may fail take another forward sweep or a copy.
  *           The first change of a definite factor allocates 9 bytes a row, for drift.
@@ -82,8 +82,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
  *  up-looking factor is recomputed completely.
  *
  *  F        [in,out]  the factor of a matrix that differs from A in the given columns only.
- *                     Unchanged after SL_ERR_ARGUMENT, _PATTERN, _STATE and _MEMORY; without
- *                     numbers after other errors.
+ *                     Unchanged after SL_ERR_ARGUMENT, _PATTERN, _OTHER_PATTERN, _READ_ONLY and
+ *                     _MEMORY; without numbers after other errors.
  *  A        [in]      the analyzed pattern, new values.
  *  columns  [in]      count columns of A, in which A stores changed entries; any order, repetitions
  *                     allowed.

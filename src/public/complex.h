@@ -27,7 +27,7 @@
  * [a -b; b a] as well, and SL_STORAGE_COMPLEX (EXPERIMENTAL) computes and keeps the first column of
  * each: half the operations and half the memory. Solves read half as much, and share each read of L
  * as those of real matrices do: up to 32 right-hand sides. Every call on factors takes both
- * storages, except that L as complex is not changed, restricted or saved. */
+ * storages, except that L as complex is not changed in place or saved. */
 
 /** View of a complex Hermitian matrix in compressed columns: one triangle or both, entries and
  *  duplicates as in sl_csc. The imaginary parts of diagonal entries are 0. */

@@ -19,7 +19,7 @@
  *                                link with -pthread.
  *  SL_NO_CLOCK                   makes all times in the statistics 0, for systems without clock();
  *                                set automatically for WASI.
- *  SL_NO_THREAD_LOCAL            keeps no reason of the last error by thread (sl_error_text).
+ *  SL_NO_THREAD_LOCAL            does not keep the last error of each thread (sl_error_text).
  *  SL_NO_MMAP                    leaves out sl_map_file, and with it the headers of the system that
  *                                map files.
  *  SL_API                        linkage of the public functions, for a shared library: for example

@@ -1,4 +1,4 @@
-/* csc.h: sparse matrices: creation, checks, products, residuals, Matrix Market files */
+/* csc.h: sparse matrices: creation, checks, products, residuals */
 #ifndef SL_PUBLIC_CSC_H
 #define SL_PUBLIC_CSC_H
 

@@ -7,9 +7,9 @@
 /** Prepares solves of A x = b in the free rows, where x is given in the others: Dirichlet problems,
  *  harmonic maps, interpolation. For definite A, x minimizes x' A x / 2 - b' x under x(rows) = g.
  *
- *  The free rows have a factor of A[free, free] of their own; A may be singular. If a factor of A
- *  is there already, and the pack of pins is compiled in, the cheapest of three ways is taken, by
- *  counted cost (stats.dirichlet): the same, sl_factor_restrict, or pins on that factor.
+ *  The free rows have a factor of A[free, free] of their own; A may be singular. If a factor F of A
+ *  is given, and the pack of changes is on, the cheapest of three ways is taken, by counted cost
+ *  (stats.dirichlet): the same, sl_factor_restrict, or pins on F.
  *
  *  out    [out]  the object.
  *  A      [in]   n x n with values, symmetric, not kept. Entries between fixed rows are not read,

@@ -2,10 +2,10 @@
 #ifndef SL_PUBLIC_INTRO_H
 #define SL_PUBLIC_INTRO_H
 
-/* sparse_local.h factors a sparse symmetric matrix once, P A P' = L D L', and then answers many
- * small questions from that factor: b is nonzero in a few rows, x is wanted in a few others. The
- * elimination tree determines which columns of L can matter. The answer is the same as that of a
- * full solve; its cost depends on the question and not on the size of the matrix [HDA17].
+/* sparse_local.h factors a sparse symmetric matrix once, P A P' = L D L', and then solves A x = b
+ * where b is nonzero in a few rows and x is wanted in a few others. Such a local solve reads only
+ * the columns of L on the paths from those rows to the roots of the elimination tree. Its answer
+ * has the bits of a full solve [HDA17].
  *
  * Quick start (in one source file; link with -lm):
  *
@@ -84,8 +84,8 @@
  * Threads      An analysis, a plan, a selected inverse and a region are immutable after their
  *              creation; a factor is const during solves. Any number of threads may solve with one
  *              factor, each with its own sl_work. A call needs exclusive use of objects and arrays
- *              that it takes without const, but for one that it frees; others it reads, as any
- *              number of calls may at once.
+ *              that it takes without const, except for one that it frees. The others may be read by
+ *              any number of calls at once.
  * Manual       tools/docs/NAME.md in the repository, and the page NAME.html that make docs writes:
  *              details and measurements that a contract leaves out.
  */

@@ -13,8 +13,8 @@
  *
  * If pivots have both signs, selected inversion may lose the square of stats.factor.growth, where
  * solves lose growth itself. A bound on the loss is computed first, from L. Beyond 1e-10, relative
- * to an entry of the inverse, sweeps take the place of selected inversion: they are right, and take
- * the whole diagonal some 10 to 100 times as long.
+ * to an entry of the inverse, sweeps take the place of selected inversion. They are accurate, but
+ * take some 10 to 100 times as long for the whole diagonal.
  *
  * All calls below
  *  F      [in]      a factor of A, n x n.

@@ -30,9 +30,9 @@ typedef struct sl_allocator {
     void *context;
 } sl_allocator;
 
-/** Options. Every call takes this struct and reads the allocator, `size`, and the fields that its
- *  declaration lists under opt. All zero, or a NULL pointer, means defaults. With SL_VERIFY a call
- *  refuses a field that is set and that it does not read.
+/** Options. A call reads the allocator, `size`, and the fields that its declaration lists under
+ *  opt. All zero, or a NULL pointer, means defaults. With SL_VERIFY a call refuses a field that is
+ *  set and that it does not read.
  */
 typedef struct sl_options {
     /* sizeof(sl_options), set by sl_options_init; 0 means the same; else SL_ERR_ARGUMENT */
@@ -70,8 +70,8 @@ typedef struct sl_options {
     sl_null_pivots null_pivots;
     /* a pivot d is null if |d| <= null_tolerance * (sum of the magnitudes it was computed from);
      * not read where a known null vector decides (tools/docs/singular.md); 0: if it is within the
-     * rounding error that L shows, or where null pivots are replaced, (64 + k/8) epsilon with the
-     * k rows of its subtree; negative: only an exact zero is null */
+     * rounding error that L shows; where null pivots are skipped or replaced, (64 + k/8) epsilon
+     * with the k rows of its subtree; negative: only an exact zero is null */
     double null_tolerance;
     /* with SL_NULL_PIVOT_SKIP: n weights m, copied. In each component with a null pivot the
      * solution has sum m x = 0, and b is made consistent by a multiple of m; with several null

@@ -25,14 +25,14 @@ typedef struct sl_pseudo_inverse {
  *      log pdet:  sl_factor_logdet + log_det.
  *
  *  A statistician's marginal variances under a sum-to-zero constraint are the diagonal of A^+.
- *  Components that entries of A that are 0 join count as one, with all of their null vectors. Rows
- *  of Q and K are 0 in regular components, columns where a component has fewer null vectors.
+ *  Components joined by entries that are 0 count as one, with all of their null vectors. Rows of Q
+ *  and K are 0 in regular components; so are columns where a component has fewer null vectors.
  *
  *  F      [in]      a factor of A, n x n.
  *  P      [in,out]  component, Q and K NULL: only columns is written. On error columns may be.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, or too few columns; SL_ERR_STALE; SL_ERR_UNSUPPORTED:
  *           2x2 pivots; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     a full solve for each column, half a one where null vectors are not known, and
+ *  Cost     a full solve for each column, half a solve more where null vectors are not known, and
  *           O(n columns^2).
  *  Threads  any number at once on one F, each with its own W.
  *  Manual   tools/docs/singular.md

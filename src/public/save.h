@@ -151,7 +151,7 @@ SL_API SL_WARN_UNUSED sl_status sl_map_memory(sl_saved_set *set, const void *mem
 
 /** sl_map_memory of a file that is mapped into memory, read-only and shared with other processes.
  *
- *  The file is unmapped when the analysis is released. Replace it by sl_save_file or by renaming:
+ *  The file is unmapped when the last object is released. Replace it by sl_save_file or a rename:
  *  the system stops a process that reads a part of a mapped file that was cut off, and changes show
  *  in the factor. Pages are read when they are first needed.
  *
@@ -166,10 +166,9 @@ SL_API SL_WARN_UNUSED sl_status sl_map_file(sl_saved_set *set, const char *path,
 /** Releases what a load put into a set, then sets it to all zero: regions and their array, selected
  *  inverse, factor, and the analysis at last.
  *
- *  To keep an object, copy its pointer and set the field to NULL before. It must be released before
- *  the analysis it is over; release an analysis that was kept with sl_symbolic_free, after the
- *  others. A set that the caller has filled in to save owns nothing: do not pass it. NULL is
- *  allowed.
+ *  To keep an object, copy its pointer and set the field to NULL before. Objects that are kept may
+ *  be freed in any order. A set that the caller has filled in to save owns nothing: do not pass it.
+ *  NULL is allowed.
  */
 SL_API void sl_saved_set_free(sl_saved_set *set);
 

@@ -28,9 +28,9 @@
  *           solved for, some 10 to 100 times as long. Keeps entries doubles (stats.selected) and
  *           28 bytes per supernode, 44 with several threads. Temporary memory: 8 height^2 bytes
  *           per active front, where height counts the columns of a supernode and the rows below
- *           them. Active are the fronts on the path from the current
- *           supernode to its root that have unvisited children; with several threads, those of
- *           every thread and the roots of the subtrees distributed among them, a few dozen.
+ *           them. A front is active if it is on the path from the current supernode to its root and
+ *           has unvisited children. With several threads, this holds for each of them, and the
+ *           roots of the subtrees that they share are active, too: a few dozen.
  *  Threads  reads F; the object is immutable and may be shared. The same bits for any number of
  *           threads.
  *  Source   [ET75]; supernodal: [SelInv].

@@ -12,8 +12,8 @@
  *
  *      sl_factor_solve(F, X, SL_ROWS(8), B, SL_ROWS(8), 8, W);
  *
- *  ld must be at least the number of right-hand sides, and have its top bit clear, which says the
- *  layout. X and B of a call may have different layouts, unless they are one array. Accepted by
+ *  ld must be at least the number of right-hand sides. Its top bit, which says the layout, must be
+ *  clear. X and B of a call may have different layouts, unless they are one array. Accepted by
  *  sl_factor_solve, sl_plan_solve, sl_local_solve, sl_dirichlet_solve, the requests of
  *  sl_batch_solve, and the half solves and products of parts.h; all other calls refuse it with
  *  SL_ERR_ARGUMENT.
@@ -81,9 +81,9 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *                row-major if ldx is SL_ROWS(ld). May be B itself (then ldx = ldb). On error
  *                untouched.
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements, or row-major as X.
- *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 64, 32, 16,
- *                then up to 8, for which a solution has the same bits. 8 take as long as two to
- *                three single solves, 32 as long as six to eight.
+ *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 64, 32 and
+ *                16, with the bits of blocks of 8, then of up to 8. 8 take as long as two to three
+ *                single solves, 32 as long as six to eight.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_INCONSISTENT: a column of B has no
  *           solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: a number of B is not, or
  *           X overflows: X is written; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.

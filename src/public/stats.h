@@ -181,7 +181,7 @@ typedef struct sl_reuse_info {
 /** A set of pins: sl_pins_add, _add_equality, _release, _refactor. */
 typedef struct sl_pins_info {
     sl_int count;   /* pins and equalities */
-    double seconds; /* of the call; from some stats.factor.seconds on,
+    double seconds; /* of the call; where it is about stats.factor.seconds or more,
                      * sl_dirichlet_create holds the same rows sooner */
 } sl_pins_info;
 
