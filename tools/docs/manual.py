@@ -37,7 +37,7 @@ CHAPTERS = [("algorithms", "Algorithms"), ("ordering", "Orderings"),
             ("indefinite", "Indefinite and KKT systems"),
             ("float", "L in float"), ("inverse", "Entries of the inverse"),
             ("dirichlet", "Pins, restriction or submatrix?"),
-            ("changes", "Changes of a matrix"), ("files", "Files"), ("errors", "Errors"),
+            ("changes", "Changes of a matrix"), ("files", "Files"), ("errors", "What can go wrong"),
             ("program", "The program"), ("web", "In browsers"), ("doors", "Other languages"),
             ("features", "Features"), ("speed", "Speed"), ("platforms", "Platforms")]
 PAGES = [("index", "Guide"), ("api", "API")] + CHAPTERS + [
