@@ -4,10 +4,11 @@
     tools/docs/manual.py OUTPUT
 
 Pages: index (the guide), api (all names), api-NAME for each public file, the chapters of
-tools/docs, format, tests, platforms, changelog. The field at the top of each page leads to a name.
-Names of the API become links, and so do chapters that a comment names as tools/docs/NAME.md. The
-examples are written as whole programs too, examples/NAME.c. Ends with 1 if a link leads nowhere, a
-public name has no comment, or a file that a comment gives as its example is missing.
+tools/docs, format, tests, changelog, and the READMEs of other languages. The field at the top of
+each page leads to a name. Names of the API become links, and so do chapters that a comment names
+as tools/docs/NAME.md. The examples are written as whole programs too, examples/NAME.c. Ends with 1
+if a link leads nowhere, a public name has no comment, or a file that a comment gives as its
+example is missing.
 """
 import html
 import json
@@ -40,6 +41,9 @@ CHAPTERS = [("algorithms", "Algorithms"), ("ordering", "Orderings"),
             ("changes", "Changes of a matrix"), ("files", "Files"), ("errors", "What can go wrong"),
             ("program", "The program"), ("web", "In browsers"), ("doors", "Other languages"),
             ("features", "Features"), ("speed", "Speed"), ("platforms", "Platforms")]
+# READMEs of folders of tools: pages that "Other languages" leads to
+DOORS = [("python", "Python"), ("octave", "Octave and MATLAB"), ("npm", "JavaScript"),
+         ("cluster", "Clusters")]
 PAGES = [("index", "Guide"), ("api", "API")] + CHAPTERS + [
     ("format", "Format"), ("tests", "Tests"), ("changelog", "Changelog")]
 
@@ -180,6 +184,8 @@ def page_of(target):
                           (r"src/public/(\w+)\.h", r"api-\1.html"), (r"src/public", "api.html"),
                           (r"(?:src/)?FORMAT\.md", "format.html"),
                           (r"tests/README\.md", "tests.html"),
+                          (r"web/README\.md", "npm.html"),
+                          (r"(python|octave|cluster)/README\.md", r"\1.html"),
                           (r"CHANGELOG\.md", "changelog.html")):
         target = re.sub("^%s(?=#|$)" % pattern, page, target)
     return target
@@ -343,13 +349,16 @@ def main():
     output = sys.argv[1]
     os.makedirs(os.path.join(output, "examples"), exist_ok=True)
     pages, page_of_name = api_pages(read("src/sparse_local.in.h"))
-    titles = dict(PAGES, **{page: page[4:] + ".h" for page in pages if page != "api"})
+    titles = dict(PAGES + DOORS, **{page: page[4:] + ".h" for page in pages if page != "api"})
     pages.update({"index": markdown(read("tools/docs/guide.md")),
                   "format": markdown(read("src/FORMAT.md")),
                   "tests": markdown(read("tests/README.md")),
                   "changelog": markdown(read("CHANGELOG.md"))})
     for name, _ in CHAPTERS:
         pages[name] = markdown(read("tools/docs/%s.md" % name))
+    for name, _ in DOORS:
+        folder = "web" if name == "npm" else name
+        pages[name] = markdown(read("tools/%s/README.md" % folder))
     for name in pages:
         pages[name] = link_names(pages[name], page_of_name)
         if name.startswith("api"):
