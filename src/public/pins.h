@@ -13,8 +13,8 @@
  *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
  *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
  *  pins that leave none of its 6 motions. Components without pins are solved as by sl_factor_solve:
- *  with the weights of options.mass, or with x = 0 in null rows and a b in balance. Motions that
- *  the pins of a component leave need balance in any case, and x = 0 in null rows fixes them.
+ *  with the weights of options.mass, or with x = 0 in null rows and b in balance. If the pins of a
+ *  component leave motions, b must be in balance with them, and x = 0 in null rows fixes them.
  *
  *  Accuracy: the capacitance matrix corrects the solution without pins. Where that solution is
  *  10^d times as large as the one with pins, as with a weak mass term, d digits are lost. Solves
