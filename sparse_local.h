@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c119a0698f3006cc
+ * FNV-1a of the lines after this comment, without the license: aa4587d3cd537786
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40,24 +40,24 @@
  *   5764 impl/ ordering: fill-reducing orderings of a graph
  *  10413 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12650 impl/ factor: the numbers of L and D
- *  16007 impl/ solve: full and local solves
- *  17669 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19598 impl/ pivots: the order of the pivots by the values of a matrix
- *  20007 impl/ float: L and fronts in single precision
- *  20458 impl/ inverse: entries of the inverse, regions
- *  23521 impl/ change: a factor that follows changes of its matrix
- *  29606 impl/ dirichlet: rows fixed at given values
- *  30195 impl/ dirichlet: by a factor of all rows
- *  30427 impl/ io: files that are replaced only when they are complete
- *  30645 impl/ files: Matrix Market files, 64-bit indices
- *  31265 impl/ save: factors in files
- *  33262 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33944 impl/ batch: diagonals of many inverses
- *  34085 impl/ complex: complex Hermitian systems over real factors
- *  34647 impl/ complex: entries of the inverse
- *  34707 impl/ packs: the tables through which the core calls packs
- *  34756 impl/ last: undefine every internal macro
- *  35112 impl/ templates: the header includes them from itself, once for each instruction set
+ *  16008 impl/ solve: full and local solves
+ *  17670 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19599 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20008 impl/ float: L and fronts in single precision
+ *  20459 impl/ inverse: entries of the inverse, regions
+ *  23522 impl/ change: a factor that follows changes of its matrix
+ *  29607 impl/ dirichlet: rows fixed at given values
+ *  30196 impl/ dirichlet: by a factor of all rows
+ *  30428 impl/ io: files that are replaced only when they are complete
+ *  30646 impl/ files: Matrix Market files, 64-bit indices
+ *  31266 impl/ save: factors in files
+ *  33263 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33945 impl/ batch: diagonals of many inverses
+ *  34086 impl/ complex: complex Hermitian systems over real factors
+ *  34648 impl/ complex: entries of the inverse
+ *  34708 impl/ packs: the tables through which the core calls packs
+ *  34757 impl/ last: undefine every internal macro
+ *  35113 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -15658,8 +15658,9 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
     return "options.null_tolerance decides; a negative one accepts every pivot but 0";
   }
   return size > F->rule.epsilon * F->extents[f->super].magnitude
-         ? "the pivot may be right: a smaller or negative options.null_tolerance accepts it; "
-         "sl_symbolic_create_pivoted avoids small pivots"
+         ? "if A is singular: options.null_pivots; if the pivot may be right, a smaller or "
+         "negative options.null_tolerance accepts it, and sl_symbolic_create_pivoted "
+         "avoids small pivots"
          : "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
          "options.null_pivots";
 }

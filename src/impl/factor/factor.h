@@ -69,8 +69,9 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
         return "options.null_tolerance decides; a negative one accepts every pivot but 0";
     }
     return size > F->rule.epsilon * F->extents[f->super].magnitude
-               ? "the pivot may be right: a smaller or negative options.null_tolerance accepts it; "
-                 "sl_symbolic_create_pivoted avoids small pivots"
+               ? "if A is singular: options.null_pivots; if the pivot may be right, a smaller or "
+                 "negative options.null_tolerance accepts it, and sl_symbolic_create_pivoted "
+                 "avoids small pivots"
                : "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
                  "options.null_pivots";
 }
