@@ -275,7 +275,7 @@ static inline double judge_all_ways(judge_t *t, const double *B, double most) {
 }
 
 /* Columns of the inverse are judged as solutions, and entries by all other ways beside them: they
- * may differ by 1000 times as much as sweeps from full solves. */
+ * may differ by 1000 times as much as sweeps from full solves, and by what growth tells. */
 static inline void judge_way_inverse(judge_t *t) {
     const size_t n = t->n;
     double *B = test_reals(n * n), *e = test_reals(n), *x = test_reals(n);
@@ -313,7 +313,7 @@ static inline void judge_way_inverse(judge_t *t) {
             judge_grown(t, worst, spread);
         }
         judge_answer(t, most > 0.0 && most <= 1e300 ? worst : -1.0,
-                     judge_forward(t, 1e-9, spread), 0,
+                     fmax(judge_forward(t, 1e-9, spread), DBL_EPSILON * t->stats.factor.growth), 0,
                      "entries of the inverse");
     }
     free(rows);
