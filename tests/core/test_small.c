@@ -51,6 +51,8 @@ static void orders_are_valid(void **state) {
                 for (int style = 0; style < GEN_STYLES; style++) {
                     const sl_symbolic_arrays w = sl_symbolic_view(S[style]);
                     assert_memory_equal(v.perm, w.perm, (size_t)v.n * sizeof(sl_int));
+                }
+                for (int style = 0; style < GEN_STYLES; style++) {
                     sl_symbolic_free(S[style]);
                 }
                 gen_list_free(&t);
