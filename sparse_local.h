@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: aa4587d3cd537786
+ * FNV-1a of the lines after this comment, without the license: 39101356248f9f1a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -46,18 +46,18 @@
  *  20008 impl/ float: L and fronts in single precision
  *  20459 impl/ inverse: entries of the inverse, regions
  *  23522 impl/ change: a factor that follows changes of its matrix
- *  29607 impl/ dirichlet: rows fixed at given values
- *  30196 impl/ dirichlet: by a factor of all rows
- *  30428 impl/ io: files that are replaced only when they are complete
- *  30646 impl/ files: Matrix Market files, 64-bit indices
- *  31266 impl/ save: factors in files
- *  33263 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33945 impl/ batch: diagonals of many inverses
- *  34086 impl/ complex: complex Hermitian systems over real factors
- *  34648 impl/ complex: entries of the inverse
- *  34708 impl/ packs: the tables through which the core calls packs
- *  34757 impl/ last: undefine every internal macro
- *  35113 impl/ templates: the header includes them from itself, once for each instruction set
+ *  29608 impl/ dirichlet: rows fixed at given values
+ *  30197 impl/ dirichlet: by a factor of all rows
+ *  30429 impl/ io: files that are replaced only when they are complete
+ *  30647 impl/ files: Matrix Market files, 64-bit indices
+ *  31267 impl/ save: factors in files
+ *  33264 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33946 impl/ batch: diagonals of many inverses
+ *  34087 impl/ complex: complex Hermitian systems over real factors
+ *  34649 impl/ complex: entries of the inverse
+ *  34709 impl/ packs: the tables through which the core calls packs
+ *  34758 impl/ last: undefine every internal macro
+ *  35114 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -15735,7 +15735,7 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
     has_pivots = has_pivots && failure->status == SL_ERR_INACCURATE;
   }
   sli_factor_outcome(F, from->A, failure, has_pivots);
-  if (sli_signs_are_suspected(F) && failure->status == SL_OK &&
+  if (failure->status == SL_OK && sli_signs_are_suspected(F) &&
       sli_signs_judge(F, failure) != SL_OK) {
     sli_factor_outcome(F, from->A, failure, 0);
   }
@@ -24563,6 +24563,7 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
   u->most = u->top = u->entry = u->growth = 0.0;
   u->loss = u->swept = 1.0;
   u->lost = 0.0;
+  u->state->ranks = 1;
   for (rest = u->V->p[v + 1] - u->V->p[v]; s != -1 && status == SL_OK; s = S->super_parent[s]) {
     const sli_step *step = &S->steps[s];
     const sl_int *to = S->relative + S->rows_begin[s];

@@ -75,6 +75,7 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
     u->most = u->top = u->entry = u->growth = 0.0;
     u->loss = u->swept = 1.0;
     u->lost = 0.0;
+    u->state->ranks = 1;
     for (rest = u->V->p[v + 1] - u->V->p[v]; s != -1 && status == SL_OK; s = S->super_parent[s]) {
         const sli_step *step = &S->steps[s];
         const sl_int *to = S->relative + S->rows_begin[s];

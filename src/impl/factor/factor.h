@@ -154,7 +154,7 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
         has_pivots = has_pivots && failure->status == SL_ERR_INACCURATE;
     }
     sli_factor_outcome(F, from->A, failure, has_pivots);
-    if (sli_signs_are_suspected(F) && failure->status == SL_OK &&
+    if (failure->status == SL_OK && sli_signs_are_suspected(F) &&
         sli_signs_judge(F, failure) != SL_OK) {
         sli_factor_outcome(F, from->A, failure, 0);
     }
