@@ -19,6 +19,7 @@ typedef struct bench_run_t {
     const char *mesh_path; /* MESH: run every question on this mesh; NULL: on synthetic systems */
     const char *out_dir;   /* where CSV files and plots are written */
     double seconds;        /* about how long the repetitions of one comparison take */
+    double largest;        /* vertices of the largest grid */
     int failures;          /* number of failed checks */
 } bench_run;
 

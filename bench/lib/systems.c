@@ -212,14 +212,13 @@ const bench_system *bench_k_harmonic(const bench_run *run, double vertices, int 
 }
 
 int bench_systems(const bench_run *run, const double *wanted, int count, const bench_system **out) {
-    static const double largest[] = {1e5, 1e6, 4e6}; /* indexed by bench_size */
     int found = 0;
     if (run->mesh_path) {
         out[0] = bench_mesh(run->mesh_path);
         return out[0] != NULL;
     }
     for (int k = 0; k < count; k++) {
-        if (wanted[k] <= largest[run->size]) {
+        if (wanted[k] <= run->largest) {
             out[found++] = grid(wanted[k]);
         }
     }

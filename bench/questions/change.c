@@ -262,9 +262,9 @@ static void time_system(bench_run *run, bench_report *report, const bench_system
 }
 
 void bench_change(bench_run *run) {
-    static const double wanted[] = {1e4, 1e5, 1e6};
-    const bench_system *systems[3];
-    const int count = bench_systems(run, wanted, 3, systems);
+    static const double wanted[] = {1e4, 1e5, 5e5, 1e6};
+    const bench_system *systems[4];
+    const int count = bench_systems(run, wanted, 4, systems);
     bench_report *report =
         bench_report_open(run, "change", "a change of a few entries, or pins", "local solve");
     for (int k = 0; k < count; k++) {

@@ -7,12 +7,12 @@
 
 /* Everything is created anew and released in every round, as in a program that solves one system. A
  * run that is not counted comes first, because pages of memory that a virtual machine has never
- * used take several times as long to clear as others. After a long one, one round is enough.
+ * used take several times as long to clear as others.
  *
  * Times are of the wall clock, which threads shorten. "Analyze" is the time of a further
  * sl_symbolic_create that is given the order; "order" is what the first one takes beyond it, and at
  * least the ordering's own processor time divided by the threads. */
-enum { STAGES = 5, MIN_ROUNDS = 2, MAX_ROUNDS = 30, ONE_ROUND_ABOVE = 4 };
+enum { STAGES = 5, MIN_ROUNDS = 2, MAX_ROUNDS = 30 };
 
 static const char *const stages[STAGES] = {"order", "analyze", "first factor", "first solve",
                                            "together"};
@@ -84,11 +84,9 @@ static void one_system(bench_run *run, bench_report *report, const bench_system 
     int rounds = 0;
     bench_random_fill(&rng, b, n);
     const sl_options first = options_of(&variants[0]);
-    double start = bench_now();
     run_once(system, &first, x, b, once);
-    const int min_rounds = bench_now() - start > ONE_ROUND_ABOVE * run->seconds ? 1 : MIN_ROUNDS;
-    start = bench_now();
-    while (rounds < min_rounds ||
+    const double start = bench_now();
+    while (rounds < MIN_ROUNDS ||
            (rounds < MAX_ROUNDS && bench_now() - start < 4 * run->seconds)) {
         for (int v = 0; v < VARIANTS; v++) {
             const sl_options opt = options_of(&variants[v]);
@@ -118,9 +116,9 @@ static void one_system(bench_run *run, bench_report *report, const bench_system 
 }
 
 void bench_cold(bench_run *run) {
-    static const double wanted[] = {1e4, 1e5, 1e6, 4e6};
-    const bench_system *systems[4];
-    const int count = bench_systems(run, wanted, 4, systems);
+    static const double wanted[] = {1e4, 1e5, 5e5, 1e6, 4e6};
+    const bench_system *systems[5];
+    const int count = bench_systems(run, wanted, 5, systems);
     bench_report *report =
         bench_report_open(run, "cold", "from the matrix to the first solution", "all stages");
     for (int k = 0; k < count; k++) {

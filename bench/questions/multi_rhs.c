@@ -89,9 +89,9 @@ static void one_system(bench_run *run, bench_report *report, bench_plot *plot,
 }
 
 void bench_multi_rhs(bench_run *run) {
-    static const double wanted[] = {1e4, 1e5, 1e6};
-    const bench_system *systems[3];
-    int count = bench_systems(run, wanted, 3, systems);
+    static const double wanted[] = {1e4, 1e5, 5e5, 1e6};
+    const bench_system *systems[4];
+    int count = bench_systems(run, wanted, 4, systems);
     bench_report *report = bench_report_open(
         run, "multi_rhs", "1 to 8 right-hand sides in one call ([HDA17]: 2.5 times as fast for 8)",
         "one call per right-hand side");

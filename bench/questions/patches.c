@@ -170,11 +170,11 @@ static void one_size(bench_run *run, bench_report *report, plots *p, const bench
 }
 
 void bench_patches(bench_run *run) {
-    static const double wanted[] = {1e4, 5e4, 2e5, 1e6, 4e6};
+    static const double wanted[] = {1e4, 5e4, 2e5, 5e5, 1e6, 4e6};
     static const sl_int sizes[] = {2000, 10000, 30000, 50000};
-    const bench_system *systems[5];
+    const bench_system *systems[6];
     int first = run->size == BENCH_QUICK ? 0 : 1; /* the smallest grid is used in quick runs only */
-    int count = bench_systems(run, wanted + first, 5 - first, systems);
+    int count = bench_systems(run, wanted + first, 6 - first, systems);
     bench_report *report = bench_report_open(
         run, "patches",
         "local solves on a patch, b on its boundary, x on the whole patch ([HDA17] Figures 4, 5)",
