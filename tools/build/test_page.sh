@@ -2,8 +2,8 @@
 # test_page.sh: writes the figures in tests/README.md (make test-page)
 #
 # Between the lines `<!-- runs -->` and `<!-- end of runs -->`: the counts of make test-figures, the
-# last run of each fuzzer, coverage, and the platforms that left build/platforms/NAME.txt. What has
-# not run in this checkout is left out.
+# last run of each fuzzer, and coverage. What has not run in this checkout is left out. Platforms
+# have a page of their own: make platform-table.
 set -eu
 page=tests/README.md
 new=$(mktemp)
@@ -26,13 +26,6 @@ coverage() {
             build/cov/summary.txt
 }
 
-platforms() {
-    for log in build/platforms/*.txt; do
-        name=${log##*/}
-        [ ! -e "$log" ] || echo "| platform ${name%.txt} | $(tail -n 1 "$log") |"
-    done
-}
-
 {
     sed '/<!-- runs -->/q' "$page"
     echo '| figure | value |'
@@ -44,7 +37,6 @@ platforms() {
           sub(/^[0-9]+ programs of [0-9]+ /, ""); print "| " $0 " | " count " |" }'
     fuzzers
     coverage
-    platforms
     sed -n '/<!-- end of runs -->/,$p' "$page"
 } >"$new"
 cat "$new" >"$page"
