@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 39101356248f9f1a
+ * FNV-1a of the lines after this comment, without the license: f6331515c57f96be
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,29 +35,29 @@
  *   2879 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   2956 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   2995 impl/ base: the compiler, status, memory, sorting, threads
- *   4217 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5135 impl/ matrix: sparse matrices of the caller and of the library
- *   5764 impl/ ordering: fill-reducing orderings of a graph
- *  10413 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12650 impl/ factor: the numbers of L and D
- *  16008 impl/ solve: full and local solves
- *  17670 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19599 impl/ pivots: the order of the pivots by the values of a matrix
- *  20008 impl/ float: L and fronts in single precision
- *  20459 impl/ inverse: entries of the inverse, regions
- *  23522 impl/ change: a factor that follows changes of its matrix
- *  29608 impl/ dirichlet: rows fixed at given values
- *  30197 impl/ dirichlet: by a factor of all rows
- *  30429 impl/ io: files that are replaced only when they are complete
- *  30647 impl/ files: Matrix Market files, 64-bit indices
- *  31267 impl/ save: factors in files
- *  33264 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33946 impl/ batch: diagonals of many inverses
- *  34087 impl/ complex: complex Hermitian systems over real factors
- *  34649 impl/ complex: entries of the inverse
- *  34709 impl/ packs: the tables through which the core calls packs
- *  34758 impl/ last: undefine every internal macro
- *  35114 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4228 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5146 impl/ matrix: sparse matrices of the caller and of the library
+ *   5775 impl/ ordering: fill-reducing orderings of a graph
+ *  10424 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12661 impl/ factor: the numbers of L and D
+ *  16019 impl/ solve: full and local solves
+ *  17681 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19610 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20019 impl/ float: L and fronts in single precision
+ *  20470 impl/ inverse: entries of the inverse, regions
+ *  23533 impl/ change: a factor that follows changes of its matrix
+ *  29618 impl/ dirichlet: rows fixed at given values
+ *  30207 impl/ dirichlet: by a factor of all rows
+ *  30439 impl/ io: files that are replaced only when they are complete
+ *  30657 impl/ files: Matrix Market files, 64-bit indices
+ *  31277 impl/ save: factors in files
+ *  33274 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33956 impl/ batch: diagonals of many inverses
+ *  34097 impl/ complex: complex Hermitian systems over real factors
+ *  34659 impl/ complex: entries of the inverse
+ *  34719 impl/ packs: the tables through which the core calls packs
+ *  34768 impl/ last: undefine every internal macro
+ *  35124 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3460,6 +3460,17 @@ SLI_NOINLINE static sl_status sli_report(sl_stats *stats, sl_status status) {
   }
 #endif
   return status;
+}
+
+SLI_COLD static sl_error sli_found(const sl_stats *stats, sl_status status) {
+  sl_stats found;
+  memset(&found.error, 0, sizeof found.error);
+  found.error.row = found.error.column = -1;
+  if (stats != NULL) {
+    found.error = stats->error;
+  }
+  (void)sli_report(&found, status);
+  return found.error;
 }
 
 SLI_NOINLINE static void sli_error_line(sl_stats *stats, sl_off line) {
@@ -27824,17 +27835,16 @@ static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
 }
 
 static sl_status sli_restrict_report(const sli_restriction *r, sl_status status, sl_stats *stats) {
-  sl_stats found;
-  (void)sli_report(&found, status);
-  if (status == SL_ERR_NOT_FINITE && found.error.column != -1) {
+  sl_error found = sli_found(stats, status);
+  if (status == SL_ERR_NOT_FINITE && found.column != -1) {
     if (r->B_values != NULL) {
-      found.error.column = r->rows[found.error.column];
+      found.column = r->rows[found.column];
     }
-  } else if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE ||
-      status == SL_ERR_NOT_FINITE) {
-    found.error.row = r->rows[found.error.row];
+  } else if (found.row >= 0 && (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE ||
+      status == SL_ERR_NOT_FINITE)) {
+    found.row = r->rows[found.row];
   }
-  return sli_fail_as(stats, status, &found.error);
+  return sli_fail_as(stats, status, &found);
 }
 
 static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_factor *F,
@@ -29690,22 +29700,22 @@ static void sli_dirichlet_number(const sl_dirichlet *D, sl_int *where) {
 }
 
 static sl_status sli_dirichlet_report(const sl_dirichlet *D, sl_status status, sl_stats *stats) {
-  sl_stats found;
+  sl_error found;
   if (status == SL_OK) {
     return status;
   }
-  (void)sli_report(&found, status);
+  found = sli_found(stats, status);
   if (status == SL_ERR_PIVOT && D->factorization.definite == 0) {
-    found.error.what = "the free rows are singular: fix a row of this component, or see "
-               "options.null_pivots and sl_symbolic_create_pivoted";
+    found.what = "the free rows are singular: fix a row of this component, or see "
+           "options.null_pivots and sl_symbolic_create_pivoted";
   }
-  if (found.error.row >= 0) {
-    found.error.row = D->free_rows[found.error.row];
+  if (found.row >= 0) {
+    found.row = D->free_rows[found.row];
   }
-  if (found.error.column >= 0) {
-    found.error.column = D->free_rows[found.error.column];
+  if (found.column >= 0) {
+    found.column = D->free_rows[found.column];
   }
-  return sli_fail_as(stats, status, &found.error);
+  return sli_fail_as(stats, status, &found);
 }
 
 typedef struct sli_dirichlet_arrays {

@@ -109,7 +109,7 @@ test-compilers: sparse_local.h ## the core and all packs by each installed versi
 # The program over the objects of test-s390x, and natively.
 test-exchange: test-s390x ## saved objects written on big endian, emulated, loaded on this machine, and the other way round
 	@$(MAKE) --no-print-directory $(B)/tests/core/exchange
-	@$(cross_s390x)gcc -std=c99 $(WARN) -O1 -I. -static -o build/s390x/exchange tests/core/exchange.c build/s390x/obj/sparse_local.o -lm
+	@$(cross_s390x)gcc -std=c99 $(WARN) $(PACK_FLAGS) -O1 -I. -static -o build/s390x/exchange tests/core/exchange.c build/s390x/obj/sparse_local.o -lm
 	@HERE=$(B)/tests/core/exchange THERE='$(run_s390x) build/s390x/exchange' tests/core/check_exchange.sh
 
 test-i386: ## the header's tests on 32-bit x86 with SSE2

@@ -142,6 +142,41 @@ int other(void) {
 }
 C
 
+cat >$dir/rows.c <<'C'
+/* rows.c: errors of a submatrix are named in rows of A, with stats and without */
+#include "sparse_local.h"
+#include <math.h>
+static int wrong(sl_status status, sl_status wanted, const sl_stats *s, sl_int row,
+                 sl_int column) {
+    return status != wanted || s->error.row != row || s->error.column != column;
+}
+int main(void) {
+    const sl_int p[] = {0, 2, 4, 6, 7}, i[] = {0, 1, 1, 2, 2, 3, 3};
+    const sl_int rows[] = {3, 2}, fixed[] = {0, 1};
+    double x[] = {2, -1, 2, -1, 2, -1, 2};
+    const sl_csc A = {4, 4, p, i, x};
+    sl_symbolic *S = NULL, *T = NULL;
+    sl_factor *F = NULL, *G = NULL;
+    sl_dirichlet *D = NULL;
+    sl_options natural = {0};
+    sl_stats s = {0};
+    int failed = 0;
+    natural.ordering = SL_ORDERING_NATURAL;
+    if (sl_symbolic_create(&S, &A, &natural, NULL) != SL_OK) return 1;
+    if (sl_factor_create(&F, S, &A, NULL, NULL) != SL_OK) return 1;
+    x[5] = NAN;
+    failed += wrong(sl_factor_restrict(&T, &G, F, &A, rows, 2, NULL, &s), SL_ERR_NOT_FINITE, &s,
+                    3, 2);
+    failed += sl_factor_restrict(&T, &G, F, &A, rows, 2, NULL, NULL) != SL_ERR_NOT_FINITE;
+    x[5] = x[6] = 0;
+    failed += wrong(sl_dirichlet_create(&D, &A, fixed, 2, NULL, NULL, &s), SL_ERR_PIVOT, &s,
+                    3, -1);
+    failed += sl_dirichlet_create(&D, &A, fixed, 2, NULL, NULL, NULL) != SL_ERR_PIVOT;
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    return failed;
+}
+C
 cat >$dir/isa.c <<'C'
 /* isa.c: checks which instruction sets are accepted. Arguments: the one that SL_ISA_AUTO selects,
  * or -1 for any; then those that must be refused */
@@ -314,11 +349,12 @@ check "make header-flat: a header that is pasted into a source file" \
 
 # ---- instruction sets ----
 
-check "SL_NO_SIMD: only the kernels in plain C; options.isa refuses all others" \
+check "SL_NO_SIMD, SL_NO_THREAD_LOCAL: plain C kernels, others refused; rows of errors" \
     "$cc -I. $dir/isa_numbers.c -o $dir/isa_numbers && eval \$($dir/isa_numbers) &&
      $cc $c99 $all -DSL_NO_SIMD -DSL_NO_THREAD_LOCAL -c $dir/bodies.c -o $dir/no_simd.o &&
      nm $dir/no_simd.o | grep -E '_(avx2|avx512|neon)' | none &&
      $cc -I. $dir/user.c $dir/no_simd.o -o $dir/no_simd $libs && $dir/no_simd &&
+     $cc -I. -DSL_WITH_ALL $dir/rows.c $dir/no_simd.o -o $dir/rows $libs && $dir/rows &&
      $cc -I. $dir/isa.c $dir/no_simd.o -o $dir/isa $libs &&
      $dir/isa \$scalar \$avx2 \$avx512 \$neon"
 check "SL_NO_AVX512: leaves out only AVX-512" \

@@ -25,21 +25,21 @@ function caller(text, at,    open, k, c, name) {
 }
 
 # Records the body of each function of the file by its name, and checks rule 1.
-function end_file(    text, rest, at, before, name, line, signature, head) {
+function end_file(    text, rest, at, found, before, name, line, signature, head) {
     text = whole
     at = 0
     rest = text
     while (match(rest, /SL_ERR_[A-Z_]+/)) {
         at += RSTART
+        found = substr(rest, RSTART, RLENGTH) # caller() matches, too
         before = substr(text, 1, at - 1)
         name = caller(text, at)
         if (name !~ /^(sli_refuse|sli_fail_at|sli_fail|sli_order_refuse)$/ &&
             before !~ /(==|!=|case) *$/) {
             line = gsub(/\n/, "\n", before)
-            fail(file ":" line ": " substr(rest, RSTART, RLENGTH) \
-                 " without a reason: sli_refuse(status, text)")
+            fail(file ":" line ": " found " without a reason: sli_refuse(status, text)")
         }
-        at += RLENGTH - 1
+        at += length(found) - 1
         rest = substr(text, at + 1)
     }
     head = "\n(SL_API |static |SLI_[A-Z_]+ (static )?)sl_status sli?_[a-z0-9_]+[(][^{;]*[)] [{]"

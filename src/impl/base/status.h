@@ -143,6 +143,19 @@ SLI_NOINLINE static sl_status sli_report(sl_stats *stats, sl_status status) {
     return status;
 }
 
+/* The error of a call that is about to name it in other rows. Without thread-local storage only
+ * stats have it. */
+SLI_COLD static sl_error sli_found(const sl_stats *stats, sl_status status) {
+    sl_stats found;
+    memset(&found.error, 0, sizeof found.error);
+    found.error.row = found.error.column = -1;
+    if (stats != NULL) {
+        found.error = stats->error;
+    }
+    (void)sli_report(&found, status);
+    return found.error;
+}
+
 /* Adds the line of a file to the error that was reported last. */
 SLI_NOINLINE static void sli_error_line(sl_stats *stats, sl_off line) {
     if (stats != NULL) {

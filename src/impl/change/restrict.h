@@ -138,17 +138,16 @@ static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
 
 /* Reports an error, which F has in rows and columns of A[R, R], in those of A. */
 static sl_status sli_restrict_report(const sli_restriction *r, sl_status status, sl_stats *stats) {
-    sl_stats found;
-    (void)sli_report(&found, status);
-    if (status == SL_ERR_NOT_FINITE && found.error.column != -1) { /* an entry of A or B */
+    sl_error found = sli_found(stats, status);
+    if (status == SL_ERR_NOT_FINITE && found.column != -1) { /* an entry of A or B */
         if (r->B_values != NULL) {
-            found.error.column = r->rows[found.error.column];
+            found.column = r->rows[found.column];
         }
-    } else if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE ||
-               status == SL_ERR_NOT_FINITE) {
-        found.error.row = r->rows[found.error.row];
+    } else if (found.row >= 0 && (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE ||
+                                  status == SL_ERR_NOT_FINITE)) {
+        found.row = r->rows[found.row];
     }
-    return sli_fail_as(stats, status, &found.error);
+    return sli_fail_as(stats, status, &found);
 }
 
 static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_factor *F,

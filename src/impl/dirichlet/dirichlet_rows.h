@@ -102,22 +102,22 @@ static void sli_dirichlet_number(const sl_dirichlet *D, sl_int *where) {
 
 /* Reports an error of the system of free rows in rows of A. */
 static sl_status sli_dirichlet_report(const sl_dirichlet *D, sl_status status, sl_stats *stats) {
-    sl_stats found;
+    sl_error found;
     if (status == SL_OK) {
         return status;
     }
-    (void)sli_report(&found, status);
+    found = sli_found(stats, status);
     if (status == SL_ERR_PIVOT && D->factorization.definite == 0) {
-        found.error.what = "the free rows are singular: fix a row of this component, or see "
-                           "options.null_pivots and sl_symbolic_create_pivoted";
+        found.what = "the free rows are singular: fix a row of this component, or see "
+                     "options.null_pivots and sl_symbolic_create_pivoted";
     }
-    if (found.error.row >= 0) {
-        found.error.row = D->free_rows[found.error.row];
+    if (found.row >= 0) {
+        found.row = D->free_rows[found.row];
     }
-    if (found.error.column >= 0) {
-        found.error.column = D->free_rows[found.error.column];
+    if (found.column >= 0) {
+        found.column = D->free_rows[found.column];
     }
-    return sli_fail_as(stats, status, &found.error);
+    return sli_fail_as(stats, status, &found);
 }
 
 /* The arrays among the options, in free rows. */
