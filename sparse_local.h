@@ -1,5 +1,5 @@
-/* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f6331515c57f96be
+/* sparse_local.h 1.0.0, generated: edit src/, run make header
+ * FNV-1a of the lines after this comment, without the license: bd7db42565bb3194
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -284,8 +284,8 @@
 #define SL_HEADER "sparse_local.h"
 #endif
 
-#define SL_VERSION_MAJOR 0
-#define SL_VERSION_MINOR 1
+#define SL_VERSION_MAJOR 1
+#define SL_VERSION_MINOR 0
 #define SL_VERSION_PATCH 0
 /* the version as one number, to compare: 10203 is 1.2.3 */
 #define SL_VERSION (10000 * SL_VERSION_MAJOR + 100 * SL_VERSION_MINOR + SL_VERSION_PATCH)
@@ -35113,8 +35113,8 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 
 /* templates: the header includes them from itself, once for each instruction set */
 #if defined(SLI_SELF_INCLUSION) && \
-    (SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
+    (SL_VERSION_MAJOR != 1 || \
+     SL_VERSION_MINOR != 0 || \
      SL_VERSION_PATCH != 0)
 #error "sparse_local.h: SL_HEADER names another version of the header"
 #endif

@@ -49,8 +49,8 @@
 #define SL_HEADER "sparse_local.h"
 #endif
 
-#define SL_VERSION_MAJOR 0
-#define SL_VERSION_MINOR 1
+#define SL_VERSION_MAJOR 1
+#define SL_VERSION_MINOR 0
 #define SL_VERSION_PATCH 0
 /* the version as one number, to compare: 10203 is 1.2.3 */
 #define SL_VERSION (10000 * SL_VERSION_MAJOR + 100 * SL_VERSION_MINOR + SL_VERSION_PATCH)

@@ -81,7 +81,10 @@ links() {
 
 declarations sparse_local.h >$new || exit 1
 if [ "$1" = record ]; then
-    cp $new tests/abi/sparse_local-$VERSION.h
+    {
+        echo "/* sparse_local-$VERSION.h: what version $VERSION declares, as a compiler sees it */"
+        cat $new
+    } >tests/abi/sparse_local-$VERSION.h
     echo "tests/abi/sparse_local-$VERSION.h: $(grep -c 'extern ' $new) functions"
     exit
 fi

@@ -1,5 +1,5 @@
 #!/bin/bash
-# release_notes.sh: prints the section of CHANGELOG.md on one version: release_notes.sh 0.1.0
+# release_notes.sh: prints the section of CHANGELOG.md on one version: release_notes.sh 1.0.0
 #
 # Ends with 1 if there is no such section, or if it is empty.
 

@@ -122,8 +122,9 @@ deps-abi: ## abidiff, which compares declarations
 abi: shared deps-abi ## is what the last release declared as it was, and do programs of one run with the library of the other?
 	@CC='$(CC)' VERSION=$(VERSION) tests/abi/check_abi.sh
 
-abi-record: sparse_local.h ## tests/abi: what this version declares, at a release
+abi-record: deps $(B)/tests/core/test_saved_releases ## at a release: what it declares goes to tests/abi, factors it saves to the corpus
 	@CC='$(CC)' VERSION=$(VERSION) tests/abi/check_abi.sh record
+	@SL_RECORD_SAVED=1 $(B)/tests/core/test_saved_releases
 
 # ---- installation ----
 

@@ -132,8 +132,8 @@ def _load():
         call = getattr(lib, "sl_" + name)
         call.argtypes = [PTR, _STATS]
         call.restype = None
-    if lib.sl_version() // 100 != 1:
-        raise ImportError("libsparse_local has version %d; this package is for 0.1" %
+    if lib.sl_version() // 10000 != 1:
+        raise ImportError("libsparse_local has version %d; this package is for 1.x" %
                           lib.sl_version())
     if lib.sl_stats_size() != ctypes.sizeof(Stats):
         raise ImportError("libsparse_local has another sl_stats than this package")
@@ -144,7 +144,7 @@ lib = _load()
 
 
 def version():
-    """The version of the library, as 0.1.0."""
+    """The version of the library, as 1.0.0."""
     number = lib.sl_version()
     return "%d.%d.%d" % (number // 10000, number // 100 % 100, number % 100)
 
