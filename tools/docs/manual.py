@@ -40,7 +40,8 @@ CHAPTERS = [("algorithms", "Algorithms"), ("ordering", "Orderings"),
             ("dirichlet", "Pins, restriction or submatrix?"),
             ("changes", "Changes of a matrix"), ("files", "Files"), ("errors", "What can go wrong"),
             ("program", "The program"), ("web", "In browsers"), ("doors", "Other languages"),
-            ("features", "Features"), ("speed", "Speed"), ("platforms", "Platforms")]
+            ("features", "Features"), ("speed", "Speed"), ("platforms", "Platforms"),
+            ("promise", "What stays")]
 # READMEs of folders of tools: pages that "Other languages" leads to
 DOORS = [("python", "Python"), ("octave", "Octave and MATLAB"), ("npm", "JavaScript"),
          ("cluster", "Clusters")]
