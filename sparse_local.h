@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: bd7db42565bb3194
+ * FNV-1a of the lines after this comment, without the license: 7a544d2249bc5425
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -43,15 +43,15 @@
  *  16019 impl/ solve: full and local solves
  *  17681 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
  *  19610 impl/ pivots: the order of the pivots by the values of a matrix
- *  20019 impl/ float: L and fronts in single precision
- *  20470 impl/ inverse: entries of the inverse, regions
- *  23533 impl/ change: a factor that follows changes of its matrix
- *  29618 impl/ dirichlet: rows fixed at given values
- *  30207 impl/ dirichlet: by a factor of all rows
- *  30439 impl/ io: files that are replaced only when they are complete
- *  30657 impl/ files: Matrix Market files, 64-bit indices
- *  31277 impl/ save: factors in files
- *  33274 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  20018 impl/ float: L and fronts in single precision
+ *  20469 impl/ inverse: entries of the inverse, regions
+ *  23532 impl/ change: a factor that follows changes of its matrix
+ *  29617 impl/ dirichlet: rows fixed at given values
+ *  30206 impl/ dirichlet: by a factor of all rows
+ *  30438 impl/ io: files that are replaced only when they are complete
+ *  30656 impl/ files: Matrix Market files, 64-bit indices
+ *  31276 impl/ save: factors in files
+ *  33273 impl/ batch: many solves and factorizations by one call, sums of matrices
  *  33956 impl/ batch: diagonals of many inverses
  *  34097 impl/ complex: complex Hermitian systems over real factors
  *  34659 impl/ complex: entries of the inverse
@@ -19988,12 +19988,11 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
   double started;
   sli_pivot_search p;
   sl_symbolic *S = NULL;
-  sl_stats found;
   sli_block b = {NULL, 0, 0};
   sl_status status;
   sli_stats_clear_error(stats);
   status = sli_begin(out);
-  status = status == SL_OK ? sl_symbolic_create(&S, A, opt, &found) : status;
+  status = status == SL_OK ? sl_symbolic_create(&S, A, opt, stats) : status;
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
@@ -33819,7 +33818,8 @@ static sl_int sli_factor_batch_create(sl_factor **out, sl_int count, const sl_sy
       sli_factor_new(&out[k], S, k < count / workers * workers ? &serial : opt, NULL);
     if (here != SL_OK && at == count) {
       at = k;
-      *status = sli_report(first, here);
+      *status = here;
+      first->error = sli_found(NULL, here);
     }
   }
   return at;

@@ -125,7 +125,8 @@ static sl_int sli_factor_batch_create(sl_factor **out, sl_int count, const sl_sy
             sli_factor_new(&out[k], S, k < count / workers * workers ? &serial : opt, NULL);
         if (here != SL_OK && at == count) {
             at = k;
-            *status = sli_report(first, here);
+            *status = here;
+            first->error = sli_found(NULL, here);
         }
     }
     return at;

@@ -42,12 +42,11 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
     double started;
     sli_pivot_search p;
     sl_symbolic *S = NULL;
-    sl_stats found;
     sli_block b = {NULL, 0, 0};
     sl_status status;
     sli_stats_clear_error(stats);
     status = sli_begin(out);
-    status = status == SL_OK ? sl_symbolic_create(&S, A, opt, &found) : status;
+    status = status == SL_OK ? sl_symbolic_create(&S, A, opt, stats) : status;
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
