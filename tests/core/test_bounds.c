@@ -7,7 +7,7 @@
 #include "tests/lib/zero_mean.h"
 
 typedef struct tally_t {
-    size_t answers, violated;
+    int answers, violated;
     double tightest; /* the least bound / error */
 } tally_t;
 
@@ -127,7 +127,7 @@ static void estimated_bounds_hold(void **state) {
     for (int storage = SL_STORAGE_DOUBLE; storage <= SL_STORAGE_FLOAT_FRONTS; storage++) {
         tally_t tally = {0, 0, HUGE_VAL};
         judge_kinds(&variants, (sl_storage)storage, SL_ESTIMATED, &tally);
-        print_message("storage %d: %zu answers, bounds at least %.2f times the error\n", storage,
+        print_message("storage %d: %d answers, bounds at least %.2f times the error\n", storage,
                       tally.answers, tally.tightest);
         assert_int_equal(tally.violated, 0);
     }
@@ -178,7 +178,7 @@ static void guaranteed_bounds_hold(void **state) {
     variant_list_t variants = variants_present();
     tally_t tally = {0, 0, HUGE_VAL};
     judge_kinds(&variants, SL_STORAGE_DOUBLE, SL_GUARANTEED, &tally);
-    print_message("%zu answers, bounds at least %.0f times the error\n", tally.answers,
+    print_message("%d answers, bounds at least %.0f times the error\n", tally.answers,
                   tally.tightest);
     assert_int_equal(tally.violated, 0);
     assert_true(tally.tightest > 10.0);
@@ -299,7 +299,7 @@ static void bounds_hold_with_null_pivots(void **state) {
         }
     }
     for (int m = 0; m < 2; m++) {
-        print_message("%s: %zu answers, bounds at least %.2f times the error\n",
+        print_message("%s: %d answers, bounds at least %.2f times the error\n",
                       m ? "weights" : "no weights", tally[m].answers, tally[m].tightest);
         assert_int_equal(tally[m].violated, 0);
         assert_true(tally[m].answers > 1000);
@@ -328,7 +328,7 @@ static void bounds_hold_with_several_null_vectors(void **state) {
         bodies_free(&f);
         free(hold);
     }
-    print_message("%zu answers, bounds at least %.2f times the error\n", tally.answers,
+    print_message("%d answers, bounds at least %.2f times the error\n", tally.answers,
                   tally.tightest);
     assert_int_equal(tally.violated, 0);
 }
