@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7a544d2249bc5425
+ * FNV-1a of the lines after this comment, without the license: 20921472be5a1d91
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40,24 +40,24 @@
  *   5775 impl/ ordering: fill-reducing orderings of a graph
  *  10424 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12661 impl/ factor: the numbers of L and D
- *  16019 impl/ solve: full and local solves
- *  17681 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19610 impl/ pivots: the order of the pivots by the values of a matrix
- *  20018 impl/ float: L and fronts in single precision
- *  20469 impl/ inverse: entries of the inverse, regions
- *  23532 impl/ change: a factor that follows changes of its matrix
- *  29617 impl/ dirichlet: rows fixed at given values
- *  30206 impl/ dirichlet: by a factor of all rows
- *  30438 impl/ io: files that are replaced only when they are complete
- *  30656 impl/ files: Matrix Market files, 64-bit indices
- *  31276 impl/ save: factors in files
- *  33273 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33956 impl/ batch: diagonals of many inverses
- *  34097 impl/ complex: complex Hermitian systems over real factors
- *  34659 impl/ complex: entries of the inverse
- *  34719 impl/ packs: the tables through which the core calls packs
- *  34768 impl/ last: undefine every internal macro
- *  35124 impl/ templates: the header includes them from itself, once for each instruction set
+ *  16025 impl/ solve: full and local solves
+ *  17687 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19616 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20024 impl/ float: L and fronts in single precision
+ *  20475 impl/ inverse: entries of the inverse, regions
+ *  23538 impl/ change: a factor that follows changes of its matrix
+ *  29623 impl/ dirichlet: rows fixed at given values
+ *  30212 impl/ dirichlet: by a factor of all rows
+ *  30444 impl/ io: files that are replaced only when they are complete
+ *  30662 impl/ files: Matrix Market files, 64-bit indices
+ *  31282 impl/ save: factors in files
+ *  33279 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33962 impl/ batch: diagonals of many inverses
+ *  34103 impl/ complex: complex Hermitian systems over real factors
+ *  34665 impl/ complex: entries of the inverse
+ *  34725 impl/ packs: the tables through which the core calls packs
+ *  34774 impl/ last: undefine every internal macro
+ *  35130 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12695,6 +12695,17 @@ typedef struct sli_extent {
 
 typedef struct sli_storage_type sli_storage_type;
 
+typedef struct sli_own_kernels {
+  const sli_sweeps *sweeps;
+  const sli_front_kernels *front;
+} sli_own_kernels;
+
+typedef struct sli_limits {
+  int is_definite;
+  double growth;
+  double error;
+} sli_limits;
+
 typedef struct sli_copied {
   const sl_int *from;
   void (*copy)(sl_factor *F, sl_int s, sl_int worker);
@@ -12775,8 +12786,7 @@ struct sl_factor {
   const sl_symbolic *S;
   const sli_kernels *kernels;
   const sli_storage_type *type;
-  const sli_sweeps *sweeps;
-  const sli_front_kernels *front;
+  sli_own_kernels own;
   sl_method method;
   sl_threads threads;
   sli_schedule schedule;
@@ -12786,7 +12796,6 @@ struct sl_factor {
   sl_status status;
   sli_hash identity;
   uint64_t generation;
-  double clock;
   sli_history history;
   sli_certificate certificate;
 
@@ -12796,9 +12805,7 @@ struct sl_factor {
   double *divisors;
   sli_extent *extents;
   sli_pivot_rule rule;
-  int is_definite;
-  double growth_limit;
-  double error_limit;
+  sli_limits limits;
   sli_null_space null;
 
   void *scratch;
@@ -12930,11 +12937,11 @@ SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) 
 
 SLI_INLINE void sli_forward_sweep(const sl_factor *F, int kind, const sli_reach *R, double *x,
     double *scratch) {
-  F->sweeps->forward[kind](R, F->values, x, scratch);
+  F->own.sweeps->forward[kind](R, F->values, x, scratch);
 }
 SLI_INLINE void sli_backward_sweep(const sl_factor *F, int kind, const sli_reach *R,
     const double *D, double *x, double *scratch) {
-  F->sweeps->backward[kind](R, F->values, D, x, scratch);
+  F->own.sweeps->backward[kind](R, F->values, D, x, scratch);
 }
 
 SLI_INLINE double sli_entry(const sl_factor *F, sl_off at) {
@@ -14379,11 +14386,11 @@ static void sli_piece_run(sl_factor *F, const sli_task *task, sl_int worker) {
   } else if (task->step == SLI_STEP_ASSEMBLE) {
     type->assemble(F, &f, worker, t0, t1);
   } else if (task->step > sli_piece_last_step(step, piece)) {
-    F->front->update(&f, whole, sli_front_tiles(&f), sli_max(t0, whole), t1, scratch);
+    F->own.front->update(&f, whole, sli_front_tiles(&f), sli_max(t0, whole), t1, scratch);
   } else if (group == piece) {
-    F->front->pivots(&f, SLI_GROUP_TILES * group, scratch);
+    F->own.front->pivots(&f, SLI_GROUP_TILES * group, scratch);
   } else {
-    F->front->rows(&f, SLI_GROUP_TILES * group, t0, t1, scratch);
+    F->own.front->rows(&f, SLI_GROUP_TILES * group, t0, t1, scratch);
   }
 }
 
@@ -14873,9 +14880,9 @@ SLI_INLINE double sli_growth(double magnitude, double entry) {
 
 SLI_COLD static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl_int last,
     double entry, sli_failure *failure) {
-  const double bound = F->growth_limit * entry;
+  const double bound = F->limits.growth * entry;
   sl_int s = first, k, cause;
-  while (s < last && !(sli_growth(F->extents[s].magnitude, entry) > F->growth_limit)) {
+  while (s < last && !(sli_growth(F->extents[s].magnitude, entry) > F->limits.growth)) {
     s++;
   }
   k = F->extents[s].pivot;
@@ -14906,7 +14913,7 @@ static int sli_growth_check(sl_factor *F, sli_failure *failure) {
     growth = sli_growth(magnitude, entry);
     info->growth = growth > info->growth ? growth : info->growth;
     info->entry_max = entry > info->entry_max ? entry : info->entry_max;
-    if (growth > F->growth_limit &&
+    if (growth > F->limits.growth &&
         (failure->status == SL_OK || has_refused)) { /* branches untested: no other failure */
       has_refused = 1;
       (void)sli_growth_refuse(F, first, root, entry, failure);
@@ -15354,10 +15361,10 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
     opt == NULL || opt->null_vector_count == 0 ? 1 : (sl_int)opt->null_vector_count;
   F->null.consistency = consistency == 0.0 ? 1e-6 : consistency;
   F->null.is_centered = F->null.mode == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
-  F->is_definite = opt != NULL && opt->definite != 0;
-  F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
+  F->limits.is_definite = opt != NULL && opt->definite != 0;
+  F->limits.growth = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
       sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
-  F->error_limit = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
+  F->limits.error = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
 }
 
 static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_stats *stats) {
@@ -15444,11 +15451,11 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
   }
   F->stats.factor.isa = F->kernels->isa;
   F->stats.factor.method = F->method;
-  F->sweeps = F->type->sweeps(F->kernels);
-  if (F->sweeps == NULL) {
+  F->own.sweeps = F->type->sweeps(F->kernels);
+  if (F->own.sweeps == NULL) {
     return sli_refuse(SL_ERR_UNSUPPORTED, "options.isa has no kernels for L in float");
   }
-  F->front = F->type->front(F->kernels);
+  F->own.front = F->type->front(F->kernels);
   F->stats.storage = (sl_off)F->type->storage;
   F->stats.threads = F->schedule.workers;
   return SL_OK;
@@ -15516,8 +15523,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     }
     status = sli_factor_prepare(F);
     status = status == SL_OK ? sli_factor_rules_fill(F, opt, stats) : status;
-    F->clock = sli_factor_clock(S);
-    F->stats.factor.seconds_setup = F->clock - started;
+    F->stats.factor.seconds_setup = sli_factor_clock(S) - started;
     if (status == SL_OK) {
       *out = F;
     } else {
@@ -15642,7 +15648,7 @@ SLI_COLD static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, cons
 
 SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_failure *f) {
   const double size = fabs(f->value);
-  if (f->status == SL_ERR_INACCURATE && F->stats.factor.growth > F->growth_limit) {
+  if (f->status == SL_ERR_INACCURATE && F->stats.factor.growth > F->limits.growth) {
     return F->S->is_pivoted ? "pivot growth exceeds options.growth_limit"
                 : "sl_symbolic_create_pivoted avoids pivot growth";
   }
@@ -15653,7 +15659,7 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
            "options.null_vector_count"
            : "float cannot hold L: options.storage";
   }
-  if (F->is_definite && f->bound >= 0.0) {
+  if (F->limits.is_definite && f->bound >= 0.0) {
     return "options.definite: the pivot is not positive, and A not positive definite";
   }
   if (f->bound < 0.0) {
@@ -15750,7 +15756,7 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
       sli_signs_judge(F, failure) != SL_OK) {
     sli_factor_outcome(F, from->A, failure, 0);
   }
-  if (F->is_definite && has_pivots && F->stats.factor.negative > 0 &&
+  if (F->limits.is_definite && has_pivots && F->stats.factor.negative > 0 &&
       failure->status != SL_ERR_PIVOT) { /* branches untested: without pivots */
     sli_refuse_negative(F, failure);
     sli_factor_outcome(F, from->A, failure, 1);
@@ -15866,7 +15872,7 @@ static sl_status sli_factor_create_from(sl_factor **out, const sl_symbolic *S,
   sl_status status = sli_factor_new(&F, S, opt, stats);
   if (status == SL_OK) {
     sli_factor_begin(F);
-    status = sli_factor_numbers(F, from, F->clock, stats);
+    status = sli_factor_numbers(F, from, sli_factor_clock(F->S), stats);
   }
   if (status == SL_OK) {
     *out = F;
@@ -18221,7 +18227,7 @@ static sl_status sli_refine_done(const sl_factor *F, sl_stats *stats, sl_int mos
     stats->refine.steps = steps;
     stats->refine.backward_error = error;
   }
-  return most > 0 && !(error <= F->error_limit) && sli_is_finite(F->error_limit)
+  return most > 0 && !(error <= F->limits.error) && sli_is_finite(F->limits.error)
          ? sli_fail_at(NULL, SL_ERR_INACCURATE, -1, -1, error,
              "the backward error, value, is above options.error_limit")
          : SL_OK;
@@ -24797,7 +24803,7 @@ static void sli_rank_sort(void *data) {
   q->has_log = q->u.sign == 0.0 || q->needs_log || sli_rank_may_overflow(q, size) ||
          (rest > 0 && (q->count > SLI_TILE ||
              (q->count > 1 && q->whole.entries <= SLI_RANK_LOGGED))) ||
-         q->u.F->growth_limit < 2.0;
+         q->u.F->limits.growth < 2.0;
   q->has_trial = rest > 0 && !q->has_log;
   sli_rank_measure(q);
 }
@@ -24974,7 +24980,7 @@ static sl_status sli_rank_passes(sli_rank *q) {
         sli_update_lose(&q->u, group[v]);
       }
       sli_rank_note(&q->u);
-      if (info->growth > F->growth_limit) {
+      if (info->growth > F->limits.growth) {
         q->u.pivot = F->extents[F->S->super_of[sli_key(seeds[0])]].pivot;
         q->u.pivot = q->u.pivot < 0 ? sli_key(seeds[0]) : q->u.pivot;
         q->u.value = F->D[q->u.pivot];
@@ -24993,7 +24999,7 @@ static sl_status sli_rank_run(sli_rank *q) {
   if (q->count == 0) {
     return SL_OK;
   }
-  if (before.factor.growth > F->growth_limit) {
+  if (before.factor.growth > F->limits.growth) {
     const sl_int k = sli_key(q->seeds[0]);
     return sli_fail_at(q->stats, SL_ERR_INACCURATE, F->S->perm[k], -1, F->D[k],
         sli_growth_exceeded);
@@ -27785,9 +27791,9 @@ static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction
   sl_int k;
   opt.null_tolerance = sli_tolerance_option(F);
   opt.regularization = F->rule.regularization;
-  opt.definite = (size_t)F->is_definite;
-  opt.growth_limit = sli_limit_option(F->growth_limit);
-  opt.error_limit = sli_limit_option(F->error_limit);
+  opt.definite = (size_t)F->limits.is_definite;
+  opt.growth_limit = sli_limit_option(F->limits.growth);
+  opt.error_limit = sli_limit_option(F->limits.error);
   if (opt.regularization != 0.0 && F->rule.signs != NULL) {
     for (k = 0; k < r->R.count; k++) {
       signs[r->R.row_of[k]] = F->rule.signs[r->R.columns[k]];
@@ -31822,8 +31828,8 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   F->null.vectors = sli_max((sl_int)g->null_vectors, 1);
   F->null.n_anchors = (sl_int)g->anchors;
   F->null.consistency = g->consistency;
-  F->growth_limit = g->growth_limit;
-  F->error_limit = g->error_limit;
+  F->limits.growth = g->growth_limit;
+  F->limits.error = g->error_limit;
   F->rule.epsilon = F->type->epsilon;
   F->rule.null_tolerance = g->null_tolerance;
   F->rule.regularization = g->regularization;
@@ -32257,8 +32263,8 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
   g.null_tolerance = F->rule.null_tolerance;
   g.regularization = F->rule.regularization;
   g.consistency = F->null.consistency;
-  g.growth_limit = F->growth_limit;
-  g.error_limit = F->error_limit;
+  g.growth_limit = F->limits.growth;
+  g.error_limit = F->limits.error;
   g.identity[0] = F->identity.a;
   g.identity[1] = F->identity.b;
   g.null_vectors = F->null.vectors > 1 ? F->null.vectors : 0;
@@ -35454,7 +35460,7 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
     magnitudes = child->width % SLI_TILE +
            sli_triangle_offset(sli_update_tiles(child->width, child->below));
     magnitude = from + (magnitudes >> SLF_HALF);
-    F->front->assemble(f, from, child->width % SLI_TILE, relative, child->below, first, last);
+    F->own.front->assemble(f, from, child->width % SLI_TILE, relative, child->below, first, last);
     for (k = first; k < last; k += 1 + SLF_HALF) {
       SLF_OF(f, magnitude)[relative[k]] += magnitude[k >> SLF_HALF];
     }
@@ -35610,8 +35616,8 @@ static sl_status SLF_NAME(front_factor)(sl_factor *F, const sli_source *from, sl
     return status;
   }
   SLF_NAME(front_assemble)(F, &f, worker, 0, tiles);
-  sli_front_eliminate(F->front, &f, scratch);
-  sli_front_update(F->front, &f, scratch);
+  sli_front_eliminate(F->own.front, &f, scratch);
+  sli_front_update(F->own.front, &f, scratch);
   SLF_NAME(front_hand_over)(&f);
   return SLF_NAME(front_check)(F, &f, failure);
 }

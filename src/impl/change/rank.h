@@ -196,7 +196,7 @@ static sl_status sli_rank_passes(sli_rank *q) {
                 sli_update_lose(&q->u, group[v]);
             }
             sli_rank_note(&q->u);
-            if (info->growth > F->growth_limit) {
+            if (info->growth > F->limits.growth) {
                 q->u.pivot = F->extents[F->S->super_of[sli_key(seeds[0])]].pivot;
                 q->u.pivot = q->u.pivot < 0 ? sli_key(seeds[0]) : q->u.pivot;
                 q->u.value = F->D[q->u.pivot];
@@ -216,7 +216,7 @@ static sl_status sli_rank_run(sli_rank *q) {
     if (q->count == 0) {
         return SL_OK;
     }
-    if (before.factor.growth > F->growth_limit) { /* a saved factor has its drift as growth */
+    if (before.factor.growth > F->limits.growth) { /* a saved factor has its drift as growth */
         const sl_int k = sli_key(q->seeds[0]);
         return sli_fail_at(q->stats, SL_ERR_INACCURATE, F->S->perm[k], -1, F->D[k],
                            sli_growth_exceeded);

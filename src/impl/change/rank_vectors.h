@@ -197,10 +197,10 @@ static void sli_rank_sort(void *data) {
     sli_sort(q->whole_seeds, q->count, q->scratch);
     sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
     q->has_log = q->u.sign == 0.0 || q->needs_log || sli_rank_may_overflow(q, size) ||
-                 (rest > 0 && (q->count > SLI_TILE ||
-                               (q->count > 1 && q->whole.entries <= SLI_RANK_LOGGED))) ||
-                 q->u.F->growth_limit < 2.0; /* else pivots of one sign do not exceed it */
-    q->has_trial = rest > 0 && !q->has_log;  /* pivots that grow are not refused */
+                 (rest > 0 &&
+                  (q->count > SLI_TILE || (q->count > 1 && q->whole.entries <= SLI_RANK_LOGGED))) ||
+                 q->u.F->limits.growth < 2.0; /* else pivots of one sign do not exceed it */
+    q->has_trial = rest > 0 && !q->has_log;   /* pivots that grow are not refused */
     sli_rank_measure(q);
 }
 

@@ -85,9 +85,9 @@ static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction
     sl_int k;
     opt.null_tolerance = sli_tolerance_option(F);
     opt.regularization = F->rule.regularization;
-    opt.definite = (size_t)F->is_definite;
-    opt.growth_limit = sli_limit_option(F->growth_limit);
-    opt.error_limit = sli_limit_option(F->error_limit);
+    opt.definite = (size_t)F->limits.is_definite;
+    opt.growth_limit = sli_limit_option(F->limits.growth);
+    opt.error_limit = sli_limit_option(F->limits.error);
     if (opt.regularization != 0.0 && F->rule.signs != NULL) {
         for (k = 0; k < r->R.count; k++) {
             signs[r->R.row_of[k]] = F->rule.signs[r->R.columns[k]];

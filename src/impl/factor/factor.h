@@ -42,7 +42,7 @@ SLI_COLD static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, cons
 /* What helps where a factorization was refused, as text; NULL: nothing is known. */
 SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_failure *f) {
     const double size = fabs(f->value);
-    if (f->status == SL_ERR_INACCURATE && F->stats.factor.growth > F->growth_limit) {
+    if (f->status == SL_ERR_INACCURATE && F->stats.factor.growth > F->limits.growth) {
         return F->S->is_pivoted ? "pivot growth exceeds options.growth_limit"
                                 : "sl_symbolic_create_pivoted avoids pivot growth";
     }
@@ -53,7 +53,7 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
                      "options.null_vector_count"
                    : "float cannot hold L: options.storage";
     }
-    if (F->is_definite && f->bound >= 0.0) {
+    if (F->limits.is_definite && f->bound >= 0.0) {
         return "options.definite: the pivot is not positive, and A not positive definite";
     }
     if (f->bound < 0.0) {
@@ -158,7 +158,7 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
         sli_signs_judge(F, failure) != SL_OK) {
         sli_factor_outcome(F, from->A, failure, 0);
     }
-    if (F->is_definite && has_pivots && F->stats.factor.negative > 0 &&
+    if (F->limits.is_definite && has_pivots && F->stats.factor.negative > 0 &&
         failure->status != SL_ERR_PIVOT) { /* branches untested: without pivots */
         sli_refuse_negative(F, failure);
         sli_factor_outcome(F, from->A, failure, 1);
@@ -281,7 +281,7 @@ static sl_status sli_factor_create_from(sl_factor **out, const sl_symbolic *S,
     sl_status status = sli_factor_new(&F, S, opt, stats);
     if (status == SL_OK) {
         sli_factor_begin(F);
-        status = sli_factor_numbers(F, from, F->clock, stats);
+        status = sli_factor_numbers(F, from, sli_factor_clock(F->S), stats);
     }
     if (status == SL_OK) {
         *out = F;

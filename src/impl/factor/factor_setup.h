@@ -220,10 +220,10 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
         opt == NULL || opt->null_vector_count == 0 ? 1 : (sl_int)opt->null_vector_count;
     F->null.consistency = consistency == 0.0 ? 1e-6 : consistency;
     F->null.is_centered = F->null.mode == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
-    F->is_definite = opt != NULL && opt->definite != 0;
-    F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
-                                sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
-    F->error_limit = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
+    F->limits.is_definite = opt != NULL && opt->definite != 0;
+    F->limits.growth = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
+                                 sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
+    F->limits.error = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
 }
 
 /* Copies the arrays that the rules refer to, into pivot order. */
@@ -315,11 +315,11 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
     }
     F->stats.factor.isa = F->kernels->isa;
     F->stats.factor.method = F->method;
-    F->sweeps = F->type->sweeps(F->kernels);
-    if (F->sweeps == NULL) { /* a saved factor, whose L cannot become double */
+    F->own.sweeps = F->type->sweeps(F->kernels);
+    if (F->own.sweeps == NULL) { /* a saved factor, whose L cannot become double */
         return sli_refuse(SL_ERR_UNSUPPORTED, "options.isa has no kernels for L in float");
     }
-    F->front = F->type->front(F->kernels);
+    F->own.front = F->type->front(F->kernels);
     F->stats.storage = (sl_off)F->type->storage;
     F->stats.threads = F->schedule.workers;
     return SL_OK;
@@ -391,8 +391,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
         }
         status = sli_factor_prepare(F);
         status = status == SL_OK ? sli_factor_rules_fill(F, opt, stats) : status;
-        F->clock = sli_factor_clock(S);
-        F->stats.factor.seconds_setup = F->clock - started;
+        F->stats.factor.seconds_setup = sli_factor_clock(S) - started;
         if (status == SL_OK) {
             *out = F;
         } else {

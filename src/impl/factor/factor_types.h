@@ -48,6 +48,19 @@ typedef struct sli_extent {
 
 typedef struct sli_storage_type sli_storage_type; /* storage_type.h */
 
+/* Those of the kernels that suit how L is kept. */
+typedef struct sli_own_kernels {
+    const sli_sweeps *sweeps;       /* they read L */
+    const sli_front_kernels *front; /* they compute fronts */
+} sli_own_kernels;
+
+/* What a user has asked to refuse or to report. */
+typedef struct sli_limits {
+    int is_definite; /* negative pivots are refused */
+    double growth;   /* a larger growth is refused */
+    double error;    /* a refinement that ends above it is reported */
+} sli_limits;
+
 /* Supernodes whose numbers are copied in a factorization: a pack's struct begins with this. */
 typedef struct sli_copied {
     const sl_int *from; /* n_supers: where the numbers of a supernode are, or -1: it is computed */
@@ -146,9 +159,8 @@ struct sl_factor {
     sl_stats stats;       /* the factor group and the error group */
     const sl_symbolic *S;
     const sli_kernels *kernels;
-    const sli_storage_type *type;   /* how L is kept */
-    const sli_sweeps *sweeps;       /* those of the kernels that read L so .. */
-    const sli_front_kernels *front; /* .. and that compute fronts so */
+    const sli_storage_type *type; /* how L is kept */
+    sli_own_kernels own;
     sl_method method;
     sl_threads threads;
     sli_schedule schedule;
@@ -161,7 +173,6 @@ struct sl_factor {
     sli_hash identity;
     /* counts factorizations and changes, also those that give the same numbers again */
     uint64_t generation;
-    double clock; /* when its memory was there */
     sli_history history;
     sli_certificate certificate;
 
@@ -173,9 +184,7 @@ struct sl_factor {
     double *divisors;
     sli_extent *extents; /* n_supers */
     sli_pivot_rule rule;
-    int is_definite;     /* negative pivots are refused */
-    double growth_limit; /* a larger growth is refused */
-    double error_limit;  /* a refinement that ends above it is reported */
+    sli_limits limits;
     sli_null_space null;
 
     void *scratch; /* the block of all scratch arrays; NULL: not allocated yet */

@@ -227,11 +227,11 @@ static void sli_piece_run(sl_factor *F, const sli_task *task, sl_int worker) {
     } else if (task->step == SLI_STEP_ASSEMBLE) {
         type->assemble(F, &f, worker, t0, t1);
     } else if (task->step > sli_piece_last_step(step, piece)) {
-        F->front->update(&f, whole, sli_front_tiles(&f), sli_max(t0, whole), t1, scratch);
+        F->own.front->update(&f, whole, sli_front_tiles(&f), sli_max(t0, whole), t1, scratch);
     } else if (group == piece) {
-        F->front->pivots(&f, SLI_GROUP_TILES * group, scratch);
+        F->own.front->pivots(&f, SLI_GROUP_TILES * group, scratch);
     } else {
-        F->front->rows(&f, SLI_GROUP_TILES * group, t0, t1, scratch);
+        F->own.front->rows(&f, SLI_GROUP_TILES * group, t0, t1, scratch);
     }
 }
 

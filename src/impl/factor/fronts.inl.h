@@ -43,7 +43,8 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
         magnitudes = child->width % SLI_TILE +
                      sli_triangle_offset(sli_update_tiles(child->width, child->below));
         magnitude = from + (magnitudes >> SLF_HALF);
-        F->front->assemble(f, from, child->width % SLI_TILE, relative, child->below, first, last);
+        F->own.front->assemble(f, from, child->width % SLI_TILE, relative, child->below, first,
+                               last);
         for (k = first; k < last; k += 1 + SLF_HALF) {
             SLF_OF(f, magnitude)[relative[k]] += magnitude[k >> SLF_HALF];
         }
@@ -210,8 +211,8 @@ static sl_status SLF_NAME(front_factor)(sl_factor *F, const sli_source *from, sl
         return status;
     }
     SLF_NAME(front_assemble)(F, &f, worker, 0, tiles);
-    sli_front_eliminate(F->front, &f, scratch);
-    sli_front_update(F->front, &f, scratch);
+    sli_front_eliminate(F->own.front, &f, scratch);
+    sli_front_update(F->own.front, &f, scratch);
     SLF_NAME(front_hand_over)(&f);
     return SLF_NAME(front_check)(F, &f, failure);
 }

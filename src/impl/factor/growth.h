@@ -64,9 +64,9 @@ SLI_INLINE double sli_growth(double magnitude, double entry) {
  * small. */
 SLI_COLD static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl_int last,
                                             double entry, sli_failure *failure) {
-    const double bound = F->growth_limit * entry;
+    const double bound = F->limits.growth * entry;
     sl_int s = first, k, cause;
-    while (s < last && !(sli_growth(F->extents[s].magnitude, entry) > F->growth_limit)) {
+    while (s < last && !(sli_growth(F->extents[s].magnitude, entry) > F->limits.growth)) {
         s++;
     }
     k = F->extents[s].pivot;
@@ -99,7 +99,7 @@ static int sli_growth_check(sl_factor *F, sli_failure *failure) {
         growth = sli_growth(magnitude, entry);
         info->growth = growth > info->growth ? growth : info->growth; /* fmax is a call */
         info->entry_max = entry > info->entry_max ? entry : info->entry_max;
-        if (growth > F->growth_limit &&
+        if (growth > F->limits.growth &&
             (failure->status == SL_OK || has_refused)) { /* branches untested: no other failure */
             has_refused = 1;                             /* of several trees, the first one */
             (void)sli_growth_refuse(F, first, root, entry, failure);

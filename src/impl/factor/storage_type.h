@@ -77,11 +77,11 @@ SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) 
 /* The sweeps of F's factorization over a reach: x := L^-1 x, and x := L'^-1 D^-1 x. */
 SLI_INLINE void sli_forward_sweep(const sl_factor *F, int kind, const sli_reach *R, double *x,
                                   double *scratch) {
-    F->sweeps->forward[kind](R, F->values, x, scratch);
+    F->own.sweeps->forward[kind](R, F->values, x, scratch);
 }
 SLI_INLINE void sli_backward_sweep(const sl_factor *F, int kind, const sli_reach *R,
                                    const double *D, double *x, double *scratch) {
-    F->sweeps->backward[kind](R, F->values, D, x, scratch);
+    F->own.sweeps->backward[kind](R, F->values, D, x, scratch);
 }
 
 /* The entry of L at a position of the panels. */

@@ -153,8 +153,8 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     F->null.vectors = sli_max((sl_int)g->null_vectors, 1);
     F->null.n_anchors = (sl_int)g->anchors;
     F->null.consistency = g->consistency;
-    F->growth_limit = g->growth_limit;
-    F->error_limit = g->error_limit;
+    F->limits.growth = g->growth_limit;
+    F->limits.error = g->error_limit;
     F->rule.epsilon = F->type->epsilon;
     F->rule.null_tolerance = g->null_tolerance;
     F->rule.regularization = g->regularization;

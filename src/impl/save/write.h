@@ -65,8 +65,8 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
     g.null_tolerance = F->rule.null_tolerance;
     g.regularization = F->rule.regularization;
     g.consistency = F->null.consistency;
-    g.growth_limit = F->growth_limit;
-    g.error_limit = F->error_limit;
+    g.growth_limit = F->limits.growth;
+    g.error_limit = F->limits.error;
     g.identity[0] = F->identity.a;
     g.identity[1] = F->identity.b;
     g.null_vectors = F->null.vectors > 1 ? F->null.vectors : 0;
