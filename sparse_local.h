@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 20921472be5a1d91
+ * FNV-1a of the lines after this comment, without the license: e50e498d347cf132
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,25 +39,25 @@
  *   5146 impl/ matrix: sparse matrices of the caller and of the library
  *   5775 impl/ ordering: fill-reducing orderings of a graph
  *  10424 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12661 impl/ factor: the numbers of L and D
- *  16025 impl/ solve: full and local solves
- *  17687 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19616 impl/ pivots: the order of the pivots by the values of a matrix
- *  20024 impl/ float: L and fronts in single precision
- *  20475 impl/ inverse: entries of the inverse, regions
- *  23538 impl/ change: a factor that follows changes of its matrix
- *  29623 impl/ dirichlet: rows fixed at given values
- *  30212 impl/ dirichlet: by a factor of all rows
- *  30444 impl/ io: files that are replaced only when they are complete
- *  30662 impl/ files: Matrix Market files, 64-bit indices
- *  31282 impl/ save: factors in files
- *  33279 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33962 impl/ batch: diagonals of many inverses
- *  34103 impl/ complex: complex Hermitian systems over real factors
- *  34665 impl/ complex: entries of the inverse
- *  34725 impl/ packs: the tables through which the core calls packs
- *  34774 impl/ last: undefine every internal macro
- *  35130 impl/ templates: the header includes them from itself, once for each instruction set
+ *  12665 impl/ factor: the numbers of L and D
+ *  16029 impl/ solve: full and local solves
+ *  17691 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19620 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20028 impl/ float: L and fronts in single precision
+ *  20479 impl/ inverse: entries of the inverse, regions
+ *  23542 impl/ change: a factor that follows changes of its matrix
+ *  29627 impl/ dirichlet: rows fixed at given values
+ *  30216 impl/ dirichlet: by a factor of all rows
+ *  30448 impl/ io: files that are replaced only when they are complete
+ *  30666 impl/ files: Matrix Market files, 64-bit indices
+ *  31286 impl/ save: factors in files
+ *  33283 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33966 impl/ batch: diagonals of many inverses
+ *  34107 impl/ complex: complex Hermitian systems over real factors
+ *  34669 impl/ complex: entries of the inverse
+ *  34729 impl/ packs: the tables through which the core calls packs
+ *  34778 impl/ last: undefine every internal macro
+ *  35134 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11397,7 +11397,7 @@ static void sli_scatter_map_pivots(const sl_symbolic *S, sl_int s, sl_off m, sl_
   SLI_ASSERT(S->panel_begin[s] + sli_panel_at(w, local, *j - first) == S->scatter_to[m]);
 }
 
-/* src/impl/analysis/schedule.h: tasks of the tree of fronts for parallel workers, and the layout of update stacks */
+/* src/impl/analysis/schedule_types.h: tasks of a factorization, sizes of fronts and of what they pass up */
 
 typedef struct sli_top {
   sl_int children, waiting;
@@ -11425,25 +11425,6 @@ typedef struct sli_schedule {
   sl_off own;
   sl_off stack;
 } sli_schedule;
-
-typedef struct sli_forest {
-  sl_int count;
-  const sl_int *parent;
-  const sl_int *low;
-} sli_forest;
-
-typedef struct sli_schedule_work {
-  double *flops;
-  double *path;
-  double *load;
-  sl_int *side;
-  uint64_t *order;
-  uint64_t *scratch;
-} sli_schedule_work;
-
-#define SLI_TASKS_PER_WORKER 8
-
-#define SLI_FRONT_COST 4000.0
 
 #if defined(SLI_SMALL_TASKS)
 #define SLI_SHARED_FLOPS 2e4
@@ -11495,6 +11476,8 @@ static sl_int sli_large_pieces(const sli_step *s, sl_int workers, sl_int *tiles)
   *tiles = sli_max(SLI_GROUP_TILES, below / (4 * workers) + 1);
   return sli_front_groups(s->width) + (below + *tiles - 1) / *tiles;
 }
+
+/* src/impl/analysis/update_stacks.h: where each update matrix is, in the stacks of workers or above all tasks */
 
 typedef struct sli_stacks {
   sl_off top[2];
@@ -11595,6 +11578,27 @@ static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int 
   p->stack = p->workers * p->own;
   sli_plan_waiting(p, S, side, size, subtree);
 }
+
+/* src/impl/analysis/schedule.h: tasks of the tree of fronts for parallel workers */
+
+typedef struct sli_forest {
+  sl_int count;
+  const sl_int *parent;
+  const sl_int *low;
+} sli_forest;
+
+typedef struct sli_schedule_work {
+  double *flops;
+  double *path;
+  double *load;
+  sl_int *side;
+  uint64_t *order;
+  uint64_t *scratch;
+} sli_schedule_work;
+
+#define SLI_TASKS_PER_WORKER 8
+
+#define SLI_FRONT_COST 4000.0
 
 static void sli_find_tasks(sli_schedule *p, const sli_forest *f, sli_schedule_work *w,
     double limit) {
@@ -24801,8 +24805,8 @@ static void sli_rank_sort(void *data) {
   sli_sort(q->whole_seeds, q->count, q->scratch);
   sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
   q->has_log = q->u.sign == 0.0 || q->needs_log || sli_rank_may_overflow(q, size) ||
-         (rest > 0 && (q->count > SLI_TILE ||
-             (q->count > 1 && q->whole.entries <= SLI_RANK_LOGGED))) ||
+         (rest > 0 &&
+          (q->count > SLI_TILE || (q->count > 1 && q->whole.entries <= SLI_RANK_LOGGED))) ||
          q->u.F->limits.growth < 2.0;
   q->has_trial = rest > 0 && !q->has_log;
   sli_rank_measure(q);
@@ -35460,7 +35464,8 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
     magnitudes = child->width % SLI_TILE +
            sli_triangle_offset(sli_update_tiles(child->width, child->below));
     magnitude = from + (magnitudes >> SLF_HALF);
-    F->own.front->assemble(f, from, child->width % SLI_TILE, relative, child->below, first, last);
+    F->own.front->assemble(f, from, child->width % SLI_TILE, relative, child->below, first,
+        last);
     for (k = first; k < last; k += 1 + SLF_HALF) {
       SLF_OF(f, magnitude)[relative[k]] += magnitude[k >> SLF_HALF];
     }

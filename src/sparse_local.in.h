@@ -128,6 +128,8 @@ extern "C" {
 #include "impl/analysis/supernode_order.h"
 #include "impl/analysis/pattern.h"
 #include "impl/analysis/structure.h"
+#include "impl/analysis/schedule_types.h"
+#include "impl/analysis/update_stacks.h"
 #include "impl/analysis/schedule.h"
 #include "impl/analysis/symbolic_build.h"
 #include "impl/analysis/symbolic.h"

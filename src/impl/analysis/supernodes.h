@@ -153,8 +153,8 @@ SLI_ALWAYS_INLINE sl_off sli_supernode_cost(const sli_amalgamation *g, sl_int wi
 #define SLI_COST_PLAIN_ROW 7
 #define SLI_COST_TURN 30
 
-/* The cost of column s by itself, if it may be: if it is plain (schedule.h) or, in a large L, so
- * short that it is factored in scalars (fronts.inl.h). child: of s */
+/* The cost of column s by itself, if it may be: if it is plain (schedule_types.h) or, in a large L,
+ * so short that it is factored in scalars (fronts.inl.h). child: of s */
 static sl_int sli_apart_cost(const sli_amalgamation *g, sl_int s, const sl_int *child,
                              const sl_int *sibling) {
     sl_int c = g->is_large && g->below[s] < SLI_TILE ? -1 : child[s];

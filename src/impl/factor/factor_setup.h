@@ -3,6 +3,7 @@
 #define SLI_FACTOR_FACTOR_SETUP_H
 
 #include "../../public/factor.h"
+#include "../analysis/schedule.h"
 #include "../analysis/symbolic.h"
 #include "../base/options.h"
 #include "../kernels/dispatch.h"

@@ -3,7 +3,7 @@
 #define SLI_FACTOR_FACTOR_TYPES_H
 
 #include "../matrix/csc.h"
-#include "../analysis/schedule.h"
+#include "../analysis/schedule_types.h"
 #include "../kernels/dispatch.h"
 #include "../base/status.h"
 

@@ -2,6 +2,7 @@
 #ifndef SLI_FACTOR_FRONT_TASKS_H
 #define SLI_FACTOR_FRONT_TASKS_H
 
+#include "../base/parallel.h"
 #include "multifrontal.h"
 
 /* A factorization is one parallel call. Its tasks are bundles of subtrees, and the fronts above

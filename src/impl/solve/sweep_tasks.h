@@ -2,6 +2,7 @@
 #ifndef SLI_SOLVE_SWEEP_TASKS_H
 #define SLI_SOLVE_SWEEP_TASKS_H
 
+#include "../base/parallel.h"
 #include "backward.h"
 #include "query.h"
 
