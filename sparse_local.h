@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e50e498d347cf132
+ * FNV-1a of the lines after this comment, without the license: d705e99f21486ccf
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40,24 +40,24 @@
  *   5775 impl/ ordering: fill-reducing orderings of a graph
  *  10424 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12665 impl/ factor: the numbers of L and D
- *  16029 impl/ solve: full and local solves
- *  17691 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19620 impl/ pivots: the order of the pivots by the values of a matrix
- *  20028 impl/ float: L and fronts in single precision
- *  20479 impl/ inverse: entries of the inverse, regions
- *  23542 impl/ change: a factor that follows changes of its matrix
- *  29627 impl/ dirichlet: rows fixed at given values
- *  30216 impl/ dirichlet: by a factor of all rows
- *  30448 impl/ io: files that are replaced only when they are complete
- *  30666 impl/ files: Matrix Market files, 64-bit indices
- *  31286 impl/ save: factors in files
- *  33283 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33966 impl/ batch: diagonals of many inverses
- *  34107 impl/ complex: complex Hermitian systems over real factors
- *  34669 impl/ complex: entries of the inverse
- *  34729 impl/ packs: the tables through which the core calls packs
- *  34778 impl/ last: undefine every internal macro
- *  35134 impl/ templates: the header includes them from itself, once for each instruction set
+ *  16031 impl/ solve: full and local solves
+ *  17693 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19622 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20030 impl/ float: L and fronts in single precision
+ *  20481 impl/ inverse: entries of the inverse, regions
+ *  23544 impl/ change: a factor that follows changes of its matrix
+ *  29629 impl/ dirichlet: rows fixed at given values
+ *  30218 impl/ dirichlet: by a factor of all rows
+ *  30450 impl/ io: files that are replaced only when they are complete
+ *  30668 impl/ files: Matrix Market files, 64-bit indices
+ *  31288 impl/ save: factors in files
+ *  33285 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33968 impl/ batch: diagonals of many inverses
+ *  34109 impl/ complex: complex Hermitian systems over real factors
+ *  34671 impl/ complex: entries of the inverse
+ *  34731 impl/ packs: the tables through which the core calls packs
+ *  34780 impl/ last: undefine every internal macro
+ *  35136 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -15168,7 +15168,7 @@ SLI_COLD static sl_status sli_signs_judge(sl_factor *F, sli_failure *failure) {
   return failure->status;
 }
 
-/* src/impl/factor/factor_setup.h: allocates a factor without numbers from the options, and releases it */
+/* src/impl/factor/factor_layout.h: the arrays of a factor, and memory for its factorizations */
 
 static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
   const sl_symbolic *S = F->S;
@@ -15314,6 +15314,8 @@ static sl_status sli_factor_prepare(sl_factor *F) {
   }
   return status;
 }
+
+/* src/impl/factor/factor_setup.h: allocates a factor without numbers from the options, and releases it */
 
 static const char *sli_factor_choices_wrong(const sl_options *opt) {
   return (unsigned)opt->method > (unsigned)SL_METHOD_SUPERNODAL

@@ -151,6 +151,7 @@ extern "C" {
 #include "impl/factor/nullspace.h"
 #include "impl/factor/growth.h"
 #include "impl/factor/null_judge.h"
+#include "impl/factor/factor_layout.h"
 #include "impl/factor/factor_setup.h"
 #include "impl/factor/symmetry.h"
 #include "impl/factor/factor.h"

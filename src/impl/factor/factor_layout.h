@@ -1,0 +1,164 @@
+/* factor_layout.h: the arrays of a factor, and memory for its factorizations */
+#ifndef SLI_FACTOR_FACTOR_LAYOUT_H
+#define SLI_FACTOR_FACTOR_LAYOUT_H
+
+#include "../../public/factor.h"
+#include "../analysis/schedule.h"
+#include "../analysis/symbolic.h"
+#include "factor_types.h"
+#include "nullspace.h"
+
+/* What a factorization leaves and solves read, and the options that the next one needs. has_mass:
+ * there are weights. A saved factor has these arrays in this order (save/format.h). */
+static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
+    const sl_symbolic *S = F->S;
+    const size_t n = (size_t)S->n;
+    F->D = SLI_TAKE(b, double, n);
+    if (S->n_pairs > 0) {
+        F->E = SLI_TAKE(b, double, n);
+    }
+    if (S->n_pairs > 0 || has_mass) {
+        F->divisors = SLI_TAKE(b, double, n);
+    }
+    F->extents = SLI_TAKE(b, sli_extent, S->n_supers);
+    if (F->rule.regularization != 0.0) {
+        F->rule.signs = SLI_TAKE(b, signed char, n);
+        F->rule.shifts = SLI_TAKE(b, double, n);
+        F->rule.regularized = SLI_TAKE(b, sl_int, n);
+    }
+    if (F->null.mode == SL_NULL_PIVOT_SKIP) {
+        F->null.pivots = SLI_TAKE(b, sl_int, n);
+        F->rule.kinds = SLI_TAKE(b, signed char, n);
+        F->null.z = SLI_TAKE(b, double, n *(uint64_t)F->null.vectors);
+        F->null.g = SLI_TAKE(b, double, n *(uint64_t)F->null.vectors);
+    }
+    if (has_mass) {
+        F->null.anchors = SLI_TAKE(b, sl_int, S->stats.symbolic.components);
+        F->null.squares = SLI_TAKE(b, double, S->stats.symbolic.components);
+        F->null.mass = SLI_TAKE(b, double, n);
+        F->null.center = SLI_TAKE(b, double, n *(uint64_t)sli_center_count(F));
+        F->null.ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
+    }
+    F->values =
+        sli_take(b, (uint64_t)(S->panel_begin[S->n_supers] >> F->type->half), F->type->value_bytes);
+}
+
+/* The pieces of scratch for panels that are not stored as they are computed: one a worker, and one
+ * for a large front that they share. */
+static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
+    const sl_symbolic *S = F->S;
+    const uint64_t workers = (uint64_t)F->schedule.workers + (F->schedule.workers > 1);
+    sl_int s;
+    for (s = 0; s < S->n_supers; s++) {
+        const sl_int w = S->steps[s].width;
+        const sl_off size = sli_tile_offset(w, sli_last_tile(S, s) + 1);
+        const int is_copied = sli_panel_is_copied(F, s);
+        F->work.panel_room = is_copied && size > F->work.panel_room ? size : F->work.panel_room;
+    }
+    F->work.panels = SLI_TAKE(b, double, workers *(uint64_t)F->work.panel_room);
+}
+
+/* The scratch of a factorization. */
+static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
+    const sl_symbolic *S = F->S;
+    const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
+    const uint64_t workers = (uint64_t)F->schedule.workers;
+    if (F->null.mode == SL_NULL_PIVOT_SKIP) {
+        F->rule.signs = SLI_TAKE(b, signed char, n);
+        F->null.rows = SLI_TAKE(b, sli_null_row, n);
+        F->null.last = SLI_TAKE(b, sl_int, n);
+        F->null.rounding = SLI_TAKE(b, double, n);
+        F->null.sweep = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
+        if (F->null.vectors > 1) {
+            F->null.chain = SLI_TAKE(b, sl_int, n);
+            F->null.row_entries = SLI_TAKE(b, sl_int, n);
+            F->null.products = SLI_TAKE(b, double, n *((uint64_t)F->null.vectors + 2));
+        }
+    }
+    if (F->method == SL_METHOD_SUPERNODAL) {
+        const uint64_t rows = SLI_TILE * (uint64_t)sli_tiles(S->tallest);
+        F->work.buffer = SLI_TAKE(b, double, workers *(uint64_t)sli_front_scratch(S->widest));
+        F->work.magnitude = SLI_TAKE(b, double, workers *rows);
+        F->work.reciprocals = SLI_TAKE(b, double, workers *SLI_FRONT_RECIPROCALS);
+        F->work.failures = SLI_TAKE(b, sli_failure, workers);
+        sli_schedule_layout(&F->schedule, b, S->n_supers);
+        sli_factor_layout_panels(F, b);
+        if (!sli_is_float(F)) {
+            F->history.marks = SLI_TAKE(b, uint64_t, supers);
+        }
+    } else {
+        F->work.buffer = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, 0, 1));
+        F->row.x = SLI_TAKE(b, double, n);
+        F->row.head = SLI_TAKE(b, sl_int, n);
+        F->row.next = SLI_TAKE(b, sl_int, supers);
+        F->row.position = SLI_TAKE(b, sl_int, supers);
+        F->row.list = SLI_TAKE(b, uint64_t, supers);
+        F->row.list_scratch = SLI_TAKE(b, uint64_t, supers);
+    }
+}
+
+/* Plans a supernodal factorization: assigns fronts to workers and allocates the update stack. */
+static sl_status sli_factor_schedule(sl_factor *F) {
+    const sl_symbolic *S = F->S;
+    sli_block b = {NULL, 0, 0};
+    sli_schedule_work w;
+    sl_status status = SL_OK;
+    memset(&w, 0, sizeof w); /* compilers do not see that the layout fills it */
+    SLI_LAYOUT(&b, &F->allocator, status) {
+        sli_schedule_work_layout(&w, &b, S->n_supers, F->schedule.workers);
+    }
+    if (status == SL_OK) {
+        sli_schedule_fill(&F->schedule, S,
+                          sli_is_single(F)  ? SLI_PLAIN_NOT
+                          : sli_is_float(F) ? SLI_PLAIN_PASSED
+                                            : SLI_PLAIN,
+                          &w);
+        sli_free(&F->allocator, b.base);
+        b.base = NULL;
+        b.used = 0;
+        SLI_LAYOUT(&b, &F->allocator, status) {
+            F->work.stack =
+                sli_take(&b, (uint64_t)(F->schedule.stack >> F->type->half), F->type->front_bytes);
+            sli_schedule_layout_tops(&F->schedule, S, &b);
+        }
+        sli_populate(&F->allocator, &b);
+        F->stats.factor.bytes += b.used;
+        if (status == SL_OK) {
+            sli_schedule_fill_tops(&F->schedule, S);
+        }
+    }
+    return status;
+}
+
+/* Allocates what a factorization needs besides L and D, unless F has it. A loaded factor gets it
+ * with its first refactorization. */
+static sl_status sli_factor_prepare(sl_factor *F) {
+    const size_t bytes = F->stats.factor.bytes;
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    if (F->scratch != NULL) {
+        return SL_OK;
+    }
+    SLI_LAYOUT(&b, &F->allocator, status) {
+        sli_factor_layout_scratch(F, &b);
+    }
+    sli_populate(&F->allocator, &b);
+    F->stats.factor.bytes += b.used;
+    if (status == SL_OK) {
+        F->scratch = b.base;
+        if (F->history.marks != NULL) {
+            memset(F->history.marks, 0, (size_t)F->S->n_supers * sizeof(uint64_t));
+        }
+        F->null.has_duplicates = F->null.mode == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(F->S);
+        status = F->method == SL_METHOD_SUPERNODAL ? sli_factor_schedule(F) : SL_OK;
+    }
+    if (status != SL_OK) {
+        sli_free(&F->allocator, F->scratch);
+        F->scratch = NULL;
+        F->history.marks = NULL;
+        F->stats.factor.bytes = bytes;
+    }
+    return status;
+}
+
+#endif
