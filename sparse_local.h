@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d705e99f21486ccf
+ * FNV-1a of the lines after this comment, without the license: c3807ea4ce5f389a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -45,19 +45,19 @@
  *  19622 impl/ pivots: the order of the pivots by the values of a matrix
  *  20030 impl/ float: L and fronts in single precision
  *  20481 impl/ inverse: entries of the inverse, regions
- *  23544 impl/ change: a factor that follows changes of its matrix
- *  29629 impl/ dirichlet: rows fixed at given values
- *  30218 impl/ dirichlet: by a factor of all rows
- *  30450 impl/ io: files that are replaced only when they are complete
- *  30668 impl/ files: Matrix Market files, 64-bit indices
- *  31288 impl/ save: factors in files
- *  33285 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33968 impl/ batch: diagonals of many inverses
- *  34109 impl/ complex: complex Hermitian systems over real factors
- *  34671 impl/ complex: entries of the inverse
- *  34731 impl/ packs: the tables through which the core calls packs
- *  34780 impl/ last: undefine every internal macro
- *  35136 impl/ templates: the header includes them from itself, once for each instruction set
+ *  23546 impl/ change: a factor that follows changes of its matrix
+ *  29631 impl/ dirichlet: rows fixed at given values
+ *  30220 impl/ dirichlet: by a factor of all rows
+ *  30452 impl/ io: files that are replaced only when they are complete
+ *  30670 impl/ files: Matrix Market files, 64-bit indices
+ *  31290 impl/ save: factors in files
+ *  33287 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33970 impl/ batch: diagonals of many inverses
+ *  34111 impl/ complex: complex Hermitian systems over real factors
+ *  34673 impl/ complex: entries of the inverse
+ *  34733 impl/ packs: the tables through which the core calls packs
+ *  34782 impl/ last: undefine every internal macro
+ *  35138 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -22078,6 +22078,8 @@ static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
   }
   return SL_OK;
 }
+
+/* src/impl/inverse/entries_calls.h: calls for entries and diagonals of A^-1; one entry by a local solve */
 
 static sl_status sli_inverse_entries(sli_entries *q, sl_work *W, sl_stats *stats) {
   const sli_requests *r = &q->requests;

@@ -4,7 +4,7 @@
 
 #include "../../public/complex_inverse.h"
 #include "../inverse/block.h"
-#include "../inverse/entries.h"
+#include "../inverse/entries_calls.h"
 #include "complex_rows.h"
 
 SL_API sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t ldz,

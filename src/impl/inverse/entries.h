@@ -2,7 +2,6 @@
 #ifndef SLI_INVERSE_ENTRIES_H
 #define SLI_INVERSE_ENTRIES_H
 
-#include "../solve/local.h"
 #include "traversal_run.h"
 #include "bilinear.h"
 #include "loss.h"
@@ -348,96 +347,6 @@ static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
         stats->inverse.columns = sli_traversal_count_columns(&q->traversal);
     }
     return SL_OK;
-}
-
-/* Checks and runs a call. */
-static sl_status sli_inverse_entries(sli_entries *q, sl_work *W, sl_stats *stats) {
-    const sli_requests *r = &q->requests;
-    sl_work own;
-    sl_status status;
-    status = sli_argument(r->count < 0                     ? "count is below 0"
-                          : r->count > 0 && q->out == NULL ? "out is NULL"
-                                                           : NULL);
-    if (status == SL_OK) {
-        status = sli_check_entries(q->F, r->rows, r->count, r->columns, r->count, stats);
-    }
-    if (status != SL_OK) {
-        return sli_report(stats, status);
-    }
-    sli_inverse_clear_stats(stats);
-    own = sli_work_own(&q->F->allocator);
-    status = r->count > 0 ? sli_entries_run(q, W == NULL ? &own : W, stats) : SL_OK;
-    sli_free(&own.allocator, own.block);
-    return sli_report(stats, status);
-}
-
-SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_int *rows,
-                                     sl_int count, sl_work *W, sl_stats *stats) {
-    sli_entries q;
-    sli_stats_clear_error(stats);
-    if (F == NULL) {
-        return sli_report(stats, sli_argument("F is NULL"));
-    }
-    q = sli_entries_of(F, out, rows, rows, rows == NULL ? F->S->n : count);
-    return sli_inverse_entries(&q, W, stats);
-}
-
-/* Is the entry of two columns cheaper by a forward and a backward sweep of one lane than by one
- * forward sweep of two? That has the columns of both paths once. */
-static int sli_entry_is_local(const sl_symbolic *S, sl_int a, sl_int b) {
-    sl_int s = S->super_of[a], t = S->super_of[b];
-    double apart = 0.0, common = 0.0;
-    while (s != t) { /* -1, the end of a path, is the largest */
-        sl_int *first = (uint32_t)s < (uint32_t)t ? &s : &t;
-        apart += (double)(S->panel_begin[*first + 1] - S->panel_begin[*first]);
-        *first = S->super_parent[*first];
-    }
-    for (; s != -1; s = S->super_parent[s]) {
-        common += (double)(S->panel_begin[s + 1] - S->panel_begin[s]);
-    }
-    return apart + 2.0 * common <
-           (apart + common < SLI_PAIR_LARGE ? SLI_PAIR_CACHED : SLI_PAIR_READ) * (apart + common);
-}
-
-/* One entry by a local solve. */
-static sl_status sli_entry_by_local_solve(const sl_factor *F, double *out, sl_int row,
-                                          sl_int column, sl_work *W, sl_stats *stats) {
-    const double one = 1.0;
-    sl_stats found;
-    sl_status status = sl_local_solve(F, &column, 1, &row, 1, out, 1, &one, 1, 1, W, &found);
-    status = status == SL_ERR_NOT_FINITE ? SL_OK : status; /* an entry that overflows */
-    if (status == SL_OK && stats != NULL) {
-        const sl_plan_info *p = &found.plan;
-        stats->inverse.method = SL_INVERSE_FORWARD;
-        stats->inverse.supernodes = sli_max(p->b_supernodes, p->x_supernodes);
-        stats->inverse.columns = sli_max(p->b_columns, p->x_columns);
-        stats->inverse.entries = p->b_entries + p->x_entries;
-    }
-    return status;
-}
-
-SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
-                                  const sl_int *columns, sl_int count, sl_work *W,
-                                  sl_stats *stats) {
-    sli_entries q;
-    sli_stats_clear_error(stats);
-    if (F == NULL || (count > 0 && (rows == NULL || columns == NULL))) {
-        return sli_report(stats, sli_argument(F == NULL      ? "F is NULL"
-                                              : rows == NULL ? "rows is NULL"
-                                                             : "columns is NULL"));
-    }
-    if (count == 1 && out != NULL && rows[0] != columns[0] && F->null.count == 0) {
-        sl_status status = sli_check_entries(F, rows, 1, columns, 1, stats);
-        if (status != SL_OK ||
-            sli_entry_is_local(F->S, F->S->iperm[rows[0]], F->S->iperm[columns[0]])) {
-            status = status == SL_OK
-                         ? sli_entry_by_local_solve(F, out, rows[0], columns[0], W, stats)
-                         : status;
-            return sli_report(stats, status);
-        }
-    }
-    q = sli_entries_of(F, out, rows, columns, count);
-    return sli_inverse_entries(&q, W, stats);
 }
 
 #endif
