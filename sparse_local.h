@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c3807ea4ce5f389a
+ * FNV-1a of the lines after this comment, without the license: 714852e2f6b87522
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -47,17 +47,17 @@
  *  20481 impl/ inverse: entries of the inverse, regions
  *  23546 impl/ change: a factor that follows changes of its matrix
  *  29631 impl/ dirichlet: rows fixed at given values
- *  30220 impl/ dirichlet: by a factor of all rows
- *  30452 impl/ io: files that are replaced only when they are complete
- *  30670 impl/ files: Matrix Market files, 64-bit indices
- *  31290 impl/ save: factors in files
- *  33287 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33970 impl/ batch: diagonals of many inverses
- *  34111 impl/ complex: complex Hermitian systems over real factors
- *  34673 impl/ complex: entries of the inverse
- *  34733 impl/ packs: the tables through which the core calls packs
- *  34782 impl/ last: undefine every internal macro
- *  35138 impl/ templates: the header includes them from itself, once for each instruction set
+ *  30222 impl/ dirichlet: by a factor of all rows
+ *  30454 impl/ io: files that are replaced only when they are complete
+ *  30672 impl/ files: Matrix Market files, 64-bit indices
+ *  31292 impl/ save: factors in files
+ *  33289 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33972 impl/ batch: diagonals of many inverses
+ *  34113 impl/ complex: complex Hermitian systems over real factors
+ *  34675 impl/ complex: entries of the inverse
+ *  34735 impl/ packs: the tables through which the core calls packs
+ *  34784 impl/ last: undefine every internal macro
+ *  35140 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -29793,7 +29793,7 @@ static int sli_dirichlet_keeps_blocks(const sl_dirichlet *D, sl_int size) {
   return size > 1 && D->n_free % size == 0;
 }
 
-/* src/impl/dirichlet/dirichlet.h: systems with rows fixed at given values: a factor of the free rows, its solves */
+/* src/impl/dirichlet/dirichlet.h: systems with rows fixed at given values: a factor of the free rows */
 
 static const sli_dirichlet_ways *sli_dirichlet_ways_of(void);
 
@@ -30095,6 +30095,8 @@ SL_API sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A, sl_stat
   }
   return sli_report(stats, status);
 }
+
+/* src/impl/dirichlet/dirichlet_solve.h: solves for the free rows, with given values in the fixed ones */
 
 static void sli_dirichlet_gather(const sl_dirichlet *D, const sli_rhs *rhs) {
   const sli_dense x = sli_dense_of(rhs->ldx), b = sli_dense_of(rhs->ldb);

@@ -251,6 +251,7 @@ extern "C" {
 #if defined(SL_WITH_DIRICHLET)
 #include "impl/dirichlet/dirichlet_rows.h"
 #include "impl/dirichlet/dirichlet.h"
+#include "impl/dirichlet/dirichlet_solve.h"
 #endif
 /* dirichlet: by a factor of all rows */
 #if defined(SL_WITH_DIRICHLET) && defined(SL_WITH_CHANGE)

@@ -1,9 +1,8 @@
-/* dirichlet.h: systems with rows fixed at given values: a factor of the free rows, its solves */
+/* dirichlet.h: systems with rows fixed at given values: a factor of the free rows */
 #ifndef SLI_DIRICHLET_DIRICHLET_H
 #define SLI_DIRICHLET_DIRICHLET_H
 
 #include "dirichlet_rows.h"
-#include "../solve/sweep.h"
 
 static const sli_dirichlet_ways *sli_dirichlet_ways_of(void); /* of a pack; NULL: none */
 
@@ -314,129 +313,6 @@ SL_API sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A, sl_stat
                        status == SL_ERR_INACCURATE || status == SL_ERR_UNSUPPORTED;
     }
     return sli_report(stats, status);
-}
-
-/* Moves rows free_rows of B to the first rows of X, which may be B: they move up. */
-static void sli_dirichlet_gather(const sl_dirichlet *D, const sli_rhs *rhs) {
-    const sli_dense x = sli_dense_of(rhs->ldx), b = sli_dense_of(rhs->ldb);
-    const sl_int by_rows = x.column == 1;
-    const sl_int outer = by_rows ? D->n_free : rhs->nrhs, inner = by_rows ? rhs->nrhs : D->n_free;
-    sl_int i, j;
-    for (i = 0; i < outer; i++) {
-        for (j = 0; j < inner; j++) {
-            const size_t k = (size_t)(by_rows ? i : j), r = (size_t)(by_rows ? j : i);
-            rhs->X[k * x.row + r * x.column] =
-                rhs->B == NULL ? 0.0 : rhs->B[(size_t)D->free_rows[k] * b.row + r * b.column];
-        }
-    }
-}
-
-/* x -= A[free, fixed] g in the first rows of X. */
-static void sli_dirichlet_subtract(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
-                                   size_t ldg) {
-    const sli_dense x = sli_dense_of(rhs->ldx), g = sli_dense_of(ldg);
-    sl_int k, r;
-    for (k = 0; k < D->n_couplings; k++) {
-        double *to = rhs->X + (size_t)D->coupling_free[k] * x.row;
-        const double *from = G + (size_t)D->coupling_fixed[k] * g.row, a = D->couplings[k];
-        for (r = 0; r < rhs->nrhs; r++) {
-            to[(size_t)r * x.column] -= a * from[(size_t)r * g.column];
-        }
-    }
-}
-
-/* Moves the first rows of X to free_rows, from the last one on. */
-static void sli_dirichlet_scatter(const sl_dirichlet *D, const sli_rhs *rhs) {
-    const sli_dense x = sli_dense_of(rhs->ldx);
-    const sl_int by_rows = x.column == 1;
-    const sl_int outer = by_rows ? D->n_free : rhs->nrhs, inner = by_rows ? rhs->nrhs : D->n_free;
-    sl_int i, j;
-    for (i = outer - 1; i >= 0; i--) {
-        for (j = inner - 1; j >= 0; j--) {
-            const size_t k = (size_t)(by_rows ? i : j), r = (size_t)(by_rows ? j : i);
-            rhs->X[(size_t)D->free_rows[k] * x.row + r * x.column] =
-                rhs->X[k * x.row + r * x.column];
-        }
-    }
-}
-
-/* Sets the fixed rows of X to g. Returns 0 if a value is not finite. */
-static int sli_dirichlet_set_fixed(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
-                                   size_t ldg) {
-    const sli_dense x = sli_dense_of(rhs->ldx), g = sli_dense_of(ldg);
-    sl_int k, r;
-    int is_finite = 1;
-    for (r = 0; r < rhs->nrhs; r++) {
-        for (k = 0; k < D->n_fixed; k++) {
-            const double value = G[(size_t)k * g.row + (size_t)r * g.column];
-            rhs->X[(size_t)D->fixed_rows[k] * x.row + (size_t)r * x.column] = value;
-            is_finite &= sli_is_finite(value);
-        }
-    }
-    return is_finite;
-}
-
-/* Solves by the factor of the free rows, in place in X. */
-static sl_status sli_dirichlet_run(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
-                                   size_t ldg, sl_work *W) {
-    const sli_rhs in_place = sli_rhs_of(rhs->X, rhs->ldx, rhs->X, rhs->ldx, rhs->nrhs);
-    const sli_query q = sli_query_all(D->S);
-    sli_sweep_tasks t;
-    sl_status status = sli_query_prepare(&t, D->F, &q, &in_place, W);
-    if (status == SL_OK) {
-        sli_dirichlet_gather(D, rhs);
-        sli_dirichlet_subtract(D, rhs, G, ldg);
-        status = D->n_free > 0 ? sli_query_run(&t, D->F, &q, &in_place, W) : SL_OK;
-        sli_dirichlet_scatter(D, rhs);
-    }
-    return status;
-}
-
-SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx, const double *B,
-                                    size_t ldb, const double *G, size_t ldg, sl_int nrhs,
-                                    sl_work *W) {
-    sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
-    sl_work own;
-    sl_status status;
-    if (D == NULL ||
-        (nrhs > 0 && D->n_fixed > 0 && (G == NULL || !sli_dense_spans(ldg, D->n_fixed, nrhs)))) {
-        return sli_argument(D == NULL   ? "D is NULL"
-                            : G == NULL ? "G is NULL"
-                                        : "ldg is below the number of fixed rows, or with SL_ROWS "
-                                          "nrhs");
-    }
-    status = sli_rhs_check(&rhs, D->n, B == NULL ? 0 : D->n);
-    if (status != SL_OK || nrhs == 0 || D->n == 0) {
-        return status;
-    }
-    if (D->is_stale ||
-        (D->pins == NULL && !D->F->is_valid)) { /* branches untested: then it is stale, too */
-        return sli_refuse(SL_ERR_STALE, "the last sl_dirichlet_refactor has failed");
-    }
-    own = sli_work_own(&D->allocator);
-    W = W == NULL ? &own : W;
-    status = D->pins != NULL ? D->ways->solve(D, &rhs, G, ldg, W)
-                             : sli_dirichlet_run(D, &rhs, G, ldg, W);
-    sli_free(&own.allocator, own.block);
-    if (status == SL_OK && !sli_dirichlet_set_fixed(D, &rhs, G, ldg)) {
-        status = sli_refuse(SL_ERR_NOT_FINITE, "a value of G is not finite");
-    }
-    return status;
-}
-
-SL_API sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D) {
-    sl_dirichlet_arrays v;
-    memset(&v, 0, sizeof v);
-    if (D != NULL) {
-        v.n_free = D->n_free;
-        v.n_fixed = D->n_fixed;
-        v.free_rows = D->free_rows;
-        v.fixed_rows = D->fixed_rows;
-        v.symbolic = D->S;
-        v.factor = D->F;
-        v.matrix = sl_matrix_view(D->M);
-    }
-    return v;
 }
 
 #endif
