@@ -74,7 +74,7 @@ deps_musl = musl-gcc=musl-tools
 # All core tests run on i386 and aarch64, where kernels of their own run. Elsewhere a few: the orders, and what depends on the
 # size and order of bytes, as saved factors do; and all replays of the fuzzers.
 PLATFORM_TESTS = $(patsubst %,tests/core/test_%.c,order_hashes result_hashes factor identity csc_write matrix_market matrix_market_file refine \
-	restrict storage storage_use save save_use save_file save_lies save_damage saved_set saved_set_use saved_set_damage) \
+	restrict storage storage_use save save_use save_limits save_file save_lies save_damage saved_set saved_set_use saved_set_damage) \
 	tests/tools/test_mesh_ply.c
 full_i386 = $(CORE_TESTS) tests/tools/test_mesh_ply.c
 full_aarch64 = $(CORE_TESTS)
