@@ -192,47 +192,6 @@ static void changed_factors_follow(void **state) {
     followed_free(&y);
 }
 
-/* A map that is not that of the edit costs time only; one that is none is refused. */
-static void wrong_maps_are_harmless(void **state) {
-    (void)state;
-    uint64_t random = 11;
-    followed_t y = followed_make(gen_make(GEN_GRID2, 196, 1, 42), 1, NULL);
-    sl_int *map = identity(y.t.n);
-    sl_stats stats;
-    sl_factor *G = NULL;
-    for (int k = 0; k < 20; k++) {
-        for (int swaps = 0; swaps < 1 + k * k; swaps++) {
-            const sl_int i = gen_below(&random, y.t.n), j = gen_below(&random, y.t.n);
-            const sl_int kept = map[i];
-            map[i] = map[j];
-            map[j] = kept;
-        }
-        if (k % 2) {
-            map[gen_below(&random, y.t.n)] = -1;
-        }
-        SL_CHECK(sl_factor_edit(&G, y.F, y.S, &y.A.view, map, NULL, &stats));
-        check_right(G, &y.A.view);
-        sl_factor_free(G);
-    }
-    static const struct {
-        sl_int row, value;
-    } wrong[4] = {{7, 196}, {8, -2}, {9, 3}, {190, INT32_MAX}};
-    for (int k = 0; k < 4; k++) {
-        free(map);
-        map = identity(y.t.n);
-        map[wrong[k].row] = wrong[k].value;
-        G = (sl_factor *)(void *)map;
-        assert_int_equal(sl_factor_edit(&G, y.F, y.S, &y.A.view, map, NULL, &stats),
-                         SL_ERR_ARGUMENT);
-        assert_null(G);
-        assert_int_equal(stats.error.row, wrong[k].row);
-    }
-    assert_int_equal(sl_factor_edit(NULL, y.F, y.S, &y.A.view, map, NULL, NULL), SL_ERR_ARGUMENT);
-    assert_int_equal(sl_factor_edit(&G, y.F, y.S, &y.A.view, NULL, NULL, NULL), SL_ERR_ARGUMENT);
-    free(map);
-    followed_free(&y);
-}
-
 /* What is not suited is factored anew, with the bits of sl_factor_create. */
 static void other_factors_are_made_anew(void **state) {
     (void)state;
@@ -376,48 +335,15 @@ static void threads_give_the_same_bits(void **state) {
     }
 }
 
-/* What sl_factor_create refuses is refused with the same place. */
-static void failures_are_those_of_a_new_factor(void **state) {
-    (void)state;
-    followed_t y = followed_make(gen_make(GEN_GRID2, 196, 1, 42), 0, NULL);
-    sl_int *map = identity(y.t.n);
-    for (int k = 0; k < 3; k++) {
-        const sl_int p = y.A.view.p[60 + 30 * k];
-        const double kept = y.A.x[p];
-        sl_factor *G = (sl_factor *)(void *)map, *H = NULL;
-        sl_stats got, wanted;
-        y.A.x[p] = k == 0 ? (double)NAN : k == 1 ? (double)INFINITY : -kept;
-        const sl_status status = sl_factor_edit(&G, y.F, y.S, &y.A.view, map, NULL, &got);
-        assert_int_equal(status, sl_factor_create(&H, y.S, &y.A.view, NULL, &wanted));
-        assert_true(k == 2 || status == SL_ERR_NOT_FINITE);
-        assert_true((G != NULL) == (status == SL_OK));
-        assert_int_equal(got.error.row, wanted.error.row);
-        assert_int_equal(got.error.column, wanted.error.column);
-        assert_int_equal(got.factor.negative, wanted.factor.negative);
-        sl_factor_free(G);
-        sl_factor_free(H);
-        y.A.x[p] = kept;
-    }
-    sl_factor *G = (sl_factor *)(void *)map;
-    y.A.x[0] = (double)NAN;
-    assert_int_equal(sl_factor_refactor(y.F, &y.A.view, NULL), SL_ERR_NOT_FINITE);
-    assert_int_equal(sl_factor_edit(&G, y.F, y.S, &y.A.view, map, NULL, NULL), SL_ERR_STALE);
-    assert_null(G);
-    free(map);
-    followed_free(&y);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_kind_of_matrix_follows_edits),
         cmocka_unit_test(many_flips_follow_each_other),
         cmocka_unit_test(every_changed_value_is_noticed),
         cmocka_unit_test(changed_factors_follow),
-        cmocka_unit_test(wrong_maps_are_harmless),
         cmocka_unit_test(other_factors_are_made_anew),
         cmocka_unit_test(singular_laplacians_follow),
         cmocka_unit_test(threads_give_the_same_bits),
-        cmocka_unit_test(failures_are_those_of_a_new_factor),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
