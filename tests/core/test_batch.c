@@ -1,5 +1,5 @@
-/* test_batch.c: sl_batch_solve: the bits of single solves for any number of threads, errors */
-#include "tests/lib/parallel_for.h"
+/* test_batch.c: sl_batch_solve: the bits of single solves, threads, several factors, errors */
+#include "tests/lib/factor_array.h"
 #include "tests/lib/factored.h"
 
 enum { REQUESTS = 9 };
@@ -229,12 +229,123 @@ static void a_failed_allocation_is_reported(void **state) {
     COUNTER_CLEAN(&counter);
 }
 
+/* One plan on all factors, with one B for all and with one for each; a full solve in the same
+ * batch. */
+static void one_plan_solves_with_all_factors(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    double c[TERMS * MOST];
+    coefficients_of(c, MOST, 0.1);
+    for (int isa = 0; isa < isas.count; isa++) {
+        matrix_pair_t y = matrix_pair_make(GEN_GRID2, 200, 1, 0, NULL);
+        const sl_int bset[2] = {17, 120}, xset[3] = {4, 18, 90};
+        size_t n = (size_t)y.n;
+        sl_factor *F[MOST] = {NULL};
+        sl_plan *P = NULL;
+        sl_options opt = options_none();
+        sl_request requests[2 * MOST];
+        double B[4 * MOST], X[6 * MOST], expected_local[6 * MOST], *full = test_reals(n * MOST),
+                                                                   *expected = test_reals(n * MOST);
+        opt.isa = isas.isa[isa];
+        gen_reals(B, 4 * MOST, 5);
+        gen_reals(expected, n * MOST, 6);
+        SL_CHECK(sl_batch_factor(F, MOST, y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL, NULL));
+        SL_CHECK(sl_plan_create(&P, y.S, bset, 2, xset, 3, NULL, NULL));
+        memset(requests, 0, sizeof requests);
+        for (size_t k = 0; k < MOST; k++) {
+            sl_request *r = &requests[2 * k];
+            r->plan = P;
+            r->factor = F[k];
+            r->X = X + 6 * k;
+            r->ldx = 3;
+            r->B = k < MOST / 2 ? B : B + 4 * k;
+            r->ldb = 2;
+            r->nrhs = 2;
+            SL_CHECK(sl_plan_solve(P, F[k], expected_local + 6 * k, 3, r->B, 2, 2, NULL));
+            r[1].factor = k ? F[k] : NULL; /* NULL: the factor of the call */
+            r[1].X = full + n * k;
+            memcpy(r[1].X, expected + n * k, n * sizeof(double));
+            r[1].B = r[1].X;
+            r[1].ldx = r[1].ldb = n;
+            r[1].nrhs = 1;
+            SL_CHECK(sl_factor_solve(F[k], expected + n * k, n, expected + n * k, n, 1, NULL));
+        }
+        SL_CHECK(sl_batch_solve(F[0], requests, 2 * MOST, NULL, NULL, NULL));
+        SAME_VALUES(full, expected, n * MOST);
+        SAME_VALUES(X, expected_local, 6 * MOST);
+        for (size_t k = 0; k < MOST; k++) { /* only the plans, no factor for the whole call */
+            requests[k] = requests[2 * k];
+        }
+        for (int count = 0; count <= 4; count++) {
+            int calls = 0;
+            const sl_threads threads = threads_of(count, &calls);
+            memset(X, 0, sizeof X);
+            SL_CHECK(sl_batch_solve(NULL, requests, MOST, THREADS(threads), NULL, NULL));
+            SAME_VALUES(X, expected_local, 6 * MOST);
+            assert_int_equal(calls, count > 1);
+        }
+        sl_plan_free(P);
+        free_all(F, MOST);
+        free(full);
+        free(expected);
+        matrix_pair_free(&y);
+    }
+}
+
+static void requests_with_invalid_factors_are_refused(void **state) {
+    (void)state;
+    matrix_pair_t y = matrix_pair_make(GEN_GRID2, 25, 0, 1, NULL),
+                  z = matrix_pair_make(GEN_PATH, 25, 0, 1, NULL);
+    const double c[TERMS] = {1, 1}, none[TERMS] = {0, 0};
+    const sl_int row = 3;
+    double X[3] = {7, 7, 7}, B = 1;
+    sl_factor *F = NULL, *G = NULL, *bad = NULL;
+    sl_plan *P = NULL;
+    sl_int failed = 9;
+    SL_CHECK(sl_batch_factor(&F, 1, y.S, c, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
+    SL_CHECK(sl_batch_factor(&bad, 1, y.S, c, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
+    SL_CHECK(sl_batch_factor(&G, 1, z.S, c, matrix_pair_values(&z), TERMS, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_PIVOT,
+              sl_batch_refactor(&bad, 1, none, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
+    SL_CHECK(sl_plan_create(&P, y.S, &row, 1, &row, 1, NULL, NULL));
+    sl_request r[3];
+    memset(r, 0, sizeof r);
+    for (int k = 0; k < 3; k++) {
+        r[k].plan = P;
+        r[k].X = &X[k];
+        r[k].B = &B;
+        r[k].ldx = r[k].ldb = 1;
+        r[k].nrhs = 1;
+        r[k].factor = F;
+    }
+    r[2].factor = G;
+    SL_EXPECT(SL_ERR_STATE, sl_batch_solve(F, r, 3, NULL, NULL, &failed));
+    assert_int_equal(failed, 2);
+    r[1].factor = bad;
+    SL_EXPECT(SL_ERR_STALE, sl_batch_solve(F, r, 3, NULL, NULL, &failed));
+    assert_int_equal(failed, 1);
+    r[1].factor = NULL;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_solve(NULL, r, 3, NULL, NULL, &failed));
+    assert_int_equal(failed, 1);
+    assert_true(X[0] == 7 && X[1] == 7 && X[2] == 7);
+    SL_CHECK(sl_batch_solve(NULL, r, 1, NULL, NULL, &failed));
+    assert_true(X[0] != 7 && X[1] == 7 && failed == -1);
+    sl_plan_free(P);
+    sl_factor_free(F);
+    sl_factor_free(G);
+    sl_factor_free(bad);
+    matrix_pair_free(&y);
+    matrix_pair_free(&z);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_batch_gives_the_bits_of_single_solves),
         cmocka_unit_test(all_workers_take_part),
         cmocka_unit_test(invalid_requests_change_nothing),
         cmocka_unit_test(a_failed_allocation_is_reported),
+        cmocka_unit_test(one_plan_solves_with_all_factors),
+        cmocka_unit_test(requests_with_invalid_factors_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
