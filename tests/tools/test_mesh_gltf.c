@@ -2,9 +2,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include "tests/lib/pyramid_mesh.h"
 
-#include "tools/mesh/mesh_write.h"
-#include "tools/mesh/surface_generator.h"
-
 #define GLTF_START "{\"asset\":{\"version\":\"2.0\"}"
 
 /* The bytes of the pyramid: 15 floats, then 18 corners of 16 bits. */
@@ -83,46 +80,6 @@ static void containers_and_files_are_read(void **state) {
     }
     (void)files_put("bytes of.bin", bytes.bytes, bytes.length - 1);
     assert_is_refused(files_put_text("b.gltf", DOCUMENT), "buffer 0: truncated, 95 bytes of 96");
-}
-
-/* Writes a surface and reads it back: in single precision, with the faces as they are. */
-static void written_files_are_read_back(void **state) {
-    (void)state;
-    static const char *const names[4] = {"w.glb", "w.gltf", "w.glb.gz", "w.gltf.gz"};
-    mesh m, back;
-    char message[300], note[300];
-    assert_true(surface_generate(&m, "blob:2", NULL, 0));
-    size_t n = (size_t)m.n_vertices;
-    memcpy(m.xyz + 3, m.xyz, 3 * sizeof *m.xyz); /* equal coordinates stay apart */
-    double *value = test_reals(n), *uv = test_reals(2 * n);
-    rgb *color = (rgb *)test_array(n, sizeof *color);
-    value[0] = NAN;
-    value[1] = 1e300;
-    const mesh_field fields[2] = {{"heat", value}, {"a_long_name_of_a_field", value}};
-    const mesh_extra extra[3] = {
-        {NULL, NULL, NULL, NULL, 0}, {uv, NULL, NULL, fields, 2}, {uv, NULL, color, fields, 1}};
-    for (int k = 0; k < 12; k++) {
-        const char *path = files_path(names[k % 4]);
-        assert_true(mesh_write(path, &m, &extra[k / 4], message, sizeof message));
-        assert_true(mesh_read_noting(&back, path, message, sizeof message, note, sizeof note));
-        assert_string_equal(note, "");
-        assert_true(back.n_vertices == m.n_vertices && back.n_faces == m.n_faces);
-        assert_memory_equal(back.faces, m.faces, 3 * (size_t)m.n_faces * sizeof *m.faces);
-        for (size_t i = 0; i < 3 * n; i++) {
-            assert_true(back.xyz[i] == (double)(float)m.xyz[i]);
-        }
-        mesh_free(&back);
-    }
-    m.xyz[1] = 1e39;
-    assert_false(mesh_write(files_path("w.glb"), &m, NULL, message, sizeof message));
-    assert_non_null(strstr(message, "range of single precision"));
-    mesh_free(&m);
-    assert_true(mesh_write(files_path("w.gltf"), &m, NULL, message, sizeof message));
-    assert_true(mesh_read(&back, files_path("w.gltf"), message, sizeof message));
-    assert_int_equal(back.n_vertices, 0);
-    free(color);
-    free(uv);
-    free(value);
 }
 
 /* Nodes place meshes by matrices or by translation, rotation and scale; a reflection turns faces
@@ -391,7 +348,6 @@ static void repetitions_are_limited(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(containers_and_files_are_read),
-        cmocka_unit_test(written_files_are_read_back),
         cmocka_unit_test(nodes_place_meshes),
         cmocka_unit_test(kinds_of_primitives_are_read),
         cmocka_unit_test(quantized_positions_are_read),
