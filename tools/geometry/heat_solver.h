@@ -67,7 +67,7 @@ sl_status heat_solver_create_intrinsic(heat_solver *out, const intrinsic *a, dou
  *  Returns  SL_OK; SL_ERR_ARGUMENT: a set without a factor; SL_ERR_PATTERN: the factors are not of
  *           this mesh; SL_ERR_MEMORY; as sl_factor_solve.
  *  Cost     O(entries of both factors).
- *  Example  tests/tools/test_geodesic.c
+ *  Example  tests/tools/test_heat_solver.c
  */
 sl_status heat_solver_adopt(heat_solver *out, const mesh *m, const double *lengths,
                             sl_saved_set *heat, sl_saved_set *poisson);
