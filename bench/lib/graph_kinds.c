@@ -1,5 +1,5 @@
-/* graph_kinds.c: lattices, quadtrees, networks and random graphs, and their Laplacians */
-#include "graph_kinds.h"
+/* graph_kinds.c: lattices, surfaces, quadtrees and CAD parts, and the Laplacians of all graphs */
+#include "graph_makers.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,38 +13,12 @@
 const char *const kind_group_names[KIND_GROUPS] = {
     "surfaces", "thin", "graded", "volumes", "fans", "networks", "dense rows"};
 
-/* The neighbors of a point of a lattice of one, two or three dimensions. */
-typedef enum stencil {
-    STENCIL_AXES,      /* along the axes: 5 or 7 points */
-    STENCIL_SIMPLICES, /* squares as two triangles, cubes as six tetrahedra */
-    STENCIL_BOX        /* all around: 9 or 27 points */
-} stencil;
-
-typedef struct kind kind;
-
-typedef struct graph {
-    sl_int n;
-    triplets edges; /* i > j, value -1; a repeated edge has twice the weight */
-} graph;
-
-struct kind {
-    kind_group group;
-    const char *name;
-    void (*make)(graph *g, const kind *k);
-    sl_int size[3];
-    stencil neighbors; /* of a lattice, as are the next two */
-    int periodic;      /* its first dimensions that are closed to rings */
-    int (*contains)(const kind *k, const sl_int *at); /* NULL: all points */
-    int block;                                        /* rows a vertex; 0 means 1 */
-};
-
-static void add(graph *g, sl_int a, sl_int b) {
+void graph_add(graph *g, sl_int a, sl_int b) {
     bench_must(triplets_add(&g->edges, a > b ? a : b, a > b ? b : a, -1.0) ? SL_OK : SL_ERR_MEMORY,
                "adding an edge");
 }
 
-/* Uniform in (0, 1). */
-static double random_share(uint64_t *state) {
+double graph_random_share(uint64_t *state) {
     return 0.5 + 0.5 * bench_random_unit(state);
 }
 
@@ -71,7 +45,7 @@ static void lattice_edges(graph *g, const kind *k, const sl_int *at, const sl_in
             is_inside = is_inside && to[d] >= 0 && to[d] < k->size[d];
         }
         if (is_inside && name[lattice_index(k, to)] != -1) {
-            add(g, name[lattice_index(k, at)], name[lattice_index(k, to)]);
+            graph_add(g, name[lattice_index(k, at)], name[lattice_index(k, to)]);
         }
     }
 }
@@ -103,7 +77,8 @@ static int has_no_hole(const kind *k, const sl_int *at) {
     uint64_t state = 5;
     int inside = 1;
     for (int hole = 0; hole < k->size[0] * k->size[1] / area; hole++) {
-        const double x = k->size[0] * random_share(&state), y = k->size[1] * random_share(&state);
+        const double x = k->size[0] * graph_random_share(&state);
+        const double y = k->size[1] * graph_random_share(&state);
         inside = inside && hypot(at[0] - x, at[1] - y) > radius;
     }
     return inside;
@@ -129,7 +104,7 @@ static void sphere(graph *g, const kind *k) {
     for (sl_int v = 0; v < a.n; v++) {
         for (sl_off p = a.begin[v]; p < a.begin[v + 1]; p++) {
             if (a.neighbor[p] > v) {
-                add(g, a.neighbor[p], v);
+                graph_add(g, a.neighbor[p], v);
             }
         }
     }
@@ -166,10 +141,10 @@ static void quadtree(graph *g, const kind *k) {
     divide(cell, g, k, 0, 0, side);
     for (sl_int p = 0; p < side * side; p++) {
         if (p % side + 1 < side && cell[p] != cell[p + 1]) {
-            add(g, cell[p], cell[p + 1]);
+            graph_add(g, cell[p], cell[p + 1]);
         }
         if (p + side < side * side && cell[p] != cell[p + side]) {
-            add(g, cell[p], cell[p + side]);
+            graph_add(g, cell[p], cell[p + side]);
         }
     }
     free(cell);
@@ -186,11 +161,11 @@ static void cap_with_fans(graph *g, const kind *k, sl_int first) {
         outline[v] = first + v;
     }
     while (left > 3) {
-        const sl_int wanted = 2 + (sl_int)(k->size[2] * pow(random_share(&state), 6));
+        const sl_int wanted = 2 + (sl_int)(k->size[2] * pow(graph_random_share(&state), 6));
         const sl_int edges = wanted < left - 1 ? wanted : left - 1;
         const sl_int apex = bench_random_below(&state, left - edges);
         for (sl_int p = apex + 2; p <= apex + edges; p++) {
-            add(g, outline[apex], outline[p]);
+            graph_add(g, outline[apex], outline[p]);
         }
         memmove(outline + apex + 1, outline + apex + edges,
                 (size_t)(left - apex - edges) * sizeof *outline);
@@ -205,107 +180,14 @@ static void extrusion(graph *g, const kind *k) {
     g->n = around * k->size[1];
     for (sl_int v = 0; v < g->n; v++) {
         const sl_int next = v / around * around + (v + 1) % around;
-        add(g, v, next);
+        graph_add(g, v, next);
         if (v + around < g->n) {
-            add(g, v, v + around);
-            add(g, v, next + around);
+            graph_add(g, v, v + around);
+            graph_add(g, v, next + around);
         }
     }
     cap_with_fans(g, k, 0);
     cap_with_fans(g, k, g->n - around);
-}
-
-/* ---- networks ---- */
-
-/* Random points of the unit square or cube, joined up to a distance; by buckets as wide as it.
- * size: vertices, dimensions, mean number of neighbors. */
-static void geometric(graph *g, const kind *k) {
-    const double pi = 3.141592653589793, density = (double)k->size[2] / k->size[0];
-    const int is_flat = k->size[1] == 2;
-    const double r = is_flat ? sqrt(density / pi) : cbrt(density / (4 * pi / 3));
-    const sl_int wide = (sl_int)(1 / r), deep = is_flat ? 1 : wide;
-    sl_int *first = bench_alloc((size_t)wide * (size_t)wide * (size_t)deep, sizeof *first);
-    sl_int *next = bench_alloc((size_t)k->size[0], sizeof *next);
-    double(*at)[3] = bench_alloc((size_t)k->size[0], sizeof *at);
-    uint64_t state = 7;
-    memset(first, -1, (size_t)wide * (size_t)wide * (size_t)deep * sizeof *first);
-    for (sl_int v = 0; v < k->size[0]; v++) {
-        sl_int box[3];
-        for (int d = 0; d < 3; d++) {
-            at[v][d] = d < 2 || !is_flat ? random_share(&state) : 0;
-            box[d] = (sl_int)(at[v][d] * wide);
-        }
-        for (int c = 0; c < 27; c++) {
-            const sl_int x = box[0] + c % 3 - 1, y = box[1] + c / 3 % 3 - 1, z = box[2] + c / 9 - 1;
-            const int is_there = x >= 0 && x < wide && y >= 0 && y < wide && z >= 0 && z < deep;
-            sl_int u = is_there ? first[x + wide * (y + wide * z)] : -1;
-            for (; u != -1; u = next[u]) {
-                const double dx = at[u][0] - at[v][0], dy = at[u][1] - at[v][1];
-                if (hypot(hypot(dx, dy), at[u][2] - at[v][2]) < r) {
-                    add(g, u, v);
-                }
-            }
-        }
-        sl_int *head = &first[box[0] + wide * (box[1] + wide * box[2])];
-        next[v] = *head;
-        *head = v;
-    }
-    g->n = k->size[0];
-    free(at);
-    free(next);
-    free(first);
-}
-
-/* Streets of a square grid, one in five closed, with up to seven vertices along each. */
-static void roads(graph *g, const kind *k) {
-    const sl_int side = k->size[0];
-    uint64_t state = 11;
-    g->n = side * side;
-    for (sl_int v = 0; v < side * side; v++) {
-        for (int d = 0; d < 2; d++) {
-            const int is_inside = d == 0 ? v % side + 1 < side : v + side < side * side;
-            sl_int from = v, vertices = bench_random_below(&state, 8);
-            if (is_inside && bench_random_below(&state, 5) != 0) {
-                for (; vertices > 0; vertices--) {
-                    add(g, from, g->n);
-                    from = g->n++;
-                }
-                add(g, from, d == 0 ? v + 1 : v + side);
-            }
-        }
-    }
-}
-
-/* A path whose vertices are numbered at random. */
-static void path(graph *g, const kind *k) {
-    sl_int *name = bench_alloc((size_t)k->size[0], sizeof *name);
-    uint64_t state = 13;
-    g->n = k->size[0];
-    for (sl_int v = 0; v < g->n; v++) {
-        const sl_int other = bench_random_below(&state, v + 1);
-        name[v] = name[other];
-        name[other] = v;
-    }
-    for (sl_int v = 1; v < g->n; v++) {
-        add(g, name[v - 1], name[v]);
-    }
-    free(name);
-}
-
-static void tree(graph *g, const kind *k) {
-    uint64_t state = 17;
-    g->n = k->size[0];
-    for (sl_int v = 1; v < g->n; v++) {
-        add(g, v, bench_random_below(&state, v));
-    }
-}
-
-/* A path of size[1] hubs to which all other vertices are attached in turn. */
-static void hubs(graph *g, const kind *k) {
-    g->n = k->size[0];
-    for (sl_int v = 1; v < g->n; v++) {
-        add(g, v, v < k->size[1] ? v - 1 : v % k->size[1]);
-    }
 }
 
 /* ---- matrices ---- */
@@ -318,13 +200,13 @@ static void make_blocks(graph *g, int size) {
     for (sl_int v = 0; v < g->n; v++) {
         for (int i = 0; i < size; i++) {
             for (int j = 0; j < i; j++) {
-                add(g, v * size + i, v * size + j);
+                graph_add(g, v * size + i, v * size + j);
             }
         }
     }
     for (size_t e = 0; e < edges.count; e++) {
         for (int c = 0; c < size * size; c++) {
-            add(g, edges.i[e] * size + c % size, edges.j[e] * size + c / size);
+            graph_add(g, edges.i[e] * size + c % size, edges.j[e] * size + c / size);
         }
     }
     triplets_free(&edges);
@@ -397,12 +279,12 @@ static const kind kinds[KINDS] = {
     {KIND_FANS, "fans 1000x2", extrusion, {1000, 2, 500}, AXES, 0, NULL, 0},
     {KIND_FANS, "fans 6000x6", extrusion, {6000, 6, 500}, AXES, 0, NULL, 0},
     {KIND_FANS, "fans 19000x2", extrusion, {19000, 2, 500}, AXES, 0, NULL, 0},
-    {KIND_NETWORKS, "roads", roads, {100, 0, 0}, AXES, 0, NULL, 0},
-    {KIND_NETWORKS, "random points, 2D", geometric, {20000, 2, 7}, AXES, 0, NULL, 0},
-    {KIND_NETWORKS, "random points, 3D", geometric, {20000, 3, 10}, AXES, 0, NULL, 0},
-    {KIND_NETWORKS, "path", path, {100000, 0, 0}, AXES, 0, NULL, 0},
-    {KIND_NETWORKS, "tree", tree, {100000, 0, 0}, AXES, 0, NULL, 0},
-    {KIND_NETWORKS, "star", hubs, {20000, 1, 0}, AXES, 0, NULL, 0},
+    {KIND_NETWORKS, "roads", network_roads, {100, 0, 0}, AXES, 0, NULL, 0},
+    {KIND_NETWORKS, "random points, 2D", network_geometric, {20000, 2, 7}, AXES, 0, NULL, 0},
+    {KIND_NETWORKS, "random points, 3D", network_geometric, {20000, 3, 10}, AXES, 0, NULL, 0},
+    {KIND_NETWORKS, "path", network_path, {100000, 0, 0}, AXES, 0, NULL, 0},
+    {KIND_NETWORKS, "tree", network_tree, {100000, 0, 0}, AXES, 0, NULL, 0},
+    {KIND_NETWORKS, "star", network_hubs, {20000, 1, 0}, AXES, 0, NULL, 0},
     {KIND_DENSE_ROWS, "biharmonic 120^2", NULL, {120, 2, 0}, AXES, 0, NULL, 0},
     {KIND_DENSE_ROWS, "triharmonic 80^2", NULL, {80, 3, 0}, AXES, 0, NULL, 0},
     {KIND_DENSE_ROWS, "tetrahedra 10^3 x 3", lattice, {10, 10, 10}, SIMPLICES, 0, NULL, 3}};
