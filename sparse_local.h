@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 714852e2f6b87522
+ * FNV-1a of the lines after this comment, without the license: e5fbb981c7bfbcba
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -8,56 +8,56 @@
  *    238 config.h     macros that a user may define before the include, the version, and the integer types
  *    321 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    501 options.h    options of all calls, threads, and the allocator
- *    629 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    873 csc.h        sparse matrices: creation, checks, products, residuals
- *    974 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1049 factor.h     the numerical factorization P A P' = L D L'
- *   1174 solve.h      full solves, and the workspace of all solves
- *   1270 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1346 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
- *   1437 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1530 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1569 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1670 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1747 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1832 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1924 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2030 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2070 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2190 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2221 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2401 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2502 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2610 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2651 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2737 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2845 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2879 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2956 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2995 impl/ base: the compiler, status, memory, sorting, threads
- *   4228 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5146 impl/ matrix: sparse matrices of the caller and of the library
- *   5775 impl/ ordering: fill-reducing orderings of a graph
- *  10424 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12665 impl/ factor: the numbers of L and D
- *  16031 impl/ solve: full and local solves
- *  17693 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19622 impl/ pivots: the order of the pivots by the values of a matrix
- *  20030 impl/ float: L and fronts in single precision
- *  20481 impl/ inverse: entries of the inverse, regions
- *  23546 impl/ change: a factor that follows changes of its matrix
- *  29631 impl/ dirichlet: rows fixed at given values
- *  30222 impl/ dirichlet: by a factor of all rows
- *  30454 impl/ io: files that are replaced only when they are complete
- *  30672 impl/ files: Matrix Market files, 64-bit indices
- *  31292 impl/ save: factors in files
- *  33289 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33972 impl/ batch: diagonals of many inverses
- *  34113 impl/ complex: complex Hermitian systems over real factors
- *  34675 impl/ complex: entries of the inverse
- *  34735 impl/ packs: the tables through which the core calls packs
- *  34784 impl/ last: undefine every internal macro
- *  35140 impl/ templates: the header includes them from itself, once for each instruction set
+ *    627 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    871 csc.h        sparse matrices: creation, checks, products, residuals
+ *    972 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1048 factor.h     the numerical factorization P A P' = L D L'
+ *   1176 solve.h      full solves, and the workspace of all solves
+ *   1272 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1348 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
+ *   1440 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1533 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1572 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1673 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1750 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1835 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1928 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2035 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2075 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2195 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2226 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2408 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2509 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2617 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2658 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2744 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2852 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2886 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2963 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3002 impl/ base: the compiler, status, memory, sorting, threads
+ *   4235 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5153 impl/ matrix: sparse matrices of the caller and of the library
+ *   5782 impl/ ordering: fill-reducing orderings of a graph
+ *  10431 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12672 impl/ factor: the numbers of L and D
+ *  16038 impl/ solve: full and local solves
+ *  17700 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19629 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20037 impl/ float: L and fronts in single precision
+ *  20488 impl/ inverse: entries of the inverse, regions
+ *  23553 impl/ change: a factor that follows changes of its matrix
+ *  29638 impl/ dirichlet: rows fixed at given values
+ *  30229 impl/ dirichlet: by a factor of all rows
+ *  30461 impl/ io: files that are replaced only when they are complete
+ *  30679 impl/ files: Matrix Market files, 64-bit indices
+ *  31299 impl/ save: factors in files
+ *  33312 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33995 impl/ batch: diagonals of many inverses
+ *  34136 impl/ complex: complex Hermitian systems over real factors
+ *  34698 impl/ complex: entries of the inverse
+ *  34758 impl/ packs: the tables through which the core calls packs
+ *  34807 impl/ last: undefine every internal macro
+ *  35163 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -548,9 +548,6 @@ typedef struct sl_options {
     /* 40 entries as in METIS's options array, -1 = METIS's default; NULL: all default. The
      * numbering and debug level are ignored */
     const sl_int *metis_options;
-    /* must be NULL and 0: their place is kept, so that the other fields stay where they are */
-    const void *reserved_pointer;
-    sl_int reserved_int;
     /* rows k block_size .. (k+1) block_size - 1 stay together in the order, such as x, y, z of a
      * vertex; divides n; 0 or 1: no blocks */
     sl_int block_size;
@@ -615,8 +612,9 @@ typedef struct sl_options {
      * with regularization or SL_NULL_PIVOT_SKIP, which has its own check. Not saved in files */
     size_t definite;
 
-    /* must be NULL; new options take its place, so that the size of the struct never changes */
-    const void *reserved[1];
+    /* must be 0; new options take their place, so that the size of the struct never changes. An
+     * older library, for which they are reserved, refuses them */
+    sl_off reserved[16];
 } sl_options;
 
 /** Sets all options to their defaults. size is sizeof(sl_options) of the caller; opt may be NULL.
@@ -656,9 +654,9 @@ typedef struct sl_symbolic_info {
     sl_int delayed;                /* times it moved a column to the parent's front; else 0 */
     /* of the ordering; all are 0 below 1000 entries of A */
     double seconds_order;
-    double seconds_analyze;        /* of the rest of the analysis, of which: */
-    double seconds_tree;           /* P A P', elimination tree, column counts and supernodes */
-    double seconds_structure;      /* rows of L and the map of A into L */
+    double seconds_analyze;   /* of the rest of the analysis, of which: */
+    double seconds_tree;      /* P A P', elimination tree, column counts and supernodes */
+    double seconds_structure; /* rows of L and the map of A into L */
     size_t bytes;
 } sl_symbolic_info;
 
@@ -758,7 +756,7 @@ typedef struct sl_change_info {
      * times the largest number a pivot was computed from, relative to the largest |a|; more where
      * the rows or the vectors of a call have lost more (tools/docs/changes.md) */
     double drift;
-    double flops_update;   /* of the rank-one changes, about; 0 if F cannot be changed so */
+    double flops_update; /* of the rank-one changes, about; 0 if F cannot be changed so */
     /* of sl_factor_refactor_changed, counted up to the cost of the cheapest way; of
      * sl_factor_change, else 0 */
     double flops_changed;
@@ -849,7 +847,7 @@ typedef struct sl_stats {
      * with neither SL_PTHREADS nor OpenMP and options.threads has no pool; with the group factor */
     sl_off threads;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[15];
+    sl_off reserved[40];
 } sl_stats;
 
 /** Writes an error as one sentence: the status, error.what, and the row, column, line and value as
@@ -1042,6 +1040,7 @@ typedef struct sl_symbolic_arrays {
     const sl_int *node_of;      /* n: node of column k */
     const sl_int *node_parent;  /* n_nodes: -1 at a root */
     const sl_int *node_level;   /* n_nodes: distance from the root */
+    const void *reserved[2];    /* NULL; new fields take their place */
 } sl_symbolic_arrays;
 
 SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
@@ -1099,9 +1098,11 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *                   every solve refuses it until a refactor succeeds.
  *  A      [in]      the analyzed pattern, new values. Two triangles are not compared.
  *  stats  [out]     factor.
- *  Returns  as sl_factor_create; SL_ERR_READ_ONLY: a mapped factor (sl_map_file). SL_ERR_MEMORY and
+ *  Returns  as sl_factor_create; SL_ERR_READ_ONLY: a mapped factor, or one that
+ *           is loaded in part (save.h). SL_ERR_MEMORY and
  *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load_file),
- *           which allocates its fronts; SL_ERR_UNSUPPORTED only with SL_STORAGE_COMPLEX.
+ *           which allocates its fronts; SL_ERR_UNSUPPORTED only with SL_STORAGE_COMPLEX, or with
+ *           null_vector_count where A has more null vectors than columns are given.
  *  Cost     as sl_factor_create, without its memory.
  *  Threads  exclusive use of F.
  *  Example  tests/core/test_factor.c
@@ -1162,11 +1163,12 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor
 /** Arrays of a factor; valid as long as the factor. */
 typedef struct sl_factor_arrays {
     const sl_symbolic *symbolic;
-    /* panels, in the layout described at sl_symbolic_arrays; NULL if L is in float */
+    /* panels, in the layout described at sl_symbolic_arrays; NULL if L is in float or complex */
     const double *L;
     const double *D; /* n pivots, in pivot order; DBL_MAX for a null pivot that was skipped */
     const double *E; /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: there is none */
-    const float *L_float; /* the same panels in float; else NULL */
+    const float *L_float;    /* the same panels in float; else NULL */
+    const void *reserved[2]; /* NULL; new fields take their place */
 } sl_factor_arrays;
 
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
@@ -1399,7 +1401,7 @@ SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_
  *  B     [in]   n x nrhs, leading dimension ldb, or row-major as X; fixed rows are not used. NULL:
  *               b = 0.
  *  G     [in]   count x nrhs, leading dimension ldg, or row-major as X: the values, in the order of
- *               rows. May be NULL if count = 0.
+ *               rows. Must not overlap X. May be NULL if count = 0.
  *  nrhs  [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed refactorization, or the factor whose
  *           pins are used has changed; SL_ERR_NOT_FINITE, SL_ERR_INCONSISTENT: as sl_factor_solve;
@@ -1422,6 +1424,7 @@ typedef struct sl_dirichlet_arrays {
     const sl_symbolic *symbolic; /* of A[free, free]; NULL: pins hold the fixed rows */
     const sl_factor *factor;     /* the same */
     sl_csc matrix;               /* A[free, free], one triangle; 0 x 0: not kept */
+    const void *reserved[2];     /* NULL; new fields take their place */
 } sl_dirichlet_arrays;
 
 SL_API sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D);
@@ -1909,10 +1912,11 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_entries(const sl_selected *Z, double
  */
 typedef struct sl_selected_arrays {
     const sl_symbolic *symbolic;
-    sl_int count;         /* supernodes */
-    const sl_int *supers; /* count, ascending */
-    const sl_off *begin;  /* count + 1, in doubles */
-    const double *Z;      /* begin[count] */
+    sl_int count;            /* supernodes */
+    const sl_int *supers;    /* count, ascending */
+    const sl_off *begin;     /* count + 1, in doubles */
+    const double *Z;         /* begin[count] */
+    const void *reserved[2]; /* NULL; new fields take their place */
 } sl_selected_arrays;
 
 SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z);
@@ -2004,7 +2008,8 @@ typedef struct sl_region_arrays {
     sl_int n_roots;
     const sl_int *roots; /* n_roots supernodes, ascending: roots of the interior subtrees */
     sl_int n_boundary;
-    const sl_int *boundary; /* n_boundary rows of A, in elimination order */
+    const sl_int *boundary;  /* n_boundary rows of A, in elimination order */
+    const void *reserved[2]; /* NULL; new fields take their place */
 } sl_region_arrays;
 
 SL_API sl_region_arrays sl_region_view(const sl_region *R);
@@ -2240,7 +2245,8 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(const sl_factor *const *factor
  * another analysis is refused (SL_ERR_STATE), also if both were loaded from one file.
  *
  * Loaded objects can be refactored; the first refactorization of a factor allocates the memory of
- * its fronts. Mapped ones are immutable, so that refactorizations give SL_ERR_READ_ONLY. */
+ * its fronts. Refactorizations of what is immutable give SL_ERR_READ_ONLY: of mapped objects, and of
+ * those in a file that a newer version has written and this one reads in part. */
 
 /** How much of a file a load creates. */
 typedef enum sl_saved_content {
@@ -2249,8 +2255,8 @@ typedef enum sl_saved_content {
     SL_SAVED_ANALYSIS /* the analysis */
 } sl_saved_content;
 
-/** EXPERIMENTAL. What one file holds. All zero at first: then the caller fills in objects to save,
- *  or a load does. A load replaces all fields but `wanted`. */
+/** What one file holds. All zero at first: then the caller fills in objects to save, or a load does.
+ *  A load replaces all fields but `wanted`. */
 typedef struct sl_saved_set {
     sl_symbolic *symbolic;
     sl_factor *factor;     /* over symbolic; NULL: none */
@@ -2259,6 +2265,7 @@ typedef struct sl_saved_set {
     sl_int n_regions;
     sl_allocator allocator;  /* of the array regions; set by loads, not read by saves */
     sl_saved_content wanted; /* read by loads: the others are left out, and take no time */
+    void *reserved[6];       /* must be NULL; new fields take their place */
 } sl_saved_set;
 
 /** How a saved factor is checked before it is used. The header and the table of sections are always
@@ -2284,7 +2291,7 @@ typedef enum sl_load_checks {
  *  set     [in]      an analysis and what belongs to it. A selected inverse may be saved without a
  *                    factor; regions may not. The same region may be given more than once.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: memory is too small, bytes, set or an object of it is NULL,
- *           n_regions is below 0, or regions without a factor; SL_ERR_STALE: a failed factor, or a
+ *           n_regions is below 0, a reserved field is set, or regions without a factor; SL_ERR_STALE: a failed factor, or a
  *           selected inverse or region that is not of its present numbers; SL_ERR_STATE: objects of
  *           different analyses, or from a file that a newer version has written and this one reads
  *           in part; SL_ERR_UNSUPPORTED: SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t
@@ -2319,7 +2326,7 @@ SL_API SL_WARN_UNUSED sl_status sl_save_file(const char *path, const sl_saved_se
  *  A selected inverse that was saved without a factor answers queries and can be refactored;
  *  sl_region_create refuses it.
  *
- *  set     [in,out]  in: `wanted`, nothing else. Out: the objects, or NULL and 0 on error and for
+ *  set     [in,out]  in: `wanted` and `reserved`. Out: the objects, or NULL and 0 on error and for
  *                    what was not saved or is not wanted. Release with sl_saved_set_free.
  *  memory  [in]      what sl_save_memory or sl_save_file wrote, of any alignment.
  *  bytes   [in]      the size that was saved, exactly.
@@ -3564,9 +3571,9 @@ SLI_NOINLINE static const char *sli_options_wrong(const sl_options *opt, int rea
   if (opt == NULL) {
     return NULL;
   }
-  is_unknown = opt->reserved_pointer != NULL || opt->reserved_int != 0;
+  is_unknown = 0;
   for (k = 0; k < sizeof opt->reserved / sizeof opt->reserved[0]; k++) {
-    is_unknown |= opt->reserved[k] != NULL;
+    is_unknown |= opt->reserved[k] != 0;
   }
   if (opt->size != 0 && opt->size != sizeof *opt) {
     return "options.size is not that of the library: sl_options_init sets it";
@@ -16016,7 +16023,7 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
 }
 
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
-  sl_factor_arrays v = {NULL, NULL, NULL, NULL, NULL};
+  sl_factor_arrays v = {NULL, NULL, NULL, NULL, NULL, {NULL, NULL}};
   if (F != NULL) {
     v.symbolic = F->S;
     v.L = F->type->storage == SL_STORAGE_DOUBLE ? (const double *)F->values : NULL;
@@ -22786,7 +22793,7 @@ SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats) {
 }
 
 SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z) {
-  sl_selected_arrays v = {NULL, 0, NULL, NULL, NULL};
+  sl_selected_arrays v = {NULL, 0, NULL, NULL, NULL, {NULL, NULL}};
   if (Z != NULL) {
     v.symbolic = Z->traversal.S;
     v.count = Z->traversal.forest.count;
@@ -23529,7 +23536,7 @@ SL_API void sl_region_stats(const sl_region *R, sl_stats *stats) {
 }
 
 SL_API sl_region_arrays sl_region_view(const sl_region *R) {
-  sl_region_arrays v = {NULL, 0, NULL, 0, NULL};
+  sl_region_arrays v = {NULL, 0, NULL, 0, NULL, {NULL, NULL}};
   if (R != NULL) {
     v.symbolic = R->S;
     v.n_roots = R->extent.n_roots;
@@ -32360,6 +32367,18 @@ SLI_HOT static void sli_put_section(const sli_saved *f, uint32_t k, sli_sink *to
   }
 }
 
+static const char sli_set_reserved[] =
+  "a reserved field of set is not NULL: is the set initialized?";
+
+static int sli_set_has_more(const sl_saved_set *set) {
+  size_t k;
+  int has_more = 0;
+  for (k = 0; k < sizeof set->reserved / sizeof set->reserved[0]; k++) {
+    has_more |= set->reserved[k] != NULL;
+  }
+  return has_more;
+}
+
 static sl_status sli_save_check(const sl_saved_set *set) {
   const sl_symbolic *S = set->symbolic;
   const sl_factor *F = set->factor;
@@ -32367,6 +32386,7 @@ static sl_status sli_save_check(const sl_saved_set *set) {
   sl_int k;
   sl_status status =
     sli_argument(S == NULL ? "set.symbolic is NULL"
+        : sli_set_has_more(set) ? sli_set_reserved
         : set->n_regions < 0 ? "set.n_regions is below 0"
         : set->n_regions > 0 && F == NULL ? "regions without set.factor"
         : set->n_regions > 0 && set->regions == NULL ? "set.regions is NULL"
@@ -33207,6 +33227,7 @@ static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load
   const int saved = errno;
   const int is_file = from->path != NULL;
   sl_saved_content wanted;
+  int has_more;
   sli_reading r;
   sl_status status;
   if (set == NULL) {
@@ -33214,10 +33235,12 @@ static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load
   }
   errno = 0;
   wanted = set->wanted;
+  has_more = sli_set_has_more(set);
   memset(set, 0, sizeof *set);
   set->wanted = wanted;
   status = sli_argument(
-      (unsigned)wanted > (unsigned)SL_SAVED_ANALYSIS
+      has_more ? sli_set_reserved
+      : (unsigned)wanted > (unsigned)SL_SAVED_ANALYSIS
       ? "set.wanted is not a value of sl_saved_content: is the set initialized?"
       : (unsigned)checks > (unsigned)SL_LOAD_VERIFIED ? "checks is not a value of sl_load_checks"
       : !is_file && from->memory == NULL ? "path or memory is NULL"

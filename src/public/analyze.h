@@ -74,6 +74,7 @@ typedef struct sl_symbolic_arrays {
     const sl_int *node_of;      /* n: node of column k */
     const sl_int *node_parent;  /* n_nodes: -1 at a root */
     const sl_int *node_level;   /* n_nodes: distance from the root */
+    const void *reserved[2];    /* NULL; new fields take their place */
 } sl_symbolic_arrays;
 
 SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);

@@ -58,7 +58,7 @@ SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_
  *  B     [in]   n x nrhs, leading dimension ldb, or row-major as X; fixed rows are not used. NULL:
  *               b = 0.
  *  G     [in]   count x nrhs, leading dimension ldg, or row-major as X: the values, in the order of
- *               rows. May be NULL if count = 0.
+ *               rows. Must not overlap X. May be NULL if count = 0.
  *  nrhs  [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed refactorization, or the factor whose
  *           pins are used has changed; SL_ERR_NOT_FINITE, SL_ERR_INCONSISTENT: as sl_factor_solve;
@@ -81,6 +81,7 @@ typedef struct sl_dirichlet_arrays {
     const sl_symbolic *symbolic; /* of A[free, free]; NULL: pins hold the fixed rows */
     const sl_factor *factor;     /* the same */
     sl_csc matrix;               /* A[free, free], one triangle; 0 x 0: not kept */
+    const void *reserved[2];     /* NULL; new fields take their place */
 } sl_dirichlet_arrays;
 
 SL_API sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D);

@@ -56,9 +56,11 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *                   every solve refuses it until a refactor succeeds.
  *  A      [in]      the analyzed pattern, new values. Two triangles are not compared.
  *  stats  [out]     factor.
- *  Returns  as sl_factor_create; SL_ERR_READ_ONLY: a mapped factor (sl_map_file). SL_ERR_MEMORY and
+ *  Returns  as sl_factor_create; SL_ERR_READ_ONLY: a mapped factor, or one that
+ *           is loaded in part (save.h). SL_ERR_MEMORY and
  *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load_file),
- *           which allocates its fronts; SL_ERR_UNSUPPORTED only with SL_STORAGE_COMPLEX.
+ *           which allocates its fronts; SL_ERR_UNSUPPORTED only with SL_STORAGE_COMPLEX, or with
+ *           null_vector_count where A has more null vectors than columns are given.
  *  Cost     as sl_factor_create, without its memory.
  *  Threads  exclusive use of F.
  *  Example  tests/core/test_factor.c
@@ -119,11 +121,12 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor
 /** Arrays of a factor; valid as long as the factor. */
 typedef struct sl_factor_arrays {
     const sl_symbolic *symbolic;
-    /* panels, in the layout described at sl_symbolic_arrays; NULL if L is in float */
+    /* panels, in the layout described at sl_symbolic_arrays; NULL if L is in float or complex */
     const double *L;
     const double *D; /* n pivots, in pivot order; DBL_MAX for a null pivot that was skipped */
     const double *E; /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: there is none */
-    const float *L_float; /* the same panels in float; else NULL */
+    const float *L_float;    /* the same panels in float; else NULL */
+    const void *reserved[2]; /* NULL; new fields take their place */
 } sl_factor_arrays;
 
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);

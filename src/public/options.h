@@ -52,9 +52,6 @@ typedef struct sl_options {
     /* 40 entries as in METIS's options array, -1 = METIS's default; NULL: all default. The
      * numbering and debug level are ignored */
     const sl_int *metis_options;
-    /* must be NULL and 0: their place is kept, so that the other fields stay where they are */
-    const void *reserved_pointer;
-    sl_int reserved_int;
     /* rows k block_size .. (k+1) block_size - 1 stay together in the order, such as x, y, z of a
      * vertex; divides n; 0 or 1: no blocks */
     sl_int block_size;
@@ -119,8 +116,9 @@ typedef struct sl_options {
      * with regularization or SL_NULL_PIVOT_SKIP, which has its own check. Not saved in files */
     size_t definite;
 
-    /* must be NULL; new options take its place, so that the size of the struct never changes */
-    const void *reserved[1];
+    /* must be 0; new options take their place, so that the size of the struct never changes. An
+     * older library, for which they are reserved, refuses them */
+    sl_off reserved[16];
 } sl_options;
 
 /** Sets all options to their defaults. size is sizeof(sl_options) of the caller; opt may be NULL.

@@ -86,7 +86,8 @@ typedef struct sl_region_arrays {
     sl_int n_roots;
     const sl_int *roots; /* n_roots supernodes, ascending: roots of the interior subtrees */
     sl_int n_boundary;
-    const sl_int *boundary; /* n_boundary rows of A, in elimination order */
+    const sl_int *boundary;  /* n_boundary rows of A, in elimination order */
+    const void *reserved[2]; /* NULL; new fields take their place */
 } sl_region_arrays;
 
 SL_API sl_region_arrays sl_region_view(const sl_region *R);

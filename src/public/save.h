@@ -24,7 +24,8 @@
  * another analysis is refused (SL_ERR_STATE), also if both were loaded from one file.
  *
  * Loaded objects can be refactored; the first refactorization of a factor allocates the memory of
- * its fronts. Mapped ones are immutable, so that refactorizations give SL_ERR_READ_ONLY. */
+ * its fronts. Refactorizations of what is immutable give SL_ERR_READ_ONLY: of mapped objects, and of
+ * those in a file that a newer version has written and this one reads in part. */
 
 /** How much of a file a load creates. */
 typedef enum sl_saved_content {
@@ -33,8 +34,8 @@ typedef enum sl_saved_content {
     SL_SAVED_ANALYSIS /* the analysis */
 } sl_saved_content;
 
-/** EXPERIMENTAL. What one file holds. All zero at first: then the caller fills in objects to save,
- *  or a load does. A load replaces all fields but `wanted`. */
+/** What one file holds. All zero at first: then the caller fills in objects to save, or a load does.
+ *  A load replaces all fields but `wanted`. */
 typedef struct sl_saved_set {
     sl_symbolic *symbolic;
     sl_factor *factor;     /* over symbolic; NULL: none */
@@ -43,6 +44,7 @@ typedef struct sl_saved_set {
     sl_int n_regions;
     sl_allocator allocator;  /* of the array regions; set by loads, not read by saves */
     sl_saved_content wanted; /* read by loads: the others are left out, and take no time */
+    void *reserved[6];       /* must be NULL; new fields take their place */
 } sl_saved_set;
 
 /** How a saved factor is checked before it is used. The header and the table of sections are always
@@ -68,7 +70,7 @@ typedef enum sl_load_checks {
  *  set     [in]      an analysis and what belongs to it. A selected inverse may be saved without a
  *                    factor; regions may not. The same region may be given more than once.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: memory is too small, bytes, set or an object of it is NULL,
- *           n_regions is below 0, or regions without a factor; SL_ERR_STALE: a failed factor, or a
+ *           n_regions is below 0, a reserved field is set, or regions without a factor; SL_ERR_STALE: a failed factor, or a
  *           selected inverse or region that is not of its present numbers; SL_ERR_STATE: objects of
  *           different analyses, or from a file that a newer version has written and this one reads
  *           in part; SL_ERR_UNSUPPORTED: SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t
@@ -103,7 +105,7 @@ SL_API SL_WARN_UNUSED sl_status sl_save_file(const char *path, const sl_saved_se
  *  A selected inverse that was saved without a factor answers queries and can be refactored;
  *  sl_region_create refuses it.
  *
- *  set     [in,out]  in: `wanted`, nothing else. Out: the objects, or NULL and 0 on error and for
+ *  set     [in,out]  in: `wanted` and `reserved`. Out: the objects, or NULL and 0 on error and for
  *                    what was not saved or is not wanted. Release with sl_saved_set_free.
  *  memory  [in]      what sl_save_memory or sl_save_file wrote, of any alignment.
  *  bytes   [in]      the size that was saved, exactly.

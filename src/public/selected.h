@@ -83,10 +83,11 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_entries(const sl_selected *Z, double
  */
 typedef struct sl_selected_arrays {
     const sl_symbolic *symbolic;
-    sl_int count;         /* supernodes */
-    const sl_int *supers; /* count, ascending */
-    const sl_off *begin;  /* count + 1, in doubles */
-    const double *Z;      /* begin[count] */
+    sl_int count;            /* supernodes */
+    const sl_int *supers;    /* count, ascending */
+    const sl_off *begin;     /* count + 1, in doubles */
+    const double *Z;         /* begin[count] */
+    const void *reserved[2]; /* NULL; new fields take their place */
 } sl_selected_arrays;
 
 SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z);

@@ -32,9 +32,9 @@ typedef struct sl_symbolic_info {
     sl_int delayed;                /* times it moved a column to the parent's front; else 0 */
     /* of the ordering; all are 0 below 1000 entries of A */
     double seconds_order;
-    double seconds_analyze;        /* of the rest of the analysis, of which: */
-    double seconds_tree;           /* P A P', elimination tree, column counts and supernodes */
-    double seconds_structure;      /* rows of L and the map of A into L */
+    double seconds_analyze;   /* of the rest of the analysis, of which: */
+    double seconds_tree;      /* P A P', elimination tree, column counts and supernodes */
+    double seconds_structure; /* rows of L and the map of A into L */
     size_t bytes;
 } sl_symbolic_info;
 
@@ -134,7 +134,7 @@ typedef struct sl_change_info {
      * times the largest number a pivot was computed from, relative to the largest |a|; more where
      * the rows or the vectors of a call have lost more (tools/docs/changes.md) */
     double drift;
-    double flops_update;   /* of the rank-one changes, about; 0 if F cannot be changed so */
+    double flops_update; /* of the rank-one changes, about; 0 if F cannot be changed so */
     /* of sl_factor_refactor_changed, counted up to the cost of the cheapest way; of
      * sl_factor_change, else 0 */
     double flops_changed;
@@ -225,7 +225,7 @@ typedef struct sl_stats {
      * with neither SL_PTHREADS nor OpenMP and options.threads has no pool; with the group factor */
     sl_off threads;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[15];
+    sl_off reserved[40];
 } sl_stats;
 
 /** Writes an error as one sentence: the status, error.what, and the row, column, line and value as

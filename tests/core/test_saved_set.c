@@ -38,6 +38,7 @@ static void round_trip(set_case_t *q, const saved_t *m, int call, sl_load_checks
     sl_saved_set got = {0};
     memset(&got, 0xA5, sizeof got);
     got.wanted = SL_SAVED_ALL;
+    memset(got.reserved, 0, sizeof got.reserved);
     SL_CHECK(set_calls[call](&got, m->bytes, m->size, checks, opt));
     assert_ptr_equal(sl_factor_view(got.factor).symbolic, got.symbolic);
     assert_same_set(set_of(q), &got);

@@ -86,13 +86,18 @@ static void what_does_not_belong_together_is_refused(void **state) {
     REFUSED(SL_ERR_STATE, &set);
     assert_int_equal(size, 7); /* as before */
     assert_true(kept == m.size);
+    set = *set_of(&q);
+    set.reserved[5] = &set;
+    REFUSED(SL_ERR_ARGUMENT, &set);
     /* the numbers of the factor change, those of the others do not */
     SL_CHECK(sl_factor_refactor(q.c.y.F, &q.c.y.M.view, NULL));
     REFUSED(SL_ERR_STALE, set_of(&q));
     for (int k = 0; k < 2; k++) {
         SL_EXPECT(SL_ERR_ARGUMENT, set_calls[k](NULL, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
-        memset(&got, 0xA5, sizeof got);
+        memset(&got, 0xA5, sizeof got); /* a reserved field is set */
         got.wanted = SL_SAVED_FACTOR;
+        SL_EXPECT(SL_ERR_ARGUMENT, set_calls[k](&got, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
+        assert_true(got.symbolic == NULL && got.reserved[0] == NULL);
         SL_EXPECT(SL_ERR_ARGUMENT, set_calls[k](&got, NULL, m.size, SL_LOAD_CHECKED, NULL));
         assert_true(got.symbolic == NULL && got.regions == NULL && got.n_regions == 0);
         SL_EXPECT(SL_ERR_ARGUMENT, set_calls[k](&got, m.bytes, m.size, (sl_load_checks)3, NULL));

@@ -127,7 +127,7 @@ WRONG(not_initialized) {
 
 WRONG(reserved) {
     sl_options opt = options_none();
-    opt.reserved_int = 1;
+    opt.reserved[0] = 1;
     return analyze(&opt, stats);
 }
 

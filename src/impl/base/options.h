@@ -50,9 +50,9 @@ SLI_NOINLINE static const char *sli_options_wrong(const sl_options *opt, int rea
     if (opt == NULL) {
         return NULL;
     }
-    is_unknown = opt->reserved_pointer != NULL || opt->reserved_int != 0;
+    is_unknown = 0;
     for (k = 0; k < sizeof opt->reserved / sizeof opt->reserved[0]; k++) {
-        is_unknown |= opt->reserved[k] != NULL;
+        is_unknown |= opt->reserved[k] != 0;
     }
     if (opt->size != 0 && opt->size != sizeof *opt) {
         return "options.size is not that of the library: sl_options_init sets it";

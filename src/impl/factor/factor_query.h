@@ -119,7 +119,7 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
 }
 
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
-    sl_factor_arrays v = {NULL, NULL, NULL, NULL, NULL};
+    sl_factor_arrays v = {NULL, NULL, NULL, NULL, NULL, {NULL, NULL}};
     if (F != NULL) {
         v.symbolic = F->S;
         v.L = F->type->storage == SL_STORAGE_DOUBLE ? (const double *)F->values : NULL;

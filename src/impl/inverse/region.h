@@ -294,7 +294,7 @@ SL_API void sl_region_stats(const sl_region *R, sl_stats *stats) {
 }
 
 SL_API sl_region_arrays sl_region_view(const sl_region *R) {
-    sl_region_arrays v = {NULL, 0, NULL, 0, NULL};
+    sl_region_arrays v = {NULL, 0, NULL, 0, NULL, {NULL, NULL}};
     if (R != NULL) {
         v.symbolic = R->S;
         v.n_roots = R->extent.n_roots;

@@ -97,7 +97,7 @@ SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats) {
 }
 
 SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z) {
-    sl_selected_arrays v = {NULL, 0, NULL, NULL, NULL};
+    sl_selected_arrays v = {NULL, 0, NULL, NULL, NULL, {NULL, NULL}};
     if (Z != NULL) {
         v.symbolic = Z->traversal.S;
         v.count = Z->traversal.forest.count;

@@ -96,6 +96,7 @@ static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load
     const int saved = errno;
     const int is_file = from->path != NULL;
     sl_saved_content wanted;
+    int has_more;
     sli_reading r;
     sl_status status;
     if (set == NULL) {
@@ -103,10 +104,12 @@ static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load
     }
     errno = 0;
     wanted = set->wanted;
+    has_more = sli_set_has_more(set);
     memset(set, 0, sizeof *set);
     set->wanted = wanted;
     status = sli_argument(
-        (unsigned)wanted > (unsigned)SL_SAVED_ANALYSIS
+        has_more ? sli_set_reserved
+        : (unsigned)wanted > (unsigned)SL_SAVED_ANALYSIS
             ? "set.wanted is not a value of sl_saved_content: is the set initialized?"
         : (unsigned)checks > (unsigned)SL_LOAD_VERIFIED ? "checks is not a value of sl_load_checks"
         : !is_file && from->memory == NULL              ? "path or memory is NULL"

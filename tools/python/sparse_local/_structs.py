@@ -22,14 +22,13 @@ class Options(ctypes.Structure):
         ("size", SIZE), ("allocate", PTR), ("release", PTR), ("allocator_context", PTR),
         ("thread_count", INT), ("thread_run", PTR), ("thread_context", PTR),
         ("ordering", ENUM), ("relaxation", ENUM), ("triangle", ENUM), ("perm", PTR),
-        ("metis_options", PTR), ("reserved_pointer", PTR), ("reserved_int", INT),
-        ("block_size", INT), ("purpose", ENUM), ("isa", ENUM), ("method", ENUM),
+        ("metis_options", PTR), ("block_size", INT), ("purpose", ENUM), ("isa", ENUM), ("method", ENUM),
         ("null_pivots", ENUM),
         ("null_tolerance", REAL), ("mass", PTR), ("consistency_tolerance", REAL),
         ("regularization", REAL), ("signs", PTR), ("region", PTR), ("region_bytes", SIZE),
         ("null_vector", PTR), ("growth_limit", REAL), ("error_limit", REAL),
         ("null_vector_count", SIZE), ("storage", ENUM), ("definite", SIZE),
-        ("reserved", PTR * 1)]
+        ("reserved", OFF * 16)]
 
 
 def _struct(name, fields):
@@ -94,14 +93,15 @@ class Stats(ctypes.Structure):
                 ("change", _ChangeInfo), ("restriction", _RestrictInfo),
                 ("edit", _EditInfo), ("storage", OFF), ("reuse", _ReuseInfo),
                 ("pins", _PinsInfo), ("certificate", _CertificateInfo), ("null_bound", REAL),
-                ("dirichlet", _DirichletInfo), ("threads", OFF), ("reserved", OFF * 15)]
+                ("dirichlet", _DirichletInfo), ("threads", OFF), ("reserved", OFF * 40)]
 
 
 class SavedSet(ctypes.Structure):
     """sl_saved_set"""
     _fields_ = [("symbolic", PTR), ("factor", PTR), ("selected", PTR),
                 ("regions", ctypes.POINTER(PTR)), ("n_regions", INT), ("allocate", PTR),
-                ("release", PTR), ("allocator_context", PTR), ("wanted", ENUM)]
+                ("release", PTR), ("allocator_context", PTR), ("wanted", ENUM),
+                ("reserved", PTR * 6)]
 
 
 class SymbolicArrays(ctypes.Structure):
@@ -109,7 +109,8 @@ class SymbolicArrays(ctypes.Structure):
     _fields_ = [("n", INT), ("n_supers", INT)] + [(name, PTR) for name in (
         "perm", "iperm", "parent", "counts", "super_first", "super_of", "super_parent",
         "rows_begin", "rows", "panel_begin", "pairs")] + [("n_nodes", INT)] + [
-            (name, PTR) for name in ("node_of", "node_parent", "node_level")]
+            (name, PTR) for name in ("node_of", "node_parent", "node_level")] + [
+                ("reserved", PTR * 2)]
 
 
 class PseudoInverse(ctypes.Structure):
@@ -120,13 +121,14 @@ class PseudoInverse(ctypes.Structure):
 
 class FactorArrays(ctypes.Structure):
     """sl_factor_arrays"""
-    _fields_ = [("symbolic", PTR), ("L", PTR), ("D", PTR), ("E", PTR), ("L_float", PTR)]
+    _fields_ = [("symbolic", PTR), ("L", PTR), ("D", PTR), ("E", PTR), ("L_float", PTR),
+                ("reserved", PTR * 2)]
 
 
 class DirichletArrays(ctypes.Structure):
     """sl_dirichlet_arrays"""
     _fields_ = [("n_free", INT), ("n_fixed", INT), ("free_rows", PTR), ("fixed_rows", PTR),
-                ("symbolic", PTR), ("factor", PTR), ("matrix", Csc)]
+                ("symbolic", PTR), ("factor", PTR), ("matrix", Csc), ("reserved", PTR * 2)]
 
 
 class Hermitian(ctypes.Structure):
