@@ -1,63 +1,63 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e5fbb981c7bfbcba
+ * FNV-1a of the lines after this comment, without the license: 8b5d34c10063eef8
  * The comments of the implementation are in src/impl.
  *
  * Contents
  *     65 intro.h      what the library does, a quick start, which call for which question, references
  *    194 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
  *    238 config.h     macros that a user may define before the include, the version, and the integer types
- *    321 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    501 options.h    options of all calls, threads, and the allocator
- *    627 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    871 csc.h        sparse matrices: creation, checks, products, residuals
- *    972 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1048 factor.h     the numerical factorization P A P' = L D L'
- *   1176 solve.h      full solves, and the workspace of all solves
- *   1272 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1348 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
- *   1440 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1533 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1572 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1673 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1750 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1835 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1928 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2035 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2075 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2195 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2226 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2408 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2509 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2617 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2658 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2744 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2852 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2886 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2963 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3002 impl/ base: the compiler, status, memory, sorting, threads
- *   4235 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5153 impl/ matrix: sparse matrices of the caller and of the library
- *   5782 impl/ ordering: fill-reducing orderings of a graph
- *  10431 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12672 impl/ factor: the numbers of L and D
- *  16038 impl/ solve: full and local solves
- *  17700 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19629 impl/ pivots: the order of the pivots by the values of a matrix
- *  20037 impl/ float: L and fronts in single precision
- *  20488 impl/ inverse: entries of the inverse, regions
- *  23553 impl/ change: a factor that follows changes of its matrix
- *  29638 impl/ dirichlet: rows fixed at given values
- *  30229 impl/ dirichlet: by a factor of all rows
- *  30461 impl/ io: files that are replaced only when they are complete
- *  30679 impl/ files: Matrix Market files, 64-bit indices
- *  31299 impl/ save: factors in files
- *  33312 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33995 impl/ batch: diagonals of many inverses
- *  34136 impl/ complex: complex Hermitian systems over real factors
- *  34698 impl/ complex: entries of the inverse
- *  34758 impl/ packs: the tables through which the core calls packs
- *  34807 impl/ last: undefine every internal macro
- *  35163 impl/ templates: the header includes them from itself, once for each instruction set
+ *    326 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    506 options.h    options of all calls, threads, and the allocator
+ *    632 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    876 csc.h        sparse matrices: creation, checks, products, residuals
+ *    977 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1053 factor.h     the numerical factorization P A P' = L D L'
+ *   1181 solve.h      full solves, and the workspace of all solves
+ *   1277 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1353 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
+ *   1445 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1538 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1577 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1678 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1755 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1840 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1933 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2040 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2080 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2200 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2231 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2413 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2514 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2622 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2663 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2749 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2857 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2891 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2968 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3011 impl/ base: the compiler, status, memory, sorting, threads
+ *   4244 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5162 impl/ matrix: sparse matrices of the caller and of the library
+ *   5791 impl/ ordering: fill-reducing orderings of a graph
+ *  10440 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12681 impl/ factor: the numbers of L and D
+ *  16047 impl/ solve: full and local solves
+ *  17709 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19638 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20046 impl/ float: L and fronts in single precision
+ *  20497 impl/ inverse: entries of the inverse, regions
+ *  23562 impl/ change: a factor that follows changes of its matrix
+ *  29647 impl/ dirichlet: rows fixed at given values
+ *  30238 impl/ dirichlet: by a factor of all rows
+ *  30470 impl/ io: files that are replaced only when they are complete
+ *  30688 impl/ files: Matrix Market files, 64-bit indices
+ *  31308 impl/ save: factors in files
+ *  33321 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34004 impl/ batch: diagonals of many inverses
+ *  34145 impl/ complex: complex Hermitian systems over real factors
+ *  34707 impl/ complex: entries of the inverse
+ *  34767 impl/ packs: the tables through which the core calls packs
+ *  34816 impl/ last: undefine every internal macro
+ *  35172 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -290,6 +290,10 @@
 /* the version as one number, to compare: 10203 is 1.2.3 */
 #define SL_VERSION (10000 * SL_VERSION_MAJOR + 100 * SL_VERSION_MINOR + SL_VERSION_PATCH)
 
+/* SL_API stands before every function. By default a copy of the library is hidden in the program or
+ * the shared library that it is compiled into (gcc and clang on ELF systems): two copies in one
+ * process do not call each other. To export the functions of a copy, define SL_API as
+ * __attribute__((visibility("default"))) before the include with the bodies. */
 #if defined(SL_API)
 /* defined by the user */
 #elif defined(SL_STATIC)
@@ -300,6 +304,7 @@
 #endif
 #else
 #define SL_API extern
+#define SLI_API_IS_DEFAULT
 #endif
 
 #if defined(__GNUC__)
@@ -2998,6 +3003,10 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_create_pivoted(sl_symbolic **out, co
 #if (defined(SPARSE_LOCAL_IMPLEMENTATION) || defined(SL_STATIC)) && \
     !defined(SPARSE_LOCAL_IMPLEMENTED)
 #define SPARSE_LOCAL_IMPLEMENTED
+#if defined(SLI_API_IS_DEFAULT) && defined(__GNUC__) && defined(__ELF__)
+#undef SL_API
+#define SL_API __attribute__((visibility("hidden"))) extern
+#endif
 /* base: the compiler, status, memory, sorting, threads */
 /* src/impl/base/base.h: system headers, everything that depends on the compiler, small helpers for integers */
 

@@ -55,6 +55,10 @@
 /* the version as one number, to compare: 10203 is 1.2.3 */
 #define SL_VERSION (10000 * SL_VERSION_MAJOR + 100 * SL_VERSION_MINOR + SL_VERSION_PATCH)
 
+/* SL_API stands before every function. By default a copy of the library is hidden in the program or
+ * the shared library that it is compiled into (gcc and clang on ELF systems): two copies in one
+ * process do not call each other. To export the functions of a copy, define SL_API as
+ * __attribute__((visibility("default"))) before the include with the bodies. */
 #if defined(SL_API)
 /* defined by the user */
 #elif defined(SL_STATIC)
@@ -65,6 +69,7 @@
 #endif
 #else
 #define SL_API extern
+#define SLI_API_IS_DEFAULT
 #endif
 
 #if defined(__GNUC__)

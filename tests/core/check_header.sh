@@ -250,6 +250,11 @@ check "SL_NO_METIS overrides SL_METIS and needs no METIS" \
     "$cc $c99 $light -DSL_METIS -DSL_NO_METIS $dir/one.c -o $dir/no_metis -lm && $dir/no_metis"
 thorough "SL_METIS adds METIS" \
     "$cc $c99 -DSL_METIS $dir/one.c -o $dir/metis -lmetis -lm && $dir/metis"
+check "a copy in a shared library is hidden by default, also if it is declared before" \
+    "for file in bodies twice; do
+         $cc $c99 $light -fPIC -shared $dir/\$file.c -o $dir/libcopy.so -lm || exit 1
+         nm -D --defined-only $dir/libcopy.so | awk '\$3 ~ /^sl_/' | none || exit 1
+     done"
 thorough "SL_API: a shared library exports the public functions, and nothing else" \
     "$cc $c99 $all -fvisibility=hidden -fPIC -DSL_API='__attribute__((visibility(\"default\")))' \
          -shared $dir/bodies.c -o $dir/libsl.so -lm &&
