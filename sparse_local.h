@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 8b5d34c10063eef8
+ * FNV-1a of the lines after this comment, without the license: 1e453e5d33ba6f21
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -19,45 +19,45 @@
  *   1538 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
  *   1577 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
  *   1678 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1755 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1840 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1933 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2040 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2080 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2200 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2231 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2413 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2514 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2622 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2663 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2749 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2857 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2891 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2968 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3011 impl/ base: the compiler, status, memory, sorting, threads
- *   4244 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5162 impl/ matrix: sparse matrices of the caller and of the library
- *   5791 impl/ ordering: fill-reducing orderings of a graph
- *  10440 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12681 impl/ factor: the numbers of L and D
- *  16047 impl/ solve: full and local solves
- *  17709 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19638 impl/ pivots: the order of the pivots by the values of a matrix
- *  20046 impl/ float: L and fronts in single precision
- *  20497 impl/ inverse: entries of the inverse, regions
- *  23562 impl/ change: a factor that follows changes of its matrix
- *  29647 impl/ dirichlet: rows fixed at given values
- *  30238 impl/ dirichlet: by a factor of all rows
- *  30470 impl/ io: files that are replaced only when they are complete
- *  30688 impl/ files: Matrix Market files, 64-bit indices
- *  31308 impl/ save: factors in files
- *  33321 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34004 impl/ batch: diagonals of many inverses
- *  34145 impl/ complex: complex Hermitian systems over real factors
- *  34707 impl/ complex: entries of the inverse
- *  34767 impl/ packs: the tables through which the core calls packs
- *  34816 impl/ last: undefine every internal macro
- *  35172 impl/ templates: the header includes them from itself, once for each instruction set
+ *   1756 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1841 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1934 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2041 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2081 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2201 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2232 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2414 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2515 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2625 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2666 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2752 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2860 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2894 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2971 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3014 impl/ base: the compiler, status, memory, sorting, threads
+ *   4247 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5165 impl/ matrix: sparse matrices of the caller and of the library
+ *   5794 impl/ ordering: fill-reducing orderings of a graph
+ *  10443 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12684 impl/ factor: the numbers of L and D
+ *  16050 impl/ solve: full and local solves
+ *  17714 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19645 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20053 impl/ float: L and fronts in single precision
+ *  20504 impl/ inverse: entries of the inverse, regions
+ *  23569 impl/ change: a factor that follows changes of its matrix
+ *  29654 impl/ dirichlet: rows fixed at given values
+ *  30245 impl/ dirichlet: by a factor of all rows
+ *  30477 impl/ io: files that are replaced only when they are complete
+ *  30695 impl/ files: Matrix Market files, 64-bit indices
+ *  31315 impl/ save: factors in files
+ *  33328 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34011 impl/ batch: diagonals of many inverses
+ *  34152 impl/ complex: complex Hermitian systems over real factors
+ *  34714 impl/ complex: entries of the inverse
+ *  34774 impl/ packs: the tables through which the core calls packs
+ *  34823 impl/ last: undefine every internal macro
+ *  35179 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1187,10 +1187,10 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
  *
  *      sl_factor_solve(F, X, SL_ROWS(8), B, SL_ROWS(8), 8, W);
  *
- *  ld must be at least the number of right-hand sides. Its top bit, which says the layout, must be
- *  clear. X and B of a call may have different layouts, unless they are one array. Accepted by
- *  sl_factor_solve, sl_plan_solve, sl_local_solve, sl_dirichlet_solve, the requests of
- *  sl_batch_solve, and the half solves and products of parts.h; all other calls refuse it with
+ *  ld must be at least the number of right-hand sides. Its two top bits, of which the first says the
+ *  layout, must be clear. X and B of a call may have different layouts, unless they are one array. Accepted by
+ *  sl_factor_solve, sl_plan_solve, sl_plan_solve_bounded, sl_local_solve, sl_dirichlet_solve, the
+ *  requests of sl_batch_solve, and the half solves and products of parts.h; all other calls refuse it with
  *  SL_ERR_ARGUMENT.
  */
 #define SL_ROWS(ld) ((size_t)(ld) | SL_ROW_MAJOR)
@@ -1614,7 +1614,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
  *
  *  P      [in]   a plan whose two reaches contain every regularized row of the components of b.
  *                This holds if these rows are in both sets.
- *  F, X, ldx, B, ldb, nrhs, W  as in sl_plan_solve.
+ *  F, X, ldx, B, ldb, nrhs, W  as in sl_plan_solve, column-major.
  *  steps  [in]   maximum number of corrections per column, 0 or more; 0 only measures.
  *  stats  [out]  refine, with backward_error = max |E (x - previous x)| / max |b|, or that of
  *                rounding where it is larger; error.row with SL_ERR_ARGUMENT: a regularized row
@@ -1696,7 +1696,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_STATE: guaranteed, and other values than
  *           those of F; SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_UNSUPPORTED:
  *           negative or regularized pivots, complex storage, options.mass with several or unknown
- *           null vectors; guaranteed also null pivots, L in float, restrictions; SL_ERR_INACCURATE:
+ *           null vectors; guaranteed also null pivots, L in float, restrictions, duplicate entries,
+ *           entries of the diagonal beyond 1e-200 .. 1e200; SL_ERR_INACCURATE:
  *           eta exceeds 1/16, as with an A that is not that of F; SL_ERR_TOO_LARGE, SL_ERR_MEMORY.
  *           On errors F has no eta.
  *  Cost     estimated: 15 to 20 full solves; W grows by 20 n numbers. Guaranteed: 7 to 10
@@ -2553,7 +2554,8 @@ SL_API void sl_pins_free(sl_pins *P);
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: a row is held already, by its pin or by a
  *           combination of the others, up to rounding; SL_ERR_STALE: F has changed;
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
- *           (error.row); SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
+ *           (error.row); SL_ERR_NOT_FINITE: numbers of F overflow in the solution of a row;
+ *           SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     for each pin, a forward sweep, which up to 8 nearby rows share, k products over shared
  *           columns and O(k^2), with k pins before it; keeps 16 bytes per column of the path, and 4
  *           per row below its supernodes. 100 pins together take half as long as one by one.
@@ -2566,7 +2568,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_i
  *  value 1.
  *
  *  rows, values  [in]  count >= 1 entries, copied; a row given twice counts with the sum.
- *  Returns, Cost, Threads  as in sl_pins_add; SL_ERR_NOT_FINITE: a value (error.row).
+ *  Returns, Cost, Threads  as in sl_pins_add; SL_ERR_NOT_FINITE: also a value (error.row).
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows,
                                                      const double *values, sl_int count,
@@ -2600,7 +2602,8 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
  *                the b-set, the pins are not: they need not be in either set. A plan in a region is
  *                not supported.
  *  X      [out]  nx x nrhs (full: n x nrhs), column-major, leading dimension ldx elements. May be B
- *                itself (then ldx = ldb). On error untouched.
+ *                itself (then ldx = ldb). Overwritten also after SL_ERR_INCONSISTENT, _NOT_FINITE
+ *                and _INACCURATE; after other errors untouched.
  *  B      [in]   nb x nrhs (full: n x nrhs), column-major, leading dimension ldb elements. Its
  *                values in rows that are pins are not used.
  *  G      [in]   k x nrhs, column-major, leading dimension ldg elements: the values, in the order
@@ -2609,8 +2612,8 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: C' x = g
  *           does not hold to 1e-8 of x or, where g is 0, of b / max |a|, or rounding hides whether
  *           pins rule out the motions of a body; SL_ERR_INCONSISTENT: b is out of balance with a
- *           motion that the pins leave; with more than 8 right-hand sides X may then have those
- *           before it; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           motion that the pins leave; SL_ERR_NOT_FINITE: a number of B or G is not, or X
+ *           overflows; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     for each right-hand side a solve, k products over shared columns, twice, and O(k^2);
  *           as much for each null vector of components with pins.
  *  Threads  any number at once on one P, each with its own W.
@@ -16299,7 +16302,9 @@ SLI_INLINE sli_dense sli_dense_of(size_t ld) {
 }
 
 SLI_INLINE int sli_dense_spans(size_t ld, sl_int rows, sl_int columns) {
-  return (ld & ~SL_ROW_MAJOR) >= (size_t)(ld & SL_ROW_MAJOR ? columns : rows);
+  const size_t elements = ld & ~SL_ROW_MAJOR;
+  return elements < SL_ROW_MAJOR / 2 &&
+       elements >= (size_t)(ld & SL_ROW_MAJOR ? columns : rows);
 }
 
 typedef struct sli_rhs {
@@ -19265,6 +19270,9 @@ SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty c
   sl_work own;
   sl_status status;
   sli_stats_clear_error(stats);
+  if (F != NULL) {
+    memset(&F->certificate, 0, sizeof F->certificate);
+  }
   status = sli_argument(F == NULL ? "F is NULL"
       : certainty != SL_ESTIMATED && certainty != SL_GUARANTEED
       ? "certainty is neither SL_ESTIMATED nor SL_GUARANTEED"
@@ -19272,7 +19280,6 @@ SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty c
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
-  memset(&F->certificate, 0, sizeof F->certificate);
   memset(&info, 0, sizeof info);
   own = sli_work_own(&F->allocator);
   status = sli_certify(F, A, certainty, W == NULL ? &own : W, &info);

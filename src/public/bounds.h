@@ -25,7 +25,8 @@
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_STATE: guaranteed, and other values than
  *           those of F; SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_UNSUPPORTED:
  *           negative or regularized pivots, complex storage, options.mass with several or unknown
- *           null vectors; guaranteed also null pivots, L in float, restrictions; SL_ERR_INACCURATE:
+ *           null vectors; guaranteed also null pivots, L in float, restrictions, duplicate entries,
+ *           entries of the diagonal beyond 1e-200 .. 1e200; SL_ERR_INACCURATE:
  *           eta exceeds 1/16, as with an A that is not that of F; SL_ERR_TOO_LARGE, SL_ERR_MEMORY.
  *           On errors F has no eta.
  *  Cost     estimated: 15 to 20 full solves; W grows by 20 n numbers. Guaranteed: 7 to 10

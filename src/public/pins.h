@@ -45,7 +45,8 @@ SL_API void sl_pins_free(sl_pins *P);
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: a row is held already, by its pin or by a
  *           combination of the others, up to rounding; SL_ERR_STALE: F has changed;
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
- *           (error.row); SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
+ *           (error.row); SL_ERR_NOT_FINITE: numbers of F overflow in the solution of a row;
+ *           SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     for each pin, a forward sweep, which up to 8 nearby rows share, k products over shared
  *           columns and O(k^2), with k pins before it; keeps 16 bytes per column of the path, and 4
  *           per row below its supernodes. 100 pins together take half as long as one by one.
@@ -58,7 +59,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_i
  *  value 1.
  *
  *  rows, values  [in]  count >= 1 entries, copied; a row given twice counts with the sum.
- *  Returns, Cost, Threads  as in sl_pins_add; SL_ERR_NOT_FINITE: a value (error.row).
+ *  Returns, Cost, Threads  as in sl_pins_add; SL_ERR_NOT_FINITE: also a value (error.row).
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows,
                                                      const double *values, sl_int count,
@@ -92,7 +93,8 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
  *                the b-set, the pins are not: they need not be in either set. A plan in a region is
  *                not supported.
  *  X      [out]  nx x nrhs (full: n x nrhs), column-major, leading dimension ldx elements. May be B
- *                itself (then ldx = ldb). On error untouched.
+ *                itself (then ldx = ldb). Overwritten also after SL_ERR_INCONSISTENT, _NOT_FINITE
+ *                and _INACCURATE; after other errors untouched.
  *  B      [in]   nb x nrhs (full: n x nrhs), column-major, leading dimension ldb elements. Its
  *                values in rows that are pins are not used.
  *  G      [in]   k x nrhs, column-major, leading dimension ldg elements: the values, in the order
@@ -101,8 +103,8 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: C' x = g
  *           does not hold to 1e-8 of x or, where g is 0, of b / max |a|, or rounding hides whether
  *           pins rule out the motions of a body; SL_ERR_INCONSISTENT: b is out of balance with a
- *           motion that the pins leave; with more than 8 right-hand sides X may then have those
- *           before it; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           motion that the pins leave; SL_ERR_NOT_FINITE: a number of B or G is not, or X
+ *           overflows; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     for each right-hand side a solve, k products over shared columns, twice, and O(k^2);
  *           as much for each null vector of components with pins.
  *  Threads  any number at once on one P, each with its own W.

@@ -171,6 +171,10 @@ static void wrong_arguments(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_certify(y.F, &y.M.view, SL_UNCERTIFIED, NULL, NULL));
     SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_factor_certify(y.F, &other, SL_ESTIMATED, NULL, NULL));
     SL_CHECK(sl_factor_certify(y.F, &y.M.view, SL_ESTIMATED, NULL, NULL));
+    SL_CHECK(solve_bounded(P, y.F, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_certify(y.F, &y.M.view, (sl_certainty)9, NULL, NULL));
+    SL_EXPECT(SL_ERR_STALE, solve_bounded(P, y.F, NULL)); /* after an error there is no eta */
+    SL_CHECK(sl_factor_certify(y.F, &y.M.view, SL_ESTIMATED, NULL, NULL));
 #define BOUNDED(P, F, X, ldx, E, B, nrhs) \
     sl_plan_solve_bounded(P, F, X, ldx, E, B, 1, nrhs, NULL, NULL, NULL)
     SL_EXPECT(SL_ERR_ARGUMENT, BOUNDED(NULL, y.F, x, 2, bounds, &b, 1));

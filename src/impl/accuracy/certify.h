@@ -348,6 +348,9 @@ SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty c
     sl_work own;
     sl_status status;
     sli_stats_clear_error(stats);
+    if (F != NULL) {
+        memset(&F->certificate, 0, sizeof F->certificate);
+    }
     status = sli_argument(F == NULL ? "F is NULL"
                           : certainty != SL_ESTIMATED && certainty != SL_GUARANTEED
                               ? "certainty is neither SL_ESTIMATED nor SL_GUARANTEED"
@@ -355,7 +358,6 @@ SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty c
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
-    memset(&F->certificate, 0, sizeof F->certificate);
     memset(&info, 0, sizeof info);
     own = sli_work_own(&F->allocator);
     status = sli_certify(F, A, certainty, W == NULL ? &own : W, &info);

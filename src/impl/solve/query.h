@@ -185,7 +185,9 @@ SLI_INLINE sli_dense sli_dense_of(size_t ld) {
 
 /* Does a leading dimension span the rows of a column or, by rows, the columns of a row? */
 SLI_INLINE int sli_dense_spans(size_t ld, sl_int rows, sl_int columns) {
-    return (ld & ~SL_ROW_MAJOR) >= (size_t)(ld & SL_ROW_MAJOR ? columns : rows);
+    const size_t elements = ld & ~SL_ROW_MAJOR;
+    return elements < SL_ROW_MAJOR / 2 && /* that bit is for later layouts */
+           elements >= (size_t)(ld & SL_ROW_MAJOR ? columns : rows);
 }
 
 /* The right-hand sides of a call and their solutions, in the caller's arrays, or some of them. */
