@@ -195,6 +195,16 @@ installed_by_cmake() {
         -DCMAKE_PREFIX_PATH="$dir/cmake-prefix"
 }
 
+# What the project installs serves those who ask for an earlier version with the same first number.
+later_version() {
+    rm -rf "$dir/cmake-later"
+    cp -r "$dir/cmake-prefix" "$dir/cmake-later"
+    sed -i "s/$VERSION/${VERSION%%.*}.99.0/g" \
+        "$dir/cmake-later/lib/cmake/sparse_local/sparse_local-config-version.cmake"
+    cmake_stranger header cmake-later "find_package(sparse_local ${VERSION%.*} REQUIRED)" \
+        -DCMAKE_PREFIX_PATH="$dir/cmake-later" -DCMAKE_C_FLAGS=-DSL_NO_SIMD
+}
+
 # METIS is linked if it is installed and asked for.
 with_metis() {
     cmake_stranger header cmake-metis "add_subdirectory(\"$root\" sparse_local)" \
@@ -222,6 +232,7 @@ FetchContent_MakeAvailable(sparse_local)"
     check "the library is optimized in Debug builds" optimized_by_cmake
     check "FetchContent of a local folder" cmake_stranger header fetch "$fetch" $plain
     check "cmake --install, then find_package: compiled" installed_by_cmake compiled
+    check "find_package: a later version with the same first number is taken" later_version
     check "cmake --install, then find_package: header" cmake_stranger header cmake-own-header \
         "find_package(sparse_local REQUIRED)" -DCMAKE_PREFIX_PATH="$dir/cmake-prefix"
     if [ -e /usr/include/metis.h ]; then check "add_subdirectory with METIS" with_metis; fi
