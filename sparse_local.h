@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 1e453e5d33ba6f21
+ * FNV-1a of the lines after this comment, without the license: be5ab3fe0f3c0436
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -24,35 +24,35 @@
  *   1934 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
  *   2041 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
  *   2081 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2201 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2232 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2414 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2515 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2625 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2666 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2752 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2860 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2894 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2971 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3014 impl/ base: the compiler, status, memory, sorting, threads
- *   4247 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5165 impl/ matrix: sparse matrices of the caller and of the library
- *   5794 impl/ ordering: fill-reducing orderings of a graph
- *  10443 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12684 impl/ factor: the numbers of L and D
- *  16050 impl/ solve: full and local solves
- *  17714 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19645 impl/ pivots: the order of the pivots by the values of a matrix
- *  20053 impl/ float: L and fronts in single precision
- *  20504 impl/ inverse: entries of the inverse, regions
- *  23569 impl/ change: a factor that follows changes of its matrix
- *  29654 impl/ dirichlet: rows fixed at given values
- *  30245 impl/ dirichlet: by a factor of all rows
- *  30477 impl/ io: files that are replaced only when they are complete
- *  30695 impl/ files: Matrix Market files, 64-bit indices
- *  31315 impl/ save: factors in files
- *  33328 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34011 impl/ batch: diagonals of many inverses
+ *   2202 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2233 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2415 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2516 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2626 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2667 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2753 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2861 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2895 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2972 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3015 impl/ base: the compiler, status, memory, sorting, threads
+ *   4248 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5166 impl/ matrix: sparse matrices of the caller and of the library
+ *   5795 impl/ ordering: fill-reducing orderings of a graph
+ *  10444 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12685 impl/ factor: the numbers of L and D
+ *  16051 impl/ solve: full and local solves
+ *  17715 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19646 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20054 impl/ float: L and fronts in single precision
+ *  20505 impl/ inverse: entries of the inverse, regions
+ *  23570 impl/ change: a factor that follows changes of its matrix
+ *  29655 impl/ dirichlet: rows fixed at given values
+ *  30246 impl/ dirichlet: by a factor of all rows
+ *  30478 impl/ io: files that are replaced only when they are complete
+ *  30696 impl/ files: Matrix Market files, 64-bit indices
+ *  31316 impl/ save: factors in files
+ *  33329 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34012 impl/ batch: diagonals of many inverses
  *  34152 impl/ complex: complex Hermitian systems over real factors
  *  34714 impl/ complex: entries of the inverse
  *  34774 impl/ packs: the tables through which the core calls packs
@@ -2082,16 +2082,17 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
 
 /* The matrices M + t K for many t have one pattern, the union of both. Each term is scattered once
  * into an array in the order of the analysis, and a factorization adds the weighted arrays while it
- * reads them: nothing is permuted, sorted or searched again. For m values of t:
+ * reads them: nothing is permuted, sorted or searched again. For `count` values of t:
  *
  *     sl_csc terms[2] = {M, K};                                  any triangles, any two patterns
  *     sl_matrix_sum(&U, NULL, terms, 2, NULL, NULL);             their union
  *     A = sl_matrix_view(U);  sl_symbolic_create(&S, &A, NULL, &stats);
- *     v[0] = malloc(stats.symbolic.nnz_a * sizeof(double));      v[1] likewise
- *     sl_symbolic_scatter(S, v[0], &M, NULL);  sl_symbolic_scatter(S, v[1], &K, NULL);
- *     for k < m: c[2 k] = 1, c[2 k + 1] = t[k];
- *     sl_batch_factor(F, m, S, c, v, 2, &opt, NULL, NULL);       F: m factors, of M + t[k] K
- *     sl_batch_diagonal(F, m, h, n_rows, rows, n_rows, &opt, NULL, NULL, NULL);
+ *     m = malloc(stats.symbolic.nnz_a * sizeof(double));         k likewise
+ *     sl_symbolic_scatter(S, m, &M, NULL);  sl_symbolic_scatter(S, k, &K, NULL);
+ *     const double *v[2] = {m, k};
+ *     for i < count: c[2 i] = 1, c[2 i + 1] = t[i];
+ *     sl_batch_factor(F, count, S, c, v, 2, &opt, NULL, NULL);   F[i]: the factor of M + t[i] K
+ *     sl_batch_diagonal(F, count, h, n_rows, rows, n_rows, &opt, NULL, NULL, NULL);
  *
  * A plan belongs to the analysis. It serves all of these factors, one by one or in a batch whose
  * requests name their factors.
@@ -2219,7 +2220,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_refactor(sl_factor *const *factors, sl_
  *  Source   [HDA17] 5.
  *  Example  tests/core/test_batch_inverse.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count,
+SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(sl_factor *const *factors, sl_int count,
                                                   double *out, size_t ldo, const sl_int *rows,
                                                   sl_int n_rows, const sl_options *opt,
                                                   sl_work *const *works, sl_int *failed,
@@ -34011,7 +34012,7 @@ SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
 /* src/impl/batch/batch_diagonal.h: diagonals of the inverses of several factors; a worker takes whole factors */
 
 typedef struct sli_diagonal_batch {
-  const sl_factor *const *factors;
+  sl_factor *const *factors;
   sl_int count, workers;
   double *out;
   size_t ldo;
@@ -34102,10 +34103,9 @@ static sl_status sli_diagonal_batch_run(sli_diagonal_batch *d, const sl_threads 
   return status;
 }
 
-SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count, double *out,
-    size_t ldo, const sl_int *rows, sl_int n_rows,
-    const sl_options *opt, sl_work *const *works, sl_int *failed,
-    sl_stats *stats) {
+SL_API sl_status sl_batch_diagonal(sl_factor *const *factors, sl_int count, double *out, size_t ldo,
+    const sl_int *rows, sl_int n_rows, const sl_options *opt,
+    sl_work *const *works, sl_int *failed, sl_stats *stats) {
   const sl_threads *threads = sli_threads_of(opt);
   sli_diagonal_batch d;
   sl_status status;

@@ -9,10 +9,6 @@ const double *const *shifted_systems_values(const shifted_systems *f) {
     return (const double *const *)f->values;
 }
 
-const sl_factor *const *shifted_systems_factors(const shifted_systems *f) {
-    return (const sl_factor *const *)f->F;
-}
-
 /* Splits A into the diagonal matrix M of its row sums and the rest, L on the pattern of A. */
 static void split(shifted_systems *f) {
     const sl_csc A = f->system->A;

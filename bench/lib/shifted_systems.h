@@ -24,7 +24,6 @@ void shifted_systems_make(shifted_systems *f, const bench_system *system);
 void shifted_systems_free(shifted_systems *f);
 
 const double *const *shifted_systems_values(const shifted_systems *f);
-const sl_factor *const *shifted_systems_factors(const shifted_systems *f);
 
 /** Computes M + t[k] L into sum, in one loop over the entries of A, and returns it. */
 const double *shifted_systems_sum(shifted_systems *f, int k);

@@ -107,8 +107,8 @@ static void call_diagonal_each(void *state) {
 static void call_diagonal_batch(void *state) {
     workload *q = state;
     sl_options options = {.threads = q->f.threads};
-    bench_must(sl_batch_diagonal(shifted_systems_factors(&q->f), SHIFTED_COUNT, q->diagonals,
-                                 VERTICES, q->rows, VERTICES, &options, q->works, NULL, NULL),
+    bench_must(sl_batch_diagonal(q->f.F, SHIFTED_COUNT, q->diagonals, VERTICES, q->rows, VERTICES,
+                                 &options, q->works, NULL, NULL),
                "diagonals");
 }
 

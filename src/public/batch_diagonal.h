@@ -23,7 +23,7 @@
  *  Source   [HDA17] 5.
  *  Example  tests/core/test_batch_inverse.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count,
+SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(sl_factor *const *factors, sl_int count,
                                                   double *out, size_t ldo, const sl_int *rows,
                                                   sl_int n_rows, const sl_options *opt,
                                                   sl_work *const *works, sl_int *failed,

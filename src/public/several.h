@@ -7,16 +7,17 @@
 
 /* The matrices M + t K for many t have one pattern, the union of both. Each term is scattered once
  * into an array in the order of the analysis, and a factorization adds the weighted arrays while it
- * reads them: nothing is permuted, sorted or searched again. For m values of t:
+ * reads them: nothing is permuted, sorted or searched again. For `count` values of t:
  *
  *     sl_csc terms[2] = {M, K};                                  any triangles, any two patterns
  *     sl_matrix_sum(&U, NULL, terms, 2, NULL, NULL);             their union
  *     A = sl_matrix_view(U);  sl_symbolic_create(&S, &A, NULL, &stats);
- *     v[0] = malloc(stats.symbolic.nnz_a * sizeof(double));      v[1] likewise
- *     sl_symbolic_scatter(S, v[0], &M, NULL);  sl_symbolic_scatter(S, v[1], &K, NULL);
- *     for k < m: c[2 k] = 1, c[2 k + 1] = t[k];
- *     sl_batch_factor(F, m, S, c, v, 2, &opt, NULL, NULL);       F: m factors, of M + t[k] K
- *     sl_batch_diagonal(F, m, h, n_rows, rows, n_rows, &opt, NULL, NULL, NULL);
+ *     m = malloc(stats.symbolic.nnz_a * sizeof(double));         k likewise
+ *     sl_symbolic_scatter(S, m, &M, NULL);  sl_symbolic_scatter(S, k, &K, NULL);
+ *     const double *v[2] = {m, k};
+ *     for i < count: c[2 i] = 1, c[2 i + 1] = t[i];
+ *     sl_batch_factor(F, count, S, c, v, 2, &opt, NULL, NULL);   F[i]: the factor of M + t[i] K
+ *     sl_batch_diagonal(F, count, h, n_rows, rows, n_rows, &opt, NULL, NULL, NULL);
  *
  * A plan belongs to the analysis. It serves all of these factors, one by one or in a batch whose
  * requests name their factors.

@@ -134,8 +134,6 @@ typedef struct sl_options {
     sl_triangle triangle;
     const sl_int *perm;
     const sl_int *metis_options;
-    const void *reserved_pointer;
-    sl_int reserved_int;
     sl_int block_size;
     sl_purpose purpose;
     sl_isa isa;
@@ -154,7 +152,7 @@ typedef struct sl_options {
     size_t null_vector_count;
     sl_storage storage;
     size_t definite;
-    const void *reserved[1];
+    sl_off reserved[16];
 } sl_options;
 extern void sl_options_init(sl_options *opt, size_t size);
 typedef struct sl_error {
@@ -317,7 +315,7 @@ typedef struct sl_stats {
     double null_bound;
     sl_dirichlet_info dirichlet;
     sl_off threads;
-    sl_off reserved[15];
+    sl_off reserved[40];
 } sl_stats;
 extern size_t sl_error_text(char *buffer, size_t size, sl_status status, const sl_stats *stats);
 extern size_t sl_stats_size(void);
@@ -364,6 +362,7 @@ typedef struct sl_symbolic_arrays {
     const sl_int *node_of;
     const sl_int *node_parent;
     const sl_int *node_level;
+    const void *reserved[2];
 } sl_symbolic_arrays;
 extern sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
 extern sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S,
@@ -389,6 +388,7 @@ typedef struct sl_factor_arrays {
     const double *D;
     const double *E;
     const float *L_float;
+    const void *reserved[2];
 } sl_factor_arrays;
 extern sl_factor_arrays sl_factor_view(const sl_factor *F);
 #define SL_ROWS(ld) ((size_t)(ld) | SL_ROW_MAJOR)
@@ -429,6 +429,7 @@ typedef struct sl_dirichlet_arrays {
     const sl_symbolic *symbolic;
     const sl_factor *factor;
     sl_csc matrix;
+    const void *reserved[2];
 } sl_dirichlet_arrays;
 extern sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D);
 typedef enum sl_part {
@@ -509,6 +510,7 @@ typedef struct sl_selected_arrays {
     const sl_int *supers;
     const sl_off *begin;
     const double *Z;
+    const void *reserved[2];
 } sl_selected_arrays;
 extern sl_selected_arrays sl_selected_view(const sl_selected *Z);
 extern void sl_selected_stats(const sl_selected *Z, sl_stats *stats);
@@ -526,6 +528,7 @@ typedef struct sl_region_arrays {
     const sl_int *roots;
     sl_int n_boundary;
     const sl_int *boundary;
+    const void *reserved[2];
 } sl_region_arrays;
 extern sl_region_arrays sl_region_view(const sl_region *R);
 typedef struct sl_request {
@@ -555,7 +558,7 @@ extern sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
                                                   const double *const *values, sl_int terms,
                                                   const sl_options *opt, sl_int *failed,
                                                   sl_stats *stats);
-extern sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count,
+extern sl_status sl_batch_diagonal(sl_factor *const *factors, sl_int count,
                                                   double *out, size_t ldo, const sl_int *rows,
                                                   sl_int n_rows, const sl_options *opt,
                                                   sl_work *const *works, sl_int *failed,
@@ -573,6 +576,7 @@ typedef struct sl_saved_set {
     sl_int n_regions;
     sl_allocator allocator;
     sl_saved_content wanted;
+    void *reserved[6];
 } sl_saved_set;
 typedef enum sl_load_checks {
     SL_LOAD_CHECKED = 0,

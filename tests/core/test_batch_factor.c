@@ -138,8 +138,8 @@ static void the_first_failure_is_reported_and_the_others_succeed(void **state) {
                 SL_EXPECT(k == at || k == later ? SL_ERR_STALE : SL_OK,
                           sl_inverse_diagonal(F[k], &x, &row, 1, NULL, NULL));
             }
-            SL_EXPECT(SL_ERR_STALE, sl_batch_diagonal(read_only(F), MOST, good, 1, &row, 1, NULL,
-                                                      NULL, &failed, NULL));
+            SL_EXPECT(SL_ERR_STALE,
+                      sl_batch_diagonal(F, MOST, good, 1, &row, 1, NULL, NULL, &failed, NULL));
             assert_int_equal(failed, first);
             SL_CHECK(sl_batch_refactor(F, MOST, good, matrix_pair_values(&y), TERMS, &opt, &failed,
                                        NULL));
@@ -245,8 +245,8 @@ static void a_failed_matrix_and_a_failed_allocation(void **state) {
         sl_int failed = 9;
         sl_stats stats;
         counter.fail_at = (int64_t)k;
-        const sl_status status = sl_batch_factor(F, 3, y.S, c, matrix_pair_values(&y), TERMS, &opt,
-                                                 &failed, &stats);
+        const sl_status status =
+            sl_batch_factor(F, 3, y.S, c, matrix_pair_values(&y), TERMS, &opt, &failed, &stats);
         assert_true(status == SL_ERR_PIVOT || status == SL_ERR_MEMORY);
         assert_int_equal(failed, 0);
         assert_null(F[0]);

@@ -37,7 +37,7 @@ static void diagonals_equal_those_of_single_calls(void **state) {
                     for (size_t k = 0; k < ld * MOST; k++) {
                         out[k] = 4321.5;
                     }
-                    SL_CHECK(sl_batch_diagonal(read_only(F), MOST, out, ld, all ? NULL : rows, 50,
+                    SL_CHECK(sl_batch_diagonal(F, MOST, out, ld, all ? NULL : rows, 50,
                                                threads ? THREADS(t) : NULL, own ? NULL : works,
                                                NULL, NULL));
                     assert_int_equal(calls, threads > 1);
@@ -106,7 +106,7 @@ static void heat_kernel_signatures_conserve_heat(void **state) {
         c[TERMS * k + 1] = t[k];
     }
     SL_CHECK(sl_batch_factor(F, TIMES, S, c, (const double *const *)v, TERMS, NULL, NULL, NULL));
-    SL_CHECK(sl_batch_diagonal(read_only(F), TIMES, h, (size_t)n, NULL, 0, NULL, NULL, NULL, NULL));
+    SL_CHECK(sl_batch_diagonal(F, TIMES, h, (size_t)n, NULL, 0, NULL, NULL, NULL, NULL));
     for (int k = 0; k < TIMES; k++) {
         sl_matrix *system = NULL;
         assert_true(laplacian_system(&system, &grid, t[k]));
@@ -171,8 +171,8 @@ static void factors_of_several_instruction_sets_share_a_call(void **state) {
         SL_CHECK(
             sl_batch_factor(&F[k], 1, y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL, NULL));
     }
-    SL_CHECK(sl_batch_diagonal(read_only(F), isas.count, out, (size_t)y.n, NULL, 0,
-                               THREADS(threads), NULL, NULL, NULL));
+    SL_CHECK(sl_batch_diagonal(F, isas.count, out, (size_t)y.n, NULL, 0, THREADS(threads), NULL,
+                               NULL, NULL));
     for (int k = 0; k < isas.count; k++) {
         SL_CHECK(sl_inverse_diagonal(F[k], one, NULL, 0, NULL, NULL));
         SAME_VALUES(out + (size_t)k * (size_t)y.n, one, (size_t)y.n);
@@ -197,37 +197,35 @@ static void invalid_arguments_of_diagonals_are_refused(void **state) {
     SL_CHECK(sl_batch_factor(F, 3, y.S, c, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
     SL_CHECK(sl_batch_factor(G, 1, z.S, c, matrix_pair_values(&z), TERMS, NULL, NULL, NULL));
     sl_factor *mixed[3] = {F[0], F[1], G[0]}, *bare[3] = {F[0], NULL, F[1]};
-    const sl_factor *const *R = read_only(F);
     sl_int rows[2] = {3, 25};
     sl_stats stats;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(R, 3, c, 2, rows, 2, NULL, NULL, &failed, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(F, 3, c, 2, rows, 2, NULL, NULL, &failed, &stats));
     assert_true(failed == -1 && stats.error.row == 25);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(R, 3, c, 1, rows, -1, NULL, NULL, &failed, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(R, 3, NULL, 1, rows, 1, NULL, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(R, 3, c, 0, rows, 1, NULL, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(R, 3, c, 24, NULL, 0, NULL, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(F, 3, c, 1, rows, -1, NULL, NULL, &failed, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(F, 3, NULL, 1, rows, 1, NULL, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(F, 3, c, 0, rows, 1, NULL, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(F, 3, c, 24, NULL, 0, NULL, NULL, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(NULL, 3, c, 1, rows, 1, NULL, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(R, -1, c, 1, rows, 1, NULL, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(F, -1, c, 1, rows, 1, NULL, NULL, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT,
-              sl_batch_diagonal(R, 3, c, 1, rows, 1, THREADS(threads), NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_STATE,
-              sl_batch_diagonal(read_only(mixed), 3, c, 1, rows, 1, NULL, NULL, &failed, NULL));
+              sl_batch_diagonal(F, 3, c, 1, rows, 1, THREADS(threads), NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_batch_diagonal(mixed, 3, c, 1, rows, 1, NULL, NULL, &failed, NULL));
     assert_int_equal(failed, 2);
     SL_EXPECT(SL_ERR_ARGUMENT,
-              sl_batch_diagonal(read_only(bare), 3, c, 1, rows, 1, NULL, NULL, &failed, NULL));
+              sl_batch_diagonal(bare, 3, c, 1, rows, 1, NULL, NULL, &failed, NULL));
     assert_int_equal(failed, 1);
     sl_work *works[2] = {NULL, NULL};
     int calls = 0;
     threads = threads_of(2, &calls);
     SL_EXPECT(SL_ERR_ARGUMENT,
-              sl_batch_diagonal(R, 3, c, 1, rows, 1, THREADS(threads), works, NULL, NULL));
+              sl_batch_diagonal(F, 3, c, 1, rows, 1, THREADS(threads), works, NULL, NULL));
     SL_CHECK(sl_work_create(&works[0], NULL));
     works[1] = works[0];
     SL_EXPECT(SL_ERR_ARGUMENT,
-              sl_batch_diagonal(R, 3, c, 1, rows, 1, THREADS(threads), works, NULL, NULL));
+              sl_batch_diagonal(F, 3, c, 1, rows, 1, THREADS(threads), works, NULL, NULL));
     sl_work_free(works[0]);
     assert_true(calls == 0 && memcmp(c, before, sizeof c) == 0);
-    SL_CHECK(sl_batch_diagonal(R, 3, NULL, 0, rows, 0, THREADS(threads), NULL, &failed, &stats));
+    SL_CHECK(sl_batch_diagonal(F, 3, NULL, 0, rows, 0, THREADS(threads), NULL, &failed, &stats));
     SL_CHECK(sl_batch_diagonal(NULL, 0, NULL, 0, NULL, 0, THREADS(threads), NULL, NULL, NULL));
     free_all(F, 3);
     free_all(G, 1);
@@ -261,16 +259,16 @@ static void a_failed_allocation_leaves_the_output(void **state) {
             requests = counter.calls;
             counter.fail_at = (int64_t)requests + k;
             out[0] = 4321;
-            status = sl_batch_diagonal(read_only(F), 4, out, 4, rows, 4, THREADS(threads),
-                                       own ? NULL : works, NULL, NULL);
+            status = sl_batch_diagonal(F, 4, out, 4, rows, 4, THREADS(threads), own ? NULL : works,
+                                       NULL, NULL);
             assert_true(status == SL_OK || status == SL_ERR_MEMORY);
             assert_true((status == SL_OK) == (out[0] != 4321));
             assert_int_equal(status == SL_ERR_MEMORY, counter.calls > requests + (size_t)k);
             counter.fail_at = -1;
             if (status == SL_OK && !own) {
                 requests = counter.calls;
-                SL_CHECK(sl_batch_diagonal(read_only(F), 4, out, 4, rows, 4, THREADS(threads),
-                                           works, NULL, NULL));
+                SL_CHECK(
+                    sl_batch_diagonal(F, 4, out, 4, rows, 4, THREADS(threads), works, NULL, NULL));
                 assert_int_equal(counter.calls, requests);
             }
             for (int j = 0; j < 3; j++) {

@@ -120,6 +120,11 @@ static void invalid_arguments_are_refused(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve(P, NULL, X, SL_ROWS(3), B, SL_ROWS(3), 3, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve(P, y.F, X, SL_ROWS(2), B, SL_ROWS(3), 3, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve(P, y.F, X, SL_ROWS(3), B, SL_ROWS(2), 3, NULL));
+    /* negative strides, and a bit that later layouts may use */
+    const size_t back = (size_t)-6, later = SL_ROW_MAJOR >> 1;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, back, B, back, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, 6, B, 6 | later, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve(P, y.F, X, SL_ROWS(3) | later, B, 2, 3, NULL));
     SL_EXPECT(SL_ERR_STATE, sl_plan_solve(P, z.F, X, SL_ROWS(3), B, SL_ROWS(3), 3,
                                           NULL)); /* of another analysis */
     assert_true(X[0] == 1 && X[1] == 2 && X[2] == 0);
@@ -225,7 +230,8 @@ static void other_calls_refuse_rows(void **state) {
             SL_EXPECT(SL_ERR_ARGUMENT,
                       sl_complex_inverse_block(F, X, w, set, 3, set, nrhs, NULL, NULL));
         }
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(&F, 1, X, w, set, 6, NULL, NULL, NULL, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_batch_diagonal(&y.F, 1, X, w, set, 6, NULL, NULL, NULL, NULL));
         /* a leading dimension of columns may be as large as there are bits left for it */
         SL_CHECK(sl_factor_solve(F, X, SIZE_MAX / 2, B, 6, 1, NULL));
         memcpy(X, before, sizeof X);

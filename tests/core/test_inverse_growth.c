@@ -62,7 +62,7 @@ static void assert_close(const double *X, const double *z, const sl_int *rows,
  * for, column by column. */
 static void check_all_ways(const factored_t *y, const double *X, double allowed, int is_lossy) {
     requests_t r = requests_make(&y->M);
-    const sl_factor *const F[2] = {y->F, y->F};
+    sl_factor *const F[2] = {y->F, y->F};
     const sl_int count = r.count;
     sl_selected *Z = NULL;
     sl_stats stats;
@@ -285,7 +285,7 @@ static void a_batch_has_factors_of_both_kinds(void **state) {
     gen_matrix_t M = grid_constraints(1e-8, SHIFT_DIAGONAL);
     sl_factor *bad = NULL;
     SL_CHECK(sl_factor_create(&bad, good.S, &M.view, NULL, NULL));
-    const sl_factor *const F[3] = {good.F, bad, good.F};
+    sl_factor *const F[3] = {good.F, bad, good.F};
     double *z = test_reals((size_t)(3 * n)), *alone = test_reals((size_t)n);
     for (sl_int threads = 0; threads <= 2; threads++) {
         sl_options opt = options_none();

@@ -41,10 +41,10 @@ static gen_matrix_t several_components(int is_pair) {
 }
 
 /* Every way to an entry of a null row or column gives 0, not a number divided by a huge one. */
-static void check_zeros(const sl_factor *F, const sl_symbolic *S, sl_int nulls) {
+static void check_zeros(sl_factor *F, const sl_symbolic *S, sl_int nulls) {
     const sl_int n = sl_symbolic_view(S).n;
     const size_t size = (size_t)n;
-    const sl_factor *const list[1] = {F};
+    sl_factor *const list[1] = {F};
     sl_int *null_rows = test_ints(size), *all = test_ints(size), *same = test_ints(size), count = 0;
     double *d = test_reals(size), *B = test_reals(size * size), *b = test_reals(size), form;
     sl_selected *Z = NULL;

@@ -180,7 +180,7 @@ static void blocks_allocate_nothing(void **state) {
 /* sl_batch_diagonal with a reserved workspace for each thread. */
 static void batches(const factored_t *y, int threads, counter_t *counter) {
     const sl_int n = y->M.view.n_cols, count = smaller(n, 60);
-    const sl_factor *factors[3] = {y->F, y->F, y->F};
+    sl_factor *factors[3] = {y->F, y->F, y->F};
     sl_work *works[2] = {make_work(counter), make_work(counter)};
     sl_int *rows = test_ints(60);
     double *out = test_reals(3 * 60);

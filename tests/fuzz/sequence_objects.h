@@ -170,7 +170,7 @@ static void look_into(input_t *in) {
 /* Diagonals of several inverses: the bits of sl_inverse_diagonal. */
 static void batch_diagonal(input_t *in) {
     const int first = take(in) % FACTORS, second = take(in) % FACTORS, form = take(in);
-    const sl_factor *both[2] = {factors[first].F, factors[second].F};
+    sl_factor *both[2] = {factors[first].F, factors[second].F};
     double out[SET * 2], alone[SET];
     sl_int failed = -2;
     set_t set;

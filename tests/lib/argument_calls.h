@@ -151,8 +151,7 @@ static sl_status save_file(arguments_t *a) {
 }
 
 static sl_status batch_diagonal(arguments_t *a) {
-    const sl_factor *F = a->F;
-    return sl_batch_diagonal(&F, 1, a->X, a->ldx, a->xset, a->nx, NULL, NULL, NULL, &a->stats);
+    return sl_batch_diagonal(&a->F, 1, a->X, a->ldx, a->xset, a->nx, NULL, NULL, NULL, &a->stats);
 }
 
 static sl_status batch_solve(arguments_t *a) {

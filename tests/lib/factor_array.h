@@ -27,8 +27,4 @@ static inline void free_all(sl_factor **F, int count) {
     }
 }
 
-static inline const sl_factor *const *read_only(sl_factor *const *F) {
-    return (const sl_factor *const *)F;
-}
-
 #endif

@@ -255,7 +255,7 @@ static inline double judge_all_ways(judge_t *t, const double *B, double most) {
         } else if (way == 2) {
             SL_CHECK(sl_inverse_diagonal(F, z, NULL, 0, NULL, NULL));
         } else if (way == 3) {
-            SL_CHECK(sl_batch_diagonal(&F, 1, z, t->n, all, n, NULL, NULL, NULL, NULL));
+            SL_CHECK(sl_batch_diagonal(&t->F, 1, z, t->n, all, n, NULL, NULL, NULL, NULL));
         } else if (way == 4) {
             SL_CHECK(sl_inverse_diagonal(F, z, all, n, NULL, NULL));
         } else {

@@ -78,8 +78,7 @@ static const sl_hermitian option_hermitian = {1, option_hermitian_p, option_herm
 OPTION_CALL(option_from_hermitian, sl_matrix,
             sl_matrix_from_hermitian(&out, &option_hermitian, opt, NULL))
 OPTION_CALL(option_transpose, sl_matrix, sl_matrix_transpose(&out, &f->U, opt))
-OPTION_CALL(option_submatrix, sl_matrix,
-            sl_matrix_submatrix(&out, &f->U, f->perm, 2, opt, NULL))
+OPTION_CALL(option_submatrix, sl_matrix, sl_matrix_submatrix(&out, &f->U, f->perm, 2, opt, NULL))
 OPTION_CALL(option_dirichlet, sl_dirichlet,
             sl_dirichlet_create(&out, f->pair.terms, f->perm, 2, f->F, opt, NULL))
 OPTION_CALL(option_sum, sl_matrix,
@@ -191,9 +190,8 @@ static inline sl_status option_batch_refactor(option_fixture_t *f, const sl_opti
 }
 
 static inline sl_status option_batch_diagonal(option_fixture_t *f, const sl_options *opt) {
-    const sl_factor *F = f->F;
     double x = 4321.5;
-    const sl_status status = sl_batch_diagonal(&F, 1, &x, 1, f->perm, 1, opt, NULL, NULL, NULL);
+    const sl_status status = sl_batch_diagonal(&f->F, 1, &x, 1, f->perm, 1, opt, NULL, NULL, NULL);
     assert_true((x == 4321.5) == (status != SL_OK));
     return status;
 }

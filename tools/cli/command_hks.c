@@ -65,9 +65,9 @@ static void compute(double *values, heat_system *h, const double *times, sl_int 
         sl_int width = n_times - first < block ? n_times - first : block;
         app_progress("signatures", (double)first / n_times);
         heat_system_factors(h, factors, times + first, width, threads);
-        app_must(sl_batch_diagonal((const sl_factor *const *)factors, width,
-                                   values + (size_t)first * (size_t)count, (size_t)count,
-                                   all ? NULL : vertices, count, &options, NULL, NULL, &stats),
+        app_must(sl_batch_diagonal(factors, width, values + (size_t)first * (size_t)count,
+                                   (size_t)count, all ? NULL : vertices, count, &options, NULL,
+                                   NULL, &stats),
                  "auto-diffusion", &stats);
     }
     app_progress_end();

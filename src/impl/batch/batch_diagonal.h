@@ -9,7 +9,7 @@
 
 /* One call. */
 typedef struct sli_diagonal_batch {
-    const sl_factor *const *factors;
+    sl_factor *const *factors;
     sl_int count, workers;
     double *out; /* n_rows x count */
     size_t ldo;
@@ -107,10 +107,9 @@ static sl_status sli_diagonal_batch_run(sli_diagonal_batch *d, const sl_threads 
     return status;
 }
 
-SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count, double *out,
-                                   size_t ldo, const sl_int *rows, sl_int n_rows,
-                                   const sl_options *opt, sl_work *const *works, sl_int *failed,
-                                   sl_stats *stats) {
+SL_API sl_status sl_batch_diagonal(sl_factor *const *factors, sl_int count, double *out, size_t ldo,
+                                   const sl_int *rows, sl_int n_rows, const sl_options *opt,
+                                   sl_work *const *works, sl_int *failed, sl_stats *stats) {
     const sl_threads *threads = sli_threads_of(opt);
     sli_diagonal_batch d;
     sl_status status;
