@@ -1,11 +1,13 @@
 #!/bin/bash
 # release_notes.sh: prints the section of CHANGELOG.md on one version: release_notes.sh 1.0.0
 #
-# Ends with 1 if there is no such section, or if it is empty.
+# Links are printed as their texts, since they lead to files of the repository. Ends with 1 if there
+# is no such section, or if it is empty.
 
 cd "$(dirname "$0")/../.." || exit 1
+set -o pipefail
 awk -v version="$1" '
-    /^## / { inside = ($2 == version); next }
+    /^## / { inside = ($2 == version); if (inside) print "# sparse_local " substr($0, 4); next }
     inside { print; if ($0 != "") lines++ }
     END { if (lines == 0) { print "CHANGELOG.md has nothing on " version >"/dev/stderr"; exit 1 } }
-' CHANGELOG.md
+' CHANGELOG.md | sed 's/\[\([^]]*\)\]([^)]*)/\1/g'
