@@ -197,7 +197,8 @@ def anchor(title):
 
 
 def table(lines):
-    rows = [[cell.strip() for cell in line.strip().strip("|").split("|")] for line in lines]
+    rows = [[cell.strip().replace(r"\|", "|")
+             for cell in re.split(r"(?<!\\)\|", line.strip().strip("|"))] for line in lines]
     out = ["<table>"]
     for number, row in enumerate(rows):
         if number == 1:
