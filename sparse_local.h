@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: be5ab3fe0f3c0436
+ * FNV-1a of the lines after this comment, without the license: 508f8420527815a1
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -24730,7 +24730,7 @@ static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first
     }
     at = sli_lower_bound(rows, S->steps[s].below, k);
     if (at == S->steps[s].below || rows[at] != k) {
-      return sli_fail_at(q->stats, SL_ERR_OTHER_PATTERN, V->i[p], S->perm[first], V->x[p],
+      return sli_fail_at(q->stats, SL_ERR_OTHER_PATTERN, V->i[p], S->perm[first], 0.0,
           "L has no such entry: the changed matrix has more entries");
     }
   }

@@ -157,7 +157,7 @@ deps-torch: ## torch, for the derivatives of the Python package
 build/python/installed: $(wildcard tools/python/*.* tools/python/sparse_local/* tools/python/sparse_local/*/*.py) $(SHARED_SOURCE) sparse_local.h
 	@rm -rf build/python && mkdir -p build/python
 	@cp -r tools/python build/python/source && rm -rf build/python/source/build build/python/source/*.egg-info
-	@mkdir -p build/python/source/csrc && cp sparse_local.h $(SHARED_SOURCE) build/python/source/csrc
+	@mkdir -p build/python/source/csrc && cp sparse_local.h LICENSE $(SHARED_SOURCE) build/python/source/csrc
 	$(call say,PIP )
 	$(Q)$(PYTHON) -m pip wheel --quiet --no-index --no-deps --no-build-isolation --disable-pip-version-check \
 	--wheel-dir build/python/wheel build/python/source
@@ -176,7 +176,7 @@ test-python-build: deps-python sparse_local.h ## python3 -m build, offline: both
 	@tools/build/deps.sh $(DIST)/build=python3-build $(DIST)/matplotlib=python3-matplotlib
 	@rm -rf build/python-dist && mkdir -p build/python-dist
 	@cp -r tools/python build/python-dist/source && rm -rf build/python-dist/source/build build/python-dist/source/*.egg-info
-	@mkdir build/python-dist/source/csrc && cp sparse_local.h $(SHARED_SOURCE) build/python-dist/source/csrc
+	@mkdir build/python-dist/source/csrc && cp sparse_local.h LICENSE $(SHARED_SOURCE) build/python-dist/source/csrc
 	@$(PYTHON) -m build --no-isolation --skip-dependency-check --outdir build/python-dist/out build/python-dist/source >build/python-dist/log 2>&1 || \
 	{ tail -n 40 build/python-dist/log; exit 1; }
 	@for file in build/python-dist/out/*; do \

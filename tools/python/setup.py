@@ -14,12 +14,12 @@ from setuptools.command.sdist import sdist
 from setuptools.dist import Distribution
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-SOURCES = {"sparse_local.h": "../..", "sparse_local.c": "../packaging"}
+SOURCES = {"sparse_local.h": "../..", "sparse_local.c": "../packaging", "LICENSE": "../.."}
 LIBRARY = "libsparse_local.dylib" if sys.platform == "darwin" else "libsparse_local.so"
 
 
 def source(name):
-    """The path of a C file: in the repository, or beside setup.py in a source distribution."""
+    """The path of a file that is compiled or copied: in the repository, or beside setup.py in a source distribution."""
     inside = os.path.join(HERE, "csrc", name)
     return inside if os.path.exists(inside) else os.path.join(HERE, SOURCES[name], name)
 
@@ -39,6 +39,7 @@ class Build(build_py):
             print(" ".join(compiler + command))
             subprocess.check_call(compiler + command)
         os.remove(compiled)
+        shutil.copy(source("LICENSE"), os.path.dirname(target))
 
 
 class SourceDistribution(sdist):
