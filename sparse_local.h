@@ -1,63 +1,63 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 508f8420527815a1
+ * FNV-1a of the lines after this comment, without the license: 603decb3692032b7
  * The comments of the implementation are in src/impl.
  *
  * Contents
  *     65 intro.h      what the library does, a quick start, which call for which question, references
  *    194 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
  *    238 config.h     macros that a user may define before the include, the version, and the integer types
- *    326 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    506 options.h    options of all calls, threads, and the allocator
- *    632 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    876 csc.h        sparse matrices: creation, checks, products, residuals
- *    977 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1053 factor.h     the numerical factorization P A P' = L D L'
- *   1181 solve.h      full solves, and the workspace of all solves
- *   1277 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1353 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
- *   1445 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1538 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1577 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1678 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1756 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1841 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1934 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2041 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2081 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2202 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2233 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2415 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2516 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2626 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2667 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2753 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2861 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2895 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2972 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3015 impl/ base: the compiler, status, memory, sorting, threads
- *   4248 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5166 impl/ matrix: sparse matrices of the caller and of the library
- *   5795 impl/ ordering: fill-reducing orderings of a graph
- *  10444 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12685 impl/ factor: the numbers of L and D
- *  16051 impl/ solve: full and local solves
- *  17715 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19646 impl/ pivots: the order of the pivots by the values of a matrix
- *  20054 impl/ float: L and fronts in single precision
- *  20505 impl/ inverse: entries of the inverse, regions
- *  23570 impl/ change: a factor that follows changes of its matrix
- *  29655 impl/ dirichlet: rows fixed at given values
- *  30246 impl/ dirichlet: by a factor of all rows
- *  30478 impl/ io: files that are replaced only when they are complete
- *  30696 impl/ files: Matrix Market files, 64-bit indices
- *  31316 impl/ save: factors in files
- *  33329 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34012 impl/ batch: diagonals of many inverses
- *  34152 impl/ complex: complex Hermitian systems over real factors
- *  34714 impl/ complex: entries of the inverse
- *  34774 impl/ packs: the tables through which the core calls packs
- *  34823 impl/ last: undefine every internal macro
- *  35179 impl/ templates: the header includes them from itself, once for each instruction set
+ *    325 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    505 options.h    options of all calls, threads, and the allocator
+ *    631 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    875 csc.h        sparse matrices: creation, checks, products, residuals
+ *    976 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1052 factor.h     the numerical factorization P A P' = L D L'
+ *   1180 solve.h      full solves, and the workspace of all solves
+ *   1276 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1352 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
+ *   1444 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1537 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1576 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1677 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1755 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1840 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1933 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2040 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2080 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2201 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2232 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2414 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2515 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2625 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2666 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2752 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2860 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2894 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2971 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3014 impl/ base: the compiler, status, memory, sorting, threads
+ *   4247 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5165 impl/ matrix: sparse matrices of the caller and of the library
+ *   5794 impl/ ordering: fill-reducing orderings of a graph
+ *  10443 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12684 impl/ factor: the numbers of L and D
+ *  16050 impl/ solve: full and local solves
+ *  17714 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19645 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20053 impl/ float: L and fronts in single precision
+ *  20504 impl/ inverse: entries of the inverse, regions
+ *  23569 impl/ change: a factor that follows changes of its matrix
+ *  29654 impl/ dirichlet: rows fixed at given values
+ *  30245 impl/ dirichlet: by a factor of all rows
+ *  30477 impl/ io: files that are replaced only when they are complete
+ *  30695 impl/ files: Matrix Market files, 64-bit indices
+ *  31315 impl/ save: factors in files
+ *  33328 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34011 impl/ batch: diagonals of many inverses
+ *  34151 impl/ complex: complex Hermitian systems over real factors
+ *  34713 impl/ complex: entries of the inverse
+ *  34773 impl/ packs: the tables through which the core calls packs
+ *  34822 impl/ last: undefine every internal macro
+ *  35178 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -290,10 +290,9 @@
 /* the version as one number, to compare: 10203 is 1.2.3 */
 #define SL_VERSION (10000 * SL_VERSION_MAJOR + 100 * SL_VERSION_MINOR + SL_VERSION_PATCH)
 
-/* SL_API stands before every function. By default a copy of the library is hidden in the program or
- * the shared library that it is compiled into (gcc and clang on ELF systems): two copies in one
- * process do not call each other. To export the functions of a copy, define SL_API as
- * __attribute__((visibility("default"))) before the include with the bodies. */
+/* Before every function. With gcc and clang on ELF systems, functions are hidden in the program or
+ * the shared library that they are compiled into, so that two copies in one process do not call
+ * each other. To export them, SL_API is __attribute__((visibility("default"))). */
 #if defined(SL_API)
 /* defined by the user */
 #elif defined(SL_STATIC)
@@ -1187,11 +1186,11 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
  *
  *      sl_factor_solve(F, X, SL_ROWS(8), B, SL_ROWS(8), 8, W);
  *
- *  ld must be at least the number of right-hand sides. Its two top bits, of which the first says the
- *  layout, must be clear. X and B of a call may have different layouts, unless they are one array. Accepted by
- *  sl_factor_solve, sl_plan_solve, sl_plan_solve_bounded, sl_local_solve, sl_dirichlet_solve, the
- *  requests of sl_batch_solve, and the half solves and products of parts.h; all other calls refuse it with
- *  SL_ERR_ARGUMENT.
+ *  ld must be at least the number of right-hand sides. Its two top bits, one of which says the
+ *  layout, must be clear. X and B of a call may have different layouts, unless they are one array.
+ *  Accepted by sl_factor_solve, sl_plan_solve, sl_plan_solve_bounded, sl_local_solve,
+ *  sl_dirichlet_solve, the requests of sl_batch_solve, and the half solves and products of parts.h;
+ *  all other calls refuse it with SL_ERR_ARGUMENT.
  */
 #define SL_ROWS(ld) ((size_t)(ld) | SL_ROW_MAJOR)
 
@@ -2252,8 +2251,8 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(sl_factor *const *factors, sl_
  * another analysis is refused (SL_ERR_STATE), also if both were loaded from one file.
  *
  * Loaded objects can be refactored; the first refactorization of a factor allocates the memory of
- * its fronts. Refactorizations of what is immutable give SL_ERR_READ_ONLY: of mapped objects, and of
- * those in a file that a newer version has written and this one reads in part. */
+ * its fronts. Mapped ones are immutable, and so are those in a file that a newer version has
+ * written and this one reads in part: refactorizations give SL_ERR_READ_ONLY. */
 
 /** How much of a file a load creates. */
 typedef enum sl_saved_content {
@@ -2262,8 +2261,8 @@ typedef enum sl_saved_content {
     SL_SAVED_ANALYSIS /* the analysis */
 } sl_saved_content;
 
-/** What one file holds. All zero at first: then the caller fills in objects to save, or a load does.
- *  A load replaces all fields but `wanted`. */
+/** What one file holds. All zero at first: then the caller fills in objects to save, or a load
+ *  does. A load replaces all fields but `wanted`. */
 typedef struct sl_saved_set {
     sl_symbolic *symbolic;
     sl_factor *factor;     /* over symbolic; NULL: none */
@@ -2298,11 +2297,11 @@ typedef enum sl_load_checks {
  *  set     [in]      an analysis and what belongs to it. A selected inverse may be saved without a
  *                    factor; regions may not. The same region may be given more than once.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: memory is too small, bytes, set or an object of it is NULL,
- *           n_regions is below 0, a reserved field is set, or regions without a factor; SL_ERR_STALE: a failed factor, or a
- *           selected inverse or region that is not of its present numbers; SL_ERR_STATE: objects of
- *           different analyses, or from a file that a newer version has written and this one reads
- *           in part; SL_ERR_UNSUPPORTED: SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t
- *           holds.
+ *           n_regions is below 0, a reserved field is set, or regions without a factor;
+ *           SL_ERR_STALE: a failed factor, or a selected inverse or region that is not of its
+ *           present numbers; SL_ERR_STATE: objects of different analyses, or from a file that a
+ *           newer version has written and this one reads in part; SL_ERR_UNSUPPORTED:
+ *           SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds.
  *  Cost     reads the objects twice; O(1 + n_regions) without memory.
  *  Threads  reads the objects.
  *  Example  tests/core/test_save.c, test_saved_set.c

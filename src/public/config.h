@@ -55,10 +55,9 @@
 /* the version as one number, to compare: 10203 is 1.2.3 */
 #define SL_VERSION (10000 * SL_VERSION_MAJOR + 100 * SL_VERSION_MINOR + SL_VERSION_PATCH)
 
-/* SL_API stands before every function. By default a copy of the library is hidden in the program or
- * the shared library that it is compiled into (gcc and clang on ELF systems): two copies in one
- * process do not call each other. To export the functions of a copy, define SL_API as
- * __attribute__((visibility("default"))) before the include with the bodies. */
+/* Before every function. With gcc and clang on ELF systems, functions are hidden in the program or
+ * the shared library that they are compiled into, so that two copies in one process do not call
+ * each other. To export them, SL_API is __attribute__((visibility("default"))). */
 #if defined(SL_API)
 /* defined by the user */
 #elif defined(SL_STATIC)

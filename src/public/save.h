@@ -24,8 +24,8 @@
  * another analysis is refused (SL_ERR_STATE), also if both were loaded from one file.
  *
  * Loaded objects can be refactored; the first refactorization of a factor allocates the memory of
- * its fronts. Refactorizations of what is immutable give SL_ERR_READ_ONLY: of mapped objects, and of
- * those in a file that a newer version has written and this one reads in part. */
+ * its fronts. Mapped ones are immutable, and so are those in a file that a newer version has
+ * written and this one reads in part: refactorizations give SL_ERR_READ_ONLY. */
 
 /** How much of a file a load creates. */
 typedef enum sl_saved_content {
@@ -34,8 +34,8 @@ typedef enum sl_saved_content {
     SL_SAVED_ANALYSIS /* the analysis */
 } sl_saved_content;
 
-/** What one file holds. All zero at first: then the caller fills in objects to save, or a load does.
- *  A load replaces all fields but `wanted`. */
+/** What one file holds. All zero at first: then the caller fills in objects to save, or a load
+ *  does. A load replaces all fields but `wanted`. */
 typedef struct sl_saved_set {
     sl_symbolic *symbolic;
     sl_factor *factor;     /* over symbolic; NULL: none */
@@ -70,11 +70,11 @@ typedef enum sl_load_checks {
  *  set     [in]      an analysis and what belongs to it. A selected inverse may be saved without a
  *                    factor; regions may not. The same region may be given more than once.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: memory is too small, bytes, set or an object of it is NULL,
- *           n_regions is below 0, a reserved field is set, or regions without a factor; SL_ERR_STALE: a failed factor, or a
- *           selected inverse or region that is not of its present numbers; SL_ERR_STATE: objects of
- *           different analyses, or from a file that a newer version has written and this one reads
- *           in part; SL_ERR_UNSUPPORTED: SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t
- *           holds.
+ *           n_regions is below 0, a reserved field is set, or regions without a factor;
+ *           SL_ERR_STALE: a failed factor, or a selected inverse or region that is not of its
+ *           present numbers; SL_ERR_STATE: objects of different analyses, or from a file that a
+ *           newer version has written and this one reads in part; SL_ERR_UNSUPPORTED:
+ *           SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds.
  *  Cost     reads the objects twice; O(1 + n_regions) without memory.
  *  Threads  reads the objects.
  *  Example  tests/core/test_save.c, test_saved_set.c

@@ -12,11 +12,11 @@
  *
  *      sl_factor_solve(F, X, SL_ROWS(8), B, SL_ROWS(8), 8, W);
  *
- *  ld must be at least the number of right-hand sides. Its two top bits, of which the first says the
- *  layout, must be clear. X and B of a call may have different layouts, unless they are one array. Accepted by
- *  sl_factor_solve, sl_plan_solve, sl_plan_solve_bounded, sl_local_solve, sl_dirichlet_solve, the
- *  requests of sl_batch_solve, and the half solves and products of parts.h; all other calls refuse it with
- *  SL_ERR_ARGUMENT.
+ *  ld must be at least the number of right-hand sides. Its two top bits, one of which says the
+ *  layout, must be clear. X and B of a call may have different layouts, unless they are one array.
+ *  Accepted by sl_factor_solve, sl_plan_solve, sl_plan_solve_bounded, sl_local_solve,
+ *  sl_dirichlet_solve, the requests of sl_batch_solve, and the half solves and products of parts.h;
+ *  all other calls refuse it with SL_ERR_ARGUMENT.
  */
 #define SL_ROWS(ld) ((size_t)(ld) | SL_ROW_MAJOR)
 

@@ -18,7 +18,8 @@ empty() {
 
 check "the checksums" "cd $release && sha256sum --check --strict SHA256SUMS"
 check "the notes are on this version" \
-    "head -n 1 $release/NOTES.md | grep -F \"\$(basename $release/*[0-9].tar.gz .tar.gz | tr - ' ')\""
+    "head -n 1 $release/NOTES.md |
+     grep -F \"\$(basename $release/*[0-9].tar.gz .tar.gz | tr - ' ')\""
 mkdir source
 check "the tarball" "tar -C source --strip-components 1 -xzf $release/sparse_local-*[0-9].tar.gz"
 

@@ -19,7 +19,7 @@ LIBRARY = "libsparse_local.dylib" if sys.platform == "darwin" else "libsparse_lo
 
 
 def source(name):
-    """The path of a file that is compiled or copied: in the repository, or beside setup.py in a source distribution."""
+    """The path of a file: in the repository, or beside setup.py in a source distribution."""
     inside = os.path.join(HERE, "csrc", name)
     return inside if os.path.exists(inside) else os.path.join(HERE, SOURCES[name], name)
 
