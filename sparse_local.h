@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 603decb3692032b7
+ * FNV-1a of the lines after this comment, without the license: b6c1609175e46ddf
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -303,7 +303,7 @@
 #endif
 #else
 #define SL_API extern
-#define SLI_API_IS_DEFAULT
+#define SL_API_DEFAULT
 #endif
 
 #if defined(__GNUC__)
@@ -3006,7 +3006,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_create_pivoted(sl_symbolic **out, co
 #if (defined(SPARSE_LOCAL_IMPLEMENTATION) || defined(SL_STATIC)) && \
     !defined(SPARSE_LOCAL_IMPLEMENTED)
 #define SPARSE_LOCAL_IMPLEMENTED
-#if defined(SLI_API_IS_DEFAULT) && defined(__GNUC__) && defined(__ELF__)
+#if defined(SL_API_DEFAULT) && defined(__GNUC__) && defined(__ELF__)
 #undef SL_API
 #define SL_API __attribute__((visibility("hidden"))) extern
 #endif
@@ -31717,6 +31717,18 @@ static uint64_t sli_prefix_checksum(const unsigned char *prefix, size_t bytes) {
   return sli_checksum_end(&c);
 }
 
+static const char sli_set_reserved[] =
+  "a reserved field of set is not NULL: is the set initialized?";
+
+static int sli_set_has_more(const sl_saved_set *set) {
+  size_t k;
+  int has_more = 0;
+  for (k = 0; k < sizeof set->reserved / sizeof set->reserved[0]; k++) {
+    has_more |= set->reserved[k] != NULL;
+  }
+  return has_more;
+}
+
 /* src/impl/save/decode.h: from the bytes of a header, a table and numbers to what they mean; byte order */
 
 SLI_INLINE void sli_swap(unsigned char *at, int bytes) {
@@ -32381,18 +32393,6 @@ SLI_HOT static void sli_put_section(const sli_saved *f, uint32_t k, sli_sink *to
   } else {
     sli_put_filled(to, sum, f->data[k], f->used[k], sli_round_up(f->table[k].bytes));
   }
-}
-
-static const char sli_set_reserved[] =
-  "a reserved field of set is not NULL: is the set initialized?";
-
-static int sli_set_has_more(const sl_saved_set *set) {
-  size_t k;
-  int has_more = 0;
-  for (k = 0; k < sizeof set->reserved / sizeof set->reserved[0]; k++) {
-    has_more |= set->reserved[k] != NULL;
-  }
-  return has_more;
 }
 
 static sl_status sli_save_check(const sl_saved_set *set) {

@@ -70,7 +70,7 @@ extern "C" {
 #if (defined(SPARSE_LOCAL_IMPLEMENTATION) || defined(SL_STATIC)) && \
     !defined(SPARSE_LOCAL_IMPLEMENTED)
 #define SPARSE_LOCAL_IMPLEMENTED
-#if defined(SLI_API_IS_DEFAULT) && defined(__GNUC__) && defined(__ELF__)
+#if defined(SL_API_DEFAULT) && defined(__GNUC__) && defined(__ELF__)
 #undef SL_API
 #define SL_API __attribute__((visibility("hidden"))) extern
 #endif

@@ -68,7 +68,7 @@
 #endif
 #else
 #define SL_API extern
-#define SLI_API_IS_DEFAULT
+#define SL_API_DEFAULT
 #endif
 
 #if defined(__GNUC__)

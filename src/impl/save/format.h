@@ -328,4 +328,17 @@ static uint64_t sli_prefix_checksum(const unsigned char *prefix, size_t bytes) {
     return sli_checksum_end(&c);
 }
 
+static const char sli_set_reserved[] =
+    "a reserved field of set is not NULL: is the set initialized?";
+
+/* Has the caller set fields of a later version? */
+static int sli_set_has_more(const sl_saved_set *set) {
+    size_t k;
+    int has_more = 0;
+    for (k = 0; k < sizeof set->reserved / sizeof set->reserved[0]; k++) {
+        has_more |= set->reserved[k] != NULL;
+    }
+    return has_more;
+}
+
 #endif

@@ -159,19 +159,6 @@ SLI_HOT static void sli_put_section(const sli_saved *f, uint32_t k, sli_sink *to
     }
 }
 
-static const char sli_set_reserved[] =
-    "a reserved field of set is not NULL: is the set initialized?";
-
-/* Has the caller set fields of a later version? */
-static int sli_set_has_more(const sl_saved_set *set) {
-    size_t k;
-    int has_more = 0;
-    for (k = 0; k < sizeof set->reserved / sizeof set->reserved[0]; k++) {
-        has_more |= set->reserved[k] != NULL;
-    }
-    return has_more;
-}
-
 /* Do the objects of a set belong together? */
 static sl_status sli_save_check(const sl_saved_set *set) {
     const sl_symbolic *S = set->symbolic;
