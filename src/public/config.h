@@ -22,8 +22,11 @@
  *  SL_NO_THREAD_LOCAL            does not keep the last error of each thread (sl_error_text).
  *  SL_NO_MMAP                    leaves out sl_map_file, and with it the headers of the system that
  *                                map files.
- *  SL_API                        linkage of the public functions, for a shared library: for example
- *                                __declspec(dllexport), or __attribute__((visibility("default"))).
+ *  SL_API                        linkage of the public functions. By default, with gcc and clang on
+ *                                ELF systems, they are hidden in the program or shared library that
+ *                                has their bodies: copies in one process do not call each other.
+ *                                To export them: __attribute__((visibility("default"))), or
+ *                                __declspec(dllexport).
  *  SL_HEADER                     name of this header, default "sparse_local.h". The implementation
  *                                includes this header again for each instruction set. If you rename
  *                                the file: #define SL_HEADER "new_name.h", without its folder.
@@ -55,9 +58,6 @@
 /* the version as one number, to compare: 10203 is 1.2.3 */
 #define SL_VERSION (10000 * SL_VERSION_MAJOR + 100 * SL_VERSION_MINOR + SL_VERSION_PATCH)
 
-/* Before every function. With gcc and clang on ELF systems, functions are hidden in the program or
- * the shared library that they are compiled into, so that two copies in one process do not call
- * each other. To export them, SL_API is __attribute__((visibility("default"))). */
 #if defined(SL_API)
 /* defined by the user */
 #elif defined(SL_STATIC)
