@@ -63,6 +63,7 @@ static void a_local_refactor_equals_a_full_one(void **state) {
                 sl_int n = y.M.view.n_cols, *columns = test_ints((size_t)n);
                 sl_symbolic_arrays v = sl_symbolic_view(y.S);
                 sl_factor *F = NULL, *G = NULL;
+                opt.triangle = SL_TRIANGLE_NONE; /* only the analysis reads it */
                 SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
                 sl_stats stats;
                 memset(&stats, 0, sizeof stats);
