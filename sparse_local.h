@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: bbcafbe798c90046
+ * FNV-1a of the lines after this comment, without the license: 10afbee19d77267b
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,25 +39,25 @@
  *   5165 impl/ matrix: sparse matrices of the caller and of the library
  *   5794 impl/ ordering: fill-reducing orderings of a graph
  *  10443 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12684 impl/ factor: the numbers of L and D
- *  16050 impl/ solve: full and local solves
- *  17714 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19645 impl/ pivots: the order of the pivots by the values of a matrix
- *  20053 impl/ float: L and fronts in single precision
- *  20504 impl/ inverse: entries of the inverse, regions
- *  23569 impl/ change: a factor that follows changes of its matrix
- *  29654 impl/ dirichlet: rows fixed at given values
- *  30245 impl/ dirichlet: by a factor of all rows
- *  30477 impl/ io: files that are replaced only when they are complete
- *  30695 impl/ files: Matrix Market files, 64-bit indices
- *  31315 impl/ save: factors in files
- *  33328 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34011 impl/ batch: diagonals of many inverses
- *  34151 impl/ complex: complex Hermitian systems over real factors
- *  34713 impl/ complex: entries of the inverse
- *  34773 impl/ packs: the tables through which the core calls packs
- *  34822 impl/ last: undefine every internal macro
- *  35178 impl/ templates: the header includes them from itself, once for each instruction set
+ *  12690 impl/ factor: the numbers of L and D
+ *  16052 impl/ solve: full and local solves
+ *  17716 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19647 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20055 impl/ float: L and fronts in single precision
+ *  20506 impl/ inverse: entries of the inverse, regions
+ *  23571 impl/ change: a factor that follows changes of its matrix
+ *  29672 impl/ dirichlet: rows fixed at given values
+ *  30263 impl/ dirichlet: by a factor of all rows
+ *  30495 impl/ io: files that are replaced only when they are complete
+ *  30713 impl/ files: Matrix Market files, 64-bit indices
+ *  31333 impl/ save: factors in files
+ *  33346 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34029 impl/ batch: diagonals of many inverses
+ *  34169 impl/ complex: complex Hermitian systems over real factors
+ *  34731 impl/ complex: entries of the inverse
+ *  34791 impl/ packs: the tables through which the core calls packs
+ *  34840 impl/ last: undefine every internal macro
+ *  35196 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11709,11 +11709,17 @@ static double sli_schedule_gain(const sl_symbolic *S, const sli_schedule_work *w
   return longest > 0.0 ? total / longest : 1.0; /* untested: fronts have a cost */
 }
 
-static int sli_is_direct(const sl_symbolic *S, sl_int s) {
+static int sli_is_direct(const sli_schedule *p, const sl_symbolic *S, sl_int s) {
   const sl_off first = S->scatter_begin[s], count = 1 + (sl_off)S->steps[s].below;
   sl_off m = 0;
+  sl_int c;
   if (S->nnz_input < 0 || S->scatter_begin[s + 1] - first != count) {
     return 0;
+  }
+  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+    if (p->is_plain[c] == SLI_PLAIN_NOT) {
+      return 0;
+    }
   }
   while (m < count && S->scatter_to[first + m] == S->steps[s].panel + m) {
     m++;
@@ -11728,7 +11734,7 @@ static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, int plain,
   for (s = 0; s < S->n_supers; s++) {
     p->is_plain[s] =
       (unsigned char)(plain == SLI_PLAIN_NOT || !sli_is_plain(S, s) ? SLI_PLAIN_NOT
-          : plain == SLI_PLAIN && sli_is_direct(S, s) ? SLI_PLAIN_DIRECT
+          : plain == SLI_PLAIN && sli_is_direct(p, S, s) ? SLI_PLAIN_DIRECT
           : plain);
   }
   if (p->workers > 1) {
@@ -12983,14 +12989,10 @@ SLI_INLINE void sli_entry_clear(sl_factor *F, sl_off at) {
 
 #define SLI_ENTRIES_AHEAD 32
 
-SLI_INLINE uint64_t sli_mark_bits(uint64_t bits, uint64_t key) {
-  return sli_fold(bits ^ SLI_HASH_1, key);
-}
-
 SLI_INLINE uint64_t sli_mark_entry(double a, sl_off place) {
   uint64_t bits;
   memcpy(&bits, &a, sizeof bits);
-  return sli_mark_bits(bits, (uint64_t)place * SLI_HASH_3 + SLI_HASH_2);
+  return sli_fold(bits ^ SLI_HASH_1, (uint64_t)place * SLI_HASH_3 + SLI_HASH_2);
 }
 
 #define SLI_MARK_BEGIN SLI_HASH_4
@@ -29466,29 +29468,45 @@ static sl_int sli_reuse_candidate(const sli_reuse *r, sl_int s, int *is_moved) {
 }
 
 static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_moved) {
-  const sl_symbolic *S = r->F->S, *T = r->G->S;
+  const sl_factor *F = r->F;
+  const sl_symbolic *S = F->S, *T = r->G->S;
   const sl_int w = T->steps[s].width, below = T->steps[s].below, *of = S->rows;
   const sl_off begin = T->steps[s].panel, least = T->scatter_begin[0] + SLI_ENTRIES_AHEAD;
+  const double *l = (const double *)F->values + S->steps[there].panel;
+  const double d = F->D[S->steps[there].column];
+  const int has_mark = F->schedule.is_plain[there] != SLI_PLAIN_DIRECT || F->rule.replaces;
+  int is_same = has_mark || r->G->schedule.is_plain[s] == SLI_PLAIN_DIRECT;
   uint64_t mark = SLI_MARK_BEGIN, before = SLI_MARK_BEGIN;
+  double pivot = 0.0, magnitude = 0.0;
   sl_int tile = sli_last_tile(T, s), k, j;
   sl_off m;
   of += S->rows_begin[there];
   for (m = T->scatter_begin[s + 1] - 1; m >= T->scatter_begin[s]; m--) {
     const double a = r->B->x[T->scatter_from[m]];
+    sl_off at = T->scatter_to[m] - begin;
     if (m >= least) {
       SLI_PREFETCH(r->B->x + T->scatter_from[m - SLI_ENTRIES_AHEAD], 0);
     }
-    mark += sli_mark_entry(a, T->scatter_to[m] - begin);
+    mark += sli_mark_entry(a, at);
     if (is_moved) {
       sli_scatter_map_pivots(T, s, m, &tile, &k, &j);
       j -= T->super_first[s];
       k = k < T->super_first[s + 1] ? k - T->super_first[s]
                       : w + sli_lower_bound(of, below, r->columns[k]);
-      before += sli_mark_entry(a, sli_panel_at(w, k, j));
+      at = sli_panel_at(w, k, j);
+      before += sli_mark_entry(a, at);
     }
+    pivot = 0.0 + a;
+    is_same &= has_mark || at == 0 || l[at] == pivot / d;
   }
   r->G->history.marks[s] = mark;
-  return r->F->history.marks[there] == (is_moved ? before : mark);
+  if (has_mark) {
+    return F->history.marks[there] == (is_moved ? before : mark);
+  }
+  for (j = there - 1; j >= S->first_descendant[there]; j = S->first_descendant[j] - 1) {
+    sli_plain_take(F, j, 0, &pivot, &magnitude);
+  }
+  return is_same && pivot == d;
 }
 
 static int sli_reuse_choose(sli_reuse *r) {
@@ -35349,91 +35367,47 @@ SLI_INLINE void sli_plain_take(const sl_factor *F, sl_int c, sl_int worker, doub
   }
 }
 
-SLI_INLINE uint64_t sli_plain_mark(const double *x, const sl_int *at, sl_int count, double *most) {
-  uint64_t mark = SLI_MARK_BEGIN, place = SLI_HASH_2, largest = 0;
-  sl_int m;
-  for (m = 0; m < count; m++, place += SLI_HASH_3) {
-    uint64_t bits;
-    memcpy(&bits, &x[at[m]], sizeof bits);
-    mark += sli_mark_bits(bits, place);
-    bits &= UINT64_MAX >> 1;
-    largest = bits > largest ? bits : largest;
-  }
-  memcpy(most, &largest, sizeof largest);
-  return mark;
-}
-
 SLI_INLINE int sli_plain_runs(const sl_factor *F, const sli_source *from) {
   return from->A != NULL && F->work.copied == NULL &&
        F->history.marks != NULL && /* branches untested: of a restriction, none is direct */
        !F->rule.replaces;
 }
 
-typedef struct sli_plain_work {
-  const double *x;
-  const sl_int *at;
-  const sl_int *low;
-  const sli_step *steps;
-  const unsigned char *is_plain;
-  sli_extent *extents;
-  uint64_t *marks;
-  double *L, *D;
-  double tolerance;
-} sli_plain_work;
-
-SLI_ALWAYS_INLINE int sli_plain_regular(const sl_factor *F, const sli_plain_work *w, sl_int s,
-    sl_int below, sl_int worker) {
-  const sl_int first = w->low[s], k = w->steps[s].column;
-  const double *x = w->x;
-  const sl_int *at = w->at;
-  double *l = w->L + w->steps[s].panel, pivot = 0.0 + x[*at], magnitude = fabs(pivot), size;
-  sli_extent *extent = &w->extents[s];
-  sl_int c, m;
-  w->marks[s] = sli_plain_mark(x, at, below + 1, &extent->entry);
-  for (c = s - 1; c >= first; c = w->low[c] - 1) {
-    if (w->is_plain[c]) {
-      const double own = w->L[w->steps[c].panel + 1];
-      const double product = own * w->D[w->steps[c].column] * own;
+SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl_int s,
+    sl_int last) {
+  const sl_symbolic *S = F->S;
+  const double tolerance = F->rule.null_tolerance > 0.0 ? F->rule.null_tolerance : 0.0;
+  const sl_int *at = S->scatter_from + S->scatter_begin[s], *low = S->first_descendant;
+  const sli_step *steps = S->steps;
+  double *const L = (double *)F->values, *const D = F->D;
+  sli_extent *extent = F->extents + s;
+  for (; s <= last && F->schedule.is_plain[s] == SLI_PLAIN_DIRECT; s++, extent++) {
+    const sli_step *step = &steps[s];
+    double *l = L + step->panel, pivot = 0.0 + x[*at], magnitude = fabs(pivot);
+    double entry = magnitude;
+    const sl_int *end = ++at + step->below;
+    ptrdiff_t c;
+    for (c = (ptrdiff_t)s - 1; c >= low[s]; c = (ptrdiff_t)low[c] - 1) {
+      const double own = L[steps[c].panel + 1], product = own * D[steps[c].column] * own;
       pivot -= product;
       magnitude += fabs(product);
-    } else {
-      sli_plain_take(F, c, worker, &pivot, &magnitude);
     }
-  }
-  *l = 0.0;
-  for (m = 1; m <= below; m++) {
-    l[m] = (0.0 + x[at[m]]) / pivot;
-  }
-  size = fabs(pivot);
-  w->D[k] = pivot;
-  extent->magnitude = magnitude;
-  extent->pivot = k;
-  extent->suspects = 0;
-  return (size > w->tolerance * magnitude) & (size <= DBL_MAX) & (extent->entry <= DBL_MAX);
-}
-
-SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl_int s, sl_int last,
-    sl_int worker) {
-  const sl_symbolic *S = F->S;
-  sli_plain_work w;
-  w.x = x;
-  w.at = S->scatter_from + S->scatter_begin[s];
-  w.low = S->first_descendant;
-  w.steps = S->steps;
-  w.is_plain = F->schedule.is_plain;
-  w.extents = F->extents;
-  w.marks = F->history.marks;
-  w.L = (double *)F->values;
-  w.D = F->D;
-  w.tolerance = F->rule.null_tolerance > 0.0 ? F->rule.null_tolerance : 0.0;
-  for (; s <= last && w.is_plain[s] == SLI_PLAIN_DIRECT; s++) {
-    const sl_int below = w.steps[s].below;
-    const int is_regular = below == 1 ? sli_plain_regular(F, &w, s, 1, worker)
-                      : sli_plain_regular(F, &w, s, below, worker);
-    if (!is_regular) {
-      break;
+    for (*l = 0.0; at < end; at++) {
+      const double a = x[*at], size = fabs(a);
+      if (!(size <= DBL_MAX)) {
+        return s;
+      }
+      entry = entry > size ? entry : size;
+      *++l = (0.0 + a) / pivot;
     }
-    w.at += 1 + below;
+    if (!(fabs(pivot) > tolerance * magnitude)) {
+      return s;
+    }
+    D[step->column] = pivot;
+    extent->entry = entry;
+    extent->magnitude = magnitude;
+    extent->pivot = step->column;
+    extent->suspects = 0;
   }
   return s;
 }
@@ -35678,7 +35652,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   for (s = first; s <= last && status == SL_OK; s++) {
 #if !SLF_SINGLE && !SLF_HALF
     if (F->schedule.is_plain[s] == SLI_PLAIN_DIRECT && sli_plain_runs(F, from)) {
-      s = sli_plain_run(F, from->A->x, s, last, worker);
+      s = sli_plain_run(F, from->A->x, s, last);
       if (s > last) {
         break;
       }

@@ -269,6 +269,57 @@ static void changes_are_followed(void **state) {
     }
 }
 
+/* Edits keep what has the same values, in the same order and in another one of the features, and
+ * notice each value that has changed: runs of plain columns leave no marks. */
+static void edits_are_followed(void **state) {
+    (void)state;
+    enum { FEATURES = 5, POINTS = 80 };
+    gen_matrix_t M = separable(FEATURES, POINTS, 1);
+    const sl_int n = M.view.n_cols;
+    sl_int *map = test_ints((size_t)n), *order = test_ints((size_t)n);
+    sl_symbolic *S[2] = {NULL, NULL};
+    sl_factor *F = NULL, *G = NULL;
+    sl_stats stats;
+    SL_CHECK(sl_symbolic_create(&S[0], &M.view, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S[0], &M.view, NULL, NULL));
+    const sl_int *perm = sl_symbolic_view(S[0]).perm;
+    for (sl_int k = 0, at = n; k < n; k++) { /* features in reverse order */
+        map[k] = k;
+        order[k] = perm[k];
+        if (perm[k] < FEATURES) {
+            do {
+                at--;
+            } while (perm[at] >= FEATURES);
+            order[k] = perm[at];
+        }
+    }
+    sl_options opt = options_none();
+    opt.ordering = SL_ORDERING_GIVEN;
+    opt.perm = order;
+    SL_CHECK(sl_symbolic_create(&S[1], &M.view, FOR_ANALYSIS(&opt), NULL));
+    for (int way = 0; way < 2; way++) {
+        SL_CHECK(sl_factor_edit(&G, F, S[way], &M.view, map, NULL, &stats));
+        NOTHING_WRONG(check_factor(G, &M.view));
+        assert_in_range(stats.reuse.kept, way == 0 ? n : n - 40, n); /* rows are in another order */
+        sl_factor_free(G);
+        for (sl_int p = 0; p < M.p[n]; p += 41) {
+            const double a = M.x[p];
+            M.x[p] *= 1.0 + 1e-9;
+            SL_CHECK(sl_factor_edit(&G, F, S[way], &M.view, map, NULL, &stats));
+            NOTHING_WRONG(check_factor(G, &M.view));
+            assert_true(stats.reuse.computed > 0);
+            sl_factor_free(G);
+            M.x[p] = a;
+        }
+    }
+    sl_factor_free(F);
+    sl_symbolic_free(S[0]);
+    sl_symbolic_free(S[1]);
+    gen_matrix_free(&M);
+    free(map);
+    free(order);
+}
+
 /* A file of the time when panels of one column were padded to whole tiles: this system's. */
 static void padded_files_are_read(void **state) {
     (void)state;
@@ -314,6 +365,7 @@ int main(void) {
         cmocka_unit_test(a_null_pivot_is_named),
         cmocka_unit_test(a_diagonal_may_be_missing),
         cmocka_unit_test(changes_are_followed),
+        cmocka_unit_test(edits_are_followed),
         cmocka_unit_test(padded_files_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -127,12 +127,18 @@ static double sli_schedule_gain(const sl_symbolic *S, const sli_schedule_work *w
     return longest > 0.0 ? total / longest : 1.0; /* untested: fronts have a cost */
 }
 
-/* Is the map of entries of plain column s its rows one by one? */
-static int sli_is_direct(const sl_symbolic *S, sl_int s) {
+/* Is the map of entries of plain column s its rows one by one, and are its children plain? */
+static int sli_is_direct(const sli_schedule *p, const sl_symbolic *S, sl_int s) {
     const sl_off first = S->scatter_begin[s], count = 1 + (sl_off)S->steps[s].below;
     sl_off m = 0;
+    sl_int c;
     if (S->nnz_input < 0 || S->scatter_begin[s + 1] - first != count) {
         return 0;
+    }
+    for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+        if (p->is_plain[c] == SLI_PLAIN_NOT) {
+            return 0;
+        }
     }
     while (m < count && S->scatter_to[first + m] == S->steps[s].panel + m) {
         m++;
@@ -148,9 +154,9 @@ static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, int plain,
     sl_int s;
     for (s = 0; s < S->n_supers; s++) {
         p->is_plain[s] =
-            (unsigned char)(plain == SLI_PLAIN_NOT || !sli_is_plain(S, s) ? SLI_PLAIN_NOT
-                            : plain == SLI_PLAIN && sli_is_direct(S, s)   ? SLI_PLAIN_DIRECT
-                                                                          : plain);
+            (unsigned char)(plain == SLI_PLAIN_NOT || !sli_is_plain(S, s)  ? SLI_PLAIN_NOT
+                            : plain == SLI_PLAIN && sli_is_direct(p, S, s) ? SLI_PLAIN_DIRECT
+                                                                           : plain);
     }
     if (p->workers > 1) {
         for (s = 0; s < S->n_supers; s++) {

@@ -113,31 +113,48 @@ static sl_int sli_reuse_candidate(const sli_reuse *r, sl_int s, int *is_moved) {
     return there;
 }
 
-/* Has supernode s the entries that the one of F was computed from? Marks it in G. */
+/* Has supernode s the entries that the one of F was computed from? Marks it in G. A run of plain
+ * columns leaves no marks in F: they are the same if they give the same numbers. */
 static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_moved) {
-    const sl_symbolic *S = r->F->S, *T = r->G->S;
+    const sl_factor *F = r->F;
+    const sl_symbolic *S = F->S, *T = r->G->S;
     const sl_int w = T->steps[s].width, below = T->steps[s].below, *of = S->rows;
     const sl_off begin = T->steps[s].panel, least = T->scatter_begin[0] + SLI_ENTRIES_AHEAD;
+    const double *l = (const double *)F->values + S->steps[there].panel;
+    const double d = F->D[S->steps[there].column];
+    const int has_mark = F->schedule.is_plain[there] != SLI_PLAIN_DIRECT || F->rule.replaces;
+    int is_same = has_mark || r->G->schedule.is_plain[s] == SLI_PLAIN_DIRECT;
     uint64_t mark = SLI_MARK_BEGIN, before = SLI_MARK_BEGIN;
+    double pivot = 0.0, magnitude = 0.0;
     sl_int tile = sli_last_tile(T, s), k, j;
     sl_off m;
     of += S->rows_begin[there];
     for (m = T->scatter_begin[s + 1] - 1; m >= T->scatter_begin[s]; m--) {
         const double a = r->B->x[T->scatter_from[m]];
+        sl_off at = T->scatter_to[m] - begin;
         if (m >= least) {
             SLI_PREFETCH(r->B->x + T->scatter_from[m - SLI_ENTRIES_AHEAD], 0);
         }
-        mark += sli_mark_entry(a, T->scatter_to[m] - begin);
+        mark += sli_mark_entry(a, at);
         if (is_moved) {
             sli_scatter_map_pivots(T, s, m, &tile, &k, &j);
             j -= T->super_first[s];
             k = k < T->super_first[s + 1] ? k - T->super_first[s]
                                           : w + sli_lower_bound(of, below, r->columns[k]);
-            before += sli_mark_entry(a, sli_panel_at(w, k, j));
+            at = sli_panel_at(w, k, j);
+            before += sli_mark_entry(a, at);
         }
+        pivot = 0.0 + a; /* at the end */
+        is_same &= has_mark || at == 0 || l[at] == pivot / d;
     }
     r->G->history.marks[s] = mark;
-    return r->F->history.marks[there] == (is_moved ? before : mark);
+    if (has_mark) {
+        return F->history.marks[there] == (is_moved ? before : mark);
+    }
+    for (j = there - 1; j >= S->first_descendant[there]; j = S->first_descendant[j] - 1) {
+        sli_plain_take(F, j, 0, &pivot, &magnitude);
+    }
+    return is_same && pivot == d;
 }
 
 /* Counts the flops of what is kept and of what is not. Returns whether to keep is faster. */

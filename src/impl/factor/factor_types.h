@@ -118,7 +118,8 @@ typedef struct sli_history {
     unsigned char *known; /* n_supers: is it known of the rows of a supernode? */
     double base;          /* what the pivots had lost before, in units of epsilon; 0: not begun */
     size_t bytes;         /* of the two arrays, until a change succeeds and they count */
-    /* n_supers: a hash of the entries of A that each supernode was computed from; 0: not known */
+    /* n_supers: a hash of the entries of A that each supernode was computed from, but for runs of
+     * plain columns; 0: not known */
     uint64_t *marks;
 } sli_history;
 

@@ -225,7 +225,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
     for (s = first; s <= last && status == SL_OK; s++) {
 #if !SLF_SINGLE && !SLF_HALF
         if (F->schedule.is_plain[s] == SLI_PLAIN_DIRECT && sli_plain_runs(F, from)) {
-            s = sli_plain_run(F, from->A->x, s, last, worker);
+            s = sli_plain_run(F, from->A->x, s, last);
             if (s > last) {
                 break;
             }

@@ -8,15 +8,11 @@
 #define SLI_ENTRIES_AHEAD 32
 
 /* What entry a at this place of a panel adds to the mark of its supernode, which so does not depend
- * on the order of the entries. key: place * SLI_HASH_3 + SLI_HASH_2 */
-SLI_INLINE uint64_t sli_mark_bits(uint64_t bits, uint64_t key) {
-    return sli_fold(bits ^ SLI_HASH_1, key);
-}
-
+ * on the order of the entries. */
 SLI_INLINE uint64_t sli_mark_entry(double a, sl_off place) {
     uint64_t bits;
     memcpy(&bits, &a, sizeof bits);
-    return sli_mark_bits(bits, (uint64_t)place * SLI_HASH_3 + SLI_HASH_2);
+    return sli_fold(bits ^ SLI_HASH_1, (uint64_t)place * SLI_HASH_3 + SLI_HASH_2);
 }
 
 /* The mark of a supernode without entries. */

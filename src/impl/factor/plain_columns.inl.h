@@ -49,22 +49,6 @@ SLI_INLINE void sli_plain_take(const sl_factor *F, sl_int c, sl_int worker, doub
     }
 }
 
-/* The mark of a plain column with these entries, in their order, and the largest magnitude, as sets
- * of bits: the order is the same, and NaN come last. */
-SLI_INLINE uint64_t sli_plain_mark(const double *x, const sl_int *at, sl_int count, double *most) {
-    uint64_t mark = SLI_MARK_BEGIN, place = SLI_HASH_2, largest = 0;
-    sl_int m;
-    for (m = 0; m < count; m++, place += SLI_HASH_3) {
-        uint64_t bits;
-        memcpy(&bits, &x[at[m]], sizeof bits);
-        mark += sli_mark_bits(bits, place);
-        bits &= UINT64_MAX >> 1;
-        largest = bits > largest ? bits : largest;
-    }
-    memcpy(most, &largest, sizeof largest);
-    return mark;
-}
-
 /* Can a factorization take runs of plain columns? */
 SLI_INLINE int sli_plain_runs(const sl_factor *F, const sli_source *from) {
     return from->A != NULL && F->work.copied == NULL &&
@@ -72,77 +56,44 @@ SLI_INLINE int sli_plain_runs(const sl_factor *F, const sli_source *from) {
            !F->rule.replaces;
 }
 
-/* What a run of plain columns reads and writes: copies of F and its analysis, as a compiler cannot
- * know that numbers that are stored do not change these addresses. */
-typedef struct sli_plain_work {
-    const double *x;   /* of A */
-    const sl_int *at;  /* the first entry of the column in the map */
-    const sl_int *low; /* first descendants */
-    const sli_step *steps;
-    const unsigned char *is_plain;
-    sli_extent *extents;
-    uint64_t *marks;
-    double *L, *D;
-    double tolerance;
-} sli_plain_work;
-
-/* Computes plain column s, which has so many rows below. Returns 0 if it is not regular. */
-SLI_ALWAYS_INLINE int sli_plain_regular(const sl_factor *F, const sli_plain_work *w, sl_int s,
-                                        sl_int below, sl_int worker) {
-    const sl_int first = w->low[s], k = w->steps[s].column;
-    const double *x = w->x;
-    const sl_int *at = w->at;
-    double *l = w->L + w->steps[s].panel, pivot = 0.0 + x[*at], magnitude = fabs(pivot), size;
-    sli_extent *extent = &w->extents[s];
-    sl_int c, m;
-    w->marks[s] = sli_plain_mark(x, at, below + 1, &extent->entry);
-    for (c = s - 1; c >= first; c = w->low[c] - 1) {
-        if (w->is_plain[c]) {
-            const double own = w->L[w->steps[c].panel + 1];
-            const double product = own * w->D[w->steps[c].column] * own;
+/* Computes plain columns from supernode s up to `last` while each is regular: direct, and there is
+ * nothing to refuse and nothing to replace. Returns the supernode after them. What it leaves is
+ * computed again from the start. */
+SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl_int s,
+                                         sl_int last) {
+    const sl_symbolic *S = F->S;
+    const double tolerance = F->rule.null_tolerance > 0.0 ? F->rule.null_tolerance : 0.0;
+    const sl_int *at = S->scatter_from + S->scatter_begin[s], *low = S->first_descendant;
+    const sli_step *steps = S->steps;
+    double *const L = (double *)F->values, *const D = F->D;
+    sli_extent *extent = F->extents + s;
+    for (; s <= last && F->schedule.is_plain[s] == SLI_PLAIN_DIRECT; s++, extent++) {
+        const sli_step *step = &steps[s];
+        double *l = L + step->panel, pivot = 0.0 + x[*at], magnitude = fabs(pivot);
+        double entry = magnitude;
+        const sl_int *end = ++at + step->below;
+        ptrdiff_t c;
+        for (c = (ptrdiff_t)s - 1; c >= low[s]; c = (ptrdiff_t)low[c] - 1) {
+            const double own = L[steps[c].panel + 1], product = own * D[steps[c].column] * own;
             pivot -= product;
             magnitude += fabs(product);
-        } else {
-            sli_plain_take(F, c, worker, &pivot, &magnitude);
         }
-    }
-    *l = 0.0;
-    for (m = 1; m <= below; m++) {
-        l[m] = (0.0 + x[at[m]]) / pivot; /* no -0, as in a sum of entries */
-    }
-    size = fabs(pivot);
-    w->D[k] = pivot;
-    extent->magnitude = magnitude;
-    extent->pivot = k;
-    extent->suspects = 0;
-    return (size > w->tolerance * magnitude) & (size <= DBL_MAX) & (extent->entry <= DBL_MAX);
-}
-
-/* Computes plain columns from supernode s up to `last` while each is regular: its entries of A are
- * its rows one by one, as most are, and there is nothing to refuse and nothing to replace. Returns
- * the supernode after them. What it leaves is computed again from the start. */
-SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl_int s, sl_int last,
-                                         sl_int worker) {
-    const sl_symbolic *S = F->S;
-    sli_plain_work w;
-    w.x = x;
-    w.at = S->scatter_from + S->scatter_begin[s];
-    w.low = S->first_descendant;
-    w.steps = S->steps;
-    w.is_plain = F->schedule.is_plain;
-    w.extents = F->extents;
-    w.marks = F->history.marks;
-    w.L = (double *)F->values;
-    w.D = F->D;
-    w.tolerance = F->rule.null_tolerance > 0.0 ? F->rule.null_tolerance : 0.0;
-    for (; s <= last && w.is_plain[s] == SLI_PLAIN_DIRECT; s++) {
-        const sl_int below = w.steps[s].below;
-        const int is_regular = below == 1 ? sli_plain_regular(F, &w, s, 1, worker)
-                                          : sli_plain_regular(F, &w, s, below, worker);
-        if (!is_regular) {
-            break;
+        for (*l = 0.0; at < end; at++) {
+            const double a = x[*at], size = fabs(a);
+            if (!(size <= DBL_MAX)) {
+                return s;
+            }
+            entry = entry > size ? entry : size;
+            *++l = (0.0 + a) / pivot; /* no -0, as in a sum of entries */
         }
-        w.at += 1 + below;
+        if (!(fabs(pivot) > tolerance * magnitude)) { /* also if they are not finite */
+            return s;
+        }
+        D[step->column] = pivot;
+        extent->entry = entry;
+        extent->magnitude = magnitude;
+        extent->pivot = step->column;
+        extent->suspects = 0;
     }
     return s;
 }
