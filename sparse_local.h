@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 10afbee19d77267b
+ * FNV-1a of the lines after this comment, without the license: d37cf834eb4970d1
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40,24 +40,24 @@
  *   5794 impl/ ordering: fill-reducing orderings of a graph
  *  10443 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12690 impl/ factor: the numbers of L and D
- *  16052 impl/ solve: full and local solves
- *  17716 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19647 impl/ pivots: the order of the pivots by the values of a matrix
- *  20055 impl/ float: L and fronts in single precision
- *  20506 impl/ inverse: entries of the inverse, regions
- *  23571 impl/ change: a factor that follows changes of its matrix
- *  29672 impl/ dirichlet: rows fixed at given values
- *  30263 impl/ dirichlet: by a factor of all rows
- *  30495 impl/ io: files that are replaced only when they are complete
- *  30713 impl/ files: Matrix Market files, 64-bit indices
- *  31333 impl/ save: factors in files
- *  33346 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34029 impl/ batch: diagonals of many inverses
- *  34169 impl/ complex: complex Hermitian systems over real factors
- *  34731 impl/ complex: entries of the inverse
- *  34791 impl/ packs: the tables through which the core calls packs
- *  34840 impl/ last: undefine every internal macro
- *  35196 impl/ templates: the header includes them from itself, once for each instruction set
+ *  16054 impl/ solve: full and local solves
+ *  17718 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19649 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20057 impl/ float: L and fronts in single precision
+ *  20508 impl/ inverse: entries of the inverse, regions
+ *  23573 impl/ change: a factor that follows changes of its matrix
+ *  29674 impl/ dirichlet: rows fixed at given values
+ *  30265 impl/ dirichlet: by a factor of all rows
+ *  30497 impl/ io: files that are replaced only when they are complete
+ *  30715 impl/ files: Matrix Market files, 64-bit indices
+ *  31335 impl/ save: factors in files
+ *  33348 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34031 impl/ batch: diagonals of many inverses
+ *  34171 impl/ complex: complex Hermitian systems over real factors
+ *  34733 impl/ complex: entries of the inverse
+ *  34793 impl/ packs: the tables through which the core calls packs
+ *  34842 impl/ last: undefine every internal macro
+ *  35198 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13134,11 +13134,13 @@ static sli_spread sli_spread_of(const double *D, sl_int n) {
   sl_int k;
   for (k = 0; k < n; k++) {
     memcpy(&bits, &D[k], sizeof bits);
-    negative += bits >> 63;
-    bits &= UINT64_MAX >> 1;
+    negative += bits + bits < bits;
+    bits += bits;
     least = bits < least ? bits : least;
     most = bits > most ? bits : most;
   }
+  least /= 2;
+  most /= 2;
   memcpy(&r.least, &least, sizeof least);
   memcpy(&r.most, &most, sizeof most);
   r.positive = n - (sl_int)negative;
@@ -13916,27 +13918,23 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
   return SL_OK;
 }
 
-static int sli_null_is_suspected(const sl_factor *F) {
+static int sli_null_is_suspected(sl_factor *F) {
   const sl_symbolic *S = F->S;
   const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
-  double most = 0.0, least = (double)INFINITY;
-  sl_int k;
+  sl_int root, first;
   if (F->rule.replaces || F->rule.null_tolerance < 0.0) {
     return 0;
   }
-  for (k = 0; k < S->n; k++) {
-    least = S->parent[k] == -1 && fabs(F->D[k]) < least ? fabs(F->D[k]) : least;
-  }
-  if (least > rounding * sli_spread_of(F->D, S->n).most) {
-    return 0;
-  }
-  for (k = 0; k < S->n; k++) {
-    most = fabs(F->D[k]) > most ? fabs(F->D[k]) : most;
-    if (S->parent[k] == -1) {
-      if (fabs(F->D[k]) <= rounding * most) {
+  sli_count_pivots(F, S->n);
+  for (root = S->n_supers - 1; root >= 0; root = first - 1) {
+    const sl_int last = S->super_first[root + 1] - 1;
+    const double size = fabs(F->D[last]);
+    first = S->first_descendant[root];
+    if (size <= rounding * F->stats.factor.pivot_max) {
+      const sl_int begin = S->super_first[first];
+      if (size <= rounding * sli_spread_of(F->D + begin, last + 1 - begin).most) {
         return 1;
       }
-      most = 0.0;
     }
   }
   return 0;
@@ -14899,7 +14897,8 @@ SLI_COLD static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
 }
 
 SLI_INLINE double sli_growth(double magnitude, double entry) {
-  const double growth = magnitude > 0.0 ? fmin(magnitude, DBL_MAX) / entry : 0.0;
+  const double finite = magnitude < DBL_MAX ? magnitude : DBL_MAX;
+  const double growth = magnitude > 0.0 ? finite / entry : 0.0;
   return entry < DBL_MIN && growth > 0.0 ? growth * (DBL_MIN / entry) : growth;
 }
 
@@ -15721,7 +15720,9 @@ SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const 
     n_done = F->S->super_first[f->super];
     sli_factor_report_entry(F, A, f);
   }
-  sli_count_pivots(F, n_done);
+  if (n_done == 0 || F->stats.factor.positive + F->stats.factor.negative != n_done) {
+    sli_count_pivots(F, n_done);
+  }
   F->stats.factor.null += f->status == SL_ERR_PIVOT && !has_pivots;
 }
 
@@ -15827,6 +15828,7 @@ static void sli_factor_identify(sl_factor *F, const sli_source *from) {
 static void sli_factor_begin(sl_factor *F) {
   F->is_valid = 0;
   F->generation++;
+  F->stats.factor.positive = F->stats.factor.negative = 0;
   sli_tolerance_begin(F);
 }
 

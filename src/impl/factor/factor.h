@@ -90,7 +90,9 @@ SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const 
         n_done = F->S->super_first[f->super];
         sli_factor_report_entry(F, A, f);
     }
-    sli_count_pivots(F, n_done);
+    if (n_done == 0 || F->stats.factor.positive + F->stats.factor.negative != n_done) {
+        sli_count_pivots(F, n_done); /* they are not counted yet */
+    }
     F->stats.factor.null += f->status == SL_ERR_PIVOT && !has_pivots;
 }
 
@@ -205,6 +207,7 @@ static void sli_factor_identify(sl_factor *F, const sli_source *from) {
 static void sli_factor_begin(sl_factor *F) {
     F->is_valid = 0;
     F->generation++;
+    F->stats.factor.positive = F->stats.factor.negative = 0; /* not counted */
     sli_tolerance_begin(F);
 }
 

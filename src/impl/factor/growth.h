@@ -55,7 +55,8 @@ SLI_COLD static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
 /* The growth of the largest magnitude. The sum may overflow, but no term of a finite pivot does.
  * Subnormal numbers are rounded as if epsilon were larger. */
 SLI_INLINE double sli_growth(double magnitude, double entry) {
-    const double growth = magnitude > 0.0 ? fmin(magnitude, DBL_MAX) / entry : 0.0;
+    const double finite = magnitude < DBL_MAX ? magnitude : DBL_MAX; /* fmin is a call */
+    const double growth = magnitude > 0.0 ? finite / entry : 0.0;
     return entry < DBL_MIN && growth > 0.0 ? growth * (DBL_MIN / entry) : growth;
 }
 

@@ -140,27 +140,23 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
 
 /* Where null pivots are refused: may a root of the elimination forest be a null pivot that the
  * tolerance missed, because its rounding error comes from heavier rows? Reads D only. */
-static int sli_null_is_suspected(const sl_factor *F) {
+static int sli_null_is_suspected(sl_factor *F) {
     const sl_symbolic *S = F->S;
     const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
-    double most = 0.0, least = (double)INFINITY;
-    sl_int k;
+    sl_int root, first;
     if (F->rule.replaces || F->rule.null_tolerance < 0.0) {
         return 0;
     }
-    for (k = 0; k < S->n; k++) {
-        least = S->parent[k] == -1 && fabs(F->D[k]) < least ? fabs(F->D[k]) : least;
-    }
-    if (least > rounding * sli_spread_of(F->D, S->n).most) { /* of all trees */
-        return 0;
-    }
-    for (k = 0; k < S->n; k++) {
-        most = fabs(F->D[k]) > most ? fabs(F->D[k]) : most;
-        if (S->parent[k] == -1) {
-            if (fabs(F->D[k]) <= rounding * most) {
+    sli_count_pivots(F, S->n);
+    for (root = S->n_supers - 1; root >= 0; root = first - 1) {
+        const sl_int last = S->super_first[root + 1] - 1;
+        const double size = fabs(F->D[last]);
+        first = S->first_descendant[root];
+        if (size <= rounding * F->stats.factor.pivot_max) { /* of all trees */
+            const sl_int begin = S->super_first[first];
+            if (size <= rounding * sli_spread_of(F->D + begin, last + 1 - begin).most) {
                 return 1;
             }
-            most = 0.0;
         }
     }
     return 0;

@@ -126,11 +126,13 @@ static sli_spread sli_spread_of(const double *D, sl_int n) {
     sl_int k;
     for (k = 0; k < n; k++) {
         memcpy(&bits, &D[k], sizeof bits);
-        negative += bits >> 63;
-        bits &= UINT64_MAX >> 1;
+        negative += bits + bits < bits; /* the carry */
+        bits += bits;
         least = bits < least ? bits : least;
         most = bits > most ? bits : most;
     }
+    least /= 2;
+    most /= 2;
     memcpy(&r.least, &least, sizeof least);
     memcpy(&r.most, &most, sizeof most);
     r.positive = n - (sl_int)negative;
