@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d37cf834eb4970d1
+ * FNV-1a of the lines after this comment, without the license: 19755d4f0881a173
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35324,33 +35324,59 @@ static sl_status SLF_NAME(front_load)(sl_factor *F, const sli_source *from, cons
 #if !SLF_SINGLE && !SLF_HALF
 /* src/impl/factor/plain_columns.inl.h: plain columns, in double: their pivots and L, and what they pass up */
 
-static void sli_plain_assemble(const sli_front *f, const double *l, double d,
+SLI_INLINE void sli_plain_assemble(const sli_front *f, const double *l, double d,
     const sl_int *relative, sl_int first, sl_int last) {
-  const sl_int w = f->width, whole = w / SLI_TILE;
-  double *magnitude = f->magnitude;
-  double *const panel = f->panel, *const update = f->update;
-  sl_int r, k;
+  const sl_int w = f->width, whole = (sl_int)((uint32_t)w / SLI_TILE);
+  double *const magnitude = f->magnitude, *const panel = f->panel;
+  double *const update = f->update;
+  ptrdiff_t r, k, inside = 0;
+  while (inside < first && relative[inside] < w) {
+    inside++;
+  }
   for (r = first; r < last; r++) {
     const uint32_t row = (uint32_t)relative[r], lane = row % SLI_TILE;
     const sl_int tile = (sl_int)(row / SLI_TILE);
-    const double x = l[r] * d;
-    double *to = panel + sli_tile_offset(w, tile) + lane;
-    for (k = 0; k <= r && relative[k] < w; k++) {
-      to[SLI_TILE * (ptrdiff_t)relative[k]] -= x * l[k];
-    }
-    if (k <= r) {
+    const double x = l[r] * d, product = x * l[r];
+    double *to;
+    if ((sl_int)row < w) {
+      to = panel + sli_triangle_offset(tile) + lane;
+      for (k = 0; k < r; k++) {
+        to[SLI_TILE * (ptrdiff_t)relative[k]] -= x * l[k];
+      }
+      to += SLI_TILE * (ptrdiff_t)row;
+      inside++;
+    } else {
+      to = panel + sli_tile_offset(w, tile) + lane;
+      for (k = 0; k < inside; k++) {
+        to[SLI_TILE * (ptrdiff_t)relative[k]] -= x * l[k];
+      }
       to = update + sli_triangle_offset(tile - whole) + lane;
-      for (; k <= r; k++) {
+      for (; k < r; k++) {
         to[SLI_TILE * (ptrdiff_t)(relative[k] - SLI_TILE * whole)] -= x * l[k];
       }
+      to += SLI_TILE * ((ptrdiff_t)row - SLI_TILE * whole);
     }
-    magnitude[row] += fabs(x * l[r]);
+    *to -= product;
+    magnitude[row] += fabs(product);
   }
 }
 
 SLI_INLINE double *sli_plain_column(const sl_factor *F, sl_int s, sl_int worker) {
   return F->schedule.is_plain[s] != SLI_PLAIN_PASSED ? (double *)F->values + F->S->steps[s].panel
                              : sli_double_update_matrix(F, s, worker);
+}
+
+SLI_NOINLINE static sl_int sli_plain_children(const sl_factor *F, const sli_front *f, sl_int c,
+    sl_int worker, sl_int from, sl_int to) {
+  const sl_symbolic *S = F->S;
+  const sl_int *low = S->first_descendant, end = low[f->super], rows = f->width + f->below;
+  for (; c >= end && F->schedule.is_plain[c]; c = low[c] - 1) {
+    const sl_int *relative = S->relative + S->rows_begin[c], below = S->steps[c].below;
+    sli_plain_assemble(f, sli_plain_column(F, c, worker) + 1, F->D[S->steps[c].column],
+        relative, from == 0 ? 0 : sli_lower_bound(relative, below, from),
+        to >= rows ? below : sli_lower_bound(relative, below, to));
+  }
+  return c;
 }
 
 SLI_INLINE void sli_plain_take(const sl_factor *F, sl_int c, sl_int worker, double *pivot,
@@ -35465,25 +35491,22 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
   const sl_symbolic *S = F->S;
   const sl_int tiles = sli_front_tiles(f);
   sl_int c, k;
-  for (c = f->super - 1; c >= S->first_descendant[f->super]; c = S->first_descendant[c] - 1) {
+  for (c = f->super - 1;; c = S->first_descendant[c] - 1) {
+#if !SLF_SINGLE && !SLF_HALF
+    c = sli_plain_children(F, f, c, worker, SLI_TILE * t0, SLI_TILE * t1);
+#endif
+    if (c < S->first_descendant[f->super]) {
+      break;
+    }
     const sli_step *child = &S->steps[c];
     const sl_int *relative = S->relative + S->rows_begin[c];
     const sl_int first = t0 == 0 ? 0 : sli_lower_bound(relative, child->below, SLI_TILE * t0);
     const sl_int last =
       t1 == tiles ? child->below : sli_lower_bound(relative, child->below, SLI_TILE * t1);
-    const SLF_VALUE *from, *magnitude;
-    sl_off magnitudes;
-#if !SLF_SINGLE && !SLF_HALF
-    if (F->schedule.is_plain[c]) {
-      sli_plain_assemble(f, sli_plain_column(F, c, worker) + 1, F->D[child->column], relative,
-          first, last);
-      continue;
-    }
-#endif
-    from = SLF_NAME(update_matrix)(F, c, worker);
-    magnitudes = child->width % SLI_TILE +
-           sli_triangle_offset(sli_update_tiles(child->width, child->below));
-    magnitude = from + (magnitudes >> SLF_HALF);
+    const sl_off magnitudes = child->width % SLI_TILE +
+                  sli_triangle_offset(sli_update_tiles(child->width, child->below));
+    const SLF_VALUE *from = SLF_NAME(update_matrix)(F, c, worker);
+    const SLF_VALUE *magnitude = from + (magnitudes >> SLF_HALF);
     F->own.front->assemble(f, from, child->width % SLI_TILE, relative, child->below, first,
         last);
     for (k = first; k < last; k += 1 + SLF_HALF) {

@@ -11,8 +11,8 @@
 # all packs the stack is limited, too: a frame, and a chain of calls.
 
 cd "$(dirname "$0")/../.." || exit 1
-header_limit=1385300      # sparse_local.h
-core_header_limit=867000  # the core, with the comments of the implementation
+header_limit=1386500      # sparse_local.h
+core_header_limit=867200  # the core, with the comments of the implementation
 core_text_limit=343000
 all_text_limit=843000
 frame_limit=28000

@@ -24,25 +24,22 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
     const sl_symbolic *S = F->S;
     const sl_int tiles = sli_front_tiles(f);
     sl_int c, k;
-    for (c = f->super - 1; c >= S->first_descendant[f->super]; c = S->first_descendant[c] - 1) {
+    for (c = f->super - 1;; c = S->first_descendant[c] - 1) {
+#if !SLF_SINGLE && !SLF_HALF
+        c = sli_plain_children(F, f, c, worker, SLI_TILE * t0, SLI_TILE * t1);
+#endif
+        if (c < S->first_descendant[f->super]) {
+            break;
+        }
         const sli_step *child = &S->steps[c];
         const sl_int *relative = S->relative + S->rows_begin[c];
         const sl_int first = t0 == 0 ? 0 : sli_lower_bound(relative, child->below, SLI_TILE * t0);
         const sl_int last =
             t1 == tiles ? child->below : sli_lower_bound(relative, child->below, SLI_TILE * t1);
-        const SLF_VALUE *from, *magnitude;
-        sl_off magnitudes;
-#if !SLF_SINGLE && !SLF_HALF
-        if (F->schedule.is_plain[c]) {
-            sli_plain_assemble(f, sli_plain_column(F, c, worker) + 1, F->D[child->column], relative,
-                               first, last);
-            continue;
-        }
-#endif
-        from = SLF_NAME(update_matrix)(F, c, worker);
-        magnitudes = child->width % SLI_TILE +
-                     sli_triangle_offset(sli_update_tiles(child->width, child->below));
-        magnitude = from + (magnitudes >> SLF_HALF);
+        const sl_off magnitudes = child->width % SLI_TILE +
+                                  sli_triangle_offset(sli_update_tiles(child->width, child->below));
+        const SLF_VALUE *from = SLF_NAME(update_matrix)(F, c, worker);
+        const SLF_VALUE *magnitude = from + (magnitudes >> SLF_HALF);
         F->own.front->assemble(f, from, child->width % SLI_TILE, relative, child->below, first,
                                last);
         for (k = first; k < last; k += 1 + SLF_HALF) {

@@ -2,27 +2,40 @@
 
 /* Adds -l d l' to a front, in rows first .. last-1 of the column l, which has these relative
  * indices, and what it adds to the diagonal to the magnitudes. */
-static void sli_plain_assemble(const sli_front *f, const double *l, double d,
-                               const sl_int *relative, sl_int first, sl_int last) {
-    const sl_int w = f->width, whole = w / SLI_TILE;
-    double *magnitude = f->magnitude; /* in registers: what is stored may change f */
-    double *const panel = f->panel, *const update = f->update;
-    sl_int r, k;
+SLI_INLINE void sli_plain_assemble(const sli_front *f, const double *l, double d,
+                                   const sl_int *relative, sl_int first, sl_int last) {
+    const sl_int w = f->width, whole = (sl_int)((uint32_t)w / SLI_TILE);
+    double *const magnitude = f->magnitude, *const panel = f->panel; /* in registers */
+    double *const update = f->update;
+    ptrdiff_t r, k, inside = 0; /* columns in the panel */
+    while (inside < first && relative[inside] < w) {
+        inside++;
+    }
     for (r = first; r < last; r++) {
         const uint32_t row = (uint32_t)relative[r], lane = row % SLI_TILE;
         const sl_int tile = (sl_int)(row / SLI_TILE);
-        const double x = l[r] * d;
-        double *to = panel + sli_tile_offset(w, tile) + lane;
-        for (k = 0; k <= r && relative[k] < w; k++) {
-            to[SLI_TILE * (ptrdiff_t)relative[k]] -= x * l[k];
-        }
-        if (k <= r) {
+        const double x = l[r] * d, product = x * l[r];
+        double *to;
+        if ((sl_int)row < w) {
+            to = panel + sli_triangle_offset(tile) + lane;
+            for (k = 0; k < r; k++) {
+                to[SLI_TILE * (ptrdiff_t)relative[k]] -= x * l[k];
+            }
+            to += SLI_TILE * (ptrdiff_t)row;
+            inside++;
+        } else {
+            to = panel + sli_tile_offset(w, tile) + lane;
+            for (k = 0; k < inside; k++) {
+                to[SLI_TILE * (ptrdiff_t)relative[k]] -= x * l[k];
+            }
             to = update + sli_triangle_offset(tile - whole) + lane;
-            for (; k <= r; k++) {
+            for (; k < r; k++) {
                 to[SLI_TILE * (ptrdiff_t)(relative[k] - SLI_TILE * whole)] -= x * l[k];
             }
+            to += SLI_TILE * ((ptrdiff_t)row - SLI_TILE * whole);
         }
-        magnitude[row] += fabs(x * l[r]);
+        *to -= product;
+        magnitude[row] += fabs(product);
     }
 }
 
@@ -30,6 +43,21 @@ static void sli_plain_assemble(const sli_front *f, const double *l, double d,
 SLI_INLINE double *sli_plain_column(const sl_factor *F, sl_int s, sl_int worker) {
     return F->schedule.is_plain[s] != SLI_PLAIN_PASSED ? (double *)F->values + F->S->steps[s].panel
                                                        : sli_double_update_matrix(F, s, worker);
+}
+
+/* Adds what plain children c, the one before, ... pass up to rows from .. to-1 of a front. Returns
+ * the first child that is not plain, or what is before all children. */
+SLI_NOINLINE static sl_int sli_plain_children(const sl_factor *F, const sli_front *f, sl_int c,
+                                              sl_int worker, sl_int from, sl_int to) {
+    const sl_symbolic *S = F->S;
+    const sl_int *low = S->first_descendant, end = low[f->super], rows = f->width + f->below;
+    for (; c >= end && F->schedule.is_plain[c]; c = low[c] - 1) {
+        const sl_int *relative = S->relative + S->rows_begin[c], below = S->steps[c].below;
+        sli_plain_assemble(f, sli_plain_column(F, c, worker) + 1, F->D[S->steps[c].column],
+                           relative, from == 0 ? 0 : sli_lower_bound(relative, below, from),
+                           to >= rows ? below : sli_lower_bound(relative, below, to));
+    }
+    return c;
 }
 
 /* What child c with one row below adds to a plain column: *pivot changes, and *magnitude grows. */
