@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 19755d4f0881a173
+ * FNV-1a of the lines after this comment, without the license: ac3688bda9a3bddb
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,25 +39,25 @@
  *   5165 impl/ matrix: sparse matrices of the caller and of the library
  *   5794 impl/ ordering: fill-reducing orderings of a graph
  *  10443 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12690 impl/ factor: the numbers of L and D
- *  16054 impl/ solve: full and local solves
- *  17718 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19649 impl/ pivots: the order of the pivots by the values of a matrix
- *  20057 impl/ float: L and fronts in single precision
- *  20508 impl/ inverse: entries of the inverse, regions
- *  23573 impl/ change: a factor that follows changes of its matrix
- *  29674 impl/ dirichlet: rows fixed at given values
- *  30265 impl/ dirichlet: by a factor of all rows
- *  30497 impl/ io: files that are replaced only when they are complete
- *  30715 impl/ files: Matrix Market files, 64-bit indices
- *  31335 impl/ save: factors in files
- *  33348 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34031 impl/ batch: diagonals of many inverses
- *  34171 impl/ complex: complex Hermitian systems over real factors
- *  34733 impl/ complex: entries of the inverse
- *  34793 impl/ packs: the tables through which the core calls packs
- *  34842 impl/ last: undefine every internal macro
- *  35198 impl/ templates: the header includes them from itself, once for each instruction set
+ *  12700 impl/ factor: the numbers of L and D
+ *  16064 impl/ solve: full and local solves
+ *  17728 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19659 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20067 impl/ float: L and fronts in single precision
+ *  20518 impl/ inverse: entries of the inverse, regions
+ *  23583 impl/ change: a factor that follows changes of its matrix
+ *  29684 impl/ dirichlet: rows fixed at given values
+ *  30275 impl/ dirichlet: by a factor of all rows
+ *  30507 impl/ io: files that are replaced only when they are complete
+ *  30725 impl/ files: Matrix Market files, 64-bit indices
+ *  31345 impl/ save: factors in files
+ *  33358 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34041 impl/ batch: diagonals of many inverses
+ *  34181 impl/ complex: complex Hermitian systems over real factors
+ *  34743 impl/ complex: entries of the inverse
+ *  34803 impl/ packs: the tables through which the core calls packs
+ *  34852 impl/ last: undefine every internal macro
+ *  35208 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -10479,6 +10479,7 @@ struct sl_symbolic {
   sl_int *scatter_from;
   sl_off *scatter_to;
   sl_int *plain;
+  sl_int *input;
   sl_int n_nodes;
   sl_int *node_of;
   sl_int *node_parent, *node_level;
@@ -12089,6 +12090,10 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) 
   sli_fill_structure(w, S);
   sli_fill_steps(S);
   sli_fill_plain(S);
+  if (S->input != NULL) {
+    memcpy(S->input, w->A->p, bytes + sizeof(sl_int));
+    memcpy(S->input + S->n + 1, w->A->i, (size_t)S->nnz_input * sizeof(sl_int));
+  }
   sli_fill_septree(S, &w->septree);
   sli_fill_identity(S, stats->symbolic.triangle);
   sli_analyze_stats(S, w->scratch, stats);
@@ -12117,6 +12122,9 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
     sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a);
     if (sli_is_mostly_plain(plain, draft->n_supers)) {
       draft->plain = SLI_TAKE(&b, sl_int, draft->n_supers);
+      if (draft->nnz_input > 0) {
+        draft->input = SLI_TAKE(&b, sl_int, (sl_off)w->n + 1 + draft->nnz_input);
+      }
     }
     stats->symbolic.bytes = b.used;
   }
@@ -12384,7 +12392,9 @@ SLI_COLD static sl_status sli_pattern_refuse(const sl_symbolic *S, const sl_csc 
 static sl_status sli_pattern_check(const sl_symbolic *S, const sl_csc *A, int needs_values) {
   const sl_status status = sli_pattern_check_size(S, A, needs_values);
   sli_hash pattern;
-  if (status != SL_OK) {
+  if (status != SL_OK ||
+      (S->input != NULL && memcmp(S->input, A->p, ((size_t)S->n + 1) * sizeof(sl_int)) == 0 &&
+      memcmp(S->input + S->n + 1, A->i, (size_t)S->nnz_input * sizeof(sl_int)) == 0)) {
     return status;
   }
   return sli_pattern_hash(A, &pattern) && sli_hash_equals(pattern, S->pattern)

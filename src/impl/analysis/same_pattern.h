@@ -71,7 +71,9 @@ SLI_COLD static sl_status sli_pattern_refuse(const sl_symbolic *S, const sl_csc 
 static sl_status sli_pattern_check(const sl_symbolic *S, const sl_csc *A, int needs_values) {
     const sl_status status = sli_pattern_check_size(S, A, needs_values);
     sli_hash pattern;
-    if (status != SL_OK) {
+    if (status != SL_OK ||
+        (S->input != NULL && memcmp(S->input, A->p, ((size_t)S->n + 1) * sizeof(sl_int)) == 0 &&
+         memcmp(S->input + S->n + 1, A->i, (size_t)S->nnz_input * sizeof(sl_int)) == 0)) {
         return status;
     }
     return sli_pattern_hash(A, &pattern) && sli_hash_equals(pattern, S->pattern)

@@ -311,6 +311,10 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) 
     sli_fill_structure(w, S);
     sli_fill_steps(S);
     sli_fill_plain(S);
+    if (S->input != NULL) {
+        memcpy(S->input, w->A->p, bytes + sizeof(sl_int));
+        memcpy(S->input + S->n + 1, w->A->i, (size_t)S->nnz_input * sizeof(sl_int));
+    }
     sli_fill_septree(S, &w->septree);
     sli_fill_identity(S, stats->symbolic.triangle);
     sli_analyze_stats(S, w->scratch, stats);
@@ -340,6 +344,9 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
         sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a);
         if (sli_is_mostly_plain(plain, draft->n_supers)) {
             draft->plain = SLI_TAKE(&b, sl_int, draft->n_supers);
+            if (draft->nnz_input > 0) {
+                draft->input = SLI_TAKE(&b, sl_int, (sl_off)w->n + 1 + draft->nnz_input);
+            }
         }
         stats->symbolic.bytes = b.used;
     }

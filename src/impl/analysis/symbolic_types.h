@@ -57,6 +57,7 @@ struct sl_symbolic {
     sl_int *scatter_from;
     sl_off *scatter_to;
     sl_int *plain;                    /* n_supers, as in sli_reach; NULL: not known. Not saved */
+    sl_int *input;                    /* with plain: p and i of A, which are not hashed then */
     sl_int n_nodes;                   /* nodes of the separator tree; 0: the ordering has none */
     sl_int *node_of;                  /* n: the node of each column */
     sl_int *node_parent, *node_level; /* n_nodes */
