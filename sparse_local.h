@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: ac3688bda9a3bddb
+ * FNV-1a of the lines after this comment, without the license: 44876dd4276b3f7f
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,26 +38,26 @@
  *   4247 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5165 impl/ matrix: sparse matrices of the caller and of the library
  *   5794 impl/ ordering: fill-reducing orderings of a graph
- *  10443 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12700 impl/ factor: the numbers of L and D
- *  16064 impl/ solve: full and local solves
- *  17728 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19659 impl/ pivots: the order of the pivots by the values of a matrix
- *  20067 impl/ float: L and fronts in single precision
- *  20518 impl/ inverse: entries of the inverse, regions
- *  23583 impl/ change: a factor that follows changes of its matrix
- *  29684 impl/ dirichlet: rows fixed at given values
- *  30275 impl/ dirichlet: by a factor of all rows
- *  30507 impl/ io: files that are replaced only when they are complete
- *  30725 impl/ files: Matrix Market files, 64-bit indices
- *  31345 impl/ save: factors in files
- *  33358 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34041 impl/ batch: diagonals of many inverses
- *  34181 impl/ complex: complex Hermitian systems over real factors
- *  34743 impl/ complex: entries of the inverse
- *  34803 impl/ packs: the tables through which the core calls packs
- *  34852 impl/ last: undefine every internal macro
- *  35208 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10456 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12713 impl/ factor: the numbers of L and D
+ *  16077 impl/ solve: full and local solves
+ *  17741 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19672 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20080 impl/ float: L and fronts in single precision
+ *  20531 impl/ inverse: entries of the inverse, regions
+ *  23596 impl/ change: a factor that follows changes of its matrix
+ *  29697 impl/ dirichlet: rows fixed at given values
+ *  30288 impl/ dirichlet: by a factor of all rows
+ *  30520 impl/ io: files that are replaced only when they are complete
+ *  30738 impl/ files: Matrix Market files, 64-bit indices
+ *  31358 impl/ save: factors in files
+ *  33371 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34054 impl/ batch: diagonals of many inverses
+ *  34194 impl/ complex: complex Hermitian systems over real factors
+ *  34756 impl/ complex: entries of the inverse
+ *  34816 impl/ packs: the tables through which the core calls packs
+ *  34865 impl/ last: undefine every internal macro
+ *  35221 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -9635,6 +9635,8 @@ static int sli_order_levels(const sli_order_job *job) {
 #define SLI_MARKS_BEGIN 2
 #endif
 
+#define SLI_QUOTIENT_LONG 32
+
 enum { SLI_QUOTIENT_PIVOT = -1, SLI_QUOTIENT_MERGED = -2 };
 
 typedef struct sli_quotient_node {
@@ -9852,7 +9854,18 @@ static int sli_quotient_rewrite(sli_quotient *q, sl_int v, sl_int pivot) {
     }
   }
   first_variable = to;
-  for (k = elements; k < length; k++) {
+  k = elements;
+  if (length - elements > SLI_QUOTIENT_LONG) {
+    for (; k < length; k++) {
+      const sl_int u = list[k], weight = q->weight[u];
+      if (weight > 0) {
+        degree += weight;
+        hash += (uint32_t)u;
+        list[to++] = u;
+      }
+    }
+  }
+  for (; k < length; k++) {
     const sl_int u = list[k], weight = q->weight[u] > 0 ? q->weight[u] : 0;
     degree += weight;
     hash += weight > 0 ? (uint32_t)u : 0;

@@ -9,6 +9,8 @@
 #define SLI_MARKS_BEGIN 2
 #endif
 
+#define SLI_QUOTIENT_LONG 32 /* of longer lists of variables nearly all entries are left */
+
 enum { SLI_QUOTIENT_PIVOT = -1, SLI_QUOTIENT_MERGED = -2 }; /* instead of a number of elements */
 
 /* What is read together of a variable or an element: half a cache line. */
@@ -243,9 +245,20 @@ static int sli_quotient_rewrite(sli_quotient *q, sl_int v, sl_int pivot) {
         }
     }
     first_variable = to;
-    for (k = elements; k < length; k++) {
+    k = elements;
+    if (length - elements > SLI_QUOTIENT_LONG) {
+        for (; k < length; k++) {
+            const sl_int u = list[k], weight = q->weight[u];
+            if (weight > 0) {
+                degree += weight;
+                hash += (uint32_t)u;
+                list[to++] = u;
+            }
+        }
+    }
+    for (; k < length; k++) { /* without a branch: processors do not foresee which ones are left */
         const sl_int u = list[k], weight = q->weight[u] > 0 ? q->weight[u] : 0;
-        degree += weight; /* without a branch: processors do not foresee which ones are left */
+        degree += weight;
         hash += weight > 0 ? (uint32_t)u : 0;
         list[to] = u;
         to += weight > 0;
