@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 44876dd4276b3f7f
+ * FNV-1a of the lines after this comment, without the license: 4c3a046be0d6a96b
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,26 +38,26 @@
  *   4247 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5165 impl/ matrix: sparse matrices of the caller and of the library
  *   5794 impl/ ordering: fill-reducing orderings of a graph
- *  10456 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12713 impl/ factor: the numbers of L and D
- *  16077 impl/ solve: full and local solves
- *  17741 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19672 impl/ pivots: the order of the pivots by the values of a matrix
- *  20080 impl/ float: L and fronts in single precision
- *  20531 impl/ inverse: entries of the inverse, regions
- *  23596 impl/ change: a factor that follows changes of its matrix
- *  29697 impl/ dirichlet: rows fixed at given values
- *  30288 impl/ dirichlet: by a factor of all rows
- *  30520 impl/ io: files that are replaced only when they are complete
- *  30738 impl/ files: Matrix Market files, 64-bit indices
- *  31358 impl/ save: factors in files
- *  33371 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34054 impl/ batch: diagonals of many inverses
- *  34194 impl/ complex: complex Hermitian systems over real factors
- *  34756 impl/ complex: entries of the inverse
- *  34816 impl/ packs: the tables through which the core calls packs
- *  34865 impl/ last: undefine every internal macro
- *  35221 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10670 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12887 impl/ factor: the numbers of L and D
+ *  16251 impl/ solve: full and local solves
+ *  17915 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19846 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20254 impl/ float: L and fronts in single precision
+ *  20705 impl/ inverse: entries of the inverse, regions
+ *  23770 impl/ change: a factor that follows changes of its matrix
+ *  29870 impl/ dirichlet: rows fixed at given values
+ *  30461 impl/ dirichlet: by a factor of all rows
+ *  30693 impl/ io: files that are replaced only when they are complete
+ *  30911 impl/ files: Matrix Market files, 64-bit indices
+ *  31531 impl/ save: factors in files
+ *  33544 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34227 impl/ batch: diagonals of many inverses
+ *  34367 impl/ complex: complex Hermitian systems over real factors
+ *  34929 impl/ complex: entries of the inverse
+ *  34989 impl/ packs: the tables through which the core calls packs
+ *  35038 impl/ last: undefine every internal macro
+ *  35394 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5965,10 +5965,8 @@ typedef struct sli_septree {
 } sli_septree;
 
 typedef struct sli_order_choice {
-  sl_int *other;
   sl_int *parent;
   int has_tree;
-  int is_there;
 } sli_order_choice;
 
 typedef struct sli_order_job {
@@ -9974,7 +9972,7 @@ static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
 
 /* src/impl/ordering/quotient_order.h: minimum degree ordering of a whole graph, and what it costs */
 
-static void sli_quotient_write(sli_quotient *q, sl_int *perm) {
+static void sli_quotient_write(sli_quotient *q, sl_int *perm, sl_int *sizes) {
   sl_int *start = q->head, *into = q->list;
   sl_int v, k, at = 0;
   for (v = 0; v < q->n; v++) {
@@ -9986,6 +9984,9 @@ static void sli_quotient_write(sli_quotient *q, sl_int *perm) {
     perm[at] = v;
     start[v] = at + 1;
     at += q->weight[v];
+    if (sizes != NULL) {
+      sizes[k] = q->weight[v];
+    }
   }
   for (v = 0; v < q->n; v++) {
     sl_int root = v;
@@ -10010,19 +10011,23 @@ typedef struct sli_order_cost {
   double paths;
   double widest;
   double fronts;
+  double lists;
+  sl_int pivots;
 } sli_order_cost;
 
 static void sli_quotient_cost(const sli_quotient *q, sl_int *below, sli_order_cost *cost) {
   sl_int k;
   cost->flops = 0.25 * q->flops;
   cost->widest = q->widest;
-  cost->entries = cost->paths = cost->fronts = 0.0;
+  cost->entries = cost->paths = cost->fronts = cost->lists = 0.0;
+  cost->pivots = q->pivots;
   memset(below, 0, (size_t)q->n * sizeof(sl_int));
   for (k = 0; k < q->pivots; k++) {
     const sl_int v = q->sequence[k], width = q->weight[v];
     const double height = 2.0 * q->node[v].degree + width;
     below[v] += width;
     cost->entries += 0.5 * (height + 1) * width;
+    cost->lists += q->node[v].degree;
     cost->paths += 0.5 * height * width * below[v];
     if (q->node[v].into != -1) {
       below[q->node[v].into] += below[v];
@@ -10036,8 +10041,8 @@ static void sli_quotient_cost(const sli_quotient *q, sl_int *below, sli_order_co
   }
 }
 
-static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, sli_order_cost *cost,
-    const sl_allocator *a) {
+static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, sl_int *sizes,
+    sli_order_cost *cost, const sl_allocator *a) {
   sli_quotient q;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
@@ -10059,7 +10064,7 @@ static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, sli_order_co
     sli_quotient_eliminate(&q, pivot);
   }
   sli_quotient_cost(&q, q.head, cost);
-  sli_quotient_write(&q, perm);
+  sli_quotient_write(&q, perm, sizes);
   sli_free(a, b.base);
   return SL_OK;
 }
@@ -10082,14 +10087,12 @@ enum {
   SLI_HAS_CORE = 1 << 12,
   SLI_HAS_NO_FILL = 1 << 13,
   SLI_HAS_SHORT_PATHS = 1 << 14,
-  SLI_HAS_LONG_PATHS = 1 << 15
+  SLI_HAS_LITTLE_FILL = 1 << 15
 };
 
 typedef struct sli_graph_facts {
   int bits;
   sl_off edges;
-  uint64_t squares;
-  int64_t levels;
   sli_order_cost cost;
 } sli_graph_facts;
 
@@ -10099,8 +10102,8 @@ typedef enum sli_order_way {
   SLI_BY_METIS,
   SLI_BY_LEVELS,
   SLI_BY_MINDEG,
-  SLI_BY_DISSECTION,
-  SLI_BY_BOTH
+  SLI_BY_CUTS,
+  SLI_BY_DISSECTION
 } sli_order_way;
 
 static const struct sli_order_rule {
@@ -10120,7 +10123,7 @@ static const struct sli_order_rule {
   {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_CORE, 0, SLI_BY_MINDEG},
   {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_NO_FILL, 0, SLI_BY_MINDEG},
   {SLI_TRIED_MINDEG | SLI_IS_BIPARTITE | SLI_HAS_SHORT_PATHS, 0, SLI_BY_MINDEG},
-  {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_IS_IRREGULAR, SLI_HAS_LONG_PATHS, SLI_BY_BOTH},
+  {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_LITTLE_FILL, 0, SLI_BY_CUTS},
   {0, 0, SLI_BY_DISSECTION}};
 
 static sli_order_way sli_order_choose(const sli_graph_facts *f) {
@@ -10131,20 +10134,19 @@ static sli_order_way sli_order_choose(const sli_graph_facts *f) {
   return r->way;
 }
 
-static int sli_graph_is_irregular(const sli_graph *G, int is_peeled, uint64_t *squares) {
-  uint64_t mean;
+static int sli_graph_is_irregular(const sli_graph *G, int is_peeled) {
+  uint64_t mean, squares = 0;
   sl_int v;
-  *squares = 0;
   if (G->n == 0 || G->begin[G->n] / G->n >= 1024) {
     return 0;
   }
   for (v = 0; v < G->n; v++) {
     const uint64_t degree = (uint64_t)sli_graph_degree(G, v);
-    *squares += degree < 1024 ? degree * degree : 1024 * 1024;
+    squares += degree < 1024 ? degree * degree : 1024 * 1024;
   }
   mean = 16 * (uint64_t)G->begin[G->n] / (uint64_t)G->n;
   return mean > 0 &&
-       10 * 256 * *squares >= (is_peeled ? 11u : 12u) * mean * mean * (uint64_t)G->n;
+       10 * 256 * squares >= (is_peeled ? 11u : 12u) * mean * mean * (uint64_t)G->n;
 }
 
 static int sli_graph_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *side) {
@@ -10178,7 +10180,7 @@ static int sli_graph_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *sid
   return 1;
 }
 
-static int sli_graph_shape(const sli_order_job *job, int64_t *entries) {
+static int sli_graph_shape(const sli_order_job *job) {
   const int64_t n = job->G->n, most = n * n / 8;
   sli_levels l = sli_levels_of(job);
   sl_int v, tail = 0;
@@ -10187,7 +10189,6 @@ static int sli_graph_shape(const sli_order_job *job, int64_t *entries) {
       tail = sli_levels_search(&l, v, tail, 1, most);
     }
   }
-  *entries = l.entries;
   return l.entries > most ? SLI_IS_EXPANDING
        : l.entries <= 32 * n && l.entries <= n * n / 32 ? SLI_IS_THIN
                               : 0;
@@ -10208,10 +10209,9 @@ static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
   if ((f.bits & (SLI_WANTS_ONE_FACTOR | SLI_WANTS_MANY_SOLVES)) == 0) {
     return f;
   }
-  f.bits |=
-    sli_graph_is_irregular(G, job->is_peeled || is_for_one, &f.squares) ? SLI_IS_IRREGULAR : 0;
+  f.bits |= sli_graph_is_irregular(G, job->is_peeled || is_for_one) ? SLI_IS_IRREGULAR : 0;
   if (!is_for_one && (job->is_peeled || mean * mean > n || (f.bits & SLI_IS_IRREGULAR) != 0)) {
-    f.bits |= sli_graph_shape(job, &f.levels);
+    f.bits |= sli_graph_shape(job);
   }
   if (!is_for_one && job->is_peeled && (f.bits & SLI_IS_THIN) == 0 &&
       sli_graph_is_bipartite(G, job->perm, job->scratch)) {
@@ -10219,6 +10219,8 @@ static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
   }
   return f;
 }
+
+#define SLI_CUTS_FILL 3.5
 
 #define SLI_ORDER_ND_FLOPS 5000.0
 #define SLI_ORDER_ND_SAVES 8000.0
@@ -10233,7 +10235,231 @@ static void sli_graph_describe_mindeg(const sli_graph *G, sli_graph_facts *f) {
   f->bits |= c->widest * c->widest * c->widest > 1.5 * c->flops ? SLI_HAS_CORE : 0;
   f->bits |= c->entries <= 1.125 * entries && c->paths <= 1.25 * c->fronts ? SLI_HAS_NO_FILL : 0;
   f->bits |= share < 0.67 * 0.67 * 0.67 ? SLI_HAS_SHORT_PATHS : 0;
-  f->bits |= share < 1.2 * 1.2 * 1.2 ? 0 : SLI_HAS_LONG_PATHS;
+  f->bits |= c->entries <= SLI_CUTS_FILL * entries ? SLI_HAS_LITTLE_FILL : 0;
+}
+
+/* src/impl/ordering/cuts.h: short paths for graphs like trees: minimum degree, its elimination tree cut by cliques */
+
+#define SLI_CUTS_LEAF 24
+#define SLI_CUTS_SIDE 5
+
+typedef struct sli_cuts {
+  sl_int n, nodes;
+  sl_int *row;
+  sl_int *at;
+  sl_int *node_of;
+  sl_int *mark;
+  sl_int *start;
+  sl_int *own;
+  sl_off *begin;
+  sl_int *count, *list;
+  sl_int *parent;
+  sl_int *below;
+  sl_int *tree, *order, *spare;
+  sl_int *part, *end;
+  sl_int parts;
+} sli_cuts;
+
+static void sli_cuts_layout(sli_cuts *c, sli_block *b, sl_off room) {
+  c->begin = SLI_TAKE(b, sl_off, c->nodes);
+  c->row = SLI_TAKE(b, sl_int, c->n);
+  c->at = SLI_TAKE(b, sl_int, c->n);
+  c->node_of = SLI_TAKE(b, sl_int, c->n);
+  c->mark = SLI_TAKE(b, sl_int, c->n);
+  c->start = SLI_TAKE(b, sl_int, (size_t)c->nodes + 1);
+  c->own = SLI_TAKE(b, sl_int, c->nodes);
+  c->count = SLI_TAKE(b, sl_int, c->nodes);
+  c->list = SLI_TAKE(b, sl_int, room);
+  c->parent = SLI_TAKE(b, sl_int, c->nodes);
+  c->below = SLI_TAKE(b, sl_int, c->nodes);
+  c->tree = SLI_TAKE(b, sl_int, c->nodes);
+  c->order = SLI_TAKE(b, sl_int, c->nodes);
+  c->spare = SLI_TAKE(b, sl_int, c->nodes);
+  c->part = SLI_TAKE(b, sl_int, c->nodes);
+  c->end = SLI_TAKE(b, sl_int, c->nodes);
+}
+
+static void sli_cuts_start(sli_cuts *c, const sl_int *perm, const sl_int *sizes) {
+  sl_int s, k;
+  for (k = 0; k < c->n; k++) {
+    c->row[k] = perm[k];
+    c->at[perm[k]] = k;
+    c->mark[k] = -1;
+  }
+  for (s = 0, c->start[0] = 0; s < c->nodes; s++) {
+    c->start[s + 1] = c->start[s] + sizes[s];
+    c->own[s] = sizes[s];
+    c->order[s] = s;
+    for (k = c->start[s]; k < c->start[s + 1]; k++) {
+      c->node_of[k] = s;
+    }
+  }
+}
+
+SLI_INLINE sl_off sli_cuts_append(sli_cuts *c, sl_int s, sl_int k, sl_off end) {
+  if (k >= c->start[s + 1] && k < c->start[c->nodes] && c->mark[k] != s) {
+    c->mark[k] = s;
+    c->list[end++] = k;
+  }
+  return end;
+}
+
+static void sli_cuts_fill(sli_cuts *c, const sli_graph *G) {
+  sl_int *child = c->tree, *sibling = c->spare, s, t, k;
+  sl_off end = 0, e;
+  memset(child, -1, (size_t)c->nodes * sizeof(sl_int));
+  for (s = 0; s < c->nodes; s++) {
+    c->begin[s] = end;
+    for (k = c->start[s]; k < c->start[s + 1]; k++) {
+      for (e = G->begin[c->row[k]]; e < G->begin[c->row[k] + 1]; e++) {
+        end = sli_cuts_append(c, s, c->at[G->to[e]], end);
+      }
+    }
+    for (t = child[s]; t != -1; t = sibling[t]) {
+      for (e = c->begin[t]; e < c->begin[t] + c->count[t]; e++) {
+        end = sli_cuts_append(c, s, c->list[e], end);
+      }
+    }
+    c->count[s] = (sl_int)(end - c->begin[s]);
+    if (c->count[s] > 0) {
+      for (e = c->begin[s], k = c->n; e < end; e++) {
+        k = sli_min(k, c->list[e]);
+      }
+      sibling[s] = child[c->node_of[k]];
+      child[c->node_of[k]] = s;
+    }
+  }
+  memset(c->mark, 0, (size_t)c->n * sizeof(sl_int));
+}
+
+static void sli_cuts_renew(sli_cuts *c, sl_int s) {
+  sl_int *list = c->list + c->begin[s], k, kept = 0, least = c->n;
+  for (k = 0; k < c->count[s]; k++) {
+    if (c->mark[list[k]] != -1) {
+      least = sli_min(least, list[k]);
+      list[kept++] = list[k];
+    }
+  }
+  c->count[s] = kept;
+  c->parent[s] = kept == 0 ? -1 : c->node_of[least];
+}
+
+static void sli_cuts_push(sli_cuts *c, sl_int first, sl_int end) {
+  sl_int *part = c->part + c->parts, *last = c->end + c->parts, trees = 0, k;
+  for (k = end - 1; k >= first; k--) {
+    const sl_int s = c->order[k];
+    sli_cuts_renew(c, s);
+    if (c->parent[s] == -1) {
+      last[trees] = 0;
+      c->tree[s] = trees++;
+    } else {
+      c->tree[s] = c->tree[c->parent[s]];
+    }
+    last[c->tree[s]]++;
+  }
+  for (k = 0; k < trees; k++) {
+    part[k] = k == 0 ? first : last[k - 1];
+    last[k] += part[k];
+  }
+  for (k = first; k < end; k++) {
+    c->spare[part[c->tree[c->order[k]]]++] = c->order[k];
+  }
+  for (k = 0; k < trees; k++) {
+    part[k] = k == 0 ? first : last[k - 1];
+  }
+  memcpy(c->order + first, c->spare + first, (size_t)(end - first) * sizeof(sl_int));
+  c->parts += trees;
+}
+
+static sl_int sli_cuts_find(const sli_cuts *c, sl_int first, sl_int end, sl_int total,
+    int *is_front) {
+  int64_t least = INT64_MAX;
+  sl_int k, best = -1, center = -1;
+  for (k = first; k < end; k++) {
+    const sl_int s = c->order[k], below = c->below[s];
+    const sl_int side = sli_min(below, total - below - c->count[s]);
+    center = center == -1 && below >= total - below ? s : center;
+    if (c->parent[s] != -1 && side >= total / SLI_CUTS_SIDE) {
+      const int64_t cost = (int64_t)c->count[s] * (total - side);
+      if (cost < least) {
+        least = cost;
+        best = s;
+      }
+    }
+  }
+  *is_front = best == -1 || c->count[best] > c->count[center] + c->own[center];
+  return *is_front ? center : best;
+}
+
+SLI_INLINE sl_int sli_cuts_place(sli_cuts *c, sl_int k, sl_int *perm, sl_int at) {
+  perm[--at] = c->row[k];
+  c->mark[k] = -1;
+  c->own[c->node_of[k]]--;
+  return at;
+}
+
+static sl_int sli_cuts_place_node(sli_cuts *c, sl_int s, sl_int *perm, sl_int at) {
+  sl_int k;
+  for (k = c->start[s + 1] - 1; k >= c->start[s]; k--) {
+    at = c->mark[k] == -1 ? at : sli_cuts_place(c, k, perm, at);
+  }
+  return at;
+}
+
+static void sli_cuts_run(sli_cuts *c, sl_int *perm, sl_int at) {
+  while (c->parts > 0) {
+    const sl_int first = c->part[--c->parts], end = c->end[c->parts];
+    const sl_int root = c->order[end - 1];
+    sl_int k, kept = first, cut;
+    int is_front;
+    for (k = first; k < end; k++) {
+      c->below[c->order[k]] = c->own[c->order[k]];
+    }
+    for (k = first; k < end - 1; k++) {
+      c->below[c->parent[c->order[k]]] += c->below[c->order[k]];
+    }
+    if (c->below[root] <= SLI_CUTS_LEAF) {
+      for (k = end - 1; k >= first; k--) {
+        at = sli_cuts_place_node(c, c->order[k], perm, at);
+      }
+      continue;
+    }
+    cut = sli_cuts_find(c, first, end, c->below[root], &is_front);
+    for (k = 0; k < c->count[cut]; k++) {
+      at = sli_cuts_place(c, c->list[c->begin[cut] + k], perm, at);
+    }
+    if (is_front) {
+      at = sli_cuts_place_node(c, cut, perm, at);
+    }
+    for (k = first; k < end; k++) {
+      if (c->own[c->order[k]] > 0) {
+        c->order[kept++] = c->order[k];
+      }
+    }
+    sli_cuts_push(c, first, kept);
+  }
+}
+
+static sl_status sli_order_cuts(const sli_order_job *job, const sl_int *sizes, sl_int nodes,
+    sl_off room) {
+  sli_cuts c;
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  memset(&c, 0, sizeof c);
+  c.n = job->G->n;
+  c.nodes = nodes;
+  SLI_LAYOUT(&b, job->a, status) {
+    sli_cuts_layout(&c, &b, room);
+  }
+  if (status == SL_OK) {
+    sli_cuts_start(&c, job->perm, sizes);
+    sli_cuts_fill(&c, job->G);
+    SLI_ASSERT(nodes == 0 || c.begin[nodes - 1] + c.count[nodes - 1] <= room);
+    sli_cuts_push(&c, 0, nodes);
+    sli_cuts_run(&c, job->perm, c.start[nodes]);
+    sli_free(job->a, b.base);
+  }
+  return status;
 }
 
 /* src/impl/ordering/order.h: the elimination order: reduce the graph, describe it, choose, order, expand */
@@ -10263,8 +10489,8 @@ static sl_status sli_order_given(const sli_order_job *job) {
   return SL_OK;
 }
 
-static sl_status sli_order_by_mindeg(const sli_order_job *job, sli_graph_facts *f, sl_int *perm) {
-  const sl_status status = sli_order_mindeg(job->G, perm, &f->cost, job->a);
+static sl_status sli_order_by_mindeg(const sli_order_job *job, sli_graph_facts *f) {
+  const sl_status status = sli_order_mindeg(job->G, job->perm, job->scratch, &f->cost, job->a);
   sli_graph_describe_mindeg(job->G, f);
   return status;
 }
@@ -10278,7 +10504,7 @@ static sl_status sli_order_reduced(const sli_order_job *job) {
       f.bits |= SLI_TRIED_LEVELS | (sli_order_levels(job) ? SLI_IS_NARROW : 0);
       break;
     case SLI_TRY_MINDEG:
-      status = sli_order_by_mindeg(job, &f, job->choice->other);
+      status = sli_order_by_mindeg(job, &f);
       break;
     case SLI_BY_METIS:
 #if defined(SLI_METIS)
@@ -10287,14 +10513,9 @@ static sl_status sli_order_reduced(const sli_order_job *job) {
     case SLI_BY_LEVELS:
       return SL_OK;
     case SLI_BY_MINDEG:
-      if ((f.bits & SLI_TRIED_MINDEG) == 0) {
-        return sli_order_by_mindeg(job, &f, job->perm);
-      }
-      memcpy(job->perm, job->choice->other, (size_t)job->G->n * sizeof(sl_int));
-      return SL_OK;
-    case SLI_BY_BOTH:
-      job->choice->is_there = 1;
-      return sli_order_compressed(job);
+      return (f.bits & SLI_TRIED_MINDEG) != 0 ? SL_OK : sli_order_by_mindeg(job, &f);
+    case SLI_BY_CUTS:
+      return sli_order_cuts(job, job->scratch, f.cost.pivots, (sl_off)f.cost.lists);
     case SLI_BY_DISSECTION:
       return sli_order_compressed(job);
     }
@@ -10325,9 +10546,6 @@ static sl_status sli_order_peeled(const sli_order_job *job) {
   if (status == SL_OK) {
     sli_peel_expand(&p, job->perm);
     job->septree->count = 0;
-    if (job->choice->is_there) {
-      sli_peel_expand(&p, job->choice->other);
-    }
   }
   sli_free(job->a, b.base);
   return status;
@@ -10371,9 +10589,6 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
     sli_order_expand(job);
   } else if (status == SL_OK) {
     sli_order_border(job, job->perm);
-    if (job->choice->is_there) {
-      sli_order_border(job, job->choice->other);
-    }
   }
   sli_free(job->a, b.base);
   return status;
@@ -10407,7 +10622,6 @@ static sl_status sli_order(sli_order_job *job) {
   const sl_options *opt = job->opt;
   const char *wrong;
   job->septree->count = 0;
-  job->choice->is_there = 0;
   job->choice->has_tree = 0;
   wrong = sli_order_options_wrong(opt, job->A->n_cols);
   if (wrong != NULL) {
@@ -11821,7 +12035,6 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   w->n = rows;
   w->column = SLI_TAKE(b, sl_int, nnz);
   w->perm = SLI_TAKE(b, sl_int, n);
-  w->choice.other = SLI_TAKE(b, sl_int, n);
   w->scratch = SLI_TAKE(b, sl_int, 5 * n);
   w->septree.node_of = SLI_TAKE(b, sl_int, n);
   w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
@@ -12003,41 +12216,6 @@ static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *
   stats->symbolic.seconds_analyze += lap;
 }
 
-static void sli_analysis_costs(const sli_analysis *w, sl_int *size, double *entries,
-    double *paths) {
-  sl_int k;
-  *entries = *paths = 0.0;
-  for (k = 0; k < w->n; k++) {
-    size[k] = 1;
-  }
-  for (k = 0; k < w->n; k++) {
-    *entries += w->counts[k];
-    *paths += (double)w->counts[k] * size[k];
-    if (w->parent[k] != -1) {
-      size[w->parent[k]] += size[k];
-    }
-  }
-}
-
-static void sli_analyze_both(sli_analysis *w, const sl_options *opt, sli_team *team,
-    sl_stats *stats) {
-  double entries[2], paths[2];
-  sl_int *const orders[3] = {w->choice.other, w->perm, w->choice.other};
-  int k, count = 2;
-  for (k = 0; k < count; k++) {
-    w->perm = orders[k];
-    (void)sli_csc_columns(w->A, w->column);
-    sli_analyze_order(w, opt, team, stats);
-    if (k < 2) {
-      sli_analysis_costs(w, w->scratch, &entries[k], &paths[k]);
-    }
-    if (k == 1 && entries[0] < entries[1] && paths[0] < paths[1]) {
-      w->septree.count = 0;
-      count = 3;
-    }
-  }
-}
-
 static void sli_analyze_stats(const sl_symbolic *S, sl_int *depth, sl_stats *stats) {
   sl_int k;
   stats->symbolic.n = S->n;
@@ -12194,11 +12372,7 @@ static void sli_symbolic_run(sli_team *team, void *data) {
   if (j->status != SL_OK) {
     return;
   }
-  if (w->choice.is_there) {
-    sli_analyze_both(w, j->opt, team, &j->found);
-  } else {
-    sli_analyze_order(w, j->opt, team, &j->found);
-  }
+  sli_analyze_order(w, j->opt, team, &j->found);
   memset(&draft, 0, sizeof draft);
   draft.allocator = j->a;
   draft.nnz_input = sli_nnz(w->A);
@@ -28872,7 +29046,6 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
   sl_int *perm = NULL, *scratch = NULL, k;
   sli_order_cost cost;
   sli_order_job job;
-  uint64_t squares;
   sl_status status = SL_OK;
   memset(&G, 0, sizeof G);
   memset(&septree, 0, sizeof septree);
@@ -28899,7 +29072,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
     job.septree = &septree;
     job.team = &alone;
     job.a = a;
-    status = sli_graph_is_irregular(&G, 0, &squares) ? sli_order_mindeg(&G, perm, &cost, a)
+    status = sli_graph_is_irregular(&G, 0) ? sli_order_mindeg(&G, perm, NULL, &cost, a)
                              : sli_order_compressed(&job);
   }
   if (status == SL_OK) {

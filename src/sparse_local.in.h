@@ -124,6 +124,7 @@ extern "C" {
 #include "impl/ordering/quotient.h"
 #include "impl/ordering/quotient_order.h"
 #include "impl/ordering/choice.h"
+#include "impl/ordering/cuts.h"
 #include "impl/ordering/order.h"
 /* analysis: elimination tree, supernodes, structure of L; never sees a value */
 #include "impl/analysis/symbolic_types.h"

@@ -139,6 +139,30 @@ static inline void gen_edges_grid(gen_list_t *t, sl_int nx, sl_int ny, sl_int nz
     }
 }
 
+/* an outline of so many rows, extruded to rings; both ends are closed by fans, as in a CAD part */
+static inline void gen_edges_fans(gen_list_t *t, sl_int around, uint64_t *state) {
+    for (sl_int v = 0; v < t->n; v++) {
+        const sl_int next = v % around + 1 < around ? v + 1 : v + 1 - around;
+        gen_add(t, v > next ? v : next, v > next ? next : v, gen_real(state));
+        if (v >= around) {
+            gen_add(t, v, v - around, gen_real(state));
+            gen_add(t, v, next - around, gen_real(state));
+        }
+    }
+    for (int end = 0; end < 2; end++) {
+        const sl_int first = end == 0 ? 0 : t->n - around;
+        for (sl_int step = 1; 3 * step < around;) { /* every step-th row is left in the outline */
+            const sl_int fan = 2 << gen_below(state, 5);
+            for (sl_int v = 0; v < around; v += fan * step) {
+                for (sl_int k = 2; k <= fan && v + k * step < around; k++) {
+                    gen_add(t, first + v + k * step, first + v, gen_real(state));
+                }
+            }
+            step *= fan;
+        }
+    }
+}
+
 /* the parent of each row is a random later row; one row in 8 is a root */
 static inline void gen_edges_forest(gen_list_t *t, uint64_t *state) {
     for (sl_int k = 0; k + 1 < t->n; k++) {

@@ -50,12 +50,13 @@ enum {
     ORDER_CLIQUES,
     ORDER_WIDE,
     ORDER_COMPONENTS,
+    ORDER_FANS,
     ORDER_KINDS
 };
 
 static inline gen_list_t pattern(int kind) {
     static const sl_int rows[ORDER_KINDS] = {10000, 10000, 10648, 6000, 5000, 5000,
-                                             5000,  1500,  3000,  5043, 6400, 6000};
+                                             5000,  1500,  3000,  5043, 6400, 6000, 6144};
     gen_list_t t = gen_list(rows[kind]);
     uint64_t state = 11;
     switch (kind) {
@@ -90,6 +91,9 @@ static inline gen_list_t pattern(int kind) {
         break;
     case ORDER_WIDE:
         edges_squares(&t, 80);
+        break;
+    case ORDER_FANS:
+        gen_edges_fans(&t, 2048, &state);
         break;
     default:
         gen_components(&t, &state);

@@ -47,11 +47,7 @@ static void sli_symbolic_run(sli_team *team, void *data) {
     if (j->status != SL_OK) {
         return;
     }
-    if (w->choice.is_there) {
-        sli_analyze_both(w, j->opt, team, &j->found);
-    } else {
-        sli_analyze_order(w, j->opt, team, &j->found);
-    }
+    sli_analyze_order(w, j->opt, team, &j->found);
     memset(&draft, 0, sizeof draft);
     draft.allocator = j->a;
     draft.nnz_input = sli_nnz(w->A);

@@ -12,7 +12,6 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->n = rows;
     w->column = SLI_TAKE(b, sl_int, nnz);
     w->perm = SLI_TAKE(b, sl_int, n);
-    w->choice.other = SLI_TAKE(b, sl_int, n);
     w->scratch = SLI_TAKE(b, sl_int, 5 * n);
     w->septree.node_of = SLI_TAKE(b, sl_int, n);
     w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
@@ -202,44 +201,6 @@ static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *
     lap = sli_analysis_lap(w);
     stats->symbolic.seconds_tree += lap;
     stats->symbolic.seconds_analyze += lap;
-}
-
-/* The entries of L, and those on the paths from all columns to the roots. size: n of scratch. */
-static void sli_analysis_costs(const sli_analysis *w, sl_int *size, double *entries,
-                               double *paths) {
-    sl_int k;
-    *entries = *paths = 0.0;
-    for (k = 0; k < w->n; k++) {
-        size[k] = 1;
-    }
-    for (k = 0; k < w->n; k++) {
-        *entries += w->counts[k];
-        *paths += (double)w->counts[k] * size[k];
-        if (w->parent[k] != -1) {
-            size[w->parent[k]] += size[k];
-        }
-    }
-}
-
-/* Analyzes the other order, then the first one, which stays unless it has more entries and longer
- * paths. */
-static void sli_analyze_both(sli_analysis *w, const sl_options *opt, sli_team *team,
-                             sl_stats *stats) {
-    double entries[2], paths[2];
-    sl_int *const orders[3] = {w->choice.other, w->perm, w->choice.other};
-    int k, count = 2;
-    for (k = 0; k < count; k++) {
-        w->perm = orders[k];
-        (void)sli_csc_columns(w->A, w->column);
-        sli_analyze_order(w, opt, team, stats);
-        if (k < 2) {
-            sli_analysis_costs(w, w->scratch, &entries[k], &paths[k]);
-        }
-        if (k == 1 && entries[0] < entries[1] && paths[0] < paths[1]) {
-            w->septree.count = 0;
-            count = 3;
-        }
-    }
 }
 
 /* Fills the counts. depth: n of scratch. */

@@ -133,7 +133,6 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
     sl_int *perm = NULL, *scratch = NULL, k;
     sli_order_cost cost;
     sli_order_job job;
-    uint64_t squares;
     sl_status status = SL_OK;
     memset(&G, 0, sizeof G);
     memset(&septree, 0, sizeof septree);
@@ -160,7 +159,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
         job.septree = &septree;
         job.team = &alone;
         job.a = a;
-        status = sli_graph_is_irregular(&G, 0, &squares) ? sli_order_mindeg(&G, perm, &cost, a)
+        status = sli_graph_is_irregular(&G, 0) ? sli_order_mindeg(&G, perm, NULL, &cost, a)
                                                          : sli_order_compressed(&job);
     }
     if (status == SL_OK) {

@@ -25,15 +25,13 @@ enum {
     SLI_HAS_CORE = 1 << 12, /* most operations are in one front */
     SLI_HAS_NO_FILL = 1 << 13,
     SLI_HAS_SHORT_PATHS = 1 << 14,
-    SLI_HAS_LONG_PATHS = 1 << 15
+    SLI_HAS_LITTLE_FILL = 1 << 15
 };
 
 /* What is counted of a graph. */
 typedef struct sli_graph_facts {
     int bits;
     sl_off edges;        /* twice the number of edges */
-    uint64_t squares;    /* sum of the squares of the degrees, each counted up to 1024 */
-    int64_t levels;      /* entries of L by the levels of a search, or where it was given up */
     sli_order_cost cost; /* of minimum degree, once it was tried */
 } sli_graph_facts;
 
@@ -43,8 +41,8 @@ typedef enum sli_order_way {
     SLI_BY_METIS,
     SLI_BY_LEVELS,
     SLI_BY_MINDEG,
-    SLI_BY_DISSECTION,
-    SLI_BY_BOTH /* dissection; the analysis then counts minimum degree, too, and takes the better */
+    SLI_BY_CUTS, /* of minimum degree, which was tried */
+    SLI_BY_DISSECTION
 } sli_order_way;
 
 /* The first rule decides of which all facts hold that it asks for, and none that it excludes. With
@@ -64,8 +62,8 @@ static const struct sli_order_rule {
     {SLI_WANTS_ONE_FACTOR | SLI_IS_CHEAP, 0, SLI_BY_MINDEG},
     /* networks with hubs, one factor: twice the entries of L */
     {SLI_WANTS_ONE_FACTOR | SLI_IS_IRREGULAR, 0, SLI_BY_MINDEG},
-    /* What minimum degree costs is known in a fraction of the time. In thin graphs it has long
-     * paths in any case. */
+    /* What minimum degree costs is known in a fraction of the time, but thin graphs are dissected
+     * along their levels in less. */
     {SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_IS_THIN | SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
     {SLI_WANTS_MANY_SOLVES | SLI_IS_BIPARTITE, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
     {SLI_WANTS_MANY_SOLVES | SLI_IS_EXPANDING, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
@@ -75,8 +73,8 @@ static const struct sli_order_rule {
     {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_NO_FILL, 0, SLI_BY_MINDEG},
     /* Q PDE control: 1.9 to 2.3; dissection saves 13 to 20 % of the paths for 14 to 20 % of fill */
     {SLI_TRIED_MINDEG | SLI_IS_BIPARTITE | SLI_HAS_SHORT_PATHS, 0, SLI_BY_MINDEG},
-    /* a power network (bcspwr10): 7 % more entries and 9 % more on paths, in 0.7 of the time */
-    {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_IS_IRREGULAR, SLI_HAS_LONG_PATHS, SLI_BY_BOTH},
+    /* K fans: 2.5 to 3; a power network (bcspwr10): 1.8, for 9 % more entries on paths */
+    {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_LITTLE_FILL, 0, SLI_BY_CUTS},
     /* all else, such as K surfaces and volumes by default */
     {0, 0, SLI_BY_DISSECTION}};
 
@@ -93,20 +91,19 @@ static sli_order_way sli_order_choose(const sli_graph_facts *f) {
  * 1.2 to 15 on networks and KKT systems. Where rows of few neighbors have been peeled, 11/10:
  * random graphs have 1.14, networks of roads 1.04. Degrees count up to 1024, and all products are
  * exact. */
-static int sli_graph_is_irregular(const sli_graph *G, int is_peeled, uint64_t *squares) {
-    uint64_t mean;
+static int sli_graph_is_irregular(const sli_graph *G, int is_peeled) {
+    uint64_t mean, squares = 0;
     sl_int v;
-    *squares = 0;
     if (G->n == 0 || G->begin[G->n] / G->n >= 1024) {
         return 0;
     }
     for (v = 0; v < G->n; v++) {
         const uint64_t degree = (uint64_t)sli_graph_degree(G, v);
-        *squares += degree < 1024 ? degree * degree : 1024 * 1024;
+        squares += degree < 1024 ? degree * degree : 1024 * 1024;
     }
     mean = 16 * (uint64_t)G->begin[G->n] / (uint64_t)G->n;
     return mean > 0 &&
-           10 * 256 * *squares >= (is_peeled ? 11u : 12u) * mean * mean * (uint64_t)G->n;
+           10 * 256 * squares >= (is_peeled ? 11u : 12u) * mean * mean * (uint64_t)G->n;
 }
 
 /* Is the graph bipartite, with too many edges to be planar? KKT systems are, once bounds are peeled
@@ -144,10 +141,9 @@ static int sli_graph_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *sid
 }
 
 /* How far apart are the rows? In a thin graph the levels of a breadth-first search have at most 32
- * rows in the mean, and there are at least 32: minimum degree has long paths then. In an expanding
- * one most rows are a few edges apart, and a mean level has 1/8 of all: a tenth of that in volumes
- * of 1e4 rows. */
-static int sli_graph_shape(const sli_order_job *job, int64_t *entries) {
+ * rows in the mean, and there are at least 32. In an expanding one most rows are a few edges apart,
+ * and a mean level has 1/8 of all: a tenth of that in volumes of 1e4 rows. */
+static int sli_graph_shape(const sli_order_job *job) {
     const int64_t n = job->G->n, most = n * n / 8;
     sli_levels l = sli_levels_of(job);
     sl_int v, tail = 0;
@@ -156,7 +152,6 @@ static int sli_graph_shape(const sli_order_job *job, int64_t *entries) {
             tail = sli_levels_search(&l, v, tail, 1, most);
         }
     }
-    *entries = l.entries;
     return l.entries > most                                 ? SLI_IS_EXPANDING
            : l.entries <= 32 * n && l.entries <= n * n / 32 ? SLI_IS_THIN
                                                             : 0;
@@ -178,11 +173,10 @@ static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
     if ((f.bits & (SLI_WANTS_ONE_FACTOR | SLI_WANTS_MANY_SOLVES)) == 0) {
         return f;
     }
-    f.bits |=
-        sli_graph_is_irregular(G, job->is_peeled || is_for_one, &f.squares) ? SLI_IS_IRREGULAR : 0;
+    f.bits |= sli_graph_is_irregular(G, job->is_peeled || is_for_one) ? SLI_IS_IRREGULAR : 0;
     /* with n < mean^2, two edges may lead from most rows to most others */
     if (!is_for_one && (job->is_peeled || mean * mean > n || (f.bits & SLI_IS_IRREGULAR) != 0)) {
-        f.bits |= sli_graph_shape(job, &f.levels);
+        f.bits |= sli_graph_shape(job);
     }
     if (!is_for_one && job->is_peeled && (f.bits & SLI_IS_THIN) == 0 &&
         sli_graph_is_bipartite(G, job->perm, job->scratch)) {
@@ -190,6 +184,10 @@ static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
     }
     return f;
 }
+
+/* The cliques of minimum degree are good separators where L has few times the entries of A: with
+ * 3.9 times as many, paths are a quarter longer than by dissection. */
+#define SLI_CUTS_FILL 3.5
 
 /* For each directed edge, a dissection takes as long as about this many operations of a
  * factorization. Measured on grids of 1e4 to 1e5 rows in 2D, 20^3 and 30^3, and scans. */
@@ -222,7 +220,7 @@ static void sli_graph_describe_mindeg(const sli_graph *G, sli_graph_facts *f) {
     f->bits |= c->widest * c->widest * c->widest > 1.5 * c->flops ? SLI_HAS_CORE : 0;
     f->bits |= c->entries <= 1.125 * entries && c->paths <= 1.25 * c->fronts ? SLI_HAS_NO_FILL : 0;
     f->bits |= share < 0.67 * 0.67 * 0.67 ? SLI_HAS_SHORT_PATHS : 0;
-    f->bits |= share < 1.2 * 1.2 * 1.2 ? 0 : SLI_HAS_LONG_PATHS;
+    f->bits |= c->entries <= SLI_CUTS_FILL * entries ? SLI_HAS_LITTLE_FILL : 0;
 }
 
 #endif

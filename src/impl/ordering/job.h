@@ -14,10 +14,8 @@ typedef struct sli_septree {
 
 /* What else an ordering finds. */
 typedef struct sli_order_choice {
-    sl_int *other;  /* n rows: an order by minimum degree; the analysis counts both, if is_there */
     sl_int *parent; /* n rows: the elimination tree of an order in postorder, if has_tree */
     int has_tree;   /* A is a forest, and L has no fill */
-    int is_there;
 } sli_order_choice;
 
 /* An ordering under way. The caller of sli_order fills the first part; each step that reduces the

@@ -4,6 +4,7 @@
 
 #include "choice.h"
 #include "compress.h"
+#include "cuts.h"
 #include "metis.h"
 #include "reduce.h"
 #include "small.h"
@@ -36,9 +37,10 @@ static sl_status sli_order_given(const sli_order_job *job) {
     return SL_OK;
 }
 
-/* Orders the graph of a job by minimum degree, and adds to the facts what that costs. */
-static sl_status sli_order_by_mindeg(const sli_order_job *job, sli_graph_facts *f, sl_int *perm) {
-    const sl_status status = sli_order_mindeg(job->G, perm, &f->cost, job->a);
+/* Orders the graph of a job by minimum degree, and adds to the facts what that costs. The scratch
+ * then has the rows of each pivot. */
+static sl_status sli_order_by_mindeg(const sli_order_job *job, sli_graph_facts *f) {
+    const sl_status status = sli_order_mindeg(job->G, job->perm, job->scratch, &f->cost, job->a);
     sli_graph_describe_mindeg(job->G, f);
     return status;
 }
@@ -53,7 +55,7 @@ static sl_status sli_order_reduced(const sli_order_job *job) {
             f.bits |= SLI_TRIED_LEVELS | (sli_order_levels(job) ? SLI_IS_NARROW : 0);
             break;
         case SLI_TRY_MINDEG:
-            status = sli_order_by_mindeg(job, &f, job->choice->other);
+            status = sli_order_by_mindeg(job, &f);
             break;
         case SLI_BY_METIS:
 #if defined(SLI_METIS)
@@ -62,14 +64,9 @@ static sl_status sli_order_reduced(const sli_order_job *job) {
         case SLI_BY_LEVELS: /* perm has it already */
             return SL_OK;
         case SLI_BY_MINDEG:
-            if ((f.bits & SLI_TRIED_MINDEG) == 0) {
-                return sli_order_by_mindeg(job, &f, job->perm);
-            }
-            memcpy(job->perm, job->choice->other, (size_t)job->G->n * sizeof(sl_int));
-            return SL_OK;
-        case SLI_BY_BOTH:
-            job->choice->is_there = 1;
-            return sli_order_compressed(job);
+            return (f.bits & SLI_TRIED_MINDEG) != 0 ? SL_OK : sli_order_by_mindeg(job, &f);
+        case SLI_BY_CUTS:
+            return sli_order_cuts(job, job->scratch, f.cost.pivots, (sl_off)f.cost.lists);
         case SLI_BY_DISSECTION:
             return sli_order_compressed(job);
         }
@@ -101,9 +98,6 @@ static sl_status sli_order_peeled(const sli_order_job *job) {
     if (status == SL_OK) {
         sli_peel_expand(&p, job->perm);
         job->septree->count = 0; /* of the rows that were left only */
-        if (job->choice->is_there) {
-            sli_peel_expand(&p, job->choice->other);
-        }
     }
     sli_free(job->a, b.base);
     return status;
@@ -149,9 +143,6 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
         sli_order_expand(job);
     } else if (status == SL_OK) {
         sli_order_border(job, job->perm);
-        if (job->choice->is_there) {
-            sli_order_border(job, job->choice->other);
-        }
     }
     sli_free(job->a, b.base);
     return status;
@@ -187,12 +178,11 @@ static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
 }
 
 /* Finds the elimination order of a checked symmetric pattern: perm, the separator tree if the
- * ordering has one, and another order where dissection, for many solves, may not be the best. */
+ * ordering has one. */
 static sl_status sli_order(sli_order_job *job) {
     const sl_options *opt = job->opt;
     const char *wrong;
     job->septree->count = 0;
-    job->choice->is_there = 0;
     job->choice->has_tree = 0;
     wrong = sli_order_options_wrong(opt, job->A->n_cols);
     if (wrong != NULL) {

@@ -6,8 +6,9 @@
 
 /* Writes the rows in a postorder of the tree of absorbed elements: fronts that update each other
  * are then close together, which the analysis reads a third faster. A merged row follows the pivot
- * at the end of its chain. Dense rows are there already. */
-static void sli_quotient_write(sli_quotient *q, sl_int *perm) {
+ * at the end of its chain. Dense rows are there already. sizes: rows of each pivot [out], or NULL.
+ */
+static void sli_quotient_write(sli_quotient *q, sl_int *perm, sl_int *sizes) {
     sl_int *start = q->head, *into = q->list; /* the lists are done with */
     sl_int v, k, at = 0;
     for (v = 0; v < q->n; v++) {
@@ -19,6 +20,9 @@ static void sli_quotient_write(sli_quotient *q, sl_int *perm) {
         perm[at] = v;
         start[v] = at + 1;
         at += q->weight[v];
+        if (sizes != NULL) {
+            sizes[k] = q->weight[v];
+        }
     }
     for (v = 0; v < q->n; v++) {
         sl_int root = v;
@@ -44,6 +48,8 @@ typedef struct sli_order_cost {
     double paths;   /* entries of L on the paths from all rows to the roots */
     double widest;  /* rows below the tallest pivot */
     double fronts;  /* entries of a triangle as tall as the tallest pivot on the path of each row */
+    double lists;   /* rows below all pivots */
+    sl_int pivots;
 } sli_order_cost;
 
 /* below: n of scratch, for the rows of each subtree; then for the tallest pivot of each path. */
@@ -51,13 +57,15 @@ static void sli_quotient_cost(const sli_quotient *q, sl_int *below, sli_order_co
     sl_int k;
     cost->flops = 0.25 * q->flops;
     cost->widest = q->widest;
-    cost->entries = cost->paths = cost->fronts = 0.0;
+    cost->entries = cost->paths = cost->fronts = cost->lists = 0.0;
+    cost->pivots = q->pivots;
     memset(below, 0, (size_t)q->n * sizeof(sl_int));
     for (k = 0; k < q->pivots; k++) {
         const sl_int v = q->sequence[k], width = q->weight[v];
         const double height = 2.0 * q->node[v].degree + width;
         below[v] += width;
         cost->entries += 0.5 * (height + 1) * width;
+        cost->lists += q->node[v].degree;
         cost->paths += 0.5 * height * width * below[v];
         if (q->node[v].into != -1) {
             below[q->node[v].into] += below[v];
@@ -74,9 +82,9 @@ static void sli_quotient_cost(const sli_quotient *q, sl_int *below, sli_order_co
 /* Orders a graph without repeated edges by approximate minimum degree. Of equal degrees the latest
  * comes first, and of rows that no pivot has updated the last, as in AMD [ADD96]: from the first
  * row on, 9-point grids and thin plates have 1.3 to 1.5 times the fill. *cost := of this order,
- * dense rows left out. */
-static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, sli_order_cost *cost,
-                                  const sl_allocator *a) {
+ * dense rows left out; sizes := the rows of each of its pivots, or NULL. */
+static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, sl_int *sizes,
+                                  sli_order_cost *cost, const sl_allocator *a) {
     sli_quotient q;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
@@ -98,7 +106,7 @@ static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, sli_order_co
         sli_quotient_eliminate(&q, pivot);
     }
     sli_quotient_cost(&q, q.head, cost);
-    sli_quotient_write(&q, perm);
+    sli_quotient_write(&q, perm, sizes);
     sli_free(a, b.base);
     return SL_OK;
 }
