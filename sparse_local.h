@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4c3a046be0d6a96b
+ * FNV-1a of the lines after this comment, without the license: d8c40188ada4aafb
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -37,27 +37,27 @@
  *   3014 impl/ base: the compiler, status, memory, sorting, threads
  *   4247 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5165 impl/ matrix: sparse matrices of the caller and of the library
- *   5794 impl/ ordering: fill-reducing orderings of a graph
- *  10670 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12887 impl/ factor: the numbers of L and D
- *  16251 impl/ solve: full and local solves
- *  17915 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19846 impl/ pivots: the order of the pivots by the values of a matrix
- *  20254 impl/ float: L and fronts in single precision
- *  20705 impl/ inverse: entries of the inverse, regions
- *  23770 impl/ change: a factor that follows changes of its matrix
- *  29870 impl/ dirichlet: rows fixed at given values
- *  30461 impl/ dirichlet: by a factor of all rows
- *  30693 impl/ io: files that are replaced only when they are complete
- *  30911 impl/ files: Matrix Market files, 64-bit indices
- *  31531 impl/ save: factors in files
- *  33544 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34227 impl/ batch: diagonals of many inverses
- *  34367 impl/ complex: complex Hermitian systems over real factors
- *  34929 impl/ complex: entries of the inverse
- *  34989 impl/ packs: the tables through which the core calls packs
- *  35038 impl/ last: undefine every internal macro
- *  35394 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5795 impl/ ordering: fill-reducing orderings of a graph
+ *  10671 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12888 impl/ factor: the numbers of L and D
+ *  16252 impl/ solve: full and local solves
+ *  17916 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19847 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20255 impl/ float: L and fronts in single precision
+ *  20706 impl/ inverse: entries of the inverse, regions
+ *  23771 impl/ change: a factor that follows changes of its matrix
+ *  29871 impl/ dirichlet: rows fixed at given values
+ *  30462 impl/ dirichlet: by a factor of all rows
+ *  30694 impl/ io: files that are replaced only when they are complete
+ *  30912 impl/ files: Matrix Market files, 64-bit indices
+ *  31532 impl/ save: factors in files
+ *  33545 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34228 impl/ batch: diagonals of many inverses
+ *  34368 impl/ complex: complex Hermitian systems over real factors
+ *  34930 impl/ complex: entries of the inverse
+ *  34990 impl/ packs: the tables through which the core calls packs
+ *  35039 impl/ last: undefine every internal macro
+ *  35395 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5575,9 +5575,10 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
   if (status != SL_OK || nrhs == 0 || A->n_rows == 0) {
     return status;
   }
-  status = sli_argument(Y == NULL ? "Y is NULL"
-      : !sli_is_ld(ldy, A->n_rows) ? "ldy is below the rows of A"
-      : !sli_is_ld(ldx, A->n_cols) ? "ldx is below the columns of A"
+  status = sli_argument(
+      Y == NULL ? "Y is NULL"
+      : !sli_is_ld(ldy, A->n_rows) ? "ldy is below the rows of A, or too large"
+      : !sli_is_ld(ldx, A->n_cols) ? "ldx is below the columns of A, or too large"
       : A->n_cols > 0 && X == NULL ? "X is NULL"
       : A->n_cols > 0 && X == Y ? "X is Y"
       : NULL);
@@ -12571,9 +12572,9 @@ SLI_COLD static sl_status sli_pattern_refuse(const sl_symbolic *S, const sl_csc 
   }
   p = sli_pattern_difference(S, A);
   return p == sli_nnz(A)
-         ? sli_refuse(SL_ERR_OTHER_PATTERN, "entries that are not read are others")
+         ? sli_refuse(SL_ERR_OTHER_PATTERN, "entries differ in the triangle that is not read")
          : sli_fail_at(NULL, SL_ERR_OTHER_PATTERN, A->i[p], sli_column_of(A, p), 0.0,
-             "from this one on, entries are others, or in another order");
+             "the first entry that differs, or stands in another place");
 }
 
 static sl_status sli_pattern_check(const sl_symbolic *S, const sl_csc *A, int needs_values) {
@@ -16546,9 +16547,9 @@ static sl_status sli_rhs_check(const sli_rhs *r, sl_int nx, sl_int nb) {
   }
   return sli_argument(r->nrhs < 0 ? "nrhs is below 0"
       : bad_x && r->X == NULL ? "X is NULL"
-      : bad_x ? "ldx is below the rows of X, or with SL_ROWS nrhs"
+      : bad_x ? "ldx is below the rows of X (nrhs with SL_ROWS), or too large"
       : bad_b && r->B == NULL ? "B is NULL"
-      : bad_b ? "ldb is below the rows of B, or with SL_ROWS nrhs"
+      : bad_b ? "ldb is below the rows of B (nrhs with SL_ROWS), or too large"
       : "X is B, but ldx is not ldb");
 }
 
@@ -18457,7 +18458,7 @@ static sl_status sli_refine_done(const sl_factor *F, sl_stats *stats, sl_int mos
   }
   return most > 0 && !(error <= F->limits.error) && sli_is_finite(F->limits.error)
          ? sli_fail_at(NULL, SL_ERR_INACCURATE, -1, -1, error,
-             "the backward error, value, is above options.error_limit")
+             "the backward error is above options.error_limit")
          : SL_OK;
 }
 
@@ -26812,7 +26813,7 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
   for (k = 0; k < count && status == SL_OK; k++) {
     if (indices[k] < 0 || indices[k] >= P->n_pins || gone[indices[k]]) {
       status = sli_fail_at(stats, SL_ERR_ARGUMENT, -1, -1, (double)indices[k],
-          "no pin has this index, value, or it is given twice");
+          "no pin has this index, or the index is given twice");
     } else {
       gone[indices[k]] = 1;
     }

@@ -60,10 +60,10 @@ static const struct {
      "column 1)"},
     {other_triangle, SL_ERR_OTHER_PATTERN, "not the analyzed pattern: A stores the other triangle"},
     {rows_swapped, SL_ERR_OTHER_PATTERN,
-     "not the analyzed pattern: from this one on, entries are others, or in another order (row 6, "
+     "not the analyzed pattern: the first entry that differs, or stands in another place (row 6, "
      "column 5)"},
     {not_read, SL_ERR_OTHER_PATTERN,
-     "not the analyzed pattern: entries that are not read are others"},
+     "not the analyzed pattern: entries differ in the triangle that is not read"},
     {another_size, SL_ERR_OTHER_PATTERN,
      "not the analyzed pattern: A has another size than the analyzed matrix"},
     {pinned_twice, SL_ERR_PIVOT, "null pivot: the row is pinned twice (row 5)"},

@@ -137,7 +137,7 @@ static sl_status sli_refine_done(const sl_factor *F, sl_stats *stats, sl_int mos
     }
     return most > 0 && !(error <= F->limits.error) && sli_is_finite(F->limits.error)
                ? sli_fail_at(NULL, SL_ERR_INACCURATE, -1, -1, error,
-                             "the backward error, value, is above options.error_limit")
+                             "the backward error is above options.error_limit")
                : SL_OK;
 }
 

@@ -62,9 +62,9 @@ SLI_COLD static sl_status sli_pattern_refuse(const sl_symbolic *S, const sl_csc 
     }
     p = sli_pattern_difference(S, A);
     return p == sli_nnz(A)
-               ? sli_refuse(SL_ERR_OTHER_PATTERN, "entries that are not read are others")
+               ? sli_refuse(SL_ERR_OTHER_PATTERN, "entries differ in the triangle that is not read")
                : sli_fail_at(NULL, SL_ERR_OTHER_PATTERN, A->i[p], sli_column_of(A, p), 0.0,
-                             "from this one on, entries are others, or in another order");
+                             "the first entry that differs, or stands in another place");
 }
 
 /* Checks that A has the pattern that S was made from. Reads p and i of A, and no value. */

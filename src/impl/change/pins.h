@@ -180,7 +180,7 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
     for (k = 0; k < count && status == SL_OK; k++) {
         if (indices[k] < 0 || indices[k] >= P->n_pins || gone[indices[k]]) {
             status = sli_fail_at(stats, SL_ERR_ARGUMENT, -1, -1, (double)indices[k],
-                                 "no pin has this index, value, or it is given twice");
+                                 "no pin has this index, or the index is given twice");
         } else {
             gone[indices[k]] = 1;
         }

@@ -44,12 +44,13 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
     if (status != SL_OK || nrhs == 0 || A->n_rows == 0) {
         return status;
     }
-    status = sli_argument(Y == NULL                    ? "Y is NULL"
-                          : !sli_is_ld(ldy, A->n_rows) ? "ldy is below the rows of A"
-                          : !sli_is_ld(ldx, A->n_cols) ? "ldx is below the columns of A"
-                          : A->n_cols > 0 && X == NULL ? "X is NULL"
-                          : A->n_cols > 0 && X == Y    ? "X is Y"
-                                                       : NULL);
+    status = sli_argument(
+        Y == NULL                    ? "Y is NULL"
+        : !sli_is_ld(ldy, A->n_rows) ? "ldy is below the rows of A, or too large"
+        : !sli_is_ld(ldx, A->n_cols) ? "ldx is below the columns of A, or too large"
+        : A->n_cols > 0 && X == NULL ? "X is NULL"
+        : A->n_cols > 0 && X == Y    ? "X is Y"
+                                     : NULL);
     if (status != SL_OK) {
         return status;
     }

@@ -232,10 +232,10 @@ static sl_status sli_rhs_check(const sli_rhs *r, sl_int nx, sl_int nb) {
     }
     return sli_argument(r->nrhs < 0             ? "nrhs is below 0"
                         : bad_x && r->X == NULL ? "X is NULL"
-                        : bad_x                 ? "ldx is below the rows of X, or with SL_ROWS nrhs"
+                        : bad_x ? "ldx is below the rows of X (nrhs with SL_ROWS), or too large"
                         : bad_b && r->B == NULL ? "B is NULL"
-                        : bad_b                 ? "ldb is below the rows of B, or with SL_ROWS nrhs"
-                                                : "X is B, but ldx is not ldb");
+                        : bad_b ? "ldb is below the rows of B (nrhs with SL_ROWS), or too large"
+                                : "X is B, but ldx is not ldb");
 }
 
 /* The same for calls that take columns only. */
