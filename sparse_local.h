@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d8c40188ada4aafb
+ * FNV-1a of the lines after this comment, without the license: ceb2a3ac411f3205
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,26 +38,26 @@
  *   4247 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5165 impl/ matrix: sparse matrices of the caller and of the library
  *   5795 impl/ ordering: fill-reducing orderings of a graph
- *  10671 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12888 impl/ factor: the numbers of L and D
- *  16252 impl/ solve: full and local solves
- *  17916 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19847 impl/ pivots: the order of the pivots by the values of a matrix
- *  20255 impl/ float: L and fronts in single precision
- *  20706 impl/ inverse: entries of the inverse, regions
- *  23771 impl/ change: a factor that follows changes of its matrix
- *  29871 impl/ dirichlet: rows fixed at given values
- *  30462 impl/ dirichlet: by a factor of all rows
- *  30694 impl/ io: files that are replaced only when they are complete
- *  30912 impl/ files: Matrix Market files, 64-bit indices
- *  31532 impl/ save: factors in files
- *  33545 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34228 impl/ batch: diagonals of many inverses
- *  34368 impl/ complex: complex Hermitian systems over real factors
- *  34930 impl/ complex: entries of the inverse
- *  34990 impl/ packs: the tables through which the core calls packs
- *  35039 impl/ last: undefine every internal macro
- *  35395 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10740 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12957 impl/ factor: the numbers of L and D
+ *  16321 impl/ solve: full and local solves
+ *  17985 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19916 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20324 impl/ float: L and fronts in single precision
+ *  20775 impl/ inverse: entries of the inverse, regions
+ *  23840 impl/ change: a factor that follows changes of its matrix
+ *  29940 impl/ dirichlet: rows fixed at given values
+ *  30531 impl/ dirichlet: by a factor of all rows
+ *  30763 impl/ io: files that are replaced only when they are complete
+ *  30981 impl/ files: Matrix Market files, 64-bit indices
+ *  31601 impl/ save: factors in files
+ *  33614 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34297 impl/ batch: diagonals of many inverses
+ *  34437 impl/ complex: complex Hermitian systems over real factors
+ *  34999 impl/ complex: entries of the inverse
+ *  35059 impl/ packs: the tables through which the core calls packs
+ *  35108 impl/ last: undefine every internal macro
+ *  35468 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5898,8 +5898,8 @@ SLI_INLINE sl_off sli_graph_degree(const sli_graph *G, sl_int v) {
   return G->begin[v + 1] - G->begin[v];
 }
 
-SLI_INLINE int sli_graph_is_dense_row(const sli_graph *G, sl_int v) {
-  return sli_exceeds_sqrt(sli_graph_degree(G, v), 10, G->n);
+SLI_INLINE int sli_is_dense_row(sl_off degree, sl_int n) {
+  return sli_exceeds_sqrt(degree, 10, n);
 }
 
 static void sli_postorder(const sl_int *parent, const sl_int *sequence, sl_int n, sl_int *post,
@@ -5992,6 +5992,14 @@ typedef struct sli_order_job {
   int is_peeled;
   const sl_int *weight;
 } sli_order_job;
+
+static sl_int sli_job_rows(const sli_order_job *job) {
+  sl_int v, rows = job->G->n;
+  for (v = 0; v < job->G->n && job->weight != NULL; v++) {
+    rows += job->weight[v] - 1;
+  }
+  return rows;
+}
 
 SLI_COLD static sl_status sli_order_refuse(const sli_order_job *job, sl_status status,
     const char *what) {
@@ -9173,7 +9181,7 @@ static sl_int sli_nd_dense(sli_nd *w, sl_int *perm) {
   sl_int v, count = 0;
   for (v = G->n - 1; v >= 0; v--) {
     w->local[v] = -1;
-    if (sli_graph_is_dense_row(G, v)) {
+    if (sli_is_dense_row(sli_graph_degree(G, v), G->n)) {
       w->local[v] = -2;
       perm[G->n - ++count] = v;
     }
@@ -9384,44 +9392,37 @@ static void sli_compress_expand(const sli_compressed *c, sl_int rows, sl_int *pe
   for (v = 0; v < rows; v++) {
     perm[start[c->number[c->first[v]]]++] = v;
   }
-  for (v = rows - 1; v >= 0; v--) {
+  for (v = rows - 1; v >= 0 && septree->count > 0; v--) {
     septree->node_of[v] = septree->node_of[c->number[c->first[v]]];
   }
 }
 
-static sl_status sli_order_compressed(const sli_order_job *job) {
+static sl_status sli_compress(const sli_order_job *job, sli_order_job *inner, sli_compressed *c,
+    sli_block *b) {
   const sli_graph *G = job->G;
-  sli_order_job inner = *job;
-  sli_compressed c;
-  sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
-  memset(&c, 0, sizeof c);
-  c.G.n = !sli_compress_is_likely(G)
-        ? G->n
-        : sli_compress_find(G, job->scratch, (uint32_t *)(void *)job->perm, job->team);
-  if (100 * (int64_t)c.G.n > SLI_COMPRESS_SHARE * (int64_t)G->n) {
-    return sli_order_nd(job);
+  *inner = *job;
+  c->G.n = !sli_compress_is_likely(G)
+         ? G->n
+         : sli_compress_find(G, job->scratch, (uint32_t *)(void *)job->perm, job->team);
+  if (100 * (int64_t)c->G.n > SLI_COMPRESS_SHARE * (int64_t)G->n) {
+    return SL_OK;
   }
-  c.first = job->scratch;
-  SLI_LAYOUT(&b, job->a, status) {
-    c.G.begin = SLI_TAKE(&b, sl_off, (size_t)c.G.n + 1);
-    c.G.to = SLI_TAKE(&b, sl_int, G->begin[G->n]);
-    c.weight = SLI_TAKE(&b, sl_int, c.G.n);
-    c.number = SLI_TAKE(&b, sl_int, G->n);
-    c.perm = SLI_TAKE(&b, sl_int, c.G.n);
+  c->first = job->scratch;
+  SLI_LAYOUT(b, job->a, status) {
+    c->G.begin = SLI_TAKE(b, sl_off, (size_t)c->G.n + 1);
+    c->G.to = SLI_TAKE(b, sl_int, G->begin[G->n]);
+    c->weight = SLI_TAKE(b, sl_int, c->G.n);
+    c->number = SLI_TAKE(b, sl_int, G->n);
+    c->perm = SLI_TAKE(b, sl_int, c->G.n);
   }
-  if (status != SL_OK) {
-    return status;
-  }
-  sli_compress_fill(&c, G);
-  inner.G = &c.G;
-  inner.weight = c.weight;
-  inner.perm = c.perm;
-  status = sli_order_nd(&inner);
   if (status == SL_OK) {
-    sli_compress_expand(&c, G->n, job->perm, job->septree, (sl_int *)(void *)c.G.begin);
+    sli_compress_fill(c, G);
+    inner->G = &c->G;
+    inner->weight = c->weight;
+    inner->perm = c->perm;
+    inner->scratch = job->scratch + G->n;
   }
-  sli_free(job->a, b.base);
   return status;
 }
 
@@ -9608,6 +9609,9 @@ static int sli_order_levels(const sli_order_job *job) {
   const int64_t most = SLI_LEVELS_MOST * (int64_t)n;
   sli_levels found = sli_levels_of(job);
   sl_int v, end, start = 0;
+  if (job->weight != NULL) {
+    return 0;
+  }
   for (v = 0; v < n && found.entries <= most; v++) {
     sli_levels tried = found;
     if (found.seen[v] != 0) {
@@ -9649,7 +9653,7 @@ typedef struct sli_quotient_node {
 } sli_quotient_node;
 
 typedef struct sli_quotient {
-  sl_int n;
+  sl_int n, total;
   sl_off end, room;
   sl_int *list;
   sli_quotient_node *node;
@@ -9666,14 +9670,14 @@ typedef struct sli_quotient {
   sl_int base;
 } sli_quotient;
 
-static void sli_quotient_layout(sli_quotient *q, sli_block *b, sl_int n, sl_off edges) {
-  q->n = n;
+static void sli_quotient_layout(sli_quotient *q, sli_block *b, sl_off edges) {
+  const sl_int n = q->n;
   q->room = edges + edges / 4 + n;
   q->node = SLI_TAKE(b, sli_quotient_node, n);
   q->list = SLI_TAKE(b, sl_int, q->room);
   q->weight = SLI_TAKE(b, sl_int, n);
   q->mark = SLI_TAKE(b, sl_int, n);
-  q->head = SLI_TAKE(b, sl_int, n);
+  q->head = SLI_TAKE(b, sl_int, q->total);
   q->bucket = SLI_TAKE(b, sl_int, n);
   q->sequence = SLI_TAKE(b, sl_int, n);
 }
@@ -9701,32 +9705,44 @@ SLI_INLINE void sli_quotient_dequeue(sli_quotient *q, sl_int v) {
   }
 }
 
-static void sli_quotient_start(sli_quotient *q, const sli_graph *G, sl_int *perm) {
-  sl_int v;
+static void sli_quotient_start(sli_quotient *q, const sli_order_job *job) {
+  const sli_graph *G = job->G;
+  sl_int v, end = q->n;
   sl_off e;
-  q->live = q->n;
+  q->live = 0;
   q->pivots = q->rows = q->least = q->widest = 0;
   q->end = 0;
   q->flops = 0.0;
   q->base = SLI_MARKS_BEGIN;
   for (v = 0; v < q->n; v++) {
-    const int is_dense = sli_graph_degree(G, v) > 16 && sli_graph_is_dense_row(G, v);
-    q->weight[v] = !is_dense;
+    sl_off degree = sli_graph_degree(G, v);
+    int is_dense;
+    for (e = G->begin[v]; e < G->begin[v + 1] && job->weight != NULL; e++) {
+      degree += job->weight[G->to[e]] - 1;
+    }
+    is_dense = degree > 16 && sli_is_dense_row(degree, q->total);
+    q->weight[v] = is_dense ? 0 : job->weight != NULL ? job->weight[v] : 1;
+    q->live += q->weight[v];
     q->node[v].elements = is_dense ? SLI_QUOTIENT_MERGED : 0;
     q->mark[v] = 1;
-    q->head[v] = q->bucket[v] = q->node[v].into = -1;
+    q->bucket[v] = q->node[v].into = -1;
     if (is_dense) {
-      perm[--q->live] = v;
+      job->perm[--end] = v;
     }
   }
   for (v = 0; v < q->n; v++) {
     q->node[v].begin = q->end;
+    q->node[v].degree = 0;
     for (e = G->begin[v]; e < G->begin[v + 1] && q->weight[v] != 0; e++) {
       if (q->weight[G->to[e]] != 0) {
+        q->node[v].degree += q->weight[G->to[e]];
         q->list[q->end++] = G->to[e];
       }
     }
-    q->node[v].length = q->node[v].degree = (sl_int)(q->end - q->node[v].begin);
+    q->node[v].length = (sl_int)(q->end - q->node[v].begin);
+  }
+  for (v = 0; v < q->total; v++) {
+    q->head[v] = -1;
   }
   for (v = 0; v < q->n; v++) {
     if (q->weight[v] != 0) {
@@ -9790,7 +9806,7 @@ static sl_int sli_quotient_form(sli_quotient *q, sl_int pivot) {
     begin = q->node[pivot].begin;
     to = sli_quotient_gather(q, begin, q->node[pivot].length, begin, &total);
   } else {
-    if (q->room - q->end < q->live - q->rows) {
+    if (q->room - q->end < q->n - q->pivots) {
       sli_quotient_collect(q);
     }
     at = q->node[pivot].begin;
@@ -9813,7 +9829,7 @@ static void sli_quotient_overlaps(sli_quotient *q, sl_int pivot) {
   const sl_int *front = q->list + q->node[pivot].begin;
   const sl_int size = q->node[pivot].length;
   sl_int k, p, v, base;
-  if (q->base > INT32_MAX - 3 * (sl_off)q->n - 3) {
+  if (q->base > INT32_MAX - 3 * (sl_off)q->total - 3) {
     for (v = 0; v < q->n; v++) {
       q->mark[v] = q->mark[v] != 0;
     }
@@ -9981,13 +9997,8 @@ static void sli_quotient_write(sli_quotient *q, sl_int *perm, sl_int *sizes) {
   }
   sli_postorder(into, q->sequence, q->pivots, q->sequence, q->bucket, q->mark);
   for (k = 0; k < q->pivots; k++) {
-    v = q->sequence[k];
-    perm[at] = v;
-    start[v] = at + 1;
-    at += q->weight[v];
-    if (sizes != NULL) {
-      sizes[k] = q->weight[v];
-    }
+    sizes[k] = 1;
+    q->bucket[q->sequence[k]] = k;
   }
   for (v = 0; v < q->n; v++) {
     sl_int root = v;
@@ -10002,7 +10013,17 @@ static void sli_quotient_write(sli_quotient *q, sl_int *perm, sl_int *sizes) {
       q->node[k].into = root;
       k = up;
     }
-    perm[start[root]++] = v;
+    sizes[q->bucket[root]]++;
+  }
+  for (k = 0; k < q->pivots; k++) {
+    perm[at] = q->sequence[k];
+    start[q->sequence[k]] = at + 1;
+    at += sizes[k];
+  }
+  for (v = 0; v < q->n; v++) {
+    if (q->node[v].elements != SLI_QUOTIENT_PIVOT && q->node[v].into != -1) {
+      perm[start[q->node[v].into]++] = v;
+    }
   }
 }
 
@@ -10042,20 +10063,21 @@ static void sli_quotient_cost(const sli_quotient *q, sl_int *below, sli_order_co
   }
 }
 
-static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, sl_int *sizes,
-    sli_order_cost *cost, const sl_allocator *a) {
+static sl_status sli_order_mindeg(const sli_order_job *job, sl_int *sizes, sli_order_cost *cost) {
   sli_quotient q;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   sl_int pivot;
   memset(&q, 0, sizeof q);
-  SLI_LAYOUT(&b, a, status) {
-    sli_quotient_layout(&q, &b, G->n, G->begin[G->n]);
+  q.n = job->G->n;
+  q.total = sli_job_rows(job);
+  SLI_LAYOUT(&b, job->a, status) {
+    sli_quotient_layout(&q, &b, job->G->begin[q.n]);
   }
   if (status != SL_OK) {
     return status;
   }
-  sli_quotient_start(&q, G, perm);
+  sli_quotient_start(&q, job);
   while (q.rows < q.live) {
     while (q.head[q.least] == -1) {
       q.least++;
@@ -10065,8 +10087,8 @@ static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, sl_int *size
     sli_quotient_eliminate(&q, pivot);
   }
   sli_quotient_cost(&q, q.head, cost);
-  sli_quotient_write(&q, perm, sizes);
-  sli_free(a, b.base);
+  sli_quotient_write(&q, job->perm, sizes);
+  sli_free(job->a, b.base);
   return SL_OK;
 }
 
@@ -10226,10 +10248,28 @@ static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
 #define SLI_ORDER_ND_FLOPS 5000.0
 #define SLI_ORDER_ND_SAVES 8000.0
 
-static void sli_graph_describe_mindeg(const sli_graph *G, sli_graph_facts *f) {
+static double sli_graph_entries(const sli_order_job *job) {
+  const sli_graph *G = job->G;
+  double entries = 0.0;
+  sl_int v;
+  sl_off e;
+  if (job->weight == NULL) {
+    return 0.5 * (double)G->begin[G->n] + (double)G->n;
+  }
+  for (v = 0; v < G->n; v++) {
+    double height = job->weight[v] + 1;
+    for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+      height += job->weight[G->to[e]];
+    }
+    entries += 0.5 * height * job->weight[v];
+  }
+  return entries;
+}
+
+static void sli_graph_describe_mindeg(const sli_order_job *job, sli_graph_facts *f) {
   const sli_order_cost *c = &f->cost;
-  const double entries = 0.5 * (double)f->edges + (double)G->n;
-  const double path = c->paths / (double)sli_max(G->n, 1);
+  const double entries = sli_graph_entries(job);
+  const double path = c->paths / (double)sli_max(sli_job_rows(job), 1);
   const double share = c->flops > 0.0 ? path / c->flops * path / c->flops * path : 0.0;
   f->bits |= SLI_TRIED_MINDEG;
   f->bits |= 0.5 * c->flops <= SLI_ORDER_ND_SAVES * (double)f->edges ? SLI_IS_CHEAP : 0;
@@ -10491,8 +10531,29 @@ static sl_status sli_order_given(const sli_order_job *job) {
 }
 
 static sl_status sli_order_by_mindeg(const sli_order_job *job, sli_graph_facts *f) {
-  const sl_status status = sli_order_mindeg(job->G, job->perm, job->scratch, &f->cost, job->a);
-  sli_graph_describe_mindeg(job->G, f);
+  const sl_status status = sli_order_mindeg(job, job->scratch, &f->cost);
+  sli_graph_describe_mindeg(job, f);
+  return status;
+}
+
+static sl_status sli_order_compressed(const sli_order_job *job,
+    sl_status (*order)(const sli_order_job *)) {
+  sli_order_job inner;
+  sli_compressed c;
+  sli_block b = {NULL, 0, 0};
+  sl_status status;
+  if (job->weight != NULL) {
+    return order(job);
+  }
+  memset(&c, 0, sizeof c);
+  status = sli_compress(job, &inner, &c, &b);
+  if (status == SL_OK) {
+    status = order(&inner);
+  }
+  if (status == SL_OK && inner.weight != NULL) {
+    sli_compress_expand(&c, job->G->n, job->perm, job->septree, (sl_int *)(void *)c.G.begin);
+  }
+  sli_free(job->a, b.base);
   return status;
 }
 
@@ -10518,10 +10579,18 @@ static sl_status sli_order_reduced(const sli_order_job *job) {
     case SLI_BY_CUTS:
       return sli_order_cuts(job, job->scratch, f.cost.pivots, (sl_off)f.cost.lists);
     case SLI_BY_DISSECTION:
-      return sli_order_compressed(job);
+      return sli_order_compressed(job, sli_order_nd);
     }
   }
   return status;
+}
+
+static sl_status sli_order_any(const sli_order_job *job) {
+  const sl_off n = job->G->n, mean = n > 0 ? job->G->begin[n] / n : 0;
+  return job->ordering != SL_ORDERING_METIS && mean * mean <= n &&
+           sli_graph_is_irregular(job->G, job->is_peeled)
+         ? sli_order_compressed(job, sli_order_reduced)
+         : sli_order_reduced(job);
 }
 
 static sl_status sli_order_peeled(const sli_order_job *job) {
@@ -10542,7 +10611,7 @@ static sl_status sli_order_peeled(const sli_order_job *job) {
   rest.is_peeled = 1;
   status = sli_graph_make_canonical(&p.rest, job->a);
   if (status == SL_OK) {
-    status = sli_order_reduced(&rest);
+    status = sli_order_any(&rest);
   }
   if (status == SL_OK) {
     sli_peel_expand(&p, job->perm);
@@ -10584,7 +10653,7 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
   job->G = &G;
   if (status == SL_OK) {
     status =
-      may_peel && sli_peel_is_worthwhile(&G) ? sli_order_peeled(job) : sli_order_reduced(job);
+      may_peel && sli_peel_is_worthwhile(&G) ? sli_order_peeled(job) : sli_order_any(job);
   }
   if (status == SL_OK && job->block > 1) {
     sli_order_expand(job);
@@ -29073,8 +29142,8 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
     job.septree = &septree;
     job.team = &alone;
     job.a = a;
-    status = sli_graph_is_irregular(&G, 0) ? sli_order_mindeg(&G, perm, NULL, &cost, a)
-                             : sli_order_compressed(&job);
+    status = sli_graph_is_irregular(&G, 0) ? sli_order_mindeg(&job, scratch, &cost)
+                             : sli_order_compressed(&job, sli_order_nd);
   }
   if (status == SL_OK) {
     for (k = 0; k < count; k++) {
@@ -35295,6 +35364,10 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_PEEL_LEAVES
 #undef SLI_PEEL_ENDS
 #undef SLI_COMPRESS_SHARE
+#undef SLI_CUTS_FILL
+#undef SLI_CUTS_LEAF
+#undef SLI_CUTS_SIDE
+#undef SLI_QUOTIENT_LONG
 #undef SLI_COMPRESS_SAMPLE
 #undef SLI_LEVELSET_BALANCE
 #undef SLI_REACH_WALK

@@ -223,7 +223,7 @@ static int allocations_of(const gen_list_t *t, int style, sl_ordering ordering) 
     sl_int *column = test_ints((size_t)A->p[n] + 1), *perm = test_ints((size_t)n),
            *scratch = test_ints(4 * (size_t)n), *seen = test_ints((size_t)n);
     sli_septree septree = {0, test_ints((size_t)n), test_ints((size_t)n + 1)};
-    sli_order_choice choice = {test_ints((size_t)n), test_ints((size_t)n), 0, 0};
+    sli_order_choice choice = {test_ints((size_t)n), 0};
     sl_status status = SL_ERR_MEMORY;
     int k = 0;
     for (sl_int j = 0; j < n; j++) {
@@ -266,7 +266,6 @@ static int allocations_of(const gen_list_t *t, int style, sl_ordering ordering) 
     free(seen);
     free(septree.node_of);
     free(septree.parent);
-    free(choice.other);
     free(choice.parent);
     gen_matrix_free(&M);
     return k - 1;

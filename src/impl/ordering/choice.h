@@ -198,6 +198,25 @@ static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
  * dissection. */
 #define SLI_ORDER_ND_SAVES 8000.0
 
+/* The entries of A in one triangle. */
+static double sli_graph_entries(const sli_order_job *job) {
+    const sli_graph *G = job->G;
+    double entries = 0.0;
+    sl_int v;
+    sl_off e;
+    if (job->weight == NULL) {
+        return 0.5 * (double)G->begin[G->n] + (double)G->n;
+    }
+    for (v = 0; v < G->n; v++) {
+        double height = job->weight[v] + 1;
+        for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+            height += job->weight[G->to[e]];
+        }
+        entries += 0.5 * height * job->weight[v];
+    }
+    return entries;
+}
+
 /* Adds what the cost of minimum degree shows.
  *
  * Where most operations are in one front, no small separator has been missed: graphs of random
@@ -210,10 +229,10 @@ static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
  * The entries on a mean path relative to flops^(2/3): those of one dense block are 1.1 of it, in a
  * balanced tree fewer. Minimum degree has 0.5 to 0.6 of it on plane grids, 0.7 in volumes, and 2
  * and more on long chains, which it eliminates from one end. Both sides are cubed. */
-static void sli_graph_describe_mindeg(const sli_graph *G, sli_graph_facts *f) {
+static void sli_graph_describe_mindeg(const sli_order_job *job, sli_graph_facts *f) {
     const sli_order_cost *c = &f->cost;
-    const double entries = 0.5 * (double)f->edges + (double)G->n;
-    const double path = c->paths / (double)sli_max(G->n, 1);
+    const double entries = sli_graph_entries(job);
+    const double path = c->paths / (double)sli_max(sli_job_rows(job), 1);
     const double share = c->flops > 0.0 ? path / c->flops * path / c->flops * path : 0.0;
     f->bits |= SLI_TRIED_MINDEG;
     f->bits |= 0.5 * c->flops <= SLI_ORDER_ND_SAVES * (double)f->edges ? SLI_IS_CHEAP : 0;

@@ -2,7 +2,7 @@
 #ifndef SLI_ORDERING_COMPRESS_H
 #define SLI_ORDERING_COMPRESS_H
 
-#include "nd.h"
+#include "job.h"
 
 /* The graph is compressed if at most this percentage of its vertices remains. */
 #define SLI_COMPRESS_SHARE 80
@@ -143,46 +143,40 @@ static void sli_compress_expand(const sli_compressed *c, sl_int rows, sl_int *pe
     for (v = 0; v < rows; v++) {
         perm[start[c->number[c->first[v]]]++] = v;
     }
-    for (v = rows - 1; v >= 0; v--) { /* backwards: a vertex's number is at most that of its rows */
+    /* backwards: a vertex's number is at most that of its rows */
+    for (v = rows - 1; v >= 0 && septree->count > 0; v--) {
         septree->node_of[v] = septree->node_of[c->number[c->first[v]]];
     }
 }
 
-/* Orders the graph of a job by dissection, compressed if that is worthwhile. Other orderings find
- * indistinguishable rows as they go. */
-static sl_status sli_order_compressed(const sli_order_job *job) {
+/* Compresses the graph of a job if that is worthwhile. *inner := the job of what is left, or a copy
+ * of the job. b: to be freed. */
+static sl_status sli_compress(const sli_order_job *job, sli_order_job *inner, sli_compressed *c,
+                              sli_block *b) {
     const sli_graph *G = job->G;
-    sli_order_job inner = *job;
-    sli_compressed c;
-    sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
-    memset(&c, 0, sizeof c);
-    c.G.n = !sli_compress_is_likely(G)
-                ? G->n
-                : sli_compress_find(G, job->scratch, (uint32_t *)(void *)job->perm, job->team);
-    if (100 * (int64_t)c.G.n > SLI_COMPRESS_SHARE * (int64_t)G->n) {
-        return sli_order_nd(job);
+    *inner = *job;
+    c->G.n = !sli_compress_is_likely(G)
+                 ? G->n
+                 : sli_compress_find(G, job->scratch, (uint32_t *)(void *)job->perm, job->team);
+    if (100 * (int64_t)c->G.n > SLI_COMPRESS_SHARE * (int64_t)G->n) {
+        return SL_OK;
     }
-    c.first = job->scratch;
-    SLI_LAYOUT(&b, job->a, status) {
-        c.G.begin = SLI_TAKE(&b, sl_off, (size_t)c.G.n + 1);
-        c.G.to = SLI_TAKE(&b, sl_int, G->begin[G->n]);
-        c.weight = SLI_TAKE(&b, sl_int, c.G.n);
-        c.number = SLI_TAKE(&b, sl_int, G->n);
-        c.perm = SLI_TAKE(&b, sl_int, c.G.n);
+    c->first = job->scratch;
+    SLI_LAYOUT(b, job->a, status) {
+        c->G.begin = SLI_TAKE(b, sl_off, (size_t)c->G.n + 1);
+        c->G.to = SLI_TAKE(b, sl_int, G->begin[G->n]);
+        c->weight = SLI_TAKE(b, sl_int, c->G.n);
+        c->number = SLI_TAKE(b, sl_int, G->n);
+        c->perm = SLI_TAKE(b, sl_int, c->G.n);
     }
-    if (status != SL_OK) {
-        return status;
-    }
-    sli_compress_fill(&c, G);
-    inner.G = &c.G;
-    inner.weight = c.weight;
-    inner.perm = c.perm;
-    status = sli_order_nd(&inner);
     if (status == SL_OK) {
-        sli_compress_expand(&c, G->n, job->perm, job->septree, (sl_int *)(void *)c.G.begin);
+        sli_compress_fill(c, G);
+        inner->G = &c->G;
+        inner->weight = c->weight;
+        inner->perm = c->perm;
+        inner->scratch = job->scratch + G->n;
     }
-    sli_free(job->a, b.base);
     return status;
 }
 

@@ -125,9 +125,9 @@ SLI_INLINE sl_off sli_graph_degree(const sli_graph *G, sl_int v) {
     return G->begin[v + 1] - G->begin[v];
 }
 
-/* Has v more than 10 sqrt(n) neighbors? It connects everything, so that it is eliminated last. */
-SLI_INLINE int sli_graph_is_dense_row(const sli_graph *G, sl_int v) {
-    return sli_exceeds_sqrt(sli_graph_degree(G, v), 10, G->n);
+/* Does a row have over 10 sqrt(n) neighbors? It connects everything, and is eliminated last. */
+SLI_INLINE int sli_is_dense_row(sl_off degree, sl_int n) {
+    return sli_exceeds_sqrt(degree, 10, n);
 }
 
 /* post[k] := the k-th of n nodes of a forest in postorder. Roots, and children of a node, follow

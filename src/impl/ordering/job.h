@@ -40,8 +40,17 @@ typedef struct sli_order_job {
     const sli_graph *G;   /* the graph that is left */
     int is_small;         /* there are few rows or blocks: see SLI_DISSECT_SMALL */
     int is_peeled;        /* rows with few neighbors are gone from it */
-    const sl_int *weight; /* G->n: rows of each vertex, which bisections balance; NULL: 1 each */
+    const sl_int *weight; /* G->n: rows of each vertex; NULL: 1 each */
 } sli_order_job;
+
+/* The rows that the vertices of a job's graph stand for. */
+static sl_int sli_job_rows(const sli_order_job *job) {
+    sl_int v, rows = job->G->n;
+    for (v = 0; v < job->G->n && job->weight != NULL; v++) {
+        rows += job->weight[v] - 1;
+    }
+    return rows;
+}
 
 /* Reports an error in the stats of a job: the caller of the analysis may be in another thread. */
 SLI_COLD static sl_status sli_order_refuse(const sli_order_job *job, sl_status status,

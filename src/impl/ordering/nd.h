@@ -228,7 +228,7 @@ static sl_int sli_nd_dense(sli_nd *w, sl_int *perm) {
     sl_int v, count = 0;
     for (v = G->n - 1; v >= 0; v--) {
         w->local[v] = -1;
-        if (sli_graph_is_dense_row(G, v)) {
+        if (sli_is_dense_row(sli_graph_degree(G, v), G->n)) {
             w->local[v] = -2;
             perm[G->n - ++count] = v;
         }

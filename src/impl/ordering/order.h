@@ -6,6 +6,7 @@
 #include "compress.h"
 #include "cuts.h"
 #include "metis.h"
+#include "nd.h"
 #include "reduce.h"
 #include "small.h"
 #include "../matrix/submatrix.h"
@@ -38,10 +39,32 @@ static sl_status sli_order_given(const sli_order_job *job) {
 }
 
 /* Orders the graph of a job by minimum degree, and adds to the facts what that costs. The scratch
- * then has the rows of each pivot. */
+ * then has the vertices of each pivot. */
 static sl_status sli_order_by_mindeg(const sli_order_job *job, sli_graph_facts *f) {
-    const sl_status status = sli_order_mindeg(job->G, job->perm, job->scratch, &f->cost, job->a);
-    sli_graph_describe_mindeg(job->G, f);
+    const sl_status status = sli_order_mindeg(job, job->scratch, &f->cost);
+    sli_graph_describe_mindeg(job, f);
+    return status;
+}
+
+/* Orders the graph of a job, with indistinguishable rows as one vertex if that is worthwhile. */
+static sl_status sli_order_compressed(const sli_order_job *job,
+                                      sl_status (*order)(const sli_order_job *)) {
+    sli_order_job inner;
+    sli_compressed c;
+    sli_block b = {NULL, 0, 0};
+    sl_status status;
+    if (job->weight != NULL) {
+        return order(job);
+    }
+    memset(&c, 0, sizeof c);
+    status = sli_compress(job, &inner, &c, &b);
+    if (status == SL_OK) {
+        status = order(&inner);
+    }
+    if (status == SL_OK && inner.weight != NULL) {
+        sli_compress_expand(&c, job->G->n, job->perm, job->septree, (sl_int *)(void *)c.G.begin);
+    }
+    sli_free(job->a, b.base);
     return status;
 }
 
@@ -68,10 +91,20 @@ static sl_status sli_order_reduced(const sli_order_job *job) {
         case SLI_BY_CUTS:
             return sli_order_cuts(job, job->scratch, f.cost.pivots, (sl_off)f.cost.lists);
         case SLI_BY_DISSECTION:
-            return sli_order_compressed(job);
+            return sli_order_compressed(job, sli_order_nd);
         }
     }
     return status;
+}
+
+/* The same. Minimum degree finds indistinguishable rows as it goes, but once more in the list of
+ * each of their neighbors: where some of these are long, rows are compressed first. */
+static sl_status sli_order_any(const sli_order_job *job) {
+    const sl_off n = job->G->n, mean = n > 0 ? job->G->begin[n] / n : 0;
+    return job->ordering != SL_ORDERING_METIS && mean * mean <= n &&
+                   sli_graph_is_irregular(job->G, job->is_peeled)
+               ? sli_order_compressed(job, sli_order_reduced)
+               : sli_order_reduced(job);
 }
 
 /* The same, after rows with at most two neighbors have been eliminated. */
@@ -93,7 +126,7 @@ static sl_status sli_order_peeled(const sli_order_job *job) {
     rest.is_peeled = 1;
     status = sli_graph_make_canonical(&p.rest, job->a);
     if (status == SL_OK) {
-        status = sli_order_reduced(&rest);
+        status = sli_order_any(&rest);
     }
     if (status == SL_OK) {
         sli_peel_expand(&p, job->perm);
@@ -137,7 +170,7 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
     job->G = &G;
     if (status == SL_OK) {
         status =
-            may_peel && sli_peel_is_worthwhile(&G) ? sli_order_peeled(job) : sli_order_reduced(job);
+            may_peel && sli_peel_is_worthwhile(&G) ? sli_order_peeled(job) : sli_order_any(job);
     }
     if (status == SL_OK && job->block > 1) {
         sli_order_expand(job);

@@ -2,7 +2,7 @@
 #ifndef SLI_ORDERING_QUOTIENT_H
 #define SLI_ORDERING_QUOTIENT_H
 
-#include "graph.h"
+#include "job.h"
 #include "../base/alloc.h"
 
 #if !defined(SLI_MARKS_BEGIN) /* a test defines it as a variable */
@@ -29,13 +29,13 @@ typedef struct sli_quotient_node {
  * elements first, then the variables that only an entry of A joins to it. No list ever grows, so
  * that the graph stays within its first size, plus one front that is being formed. [ADD96] */
 typedef struct sli_quotient {
-    sl_int n;
+    sl_int n, total;         /* vertices of the graph, and the rows that they stand for */
     sl_off end, room;        /* of list: positions used, and available */
     sl_int *list;            /* all lists */
     sli_quotient_node *node; /* n */
     sl_int *weight;      /* n: rows of a variable; 0: merged; negated in the front being formed */
     sl_int *mark;        /* n: 0 for a dead element, otherwise see sli_quotient_overlaps */
-    sl_int *head;        /* n: first variable of each degree, or -1 */
+    sl_int *head;        /* total: first variable of each degree, or -1 */
     sl_int *bucket;      /* n: first variable of each hash, or -1 */
     sl_int *sequence;    /* n: pivots in the order of elimination */
     sl_int live;         /* rows that are not dense */
@@ -46,14 +46,14 @@ typedef struct sli_quotient {
     sl_int base;         /* marks below it are old */
 } sli_quotient;
 
-static void sli_quotient_layout(sli_quotient *q, sli_block *b, sl_int n, sl_off edges) {
-    q->n = n;
+static void sli_quotient_layout(sli_quotient *q, sli_block *b, sl_off edges) {
+    const sl_int n = q->n;
     q->room = edges + edges / 4 + n;
     q->node = SLI_TAKE(b, sli_quotient_node, n);
     q->list = SLI_TAKE(b, sl_int, q->room);
     q->weight = SLI_TAKE(b, sl_int, n);
     q->mark = SLI_TAKE(b, sl_int, n);
-    q->head = SLI_TAKE(b, sl_int, n);
+    q->head = SLI_TAKE(b, sl_int, q->total);
     q->bucket = SLI_TAKE(b, sl_int, n);
     q->sequence = SLI_TAKE(b, sl_int, n);
 }
@@ -81,34 +81,46 @@ SLI_INLINE void sli_quotient_dequeue(sli_quotient *q, sl_int v) {
     }
 }
 
-/* Makes every vertex of G a variable, except for dense rows, whose degrees would be updated by
- * every pivot: they are written to the end of perm. */
-static void sli_quotient_start(sli_quotient *q, const sli_graph *G, sl_int *perm) {
-    sl_int v;
+/* Makes every vertex of a job's graph a variable, except for dense ones, whose degrees would be
+ * updated by every pivot: they are written to the end of its perm. */
+static void sli_quotient_start(sli_quotient *q, const sli_order_job *job) {
+    const sli_graph *G = job->G;
+    sl_int v, end = q->n;
     sl_off e;
-    q->live = q->n;
+    q->live = 0;
     q->pivots = q->rows = q->least = q->widest = 0;
     q->end = 0;
     q->flops = 0.0;
     q->base = SLI_MARKS_BEGIN;
     for (v = 0; v < q->n; v++) {
-        const int is_dense = sli_graph_degree(G, v) > 16 && sli_graph_is_dense_row(G, v);
-        q->weight[v] = !is_dense;
+        sl_off degree = sli_graph_degree(G, v);
+        int is_dense;
+        for (e = G->begin[v]; e < G->begin[v + 1] && job->weight != NULL; e++) {
+            degree += job->weight[G->to[e]] - 1;
+        }
+        is_dense = degree > 16 && sli_is_dense_row(degree, q->total);
+        q->weight[v] = is_dense ? 0 : job->weight != NULL ? job->weight[v] : 1;
+        q->live += q->weight[v];
         q->node[v].elements = is_dense ? SLI_QUOTIENT_MERGED : 0;
         q->mark[v] = 1;
-        q->head[v] = q->bucket[v] = q->node[v].into = -1;
+        q->bucket[v] = q->node[v].into = -1;
         if (is_dense) {
-            perm[--q->live] = v;
+            job->perm[--end] = v;
         }
     }
     for (v = 0; v < q->n; v++) {
         q->node[v].begin = q->end;
+        q->node[v].degree = 0;
         for (e = G->begin[v]; e < G->begin[v + 1] && q->weight[v] != 0; e++) {
             if (q->weight[G->to[e]] != 0) {
+                q->node[v].degree += q->weight[G->to[e]];
                 q->list[q->end++] = G->to[e];
             }
         }
-        q->node[v].length = q->node[v].degree = (sl_int)(q->end - q->node[v].begin);
+        q->node[v].length = (sl_int)(q->end - q->node[v].begin);
+    }
+    for (v = 0; v < q->total; v++) {
+        q->head[v] = -1;
     }
     for (v = 0; v < q->n; v++) { /* the last row comes first: see sli_order_mindeg */
         if (q->weight[v] != 0) {
@@ -177,7 +189,7 @@ static sl_int sli_quotient_form(sli_quotient *q, sl_int pivot) {
         begin = q->node[pivot].begin;
         to = sli_quotient_gather(q, begin, q->node[pivot].length, begin, &total);
     } else {
-        if (q->room - q->end < q->live - q->rows) {
+        if (q->room - q->end < q->n - q->pivots) {
             sli_quotient_collect(q);
         }
         at = q->node[pivot].begin;
@@ -202,7 +214,7 @@ static void sli_quotient_overlaps(sli_quotient *q, sl_int pivot) {
     const sl_int *front = q->list + q->node[pivot].begin;
     const sl_int size = q->node[pivot].length;
     sl_int k, p, v, base;
-    if (q->base > INT32_MAX - 3 * (sl_off)q->n - 3) {
+    if (q->base > INT32_MAX - 3 * (sl_off)q->total - 3) {
         for (v = 0; v < q->n; v++) {
             q->mark[v] = q->mark[v] != 0;
         }

@@ -4,10 +4,10 @@
 
 #include "quotient.h"
 
-/* Writes the rows in a postorder of the tree of absorbed elements: fronts that update each other
- * are then close together, which the analysis reads a third faster. A merged row follows the pivot
- * at the end of its chain. Dense rows are there already. sizes: rows of each pivot [out], or NULL.
- */
+/* Writes the vertices in a postorder of the tree of absorbed elements: fronts that update one
+ * another are then close together, and the analysis reads them a third faster. A merged vertex
+ * follows the pivot at the end of its chain. Dense ones are there already. sizes: vertices of each
+ * pivot. */
 static void sli_quotient_write(sli_quotient *q, sl_int *perm, sl_int *sizes) {
     sl_int *start = q->head, *into = q->list; /* the lists are done with */
     sl_int v, k, at = 0;
@@ -16,13 +16,8 @@ static void sli_quotient_write(sli_quotient *q, sl_int *perm, sl_int *sizes) {
     }
     sli_postorder(into, q->sequence, q->pivots, q->sequence, q->bucket, q->mark);
     for (k = 0; k < q->pivots; k++) {
-        v = q->sequence[k];
-        perm[at] = v;
-        start[v] = at + 1;
-        at += q->weight[v];
-        if (sizes != NULL) {
-            sizes[k] = q->weight[v];
-        }
+        sizes[k] = 1;
+        q->bucket[q->sequence[k]] = k;
     }
     for (v = 0; v < q->n; v++) {
         sl_int root = v;
@@ -37,7 +32,17 @@ static void sli_quotient_write(sli_quotient *q, sl_int *perm, sl_int *sizes) {
             q->node[k].into = root;
             k = up;
         }
-        perm[start[root]++] = v;
+        sizes[q->bucket[root]]++;
+    }
+    for (k = 0; k < q->pivots; k++) {
+        perm[at] = q->sequence[k];
+        start[q->sequence[k]] = at + 1;
+        at += sizes[k];
+    }
+    for (v = 0; v < q->n; v++) {
+        if (q->node[v].elements != SLI_QUOTIENT_PIVOT && q->node[v].into != -1) {
+            perm[start[q->node[v].into]++] = v;
+        }
     }
 }
 
@@ -79,24 +84,25 @@ static void sli_quotient_cost(const sli_quotient *q, sl_int *below, sli_order_co
     }
 }
 
-/* Orders a graph without repeated edges by approximate minimum degree. Of equal degrees the latest
- * comes first, and of rows that no pivot has updated the last, as in AMD [ADD96]: from the first
- * row on, 9-point grids and thin plates have 1.3 to 1.5 times the fill. *cost := of this order,
- * dense rows left out; sizes := the rows of each of its pivots, or NULL. */
-static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, sl_int *sizes,
-                                  sli_order_cost *cost, const sl_allocator *a) {
+/* Orders the graph of a job, which has no repeated edges, by approximate minimum degree. Of equal
+ * degrees the latest comes first, and of vertices that no pivot has updated the last, as in AMD
+ * [ADD96]: from the first on, 9-point grids and thin plates have 1.3 to 1.5 times the fill.
+ * *cost := of this order, without dense vertices; sizes := the vertices of each of its pivots. */
+static sl_status sli_order_mindeg(const sli_order_job *job, sl_int *sizes, sli_order_cost *cost) {
     sli_quotient q;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     sl_int pivot;
     memset(&q, 0, sizeof q);
-    SLI_LAYOUT(&b, a, status) {
-        sli_quotient_layout(&q, &b, G->n, G->begin[G->n]);
+    q.n = job->G->n;
+    q.total = sli_job_rows(job);
+    SLI_LAYOUT(&b, job->a, status) {
+        sli_quotient_layout(&q, &b, job->G->begin[q.n]);
     }
     if (status != SL_OK) {
         return status;
     }
-    sli_quotient_start(&q, G, perm);
+    sli_quotient_start(&q, job);
     while (q.rows < q.live) {
         while (q.head[q.least] == -1) {
             q.least++;
@@ -106,8 +112,8 @@ static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, sl_int *size
         sli_quotient_eliminate(&q, pivot);
     }
     sli_quotient_cost(&q, q.head, cost);
-    sli_quotient_write(&q, perm, sizes);
-    sli_free(a, b.base);
+    sli_quotient_write(&q, job->perm, sizes);
+    sli_free(job->a, b.base);
     return SL_OK;
 }
 
