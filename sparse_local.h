@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: ceb2a3ac411f3205
+ * FNV-1a of the lines after this comment, without the license: d981e4697057dd37
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,29 +35,29 @@
  *   2894 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   2971 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3014 impl/ base: the compiler, status, memory, sorting, threads
- *   4247 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5165 impl/ matrix: sparse matrices of the caller and of the library
- *   5795 impl/ ordering: fill-reducing orderings of a graph
- *  10740 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12957 impl/ factor: the numbers of L and D
- *  16321 impl/ solve: full and local solves
- *  17985 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19916 impl/ pivots: the order of the pivots by the values of a matrix
- *  20324 impl/ float: L and fronts in single precision
- *  20775 impl/ inverse: entries of the inverse, regions
- *  23840 impl/ change: a factor that follows changes of its matrix
- *  29940 impl/ dirichlet: rows fixed at given values
- *  30531 impl/ dirichlet: by a factor of all rows
- *  30763 impl/ io: files that are replaced only when they are complete
- *  30981 impl/ files: Matrix Market files, 64-bit indices
- *  31601 impl/ save: factors in files
- *  33614 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34297 impl/ batch: diagonals of many inverses
- *  34437 impl/ complex: complex Hermitian systems over real factors
- *  34999 impl/ complex: entries of the inverse
- *  35059 impl/ packs: the tables through which the core calls packs
- *  35108 impl/ last: undefine every internal macro
- *  35468 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4286 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5204 impl/ matrix: sparse matrices of the caller and of the library
+ *   5834 impl/ ordering: fill-reducing orderings of a graph
+ *  10779 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12993 impl/ factor: the numbers of L and D
+ *  16362 impl/ solve: full and local solves
+ *  18026 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19957 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20365 impl/ float: L and fronts in single precision
+ *  20816 impl/ inverse: entries of the inverse, regions
+ *  23881 impl/ change: a factor that follows changes of its matrix
+ *  29979 impl/ dirichlet: rows fixed at given values
+ *  30570 impl/ dirichlet: by a factor of all rows
+ *  30802 impl/ io: files that are replaced only when they are complete
+ *  31020 impl/ files: Matrix Market files, 64-bit indices
+ *  31640 impl/ save: factors in files
+ *  33653 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34336 impl/ batch: diagonals of many inverses
+ *  34476 impl/ complex: complex Hermitian systems over real factors
+ *  35038 impl/ complex: entries of the inverse
+ *  35098 impl/ packs: the tables through which the core calls packs
+ *  35147 impl/ last: undefine every internal macro
+ *  35509 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3262,6 +3262,16 @@ SLI_INLINE int sli_is_last(sli_atomic *borrowers) {
   return sli_atomic_add(borrowers, -1) == 0;
 }
 
+#define SLI_CLEAR(object) memset(&(object), 0, sizeof(object))
+
+SLI_NOINLINE static void sli_clear(void *to, size_t bytes) {
+  memset(to, 0, bytes);
+}
+
+SLI_NOINLINE static void sli_copy(void *to, const void *from, size_t bytes) {
+  memcpy(to, from, bytes);
+}
+
 SLI_INLINE sl_int sli_shared_read(const sl_int *a) {
 #if defined(SLI_GNU)
   return __atomic_load_n(a, __ATOMIC_RELAXED);
@@ -3696,7 +3706,6 @@ SLI_NOINLINE static void sli_free(const sl_allocator *a, void *block) {
 typedef struct sli_block {
   unsigned char *base;
   size_t used;
-  int overflow;
 } sli_block;
 
 SLI_INLINE void *sli_take_inline(sli_block *b, uint64_t count, size_t size) {
@@ -3708,7 +3717,6 @@ SLI_INLINE void *sli_take_inline(sli_block *b, uint64_t count, size_t size) {
   }
   if (bytes > SIZE_MAX - at) {
     b->used = SIZE_MAX;
-    b->overflow = 1;
     return NULL;
   }
   b->used += bytes;
@@ -3716,11 +3724,13 @@ SLI_INLINE void *sli_take_inline(sli_block *b, uint64_t count, size_t size) {
 }
 
 SLI_NOINLINE static void *sli_take(sli_block *b, uint64_t count, size_t size) {
-  return sli_take_inline(b, count, size);
+  void *array = sli_take_inline(b, count, size);
+  b->used = b->used > SIZE_MAX / 2 ? SIZE_MAX : b->used;
+  return array;
 }
 
 SLI_NOINLINE static sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
-  if (b->overflow) {
+  if (b->used % SLI_ALIGN != 0) {
     return sli_refuse(SL_ERR_TOO_LARGE, "more memory than size_t counts");
   }
   b->base = (unsigned char *)sli_alloc(a, b->used > 0 ? b->used : 1);
@@ -3733,8 +3743,8 @@ SLI_NOINLINE static sl_status sli_block_alloc(sli_block *b, const sl_allocator *
 
 SLI_INLINE void sli_populate(const sl_allocator *a, const sli_block *b) {
 #if defined(SLI_POPULATE)
-  if (b->base != NULL && a->allocate == sli_malloc_default && b->used < SLI_HUGE_BLOCK &&
-      (uintptr_t)b->base % SLI_SMALL_PAGE == SLI_ALIGN) {
+  if (b->base != NULL && a->allocate == sli_malloc_default && b->used >= SLI_PAGE &&
+      b->used < SLI_HUGE_BLOCK && (uintptr_t)b->base % SLI_SMALL_PAGE == SLI_ALIGN) {
     sli_advise(b->base - SLI_ALIGN, b->used, SLI_POPULATE);
   }
 #else
@@ -3747,9 +3757,38 @@ SLI_INLINE void sli_populate(const sl_allocator *a, const sli_block *b) {
   for (int sli_pass = 0; sli_pass < 2 && (status) == SL_OK; \
       (status) = sli_pass++ == 0 ? sli_block_alloc((b), (a)) : SL_OK)
 
+#define SLI_LAYOUT_SMALL(b, a, small, status) \
+  for (int sli_pass = sli_block_begin((b), (small)); sli_pass < 2 && (status) == SL_OK; \
+      sli_pass += 1 + ((b)->used <= sizeof(small) - SLI_ALIGN), \
+      (status) = sli_pass == 1 ? sli_block_alloc((b), (a)) : SL_OK)
+
+SLI_INLINE int sli_block_begin(sli_block *b, void *small) {
+  b->base = (unsigned char *)small + (SLI_ALIGN - (uintptr_t)small % SLI_ALIGN) % SLI_ALIGN;
+  return 0;
+}
+
+SLI_INLINE void sli_block_free(const sli_block *b, const sl_allocator *a, const void *small) {
+  if ((uintptr_t)b->base - (uintptr_t)small >= SLI_ALIGN) {
+    sli_free(a, b->base);
+  }
+}
+
 #define SLI_TAKE(b, type, count) ((type *)sli_take((b), (uint64_t)(count), sizeof(type)))
 #define SLI_TAKE_INLINE(b, type, count) \
   ((type *)sli_take_inline((b), (uint64_t)(count), sizeof(type)))
+
+#if SIZE_MAX > UINT32_MAX
+SLI_ALWAYS_INLINE void *sli_cut(sli_block *b, uint64_t count, size_t size, int is_long) {
+  const size_t at = b->used, elements = is_long ? count : (uint32_t)count;
+  b->used += (elements * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
+  b->used |= elements >> 47 != 0;
+  return b->base == NULL ? NULL : b->base + at;
+}
+#define SLI_CUT(b, type, count) \
+  ((type *)sli_cut((b), (uint64_t)(count), sizeof(type), sizeof(count) > 4))
+#else
+#define SLI_CUT SLI_TAKE
+#endif
 
 typedef struct sli_arena {
   sl_allocator more;
@@ -5282,7 +5321,7 @@ SLI_INLINE int sli_is_read(sl_triangle triangle, sl_int row, sl_int column) {
 static sl_status sli_matrix_new(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int nnz,
     int has_values, const sl_allocator *a) {
   sl_matrix draft;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   draft.allocator = *a;
   draft.n_rows = n_rows;
@@ -5368,7 +5407,7 @@ static sl_status sli_from_triplets(sl_matrix **out, const sli_triplet_list *t,
   const sl_int *i = t->i, *j = t->j;
   const double *x = t->x;
   sl_matrix *M = NULL;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_int *start = NULL, *order = NULL, k;
   sl_status status = sli_matrix_new(&M, n_rows, n_cols, count, x != NULL, a);
   SLI_LAYOUT(&b, a, status) {
@@ -5754,7 +5793,7 @@ SLI_HOT static sl_status sli_submatrix_make(sl_matrix **out, sl_int **from, cons
 SL_API sl_status sl_matrix_submatrix(sl_matrix **out, const sl_csc *A, const sl_int *rows,
     sl_int count, const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sli_submatrix s;
   sl_int *where = NULL, *position = NULL, bad;
   sl_status status;
@@ -5874,7 +5913,7 @@ SLI_INLINE void sli_graph_deduplicate(sli_graph *G) {
 
 static sl_status sli_graph_make_canonical(sli_graph *G, const sl_allocator *a) {
   const sl_off edges = G->begin[G->n];
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_int *to = NULL;
   sl_off *at = NULL;
   sl_status status = SL_OK;
@@ -6505,7 +6544,7 @@ static void sli_contract(const sli_level *g, const sli_clusters *clusters, sli_l
 
 static sl_status sli_coarsen_clusters(const sli_level *g, sl_int n, const sli_clusters *clusters,
     sli_level *c, sli_shares *ranges, const sl_allocator *a) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   c->n = n;
   SLI_LAYOUT(&b, a, status) {
@@ -8951,7 +8990,7 @@ static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl
   const sl_int n = d->levels[0].n;
   sl_int k, nodes, last, *scratch = d->workers[0].subgraph.scratch;
   sli_thin t;
-  memset(&t, 0, sizeof t);
+  SLI_CLEAR(t);
   t.g = &d->levels[0];
   t.queue = scratch;
   t.mark = scratch + n;
@@ -9236,10 +9275,10 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
 
 static sl_status sli_order_nd(const sli_order_job *job) {
   sli_nd w;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   sl_int k;
-  memset(&w, 0, sizeof w);
+  SLI_CLEAR(w);
   w.G = job->G;
   w.weight = job->weight;
   w.is_small = job->is_small;
@@ -9477,7 +9516,7 @@ static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_
   const sl_int *metis_options = job->opt->metis_options;
   idx_t options[METIS_NOPTIONS], nv = (idx_t)count, *xadj = NULL, *adjncy = NULL, *perm = NULL,
                    *iperm = NULL;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_off edges = 0;
   sl_status status = SL_OK;
   sl_int k;
@@ -10065,10 +10104,10 @@ static void sli_quotient_cost(const sli_quotient *q, sl_int *below, sli_order_co
 
 static sl_status sli_order_mindeg(const sli_order_job *job, sl_int *sizes, sli_order_cost *cost) {
   sli_quotient q;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   sl_int pivot;
-  memset(&q, 0, sizeof q);
+  SLI_CLEAR(q);
   q.n = job->G->n;
   q.total = sli_job_rows(job);
   SLI_LAYOUT(&b, job->a, status) {
@@ -10222,7 +10261,7 @@ static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
   const sl_off n = G->n, mean = n > 0 ? G->begin[n] / n : 0;
   const int is_for_one = job->is_hurried && job->ordering == SL_ORDERING_ND;
   sli_graph_facts f;
-  memset(&f, 0, sizeof f);
+  SLI_CLEAR(f);
   f.edges = G->begin[n];
   f.bits = job->ordering == SL_ORDERING_METIS ? SLI_WANTS_METIS
        : job->ordering == SL_ORDERING_MINDEG ? SLI_WANTS_MINDEG
@@ -10484,9 +10523,9 @@ static void sli_cuts_run(sli_cuts *c, sl_int *perm, sl_int at) {
 static sl_status sli_order_cuts(const sli_order_job *job, const sl_int *sizes, sl_int nodes,
     sl_off room) {
   sli_cuts c;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
-  memset(&c, 0, sizeof c);
+  SLI_CLEAR(c);
   c.n = job->G->n;
   c.nodes = nodes;
   SLI_LAYOUT(&b, job->a, status) {
@@ -10540,12 +10579,12 @@ static sl_status sli_order_compressed(const sli_order_job *job,
     sl_status (*order)(const sli_order_job *)) {
   sli_order_job inner;
   sli_compressed c;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status;
   if (job->weight != NULL) {
     return order(job);
   }
-  memset(&c, 0, sizeof c);
+  SLI_CLEAR(c);
   status = sli_compress(job, &inner, &c, &b);
   if (status == SL_OK) {
     status = order(&inner);
@@ -10596,9 +10635,9 @@ static sl_status sli_order_any(const sli_order_job *job) {
 static sl_status sli_order_peeled(const sli_order_job *job) {
   sli_order_job rest = *job;
   sli_peel p;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
-  memset(&p, 0, sizeof p);
+  SLI_CLEAR(p);
   SLI_LAYOUT(&b, job->a, status) {
     sli_peel_layout(&p, &b, job->G->n, job->G->begin[job->G->n]);
   }
@@ -10637,9 +10676,9 @@ static void sli_order_expand(const sli_order_job *job) {
 static sl_status sli_order_by_graph(sli_order_job *job) {
   const int may_peel = job->ordering != SL_ORDERING_METIS;
   sli_graph G;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
-  memset(&G, 0, sizeof G);
+  SLI_CLEAR(G);
   SLI_LAYOUT(&b, job->a, status) {
     G.n = job->A->n_cols / job->block;
     G.begin = SLI_TAKE(&b, sl_off, (size_t)G.n + 1);
@@ -10833,7 +10872,7 @@ typedef struct sli_merge {
 
 static sli_merge sli_merge_start(const sli_tree_job *job) {
   sli_merge m;
-  memset(&m, 0, sizeof m);
+  SLI_CLEAR(m);
   m.n = job->n;
   m.parent = job->parent;
   m.counts = job->counts;
@@ -12050,14 +12089,27 @@ static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, int plain,
 }
 
 static void sli_schedule_layout(sli_schedule *p, sli_block *b, sl_int count) {
-  const uint64_t fronts = (uint64_t)count, tasks = p->workers == 1 ? 1 : fronts;
-  p->first = SLI_TAKE(b, sl_int, tasks);
-  p->last = SLI_TAKE(b, sl_int, tasks);
-  p->worker = SLI_TAKE(b, sl_int, tasks);
-  p->bundle_end = SLI_TAKE(b, sl_int, tasks);
-  p->top = SLI_TAKE(b, sl_int, p->workers == 1 ? 0 : fronts);
-  p->stack_begin = SLI_TAKE(b, sl_off, fronts);
-  p->is_plain = SLI_TAKE(b, unsigned char, fronts);
+  const sl_int tasks = p->workers == 1 ? 1 : count;
+  p->first = SLI_CUT(b, sl_int, tasks);
+  p->last = SLI_CUT(b, sl_int, tasks);
+  p->worker = SLI_CUT(b, sl_int, tasks);
+  p->bundle_end = SLI_CUT(b, sl_int, tasks);
+  p->top = SLI_CUT(b, sl_int, p->workers == 1 ? 0 : count);
+  p->stack_begin = SLI_CUT(b, sl_off, count);
+  p->is_plain = SLI_CUT(b, unsigned char, count);
+}
+
+static void sli_schedule_move(sli_schedule *p, const sli_schedule *plan, size_t bytes) {
+  memcpy(p->first, plan->first, bytes);
+  p->workers = plan->workers;
+  p->n_tasks = plan->n_tasks;
+  p->n_tops = plan->n_tops;
+  p->n_bundles = plan->n_bundles;
+  p->tops = plan->tops;
+  p->ready = plan->ready;
+  p->steps = plan->steps;
+  p->own = plan->own;
+  p->stack = plan->stack;
 }
 
 static void sli_schedule_layout_tops(sli_schedule *p, const sl_symbolic *S, sli_block *b) {
@@ -12066,9 +12118,9 @@ static void sli_schedule_layout_tops(sli_schedule *p, const sl_symbolic *S, sli_
     const sl_int s = p->top[m];
     pieces += sli_front_is_large(S, s) ? sli_large_pieces(&S->steps[s], p->workers, &tiles) : 0;
   }
-  p->tops = SLI_TAKE(b, sli_top, p->n_tops);
-  p->ready = SLI_TAKE(b, sl_int, p->n_tops);
-  p->steps = SLI_TAKE(b, sl_int, pieces);
+  p->tops = SLI_CUT(b, sli_top, p->n_tops);
+  p->ready = SLI_CUT(b, sl_int, p->n_tops);
+  p->steps = SLI_CUT(b, sl_int, pieces);
 }
 
 static void sli_schedule_fill_tops(sli_schedule *p, const sl_symbolic *S) {
@@ -12090,12 +12142,12 @@ static void sli_schedule_fill_tops(sli_schedule *p, const sl_symbolic *S) {
 
 static void sli_schedule_work_layout(sli_schedule_work *w, sli_block *b, sl_int count,
     sl_int workers) {
-  w->flops = SLI_TAKE(b, double, count);
-  w->path = SLI_TAKE(b, double, count);
-  w->load = SLI_TAKE(b, double, workers);
-  w->side = SLI_TAKE(b, sl_int, count);
-  w->order = SLI_TAKE(b, uint64_t, count);
-  w->scratch = SLI_TAKE(b, uint64_t, count);
+  w->flops = SLI_CUT(b, double, count);
+  w->path = SLI_CUT(b, double, count);
+  w->load = SLI_CUT(b, double, workers);
+  w->side = SLI_CUT(b, sl_int, count);
+  w->order = SLI_CUT(b, uint64_t, count);
+  w->scratch = SLI_CUT(b, uint64_t, count);
 }
 
 /* src/impl/analysis/symbolic_build.h: from an order of the rows to the analysis: tree, supernodes, all arrays */
@@ -12103,25 +12155,25 @@ static void sli_schedule_work_layout(sli_schedule_work *w, sli_block *b, sl_int 
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
   const uint64_t n = (uint64_t)rows;
   w->n = rows;
-  w->column = SLI_TAKE(b, sl_int, nnz);
-  w->perm = SLI_TAKE(b, sl_int, n);
-  w->scratch = SLI_TAKE(b, sl_int, 5 * n);
-  w->septree.node_of = SLI_TAKE(b, sl_int, n);
-  w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
+  w->column = SLI_CUT(b, sl_int, nnz);
+  w->perm = SLI_CUT(b, sl_int, rows);
+  w->scratch = SLI_CUT(b, sl_int, 5 * n);
+  w->septree.node_of = SLI_CUT(b, sl_int, rows);
+  w->septree.parent = SLI_CUT(b, sl_int, rows + 1);
   w->ordered = b->used;
-  w->columns.begin = SLI_TAKE(b, sl_int, n + 1);
-  w->columns.entry = SLI_TAKE(b, sl_int, SLI_ENTRY * (uint64_t)nnz);
-  w->old_of = SLI_TAKE(b, sl_int, n);
-  w->new_of = SLI_TAKE(b, sl_int, n);
-  w->parent = SLI_TAKE(b, sl_int, n);
+  w->columns.begin = SLI_CUT(b, sl_int, rows + 1);
+  w->columns.entry = SLI_CUT(b, sl_int, SLI_ENTRY * (uint64_t)nnz);
+  w->old_of = SLI_CUT(b, sl_int, rows);
+  w->new_of = SLI_CUT(b, sl_int, rows);
+  w->parent = SLI_CUT(b, sl_int, rows);
   w->choice.parent = w->parent;
-  w->counts = SLI_TAKE(b, sl_int, n);
-  w->super_of = SLI_TAKE(b, sl_int, n);
-  w->amalgamation.first = SLI_TAKE(b, sl_int, n + 1);
-  w->amalgamation.parent = SLI_TAKE(b, sl_int, n);
-  w->amalgamation.width = SLI_TAKE(b, sl_int, n);
-  w->amalgamation.below = SLI_TAKE(b, sl_int, n);
-  w->list = SLI_TAKE(b, uint64_t, 5 * (n + 16) * (uint64_t)(w->workers / 8 + 1));
+  w->counts = SLI_CUT(b, sl_int, rows);
+  w->super_of = SLI_CUT(b, sl_int, rows);
+  w->amalgamation.first = SLI_CUT(b, sl_int, rows + 1);
+  w->amalgamation.parent = SLI_CUT(b, sl_int, rows);
+  w->amalgamation.width = SLI_CUT(b, sl_int, rows);
+  w->amalgamation.below = SLI_CUT(b, sl_int, rows);
+  w->list = SLI_CUT(b, uint64_t, 5 * (n + 16) * (uint64_t)(w->workers / 8 + 1));
   if (w->list != NULL) {
     w->room = (sl_int *)(void *)w->list;
     w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
@@ -12134,37 +12186,31 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->is_first = SLI_TAKE(b, unsigned char, n);
     w->earlier = SLI_TAKE(b, sl_int, n);
   }
-  w->spare = SLI_TAKE(b, sl_int, 3 * (uint64_t)nnz + 512);
-}
-
-#define SLI_ANALYSIS_SMALL 16384
-
-static int sli_analysis_is_small(const sli_analysis *w, sl_int rows, sl_int nnz) {
-  return rows < 64 && nnz < 256 && w->pairs == NULL && w->workers <= 1;
+  w->spare = SLI_CUT(b, sl_int, 3 * (uint64_t)nnz + 512);
 }
 
 static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
-  const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
-  S->perm = SLI_TAKE(b, sl_int, n);
-  S->iperm = SLI_TAKE(b, sl_int, n);
-  S->parent = SLI_TAKE(b, sl_int, n);
-  S->counts = SLI_TAKE(b, sl_int, n);
-  S->super_of = SLI_TAKE(b, sl_int, n);
-  S->super_first = SLI_TAKE(b, sl_int, supers + 1);
-  S->super_parent = SLI_TAKE(b, sl_int, supers);
-  S->rows_begin = SLI_TAKE(b, sl_off, supers + 1);
-  S->rows = SLI_TAKE(b, sl_int, rows);
-  S->panel_begin = SLI_TAKE(b, sl_off, supers + 1);
-  S->steps = SLI_TAKE(b, sli_step, supers);
-  S->first_descendant = SLI_TAKE(b, sl_int, supers);
-  S->pairs = SLI_TAKE(b, unsigned char, S->n_pairs > 0 ? n : 0);
-  S->relative = SLI_TAKE(b, sl_int, rows);
-  S->scatter_begin = SLI_TAKE(b, sl_off, supers + 1);
-  S->scatter_from = SLI_TAKE(b, sl_int, entries);
-  S->scatter_to = SLI_TAKE(b, sl_off, entries);
-  S->node_of = SLI_TAKE(b, sl_int, S->n_nodes > 0 ? n : 0);
-  S->node_parent = SLI_TAKE(b, sl_int, S->n_nodes);
-  S->node_level = SLI_TAKE(b, sl_int, S->n_nodes);
+  const sl_int n = S->n, supers = S->n_supers;
+  S->perm = SLI_CUT(b, sl_int, n);
+  S->iperm = SLI_CUT(b, sl_int, n);
+  S->parent = SLI_CUT(b, sl_int, n);
+  S->counts = SLI_CUT(b, sl_int, n);
+  S->super_of = SLI_CUT(b, sl_int, n);
+  S->super_first = SLI_CUT(b, sl_int, supers + 1);
+  S->super_parent = SLI_CUT(b, sl_int, supers);
+  S->rows_begin = SLI_CUT(b, sl_off, supers + 1);
+  S->rows = SLI_CUT(b, sl_int, rows);
+  S->panel_begin = SLI_CUT(b, sl_off, supers + 1);
+  S->steps = SLI_CUT(b, sli_step, supers);
+  S->first_descendant = SLI_CUT(b, sl_int, supers);
+  S->pairs = SLI_CUT(b, unsigned char, S->n_pairs > 0 ? n : 0);
+  S->relative = SLI_CUT(b, sl_int, rows);
+  S->scatter_begin = SLI_CUT(b, sl_off, supers + 1);
+  S->scatter_from = SLI_CUT(b, sl_int, entries);
+  S->scatter_to = SLI_CUT(b, sl_off, entries);
+  S->node_of = SLI_CUT(b, sl_int, S->n_nodes > 0 ? n : 0);
+  S->node_parent = SLI_CUT(b, sl_int, S->n_nodes);
+  S->node_level = SLI_CUT(b, sl_int, S->n_nodes);
 }
 
 static void sli_analysis_reorder(sli_analysis *w, const sl_int *order) {
@@ -12332,7 +12378,7 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) 
     S->perm[k] = w->perm[w->old_of[k]];
     S->iperm[S->perm[k]] = k;
   }
-  memcpy(S->parent, w->parent, bytes);
+  sli_copy(S->parent, w->parent, bytes);
   memcpy(S->counts, w->counts, bytes);
   memcpy(S->super_of, w->super_of, bytes);
   memcpy(S->super_first, w->amalgamation.first, ((size_t)S->n_supers + 1) * sizeof(sl_int));
@@ -12362,7 +12408,7 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) 
 
 static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_analysis *w,
     sl_stats *stats) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_off rows = 0;
   sl_int s, plain = 0;
   sl_status status = SL_OK;
@@ -12382,9 +12428,9 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
     (void)sli_take(&b, 1, sizeof(sl_symbolic));
     sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a);
     if (sli_is_mostly_plain(plain, draft->n_supers)) {
-      draft->plain = SLI_TAKE(&b, sl_int, draft->n_supers);
+      draft->plain = SLI_CUT(&b, sl_int, draft->n_supers);
       if (draft->nnz_input > 0) {
-        draft->input = SLI_TAKE(&b, sl_int, (sl_off)w->n + 1 + draft->nnz_input);
+        draft->input = SLI_CUT(&b, sl_int, (sl_off)w->n + 1 + draft->nnz_input);
       }
     }
     stats->symbolic.bytes = b.used;
@@ -12397,7 +12443,7 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
   stats->symbolic.seconds_analyze += stats->symbolic.seconds_structure;
   draft->stats.symbolic = stats->symbolic;
   *out = (sl_symbolic *)(void *)b.base;
-  **out = *draft;
+  sli_copy(*out, draft, sizeof *draft);
   return SL_OK;
 }
 
@@ -12416,7 +12462,7 @@ static sl_status sli_symbolic_order(sli_symbolic_job *j, sli_team *team) {
   sli_analysis *w = &j->w;
   sli_order_job order;
   sl_status status;
-  memset(&order, 0, sizeof order);
+  SLI_CLEAR(order);
   order.A = w->A;
   order.column = w->column;
   order.triangle = j->found.symbolic.triangle;
@@ -12443,7 +12489,7 @@ static void sli_symbolic_run(sli_team *team, void *data) {
     return;
   }
   sli_analyze_order(w, j->opt, team, &j->found);
-  memset(&draft, 0, sizeof draft);
+  sli_clear(&draft, sizeof draft);
   draft.allocator = j->a;
   draft.nnz_input = sli_nnz(w->A);
   draft.pattern = w->pattern;
@@ -12482,15 +12528,14 @@ static sl_status sli_symbolic_check(const sl_csc *A, const sl_options *opt, sli_
 static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const unsigned char *pairs,
     const sl_options *opt, sl_stats *stats) {
   sli_symbolic_job j;
-  uint64_t small[SLI_ANALYSIS_SMALL / sizeof(uint64_t)];
-  sli_block b = {NULL, 0, 0};
+  uint64_t small[2048];
+  sli_block b = {NULL, 0};
   sli_arena arena;
-  int is_allocated = 0;
   sl_status status;
-  memset(&j.w, 0, sizeof j.w);
-  memset(&j.found.symbolic, 0, sizeof j.found.symbolic);
+  sli_clear(&j.w, sizeof j.w);
+  SLI_CLEAR(j.found.symbolic);
   sli_stats_clear_error(stats);
-  sli_stats_clear_error(&j.found);
+  j.found.error.what = NULL;
   status = sli_begin(out);
   status = status == SL_OK ? sli_symbolic_check(A, opt, &j.w.pattern, stats) : status;
   if (status != SL_OK) {
@@ -12504,15 +12549,8 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
   j.w.A = A;
   j.w.pairs = pairs;
   j.w.workers = sli_analysis_workers(A, opt);
-  if (sli_analysis_is_small(&j.w, A->n_cols, sli_nnz(A))) {
-    b.base = (unsigned char *)small;
-    b.base += (SLI_ALIGN - (uintptr_t)small % SLI_ALIGN) % SLI_ALIGN;
+  SLI_LAYOUT_SMALL(&b, &j.a, small, status) {
     sli_analysis_layout(&j.w, &b, A->n_cols, sli_nnz(A));
-  } else {
-    SLI_LAYOUT(&b, &j.a, status) {
-      sli_analysis_layout(&j.w, &b, A->n_cols, sli_nnz(A));
-    }
-    is_allocated = 1;
   }
   if (status == SL_OK) {
     status = sli_csc_triangle(A, sli_csc_columns(A, j.w.column), &j.found.symbolic.triangle,
@@ -12530,9 +12568,7 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
       stats->symbolic = j.found.symbolic;
     }
   }
-  if (is_allocated) {
-    sli_free(&j.a, b.base);
-  }
+  sli_block_free(&b, &j.a, small);
   return sli_report(stats, status);
 }
 
@@ -12564,7 +12600,7 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats) {
 
 SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S) {
   sl_symbolic_arrays v;
-  memset(&v, 0, sizeof v);
+  SLI_CLEAR(v);
   if (S != NULL) {
     v.n = S->n;
     v.n_supers = S->n_supers;
@@ -13075,10 +13111,17 @@ typedef struct sli_row_work {
   uint64_t *list_scratch;
 } sli_row_work;
 
+typedef struct sli_factor_stats {
+  sl_error error;
+  sl_factor_info factor;
+  double null_bound;
+  sl_off storage, threads;
+} sli_factor_stats;
+
 struct sl_factor {
   sl_allocator allocator;
   sli_atomic borrowers;
-  sl_stats stats;
+  sli_factor_stats stats;
   const sl_symbolic *S;
   const sli_kernels *kernels;
   const sli_storage_type *type;
@@ -13597,7 +13640,7 @@ SLI_HOT static void sli_null_add_map(const sli_null_walk *w, const sl_symbolic *
     const sli_source *from, double *diagonal) {
   double sums[SLI_SUM_ENTRIES];
   sli_null_map_state p;
-  memset(&p, 0, sizeof p);
+  SLI_CLEAR(p);
   p.S = S;
   p.diagonal = diagonal;
   p.to = -1;
@@ -14208,7 +14251,7 @@ static int sli_null_is_suspected(sl_factor *F) {
 }
 
 SLI_COLD static void *sli_judge_memory(sl_factor *F, sl_int n, size_t size) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   if (F->work.is_worker) {
     F->work.is_worker = 2;
     return NULL;
@@ -14787,6 +14830,9 @@ static void sli_job_begin(sli_job *job, sl_factor *F, const sli_source *from) {
 static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_failure *failure) {
   sli_job job;
   sl_int k;
+  if (F->schedule.workers == 1) {
+    return F->type->factor(F, from, 0, F->S->n_supers - 1, 0, failure);
+  }
   sli_job_begin(&job, F, from);
   sli_parallel(&F->threads, F->schedule.workers, sli_worker_run, &job);
   for (k = 0; k < F->schedule.workers; k++) {
@@ -15460,14 +15506,14 @@ SLI_COLD static sl_status sli_signs_judge(sl_factor *F, sli_failure *failure) {
 static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
   const sl_symbolic *S = F->S;
   const size_t n = (size_t)S->n;
-  F->D = SLI_TAKE(b, double, n);
+  F->D = SLI_CUT(b, double, S->n);
   if (S->n_pairs > 0) {
     F->E = SLI_TAKE(b, double, n);
   }
   if (S->n_pairs > 0 || has_mass) {
     F->divisors = SLI_TAKE(b, double, n);
   }
-  F->extents = SLI_TAKE(b, sli_extent, S->n_supers);
+  F->extents = SLI_CUT(b, sli_extent, S->n_supers);
   if (F->rule.regularization != 0.0) {
     F->rule.signs = SLI_TAKE(b, signed char, n);
     F->rule.shifts = SLI_TAKE(b, double, n);
@@ -15500,7 +15546,7 @@ static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
     const int is_copied = sli_panel_is_copied(F, s);
     F->work.panel_room = is_copied && size > F->work.panel_room ? size : F->work.panel_room;
   }
-  F->work.panels = SLI_TAKE(b, double, workers *(uint64_t)F->work.panel_room);
+  F->work.panels = SLI_CUT(b, double, workers *(uint64_t)F->work.panel_room);
 }
 
 static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
@@ -15521,14 +15567,13 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
   }
   if (F->method == SL_METHOD_SUPERNODAL) {
     const uint64_t rows = SLI_TILE * (uint64_t)sli_tiles(S->tallest);
-    F->work.buffer = SLI_TAKE(b, double, workers *(uint64_t)sli_front_scratch(S->widest));
-    F->work.magnitude = SLI_TAKE(b, double, workers *rows);
-    F->work.reciprocals = SLI_TAKE(b, double, workers *SLI_FRONT_RECIPROCALS);
-    F->work.failures = SLI_TAKE(b, sli_failure, workers);
-    sli_schedule_layout(&F->schedule, b, S->n_supers);
+    F->work.buffer = SLI_CUT(b, double, workers *(uint64_t)sli_front_scratch(S->widest));
+    F->work.magnitude = SLI_CUT(b, double, workers *rows);
+    F->work.reciprocals = SLI_CUT(b, double, workers *SLI_FRONT_RECIPROCALS);
+    F->work.failures = SLI_CUT(b, sli_failure, workers);
     sli_factor_layout_panels(F, b);
     if (!sli_is_float(F)) {
-      F->history.marks = SLI_TAKE(b, uint64_t, supers);
+      F->history.marks = SLI_CUT(b, uint64_t, S->n_supers);
     }
   } else {
     F->work.buffer = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, 0, 1));
@@ -15541,64 +15586,58 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
   }
 }
 
-static sl_status sli_factor_schedule(sl_factor *F) {
-  const sl_symbolic *S = F->S;
-  sli_block b = {NULL, 0, 0};
-  sli_schedule_work w;
-  sl_status status = SL_OK;
-  memset(&w, 0, sizeof w);
-  SLI_LAYOUT(&b, &F->allocator, status) {
-    sli_schedule_work_layout(&w, &b, S->n_supers, F->schedule.workers);
-  }
-  if (status == SL_OK) {
-    sli_schedule_fill(&F->schedule, S,
-        sli_is_single(F) ? SLI_PLAIN_NOT
-        : sli_is_float(F) ? SLI_PLAIN_PASSED
-        : SLI_PLAIN,
-        &w);
-    sli_free(&F->allocator, b.base);
-    b.base = NULL;
-    b.used = 0;
-    SLI_LAYOUT(&b, &F->allocator, status) {
-      F->work.stack =
-        sli_take(&b, (uint64_t)(F->schedule.stack >> F->type->half), F->type->front_bytes);
-      sli_schedule_layout_tops(&F->schedule, S, &b);
-    }
-    sli_populate(&F->allocator, &b);
-    F->stats.factor.bytes += b.used;
-    if (status == SL_OK) {
-      sli_schedule_fill_tops(&F->schedule, S);
-    }
-  }
-  return status;
-}
-
 static sl_status sli_factor_prepare(sl_factor *F) {
-  const size_t bytes = F->stats.factor.bytes;
-  sli_block b = {NULL, 0, 0};
+  const sl_symbolic *S = F->S;
+  const int has_fronts = F->method == SL_METHOD_SUPERNODAL;
+  sli_schedule plan = F->schedule;
+  sli_block b = {NULL, 0}, t = {NULL, 0};
+  sli_schedule_work w;
+  uint64_t small[512];
+  size_t planned = 0;
   sl_status status = SL_OK;
   if (F->scratch != NULL) {
     return SL_OK;
   }
+  SLI_CLEAR(w);
+  if (has_fronts) {
+    SLI_LAYOUT_SMALL(&t, &F->allocator, small, status) {
+      sli_schedule_layout(&plan, &t, S->n_supers);
+      planned = t.used;
+      sli_schedule_work_layout(&w, &t, S->n_supers, plan.workers);
+    }
+    if (status == SL_OK) {
+      sli_schedule_fill(&plan, S,
+          sli_is_single(F) ? SLI_PLAIN_NOT
+          : sli_is_float(F) ? SLI_PLAIN_PASSED
+          : SLI_PLAIN,
+          &w);
+    }
+  }
   SLI_LAYOUT(&b, &F->allocator, status) {
     sli_factor_layout_scratch(F, &b);
+    if (has_fronts) {
+      F->work.stack =
+        sli_take(&b, (uint64_t)(plan.stack >> F->type->half), F->type->front_bytes);
+      sli_schedule_layout_tops(&plan, S, &b);
+      sli_schedule_layout(&F->schedule, &b, S->n_supers);
+    }
   }
   sli_populate(&F->allocator, &b);
-  F->stats.factor.bytes += b.used;
   if (status == SL_OK) {
     F->scratch = b.base;
+    F->stats.factor.bytes += b.used;
     if (F->history.marks != NULL) {
-      memset(F->history.marks, 0, (size_t)F->S->n_supers * sizeof(uint64_t));
+      memset(F->history.marks, 0, (size_t)S->n_supers * sizeof(uint64_t));
     }
-    F->null.has_duplicates = F->null.mode == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(F->S);
-    status = F->method == SL_METHOD_SUPERNODAL ? sli_factor_schedule(F) : SL_OK;
-  }
-  if (status != SL_OK) {
-    sli_free(&F->allocator, F->scratch);
-    F->scratch = NULL;
+    F->null.has_duplicates = F->null.mode == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(S);
+    if (has_fronts) {
+      sli_schedule_fill_tops(&plan, S);
+      sli_schedule_move(&F->schedule, &plan, planned);
+    }
+  } else {
     F->history.marks = NULL;
-    F->stats.factor.bytes = bytes;
   }
+  sli_block_free(&t, &F->allocator, small);
   return status;
 }
 
@@ -15722,7 +15761,6 @@ SL_API void sl_factor_free(sl_factor *F) {
   if (F != NULL && sli_is_last(&F->borrowers)) {
     const sl_allocator a = F->allocator;
     sli_free(&a, F->history.loss);
-    sli_free(&a, F->work.stack);
     sli_free(&a, F->scratch);
     sli_symbolic_return(F->S);
     sli_free(&a, F);
@@ -15775,9 +15813,9 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
   const double started = sli_factor_clock(S);
   const sl_allocator a = sli_allocator(opt);
   sl_factor draft;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
-  memset(&draft, 0, sizeof draft);
+  sli_clear(&draft, sizeof draft);
   draft.allocator = a;
   draft.S = S;
   draft.kernels =
@@ -15807,9 +15845,9 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
   sli_populate(&a, &b);
   if (status == SL_OK) {
     sl_factor *F = (sl_factor *)(void *)b.base;
-    *F = draft;
+    sli_copy(F, &draft, sizeof draft);
     sli_borrow(&S->borrowers);
-    memset(F->extents, 0, (size_t)S->n_supers * sizeof *F->extents);
+    sli_clear(F->extents, (size_t)S->n_supers * sizeof *F->extents);
     sli_factor_clear_gaps(F);
     if (F->E != NULL) {
       memset(F->E, 0, (size_t)S->n * sizeof(double));
@@ -15876,7 +15914,7 @@ static sl_status sli_symmetry_check(const sl_symbolic *S, const sl_csc *A, const
     sl_stats *stats) {
   sl_status status = SL_OK;
   double *difference = NULL, *magnitude = NULL;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_int j, q;
   if (S->stats.symbolic.triangle != SL_TRIANGLE_BOTH) {
     return SL_OK;
@@ -15918,7 +15956,8 @@ SLI_INLINE sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
   return status == SL_OK ? sli_pattern_check(F->S, A, 1) : status;
 }
 
-SLI_COLD static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, const sli_failure *f) {
+SLI_COLD static void sli_factor_report_entry(const sl_factor *F, const sl_csc *A,
+    const sli_failure *f, sl_stats *stats) {
   const sl_symbolic *S = F->S;
   sl_int row = -1, column = -1;
   if (f->position < 0) {
@@ -15932,7 +15971,7 @@ SLI_COLD static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, cons
     row = sli_max(S->perm[k], S->perm[j]);
     column = sli_min(S->perm[k], S->perm[j]);
   }
-  (void)sli_fail_at(&F->stats, f->status, row, column, f->value,
+  (void)sli_fail_at(stats, f->status, row, column, f->value,
       f->position < 0 ? "a coefficient is not finite"
       : f->status == SL_ERR_NOT_FINITE
       ? "an entry of A is not finite"
@@ -15978,22 +16017,25 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
 SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f,
     int has_pivots) {
   sl_int n_done = F->S->n;
+  sl_stats found;
+  sli_stats_clear_error(&found);
   F->stats.null_bound = f->bound > 0.0 ? f->bound : 0.0;
   if (f->status != SL_OK && f->pivot >= 0) {
     n_done = has_pivots ? n_done : f->pivot;
-    (void)sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value,
+    (void)sli_fail_at(&found, f->status, F->S->perm[f->pivot], -1, f->value,
         sli_factor_advice(F, f));
   } else if (f->status != SL_OK) {
     n_done = F->S->super_first[f->super];
-    sli_factor_report_entry(F, A, f);
+    sli_factor_report_entry(F, A, f, &found);
   }
+  F->stats.error = found.error;
   if (n_done == 0 || F->stats.factor.positive + F->stats.factor.negative != n_done) {
     sli_count_pivots(F, n_done);
   }
   F->stats.factor.null += f->status == SL_ERR_PIVOT && !has_pivots;
 }
 
-static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
+static void sli_factor_stats_copy(const sli_factor_stats *from, sl_stats *to) {
   to->factor = from->factor;
   to->storage = from->storage;
   to->threads = from->threads;
@@ -16033,7 +16075,6 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
     double started, sl_stats *stats) {
   double ended;
   int has_pivots, suspects;
-  sli_stats_clear_error(&F->stats);
   if (failure->status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
     (void)sli_nulls_find(F, from, failure);
   }
@@ -16124,7 +16165,7 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
     sl_stats *stats) {
   sli_failure failure;
   sl_int t;
-  memset(&failure, 0, sizeof failure);
+  SLI_CLEAR(failure);
   F->history.updates = 0;
   F->history.drift = 0.0;
   sli_factor_identify(F, from);
@@ -16364,10 +16405,10 @@ typedef struct sli_stage {
 } sli_stage;
 
 static sl_status sli_work_stages(sl_work *W, const sli_stage *stages, int count, void *q) {
-  sli_block b = {(unsigned char *)W->block, 0, 0};
+  sli_block b = {(unsigned char *)W->block, 0};
   int k = 0;
   while (k < count) {
-    sli_block trial = {NULL, b.used, 0};
+    sli_block trial = {NULL, b.used};
     stages[k].layout(q, &trial);
     if (trial.used > W->size) {
       const sl_status status = sli_work_grow(W, trial.used);
@@ -16535,7 +16576,7 @@ static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q,
 }
 
 static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs, sl_int most) {
-  sli_block few = {NULL, 0, 0}, many = {NULL, 0, 0};
+  sli_block few = {NULL, 0}, many = {NULL, 0};
   sli_vectors v;
   sli_vectors_layout(&v, &few, q, sli_min(nrhs, 2));
   sli_vectors_layout(&v, &many, q, sli_block_size(nrhs, most));
@@ -16543,7 +16584,7 @@ static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs, sl_int most) {
 }
 
 static sli_vectors sli_vectors_of(const sli_query *q, sl_int nrhs, void *memory) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sli_vectors v;
   b.base = (unsigned char *)memory;
   sli_vectors_layout(&v, &b, q, nrhs);
@@ -17270,7 +17311,7 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
   const sl_symbolic *S = F->S;
   const sl_int nrhs = rhs->nrhs;
   sl_off entries = S->panel_begin[S->n_supers] / SLI_SOLVE_ENTRIES;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_int workers;
   t->workers = 1;
   workers = sli_team_workers(threads);
@@ -17428,7 +17469,7 @@ static void sli_sweep_tasks_lead(sli_team *team, void *data) {
 
 static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, void *memory,
     void (*run_block)(void *data, sl_int item, sl_int worker)) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   t->memory = memory;
   t->run_block = run_block;
   t->has_failed = 0;
@@ -17663,7 +17704,7 @@ typedef struct sli_set {
 
 static sli_set sli_set_of(const sl_symbolic *S, const sl_int *rows, sl_int count) {
   sli_set set;
-  memset(&set, 0, sizeof set);
+  SLI_CLEAR(set);
   set.rows = rows;
   set.count = rows == NULL ? S->n : count;
   return set;
@@ -17792,11 +17833,11 @@ struct sl_plan {
 
 static sl_status sli_plan_make(sl_plan **out, const sl_symbolic *S, const sli_ending *ending,
     sli_set *b, sli_set *x, const sl_allocator *a) {
-  sli_block kept = {NULL, 0, 0};
+  sli_block kept = {NULL, 0};
   sl_plan *P = NULL;
   sli_query query;
   sl_status status = SL_OK;
-  memset(&query, 0, sizeof query);
+  SLI_CLEAR(query);
   sli_set_measure(S, b, &query.forward);
   sli_set_measure(S, x, &query.backward);
   SLI_LAYOUT(&kept, a, status) {
@@ -17822,7 +17863,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
     const sl_int *xset, sl_int nx, const sl_options *opt,
     sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
-  sli_block seeds = {NULL, 0, 0};
+  sli_block seeds = {NULL, 0};
   const sli_ending *ending = opt == NULL ? NULL : (const sli_ending *)(const void *)opt->region;
   sli_set b, x;
   sl_status status;
@@ -17904,7 +17945,7 @@ static void sli_local_layout_seeds(void *data, sli_block *b) {
 
 static void sli_local_sort(void *data) {
   sli_local *l = (sli_local *)data;
-  memset(&l->query, 0, sizeof l->query);
+  SLI_CLEAR(l->query);
   l->status = sli_set_sort(l->S, &l->b, l->stats);
   if (l->status == SL_OK) {
     l->status = sli_set_sort(l->S, &l->x, l->stats);
@@ -17953,7 +17994,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
-  memset(&l, 0, sizeof l);
+  SLI_CLEAR(l);
   l.S = F->S;
   l.b = sli_set_of(F->S, bset, nb);
   l.x = sli_set_of(F->S, xset, nx);
@@ -18144,7 +18185,7 @@ static sl_status sli_parts_check(const sl_factor *F, unsigned parts) {
 static sl_status sli_parts_run(sli_parts *p, const sli_rhs *rhs, sl_work *W) {
   const sl_int nrhs = rhs->nrhs;
   sl_status status = sli_rhs_check(rhs, p->q.nx, p->q.nb);
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_work own;
   sl_int r;
   status = status == SL_OK ? sli_parts_check(p->F, p->parts) : status;
@@ -18177,7 +18218,7 @@ static sl_status sli_factor_part(const sl_factor *F, unsigned parts, int is_prod
   if (F == NULL) {
     return sli_argument("F is NULL");
   }
-  memset(&p, 0, sizeof p);
+  SLI_CLEAR(p);
   all = sli_query_all(F->S);
   p.F = F;
   p.parts = parts;
@@ -18220,7 +18261,7 @@ SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsign
   if (status != SL_OK) {
     return status;
   }
-  memset(&p, 0, sizeof p);
+  SLI_CLEAR(p);
   p.F = F;
   p.parts = parts;
   p.q = sli_parts_query(&P->query, is_forward ? &P->query.forward : &P->query.backward,
@@ -18535,7 +18576,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
     const double *B, size_t ldb, sl_int nrhs, sl_int steps,
     sl_work *W, sl_stats *stats) {
   const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sli_refinement f;
   sl_work own;
   sl_status status;
@@ -18551,7 +18592,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
-  memset(&f, 0, sizeof f);
+  SLI_CLEAR(f);
   f.F = F;
   f.A = A;
   f.triangle = F->S->stats.symbolic.triangle;
@@ -18719,7 +18760,7 @@ static double sli_local_rounding(const sl_factor *F) {
 
 static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, sl_int steps,
     sl_work *W, sl_stats *stats) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   double worst = 0.0;
   sl_status status;
   sl_int r, c;
@@ -18778,7 +18819,7 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
-  memset(&f, 0, sizeof f);
+  SLI_CLEAR(f);
   f.F = F;
   f.q = &P->query;
   f.room = sli_min(F->stats.factor.regularized,
@@ -18900,7 +18941,7 @@ static double sli_inverse_norm(sli_norm_estimate *p) {
 }
 
 SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rcond, sl_work *W) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_work own;
   sli_norm_estimate p;
   sl_status status;
@@ -18962,7 +19003,7 @@ static void sli_defects(const sl_factor *F, const sli_query *q, const sli_rhs *r
 SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, const double *B,
     size_t ldb, sl_int nrhs, sl_work *W) {
   const sli_rhs rhs = sli_rhs_of(Y, ldy, B, ldb, nrhs);
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_work own;
   sli_query q;
   sl_status status;
@@ -19192,7 +19233,7 @@ static int sli_guarantee_fits(const sl_factor *F, const sl_csc *A) {
 
 static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
     sl_certificate_info *info) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sli_guarantee_work p;
   sl_status status;
   double shift, lowest = 0.0;
@@ -19205,7 +19246,7 @@ static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
   if (!sli_guarantee_fits(F, A)) {
     return sli_refuse(SL_ERR_STATE, "A is not the matrix that F was computed from");
   }
-  memset(&p, 0, sizeof p);
+  SLI_CLEAR(p);
   p.F = F;
   sli_guarantee_layout(&p, &b, A);
   status = sli_work_block(W, &b);
@@ -19452,7 +19493,7 @@ static double sli_probes_null(sli_probes *p) {
 }
 
 static sl_status sli_probes_run(sli_probes *p, sl_work *W) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status;
   int turn;
   sli_probes_layout(p, &b);
@@ -19517,7 +19558,7 @@ static sl_status sli_certify(sl_factor *F, const sl_csc *A, sl_certainty certain
     sl_certificate_info *info) {
   sli_probes p;
   sl_status status;
-  memset(&p, 0, sizeof p);
+  SLI_CLEAR(p);
   status = sli_certify_fits(F, A, &p.triangle);
   status = status == SL_OK ? sli_certify_suits(F) : status;
   if (status != SL_OK || F->S->n == 0) {
@@ -19542,7 +19583,7 @@ SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty c
   sl_status status;
   sli_stats_clear_error(stats);
   if (F != NULL) {
-    memset(&F->certificate, 0, sizeof F->certificate);
+    SLI_CLEAR(F->certificate);
   }
   status = sli_argument(F == NULL ? "F is NULL"
       : certainty != SL_ESTIMATED && certainty != SL_GUARANTEED
@@ -19551,7 +19592,7 @@ SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty c
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
-  memset(&info, 0, sizeof info);
+  SLI_CLEAR(info);
   own = sli_work_own(&F->allocator);
   status = sli_certify(F, A, certainty, W == NULL ? &own : W, &info);
   sli_free(&own.allocator, own.block);
@@ -19849,7 +19890,7 @@ static sl_status sli_bounds_run(sli_bounds *p, const sli_rhs *rhs, double *bound
   const int needs = p->scales == NULL ? SLI_NEEDS_SCALES
             : memcmp(p->scales, &identity, sizeof identity) == 0 ? SLI_NEEDS_NOTHING
                                        : SLI_NEEDS_ROOM;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status;
   sli_bounds_layout(p, &b, rhs->nrhs, needs);
   status = sli_work_block(W, &b);
@@ -19894,7 +19935,7 @@ SL_API sl_status sl_plan_solve_bounded(const sl_plan *P, const sl_factor *F, dou
     return sli_report(stats, status);
   }
   if (stats != NULL) {
-    memset(&stats->certificate, 0, sizeof stats->certificate);
+    SLI_CLEAR(stats->certificate);
     stats->certificate.certainty = F->certificate.certainty;
     stats->certificate.eta = F->certificate.eta;
   }
@@ -20013,7 +20054,7 @@ static void sli_dense_eliminate(sli_dense_front *f, sl_int k, int size) {
   const double inverse = u[k] == 0.0 ? 0.0 : 1.0 / u[k];
   sl_int i, j;
   sli_pair_steps steps;
-  memset(&steps, 0, sizeof steps);
+  SLI_CLEAR(steps);
   f->D[k] = u[k];
   f->E[k] = 0.0;
   if (size == 2) {
@@ -20134,7 +20175,7 @@ static void sli_search_assemble(const sli_pivot_search *p, const sli_contributio
 
 static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front *f) {
   const sl_symbolic *S = p->S;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_int c, k, at = 0;
   int pass;
   f->columns = S->steps[s].width;
@@ -20147,7 +20188,7 @@ static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front
     f->D = SLI_TAKE(&b, double, f->columns);
     f->E = SLI_TAKE(&b, double, f->columns);
     f->values = SLI_TAKE(&b, double, (uint64_t)f->rows *(uint64_t)f->rows);
-    if (b.overflow) { /* untested: on 32 bits only */
+    if (b.used == SIZE_MAX) { /* untested: on 32 bits only */
       return sli_refuse(SL_ERR_TOO_LARGE, "a front"); /* untested: the same */
     }
     if (pass == 0 && b.used > p->front_size) {
@@ -20183,7 +20224,7 @@ static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front
 static sl_status sli_search_keep(sli_pivot_search *p, sl_int s, const sli_dense_front *f,
     sl_int pivots) {
   sli_contribution *c = &p->contributions[s];
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   sl_int j;
   c->delayed = f->columns - pivots;
@@ -20294,7 +20335,7 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
   double started;
   sli_pivot_search p;
   sl_symbolic *S = NULL;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status;
   sli_stats_clear_error(stats);
   status = sli_begin(out);
@@ -20302,7 +20343,7 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
-  memset(&p, 0, sizeof p);
+  SLI_CLEAR(p);
   p.S = S;
   p.allocator = S->allocator;
   started = sli_seconds();
@@ -20941,7 +20982,7 @@ SLI_INLINE sl_int sli_traversal_workers(const sl_symbolic *S, const sl_threads *
 
 static sli_traversal sli_traversal_of(const sl_symbolic *S, sl_int count, sl_int workers) {
   sli_traversal t;
-  memset(&t, 0, sizeof t);
+  SLI_CLEAR(t);
   t.S = S;
   t.forest.count = count;
   t.schedule.workers = sli_min(workers, sli_max(count, 1));
@@ -21048,7 +21089,7 @@ static sl_off sli_traversal_stack_task(sli_traversal *t, sl_int first, sl_int la
   const sl_int *parent = t->forest.parent, *low = t->forest.low;
   sli_stacks stacks;
   sl_int k;
-  memset(&stacks, 0, sizeof stacks);
+  SLI_CLEAR(stacks);
   for (k = last; k >= first; k--) {
     const int is_root = parent[k] == -1 || parent[k] > last;
     sli_traversal_push(t, &stacks, k, is_root, !is_root && low[parent[k]] == low[k],
@@ -21066,7 +21107,7 @@ static sl_off sli_traversal_stack_tops(sli_traversal *t, sl_off from) {
   sl_int *child = t->schedule_work.side;
   sli_stacks stacks;
   sl_int m;
-  memset(&stacks, 0, sizeof stacks);
+  SLI_CLEAR(stacks);
   for (m = p->n_tops - 1; m >= 0; m--) {
     const sl_int k = p->top[m];
     child[k] = -1;
@@ -21504,7 +21545,7 @@ typedef struct sli_requests {
 static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, const sl_int *columns,
     sl_int count) {
   sli_requests r;
-  memset(&r, 0, sizeof r);
+  SLI_CLEAR(r);
   r.S = F->S;
   r.lanes_cost = sli_costs_of(F->kernels->isa)->lanes;
   r.rows = rows;
@@ -21562,7 +21603,7 @@ static sl_int sli_rhs_block_choose(const sli_requests *r, sl_int k, sli_rhs_bloc
   double least = 0.0;
   sl_int block_size = 0;
   sli_rhs_block block;
-  memset(&block, 0, sizeof block);
+  SLI_CLEAR(block);
   *best = block;
   for (; k < r->count && k - from < SLI_BLOCK_REQUESTS_MAX &&
       sli_rhs_block_add_request(&block, r, k, r->S);
@@ -21725,7 +21766,7 @@ static void sli_pair_sums(const sl_factor *F, const sli_forward *f, sl_int count
 
 static void sli_inverse_clear_stats(sl_stats *stats) {
   if (stats != NULL) {
-    memset(&stats->inverse, 0, sizeof stats->inverse);
+    SLI_CLEAR(stats->inverse);
   }
 }
 
@@ -21854,7 +21895,7 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
     *out = 0.0;
     return SL_OK;
   }
-  memset(&q, 0, sizeof q);
+  SLI_CLEAR(q);
   q.F = F;
   q.set[0] = cset;
   q.set[1] = bset;
@@ -22040,7 +22081,7 @@ static int sli_loss_is_small(sli_loss *q) {
     }
     if (up == -1 && tree.signs != 0) {
       is_small = sli_loss_judge(q, &tree);
-      memset(&tree, 0, sizeof tree);
+      SLI_CLEAR(tree);
     }
     for (i = 0; i < S->steps[s].below; i++) {
       below[i] = up == -1 ? sqrt(q->outside)
@@ -22130,7 +22171,7 @@ static void sli_entries_choose(void *call) {
   sli_entries *q = (sli_entries *)call;
   double limit = HUGE_VAL, time;
   sl_int supers = q->F->S->n_supers;
-  memset(&q->capacity, 0, sizeof q->capacity);
+  SLI_CLEAR(q->capacity);
   q->is_lossy = 0;
   if (q->is_all) {
     q->method = SL_INVERSE_SELECTED;
@@ -22325,7 +22366,7 @@ static void sli_entries_clear_nulls(const sli_entries *q) {
 static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int *rows,
     const sl_int *columns, sl_int count) {
   sli_entries q;
-  memset(&q, 0, sizeof q);
+  SLI_CLEAR(q);
   q.F = F;
   q.threads = &F->threads;
   q.out = out;
@@ -22531,8 +22572,8 @@ static void sli_inverse_block_layout_requests(void *block, sli_block *b) {
 
 static void sli_inverse_block_partition(void *block) {
   sli_inverse_block *q = (sli_inverse_block *)block;
-  memset(&q->kept_capacity, 0, sizeof q->kept_capacity);
-  memset(&q->streamed_capacity, 0, sizeof q->streamed_capacity);
+  SLI_CLEAR(q->kept_capacity);
+  SLI_CLEAR(q->streamed_capacity);
   sli_requests_partition(&q->kept, &q->kept_capacity);
   if (!q->is_symmetric) {
     sli_requests_partition(&q->streamed, &q->streamed_capacity);
@@ -22640,7 +22681,7 @@ static sl_status sli_inverse_block_run(sli_inverse_block *q, sl_work *W, sl_stat
 static sli_inverse_block sli_inverse_all_pairs_of(const sl_factor *F, const sl_int *rows,
     sl_int count) {
   sli_inverse_block q;
-  memset(&q, 0, sizeof q);
+  SLI_CLEAR(q);
   q.F = F;
   q.is_symmetric = 1;
   q.kept = q.streamed = sli_requests_of(F, rows, rows, count);
@@ -22679,7 +22720,7 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
     return sli_report(stats, status);
   }
   sli_inverse_clear_stats(stats);
-  memset(&q, 0, sizeof q);
+  SLI_CLEAR(q);
   q.F = F;
   q.Z = Z;
   q.is_symmetric = rows == columns && n_rows == n_columns;
@@ -22720,7 +22761,7 @@ static void sli_selected_layout(sl_selected *Z, sli_block *b) {
 static sl_status sli_selected_plan(sl_selected **out, sl_selected *draft, const uint64_t *seeds,
     sl_int n_seeds) {
   const sl_symbolic *S = draft->traversal.S;
-  sli_block work = {NULL, 0, 0}, kept = {NULL, 0, 0};
+  sli_block work = {NULL, 0}, kept = {NULL, 0};
   sl_status status = SL_OK;
   sl_int k;
   SLI_LAYOUT(&kept, &draft->allocator, status) {
@@ -22749,12 +22790,12 @@ static sl_status sli_selected_plan(sl_selected **out, sl_selected *draft, const 
 SLI_COLD static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const sl_int *set,
     sl_int count, const sl_options *opt, sl_stats *stats) {
   const sl_symbolic *S = F->S;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   uint64_t *seeds = NULL, *scratch = NULL;
   sl_selected draft;
   sl_status status = SL_OK;
   sl_int supers = S->n_supers;
-  memset(&draft, 0, sizeof draft);
+  SLI_CLEAR(draft);
   draft.allocator = sli_allocator(opt);
   draft.threads = opt == NULL || opt->threads.count == 0 ? F->threads : opt->threads;
   if (set != NULL) {
@@ -22826,7 +22867,7 @@ static void sli_selected_judge(void *context) {
   const sl_symbolic *S = q->F->S;
   sl_int k;
   q->is_lossy = sli_has_both_signs(q->F) && !sli_loss_is_small(&q->loss);
-  memset(&q->capacity, 0, sizeof q->capacity);
+  SLI_CLEAR(q->capacity);
   for (k = 0; k < q->loss.count && q->is_lossy; k++) {
     const sl_int first = S->super_first[q->loss.supers[k]];
     const uint64_t seed = sli_keyed(first, 0);
@@ -22902,7 +22943,7 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
   sl_work own = sli_work_own(&Z->allocator);
   sli_selected_run q;
   sl_status status;
-  memset(&q, 0, sizeof q);
+  SLI_CLEAR(q);
   q.Z = Z;
   q.F = F;
   q.run.F = F;
@@ -22927,7 +22968,7 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
 }
 
 static sl_status sli_selected_alloc_values(sl_selected *Z) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   SLI_LAYOUT(&b, &Z->allocator, status) {
     Z->Z = SLI_TAKE(&b, double, Z->begin[Z->traversal.forest.count]);
@@ -23179,7 +23220,7 @@ static void sli_region_apply(const sl_region *R, const sli_ending_use *boundary,
   if (n == 0) {
     return;
   }
-  memset(&reach, 0, sizeof reach);
+  SLI_CLEAR(reach);
   reach.count = 1;
   memcpy(vectors, v->y, size * sizeof(double));
   memset(vectors + size, 0, size * sizeof(double));
@@ -23234,9 +23275,9 @@ SLI_INLINE double sli_choice_cost(const sli_choice *c) {
 }
 
 static int sli_region_bytes_fit(sl_int boundary, sl_int n_roots, size_t bytes_max) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_region R;
-  memset(&R, 0, sizeof R);
+  SLI_CLEAR(R);
   if (boundary == 0 || bytes_max == 0) {
     return 1;
   }
@@ -23593,11 +23634,11 @@ static void sli_region_from_choice(sl_region *R, const sli_choice *c) {
 static sl_status sli_region_new(sl_region **out, const sli_choice *start, const sl_int *set,
     const sl_allocator *a, sl_stats *stats) {
   const sl_symbolic *S = start->S;
-  sli_block seeds = {NULL, 0, 0}, rest = {NULL, 0, 0}, kept = {NULL, 0, 0};
+  sli_block seeds = {NULL, 0}, rest = {NULL, 0}, kept = {NULL, 0};
   sli_choice c = *start;
   sl_region draft;
   sl_status status = SL_OK;
-  memset(&draft, 0, sizeof draft);
+  SLI_CLEAR(draft);
   SLI_LAYOUT(&seeds, a, status) {
     c.seeds = SLI_TAKE(&seeds, uint64_t, c.count);
     c.scratch = SLI_TAKE(&seeds, uint64_t, c.count);
@@ -23666,7 +23707,7 @@ static int sli_region_copy(sl_region *R, const sl_selected *Z) {
 
 static sli_loss sli_region_loss(const sl_region *R, const sl_factor *F, sl_int k) {
   sli_loss q;
-  memset(&q, 0, sizeof q);
+  SLI_CLEAR(q);
   q.F = F;
   q.limit = SLI_LOSS_REFUSED;
   q.first = R->S->first_descendant[R->roots[k]];
@@ -23679,7 +23720,7 @@ static sl_status sli_region_reserve_loss(const sl_region *R, const sl_factor *F,
   sl_int k;
   for (k = 0; k < R->extent.n_roots && sli_has_both_signs(F) && status == SL_OK; k++) {
     sli_loss q = sli_region_loss(R, F, k);
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sli_loss_layout(&q, &b);
     status = sli_work_grow(W, b.used);
   }
@@ -23697,7 +23738,7 @@ static int sli_region_loss_is_small(const sl_region *R, const sl_factor *F, sl_w
   }
   for (k = 0; k < R->extent.n_roots && sli_has_both_signs(F) && is_small; k++) {
     sli_loss q = sli_region_loss(R, F, k);
-    sli_block b = {(unsigned char *)W->block, 0, 0};
+    sli_block b = {(unsigned char *)W->block, 0};
     sli_loss_layout(&q, &b);
     q.outside = R->S->super_parent[R->roots[k]] == -1 ? 0.0 : most;
     is_small = q.outside == 0.0 || sli_loss_is_small(&q);
@@ -23760,7 +23801,7 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
-  memset(&start, 0, sizeof start);
+  SLI_CLEAR(start);
   start.S = F->S;
   start.count = set == NULL ? F->S->n : count;
   start.may_copy = Z != NULL;
@@ -24142,7 +24183,7 @@ static void sli_kept_run(sl_factor *G, sl_int s, sl_int worker) {
 static sli_kept sli_kept_of(const sl_factor *F, const sl_int *from, const sl_int *columns,
     int is_subset) {
   sli_kept p;
-  memset(&p, 0, sizeof p);
+  SLI_CLEAR(p);
   p.F = F;
   p.copied.from = from;
   p.copied.copy = sli_kept_run;
@@ -24178,7 +24219,7 @@ static void sli_reached_mark(const sl_symbolic *S, sl_int *from, sl_int k) {
 static sl_status sli_reached_numbers(sl_factor *F, const sli_kept *p, const sli_source *from,
     double started, sl_stats *stats) {
   sli_failure failure;
-  memset(&failure, 0, sizeof failure);
+  SLI_CLEAR(failure);
   if (F->null.mode == SL_NULL_PIVOT_SKIP) {
     (void)sli_null_vectors_check(F, from, &failure);
   }
@@ -24247,7 +24288,7 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
     sl_stats *stats) {
   const double started = sli_seconds();
   const sli_source source = sli_source_matrix(A);
-  sli_block b = {NULL, 0, 0}, room = {NULL, 0, 0};
+  sli_block b = {NULL, 0}, room = {NULL, 0};
   sli_kept kept;
   uint64_t entries = 0;
   sl_int *from = NULL, k;
@@ -24307,7 +24348,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
 static sl_status sli_loss_begin(sl_factor *F) {
   const sl_symbolic *S = F->S;
   sli_history *h = &F->history;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   if (h->updates > 0 && h->base > 0.0) {
     return SL_OK;
@@ -25086,7 +25127,7 @@ static void sli_rank_sort(void *data) {
       }
     }
   }
-  memset(&q->whole, 0, sizeof q->whole);
+  SLI_CLEAR(q->whole);
   if (q->status != SL_OK) {
     return;
   }
@@ -25295,7 +25336,7 @@ static sl_status sli_rank_passes(sli_rank *q) {
 
 static sl_status sli_rank_run(sli_rank *q) {
   sl_factor *F = q->u.F;
-  const sl_stats before = F->stats;
+  const sli_factor_stats before = F->stats;
   sli_history history;
   sl_status status;
   if (q->count == 0) {
@@ -25368,7 +25409,7 @@ static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) 
   if (stats != NULL) {
     const sl_factor *F = q->u.F;
     sli_factor_stats_copy(&F->stats, stats);
-    memset(&stats->change, 0, sizeof stats->change);
+    SLI_CLEAR(stats->change);
     stats->change.method = q->count > 0 ? SL_CHANGE_UPDATE : SL_CHANGE_NONE;
     stats->change.ranks = q->count;
     stats->change.entries = q->entries;
@@ -25769,7 +25810,7 @@ static double sli_choose_update(const sli_rank *q, double entries, double pivots
 static void sli_choose_estimate(sli_change_choice *c, const sli_rank *q) {
   sl_int k, edges = 0, passes;
   sli_reach R;
-  memset(&R, 0, sizeof R);
+  SLI_CLEAR(R);
   for (k = 0; k < q->n_entries; k++) {
     edges += q->entry_rows[k] != q->entry_columns[k];
   }
@@ -25834,11 +25875,11 @@ static sl_status sli_choose_cheapest(sli_rank *q, const sl_csc *A, sl_work *W, d
   const uint64_t count = (uint64_t)q->n_entries;
   sl_change_method method = SL_CHANGE_NONE;
   sl_stats *stats = q->stats;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sli_change_choice c;
   sl_work own = sli_work_own(a);
   sl_status status = SL_OK;
-  memset(&c, 0, sizeof c);
+  SLI_CLEAR(c);
   q->u.least = sli_rank_least(q->u.F);
   SLI_LAYOUT(&b, a, status) {
     c.seeds = SLI_TAKE(&b, uint64_t, count);
@@ -26014,7 +26055,7 @@ SLI_HOT static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, i
 }
 
 static sl_status sli_pin_find_nulls(const sl_pins *P, sli_pin *pin, sl_int *row) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   sli_free(&P->allocator, pin->nulls);
   pin->nulls = NULL;
@@ -26188,9 +26229,9 @@ SLI_INLINE sli_equality sli_equality_of(const sl_int *rows, const double *values
 static sl_status sli_pin_new(sli_pin **out, const sl_pins *P, sli_set *set, sl_int count,
     const sli_reach *R) {
   sli_pin pin;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
-  memset(&pin, 0, sizeof pin);
+  SLI_CLEAR(pin);
   pin.count = count;
   SLI_LAYOUT(&b, &P->allocator, status) {
     *out = (sli_pin *)sli_take(&b, 1, sizeof **out);
@@ -26211,7 +26252,7 @@ static sl_status sli_pin_new(sli_pin **out, const sl_pins *P, sli_set *set, sl_i
 static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sli_equality *e,
     int is_swept, sl_stats *stats) {
   const sl_symbolic *S = P->F->S;
-  sli_block seeds = {NULL, 0, 0};
+  sli_block seeds = {NULL, 0};
   sli_set set = sli_set_of(S, e->rows, e->count);
   sli_reach R;
   sli_pin *pin = NULL;
@@ -26336,7 +26377,7 @@ static void sli_pins_remove(sl_pins *P, sl_int p) {
 
 static sl_status sli_pins_grow(sl_pins *P, sl_int more) {
   const sl_int capacity = sli_max(sli_max(8, 2 * P->capacity), P->n_pins + more);
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sli_pin **pins = NULL;
   double *K = NULL, *scratch = NULL;
   sl_status status = SL_OK;
@@ -26857,7 +26898,7 @@ SL_API sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count, sl_st
 
 SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count, sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   unsigned char *gone = NULL;
   sl_status status;
   sl_int k;
@@ -26924,7 +26965,7 @@ static sl_status sli_pins_fill(sl_pins *D, const sl_pins *P, sl_int *rows, sl_st
 
 static sl_status sli_pins_renew(sl_pins *P, sl_stats *stats) {
   sl_pins D = *P;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_int *rows = NULL;
   sl_status status = sli_pins_check(P->F);
   D.n_pins = D.capacity = 0;
@@ -27155,7 +27196,7 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
     const double *B, size_t ldb, const double *G, size_t ldg,
     sl_int nrhs, sl_work *W) {
   const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
-  sli_block counted = {NULL, 0, 0};
+  sli_block counted = {NULL, 0};
   sli_pins_solve w;
   sli_query all;
   const sli_query *q = plan == NULL ? &all : &plan->query;
@@ -27481,7 +27522,7 @@ SLI_HOT static void sli_restriction_split(sli_restriction *r) {
 
 SLI_HOT static sl_status sli_restriction_filter(sli_restriction *r, const sl_allocator *a) {
   const sl_symbolic *S = r->S;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   uint64_t rows = 0;
   sl_off at = 0, p;
@@ -27516,7 +27557,7 @@ SLI_HOT static sl_status sli_restriction_filter(sli_restriction *r, const sl_all
 static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
   const uint64_t count = (uint64_t)r->R.count;
   const int is_many = r->R.count >= r->S->n / SLI_RESTRICT_MANY;
-  sli_block b = {NULL, 0, 0}, kept = {NULL, 0, 0};
+  sli_block b = {NULL, 0}, kept = {NULL, 0};
   sl_status status = SL_OK;
   while (!is_many && r->bits_mask < count * 4 && r->bits_mask < (uint32_t)r->S->n / 32) {
     r->bits_mask = 2 * r->bits_mask + 1;
@@ -27556,7 +27597,7 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
 
 static sl_status sli_restriction_work(sli_restriction *r, uint64_t entries, const sl_allocator *a) {
   sli_analysis *w = &r->w;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status =
     entries > INT32_MAX
       ? sli_refuse(SL_ERR_TOO_LARGE, "more than 2^31 - 1 entries of new columns")
@@ -27666,7 +27707,7 @@ SLI_HOT static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *sta
 
 static sl_status sli_restriction_copy(sli_restriction *r, uint64_t entries, const sl_allocator *a) {
   const int copies = r->R.count < r->S->n / SLI_RESTRICT_IN_PLACE;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = sli_restriction_work(r, entries, a);
   if (copies) {
     SLI_LAYOUT(&b, a, status) {
@@ -27752,7 +27793,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
     sl_stats *stats) {
   sli_analysis *w = &r->w;
   sl_symbolic *T = &r->T;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   uint64_t rows = 0;
   sl_int t;
@@ -27765,7 +27806,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
   for (t = 0; t < T->n_supers; t++) {
     rows += (uint64_t)w->amalgamation.below[t];
   }
-  memset(&b, 0, sizeof b);
+  SLI_CLEAR(b);
   SLI_LAYOUT(&b, a, status) {
     T->rows_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
     T->rows = SLI_TAKE(&b, sl_int, rows);
@@ -27810,7 +27851,7 @@ typedef struct sli_joint {
 
 static sl_status sli_joint_room(sl_symbolic **out, sl_symbolic *draft, sl_off rows, sl_off entries,
     sl_stats *stats) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   SLI_LAYOUT(&b, &draft->allocator, status) {
     (void)sli_take(&b, 1, sizeof(sl_symbolic));
@@ -27826,7 +27867,7 @@ static sl_status sli_joint_room(sl_symbolic **out, sl_symbolic *draft, sl_off ro
 
 SLI_INLINE sli_joint sli_joint_start(sl_symbolic *S) {
   sli_joint j;
-  memset(&j, 0, sizeof j);
+  SLI_CLEAR(j);
   j.S = S;
   return j;
 }
@@ -27981,7 +28022,7 @@ static void sli_joint_fill(sl_symbolic *S, sli_restriction *r, sl_stats *stats) 
 
 static sl_symbolic sli_restriction_draft(const sli_restriction *r, const sl_allocator *a) {
   sl_symbolic draft;
-  memset(&draft, 0, sizeof draft);
+  SLI_CLEAR(draft);
   draft.allocator = *a;
   draft.n = r->R.count;
   draft.nnz_input = -1;
@@ -28055,7 +28096,7 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
   const sli_source source = sli_source_matrix(&r->B);
   sli_kept kept;
   sli_failure failure;
-  sli_block b = {NULL, 0, 0}, room = {NULL, 0, 0};
+  sli_block b = {NULL, 0}, room = {NULL, 0};
   sl_int *from = NULL, *columns = NULL;
   sl_status status = SL_OK;
   if (r->n_kept > 0) {
@@ -28070,7 +28111,7 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
     status = sli_kept_room(&kept, G, &room);
   }
   if (status == SL_OK) {
-    memset(&failure, 0, sizeof failure);
+    SLI_CLEAR(failure);
     sli_factor_begin(G);
     G->identity = sli_hash_words(F->identity, &G->S->identity, 2);
     G->work.copied = r->n_kept > 0 ? &kept.copied : NULL;
@@ -28127,10 +28168,8 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
 
 static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
   sl_factor counted = *G;
-  sli_block b = {NULL, 0, 0};
-  sli_free(&G->allocator, G->work.stack);
+  sli_block b = {NULL, 0};
   sli_free(&G->allocator, G->scratch);
-  G->work.stack = NULL;
   G->scratch = NULL;
   (void)sli_take(&b, 1, sizeof(sl_factor));
   sli_factor_layout(&counted, &b, 0);
@@ -28160,7 +28199,7 @@ static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_facto
   const sl_options rules = sli_restrict_options(F, r, a, (sl_int *)(void *)r->scratch);
   sl_stats found;
   sl_status status;
-  memset(&found, 0, sizeof found);
+  SLI_CLEAR(found);
   found.symbolic.triangle = F->S->stats.symbolic.triangle;
   status = sli_restriction_list(r, a, stats);
   if (status == SL_OK) {
@@ -28208,7 +28247,7 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
-  memset(&r, 0, sizeof r);
+  SLI_CLEAR(r);
   r.S = F->S;
   r.A = A;
   r.may_keep =
@@ -28505,7 +28544,7 @@ static void sli_edit_scan(sli_edit *e) {
 }
 
 static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_off total;
   sl_status status = SL_OK;
   SLI_LAYOUT(&b, a, status) {
@@ -28521,7 +28560,7 @@ static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
   e->to = NULL;
   sli_edit_scan(e);
   total = sli_starts(e->begin, e->n_near);
-  memset(&b, 0, sizeof b);
+  SLI_CLEAR(b);
   SLI_LAYOUT(&b, a, status) {
     e->to = SLI_TAKE(&b, sl_int, total);
   }
@@ -28955,10 +28994,10 @@ static sl_int sli_edit_separates(sli_edit *e, sl_int row) {
 static sl_status sli_edit_separate(sli_edit *e, const sl_allocator *a) {
   const sl_symbolic *S = e->S;
   sli_band w;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   sl_int k, m, count = 0;
-  memset(&w, 0, sizeof w);
+  SLI_CLEAR(w);
   w.e = e;
   SLI_LAYOUT(&b, a, status) {
     sli_band_layout(&w, &b, e->n_near);
@@ -29110,15 +29149,15 @@ static sl_status sli_edit_make_graph(sli_edit *e, sli_graph *G, sli_block *edges
 static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
   const sl_int count = e->n_grouped;
   sli_graph G;
-  sli_block b = {NULL, 0, 0}, edges = {NULL, 0, 0};
+  sli_block b = {NULL, 0}, edges = {NULL, 0};
   sli_septree septree;
   sli_team alone = sli_team_of(1);
   sl_int *perm = NULL, *scratch = NULL, k;
   sli_order_cost cost;
   sli_order_job job;
   sl_status status = SL_OK;
-  memset(&G, 0, sizeof G);
-  memset(&septree, 0, sizeof septree);
+  SLI_CLEAR(G);
+  SLI_CLEAR(septree);
   if (count == 0) {
     return SL_OK;
   }
@@ -29135,7 +29174,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
   }
   status = sli_edit_make_graph(e, &G, &edges, a);
   if (status == SL_OK) {
-    memset(&job, 0, sizeof job);
+    SLI_CLEAR(job);
     job.G = &G;
     job.perm = perm;
     job.scratch = scratch;
@@ -29256,7 +29295,7 @@ typedef struct sli_edit_join {
 
 static sl_status sli_edit_join_room(sli_edit_join *j, const sl_allocator *a) {
   const sl_symbolic *S = j->e->S;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   sl_int s;
   j->most = S->tallest;
@@ -29465,7 +29504,7 @@ static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const s
   sl_off rows, entries = 0;
   sl_int s, k;
   sl_status status = sli_edit_join_room(j, a);
-  memset(&draft, 0, sizeof draft);
+  SLI_CLEAR(draft);
   draft.allocator = *a;
   draft.n = j->e->n;
   draft.nnz_input = sli_nnz(j->e->B);
@@ -29512,7 +29551,7 @@ static sl_status sli_edit_arguments(const sl_symbolic *S, const sl_csc *A, const
 }
 
 static sl_status sli_edit_find(sli_edit *e, int *is_local, const sl_allocator *a, sl_stats *stats) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   sl_int j;
   int layer;
@@ -29557,8 +29596,8 @@ static sl_status sli_edit_analyze(sl_symbolic **out, sli_edit *e, const sl_optio
   sli_edit_join j;
   sl_stats found;
   sl_status status;
-  memset(&j, 0, sizeof j);
-  memset(&found, 0, sizeof found);
+  SLI_CLEAR(j);
+  SLI_CLEAR(found);
   j.e = e;
   found.symbolic.triangle = e->triangle;
   status = sli_edit_analyze_fresh(e, &j.r, opt == NULL ? SL_RELAXATION_DEFAULT : opt->relaxation,
@@ -29618,7 +29657,7 @@ SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const
   if (status == SL_OK && B->n_rows != B->n_cols) {
     status = sli_argument("B is not square");
   }
-  memset(&e, 0, sizeof e);
+  SLI_CLEAR(e);
   if (status == SL_OK) {
     e.S = S;
     e.A = A;
@@ -29668,7 +29707,7 @@ typedef struct sli_reuse {
 
 static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *stats) {
   const sl_symbolic *T = r->G->S;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   sl_int k;
   SLI_LAYOUT(&b, &r->G->allocator, status) {
@@ -29845,7 +29884,7 @@ static int sli_reuse_find(sli_reuse *r) {
 }
 
 static sl_status sli_reuse_run(sli_reuse *r, const sli_source *from, sli_failure *failure) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   const sl_status status = sli_kept_room(&r->kept, r->G, &b);
   r->blocks[1] = b.base;
   if (status != SL_OK) {
@@ -29865,7 +29904,7 @@ static sl_status sli_reuse_numbers(sli_reuse *r, sl_stats *stats) {
   sli_failure failure;
   int is_suited = sli_reuse_is_suited(r->F, r->G), keeps = 0;
   sl_status status;
-  memset(&failure, 0, sizeof failure);
+  SLI_CLEAR(failure);
   sli_factor_begin(r->G);
   if (is_suited && r->G->null.mode == SL_NULL_PIVOT_SKIP) {
     is_suited = sli_null_vectors_check(r->G, &from, &failure) == SL_OK;
@@ -29911,7 +29950,7 @@ SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_sy
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
-  memset(&r, 0, sizeof r);
+  SLI_CLEAR(r);
   r.F = F;
   r.B = B;
   status = sli_pattern_check(S, B, 1);
@@ -30215,7 +30254,7 @@ static void sli_dirichlet_layout(sl_dirichlet *D, sli_block *b) {
 
 static sl_status sli_dirichlet_new(sl_dirichlet **out, const sl_csc *A, const sl_int *rows,
     sl_dirichlet *draft, sl_int *where, sl_stats *stats) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_dirichlet *D;
   sl_status status = SL_OK;
   sl_int k, free_row = 0;
@@ -30278,7 +30317,7 @@ static sl_status sli_dirichlet_begin(sl_dirichlet *D, const sl_csc *A, const sl_
   const sl_options none = sli_options_with(&D->allocator);
   const sl_options *arrays_of = opt == NULL ? &none : opt;
   const sli_dirichlet_ways *ways = sli_dirichlet_ways_of();
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sli_dirichlet_arrays arrays;
   sl_status status = SL_OK;
   if (ways != NULL && sli_dirichlet_may_reuse(F, opt)) { /* untested: all packs are there */
@@ -30305,7 +30344,7 @@ SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const 
     sl_int count, const sl_factor *F, const sl_options *opt,
     sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_dirichlet draft, *D = NULL;
   sl_int *where = NULL, *scratch = NULL;
   sl_status status;
@@ -30315,7 +30354,7 @@ SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const 
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
-  memset(&draft, 0, sizeof draft);
+  SLI_CLEAR(draft);
   draft.allocator = sli_allocator(opt);
   draft.n = A->n_cols;
   draft.n_fixed = count;
@@ -30344,7 +30383,7 @@ SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const 
 static sl_status sli_dirichlet_replace(sl_dirichlet *D, const sl_csc *A, sl_stats *stats) {
   const sli_dirichlet_arrays none = {NULL, NULL, NULL, NULL};
   sl_dirichlet own = *D;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_int *where = NULL, *scratch = NULL;
   sl_status status = SL_OK;
   own.M = NULL;
@@ -30512,7 +30551,7 @@ SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx
 
 SL_API sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D) {
   sl_dirichlet_arrays v;
-  memset(&v, 0, sizeof v);
+  SLI_CLEAR(v);
   if (D != NULL) {
     v.n_free = D->n_free;
     v.n_fixed = D->n_fixed;
@@ -30615,7 +30654,7 @@ static sl_status sli_dirichlet_probe(const sl_dirichlet *D, const sl_csc *A, con
     int *is_good) {
   const size_t n = (size_t)D->n;
   uint64_t random = 1;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   double *x = NULL, *r = NULL, *sums = NULL, *zeros = NULL, size, error = 0.0;
   sl_status status = SL_OK;
   sl_int k;
@@ -30679,12 +30718,12 @@ SLI_INLINE int sli_dirichlet_is_over(sl_status status) {
 SLI_COLD static sl_status sli_dirichlet_take(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
     sl_stats *stats) {
   sli_dirichlet_choice c;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   if (!sli_dirichlet_is_factor_of(F, A)) {
     return SL_OK;
   }
-  memset(&c, 0, sizeof c);
+  SLI_CLEAR(c);
   c.F = F;
   SLI_LAYOUT(&b, &D->allocator, status) {
     c.seeds = SLI_TAKE(&b, uint64_t, D->n_fixed);
@@ -30722,7 +30761,7 @@ static sl_status sli_dirichlet_solve_pins(const sl_dirichlet *D, const sli_rhs *
     const double *G, size_t ldg, sl_work *W) {
   const sl_pins *P = (const sl_pins *)D->pins;
   const size_t n = (size_t)D->n, m = (size_t)D->n_fixed;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   double *X = NULL, *held = NULL;
   sl_status status = SL_OK;
   sl_int r, count;
@@ -31296,7 +31335,7 @@ typedef struct sli_triplets {
 
 static sl_status sli_triplets_grow(sli_triplets *t, sl_off room, int has_values,
     const sl_allocator *a) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sli_triplets larger = *t;
   sl_status status = SL_OK;
   larger.room = room;
@@ -31425,7 +31464,7 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
         "the line of sizes is wrong: more on it, a symmetric matrix that is "
         "not square, or more entries than the text can hold");
   }
-  memset(&t, 0, sizeof t);
+  SLI_CLEAR(t);
   room = r->buffer == NULL || size[2] < SLI_ENTRIES_FIRST ? size[2] : SLI_ENTRIES_FIRST;
   status = sli_triplets_grow(&t, room, has_values, a);
   status = status == SL_OK ? sli_read_entries(r, size, has_values, &t, a) : status;
@@ -31475,7 +31514,7 @@ SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t lengt
       sli_argument(text == NULL ? "text is NULL" : sli_options_wrong(opt, SLI_READS_NOTHING));
   }
   if (status == SL_OK) {
-    memset(&r, 0, sizeof r);
+    SLI_CLEAR(r);
     r.at = text;
     r.end = text + length;
     status = sli_read_matrix(out, &r, &a, stats);
@@ -31506,7 +31545,7 @@ SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_opti
     errno = saved;
     return sli_report(stats, status);
   }
-  memset(&r, 0, sizeof r);
+  SLI_CLEAR(r);
   r.file = file;
   r.buffer = (char *)sli_alloc(&a, SLI_LINE_MAX);
   if (r.buffer != NULL) {
@@ -31895,7 +31934,7 @@ static void sli_saved_region_bytes(const sli_saved_region *record, uint64_t *byt
 
 static sli_saved_region sli_saved_region_of(const sl_region *R) {
   sli_saved_region record;
-  memset(&record, 0, sizeof record);
+  SLI_CLEAR(record);
   record.roots = R->extent.n_roots;
   record.rows = R->extent.n_rows;
   record.is_copied = R->is_copied;
@@ -32538,7 +32577,7 @@ SLI_HOT static int sli_check_factor(const sl_factor *F) {
 static sli_saved_analysis sli_saved_analysis_of(const sl_symbolic *S) {
   const sl_symbolic_info *info = &S->stats.symbolic;
   sli_saved_analysis a;
-  memset(&a, 0, sizeof a);
+  SLI_CLEAR(a);
   a.n = S->n;
   a.supers = S->n_supers;
   a.nodes = S->n_nodes;
@@ -32567,7 +32606,7 @@ static sli_saved_analysis sli_saved_analysis_of(const sl_symbolic *S) {
 static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
   const sl_factor_info *info = &F->stats.factor;
   sli_saved_factor g;
-  memset(&g, 0, sizeof g);
+  SLI_CLEAR(g);
   g.method = F->method;
   g.null_pivots = F->null.mode;
   g.has_mass = F->null.mass != NULL;
@@ -32730,7 +32769,7 @@ SLI_COLD static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set
   sl_factor none;
   int fits = 1;
   memset(f, 0, sizeof *f);
-  memset(&none, 0, sizeof none);
+  SLI_CLEAR(none);
   if (status != SL_OK) {
     return status;
   }
@@ -32993,7 +33032,7 @@ static sl_status sli_read_front(sli_reading *r) {
       (f->header.read_version > SLI_READ_VERSION_DOUBLE)) {
     return sli_damaged();
   }
-  memset(&expected, 0, sizeof expected);
+  SLI_CLEAR(expected);
   expected.analysis = f->analysis;
   expected.factor = f->factor;
   sli_saved_add_base(&expected, &r->S, &r->F, r->has_factor);
@@ -33042,7 +33081,7 @@ static sl_status sli_read_image(sli_reading *r, sli_image *m) {
 static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
   const sli_saved_analysis *a = &r->saved.analysis;
   sl_symbolic *S = &r->S;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sli_image m;
   sl_status status;
   sli_symbolic_layout(S, &b, a->rows, a->entries);
@@ -33050,7 +33089,7 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
   m.last = r->saved.first_number;
   m.head = sizeof *S + (r->is_mapped ? 0 : (size_t)S->n_supers * sizeof(sl_int));
   m.bytes = b.used;
-  if (b.overflow || b.used > SIZE_MAX / 2 - sizeof *S) { /* untested: on 32 bits only */
+  if (b.used % SLI_ALIGN != 0) { /* untested: on 32 bits only */
     return sli_refuse(SL_ERR_TOO_LARGE, "the analysis"); /* untested: the same */
   }
   status = sli_read_image(r, &m);
@@ -33081,7 +33120,7 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
 static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor **out) {
   const sli_saved_factor *g = &r->saved.factor;
   sl_factor *F = &r->F;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sli_image m;
   sl_status status;
   F->S = S;
@@ -33093,7 +33132,7 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
   m.last = m.first + SLI_FACTOR_SECTIONS + (F->type->storage != SL_STORAGE_DOUBLE);
   m.head = sizeof *F;
   m.bytes = b.used;
-  if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F) { /* untested: on 32 bits only */
+  if (b.used % SLI_ALIGN != 0) { /* untested: on 32 bits only */
     status = sli_refuse(SL_ERR_TOO_LARGE, "the factor"); /* untested: the same */
   }
   status = status == SL_OK ? sli_read_image(r, &m) : status;
@@ -33226,7 +33265,7 @@ SLI_COLD static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected *
 SLI_COLD static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S,
     const sl_factor *F, sl_selected **out) {
   const sli_section *table = &r->saved.table[r->first_selected];
-  sli_block lists = {NULL, 0, 0};
+  sli_block lists = {NULL, 0};
   sli_saved_part part;
   sl_selected draft;
   sl_status status = sli_read_part(r, r->first_selected, S, F, S->n_supers, &part);
@@ -33234,7 +33273,7 @@ SLI_COLD static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S
       table[2].bytes != 8 * ((uint64_t)part.count + 1)) {
     return status != SL_OK ? status : sli_damaged();
   }
-  memset(&draft, 0, sizeof draft);
+  SLI_CLEAR(draft);
   draft.allocator = r->allocator;
   draft.is_immutable = r->is_mapped || S->is_partial;
   if (r->opt != NULL) {
@@ -33313,10 +33352,10 @@ static int sli_check_extent(const sl_symbolic *S, const sli_region_extent *exten
 static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
     const sli_saved_region *record, const sl_int *roots,
     const sl_int *rows, sl_region **out) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   sl_region draft;
-  memset(&draft, 0, sizeof draft);
+  SLI_CLEAR(draft);
   draft.allocator = r->allocator;
   draft.S = F->S;
   draft.numbers = sli_numbers_of(F);
@@ -33408,11 +33447,11 @@ static sl_status sli_read_regions_lists(sli_reading *r, const sl_factor *F, sli_
 
 static sl_status sli_read_regions(sli_reading *r, const sl_factor *F, sl_saved_set *set) {
   const sli_section *table = &r->saved.table[r->first_region];
-  sli_block lists = {NULL, 0, 0};
+  sli_block lists = {NULL, 0};
   sli_saved_regions q;
   sli_saved_part part;
   sl_status status;
-  memset(&q, 0, sizeof q);
+  SLI_CLEAR(q);
   if (F == NULL || F->null.is_centered) {
     return sli_damaged();
   }
@@ -33553,7 +33592,7 @@ static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load
     errno = saved;
     return status;
   }
-  memset(&r, 0, sizeof r);
+  SLI_CLEAR(r);
   r.checks = checks;
   r.opt = opt;
   r.allocator = sli_allocator(opt);
@@ -33662,7 +33701,7 @@ static void sli_sum_append(sli_summands *all, const sl_csc *A, sl_triangle trian
 SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, const sl_csc *terms,
     sl_int count, const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sli_summands all = {0, NULL, NULL, NULL};
   sl_off entries = 0;
   sl_status status;
@@ -33816,7 +33855,7 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
     sl_stats *stats) {
   sl_options opt;
   sli_scatter_work w;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_triangle triangle = SL_TRIANGLE_NONE;
   sl_int q, missing;
   sl_status status;
@@ -33834,7 +33873,7 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
-  memset(&w, 0, sizeof w);
+  SLI_CLEAR(w);
   opt = sli_options_with(&S->allocator);
   status = sli_csc_triangle(K, sli_triangle_scan(K), &triangle, &opt, stats);
   SLI_LAYOUT(&b, &S->allocator, status) {
@@ -33986,7 +34025,7 @@ static sl_status sli_check_works(sl_work *const *works, sl_int workers) {
 
 static sl_status sli_solve_batch_reserve(sli_solve_batch *b, sl_work *const *works,
     const sl_allocator *a) {
-  sli_block block = {NULL, 0, 0};
+  sli_block block = {NULL, 0};
   sl_status status = works == NULL ? SL_OK : sli_check_works(works, b->workers);
   sl_int k;
   for (k = 0; works != NULL && k < b->workers && status == SL_OK; k++) {
@@ -34011,7 +34050,7 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
   sli_solve_batch b;
   sl_status status;
   sl_int at = -1;
-  memset(&b, 0, sizeof b);
+  SLI_CLEAR(b);
   if (failed != NULL) {
     *failed = -1;
   }
@@ -34149,7 +34188,7 @@ static sl_int sli_factor_batch_create(sl_factor **out, sl_int count, const sl_sy
   const sl_int workers = sli_workers(sli_threads_of(opt));
   sl_options serial;
   sl_int k, at = count;
-  memset(&serial, 0, sizeof serial);
+  SLI_CLEAR(serial);
   if (opt != NULL) {
     serial = *opt;
     serial.threads = *sli_threads_of(NULL);
@@ -34360,7 +34399,7 @@ static sl_status sli_diagonal_batch_reserve(const sli_diagonal_batch *d) {
 static sl_status sli_diagonal_batch_run(sli_diagonal_batch *d, const sl_threads *threads) {
   const sl_allocator *a = &d->factors[0]->allocator;
   sl_work *own = NULL, **works = NULL;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   sl_int w;
   if (d->works == NULL) {
@@ -34899,7 +34938,7 @@ typedef struct sli_complex_sets {
 static sli_complex_sets sli_complex_sets_of(const sl_int *first, sl_int n_first,
     const sl_int *second, sl_int n_second, int is_block) {
   sli_complex_sets c;
-  memset(&c, 0, sizeof c);
+  SLI_CLEAR(c);
   c.first.rows = first;
   c.first.count = n_first;
   c.second.rows = second;
@@ -34920,7 +34959,7 @@ static sl_status sli_complex_fill(const sli_complex_set *set, sl_int n, int is_c
 
 static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n, const sl_allocator *a,
     sl_stats *stats) {
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0};
   sl_status status = sli_complex_check(n, &c->first);
   status = status == SL_OK ? sli_complex_check(n, &c->second) : status;
   SLI_LAYOUT(&b, a, status) {
@@ -35170,8 +35209,11 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_PAGE
 #undef SLI_SMALL_PAGE
 #undef SLI_LAYOUT
+#undef SLI_LAYOUT_SMALL
 #undef SLI_TAKE
 #undef SLI_TAKE_INLINE
+#undef SLI_CUT
+#undef SLI_CLEAR
 #undef SLI_SORT_SMALL
 #undef SLI_TILE
 #undef SLI_CASE
@@ -35328,7 +35370,6 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_MINDEG_MAX
 #undef SLI_MINDEG_ELIMINATED
 #undef SLI_CLOCK_ENTRIES
-#undef SLI_ANALYSIS_SMALL
 #undef SLI_SMALL_ROWS
 #undef SLI_SMALL_WORDS
 #undef SLI_SMALL_ROWS_ONE_FACTOR

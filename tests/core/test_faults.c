@@ -303,15 +303,21 @@ static void sizes_beyond_memory_are_refused(void **state) {
     counter_t counter = counter_make();
     const sl_options opt = options_counted(&counter);
     for (int kind = 0; kind < 2; kind++) {
-        sli_block b = {NULL, 0, 0};
-        (void)sli_take(&b, kind ? SIZE_MAX / 16 : UINT64_MAX / 4, sizeof(double));
-        (void)sli_take(&b, SIZE_MAX / 16, sizeof(double));
-        (void)sli_take(&b, SIZE_MAX / 16, sizeof(double));
+        sli_block b = {NULL, 0};
+        (void)sli_take(&b, kind ? SIZE_MAX / 32 : UINT64_MAX / 4, sizeof(double));
+        (void)sli_take(&b, SIZE_MAX / 32, sizeof(double));
+        (void)sli_take(&b, SIZE_MAX / 32, sizeof(double));
         SL_EXPECT(SL_ERR_TOO_LARGE, sli_block_alloc(&b, &opt.allocator));
         assert_null(b.base);
         sl_work W = sli_work_own(&opt.allocator);
         SL_EXPECT(SL_ERR_TOO_LARGE, sli_work_block(&W, &b));
         assert_null(W.block);
+#if SIZE_MAX > UINT32_MAX
+        b.used = 0;
+        (void)sli_cut(&b, (uint64_t)1 << (kind ? 47 : 62), sizeof(double), 1);
+        (void)sli_cut(&b, 1, sizeof(double), 0);
+        SL_EXPECT(SL_ERR_TOO_LARGE, sli_block_alloc(&b, &opt.allocator));
+#endif
     }
     assert_null(sli_alloc(&opt.allocator, SIZE_MAX));
     assert_int_equal(counter.calls, 0);

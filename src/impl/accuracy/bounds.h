@@ -327,7 +327,7 @@ static sl_status sli_bounds_run(sli_bounds *p, const sli_rhs *rhs, double *bound
     const int needs = p->scales == NULL                                    ? SLI_NEEDS_SCALES
                       : memcmp(p->scales, &identity, sizeof identity) == 0 ? SLI_NEEDS_NOTHING
                                                                            : SLI_NEEDS_ROOM;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status;
     sli_bounds_layout(p, &b, rhs->nrhs, needs);
     status = sli_work_block(W, &b);
@@ -372,7 +372,7 @@ SL_API sl_status sl_plan_solve_bounded(const sl_plan *P, const sl_factor *F, dou
         return sli_report(stats, status);
     }
     if (stats != NULL) {
-        memset(&stats->certificate, 0, sizeof stats->certificate);
+        SLI_CLEAR(stats->certificate);
         stats->certificate.certainty = F->certificate.certainty;
         stats->certificate.eta = F->certificate.eta;
     }

@@ -255,7 +255,7 @@ static double sli_probes_null(sli_probes *p) {
 
 /* Estimates eta. n > 0. */
 static sl_status sli_probes_run(sli_probes *p, sl_work *W) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status;
     int turn;
     sli_probes_layout(p, &b);
@@ -324,7 +324,7 @@ static sl_status sli_certify(sl_factor *F, const sl_csc *A, sl_certainty certain
                              sl_certificate_info *info) {
     sli_probes p;
     sl_status status;
-    memset(&p, 0, sizeof p);
+    SLI_CLEAR(p);
     status = sli_certify_fits(F, A, &p.triangle);
     status = status == SL_OK ? sli_certify_suits(F) : status;
     if (status != SL_OK || F->S->n == 0) {
@@ -349,7 +349,7 @@ SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty c
     sl_status status;
     sli_stats_clear_error(stats);
     if (F != NULL) {
-        memset(&F->certificate, 0, sizeof F->certificate);
+        SLI_CLEAR(F->certificate);
     }
     status = sli_argument(F == NULL ? "F is NULL"
                           : certainty != SL_ESTIMATED && certainty != SL_GUARANTEED
@@ -358,7 +358,7 @@ SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty c
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
-    memset(&info, 0, sizeof info);
+    SLI_CLEAR(info);
     own = sli_work_own(&F->allocator);
     status = sli_certify(F, A, certainty, W == NULL ? &own : W, &info);
     sli_free(&own.allocator, own.block);

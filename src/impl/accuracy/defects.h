@@ -31,7 +31,7 @@ static void sli_defects(const sl_factor *F, const sli_query *q, const sli_rhs *r
 SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, const double *B,
                                    size_t ldb, sl_int nrhs, sl_work *W) {
     const sli_rhs rhs = sli_rhs_of(Y, ldy, B, ldb, nrhs);
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_work own;
     sli_query q;
     sl_status status;

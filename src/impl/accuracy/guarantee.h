@@ -239,7 +239,7 @@ static int sli_guarantee_fits(const sl_factor *F, const sl_csc *A) {
 
 static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
                                sl_certificate_info *info) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sli_guarantee_work p;
     sl_status status;
     double shift, lowest = 0.0;
@@ -252,7 +252,7 @@ static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
     if (!sli_guarantee_fits(F, A)) {
         return sli_refuse(SL_ERR_STATE, "A is not the matrix that F was computed from");
     }
-    memset(&p, 0, sizeof p);
+    SLI_CLEAR(p);
     p.F = F;
     sli_guarantee_layout(&p, &b, A);
     status = sli_work_block(W, &b);

@@ -178,7 +178,7 @@ static sl_status sli_parts_check(const sl_factor *F, unsigned parts) {
 static sl_status sli_parts_run(sli_parts *p, const sli_rhs *rhs, sl_work *W) {
     const sl_int nrhs = rhs->nrhs;
     sl_status status = sli_rhs_check(rhs, p->q.nx, p->q.nb);
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_work own;
     sl_int r;
     status = status == SL_OK ? sli_parts_check(p->F, p->parts) : status;
@@ -211,7 +211,7 @@ static sl_status sli_factor_part(const sl_factor *F, unsigned parts, int is_prod
     if (F == NULL) {
         return sli_argument("F is NULL");
     }
-    memset(&p, 0, sizeof p);
+    SLI_CLEAR(p);
     all = sli_query_all(F->S);
     p.F = F;
     p.parts = parts;
@@ -254,7 +254,7 @@ SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsign
     if (status != SL_OK) {
         return status;
     }
-    memset(&p, 0, sizeof p);
+    SLI_CLEAR(p);
     p.F = F;
     p.parts = parts;
     p.q = sli_parts_query(&P->query, is_forward ? &P->query.forward : &P->query.backward,

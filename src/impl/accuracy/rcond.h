@@ -129,7 +129,7 @@ static double sli_inverse_norm(sli_norm_estimate *p) {
 }
 
 SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rcond, sl_work *W) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_work own;
     sli_norm_estimate p;
     sl_status status;

@@ -145,7 +145,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
                                   const double *B, size_t ldb, sl_int nrhs, sl_int steps,
                                   sl_work *W, sl_stats *stats) {
     const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sli_refinement f;
     sl_work own;
     sl_status status;
@@ -161,7 +161,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
-    memset(&f, 0, sizeof f);
+    SLI_CLEAR(f);
     f.F = F;
     f.A = A;
     f.triangle = F->S->stats.symbolic.triangle;

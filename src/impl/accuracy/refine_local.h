@@ -159,7 +159,7 @@ static double sli_local_rounding(const sl_factor *F) {
 /* Refines the right-hand sides in blocks, in a workspace. */
 static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, sl_int steps,
                                   sl_work *W, sl_stats *stats) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     double worst = 0.0;
     sl_status status;
     sl_int r, c;
@@ -218,7 +218,7 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
-    memset(&f, 0, sizeof f);
+    SLI_CLEAR(f);
     f.F = F;
     f.q = &P->query;
     f.room = sli_min(F->stats.factor.regularized,

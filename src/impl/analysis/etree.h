@@ -62,7 +62,7 @@ typedef struct sli_merge {
 
 static sli_merge sli_merge_start(const sli_tree_job *job) {
     sli_merge m;
-    memset(&m, 0, sizeof m);
+    SLI_CLEAR(m);
     m.n = job->n;
     m.parent = job->parent;
     m.counts = job->counts;

@@ -173,14 +173,28 @@ static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, int plain,
 }
 
 static void sli_schedule_layout(sli_schedule *p, sli_block *b, sl_int count) {
-    const uint64_t fronts = (uint64_t)count, tasks = p->workers == 1 ? 1 : fronts;
-    p->first = SLI_TAKE(b, sl_int, tasks);
-    p->last = SLI_TAKE(b, sl_int, tasks);
-    p->worker = SLI_TAKE(b, sl_int, tasks);
-    p->bundle_end = SLI_TAKE(b, sl_int, tasks);
-    p->top = SLI_TAKE(b, sl_int, p->workers == 1 ? 0 : fronts);
-    p->stack_begin = SLI_TAKE(b, sl_off, fronts);
-    p->is_plain = SLI_TAKE(b, unsigned char, fronts);
+    const sl_int tasks = p->workers == 1 ? 1 : count;
+    p->first = SLI_CUT(b, sl_int, tasks);
+    p->last = SLI_CUT(b, sl_int, tasks);
+    p->worker = SLI_CUT(b, sl_int, tasks);
+    p->bundle_end = SLI_CUT(b, sl_int, tasks);
+    p->top = SLI_CUT(b, sl_int, p->workers == 1 ? 0 : count);
+    p->stack_begin = SLI_CUT(b, sl_off, count);
+    p->is_plain = SLI_CUT(b, unsigned char, count);
+}
+
+/* Moves a filled schedule, but for its tops, to the arrays of p: so many bytes. */
+static void sli_schedule_move(sli_schedule *p, const sli_schedule *plan, size_t bytes) {
+    memcpy(p->first, plan->first, bytes);
+    p->workers = plan->workers;
+    p->n_tasks = plan->n_tasks;
+    p->n_tops = plan->n_tops;
+    p->n_bundles = plan->n_bundles;
+    p->tops = plan->tops;
+    p->ready = plan->ready;
+    p->steps = plan->steps;
+    p->own = plan->own;
+    p->stack = plan->stack;
 }
 
 /* The tops of a filled schedule. */
@@ -190,9 +204,9 @@ static void sli_schedule_layout_tops(sli_schedule *p, const sl_symbolic *S, sli_
         const sl_int s = p->top[m];
         pieces += sli_front_is_large(S, s) ? sli_large_pieces(&S->steps[s], p->workers, &tiles) : 0;
     }
-    p->tops = SLI_TAKE(b, sli_top, p->n_tops);
-    p->ready = SLI_TAKE(b, sl_int, p->n_tops);
-    p->steps = SLI_TAKE(b, sl_int, pieces);
+    p->tops = SLI_CUT(b, sli_top, p->n_tops);
+    p->ready = SLI_CUT(b, sl_int, p->n_tops);
+    p->steps = SLI_CUT(b, sl_int, pieces);
 }
 
 static void sli_schedule_fill_tops(sli_schedule *p, const sl_symbolic *S) {
@@ -214,12 +228,12 @@ static void sli_schedule_fill_tops(sli_schedule *p, const sl_symbolic *S) {
 
 static void sli_schedule_work_layout(sli_schedule_work *w, sli_block *b, sl_int count,
                                      sl_int workers) {
-    w->flops = SLI_TAKE(b, double, count);
-    w->path = SLI_TAKE(b, double, count);
-    w->load = SLI_TAKE(b, double, workers);
-    w->side = SLI_TAKE(b, sl_int, count);
-    w->order = SLI_TAKE(b, uint64_t, count);
-    w->scratch = SLI_TAKE(b, uint64_t, count);
+    w->flops = SLI_CUT(b, double, count);
+    w->path = SLI_CUT(b, double, count);
+    w->load = SLI_CUT(b, double, workers);
+    w->side = SLI_CUT(b, sl_int, count);
+    w->order = SLI_CUT(b, uint64_t, count);
+    w->scratch = SLI_CUT(b, uint64_t, count);
 }
 
 #endif

@@ -20,7 +20,7 @@ static sl_status sli_symbolic_order(sli_symbolic_job *j, sli_team *team) {
     sli_analysis *w = &j->w;
     sli_order_job order;
     sl_status status;
-    memset(&order, 0, sizeof order);
+    SLI_CLEAR(order);
     order.A = w->A;
     order.column = w->column;
     order.triangle = j->found.symbolic.triangle;
@@ -48,7 +48,7 @@ static void sli_symbolic_run(sli_team *team, void *data) {
         return;
     }
     sli_analyze_order(w, j->opt, team, &j->found);
-    memset(&draft, 0, sizeof draft);
+    sli_clear(&draft, sizeof draft);
     draft.allocator = j->a;
     draft.nnz_input = sli_nnz(w->A);
     draft.pattern = w->pattern;
@@ -95,15 +95,14 @@ static sl_status sli_symbolic_check(const sl_csc *A, const sl_options *opt, sli_
 static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const unsigned char *pairs,
                                      const sl_options *opt, sl_stats *stats) {
     sli_symbolic_job j;
-    uint64_t small[SLI_ANALYSIS_SMALL / sizeof(uint64_t)];
-    sli_block b = {NULL, 0, 0};
+    uint64_t small[2048];
+    sli_block b = {NULL, 0};
     sli_arena arena;
-    int is_allocated = 0;
     sl_status status;
-    memset(&j.w, 0, sizeof j.w);
-    memset(&j.found.symbolic, 0, sizeof j.found.symbolic); /* no other group is read */
+    sli_clear(&j.w, sizeof j.w);
+    SLI_CLEAR(j.found.symbolic); /* no other group is read */
     sli_stats_clear_error(stats);
-    sli_stats_clear_error(&j.found);
+    j.found.error.what = NULL;
     status = sli_begin(out);
     status = status == SL_OK ? sli_symbolic_check(A, opt, &j.w.pattern, stats) : status;
     if (status != SL_OK) {
@@ -117,15 +116,8 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     j.w.A = A;
     j.w.pairs = pairs;
     j.w.workers = sli_analysis_workers(A, opt);
-    if (sli_analysis_is_small(&j.w, A->n_cols, sli_nnz(A))) {
-        b.base = (unsigned char *)small;
-        b.base += (SLI_ALIGN - (uintptr_t)small % SLI_ALIGN) % SLI_ALIGN;
+    SLI_LAYOUT_SMALL(&b, &j.a, small, status) {
         sli_analysis_layout(&j.w, &b, A->n_cols, sli_nnz(A));
-    } else {
-        SLI_LAYOUT(&b, &j.a, status) {
-            sli_analysis_layout(&j.w, &b, A->n_cols, sli_nnz(A));
-        }
-        is_allocated = 1;
     }
     if (status == SL_OK) {
         status = sli_csc_triangle(A, sli_csc_columns(A, j.w.column), &j.found.symbolic.triangle,
@@ -143,9 +135,7 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
             stats->symbolic = j.found.symbolic;
         }
     }
-    if (is_allocated) {
-        sli_free(&j.a, b.base);
-    }
+    sli_block_free(&b, &j.a, small);
     return sli_report(stats, status);
 }
 
@@ -178,7 +168,7 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats) {
 
 SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S) {
     sl_symbolic_arrays v;
-    memset(&v, 0, sizeof v);
+    SLI_CLEAR(v);
     if (S != NULL) {
         v.n = S->n;
         v.n_supers = S->n_supers;

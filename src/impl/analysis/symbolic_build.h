@@ -10,25 +10,25 @@
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
     const uint64_t n = (uint64_t)rows; /* 5 n may exceed 2^32 */
     w->n = rows;
-    w->column = SLI_TAKE(b, sl_int, nnz);
-    w->perm = SLI_TAKE(b, sl_int, n);
-    w->scratch = SLI_TAKE(b, sl_int, 5 * n);
-    w->septree.node_of = SLI_TAKE(b, sl_int, n);
-    w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
+    w->column = SLI_CUT(b, sl_int, nnz);
+    w->perm = SLI_CUT(b, sl_int, rows);
+    w->scratch = SLI_CUT(b, sl_int, 5 * n);
+    w->septree.node_of = SLI_CUT(b, sl_int, rows);
+    w->septree.parent = SLI_CUT(b, sl_int, rows + 1);
     w->ordered = b->used;
-    w->columns.begin = SLI_TAKE(b, sl_int, n + 1);
-    w->columns.entry = SLI_TAKE(b, sl_int, SLI_ENTRY * (uint64_t)nnz);
-    w->old_of = SLI_TAKE(b, sl_int, n);
-    w->new_of = SLI_TAKE(b, sl_int, n);
-    w->parent = SLI_TAKE(b, sl_int, n); /* sli_pattern_fill uses 7 n from here on */
-    w->choice.parent = w->parent;       /* the ordering of a forest needs none of this memory */
-    w->counts = SLI_TAKE(b, sl_int, n);
-    w->super_of = SLI_TAKE(b, sl_int, n);
-    w->amalgamation.first = SLI_TAKE(b, sl_int, n + 1);
-    w->amalgamation.parent = SLI_TAKE(b, sl_int, n);
-    w->amalgamation.width = SLI_TAKE(b, sl_int, n);
-    w->amalgamation.below = SLI_TAKE(b, sl_int, n);
-    w->list = SLI_TAKE(b, uint64_t, 5 * (n + 16) * (uint64_t)(w->workers / 8 + 1));
+    w->columns.begin = SLI_CUT(b, sl_int, rows + 1);
+    w->columns.entry = SLI_CUT(b, sl_int, SLI_ENTRY * (uint64_t)nnz);
+    w->old_of = SLI_CUT(b, sl_int, rows);
+    w->new_of = SLI_CUT(b, sl_int, rows);
+    w->parent = SLI_CUT(b, sl_int, rows); /* sli_pattern_fill uses 7 n from here on */
+    w->choice.parent = w->parent;         /* the ordering of a forest needs none of this memory */
+    w->counts = SLI_CUT(b, sl_int, rows);
+    w->super_of = SLI_CUT(b, sl_int, rows);
+    w->amalgamation.first = SLI_CUT(b, sl_int, rows + 1);
+    w->amalgamation.parent = SLI_CUT(b, sl_int, rows);
+    w->amalgamation.width = SLI_CUT(b, sl_int, rows);
+    w->amalgamation.below = SLI_CUT(b, sl_int, rows);
+    w->list = SLI_CUT(b, uint64_t, 5 * (n + 16) * (uint64_t)(w->workers / 8 + 1));
     if (w->list != NULL) { /* none of these is used together with the room of the workers */
         w->room = (sl_int *)(void *)w->list;
         w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
@@ -41,40 +41,32 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
         w->is_first = SLI_TAKE(b, unsigned char, n);
         w->earlier = SLI_TAKE(b, sl_int, n);
     }
-    w->spare = SLI_TAKE(b, sl_int, 3 * (uint64_t)nnz + 512);
-}
-
-/* Bytes of the stack that small analyses use instead of memory of the allocator. */
-#define SLI_ANALYSIS_SMALL 16384
-
-/* Do all of these arrays fit there? */
-static int sli_analysis_is_small(const sli_analysis *w, sl_int rows, sl_int nnz) {
-    return rows < 64 && nnz < 256 && w->pairs == NULL && w->workers <= 1;
+    w->spare = SLI_CUT(b, sl_int, 3 * (uint64_t)nnz + 512);
 }
 
 /* All arrays. A saved analysis has them in this order (save/format.h). */
 static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
-    const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
-    S->perm = SLI_TAKE(b, sl_int, n);
-    S->iperm = SLI_TAKE(b, sl_int, n);
-    S->parent = SLI_TAKE(b, sl_int, n);
-    S->counts = SLI_TAKE(b, sl_int, n);
-    S->super_of = SLI_TAKE(b, sl_int, n);
-    S->super_first = SLI_TAKE(b, sl_int, supers + 1);
-    S->super_parent = SLI_TAKE(b, sl_int, supers);
-    S->rows_begin = SLI_TAKE(b, sl_off, supers + 1);
-    S->rows = SLI_TAKE(b, sl_int, rows);
-    S->panel_begin = SLI_TAKE(b, sl_off, supers + 1);
-    S->steps = SLI_TAKE(b, sli_step, supers);
-    S->first_descendant = SLI_TAKE(b, sl_int, supers);
-    S->pairs = SLI_TAKE(b, unsigned char, S->n_pairs > 0 ? n : 0);
-    S->relative = SLI_TAKE(b, sl_int, rows);
-    S->scatter_begin = SLI_TAKE(b, sl_off, supers + 1);
-    S->scatter_from = SLI_TAKE(b, sl_int, entries);
-    S->scatter_to = SLI_TAKE(b, sl_off, entries);
-    S->node_of = SLI_TAKE(b, sl_int, S->n_nodes > 0 ? n : 0);
-    S->node_parent = SLI_TAKE(b, sl_int, S->n_nodes);
-    S->node_level = SLI_TAKE(b, sl_int, S->n_nodes);
+    const sl_int n = S->n, supers = S->n_supers;
+    S->perm = SLI_CUT(b, sl_int, n);
+    S->iperm = SLI_CUT(b, sl_int, n);
+    S->parent = SLI_CUT(b, sl_int, n);
+    S->counts = SLI_CUT(b, sl_int, n);
+    S->super_of = SLI_CUT(b, sl_int, n);
+    S->super_first = SLI_CUT(b, sl_int, supers + 1);
+    S->super_parent = SLI_CUT(b, sl_int, supers);
+    S->rows_begin = SLI_CUT(b, sl_off, supers + 1);
+    S->rows = SLI_CUT(b, sl_int, rows);
+    S->panel_begin = SLI_CUT(b, sl_off, supers + 1);
+    S->steps = SLI_CUT(b, sli_step, supers);
+    S->first_descendant = SLI_CUT(b, sl_int, supers);
+    S->pairs = SLI_CUT(b, unsigned char, S->n_pairs > 0 ? n : 0);
+    S->relative = SLI_CUT(b, sl_int, rows);
+    S->scatter_begin = SLI_CUT(b, sl_off, supers + 1);
+    S->scatter_from = SLI_CUT(b, sl_int, entries);
+    S->scatter_to = SLI_CUT(b, sl_off, entries);
+    S->node_of = SLI_CUT(b, sl_int, S->n_nodes > 0 ? n : 0);
+    S->node_parent = SLI_CUT(b, sl_int, S->n_nodes);
+    S->node_level = SLI_CUT(b, sl_int, S->n_nodes);
 }
 
 /* Renumbers the tree and the counts: order[k] = the old number of column k. */
@@ -253,7 +245,7 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) 
         S->perm[k] = w->perm[w->old_of[k]];
         S->iperm[S->perm[k]] = k;
     }
-    memcpy(S->parent, w->parent, bytes);
+    sli_copy(S->parent, w->parent, bytes);
     memcpy(S->counts, w->counts, bytes);
     memcpy(S->super_of, w->super_of, bytes);
     memcpy(S->super_first, w->amalgamation.first, ((size_t)S->n_supers + 1) * sizeof(sl_int));
@@ -284,7 +276,7 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) 
 /* Creates the analysis from the tree. draft has its allocator and its pattern. */
 static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_analysis *w,
                                     sl_stats *stats) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_off rows = 0;
     sl_int s, plain = 0;
     sl_status status = SL_OK;
@@ -304,9 +296,9 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
         (void)sli_take(&b, 1, sizeof(sl_symbolic));
         sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a);
         if (sli_is_mostly_plain(plain, draft->n_supers)) {
-            draft->plain = SLI_TAKE(&b, sl_int, draft->n_supers);
+            draft->plain = SLI_CUT(&b, sl_int, draft->n_supers);
             if (draft->nnz_input > 0) {
-                draft->input = SLI_TAKE(&b, sl_int, (sl_off)w->n + 1 + draft->nnz_input);
+                draft->input = SLI_CUT(&b, sl_int, (sl_off)w->n + 1 + draft->nnz_input);
             }
         }
         stats->symbolic.bytes = b.used;
@@ -319,7 +311,7 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
     stats->symbolic.seconds_analyze += stats->symbolic.seconds_structure;
     draft->stats.symbolic = stats->symbolic;
     *out = (sl_symbolic *)(void *)b.base;
-    **out = *draft;
+    sli_copy(*out, draft, sizeof *draft);
     return SL_OK;
 }
 

@@ -95,11 +95,11 @@ SLI_NOINLINE static void sli_free(const sl_allocator *a, void *block) {
 
 /* A block that is cut into arrays. A layout function runs twice over it: with base NULL it only
  * counts, with the allocated block it returns the pointers. So every size is written once. If sizes
- * overflow, used becomes SIZE_MAX, which sli_block_alloc and sli_work_grow refuse. */
+ * overflow, used becomes SIZE_MAX, which sli_work_grow refuses; sli_block_alloc refuses what is no
+ * multiple of SLI_ALIGN. */
 typedef struct sli_block {
     unsigned char *base;
     size_t used;
-    int overflow;
 } sli_block;
 
 /* The next array of count elements of size bytes; NULL while counting. count has 64 bits because
@@ -113,7 +113,6 @@ SLI_INLINE void *sli_take_inline(sli_block *b, uint64_t count, size_t size) {
     }
     if (bytes > SIZE_MAX - at) {
         b->used = SIZE_MAX;
-        b->overflow = 1;
         return NULL;
     }
     b->used += bytes;
@@ -122,13 +121,15 @@ SLI_INLINE void *sli_take_inline(sli_block *b, uint64_t count, size_t size) {
 
 /* The same as one function. It is called in 500 places: inlined, they were 25 kB of the object. */
 SLI_NOINLINE static void *sli_take(sli_block *b, uint64_t count, size_t size) {
-    return sli_take_inline(b, count, size);
+    void *array = sli_take_inline(b, count, size);
+    b->used = b->used > SIZE_MAX / 2 ? SIZE_MAX : b->used; /* sli_cut may follow */
+    return array;
 }
 
 /* Allocates what was counted and rewinds for the second run. At least one byte is allocated, so
  * that NULL means failure. */
 SLI_NOINLINE static sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
-    if (b->overflow) {
+    if (b->used % SLI_ALIGN != 0) {
         return sli_refuse(SL_ERR_TOO_LARGE, "more memory than size_t counts");
     }
     b->base = (unsigned char *)sli_alloc(a, b->used > 0 ? b->used : 1);
@@ -139,14 +140,14 @@ SLI_NOINLINE static sl_status sli_block_alloc(sli_block *b, const sl_allocator *
     return SL_OK;
 }
 
-/* Asks for the pages of a block at once, not one by one as they are touched, if all will be and
- * malloc has just got them from the system: it then begins so many bytes into a page. First
- * factors of 3,000 to 10,000 rows take 0.9 of the time. In memory that is used again it would cost
- * 3 percent, and huge pages do not need it. */
+/* Asks for the pages of a block at once, not one by one as they are touched, if all will be, they
+ * are many, and malloc has just got them from the system: it then begins so many bytes into a page,
+ * as one in 64 of the others does. First factors of 3,000 to 10,000 rows take 0.9 of the time. In
+ * memory that is used again it would cost 3 percent, and huge pages do not need it. */
 SLI_INLINE void sli_populate(const sl_allocator *a, const sli_block *b) {
 #if defined(SLI_POPULATE)
-    if (b->base != NULL && a->allocate == sli_malloc_default && b->used < SLI_HUGE_BLOCK &&
-        (uintptr_t)b->base % SLI_SMALL_PAGE == SLI_ALIGN) {
+    if (b->base != NULL && a->allocate == sli_malloc_default && b->used >= SLI_PAGE &&
+        b->used < SLI_HUGE_BLOCK && (uintptr_t)b->base % SLI_SMALL_PAGE == SLI_ALIGN) {
         sli_advise(b->base - SLI_ALIGN, b->used, SLI_POPULATE);
     }
 #else
@@ -161,11 +162,44 @@ SLI_INLINE void sli_populate(const sl_allocator *a, const sli_block *b) {
     for (int sli_pass = 0; sli_pass < 2 && (status) == SL_OK; \
          (status) = sli_pass++ == 0 ? sli_block_alloc((b), (a)) : SL_OK)
 
+/* The same for memory of one call, of counts with 32 bits: it is in the array `small`, and is
+ * allocated only if that has no room. So one run is enough for a small system. */
+#define SLI_LAYOUT_SMALL(b, a, small, status) \
+    for (int sli_pass = sli_block_begin((b), (small)); sli_pass < 2 && (status) == SL_OK; \
+         sli_pass += 1 + ((b)->used <= sizeof(small) - SLI_ALIGN), \
+             (status) = sli_pass == 1 ? sli_block_alloc((b), (a)) : SL_OK)
+
+SLI_INLINE int sli_block_begin(sli_block *b, void *small) {
+    b->base = (unsigned char *)small + (SLI_ALIGN - (uintptr_t)small % SLI_ALIGN) % SLI_ALIGN;
+    return 0;
+}
+
+SLI_INLINE void sli_block_free(const sli_block *b, const sl_allocator *a, const void *small) {
+    if ((uintptr_t)b->base - (uintptr_t)small >= SLI_ALIGN) {
+        sli_free(a, b->base);
+    }
+}
+
 /* The next array of count elements of a type. */
 #define SLI_TAKE(b, type, count) ((type *)sli_take((b), (uint64_t)(count), sizeof(type)))
 /* The same in calls that take a microsecond. */
 #define SLI_TAKE_INLINE(b, type, count) \
     ((type *)sli_take_inline((b), (uint64_t)(count), sizeof(type)))
+
+/* The same for blocks of sli_block_alloc that take a microsecond. With 64 bits no sum of such sizes
+ * overflows: a count beyond all memory, which one of 32 bits never is, makes `used` odd. */
+#if SIZE_MAX > UINT32_MAX
+SLI_ALWAYS_INLINE void *sli_cut(sli_block *b, uint64_t count, size_t size, int is_long) {
+    const size_t at = b->used, elements = is_long ? count : (uint32_t)count;
+    b->used += (elements * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
+    b->used |= elements >> 47 != 0;
+    return b->base == NULL ? NULL : b->base + at;
+}
+#define SLI_CUT(b, type, count) \
+    ((type *)sli_cut((b), (uint64_t)(count), sizeof(type), sizeof(count) > 4))
+#else
+#define SLI_CUT SLI_TAKE
+#endif
 
 /* An arena: an allocator that gives the end of a block that its owner does not use yet, and turns
  * to another allocator when that is full. Memory that was just used costs no page faults. What is

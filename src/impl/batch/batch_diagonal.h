@@ -79,7 +79,7 @@ static sl_status sli_diagonal_batch_reserve(const sli_diagonal_batch *d) {
 static sl_status sli_diagonal_batch_run(sli_diagonal_batch *d, const sl_threads *threads) {
     const sl_allocator *a = &d->factors[0]->allocator;
     sl_work *own = NULL, **works = NULL;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     sl_int w;
     if (d->works == NULL) {

@@ -115,7 +115,7 @@ static sl_int sli_factor_batch_create(sl_factor **out, sl_int count, const sl_sy
     const sl_int workers = sli_workers(sli_threads_of(opt));
     sl_options serial;
     sl_int k, at = count;
-    memset(&serial, 0, sizeof serial);
+    SLI_CLEAR(serial);
     if (opt != NULL) {
         serial = *opt;
         serial.threads = *sli_threads_of(NULL);

@@ -145,7 +145,7 @@ static sl_status sli_check_works(sl_work *const *works, sl_int workers) {
  * caller of this function frees. */
 static sl_status sli_solve_batch_reserve(sli_solve_batch *b, sl_work *const *works,
                                          const sl_allocator *a) {
-    sli_block block = {NULL, 0, 0};
+    sli_block block = {NULL, 0};
     sl_status status = works == NULL ? SL_OK : sli_check_works(works, b->workers);
     sl_int k;
     for (k = 0; works != NULL && k < b->workers && status == SL_OK; k++) {
@@ -170,7 +170,7 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
     sli_solve_batch b;
     sl_status status;
     sl_int at = -1;
-    memset(&b, 0, sizeof b);
+    SLI_CLEAR(b);
     if (failed != NULL) {
         *failed = -1;
     }

@@ -57,7 +57,7 @@ static void sli_sum_append(sli_summands *all, const sl_csc *A, sl_triangle trian
 SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, const sl_csc *terms,
                                sl_int count, const sl_options *opt, sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sli_summands all = {0, NULL, NULL, NULL};
     sl_off entries = 0;
     sl_status status;

@@ -136,7 +136,7 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
                                      sl_stats *stats) {
     sl_options opt;
     sli_scatter_work w;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_triangle triangle = SL_TRIANGLE_NONE;
     sl_int q, missing;
     sl_status status;
@@ -154,7 +154,7 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
-    memset(&w, 0, sizeof w);
+    SLI_CLEAR(w);
     opt = sli_options_with(&S->allocator);
     status = sli_csc_triangle(K, sli_triangle_scan(K), &triangle, &opt, stats);
     SLI_LAYOUT(&b, &S->allocator, status) {

@@ -190,7 +190,7 @@ static double sli_choose_update(const sli_rank *q, double entries, double pivots
 static void sli_choose_estimate(sli_change_choice *c, const sli_rank *q) {
     sl_int k, edges = 0, passes;
     sli_reach R;
-    memset(&R, 0, sizeof R);
+    SLI_CLEAR(R);
     for (k = 0; k < q->n_entries; k++) {
         edges += q->entry_rows[k] != q->entry_columns[k];
     }
@@ -257,11 +257,11 @@ static sl_status sli_choose_cheapest(sli_rank *q, const sl_csc *A, sl_work *W, d
     const uint64_t count = (uint64_t)q->n_entries;
     sl_change_method method = SL_CHANGE_NONE;
     sl_stats *stats = q->stats;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sli_change_choice c;
     sl_work own = sli_work_own(a);
     sl_status status = SL_OK;
-    memset(&c, 0, sizeof c);
+    SLI_CLEAR(c);
     q->u.least = sli_rank_least(q->u.F);
     SLI_LAYOUT(&b, a, status) {
         c.seeds = SLI_TAKE(&b, uint64_t, count);

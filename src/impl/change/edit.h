@@ -31,7 +31,7 @@ static sl_status sli_edit_arguments(const sl_symbolic *S, const sl_csc *A, const
 /* Finds the rows whose columns are analyzed again and their order. *is_local := 0 if all rows
  * should get a new order. */
 static sl_status sli_edit_find(sli_edit *e, int *is_local, const sl_allocator *a, sl_stats *stats) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     sl_int j;
     int layer;
@@ -77,8 +77,8 @@ static sl_status sli_edit_analyze(sl_symbolic **out, sli_edit *e, const sl_optio
     sli_edit_join j;
     sl_stats found;
     sl_status status;
-    memset(&j, 0, sizeof j);
-    memset(&found, 0, sizeof found);
+    SLI_CLEAR(j);
+    SLI_CLEAR(found);
     j.e = e;
     found.symbolic.triangle = e->triangle;
     status = sli_edit_analyze_fresh(e, &j.r, opt == NULL ? SL_RELAXATION_DEFAULT : opt->relaxation,
@@ -139,7 +139,7 @@ SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const
     if (status == SL_OK && B->n_rows != B->n_cols) {
         status = sli_argument("B is not square");
     }
-    memset(&e, 0, sizeof e);
+    SLI_CLEAR(e);
     if (status == SL_OK) {
         e.S = S;
         e.A = A;

@@ -41,7 +41,7 @@ typedef struct sli_reuse {
 /* Finds the columns of F that those of G were. */
 static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *stats) {
     const sl_symbolic *T = r->G->S;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     sl_int k;
     SLI_LAYOUT(&b, &r->G->allocator, status) {
@@ -230,7 +230,7 @@ static int sli_reuse_find(sli_reuse *r) {
 
 /* Computes the columns that are not kept. */
 static sl_status sli_reuse_run(sli_reuse *r, const sli_source *from, sli_failure *failure) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     const sl_status status = sli_kept_room(&r->kept, r->G, &b);
     r->blocks[1] = b.base;
     if (status != SL_OK) {
@@ -251,7 +251,7 @@ static sl_status sli_reuse_numbers(sli_reuse *r, sl_stats *stats) {
     sli_failure failure;
     int is_suited = sli_reuse_is_suited(r->F, r->G), keeps = 0;
     sl_status status;
-    memset(&failure, 0, sizeof failure);
+    SLI_CLEAR(failure);
     sli_factor_begin(r->G);
     if (is_suited && r->G->null.mode == SL_NULL_PIVOT_SKIP) {
         is_suited = sli_null_vectors_check(r->G, &from, &failure) == SL_OK;
@@ -297,7 +297,7 @@ SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_sy
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
-    memset(&r, 0, sizeof r);
+    SLI_CLEAR(r);
     r.F = F;
     r.B = B;
     status = sli_pattern_check(S, B, 1);

@@ -19,7 +19,7 @@ typedef struct sli_edit_join {
 
 static sl_status sli_edit_join_room(sli_edit_join *j, const sl_allocator *a) {
     const sl_symbolic *S = j->e->S;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     sl_int s;
     j->most = S->tallest;
@@ -241,7 +241,7 @@ static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const s
     sl_off rows, entries = 0;
     sl_int s, k;
     sl_status status = sli_edit_join_room(j, a);
-    memset(&draft, 0, sizeof draft);
+    SLI_CLEAR(draft);
     draft.allocator = *a;
     draft.n = j->e->n;
     draft.nnz_input = sli_nnz(j->e->B);

@@ -127,15 +127,15 @@ static sl_status sli_edit_make_graph(sli_edit *e, sli_graph *G, sli_block *edges
 static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
     const sl_int count = e->n_grouped;
     sli_graph G;
-    sli_block b = {NULL, 0, 0}, edges = {NULL, 0, 0};
+    sli_block b = {NULL, 0}, edges = {NULL, 0};
     sli_septree septree;
     sli_team alone = sli_team_of(1);
     sl_int *perm = NULL, *scratch = NULL, k;
     sli_order_cost cost;
     sli_order_job job;
     sl_status status = SL_OK;
-    memset(&G, 0, sizeof G);
-    memset(&septree, 0, sizeof septree);
+    SLI_CLEAR(G);
+    SLI_CLEAR(septree);
     if (count == 0) {
         return SL_OK;
     }
@@ -152,7 +152,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
     }
     status = sli_edit_make_graph(e, &G, &edges, a);
     if (status == SL_OK) {
-        memset(&job, 0, sizeof job);
+        SLI_CLEAR(job);
         job.G = &G;
         job.perm = perm;
         job.scratch = scratch;

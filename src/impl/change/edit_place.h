@@ -74,7 +74,7 @@ static void sli_edit_scan(sli_edit *e) {
 
 /* Lists the neighbors of each near row. */
 static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_off total;
     sl_status status = SL_OK;
     SLI_LAYOUT(&b, a, status) {
@@ -90,7 +90,7 @@ static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
     e->to = NULL;
     sli_edit_scan(e);
     total = sli_starts(e->begin, e->n_near);
-    memset(&b, 0, sizeof b);
+    SLI_CLEAR(b);
     SLI_LAYOUT(&b, a, status) {
         e->to = SLI_TAKE(&b, sl_int, total);
     }

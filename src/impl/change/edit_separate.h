@@ -294,10 +294,10 @@ static sl_int sli_edit_separates(sli_edit *e, sl_int row) {
 static sl_status sli_edit_separate(sli_edit *e, const sl_allocator *a) {
     const sl_symbolic *S = e->S;
     sli_band w;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     sl_int k, m, count = 0;
-    memset(&w, 0, sizeof w);
+    SLI_CLEAR(w);
     w.e = e;
     SLI_LAYOUT(&b, a, status) {
         sli_band_layout(&w, &b, e->n_near);

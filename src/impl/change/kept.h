@@ -259,7 +259,7 @@ static void sli_kept_run(sl_factor *G, sl_int s, sl_int worker) {
 static sli_kept sli_kept_of(const sl_factor *F, const sl_int *from, const sl_int *columns,
                             int is_subset) {
     sli_kept p;
-    memset(&p, 0, sizeof p);
+    SLI_CLEAR(p);
     p.F = F;
     p.copied.from = from;
     p.copied.copy = sli_kept_run;

@@ -155,7 +155,7 @@ SL_API sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count, sl_st
 
 SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count, sl_stats *stats) {
     const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     unsigned char *gone = NULL;
     sl_status status;
     sl_int k;
@@ -225,7 +225,7 @@ static sl_status sli_pins_fill(sl_pins *D, const sl_pins *P, sl_int *rows, sl_st
 /* Makes the set again for the present numbers of F. On error solves are refused. */
 static sl_status sli_pins_renew(sl_pins *P, sl_stats *stats) {
     sl_pins D = *P;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_int *rows = NULL;
     sl_status status = sli_pins_check(P->F);
     D.n_pins = D.capacity = 0;

@@ -59,9 +59,9 @@ SLI_INLINE sli_equality sli_equality_of(const sl_int *rows, const double *values
 static sl_status sli_pin_new(sli_pin **out, const sl_pins *P, sli_set *set, sl_int count,
                              const sli_reach *R) {
     sli_pin pin;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
-    memset(&pin, 0, sizeof pin);
+    SLI_CLEAR(pin);
     pin.count = count;
     SLI_LAYOUT(&b, &P->allocator, status) {
         *out = (sli_pin *)sli_take(&b, 1, sizeof **out);
@@ -83,7 +83,7 @@ static sl_status sli_pin_new(sli_pin **out, const sl_pins *P, sli_set *set, sl_i
 static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sli_equality *e,
                                 int is_swept, sl_stats *stats) {
     const sl_symbolic *S = P->F->S;
-    sli_block seeds = {NULL, 0, 0};
+    sli_block seeds = {NULL, 0};
     sli_set set = sli_set_of(S, e->rows, e->count);
     sli_reach R;
     sli_pin *pin = NULL;
@@ -217,7 +217,7 @@ static void sli_pins_remove(sl_pins *P, sl_int p) {
 /* Makes room for more equalities. */
 static sl_status sli_pins_grow(sl_pins *P, sl_int more) {
     const sl_int capacity = sli_max(sli_max(8, 2 * P->capacity), P->n_pins + more);
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sli_pin **pins = NULL;
     double *K = NULL, *scratch = NULL;
     sl_status status = SL_OK;

@@ -81,7 +81,7 @@ SLI_HOT static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, i
 
 /* Finds the null pivots of an equality and the entries of W. */
 static sl_status sli_pin_find_nulls(const sl_pins *P, sli_pin *pin, sl_int *row) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     sli_free(&P->allocator, pin->nulls);
     pin->nulls = NULL;

@@ -214,7 +214,7 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
                                const double *B, size_t ldb, const double *G, size_t ldg,
                                sl_int nrhs, sl_work *W) {
     const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
-    sli_block counted = {NULL, 0, 0};
+    sli_block counted = {NULL, 0};
     sli_pins_solve w;
     sli_query all;
     const sli_query *q = plan == NULL ? &all : &plan->query;

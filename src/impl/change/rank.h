@@ -210,7 +210,7 @@ static sl_status sli_rank_passes(sli_rank *q) {
 /* Changes F by the vectors. On failure F is as before. */
 static sl_status sli_rank_run(sli_rank *q) {
     sl_factor *F = q->u.F;
-    const sl_stats before = F->stats;
+    const sli_factor_stats before = F->stats;
     sli_history history;
     sl_status status;
     if (q->count == 0) {
@@ -286,7 +286,7 @@ static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) 
     if (stats != NULL) {
         const sl_factor *F = q->u.F;
         sli_factor_stats_copy(&F->stats, stats);
-        memset(&stats->change, 0, sizeof stats->change);
+        SLI_CLEAR(stats->change);
         stats->change.method = q->count > 0 ? SL_CHANGE_UPDATE : SL_CHANGE_NONE;
         stats->change.ranks = q->count;
         stats->change.entries = q->entries;

@@ -180,7 +180,7 @@ static void sli_rank_sort(void *data) {
             }
         }
     }
-    memset(&q->whole, 0, sizeof q->whole);
+    SLI_CLEAR(q->whole);
     if (q->status != SL_OK) {
         return;
     }

@@ -36,7 +36,7 @@ static void sli_reached_mark(const sl_symbolic *S, sl_int *from, sl_int k) {
 static sl_status sli_reached_numbers(sl_factor *F, const sli_kept *p, const sli_source *from,
                                      double started, sl_stats *stats) {
     sli_failure failure;
-    memset(&failure, 0, sizeof failure);
+    SLI_CLEAR(failure);
     if (F->null.mode == SL_NULL_PIVOT_SKIP) {
         (void)sli_null_vectors_check(F, from, &failure);
     }
@@ -110,7 +110,7 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
                                       sl_stats *stats) {
     const double started = sli_seconds();
     const sli_source source = sli_source_matrix(A);
-    sli_block b = {NULL, 0, 0}, room = {NULL, 0, 0};
+    sli_block b = {NULL, 0}, room = {NULL, 0};
     sli_kept kept;
     uint64_t entries = 0;
     sl_int *from = NULL, k;

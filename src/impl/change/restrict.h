@@ -46,7 +46,7 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
     const sli_source source = sli_source_matrix(&r->B);
     sli_kept kept;
     sli_failure failure;
-    sli_block b = {NULL, 0, 0}, room = {NULL, 0, 0};
+    sli_block b = {NULL, 0}, room = {NULL, 0};
     sl_int *from = NULL, *columns = NULL;
     sl_status status = SL_OK;
     if (r->n_kept > 0) {
@@ -61,7 +61,7 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
         status = sli_kept_room(&kept, G, &room);
     }
     if (status == SL_OK) {
-        memset(&failure, 0, sizeof failure);
+        SLI_CLEAR(failure);
         sli_factor_begin(G);
         G->identity = sli_hash_words(F->identity, &G->S->identity, 2);
         G->work.copied = r->n_kept > 0 ? &kept.copied : NULL;
@@ -122,10 +122,8 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
  * numbers stay, and what a refactorization needs is released. */
 static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
     sl_factor counted = *G;
-    sli_block b = {NULL, 0, 0};
-    sli_free(&G->allocator, G->work.stack);
+    sli_block b = {NULL, 0};
     sli_free(&G->allocator, G->scratch);
-    G->work.stack = NULL;
     G->scratch = NULL;
     (void)sli_take(&b, 1, sizeof(sl_factor));
     sli_factor_layout(&counted, &b, 0);
@@ -156,7 +154,7 @@ static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_facto
     const sl_options rules = sli_restrict_options(F, r, a, (sl_int *)(void *)r->scratch);
     sl_stats found;
     sl_status status;
-    memset(&found, 0, sizeof found);
+    SLI_CLEAR(found);
     found.symbolic.triangle = F->S->stats.symbolic.triangle;
     status = sli_restriction_list(r, a, stats);
     if (status == SL_OK) {
@@ -205,7 +203,7 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
-    memset(&r, 0, sizeof r);
+    SLI_CLEAR(r);
     r.S = F->S;
     r.A = A;
     r.may_keep =

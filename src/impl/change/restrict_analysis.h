@@ -9,7 +9,7 @@
  * many there may be. */
 static sl_status sli_restriction_work(sli_restriction *r, uint64_t entries, const sl_allocator *a) {
     sli_analysis *w = &r->w;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status =
         entries > INT32_MAX
             ? sli_refuse(SL_ERR_TOO_LARGE, "more than 2^31 - 1 entries of new columns")
@@ -125,7 +125,7 @@ SLI_HOT static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *sta
 /* Room for the graph and, where A is not read in place, for its entries. */
 static sl_status sli_restriction_copy(sli_restriction *r, uint64_t entries, const sl_allocator *a) {
     const int copies = r->R.count < r->S->n / SLI_RESTRICT_IN_PLACE;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = sli_restriction_work(r, entries, a);
     if (copies) {
         SLI_LAYOUT(&b, a, status) {
@@ -215,7 +215,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
                                          sl_stats *stats) {
     sli_analysis *w = &r->w;
     sl_symbolic *T = &r->T;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     uint64_t rows = 0;
     sl_int t;
@@ -228,7 +228,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
     for (t = 0; t < T->n_supers; t++) {
         rows += (uint64_t)w->amalgamation.below[t];
     }
-    memset(&b, 0, sizeof b);
+    SLI_CLEAR(b);
     SLI_LAYOUT(&b, a, status) {
         T->rows_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
         T->rows = SLI_TAKE(&b, sl_int, rows);

@@ -148,7 +148,7 @@ SLI_HOT static void sli_restriction_split(sli_restriction *r) {
  * ranks. */
 SLI_HOT static sl_status sli_restriction_filter(sli_restriction *r, const sl_allocator *a) {
     const sl_symbolic *S = r->S;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     uint64_t rows = 0;
     sl_off at = 0, p;
@@ -184,7 +184,7 @@ SLI_HOT static sl_status sli_restriction_filter(sli_restriction *r, const sl_all
 static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
     const uint64_t count = (uint64_t)r->R.count;
     const int is_many = r->R.count >= r->S->n / SLI_RESTRICT_MANY;
-    sli_block b = {NULL, 0, 0}, kept = {NULL, 0, 0};
+    sli_block b = {NULL, 0}, kept = {NULL, 0};
     sl_status status = SL_OK;
     /* a bit for each row of A, where R is not small: then from 128 bits for a row of R on */
     while (!is_many && r->bits_mask < count * 4 && r->bits_mask < (uint32_t)r->S->n / 32) {

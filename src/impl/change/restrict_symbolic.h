@@ -14,7 +14,7 @@ typedef struct sli_joint {
 /* Allocates the analysis of a draft, whose n and n_supers are known. */
 static sl_status sli_joint_room(sl_symbolic **out, sl_symbolic *draft, sl_off rows, sl_off entries,
                                 sl_stats *stats) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     SLI_LAYOUT(&b, &draft->allocator, status) {
         (void)sli_take(&b, 1, sizeof(sl_symbolic));
@@ -30,7 +30,7 @@ static sl_status sli_joint_room(sl_symbolic **out, sl_symbolic *draft, sl_off ro
 
 SLI_INLINE sli_joint sli_joint_start(sl_symbolic *S) {
     sli_joint j;
-    memset(&j, 0, sizeof j);
+    SLI_CLEAR(j);
     j.S = S;
     return j;
 }
@@ -196,7 +196,7 @@ static void sli_joint_fill(sl_symbolic *S, sli_restriction *r, sl_stats *stats) 
 /* An analysis of A[R, R] without arrays. */
 static sl_symbolic sli_restriction_draft(const sli_restriction *r, const sl_allocator *a) {
     sl_symbolic draft;
-    memset(&draft, 0, sizeof draft);
+    SLI_CLEAR(draft);
     draft.allocator = *a;
     draft.n = r->R.count;
     draft.nnz_input = -1; /* no matrix has this pattern */

@@ -16,7 +16,7 @@
 static sl_status sli_loss_begin(sl_factor *F) {
     const sl_symbolic *S = F->S;
     sli_history *h = &F->history;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     if (h->updates > 0 && h->base > 0.0) {
         return SL_OK;

@@ -49,7 +49,7 @@ typedef struct sli_complex_sets {
 static sli_complex_sets sli_complex_sets_of(const sl_int *first, sl_int n_first,
                                             const sl_int *second, sl_int n_second, int is_block) {
     sli_complex_sets c;
-    memset(&c, 0, sizeof c);
+    SLI_CLEAR(c);
     c.first.rows = first;
     c.first.count = n_first;
     c.second.rows = second;
@@ -72,7 +72,7 @@ static sl_status sli_complex_fill(const sli_complex_set *set, sl_int n, int is_c
 /* Allocates and expands the sets, whose rows are those of a real system of n rows. */
 static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n, const sl_allocator *a,
                                          sl_stats *stats) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = sli_complex_check(n, &c->first);
     status = status == SL_OK ? sli_complex_check(n, &c->second) : status;
     SLI_LAYOUT(&b, a, status) {

@@ -121,7 +121,7 @@ static void sli_dirichlet_layout(sl_dirichlet *D, sli_block *b) {
 /* Makes the object without a factor. where := as in sli_dirichlet_number. */
 static sl_status sli_dirichlet_new(sl_dirichlet **out, const sl_csc *A, const sl_int *rows,
                                    sl_dirichlet *draft, sl_int *where, sl_stats *stats) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_dirichlet *D;
     sl_status status = SL_OK;
     sl_int k, free_row = 0;
@@ -187,7 +187,7 @@ static sl_status sli_dirichlet_begin(sl_dirichlet *D, const sl_csc *A, const sl_
     const sl_options none = sli_options_with(&D->allocator);
     const sl_options *arrays_of = opt == NULL ? &none : opt;
     const sli_dirichlet_ways *ways = sli_dirichlet_ways_of();
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sli_dirichlet_arrays arrays;
     sl_status status = SL_OK;
     if (ways != NULL && sli_dirichlet_may_reuse(F, opt)) { /* untested: all packs are there */
@@ -214,7 +214,7 @@ SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const 
                                      sl_int count, const sl_factor *F, const sl_options *opt,
                                      sl_stats *stats) {
     const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_dirichlet draft, *D = NULL;
     sl_int *where = NULL, *scratch = NULL;
     sl_status status;
@@ -224,7 +224,7 @@ SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const 
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
-    memset(&draft, 0, sizeof draft);
+    SLI_CLEAR(draft);
     draft.allocator = sli_allocator(opt);
     draft.n = A->n_cols;
     draft.n_fixed = count;
@@ -254,7 +254,7 @@ SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const 
 static sl_status sli_dirichlet_replace(sl_dirichlet *D, const sl_csc *A, sl_stats *stats) {
     const sli_dirichlet_arrays none = {NULL, NULL, NULL, NULL};
     sl_dirichlet own = *D;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_int *where = NULL, *scratch = NULL;
     sl_status status = SL_OK;
     own.M = NULL;

@@ -102,7 +102,7 @@ static sl_status sli_dirichlet_probe(const sl_dirichlet *D, const sl_csc *A, con
                                      int *is_good) {
     const size_t n = (size_t)D->n;
     uint64_t random = 1;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     double *x = NULL, *r = NULL, *sums = NULL, *zeros = NULL, size, error = 0.0;
     sl_status status = SL_OK;
     sl_int k;
@@ -170,12 +170,12 @@ SLI_INLINE int sli_dirichlet_is_over(sl_status status) {
 SLI_COLD static sl_status sli_dirichlet_take(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
                                              sl_stats *stats) {
     sli_dirichlet_choice c;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     if (!sli_dirichlet_is_factor_of(F, A)) {
         return SL_OK;
     }
-    memset(&c, 0, sizeof c);
+    SLI_CLEAR(c);
     c.F = F;
     SLI_LAYOUT(&b, &D->allocator, status) {
         c.seeds = SLI_TAKE(&b, uint64_t, D->n_fixed);
@@ -215,7 +215,7 @@ static sl_status sli_dirichlet_solve_pins(const sl_dirichlet *D, const sli_rhs *
                                           const double *G, size_t ldg, sl_work *W) {
     const sl_pins *P = (const sl_pins *)D->pins;
     const size_t n = (size_t)D->n, m = (size_t)D->n_fixed;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     double *X = NULL, *held = NULL;
     sl_status status = SL_OK;
     sl_int r, count;

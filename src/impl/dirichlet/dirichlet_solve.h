@@ -115,7 +115,7 @@ SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx
 
 SL_API sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D) {
     sl_dirichlet_arrays v;
-    memset(&v, 0, sizeof v);
+    SLI_CLEAR(v);
     if (D != NULL) {
         v.n_free = D->n_free;
         v.n_fixed = D->n_fixed;

@@ -18,7 +18,8 @@ SLI_INLINE sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
 
 /* Reports what is not finite, or too large for float. An entry of A has its row and column in A, an
  * entry of a sum its row and column in the lower triangle, and a coefficient neither. */
-SLI_COLD static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, const sli_failure *f) {
+SLI_COLD static void sli_factor_report_entry(const sl_factor *F, const sl_csc *A,
+                                             const sli_failure *f, sl_stats *stats) {
     const sl_symbolic *S = F->S;
     sl_int row = -1, column = -1;
     if (f->position < 0) { /* a coefficient: no row, no column */
@@ -32,7 +33,7 @@ SLI_COLD static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, cons
         row = sli_max(S->perm[k], S->perm[j]);
         column = sli_min(S->perm[k], S->perm[j]);
     }
-    (void)sli_fail_at(&F->stats, f->status, row, column, f->value,
+    (void)sli_fail_at(stats, f->status, row, column, f->value,
                       f->position < 0 ? "a coefficient is not finite"
                       : f->status == SL_ERR_NOT_FINITE
                           ? "an entry of A is not finite"
@@ -81,22 +82,25 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
 SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f,
                                            int has_pivots) {
     sl_int n_done = F->S->n; /* pivots before the failure */
+    sl_stats found;
+    sli_stats_clear_error(&found);
     F->stats.null_bound = f->bound > 0.0 ? f->bound : 0.0;
     if (f->status != SL_OK && f->pivot >= 0) {
         n_done = has_pivots ? n_done : f->pivot;
-        (void)sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value,
+        (void)sli_fail_at(&found, f->status, F->S->perm[f->pivot], -1, f->value,
                           sli_factor_advice(F, f));
     } else if (f->status != SL_OK) {
         n_done = F->S->super_first[f->super];
-        sli_factor_report_entry(F, A, f);
+        sli_factor_report_entry(F, A, f, &found);
     }
+    F->stats.error = found.error;
     if (n_done == 0 || F->stats.factor.positive + F->stats.factor.negative != n_done) {
         sli_count_pivots(F, n_done); /* they are not counted yet */
     }
     F->stats.factor.null += f->status == SL_ERR_PIVOT && !has_pivots;
 }
 
-static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
+static void sli_factor_stats_copy(const sli_factor_stats *from, sl_stats *to) {
     to->factor = from->factor;
     to->storage = from->storage;
     to->threads = from->threads;
@@ -142,7 +146,6 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
                                  double started, sl_stats *stats) {
     double ended;
     int has_pivots, suspects;
-    sli_stats_clear_error(&F->stats);
     if (failure->status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
         (void)sli_nulls_find(F, from, failure);
     }
@@ -239,7 +242,7 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
                                     sl_stats *stats) {
     sli_failure failure;
     sl_int t;
-    memset(&failure, 0, sizeof failure);
+    SLI_CLEAR(failure);
     F->history.updates = 0;
     F->history.drift = 0.0;
     sli_factor_identify(F, from);

@@ -13,14 +13,14 @@
 static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
     const sl_symbolic *S = F->S;
     const size_t n = (size_t)S->n;
-    F->D = SLI_TAKE(b, double, n);
+    F->D = SLI_CUT(b, double, S->n);
     if (S->n_pairs > 0) {
         F->E = SLI_TAKE(b, double, n);
     }
     if (S->n_pairs > 0 || has_mass) {
         F->divisors = SLI_TAKE(b, double, n);
     }
-    F->extents = SLI_TAKE(b, sli_extent, S->n_supers);
+    F->extents = SLI_CUT(b, sli_extent, S->n_supers);
     if (F->rule.regularization != 0.0) {
         F->rule.signs = SLI_TAKE(b, signed char, n);
         F->rule.shifts = SLI_TAKE(b, double, n);
@@ -55,7 +55,7 @@ static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
         const int is_copied = sli_panel_is_copied(F, s);
         F->work.panel_room = is_copied && size > F->work.panel_room ? size : F->work.panel_room;
     }
-    F->work.panels = SLI_TAKE(b, double, workers *(uint64_t)F->work.panel_room);
+    F->work.panels = SLI_CUT(b, double, workers *(uint64_t)F->work.panel_room);
 }
 
 /* The scratch of a factorization. */
@@ -77,14 +77,13 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
     }
     if (F->method == SL_METHOD_SUPERNODAL) {
         const uint64_t rows = SLI_TILE * (uint64_t)sli_tiles(S->tallest);
-        F->work.buffer = SLI_TAKE(b, double, workers *(uint64_t)sli_front_scratch(S->widest));
-        F->work.magnitude = SLI_TAKE(b, double, workers *rows);
-        F->work.reciprocals = SLI_TAKE(b, double, workers *SLI_FRONT_RECIPROCALS);
-        F->work.failures = SLI_TAKE(b, sli_failure, workers);
-        sli_schedule_layout(&F->schedule, b, S->n_supers);
+        F->work.buffer = SLI_CUT(b, double, workers *(uint64_t)sli_front_scratch(S->widest));
+        F->work.magnitude = SLI_CUT(b, double, workers *rows);
+        F->work.reciprocals = SLI_CUT(b, double, workers *SLI_FRONT_RECIPROCALS);
+        F->work.failures = SLI_CUT(b, sli_failure, workers);
         sli_factor_layout_panels(F, b);
         if (!sli_is_float(F)) {
-            F->history.marks = SLI_TAKE(b, uint64_t, supers);
+            F->history.marks = SLI_CUT(b, uint64_t, S->n_supers);
         }
     } else {
         F->work.buffer = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, 0, 1));
@@ -97,67 +96,61 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
     }
 }
 
-/* Plans a supernodal factorization: assigns fronts to workers and allocates the update stack. */
-static sl_status sli_factor_schedule(sl_factor *F) {
-    const sl_symbolic *S = F->S;
-    sli_block b = {NULL, 0, 0};
-    sli_schedule_work w;
-    sl_status status = SL_OK;
-    memset(&w, 0, sizeof w); /* compilers do not see that the layout fills it */
-    SLI_LAYOUT(&b, &F->allocator, status) {
-        sli_schedule_work_layout(&w, &b, S->n_supers, F->schedule.workers);
-    }
-    if (status == SL_OK) {
-        sli_schedule_fill(&F->schedule, S,
-                          sli_is_single(F)  ? SLI_PLAIN_NOT
-                          : sli_is_float(F) ? SLI_PLAIN_PASSED
-                                            : SLI_PLAIN,
-                          &w);
-        sli_free(&F->allocator, b.base);
-        b.base = NULL;
-        b.used = 0;
-        SLI_LAYOUT(&b, &F->allocator, status) {
-            F->work.stack =
-                sli_take(&b, (uint64_t)(F->schedule.stack >> F->type->half), F->type->front_bytes);
-            sli_schedule_layout_tops(&F->schedule, S, &b);
-        }
-        sli_populate(&F->allocator, &b);
-        F->stats.factor.bytes += b.used;
-        if (status == SL_OK) {
-            sli_schedule_fill_tops(&F->schedule, S);
-        }
-    }
-    return status;
-}
-
 /* Allocates what a factorization needs besides L and D, unless F has it. A loaded factor gets it
- * with its first refactorization. */
+ * with its first refactorization. A supernodal factorization is planned in memory of its own first:
+ * fronts are assigned to workers, and the size of the update stack is known. */
 static sl_status sli_factor_prepare(sl_factor *F) {
-    const size_t bytes = F->stats.factor.bytes;
-    sli_block b = {NULL, 0, 0};
+    const sl_symbolic *S = F->S;
+    const int has_fronts = F->method == SL_METHOD_SUPERNODAL;
+    sli_schedule plan = F->schedule;
+    sli_block b = {NULL, 0}, t = {NULL, 0};
+    sli_schedule_work w;
+    uint64_t small[512];
+    size_t planned = 0;
     sl_status status = SL_OK;
     if (F->scratch != NULL) {
         return SL_OK;
     }
+    SLI_CLEAR(w); /* compilers do not see that the layout fills it */
+    if (has_fronts) {
+        SLI_LAYOUT_SMALL(&t, &F->allocator, small, status) {
+            sli_schedule_layout(&plan, &t, S->n_supers);
+            planned = t.used;
+            sli_schedule_work_layout(&w, &t, S->n_supers, plan.workers);
+        }
+        if (status == SL_OK) {
+            sli_schedule_fill(&plan, S,
+                              sli_is_single(F)  ? SLI_PLAIN_NOT
+                              : sli_is_float(F) ? SLI_PLAIN_PASSED
+                                                : SLI_PLAIN,
+                              &w);
+        }
+    }
     SLI_LAYOUT(&b, &F->allocator, status) {
         sli_factor_layout_scratch(F, &b);
+        if (has_fronts) {
+            F->work.stack =
+                sli_take(&b, (uint64_t)(plan.stack >> F->type->half), F->type->front_bytes);
+            sli_schedule_layout_tops(&plan, S, &b);
+            sli_schedule_layout(&F->schedule, &b, S->n_supers);
+        }
     }
     sli_populate(&F->allocator, &b);
-    F->stats.factor.bytes += b.used;
     if (status == SL_OK) {
         F->scratch = b.base;
+        F->stats.factor.bytes += b.used;
         if (F->history.marks != NULL) {
-            memset(F->history.marks, 0, (size_t)F->S->n_supers * sizeof(uint64_t));
+            memset(F->history.marks, 0, (size_t)S->n_supers * sizeof(uint64_t));
         }
-        F->null.has_duplicates = F->null.mode == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(F->S);
-        status = F->method == SL_METHOD_SUPERNODAL ? sli_factor_schedule(F) : SL_OK;
-    }
-    if (status != SL_OK) {
-        sli_free(&F->allocator, F->scratch);
-        F->scratch = NULL;
+        F->null.has_duplicates = F->null.mode == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(S);
+        if (has_fronts) {
+            sli_schedule_fill_tops(&plan, S);
+            sli_schedule_move(&F->schedule, &plan, planned);
+        }
+    } else {
         F->history.marks = NULL;
-        F->stats.factor.bytes = bytes;
     }
+    sli_block_free(&t, &F->allocator, small);
     return status;
 }
 

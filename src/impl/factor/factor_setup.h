@@ -135,7 +135,6 @@ SL_API void sl_factor_free(sl_factor *F) {
     if (F != NULL && sli_is_last(&F->borrowers)) {
         const sl_allocator a = F->allocator;
         sli_free(&a, F->history.loss);
-        sli_free(&a, F->work.stack);
         sli_free(&a, F->scratch);
         sli_symbolic_return(F->S);
         sli_free(&a, F);
@@ -194,9 +193,9 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     const double started = sli_factor_clock(S);
     const sl_allocator a = sli_allocator(opt);
     sl_factor draft;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
-    memset(&draft, 0, sizeof draft);
+    sli_clear(&draft, sizeof draft);
     draft.allocator = a;
     draft.S = S;
     draft.kernels =
@@ -226,9 +225,9 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     sli_populate(&a, &b);
     if (status == SL_OK) {
         sl_factor *F = (sl_factor *)(void *)b.base;
-        *F = draft;
+        sli_copy(F, &draft, sizeof draft);
         sli_borrow(&S->borrowers);
-        memset(F->extents, 0, (size_t)S->n_supers * sizeof *F->extents);
+        sli_clear(F->extents, (size_t)S->n_supers * sizeof *F->extents);
         sli_factor_clear_gaps(F);
         if (F->E != NULL) {
             memset(F->E, 0, (size_t)S->n * sizeof(double));

@@ -154,10 +154,18 @@ typedef struct sli_row_work {
     uint64_t *list_scratch;
 } sli_row_work;
 
+/* What a factor reports: these members of sl_stats. */
+typedef struct sli_factor_stats {
+    sl_error error;
+    sl_factor_info factor;
+    double null_bound;
+    sl_off storage, threads;
+} sli_factor_stats;
+
 struct sl_factor {
     sl_allocator allocator;
     sli_atomic borrowers; /* sets of pins */
-    sl_stats stats;       /* the factor group and the error group */
+    sli_factor_stats stats;
     const sl_symbolic *S;
     const sli_kernels *kernels;
     const sli_storage_type *type; /* how L is kept */

@@ -344,6 +344,9 @@ static void sli_job_begin(sli_job *job, sl_factor *F, const sli_source *from) {
 static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_failure *failure) {
     sli_job job;
     sl_int k;
+    if (F->schedule.workers == 1) {
+        return F->type->factor(F, from, 0, F->S->n_supers - 1, 0, failure);
+    }
     sli_job_begin(&job, F, from);
     sli_parallel(&F->threads, F->schedule.workers, sli_worker_run, &job);
     for (k = 0; k < F->schedule.workers; k++) {

@@ -138,7 +138,7 @@ SLI_HOT static void sli_null_add_map(const sli_null_walk *w, const sl_symbolic *
                                      const sli_source *from, double *diagonal) {
     double sums[SLI_SUM_ENTRIES];
     sli_null_map_state p;
-    memset(&p, 0, sizeof p);
+    SLI_CLEAR(p);
     p.S = S;
     p.diagonal = diagonal;
     p.to = -1;

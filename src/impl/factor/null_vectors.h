@@ -164,7 +164,7 @@ static int sli_null_is_suspected(sl_factor *F) {
 
 /* n times `size` bytes in which pivots are judged; NULL: there is no memory. */
 SLI_COLD static void *sli_judge_memory(sl_factor *F, sl_int n, size_t size) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     if (F->work.is_worker) {
         F->work.is_worker = 2;
         return NULL;

@@ -59,7 +59,7 @@ static sl_status sli_symmetry_check(const sl_symbolic *S, const sl_csc *A, const
                                     sl_stats *stats) {
     sl_status status = SL_OK;
     double *difference = NULL, *magnitude = NULL;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_int j, q;
     if (S->stats.symbolic.triangle != SL_TRIANGLE_BOTH) {
         return SL_OK;

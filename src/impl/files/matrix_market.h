@@ -62,7 +62,7 @@ typedef struct sli_triplets {
 /* Allocates room for more entries and moves those that were read. */
 static sl_status sli_triplets_grow(sli_triplets *t, sl_off room, int has_values,
                                    const sl_allocator *a) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sli_triplets larger = *t;
     sl_status status = SL_OK;
     larger.room = room;
@@ -200,7 +200,7 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
                              "the line of sizes is wrong: more on it, a symmetric matrix that is "
                              "not square, or more entries than the text can hold");
     }
-    memset(&t, 0, sizeof t);
+    SLI_CLEAR(t);
     room = r->buffer == NULL || size[2] < SLI_ENTRIES_FIRST ? size[2] : SLI_ENTRIES_FIRST;
     status = sli_triplets_grow(&t, room, has_values, a);
     status = status == SL_OK ? sli_read_entries(r, size, has_values, &t, a) : status;
@@ -251,7 +251,7 @@ SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t lengt
             sli_argument(text == NULL ? "text is NULL" : sli_options_wrong(opt, SLI_READS_NOTHING));
     }
     if (status == SL_OK) {
-        memset(&r, 0, sizeof r);
+        SLI_CLEAR(r);
         r.at = text;
         r.end = text + length;
         status = sli_read_matrix(out, &r, &a, stats);
@@ -282,7 +282,7 @@ SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_opti
         errno = saved;
         return sli_report(stats, status);
     }
-    memset(&r, 0, sizeof r);
+    SLI_CLEAR(r);
     r.file = file;
     r.buffer = (char *)sli_alloc(&a, SLI_LINE_MAX);
     if (r.buffer != NULL) {

@@ -47,7 +47,7 @@ static void sli_pair_sums(const sl_factor *F, const sli_forward *f, sl_int count
 /* Clears the inverse group: nothing requested yet. */
 static void sli_inverse_clear_stats(sl_stats *stats) {
     if (stats != NULL) {
-        memset(&stats->inverse, 0, sizeof stats->inverse);
+        SLI_CLEAR(stats->inverse);
     }
 }
 
@@ -183,7 +183,7 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
         *out = 0.0;
         return SL_OK;
     }
-    memset(&q, 0, sizeof q);
+    SLI_CLEAR(q);
     q.F = F;
     q.set[0] = cset;
     q.set[1] = bset;

@@ -83,8 +83,8 @@ static void sli_inverse_block_layout_requests(void *block, sli_block *b) {
 
 static void sli_inverse_block_partition(void *block) {
     sli_inverse_block *q = (sli_inverse_block *)block;
-    memset(&q->kept_capacity, 0, sizeof q->kept_capacity);
-    memset(&q->streamed_capacity, 0, sizeof q->streamed_capacity);
+    SLI_CLEAR(q->kept_capacity);
+    SLI_CLEAR(q->streamed_capacity);
     sli_requests_partition(&q->kept, &q->kept_capacity);
     if (!q->is_symmetric) {
         sli_requests_partition(&q->streamed, &q->streamed_capacity);
@@ -197,7 +197,7 @@ static sl_status sli_inverse_block_run(sli_inverse_block *q, sl_work *W, sl_stat
 static sli_inverse_block sli_inverse_all_pairs_of(const sl_factor *F, const sl_int *rows,
                                                   sl_int count) {
     sli_inverse_block q;
-    memset(&q, 0, sizeof q);
+    SLI_CLEAR(q);
     q.F = F;
     q.is_symmetric = 1;
     q.kept = q.streamed = sli_requests_of(F, rows, rows, count);
@@ -238,7 +238,7 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
         return sli_report(stats, status);
     }
     sli_inverse_clear_stats(stats);
-    memset(&q, 0, sizeof q);
+    SLI_CLEAR(q);
     q.F = F;
     q.Z = Z;
     q.is_symmetric = rows == columns && n_rows == n_columns;

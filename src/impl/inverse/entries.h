@@ -96,7 +96,7 @@ static void sli_entries_choose(void *call) {
     sli_entries *q = (sli_entries *)call;
     double limit = HUGE_VAL, time;
     sl_int supers = q->F->S->n_supers;
-    memset(&q->capacity, 0, sizeof q->capacity);
+    SLI_CLEAR(q->capacity);
     q->is_lossy = 0;
     if (q->is_all) {
         q->method = SL_INVERSE_SELECTED;
@@ -299,7 +299,7 @@ static void sli_entries_clear_nulls(const sli_entries *q) {
 static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int *rows,
                                   const sl_int *columns, sl_int count) {
     sli_entries q;
-    memset(&q, 0, sizeof q);
+    SLI_CLEAR(q);
     q.F = F;
     q.threads = &F->threads;
     q.out = out;

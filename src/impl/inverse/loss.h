@@ -207,7 +207,7 @@ static int sli_loss_is_small(sli_loss *q) {
         }
         if (up == -1 && tree.signs != 0) {
             is_small = sli_loss_judge(q, &tree);
-            memset(&tree, 0, sizeof tree);
+            SLI_CLEAR(tree);
         }
         for (i = 0; i < S->steps[s].below; i++) {
             below[i] = up == -1 ? sqrt(q->outside)

@@ -54,11 +54,11 @@ static void sli_region_from_choice(sl_region *R, const sli_choice *c) {
 static sl_status sli_region_new(sl_region **out, const sli_choice *start, const sl_int *set,
                                 const sl_allocator *a, sl_stats *stats) {
     const sl_symbolic *S = start->S;
-    sli_block seeds = {NULL, 0, 0}, rest = {NULL, 0, 0}, kept = {NULL, 0, 0};
+    sli_block seeds = {NULL, 0}, rest = {NULL, 0}, kept = {NULL, 0};
     sli_choice c = *start;
     sl_region draft;
     sl_status status = SL_OK;
-    memset(&draft, 0, sizeof draft);
+    SLI_CLEAR(draft);
     SLI_LAYOUT(&seeds, a, status) {
         c.seeds = SLI_TAKE(&seeds, uint64_t, c.count);
         c.scratch = SLI_TAKE(&seeds, uint64_t, c.count);
@@ -131,7 +131,7 @@ static int sli_region_copy(sl_region *R, const sl_selected *Z) {
 /* The subtree of the k-th root, for the bound on what solves in the region lose. */
 static sli_loss sli_region_loss(const sl_region *R, const sl_factor *F, sl_int k) {
     sli_loss q;
-    memset(&q, 0, sizeof q);
+    SLI_CLEAR(q);
     q.F = F;
     q.limit = SLI_LOSS_REFUSED;
     q.first = R->S->first_descendant[R->roots[k]];
@@ -145,7 +145,7 @@ static sl_status sli_region_reserve_loss(const sl_region *R, const sl_factor *F,
     sl_int k;
     for (k = 0; k < R->extent.n_roots && sli_has_both_signs(F) && status == SL_OK; k++) {
         sli_loss q = sli_region_loss(R, F, k);
-        sli_block b = {NULL, 0, 0};
+        sli_block b = {NULL, 0};
         sli_loss_layout(&q, &b);
         status = sli_work_grow(W, b.used);
     }
@@ -164,7 +164,7 @@ static int sli_region_loss_is_small(const sl_region *R, const sl_factor *F, sl_w
     }
     for (k = 0; k < R->extent.n_roots && sli_has_both_signs(F) && is_small; k++) {
         sli_loss q = sli_region_loss(R, F, k);
-        sli_block b = {(unsigned char *)W->block, 0, 0};
+        sli_block b = {(unsigned char *)W->block, 0};
         sli_loss_layout(&q, &b);
         q.outside = R->S->super_parent[R->roots[k]] == -1 ? 0.0 : most;
         is_small = q.outside == 0.0 || sli_loss_is_small(&q);
@@ -231,7 +231,7 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
-    memset(&start, 0, sizeof start);
+    SLI_CLEAR(start);
     start.S = F->S;
     start.count = set == NULL ? F->S->n : count;
     start.may_copy = Z != NULL;

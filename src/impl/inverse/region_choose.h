@@ -46,9 +46,9 @@ SLI_INLINE double sli_choice_cost(const sli_choice *c) {
 
 /* Is a region with this boundary and number of subtrees within the limit of bytes? */
 static int sli_region_bytes_fit(sl_int boundary, sl_int n_roots, size_t bytes_max) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_region R;
-    memset(&R, 0, sizeof R);
+    SLI_CLEAR(R);
     if (boundary == 0 || bytes_max == 0) {
         return 1;
     }

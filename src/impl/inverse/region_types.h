@@ -116,7 +116,7 @@ static void sli_region_apply(const sl_region *R, const sli_ending_use *boundary,
     if (n == 0) {
         return;
     }
-    memset(&reach, 0, sizeof reach);
+    SLI_CLEAR(reach);
     reach.count = 1;
     memcpy(vectors, v->y, size * sizeof(double));
     memset(vectors + size, 0, size * sizeof(double));

@@ -35,7 +35,7 @@ static void sli_selected_layout(sl_selected *Z, sli_block *b) {
 static sl_status sli_selected_plan(sl_selected **out, sl_selected *draft, const uint64_t *seeds,
                                    sl_int n_seeds) {
     const sl_symbolic *S = draft->traversal.S;
-    sli_block work = {NULL, 0, 0}, kept = {NULL, 0, 0};
+    sli_block work = {NULL, 0}, kept = {NULL, 0};
     sl_status status = SL_OK;
     sl_int k;
     SLI_LAYOUT(&kept, &draft->allocator, status) {
@@ -65,12 +65,12 @@ static sl_status sli_selected_plan(sl_selected **out, sl_selected *draft, const 
 SLI_COLD static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const sl_int *set,
                                            sl_int count, const sl_options *opt, sl_stats *stats) {
     const sl_symbolic *S = F->S;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     uint64_t *seeds = NULL, *scratch = NULL;
     sl_selected draft;
     sl_status status = SL_OK;
     sl_int supers = S->n_supers;
-    memset(&draft, 0, sizeof draft);
+    SLI_CLEAR(draft);
     draft.allocator = sli_allocator(opt);
     draft.threads = opt == NULL || opt->threads.count == 0 ? F->threads : opt->threads;
     if (set != NULL) {
@@ -145,7 +145,7 @@ static void sli_selected_judge(void *context) {
     const sl_symbolic *S = q->F->S;
     sl_int k;
     q->is_lossy = sli_has_both_signs(q->F) && !sli_loss_is_small(&q->loss);
-    memset(&q->capacity, 0, sizeof q->capacity);
+    SLI_CLEAR(q->capacity);
     for (k = 0; k < q->loss.count && q->is_lossy; k++) {
         const sl_int first = S->super_first[q->loss.supers[k]];
         const uint64_t seed = sli_keyed(first, 0);
@@ -227,7 +227,7 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
     sl_work own = sli_work_own(&Z->allocator);
     sli_selected_run q;
     sl_status status;
-    memset(&q, 0, sizeof q);
+    SLI_CLEAR(q);
     q.Z = Z;
     q.F = F;
     q.run.F = F;
@@ -253,7 +253,7 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
 
 /* Allocates the numbers. */
 static sl_status sli_selected_alloc_values(sl_selected *Z) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     SLI_LAYOUT(&b, &Z->allocator, status) {
         Z->Z = SLI_TAKE(&b, double, Z->begin[Z->traversal.forest.count]);

@@ -46,7 +46,7 @@ SLI_INLINE sl_int sli_traversal_workers(const sl_symbolic *S, const sl_threads *
 /* A traversal of count supernodes of S by at most the given number of workers. */
 static sli_traversal sli_traversal_of(const sl_symbolic *S, sl_int count, sl_int workers) {
     sli_traversal t;
-    memset(&t, 0, sizeof t);
+    SLI_CLEAR(t);
     t.S = S;
     t.forest.count = count;
     t.schedule.workers = sli_min(workers, sli_max(count, 1));
@@ -167,7 +167,7 @@ static sl_off sli_traversal_stack_task(sli_traversal *t, sl_int first, sl_int la
     const sl_int *parent = t->forest.parent, *low = t->forest.low;
     sli_stacks stacks;
     sl_int k;
-    memset(&stacks, 0, sizeof stacks);
+    SLI_CLEAR(stacks);
     for (k = last; k >= first; k--) {
         const int is_root = parent[k] == -1 || parent[k] > last;
         sli_traversal_push(t, &stacks, k, is_root, !is_root && low[parent[k]] == low[k],
@@ -186,7 +186,7 @@ static sl_off sli_traversal_stack_tops(sli_traversal *t, sl_off from) {
     sl_int *child = t->schedule_work.side; /* the lowest child that is above all tasks, or -1 */
     sli_stacks stacks;
     sl_int m;
-    memset(&stacks, 0, sizeof stacks);
+    SLI_CLEAR(stacks);
     for (m = p->n_tops - 1; m >= 0; m--) {
         const sl_int k = p->top[m];
         child[k] = -1;

@@ -63,7 +63,7 @@ typedef struct sli_requests {
 static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, const sl_int *columns,
                                     sl_int count) {
     sli_requests r;
-    memset(&r, 0, sizeof r);
+    SLI_CLEAR(r);
     r.S = F->S;
     r.lanes_cost = sli_costs_of(F->kernels->isa)->lanes;
     r.rows = rows;
@@ -130,7 +130,7 @@ static sl_int sli_rhs_block_choose(const sli_requests *r, sl_int k, sli_rhs_bloc
     double least = 0.0;
     sl_int block_size = 0;
     sli_rhs_block block;
-    memset(&block, 0, sizeof block);
+    SLI_CLEAR(block);
     *best = block;
     for (; k < r->count && k - from < SLI_BLOCK_REQUESTS_MAX &&
            sli_rhs_block_add_request(&block, r, k, r->S);

@@ -134,7 +134,7 @@ SLI_INLINE int sli_is_read(sl_triangle triangle, sl_int row, sl_int column) {
 static sl_status sli_matrix_new(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int nnz,
                                 int has_values, const sl_allocator *a) {
     sl_matrix draft;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     draft.allocator = *a;
     draft.n_rows = n_rows;

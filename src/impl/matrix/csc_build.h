@@ -57,7 +57,7 @@ static sl_status sli_from_triplets(sl_matrix **out, const sli_triplet_list *t,
     const sl_int *i = t->i, *j = t->j;
     const double *x = t->x;
     sl_matrix *M = NULL;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_int *start = NULL, *order = NULL, k;
     sl_status status = sli_matrix_new(&M, n_rows, n_cols, count, x != NULL, a);
     SLI_LAYOUT(&b, a, status) {

@@ -88,7 +88,7 @@ SLI_HOT static sl_status sli_submatrix_make(sl_matrix **out, sl_int **from, cons
 SL_API sl_status sl_matrix_submatrix(sl_matrix **out, const sl_csc *A, const sl_int *rows,
                                      sl_int count, const sl_options *opt, sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sli_submatrix s;
     sl_int *where = NULL, *position = NULL, bad;
     sl_status status;

@@ -163,7 +163,7 @@ static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
     const sl_off n = G->n, mean = n > 0 ? G->begin[n] / n : 0;
     const int is_for_one = job->is_hurried && job->ordering == SL_ORDERING_ND;
     sli_graph_facts f;
-    memset(&f, 0, sizeof f);
+    SLI_CLEAR(f);
     f.edges = G->begin[n];
     f.bits = job->ordering == SL_ORDERING_METIS    ? SLI_WANTS_METIS
              : job->ordering == SL_ORDERING_MINDEG ? SLI_WANTS_MINDEG

@@ -217,7 +217,7 @@ static void sli_contract(const sli_level *g, const sli_clusters *clusters, sli_l
 /* Makes the coarser level of n clusters. */
 static sl_status sli_coarsen_clusters(const sli_level *g, sl_int n, const sli_clusters *clusters,
                                       sli_level *c, sli_shares *ranges, const sl_allocator *a) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     c->n = n;
     SLI_LAYOUT(&b, a, status) {

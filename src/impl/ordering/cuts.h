@@ -232,9 +232,9 @@ static void sli_cuts_run(sli_cuts *c, sl_int *perm, sl_int at) {
 static sl_status sli_order_cuts(const sli_order_job *job, const sl_int *sizes, sl_int nodes,
                                 sl_off room) {
     sli_cuts c;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
-    memset(&c, 0, sizeof c);
+    SLI_CLEAR(c);
     c.n = job->G->n;
     c.nodes = nodes;
     SLI_LAYOUT(&b, job->a, status) {

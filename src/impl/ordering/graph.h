@@ -101,7 +101,7 @@ SLI_INLINE void sli_graph_deduplicate(sli_graph *G) {
  * it is stored. */
 static sl_status sli_graph_make_canonical(sli_graph *G, const sl_allocator *a) {
     const sl_off edges = G->begin[G->n];
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_int *to = NULL;
     sl_off *at = NULL;
     sl_status status = SL_OK;

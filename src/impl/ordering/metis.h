@@ -58,7 +58,7 @@ static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_
     const sl_int *metis_options = job->opt->metis_options;
     idx_t options[METIS_NOPTIONS], nv = (idx_t)count, *xadj = NULL, *adjncy = NULL, *perm = NULL,
                                    *iperm = NULL;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_off edges = 0;
     sl_status status = SL_OK;
     sl_int k;

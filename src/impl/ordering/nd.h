@@ -285,10 +285,10 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
 /* Orders the graph of a job, which has no repeated edges, and builds its separator tree. */
 static sl_status sli_order_nd(const sli_order_job *job) {
     sli_nd w;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     sl_int k;
-    memset(&w, 0, sizeof w);
+    SLI_CLEAR(w);
     w.G = job->G;
     w.weight = job->weight;
     w.is_small = job->is_small;

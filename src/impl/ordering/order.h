@@ -51,12 +51,12 @@ static sl_status sli_order_compressed(const sli_order_job *job,
                                       sl_status (*order)(const sli_order_job *)) {
     sli_order_job inner;
     sli_compressed c;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status;
     if (job->weight != NULL) {
         return order(job);
     }
-    memset(&c, 0, sizeof c);
+    SLI_CLEAR(c);
     status = sli_compress(job, &inner, &c, &b);
     if (status == SL_OK) {
         status = order(&inner);
@@ -111,9 +111,9 @@ static sl_status sli_order_any(const sli_order_job *job) {
 static sl_status sli_order_peeled(const sli_order_job *job) {
     sli_order_job rest = *job;
     sli_peel p;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
-    memset(&p, 0, sizeof p);
+    SLI_CLEAR(p);
     SLI_LAYOUT(&b, job->a, status) {
         sli_peel_layout(&p, &b, job->G->n, job->G->begin[job->G->n]);
     }
@@ -154,9 +154,9 @@ static void sli_order_expand(const sli_order_job *job) {
 static sl_status sli_order_by_graph(sli_order_job *job) {
     const int may_peel = job->ordering != SL_ORDERING_METIS;
     sli_graph G;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
-    memset(&G, 0, sizeof G);
+    SLI_CLEAR(G);
     SLI_LAYOUT(&b, job->a, status) {
         G.n = job->A->n_cols / job->block;
         G.begin = SLI_TAKE(&b, sl_off, (size_t)G.n + 1);

@@ -90,10 +90,10 @@ static void sli_quotient_cost(const sli_quotient *q, sl_int *below, sli_order_co
  * *cost := of this order, without dense vertices; sizes := the vertices of each of its pivots. */
 static sl_status sli_order_mindeg(const sli_order_job *job, sl_int *sizes, sli_order_cost *cost) {
     sli_quotient q;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     sl_int pivot;
-    memset(&q, 0, sizeof q);
+    SLI_CLEAR(q);
     q.n = job->G->n;
     q.total = sli_job_rows(job);
     SLI_LAYOUT(&b, job->a, status) {

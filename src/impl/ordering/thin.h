@@ -279,7 +279,7 @@ static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl
     const sl_int n = d->levels[0].n;
     sl_int k, nodes, last, *scratch = d->workers[0].subgraph.scratch;
     sli_thin t;
-    memset(&t, 0, sizeof t);
+    SLI_CLEAR(t);
     t.g = &d->levels[0];
     t.queue = scratch;
     t.mark = scratch + n;

@@ -117,7 +117,7 @@ static void sli_dense_eliminate(sli_dense_front *f, sl_int k, int size) {
     const double inverse = u[k] == 0.0 ? 0.0 : 1.0 / u[k];
     sl_int i, j;
     sli_pair_steps steps;
-    memset(&steps, 0, sizeof steps);
+    SLI_CLEAR(steps);
     f->D[k] = u[k];
     f->E[k] = 0.0;
     if (size == 2) {
@@ -246,7 +246,7 @@ static void sli_search_assemble(const sli_pivot_search *p, const sli_contributio
  * below. */
 static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front *f) {
     const sl_symbolic *S = p->S;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_int c, k, at = 0;
     int pass;
     f->columns = S->steps[s].width;
@@ -259,7 +259,7 @@ static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front
         f->D = SLI_TAKE(&b, double, f->columns);
         f->E = SLI_TAKE(&b, double, f->columns);
         f->values = SLI_TAKE(&b, double, (uint64_t)f->rows *(uint64_t)f->rows);
-        if (b.overflow) {                                   /* untested: on 32 bits only */
+        if (b.used == SIZE_MAX) {                           /* untested: on 32 bits only */
             return sli_refuse(SL_ERR_TOO_LARGE, "a front"); /* untested: the same */
         }
         if (pass == 0 && b.used > p->front_size) {
@@ -296,7 +296,7 @@ static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front
 static sl_status sli_search_keep(sli_pivot_search *p, sl_int s, const sli_dense_front *f,
                                  sl_int pivots) {
     sli_contribution *c = &p->contributions[s];
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     sl_int j;
     c->delayed = f->columns - pivots;

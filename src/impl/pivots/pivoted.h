@@ -42,7 +42,7 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
     double started;
     sli_pivot_search p;
     sl_symbolic *S = NULL;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status;
     sli_stats_clear_error(stats);
     status = sli_begin(out);
@@ -50,7 +50,7 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
-    memset(&p, 0, sizeof p);
+    SLI_CLEAR(p);
     p.S = S;
     p.allocator = S->allocator;
     started = sli_seconds();

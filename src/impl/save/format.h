@@ -211,7 +211,7 @@ static void sli_saved_region_bytes(const sli_saved_region *record, uint64_t *byt
 
 static sli_saved_region sli_saved_region_of(const sl_region *R) {
     sli_saved_region record;
-    memset(&record, 0, sizeof record);
+    SLI_CLEAR(record);
     record.roots = R->extent.n_roots;
     record.rows = R->extent.n_rows;
     record.is_copied = R->is_copied;

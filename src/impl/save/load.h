@@ -181,7 +181,7 @@ static sl_status sli_read_front(sli_reading *r) {
         (f->header.read_version > SLI_READ_VERSION_DOUBLE)) {
         return sli_damaged();
     }
-    memset(&expected, 0, sizeof expected);
+    SLI_CLEAR(expected);
     expected.analysis = f->analysis;
     expected.factor = f->factor;
     sli_saved_add_base(&expected, &r->S, &r->F, r->has_factor);
@@ -233,7 +233,7 @@ static sl_status sli_read_image(sli_reading *r, sli_image *m) {
 static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
     const sli_saved_analysis *a = &r->saved.analysis;
     sl_symbolic *S = &r->S;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sli_image m;
     sl_status status;
     sli_symbolic_layout(S, &b, a->rows, a->entries);
@@ -241,7 +241,7 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
     m.last = r->saved.first_number;
     m.head = sizeof *S + (r->is_mapped ? 0 : (size_t)S->n_supers * sizeof(sl_int));
     m.bytes = b.used;
-    if (b.overflow || b.used > SIZE_MAX / 2 - sizeof *S) { /* untested: on 32 bits only */
+    if (b.used % SLI_ALIGN != 0) {                           /* untested: on 32 bits only */
         return sli_refuse(SL_ERR_TOO_LARGE, "the analysis"); /* untested: the same */
     }
     status = sli_read_image(r, &m);
@@ -273,7 +273,7 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
 static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor **out) {
     const sli_saved_factor *g = &r->saved.factor;
     sl_factor *F = &r->F;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sli_image m;
     sl_status status;
     F->S = S;
@@ -285,8 +285,8 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
     m.last = m.first + SLI_FACTOR_SECTIONS + (F->type->storage != SL_STORAGE_DOUBLE);
     m.head = sizeof *F;
     m.bytes = b.used;
-    if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F) {    /* untested: on 32 bits only */
-        status = sli_refuse(SL_ERR_TOO_LARGE, "the factor");  /* untested: the same */
+    if (b.used % SLI_ALIGN != 0) {                           /* untested: on 32 bits only */
+        status = sli_refuse(SL_ERR_TOO_LARGE, "the factor"); /* untested: the same */
     }
     status = status == SL_OK ? sli_read_image(r, &m) : status;
     if (status != SL_OK) {

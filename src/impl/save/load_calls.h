@@ -120,7 +120,7 @@ static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load
         errno = saved;
         return status;
     }
-    memset(&r, 0, sizeof r);
+    SLI_CLEAR(r);
     r.checks = checks;
     r.opt = opt;
     r.allocator = sli_allocator(opt);

@@ -126,7 +126,7 @@ SLI_COLD static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected *
 SLI_COLD static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S,
                                             const sl_factor *F, sl_selected **out) {
     const sli_section *table = &r->saved.table[r->first_selected];
-    sli_block lists = {NULL, 0, 0};
+    sli_block lists = {NULL, 0};
     sli_saved_part part;
     sl_selected draft;
     sl_status status = sli_read_part(r, r->first_selected, S, F, S->n_supers, &part);
@@ -134,7 +134,7 @@ SLI_COLD static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S
         table[2].bytes != 8 * ((uint64_t)part.count + 1)) {
         return status != SL_OK ? status : sli_damaged();
     }
-    memset(&draft, 0, sizeof draft);
+    SLI_CLEAR(draft);
     draft.allocator = r->allocator;
     draft.is_immutable = r->is_mapped || S->is_partial;
     if (r->opt != NULL) {
@@ -221,10 +221,10 @@ static int sli_check_extent(const sl_symbolic *S, const sli_region_extent *exten
 static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
                                      const sli_saved_region *record, const sl_int *roots,
                                      const sl_int *rows, sl_region **out) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     sl_region draft;
-    memset(&draft, 0, sizeof draft);
+    SLI_CLEAR(draft);
     draft.allocator = r->allocator;
     draft.S = F->S;
     draft.numbers = sli_numbers_of(F);
@@ -319,11 +319,11 @@ static sl_status sli_read_regions_lists(sli_reading *r, const sl_factor *F, sli_
 /* Creates the regions of a factor. On error the set has those that are to be released. */
 static sl_status sli_read_regions(sli_reading *r, const sl_factor *F, sl_saved_set *set) {
     const sli_section *table = &r->saved.table[r->first_region];
-    sli_block lists = {NULL, 0, 0};
+    sli_block lists = {NULL, 0};
     sli_saved_regions q;
     sli_saved_part part;
     sl_status status;
-    memset(&q, 0, sizeof q);
+    SLI_CLEAR(q);
     if (F == NULL || F->null.is_centered) {
         return sli_damaged();
     }

@@ -9,7 +9,7 @@
 static sli_saved_analysis sli_saved_analysis_of(const sl_symbolic *S) {
     const sl_symbolic_info *info = &S->stats.symbolic;
     sli_saved_analysis a;
-    memset(&a, 0, sizeof a);
+    SLI_CLEAR(a);
     a.n = S->n;
     a.supers = S->n_supers;
     a.nodes = S->n_nodes;
@@ -38,7 +38,7 @@ static sli_saved_analysis sli_saved_analysis_of(const sl_symbolic *S) {
 static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
     const sl_factor_info *info = &F->stats.factor;
     sli_saved_factor g;
-    memset(&g, 0, sizeof g);
+    SLI_CLEAR(g);
     g.method = F->method;
     g.null_pivots = F->null.mode;
     g.has_mass = F->null.mass != NULL;
@@ -210,7 +210,7 @@ SLI_COLD static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set
     sl_factor none;
     int fits = 1;
     memset(f, 0, sizeof *f);
-    memset(&none, 0, sizeof none);
+    SLI_CLEAR(none);
     if (status != SL_OK) {
         return status;
     }

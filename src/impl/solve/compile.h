@@ -25,7 +25,7 @@ typedef struct sli_set {
 
 static sli_set sli_set_of(const sl_symbolic *S, const sl_int *rows, sl_int count) {
     sli_set set;
-    memset(&set, 0, sizeof set);
+    SLI_CLEAR(set);
     set.rows = rows;
     set.count = rows == NULL ? S->n : count;
     return set;

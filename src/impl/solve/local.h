@@ -24,7 +24,7 @@ static void sli_local_layout_seeds(void *data, sli_block *b) {
 
 static void sli_local_sort(void *data) {
     sli_local *l = (sli_local *)data;
-    memset(&l->query, 0, sizeof l->query);
+    SLI_CLEAR(l->query);
     l->status = sli_set_sort(l->S, &l->b, l->stats);
     if (l->status == SL_OK) {
         l->status = sli_set_sort(l->S, &l->x, l->stats);
@@ -75,7 +75,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
-    memset(&l, 0, sizeof l);
+    SLI_CLEAR(l);
     l.S = F->S;
     l.b = sli_set_of(F->S, bset, nb);
     l.x = sli_set_of(F->S, xset, nx);

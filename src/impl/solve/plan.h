@@ -16,11 +16,11 @@ struct sl_plan {
 /* Makes the plan of two sorted sets. */
 static sl_status sli_plan_make(sl_plan **out, const sl_symbolic *S, const sli_ending *ending,
                                sli_set *b, sli_set *x, const sl_allocator *a) {
-    sli_block kept = {NULL, 0, 0};
+    sli_block kept = {NULL, 0};
     sl_plan *P = NULL;
     sli_query query;
     sl_status status = SL_OK;
-    memset(&query, 0, sizeof query);
+    SLI_CLEAR(query);
     sli_set_measure(S, b, &query.forward);
     sli_set_measure(S, x, &query.backward);
     SLI_LAYOUT(&kept, a, status) {
@@ -46,7 +46,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
                                 const sl_int *xset, sl_int nx, const sl_options *opt,
                                 sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
-    sli_block seeds = {NULL, 0, 0};
+    sli_block seeds = {NULL, 0};
     /* a region begins with its ending */
     const sli_ending *ending = opt == NULL ? NULL : (const sli_ending *)(const void *)opt->region;
     sli_set b, x;

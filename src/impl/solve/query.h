@@ -143,7 +143,7 @@ static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q,
  * overflows. Kernels of one and two right-hand sides keep partial sums that wider ones do not need,
  * so both ends are measured. */
 static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs, sl_int most) {
-    sli_block few = {NULL, 0, 0}, many = {NULL, 0, 0};
+    sli_block few = {NULL, 0}, many = {NULL, 0};
     sli_vectors v;
     sli_vectors_layout(&v, &few, q, sli_min(nrhs, 2));
     sli_vectors_layout(&v, &many, q, sli_block_size(nrhs, most));
@@ -152,7 +152,7 @@ static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs, sl_int most) {
 
 /* Cuts the vectors of a block from memory that is large enough. */
 static sli_vectors sli_vectors_of(const sli_query *q, sl_int nrhs, void *memory) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sli_vectors v;
     b.base = (unsigned char *)memory;
     sli_vectors_layout(&v, &b, q, nrhs);

@@ -191,7 +191,7 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
     const sl_symbolic *S = F->S;
     const sl_int nrhs = rhs->nrhs;
     sl_off entries = S->panel_begin[S->n_supers] / SLI_SOLVE_ENTRIES;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     sl_int workers;
     t->workers = 1;
     workers = sli_team_workers(threads);
@@ -355,7 +355,7 @@ static void sli_sweep_tasks_lead(sli_team *team, void *data) {
 /* Runs a planned solve in memory of t->total bytes; run_block solves t->share right-hand sides. */
 static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, void *memory,
                                 void (*run_block)(void *data, sl_int item, sl_int worker)) {
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0};
     t->memory = memory;
     t->run_block = run_block;
     t->has_failed = 0;

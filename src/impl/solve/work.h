@@ -56,10 +56,10 @@ typedef struct sli_stage {
 /* Runs the stages in order. If W has to grow for one, its contents are lost and all stages start
  * over, so none may write to the caller's arrays. */
 static sl_status sli_work_stages(sl_work *W, const sli_stage *stages, int count, void *q) {
-    sli_block b = {(unsigned char *)W->block, 0, 0};
+    sli_block b = {(unsigned char *)W->block, 0};
     int k = 0;
     while (k < count) {
-        sli_block trial = {NULL, b.used, 0};
+        sli_block trial = {NULL, b.used};
         stages[k].layout(q, &trial);
         if (trial.used > W->size) {
             const sl_status status = sli_work_grow(W, trial.used);
