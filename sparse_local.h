@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d981e4697057dd37
+ * FNV-1a of the lines after this comment, without the license: 82a28c631d75c267
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40,24 +40,24 @@
  *   5834 impl/ ordering: fill-reducing orderings of a graph
  *  10779 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12993 impl/ factor: the numbers of L and D
- *  16362 impl/ solve: full and local solves
- *  18026 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19957 impl/ pivots: the order of the pivots by the values of a matrix
- *  20365 impl/ float: L and fronts in single precision
- *  20816 impl/ inverse: entries of the inverse, regions
- *  23881 impl/ change: a factor that follows changes of its matrix
- *  29979 impl/ dirichlet: rows fixed at given values
- *  30570 impl/ dirichlet: by a factor of all rows
- *  30802 impl/ io: files that are replaced only when they are complete
- *  31020 impl/ files: Matrix Market files, 64-bit indices
- *  31640 impl/ save: factors in files
- *  33653 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34336 impl/ batch: diagonals of many inverses
- *  34476 impl/ complex: complex Hermitian systems over real factors
- *  35038 impl/ complex: entries of the inverse
- *  35098 impl/ packs: the tables through which the core calls packs
- *  35147 impl/ last: undefine every internal macro
- *  35509 impl/ templates: the header includes them from itself, once for each instruction set
+ *  16364 impl/ solve: full and local solves
+ *  18030 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19961 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20369 impl/ float: L and fronts in single precision
+ *  20820 impl/ inverse: entries of the inverse, regions
+ *  23885 impl/ change: a factor that follows changes of its matrix
+ *  29983 impl/ dirichlet: rows fixed at given values
+ *  30574 impl/ dirichlet: by a factor of all rows
+ *  30806 impl/ io: files that are replaced only when they are complete
+ *  31024 impl/ files: Matrix Market files, 64-bit indices
+ *  31644 impl/ save: factors in files
+ *  33657 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34340 impl/ batch: diagonals of many inverses
+ *  34480 impl/ complex: complex Hermitian systems over real factors
+ *  35042 impl/ complex: entries of the inverse
+ *  35102 impl/ packs: the tables through which the core calls packs
+ *  35151 impl/ last: undefine every internal macro
+ *  35513 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3259,7 +3259,7 @@ SLI_INLINE void sli_borrow(const sli_atomic *borrowers) {
 }
 
 SLI_INLINE int sli_is_last(sli_atomic *borrowers) {
-  return sli_atomic_add(borrowers, -1) == 0;
+  return sli_atomic_read(borrowers) == 0 || sli_atomic_add(borrowers, -1) == 0;
 }
 
 #define SLI_CLEAR(object) memset(&(object), 0, sizeof(object))
@@ -8013,7 +8013,7 @@ SLI_ALWAYS_INLINE int sli_small_fill(sli_small *m, const sli_order_job *job, siz
     const sl_int degree = sli_small_count(row, words);
     const sl_int has_diagonal = (sl_int)(row[v / 64] >> (v % 64) & 1);
     if (!has_diagonal && degree >= 8 &&
-        degree * degree >= m->n) { /* branches untested: n is 9 .. 64 in a copy */
+        degree * degree >= m->n) { /* branches untested: n is 3 .. 64 in a copy */
       return 0;
     }
     row[v / 64] |= (uint64_t)1 << (v % 64);
@@ -8021,7 +8021,7 @@ SLI_ALWAYS_INLINE int sli_small_fill(sli_small *m, const sli_order_job *job, siz
     few += degree - has_diagonal <= 2;
     edges += degree - has_diagonal;
   }
-  if ((m->n > 64 && few > m->n / 2) || /* branches untested: n is 9 .. 64, or more, in copies */
+  if ((m->n > 64 && few > m->n / 2) || /* branches untested: n is 3 .. 64, or more, in copies */
       (job->is_hurried && edges < 2 * m->n)) {
     return 0;
   }
@@ -8132,7 +8132,7 @@ static int sli_order_small(const sli_order_job *job) {
   m.floor = job->is_hurried ? 1 : SLI_SMALL_DEGREE;
   m.rows = job->bits;
 #if defined(SLI_X86) && defined(SLI_GNU)
-  if (m.n > 8 && sli_cpu_best() != SL_ISA_SCALAR) { /* untested: without AVX2 */
+  if (m.n > 2 && sli_cpu_best() != SL_ISA_SCALAR) { /* untested: without AVX2 */
     return sli_small_run_avx2(&m, job);
   }
 #endif
@@ -14165,7 +14165,8 @@ SLI_INLINE int sli_signs_agree(double a, double b) {
 }
 
 static double sli_null_rounding(sl_int n, double epsilon) {
-  return fmin(16.0 * (64.0 + n / 8) * epsilon, SLI_NULL_MOST);
+  const double rounding = 16.0 * (64.0 + n / 8) * epsilon;
+  return rounding < SLI_NULL_MOST ? rounding : SLI_NULL_MOST;
 }
 
 SLI_COLD static void sli_null_finite_check(const sl_factor *F, const sli_source *from,
@@ -15734,7 +15735,8 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
 }
 
 static int sli_updates_exceed(const sl_symbolic *S) {
-  const sl_off most = (sl_off)fmax(8.0 * (double)S->panel_begin[S->n_supers], 1e6);
+  const double room = 8.0 * (double)S->panel_begin[S->n_supers];
+  const sl_off most = room > 1e6 ? (sl_off)room : 1000000;
   sl_off sum = 0;
   sl_int s, c;
   for (s = 0; s < S->n_supers && sum <= most; s++) {
@@ -16579,7 +16581,9 @@ static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs, sl_int most) {
   sli_block few = {NULL, 0}, many = {NULL, 0};
   sli_vectors v;
   sli_vectors_layout(&v, &few, q, sli_min(nrhs, 2));
-  sli_vectors_layout(&v, &many, q, sli_block_size(nrhs, most));
+  if (nrhs > 2) {
+    sli_vectors_layout(&v, &many, q, sli_block_size(nrhs, most));
+  }
   return few.used > many.used ? few.used : many.used;
 }
 

@@ -107,7 +107,8 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
 
 /* Do more than 8 MB of update matrices wait for one parent, and 8 times as much as L has? */
 static int sli_updates_exceed(const sl_symbolic *S) {
-    const sl_off most = (sl_off)fmax(8.0 * (double)S->panel_begin[S->n_supers], 1e6);
+    const double room = 8.0 * (double)S->panel_begin[S->n_supers];
+    const sl_off most = room > 1e6 ? (sl_off)room : 1000000; /* fmax is a call */
     sl_off sum = 0;
     sl_int s, c;
     for (s = 0; s < S->n_supers && sum <= most; s++) {

@@ -64,7 +64,7 @@ SLI_ALWAYS_INLINE int sli_small_fill(sli_small *m, const sli_order_job *job, siz
         const sl_int degree = sli_small_count(row, words);
         const sl_int has_diagonal = (sl_int)(row[v / 64] >> (v % 64) & 1);
         if (!has_diagonal && degree >= 8 &&
-            degree * degree >= m->n) { /* branches untested: n is 9 .. 64 in a copy */
+            degree * degree >= m->n) { /* branches untested: n is 3 .. 64 in a copy */
             return 0;
         }
         row[v / 64] |= (uint64_t)1 << (v % 64);
@@ -72,7 +72,7 @@ SLI_ALWAYS_INLINE int sli_small_fill(sli_small *m, const sli_order_job *job, siz
         few += degree - has_diagonal <= 2;
         edges += degree - has_diagonal;
     }
-    if ((m->n > 64 && few > m->n / 2) || /* branches untested: n is 9 .. 64, or more, in copies */
+    if ((m->n > 64 && few > m->n / 2) || /* branches untested: n is 3 .. 64, or more, in copies */
         (job->is_hurried && edges < 2 * m->n)) {
         return 0;
     }
@@ -189,7 +189,7 @@ static int sli_order_small(const sli_order_job *job) {
     m.floor = job->is_hurried ? 1 : SLI_SMALL_DEGREE;
     m.rows = job->bits;
 #if defined(SLI_X86) && defined(SLI_GNU)
-    if (m.n > 8 && sli_cpu_best() != SL_ISA_SCALAR) { /* untested: without AVX2 */
+    if (m.n > 2 && sli_cpu_best() != SL_ISA_SCALAR) { /* untested: without AVX2 */
         return sli_small_run_avx2(&m, job);
     }
 #endif

@@ -146,7 +146,9 @@ static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs, sl_int most) {
     sli_block few = {NULL, 0}, many = {NULL, 0};
     sli_vectors v;
     sli_vectors_layout(&v, &few, q, sli_min(nrhs, 2));
-    sli_vectors_layout(&v, &many, q, sli_block_size(nrhs, most));
+    if (nrhs > 2) {
+        sli_vectors_layout(&v, &many, q, sli_block_size(nrhs, most));
+    }
     return few.used > many.used ? few.used : many.used;
 }
 
