@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 82a28c631d75c267
+ * FNV-1a of the lines after this comment, without the license: bb3edc658569e111
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,29 +35,29 @@
  *   2894 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   2971 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3014 impl/ base: the compiler, status, memory, sorting, threads
- *   4286 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5204 impl/ matrix: sparse matrices of the caller and of the library
- *   5834 impl/ ordering: fill-reducing orderings of a graph
- *  10779 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12993 impl/ factor: the numbers of L and D
- *  16364 impl/ solve: full and local solves
- *  18030 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19961 impl/ pivots: the order of the pivots by the values of a matrix
- *  20369 impl/ float: L and fronts in single precision
- *  20820 impl/ inverse: entries of the inverse, regions
- *  23885 impl/ change: a factor that follows changes of its matrix
- *  29983 impl/ dirichlet: rows fixed at given values
- *  30574 impl/ dirichlet: by a factor of all rows
- *  30806 impl/ io: files that are replaced only when they are complete
- *  31024 impl/ files: Matrix Market files, 64-bit indices
- *  31644 impl/ save: factors in files
- *  33657 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34340 impl/ batch: diagonals of many inverses
- *  34480 impl/ complex: complex Hermitian systems over real factors
- *  35042 impl/ complex: entries of the inverse
- *  35102 impl/ packs: the tables through which the core calls packs
- *  35151 impl/ last: undefine every internal macro
- *  35513 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4288 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5206 impl/ matrix: sparse matrices of the caller and of the library
+ *   5836 impl/ ordering: fill-reducing orderings of a graph
+ *  10781 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12982 impl/ factor: the numbers of L and D
+ *  16357 impl/ solve: full and local solves
+ *  18023 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19954 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20362 impl/ float: L and fronts in single precision
+ *  20813 impl/ inverse: entries of the inverse, regions
+ *  23878 impl/ change: a factor that follows changes of its matrix
+ *  29971 impl/ dirichlet: rows fixed at given values
+ *  30562 impl/ dirichlet: by a factor of all rows
+ *  30794 impl/ io: files that are replaced only when they are complete
+ *  31012 impl/ files: Matrix Market files, 64-bit indices
+ *  31632 impl/ save: factors in files
+ *  33645 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34328 impl/ batch: diagonals of many inverses
+ *  34468 impl/ complex: complex Hermitian systems over real factors
+ *  35030 impl/ complex: entries of the inverse
+ *  35090 impl/ packs: the tables through which the core calls packs
+ *  35139 impl/ last: undefine every internal macro
+ *  35503 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3263,6 +3263,8 @@ SLI_INLINE int sli_is_last(sli_atomic *borrowers) {
 }
 
 #define SLI_CLEAR(object) memset(&(object), 0, sizeof(object))
+#define SLI_ZERO(to, count) memset(to, 0, (size_t)(count) * sizeof *(to))
+#define SLI_COPY(to, from, count) memcpy(to, from, (size_t)(count) * sizeof *(to))
 
 SLI_NOINLINE static void sli_clear(void *to, size_t bytes) {
   memset(to, 0, bytes);
@@ -4027,7 +4029,7 @@ static void sli_sort(uint64_t *a, sl_int count, uint64_t *scratch) {
     for (i = 0; i < count; i++) {
       scratch[start[(a[i] >> shift) & 255]++] = a[i];
     }
-    memcpy(a, scratch, (size_t)count * sizeof *a);
+    SLI_COPY(a, scratch, count);
   }
 }
 
@@ -4307,7 +4309,7 @@ SLI_INLINE sl_off sli_panel_start(sl_int w, sl_off end) {
 SLI_INLINE void sli_column_pad(const double *panel, sl_int u, double *to) {
   const sl_int rows = SLI_TILE * sli_tiles(1 + u);
   sl_int r;
-  memcpy(to, panel, (size_t)(1 + u) * sizeof(double));
+  SLI_COPY(to, panel, 1 + u);
   for (r = 1 + u; r < rows; r++) {
     to[r] = 0.0;
   }
@@ -5362,7 +5364,7 @@ SL_API sl_csc sl_matrix_view(const sl_matrix *M) {
 
 static void sli_count_starts(sl_int *start, sl_int n, const sl_int *keys, sl_int count) {
   sl_int k, total = 0;
-  memset(start, 0, ((size_t)n + 1) * sizeof(sl_int));
+  SLI_ZERO(start, (size_t)n + 1);
   for (k = 0; k < count; k++) {
     start[keys[k]]++;
   }
@@ -5423,7 +5425,7 @@ static sl_status sli_from_triplets(sl_matrix **out, const sli_triplet_list *t,
     order[start[i[k]]++] = k;
   }
   sli_count_starts(start, n_cols, j, count);
-  memcpy(M->p, start, ((size_t)n_cols + 1) * sizeof(sl_int));
+  SLI_COPY(M->p, start, (size_t)n_cols + 1);
   for (k = 0; k < count; k++) {
     const sl_int from = order[k], to = start[j[from]]++;
     M->i[to] = i[from];
@@ -5511,7 +5513,7 @@ SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_
 static sl_status sli_csc_check_symmetry(const sl_csc *A, const sl_csc *T, sl_int *mark,
     sl_stats *stats) {
   sl_int j, p;
-  memset(mark, 0, (size_t)A->n_cols * sizeof(sl_int));
+  SLI_ZERO(mark, A->n_cols);
   for (j = 0; j < A->n_cols; j++) {
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
       mark[A->i[p]] = j + 1;
@@ -5626,7 +5628,7 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
   }
   triangle = reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE;
   for (r = 0; r < nrhs; r++) {
-    memset(Y + (size_t)r * ldy, 0, (size_t)A->n_rows * sizeof(double));
+    SLI_ZERO(Y + (size_t)r * ldy, A->n_rows);
     sli_add_product(A, triangle, 1.0, Y + (size_t)r * ldy, X + (size_t)r * ldx);
   }
   return SL_OK;
@@ -5644,7 +5646,7 @@ static double sli_largest(const double *x, sl_int n) {
 
 static double sli_csc_norm(const sl_csc *A, sl_triangle triangle, double *sums) {
   sl_int j, p;
-  memset(sums, 0, (size_t)A->n_cols * sizeof(double));
+  SLI_ZERO(sums, A->n_cols);
   for (j = 0; j < A->n_cols; j++) {
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
       if (sli_is_read(triangle, A->i[p], j)) {
@@ -5770,7 +5772,7 @@ SLI_HOT static sl_status sli_submatrix_make(sl_matrix **out, sl_int **from, cons
   sl_matrix *M = NULL;
   sl_status status;
   sl_int k;
-  memset(position, 0, ((size_t)s->count + 1) * sizeof(sl_int));
+  SLI_ZERO(position, (size_t)s->count + 1);
   sli_submatrix_visit(s, position, NULL, NULL);
   for (k = 0; k < s->count; k++) {
     position[k + 1] += position[k];
@@ -5781,7 +5783,7 @@ SLI_HOT static sl_status sli_submatrix_make(sl_matrix **out, sl_int **from, cons
     status = *from == NULL ? sli_no_memory() : SL_OK;
   }
   if (status == SL_OK) {
-    memcpy(M->p, position, ((size_t)s->count + 1) * sizeof(sl_int));
+    SLI_COPY(M->p, position, (size_t)s->count + 1);
     sli_submatrix_visit(s, position, M, from == NULL ? NULL : *from);
     *out = M;
   } else {
@@ -5850,7 +5852,7 @@ SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, const sl_int *colu
     sl_triangle triangle, sl_int block) {
   const sl_int nnz = sli_nnz(A);
   sl_int p;
-  memset(G->begin, 0, ((size_t)G->n + 1) * sizeof(sl_off));
+  SLI_ZERO(G->begin, G->n + 1);
   for (p = 0; p < nnz; p++) {
     const sl_int j = column[p], at = block == 1 ? j : j / block;
     const sl_int u = block == 1 ? A->i[p] : A->i[p] / block;
@@ -5886,7 +5888,7 @@ SLI_INLINE int sli_graph_is_sorted(const sli_graph *G) {
 SLI_INLINE void sli_graph_sort(const sli_graph *G, sl_int *to, sl_off *at) {
   sl_int v;
   sl_off e;
-  memcpy(at, G->begin, (size_t)G->n * sizeof(sl_off));
+  SLI_COPY(at, G->begin, G->n);
   for (v = 0; v < G->n; v++) {
     for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
       to[at[G->to[e]]++] = v;
@@ -5926,7 +5928,7 @@ static sl_status sli_graph_make_canonical(sli_graph *G, const sl_allocator *a) {
   }
   if (status == SL_OK) {
     sli_graph_sort(G, to, at);
-    memcpy(G->to, to, (size_t)edges * sizeof(sl_int));
+    SLI_COPY(G->to, to, edges);
     sli_graph_deduplicate(G);
     sli_free(a, b.base);
   }
@@ -6311,8 +6313,8 @@ static void sli_peel_run(sli_peel *p, const sli_graph *G, int for_little_fill) {
   if (p->count == n) {
     return;
   }
-  memcpy(p->rest.begin, G->begin, ((size_t)n + 1) * sizeof(sl_off));
-  memcpy(p->rest.to, G->to, (size_t)G->begin[n] * sizeof(sl_int));
+  SLI_COPY(p->rest.begin, G->begin, n + 1);
+  SLI_COPY(p->rest.to, G->to, G->begin[n]);
   sli_peel_list_rows(p, n, 1);
   while (!for_little_fill && p->n_later > n / SLI_PEEL_ENDS && p->round < SLI_PEEL_LEAVES) {
     sli_peel_round(p);
@@ -6354,7 +6356,7 @@ static void sli_peel_expand(const sli_peel *p, sl_int *perm) {
   for (k = p->rest.n - 1; k >= 0; k--) {
     perm[p->count + k] = p->sequence[p->count + perm[k]];
   }
-  memcpy(perm, p->sequence, (size_t)p->count * sizeof(sl_int));
+  SLI_COPY(perm, p->sequence, p->count);
 }
 
 /* src/impl/ordering/contract.h: contraction of a graph, in loops that workers share */
@@ -6743,7 +6745,7 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
       sli_cluster_grow(g, v, sli_level_is_hub(g, v) ? 0 : heaviest, 0, count++, clusters);
     }
   }
-  memset(clusters->start, 0, ((size_t)count + 1) * sizeof(sl_int));
+  SLI_ZERO(clusters->start, count + 1);
   for (v = 0; v < g->n; v++) {
     clusters->start[g->coarse[v]]++;
   }
@@ -6868,7 +6870,7 @@ SLI_INLINE sl_int sli_label_tree_first(const sli_label_tree *t) {
 static void sli_label_tree_renumber(sl_int *a, const sl_int *number, sl_int count, int values,
     sl_int *scratch) {
   sl_int k;
-  memcpy(scratch, a, (size_t)count * sizeof(sl_int));
+  SLI_COPY(scratch, a, count);
   for (k = 0; k < count; k++) {
     a[number[k]] = values && scratch[k] != -1 ? number[scratch[k]] : scratch[k];
   }
@@ -7961,7 +7963,7 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
   for (k = 0; k < count; k++) {
     order[k] = vertices[order[k]];
   }
-  memcpy(vertices, order, (size_t)count * sizeof(sl_int));
+  SLI_COPY(vertices, order, count);
 }
 
 /* src/impl/ordering/small.h: minimum degree order of a small matrix from its pattern as bits, without a graph */
@@ -8230,7 +8232,7 @@ static void sli_dissect_distribute(void *data, const sli_range *r) {
   const sli_dissection *d = (const sli_dissection *)data;
   sl_int v, *at = sli_dissect_by_label(d, r->item);
   if (!d->is_counted) {
-    memset(at, 0, (size_t)d->n_labels * sizeof(sl_int));
+    SLI_ZERO(at, d->n_labels);
   }
   for (v = r->first; v < r->last; v++) {
     const sl_int to = at[d->label[v]]++;
@@ -8255,7 +8257,7 @@ static void sli_dissect_start(sli_dissection *d) {
   d->tree.count = 0;
   d->tree.root = sli_label_tree_add(&d->tree, -1);
   d->tree.weight[d->tree.root] = d->total;
-  memset(d->label, 0, (size_t)n * sizeof(sl_int));
+  SLI_ZERO(d->label, n);
   sli_label_tree_number(&d->tree, n, d->label);
 }
 
@@ -8454,7 +8456,7 @@ static void sli_weigh_edges(sli_dissection *d) {
   const sli_level *g = &d->levels[d->n_levels - 1];
   sl_int *to = d->workers->subgraph.to, *count = d->workers->subgraph.edge, k;
   sl_off e, *at = d->ranges.scratch;
-  memcpy(at, g->begin, (size_t)g->n * sizeof(sl_off));
+  SLI_COPY(at, g->begin, g->n);
   for (k = 0; k < g->n; k++) {
     for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
       const sl_off there = at[g->to[e]]++;
@@ -8633,7 +8635,7 @@ static void sli_tree_cost_count(void *data, const sli_range *r) {
   const sli_level *g = &d->levels[d->level];
   sl_int v, *border = sli_dissect_by_label(d, r->item);
   sl_off e;
-  memset(border, 0, (size_t)d->tree.count * sizeof(sl_int));
+  SLI_ZERO(border, d->tree.count);
   for (v = r->first; v < r->last; v++) {
     const sl_int own = d->label[v];
     sl_int last = -1;
@@ -8708,7 +8710,7 @@ static void sli_levelset_bisect(sli_subgraph *sub, int is_first) {
   n_sets = sli_levelset_search(sub, sli_subgraph_farthest(sub, end, order, sub->locked), order,
       distance);
   (void)is_first;
-  memset(size, 0, (size_t)n_sets * sizeof(sl_int));
+  SLI_ZERO(size, n_sets);
   for (k = 0; k < n; k++) {
     size[distance[k]]++;
   }
@@ -8815,7 +8817,7 @@ static sl_int sli_thin_level(sli_thin *t, sl_int level, sl_int first, sl_int las
       t->queue[at++] = v;
     }
   }
-  memcpy(t->queue + at, t->spare, (size_t)ahead * sizeof(sl_int));
+  SLI_COPY(t->queue + at, t->spare, ahead);
   t->ahead[level] = ahead;
   t->begin[level] = first;
   return tail;
@@ -9639,7 +9641,7 @@ static sli_levels sli_levels_of(const sli_order_job *job) {
   l.queue = job->perm;
   l.seen = job->scratch;
   l.entries = 0;
-  memset(l.seen, 0, (size_t)l.G->n * sizeof(sl_int));
+  SLI_ZERO(l.seen, l.G->n);
   return l;
 }
 
@@ -10082,7 +10084,7 @@ static void sli_quotient_cost(const sli_quotient *q, sl_int *below, sli_order_co
   cost->widest = q->widest;
   cost->entries = cost->paths = cost->fronts = cost->lists = 0.0;
   cost->pivots = q->pivots;
-  memset(below, 0, (size_t)q->n * sizeof(sl_int));
+  SLI_ZERO(below, q->n);
   for (k = 0; k < q->pivots; k++) {
     const sl_int v = q->sequence[k], width = q->weight[v];
     const double height = 2.0 * q->node[v].degree + width;
@@ -10409,7 +10411,7 @@ static void sli_cuts_fill(sli_cuts *c, const sli_graph *G) {
       child[c->node_of[k]] = s;
     }
   }
-  memset(c->mark, 0, (size_t)c->n * sizeof(sl_int));
+  SLI_ZERO(c->mark, c->n);
 }
 
 static void sli_cuts_renew(sli_cuts *c, sl_int s) {
@@ -10447,7 +10449,7 @@ static void sli_cuts_push(sli_cuts *c, sl_int first, sl_int end) {
   for (k = 0; k < trees; k++) {
     part[k] = k == 0 ? first : last[k - 1];
   }
-  memcpy(c->order + first, c->spare + first, (size_t)(end - first) * sizeof(sl_int));
+  SLI_COPY(c->order + first, c->spare + first, end - first);
   c->parts += trees;
 }
 
@@ -10564,7 +10566,7 @@ static sl_status sli_order_given(const sli_order_job *job) {
         "options.perm has a row out of range or twice at this position");
   }
   if (n > 0) {
-    memcpy(job->perm, given, (size_t)n * sizeof(sl_int));
+    SLI_COPY(job->perm, given, n);
   }
   return SL_OK;
 }
@@ -11045,7 +11047,7 @@ static void sli_tree_sequence(const sli_tree_job *job, sl_int *sequence, uint64_
   const sl_int n = job->n;
   sl_int *rows = job->list, *parent = job->parent;
   sl_int *at = job->scratch, *ancestor = job->scratch + n, *weight = ancestor, j, k, p = 0;
-  memset(at, 0, (size_t)n * sizeof(sl_int));
+  SLI_ZERO(at, n);
   for (k = 0; k < columns->begin[n]; k++) {
     at[columns->entry[SLI_ENTRY * (size_t)k]]++;
   }
@@ -11059,7 +11061,7 @@ static void sli_tree_sequence(const sli_tree_job *job, sl_int *sequence, uint64_
     }
   }
   sli_tree_of_rows(n, at, rows, parent, ancestor);
-  memset(weight, 0, (size_t)n * sizeof(sl_int));
+  SLI_ZERO(weight, n);
   for (k = 0; k < n; k++) {
     weight[k] += columns->begin[k + 1] - columns->begin[k];
     keys[k] = sli_keyed(weight[k], k);
@@ -11081,13 +11083,13 @@ static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *n
     fresh[k] = old_of[order[k]];
     number[order[k]] = k;
   }
-  memcpy(old_of, fresh, (size_t)n * sizeof(sl_int));
+  SLI_COPY(old_of, fresh, n);
   for (k = 0; k < n; k++) {
     const sl_int old = parent[order[k]];
     new_of[old_of[k]] = k;
     fresh[k] = old == -1 ? -1 : number[old];
   }
-  memcpy(parent, fresh, (size_t)n * sizeof(sl_int));
+  SLI_COPY(parent, fresh, n);
 }
 
 /* src/impl/analysis/supernodes.h: fundamental supernodes, and relaxed amalgamation over the whole assembly tree */
@@ -11325,7 +11327,7 @@ static const sl_int *sli_sort_siblings(const sli_amalgamation *g, const sl_int *
   if (count <= SLI_SORTED_CHILDREN) {
     return NULL;
   }
-  memset(children, 0, (size_t)count * sizeof(sl_int));
+  SLI_ZERO(children, count);
   memset(begin, 0, sizeof begin);
   for (s = 0; s < count; s++) {
     if (tree[s] != -1 && g->width[top[s]] == 1) {
@@ -11507,7 +11509,7 @@ static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
   sl_int p = (sl_int)((int64_t)sli_nnz(w->A) * r / ranges);
   sl_int *column = w->column, *moved = w->moved;
   if (!is_counted) {
-    memset(at, 0, ((size_t)w->n + 1) * sizeof(sl_int));
+    SLI_ZERO(at, w->n + 1);
   }
   for (; p < end && !is_counted; p++) {
     const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_min(a, b);
@@ -11580,7 +11582,7 @@ static void sli_structure_sort(const sli_analysis *w, sl_int *to, sl_int *at) {
   const sl_int *begin = w->columns.entry, *new_of = w->new_of, *entry;
   const sl_int *end = begin + SLI_ENTRY * (size_t)w->columns.begin[w->n];
   sl_int k, total = 0;
-  memset(at, 0, (size_t)w->n * sizeof(sl_int));
+  SLI_ZERO(at, w->n);
   for (entry = begin; entry < end; entry += SLI_ENTRY) {
     at[entry[0]]++;
   }
@@ -12033,7 +12035,7 @@ SLI_INLINE double sli_schedule_flops(const sl_symbolic *S) {
 static double sli_schedule_gain(const sl_symbolic *S, const sli_schedule_work *w, sl_int workers) {
   double total = 0.0, longest = 0.0;
   sl_int s;
-  memset(w->path, 0, (size_t)S->n_supers * sizeof(double));
+  SLI_ZERO(w->path, S->n_supers);
   for (s = 0; s < S->n_supers; s++) {
     const sl_int up = S->super_parent[s];
     total += w->flops[s];
@@ -12097,19 +12099,6 @@ static void sli_schedule_layout(sli_schedule *p, sli_block *b, sl_int count) {
   p->top = SLI_CUT(b, sl_int, p->workers == 1 ? 0 : count);
   p->stack_begin = SLI_CUT(b, sl_off, count);
   p->is_plain = SLI_CUT(b, unsigned char, count);
-}
-
-static void sli_schedule_move(sli_schedule *p, const sli_schedule *plan, size_t bytes) {
-  memcpy(p->first, plan->first, bytes);
-  p->workers = plan->workers;
-  p->n_tasks = plan->n_tasks;
-  p->n_tops = plan->n_tops;
-  p->n_bundles = plan->n_bundles;
-  p->tops = plan->tops;
-  p->ready = plan->ready;
-  p->steps = plan->steps;
-  p->own = plan->own;
-  p->stack = plan->stack;
 }
 
 static void sli_schedule_layout_tops(sli_schedule *p, const sl_symbolic *S, sli_block *b) {
@@ -12224,7 +12213,7 @@ static void sli_analysis_reorder(sli_analysis *w, const sl_int *order) {
   for (k = 0; k < w->n; k++) {
     w->scratch[k] = w->counts[order[k]];
   }
-  memcpy(w->counts, w->scratch, (size_t)w->n * sizeof(sl_int));
+  SLI_COPY(w->counts, w->scratch, w->n);
   sli_relabel(order, w->n, w->old_of, w->new_of, w->parent, w->scratch);
 }
 
@@ -12381,8 +12370,8 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) 
   sli_copy(S->parent, w->parent, bytes);
   memcpy(S->counts, w->counts, bytes);
   memcpy(S->super_of, w->super_of, bytes);
-  memcpy(S->super_first, w->amalgamation.first, ((size_t)S->n_supers + 1) * sizeof(sl_int));
-  memcpy(S->super_parent, w->amalgamation.parent, (size_t)S->n_supers * sizeof(sl_int));
+  SLI_COPY(S->super_first, w->amalgamation.first, S->n_supers + 1);
+  SLI_COPY(S->super_parent, w->amalgamation.parent, S->n_supers);
   S->rows_begin[0] = 0;
   for (s = 0; s < S->n_supers; s++) {
     S->rows_begin[s + 1] = S->rows_begin[s] + w->amalgamation.below[s];
@@ -13311,7 +13300,7 @@ SLI_INLINE uint64_t sli_mark_entry(double a, sl_off place) {
 
 static void sli_source_sum(const sli_source *from, sl_off first, sl_int count, double *sums) {
   sl_int k, t;
-  memset(sums, 0, (size_t)count * sizeof(double));
+  SLI_ZERO(sums, count);
   for (t = 0; t < from->terms; t++) {
     const double c = from->coefficients[t], *v = from->values[t] + first;
     for (k = 0; k < count; k++) {
@@ -13751,7 +13740,7 @@ static double sli_null_project(const double *q, sl_int vectors, sl_int count, do
 static void sli_null_complement(const double *q, sl_int vectors, sl_int count, double *c) {
   double all[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX], x[SLI_NULL_VECTORS_MAX];
   sl_int v, i, j;
-  memcpy(all, q, (size_t)(vectors * count) * sizeof(double));
+  SLI_COPY(all, q, (size_t)(vectors * count));
   for (v = vectors; v < count; v++) {
     double most = -1.0;
     for (i = 0; i < count; i++) {
@@ -13767,7 +13756,7 @@ static void sli_null_complement(const double *q, sl_int vectors, sl_int count, d
       }
     }
   }
-  memcpy(c, all + vectors * count, (size_t)((count - vectors) * count) * sizeof(double));
+  SLI_COPY(c, all + vectors * count, (size_t)((count - vectors) * count));
 }
 
 static void sli_null_invert(double *a, sl_int m) {
@@ -13799,7 +13788,7 @@ static void sli_null_invert(double *a, sl_int m) {
       }
     }
   }
-  memcpy(a, b, (size_t)(m * m) * sizeof(double));
+  SLI_COPY(a, b, (size_t)(m * m));
 }
 
 /* src/impl/factor/null_basis.h: several null vectors in each component: which of them hold, and their anchors */
@@ -14092,7 +14081,7 @@ static sl_status sli_null_bases(sl_factor *F, const sli_source *from, int by_col
     sli_failure *failure) {
   const sl_symbolic *S = F->S;
   sl_int anchors[SLI_NULL_VECTORS_MAX], k, j, rank, used = 0;
-  memcpy(F->null.g, F->null.z, (size_t)S->n * (size_t)F->null.vectors * sizeof(double));
+  SLI_COPY(F->null.g, F->null.z, (size_t)S->n * (size_t)F->null.vectors);
   sli_null_chain(F);
   sli_null_bases_test(F, from, by_columns);
   for (k = 0; k < S->n; k++) {
@@ -14204,7 +14193,7 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
   F->stats.factor.regular = 0;
   sli_null_components(&w, S, z, F->null.last, F->null.rounding);
   if (!is_one && sli_null_bases(F, from, by_columns, failure) != SL_OK) {
-    memset(F->D, 0, (size_t)S->n * sizeof(double));
+    SLI_ZERO(F->D, S->n);
     return failure->status;
   }
   for (i = 0; i < S->n; i++) {
@@ -14217,7 +14206,7 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
     F->null.rounding[last] = here > F->null.rounding[last] ? here : F->null.rounding[last];
   }
   if (refused < S->n) {
-    memset(F->D, 0, (size_t)S->n * sizeof(double));
+    SLI_ZERO(F->D, S->n);
     return sli_fail(failure, SL_ERR_PIVOT, S->super_of[refused], refused, -1,
         diagonal[sli_null_walk_row(&w, refused)]);
   }
@@ -14501,7 +14490,7 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
     double *panel = row.L + S->steps[s].panel, *diagonal, pivot;
     if (q == 0) {
       const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
-      memset(panel, 0, (size_t)size * sizeof(double));
+      SLI_ZERO(panel, size);
       status = sli_double_panel_load(F, from, s, panel, failure);
       if (status != SL_OK) {
         break;
@@ -14995,7 +14984,7 @@ SLI_COLD static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
   double *used = F->divisors;
   sl_int k, m = 0;
   F->null.n_anchors = 0;
-  memset(used, 0, (size_t)S->n * sizeof(double));
+  SLI_ZERO(used, S->n);
   for (k = 0; k < S->n; k++) {
     if (F->null.last[k] != k || (S->parent[k] == -1 && (k == 0 || S->parent[k - 1] == -1))) {
       used[k] = used[F->null.last[k]] = 1.0;
@@ -15022,7 +15011,7 @@ SLI_COLD static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
 
 static void sli_anchor_weights(const sl_factor *F, double *weights) {
   sl_int m, k = 0, first;
-  memset(weights, 0, (size_t)F->S->n * sizeof(double));
+  SLI_ZERO(weights, F->S->n);
   for (m = 0; m < F->null.n_anchors; m++) {
     const sl_int last = F->null.last[F->null.anchors[m]];
     int any = 0;
@@ -15085,7 +15074,7 @@ static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
   }
   status = sli_anchors_find(F, failure);
   sli_anchor_weights(F, F->divisors);
-  memcpy(F->null.center, F->divisors, (size_t)S->n * sizeof(double));
+  SLI_COPY(F->null.center, F->divisors, S->n);
   sli_forward_sweep(F, SLI_NRHS_1, &all, F->null.center, F->null.sweep);
   for (k = 0; k < S->n && status == SL_OK; k++) {
     total += fabs(F->divisors[k]);
@@ -15096,7 +15085,7 @@ static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
       first = k + 1;
     }
   }
-  memcpy(F->divisors, F->D, (size_t)S->n * sizeof(double));
+  SLI_COPY(F->divisors, F->D, S->n);
   for (m = 0; m < F->null.n_anchors; m++) {
     F->divisors[F->null.anchors[m]] = 1.0;
   }
@@ -15118,7 +15107,7 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
   if (first == -1) {
     return SL_OK;
   }
-  memset(z, 0, (size_t)S->n * sizeof(double));
+  SLI_ZERO(z, S->n);
   for (m = 0; m < F->null.count; m++) {
     k = F->null.pivots[m];
     if (F->rule.kinds[k] == SLI_PIVOT_UNKNOWN) {
@@ -15590,7 +15579,7 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
 static sl_status sli_factor_prepare(sl_factor *F) {
   const sl_symbolic *S = F->S;
   const int has_fronts = F->method == SL_METHOD_SUPERNODAL;
-  sli_schedule plan = F->schedule;
+  sli_schedule plan = F->schedule, p = plan;
   sli_block b = {NULL, 0}, t = {NULL, 0};
   sli_schedule_work w;
   uint64_t small[512];
@@ -15620,7 +15609,9 @@ static sl_status sli_factor_prepare(sl_factor *F) {
       F->work.stack =
         sli_take(&b, (uint64_t)(plan.stack >> F->type->half), F->type->front_bytes);
       sli_schedule_layout_tops(&plan, S, &b);
-      sli_schedule_layout(&F->schedule, &b, S->n_supers);
+      p = plan;
+      p.workers = F->schedule.workers;
+      sli_schedule_layout(&p, &b, S->n_supers);
     }
   }
   sli_populate(&F->allocator, &b);
@@ -15632,8 +15623,10 @@ static sl_status sli_factor_prepare(sl_factor *F) {
     }
     F->null.has_duplicates = F->null.mode == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(S);
     if (has_fronts) {
-      sli_schedule_fill_tops(&plan, S);
-      sli_schedule_move(&F->schedule, &plan, planned);
+      memcpy(p.first, plan.first, planned);
+      p.workers = plan.workers;
+      sli_schedule_fill_tops(&p, S);
+      F->schedule = p;
     }
   } else {
     F->history.marks = NULL;
@@ -15852,7 +15845,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     sli_clear(F->extents, (size_t)S->n_supers * sizeof *F->extents);
     sli_factor_clear_gaps(F);
     if (F->E != NULL) {
-      memset(F->E, 0, (size_t)S->n * sizeof(double));
+      SLI_ZERO(F->E, S->n);
     }
     status = sli_factor_prepare(F);
     status = status == SL_OK ? sli_factor_rules_fill(F, opt, stats) : status;
@@ -15928,7 +15921,7 @@ static sl_status sli_symmetry_check(const sl_symbolic *S, const sl_csc *A, const
   if (status != SL_OK) {
     return status;
   }
-  memset(difference, 0, (size_t)S->n * sizeof(double));
+  SLI_ZERO(difference, S->n);
   for (j = 0; j < S->n; j++) {
     const double x = sli_symmetry_weight(j);
     double sum = 0.0, size = 0.0;
@@ -16731,7 +16724,7 @@ static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sl
   const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs);
   const sl_int *index = q->b_index, count = q->nb;
   if (q->b_repeats || q->nb < q->forward.columns || nrhs < lanes) {
-    memset(y, 0, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
+    SLI_ZERO(y, (size_t)q->forward.columns * (size_t)lanes);
   }
   if (q->b_repeats) {
     sli_pack_sums(y, sli_rows_of(index, count, lanes), B, at, nrhs);
@@ -17033,7 +17026,7 @@ static void sli_center_clear(const sl_factor *F, const sli_packed *x, sl_int m, 
   for (; m < F->null.count && F->null.pivots[m] <= root; m++) {
     const sl_int null = F->null.pivots[m], j = sli_reach_index_of(x->R, null);
     if (j != -1 && F->rule.kinds[null] == SLI_PIVOT_NULL) {
-      memset(x->v + (ptrdiff_t)j * x->lanes, 0, (size_t)x->lanes * sizeof(double));
+      SLI_ZERO(x->v + (ptrdiff_t)j * x->lanes, x->lanes);
     }
   }
 }
@@ -17081,7 +17074,7 @@ static void sli_center(const sl_factor *F, const sli_packed *y, const sli_packed
       }
       j = is_one ? sli_reach_index_of(to, list[m]) : -1;
       if (j != -1) {
-        memcpy(x->v + (ptrdiff_t)j * x->lanes, terms.t, (size_t)x->lanes * sizeof(double));
+        SLI_COPY(x->v + (ptrdiff_t)j * x->lanes, terms.t, x->lanes);
       }
     }
     first = root + 1;
@@ -17404,7 +17397,7 @@ static void sli_sweep_tasks_forward(const sli_sweep_tasks *t, const sli_sweep_ta
     if (leaves == below) {
       continue;
     }
-    memcpy(rows, S->rows + S->rows_begin[s], (size_t)below * sizeof(sl_int));
+    SLI_COPY(rows, S->rows + S->rows_begin[s], below);
     for (k = leaves; k < below; k++) {
       t->slot_row[slot] = rows[k];
       rows[k] = S->n + slot++;
@@ -17488,10 +17481,10 @@ static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, v
 
 static void sli_sweep_transfer(const sli_query *q, const double *y, double *x, sl_int lanes) {
   sli_intersection m = sli_intersection_of(&q->forward, &q->backward);
-  memset(x, 0, (size_t)q->backward.columns * (size_t)lanes * sizeof(double));
+  SLI_ZERO(x, (size_t)q->backward.columns * (size_t)lanes);
   while (sli_intersection_next(&m)) {
-    memcpy(x + (ptrdiff_t)m.in_b * lanes, y + (ptrdiff_t)m.in_a * lanes,
-        (size_t)m.count * (size_t)lanes * sizeof(double));
+    SLI_COPY(x + (ptrdiff_t)m.in_b * lanes, y + (ptrdiff_t)m.in_a * lanes,
+        (size_t)m.count * (size_t)lanes);
   }
 }
 
@@ -18745,7 +18738,7 @@ static void sli_local_refinement_block(sli_local_refinement *f, const sli_rhs *r
   double norms[SLI_TILE];
   sl_int c, step, todo = columns;
   sli_local_refinement_norms(f, rhs, norms);
-  memset(f->previous, 0, (size_t)f->count * (size_t)columns * sizeof(double));
+  SLI_ZERO(f->previous, (size_t)f->count * (size_t)columns);
   for (step = 0; step <= steps && todo > 0; step++) {
     sli_local_refinement_step(f, rhs, norms, step);
     for (c = 0, todo = 0; c < columns; c++) {
@@ -18878,7 +18871,7 @@ SLI_HOT static double sli_norm_estimate_solve(sli_norm_estimate *p) {
   const double size = sli_largest(p->v, n);
   double sum = 0.0, error;
   sl_int k;
-  memcpy(p->residual, p->v, (size_t)n * sizeof(double));
+  SLI_COPY(p->residual, p->v, n);
   sli_forward_sweep(F, SLI_NRHS_1, &p->all, p->v, p->scratch);
   sli_backward(F, &p->all, SLI_NRHS_1, p->v, p->scratch);
   for (k = 0; k < n; k++) {
@@ -18923,13 +18916,13 @@ static double sli_inverse_norm(sli_norm_estimate *p) {
     if (turn == 4) { /* untested: there are fewer turns */
       break; /* untested: the same */
     }
-    memcpy(p->v, p->signs, (size_t)n * sizeof(double));
+    SLI_COPY(p->v, p->signs, n);
     (void)sli_norm_estimate_solve(p);
     j = sli_norm_estimate_largest(p);
     if (last != -1 && fabs(p->v[j]) <= fabs(p->v[last])) {
       break;
     }
-    memset(p->v, 0, (size_t)n * sizeof(double));
+    SLI_ZERO(p->v, n);
     p->v[j] = 1.0;
     sum = sli_norm_estimate_solve(p);
     if (!(sum > best)) {
@@ -19062,7 +19055,7 @@ static double sli_guarantee_gamma(const sli_guarantee_work *p) {
   const sl_symbolic *S = p->F->S;
   sl_int s, k, most = 0;
   double size;
-  memset(p->terms, 0, (size_t)S->n * sizeof(sl_int));
+  SLI_ZERO(p->terms, S->n);
   for (s = 0; s < S->n_supers; s++) {
     const sli_step *step = &S->steps[s];
     for (k = 0; k < step->below; k++) {
@@ -19369,7 +19362,7 @@ static void sli_probes_add(double *product, double a, const double *v) {
 SLI_HOT static void sli_probes_multiply(sli_probes *p) {
   const sl_csc *A = p->A;
   sl_int j, q;
-  memset(p->product, 0, (size_t)A->n_cols * 2 * SLI_PROBES * sizeof(double));
+  SLI_ZERO(p->product, (size_t)A->n_cols * 2 * SLI_PROBES);
   for (j = 0; j < A->n_cols; j++) {
     const ptrdiff_t at = (ptrdiff_t)j * SLI_PROBES;
     for (q = A->p[j]; q < A->p[j + 1]; q++) {
@@ -19467,7 +19460,7 @@ static double sli_probes_null(sli_probes *p) {
   uint32_t state = 1;
   sl_int k, m, first;
   int pass;
-  memset(p->v, 0, (size_t)S->n * SLI_PROBES * sizeof(double));
+  SLI_ZERO(p->v, (size_t)S->n * SLI_PROBES);
   for (m = 0; m < F->null.n_anchors; m++) {
     p->v[(ptrdiff_t)S->perm[F->null.anchors[m]] * SLI_PROBES] = SLI_NULL_PIVOT;
   }
@@ -19709,7 +19702,7 @@ static void sli_scales_block(sli_bounds *p, sl_int first, sl_int count) {
   sli_reach R;
   sl_int s, r, at = 0;
   sli_reach_fill(S, p->order + first, count, p->steps, p->rows, &R);
-  memset(p->y, 0, (size_t)R.columns * (size_t)lanes * sizeof(double));
+  SLI_ZERO(p->y, (size_t)R.columns * (size_t)lanes);
   for (r = 0; r < count; r++) {
     const sl_int row = sli_reach_index(&R, &at, sli_key(p->order[first + r]));
     p->y[(ptrdiff_t)row * lanes + r] = 1.0;
@@ -19783,7 +19776,7 @@ static double sli_norms_one(const double *D, const double *y, sl_int columns) {
 static void sli_norms_step(const double *D, const double *y, sl_int columns, sl_int lanes,
     double *own) {
   sl_int k, r;
-  memset(own, 0, (size_t)lanes * sizeof(double));
+  SLI_ZERO(own, lanes);
   for (k = 0; k < columns; k++, y += lanes) {
     const double d = 1.0 / D[k];
     for (r = 0; r < lanes; r++) {
@@ -19815,7 +19808,7 @@ static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int count)
   const sl_int lanes = (sl_int)1 << sli_lanes_kind(count);
   double *all = p->norms + (ptrdiff_t)R->count * lanes;
   sl_int s, r;
-  memset(all, 0, (size_t)lanes * sizeof(double));
+  SLI_ZERO(all, lanes);
   for (s = R->count - 1; s >= 0; s--) {
     const sli_step *step = &R->steps[s];
     double *own = p->norms + (ptrdiff_t)s * lanes;
@@ -20221,7 +20214,7 @@ static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front
   for (k = 0; k < f->rows; k++) {
     p->local[f->index[k]] = k;
   }
-  memset(f->values, 0, (size_t)f->rows * (size_t)f->rows * sizeof(double));
+  SLI_ZERO(f->values, (size_t)f->rows * (size_t)f->rows);
   return SL_OK;
 }
 
@@ -20242,7 +20235,7 @@ static sl_status sli_search_keep(sli_pivot_search *p, sl_int s, const sli_dense_
     return status;
   }
   c->block = b.base;
-  memcpy(c->index, f->index + pivots, (size_t)c->count * sizeof(sl_int));
+  SLI_COPY(c->index, f->index + pivots, c->count);
   for (j = 0; j < c->count; j++) {
     memcpy(c->values + (size_t)c->count * (size_t)j + j,
         sli_dense_column(f, pivots + j) + pivots + j,
@@ -20290,7 +20283,7 @@ static void sli_search_layout(sli_pivot_search *p, sli_block *b) {
 static sl_status sli_search_run(sli_pivot_search *p, const sl_csc *A, sl_stats *stats) {
   sl_status status = SL_OK;
   sl_int s;
-  memset(p->contributions, 0, (size_t)p->S->n_supers * sizeof(sli_contribution));
+  SLI_ZERO(p->contributions, p->S->n_supers);
   for (s = 0; s < p->S->n_supers && status == SL_OK; s++) {
     status = sli_search_supernode(p, A, s, stats);
   }
@@ -21707,7 +21700,7 @@ static sli_forward sli_forward_of_worker(const sli_forward *all, const sli_capac
 static void sli_forward_clear(sli_forward *f, sl_int vectors) {
   f->kind = sli_lanes_kind(vectors);
   f->lanes = (sl_int)1 << f->kind;
-  memset(f->y, 0, (size_t)f->reach.columns * (size_t)f->lanes * sizeof(double));
+  SLI_ZERO(f->y, (size_t)f->reach.columns * (size_t)f->lanes);
 }
 
 static void sli_forward_run(sli_forward *f, const sl_factor *F, sl_stats *stats) {
@@ -22011,7 +22004,7 @@ static double sli_loss_diagonal(const sli_loss *q, sl_int k) {
   const sl_symbolic *S = F->S;
   sl_int s = S->super_of[k], up, j = k - S->super_first[s], i;
   double z = 0.0, *y = q->y, *next = q->up;
-  memset(y, 0, (size_t)sli_loss_height(&S->steps[s]) * sizeof *y);
+  SLI_ZERO(y, sli_loss_height(&S->steps[s]));
   y[j] = 1.0;
   for (; s != -1; s = up, j = 0) {
     const sli_step *step = &S->steps[s];
@@ -22022,7 +22015,7 @@ static double sli_loss_diagonal(const sli_loss *q, sl_int k) {
     }
     up = S->super_parent[s];
     if (up != -1) {
-      memset(next, 0, (size_t)sli_loss_height(&S->steps[up]) * sizeof *next);
+      SLI_ZERO(next, sli_loss_height(&S->steps[up]));
       for (i = 0; i < step->below; i++) {
         next[S->relative[S->rows_begin[s] + i]] = y[step->width + i];
       }
@@ -22049,7 +22042,7 @@ static void sli_loss_front(const sli_loss *q, sl_int k, sli_loss_tree *tree) {
   const sli_step *step = &q->F->S->steps[sli_loss_super(q, k)];
   double *s = q->s + q->begin[k], *sums = q->y, room[SLI_TILE];
   sl_int t, j;
-  memset(sums, 0, (size_t)step->width * sizeof *sums);
+  SLI_ZERO(sums, step->width);
   for (t = sli_tiles(step->width + step->below) - 1; t >= 0; t--) {
     for (j = sli_min(step->width, SLI_TILE * (t + 1)) - 1; j >= 0; j--) {
       const double d = q->F->D[step->column + j];
@@ -22076,7 +22069,7 @@ static int sli_loss_is_small(sli_loss *q) {
   for (k = 0; k < q->count; k++) {
     q->begin[k + 1] = q->begin[k] + sli_loss_height(&S->steps[sli_loss_super(q, k)]);
   }
-  memset(q->s, 0, (size_t)q->begin[q->count] * sizeof *q->s);
+  SLI_ZERO(q->s, q->begin[q->count]);
   for (k = q->count - 1; k >= 0 && is_small; k--) {
     const sl_int s = sli_loss_super(q, k), up = sli_loss_parent(q, k);
     double *below = q->s + q->begin[k] + S->steps[s].width;
@@ -22836,7 +22829,7 @@ static void sli_selected_visit(void *context, sl_int k, const sli_inverse_front 
       const sl_off left = Z->begin[k + 1] - Z->begin[k] - SLI_TILE * (sl_off)t;
       memcpy(tile, from, (size_t)sli_min(rows, SLI_TILE) * sizeof *tile);
       if (rows <= SLI_TILE) {
-        memset(tile + rows, 0, (size_t)(left - rows) * sizeof *tile);
+        SLI_ZERO(tile + rows, left - rows);
       }
       continue;
     }
@@ -22957,7 +22950,7 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
   q.run.context = Z;
   status = sli_work_stages(W == NULL ? &own : W, sli_selected_stages, 2, &q);
   if (status == SL_OK && q.is_lossy) {
-    memset(Z->Z, 0, (size_t)Z->begin[Z->traversal.forest.count] * sizeof *Z->Z);
+    SLI_ZERO(Z->Z, Z->begin[Z->traversal.forest.count]);
     sli_parallel(&Z->threads, Z->traversal.schedule.workers, sli_selected_solve_worker, &q);
   } else if (status == SL_OK) {
     sli_traverse(&q.run);
@@ -23431,10 +23424,10 @@ static void sli_choice_init(sli_choice *c) {
   const sl_symbolic *S = c->S;
   sl_int k, at = 0;
   sli_reach_fill(S, c->seeds, c->count, c->steps, c->rows, &c->reach);
-  memset(c->n_children, 0, (size_t)c->reach.count * sizeof *c->n_children);
-  memset(c->n_inside, 0, (size_t)c->reach.count * sizeof *c->n_inside);
+  SLI_ZERO(c->n_children, c->reach.count);
+  SLI_ZERO(c->n_inside, c->reach.count);
   memset(c->is_inside, 0, (size_t)c->reach.count);
-  memset(c->needed, 0, (size_t)c->reach.columns * sizeof *c->needed);
+  SLI_ZERO(c->needed, c->reach.columns);
   c->rows_begin[0] = 0;
   for (k = 0; k < c->reach.count; k++) {
     const sl_int s = S->super_of[c->steps[k].column];
@@ -23632,7 +23625,7 @@ static void sli_region_from_choice(sl_region *R, const sli_choice *c) {
   }
   SLI_ASSERT(n_roots == R->extent.n_roots && n_rows == R->extent.n_rows);
   sli_region_index(R);
-  memset(R->Z, 0, (size_t)R->begin[sli_region_chunks(n_rows)] * sizeof *R->Z);
+  SLI_ZERO(R->Z, R->begin[sli_region_chunks(n_rows)]);
 }
 
 static sl_status sli_region_new(sl_region **out, const sli_choice *start, const sl_int *set,
@@ -24040,10 +24033,9 @@ static void sli_kept_copy(sl_factor *G, sl_int s, sl_int *keep) {
     memcpy(panel, from, (size_t)sli_tile_offset(w, w / SLI_TILE) * sizeof(double));
     sli_kept_rows(panel, from, w, keep, own->below);
   }
-  memcpy(G->D + own->column, F->D + step->column, (size_t)w * sizeof(double));
+  SLI_COPY(G->D + own->column, F->D + step->column, w);
   if (F->rule.shifts != NULL) {
-    memcpy(G->rule.shifts + own->column, F->rule.shifts + step->column,
-        (size_t)w * sizeof(double));
+    SLI_COPY(G->rule.shifts + own->column, F->rule.shifts + step->column, w);
   }
   G->extents[s] = F->extents[there];
   if (G->extents[s].pivot != -1) {
@@ -24487,8 +24479,7 @@ static void sli_update_open(sli_update *u, const sli_step *step) {
 
 static void sli_update_close(sli_update *u, const sli_step *step) {
   if (step->width == 1) {
-    memcpy((double *)u->F->values + step->panel, u->column,
-        (size_t)(1 + step->below) * sizeof(double));
+    SLI_COPY((double *)u->F->values + step->panel, u->column, 1 + step->below);
   }
 }
 
@@ -24563,7 +24554,7 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
       (!shrink || u->is_tried ||
       (least > u->least && !sli_is_null(least, most + known, F->rule.null_tolerance)))) {
     if (!u->is_trial) {
-      memcpy(D, e, (size_t)count * sizeof *D);
+      SLI_COPY(D, e, count);
       info->pivot_min = least < info->pivot_min ? least : info->pivot_min;
       info->pivot_max = top > info->pivot_max ? top : info->pivot_max;
       u->top = top > u->top ? top : u->top;
@@ -24793,8 +24784,8 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
   u->loss = u->swept = 1.0;
   u->lost = 0.0;
   memset(u->state->U, 0, sizeof u->state->U);
-  memset(u->x, 0, (size_t)u->R.columns * (size_t)u->lanes * sizeof(double));
-  memset(u->gain, 0, (size_t)u->R.columns * sizeof(double));
+  SLI_ZERO(u->x, (size_t)u->R.columns * (size_t)u->lanes);
+  SLI_ZERO(u->gain, u->R.columns);
   for (r = 0; r < count; r++) {
     const sl_int v = group[r];
     const double alpha = u->sigma == NULL ? 1.0 : u->sigma[v];
@@ -24825,7 +24816,7 @@ static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count
   sl_status status = SL_OK;
   sl_int s, j, k, r;
   memset(u->local, 0, SLI_TILE * (size_t)u->lanes * sizeof(double));
-  memcpy(u->trial, u->x, (size_t)R->columns * (size_t)u->lanes * sizeof(double));
+  SLI_COPY(u->trial, u->x, (size_t)R->columns * (size_t)u->lanes);
   sli_forward_sweep(u->F, u->kind, R, u->trial, u->scratch);
   u->is_trial = 1;
   u->shrink = 1.0;
@@ -25139,11 +25130,11 @@ static void sli_rank_sort(void *data) {
   sli_sort(q->seeds, q->count, q->scratch);
   sli_sort(q->whole_seeds, rest, q->scratch);
   if (rest > 0) {
-    memcpy(q->seeds + q->count, q->whole_seeds, (size_t)rest * sizeof *q->seeds);
+    SLI_COPY(q->seeds + q->count, q->whole_seeds, rest);
   }
   q->count += rest;
   if (q->count > 0) {
-    memcpy(q->whole_seeds, q->seeds, (size_t)q->count * sizeof *q->seeds);
+    SLI_COPY(q->whole_seeds, q->seeds, q->count);
   }
   sli_sort(q->whole_seeds, q->count, q->scratch);
   sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
@@ -25213,13 +25204,12 @@ static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
     if (q->u.sign != 0.0) {
       double *loss = F->history.loss + step->column;
       sli_loss_open(F, s);
-      memcpy(restores ? loss : log_loss, restores ? log_loss : loss,
-          (size_t)columns * sizeof(double));
+      SLI_COPY(restores ? loss : log_loss, restores ? log_loss : loss, columns);
       log_loss += columns;
     }
     memcpy(restores ? L : log, restores ? log : L, size * sizeof(double));
-    memcpy(restores ? F->D + step->column : log_D, restores ? log_D : F->D + step->column,
-        (size_t)columns * sizeof(double));
+    SLI_COPY(restores ? F->D + step->column : log_D, restores ? log_D : F->D + step->column,
+        columns);
     memcpy(restores ? extent : &q->log_extents[k], restores ? &q->log_extents[k] : extent,
         sizeof *extent);
     log += size;
@@ -26130,8 +26120,8 @@ static void sli_pins_nulls_layout(sli_pins_nulls *w, sli_block *b, const sl_pins
 
 static void sli_pins_nulls_load(const sli_pins_nulls *w, const sl_pins *P) {
   sl_int p, k;
-  memset(w->W, 0, (size_t)w->count * (size_t)P->n_pins * sizeof(double));
-  memset(w->s, 0, (size_t)w->count * sizeof(double));
+  SLI_ZERO(w->W, (size_t)w->count * (size_t)P->n_pins);
+  SLI_ZERO(w->s, w->count);
   for (p = 0; p < P->n_pins; p++) {
     const sli_pin *pin = P->pins[p];
     const double square = sli_dot(pin->values, pin->values, pin->count);
@@ -26189,7 +26179,7 @@ static void sli_pin_clear_nulls(const sl_pins *P, const sli_pin *pin, const sli_
   for (k = 0; k < pin->n_nulls; k++) {
     const ptrdiff_t at = sli_reach_index_of(R, P->F->null.pivots[pin->nulls[k]]);
     if (at != -1) {
-      memset(y + at * lanes, 0, (size_t)lanes * sizeof *y);
+      SLI_ZERO(y + at * lanes, lanes);
     }
   }
 }
@@ -26199,7 +26189,7 @@ static void sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) {
   const sl_symbolic *S = F->S;
   sli_forward f;
   sl_int k;
-  memset(pin->y, 0, (size_t)pin->R.columns * sizeof(double));
+  SLI_ZERO(pin->y, pin->R.columns);
   for (k = 0; k < pin->count; k++) {
     pin->y[sli_reach_index_of(&pin->R, S->iperm[pin->rows[k]])] += pin->values[k];
   }
@@ -26569,7 +26559,7 @@ static sl_status sli_pins_push_rows(sl_pins *P, const sl_int *rows, sl_int count
         break;
       }
     }
-    memset(P->pins + P->n_pins, 0, (size_t)m * sizeof *P->pins);
+    SLI_ZERO(P->pins + P->n_pins, m);
     status = status == SL_OK ? sli_pins_push_blocks(P, &q, stats) : status;
     for (k = P->n_pins; k < P->n_pins + m; k++) {
       if (status == SL_OK) {
@@ -26631,7 +26621,7 @@ static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli
   const sli_reach *R = b->R;
   const sl_int lanes = b->lanes;
   sl_int first = 0, s, k, r;
-  memset(w->s, 0, (size_t)w->count * (size_t)lanes * sizeof(double));
+  SLI_ZERO(w->s, (size_t)w->count * (size_t)lanes);
   for (s = 0; s < R->count && (w->count > 0 || F->null.checks); s++) {
     sli_null_dot dot;
     if (R->steps[s].up != -1) {
@@ -26640,8 +26630,7 @@ static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli
     dot.next = sli_null_first(F, R, s);
     while (sli_null_dot_next(F, b, first, s, &dot)) {
       if (P->uses[dot.number] > 0) {
-        memcpy(w->s + (ptrdiff_t)w->place[dot.number] * lanes, dot.sums,
-            (size_t)lanes * sizeof(double));
+        SLI_COPY(w->s + (ptrdiff_t)w->place[dot.number] * lanes, dot.sums, lanes);
         continue;
       }
       for (r = 0; r < lanes && F->null.checks; r++) {
@@ -26655,8 +26644,7 @@ static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli
   for (k = 0; k < w->count; k++) {
     const sl_int null = F->null.pivots[w->numbers[k]], at = sli_reach_index_of(R, null);
     if (at != -1 && sli_null_column(F, null) == -1) {
-      memcpy(w->s + (ptrdiff_t)k * lanes, b->v + (ptrdiff_t)at * lanes,
-          (size_t)lanes * sizeof(double));
+      SLI_COPY(w->s + (ptrdiff_t)k * lanes, b->v + (ptrdiff_t)at * lanes, lanes);
     }
   }
   return 1;
@@ -26676,7 +26664,7 @@ static int sli_pins_clear(const sl_pins *P, const sli_reach *R, double *y, sl_in
       }
     }
     if (at != -1 && (P->uses[m] > 0 || !F->null.is_centered)) {
-      memset(row, 0, (size_t)lanes * sizeof(double));
+      SLI_ZERO(row, lanes);
     }
   }
   return 1;
@@ -27076,7 +27064,7 @@ static void sli_pins_largest(const sli_reach *R, const double *x, double *larges
     }
     if (R->steps[s].up == -1) {
       for (; first <= s; first++) {
-        memcpy(largest + (ptrdiff_t)first * lanes, most, (size_t)lanes * sizeof *most);
+        SLI_COPY(largest + (ptrdiff_t)first * lanes, most, lanes);
       }
       memset(most, 0, sizeof most);
     }
@@ -27771,7 +27759,7 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
 static void sli_restriction_sort(sli_restriction *r) {
   const sli_pattern *columns = &r->w.columns;
   sl_int *at = r->w.scratch, e;
-  memset(at, 0, (size_t)r->n_fresh * sizeof(sl_int));
+  SLI_ZERO(at, r->n_fresh);
   for (e = 0; e < r->n_entries; e++) {
     at[sli_min(r->entry_row[e], r->entry_column[e])]++;
   }
@@ -28012,7 +28000,7 @@ static void sli_joint_fill(sl_symbolic *S, sli_restriction *r, sl_stats *stats) 
   for (q = 0; q < r->n_kept; q++) {
     sli_joint_fill_kept(S, r, q);
   }
-  memset(S->scatter_begin, 0, ((size_t)S->n_supers + 1) * sizeof(sl_off));
+  SLI_ZERO(S->scatter_begin, S->n_supers + 1);
   for (q = 0; q < r->T.n_supers; q++) {
     const sl_off before = at;
     sli_joint_fill_fresh(S, r, q, &at);
@@ -28041,7 +28029,7 @@ static sl_status sli_restriction_make(sl_symbolic **out, sli_restriction *r, con
   sl_symbolic draft = sli_restriction_draft(r, a);
   sli_restriction_tree(r, a, stats);
   (void)sli_analysis_lap(&r->w);
-  memcpy(r->w.perm, r->R.row_of, (size_t)r->R.count * sizeof(sl_int));
+  SLI_COPY(r->w.perm, r->R.row_of, r->R.count);
   return sli_symbolic_build(out, &draft, &r->w, stats);
 }
 
@@ -28181,7 +28169,7 @@ static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
   G->is_immutable = 1;
   S->is_partial = 1;
   S->nnz_input = -1;
-  memset(S->scatter_begin, 0, ((size_t)S->n_supers + 1) * sizeof(sl_off));
+  SLI_ZERO(S->scatter_begin, S->n_supers + 1);
 }
 
 static sl_status sli_restrict_report(const sli_restriction *r, sl_status status, sl_stats *stats) {
@@ -28560,7 +28548,7 @@ static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
   if (status != SL_OK) {
     return status;
   }
-  memset(e->begin, 0, ((size_t)e->n_near + 1) * sizeof(sl_off));
+  SLI_ZERO(e->begin, e->n_near + 1);
   e->to = NULL;
   sli_edit_scan(e);
   total = sli_starts(e->begin, e->n_near);
@@ -28621,7 +28609,7 @@ static sl_int sli_edit_lowest(sli_edit *e, sl_int row, sl_int *conflicts) {
 static void sli_edit_weigh(sli_edit *e) {
   const sl_symbolic *S = e->S;
   sl_int s, k;
-  memset(e->weight, 0, ((size_t)S->n_supers + 1) * sizeof(sl_int));
+  SLI_ZERO(e->weight, S->n_supers + 1);
   for (k = 0; k < e->n_near; k++) {
     if (e->is_active[e->around[k]] == 1 && e->node[e->around[k]] != -1) {
       e->weight[e->node[e->around[k]]]++;
@@ -29136,7 +29124,7 @@ static sl_status sli_edit_make_graph(sli_edit *e, sli_graph *G, sli_block *edges
   for (k = 0; k < count; k++) {
     e->number[e->fresh[k]] = k;
   }
-  memset(G->begin, 0, ((size_t)count + 1) * sizeof(sl_off));
+  SLI_ZERO(G->begin, count + 1);
   sli_edit_graph(e, G);
   total = sli_starts(G->begin, count);
   SLI_LAYOUT(edges, a, status) {
@@ -29452,7 +29440,7 @@ static void sli_edit_join_count(sli_edit_join *j) {
   sl_symbolic *T = j->T;
   sl_off m;
   sl_int s, t;
-  memset(T->scatter_begin, 0, ((size_t)T->n_supers + 1) * sizeof(sl_off));
+  SLI_ZERO(T->scatter_begin, T->n_supers + 1);
   for (s = 0; s < S->n_supers; s++) {
     if (j->e->mark[s] == SLI_NODE_KEPT) {
       T->scatter_begin[j->super_new[s]] = S->scatter_begin[s + 1] - S->scatter_begin[s];
@@ -29468,7 +29456,7 @@ static void sli_edit_join_count(sli_edit_join *j) {
 
 static sl_int sli_edit_join_fundamental(const sl_symbolic *T, sl_int *children) {
   sl_int k, count = T->n;
-  memset(children, 0, (size_t)T->n * sizeof(sl_int));
+  SLI_ZERO(children, T->n);
   for (k = 0; k < T->n; k++) {
     if (T->parent[k] != -1) {
       children[T->parent[k]] += T->counts[k] == T->counts[T->parent[k]] + 1 ? 1 : 2;
@@ -30619,7 +30607,7 @@ static void sli_dirichlet_count(const sli_dirichlet_choice *c, sl_dirichlet *D) 
     c->seeds[k] = sli_keyed(S->iperm[D->fixed_rows[k]], 0);
   }
   sli_sort(c->seeds, D->n_fixed, c->scratch);
-  memset(c->uses, 0, (size_t)S->n_supers * sizeof(sl_int));
+  SLI_ZERO(c->uses, S->n_supers);
   for (s = 0, k = 0; s < S->n_supers; s++) {
     const sl_int up = S->super_parent[s], width = S->steps[s].width;
     sl_int free_columns = width;
@@ -30675,7 +30663,7 @@ static sl_status sli_dirichlet_probe(const sl_dirichlet *D, const sl_csc *A, con
   for (k = 0; k < D->n; k++) {
     r[k] = sli_random(&random);
   }
-  memset(zeros, 0, (size_t)D->n_fixed * sizeof(double));
+  SLI_ZERO(zeros, D->n_fixed);
   status = sl_pins_solve(P, NULL, x, n, r, n, zeros, (size_t)D->n_fixed, 1, NULL);
   if (status == SL_OK) {
     size = sli_csc_norm(A, D->triangle, sums) * sli_largest(x, D->n) + 1.0;
@@ -31061,7 +31049,7 @@ static sl_status sli_csc64_copy(const sl_csc64 *A, sl_matrix *M, sl_stats *stats
     }
   }
   if (A->x != NULL && M->p[M->n_cols] > 0) {
-    memcpy(M->x, A->x, (size_t)M->p[M->n_cols] * sizeof(double));
+    SLI_COPY(M->x, A->x, M->p[M->n_cols]);
   }
   return SL_OK;
 }
@@ -31352,10 +31340,10 @@ static sl_status sli_triplets_grow(sli_triplets *t, sl_off room, int has_values,
     return status;
   }
   if (t->count > 0) {
-    memcpy(larger.i, t->i, (size_t)t->count * sizeof *t->i);
-    memcpy(larger.j, t->j, (size_t)t->count * sizeof *t->j);
+    SLI_COPY(larger.i, t->i, t->count);
+    SLI_COPY(larger.j, t->j, t->count);
     if (has_values) {
-      memcpy(larger.x, t->x, (size_t)t->count * sizeof *t->x);
+      SLI_COPY(larger.x, t->x, t->count);
     }
   }
   sli_free(a, t->block);
@@ -33379,8 +33367,8 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
     sli_region_layout(&draft, &b);
   }
   if (status == SL_OK) {
-    memcpy(draft.roots, roots, (size_t)draft.extent.n_roots * sizeof *roots);
-    memcpy(draft.rows, rows, (size_t)draft.extent.n_rows * sizeof *rows);
+    SLI_COPY(draft.roots, roots, draft.extent.n_roots);
+    SLI_COPY(draft.rows, rows, draft.extent.n_rows);
     sli_region_index(&draft);
     *out = (sl_region *)(void *)b.base;
     **out = draft;
@@ -33776,7 +33764,7 @@ static void sli_scatter_sort(const sl_symbolic *S, sli_scatter_work *w, const sl
     sl_triangle triangle) {
   const sl_int *iperm = S->iperm;
   sl_int j, p, total = 0;
-  memset(w->begin, 0, ((size_t)S->n + 1) * sizeof(sl_int));
+  SLI_ZERO(w->begin, S->n + 1);
   for (j = 0; j < S->n; j++) {
     for (p = K->p[j]; p < K->p[j + 1]; p++) {
       w->begin[sli_min(iperm[K->i[p]], iperm[j])] += sli_is_read(triangle, K->i[p], j);
@@ -35218,6 +35206,8 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_TAKE_INLINE
 #undef SLI_CUT
 #undef SLI_CLEAR
+#undef SLI_ZERO
+#undef SLI_COPY
 #undef SLI_SORT_SMALL
 #undef SLI_TILE
 #undef SLI_CASE
@@ -35781,7 +35771,7 @@ static sl_status sli_plain_factor(sl_factor *F, const sli_source *from, sl_int s
   const sl_int k = step->column, below = step->below;
   double *l = sli_plain_column(F, s, worker), pivot, magnitude;
   sl_int c, r;
-  memset(l, 0, (size_t)(1 + below) * sizeof(double));
+  SLI_ZERO(l, 1 + below);
   if (sli_double_panel_load(F, from, s, l, failure) != SL_OK) {
     return failure->status;
   }
@@ -35867,8 +35857,7 @@ static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
   if (status == SL_OK && F->type->store != NULL) {
     status = F->type->store(F, f, failure);
   } else if (f->width == 1 && F->type->store == NULL) { /* branches untested: see above */
-    memcpy((double *)F->values + F->S->steps[f->super].panel, f->panel,
-        (size_t)(1 + f->below) * sizeof(double));
+    SLI_COPY((double *)F->values + F->S->steps[f->super].panel, f->panel, 1 + f->below);
   }
 #endif
   return status;
@@ -36819,8 +36808,8 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
       SLV_STORE(c + SLI_TILE, x)
     } else {
       SLV_STORE(b, x)
-      memcpy(c, y + SLI_TILE * j, (size_t)lanes * sizeof *c);
-      memcpy(c + lanes, b, (size_t)lanes * sizeof *c);
+      SLI_COPY(c, y + SLI_TILE * j, lanes);
+      SLI_COPY(c + lanes, b, lanes);
     }
     c += 2 * lanes;
   }
@@ -38393,13 +38382,13 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_forward)(sl_int w, const sli_step *
   double *xs = x + s->base;
   sl_int row, i, k;
   double a[SLI_TILE] = {0.0}, b[SLI_TILE], y[SLI_TILE];
-  memcpy(a, xs, (size_t)w * sizeof(double));
+  SLI_COPY(a, xs, w);
   for (k = 0; k < w; k++) {
     y[k] = a[k];
     SLI_LOOP(SLI_TILE, a[i_] -= l[SLI_TILE * k + i_] * y[k])
   }
   memcpy(buf, a, sizeof a);
-  memcpy(xs, a, (size_t)w * sizeof(double));
+  SLI_COPY(xs, a, w);
   for (row = SLI_TILE; row < w + below; row += SLI_TILE) {
     l += SLI_TILE * w;
     SLV_ZERO(a)
@@ -38448,7 +38437,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_backward)(sl_int w, const sli_step 
       a[j] = SLV_FNMA1((double)l[SLI_TILE * j + k], a[k], a[j]);
     }
   }
-  memcpy(xs, a, (size_t)w * sizeof(double));
+  SLI_COPY(xs, a, w);
 }
 #endif
 
@@ -38659,12 +38648,12 @@ SLV_FUNCTION static void SLV_SWEEP(forward)(const sli_reach *R, const void *valu
       s = SLV_SWEEP_SMALL(forward_small)(s, R, &rows, L, x, buf);
       continue;
     }
-    memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
+    SLI_COPY(buf + first, xs, w - first);
     for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
       buf[i] = 0.0;
     }
     SLV_SWEEP(panel_forward)(tile, s->first_tile, w, w, height, buf);
-    memcpy(xs, buf + first, (size_t)(w - first) * sizeof(double));
+    SLI_COPY(xs, buf + first, w - first);
     for (i = 0; i < s->below; i++) {
       x[rows[i]] += buf[w + i];
     }

@@ -132,7 +132,7 @@ static void sli_scales_block(sli_bounds *p, sl_int first, sl_int count) {
     sli_reach R;
     sl_int s, r, at = 0;
     sli_reach_fill(S, p->order + first, count, p->steps, p->rows, &R);
-    memset(p->y, 0, (size_t)R.columns * (size_t)lanes * sizeof(double));
+    SLI_ZERO(p->y, (size_t)R.columns * (size_t)lanes);
     for (r = 0; r < count; r++) {
         const sl_int row = sli_reach_index(&R, &at, sli_key(p->order[first + r]));
         p->y[(ptrdiff_t)row * lanes + r] = 1.0;
@@ -210,7 +210,7 @@ static double sli_norms_one(const double *D, const double *y, sl_int columns) {
 static void sli_norms_step(const double *D, const double *y, sl_int columns, sl_int lanes,
                            double *own) {
     sl_int k, r;
-    memset(own, 0, (size_t)lanes * sizeof(double));
+    SLI_ZERO(own, lanes);
     for (k = 0; k < columns; k++, y += lanes) {
         const double d = 1.0 / D[k];
         for (r = 0; r < lanes; r++) {
@@ -245,7 +245,7 @@ static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int count)
     const sl_int lanes = (sl_int)1 << sli_lanes_kind(count);
     double *all = p->norms + (ptrdiff_t)R->count * lanes;
     sl_int s, r;
-    memset(all, 0, (size_t)lanes * sizeof(double));
+    SLI_ZERO(all, lanes);
     for (s = R->count - 1; s >= 0; s--) {
         const sli_step *step = &R->steps[s];
         double *own = p->norms + (ptrdiff_t)s * lanes;

@@ -113,7 +113,7 @@ static void sli_probes_add(double *product, double a, const double *v) {
 SLI_HOT static void sli_probes_multiply(sli_probes *p) {
     const sl_csc *A = p->A;
     sl_int j, q;
-    memset(p->product, 0, (size_t)A->n_cols * 2 * SLI_PROBES * sizeof(double));
+    SLI_ZERO(p->product, (size_t)A->n_cols * 2 * SLI_PROBES);
     for (j = 0; j < A->n_cols; j++) {
         const ptrdiff_t at = (ptrdiff_t)j * SLI_PROBES;
         for (q = A->p[j]; q < A->p[j + 1]; q++) {
@@ -224,7 +224,7 @@ static double sli_probes_null(sli_probes *p) {
     uint32_t state = 1;
     sl_int k, m, first;
     int pass;
-    memset(p->v, 0, (size_t)S->n * SLI_PROBES * sizeof(double));
+    SLI_ZERO(p->v, (size_t)S->n * SLI_PROBES);
     for (m = 0; m < F->null.n_anchors; m++) {
         p->v[(ptrdiff_t)S->perm[F->null.anchors[m]] * SLI_PROBES] = SLI_NULL_PIVOT;
     }

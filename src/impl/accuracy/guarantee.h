@@ -54,7 +54,7 @@ static double sli_guarantee_gamma(const sli_guarantee_work *p) {
     const sl_symbolic *S = p->F->S;
     sl_int s, k, most = 0;
     double size;
-    memset(p->terms, 0, (size_t)S->n * sizeof(sl_int));
+    SLI_ZERO(p->terms, S->n);
     for (s = 0; s < S->n_supers; s++) {
         const sli_step *step = &S->steps[s];
         for (k = 0; k < step->below; k++) {

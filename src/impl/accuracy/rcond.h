@@ -56,7 +56,7 @@ SLI_HOT static double sli_norm_estimate_solve(sli_norm_estimate *p) {
     const double size = sli_largest(p->v, n);
     double sum = 0.0, error;
     sl_int k;
-    memcpy(p->residual, p->v, (size_t)n * sizeof(double));
+    SLI_COPY(p->residual, p->v, n);
     sli_forward_sweep(F, SLI_NRHS_1, &p->all, p->v, p->scratch);
     sli_backward(F, &p->all, SLI_NRHS_1, p->v, p->scratch);
     for (k = 0; k < n; k++) {
@@ -107,13 +107,13 @@ static double sli_inverse_norm(sli_norm_estimate *p) {
         if (turn == 4) { /* untested: there are fewer turns */
             break;       /* untested: the same */
         }
-        memcpy(p->v, p->signs, (size_t)n * sizeof(double));
+        SLI_COPY(p->v, p->signs, n);
         (void)sli_norm_estimate_solve(p);
         j = sli_norm_estimate_largest(p);
         if (last != -1 && fabs(p->v[j]) <= fabs(p->v[last])) {
             break;
         }
-        memset(p->v, 0, (size_t)n * sizeof(double));
+        SLI_ZERO(p->v, n);
         p->v[j] = 1.0;
         sum = sli_norm_estimate_solve(p);
         if (!(sum > best)) {

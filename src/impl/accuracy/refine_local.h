@@ -137,7 +137,7 @@ static void sli_local_refinement_block(sli_local_refinement *f, const sli_rhs *r
     double norms[SLI_TILE];
     sl_int c, step, todo = columns;
     sli_local_refinement_norms(f, rhs, norms);
-    memset(f->previous, 0, (size_t)f->count * (size_t)columns * sizeof(double));
+    SLI_ZERO(f->previous, (size_t)f->count * (size_t)columns);
     for (step = 0; step <= steps && todo > 0; step++) {
         sli_local_refinement_step(f, rhs, norms, step);
         for (c = 0, todo = 0; c < columns; c++) {

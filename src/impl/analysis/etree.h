@@ -251,7 +251,7 @@ static void sli_tree_sequence(const sli_tree_job *job, sl_int *sequence, uint64_
     const sl_int n = job->n;
     sl_int *rows = job->list, *parent = job->parent;
     sl_int *at = job->scratch, *ancestor = job->scratch + n, *weight = ancestor, j, k, p = 0;
-    memset(at, 0, (size_t)n * sizeof(sl_int));
+    SLI_ZERO(at, n);
     for (k = 0; k < columns->begin[n]; k++) {
         at[columns->entry[SLI_ENTRY * (size_t)k]]++;
     }
@@ -265,7 +265,7 @@ static void sli_tree_sequence(const sli_tree_job *job, sl_int *sequence, uint64_
         }
     }
     sli_tree_of_rows(n, at, rows, parent, ancestor);
-    memset(weight, 0, (size_t)n * sizeof(sl_int));
+    SLI_ZERO(weight, n);
     for (k = 0; k < n; k++) {
         weight[k] += columns->begin[k + 1] - columns->begin[k];
         keys[k] = sli_keyed(weight[k], k);
@@ -289,13 +289,13 @@ static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *n
         fresh[k] = old_of[order[k]];
         number[order[k]] = k;
     }
-    memcpy(old_of, fresh, (size_t)n * sizeof(sl_int));
+    SLI_COPY(old_of, fresh, n);
     for (k = 0; k < n; k++) {
         const sl_int old = parent[order[k]];
         new_of[old_of[k]] = k;
         fresh[k] = old == -1 ? -1 : number[old];
     }
-    memcpy(parent, fresh, (size_t)n * sizeof(sl_int));
+    SLI_COPY(parent, fresh, n);
 }
 
 #endif

@@ -48,7 +48,7 @@ static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
     sl_int p = (sl_int)((int64_t)sli_nnz(w->A) * r / ranges);
     sl_int *column = w->column, *moved = w->moved;
     if (!is_counted) {
-        memset(at, 0, ((size_t)w->n + 1) * sizeof(sl_int));
+        SLI_ZERO(at, w->n + 1);
     }
     for (; p < end && !is_counted; p++) {
         const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_min(a, b);

@@ -114,7 +114,7 @@ SLI_INLINE double sli_schedule_flops(const sl_symbolic *S) {
 static double sli_schedule_gain(const sl_symbolic *S, const sli_schedule_work *w, sl_int workers) {
     double total = 0.0, longest = 0.0;
     sl_int s;
-    memset(w->path, 0, (size_t)S->n_supers * sizeof(double));
+    SLI_ZERO(w->path, S->n_supers);
     for (s = 0; s < S->n_supers; s++) {
         const sl_int up = S->super_parent[s];
         total += w->flops[s];
@@ -181,20 +181,6 @@ static void sli_schedule_layout(sli_schedule *p, sli_block *b, sl_int count) {
     p->top = SLI_CUT(b, sl_int, p->workers == 1 ? 0 : count);
     p->stack_begin = SLI_CUT(b, sl_off, count);
     p->is_plain = SLI_CUT(b, unsigned char, count);
-}
-
-/* Moves a filled schedule, but for its tops, to the arrays of p: so many bytes. */
-static void sli_schedule_move(sli_schedule *p, const sli_schedule *plan, size_t bytes) {
-    memcpy(p->first, plan->first, bytes);
-    p->workers = plan->workers;
-    p->n_tasks = plan->n_tasks;
-    p->n_tops = plan->n_tops;
-    p->n_bundles = plan->n_bundles;
-    p->tops = plan->tops;
-    p->ready = plan->ready;
-    p->steps = plan->steps;
-    p->own = plan->own;
-    p->stack = plan->stack;
 }
 
 /* The tops of a filled schedule. */

@@ -37,7 +37,7 @@ static void sli_structure_sort(const sli_analysis *w, sl_int *to, sl_int *at) {
     const sl_int *begin = w->columns.entry, *new_of = w->new_of, *entry;
     const sl_int *end = begin + SLI_ENTRY * (size_t)w->columns.begin[w->n];
     sl_int k, total = 0;
-    memset(at, 0, (size_t)w->n * sizeof(sl_int));
+    SLI_ZERO(at, w->n);
     for (entry = begin; entry < end; entry += SLI_ENTRY) {
         at[entry[0]]++;
     }

@@ -21,7 +21,7 @@ static const sl_int *sli_sort_siblings(const sli_amalgamation *g, const sl_int *
     if (count <= SLI_SORTED_CHILDREN) {
         return NULL;
     }
-    memset(children, 0, (size_t)count * sizeof(sl_int));
+    SLI_ZERO(children, count);
     memset(begin, 0, sizeof begin);
     for (s = 0; s < count; s++) {
         if (tree[s] != -1 && g->width[top[s]] == 1) {

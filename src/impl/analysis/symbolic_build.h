@@ -81,7 +81,7 @@ static void sli_analysis_reorder(sli_analysis *w, const sl_int *order) {
     for (k = 0; k < w->n; k++) {
         w->scratch[k] = w->counts[order[k]];
     }
-    memcpy(w->counts, w->scratch, (size_t)w->n * sizeof(sl_int));
+    SLI_COPY(w->counts, w->scratch, w->n);
     sli_relabel(order, w->n, w->old_of, w->new_of, w->parent, w->scratch);
 }
 
@@ -248,8 +248,8 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) 
     sli_copy(S->parent, w->parent, bytes);
     memcpy(S->counts, w->counts, bytes);
     memcpy(S->super_of, w->super_of, bytes);
-    memcpy(S->super_first, w->amalgamation.first, ((size_t)S->n_supers + 1) * sizeof(sl_int));
-    memcpy(S->super_parent, w->amalgamation.parent, (size_t)S->n_supers * sizeof(sl_int));
+    SLI_COPY(S->super_first, w->amalgamation.first, S->n_supers + 1);
+    SLI_COPY(S->super_parent, w->amalgamation.parent, S->n_supers);
     S->rows_begin[0] = 0;
     for (s = 0; s < S->n_supers; s++) {
         S->rows_begin[s + 1] = S->rows_begin[s] + w->amalgamation.below[s];

@@ -276,8 +276,10 @@ SLI_INLINE int sli_is_last(sli_atomic *borrowers) {
     return sli_atomic_read(borrowers) == 0 || sli_atomic_add(borrowers, -1) == 0;
 }
 
-/* Sets a struct to 0. */
+/* Sets a struct to 0; sets elements of an array to 0, or to those of another one. */
 #define SLI_CLEAR(object) memset(&(object), 0, sizeof(object))
+#define SLI_ZERO(to, count) memset(to, 0, (size_t)(count) * sizeof *(to))
+#define SLI_COPY(to, from, count) memcpy(to, from, (size_t)(count) * sizeof *(to))
 
 /* memset and memcpy by calls: gcc makes instructions for strings of those of large structs, with
  * which an analysis and a factor of a few rows take up to 4 % longer. */

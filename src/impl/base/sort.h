@@ -69,7 +69,7 @@ static void sli_sort(uint64_t *a, sl_int count, uint64_t *scratch) {
         for (i = 0; i < count; i++) {
             scratch[start[(a[i] >> shift) & 255]++] = a[i];
         }
-        memcpy(a, scratch, (size_t)count * sizeof *a);
+        SLI_COPY(a, scratch, count);
     }
 }
 

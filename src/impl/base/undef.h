@@ -68,6 +68,8 @@
 #undef SLI_TAKE_INLINE
 #undef SLI_CUT
 #undef SLI_CLEAR
+#undef SLI_ZERO
+#undef SLI_COPY
 #undef SLI_SORT_SMALL
 #undef SLI_TILE
 #undef SLI_CASE

@@ -45,7 +45,7 @@ static void sli_scatter_sort(const sl_symbolic *S, sli_scatter_work *w, const sl
                              sl_triangle triangle) {
     const sl_int *iperm = S->iperm;
     sl_int j, p, total = 0;
-    memset(w->begin, 0, ((size_t)S->n + 1) * sizeof(sl_int));
+    SLI_ZERO(w->begin, S->n + 1);
     for (j = 0; j < S->n; j++) {
         for (p = K->p[j]; p < K->p[j + 1]; p++) {
             w->begin[sli_min(iperm[K->i[p]], iperm[j])] += sli_is_read(triangle, K->i[p], j);

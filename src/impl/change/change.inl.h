@@ -137,8 +137,8 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
             SLV_STORE(c + SLI_TILE, x)
         } else {
             SLV_STORE(b, x)
-            memcpy(c, y + SLI_TILE * j, (size_t)lanes * sizeof *c);
-            memcpy(c + lanes, b, (size_t)lanes * sizeof *c);
+            SLI_COPY(c, y + SLI_TILE * j, lanes);
+            SLI_COPY(c + lanes, b, lanes);
         }
         c += 2 * lanes;
     }

@@ -181,7 +181,7 @@ static void sli_edit_join_count(sli_edit_join *j) {
     sl_symbolic *T = j->T;
     sl_off m;
     sl_int s, t;
-    memset(T->scatter_begin, 0, ((size_t)T->n_supers + 1) * sizeof(sl_off));
+    SLI_ZERO(T->scatter_begin, T->n_supers + 1);
     for (s = 0; s < S->n_supers; s++) {
         if (j->e->mark[s] == SLI_NODE_KEPT) {
             T->scatter_begin[j->super_new[s]] = S->scatter_begin[s + 1] - S->scatter_begin[s];
@@ -199,7 +199,7 @@ static void sli_edit_join_count(sli_edit_join *j) {
  * more. children: n of scratch. */
 static sl_int sli_edit_join_fundamental(const sl_symbolic *T, sl_int *children) {
     sl_int k, count = T->n;
-    memset(children, 0, (size_t)T->n * sizeof(sl_int));
+    SLI_ZERO(children, T->n);
     for (k = 0; k < T->n; k++) {
         if (T->parent[k] != -1) { /* two for a child that is not of the same structure */
             children[T->parent[k]] += T->counts[k] == T->counts[T->parent[k]] + 1 ? 1 : 2;

@@ -109,7 +109,7 @@ static sl_status sli_edit_make_graph(sli_edit *e, sli_graph *G, sli_block *edges
     for (k = 0; k < count; k++) {
         e->number[e->fresh[k]] = k;
     }
-    memset(G->begin, 0, ((size_t)count + 1) * sizeof(sl_off));
+    SLI_ZERO(G->begin, count + 1);
     sli_edit_graph(e, G);
     total = sli_starts(G->begin, count);
     SLI_LAYOUT(edges, a, status) {

@@ -86,7 +86,7 @@ static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
     if (status != SL_OK) {
         return status;
     }
-    memset(e->begin, 0, ((size_t)e->n_near + 1) * sizeof(sl_off));
+    SLI_ZERO(e->begin, e->n_near + 1);
     e->to = NULL;
     sli_edit_scan(e);
     total = sli_starts(e->begin, e->n_near);
@@ -156,7 +156,7 @@ static sl_int sli_edit_lowest(sli_edit *e, sl_int row, sl_int *conflicts) {
 static void sli_edit_weigh(sli_edit *e) {
     const sl_symbolic *S = e->S;
     sl_int s, k;
-    memset(e->weight, 0, ((size_t)S->n_supers + 1) * sizeof(sl_int));
+    SLI_ZERO(e->weight, S->n_supers + 1);
     for (k = 0; k < e->n_near; k++) {
         if (e->is_active[e->around[k]] == 1 && e->node[e->around[k]] != -1) {
             e->weight[e->node[e->around[k]]]++;

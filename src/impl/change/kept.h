@@ -97,10 +97,9 @@ static void sli_kept_copy(sl_factor *G, sl_int s, sl_int *keep) {
         memcpy(panel, from, (size_t)sli_tile_offset(w, w / SLI_TILE) * sizeof(double));
         sli_kept_rows(panel, from, w, keep, own->below);
     }
-    memcpy(G->D + own->column, F->D + step->column, (size_t)w * sizeof(double));
+    SLI_COPY(G->D + own->column, F->D + step->column, w);
     if (F->rule.shifts != NULL) {
-        memcpy(G->rule.shifts + own->column, F->rule.shifts + step->column,
-               (size_t)w * sizeof(double));
+        SLI_COPY(G->rule.shifts + own->column, F->rule.shifts + step->column, w);
     }
     G->extents[s] = F->extents[there];
     if (G->extents[s].pivot != -1) {

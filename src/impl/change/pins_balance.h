@@ -46,7 +46,7 @@ static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli
     const sli_reach *R = b->R;
     const sl_int lanes = b->lanes;
     sl_int first = 0, s, k, r;
-    memset(w->s, 0, (size_t)w->count * (size_t)lanes * sizeof(double));
+    SLI_ZERO(w->s, (size_t)w->count * (size_t)lanes);
     for (s = 0; s < R->count && (w->count > 0 || F->null.checks); s++) {
         sli_null_dot dot;
         if (R->steps[s].up != -1) {
@@ -55,8 +55,7 @@ static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli
         dot.next = sli_null_first(F, R, s);
         while (sli_null_dot_next(F, b, first, s, &dot)) {
             if (P->uses[dot.number] > 0) {
-                memcpy(w->s + (ptrdiff_t)w->place[dot.number] * lanes, dot.sums,
-                       (size_t)lanes * sizeof(double));
+                SLI_COPY(w->s + (ptrdiff_t)w->place[dot.number] * lanes, dot.sums, lanes);
                 continue;
             }
             for (r = 0; r < lanes && F->null.checks; r++) {
@@ -70,8 +69,7 @@ static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli
     for (k = 0; k < w->count; k++) {
         const sl_int null = F->null.pivots[w->numbers[k]], at = sli_reach_index_of(R, null);
         if (at != -1 && sli_null_column(F, null) == -1) { /* a row of zeros */
-            memcpy(w->s + (ptrdiff_t)k * lanes, b->v + (ptrdiff_t)at * lanes,
-                   (size_t)lanes * sizeof(double));
+            SLI_COPY(w->s + (ptrdiff_t)k * lanes, b->v + (ptrdiff_t)at * lanes, lanes);
         }
     }
     return 1;
@@ -93,7 +91,7 @@ static int sli_pins_clear(const sl_pins *P, const sli_reach *R, double *y, sl_in
             }
         }
         if (at != -1 && (P->uses[m] > 0 || !F->null.is_centered)) {
-            memset(row, 0, (size_t)lanes * sizeof(double));
+            SLI_ZERO(row, lanes);
         }
     }
     return 1;

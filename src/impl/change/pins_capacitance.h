@@ -12,7 +12,7 @@ static void sli_pin_clear_nulls(const sl_pins *P, const sli_pin *pin, const sli_
     for (k = 0; k < pin->n_nulls; k++) {
         const ptrdiff_t at = sli_reach_index_of(R, P->F->null.pivots[pin->nulls[k]]);
         if (at != -1) {
-            memset(y + at * lanes, 0, (size_t)lanes * sizeof *y);
+            SLI_ZERO(y + at * lanes, lanes);
         }
     }
 }
@@ -23,7 +23,7 @@ static void sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) {
     const sl_symbolic *S = F->S;
     sli_forward f;
     sl_int k;
-    memset(pin->y, 0, (size_t)pin->R.columns * sizeof(double));
+    SLI_ZERO(pin->y, pin->R.columns);
     for (k = 0; k < pin->count; k++) {
         pin->y[sli_reach_index_of(&pin->R, S->iperm[pin->rows[k]])] += pin->values[k];
     }

@@ -157,8 +157,8 @@ static void sli_pins_nulls_layout(sli_pins_nulls *w, sli_block *b, const sl_pins
  * combined from several, and exact. */
 static void sli_pins_nulls_load(const sli_pins_nulls *w, const sl_pins *P) {
     sl_int p, k;
-    memset(w->W, 0, (size_t)w->count * (size_t)P->n_pins * sizeof(double));
-    memset(w->s, 0, (size_t)w->count * sizeof(double));
+    SLI_ZERO(w->W, (size_t)w->count * (size_t)P->n_pins);
+    SLI_ZERO(w->s, w->count);
     for (p = 0; p < P->n_pins; p++) {
         const sli_pin *pin = P->pins[p];
         const double square = sli_dot(pin->values, pin->values, pin->count);

@@ -109,7 +109,7 @@ static sl_status sli_pins_push_rows(sl_pins *P, const sl_int *rows, sl_int count
                 break;
             }
         }
-        memset(P->pins + P->n_pins, 0, (size_t)m * sizeof *P->pins);
+        SLI_ZERO(P->pins + P->n_pins, m);
         status = status == SL_OK ? sli_pins_push_blocks(P, &q, stats) : status;
         for (k = P->n_pins; k < P->n_pins + m; k++) {
             if (status == SL_OK) {

@@ -84,7 +84,7 @@ static void sli_pins_largest(const sli_reach *R, const double *x, double *larges
         }
         if (R->steps[s].up == -1) {
             for (; first <= s; first++) {
-                memcpy(largest + (ptrdiff_t)first * lanes, most, (size_t)lanes * sizeof *most);
+                SLI_COPY(largest + (ptrdiff_t)first * lanes, most, lanes);
             }
             memset(most, 0, sizeof most);
         }

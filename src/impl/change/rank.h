@@ -68,13 +68,12 @@ static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
         if (q->u.sign != 0.0) {
             double *loss = F->history.loss + step->column;
             sli_loss_open(F, s);
-            memcpy(restores ? loss : log_loss, restores ? log_loss : loss,
-                   (size_t)columns * sizeof(double));
+            SLI_COPY(restores ? loss : log_loss, restores ? log_loss : loss, columns);
             log_loss += columns;
         }
         memcpy(restores ? L : log, restores ? log : L, size * sizeof(double));
-        memcpy(restores ? F->D + step->column : log_D, restores ? log_D : F->D + step->column,
-               (size_t)columns * sizeof(double));
+        SLI_COPY(restores ? F->D + step->column : log_D, restores ? log_D : F->D + step->column,
+                 columns);
         memcpy(restores ? extent : &q->log_extents[k], restores ? &q->log_extents[k] : extent,
                sizeof *extent);
         log += size;

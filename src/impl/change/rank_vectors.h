@@ -188,11 +188,11 @@ static void sli_rank_sort(void *data) {
     sli_sort(q->seeds, q->count, q->scratch);
     sli_sort(q->whole_seeds, rest, q->scratch);
     if (rest > 0) {
-        memcpy(q->seeds + q->count, q->whole_seeds, (size_t)rest * sizeof *q->seeds);
+        SLI_COPY(q->seeds + q->count, q->whole_seeds, rest);
     }
     q->count += rest;
     if (q->count > 0) {
-        memcpy(q->whole_seeds, q->seeds, (size_t)q->count * sizeof *q->seeds);
+        SLI_COPY(q->whole_seeds, q->seeds, q->count);
     }
     sli_sort(q->whole_seeds, q->count, q->scratch);
     sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);

@@ -131,7 +131,7 @@ static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
     G->is_immutable = 1;
     S->is_partial = 1;
     S->nnz_input = -1;
-    memset(S->scatter_begin, 0, ((size_t)S->n_supers + 1) * sizeof(sl_off));
+    SLI_ZERO(S->scatter_begin, S->n_supers + 1);
 }
 
 /* Reports an error, which F has in rows and columns of A[R, R], in those of A. */

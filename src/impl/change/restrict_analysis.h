@@ -187,7 +187,7 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
 static void sli_restriction_sort(sli_restriction *r) {
     const sli_pattern *columns = &r->w.columns;
     sl_int *at = r->w.scratch, e;
-    memset(at, 0, (size_t)r->n_fresh * sizeof(sl_int));
+    SLI_ZERO(at, r->n_fresh);
     for (e = 0; e < r->n_entries; e++) {
         at[sli_min(r->entry_row[e], r->entry_column[e])]++;
     }

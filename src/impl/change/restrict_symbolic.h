@@ -181,7 +181,7 @@ static void sli_joint_fill(sl_symbolic *S, sli_restriction *r, sl_stats *stats) 
     for (q = 0; q < r->n_kept; q++) {
         sli_joint_fill_kept(S, r, q);
     }
-    memset(S->scatter_begin, 0, ((size_t)S->n_supers + 1) * sizeof(sl_off));
+    SLI_ZERO(S->scatter_begin, S->n_supers + 1);
     for (q = 0; q < r->T.n_supers; q++) {
         const sl_off before = at;
         sli_joint_fill_fresh(S, r, q, &at);
@@ -212,7 +212,7 @@ static sl_status sli_restriction_make(sl_symbolic **out, sli_restriction *r, con
     sl_symbolic draft = sli_restriction_draft(r, a);
     sli_restriction_tree(r, a, stats);
     (void)sli_analysis_lap(&r->w);
-    memcpy(r->w.perm, r->R.row_of, (size_t)r->R.count * sizeof(sl_int));
+    SLI_COPY(r->w.perm, r->R.row_of, r->R.count);
     return sli_symbolic_build(out, &draft, &r->w, stats);
 }
 

@@ -202,8 +202,8 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
     u->loss = u->swept = 1.0;
     u->lost = 0.0;
     memset(u->state->U, 0, sizeof u->state->U);
-    memset(u->x, 0, (size_t)u->R.columns * (size_t)u->lanes * sizeof(double));
-    memset(u->gain, 0, (size_t)u->R.columns * sizeof(double));
+    SLI_ZERO(u->x, (size_t)u->R.columns * (size_t)u->lanes);
+    SLI_ZERO(u->gain, u->R.columns);
     for (r = 0; r < count; r++) {
         const sl_int v = group[r];
         const double alpha = u->sigma == NULL ? 1.0 : u->sigma[v];
@@ -236,7 +236,7 @@ static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count
     sl_status status = SL_OK;
     sl_int s, j, k, r;
     memset(u->local, 0, SLI_TILE * (size_t)u->lanes * sizeof(double));
-    memcpy(u->trial, u->x, (size_t)R->columns * (size_t)u->lanes * sizeof(double));
+    SLI_COPY(u->trial, u->x, (size_t)R->columns * (size_t)u->lanes);
     sli_forward_sweep(u->F, u->kind, R, u->trial, u->scratch);
     u->is_trial = 1;
     u->shrink = 1.0;

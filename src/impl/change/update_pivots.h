@@ -92,8 +92,7 @@ static void sli_update_open(sli_update *u, const sli_step *step) {
 /* Puts it back. */
 static void sli_update_close(sli_update *u, const sli_step *step) {
     if (step->width == 1) {
-        memcpy((double *)u->F->values + step->panel, u->column,
-               (size_t)(1 + step->below) * sizeof(double));
+        SLI_COPY((double *)u->F->values + step->panel, u->column, 1 + step->below);
     }
 }
 
@@ -177,7 +176,7 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
         (!shrink || u->is_tried ||
          (least > u->least && !sli_is_null(least, most + known, F->rule.null_tolerance)))) {
         if (!u->is_trial) {
-            memcpy(D, e, (size_t)count * sizeof *D);
+            SLI_COPY(D, e, count);
             info->pivot_min = least < info->pivot_min ? least : info->pivot_min;
             info->pivot_max = top > info->pivot_max ? top : info->pivot_max;
             u->top = top > u->top ? top : u->top;

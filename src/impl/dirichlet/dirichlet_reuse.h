@@ -61,7 +61,7 @@ static void sli_dirichlet_count(const sli_dirichlet_choice *c, sl_dirichlet *D) 
         c->seeds[k] = sli_keyed(S->iperm[D->fixed_rows[k]], 0);
     }
     sli_sort(c->seeds, D->n_fixed, c->scratch);
-    memset(c->uses, 0, (size_t)S->n_supers * sizeof(sl_int));
+    SLI_ZERO(c->uses, S->n_supers);
     for (s = 0, k = 0; s < S->n_supers; s++) {
         const sl_int up = S->super_parent[s], width = S->steps[s].width;
         sl_int free_columns = width;
@@ -119,7 +119,7 @@ static sl_status sli_dirichlet_probe(const sl_dirichlet *D, const sl_csc *A, con
     for (k = 0; k < D->n; k++) {
         r[k] = sli_random(&random);
     }
-    memset(zeros, 0, (size_t)D->n_fixed * sizeof(double));
+    SLI_ZERO(zeros, D->n_fixed);
     status = sl_pins_solve(P, NULL, x, n, r, n, zeros, (size_t)D->n_fixed, 1, NULL);
     if (status == SL_OK) {
         size = sli_csc_norm(A, D->triangle, sums) * sli_largest(x, D->n) + 1.0; /* of b */

@@ -102,7 +102,7 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
 static sl_status sli_factor_prepare(sl_factor *F) {
     const sl_symbolic *S = F->S;
     const int has_fronts = F->method == SL_METHOD_SUPERNODAL;
-    sli_schedule plan = F->schedule;
+    sli_schedule plan = F->schedule, p = plan;
     sli_block b = {NULL, 0}, t = {NULL, 0};
     sli_schedule_work w;
     uint64_t small[512];
@@ -132,7 +132,9 @@ static sl_status sli_factor_prepare(sl_factor *F) {
             F->work.stack =
                 sli_take(&b, (uint64_t)(plan.stack >> F->type->half), F->type->front_bytes);
             sli_schedule_layout_tops(&plan, S, &b);
-            sli_schedule_layout(&F->schedule, &b, S->n_supers);
+            p = plan;
+            p.workers = F->schedule.workers; /* those that have room */
+            sli_schedule_layout(&p, &b, S->n_supers);
         }
     }
     sli_populate(&F->allocator, &b);
@@ -144,8 +146,10 @@ static sl_status sli_factor_prepare(sl_factor *F) {
         }
         F->null.has_duplicates = F->null.mode == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(S);
         if (has_fronts) {
-            sli_schedule_fill_tops(&plan, S);
-            sli_schedule_move(&F->schedule, &plan, planned);
+            memcpy(p.first, plan.first, planned);
+            p.workers = plan.workers;
+            sli_schedule_fill_tops(&p, S);
+            F->schedule = p;
         }
     } else {
         F->history.marks = NULL;

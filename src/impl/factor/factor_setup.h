@@ -231,7 +231,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
         sli_clear(F->extents, (size_t)S->n_supers * sizeof *F->extents);
         sli_factor_clear_gaps(F);
         if (F->E != NULL) {
-            memset(F->E, 0, (size_t)S->n * sizeof(double));
+            SLI_ZERO(F->E, S->n);
         }
         status = sli_factor_prepare(F);
         status = status == SL_OK ? sli_factor_rules_fill(F, opt, stats) : status;

@@ -89,8 +89,7 @@ static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
     if (status == SL_OK && F->type->store != NULL) {
         status = F->type->store(F, f, failure);
     } else if (f->width == 1 && F->type->store == NULL) { /* branches untested: see above */
-        memcpy((double *)F->values + F->S->steps[f->super].panel, f->panel,
-               (size_t)(1 + f->below) * sizeof(double));
+        SLI_COPY((double *)F->values + F->S->steps[f->super].panel, f->panel, 1 + f->below);
     }
 #endif
     return status;

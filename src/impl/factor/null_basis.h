@@ -337,7 +337,7 @@ static sl_status sli_null_bases(sl_factor *F, const sli_source *from, int by_col
                                 sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sl_int anchors[SLI_NULL_VECTORS_MAX], k, j, rank, used = 0;
-    memcpy(F->null.g, F->null.z, (size_t)S->n * (size_t)F->null.vectors * sizeof(double));
+    SLI_COPY(F->null.g, F->null.z, (size_t)S->n * (size_t)F->null.vectors);
     sli_null_chain(F);
     sli_null_bases_test(F, from, by_columns);
     for (k = 0; k < S->n; k++) {

@@ -32,7 +32,7 @@ static double sli_null_project(const double *q, sl_int vectors, sl_int count, do
 static void sli_null_complement(const double *q, sl_int vectors, sl_int count, double *c) {
     double all[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX], x[SLI_NULL_VECTORS_MAX];
     sl_int v, i, j;
-    memcpy(all, q, (size_t)(vectors * count) * sizeof(double));
+    SLI_COPY(all, q, (size_t)(vectors * count));
     for (v = vectors; v < count; v++) {
         double most = -1.0;
         for (i = 0; i < count; i++) {
@@ -48,7 +48,7 @@ static void sli_null_complement(const double *q, sl_int vectors, sl_int count, d
             }
         }
     }
-    memcpy(c, all + vectors * count, (size_t)((count - vectors) * count) * sizeof(double));
+    SLI_COPY(c, all + vectors * count, (size_t)((count - vectors) * count));
 }
 
 /* a := the inverse of a, m x m, row-major and regular. */
@@ -81,7 +81,7 @@ static void sli_null_invert(double *a, sl_int m) {
             }
         }
     }
-    memcpy(a, b, (size_t)(m * m) * sizeof(double));
+    SLI_COPY(a, b, (size_t)(m * m));
 }
 
 #endif

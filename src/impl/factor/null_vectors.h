@@ -114,7 +114,7 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
     F->stats.factor.regular = 0;
     sli_null_components(&w, S, z, F->null.last, F->null.rounding);
     if (!is_one && sli_null_bases(F, from, by_columns, failure) != SL_OK) {
-        memset(F->D, 0, (size_t)S->n * sizeof(double)); /* no pivot is computed */
+        SLI_ZERO(F->D, S->n); /* no pivot is computed */
         return failure->status;
     }
     for (i = 0; i < S->n; i++) {
@@ -127,7 +127,7 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
         F->null.rounding[last] = here > F->null.rounding[last] ? here : F->null.rounding[last];
     }
     if (refused < S->n) {
-        memset(F->D, 0, (size_t)S->n * sizeof(double)); /* no pivot is computed */
+        SLI_ZERO(F->D, S->n); /* no pivot is computed */
         return sli_fail(failure, SL_ERR_PIVOT, S->super_of[refused], refused, -1,
                         diagonal[sli_null_walk_row(&w, refused)]);
     }

@@ -59,7 +59,7 @@ SLI_COLD static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
     double *used = F->divisors; /* 0 in components of one row, unless they are trees */
     sl_int k, m = 0;
     F->null.n_anchors = 0;
-    memset(used, 0, (size_t)S->n * sizeof(double));
+    SLI_ZERO(used, S->n);
     for (k = 0; k < S->n; k++) {
         if (F->null.last[k] != k || (S->parent[k] == -1 && (k == 0 || S->parent[k - 1] == -1))) {
             used[k] = used[F->null.last[k]] = 1.0;
@@ -88,7 +88,7 @@ SLI_COLD static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
  * components: explicit zeros may put several into one tree. */
 static void sli_anchor_weights(const sl_factor *F, double *weights) {
     sl_int m, k = 0, first;
-    memset(weights, 0, (size_t)F->S->n * sizeof(double));
+    SLI_ZERO(weights, F->S->n);
     for (m = 0; m < F->null.n_anchors; m++) {
         const sl_int last = F->null.last[F->null.anchors[m]];
         int any = 0;
@@ -156,7 +156,7 @@ static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
     }
     status = sli_anchors_find(F, failure);
     sli_anchor_weights(F, F->divisors);
-    memcpy(F->null.center, F->divisors, (size_t)S->n * sizeof(double));
+    SLI_COPY(F->null.center, F->divisors, S->n);
     sli_forward_sweep(F, SLI_NRHS_1, &all, F->null.center, F->null.sweep);
     for (k = 0; k < S->n && status == SL_OK; k++) {
         total += fabs(F->divisors[k]);
@@ -167,7 +167,7 @@ static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
             first = k + 1;
         }
     }
-    memcpy(F->divisors, F->D, (size_t)S->n * sizeof(double));
+    SLI_COPY(F->divisors, F->D, S->n);
     for (m = 0; m < F->null.n_anchors; m++) {
         F->divisors[F->null.anchors[m]] = 1.0;
     }
@@ -192,7 +192,7 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
     if (first == -1) {
         return SL_OK;
     }
-    memset(z, 0, (size_t)S->n * sizeof(double));
+    SLI_ZERO(z, S->n);
     for (m = 0; m < F->null.count; m++) {
         k = F->null.pivots[m];
         if (F->rule.kinds[k] == SLI_PIVOT_UNKNOWN) {

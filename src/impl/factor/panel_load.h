@@ -23,7 +23,7 @@ SLI_INLINE uint64_t sli_mark_entry(double a, sl_off place) {
 /* sums := the weighted sums of the map's entries first .. first+count-1 */
 static void sli_source_sum(const sli_source *from, sl_off first, sl_int count, double *sums) {
     sl_int k, t;
-    memset(sums, 0, (size_t)count * sizeof(double));
+    SLI_ZERO(sums, count);
     for (t = 0; t < from->terms; t++) {
         const double c = from->coefficients[t], *v = from->values[t] + first;
         for (k = 0; k < count; k++) {

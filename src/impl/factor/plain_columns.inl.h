@@ -155,7 +155,7 @@ static sl_status sli_plain_factor(sl_factor *F, const sli_source *from, sl_int s
     const sl_int k = step->column, below = step->below;
     double *l = sli_plain_column(F, s, worker), pivot, magnitude;
     sl_int c, r;
-    memset(l, 0, (size_t)(1 + below) * sizeof(double));
+    SLI_ZERO(l, 1 + below);
     if (sli_double_panel_load(F, from, s, l, failure) != SL_OK) {
         return failure->status;
     }

@@ -71,7 +71,7 @@ static sl_status sli_symmetry_check(const sl_symbolic *S, const sl_csc *A, const
     if (status != SL_OK) {
         return status;
     }
-    memset(difference, 0, (size_t)S->n * sizeof(double));
+    SLI_ZERO(difference, S->n);
     for (j = 0; j < S->n; j++) {
         const double x = sli_symmetry_weight(j);
         double sum = 0.0, size = 0.0;

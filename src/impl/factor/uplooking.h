@@ -58,7 +58,7 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
         double *panel = row.L + S->steps[s].panel, *diagonal, pivot;
         if (q == 0) {
             const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
-            memset(panel, 0, (size_t)size * sizeof(double));
+            SLI_ZERO(panel, size);
             status = sli_double_panel_load(F, from, s, panel, failure);
             if (status != SL_OK) {
                 break;

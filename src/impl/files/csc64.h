@@ -45,7 +45,7 @@ static sl_status sli_csc64_copy(const sl_csc64 *A, sl_matrix *M, sl_stats *stats
         }
     }
     if (A->x != NULL && M->p[M->n_cols] > 0) {
-        memcpy(M->x, A->x, (size_t)M->p[M->n_cols] * sizeof(double));
+        SLI_COPY(M->x, A->x, M->p[M->n_cols]);
     }
     return SL_OK;
 }

@@ -75,10 +75,10 @@ static sl_status sli_triplets_grow(sli_triplets *t, sl_off room, int has_values,
         return status;
     }
     if (t->count > 0) {
-        memcpy(larger.i, t->i, (size_t)t->count * sizeof *t->i);
-        memcpy(larger.j, t->j, (size_t)t->count * sizeof *t->j);
+        SLI_COPY(larger.i, t->i, t->count);
+        SLI_COPY(larger.j, t->j, t->count);
         if (has_values) {
-            memcpy(larger.x, t->x, (size_t)t->count * sizeof *t->x);
+            SLI_COPY(larger.x, t->x, t->count);
         }
     }
     sli_free(a, t->block);

@@ -128,7 +128,7 @@ static double sli_loss_diagonal(const sli_loss *q, sl_int k) {
     const sl_symbolic *S = F->S;
     sl_int s = S->super_of[k], up, j = k - S->super_first[s], i;
     double z = 0.0, *y = q->y, *next = q->up;
-    memset(y, 0, (size_t)sli_loss_height(&S->steps[s]) * sizeof *y);
+    SLI_ZERO(y, sli_loss_height(&S->steps[s]));
     y[j] = 1.0;
     for (; s != -1; s = up, j = 0) {
         const sli_step *step = &S->steps[s];
@@ -139,7 +139,7 @@ static double sli_loss_diagonal(const sli_loss *q, sl_int k) {
         }
         up = S->super_parent[s];
         if (up != -1) {
-            memset(next, 0, (size_t)sli_loss_height(&S->steps[up]) * sizeof *next);
+            SLI_ZERO(next, sli_loss_height(&S->steps[up]));
             for (i = 0; i < step->below; i++) {
                 next[S->relative[S->rows_begin[s] + i]] = y[step->width + i];
             }
@@ -170,7 +170,7 @@ static void sli_loss_front(const sli_loss *q, sl_int k, sli_loss_tree *tree) {
     const sli_step *step = &q->F->S->steps[sli_loss_super(q, k)];
     double *s = q->s + q->begin[k], *sums = q->y, room[SLI_TILE];
     sl_int t, j;
-    memset(sums, 0, (size_t)step->width * sizeof *sums);
+    SLI_ZERO(sums, step->width);
     for (t = sli_tiles(step->width + step->below) - 1; t >= 0; t--) {
         for (j = sli_min(step->width, SLI_TILE * (t + 1)) - 1; j >= 0; j--) {
             const double d = q->F->D[step->column + j];
@@ -198,7 +198,7 @@ static int sli_loss_is_small(sli_loss *q) {
     for (k = 0; k < q->count; k++) {
         q->begin[k + 1] = q->begin[k] + sli_loss_height(&S->steps[sli_loss_super(q, k)]);
     }
-    memset(q->s, 0, (size_t)q->begin[q->count] * sizeof *q->s);
+    SLI_ZERO(q->s, q->begin[q->count]);
     for (k = q->count - 1; k >= 0 && is_small; k--) {
         const sl_int s = sli_loss_super(q, k), up = sli_loss_parent(q, k);
         double *below = q->s + q->begin[k] + S->steps[s].width;

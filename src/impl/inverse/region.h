@@ -47,7 +47,7 @@ static void sli_region_from_choice(sl_region *R, const sli_choice *c) {
     }
     SLI_ASSERT(n_roots == R->extent.n_roots && n_rows == R->extent.n_rows);
     sli_region_index(R);
-    memset(R->Z, 0, (size_t)R->begin[sli_region_chunks(n_rows)] * sizeof *R->Z);
+    SLI_ZERO(R->Z, R->begin[sli_region_chunks(n_rows)]);
 }
 
 /* Chooses and makes the object, without its numbers. start: the choice without its arrays. */

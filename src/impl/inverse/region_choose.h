@@ -212,10 +212,10 @@ static void sli_choice_init(sli_choice *c) {
     const sl_symbolic *S = c->S;
     sl_int k, at = 0;
     sli_reach_fill(S, c->seeds, c->count, c->steps, c->rows, &c->reach);
-    memset(c->n_children, 0, (size_t)c->reach.count * sizeof *c->n_children);
-    memset(c->n_inside, 0, (size_t)c->reach.count * sizeof *c->n_inside);
+    SLI_ZERO(c->n_children, c->reach.count);
+    SLI_ZERO(c->n_inside, c->reach.count);
     memset(c->is_inside, 0, (size_t)c->reach.count);
-    memset(c->needed, 0, (size_t)c->reach.columns * sizeof *c->needed);
+    SLI_ZERO(c->needed, c->reach.columns);
     c->rows_begin[0] = 0;
     for (k = 0; k < c->reach.count; k++) {
         const sl_int s = S->super_of[c->steps[k].column];

@@ -108,7 +108,7 @@ static void sli_selected_visit(void *context, sl_int k, const sli_inverse_front 
             const sl_off left = Z->begin[k + 1] - Z->begin[k] - SLI_TILE * (sl_off)t;
             memcpy(tile, from, (size_t)sli_min(rows, SLI_TILE) * sizeof *tile);
             if (rows <= SLI_TILE) {
-                memset(tile + rows, 0, (size_t)(left - rows) * sizeof *tile);
+                SLI_ZERO(tile + rows, left - rows);
             }
             continue;
         }
@@ -237,7 +237,7 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
     q.run.context = Z;
     status = sli_work_stages(W == NULL ? &own : W, sli_selected_stages, 2, &q);
     if (status == SL_OK && q.is_lossy) {
-        memset(Z->Z, 0, (size_t)Z->begin[Z->traversal.forest.count] * sizeof *Z->Z);
+        SLI_ZERO(Z->Z, Z->begin[Z->traversal.forest.count]);
         sli_parallel(&Z->threads, Z->traversal.schedule.workers, sli_selected_solve_worker, &q);
     } else if (status == SL_OK) {
         sli_traverse(&q.run);

@@ -241,7 +241,7 @@ static sli_forward sli_forward_of_worker(const sli_forward *all, const sli_capac
 static void sli_forward_clear(sli_forward *f, sl_int vectors) {
     f->kind = sli_lanes_kind(vectors);
     f->lanes = (sl_int)1 << f->kind;
-    memset(f->y, 0, (size_t)f->reach.columns * (size_t)f->lanes * sizeof(double));
+    SLI_ZERO(f->y, (size_t)f->reach.columns * (size_t)f->lanes);
 }
 
 /* y := L^-1 y; adds the sweep to stats. */

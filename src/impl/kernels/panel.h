@@ -37,7 +37,7 @@ SLI_INLINE sl_off sli_panel_start(sl_int w, sl_off end) {
 SLI_INLINE void sli_column_pad(const double *panel, sl_int u, double *to) {
     const sl_int rows = SLI_TILE * sli_tiles(1 + u);
     sl_int r;
-    memcpy(to, panel, (size_t)(1 + u) * sizeof(double));
+    SLI_COPY(to, panel, 1 + u);
     for (r = 1 + u; r < rows; r++) {
         to[r] = 0.0;
     }

@@ -60,12 +60,12 @@ SLV_FUNCTION static void SLV_SWEEP(forward)(const sli_reach *R, const void *valu
             s = SLV_SWEEP_SMALL(forward_small)(s, R, &rows, L, x, buf);
             continue;
         }
-        memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
+        SLI_COPY(buf + first, xs, w - first);
         for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
             buf[i] = 0.0;
         }
         SLV_SWEEP(panel_forward)(tile, s->first_tile, w, w, height, buf);
-        memcpy(xs, buf + first, (size_t)(w - first) * sizeof(double));
+        SLI_COPY(xs, buf + first, w - first);
         for (i = 0; i < s->below; i++) {
             x[rows[i]] += buf[w + i];
         }

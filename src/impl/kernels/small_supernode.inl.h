@@ -155,13 +155,13 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_forward)(sl_int w, const sli_step *
     double *xs = x + s->base;
     sl_int row, i, k;
     double a[SLI_TILE] = {0.0}, b[SLI_TILE], y[SLI_TILE];
-    memcpy(a, xs, (size_t)w * sizeof(double));
+    SLI_COPY(a, xs, w);
     for (k = 0; k < w; k++) {
         y[k] = a[k];
         SLI_LOOP(SLI_TILE, a[i_] -= l[SLI_TILE * k + i_] * y[k])
     }
     memcpy(buf, a, sizeof a);
-    memcpy(xs, a, (size_t)w * sizeof(double));
+    SLI_COPY(xs, a, w);
     for (row = SLI_TILE; row < w + below; row += SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
         l += SLI_TILE * w;
         SLV_ZERO(a)
@@ -211,7 +211,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_backward)(sl_int w, const sli_step 
             a[j] = SLV_FNMA1((double)l[SLI_TILE * j + k], a[k], a[j]);
         }
     }
-    memcpy(xs, a, (size_t)w * sizeof(double));
+    SLI_COPY(xs, a, w);
 }
 #endif
 

@@ -8,7 +8,7 @@
  * of entries sorted by key. */
 static void sli_count_starts(sl_int *start, sl_int n, const sl_int *keys, sl_int count) {
     sl_int k, total = 0;
-    memset(start, 0, ((size_t)n + 1) * sizeof(sl_int));
+    SLI_ZERO(start, (size_t)n + 1);
     for (k = 0; k < count; k++) {
         start[keys[k]]++;
     }
@@ -73,7 +73,7 @@ static sl_status sli_from_triplets(sl_matrix **out, const sli_triplet_list *t,
         order[start[i[k]]++] = k;
     }
     sli_count_starts(start, n_cols, j, count);
-    memcpy(M->p, start, ((size_t)n_cols + 1) * sizeof(sl_int));
+    SLI_COPY(M->p, start, (size_t)n_cols + 1);
     for (k = 0; k < count; k++) {
         const sl_int from = order[k], to = start[j[from]]++;
         M->i[to] = i[from];

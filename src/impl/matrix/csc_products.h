@@ -56,7 +56,7 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
     }
     triangle = reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE;
     for (r = 0; r < nrhs; r++) {
-        memset(Y + (size_t)r * ldy, 0, (size_t)A->n_rows * sizeof(double));
+        SLI_ZERO(Y + (size_t)r * ldy, A->n_rows);
         sli_add_product(A, triangle, 1.0, Y + (size_t)r * ldy, X + (size_t)r * ldx);
     }
     return SL_OK;
@@ -76,7 +76,7 @@ static double sli_largest(const double *x, sl_int n) {
 /* The largest row sum of |A| for a symmetric A; NaN if A has one. sums: n elements of scratch. */
 static double sli_csc_norm(const sl_csc *A, sl_triangle triangle, double *sums) {
     sl_int j, p;
-    memset(sums, 0, (size_t)A->n_cols * sizeof(double));
+    SLI_ZERO(sums, A->n_cols);
     for (j = 0; j < A->n_cols; j++) {
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
             if (sli_is_read(triangle, A->i[p], j)) {

@@ -9,7 +9,7 @@
 static sl_status sli_csc_check_symmetry(const sl_csc *A, const sl_csc *T, sl_int *mark,
                                         sl_stats *stats) {
     sl_int j, p;
-    memset(mark, 0, (size_t)A->n_cols * sizeof(sl_int));
+    SLI_ZERO(mark, A->n_cols);
     for (j = 0; j < A->n_cols; j++) {
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
             mark[A->i[p]] = j + 1;

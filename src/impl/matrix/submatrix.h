@@ -65,7 +65,7 @@ SLI_HOT static sl_status sli_submatrix_make(sl_matrix **out, sl_int **from, cons
     sl_matrix *M = NULL;
     sl_status status;
     sl_int k;
-    memset(position, 0, ((size_t)s->count + 1) * sizeof(sl_int));
+    SLI_ZERO(position, (size_t)s->count + 1);
     sli_submatrix_visit(s, position, NULL, NULL);
     for (k = 0; k < s->count; k++) {
         position[k + 1] += position[k];
@@ -76,7 +76,7 @@ SLI_HOT static sl_status sli_submatrix_make(sl_matrix **out, sl_int **from, cons
         status = *from == NULL ? sli_no_memory() : SL_OK;
     }
     if (status == SL_OK) {
-        memcpy(M->p, position, ((size_t)s->count + 1) * sizeof(sl_int));
+        SLI_COPY(M->p, position, (size_t)s->count + 1);
         sli_submatrix_visit(s, position, M, from == NULL ? NULL : *from);
         *out = M;
     } else {

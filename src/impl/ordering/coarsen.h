@@ -218,7 +218,7 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
             sli_cluster_grow(g, v, sli_level_is_hub(g, v) ? 0 : heaviest, 0, count++, clusters);
         }
     }
-    memset(clusters->start, 0, ((size_t)count + 1) * sizeof(sl_int));
+    SLI_ZERO(clusters->start, count + 1);
     for (v = 0; v < g->n; v++) {
         clusters->start[g->coarse[v]]++;
     }

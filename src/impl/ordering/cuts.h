@@ -109,7 +109,7 @@ static void sli_cuts_fill(sli_cuts *c, const sli_graph *G) {
             child[c->node_of[k]] = s;
         }
     }
-    memset(c->mark, 0, (size_t)c->n * sizeof(sl_int));
+    SLI_ZERO(c->mark, c->n);
 }
 
 /* Takes placed rows out of the list of a node. */
@@ -149,7 +149,7 @@ static void sli_cuts_push(sli_cuts *c, sl_int first, sl_int end) {
     for (k = 0; k < trees; k++) {
         part[k] = k == 0 ? first : last[k - 1];
     }
-    memcpy(c->order + first, c->spare + first, (size_t)(end - first) * sizeof(sl_int));
+    SLI_COPY(c->order + first, c->spare + first, end - first);
     c->parts += trees;
 }
 

@@ -131,7 +131,7 @@ static void sli_weigh_edges(sli_dissection *d) {
     sl_off e, *at = d->ranges.scratch;
     /* The weights so far count the vertices of one side; add those of the other side from the
      * transposed lists. */
-    memcpy(at, g->begin, (size_t)g->n * sizeof(sl_off));
+    SLI_COPY(at, g->begin, g->n);
     for (k = 0; k < g->n; k++) {
         for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
             const sl_off there = at[g->to[e]]++;

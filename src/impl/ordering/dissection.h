@@ -105,7 +105,7 @@ static void sli_dissect_distribute(void *data, const sli_range *r) {
     const sli_dissection *d = (const sli_dissection *)data;
     sl_int v, *at = sli_dissect_by_label(d, r->item);
     if (!d->is_counted) {
-        memset(at, 0, (size_t)d->n_labels * sizeof(sl_int));
+        SLI_ZERO(at, d->n_labels);
     }
     for (v = r->first; v < r->last; v++) {
         const sl_int to = at[d->label[v]]++;
@@ -133,7 +133,7 @@ static void sli_dissect_start(sli_dissection *d) {
     d->tree.count = 0;
     d->tree.root = sli_label_tree_add(&d->tree, -1);
     d->tree.weight[d->tree.root] = d->total;
-    memset(d->label, 0, (size_t)n * sizeof(sl_int));
+    SLI_ZERO(d->label, n);
     sli_label_tree_number(&d->tree, n, d->label);
 }
 

@@ -31,7 +31,7 @@ SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, const sl_int *colu
                                sl_triangle triangle, sl_int block) {
     const sl_int nnz = sli_nnz(A);
     sl_int p;
-    memset(G->begin, 0, ((size_t)G->n + 1) * sizeof(sl_off));
+    SLI_ZERO(G->begin, G->n + 1);
     for (p = 0; p < nnz; p++) {
         const sl_int j = column[p], at = block == 1 ? j : j / block;
         const sl_int u = block == 1 ? A->i[p] : A->i[p] / block;
@@ -71,7 +71,7 @@ SLI_INLINE int sli_graph_is_sorted(const sli_graph *G) {
 SLI_INLINE void sli_graph_sort(const sli_graph *G, sl_int *to, sl_off *at) {
     sl_int v;
     sl_off e;
-    memcpy(at, G->begin, (size_t)G->n * sizeof(sl_off));
+    SLI_COPY(at, G->begin, G->n);
     for (v = 0; v < G->n; v++) {
         for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
             to[at[G->to[e]]++] = v;
@@ -114,7 +114,7 @@ static sl_status sli_graph_make_canonical(sli_graph *G, const sl_allocator *a) {
     }
     if (status == SL_OK) {
         sli_graph_sort(G, to, at);
-        memcpy(G->to, to, (size_t)edges * sizeof(sl_int));
+        SLI_COPY(G->to, to, edges);
         sli_graph_deduplicate(G);
         sli_free(a, b.base);
     }

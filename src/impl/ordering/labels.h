@@ -88,7 +88,7 @@ SLI_INLINE sl_int sli_label_tree_first(const sli_label_tree *t) {
 static void sli_label_tree_renumber(sl_int *a, const sl_int *number, sl_int count, int values,
                                     sl_int *scratch) {
     sl_int k;
-    memcpy(scratch, a, (size_t)count * sizeof(sl_int));
+    SLI_COPY(scratch, a, count);
     for (k = 0; k < count; k++) {
         a[number[k]] = values && scratch[k] != -1 ? number[scratch[k]] : scratch[k];
     }

@@ -56,7 +56,7 @@ static sli_levels sli_levels_of(const sli_order_job *job) {
     l.queue = job->perm;
     l.seen = job->scratch;
     l.entries = 0;
-    memset(l.seen, 0, (size_t)l.G->n * sizeof(sl_int));
+    SLI_ZERO(l.seen, l.G->n);
     return l;
 }
 

@@ -26,7 +26,7 @@ static void sli_tree_cost_count(void *data, const sli_range *r) {
     const sli_level *g = &d->levels[d->level];
     sl_int v, *border = sli_dissect_by_label(d, r->item);
     sl_off e;
-    memset(border, 0, (size_t)d->tree.count * sizeof(sl_int));
+    SLI_ZERO(border, d->tree.count);
     for (v = r->first; v < r->last; v++) {
         const sl_int own = d->label[v];
         sl_int last = -1;
@@ -112,7 +112,7 @@ static void sli_levelset_bisect(sli_subgraph *sub, int is_first) {
     n_sets = sli_levelset_search(sub, sli_subgraph_farthest(sub, end, order, sub->locked), order,
                                  distance);
     (void)is_first;
-    memset(size, 0, (size_t)n_sets * sizeof(sl_int));
+    SLI_ZERO(size, n_sets);
     for (k = 0; k < n; k++) {
         size[distance[k]]++;
     }

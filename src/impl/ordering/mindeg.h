@@ -196,7 +196,7 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
     for (k = 0; k < count; k++) {
         order[k] = vertices[order[k]];
     }
-    memcpy(vertices, order, (size_t)count * sizeof(sl_int));
+    SLI_COPY(vertices, order, count);
 }
 
 #endif

@@ -33,7 +33,7 @@ static sl_status sli_order_given(const sli_order_job *job) {
                            "options.perm has a row out of range or twice at this position");
     }
     if (n > 0) {
-        memcpy(job->perm, given, (size_t)n * sizeof(sl_int));
+        SLI_COPY(job->perm, given, n);
     }
     return SL_OK;
 }

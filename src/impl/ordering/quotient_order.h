@@ -64,7 +64,7 @@ static void sli_quotient_cost(const sli_quotient *q, sl_int *below, sli_order_co
     cost->widest = q->widest;
     cost->entries = cost->paths = cost->fronts = cost->lists = 0.0;
     cost->pivots = q->pivots;
-    memset(below, 0, (size_t)q->n * sizeof(sl_int));
+    SLI_ZERO(below, q->n);
     for (k = 0; k < q->pivots; k++) {
         const sl_int v = q->sequence[k], width = q->weight[v];
         const double height = 2.0 * q->node[v].degree + width;

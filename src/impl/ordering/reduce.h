@@ -300,8 +300,8 @@ static void sli_peel_run(sli_peel *p, const sli_graph *G, int for_little_fill) {
     if (p->count == n) {
         return;
     }
-    memcpy(p->rest.begin, G->begin, ((size_t)n + 1) * sizeof(sl_off));
-    memcpy(p->rest.to, G->to, (size_t)G->begin[n] * sizeof(sl_int));
+    SLI_COPY(p->rest.begin, G->begin, n + 1);
+    SLI_COPY(p->rest.to, G->to, G->begin[n]);
     sli_peel_list_rows(p, n, 1);
     while (!for_little_fill && p->n_later > n / SLI_PEEL_ENDS && p->round < SLI_PEEL_LEAVES) {
         sli_peel_round(p);
@@ -345,7 +345,7 @@ static void sli_peel_expand(const sli_peel *p, sl_int *perm) {
     for (k = p->rest.n - 1; k >= 0; k--) {
         perm[p->count + k] = p->sequence[p->count + perm[k]];
     }
-    memcpy(perm, p->sequence, (size_t)p->count * sizeof(sl_int));
+    SLI_COPY(perm, p->sequence, p->count);
 }
 
 #endif

@@ -86,7 +86,7 @@ static sl_int sli_thin_level(sli_thin *t, sl_int level, sl_int first, sl_int las
             t->queue[at++] = v;
         }
     }
-    memcpy(t->queue + at, t->spare, (size_t)ahead * sizeof(sl_int));
+    SLI_COPY(t->queue + at, t->spare, ahead);
     t->ahead[level] = ahead;
     t->begin[level] = first;
     return tail;

@@ -288,7 +288,7 @@ static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front
     for (k = 0; k < f->rows; k++) {
         p->local[f->index[k]] = k;
     }
-    memset(f->values, 0, (size_t)f->rows * (size_t)f->rows * sizeof(double));
+    SLI_ZERO(f->values, (size_t)f->rows * (size_t)f->rows);
     return SL_OK;
 }
 
@@ -310,7 +310,7 @@ static sl_status sli_search_keep(sli_pivot_search *p, sl_int s, const sli_dense_
         return status;
     }
     c->block = b.base;
-    memcpy(c->index, f->index + pivots, (size_t)c->count * sizeof(sl_int));
+    SLI_COPY(c->index, f->index + pivots, c->count);
     for (j = 0; j < c->count; j++) {
         memcpy(c->values + (size_t)c->count * (size_t)j + j,
                sli_dense_column(f, pivots + j) + pivots + j,
@@ -360,7 +360,7 @@ static void sli_search_layout(sli_pivot_search *p, sli_block *b) {
 static sl_status sli_search_run(sli_pivot_search *p, const sl_csc *A, sl_stats *stats) {
     sl_status status = SL_OK;
     sl_int s;
-    memset(p->contributions, 0, (size_t)p->S->n_supers * sizeof(sli_contribution));
+    SLI_ZERO(p->contributions, p->S->n_supers);
     for (s = 0; s < p->S->n_supers && status == SL_OK; s++) {
         status = sli_search_supernode(p, A, s, stats);
     }

@@ -244,8 +244,8 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
         sli_region_layout(&draft, &b);
     }
     if (status == SL_OK) {
-        memcpy(draft.roots, roots, (size_t)draft.extent.n_roots * sizeof *roots);
-        memcpy(draft.rows, rows, (size_t)draft.extent.n_rows * sizeof *rows);
+        SLI_COPY(draft.roots, roots, draft.extent.n_roots);
+        SLI_COPY(draft.rows, rows, draft.extent.n_rows);
         sli_region_index(&draft);
         *out = (sl_region *)(void *)b.base;
         **out = draft;

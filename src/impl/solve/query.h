@@ -319,7 +319,7 @@ static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sl
     const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs);
     const sl_int *index = q->b_index, count = q->nb;
     if (q->b_repeats || q->nb < q->forward.columns || nrhs < lanes) {
-        memset(y, 0, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
+        SLI_ZERO(y, (size_t)q->forward.columns * (size_t)lanes);
     }
     if (q->b_repeats) {
         sli_pack_sums(y, sli_rows_of(index, count, lanes), B, at, nrhs);

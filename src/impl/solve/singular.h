@@ -266,7 +266,7 @@ static void sli_center_clear(const sl_factor *F, const sli_packed *x, sl_int m, 
     for (; m < F->null.count && F->null.pivots[m] <= root; m++) {
         const sl_int null = F->null.pivots[m], j = sli_reach_index_of(x->R, null);
         if (j != -1 && F->rule.kinds[null] == SLI_PIVOT_NULL) {
-            memset(x->v + (ptrdiff_t)j * x->lanes, 0, (size_t)x->lanes * sizeof(double));
+            SLI_ZERO(x->v + (ptrdiff_t)j * x->lanes, x->lanes);
         }
     }
 }
@@ -320,7 +320,7 @@ static void sli_center(const sl_factor *F, const sli_packed *y, const sli_packed
             }
             j = is_one ? sli_reach_index_of(to, list[m]) : -1;
             if (j != -1) { /* the backward sweep divides by 1 there */
-                memcpy(x->v + (ptrdiff_t)j * x->lanes, terms.t, (size_t)x->lanes * sizeof(double));
+                SLI_COPY(x->v + (ptrdiff_t)j * x->lanes, terms.t, x->lanes);
             }
         }
         first = root + 1;

@@ -11,10 +11,10 @@
  * is 0. */
 static void sli_sweep_transfer(const sli_query *q, const double *y, double *x, sl_int lanes) {
     sli_intersection m = sli_intersection_of(&q->forward, &q->backward);
-    memset(x, 0, (size_t)q->backward.columns * (size_t)lanes * sizeof(double));
+    SLI_ZERO(x, (size_t)q->backward.columns * (size_t)lanes);
     while (sli_intersection_next(&m)) {
-        memcpy(x + (ptrdiff_t)m.in_b * lanes, y + (ptrdiff_t)m.in_a * lanes,
-               (size_t)m.count * (size_t)lanes * sizeof(double));
+        SLI_COPY(x + (ptrdiff_t)m.in_b * lanes, y + (ptrdiff_t)m.in_a * lanes,
+                 (size_t)m.count * (size_t)lanes);
     }
 }
 

@@ -283,7 +283,7 @@ static void sli_sweep_tasks_forward(const sli_sweep_tasks *t, const sli_sweep_ta
         if (leaves == below) {
             continue;
         }
-        memcpy(rows, S->rows + S->rows_begin[s], (size_t)below * sizeof(sl_int));
+        SLI_COPY(rows, S->rows + S->rows_begin[s], below);
         for (k = leaves; k < below; k++) {
             t->slot_row[slot] = rows[k];
             rows[k] = S->n + slot++;
