@@ -2,6 +2,7 @@
 #ifndef SLI_ORDERING_COMPRESS_H
 #define SLI_ORDERING_COMPRESS_H
 
+#include "coarsen.h"
 #include "job.h"
 
 /* The graph is compressed if at most this percentage of its vertices remains. */
