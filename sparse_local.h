@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: bb3edc658569e111
+ * FNV-1a of the lines after this comment, without the license: 31d886ddad83d419
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38240,8 +38240,14 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *va
 /* src/impl/kernels/small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
 
 #if defined(SLV_PAIR)
+#if SLV_SINGLE
+#define SLI_BY_WIDTH(call) call(w)
+#else
 #define SLI_BY_WIDTH(call) SLI_CASES(call)
-#define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
+#endif
+#define SLI_DECLARE(k, y) \
+  SLV_DECLARE(y##k) \
+  SLV_ZERO(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
 
@@ -38939,9 +38945,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli
   SLI_CLEAR_WIDE
   SLW_SET_ENTRIES(v, l, w, SLI_TILE)
   SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
-#if defined(SLW_GROUPS)
   SLW_EACH(SLI_ZERO_OWN, 0)
-#endif
   SLW_EACH(SLI_LOAD_OWN, xs)
   SLW_EACH(SLI_COLUMN_OWN, 0)
   SLW_EACH(SLI_STORE_OWN, xs)
@@ -39012,7 +39016,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
 
 #define SLI_FORWARD(k) SLW_SWEEP(small_forward)(k, below, l, xs, x)
 #define SLI_BACKWARD(k) SLW_SWEEP(small_backward)(k, below, l, d, xs, x)
-#if defined(SLW_GROUPS)
+#if defined(SLW_GROUPS) || SLV_SINGLE
 #define SLI_BY_WIDTH(call) call(w)
 #else
 #define SLI_BY_WIDTH(call) SLI_CASES(call)
@@ -39020,7 +39024,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
 
 SLV_FUNCTION static void SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l,
     double *xs, double *x) {
-  SLI_BY_WIDTH(SLI_FORWARD);
+  SLI_FORWARD(w);
 }
 
 SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_rows below, const SLV_VALUE *l,

@@ -2,12 +2,19 @@
 
 /* Most supernodes of a 2D mesh are this small. They do not spend their time reading L but on loops
  * of few iterations, on calls, and on vector loads of values that were just stored one by one. Here
- * the width is a constant in each of 8 copies: there are no loops over columns, y or the sums of
- * all columns stay in registers, and x is gathered directly into registers. */
+ * there are no loops over columns: y or the sums of all columns stay in registers, and x is
+ * gathered directly into registers. For L in double the width is a constant in each of 7 copies.
+ * With L in float, branches on the width take 1.00 of the time, at most 1.05. */
 
 #if defined(SLV_PAIR)
+#if SLV_SINGLE
+#define SLI_BY_WIDTH(call) call(w)
+#else
 #define SLI_BY_WIDTH(call) SLI_CASES(call)
-#define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
+#endif
+#define SLI_DECLARE(k, y) \
+    SLV_DECLARE(y##k) \
+    SLV_ZERO(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
 
