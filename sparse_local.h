@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 31d886ddad83d419
+ * FNV-1a of the lines after this comment, without the license: 5ca34cdde80e092d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,29 +35,29 @@
  *   2894 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   2971 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3014 impl/ base: the compiler, status, memory, sorting, threads
- *   4288 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5206 impl/ matrix: sparse matrices of the caller and of the library
- *   5836 impl/ ordering: fill-reducing orderings of a graph
- *  10781 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12982 impl/ factor: the numbers of L and D
- *  16357 impl/ solve: full and local solves
+ *   4287 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5207 impl/ matrix: sparse matrices of the caller and of the library
+ *   5837 impl/ ordering: fill-reducing orderings of a graph
+ *  10782 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12984 impl/ factor: the numbers of L and D
+ *  16359 impl/ solve: full and local solves
  *  18023 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
  *  19954 impl/ pivots: the order of the pivots by the values of a matrix
  *  20362 impl/ float: L and fronts in single precision
  *  20813 impl/ inverse: entries of the inverse, regions
- *  23878 impl/ change: a factor that follows changes of its matrix
- *  29971 impl/ dirichlet: rows fixed at given values
- *  30562 impl/ dirichlet: by a factor of all rows
- *  30794 impl/ io: files that are replaced only when they are complete
- *  31012 impl/ files: Matrix Market files, 64-bit indices
- *  31632 impl/ save: factors in files
- *  33645 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34328 impl/ batch: diagonals of many inverses
- *  34468 impl/ complex: complex Hermitian systems over real factors
- *  35030 impl/ complex: entries of the inverse
- *  35090 impl/ packs: the tables through which the core calls packs
- *  35139 impl/ last: undefine every internal macro
- *  35503 impl/ templates: the header includes them from itself, once for each instruction set
+ *  23879 impl/ change: a factor that follows changes of its matrix
+ *  29972 impl/ dirichlet: rows fixed at given values
+ *  30563 impl/ dirichlet: by a factor of all rows
+ *  30795 impl/ io: files that are replaced only when they are complete
+ *  31013 impl/ files: Matrix Market files, 64-bit indices
+ *  31633 impl/ save: factors in files
+ *  33646 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34329 impl/ batch: diagonals of many inverses
+ *  34469 impl/ complex: complex Hermitian systems over real factors
+ *  35031 impl/ complex: entries of the inverse
+ *  35091 impl/ packs: the tables through which the core calls packs
+ *  35140 impl/ last: undefine every internal macro
+ *  35504 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3180,8 +3180,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #if defined(SLI_GNU)
 #define SLI_FNMA1(a, b, c) __builtin_fma(-(a), b, c)
 #elif defined(SLI_X86)
-#define SLI_FNMA1(a, b, c) \
-  _mm_cvtsd_f64(_mm_fnmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c)))
+#define SLI_FNMA1(a, b, c) _mm_cvtsd_f64(_mm_fnmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c)))
 #else
 #define SLI_FNMA1(a, b, c) fma(-(a), b, c)
 #endif
@@ -3354,7 +3353,7 @@ SLI_INLINE int sli_is_link(const char *path) {
 }
 #endif
 
-SLI_INLINE double sli_seconds(void) {
+SLI_NOINLINE static double sli_seconds(void) {
 #if defined(SL_NO_CLOCK)
   return 0.0;
 #else
@@ -3664,7 +3663,7 @@ SLI_INLINE void sli_free_default(void *context, void *block) {
   free(block);
 }
 
-SLI_INLINE sl_allocator sli_allocator(const sl_options *opt) {
+SLI_NOINLINE static sl_allocator sli_allocator(const sl_options *opt) {
   sl_allocator a;
   if (opt != NULL && opt->allocator.allocate != NULL && opt->allocator.release != NULL) {
     return opt->allocator;
@@ -3982,7 +3981,7 @@ SLI_INLINE sl_int sli_value(uint64_t keyed) {
   return (sl_int)(uint32_t)(keyed & 0xffffffffu);
 }
 
-static sl_int sli_lower_bound(const sl_int *a, sl_int count, sl_int bound) {
+SLI_NOINLINE static sl_int sli_lower_bound(const sl_int *a, sl_int count, sl_int bound) {
   sl_int low = 0, high = count;
   while (low < high) {
     const sl_int middle = low + (high - low) / 2;
@@ -4070,7 +4069,7 @@ SLI_INLINE sl_int sli_workers(const sl_threads *t) {
 #define SLI_WORKER_FLOPS 1.5e7
 #endif
 
-SLI_INLINE sl_int sli_team_workers(const sl_threads *t) {
+SLI_NOINLINE static sl_int sli_team_workers(const sl_threads *t) {
 #if defined(SLI_ATOMIC)
   return sli_workers(t);
 #else
@@ -4079,7 +4078,7 @@ SLI_INLINE sl_int sli_team_workers(const sl_threads *t) {
 #endif
 }
 
-static sl_int sli_workers_for(const sl_threads *t, double flops) {
+SLI_NOINLINE static sl_int sli_workers_for(const sl_threads *t, double flops) {
   const sl_int most = sli_team_workers(t);
   return flops >= SLI_WORKER_FLOPS * most ? most : sli_max((sl_int)(flops / SLI_WORKER_FLOPS), 1);
 }
@@ -4150,8 +4149,8 @@ static void sli_spawn(sl_int count, void (*body)(void *data, sl_int k), void *da
 }
 #endif
 
-static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *data, sl_int k),
-    void *data) {
+SLI_NOINLINE static void sli_parallel(const sl_threads *t, sl_int count,
+    void (*body)(void *data, sl_int k), void *data) {
   sl_int k;
   if (t->run != NULL && count > 1) {
     t->run(t->context, count, body, data);
@@ -4299,7 +4298,9 @@ SLI_INLINE sl_int sli_tiles(sl_int rows) {
 }
 
 SLI_INLINE sl_off sli_panel_size(sl_int w, sl_int u) {
-  return w == 1 ? 1 + (sl_off)u : sli_tile_offset(w, sli_tiles(w + u));
+  const sl_off whole = (sl_off)((uint32_t)w / SLI_TILE);
+  return w == 1 ? 1 + (sl_off)u
+          : 32 * whole * (whole + 1) + (sli_tiles(w + u) - whole) * SLI_TILE * w;
 }
 
 SLI_INLINE sl_off sli_panel_start(sl_int w, sl_off end) {
@@ -4631,7 +4632,7 @@ typedef struct sli_pair {
   double p, q, r;
 } sli_pair;
 
-SLI_INLINE sli_pair sli_pair_absolute(double a, double b, double e) {
+SLI_NOINLINE static sli_pair sli_pair_absolute(double a, double b, double e) {
   const double most = fabs(a) > fabs(b) ? fabs(a) : fabs(b),
          size = most > fabs(e) ? most : fabs(e);
   const double f = size > 0.0 ? a / size : 0.0, g = size > 0.0 ? b / size : 0.0;
@@ -12301,7 +12302,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   }
 }
 
-static double sli_analysis_lap(sli_analysis *w) {
+SLI_NOINLINE static double sli_analysis_lap(sli_analysis *w) {
   const double before = w->clock;
   w->clock = sli_seconds_for(w->clock_entries);
   return w->clock - before;
@@ -12671,7 +12672,8 @@ SLI_COLD static sl_status sli_pattern_refuse(const sl_symbolic *S, const sl_csc 
              "the first entry that differs, or stands in another place");
 }
 
-static sl_status sli_pattern_check(const sl_symbolic *S, const sl_csc *A, int needs_values) {
+SLI_NOINLINE static sl_status sli_pattern_check(const sl_symbolic *S, const sl_csc *A,
+    int needs_values) {
   const sl_status status = sli_pattern_check_size(S, A, needs_values);
   sli_hash pattern;
   if (status != SL_OK ||
@@ -13412,7 +13414,7 @@ SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int s, sl_int k, cons
   return SL_OK;
 }
 
-SLI_INLINE void sli_pair_eigenvalues(const sl_factor *F, sl_int k, double *values) {
+SLI_NOINLINE static void sli_pair_eigenvalues(const sl_factor *F, sl_int k, double *values) {
   const double a = F->D[k], b = F->D[k + 1], e = F->E[k];
   const double middle = 0.5 * a + 0.5 * b, half = 0.5 * a - 0.5 * b;
   const double size = fabs(half) > fabs(e) ? fabs(half) : fabs(e);
@@ -15946,7 +15948,7 @@ static sl_status sli_symmetry_check(const sl_symbolic *S, const sl_csc *A, const
 
 /* src/impl/factor/factor.h: creates a factor, and refactors it with new values of the same pattern */
 
-SLI_INLINE sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
+SLI_NOINLINE static sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
   const sl_status status = sli_factor_has_numbers(F);
   return status == SL_OK ? sli_pattern_check(F->S, A, 1) : status;
 }
@@ -16030,7 +16032,7 @@ SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const 
   F->stats.factor.null += f->status == SL_ERR_PIVOT && !has_pivots;
 }
 
-static void sli_factor_stats_copy(const sli_factor_stats *from, sl_stats *to) {
+SLI_NOINLINE static void sli_factor_stats_copy(const sli_factor_stats *from, sl_stats *to) {
   to->factor = from->factor;
   to->storage = from->storage;
   to->threads = from->threads;
@@ -16387,7 +16389,7 @@ static sl_work sli_work_own(const sl_allocator *a) {
   return own;
 }
 
-SLI_INLINE sl_status sli_work_block(sl_work *W, sli_block *b) {
+SLI_NOINLINE static sl_status sli_work_block(sl_work *W, sli_block *b) {
   const sl_status status = sli_work_grow(W, b->used);
   b->base = (unsigned char *)W->block;
   b->used = 0;
@@ -16532,13 +16534,11 @@ SLI_COLD static sl_status sli_refuse_region(void) {
 }
 
 SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
-  return nrhs <= 1 ? SLI_NRHS_1
-       : nrhs == 2 ? SLI_NRHS_2
-       : nrhs <= 4 ? SLI_NRHS_4
-       : nrhs <= 8 ? SLI_NRHS_8
-       : nrhs <= 16 ? SLI_NRHS_16
-       : nrhs <= 32 ? SLI_NRHS_32
-            : SLI_NRHS_64;
+  int kind = SLI_NRHS_1;
+  while ((sl_int)1 << kind < nrhs) {
+    kind++;
+  }
+  return kind;
 }
 
 SLI_INLINE sl_int sli_block_size(sl_int nrhs, sl_int most) {
@@ -18165,7 +18165,7 @@ static void sli_parts_apply(const sli_parts *p, const sli_vectors *v, int kind) 
   }
 }
 
-static sl_status sli_parts_check(const sl_factor *F, unsigned parts) {
+SLI_NOINLINE static sl_status sli_parts_check(const sl_factor *F, unsigned parts) {
   const unsigned both = SL_PART_D | SL_PART_SQRT_D;
   sl_status status = sli_argument(parts >= 2u * SL_PART_PT ? "parts has a bit that is not known"
       : (parts & both) == both ? "parts has both D and sqrt(D)"
@@ -18557,8 +18557,8 @@ SLI_INLINE double sli_max_error(double a, double b) {
   return a != a || a > b ? a : b;
 }
 
-static sl_status sli_refine_done(const sl_factor *F, sl_stats *stats, sl_int most, sl_int steps,
-    double error) {
+SLI_NOINLINE static sl_status sli_refine_done(const sl_factor *F, sl_stats *stats, sl_int most,
+    sl_int steps, double error) {
   if (stats != NULL) {
     stats->refine.steps = steps;
     stats->refine.backward_error = error;
@@ -21616,7 +21616,7 @@ static sl_int sli_rhs_block_choose(const sli_requests *r, sl_int k, sli_rhs_bloc
   return block_size;
 }
 
-static void sli_rhs_block_rebuild(const sli_requests *r, sl_int k, sl_int block_size,
+SLI_NOINLINE static void sli_rhs_block_rebuild(const sli_requests *r, sl_int k, sl_int block_size,
     sli_rhs_block *block) {
   memset(block, 0, sizeof *block);
   for (; block_size > 0; block_size--, k++) {
@@ -21697,7 +21697,7 @@ static sli_forward sli_forward_of_worker(const sli_forward *all, const sli_capac
   return f;
 }
 
-static void sli_forward_clear(sli_forward *f, sl_int vectors) {
+SLI_NOINLINE static void sli_forward_clear(sli_forward *f, sl_int vectors) {
   f->kind = sli_lanes_kind(vectors);
   f->lanes = (sl_int)1 << f->kind;
   SLI_ZERO(f->y, (size_t)f->reach.columns * (size_t)f->lanes);
@@ -22387,7 +22387,7 @@ static sl_status sli_entries_prepare(sli_entries *q, sl_work *W) {
                   : sli_work_stages(W, sli_entries_stages, 3, q);
 }
 
-static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
+SLI_NOINLINE static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
   const sl_status status = sli_entries_prepare(q, W);
   if (status != SL_OK) {
     return status;
@@ -22598,8 +22598,9 @@ static void sli_inverse_block_layout_sweeps(void *block, sli_block *b) {
   }
 }
 
-static void sli_swept_block_make(sli_swept_block *s, const sl_factor *F, const sli_requests *r,
-    sl_int k, sl_int block_size, sl_stats *stats) {
+SLI_NOINLINE static void sli_swept_block_make(sli_swept_block *s, const sl_factor *F,
+    const sli_requests *r, sl_int k, sl_int block_size,
+    sl_stats *stats) {
   s->first = k;
   s->block_size = block_size;
   sli_rhs_block_rebuild(r, k, block_size, &s->block);
@@ -26781,7 +26782,7 @@ static void sli_pins_release(sl_pins *P) {
   sli_free(&P->allocator, P->uses);
 }
 
-static void sli_pins_report(const sl_pins *P, double started, sl_stats *stats) {
+SLI_NOINLINE static void sli_pins_report(const sl_pins *P, double started, sl_stats *stats) {
   if (stats != NULL) {
     stats->pins.count = P->n_pins;
     stats->pins.seconds = sli_seconds() - started;
@@ -33910,7 +33911,7 @@ SLI_INLINE const sl_factor *sli_request_factor(const sli_solve_batch *b, const s
   return r->factor != NULL ? r->factor : b->F;
 }
 
-static sli_query sli_request_query(const sl_factor *F, const sl_request *r) {
+SLI_NOINLINE static sli_query sli_request_query(const sl_factor *F, const sl_request *r) {
   return r->plan == NULL ? sli_query_all(F->S) : r->plan->query;
 }
 
@@ -37225,8 +37226,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(merge)(double *to, const double *from, sl_
   }
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, sl_int last,
-    double *to, sl_int columns) {
+SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(mirror)(const double *from, sl_int first,
+    sl_int last, double *to, sl_int columns) {
   if (columns == SLI_TILE && first == 0 && last == SLI_TILE) {
     SLV_TRANSPOSE(to, from)
   } else {
@@ -37236,7 +37237,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, 
   }
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_inverse_front *f, sl_int j0,
+SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(group_mirror)(const sli_inverse_front *f, sl_int j0,
     sl_int t0, sl_int t1) {
   const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below;
   const ptrdiff_t tile_size = SLI_TILE * SLI_TILE;

@@ -160,7 +160,7 @@ static void sli_parts_apply(const sli_parts *p, const sli_vectors *v, int kind) 
 }
 
 /* Checks what does not depend on sizes. */
-static sl_status sli_parts_check(const sl_factor *F, unsigned parts) {
+SLI_NOINLINE static sl_status sli_parts_check(const sl_factor *F, unsigned parts) {
     const unsigned both = SL_PART_D | SL_PART_SQRT_D;
     sl_status status = sli_argument(parts >= 2u * SL_PART_PT ? "parts has a bit that is not known"
                                     : (parts & both) == both ? "parts has both D and sqrt(D)"

@@ -129,8 +129,8 @@ SLI_INLINE double sli_max_error(double a, double b) {
 }
 
 /* Ends a refinement of at most `most` steps. Without any it was asked to measure only. */
-static sl_status sli_refine_done(const sl_factor *F, sl_stats *stats, sl_int most, sl_int steps,
-                                 double error) {
+SLI_NOINLINE static sl_status sli_refine_done(const sl_factor *F, sl_stats *stats, sl_int most,
+                                              sl_int steps, double error) {
     if (stats != NULL) {
         stats->refine.steps = steps;
         stats->refine.backward_error = error;

@@ -68,7 +68,8 @@ SLI_COLD static sl_status sli_pattern_refuse(const sl_symbolic *S, const sl_csc 
 }
 
 /* Checks that A has the pattern that S was made from. Reads p and i of A, and no value. */
-static sl_status sli_pattern_check(const sl_symbolic *S, const sl_csc *A, int needs_values) {
+SLI_NOINLINE static sl_status sli_pattern_check(const sl_symbolic *S, const sl_csc *A,
+                                                int needs_values) {
     const sl_status status = sli_pattern_check_size(S, A, needs_values);
     sli_hash pattern;
     if (status != SL_OK ||

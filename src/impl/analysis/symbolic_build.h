@@ -174,7 +174,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
 }
 
 /* The processor seconds since the last call. */
-static double sli_analysis_lap(sli_analysis *w) {
+SLI_NOINLINE static double sli_analysis_lap(sli_analysis *w) {
     const double before = w->clock;
     w->clock = sli_seconds_for(w->clock_entries);
     return w->clock - before;

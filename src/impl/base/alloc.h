@@ -49,7 +49,7 @@ SLI_INLINE void sli_free_default(void *context, void *block) {
 }
 
 /* The caller's allocator; by default malloc and free. */
-SLI_INLINE sl_allocator sli_allocator(const sl_options *opt) {
+SLI_NOINLINE static sl_allocator sli_allocator(const sl_options *opt) {
     sl_allocator a;
     if (opt != NULL && opt->allocator.allocate != NULL && opt->allocator.release != NULL) {
         return opt->allocator;

@@ -147,7 +147,8 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #define SLI_INLINE __attribute__((unused)) static inline
 /* for functions whose calls pass a constant that must be folded into the body */
 #define SLI_ALWAYS_INLINE __attribute__((unused, always_inline)) static inline
-#define SLI_NOINLINE __attribute__((unused, noinline)) /* keeps rare code out of hot functions */
+/* for rare code in hot functions, and for what many functions call */
+#define SLI_NOINLINE __attribute__((unused, noinline))
 /* The same, compiled for few bytes: errors, and calls whose time is that of what they call. What
  * only such functions call is compiled like them, but for SLI_HOT. Other functions call them under
  * a condition, because compilers take the way to them for rare: no public call is cold, or its
@@ -188,8 +189,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #if defined(SLI_GNU)
 #define SLI_FNMA1(a, b, c) __builtin_fma(-(a), b, c)
 #elif defined(SLI_X86)
-#define SLI_FNMA1(a, b, c) \
-    _mm_cvtsd_f64(_mm_fnmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c)))
+#define SLI_FNMA1(a, b, c) _mm_cvtsd_f64(_mm_fnmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c)))
 #else
 #define SLI_FNMA1(a, b, c) fma(-(a), b, c)
 #endif
@@ -382,7 +382,7 @@ SLI_INLINE int sli_is_link(const char *path) {
 
 /* Seconds of processor time since an arbitrary moment. C99 has no other clock; on Windows it counts
  * all time. */
-SLI_INLINE double sli_seconds(void) {
+SLI_NOINLINE static double sli_seconds(void) {
 #if defined(SL_NO_CLOCK)
     return 0.0;
 #else

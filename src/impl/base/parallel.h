@@ -30,7 +30,7 @@ SLI_INLINE sl_int sli_workers(const sl_threads *t) {
 #endif
 
 /* The number of workers that may wait for each other. */
-SLI_INLINE sl_int sli_team_workers(const sl_threads *t) {
+SLI_NOINLINE static sl_int sli_team_workers(const sl_threads *t) {
 #if defined(SLI_ATOMIC)
     return sli_workers(t);
 #else
@@ -40,7 +40,7 @@ SLI_INLINE sl_int sli_team_workers(const sl_threads *t) {
 }
 
 /* The number of workers that share so many flops as tasks. */
-static sl_int sli_workers_for(const sl_threads *t, double flops) {
+SLI_NOINLINE static sl_int sli_workers_for(const sl_threads *t, double flops) {
     const sl_int most = sli_team_workers(t);
     return flops >= SLI_WORKER_FLOPS * most ? most : sli_max((sl_int)(flops / SLI_WORKER_FLOPS), 1);
 }
@@ -118,8 +118,8 @@ static void sli_spawn(sl_int count, void (*body)(void *data, sl_int k), void *da
 #endif
 
 /* Calls body(data, k) for k = 0 .. count-1. */
-static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *data, sl_int k),
-                         void *data) {
+SLI_NOINLINE static void sli_parallel(const sl_threads *t, sl_int count,
+                                      void (*body)(void *data, sl_int k), void *data) {
     sl_int k;
     if (t->run != NULL && count > 1) {
         t->run(t->context, count, body, data);

@@ -19,7 +19,7 @@ SLI_INLINE sl_int sli_value(uint64_t keyed) {
 }
 
 /* The number of elements below a bound, of count ascending elements. */
-static sl_int sli_lower_bound(const sl_int *a, sl_int count, sl_int bound) {
+SLI_NOINLINE static sl_int sli_lower_bound(const sl_int *a, sl_int count, sl_int bound) {
     sl_int low = 0, high = count;
     while (low < high) {
         const sl_int middle = low + (high - low) / 2;

@@ -24,7 +24,7 @@ SLI_INLINE const sl_factor *sli_request_factor(const sli_solve_batch *b, const s
     return r->factor != NULL ? r->factor : b->F;
 }
 
-static sli_query sli_request_query(const sl_factor *F, const sl_request *r) {
+SLI_NOINLINE static sli_query sli_request_query(const sl_factor *F, const sl_request *r) {
     return r->plan == NULL ? sli_query_all(F->S) : r->plan->query;
 }
 

@@ -45,7 +45,7 @@ static void sli_pins_release(sl_pins *P) {
     sli_free(&P->allocator, P->uses);
 }
 
-static void sli_pins_report(const sl_pins *P, double started, sl_stats *stats) {
+SLI_NOINLINE static void sli_pins_report(const sl_pins *P, double started, sl_stats *stats) {
     if (stats != NULL) {
         stats->pins.count = P->n_pins;
         stats->pins.seconds = sli_seconds() - started;

@@ -11,7 +11,7 @@
 #include "uplooking.h"
 
 /* Checks that F holds a factor and that A has the pattern that was analyzed. */
-SLI_INLINE sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
+SLI_NOINLINE static sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
     const sl_status status = sli_factor_has_numbers(F);
     return status == SL_OK ? sli_pattern_check(F->S, A, 1) : status;
 }
@@ -100,7 +100,7 @@ SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const 
     F->stats.factor.null += f->status == SL_ERR_PIVOT && !has_pivots;
 }
 
-static void sli_factor_stats_copy(const sli_factor_stats *from, sl_stats *to) {
+SLI_NOINLINE static void sli_factor_stats_copy(const sli_factor_stats *from, sl_stats *to) {
     to->factor = from->factor;
     to->storage = from->storage;
     to->threads = from->threads;

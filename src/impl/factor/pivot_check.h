@@ -101,7 +101,7 @@ SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int s, sl_int k, cons
 }
 
 /* The eigenvalues of the 2x2 pivot of columns k, k+1, the one of larger magnitude first. */
-SLI_INLINE void sli_pair_eigenvalues(const sl_factor *F, sl_int k, double *values) {
+SLI_NOINLINE static void sli_pair_eigenvalues(const sl_factor *F, sl_int k, double *values) {
     const double a = F->D[k], b = F->D[k + 1], e = F->E[k];
     const double middle = 0.5 * a + 0.5 * b, half = 0.5 * a - 0.5 * b;
     const double size = fabs(half) > fabs(e) ? fabs(half) : fabs(e);

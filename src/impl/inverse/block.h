@@ -113,8 +113,9 @@ static void sli_inverse_block_layout_sweeps(void *block, sli_block *b) {
 }
 
 /* Sweeps the block of block_size requests that starts at the k-th. */
-static void sli_swept_block_make(sli_swept_block *s, const sl_factor *F, const sli_requests *r,
-                                 sl_int k, sl_int block_size, sl_stats *stats) {
+SLI_NOINLINE static void sli_swept_block_make(sli_swept_block *s, const sl_factor *F,
+                                              const sli_requests *r, sl_int k, sl_int block_size,
+                                              sl_stats *stats) {
     s->first = k;
     s->block_size = block_size;
     sli_rhs_block_rebuild(r, k, block_size, &s->block);

@@ -325,7 +325,7 @@ static sl_status sli_entries_prepare(sli_entries *q, sl_work *W) {
                                     : sli_work_stages(W, sli_entries_stages, 3, q);
 }
 
-static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
+SLI_NOINLINE static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
     const sl_status status = sli_entries_prepare(q, W);
     if (status != SL_OK) {
         return status;

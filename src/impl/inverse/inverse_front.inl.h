@@ -236,8 +236,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(merge)(double *to, const double *from, sl_
 }
 
 /* Transposes a tile: its lanes first .. last-1 become columns, its first columns become lanes. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, sl_int last,
-                                              double *to, sl_int columns) {
+SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(mirror)(const double *from, sl_int first,
+                                                       sl_int last, double *to, sl_int columns) {
     if (columns == SLI_TILE && first == 0 && last == SLI_TILE) {
         SLV_TRANSPOSE(to, from)
     } else {
@@ -248,8 +248,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, 
 }
 
 /* Z_JS = Z_SJ' for row tiles t0 .. t1-1 of Z_SJ. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_inverse_front *f, sl_int j0,
-                                                    sl_int t0, sl_int t1) {
+SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(group_mirror)(const sli_inverse_front *f, sl_int j0,
+                                                             sl_int t0, sl_int t1) {
     const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below;
     const ptrdiff_t tile_size = SLI_TILE * SLI_TILE;
     sl_int t, c;

@@ -148,8 +148,8 @@ static sl_int sli_rhs_block_choose(const sli_requests *r, sl_int k, sli_rhs_bloc
 
 /* Forms the block again that starts at the k-th of the sorted requests and has block_size requests.
  */
-static void sli_rhs_block_rebuild(const sli_requests *r, sl_int k, sl_int block_size,
-                                  sli_rhs_block *block) {
+SLI_NOINLINE static void sli_rhs_block_rebuild(const sli_requests *r, sl_int k, sl_int block_size,
+                                               sli_rhs_block *block) {
     memset(block, 0, sizeof *block);
     for (; block_size > 0; block_size--, k++) {
         (void)sli_rhs_block_add_request(block, r, k, NULL);
@@ -238,7 +238,7 @@ static sli_forward sli_forward_of_worker(const sli_forward *all, const sli_capac
 }
 
 /* Sets the number of lanes for some vectors and clears y over a compiled reach. */
-static void sli_forward_clear(sli_forward *f, sl_int vectors) {
+SLI_NOINLINE static void sli_forward_clear(sli_forward *f, sl_int vectors) {
     f->kind = sli_lanes_kind(vectors);
     f->lanes = (sl_int)1 << f->kind;
     SLI_ZERO(f->y, (size_t)f->reach.columns * (size_t)f->lanes);

@@ -56,7 +56,7 @@ typedef struct sli_pair {
 
 /* |D| = (D^2)^(1/2) = [p q; q r], positive semidefinite. |l' D l| alone may be 0 where an update
  * cancels the whole row, as in a constraint that repeats another one: l' |D| l is not. */
-SLI_INLINE sli_pair sli_pair_absolute(double a, double b, double e) {
+SLI_NOINLINE static sli_pair sli_pair_absolute(double a, double b, double e) {
     const double most = fabs(a) > fabs(b) ? fabs(a) : fabs(b),
                  size = most > fabs(e) ? most : fabs(e);
     const double f = size > 0.0 ? a / size : 0.0, g = size > 0.0 ? b / size : 0.0;

@@ -23,9 +23,12 @@ SLI_INLINE sl_int sli_tiles(sl_int rows) {
     return (sl_int)(((uint32_t)rows + SLI_TILE - 1) / SLI_TILE); /* without a branch */
 }
 
-/* Size of a panel of w columns and u rows below the diagonal block, in doubles. */
+/* Size of a panel of w columns and u rows below the diagonal block, in doubles: the offset of the
+ * tile after the last one, which does not grow. */
 SLI_INLINE sl_off sli_panel_size(sl_int w, sl_int u) {
-    return w == 1 ? 1 + (sl_off)u : sli_tile_offset(w, sli_tiles(w + u));
+    const sl_off whole = (sl_off)((uint32_t)w / SLI_TILE);
+    return w == 1 ? 1 + (sl_off)u
+                  : 32 * whole * (whole + 1) + (sli_tiles(w + u) - whole) * SLI_TILE * w;
 }
 
 /* Where a panel of w columns begins, the panels before which end at `end`. */

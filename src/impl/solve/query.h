@@ -95,13 +95,11 @@ SLI_COLD static sl_status sli_refuse_region(void) {
 
 /* The sweep kernel for a block of nrhs right-hand sides. It takes 1 << kind of them. */
 SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
-    return nrhs <= 1    ? SLI_NRHS_1
-           : nrhs == 2  ? SLI_NRHS_2
-           : nrhs <= 4  ? SLI_NRHS_4
-           : nrhs <= 8  ? SLI_NRHS_8
-           : nrhs <= 16 ? SLI_NRHS_16
-           : nrhs <= 32 ? SLI_NRHS_32
-                        : SLI_NRHS_64;
+    int kind = SLI_NRHS_1;
+    while ((sl_int)1 << kind < nrhs) {
+        kind++;
+    }
+    return kind;
 }
 
 /* The size of the next block of at most `most` of nrhs right-hand sides: 64, 32, 16 or up to 8.

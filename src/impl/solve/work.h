@@ -39,7 +39,7 @@ static sl_work sli_work_own(const sl_allocator *a) {
 }
 
 /* Grows W to what the layout in b has counted, and rewinds b to W's memory for the second run. */
-SLI_INLINE sl_status sli_work_block(sl_work *W, sli_block *b) {
+SLI_NOINLINE static sl_status sli_work_block(sl_work *W, sli_block *b) {
     const sl_status status = sli_work_grow(W, b->used);
     b->base = (unsigned char *)W->block;
     b->used = 0;
