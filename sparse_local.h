@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 5ca34cdde80e092d
+ * FNV-1a of the lines after this comment, without the license: 0a3179bcc85a6d70
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -41,23 +41,23 @@
  *  10782 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12984 impl/ factor: the numbers of L and D
  *  16359 impl/ solve: full and local solves
- *  18023 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19954 impl/ pivots: the order of the pivots by the values of a matrix
- *  20362 impl/ float: L and fronts in single precision
- *  20813 impl/ inverse: entries of the inverse, regions
- *  23879 impl/ change: a factor that follows changes of its matrix
- *  29972 impl/ dirichlet: rows fixed at given values
- *  30563 impl/ dirichlet: by a factor of all rows
- *  30795 impl/ io: files that are replaced only when they are complete
- *  31013 impl/ files: Matrix Market files, 64-bit indices
- *  31633 impl/ save: factors in files
- *  33646 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34329 impl/ batch: diagonals of many inverses
- *  34469 impl/ complex: complex Hermitian systems over real factors
- *  35031 impl/ complex: entries of the inverse
- *  35091 impl/ packs: the tables through which the core calls packs
- *  35140 impl/ last: undefine every internal macro
- *  35504 impl/ templates: the header includes them from itself, once for each instruction set
+ *  18018 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19949 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20357 impl/ float: L and fronts in single precision
+ *  20808 impl/ inverse: entries of the inverse, regions
+ *  23875 impl/ change: a factor that follows changes of its matrix
+ *  29969 impl/ dirichlet: rows fixed at given values
+ *  30560 impl/ dirichlet: by a factor of all rows
+ *  30792 impl/ io: files that are replaced only when they are complete
+ *  31010 impl/ files: Matrix Market files, 64-bit indices
+ *  31630 impl/ save: factors in files
+ *  33643 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34326 impl/ batch: diagonals of many inverses
+ *  34466 impl/ complex: complex Hermitian systems over real factors
+ *  35028 impl/ complex: entries of the inverse
+ *  35088 impl/ packs: the tables through which the core calls packs
+ *  35137 impl/ last: undefine every internal macro
+ *  35501 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -16788,9 +16788,7 @@ static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rh
 
 /* src/impl/solve/singular.h: solves with null pivots: the consistency check, and centering */
 
-SLI_ALWAYS_INLINE void sli_chains_norm(double *chains, const double *row, sl_int columns,
-    sl_int lanes) {
-  const ptrdiff_t count = (ptrdiff_t)columns * lanes;
+static void sli_chains_norm(double *chains, const double *row, ptrdiff_t count) {
   ptrdiff_t f = 0;
   sl_int q;
   for (; f + SLI_TILE <= count; f += SLI_TILE) {
@@ -16799,7 +16797,7 @@ SLI_ALWAYS_INLINE void sli_chains_norm(double *chains, const double *row, sl_int
       chains[q] += fabs(row[f + q]);
     }
   }
-  for (q = 0; f < count; q++) { /* untested: none left of 8 lanes */
+  for (q = 0; f < count; q++) {
     chains[q] += fabs(row[f++]);
   }
 }
@@ -16872,11 +16870,8 @@ static void sli_norms(const sli_packed *b, double *norms) {
   sl_int s;
   memset(chains, 0, sizeof chains);
   for (s = 0; s < R->count; s++) {
-    const sl_int columns = sli_step_columns(&R->steps[s]);
-    const double *row = b->v + (ptrdiff_t)R->steps[s].base * lanes;
-#define SLI_CALL(constant) sli_chains_norm(chains, row, columns, constant)
-    SLI_FOR_LANES(lanes, SLI_CALL)
-#undef SLI_CALL
+    sli_chains_norm(chains, b->v + (ptrdiff_t)R->steps[s].base * lanes,
+        (ptrdiff_t)sli_step_columns(&R->steps[s]) * lanes);
   }
   sli_chains_sum(chains, lanes, norms);
 }
@@ -19377,7 +19372,7 @@ SLI_HOT static void sli_probes_multiply(sli_probes *p) {
   }
 }
 
-static void sli_probes_measure(sli_probes *p, int is_first) {
+SLI_HOT static void sli_probes_measure(sli_probes *p, int is_first) {
   double square[SLI_PROBES], size[SLI_PROBES];
   sl_int i, c;
   memset(square, 0, sizeof square);
@@ -19551,8 +19546,8 @@ static sl_status sli_certify_fits(const sl_factor *F, const sl_csc *A, sl_triang
   return status == SL_OK ? sli_argument(A->x == NULL ? "A.x is NULL" : NULL) : status;
 }
 
-static sl_status sli_certify(sl_factor *F, const sl_csc *A, sl_certainty certainty, sl_work *W,
-    sl_certificate_info *info) {
+SLI_COLD static sl_status sli_certify(sl_factor *F, const sl_csc *A, sl_certainty certainty,
+    sl_work *W, sl_certificate_info *info) {
   sli_probes p;
   sl_status status;
   SLI_CLEAR(p);
@@ -23629,8 +23624,9 @@ static void sli_region_from_choice(sl_region *R, const sli_choice *c) {
   SLI_ZERO(R->Z, R->begin[sli_region_chunks(n_rows)]);
 }
 
-static sl_status sli_region_new(sl_region **out, const sli_choice *start, const sl_int *set,
-    const sl_allocator *a, sl_stats *stats) {
+SLI_COLD static sl_status sli_region_new(sl_region **out, const sli_choice *start,
+    const sl_int *set, const sl_allocator *a,
+    sl_stats *stats) {
   const sl_symbolic *S = start->S;
   sli_block seeds = {NULL, 0}, rest = {NULL, 0}, kept = {NULL, 0};
   sli_choice c = *start;
@@ -28186,8 +28182,9 @@ static sl_status sli_restrict_report(const sli_restriction *r, sl_status status,
   return sli_fail_as(stats, status, &found);
 }
 
-static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_factor *F,
-    sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
+SLI_COLD static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_factor *F,
+    sli_restriction *r, const sl_allocator *a,
+    sl_stats *stats) {
   const double started = sli_seconds();
   const sl_options rules = sli_restrict_options(F, r, a, (sl_int *)(void *)r->scratch);
   sl_stats found;
@@ -33490,7 +33487,7 @@ SL_API void sl_saved_set_free(sl_saved_set *set) {
   memset(set, 0, sizeof *set);
 }
 
-static sl_status sli_read(sli_reading *r, sl_saved_set *set) {
+SLI_COLD static sl_status sli_read(sli_reading *r, sl_saved_set *set) {
   const sl_saved_content wanted = set->wanted;
   sl_status status = sli_read_front(r);
   if (status == SL_OK && r->is_mapped && r->swapped) {

@@ -129,7 +129,7 @@ SLI_HOT static void sli_probes_multiply(sli_probes *p) {
 }
 
 /* Takes the norms of the probes. Those after the first are the errors of the ones before. */
-static void sli_probes_measure(sli_probes *p, int is_first) {
+SLI_HOT static void sli_probes_measure(sli_probes *p, int is_first) {
     double square[SLI_PROBES], size[SLI_PROBES];
     sl_int i, c;
     memset(square, 0, sizeof square);
@@ -320,8 +320,8 @@ static sl_status sli_certify_fits(const sl_factor *F, const sl_csc *A, sl_triang
     return status == SL_OK ? sli_argument(A->x == NULL ? "A.x is NULL" : NULL) : status;
 }
 
-static sl_status sli_certify(sl_factor *F, const sl_csc *A, sl_certainty certainty, sl_work *W,
-                             sl_certificate_info *info) {
+SLI_COLD static sl_status sli_certify(sl_factor *F, const sl_csc *A, sl_certainty certainty,
+                                      sl_work *W, sl_certificate_info *info) {
     sli_probes p;
     sl_status status;
     SLI_CLEAR(p);

@@ -148,8 +148,9 @@ static sl_status sli_restrict_report(const sli_restriction *r, sl_status status,
     return sli_fail_as(stats, status, &found);
 }
 
-static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_factor *F,
-                                  sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
+SLI_COLD static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_factor *F,
+                                           sli_restriction *r, const sl_allocator *a,
+                                           sl_stats *stats) {
     const double started = sli_seconds();
     const sl_options rules = sli_restrict_options(F, r, a, (sl_int *)(void *)r->scratch);
     sl_stats found;

@@ -51,8 +51,9 @@ static void sli_region_from_choice(sl_region *R, const sli_choice *c) {
 }
 
 /* Chooses and makes the object, without its numbers. start: the choice without its arrays. */
-static sl_status sli_region_new(sl_region **out, const sli_choice *start, const sl_int *set,
-                                const sl_allocator *a, sl_stats *stats) {
+SLI_COLD static sl_status sli_region_new(sl_region **out, const sli_choice *start,
+                                         const sl_int *set, const sl_allocator *a,
+                                         sl_stats *stats) {
     const sl_symbolic *S = start->S;
     sli_block seeds = {NULL, 0}, rest = {NULL, 0}, kept = {NULL, 0};
     sli_choice c = *start;

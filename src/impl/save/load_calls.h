@@ -23,7 +23,7 @@ SL_API void sl_saved_set_free(sl_saved_set *set) {
 }
 
 /* Reads the objects in their order in the file. */
-static sl_status sli_read(sli_reading *r, sl_saved_set *set) {
+SLI_COLD static sl_status sli_read(sli_reading *r, sl_saved_set *set) {
     const sl_saved_content wanted = set->wanted;
     sl_status status = sli_read_front(r);
     if (status == SL_OK && r->is_mapped && r->swapped) {

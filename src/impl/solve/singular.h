@@ -5,12 +5,10 @@
 #include "../analysis/reach.h"
 #include "../factor/null_basis.h"
 
-/* Sums over the columns of a step, which begins at a whole tile. 8 independent chains of additions
- * hide the latency. Double f of a step goes to chain f % 8, in a local sweep as in a full one, so
- * the bits agree. Called with constant lanes. */
-SLI_ALWAYS_INLINE void sli_chains_norm(double *chains, const double *row, sl_int columns,
-                                       sl_int lanes) {
-    const ptrdiff_t count = (ptrdiff_t)columns * lanes;
+/* Sums over the `count` doubles of a step, which begins at a whole tile. 8 independent chains of
+ * additions hide the latency. Double f of a step goes to chain f % 8, in a local sweep as in a full
+ * one, so the bits agree. */
+static void sli_chains_norm(double *chains, const double *row, ptrdiff_t count) {
     ptrdiff_t f = 0;
     sl_int q;
     for (; f + SLI_TILE <= count; f += SLI_TILE) {
@@ -19,11 +17,12 @@ SLI_ALWAYS_INLINE void sli_chains_norm(double *chains, const double *row, sl_int
             chains[q] += fabs(row[f + q]);
         }
     }
-    for (q = 0; f < count; q++) { /* untested: none left of 8 lanes */
+    for (q = 0; f < count; q++) {
         chains[q] += fabs(row[f++]);
     }
 }
 
+/* The same for products with v; called with constant lanes. */
 SLI_ALWAYS_INLINE void sli_chains_dot(double *chains, const double *v, const double *row,
                                       sl_int columns, sl_int lanes) {
     const ptrdiff_t count = (ptrdiff_t)columns * lanes;
@@ -96,11 +95,8 @@ static void sli_norms(const sli_packed *b, double *norms) {
     sl_int s;
     memset(chains, 0, sizeof chains);
     for (s = 0; s < R->count; s++) {
-        const sl_int columns = sli_step_columns(&R->steps[s]);
-        const double *row = b->v + (ptrdiff_t)R->steps[s].base * lanes;
-#define SLI_CALL(constant) sli_chains_norm(chains, row, columns, constant)
-        SLI_FOR_LANES(lanes, SLI_CALL)
-#undef SLI_CALL
+        sli_chains_norm(chains, b->v + (ptrdiff_t)R->steps[s].base * lanes,
+                        (ptrdiff_t)sli_step_columns(&R->steps[s]) * lanes);
     }
     sli_chains_sum(chains, lanes, norms);
 }
