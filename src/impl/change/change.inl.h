@@ -27,6 +27,27 @@
     }
 #define SLI_EACH2(op, k) op(0, k) op(1, k)
 
+#if defined(SLV_ARRAYS) /* the same operations, in a loop over the vectors */
+SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(change)(double *l, sl_int columns, sl_int ranks,
+                                                       const double *c, double *w) {
+    sl_int j, r;
+    for (j = 0; j < columns; j++, l += SLI_TILE, c += 2 * ranks) {
+        for (r = 0; r < ranks; r++) {
+            SLI_LOOP(SLI_TILE, w[SLI_TILE * r + i_] -= l[i_] * c[r])
+        }
+        for (r = 0; r < ranks; r++) {
+            SLI_LOOP(SLI_TILE, l[i_] -= w[SLI_TILE * r + i_] * c[ranks + r])
+        }
+    }
+}
+#undef SLI_CHANGE_KERNEL
+#define SLI_CHANGE_KERNEL(name, ranks, unused) \
+    SLV_FUNCTION static void SLV_NAME(name)(double *l, sl_int columns, const double *c, \
+                                            double *w) { \
+        SLV_NAME(change)(l, columns, ranks, c, w); \
+    }
+#endif
+
 SLI_CHANGE_KERNEL(change2, 2, SLI_EACH2)
 SLI_CHANGE_KERNEL(change4, 4, SLI_EACH4)
 SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
@@ -145,8 +166,16 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
     return columns;
 }
 
-/* One vector and columns first .. last-1 of one row tile, or of four, whose chains of w overlap:
- * w -= l y, then l += b w. A trial leaves L alone. */
+/* One vector and columns first .. last-1 of one row tile, or of SLI_CHAINS, whose chains of w
+ * overlap: w -= l y, then l += b w. A trial leaves L alone. */
+#define SLI_EACH1(op, k) op(0, k)
+#if defined(SLV_ARRAYS)
+#define SLI_CHAINS 1
+#define SLI_EACH_CHAIN SLI_EACH1
+#else
+#define SLI_CHAINS 4
+#define SLI_EACH_CHAIN SLI_EACH4
+#endif
 #define SLI_POINT(t, unused) double *const l##t = tiles[t];
 #define SLI_CHANGE(t, unused) \
     SLV_LOAD_PINNED(a, l##t + SLI_TILE * j) \
@@ -167,10 +196,10 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
             SLV_BROADCAST(s, y + j) SLV_BROADCAST(r, b + j) \
                 each(SLI_CHANGE, 0)} each(SLI_STORE, 0) \
     }
-#define SLI_EACH1(op, k) op(0, k)
 SLI_TILES_KERNEL(change_tile, SLI_EACH1)
-SLI_TILES_KERNEL(change_tiles, SLI_EACH4)
+SLI_TILES_KERNEL(change_tiles, SLI_EACH_CHAIN)
 #undef SLI_EACH1
+#undef SLI_EACH_CHAIN
 #undef SLI_POINT
 #undef SLI_CHANGE
 #undef SLI_TILES_KERNEL
@@ -237,17 +266,17 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(sli_rank_one *u, double *l,
 SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
     const sl_int width = u->width, first = SLI_TILE * u->first_tile;
     const sl_int tiles = sli_tiles(width + u->below);
-    double *l = u->panel + sli_tile_offset(width, u->first_tile), *at[4];
+    double *l = u->panel + sli_tile_offset(width, u->first_tile), *at[SLI_CHAINS];
     double *const w = u->w, *const b = u->b;
     sl_int t0 = u->first_tile, count, t, k;
     for (; t0 < tiles; t0 += count) {
         const sl_int row = SLI_TILE * t0, last = sli_min(row, width);
-        count = sli_min(tiles - t0, 4);
+        count = sli_min(tiles - t0, SLI_CHAINS);
         for (t = 0; t < count; t++) {
             at[t] = l;
             l += SLI_TILE * sli_min(width, row + SLI_TILE * (t + 1));
         }
-        if (count == 4) {
+        if (count == SLI_CHAINS) {
             SLV_NAME(change_tiles)(at, first, last, w, b, w + row, u->is_trial);
         } else {
             for (t = 0; t < count; t++) {
@@ -266,6 +295,7 @@ SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
     }
 }
 #undef SLI_CHANGE_KERNEL
+#undef SLI_CHAINS
 #undef SLI_EACH2
 #undef SLI_DECLARE
 #undef SLI_LOAD
