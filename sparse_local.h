@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f588bab0b3f70cd7
+ * FNV-1a of the lines after this comment, without the license: c7f764a36da657af
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,28 +36,28 @@
  *   2971 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3014 impl/ base: the compiler, status, memory, sorting, threads
  *   4287 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5207 impl/ matrix: sparse matrices of the caller and of the library
- *   5837 impl/ ordering: fill-reducing orderings of a graph
- *  10782 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12984 impl/ factor: the numbers of L and D
- *  16359 impl/ solve: full and local solves
- *  18018 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19949 impl/ pivots: the order of the pivots by the values of a matrix
- *  20357 impl/ float: L and fronts in single precision
- *  20808 impl/ inverse: entries of the inverse, regions
- *  23875 impl/ change: a factor that follows changes of its matrix
- *  29969 impl/ dirichlet: rows fixed at given values
- *  30560 impl/ dirichlet: by a factor of all rows
- *  30792 impl/ io: files that are replaced only when they are complete
- *  31010 impl/ files: Matrix Market files, 64-bit indices
- *  31630 impl/ save: factors in files
- *  33643 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34326 impl/ batch: diagonals of many inverses
- *  34466 impl/ complex: complex Hermitian systems over real factors
- *  35028 impl/ complex: entries of the inverse
- *  35088 impl/ packs: the tables through which the core calls packs
- *  35137 impl/ last: undefine every internal macro
- *  35501 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5205 impl/ matrix: sparse matrices of the caller and of the library
+ *   5835 impl/ ordering: fill-reducing orderings of a graph
+ *  10780 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12982 impl/ factor: the numbers of L and D
+ *  16357 impl/ solve: full and local solves
+ *  18016 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19947 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20355 impl/ float: L and fronts in single precision
+ *  20806 impl/ inverse: entries of the inverse, regions
+ *  23873 impl/ change: a factor that follows changes of its matrix
+ *  29967 impl/ dirichlet: rows fixed at given values
+ *  30558 impl/ dirichlet: by a factor of all rows
+ *  30790 impl/ io: files that are replaced only when they are complete
+ *  31008 impl/ files: Matrix Market files, 64-bit indices
+ *  31628 impl/ save: factors in files
+ *  33641 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34324 impl/ batch: diagonals of many inverses
+ *  34464 impl/ complex: complex Hermitian systems over real factors
+ *  35026 impl/ complex: entries of the inverse
+ *  35086 impl/ packs: the tables through which the core calls packs
+ *  35135 impl/ last: undefine every internal macro
+ *  35499 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4830,14 +4830,12 @@ typedef struct sli_kernels {
     break;
 #define SLI_CASES(call) \
   switch (w) { \
-    SLI_CASE(2, call) \
-    SLI_CASE(3, call) \
-    SLI_CASE(4, call) \
     SLI_CASE(5, call) \
     SLI_CASE(6, call) \
     SLI_CASE(7, call) \
+    SLI_CASE(8, call) \
   default: \
-    call(8); \
+    call(w); \
   }
 
 #define SLI_EXPAND_PLAIN(mask, lanes, count) \
