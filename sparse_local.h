@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c7f764a36da657af
+ * FNV-1a of the lines after this comment, without the license: 28cd6945b90390e2
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -51,13 +51,13 @@
  *  30790 impl/ io: files that are replaced only when they are complete
  *  31008 impl/ files: Matrix Market files, 64-bit indices
  *  31628 impl/ save: factors in files
- *  33641 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34324 impl/ batch: diagonals of many inverses
- *  34464 impl/ complex: complex Hermitian systems over real factors
- *  35026 impl/ complex: entries of the inverse
- *  35086 impl/ packs: the tables through which the core calls packs
- *  35135 impl/ last: undefine every internal macro
- *  35499 impl/ templates: the header includes them from itself, once for each instruction set
+ *  33640 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34323 impl/ batch: diagonals of many inverses
+ *  34463 impl/ complex: complex Hermitian systems over real factors
+ *  35025 impl/ complex: entries of the inverse
+ *  35085 impl/ packs: the tables through which the core calls packs
+ *  35134 impl/ last: undefine every internal macro
+ *  35498 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4943,18 +4943,18 @@ typedef struct sli_kernels {
 #endif
 #endif
 #define SLI_SELF_INCLUSION
-#define SLI_SECTION_WORDS_SCALAR
-#define SLI_SECTION_LANES_SCALAR
-#define SLI_SECTION_COPY_ROWS
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_SWEEPS
-#define SLI_SECTION_MULTI_RHS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_KERNEL_SET
-#define SLI_SECTION_LANES_UNDEF
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_WORDS_SCALAR
+#define SLI_INL_LANES_SCALAR
+#define SLI_INL_COPY_ROWS
+#define SLI_INL_FRONT
+#define SLI_INL_SWEEPS
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_KERNEL_SET
+#define SLI_INL_LANES_UNDEF
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER /* not found: define SL_HEADER, see above */
-#ifdef SLI_SECTION_WORDS_UNDEF
+#ifdef SLI_INL_WORDS_UNDEF
 #error "sparse_local.h: SL_HEADER names another file, not this one"
 #endif
 /* src/impl/kernels/simd_avx2.h: the kernels in AVX2 and FMA */
@@ -5001,24 +5001,24 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
 #define SLW_NRHS 4
-#define SLI_SECTION_WORDS_AVX2
-#define SLI_SECTION_LANES_AVX2
-#define SLI_SECTION_COPY_ROWS
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_SWEEPS
-#define SLI_SECTION_MULTI_RHS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_LANES_UNDEF
+#define SLI_INL_WORDS_AVX2
+#define SLI_INL_LANES_AVX2
+#define SLI_INL_COPY_ROWS
+#define SLI_INL_FRONT
+#define SLI_INL_SWEEPS
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_LANES_UNDEF
 #include SL_HEADER
 #define SLW_NRHS 8
 #define SLW_GROUPS 64
-#define SLI_SECTION_LANES_AVX2
-#define SLI_SECTION_COPY_ROWS
-#define SLI_SECTION_MULTI_RHS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_KERNEL_SET
-#define SLI_SECTION_LANES_UNDEF
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_LANES_AVX2
+#define SLI_INL_COPY_ROWS
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_KERNEL_SET
+#define SLI_INL_LANES_UNDEF
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
@@ -5031,24 +5031,24 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
 #define SLW_NRHS 8
-#define SLI_SECTION_WORDS_AVX512
-#define SLI_SECTION_LANES_AVX512
-#define SLI_SECTION_COPY_ROWS
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_SWEEPS
-#define SLI_SECTION_MULTI_RHS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_LANES_UNDEF
+#define SLI_INL_WORDS_AVX512
+#define SLI_INL_LANES_AVX512
+#define SLI_INL_COPY_ROWS
+#define SLI_INL_FRONT
+#define SLI_INL_SWEEPS
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_LANES_UNDEF
 #include SL_HEADER
 #define SLW_NRHS 16
 #define SLW_GROUPS 64
-#define SLI_SECTION_LANES_AVX512
-#define SLI_SECTION_COPY_ROWS
-#define SLI_SECTION_MULTI_RHS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_KERNEL_SET
-#define SLI_SECTION_LANES_UNDEF
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_LANES_AVX512
+#define SLI_INL_COPY_ROWS
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_KERNEL_SET
+#define SLI_INL_LANES_UNDEF
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
@@ -5059,24 +5059,24 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
 #define SLW_NRHS 4
-#define SLI_SECTION_WORDS_NEON
-#define SLI_SECTION_LANES_NEON
-#define SLI_SECTION_COPY_ROWS
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_SWEEPS
-#define SLI_SECTION_MULTI_RHS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_LANES_UNDEF
+#define SLI_INL_WORDS_NEON
+#define SLI_INL_LANES_NEON
+#define SLI_INL_COPY_ROWS
+#define SLI_INL_FRONT
+#define SLI_INL_SWEEPS
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_LANES_UNDEF
 #include SL_HEADER
 #define SLW_NRHS 8
 #define SLW_GROUPS 64
-#define SLI_SECTION_LANES_NEON
-#define SLI_SECTION_COPY_ROWS
-#define SLI_SECTION_MULTI_RHS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_KERNEL_SET
-#define SLI_SECTION_LANES_UNDEF
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_LANES_NEON
+#define SLI_INL_COPY_ROWS
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_KERNEL_SET
+#define SLI_INL_LANES_UNDEF
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
@@ -14395,8 +14395,8 @@ static sli_front sli_front_in_double(const sl_factor *F, sl_int s, sl_int worker
 #define SLF_HALF 0
 #define SLF_OF(f, array) (f)->array
 #define SLF_BEGIN sli_front_in_double
-#define SLI_SECTION_FRONTS
-#define SLI_SECTION_FRONTS_UNDEF
+#define SLI_INL_FRONTS
+#define SLI_INL_FRONTS_UNDEF
 #include SL_HEADER
 SLI_INLINE void sli_front_share(const sl_factor *F, sli_front *f, sl_int group) {
   const sli_step *step = &F->S->steps[f->super];
@@ -20382,8 +20382,8 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
 #define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
 #define SLV_NAME_PIVOTS SLV_NAME
 #define SLV_OWN_PIVOTS
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_FRONT
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
@@ -20440,8 +20440,8 @@ SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
 #define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
 #define SLV_NAME_PIVOTS SLV_NAME
 #define SLV_OWN_PIVOTS
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_FRONT
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
@@ -20493,8 +20493,8 @@ SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
       SLV_HALF_OF(_mm512_maskz_permutexvar_ps( \
       expand_, order_, _mm512_castps256_ps512(_mm256_loadu_ps(from))), \
       0)));
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_FRONT
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #undef SLV_HALF
 #undef SLV_HALF_OF
@@ -20542,8 +20542,8 @@ SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
 #define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
 #define SLV_NAME_PIVOTS SLV_NAME
 #define SLV_OWN_PIVOTS
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_FRONT
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
@@ -20559,14 +20559,14 @@ typedef struct sli_float_kernels {
 #define SLV_COMPLEX 0
 #define SLW_NRHS 2
 #define SLW_GROUPS 64
-#define SLI_SECTION_WORDS_SCALAR
-#define SLI_SECTION_LANES_SCALAR
-#define SLI_SECTION_SWEEPS
-#define SLI_SECTION_MULTI_RHS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_FLOAT_SET
-#define SLI_SECTION_LANES_UNDEF
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_WORDS_SCALAR
+#define SLI_INL_LANES_SCALAR
+#define SLI_INL_SWEEPS
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_FLOAT_SET
+#define SLI_INL_LANES_UNDEF
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
@@ -20574,21 +20574,21 @@ typedef struct sli_float_kernels {
 #define SLV_SINGLE 1
 #define SLV_COMPLEX 0
 #define SLW_NRHS 4
-#define SLI_SECTION_WORDS_AVX2
-#define SLI_SECTION_LANES_AVX2
-#define SLI_SECTION_SWEEPS
-#define SLI_SECTION_MULTI_RHS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_LANES_UNDEF
+#define SLI_INL_WORDS_AVX2
+#define SLI_INL_LANES_AVX2
+#define SLI_INL_SWEEPS
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_LANES_UNDEF
 #include SL_HEADER
 #define SLW_NRHS 8
 #define SLW_GROUPS 64
-#define SLI_SECTION_LANES_AVX2
-#define SLI_SECTION_MULTI_RHS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_FLOAT_SET
-#define SLI_SECTION_LANES_UNDEF
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_LANES_AVX2
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_FLOAT_SET
+#define SLI_INL_LANES_UNDEF
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
@@ -20597,21 +20597,21 @@ typedef struct sli_float_kernels {
 #define SLV_COMPLEX 0
 #define SLW_NRHS 8
 #define SLW_GROUPS 8
-#define SLI_SECTION_WORDS_AVX512
-#define SLI_SECTION_LANES_AVX512
-#define SLI_SECTION_SWEEPS
-#define SLI_SECTION_MULTI_RHS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_LANES_UNDEF
+#define SLI_INL_WORDS_AVX512
+#define SLI_INL_LANES_AVX512
+#define SLI_INL_SWEEPS
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_LANES_UNDEF
 #include SL_HEADER
 #define SLW_NRHS 16
 #define SLW_GROUPS 64
-#define SLI_SECTION_LANES_AVX512
-#define SLI_SECTION_MULTI_RHS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_FLOAT_SET
-#define SLI_SECTION_LANES_UNDEF
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_LANES_AVX512
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_FLOAT_SET
+#define SLI_INL_LANES_UNDEF
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
@@ -20619,21 +20619,21 @@ typedef struct sli_float_kernels {
 #define SLV_SINGLE 1
 #define SLV_COMPLEX 0
 #define SLW_NRHS 4
-#define SLI_SECTION_WORDS_NEON
-#define SLI_SECTION_LANES_NEON
-#define SLI_SECTION_SWEEPS
-#define SLI_SECTION_MULTI_RHS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_LANES_UNDEF
+#define SLI_INL_WORDS_NEON
+#define SLI_INL_LANES_NEON
+#define SLI_INL_SWEEPS
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_LANES_UNDEF
 #include SL_HEADER
 #define SLW_NRHS 8
 #define SLW_GROUPS 64
-#define SLI_SECTION_LANES_NEON
-#define SLI_SECTION_MULTI_RHS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_FLOAT_SET
-#define SLI_SECTION_LANES_UNDEF
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_LANES_NEON
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_FLOAT_SET
+#define SLI_INL_LANES_UNDEF
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
@@ -20738,8 +20738,8 @@ SLI_INLINE sli_front sli_single_begin(const sl_factor *F, sl_int s, sl_int worke
 #define SLF_HALF 0
 #define SLF_OF(f, array) (f)->single.array
 #define SLF_BEGIN sli_single_begin
-#define SLI_SECTION_FRONTS
-#define SLI_SECTION_FRONTS_UNDEF
+#define SLI_INL_FRONTS
+#define SLI_INL_FRONTS_UNDEF
 #include SL_HEADER
 static sli_front sli_single_shared(const sl_factor *F, sl_int s, sl_int group) {
   const sli_step *step = &F->S->steps[s];
@@ -20889,25 +20889,25 @@ typedef struct sli_inverse_kernels {
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
 #define SLW_NRHS 8
-#define SLI_SECTION_WORDS_SCALAR
-#define SLI_SECTION_LANES_SCALAR
-#define SLI_SECTION_PRODUCTS
-#define SLI_SECTION_INVERSE_FRONT
-#define SLI_SECTION_INVERSE_SET
-#define SLI_SECTION_LANES_UNDEF
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_WORDS_SCALAR
+#define SLI_INL_LANES_SCALAR
+#define SLI_INL_PRODUCTS
+#define SLI_INL_INVERSE_FRONT
+#define SLI_INL_INVERSE_SET
+#define SLI_INL_LANES_UNDEF
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #if defined(SLI_X86)
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
 #define SLW_NRHS 8
-#define SLI_SECTION_WORDS_AVX2
-#define SLI_SECTION_LANES_AVX2
-#define SLI_SECTION_PRODUCTS
-#define SLI_SECTION_INVERSE_FRONT
-#define SLI_SECTION_INVERSE_SET
-#define SLI_SECTION_LANES_UNDEF
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_WORDS_AVX2
+#define SLI_INL_LANES_AVX2
+#define SLI_INL_PRODUCTS
+#define SLI_INL_INVERSE_FRONT
+#define SLI_INL_INVERSE_SET
+#define SLI_INL_LANES_UNDEF
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
@@ -20915,13 +20915,13 @@ typedef struct sli_inverse_kernels {
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
 #define SLW_NRHS 8
-#define SLI_SECTION_WORDS_AVX512
-#define SLI_SECTION_LANES_AVX512
-#define SLI_SECTION_PRODUCTS
-#define SLI_SECTION_INVERSE_FRONT
-#define SLI_SECTION_INVERSE_SET
-#define SLI_SECTION_LANES_UNDEF
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_WORDS_AVX512
+#define SLI_INL_LANES_AVX512
+#define SLI_INL_PRODUCTS
+#define SLI_INL_INVERSE_FRONT
+#define SLI_INL_INVERSE_SET
+#define SLI_INL_LANES_UNDEF
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
@@ -20929,13 +20929,13 @@ typedef struct sli_inverse_kernels {
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
 #define SLW_NRHS 8
-#define SLI_SECTION_WORDS_NEON
-#define SLI_SECTION_LANES_NEON
-#define SLI_SECTION_PRODUCTS
-#define SLI_SECTION_INVERSE_FRONT
-#define SLI_SECTION_INVERSE_SET
-#define SLI_SECTION_LANES_UNDEF
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_WORDS_NEON
+#define SLI_INL_LANES_NEON
+#define SLI_INL_PRODUCTS
+#define SLI_INL_INVERSE_FRONT
+#define SLI_INL_INVERSE_SET
+#define SLI_INL_LANES_UNDEF
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
@@ -23907,34 +23907,34 @@ typedef struct sli_change_kernels {
 
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
-#define SLI_SECTION_WORDS_SCALAR
-#define SLI_SECTION_CHANGE
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_WORDS_SCALAR
+#define SLI_INL_CHANGE
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #if defined(SLI_X86)
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
-#define SLI_SECTION_WORDS_AVX2
-#define SLI_SECTION_CHANGE
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_WORDS_AVX2
+#define SLI_INL_CHANGE
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
 #if defined(SLI_AVX512)
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
-#define SLI_SECTION_WORDS_AVX512
-#define SLI_SECTION_CHANGE
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_WORDS_AVX512
+#define SLI_INL_CHANGE
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
 #if defined(SLI_ARM)
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
-#define SLI_SECTION_WORDS_NEON
-#define SLI_SECTION_CHANGE
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_WORDS_NEON
+#define SLI_INL_CHANGE
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
@@ -25416,7 +25416,7 @@ static sl_status sli_rank_run_logged(sli_rank *q, const sli_stage *stages, int c
   const int is_counted = q->count > 0 && q->u.sign != 0.0;
   sl_status status = is_counted ? sli_loss_begin(q->u.F) : SL_OK;
   status = status == SL_OK ? sli_rank_run(q) : status;
-  if (q->needs_log && !q->has_log) { /* branches untested: no log is asked for twice */
+  if (q->needs_log) {
     status = sli_work_stages(W, stages, count, q);
     status = status == SL_OK ? sli_rank_run(q) : status;
   }
@@ -31697,13 +31697,12 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
 }
 
 static void sli_unmap(const void *bytes, size_t size) {
-  if (bytes != NULL) { /* branches untested: it has been mapped */
 #if defined(SLI_MMAP)
-    munmap((void *)(uintptr_t)bytes, size);
+  munmap((void *)(uintptr_t)bytes, size);
 #elif defined(SLI_MAP_VIEW)
-    UnmapViewOfFile(bytes);
+  UnmapViewOfFile(bytes);
 #endif
-  }
+  (void)bytes;
   (void)size;
 }
 
@@ -34473,16 +34472,16 @@ typedef struct sli_complex_kernels {
 #define SLV_COMPLEX 1
 #define SLW_NRHS 2
 #define SLW_GROUPS 64
-#define SLI_SECTION_WORDS_SCALAR
-#define SLI_SECTION_LANES_SCALAR
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_COMPLEX_GROUPS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_COMPLEX_SMALL
-#define SLI_SECTION_COMPLEX_ROWS
-#define SLI_SECTION_COMPLEX_SET
-#define SLI_SECTION_LANES_UNDEF
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_WORDS_SCALAR
+#define SLI_INL_LANES_SCALAR
+#define SLI_INL_FRONT
+#define SLI_INL_COMPLEX_GROUPS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_COMPLEX_SMALL
+#define SLI_INL_COMPLEX_ROWS
+#define SLI_INL_COMPLEX_SET
+#define SLI_INL_LANES_UNDEF
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
@@ -34491,24 +34490,24 @@ typedef struct sli_complex_kernels {
 #define SLV_COMPLEX 1
 #define SLW_NRHS 4
 #define SLW_GROUPS 64
-#define SLI_SECTION_WORDS_AVX2
-#define SLI_SECTION_LANES_AVX2
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_COMPLEX_GROUPS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_LANES_UNDEF
+#define SLI_INL_WORDS_AVX2
+#define SLI_INL_LANES_AVX2
+#define SLI_INL_FRONT
+#define SLI_INL_COMPLEX_GROUPS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_LANES_UNDEF
 #include SL_HEADER
 #define SLW_NRHS 2
 #define SLW_GROUPS 2
-#define SLI_SECTION_LANES_AVX2
-#define SLI_SECTION_COPY_ROWS
-#define SLI_SECTION_COMPLEX_GROUPS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_COMPLEX_SMALL
-#define SLI_SECTION_COMPLEX_ROWS
-#define SLI_SECTION_COMPLEX_SET
-#define SLI_SECTION_LANES_UNDEF
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_LANES_AVX2
+#define SLI_INL_COPY_ROWS
+#define SLI_INL_COMPLEX_GROUPS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_COMPLEX_SMALL
+#define SLI_INL_COMPLEX_ROWS
+#define SLI_INL_COMPLEX_SET
+#define SLI_INL_LANES_UNDEF
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
@@ -34517,23 +34516,23 @@ typedef struct sli_complex_kernels {
 #define SLV_COMPLEX 1
 #define SLW_NRHS 8
 #define SLW_GROUPS 8
-#define SLI_SECTION_WORDS_AVX512
-#define SLI_SECTION_LANES_AVX512
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_COMPLEX_GROUPS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_LANES_UNDEF
+#define SLI_INL_WORDS_AVX512
+#define SLI_INL_LANES_AVX512
+#define SLI_INL_FRONT
+#define SLI_INL_COMPLEX_GROUPS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_LANES_UNDEF
 #include SL_HEADER
 #define SLW_NRHS 16
 #define SLW_GROUPS 64
-#define SLI_SECTION_LANES_AVX512
-#define SLI_SECTION_COMPLEX_GROUPS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_COMPLEX_SMALL
-#define SLI_SECTION_COMPLEX_ROWS
-#define SLI_SECTION_COMPLEX_SET
-#define SLI_SECTION_LANES_UNDEF
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_LANES_AVX512
+#define SLI_INL_COMPLEX_GROUPS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_COMPLEX_SMALL
+#define SLI_INL_COMPLEX_ROWS
+#define SLI_INL_COMPLEX_SET
+#define SLI_INL_LANES_UNDEF
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
@@ -34542,24 +34541,24 @@ typedef struct sli_complex_kernels {
 #define SLV_COMPLEX 1
 #define SLW_NRHS 4
 #define SLW_GROUPS 64
-#define SLI_SECTION_WORDS_NEON
-#define SLI_SECTION_LANES_NEON
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_COMPLEX_GROUPS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_LANES_UNDEF
+#define SLI_INL_WORDS_NEON
+#define SLI_INL_LANES_NEON
+#define SLI_INL_FRONT
+#define SLI_INL_COMPLEX_GROUPS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_LANES_UNDEF
 #include SL_HEADER
 #define SLW_NRHS 2
 #define SLW_GROUPS 2
-#define SLI_SECTION_LANES_NEON
-#define SLI_SECTION_COPY_ROWS
-#define SLI_SECTION_COMPLEX_GROUPS
-#define SLI_SECTION_MULTI_RHS_TILES
-#define SLI_SECTION_COMPLEX_SMALL
-#define SLI_SECTION_COMPLEX_ROWS
-#define SLI_SECTION_COMPLEX_SET
-#define SLI_SECTION_LANES_UNDEF
-#define SLI_SECTION_WORDS_UNDEF
+#define SLI_INL_LANES_NEON
+#define SLI_INL_COPY_ROWS
+#define SLI_INL_COMPLEX_GROUPS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_COMPLEX_SMALL
+#define SLI_INL_COMPLEX_ROWS
+#define SLI_INL_COMPLEX_SET
+#define SLI_INL_LANES_UNDEF
+#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
@@ -34660,8 +34659,8 @@ static void sli_complex_accepts(const sl_symbolic *S, const sli_source *from,
 #define SLF_HALF 1
 #define SLF_OF(f, array) (f)->array
 #define SLF_BEGIN sli_front_in_double
-#define SLI_SECTION_FRONTS
-#define SLI_SECTION_FRONTS_UNDEF
+#define SLI_INL_FRONTS
+#define SLI_INL_FRONTS_UNDEF
 #include SL_HEADER
 static sli_front sli_complex_shared(const sl_factor *F, sl_int s, sl_int group) {
   sli_front f = sli_complex_front_of(F, s, 0);
@@ -35494,8 +35493,8 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #error "sparse_local.h: SL_HEADER names another version of the header"
 #endif
 
-#ifdef SLI_SECTION_FRONTS
-#undef SLI_SECTION_FRONTS
+#ifdef SLI_INL_FRONTS
+#undef SLI_INL_FRONTS
 /* src/impl/factor/fronts.inl.h: the fronts of the supernodal factorization, for one type of numbers */
 
 /* src/impl/factor/front_load.inl.h: where a front is, and the entries of A that it begins with */
@@ -35999,8 +35998,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 }
 #endif
 
-#ifdef SLI_SECTION_FRONTS_UNDEF
-#undef SLI_SECTION_FRONTS_UNDEF
+#ifdef SLI_INL_FRONTS_UNDEF
+#undef SLI_INL_FRONTS_UNDEF
 /* src/impl/factor/fronts_undef.inl.h: undefines the parameters of fronts.inl.h */
 
 #undef SLF_NAME
@@ -36011,8 +36010,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #undef SLF_BEGIN
 #endif
 
-#ifdef SLI_SECTION_WORDS_NEON
-#undef SLI_SECTION_WORDS_NEON
+#ifdef SLI_INL_WORDS_NEON
+#undef SLI_INL_WORDS_NEON
 /* src/impl/kernels/words_neon.inl.h: the vocabulary SLV_ in NEON: a vector of 8 doubles is four registers */
 
 #define SLV_NAME(f) sli_##f##_neon
@@ -36155,8 +36154,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #define SLV_OWN_PIVOTS
 #endif
 
-#ifdef SLI_SECTION_LANES_NEON
-#undef SLI_SECTION_LANES_NEON
+#ifdef SLI_INL_LANES_NEON
+#undef SLI_INL_LANES_NEON
 /* src/impl/kernels/lanes_neon.inl.h: the vocabulary SLW_ in NEON, for SLW_NRHS right-hand sides */
 
 #if SLW_NRHS == 2
@@ -36229,8 +36228,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #endif
 #endif
 
-#ifdef SLI_SECTION_WORDS_AVX512
-#undef SLI_SECTION_WORDS_AVX512
+#ifdef SLI_INL_WORDS_AVX512
+#undef SLI_INL_WORDS_AVX512
 /* src/impl/kernels/words_avx512.inl.h: the vocabulary SLV_ in AVX-512F: a vector of 8 doubles is one register */
 
 #define SLV_NAME(f) sli_##f##_avx512
@@ -36334,8 +36333,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
 #endif
 
-#ifdef SLI_SECTION_LANES_AVX512
-#undef SLI_SECTION_LANES_AVX512
+#ifdef SLI_INL_LANES_AVX512
+#undef SLI_INL_LANES_AVX512
 /* src/impl/kernels/lanes_avx512.inl.h: the vocabulary SLW_ in AVX-512F, for SLW_NRHS right-hand sides */
 
 #if SLW_NRHS == 8
@@ -36376,8 +36375,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #endif
 #endif
 
-#ifdef SLI_SECTION_WORDS_AVX2
-#undef SLI_SECTION_WORDS_AVX2
+#ifdef SLI_INL_WORDS_AVX2
+#undef SLI_INL_WORDS_AVX2
 /* src/impl/kernels/words_avx2.inl.h: the vocabulary SLV_ in AVX2 and FMA: a vector of 8 doubles is two registers */
 
 #define SLV_NAME(f) sli_##f##_avx2
@@ -36518,8 +36517,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #define SLV_OWN_PIVOTS
 #endif
 
-#ifdef SLI_SECTION_LANES_AVX2
-#undef SLI_SECTION_LANES_AVX2
+#ifdef SLI_INL_LANES_AVX2
+#undef SLI_INL_LANES_AVX2
 /* src/impl/kernels/lanes_avx2.inl.h: the vocabulary SLW_ in AVX2 and FMA, for SLW_NRHS right-hand sides */
 
 #if SLW_NRHS == 2
@@ -36575,8 +36574,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #endif
 #endif
 
-#ifdef SLI_SECTION_WORDS_SCALAR
-#undef SLI_SECTION_WORDS_SCALAR
+#ifdef SLI_INL_WORDS_SCALAR
+#undef SLI_INL_WORDS_SCALAR
 /* src/impl/kernels/words_scalar.inl.h: the vocabulary SLV_ in plain C: a vector is an array */
 
 #define SLV_NAME(f) sli_##f##_scalar
@@ -36669,8 +36668,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #endif
 #endif
 
-#ifdef SLI_SECTION_CHANGE
-#undef SLI_SECTION_CHANGE
+#ifdef SLI_INL_CHANGE
+#undef SLI_INL_CHANGE
 /* src/impl/change/change.inl.h: rank-k change of the rows of a panel, for 2, 4 and 8 vectors; of a panel for 1 */
 
 #define SLI_DECLARE(r, unused) SLV_DECLARE(w##r)
@@ -36968,8 +36967,8 @@ static const sli_change_kernels SLV_NAME(change_kernels) = {
   SLV_NAME(change_panel)};
 #endif
 
-#ifdef SLI_SECTION_LANES_SCALAR
-#undef SLI_SECTION_LANES_SCALAR
+#ifdef SLI_INL_LANES_SCALAR
+#undef SLI_INL_LANES_SCALAR
 /* src/impl/kernels/lanes_scalar.inl.h: the vocabulary SLW_ in plain C, for SLW_NRHS right-hand sides */
 
 #if SLW_NRHS == 2
@@ -36995,8 +36994,8 @@ static const sli_change_kernels SLV_NAME(change_kernels) = {
 #define SLW_LOW SLI_LOW4
 #endif
 
-#ifdef SLI_SECTION_PRODUCTS
-#undef SLI_SECTION_PRODUCTS
+#ifdef SLI_INL_PRODUCTS
+#undef SLI_INL_PRODUCTS
 /* src/impl/inverse/products.inl.h: sums of products of 8 by 8 right-hand sides, for blocks of the inverse */
 
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
@@ -37028,8 +37027,8 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
 #undef SLI_APPLY
 #endif
 
-#ifdef SLI_SECTION_INVERSE_FRONT
-#undef SLI_SECTION_INVERSE_FRONT
+#ifdef SLI_INL_INVERSE_FRONT
+#undef SLI_INL_INVERSE_FRONT
 /* src/impl/inverse/inverse_front.inl.h: gathers a front of the inverse from its parent and completes it */
 
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(block1)(const SLV_VALUE *A, const SLV_VALUE *B,
@@ -37352,16 +37351,16 @@ SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_inverse_front *f, double 
 }
 #endif
 
-#ifdef SLI_SECTION_INVERSE_SET
-#undef SLI_SECTION_INVERSE_SET
+#ifdef SLI_INL_INVERSE_SET
+#undef SLI_INL_INVERSE_SET
 /* src/impl/inverse/inverse_set.inl.h: the table of the kernels of the inverse, for one instruction set */
 
 static const sli_inverse_kernels SLV_NAME(inverse_kernels) = {
   SLV_NAME(products8), SLV_NAME(gather), SLV_NAME(inverse_phase), SLV_NAME(takahashi)};
 #endif
 
-#ifdef SLI_SECTION_COPY_ROWS
-#undef SLI_SECTION_COPY_ROWS
+#ifdef SLI_INL_COPY_ROWS
+#undef SLI_INL_COPY_ROWS
 /* src/impl/kernels/copy_rows.inl.h: rows of several right-hand sides to a buffer and back */
 
 SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, const double *own,
@@ -37392,8 +37391,8 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
 }
 #endif
 
-#ifdef SLI_SECTION_FRONT
-#undef SLI_SECTION_FRONT
+#ifdef SLI_INL_FRONT
+#undef SLI_INL_FRONT
 /* src/impl/kernels/front.inl.h: factors the panel of a front, computes its update matrix, assembles a front */
 
 /* src/impl/kernels/product.inl.h: C -= A D B' on tiles, the inner loop of the factorization */
@@ -37944,8 +37943,8 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
 }
 #endif
 
-#ifdef SLI_SECTION_COMPLEX_GROUPS
-#undef SLI_SECTION_COMPLEX_GROUPS
+#ifdef SLI_INL_COMPLEX_GROUPS
+#undef SLI_INL_COMPLEX_GROUPS
 /* src/impl/complex/complex_groups.inl.h: what row tiles of L do to 2 or more right-hand sides of a complex matrix */
 
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
@@ -38030,8 +38029,8 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
   SLI_PAIRS_DOWN(SLI_ROW, 0)
 #endif
 
-#ifdef SLI_SECTION_SWEEPS
-#undef SLI_SECTION_SWEEPS
+#ifdef SLI_INL_SWEEPS
+#undef SLI_INL_SWEEPS
 /* src/impl/kernels/sweeps.inl.h: the sweeps for one and two right-hand sides, for one type of L */
 
 /* src/impl/kernels/unit_triangle.inl.h: one right-hand side through the unit triangle of a diagonal tile */
@@ -38861,8 +38860,8 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 /* end of single_rhs.inl.h */
 #endif
 
-#ifdef SLI_SECTION_MULTI_RHS
-#undef SLI_SECTION_MULTI_RHS
+#ifdef SLI_INL_MULTI_RHS
+#undef SLI_INL_MULTI_RHS
 /* src/impl/kernels/multi_rhs.inl.h: what row tiles of L do to several right-hand sides of a real matrix */
 
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
@@ -39094,8 +39093,8 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
 #endif
 #endif
 
-#ifdef SLI_SECTION_MULTI_RHS_TILES
-#undef SLI_SECTION_MULTI_RHS_TILES
+#ifdef SLI_INL_MULTI_RHS_TILES
+#undef SLI_INL_MULTI_RHS_TILES
 /* src/impl/kernels/multi_rhs_tiles.inl.h: several right-hand sides through supernodes of any width, by row tiles */
 
 #define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below.index[r] * stride)
@@ -39368,8 +39367,8 @@ SLI_GROUPED_KERNELS(64)
 #undef SLW_SET_ENTRIES
 #endif
 
-#ifdef SLI_SECTION_COMPLEX_SMALL
-#undef SLI_SECTION_COMPLEX_SMALL
+#ifdef SLI_INL_COMPLEX_SMALL
+#undef SLI_INL_COMPLEX_SMALL
 /* src/impl/complex/complex_small.inl.h: one right-hand side through a supernode of 1 to 4 complex columns */
 
 #define SLI_XT(j, k) \
@@ -39559,8 +39558,8 @@ SLV_NAME(complex_backward_small)(const sli_step *s, const sli_step *begin, const
 #undef SLI_BACKWARD
 #endif
 
-#ifdef SLI_SECTION_COMPLEX_ROWS
-#undef SLI_SECTION_COMPLEX_ROWS
+#ifdef SLI_INL_COMPLEX_ROWS
+#undef SLI_INL_COMPLEX_ROWS
 /* src/impl/complex/complex_rows.inl.h: sweeps over L of a complex Hermitian matrix, of which every other column is */
 
 #define SLI_HALF (SLI_TILE / 2)
@@ -39776,8 +39775,8 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const vo
 #undef SLI_SMALL
 #endif
 
-#ifdef SLI_SECTION_COMPLEX_SET
-#undef SLI_SECTION_COMPLEX_SET
+#ifdef SLI_INL_COMPLEX_SET
+#undef SLI_INL_COMPLEX_SET
 /* src/impl/complex/complex_set.inl.h: the table of the kernels of complex matrices, for one instruction set */
 
 static const sli_complex_kernels SLV_NAME(complex_kernels) = {
@@ -39791,8 +39790,8 @@ static const sli_complex_kernels SLV_NAME(complex_kernels) = {
    SLV_NAME(complex_assemble)}};
 #endif
 
-#ifdef SLI_SECTION_FLOAT_SET
-#undef SLI_SECTION_FLOAT_SET
+#ifdef SLI_INL_FLOAT_SET
+#undef SLI_INL_FLOAT_SET
 /* src/impl/float/float_set.inl.h: the table of the kernels of L in float, for one instruction set */
 
 static const sli_float_kernels SLV_NAME(float_kernels) = {
@@ -39806,8 +39805,8 @@ static const sli_float_kernels SLV_NAME(float_kernels) = {
    SLV_NAME(single_assemble)}};
 #endif
 
-#ifdef SLI_SECTION_KERNEL_SET
-#undef SLI_SECTION_KERNEL_SET
+#ifdef SLI_INL_KERNEL_SET
+#undef SLI_INL_KERNEL_SET
 /* src/impl/kernels/kernel_set.inl.h: the other kernels of one instruction set, and its table */
 
 /* src/impl/kernels/row.inl.h: one row of L in the up-looking factorization */
@@ -39951,8 +39950,8 @@ static const sli_kernels SLV_NAME(kernels) = {
   SLV_NAME(separate)};
 #endif
 
-#ifdef SLI_SECTION_LANES_UNDEF
-#undef SLI_SECTION_LANES_UNDEF
+#ifdef SLI_INL_LANES_UNDEF
+#undef SLI_INL_LANES_UNDEF
 /* src/impl/kernels/lanes_undef.inl.h: undefines the SIMD vocabulary of one number of right-hand sides */
 
 #undef SLW_NAME
@@ -39973,8 +39972,8 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLW_DIVIDE
 #endif
 
-#ifdef SLI_SECTION_WORDS_UNDEF
-#undef SLI_SECTION_WORDS_UNDEF
+#ifdef SLI_INL_WORDS_UNDEF
+#undef SLI_INL_WORDS_UNDEF
 /* src/impl/kernels/words_undef.inl.h: undefines the SIMD vocabulary after the last template of a file simd_*.h */
 
 #undef SLV_SINGLE

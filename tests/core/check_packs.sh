@@ -249,8 +249,8 @@ check 'without comments of the implementation' '! grep -q "of the implementation
 check '--packs: the core' '$amalgamate --packs "" src/small.in.h core.h && runs core.h 3 &&
     grep -q "^ \* without packs" core.h && ! grep -q "if.*defined(SL_WITH" core.h'
 check '--packs: no bodies, headings or templates of other packs' '
-    ! grep -e sli_double -e SLI_SECTION_TWICE -e "(change:" -e "/\* change:" -e saved core.h &&
-    grep -q "SLI_SECTION_SUM" core.h'
+    ! grep -e sli_double -e SLI_INL_TWICE -e "(change:" -e "/\* change:" -e saved core.h &&
+    grep -q "SLI_INL_SUM" core.h'
 check '--packs: calls of other packs are errors that name the macro' '
     needs core.h "sl_change(1)" SL_WITH_CHANGE &&
     needs core.h "sl_save_change()" SL_WITH_SAVE_and_SL_WITH_CHANGE'

@@ -16,7 +16,7 @@
  * A template is a file named *.inl.h. It has no guard and is compiled several times. A template
  * that a part includes becomes a section at the end of OUT, and the include becomes
  *
- *     #define SLI_SECTION_<NAME>
+ *     #define SLI_INL_<NAME>
  *     #include SL_HEADER
  *
  * so that OUT includes itself and each template is in it exactly once. Includes of templates in

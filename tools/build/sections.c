@@ -5,10 +5,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The macro that selects the section of a template: SLI_SECTION_ and its base name in capitals. */
+/* The macro that selects the section of a template: SLI_INL_ and its base name in capitals. */
 static void section_macro(char *to, const char *path) {
     const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path;
-    size_t used = (size_t)sprintf(to, "SLI_SECTION_");
+    size_t used = (size_t)sprintf(to, "SLI_INL_");
     for (; *base && *base != '.'; base++)
         to[used++] = (char)toupper((unsigned char)*base);
     to[used] = 0;

@@ -304,7 +304,7 @@ static sl_status sli_rank_run_logged(sli_rank *q, const sli_stage *stages, int c
     const int is_counted = q->count > 0 && q->u.sign != 0.0;
     sl_status status = is_counted ? sli_loss_begin(q->u.F) : SL_OK;
     status = status == SL_OK ? sli_rank_run(q) : status;
-    if (q->needs_log && !q->has_log) { /* branches untested: no log is asked for twice */
+    if (q->needs_log) {
         status = sli_work_stages(W, stages, count, q);
         status = status == SL_OK ? sli_rank_run(q) : status;
     }

@@ -77,13 +77,12 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
 }
 
 static void sli_unmap(const void *bytes, size_t size) {
-    if (bytes != NULL) { /* branches untested: it has been mapped */
 #if defined(SLI_MMAP)
-        munmap((void *)(uintptr_t)bytes, size);
+    munmap((void *)(uintptr_t)bytes, size);
 #elif defined(SLI_MAP_VIEW)
-        UnmapViewOfFile(bytes);
+    UnmapViewOfFile(bytes);
 #endif
-    }
+    (void)bytes;
     (void)size;
 }
 
