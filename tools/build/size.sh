@@ -12,7 +12,7 @@
 
 cd "$(dirname "$0")/../.." || exit 1
 header_limit=1385000      # sparse_local.h
-core_header_limit=866500  # the core, with the comments of the implementation
+core_header_limit=866600  # the core, with the comments of the implementation
 core_text_limit=333000
 all_text_limit=791000
 frame_limit=28000
