@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 28cd6945b90390e2
+ * FNV-1a of the lines after this comment, without the license: cc64f312e5443362
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,25 +39,25 @@
  *   5205 impl/ matrix: sparse matrices of the caller and of the library
  *   5835 impl/ ordering: fill-reducing orderings of a graph
  *  10780 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12982 impl/ factor: the numbers of L and D
- *  16357 impl/ solve: full and local solves
- *  18016 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19947 impl/ pivots: the order of the pivots by the values of a matrix
- *  20355 impl/ float: L and fronts in single precision
- *  20806 impl/ inverse: entries of the inverse, regions
- *  23873 impl/ change: a factor that follows changes of its matrix
- *  29967 impl/ dirichlet: rows fixed at given values
- *  30558 impl/ dirichlet: by a factor of all rows
- *  30790 impl/ io: files that are replaced only when they are complete
- *  31008 impl/ files: Matrix Market files, 64-bit indices
- *  31628 impl/ save: factors in files
- *  33640 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34323 impl/ batch: diagonals of many inverses
- *  34463 impl/ complex: complex Hermitian systems over real factors
- *  35025 impl/ complex: entries of the inverse
- *  35085 impl/ packs: the tables through which the core calls packs
- *  35134 impl/ last: undefine every internal macro
- *  35498 impl/ templates: the header includes them from itself, once for each instruction set
+ *  12991 impl/ factor: the numbers of L and D
+ *  16366 impl/ solve: full and local solves
+ *  18025 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19956 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20364 impl/ float: L and fronts in single precision
+ *  20815 impl/ inverse: entries of the inverse, regions
+ *  23882 impl/ change: a factor that follows changes of its matrix
+ *  29976 impl/ dirichlet: rows fixed at given values
+ *  30567 impl/ dirichlet: by a factor of all rows
+ *  30799 impl/ io: files that are replaced only when they are complete
+ *  31017 impl/ files: Matrix Market files, 64-bit indices
+ *  31637 impl/ save: factors in files
+ *  33649 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34332 impl/ batch: diagonals of many inverses
+ *  34472 impl/ complex: complex Hermitian systems over real factors
+ *  35034 impl/ complex: entries of the inverse
+ *  35094 impl/ packs: the tables through which the core calls packs
+ *  35143 impl/ last: undefine every internal macro
+ *  35508 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11318,6 +11318,7 @@ static sl_int sli_find_tops(sli_amalgamation *g, const sl_int *sequence, sl_int 
 
 #define SLI_SORTED_CHILDREN 64
 #define SLI_SORTED_ROWS 255
+#define SLI_SORTED_LEAF 24
 
 static const sl_int *sli_sort_siblings(const sli_amalgamation *g, const sl_int *top,
     const sl_int *tree, sl_int count, sl_int *children,
@@ -11326,17 +11327,25 @@ static const sl_int *sli_sort_siblings(const sli_amalgamation *g, const sl_int *
   if (count <= SLI_SORTED_CHILDREN) {
     return NULL;
   }
-  SLI_ZERO(children, count);
+  for (s = 0; s < count; s++) {
+    children[s] = -(g->below[top[s]] >= SLI_SORTED_LEAF);
+  }
   memset(begin, 0, sizeof begin);
   for (s = 0; s < count; s++) {
-    if (tree[s] != -1 && g->width[top[s]] == 1) {
+    if (tree[s] != -1) {
+      children[tree[s]] = 0;
+    }
+  }
+  for (s = 0; s < count; s++) {
+    if (tree[s] != -1 && (g->width[top[s]] == 1 || children[s] == -1)) {
       most = sli_max(most, ++children[tree[s]]);
     }
   }
   for (pass = 0; pass < 2 && most >= SLI_SORTED_CHILDREN; pass++) {
     for (s = 0; s < count; s++) {
-      const int is_sorted =
-        tree[s] != -1 && g->width[top[s]] == 1 && children[tree[s]] >= SLI_SORTED_CHILDREN;
+      const int is_sorted = tree[s] != -1 &&
+                  (g->width[top[s]] == 1 || children[s] == -1) &&
+                  children[tree[s]] >= SLI_SORTED_CHILDREN;
       k = is_sorted ? sli_min(g->below[top[s]], SLI_SORTED_ROWS) : 0;
       if (pass == 0) {
         begin[k + 1]++;
@@ -35410,6 +35419,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_REGION_PASSES
 #undef SLI_REGION_DETOUR
 #undef SLI_SORTED_CHILDREN
+#undef SLI_SORTED_LEAF
 #undef SLI_SORTED_ROWS
 #undef SLI_ZEROS_MOST
 #undef SLI_ZEROS_MOST_LARGE

@@ -144,10 +144,81 @@ static void small_orders(void **state) {
     sl_symbolic_free(S);
 }
 
+/* Bundle adjustment: points of 3 rows, each with 8 of the cameras of 6 rows, which follow those. */
+static gen_matrix_t bundle(sl_int cameras, sl_int points) {
+    gen_list_t t = gen_list(6 * cameras + 3 * points);
+    uint64_t seed = 4;
+    for (sl_int row = 0; row < t.n; row++) {
+        const int is_point = row < 3 * points;
+        for (sl_int k = 1; k <= (is_point ? row % 3 : (row - 3 * points) % 6); k++) {
+            gen_add(&t, row, row - k, 0.1);
+        }
+    }
+    for (sl_int v = 0; v < 8 * points; v++) {
+        const sl_int camera = (v / 8 * cameras / points + v % 8) % cameras;
+        for (sl_int k = 0; k < 18; k++) {
+            gen_add(&t, 3 * points + 6 * camera + k % 6, v / 8 * 3 + k / 6, 0.1);
+        }
+    }
+    gen_dominate(&t, 1, &seed);
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    gen_list_free(&t);
+    return M;
+}
+
+/* Many leaves follow their siblings, so that their update matrices do not wait for a subtree. */
+static void many_leaves_are_last(void **state) {
+    (void)state;
+    gen_matrix_t M = bundle(40, 1500);
+    const sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_stats stats;
+    sl_int mixed = 0;
+    memset(&stats, 0, sizeof stats);
+    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, &stats));
+    const sl_symbolic_arrays v = sl_symbolic_view(S);
+    sl_int *leaves = test_ints((size_t)v.n_supers), *first = test_ints((size_t)v.n_supers);
+    sl_int *children = test_ints((size_t)v.n_supers);
+    for (sl_int s = 0; s < v.n_supers; s++) {
+        const sl_int up = v.super_parent[s];
+        first[s] = -1;
+        if (up != -1) {
+            children[up]++;
+            leaves[up] += children[s] == 0 && v.rows_begin[s + 1] - v.rows_begin[s] >= 24;
+        }
+    }
+    for (sl_int s = v.n_supers - 1; s >= 0; s--) { /* first: the last wide sibling with children */
+        const sl_int up = v.super_parent[s];
+        const sl_int width = v.super_first[s + 1] - v.super_first[s];
+        if (up != -1 && children[s] > 0 && leaves[up] >= 64 && width > 1) {
+            first[up] = first[up] == -1 ? s : first[up];
+            mixed++;
+        }
+    }
+    for (sl_int s = 0; s < v.n_supers; s++) {
+        const sl_int up = v.super_parent[s];
+        const sl_off below = v.rows_begin[s + 1] - v.rows_begin[s];
+        assert_true(up == -1 || leaves[up] < 64 || children[s] > 0 || below < 24 || s > first[up]);
+    }
+    print_message("%d subtrees beside leaves, %.1f MB, of which L has %.1f\n", (int)mixed,
+                  1e-6 * (double)stats.factor.bytes, 8e-6 * (double)v.panel_begin[v.n_supers]);
+    assert_true(mixed > 0);
+    NOTHING_WRONG(check_factor(F, &M.view));
+    free(leaves);
+    free(first);
+    free(children);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_callers_order_is_kept_where_it_can_be),
         cmocka_unit_test(small_orders),
+        cmocka_unit_test(many_leaves_are_last),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
