@@ -4,17 +4,6 @@
 #include "tests/lib/hard_graphs.h"
 #include "tests/lib/ordering_meshes.h"
 
-static gen_matrix_t stored(gen_list_t *t, uint64_t name) {
-    uint64_t seed = 5;
-    if (name > 0) {
-        gen_rename(t, name);
-    }
-    gen_dominate(t, 1, &seed);
-    gen_matrix_t M = gen_store(t, gen_style(0), 1);
-    gen_list_free(t);
-    return M;
-}
-
 /* A part whose vertices are blocks of so many rows. */
 static gen_matrix_t fans(sl_int around, sl_int rings, sl_int block, uint64_t name) {
     gen_list_t t = gen_list(around * rings), rows = gen_list(around * rings * block);
@@ -31,7 +20,7 @@ static gen_matrix_t fans(sl_int around, sl_int rings, sl_int block, uint64_t nam
         }
     }
     gen_list_free(&t);
-    return stored(&rows, name);
+    return gen_store_dominant(&rows, name);
 }
 
 /* Within 6 percent of what was measured. METIS has 0.97 to 1.1 times the entries and, but for the
@@ -81,7 +70,7 @@ static void cuts_order_every_graph(void **state) {
     const sl_allocator a = sli_allocator(NULL);
     for (int kind = 0; kind < HARD_KINDS; kind++) {
         gen_list_t t = hard_graph(kind);
-        gen_matrix_t M = stored(&t, 0);
+        gen_matrix_t M = gen_store_dominant(&t, 0);
         sli_graph G = graph_of(&M.view);
         const size_t n = (size_t)G.n;
         sl_int *perm = test_ints(n), *before = test_ints(n), *sizes = test_ints(n), rows = 0;
@@ -119,17 +108,7 @@ static void cuts_order_every_graph(void **state) {
 static void memory_fails_at_every_point(void **state) {
     (void)state;
     gen_matrix_t M = fans(300, 2, 3, 0);
-    for (int64_t k = 0, done = 0; !done; k++) {
-        counter_t counter = counter_make();
-        sl_options opt = options_counted(&counter);
-        sl_symbolic *S = NULL;
-        counter.fail_at = k;
-        const sl_status status = sl_symbolic_create(&S, &M.view, &opt, NULL);
-        done = status == SL_OK;
-        assert_true(done || (status == SL_ERR_MEMORY && S == NULL));
-        sl_symbolic_free(S);
-        COUNTER_CLEAN(&counter);
-    }
+    analysis_may_lack_memory(&M.view, SL_ORDERING_ND);
     gen_matrix_free(&M);
 }
 

@@ -289,18 +289,7 @@ static void few_entries_in_a_hurry_have_one_worker(void **state) {
 static void memory_fails_at_every_point(void **state) {
     (void)state;
     gen_matrix_t M = grid(12, 12, 1, 0);
-    for (int64_t k = 0, done = 0; !done; k++) {
-        counter_t counter = counter_make();
-        sl_options opt = options_counted(&counter);
-        sl_symbolic *S = NULL;
-        opt.ordering = SL_ORDERING_MINDEG;
-        counter.fail_at = k;
-        const sl_status status = sl_symbolic_create(&S, &M.view, &opt, NULL);
-        done = status == SL_OK;
-        assert_true(done || (status == SL_ERR_MEMORY && S == NULL));
-        sl_symbolic_free(S);
-        COUNTER_CLEAN(&counter);
-    }
+    analysis_may_lack_memory(&M.view, SL_ORDERING_MINDEG);
     gen_matrix_free(&M);
 }
 

@@ -43,21 +43,10 @@ static void add_shape(gen_list_t *t, const shape_t *s) {
     }
 }
 
-static gen_matrix_t stored(gen_list_t *t, uint64_t name) {
-    uint64_t seed = 5;
-    if (name > 0) {
-        gen_rename(t, name);
-    }
-    gen_dominate(t, 1, &seed);
-    gen_matrix_t M = gen_store(t, gen_style(0), 1);
-    gen_list_free(t);
-    return M;
-}
-
 static gen_matrix_t shape_matrix(const shape_t *s, uint64_t name) {
     gen_list_t t = gen_list(0);
     add_shape(&t, s);
-    return stored(&t, name);
+    return gen_store_dominant(&t, name);
 }
 
 /* Is the graph dissected along its levels? Graphs with weights are not, and weights of 1 change
@@ -146,7 +135,7 @@ static void components_are_dissected_one_by_one(void **state) {
     t.n += 2;
     add_shape(&t, &shapes[3]);
     t.n++;
-    gen_matrix_t M = stored(&t, 4);
+    gen_matrix_t M = gen_store_dominant(&t, 4);
     assert_true(is_thin(&M.view));
     gen_matrix_free(&M);
 }
@@ -161,7 +150,7 @@ static int is_thin_with_fan(sl_int rows) {
         gen_add(&t, t.n, hub + 1, 1.0);
         gen_add(&t, t.n, hub + 2, 1.0);
     }
-    gen_matrix_t M = stored(&t, 0);
+    gen_matrix_t M = gen_store_dominant(&t, 0);
     const int thin = is_thin(&M.view);
     gen_matrix_free(&M);
     return thin;
@@ -195,7 +184,7 @@ static gen_list_t slit_strip(sl_int from, sl_int to) {
 static void parts_need_not_be_connected(void **state) {
     (void)state;
     gen_list_t t = slit_strip(60, 160);
-    gen_matrix_t M = stored(&t, 0);
+    gen_matrix_t M = gen_store_dominant(&t, 0);
     assert_true(is_thin(&M.view));
     gen_matrix_free(&M);
 }
@@ -207,7 +196,7 @@ static gen_matrix_t strip_with_part(const shape_t *strip, const shape_t *part) {
     const sl_int end = t.n - 1;
     add_shape(&t, part);
     gen_add(&t, end + 1, end, 1.0);
-    return stored(&t, 0);
+    return gen_store_dominant(&t, 0);
 }
 
 /* A tube that is too wide, a strip that is too short, a bar that is no lattice, and strips with a
@@ -253,7 +242,7 @@ static gen_matrix_t changed_strip(int has_gaps) {
         }
     }
     gen_list_free(&whole);
-    return stored(&t, 0);
+    return gen_store_dominant(&t, 0);
 }
 
 /* A wide strip is dissected along its levels if nearly all rows have as many neighbors. */

@@ -290,4 +290,20 @@ static inline void assert_same_arrays(const sl_symbolic *S, const sl_symbolic *T
 #undef SAME
 }
 
+/* An analysis of which each allocation fails once leaves nothing behind. */
+static inline void analysis_may_lack_memory(const sl_csc *A, sl_ordering ordering) {
+    sl_status status = SL_ERR_MEMORY;
+    for (int64_t k = 0; status != SL_OK; k++) {
+        counter_t counter = counter_make();
+        sl_options opt = options_counted(&counter);
+        sl_symbolic *S = NULL;
+        opt.ordering = ordering;
+        counter.fail_at = k;
+        status = sl_symbolic_create(&S, A, &opt, NULL);
+        assert_true(status == SL_OK || (status == SL_ERR_MEMORY && S == NULL));
+        sl_symbolic_free(S);
+        COUNTER_CLEAN(&counter);
+    }
+}
+
 #endif

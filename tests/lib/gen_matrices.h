@@ -251,6 +251,19 @@ static inline gen_matrix_t gen_store(const gen_list_t *t, gen_style_t style, uin
     return M;
 }
 
+/* The lower triangle of edges with a dominant diagonal; name: of the rows, at random; 0: as they
+ * are. Frees t. */
+static inline gen_matrix_t gen_store_dominant(gen_list_t *t, uint64_t name) {
+    uint64_t seed = 5;
+    if (name > 0) {
+        gen_rename(t, name);
+    }
+    gen_dominate(t, 1, &seed);
+    gen_matrix_t M = gen_store(t, gen_style(0), 1);
+    gen_list_free(t);
+    return M;
+}
+
 /* The default style: lower triangle, rows ascending, no duplicates. */
 static inline gen_matrix_t gen_matrix(gen_kind_t kind, sl_int size, int sign, uint64_t seed) {
     gen_list_t t = gen_make(kind, size, sign, seed);
