@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: cc64f312e5443362
+ * FNV-1a of the lines after this comment, without the license: f1b79c187d08fc36
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,28 +36,28 @@
  *   2971 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3014 impl/ base: the compiler, status, memory, sorting, threads
  *   4287 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5205 impl/ matrix: sparse matrices of the caller and of the library
- *   5835 impl/ ordering: fill-reducing orderings of a graph
- *  10780 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12991 impl/ factor: the numbers of L and D
- *  16366 impl/ solve: full and local solves
- *  18025 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19956 impl/ pivots: the order of the pivots by the values of a matrix
- *  20364 impl/ float: L and fronts in single precision
- *  20815 impl/ inverse: entries of the inverse, regions
- *  23882 impl/ change: a factor that follows changes of its matrix
- *  29976 impl/ dirichlet: rows fixed at given values
- *  30567 impl/ dirichlet: by a factor of all rows
- *  30799 impl/ io: files that are replaced only when they are complete
- *  31017 impl/ files: Matrix Market files, 64-bit indices
- *  31637 impl/ save: factors in files
- *  33649 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34332 impl/ batch: diagonals of many inverses
- *  34472 impl/ complex: complex Hermitian systems over real factors
- *  35034 impl/ complex: entries of the inverse
- *  35094 impl/ packs: the tables through which the core calls packs
- *  35143 impl/ last: undefine every internal macro
- *  35508 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5207 impl/ matrix: sparse matrices of the caller and of the library
+ *   5837 impl/ ordering: fill-reducing orderings of a graph
+ *  10782 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12993 impl/ factor: the numbers of L and D
+ *  16368 impl/ solve: full and local solves
+ *  18027 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19958 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20366 impl/ float: L and fronts in single precision
+ *  20817 impl/ inverse: entries of the inverse, regions
+ *  23884 impl/ change: a factor that follows changes of its matrix
+ *  29978 impl/ dirichlet: rows fixed at given values
+ *  30569 impl/ dirichlet: by a factor of all rows
+ *  30801 impl/ io: files that are replaced only when they are complete
+ *  31019 impl/ files: Matrix Market files, 64-bit indices
+ *  31639 impl/ save: factors in files
+ *  33651 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34334 impl/ batch: diagonals of many inverses
+ *  34474 impl/ complex: complex Hermitian systems over real factors
+ *  35036 impl/ complex: entries of the inverse
+ *  35096 impl/ packs: the tables through which the core calls packs
+ *  35145 impl/ last: undefine every internal macro
+ *  35510 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4830,12 +4830,14 @@ typedef struct sli_kernels {
     break;
 #define SLI_CASES(call) \
   switch (w) { \
+    SLI_CASE(2, call) \
+    SLI_CASE(3, call) \
+    SLI_CASE(4, call) \
     SLI_CASE(5, call) \
     SLI_CASE(6, call) \
     SLI_CASE(7, call) \
-    SLI_CASE(8, call) \
   default: \
-    call(w); \
+    call(8); \
   }
 
 #define SLI_EXPAND_PLAIN(mask, lanes, count) \
@@ -39059,7 +39061,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
 
 SLV_FUNCTION static void SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l,
     double *xs, double *x) {
-  SLI_FORWARD(w);
+  SLI_BY_WIDTH(SLI_FORWARD);
 }
 
 SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_rows below, const SLV_VALUE *l,
