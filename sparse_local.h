@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f1b79c187d08fc36
+ * FNV-1a of the lines after this comment, without the license: 8111e0a2028c6207
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,29 +35,29 @@
  *   2894 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   2971 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3014 impl/ base: the compiler, status, memory, sorting, threads
- *   4287 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5207 impl/ matrix: sparse matrices of the caller and of the library
- *   5837 impl/ ordering: fill-reducing orderings of a graph
- *  10782 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12993 impl/ factor: the numbers of L and D
- *  16368 impl/ solve: full and local solves
- *  18027 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19958 impl/ pivots: the order of the pivots by the values of a matrix
- *  20366 impl/ float: L and fronts in single precision
- *  20817 impl/ inverse: entries of the inverse, regions
- *  23884 impl/ change: a factor that follows changes of its matrix
- *  29978 impl/ dirichlet: rows fixed at given values
- *  30569 impl/ dirichlet: by a factor of all rows
- *  30801 impl/ io: files that are replaced only when they are complete
- *  31019 impl/ files: Matrix Market files, 64-bit indices
- *  31639 impl/ save: factors in files
- *  33651 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34334 impl/ batch: diagonals of many inverses
- *  34474 impl/ complex: complex Hermitian systems over real factors
- *  35036 impl/ complex: entries of the inverse
- *  35096 impl/ packs: the tables through which the core calls packs
- *  35145 impl/ last: undefine every internal macro
- *  35510 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4288 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5208 impl/ matrix: sparse matrices of the caller and of the library
+ *   5838 impl/ ordering: fill-reducing orderings of a graph
+ *  10783 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12994 impl/ factor: the numbers of L and D
+ *  16369 impl/ solve: full and local solves
+ *  18028 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19959 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20367 impl/ float: L and fronts in single precision
+ *  20818 impl/ inverse: entries of the inverse, regions
+ *  23885 impl/ change: a factor that follows changes of its matrix
+ *  29979 impl/ dirichlet: rows fixed at given values
+ *  30570 impl/ dirichlet: by a factor of all rows
+ *  30802 impl/ io: files that are replaced only when they are complete
+ *  31020 impl/ files: Matrix Market files, 64-bit indices
+ *  31640 impl/ save: factors in files
+ *  33652 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34335 impl/ batch: diagonals of many inverses
+ *  34475 impl/ complex: complex Hermitian systems over real factors
+ *  35037 impl/ complex: entries of the inverse
+ *  35097 impl/ packs: the tables through which the core calls packs
+ *  35146 impl/ last: undefine every internal macro
+ *  35511 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3780,7 +3780,8 @@ SLI_INLINE void sli_block_free(const sli_block *b, const sl_allocator *a, const 
 
 #if SIZE_MAX > UINT32_MAX
 SLI_ALWAYS_INLINE void *sli_cut(sli_block *b, uint64_t count, size_t size, int is_long) {
-  const size_t at = b->used, elements = is_long ? count : (uint32_t)count;
+  const size_t at = b->used;
+  const size_t elements = is_long ? count : (uint32_t)count; /* branches untested: a constant */
   b->used += (elements * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
   b->used |= elements >> 47 != 0;
   return b->base == NULL ? NULL : b->base + at;

@@ -190,7 +190,8 @@ SLI_INLINE void sli_block_free(const sli_block *b, const sl_allocator *a, const 
  * overflows: a count beyond all memory, which one of 32 bits never is, makes `used` odd. */
 #if SIZE_MAX > UINT32_MAX
 SLI_ALWAYS_INLINE void *sli_cut(sli_block *b, uint64_t count, size_t size, int is_long) {
-    const size_t at = b->used, elements = is_long ? count : (uint32_t)count;
+    const size_t at = b->used;
+    const size_t elements = is_long ? count : (uint32_t)count; /* branches untested: a constant */
     b->used += (elements * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
     b->used |= elements >> 47 != 0;
     return b->base == NULL ? NULL : b->base + at;
