@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 8111e0a2028c6207
+ * FNV-1a of the lines after this comment, without the license: abd91aa1400ae54f
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,26 +38,26 @@
  *   4288 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5208 impl/ matrix: sparse matrices of the caller and of the library
  *   5838 impl/ ordering: fill-reducing orderings of a graph
- *  10783 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12994 impl/ factor: the numbers of L and D
- *  16369 impl/ solve: full and local solves
- *  18028 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19959 impl/ pivots: the order of the pivots by the values of a matrix
- *  20367 impl/ float: L and fronts in single precision
- *  20818 impl/ inverse: entries of the inverse, regions
- *  23885 impl/ change: a factor that follows changes of its matrix
- *  29979 impl/ dirichlet: rows fixed at given values
- *  30570 impl/ dirichlet: by a factor of all rows
- *  30802 impl/ io: files that are replaced only when they are complete
- *  31020 impl/ files: Matrix Market files, 64-bit indices
- *  31640 impl/ save: factors in files
- *  33652 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34335 impl/ batch: diagonals of many inverses
- *  34475 impl/ complex: complex Hermitian systems over real factors
- *  35037 impl/ complex: entries of the inverse
- *  35097 impl/ packs: the tables through which the core calls packs
- *  35146 impl/ last: undefine every internal macro
- *  35511 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10781 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12992 impl/ factor: the numbers of L and D
+ *  16367 impl/ solve: full and local solves
+ *  18026 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19957 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20365 impl/ float: L and fronts in single precision
+ *  20816 impl/ inverse: entries of the inverse, regions
+ *  23883 impl/ change: a factor that follows changes of its matrix
+ *  29977 impl/ dirichlet: rows fixed at given values
+ *  30568 impl/ dirichlet: by a factor of all rows
+ *  30800 impl/ io: files that are replaced only when they are complete
+ *  31018 impl/ files: Matrix Market files, 64-bit indices
+ *  31638 impl/ save: factors in files
+ *  33650 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34333 impl/ batch: diagonals of many inverses
+ *  34473 impl/ complex: complex Hermitian systems over real factors
+ *  35035 impl/ complex: entries of the inverse
+ *  35095 impl/ packs: the tables through which the core calls packs
+ *  35144 impl/ last: undefine every internal macro
+ *  35509 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -9652,9 +9652,6 @@ static int sli_order_levels(const sli_order_job *job) {
   const int64_t most = SLI_LEVELS_MOST * (int64_t)n;
   sli_levels found = sli_levels_of(job);
   sl_int v, end, start = 0;
-  if (job->weight != NULL) {
-    return 0;
-  }
   for (v = 0; v < n && found.entries <= most; v++) {
     sli_levels tried = found;
     if (found.seen[v] != 0) {
@@ -10606,7 +10603,8 @@ static sl_status sli_order_reduced(const sli_order_job *job) {
   while (status == SL_OK) {
     switch (sli_order_choose(&f)) { /* branches untested: each has a case */
     case SLI_TRY_LEVELS:
-      f.bits |= SLI_TRIED_LEVELS | (sli_order_levels(job) ? SLI_IS_NARROW : 0);
+      f.bits |= SLI_TRIED_LEVELS;
+      f.bits |= job->weight == NULL && sli_order_levels(job) ? SLI_IS_NARROW : 0;
       break;
     case SLI_TRY_MINDEG:
       status = sli_order_by_mindeg(job, &f);
@@ -29182,7 +29180,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
     job.team = &alone;
     job.a = a;
     status = sli_graph_is_irregular(&G, 0) ? sli_order_mindeg(&job, scratch, &cost)
-                             : sli_order_compressed(&job, sli_order_nd);
+                         : sli_order_compressed(&job, sli_order_nd);
   }
   if (status == SL_OK) {
     for (k = 0; k < count; k++) {

@@ -160,7 +160,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
         job.team = &alone;
         job.a = a;
         status = sli_graph_is_irregular(&G, 0) ? sli_order_mindeg(&job, scratch, &cost)
-                                                         : sli_order_compressed(&job, sli_order_nd);
+                                               : sli_order_compressed(&job, sli_order_nd);
     }
     if (status == SL_OK) {
         for (k = 0; k < count; k++) {

@@ -140,7 +140,8 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
 }
 
 /* Where null pivots are refused: may a root of the elimination forest be a null pivot that the
- * tolerance missed, because its rounding error comes from heavier rows? Reads D only. */
+ * tolerance missed, because its rounding error comes from heavier rows? Reads D only, and counts
+ * the pivots for the report. */
 static int sli_null_is_suspected(sl_factor *F) {
     const sl_symbolic *S = F->S;
     const double rounding = sli_null_rounding(S->n, F->rule.epsilon);

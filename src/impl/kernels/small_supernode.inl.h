@@ -3,8 +3,8 @@
 /* Most supernodes of a 2D mesh are this small. They do not spend their time reading L but on loops
  * of few iterations, on calls, and on vector loads of values that were just stored one by one. Here
  * there are no loops over columns: y or the sums of all columns stay in registers, and x is
- * gathered directly into registers. For L in double the width is a constant in each of several
- * copies. With L in float, branches on the width take 1.00 of the time, at most 1.05. */
+ * gathered directly into registers. For L in double the width is a constant in each of 7 copies.
+ * With L in float, branches on the width take 1.00 of the time, at most 1.05. */
 
 #if defined(SLV_PAIR)
 #if SLV_SINGLE

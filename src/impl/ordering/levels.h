@@ -60,7 +60,7 @@ static sli_levels sli_levels_of(const sli_order_job *job) {
     return l;
 }
 
-/* Orders the graph of a job if it is thin and has no weights: each component from the level that is
+/* Orders the graph of a job, without weights, if it is thin: each component from the level that is
  * farthest from one of its ends. Fill stays within the front that moves along each branch. Returns
  * whether the job's perm is an order. */
 static int sli_order_levels(const sli_order_job *job) {
@@ -68,9 +68,6 @@ static int sli_order_levels(const sli_order_job *job) {
     const int64_t most = SLI_LEVELS_MOST * (int64_t)n;
     sli_levels found = sli_levels_of(job);
     sl_int v, end, start = 0;
-    if (job->weight != NULL) {
-        return 0;
-    }
     for (v = 0; v < n && found.entries <= most; v++) {
         sli_levels tried = found;
         if (found.seen[v] != 0) {

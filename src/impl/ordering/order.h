@@ -75,7 +75,8 @@ static sl_status sli_order_reduced(const sli_order_job *job) {
     while (status == SL_OK) {
         switch (sli_order_choose(&f)) { /* branches untested: each has a case */
         case SLI_TRY_LEVELS:
-            f.bits |= SLI_TRIED_LEVELS | (sli_order_levels(job) ? SLI_IS_NARROW : 0);
+            f.bits |= SLI_TRIED_LEVELS;
+            f.bits |= job->weight == NULL && sli_order_levels(job) ? SLI_IS_NARROW : 0;
             break;
         case SLI_TRY_MINDEG:
             status = sli_order_by_mindeg(job, &f);
