@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: abd91aa1400ae54f
+ * FNV-1a of the lines after this comment, without the license: d6e14f3be5cc954c
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,25 +39,25 @@
  *   5208 impl/ matrix: sparse matrices of the caller and of the library
  *   5838 impl/ ordering: fill-reducing orderings of a graph
  *  10781 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12992 impl/ factor: the numbers of L and D
- *  16367 impl/ solve: full and local solves
- *  18026 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19957 impl/ pivots: the order of the pivots by the values of a matrix
- *  20365 impl/ float: L and fronts in single precision
- *  20816 impl/ inverse: entries of the inverse, regions
- *  23883 impl/ change: a factor that follows changes of its matrix
- *  29977 impl/ dirichlet: rows fixed at given values
- *  30568 impl/ dirichlet: by a factor of all rows
- *  30800 impl/ io: files that are replaced only when they are complete
- *  31018 impl/ files: Matrix Market files, 64-bit indices
- *  31638 impl/ save: factors in files
- *  33650 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34333 impl/ batch: diagonals of many inverses
- *  34473 impl/ complex: complex Hermitian systems over real factors
- *  35035 impl/ complex: entries of the inverse
- *  35095 impl/ packs: the tables through which the core calls packs
- *  35144 impl/ last: undefine every internal macro
- *  35509 impl/ templates: the header includes them from itself, once for each instruction set
+ *  13007 impl/ factor: the numbers of L and D
+ *  16382 impl/ solve: full and local solves
+ *  18041 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19972 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20380 impl/ float: L and fronts in single precision
+ *  20831 impl/ inverse: entries of the inverse, regions
+ *  23898 impl/ change: a factor that follows changes of its matrix
+ *  29992 impl/ dirichlet: rows fixed at given values
+ *  30583 impl/ dirichlet: by a factor of all rows
+ *  30815 impl/ io: files that are replaced only when they are complete
+ *  31033 impl/ files: Matrix Market files, 64-bit indices
+ *  31653 impl/ save: factors in files
+ *  33665 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34348 impl/ batch: diagonals of many inverses
+ *  34488 impl/ complex: complex Hermitian systems over real factors
+ *  35050 impl/ complex: entries of the inverse
+ *  35110 impl/ packs: the tables through which the core calls packs
+ *  35159 impl/ last: undefine every internal macro
+ *  35524 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11130,11 +11130,12 @@ static sl_int sli_fundamental_find(sli_amalgamation *g, const sl_int *parent, co
   g->first[0] = 0;
   for (j = 0; j < n; j++) {
     const sl_int last = j - (j > 0);
-    const sl_int from = g->first[s + (s < 0)];
-    const int is_root = (counts[j] == 1) & (from == last) & splits;
+    int starts = (parent[last] ^ j) | (other[j] + 1) | (counts[last] ^ (counts[j] + 1));
+    if (splits) {
+      starts |= (counts[j] == 1) & (g->first[s + (s < 0)] == last);
+    }
     g->first[s + 1] = j;
-    s +=
-      ((parent[last] ^ j) | (other[j] + 1) | (counts[last] ^ (counts[j] + 1)) | is_root) != 0;
+    s += starts != 0;
     g->super_of[j] = s;
   }
   g->first[s + 1] = n;
@@ -11510,22 +11511,33 @@ typedef struct sli_analysis {
 
 #define SLI_ANALYSIS_ROOM(n) ((uint64_t)(n) + 16)
 
+SLI_ALWAYS_INLINE void sli_pattern_count(const sli_analysis *w, sl_int p, sl_int end, sl_int *at,
+    sl_int side) {
+  const sl_int *row = w->A->i, *iperm = w->scratch, n = w->n;
+  sl_int *column = w->column, *moved = w->moved;
+  for (; p < end; p++) {
+    const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_min(a, b);
+    const sl_int to = side * (row[p] - column[p]) >= 0 ? k : n;
+    moved[p] = a + b - k;
+    column[p] = to;
+    at[to]++;
+  }
+}
+
 static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
-  const sl_int *row = w->A->i, *iperm = w->scratch, side = w->side;
+  const sl_int *column = w->column, *moved = w->moved;
   const sl_int ranges = sli_max(w->workers, 1);
   const sl_int end = (sl_int)((int64_t)sli_nnz(w->A) * (r + 1) / ranges);
   sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n);
   sl_int p = (sl_int)((int64_t)sli_nnz(w->A) * r / ranges);
-  sl_int *column = w->column, *moved = w->moved;
   if (!is_counted) {
     SLI_ZERO(at, w->n + 1);
-  }
-  for (; p < end && !is_counted; p++) {
-    const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_min(a, b);
-    const sl_int to = side * (row[p] - column[p]) >= 0 ? k : w->n;
-    moved[p] = a + b - k;
-    column[p] = to;
-    at[to]++;
+    if (w->side == 0) {
+      sli_pattern_count(w, p, end, at, 0);
+    } else {
+      sli_pattern_count(w, p, end, at, w->side);
+    }
+    return;
   }
   for (; p < end; p++) {
     sl_int *entry = w->columns.entry + SLI_ENTRY * (size_t)at[column[p]]++;
@@ -11545,11 +11557,10 @@ static void sli_pattern_fill_item(void *data, sl_int r, sl_int worker) {
   sli_pattern_range((const sli_analysis *)data, r, 1);
 }
 
-static void sli_pattern_fill(sli_analysis *w, sl_triangle triangle, sli_team *team) {
+static void sli_pattern_fill(sli_analysis *w, sli_team *team) {
   const sl_int ranges = sli_max(w->workers, 1);
   sl_int r, unread;
   w->moved = w->choice.has_tree || sli_nnz(w->A) / 7 >= w->n ? w->spare : w->parent;
-  w->side = triangle == SL_TRIANGLE_NONE ? 0 : triangle == SL_TRIANGLE_UPPER ? -1 : 1;
   sli_team_loop(team, ranges, NULL, sli_pattern_count_item, w);
   sli_pattern_starts(&w->columns, w->n, w->room, ranges, (size_t)SLI_ANALYSIS_ROOM(w->n));
   unread = w->columns.begin[w->n];
@@ -12323,7 +12334,7 @@ static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *
   for (k = 0; k < w->n; k++) {
     w->scratch[w->perm[k]] = k;
   }
-  sli_pattern_fill(w, stats->symbolic.triangle, team);
+  sli_pattern_fill(w, team);
   sli_analyze_tree(w, opt, stats);
   lap = sli_analysis_lap(w);
   stats->symbolic.seconds_tree += lap;
@@ -12551,8 +12562,12 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     sli_analysis_layout(&j.w, &b, A->n_cols, sli_nnz(A));
   }
   if (status == SL_OK) {
-    status = sli_csc_triangle(A, sli_csc_columns(A, j.w.column), &j.found.symbolic.triangle,
-        opt, stats);
+    const sl_triangle stored = sli_csc_columns(A, j.w.column);
+    sl_triangle *read = &j.found.symbolic.triangle;
+    status = sli_csc_triangle(A, stored, read, opt, stats);
+    j.w.side = stored != SL_TRIANGLE_BOTH && *read == stored ? 0
+           : *read == SL_TRIANGLE_UPPER ? -1
+                                 : 1;
   }
   if (status == SL_OK) {
     j.for_order = sli_arena_start(&arena, &b, j.w.ordered, &j.a);

@@ -15,7 +15,7 @@ typedef struct sli_analysis {
     const sl_csc *A;
     sli_hash pattern; /* of A */
     sl_int *column;   /* nnz: of each entry of A; sli_pattern_fill changes them */
-    sl_int side;      /* an entry of A is read if side (row - column) >= 0 */
+    sl_int side;      /* an entry of A is read if side (row - column) >= 0; 0: all are */
     sli_pattern columns;
     sli_amalgamation amalgamation;
     sl_int *perm;                       /* n: the order found or given */
@@ -38,24 +38,36 @@ typedef struct sli_analysis {
 /* The memory of one worker, in sl_int. */
 #define SLI_ANALYSIS_ROOM(n) ((uint64_t)(n) + 16)
 
-/* Counts or fills the range of entries of one worker. Counting turns the column of each entry into
- * that in P A P', or n if it is not read, and keeps its row. */
+/* Counts the entries p .. end-1: turns the column of each into that in P A P', or n if it is not
+ * read, and keeps its row. */
+SLI_ALWAYS_INLINE void sli_pattern_count(const sli_analysis *w, sl_int p, sl_int end, sl_int *at,
+                                         sl_int side) {
+    const sl_int *row = w->A->i, *iperm = w->scratch, n = w->n;
+    sl_int *column = w->column, *moved = w->moved;
+    for (; p < end; p++) {
+        const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_min(a, b);
+        const sl_int to = side * (row[p] - column[p]) >= 0 ? k : n;
+        moved[p] = a + b - k;
+        column[p] = to;
+        at[to]++;
+    }
+}
+
+/* Counts or fills the range of entries of one worker. */
 static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
-    const sl_int *row = w->A->i, *iperm = w->scratch, side = w->side;
+    const sl_int *column = w->column, *moved = w->moved;
     const sl_int ranges = sli_max(w->workers, 1);
     const sl_int end = (sl_int)((int64_t)sli_nnz(w->A) * (r + 1) / ranges);
     sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n);
     sl_int p = (sl_int)((int64_t)sli_nnz(w->A) * r / ranges);
-    sl_int *column = w->column, *moved = w->moved;
     if (!is_counted) {
         SLI_ZERO(at, w->n + 1);
-    }
-    for (; p < end && !is_counted; p++) {
-        const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_min(a, b);
-        const sl_int to = side * (row[p] - column[p]) >= 0 ? k : w->n;
-        moved[p] = a + b - k;
-        column[p] = to;
-        at[to]++;
+        if (w->side == 0) { /* a copy for this case has half of the operations */
+            sli_pattern_count(w, p, end, at, 0);
+        } else {
+            sli_pattern_count(w, p, end, at, w->side);
+        }
+        return;
     }
     for (; p < end; p++) {
         sl_int *entry = w->columns.entry + SLI_ENTRY * (size_t)at[column[p]]++;
@@ -77,12 +89,11 @@ static void sli_pattern_fill_item(void *data, sl_int r, sl_int worker) {
 
 /* Fills the lower triangle of P A P', so that later passes walk it in elimination order. It is a
  * counting sort. Each range has counters of its own. scratch: the inverse of perm. */
-static void sli_pattern_fill(sli_analysis *w, sl_triangle triangle, sli_team *team) {
+static void sli_pattern_fill(sli_analysis *w, sli_team *team) {
     const sl_int ranges = sli_max(w->workers, 1);
     sl_int r, unread;
     /* Tree and supernodes fill 7 n elements from parent on later: pages are touched once. */
     w->moved = w->choice.has_tree || sli_nnz(w->A) / 7 >= w->n ? w->spare : w->parent;
-    w->side = triangle == SL_TRIANGLE_NONE ? 0 : triangle == SL_TRIANGLE_UPPER ? -1 : 1;
     sli_team_loop(team, ranges, NULL, sli_pattern_count_item, w);
     sli_pattern_starts(&w->columns, w->n, w->room, ranges, (size_t)SLI_ANALYSIS_ROOM(w->n));
     unread = w->columns.begin[w->n];

@@ -50,11 +50,12 @@ static sl_int sli_fundamental_find(sli_amalgamation *g, const sl_int *parent, co
     g->first[0] = 0;
     for (j = 0; j < n; j++) { /* without branches, which nothing would predict */
         const sl_int last = j - (j > 0);
-        const sl_int from = g->first[s + (s < 0)];
-        const int is_root = (counts[j] == 1) & (from == last) & splits;
+        int starts = (parent[last] ^ j) | (other[j] + 1) | (counts[last] ^ (counts[j] + 1));
+        if (splits) { /* otherwise it would wait for the store of the column before */
+            starts |= (counts[j] == 1) & (g->first[s + (s < 0)] == last);
+        }
         g->first[s + 1] = j;
-        s +=
-            ((parent[last] ^ j) | (other[j] + 1) | (counts[last] ^ (counts[j] + 1)) | is_root) != 0;
+        s += starts != 0;
         g->super_of[j] = s;
     }
     g->first[s + 1] = n;

@@ -120,8 +120,12 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
         sli_analysis_layout(&j.w, &b, A->n_cols, sli_nnz(A));
     }
     if (status == SL_OK) {
-        status = sli_csc_triangle(A, sli_csc_columns(A, j.w.column), &j.found.symbolic.triangle,
-                                  opt, stats);
+        const sl_triangle stored = sli_csc_columns(A, j.w.column);
+        sl_triangle *read = &j.found.symbolic.triangle;
+        status = sli_csc_triangle(A, stored, read, opt, stats);
+        j.w.side = stored != SL_TRIANGLE_BOTH && *read == stored ? 0
+                   : *read == SL_TRIANGLE_UPPER                  ? -1
+                                                                 : 1;
     }
     if (status == SL_OK) {
         j.for_order = sli_arena_start(&arena, &b, j.w.ordered, &j.a);

@@ -188,7 +188,7 @@ static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *
     for (k = 0; k < w->n; k++) {
         w->scratch[w->perm[k]] = k;
     }
-    sli_pattern_fill(w, stats->symbolic.triangle, team);
+    sli_pattern_fill(w, team);
     sli_analyze_tree(w, opt, stats);
     lap = sli_analysis_lap(w);
     stats->symbolic.seconds_tree += lap;
