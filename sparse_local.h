@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d6e14f3be5cc954c
+ * FNV-1a of the lines after this comment, without the license: 93a4febf96b91587
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,29 +35,29 @@
  *   2894 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   2971 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3014 impl/ base: the compiler, status, memory, sorting, threads
- *   4288 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5208 impl/ matrix: sparse matrices of the caller and of the library
- *   5838 impl/ ordering: fill-reducing orderings of a graph
- *  10781 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13007 impl/ factor: the numbers of L and D
- *  16382 impl/ solve: full and local solves
- *  18041 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19972 impl/ pivots: the order of the pivots by the values of a matrix
- *  20380 impl/ float: L and fronts in single precision
- *  20831 impl/ inverse: entries of the inverse, regions
- *  23898 impl/ change: a factor that follows changes of its matrix
- *  29992 impl/ dirichlet: rows fixed at given values
- *  30583 impl/ dirichlet: by a factor of all rows
- *  30815 impl/ io: files that are replaced only when they are complete
- *  31033 impl/ files: Matrix Market files, 64-bit indices
- *  31653 impl/ save: factors in files
- *  33665 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34348 impl/ batch: diagonals of many inverses
- *  34488 impl/ complex: complex Hermitian systems over real factors
- *  35050 impl/ complex: entries of the inverse
- *  35110 impl/ packs: the tables through which the core calls packs
- *  35159 impl/ last: undefine every internal macro
- *  35524 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4292 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5212 impl/ matrix: sparse matrices of the caller and of the library
+ *   5842 impl/ ordering: fill-reducing orderings of a graph
+ *  10783 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13009 impl/ factor: the numbers of L and D
+ *  16386 impl/ solve: full and local solves
+ *  18045 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19976 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20384 impl/ float: L and fronts in single precision
+ *  20835 impl/ inverse: entries of the inverse, regions
+ *  23902 impl/ change: a factor that follows changes of its matrix
+ *  29996 impl/ dirichlet: rows fixed at given values
+ *  30587 impl/ dirichlet: by a factor of all rows
+ *  30819 impl/ io: files that are replaced only when they are complete
+ *  31037 impl/ files: Matrix Market files, 64-bit indices
+ *  31657 impl/ save: factors in files
+ *  33669 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34352 impl/ batch: diagonals of many inverses
+ *  34492 impl/ complex: complex Hermitian systems over real factors
+ *  35054 impl/ complex: entries of the inverse
+ *  35114 impl/ packs: the tables through which the core calls packs
+ *  35163 impl/ last: undefine every internal macro
+ *  35528 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3258,7 +3258,11 @@ SLI_INLINE void sli_borrow(const sli_atomic *borrowers) {
 }
 
 SLI_INLINE int sli_is_last(sli_atomic *borrowers) {
-  return sli_atomic_read(borrowers) == 0 || sli_atomic_add(borrowers, -1) == 0;
+  sli_atomic others = sli_atomic_read(borrowers);
+  if (others != 0) {
+    others = sli_atomic_add(borrowers, -1);
+  }
+  return others == 0;
 }
 
 #define SLI_CLEAR(object) memset(&(object), 0, sizeof(object))
@@ -6063,10 +6067,10 @@ SLI_INLINE int sli_order_is_constraint(const sl_csc *A, sl_int row, sl_off degre
   return degree >= 8 && degree * degree >= A->n_cols && !sli_order_has_diagonal(A, row);
 }
 
-static void sli_order_border(const sli_order_job *job, sl_int *perm) {
+static void sli_order_border(const sli_order_job *job) {
   const sl_csc *A = job->A;
   const sli_graph *G = job->G;
-  sl_int *position = job->scratch;
+  sl_int *perm = job->perm, *position = job->scratch;
   sl_int k, v, last;
   sl_off e;
   for (v = 0; v < G->n && !sli_order_is_constraint(A, v, sli_graph_degree(G, v)); v++) {
@@ -6096,9 +6100,7 @@ static void sli_order_border(const sli_order_job *job, sl_int *perm) {
     }
     perm[k] = v;
     position[v] = k;
-    if (perm == job->perm) {
-      job->septree->count = 0;
-    }
+    job->septree->count = 0;
   }
 }
 
@@ -8629,7 +8631,7 @@ SLI_INLINE void sli_tree_cost_add(sli_tree_cost *c, uint64_t a, uint64_t b) {
 }
 
 SLI_INLINE int sli_tree_cost_is_less(sli_tree_cost a, sli_tree_cost b) {
-  return a.high < b.high || (a.high == b.high && a.low < b.low);
+  return a.high < b.high + (a.low < b.low);
 }
 
 static void sli_tree_cost_count(void *data, const sli_range *r) {
@@ -10699,7 +10701,7 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
   if (status == SL_OK && job->block > 1) {
     sli_order_expand(job);
   } else if (status == SL_OK) {
-    sli_order_border(job, job->perm);
+    sli_order_border(job);
   }
   sli_free(job->a, b.base);
   return status;
@@ -14631,7 +14633,9 @@ static int sli_top_draw(sli_job *job, sl_int at, sli_task *task) {
   }
   task->kind = SLI_TASK_FINISH;
   if (top->updated == top->pieces) {
-    return !top->is_finishing && (top->is_finishing = 1);
+    const int is_first = !top->is_finishing;
+    top->is_finishing = 1;
+    return is_first;
   }
   task->kind = SLI_TASK_PIECE;
   for (k = 0; k < top->pieces; k++) {
@@ -36859,13 +36863,6 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
 }
 
 #define SLI_EACH1(op, k) op(0, k)
-#if defined(SLV_ARRAYS)
-#define SLI_CHAINS 1
-#define SLI_EACH_CHAIN SLI_EACH1
-#else
-#define SLI_CHAINS 4
-#define SLI_EACH_CHAIN SLI_EACH4
-#endif
 #define SLI_POINT(t, unused) double *const l##t = tiles[t];
 #define SLI_CHANGE(t, unused) \
   SLV_LOAD_PINNED(a, l##t + SLI_TILE * j) \
@@ -36886,10 +36883,17 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
       SLV_BROADCAST(s, y + j) SLV_BROADCAST(r, b + j) \
         each(SLI_CHANGE, 0)} each(SLI_STORE, 0) \
   }
+#if defined(SLV_ARRAYS)
+#define SLI_CHAINS 1
+#define SLI_CHANGE_TILE SLV_NAME(change_tiles)
+SLI_TILES_KERNEL(change_tiles, SLI_EACH1)
+#else
+#define SLI_CHAINS 4
+#define SLI_CHANGE_TILE SLV_NAME(change_tile)
 SLI_TILES_KERNEL(change_tile, SLI_EACH1)
-SLI_TILES_KERNEL(change_tiles, SLI_EACH_CHAIN)
+SLI_TILES_KERNEL(change_tiles, SLI_EACH4)
+#endif
 #undef SLI_EACH1
-#undef SLI_EACH_CHAIN
 #undef SLI_POINT
 #undef SLI_CHANGE
 #undef SLI_TILES_KERNEL
@@ -36966,22 +36970,21 @@ SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
       SLV_NAME(change_tiles)(at, first, last, w, b, w + row, u->is_trial);
     } else {
       for (t = 0; t < count; t++) {
-        SLV_NAME(change_tile)
-        (at + t, first, last, w, b, w + row + SLI_TILE * t, u->is_trial);
+        SLI_CHANGE_TILE(at + t, first, last, w, b, w + row + SLI_TILE * t, u->is_trial);
       }
     }
     for (t = 0; t < count && row + SLI_TILE * t < width; t++) {
       const sl_int j = row + SLI_TILE * t, columns = sli_min(SLI_TILE, width - j);
       SLV_NAME(change_pivots)(u, at[t] + SLI_TILE * j, j, columns);
       for (k = t + 1; k < count; k++) {
-        SLV_NAME(change_tile)
-        (at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);
+        SLI_CHANGE_TILE(at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);
       }
     }
   }
 }
 #undef SLI_CHANGE_KERNEL
 #undef SLI_CHAINS
+#undef SLI_CHANGE_TILE
 #undef SLI_EACH2
 #undef SLI_DECLARE
 #undef SLI_LOAD
@@ -38296,6 +38299,7 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *va
 #else
 #define SLI_BY_WIDTH(call) SLI_CASES(call)
 #endif
+#define SLI_HAS(k) ((k) < 2 || (k) < w)
 #define SLI_DECLARE(k, y) \
   SLV_DECLARE(y##k) \
   SLV_ZERO(y##k)
@@ -38303,13 +38307,13 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *va
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
 
 #define SLI_COLUMN(k, unused) \
-  if (SLI_IS_IN(k, w)) { \
+  if (SLI_HAS(k)) { \
     SLV_PREFETCH(l, k, SLI_PREFETCH_DISTANCE) \
     SLV_LANE(y##k, a, k) \
     SLV_DOT(a, l + SLI_TILE * (k), y##k) \
   }
 #define SLI_EVEN_ODD(k, unused) \
-  if (SLI_IS_IN(k, w)) { \
+  if (SLI_HAS(k)) { \
     SLV_PREFETCH(l, k, SLI_PREFETCH_DISTANCE) \
     if ((k) % 2 == 0) { \
       SLV_DOT(a, l + SLI_TILE * (k), y##k) \
@@ -38355,7 +38359,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, con
 }
 
 #define SLI_DOT(k) \
-  if (SLI_IS_IN(k, w)) { \
+  if (SLI_HAS(k)) { \
     SLV_PREFETCH(l, k, -SLI_PREFETCH_DISTANCE) \
     SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v) \
   }
@@ -38366,11 +38370,11 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, con
 #define SLI_ROW_AT_OWN(k) rows[sli_clamp((k)-w, at - 1)]
 #define SLI_SET(k, unused) double r##k = r[k];
 #define SLI_GET(k, unused) \
-  if (SLI_IS_IN(k, w)) { \
+  if (SLI_HAS(k)) { \
     xs[k] = r##k; \
   }
 #define SLI_XT(j, k) \
-  if ((j) < (k) && (k) < w) { \
+  if ((j) < (k) && SLI_HAS(k)) { \
     r##j = SLV_FNMA1(t[SLI_TILE * (j) + (k)], r##k, r##j); \
   }
 #define SLI_ROW(k) \
@@ -38627,6 +38631,7 @@ SLV_FUNCTION static const sli_step *SLV_SWEEP(backward_small)(const sli_step *s,
   return s;
 }
 
+#undef SLI_HAS
 #undef SLI_DECLARE
 #undef SLI_SUM_DECLARE
 #undef SLI_SUM_ZERO

@@ -169,13 +169,6 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
 /* One vector and columns first .. last-1 of one row tile, or of SLI_CHAINS, whose chains of w
  * overlap: w -= l y, then l += b w. A trial leaves L alone. */
 #define SLI_EACH1(op, k) op(0, k)
-#if defined(SLV_ARRAYS)
-#define SLI_CHAINS 1
-#define SLI_EACH_CHAIN SLI_EACH1
-#else
-#define SLI_CHAINS 4
-#define SLI_EACH_CHAIN SLI_EACH4
-#endif
 #define SLI_POINT(t, unused) double *const l##t = tiles[t];
 #define SLI_CHANGE(t, unused) \
     SLV_LOAD_PINNED(a, l##t + SLI_TILE * j) \
@@ -196,10 +189,17 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
             SLV_BROADCAST(s, y + j) SLV_BROADCAST(r, b + j) \
                 each(SLI_CHANGE, 0)} each(SLI_STORE, 0) \
     }
+#if defined(SLV_ARRAYS)
+#define SLI_CHAINS 1
+#define SLI_CHANGE_TILE SLV_NAME(change_tiles)
+SLI_TILES_KERNEL(change_tiles, SLI_EACH1)
+#else
+#define SLI_CHAINS 4
+#define SLI_CHANGE_TILE SLV_NAME(change_tile)
 SLI_TILES_KERNEL(change_tile, SLI_EACH1)
-SLI_TILES_KERNEL(change_tiles, SLI_EACH_CHAIN)
+SLI_TILES_KERNEL(change_tiles, SLI_EACH4)
+#endif
 #undef SLI_EACH1
-#undef SLI_EACH_CHAIN
 #undef SLI_POINT
 #undef SLI_CHANGE
 #undef SLI_TILES_KERNEL
@@ -280,22 +280,21 @@ SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
             SLV_NAME(change_tiles)(at, first, last, w, b, w + row, u->is_trial);
         } else {
             for (t = 0; t < count; t++) {
-                SLV_NAME(change_tile)
-                (at + t, first, last, w, b, w + row + SLI_TILE * t, u->is_trial);
+                SLI_CHANGE_TILE(at + t, first, last, w, b, w + row + SLI_TILE * t, u->is_trial);
             }
         }
         for (t = 0; t < count && row + SLI_TILE * t < width; t++) {
             const sl_int j = row + SLI_TILE * t, columns = sli_min(SLI_TILE, width - j);
             SLV_NAME(change_pivots)(u, at[t] + SLI_TILE * j, j, columns);
             for (k = t + 1; k < count; k++) {
-                SLV_NAME(change_tile)
-                (at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);
+                SLI_CHANGE_TILE(at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);
             }
         }
     }
 }
 #undef SLI_CHANGE_KERNEL
 #undef SLI_CHAINS
+#undef SLI_CHANGE_TILE
 #undef SLI_EACH2
 #undef SLI_DECLARE
 #undef SLI_LOAD

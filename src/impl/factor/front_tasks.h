@@ -117,7 +117,9 @@ static int sli_top_draw(sli_job *job, sl_int at, sli_task *task) {
     }
     task->kind = SLI_TASK_FINISH;
     if (top->updated == top->pieces) {
-        return !top->is_finishing && (top->is_finishing = 1);
+        const int is_first = !top->is_finishing;
+        top->is_finishing = 1;
+        return is_first;
     }
     task->kind = SLI_TASK_PIECE;
     for (k = 0; k < top->pieces; k++) {

@@ -12,6 +12,8 @@
 #else
 #define SLI_BY_WIDTH(call) SLI_CASES(call)
 #endif
+/* Is k a column? The supernode has at least two. */
+#define SLI_HAS(k) ((k) < 2 || (k) < w)
 #define SLI_DECLARE(k, y) \
     SLV_DECLARE(y##k) \
     SLV_ZERO(y##k)
@@ -20,14 +22,14 @@
 
 /* The diagonal tile, one column after another; L is stored as 0 on and above its diagonal. */
 #define SLI_COLUMN(k, unused) \
-    if (SLI_IS_IN(k, w)) { \
+    if (SLI_HAS(k)) { \
         SLV_PREFETCH(l, k, SLI_PREFETCH_DISTANCE) \
         SLV_LANE(y##k, a, k) \
         SLV_DOT(a, l + SLI_TILE * (k), y##k) \
     }
 /* A tile below: even and odd columns have a sum each, two independent chains of FMAs. */
 #define SLI_EVEN_ODD(k, unused) \
-    if (SLI_IS_IN(k, w)) { \
+    if (SLI_HAS(k)) { \
         SLV_PREFETCH(l, k, SLI_PREFETCH_DISTANCE) \
         if ((k) % 2 == 0) { \
             SLV_DOT(a, l + SLI_TILE * (k), y##k) \
@@ -74,7 +76,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, con
 
 /* x(j) -= L(rows, j)' x(rows), from the last column to the first: L is read backward in memory. */
 #define SLI_DOT(k) \
-    if (SLI_IS_IN(k, w)) { \
+    if (SLI_HAS(k)) { \
         SLV_PREFETCH(l, k, -SLI_PREFETCH_DISTANCE) \
         SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v) \
     }
@@ -88,11 +90,11 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, con
 #define SLI_ROW_AT_OWN(k) rows[sli_clamp((k)-w, at - 1)]
 #define SLI_SET(k, unused) double r##k = r[k];
 #define SLI_GET(k, unused) \
-    if (SLI_IS_IN(k, w)) { \
+    if (SLI_HAS(k)) { \
         xs[k] = r##k; \
     }
 #define SLI_XT(j, k) \
-    if ((j) < (k) && (k) < w) { /* r(j) -= L(k, j) r(k) */ \
+    if ((j) < (k) && SLI_HAS(k)) { /* r(j) -= L(k, j) r(k) */ \
         r##j = SLV_FNMA1(t[SLI_TILE * (j) + (k)], r##k, r##j); \
     }
 #define SLI_ROW(k) \
@@ -360,6 +362,7 @@ SLV_FUNCTION static const sli_step *SLV_SWEEP(backward_small)(const sli_step *s,
     return s;
 }
 
+#undef SLI_HAS
 #undef SLI_DECLARE
 #undef SLI_SUM_DECLARE
 #undef SLI_SUM_ZERO

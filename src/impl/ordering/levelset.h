@@ -17,7 +17,7 @@ SLI_INLINE void sli_tree_cost_add(sli_tree_cost *c, uint64_t a, uint64_t b) {
 }
 
 SLI_INLINE int sli_tree_cost_is_less(sli_tree_cost a, sli_tree_cost b) {
-    return a.high < b.high || (a.high == b.high && a.low < b.low);
+    return a.high < b.high + (a.low < b.low); /* low decides between equal high parts */
 }
 
 /* Counts the vertices at the border of each node, in a range. */

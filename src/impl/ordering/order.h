@@ -176,7 +176,7 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
     if (status == SL_OK && job->block > 1) {
         sli_order_expand(job);
     } else if (status == SL_OK) {
-        sli_order_border(job, job->perm);
+        sli_order_border(job);
     }
     sli_free(job->a, b.base);
     return status;

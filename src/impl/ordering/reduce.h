@@ -21,11 +21,11 @@ SLI_INLINE int sli_order_is_constraint(const sl_csc *A, sl_int row, sl_off degre
 /* A row with many neighbors and without a diagonal entry is a constraint, as in [L m; m' 0] with a
  * Laplacian L and weights m. After all of its neighbors, it would follow a null pivot of L. So the
  * last one of them moves behind it: L without that row is definite. Both are in the last dense
- * block, and the exchange costs nothing. perm: the order of the job or the other one. */
-static void sli_order_border(const sli_order_job *job, sl_int *perm) {
+ * block, and the exchange costs nothing. */
+static void sli_order_border(const sli_order_job *job) {
     const sl_csc *A = job->A;
     const sli_graph *G = job->G;
-    sl_int *position = job->scratch;
+    sl_int *perm = job->perm, *position = job->scratch;
     sl_int k, v, last;
     sl_off e;
     for (v = 0; v < G->n && !sli_order_is_constraint(A, v, sli_graph_degree(G, v)); v++) {
@@ -55,9 +55,7 @@ static void sli_order_border(const sli_order_job *job, sl_int *perm) {
         }
         perm[k] = v;
         position[v] = k;
-        if (perm == job->perm) {
-            job->septree->count = 0; /* its nodes would no longer be contiguous */
-        }
+        job->septree->count = 0; /* its nodes would no longer be contiguous */
     }
 }
 
