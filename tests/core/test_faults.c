@@ -13,6 +13,17 @@ static int metis_fault; /* 0: none, or the status that is returned */
 #define METIS_NodeND(...) (metis_fault != 0 ? metis_fault : (METIS_NodeND)(__VA_ARGS__))
 #endif
 
+#if defined(__linux__) && defined(__GNUC__)
+static unsigned slept; /* microseconds */
+
+/* The header calls this one, whose declaration has the name of the system's. */
+int usleep(unsigned microseconds);
+int usleep(unsigned microseconds) {
+    slept += microseconds;
+    return 0;
+}
+#endif
+
 #include "tests/lib/check_factor.h"
 
 /* The status of an ordering; if it is SL_OK, the order and its separator tree are valid. */
@@ -276,7 +287,7 @@ static void orderings_may_lack_memory(void **state) {
     static const struct {
         gen_kind_t kind;
         sl_int size;
-    } kinds[4] = {{GEN_GRID2, 900}, {GEN_FOREST, 300}, {GEN_COMPONENTS, 900}, {GEN_STAR, 300}};
+    } kinds[4] = {{GEN_GRID2, 2500}, {GEN_FOREST, 300}, {GEN_COMPONENTS, 900}, {GEN_STAR, 300}};
     static const sl_ordering orderings[3] = {SL_ORDERING_ND, SL_ORDERING_MINDEG, SL_ORDERING_METIS};
     for (int k = 0; k < 4; k++) {
         gen_list_t t = gen_make(kinds[k].kind, kinds[k].size, 1, 3);
@@ -343,6 +354,19 @@ static void more_entries_than_indices_are_refused(void **state) {
     COUNTER_CLEAN(&counter);
 }
 
+#if defined(__linux__) && defined(__GNUC__)
+
+/* Who waits for long leaves the processor to others: it sleeps from the 1200th turn on. */
+static void long_waits_sleep(void **state) {
+    (void)state;
+    for (int turn = 0; turn < 1210; turn++) {
+        sli_pause(turn);
+        assert_int_equal(slept, turn < 1200 ? 0 : 50 * (turn - 1199));
+    }
+}
+
+#endif
+
 int main(void) {
     const struct CMUnitTest tests[] = {
 #if defined(SL_METIS) && !defined(SL_NO_METIS)
@@ -360,6 +384,9 @@ int main(void) {
         cmocka_unit_test(orderings_may_lack_memory),
         cmocka_unit_test(sizes_beyond_memory_are_refused),
         cmocka_unit_test(more_entries_than_indices_are_refused),
+#if defined(__linux__) && defined(__GNUC__)
+        cmocka_unit_test(long_waits_sleep),
+#endif
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -121,6 +121,50 @@ static void a_pivot_that_overflows_is_refused(void **state) {
     sl_symbolic_free(S);
 }
 
+/* All pivots of 70,000 blocks [1 -1; -1 1 + e] are kept, although e is below 1/32, the error that
+ * is expected of so many rows. With e = 0 in the last block one pivot is null. */
+static void small_pivots_of_many_rows_are_kept(void **state) {
+    (void)state;
+    enum { ROWS = 140000 };
+    const double e = 0.03125 / 2;
+    sl_int *p = test_ints(ROWS + 1), *i = test_ints(ROWS / 2 * 3);
+    double *x = test_reals(ROWS / 2 * 3);
+    const sl_csc A = {ROWS, ROWS, p, i, x};
+    for (sl_int k = 0, at = 0; k < ROWS; k += 2, at += 3) {
+        p[k + 1] = at + 2;
+        p[k + 2] = at + 3;
+        i[at] = k;
+        i[at + 1] = i[at + 2] = k + 1;
+        x[at] = 1.0;
+        x[at + 1] = -1.0;
+        x[at + 2] = 1.0 + e;
+    }
+    sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
+    for (int mode = 0; mode < 2; mode++) {
+        sl_options opt = options_float(SL_ISA_AUTO);
+        sl_factor *F = NULL;
+        sl_stats stats;
+        memset(&stats, 0, sizeof stats);
+        opt.null_pivots = (sl_null_pivots)mode;
+        x[ROWS / 2 * 3 - 1] = 1.0 + e;
+        SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
+        assert_int_equal(stats.factor.null, 0);
+        for (sl_int k = 0; k < ROWS; k++) {
+            assert_true(sl_factor_view(F).D[k] == (k % 2 == 0 ? 1.0 : e));
+        }
+        x[ROWS / 2 * 3 - 1] = 1.0;
+        SL_EXPECT(mode == SL_NULL_PIVOT_SKIP ? SL_OK : SL_ERR_PIVOT,
+                  sl_factor_refactor(F, &A, &stats));
+        assert_int_equal(mode == SL_NULL_PIVOT_SKIP ? stats.factor.null : stats.error.row,
+                         mode == SL_NULL_PIVOT_SKIP ? 1 : ROWS - 1);
+        sl_factor_free(F);
+    }
+    sl_symbolic_free(S);
+    free(p);
+    free(i);
+    free(x);
+}
+
 /* A region keeps the inverse of L D L', in double: plans in it agree with plans to the roots to the
  * rounding of double, although L is far from that of A. */
 static void regions_agree_with_plans_to_the_roots(void **state) {
@@ -255,6 +299,7 @@ int main(void) {
         cmocka_unit_test(a_null_vector_is_given),
         cmocka_unit_test(several_null_vectors_are_given),
         cmocka_unit_test(a_pivot_that_overflows_is_refused),
+        cmocka_unit_test(small_pivots_of_many_rows_are_kept),
         cmocka_unit_test(regions_agree_with_plans_to_the_roots),
         cmocka_unit_test(batches_have_the_bits_of_single_calls),
         cmocka_unit_test(the_condition_of_larger_systems),

@@ -3,19 +3,22 @@
 #define SPARSE_LOCAL_IMPLEMENTATION
 #include "tests/lib/check_factor.h"
 
-/* There are hubs up to a number of edges; beyond, sums of their costs would overflow. */
-static void hubs_of_too_many_edges_are_no_hubs(void **state) {
+/* There are hubs up to a number of edges, beyond which sums of their costs would overflow, and as
+ * long as they are few. */
+static void hubs_are_few_and_of_few_edges(void **state) {
     (void)state;
     enum { N = 128 };
-    for (int turn = 0; turn < 2; turn++) {
-        const sl_off edges = turn == 0 ? 200000000 : 300000000;
+    for (int turn = 0; turn < 3; turn++) {
+        const sl_off edges = turn == 1 ? 300000000 : 200000000;
+        const sl_int hubs = turn == 2 ? 3 : 1;
         sl_off begin[N + 1];
         sli_level g;
         memset(&g, 0, sizeof g);
         g.n = N;
         g.begin = begin;
-        for (sl_int v = 0; v <= N; v++) { /* the last vertex has nine tenths of the edges */
-            begin[v] = v == N ? edges : edges / 10 / (N - 1) * v;
+        for (sl_int v = 0; v <= N; v++) { /* the last vertices have nine tenths of the edges */
+            begin[v] =
+                v <= N - hubs ? edges / 10 / (N - 1) * v : edges - edges * 9 / 10 / hubs * (N - v);
         }
         sli_nd_count_degrees(&g);
         assert_int_equal(g.hub_degree, turn == 0 ? 3 * (edges / N) : 0);
@@ -197,7 +200,7 @@ static void small_orders_on_any_processor(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hubs_of_too_many_edges_are_no_hubs),
+        cmocka_unit_test(hubs_are_few_and_of_few_edges),
         cmocka_unit_test(a_hierarchy_that_does_not_shrink_ends),
         cmocka_unit_test(rows_of_equal_keys_may_differ),
         cmocka_unit_test(parts_without_rows_are_none),

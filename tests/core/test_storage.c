@@ -72,21 +72,61 @@ typedef struct exact_t {
     sl_factor *F[2]; /* in double and in float */
 } exact_t;
 
-/* A = L D L' with the entries 1/2 and -1/4 in L and powers of 2 in D: no operation rounds. The last
- * `dense` columns are full, so that supernodes are wide. */
-static exact_t exact_make(sl_int n, sl_int dense, sl_storage storage, sl_isa isa) {
-    exact_t e = {n, {NULL, NULL, NULL, {0, 0, NULL, NULL, NULL}}, NULL, {NULL, NULL}};
-    const size_t m = (size_t)n;
-    double *L = test_reals(m * m), *D = test_reals(m);
-    gen_list_t t = gen_list(n);
+/* An entry of L: 1/2 or -1/4. D has powers of 2, so that no operation on A = L D L' rounds. */
+static double exact_entry(uint64_t *random) {
+    return gen_below(random, 2) ? 0.5 : -0.25;
+}
+
+/* L, n x n, with two entries in a column. The last `dense` columns are full, so that supernodes are
+ * wide. */
+static double *exact_random(sl_int n, sl_int dense) {
+    double *L = test_reals((size_t)n * (size_t)n);
     uint64_t random = 11;
     for (sl_int j = 0; j < n; j++) {
-        D[j] = gen_below(&random, 2) ? 1.0 : 4.0;
         for (sl_int i = j + 1; i < n; i++) {
             if (j >= n - dense || gen_below(&random, n) < 2) {
-                L[(size_t)j * m + (size_t)i] = gen_below(&random, 2) ? 0.5 : -0.25;
+                L[(size_t)j * (size_t)n + (size_t)i] = exact_entry(&random);
             }
         }
+    }
+    return L;
+}
+
+/* L with supernodes of each width 2 .. 8, each with 0 .. CLIQUE_MOST rows below, which are some of
+ * the last CLIQUE_ROOT rows. */
+enum { CLIQUE_MOST = 10, CLIQUE_ROOT = 12, CLIQUES = 7 * (CLIQUE_MOST + 1) };
+
+static double *exact_cliques(sl_int *n) {
+    *n = 35 * (CLIQUE_MOST + 1) + CLIQUE_ROOT;
+    const size_t m = (size_t)*n;
+    double *L = test_reals(m * m);
+    sl_int first = 0, below[CLIQUE_ROOT];
+    uint64_t random = 13;
+    for (sl_int k = 0; k <= CLIQUES; k++) {
+        const sl_int w = k < CLIQUES ? 2 + k % 7 : CLIQUE_ROOT, count = k < CLIQUES ? k / 7 : 0;
+        gen_set(below, count, CLIQUE_ROOT, gen_bits(&random));
+        for (sl_int j = first; j < first + w; j++) {
+            for (sl_int i = j + 1; i < first + w + count; i++) {
+                const sl_int row = i < first + w ? i : *n - 1 - below[i - first - w];
+                L[(size_t)j * m + (size_t)row] = exact_entry(&random);
+            }
+        }
+        first += w;
+    }
+    assert_int_equal(first, *n);
+    return L;
+}
+
+/* Takes L; the caller releases the result. */
+static exact_t exact_make(sl_int n, double *L, sl_relaxation relaxation, sl_storage storage,
+                          sl_isa isa) {
+    exact_t e = {n, {NULL, NULL, NULL, {0, 0, NULL, NULL, NULL}}, NULL, {NULL, NULL}};
+    const size_t m = (size_t)n;
+    double *D = test_reals(m);
+    gen_list_t t = gen_list(n);
+    uint64_t random = 12;
+    for (sl_int j = 0; j < n; j++) {
+        D[j] = gen_below(&random, 2) ? 1.0 : 4.0;
         L[(size_t)j * m + (size_t)j] = 1.0;
     }
     for (sl_int j = 0; j < n; j++) {
@@ -101,7 +141,7 @@ static exact_t exact_make(sl_int n, sl_int dense, sl_storage storage, sl_isa isa
         }
     }
     e.M = gen_store(&t, gen_style(0), 1);
-    e.S = analyze_natural(&e.M.view, SL_RELAXATION_DEFAULT);
+    e.S = analyze_natural(&e.M.view, relaxation);
     for (int k = 0; k < 2; k++) {
         const sl_options opt = options_of(k == 0 ? SL_STORAGE_DOUBLE : storage, isa);
         SL_CHECK(sl_factor_create(&e.F[k], e.S, &e.M.view, &opt, NULL));
@@ -191,11 +231,48 @@ static void an_exact_factor_gives_the_same_bits(void **state) {
     static const sl_int sizes[6] = {1, 7, 8, 40, 90, 150};
     for (int k = 0; k < 12 * isas.count; k++) {
         for (sl_int dense = 0; dense <= 40; dense += 9) {
-            exact_t e = exact_make(sizes[k % 6], dense, floats[k / 6 % 2], isas.isa[k / 12]);
+            const sl_int n = sizes[k % 6];
+            exact_t e = exact_make(n, exact_random(n, dense), SL_RELAXATION_DEFAULT,
+                                   floats[k / 6 % 2], isas.isa[k / 12]);
             exact_solves(&e);
             exact_inverses(&e);
             exact_free(&e);
         }
+    }
+}
+
+/* Sweeps through supernodes of each width, for each number of right-hand sides: the bits of both
+ * types, local solves those of full ones, and small backward errors. */
+static void sweeps_of_each_width_give_the_same_bits(void **state) {
+    (void)state;
+    const isa_list_t isas = isas_with_storages();
+    for (int k = 0; k < isas.count; k++) {
+        sl_int n, widths[CLIQUE_ROOT + 1] = {0};
+        double *L = exact_cliques(&n);
+        exact_t e = exact_make(n, L, SL_RELAXATION_NONE, floats[k % 2], isas.isa[k]);
+        const sl_symbolic_arrays S = sl_symbolic_view(e.S);
+        double *B = test_reals(9 * (size_t)n), *X = test_reals(9 * (size_t)n);
+        for (sl_int s = 0; s < S.n_supers; s++) {
+            widths[S.super_first[s + 1] - S.super_first[s]]++;
+        }
+        for (int w = 2; w <= 8; w++) {
+            assert_true(widths[w] > CLIQUE_MOST);
+        }
+        exact_solves(&e);
+        gen_reals(B, 9 * (size_t)n, 8);
+        for (sl_int nrhs = 1; nrhs <= 9; nrhs++) {
+            SL_CHECK(sl_factor_solve(e.F[1], X, (size_t)n, B, (size_t)n, nrhs, NULL));
+            BACKWARD_PASSES(&e.M.view, X, (size_t)n, B, (size_t)n, nrhs);
+            for (int query = 0; query < 8; query++) {
+                local_solve_t q = local_solve_random(e.F[query % 2], n, 1 + 5 * query, 40, nrhs,
+                                                     (uint64_t)(query + 100 * nrhs));
+                local_solve_check(e.S, e.F[query % 2], &q, NULL);
+                local_solve_free(&q);
+            }
+        }
+        free(B);
+        free(X);
+        exact_free(&e);
     }
 }
 
@@ -358,6 +435,7 @@ int main(void) {
         cmocka_unit_test(the_double_factor_is_rounded),
         cmocka_unit_test(plain_c_keeps_double_beside_simd),
         cmocka_unit_test(an_exact_factor_gives_the_same_bits),
+        cmocka_unit_test(sweeps_of_each_width_give_the_same_bits),
         cmocka_unit_test(local_solves_equal_full_ones),
         cmocka_unit_test(refinement_brings_the_accuracy_of_double),
         cmocka_unit_test(refinement_says_how_far_it_came),
