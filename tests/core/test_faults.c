@@ -287,11 +287,15 @@ static void orderings_may_lack_memory(void **state) {
     static const struct {
         gen_kind_t kind;
         sl_int size;
-    } kinds[4] = {{GEN_GRID2, 2500}, {GEN_FOREST, 300}, {GEN_COMPONENTS, 900}, {GEN_STAR, 300}};
+    } kinds[5] = {{GEN_GRID2, 900},
+                  {GEN_GRID2, 2500},
+                  {GEN_FOREST, 300},
+                  {GEN_COMPONENTS, 900},
+                  {GEN_STAR, 300}};
     static const sl_ordering orderings[3] = {SL_ORDERING_ND, SL_ORDERING_MINDEG, SL_ORDERING_METIS};
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 5; k++) {
         gen_list_t t = gen_make(kinds[k].kind, kinds[k].size, 1, 3);
-        for (sl_int row = 1; row < t.n && k == 0; row++) { /* a dense row */
+        for (sl_int row = 1; row < t.n && k < 2; row++) { /* a dense row */
             gen_add(&t, row, 0, 1.0);
         }
         for (int m = 0; m < 3; m++) {
