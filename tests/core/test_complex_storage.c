@@ -103,13 +103,13 @@ static void pivots_without_reciprocal_are_divided_by(void **state) {
 /* Any number of right-hand sides solve to rounding; local solves have the bits of full ones, also
  * of sets that divide pairs. */
 static void check_solves(const pair_t *y, sl_isa isa) {
-    static const sl_int counts[] = {1, 2, 3, 4, 5, 8, 11, 61};
+    static const sl_int counts[] = {1, 2, 3, 4, 5, 8, 11, 61, 77};
     const size_t n = (size_t)y->n;
-    double *B = test_reals(61 * n), *X = test_reals(61 * n);
+    double *B = test_reals(77 * n), *X = test_reals(77 * n);
     sl_work *W = NULL;
     (void)isa;
     SL_CHECK(sl_work_create(&W, NULL));
-    gen_reals(B, 61 * n, 7);
+    gen_reals(B, 77 * n, 7);
     for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
         SL_CHECK(sl_factor_solve(y->F[1], X, n ? n : 1, B, n ? n : 1, counts[k], W));
         BACKWARD_PASSES(&y->A, X, n ? n : 1, B, n ? n : 1, counts[k]);
