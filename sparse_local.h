@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 93a4febf96b91587
+ * FNV-1a of the lines after this comment, without the license: c3e95f8176186013
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,29 +35,29 @@
  *   2894 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   2971 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3014 impl/ base: the compiler, status, memory, sorting, threads
- *   4292 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5212 impl/ matrix: sparse matrices of the caller and of the library
- *   5842 impl/ ordering: fill-reducing orderings of a graph
- *  10783 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13009 impl/ factor: the numbers of L and D
- *  16386 impl/ solve: full and local solves
- *  18045 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19976 impl/ pivots: the order of the pivots by the values of a matrix
- *  20384 impl/ float: L and fronts in single precision
- *  20835 impl/ inverse: entries of the inverse, regions
- *  23902 impl/ change: a factor that follows changes of its matrix
- *  29996 impl/ dirichlet: rows fixed at given values
- *  30587 impl/ dirichlet: by a factor of all rows
- *  30819 impl/ io: files that are replaced only when they are complete
- *  31037 impl/ files: Matrix Market files, 64-bit indices
- *  31657 impl/ save: factors in files
- *  33669 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34352 impl/ batch: diagonals of many inverses
- *  34492 impl/ complex: complex Hermitian systems over real factors
- *  35054 impl/ complex: entries of the inverse
- *  35114 impl/ packs: the tables through which the core calls packs
- *  35163 impl/ last: undefine every internal macro
- *  35528 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4288 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5208 impl/ matrix: sparse matrices of the caller and of the library
+ *   5838 impl/ ordering: fill-reducing orderings of a graph
+ *  10779 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13005 impl/ factor: the numbers of L and D
+ *  16382 impl/ solve: full and local solves
+ *  18041 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19972 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20380 impl/ float: L and fronts in single precision
+ *  20831 impl/ inverse: entries of the inverse, regions
+ *  23898 impl/ change: a factor that follows changes of its matrix
+ *  29992 impl/ dirichlet: rows fixed at given values
+ *  30583 impl/ dirichlet: by a factor of all rows
+ *  30815 impl/ io: files that are replaced only when they are complete
+ *  31033 impl/ files: Matrix Market files, 64-bit indices
+ *  31653 impl/ save: factors in files
+ *  33665 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34348 impl/ batch: diagonals of many inverses
+ *  34488 impl/ complex: complex Hermitian systems over real factors
+ *  35050 impl/ complex: entries of the inverse
+ *  35110 impl/ packs: the tables through which the core calls packs
+ *  35159 impl/ last: undefine every internal macro
+ *  35524 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3258,11 +3258,7 @@ SLI_INLINE void sli_borrow(const sli_atomic *borrowers) {
 }
 
 SLI_INLINE int sli_is_last(sli_atomic *borrowers) {
-  sli_atomic others = sli_atomic_read(borrowers);
-  if (others != 0) {
-    others = sli_atomic_add(borrowers, -1);
-  }
-  return others == 0;
+  return (sli_atomic_read(borrowers) == 0 ? 0 : sli_atomic_add(borrowers, -1)) == 0;
 }
 
 #define SLI_CLEAR(object) memset(&(object), 0, sizeof(object))
@@ -36885,11 +36881,11 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
   }
 #if defined(SLV_ARRAYS)
 #define SLI_CHAINS 1
-#define SLI_CHANGE_TILE SLV_NAME(change_tiles)
+#define SLI_ONE_TILE SLV_NAME(change_tiles)
 SLI_TILES_KERNEL(change_tiles, SLI_EACH1)
 #else
 #define SLI_CHAINS 4
-#define SLI_CHANGE_TILE SLV_NAME(change_tile)
+#define SLI_ONE_TILE SLV_NAME(change_tile)
 SLI_TILES_KERNEL(change_tile, SLI_EACH1)
 SLI_TILES_KERNEL(change_tiles, SLI_EACH4)
 #endif
@@ -36970,21 +36966,21 @@ SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
       SLV_NAME(change_tiles)(at, first, last, w, b, w + row, u->is_trial);
     } else {
       for (t = 0; t < count; t++) {
-        SLI_CHANGE_TILE(at + t, first, last, w, b, w + row + SLI_TILE * t, u->is_trial);
+        SLI_ONE_TILE(at + t, first, last, w, b, w + row + SLI_TILE * t, u->is_trial);
       }
     }
     for (t = 0; t < count && row + SLI_TILE * t < width; t++) {
       const sl_int j = row + SLI_TILE * t, columns = sli_min(SLI_TILE, width - j);
       SLV_NAME(change_pivots)(u, at[t] + SLI_TILE * j, j, columns);
       for (k = t + 1; k < count; k++) {
-        SLI_CHANGE_TILE(at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);
+        SLI_ONE_TILE(at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);
       }
     }
   }
 }
 #undef SLI_CHANGE_KERNEL
 #undef SLI_CHAINS
-#undef SLI_CHANGE_TILE
+#undef SLI_ONE_TILE
 #undef SLI_EACH2
 #undef SLI_DECLARE
 #undef SLI_LOAD

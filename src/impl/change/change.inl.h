@@ -191,11 +191,11 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
     }
 #if defined(SLV_ARRAYS)
 #define SLI_CHAINS 1
-#define SLI_CHANGE_TILE SLV_NAME(change_tiles)
+#define SLI_ONE_TILE SLV_NAME(change_tiles)
 SLI_TILES_KERNEL(change_tiles, SLI_EACH1)
 #else
 #define SLI_CHAINS 4
-#define SLI_CHANGE_TILE SLV_NAME(change_tile)
+#define SLI_ONE_TILE SLV_NAME(change_tile)
 SLI_TILES_KERNEL(change_tile, SLI_EACH1)
 SLI_TILES_KERNEL(change_tiles, SLI_EACH4)
 #endif
@@ -280,21 +280,21 @@ SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
             SLV_NAME(change_tiles)(at, first, last, w, b, w + row, u->is_trial);
         } else {
             for (t = 0; t < count; t++) {
-                SLI_CHANGE_TILE(at + t, first, last, w, b, w + row + SLI_TILE * t, u->is_trial);
+                SLI_ONE_TILE(at + t, first, last, w, b, w + row + SLI_TILE * t, u->is_trial);
             }
         }
         for (t = 0; t < count && row + SLI_TILE * t < width; t++) {
             const sl_int j = row + SLI_TILE * t, columns = sli_min(SLI_TILE, width - j);
             SLV_NAME(change_pivots)(u, at[t] + SLI_TILE * j, j, columns);
             for (k = t + 1; k < count; k++) {
-                SLI_CHANGE_TILE(at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);
+                SLI_ONE_TILE(at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);
             }
         }
     }
 }
 #undef SLI_CHANGE_KERNEL
 #undef SLI_CHAINS
-#undef SLI_CHANGE_TILE
+#undef SLI_ONE_TILE
 #undef SLI_EACH2
 #undef SLI_DECLARE
 #undef SLI_LOAD
