@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c3e95f8176186013
+ * FNV-1a of the lines after this comment, without the license: cfda299a723a71b5
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,26 +38,26 @@
  *   4288 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5208 impl/ matrix: sparse matrices of the caller and of the library
  *   5838 impl/ ordering: fill-reducing orderings of a graph
- *  10779 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13005 impl/ factor: the numbers of L and D
- *  16382 impl/ solve: full and local solves
- *  18041 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19972 impl/ pivots: the order of the pivots by the values of a matrix
- *  20380 impl/ float: L and fronts in single precision
- *  20831 impl/ inverse: entries of the inverse, regions
- *  23898 impl/ change: a factor that follows changes of its matrix
- *  29992 impl/ dirichlet: rows fixed at given values
- *  30583 impl/ dirichlet: by a factor of all rows
- *  30815 impl/ io: files that are replaced only when they are complete
- *  31033 impl/ files: Matrix Market files, 64-bit indices
- *  31653 impl/ save: factors in files
- *  33665 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34348 impl/ batch: diagonals of many inverses
- *  34488 impl/ complex: complex Hermitian systems over real factors
- *  35050 impl/ complex: entries of the inverse
- *  35110 impl/ packs: the tables through which the core calls packs
- *  35159 impl/ last: undefine every internal macro
- *  35524 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10831 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13057 impl/ factor: the numbers of L and D
+ *  16434 impl/ solve: full and local solves
+ *  18093 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20024 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20432 impl/ float: L and fronts in single precision
+ *  20883 impl/ inverse: entries of the inverse, regions
+ *  23950 impl/ change: a factor that follows changes of its matrix
+ *  30044 impl/ dirichlet: rows fixed at given values
+ *  30635 impl/ dirichlet: by a factor of all rows
+ *  30867 impl/ io: files that are replaced only when they are complete
+ *  31085 impl/ files: Matrix Market files, 64-bit indices
+ *  31705 impl/ save: factors in files
+ *  33717 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34400 impl/ batch: diagonals of many inverses
+ *  34540 impl/ complex: complex Hermitian systems over real factors
+ *  35102 impl/ complex: entries of the inverse
+ *  35162 impl/ packs: the tables through which the core calls packs
+ *  35211 impl/ last: undefine every internal macro
+ *  35576 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -7544,16 +7544,24 @@ static void sli_subgraph_bisect(sli_subgraph *sub, int tries) {
 typedef struct sli_flow {
   sli_subgraph *sub;
   sl_int *before, *after;
-  sl_int *seen;
-  sl_int *path;
+  sl_int *path, *via;
+  sl_int *list;
+  unsigned char *state;
   sl_off *next;
   unsigned char *terminal;
+  int64_t left;
 } sli_flow;
 
+enum {
+  SLI_FLOW_SEEN = 1,
+  SLI_FLOW_USED = 2,
+  SLI_FLOW_ENDS = 4
+};
 enum { SLI_FLOW_NONE = -1, SLI_FLOW_END = -2 };
 
 #if !defined(SLI_FLOW_ROUNDS)
-#define SLI_FLOW_ROUNDS 60
+#define SLI_FLOW_ROUNDS \
+  500
 #endif
 
 static void sli_flow_terminals(sli_flow *f) {
@@ -7572,99 +7580,139 @@ static void sli_flow_terminals(sli_flow *f) {
   }
 }
 
-SLI_INLINE sl_int sli_flow_next_state(sli_flow *f, sl_int v, sl_int round) {
-  const sl_off end = f->sub->begin[v + 1];
+SLI_INLINE sl_int sli_flow_step(const sli_flow *f, sl_int v) {
+  const sl_int *to = f->sub->to;
+  const unsigned char *state = f->state;
+  const sl_off begin = f->sub->begin[v], end = f->sub->begin[v + 1], degree = end - begin;
   sl_off e = f->next[v];
-  while (e < end && f->seen[2 * f->sub->to[e]] == round) {
+  sl_int u = -1;
+  while (e < end && state[2 * to[e]] != 0) {
     e++;
   }
-  f->next[v] = e;
-  return e < end ? 2 * f->sub->to[e]
-       : f->before[v] != SLI_FLOW_NONE && f->seen[2 * v] != round ? 2 * v
-                                    : -1;
-}
-
-SLI_INLINE sl_int sli_flow_push(sli_flow *f, sl_int state, sl_int round, sl_int length) {
-  const sl_int v = state >> 1;
-  f->seen[state] = round;
-  f->path[length++] = state;
-  if (state == 2 * v) {
-    if (f->before[v] != SLI_FLOW_NONE) {
-      return length;
+  if (e < end) {
+    u = to[e];
+  } else {
+    while (e < end + degree && state[2 * to[e - degree]] != SLI_FLOW_USED) {
+      e++;
     }
-    f->seen[state + 1] = round;
-    f->path[length++] = state + 1;
+    u = e < end + degree ? to[e - degree] : state[2 * v] == SLI_FLOW_USED ? v : -1;
   }
-  f->next[v] = f->sub->begin[v];
-  return length;
+  f->next[v] = e + 1;
+  return u;
 }
 
-static sl_int sli_flow_find_path(sli_flow *f, sl_int v, sl_int round) {
-  sl_int length = sli_flow_push(f, 2 * v, round, 0);
-  while (length > 0) {
-    const sl_int state = f->path[length - 1];
-    sl_int next_state = -1;
-    v = state >> 1;
-    if (state != 2 * v) {
+static sl_int sli_flow_find_path(sli_flow *f, sl_int u) {
+  unsigned char *state = f->state;
+  sl_int *list = f->list, length = 0, count = 0, v, k;
+  do {
+    state[2 * u] |= SLI_FLOW_SEEN;
+    list[count++] = 2 * u;
+    v = f->before[u] == SLI_FLOW_NONE ? u : f->before[u];
+    if (v >= 0 && state[2 * v + 1] == 0) {
+      state[2 * v + 1] = SLI_FLOW_SEEN;
+      list[count++] = 2 * v + 1;
+      f->path[length] = v;
+      f->via[length++] = u;
+      f->next[v] = f->sub->begin[v];
       if (f->terminal[v] == 2) {
         break;
       }
-      next_state = sli_flow_next_state(f, v, round);
-      length -= next_state == -1 && f->before[v] == SLI_FLOW_NONE;
-    } else if (f->before[v] >= 0 && f->seen[2 * f->before[v] + 1] != round) {
-      next_state = 2 * f->before[v] + 1;
     }
-    length = next_state == -1 ? length - 1 : sli_flow_push(f, next_state, round, length);
+    u = -1;
+    while (length > 0 && (u = sli_flow_step(f, f->path[length - 1])) == -1) {
+      length--;
+    }
+  } while (u != -1);
+  f->left -= count;
+  for (k = 0; k < count && length > 0; k++) {
+    state[list[k]] &= SLI_FLOW_USED;
   }
   return length;
 }
 
 static void sli_flow_augment(sli_flow *f, sl_int length) {
-  sl_int k;
-  f->before[f->path[0] / 2] = SLI_FLOW_END;
+  sl_int k, last = SLI_FLOW_END;
   for (k = 0; k < length; k++) {
-    const sl_int state = f->path[k], v = state / 2;
-    if (state % 2 == 0) {
-      continue;
-    }
-    if (k + 1 == length) {
-      f->after[v] = SLI_FLOW_END;
-    } else if (f->path[k + 1] == 2 * v) {
-      f->before[v] = f->after[v] = SLI_FLOW_NONE;
+    const sl_int u = f->via[k];
+    if (u == last) {
+      f->before[u] = f->after[u] = SLI_FLOW_NONE;
+      f->state[2 * u] = 0;
     } else {
-      f->after[v] = f->path[k + 1] / 2;
-      f->before[f->after[v]] = v;
+      f->before[u] = last;
+      f->state[2 * u] = SLI_FLOW_USED;
+      if (last >= 0) {
+        f->after[last] = u;
+      }
     }
+    last = f->path[k];
+  }
+  f->after[last] = SLI_FLOW_END;
+}
+
+static void sli_flow_start(sli_flow *f) {
+  const sli_subgraph *sub = f->sub;
+  sl_int s, k;
+  for (s = 0; s < sub->n; s++) {
+    sl_int length = 0, u = f->terminal[s] == 1 && f->state[2 * s] == 0 ? s : -1;
+    for (;;) {
+      sl_int v;
+      sl_off e;
+      if (u != -1) {
+        f->state[2 * u] = SLI_FLOW_SEEN;
+        f->next[u] = sub->begin[u];
+        f->path[length++] = u;
+        if (f->terminal[u] == 2) {
+          break;
+        }
+      } else if (length == 0 || --length == 0) {
+        break;
+      }
+      v = f->path[length - 1];
+      e = f->next[v];
+      while (e < sub->begin[v + 1] && f->state[2 * sub->to[e]] != 0) {
+        e++;
+      }
+      u = e < sub->begin[v + 1] ? sub->to[e] : -1;
+      f->next[v] = e + 1;
+    }
+    for (k = 0; k < length; k++) {
+      f->before[f->path[k]] = k == 0 ? SLI_FLOW_END : f->path[k - 1];
+      f->after[f->path[k]] = k == length - 1 ? SLI_FLOW_END : f->path[k + 1];
+    }
+  }
+  for (s = 0; s < sub->n; s++) {
+    f->state[2 * s] = f->before[s] == SLI_FLOW_NONE ? 0 : SLI_FLOW_USED;
   }
 }
 
-static int sli_flow_maximize(sli_flow *f, sl_int *last) {
+static int sli_flow_maximize(sli_flow *f) {
   const sl_int n = f->sub->n;
-  sl_int v, round, found = 1;
+  sl_int v, found = 1;
+  memset(f->state, 0, 2 * (size_t)n);
+  f->left = SLI_FLOW_ROUNDS * 2 * (int64_t)n;
   for (v = 0; v < n; v++) {
     f->before[v] = f->after[v] = SLI_FLOW_NONE;
-    f->seen[2 * v] = f->seen[2 * v + 1] = 0;
   }
-  for (round = 1; found && round <= SLI_FLOW_ROUNDS; round++) {
+  sli_flow_start(f);
+  while (found && f->left > 0) {
     found = 0;
-    for (v = 0; v < n; v++) {
-      if (f->terminal[v] == 1 && f->seen[2 * v] != round) {
-        const sl_int length = sli_flow_find_path(f, v, round);
+    for (v = 0; v < n && f->left > 0; v++) {
+      if (f->terminal[v] == 1 && (f->state[2 * v] & SLI_FLOW_SEEN) == 0) {
+        const sl_int length = sli_flow_find_path(f, v);
         if (length > 0) {
           sli_flow_augment(f, length);
           found = 1;
         }
       }
     }
-    *last = round;
   }
-  return !found;
+  return f->left > 0;
 }
 
 SLI_INLINE sl_int sli_flow_mark(sli_flow *f, sl_int state, sl_int tail) {
-  if (f->seen[state] != -1) {
-    f->seen[state] = -1;
-    f->path[tail++] = state;
+  if ((f->state[state] & SLI_FLOW_ENDS) == 0) {
+    f->state[state] |= SLI_FLOW_ENDS;
+    f->list[tail++] = state;
   }
   return tail;
 }
@@ -7679,8 +7727,8 @@ static void sli_flow_mark_sink_side(sli_flow *f) {
     }
   }
   for (head = 0; head < tail; head++) {
-    v = f->path[head] / 2;
-    if (f->path[head] % 2 == 1) {
+    v = f->list[head] / 2;
+    if (f->list[head] % 2 == 1) {
       if (f->before[v] == SLI_FLOW_NONE) {
         tail = sli_flow_mark(f, 2 * v, tail);
       } else if (f->after[v] >= 0) {
@@ -7697,55 +7745,57 @@ static void sli_flow_mark_sink_side(sli_flow *f) {
   }
 }
 
-static int64_t sli_flow_extend_source_side(sli_flow *f, sl_int v, sl_int mark) {
+static int64_t sli_flow_extend_source_side(sli_flow *f, sl_int v) {
   const sli_subgraph *sub = f->sub;
   sl_int head, tail = 0, next_state;
   int64_t gained = 0;
   sl_off e;
-  f->seen[2 * v + 1] = mark;
-  f->path[tail++] = 2 * v + 1;
+  f->state[2 * v + 1] |= SLI_FLOW_SEEN;
+  f->list[tail++] = 2 * v + 1;
   for (head = 0; head < tail; head++) {
-    v = f->path[head] / 2;
-    if (f->path[head] % 2 == 0) {
+    v = f->list[head] / 2;
+    if (f->list[head] % 2 == 0) {
       next_state = f->before[v] == SLI_FLOW_NONE ? 2 * v + 1 : 2 * f->before[v] + 1;
-      if (f->seen[next_state] != mark) {
-        f->seen[next_state] = mark;
-        f->path[tail++] = next_state;
+      if ((f->state[next_state] & SLI_FLOW_SEEN) == 0) {
+        f->state[next_state] |= SLI_FLOW_SEEN;
+        f->list[tail++] = next_state;
       }
       continue;
     }
     gained += sub->weight[v];
-    if (f->before[v] != SLI_FLOW_NONE && f->seen[2 * v] != mark) {
-      f->seen[2 * v] = mark;
-      f->path[tail++] = 2 * v;
+    if (f->before[v] != SLI_FLOW_NONE && (f->state[2 * v] & SLI_FLOW_SEEN) == 0) {
+      f->state[2 * v] |= SLI_FLOW_SEEN;
+      f->list[tail++] = 2 * v;
     }
     for (e = sub->begin[v]; e < sub->begin[v + 1]; e++) {
       next_state = 2 * sub->to[e];
-      if (f->seen[next_state] != mark) {
-        f->seen[next_state] = mark;
-        f->path[tail++] = next_state;
+      if ((f->state[next_state] & SLI_FLOW_SEEN) == 0) {
+        f->state[next_state] |= SLI_FLOW_SEEN;
+        f->list[tail++] = next_state;
       }
     }
   }
   return gained;
 }
 
-static void sli_flow_balance(sli_flow *f, sl_int mark) {
+static void sli_flow_balance(sli_flow *f) {
   const sli_subgraph *sub = f->sub;
   int64_t left = sub->total[0], half = sub->total[0] + sub->total[1];
   sl_int v, k;
   for (v = 0; v < sub->n; v++) {
-    const int in = f->seen[2 * v] == mark, out = f->seen[2 * v + 1] == mark;
-    left += (sub->side[v] == 1 && out ? sub->weight[v] : 0) -
-        (sub->side[v] == 0 && !out ? sub->weight[v] : 0);
-    half -= in && !out ? sub->weight[v] : 0;
+    const int in = f->state[2 * v] & SLI_FLOW_SEEN, out = f->state[2 * v + 1] & SLI_FLOW_SEEN;
+    left += (int64_t)sub->weight[v] * (out + sub->side[v] - 1);
+    half -= (int64_t)sub->weight[v] * (in & ~out);
   }
   half /= 2;
+  if (left < half) {
+    sli_flow_mark_sink_side(f);
+  }
   for (k = 0; k < 2 * sub->n && left < half; k++) {
     v = k < sub->n ? sub->n - 1 - k : k - sub->n;
-    if (sub->side[v] == (k >= sub->n) && f->seen[2 * v + 1] != mark &&
-        f->seen[2 * v + 1] != -1) {
-      left += sli_flow_extend_source_side(f, v, mark);
+    if ((sub->side[v] == (k >= sub->n)) &
+        ((f->state[2 * v + 1] & (SLI_FLOW_SEEN | SLI_FLOW_ENDS)) == 0)) {
+      left += sli_flow_extend_source_side(f, v);
     }
   }
 }
@@ -7761,24 +7811,26 @@ static void sli_separator_from_border(sli_subgraph *sub) {
 static void sli_subgraph_separate(sli_subgraph *sub, unsigned char *terminal, sl_int *scratch,
     sl_off *next) {
   const size_t n = (size_t)sub->n;
-  sl_int v, last = 0;
+  sl_int v;
   sli_flow f;
   f.sub = sub;
   f.before = scratch;
   f.after = scratch + n;
-  f.seen = scratch + 2 * n;
-  f.path = scratch + 4 * n;
+  f.path = scratch + 2 * n;
+  f.via = scratch + 3 * n;
+  f.list = scratch + 4 * n;
+  f.state = (unsigned char *)(scratch + 6 * n);
   f.next = next;
   f.terminal = terminal;
   sli_flow_terminals(&f);
-  if (sub->n > INT32_MAX / 2 || !sli_flow_maximize(&f, &last)) { /* untested: 2^30 vertices */
+  if (sub->n > INT32_MAX / 2 || !sli_flow_maximize(&f)) { /* untested: 2^30 vertices */
     sli_separator_from_border(sub);
     return;
   }
-  sli_flow_mark_sink_side(&f);
-  sli_flow_balance(&f, last);
+  sli_flow_balance(&f);
   for (v = 0; v < sub->n; v++) {
-    const int in = f.seen[2 * v] == last, out = f.seen[2 * v + 1] == last;
+    const int in = (f.state[2 * v] & SLI_FLOW_SEEN) != 0,
+          out = (f.state[2 * v + 1] & SLI_FLOW_SEEN) != 0;
     sub->side[v] = (unsigned char)(out ? 0 : in ? 2 : 1);
   }
 }

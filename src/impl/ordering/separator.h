@@ -6,22 +6,35 @@
 
 /* A flow of vertex-disjoint paths from the left side to the right. Each vertex is split into two
  * states, 2 v its entrance and 2 v + 1 its exit, and at most one path passes between them. By
- * Menger's theorem the largest number of such paths is the size of the smallest vertex separator. A
- * round searches for an augmenting path from each source vertex in turn and enters no state twice.
- * [FF56] */
+ * Menger's theorem the largest number of such paths is the size of the smallest vertex separator.
+ * [FF56]
+ *
+ * A search for an augmenting path starts at each source once. If it finds one, what it has seen is
+ * forgotten. Otherwise that never leads to a sink: no later path enters these states, so that what
+ * can be reached from them stays the same. */
 typedef struct sli_flow {
     sli_subgraph *sub;
     sl_int *before, *after;  /* n: neighbors of v on its path; SLI_FLOW_NONE if v is on no path */
-    sl_int *seen;            /* 2 n: the last round that entered the state */
-    sl_int *path;            /* 2 n: states of an augmenting path, source first */
+    sl_int *path, *via;      /* n: vertices whose exits an augmenting path visits, source first; the
+                                entrance that led to each */
+    sl_int *list;            /* 2 n: states that the search has seen */
+    unsigned char *state;    /* 2 n: SLI_FLOW_SEEN etc. */
     sl_off *next;            /* n: the edge to try next */
     unsigned char *terminal; /* n: 1 source, 2 sink, 0 neither */
+    int64_t left;            /* states that may still be seen before the flow is given up */
 } sli_flow;
 
+enum {
+    SLI_FLOW_SEEN = 1, /* the left side reaches the state */
+    SLI_FLOW_USED = 2, /* an entrance of a vertex that is on a path */
+    SLI_FLOW_ENDS = 4  /* the state reaches the right side */
+};
 enum { SLI_FLOW_NONE = -1, SLI_FLOW_END = -2 /* the path begins or ends here */ };
 
-#if !defined(SLI_FLOW_ROUNDS) /* a test defines it as 1 */
-#define SLI_FLOW_ROUNDS 60    /* no band seen needed more than 20 */
+#if !defined(SLI_FLOW_ROUNDS) /* a test defines it as 0 */
+#define SLI_FLOW_ROUNDS \
+    500 /* a search may see each state so many times, in the mean: bands of
+                                 volumes of 2.6e5 vertices see them up to 52 times */
 #endif
 
 /* Chooses the terminals: vertices with neighbors outside the band. If the whole of
@@ -42,116 +55,154 @@ static void sli_flow_terminals(sli_flow *f) {
     }
 }
 
-/* The state to visit next from the exit of v, or -1 if none is left. */
-SLI_INLINE sl_int sli_flow_next_state(sli_flow *f, sl_int v, sl_int round) {
-    const sl_off end = f->sub->begin[v + 1];
+/* The entrance to try next from the exit of v, or -1: first those of vertices on no path, which
+ * lead on, then those of others, which lead back along their paths, and last its own, where a path
+ * that leaves v may turn back. */
+SLI_INLINE sl_int sli_flow_step(const sli_flow *f, sl_int v) {
+    const sl_int *to = f->sub->to;
+    const unsigned char *state = f->state;
+    const sl_off begin = f->sub->begin[v], end = f->sub->begin[v + 1], degree = end - begin;
     sl_off e = f->next[v];
-    while (e < end && f->seen[2 * f->sub->to[e]] == round) {
+    sl_int u = -1;
+    while (e < end && state[2 * to[e]] != 0) {
         e++;
     }
-    f->next[v] = e;
-    /* Go back through the vertex if a path leaves it here. */
-    return e < end                                                    ? 2 * f->sub->to[e]
-           : f->before[v] != SLI_FLOW_NONE && f->seen[2 * v] != round ? 2 * v
-                                                                      : -1;
-}
-
-/* Appends a state to the path, and behind the entrance of a vertex on no path its exit, which
- * nothing else leads to. Returns the new length. */
-SLI_INLINE sl_int sli_flow_push(sli_flow *f, sl_int state, sl_int round, sl_int length) {
-    const sl_int v = state >> 1;
-    f->seen[state] = round;
-    f->path[length++] = state;
-    if (state == 2 * v) {
-        if (f->before[v] != SLI_FLOW_NONE) {
-            return length;
+    if (e < end) {
+        u = to[e];
+    } else {
+        while (e < end + degree && state[2 * to[e - degree]] != SLI_FLOW_USED) {
+            e++;
         }
-        f->seen[state + 1] = round;
-        f->path[length++] = state + 1;
+        u = e < end + degree ? to[e - degree] : state[2 * v] == SLI_FLOW_USED ? v : -1;
     }
-    f->next[v] = f->sub->begin[v];
-    return length;
+    f->next[v] = e + 1;
+    return u;
 }
 
-/* Searches for an augmenting path from the entrance of v to a sink. Returns its number of states, 0
- * if there is none. */
-static sl_int sli_flow_find_path(sli_flow *f, sl_int v, sl_int round) {
-    sl_int length = sli_flow_push(f, 2 * v, round, 0);
-    while (length > 0) {
-        const sl_int state = f->path[length - 1];
-        sl_int next_state = -1;
-        v = state >> 1;
-        if (state != 2 * v) {
+/* Searches for an augmenting path from the entrance of u to a sink. Returns the number of exits
+ * that it visits, 0 if there is none. */
+static sl_int sli_flow_find_path(sli_flow *f, sl_int u) {
+    unsigned char *state = f->state;
+    sl_int *list = f->list, length = 0, count = 0, v, k;
+    do {
+        state[2 * u] |= SLI_FLOW_SEEN;
+        list[count++] = 2 * u;
+        v = f->before[u] == SLI_FLOW_NONE ? u : f->before[u];
+        if (v >= 0 && state[2 * v + 1] == 0) {
+            state[2 * v + 1] = SLI_FLOW_SEEN;
+            list[count++] = 2 * v + 1;
+            f->path[length] = v;
+            f->via[length++] = u;
+            f->next[v] = f->sub->begin[v];
             if (f->terminal[v] == 2) { /* no path ends here yet: its entrance would lead back */
                 break;
             }
-            next_state = sli_flow_next_state(f, v, round);
-            length -= next_state == -1 && f->before[v] == SLI_FLOW_NONE;
-        } else if (f->before[v] >= 0 && f->seen[2 * f->before[v] + 1] != round) {
-            next_state = 2 * f->before[v] + 1; /* go back along the path that enters here */
         }
-        length = next_state == -1 ? length - 1 : sli_flow_push(f, next_state, round, length);
+        u = -1;
+        while (length > 0 && (u = sli_flow_step(f, f->path[length - 1])) == -1) {
+            length--;
+        }
+    } while (u != -1);
+    f->left -= count;
+    for (k = 0; k < count && length > 0; k++) {
+        state[list[k]] &= SLI_FLOW_USED;
     }
     return length;
 }
 
-/* Augments the flow along `path`. */
+/* Augments the flow along the path. */
 static void sli_flow_augment(sli_flow *f, sl_int length) {
-    sl_int k;
-    f->before[f->path[0] / 2] = SLI_FLOW_END;
+    sl_int k, last = SLI_FLOW_END;
     for (k = 0; k < length; k++) {
-        const sl_int state = f->path[k], v = state / 2;
-        if (state % 2 == 0) {
-            /* the state that follows shows whether the path passes through v or turns back */
-            continue;
-        }
-        if (k + 1 == length) {
-            f->after[v] = SLI_FLOW_END;
-        } else if (f->path[k + 1] == 2 * v) {
-            f->before[v] = f->after[v] = SLI_FLOW_NONE;
+        const sl_int u = f->via[k];
+        if (u == last) { /* the path that passed through it turns back */
+            f->before[u] = f->after[u] = SLI_FLOW_NONE;
+            f->state[2 * u] = 0;
         } else {
-            f->after[v] = f->path[k + 1] / 2;
-            f->before[f->after[v]] = v;
+            f->before[u] = last;
+            f->state[2 * u] = SLI_FLOW_USED;
+            if (last >= 0) {
+                f->after[last] = u;
+            }
         }
+        last = f->path[k];
+    }
+    f->after[last] = SLI_FLOW_END;
+}
+
+/* Finds paths through vertices that are on no path, and sees none of these twice: as arcs towards
+ * the right come first, most paths are nearly straight. */
+static void sli_flow_start(sli_flow *f) {
+    const sli_subgraph *sub = f->sub;
+    sl_int s, k;
+    for (s = 0; s < sub->n; s++) {
+        sl_int length = 0, u = f->terminal[s] == 1 && f->state[2 * s] == 0 ? s : -1;
+        for (;;) {
+            sl_int v;
+            sl_off e;
+            if (u != -1) {
+                f->state[2 * u] = SLI_FLOW_SEEN;
+                f->next[u] = sub->begin[u];
+                f->path[length++] = u;
+                if (f->terminal[u] == 2) {
+                    break;
+                }
+            } else if (length == 0 || --length == 0) {
+                break;
+            }
+            v = f->path[length - 1];
+            e = f->next[v];
+            while (e < sub->begin[v + 1] && f->state[2 * sub->to[e]] != 0) {
+                e++;
+            }
+            u = e < sub->begin[v + 1] ? sub->to[e] : -1;
+            f->next[v] = e + 1;
+        }
+        for (k = 0; k < length; k++) {
+            f->before[f->path[k]] = k == 0 ? SLI_FLOW_END : f->path[k - 1];
+            f->after[f->path[k]] = k == length - 1 ? SLI_FLOW_END : f->path[k + 1];
+        }
+    }
+    for (s = 0; s < sub->n; s++) {
+        f->state[2 * s] = f->before[s] == SLI_FLOW_NONE ? 0 : SLI_FLOW_USED;
     }
 }
 
-/* Finds a maximum flow. Returns whether the search ended within SLI_FLOW_ROUNDS; then seen == *last
- * marks the states that the left side reaches. */
-static int sli_flow_maximize(sli_flow *f, sl_int *last) {
+/* Finds a maximum flow, and then sees the states that the left side reaches. Returns whether the
+ * searches ended in time. */
+static int sli_flow_maximize(sli_flow *f) {
     const sl_int n = f->sub->n;
-    sl_int v, round, found = 1;
+    sl_int v, found = 1;
+    memset(f->state, 0, 2 * (size_t)n);
+    f->left = SLI_FLOW_ROUNDS * 2 * (int64_t)n;
     for (v = 0; v < n; v++) {
         f->before[v] = f->after[v] = SLI_FLOW_NONE;
-        f->seen[2 * v] = f->seen[2 * v + 1] = 0;
     }
-    for (round = 1; found && round <= SLI_FLOW_ROUNDS; round++) {
+    sli_flow_start(f);
+    while (found && f->left > 0) { /* in the second round there is no path any more */
         found = 0;
-        for (v = 0; v < n; v++) {
-            if (f->terminal[v] == 1 && f->seen[2 * v] != round) {
-                /* An entrance where a path begins is a dead end, but it must be marked as
-                 * reached. */
-                const sl_int length = sli_flow_find_path(f, v, round);
+        for (v = 0; v < n && f->left > 0; v++) {
+            if (f->terminal[v] == 1 && (f->state[2 * v] & SLI_FLOW_SEEN) == 0) {
+                const sl_int length = sli_flow_find_path(f, v);
                 if (length > 0) {
                     sli_flow_augment(f, length);
                     found = 1;
                 }
             }
         }
-        *last = round;
     }
-    return !found;
+    return f->left > 0;
 }
 
 SLI_INLINE sl_int sli_flow_mark(sli_flow *f, sl_int state, sl_int tail) {
-    if (f->seen[state] != -1) {
-        f->seen[state] = -1;
-        f->path[tail++] = state;
+    if ((f->state[state] & SLI_FLOW_ENDS) == 0) {
+        f->state[state] |= SLI_FLOW_ENDS;
+        f->list[tail++] = state;
     }
     return tail;
 }
 
-/* Marks by -1 the states from which a sink can be reached. */
+/* Marks the states from which a sink can be reached. */
 static void sli_flow_mark_sink_side(sli_flow *f) {
     const sli_subgraph *sub = f->sub;
     sl_int v, head, tail = 0;
@@ -162,8 +213,8 @@ static void sli_flow_mark_sink_side(sli_flow *f) {
         }
     }
     for (head = 0; head < tail; head++) {
-        v = f->path[head] / 2;
-        if (f->path[head] % 2 == 1) {
+        v = f->list[head] / 2;
+        if (f->list[head] % 2 == 1) {
             if (f->before[v] == SLI_FLOW_NONE) {
                 tail = sli_flow_mark(f, 2 * v, tail);
             } else if (f->after[v] >= 0) {
@@ -182,34 +233,34 @@ static void sli_flow_mark_sink_side(sli_flow *f) {
 
 /* Adds the exit of v, and all that can be reached from it, to the states marked as reached. None of
  * them reaches a sink. Returns the weight of the vertices that the left side gains. */
-static int64_t sli_flow_extend_source_side(sli_flow *f, sl_int v, sl_int mark) {
+static int64_t sli_flow_extend_source_side(sli_flow *f, sl_int v) {
     const sli_subgraph *sub = f->sub;
     sl_int head, tail = 0, next_state;
     int64_t gained = 0;
     sl_off e;
-    f->seen[2 * v + 1] = mark;
-    f->path[tail++] = 2 * v + 1;
+    f->state[2 * v + 1] |= SLI_FLOW_SEEN;
+    f->list[tail++] = 2 * v + 1;
     for (head = 0; head < tail; head++) {
-        v = f->path[head] / 2;
-        if (f->path[head] % 2 == 0) {
+        v = f->list[head] / 2;
+        if (f->list[head] % 2 == 0) {
             /* not an entrance where a path begins: all of those are marked */
             next_state = f->before[v] == SLI_FLOW_NONE ? 2 * v + 1 : 2 * f->before[v] + 1;
-            if (f->seen[next_state] != mark) {
-                f->seen[next_state] = mark;
-                f->path[tail++] = next_state;
+            if ((f->state[next_state] & SLI_FLOW_SEEN) == 0) {
+                f->state[next_state] |= SLI_FLOW_SEEN;
+                f->list[tail++] = next_state;
             }
             continue;
         }
         gained += sub->weight[v];
-        if (f->before[v] != SLI_FLOW_NONE && f->seen[2 * v] != mark) {
-            f->seen[2 * v] = mark;
-            f->path[tail++] = 2 * v;
+        if (f->before[v] != SLI_FLOW_NONE && (f->state[2 * v] & SLI_FLOW_SEEN) == 0) {
+            f->state[2 * v] |= SLI_FLOW_SEEN;
+            f->list[tail++] = 2 * v;
         }
         for (e = sub->begin[v]; e < sub->begin[v + 1]; e++) {
             next_state = 2 * sub->to[e];
-            if (f->seen[next_state] != mark) {
-                f->seen[next_state] = mark;
-                f->path[tail++] = next_state;
+            if ((f->state[next_state] & SLI_FLOW_SEEN) == 0) {
+                f->state[next_state] |= SLI_FLOW_SEEN;
+                f->list[tail++] = next_state;
             }
         }
     }
@@ -218,23 +269,25 @@ static int64_t sli_flow_extend_source_side(sli_flow *f, sl_int v, sl_int mark) {
 
 /* Chooses a balanced one among the smallest separators: starts with the one nearest to the left,
  * then moves vertices that do not reach a sink to the left side until it has half of the weight. */
-static void sli_flow_balance(sli_flow *f, sl_int mark) {
+static void sli_flow_balance(sli_flow *f) {
     const sli_subgraph *sub = f->sub;
     int64_t left = sub->total[0], half = sub->total[0] + sub->total[1];
     sl_int v, k;
     for (v = 0; v < sub->n; v++) {
-        const int in = f->seen[2 * v] == mark, out = f->seen[2 * v + 1] == mark;
-        left += (sub->side[v] == 1 && out ? sub->weight[v] : 0) -
-                (sub->side[v] == 0 && !out ? sub->weight[v] : 0);
-        half -= in && !out ? sub->weight[v] : 0;
+        const int in = f->state[2 * v] & SLI_FLOW_SEEN, out = f->state[2 * v + 1] & SLI_FLOW_SEEN;
+        left += (int64_t)sub->weight[v] * (out + sub->side[v] - 1);
+        half -= (int64_t)sub->weight[v] * (in & ~out);
     }
     half /= 2;
+    if (left < half) {
+        sli_flow_mark_sink_side(f);
+    }
     for (k = 0; k < 2 * sub->n && left < half; k++) {
         /* the left side from far to near, then the right side */
         v = k < sub->n ? sub->n - 1 - k : k - sub->n;
-        if (sub->side[v] == (k >= sub->n) && f->seen[2 * v + 1] != mark &&
-            f->seen[2 * v + 1] != -1) {
-            left += sli_flow_extend_source_side(f, v, mark);
+        if ((sub->side[v] == (k >= sub->n)) &
+            ((f->state[2 * v + 1] & (SLI_FLOW_SEEN | SLI_FLOW_ENDS)) == 0)) {
+            left += sli_flow_extend_source_side(f, v);
         }
     }
 }
@@ -249,28 +302,30 @@ static void sli_separator_from_border(sli_subgraph *sub) {
 }
 
 /* Makes a smallest vertex separator the separator of a band. terminal, next: n of scratch; scratch:
- * 6 n. */
+ * 7 n. */
 static void sli_subgraph_separate(sli_subgraph *sub, unsigned char *terminal, sl_int *scratch,
                                   sl_off *next) {
     const size_t n = (size_t)sub->n;
-    sl_int v, last = 0;
+    sl_int v;
     sli_flow f;
     f.sub = sub;
     f.before = scratch;
     f.after = scratch + n;
-    f.seen = scratch + 2 * n;
-    f.path = scratch + 4 * n;
+    f.path = scratch + 2 * n;
+    f.via = scratch + 3 * n;
+    f.list = scratch + 4 * n;
+    f.state = (unsigned char *)(scratch + 6 * n);
     f.next = next;
     f.terminal = terminal;
     sli_flow_terminals(&f);
-    if (sub->n > INT32_MAX / 2 || !sli_flow_maximize(&f, &last)) { /* untested: 2^30 vertices */
+    if (sub->n > INT32_MAX / 2 || !sli_flow_maximize(&f)) { /* untested: 2^30 vertices */
         sli_separator_from_border(sub);
         return;
     }
-    sli_flow_mark_sink_side(&f);
-    sli_flow_balance(&f, last);
+    sli_flow_balance(&f);
     for (v = 0; v < sub->n; v++) {
-        const int in = f.seen[2 * v] == last, out = f.seen[2 * v + 1] == last;
+        const int in = (f.state[2 * v] & SLI_FLOW_SEEN) != 0,
+                  out = (f.state[2 * v + 1] & SLI_FLOW_SEEN) != 0;
         sub->side[v] = (unsigned char)(out ? 0 : in ? 2 : 1);
     }
 }
