@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: cfda299a723a71b5
+ * FNV-1a of the lines after this comment, without the license: 54e9143b4c2f58e6
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,26 +38,26 @@
  *   4288 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5208 impl/ matrix: sparse matrices of the caller and of the library
  *   5838 impl/ ordering: fill-reducing orderings of a graph
- *  10831 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13057 impl/ factor: the numbers of L and D
- *  16434 impl/ solve: full and local solves
- *  18093 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20024 impl/ pivots: the order of the pivots by the values of a matrix
- *  20432 impl/ float: L and fronts in single precision
- *  20883 impl/ inverse: entries of the inverse, regions
- *  23950 impl/ change: a factor that follows changes of its matrix
- *  30044 impl/ dirichlet: rows fixed at given values
- *  30635 impl/ dirichlet: by a factor of all rows
- *  30867 impl/ io: files that are replaced only when they are complete
- *  31085 impl/ files: Matrix Market files, 64-bit indices
- *  31705 impl/ save: factors in files
- *  33717 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34400 impl/ batch: diagonals of many inverses
- *  34540 impl/ complex: complex Hermitian systems over real factors
- *  35102 impl/ complex: entries of the inverse
- *  35162 impl/ packs: the tables through which the core calls packs
- *  35211 impl/ last: undefine every internal macro
- *  35576 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10893 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13119 impl/ factor: the numbers of L and D
+ *  16496 impl/ solve: full and local solves
+ *  18155 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20086 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20494 impl/ float: L and fronts in single precision
+ *  20945 impl/ inverse: entries of the inverse, regions
+ *  24012 impl/ change: a factor that follows changes of its matrix
+ *  30106 impl/ dirichlet: rows fixed at given values
+ *  30697 impl/ dirichlet: by a factor of all rows
+ *  30929 impl/ io: files that are replaced only when they are complete
+ *  31147 impl/ files: Matrix Market files, 64-bit indices
+ *  31767 impl/ save: factors in files
+ *  33779 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34462 impl/ batch: diagonals of many inverses
+ *  34602 impl/ complex: complex Hermitian systems over real factors
+ *  35164 impl/ complex: entries of the inverse
+ *  35224 impl/ packs: the tables through which the core calls packs
+ *  35273 impl/ last: undefine every internal macro
+ *  35638 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -7048,13 +7048,13 @@ typedef struct sli_subgraph {
 } sli_subgraph;
 
 static void sli_subgraph_layout(sli_subgraph *sub, sli_block *b, sl_int n, sl_off edges) {
-  sub->vertex = SLI_TAKE(b, sl_int, n);
+  sub->vertex = SLI_TAKE(b, sl_int, (size_t)n + 1);
   sub->begin = SLI_TAKE(b, sl_off, (size_t)n + 1);
-  sub->to = SLI_TAKE(b, sl_int, edges);
+  sub->to = SLI_TAKE(b, sl_int, (size_t)edges + 4);
   sub->edge = SLI_TAKE(b, sl_int, edges);
   sub->weight = SLI_TAKE(b, sl_int, n);
   sub->external = SLI_TAKE(b, sl_int, n);
-  sub->side = SLI_TAKE(b, unsigned char, n);
+  sub->side = SLI_TAKE(b, unsigned char, (size_t)n + 1);
   sub->home = SLI_TAKE(b, unsigned char, n);
   sub->layer = SLI_TAKE(b, unsigned char, n);
   sub->local = SLI_TAKE(b, sl_int, n);
@@ -7080,62 +7080,24 @@ static void sli_subgraph_clear(sli_subgraph *sub) {
 
 static void sli_subgraph_edges(sli_subgraph *sub, const sli_labelling *in, sl_int node) {
   const sli_level *g = in->g;
-  const sli_label_tree *t = in->tree;
+  const sl_int low = in->tree->low[node], high = in->tree->high[node];
   const sl_int *label = in->label;
   sl_int k;
   sl_off e, count = 0;
   for (k = 0; k < sub->n; k++) {
     const sl_int v = sub->vertex[k];
+    sl_int external = 0;
     sub->begin[k] = count;
     sub->weight[k] = sli_level_weight(g, v);
-    sub->external[k] = 0;
     for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-      const sl_int u = g->to[e];
-      if (sub->local[u] != -1) {
-        sub->to[count] = sub->local[u];
-        sub->edge[count++] = sli_level_edge(g, v, e);
-      } else if (sli_label_tree_is_below(t, node, sli_shared_read(label + u))) {
-        sub->external[k] += sli_level_edge(g, v, e);
-      }
+      const sl_int u = g->to[e], own = sli_shared_read(label + u), there = sub->local[u];
+      const sl_int edge = sli_level_edge(g, v, e);
+      sub->to[count] = there;
+      sub->edge[count] = edge;
+      count += there != -1;
+      external += (there == -1) & (own >= low) & (own <= high) ? edge : 0;
     }
-  }
-  sub->begin[sub->n] = count;
-}
-
-static void sli_subgraph_arcs(sli_subgraph *sub, const sli_labelling *in, sl_int node) {
-  const sli_level *g = in->g;
-  const int last = sub->n > 0 ? sub->layer[sub->n - 1] : 0;
-  sl_int *to = sub->to, *at = sub->scratch, *left = sub->edge, k;
-  sl_off e, count = 0;
-  for (k = 0; k < sub->n; k++) {
-    at[k] = sub->side[k] == 0 ? -1 - sub->layer[k] : sub->layer[k];
-  }
-  for (k = 0; k < sub->n; k++) {
-    const sl_int v = sub->vertex[k], here = at[k];
-    const int is_last = sub->layer[k] == last;
-    sl_off front = count;
-    sl_int n_left = 0;
-    sub->begin[k] = count;
-    sub->weight[k] = sli_level_weight(g, v);
-    sub->external[k] = 0;
-    for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-      const sl_int u = g->to[e], there = sub->local[u];
-      if (there == -1) {
-        sub->external[k] |= is_last && sli_label_tree_is_below(
-            in->tree, node, sli_shared_read(in->label + u));
-      } else if (at[there] < here) {
-        left[n_left++] = there;
-      } else {
-        to[count++] = there;
-        if (at[there] > here) {
-          to[count - 1] = to[front];
-          to[front++] = there;
-        }
-      }
-    }
-    while (n_left > 0) {
-      to[count++] = left[--n_left];
-    }
+    sub->external[k] = external;
   }
   sub->begin[sub->n] = count;
 }
@@ -7154,15 +7116,13 @@ static void sli_subgraph_leaf(sli_subgraph *sub, const sli_labelling *in, sl_int
 
 #define SLI_BAND_SHARE 30
 
-static void sli_subgraph_band(sli_subgraph *sub, const sli_labelling *in, sl_int node,
-    const sli_borders *l, int layers) {
+static void sli_subgraph_border(sli_subgraph *sub, const sli_labelling *in, sl_int node,
+    const sli_borders *l) {
   const sli_level *g = in->g;
   const sli_label_tree *t = in->tree;
   const sl_int *label = in->label;
-  const sl_int most = (sl_int)((int64_t)t->weight[node] * SLI_BAND_SHARE / 100);
-  sl_int entry, head = 0;
+  sl_int entry;
   sl_off e;
-  int layer;
   sub->n = 0;
   for (entry = l->head[node]; entry != -1; entry = sli_border_at(l->pool, entry)->next) {
     const sl_int v = sli_border_at(l->pool, entry)->vertex, own = sli_shared_read(label + v);
@@ -7179,22 +7139,125 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_labelling *in, sl_int
       sli_subgraph_add(sub, v, 0, side);
     }
   }
+  sub->total[0] = t->weight[t->left[node]];
+  sub->total[1] = t->weight[t->right[node]];
+}
+
+SLI_INLINE sl_int sli_band_most(const sli_label_tree *t, sl_int node) {
+  return (sl_int)((int64_t)t->weight[node] * SLI_BAND_SHARE / 100);
+}
+
+static void sli_subgraph_band(sli_subgraph *sub, const sli_labelling *in, sl_int node,
+    const sli_borders *l, int layers) {
+  const sli_level *g = in->g;
+  const sl_int most = sli_band_most(in->tree, node);
+  sl_int head = 0;
+  sl_off e;
+  int layer;
+  sli_subgraph_border(sub, in, node, l);
   for (layer = 1; layer <= layers && (layer == 1 || sub->n < most); layer++) {
     const sl_int end = sub->n;
     for (; head < end; head++) {
       for (e = g->begin[sub->vertex[head]]; e < g->begin[sub->vertex[head] + 1]; e++) {
         const sl_int u = g->to[e];
         if (sub->local[u] == -1) {
-          const sl_int own = sli_shared_read(label + u);
-          if (sli_label_tree_is_below(t, node, own)) {
+          const sl_int own = sli_shared_read(in->label + u);
+          if (sli_label_tree_is_below(in->tree, node, own)) {
             sli_subgraph_add(sub, u, layer, own > node);
           }
         }
       }
     }
   }
-  sub->total[0] = t->weight[t->left[node]];
-  sub->total[1] = t->weight[t->right[node]];
+}
+
+SLI_INLINE sl_off sli_subgraph_append(sl_int *to, sl_off at, const sl_int *from, sl_int count) {
+  sl_int k = 0;
+  do {
+    memcpy(to + at + k, from + k, 4 * sizeof(sl_int));
+    k += 4;
+  } while (k < count);
+  return at + count;
+}
+
+SLI_ALWAYS_INLINE int sli_subgraph_neighbors(sli_subgraph *sub, const sli_labelling *in,
+    sl_int node, sl_int v, int grows, sl_int *found) {
+  const sl_int *label = in->label, *to = in->g->to, low = in->tree->low[node];
+  const uint32_t below = (uint32_t)(in->tree->high[node] - low);
+  const sl_off end = in->g->begin[v + 1];
+  sl_int *local = sub->local, *vertex = sub->vertex, n = sub->n;
+  unsigned char *side = sub->side;
+  int leaves = 0;
+  sl_off e;
+  for (e = in->g->begin[v]; e < end; e++) {
+    const sl_int u = to[e], own = sli_shared_read(label + u), there = local[u];
+    const int is_new = ((uint32_t)(own - low) <= below) & (there == -1);
+    if (grows) {
+      vertex[n] = u;
+      side[n] = own > node;
+      *found = local[u] = is_new ? n : there;
+      n += is_new;
+    } else {
+      *found = there;
+      leaves |= is_new;
+    }
+    found++;
+  }
+  sub->n = n;
+  return leaves;
+}
+
+SLI_ALWAYS_INLINE void sli_subgraph_arcs(sli_subgraph *sub, sl_int k, sl_int first, sl_int last,
+    sl_int *found, sl_int degree) {
+  const int own = sub->side[k];
+  sl_int *to = sub->to + sub->begin[k];
+  sl_int *nearer = found + degree, *farther = nearer + degree, *beside = farther + degree;
+  sl_int e, n_nearer = 0, n_farther = 0, n_beside = 0;
+  sl_off count;
+  for (e = 0; e < degree; e++) {
+    const sl_int there = found[e];
+    const int is_here = (uint32_t)there < (uint32_t)last;
+    const int is_nearer = first == 0 ? is_here & (sub->side[is_here ? there : 0] != own)
+                     : (uint32_t)there < (uint32_t)first;
+    nearer[n_nearer] = farther[n_farther] = beside[n_beside] = there;
+    n_nearer += is_nearer;
+    n_farther += there >= last;
+    n_beside += is_here & !is_nearer;
+  }
+  count =
+    sli_subgraph_append(to, 0, own == 0 ? nearer : farther, own == 0 ? n_nearer : n_farther);
+  count = sli_subgraph_append(to, count, beside, n_beside);
+  count = sli_subgraph_append(to, count, own == 0 ? farther : nearer,
+      own == 0 ? n_farther : n_nearer);
+  sub->begin[k + 1] = sub->begin[k] + count;
+}
+
+static void sli_subgraph_corridor(sli_subgraph *sub, const sli_labelling *in, sl_int node,
+    const sli_borders *l, int layers) {
+  const sl_int most = sli_band_most(in->tree, node);
+  const sl_off *begin = in->g->begin;
+  sl_int k = 0, first, last = 0, *found = sub->scratch;
+  int layer = 0, grows = 1;
+  sli_subgraph_border(sub, in, node, l);
+  sub->begin[0] = 0;
+  for (; grows; layer++) {
+    first = last;
+    last = sub->n;
+    grows = layer < layers && (layer == 0 || last < most);
+    for (k = first; k < last; k++) {
+      const sl_int v = sub->vertex[k], degree = (sl_int)(begin[v + 1] - begin[v]);
+      sub->external[k] = grows ? sli_subgraph_neighbors(sub, in, node, v, 1, found)
+                   : sli_subgraph_neighbors(sub, in, node, v, 0, found);
+      if (first == 0) {
+        sli_subgraph_arcs(sub, k, 0, last, found, degree);
+      } else {
+        sli_subgraph_arcs(sub, k, first, last, found, degree);
+      }
+      sub->weight[k] = sli_level_weight(in->g, v);
+    }
+    memset(sub->layer + first, layer, (size_t)(last - first));
+  }
+  memcpy(sub->home, sub->side, (size_t)sub->n);
 }
 
 static void sli_relabel_vertex(const sli_labelling *in, sl_int v, sl_int to, sl_int node,
@@ -8482,8 +8545,7 @@ static void sli_dissect_separate(sli_dissection *d, sli_dissect_worker *w, sl_in
   sli_subgraph *sub = &w->subgraph;
   int layers = sli_dissect_layers(d, d->tree.weight[node]);
   for (;; layers /= 2) {
-    sli_subgraph_band(sub, &in, node, &w->borders, layers);
-    sli_subgraph_arcs(sub, &in, node);
+    sli_subgraph_corridor(sub, &in, node, &w->borders, layers);
     sli_subgraph_separate(sub, sub->locked, sub->scratch, w->next);
     if (layers == 0 || sli_dissect_is_balanced(sub)) {
       break;

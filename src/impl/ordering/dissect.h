@@ -99,8 +99,7 @@ static void sli_dissect_separate(sli_dissection *d, sli_dissect_worker *w, sl_in
     sli_subgraph *sub = &w->subgraph;
     int layers = sli_dissect_layers(d, d->tree.weight[node]);
     for (;; layers /= 2) {
-        sli_subgraph_band(sub, &in, node, &w->borders, layers);
-        sli_subgraph_arcs(sub, &in, node);
+        sli_subgraph_corridor(sub, &in, node, &w->borders, layers);
         sli_subgraph_separate(sub, sub->locked, sub->scratch, w->next);
         if (layers == 0 || sli_dissect_is_balanced(sub)) {
             break;

@@ -28,13 +28,13 @@ typedef struct sli_subgraph {
 } sli_subgraph;
 
 static void sli_subgraph_layout(sli_subgraph *sub, sli_block *b, sl_int n, sl_off edges) {
-    sub->vertex = SLI_TAKE(b, sl_int, n);
+    sub->vertex = SLI_TAKE(b, sl_int, (size_t)n + 1);
     sub->begin = SLI_TAKE(b, sl_off, (size_t)n + 1);
-    sub->to = SLI_TAKE(b, sl_int, edges);
+    sub->to = SLI_TAKE(b, sl_int, (size_t)edges + 4); /* of sli_subgraph_append */
     sub->edge = SLI_TAKE(b, sl_int, edges);
     sub->weight = SLI_TAKE(b, sl_int, n);
     sub->external = SLI_TAKE(b, sl_int, n);
-    sub->side = SLI_TAKE(b, unsigned char, n);
+    sub->side = SLI_TAKE(b, unsigned char, (size_t)n + 1);
     sub->home = SLI_TAKE(b, unsigned char, n);
     sub->layer = SLI_TAKE(b, unsigned char, n);
     sub->local = SLI_TAKE(b, sl_int, n);
@@ -63,65 +63,24 @@ static void sli_subgraph_clear(sli_subgraph *sub) {
 /* Builds the edges between the vertices that were added, all of them below node. */
 static void sli_subgraph_edges(sli_subgraph *sub, const sli_labelling *in, sl_int node) {
     const sli_level *g = in->g;
-    const sli_label_tree *t = in->tree;
+    const sl_int low = in->tree->low[node], high = in->tree->high[node];
     const sl_int *label = in->label;
     sl_int k;
     sl_off e, count = 0;
     for (k = 0; k < sub->n; k++) {
         const sl_int v = sub->vertex[k];
+        sl_int external = 0;
         sub->begin[k] = count;
         sub->weight[k] = sli_level_weight(g, v);
-        sub->external[k] = 0;
         for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-            const sl_int u = g->to[e];
-            if (sub->local[u] != -1) {
-                sub->to[count] = sub->local[u];
-                sub->edge[count++] = sli_level_edge(g, v, e);
-            } else if (sli_label_tree_is_below(t, node, sli_shared_read(label + u))) {
-                sub->external[k] += sli_level_edge(g, v, e);
-            }
+            const sl_int u = g->to[e], own = sli_shared_read(label + u), there = sub->local[u];
+            const sl_int edge = sli_level_edge(g, v, e);
+            sub->to[count] = there;
+            sub->edge[count] = edge;
+            count += there != -1;
+            external += (there == -1) & (own >= low) & (own <= high) ? edge : 0;
         }
-    }
-    sub->begin[sub->n] = count;
-}
-
-/* The same for a search from the left to the right, without weights of edges: those towards the
- * right come first, those towards the left last, as straight paths leave the most room for others.
- * `external` is whether an edge leaves the band: only vertices of the last layer may have one. */
-static void sli_subgraph_arcs(sli_subgraph *sub, const sli_labelling *in, sl_int node) {
-    const sli_level *g = in->g;
-    const int last = sub->n > 0 ? sub->layer[sub->n - 1] : 0;
-    sl_int *to = sub->to, *at = sub->scratch, *left = sub->edge, k;
-    sl_off e, count = 0;
-    for (k = 0; k < sub->n; k++) {
-        at[k] = sub->side[k] == 0 ? -1 - sub->layer[k] : sub->layer[k];
-    }
-    for (k = 0; k < sub->n; k++) {
-        const sl_int v = sub->vertex[k], here = at[k];
-        const int is_last = sub->layer[k] == last;
-        sl_off front = count;
-        sl_int n_left = 0;
-        sub->begin[k] = count;
-        sub->weight[k] = sli_level_weight(g, v);
-        sub->external[k] = 0;
-        for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-            const sl_int u = g->to[e], there = sub->local[u];
-            if (there == -1) {
-                sub->external[k] |= is_last && sli_label_tree_is_below(
-                                                   in->tree, node, sli_shared_read(in->label + u));
-            } else if (at[there] < here) {
-                left[n_left++] = there;
-            } else {
-                to[count++] = there;
-                if (at[there] > here) {
-                    to[count - 1] = to[front];
-                    to[front++] = there;
-                }
-            }
-        }
-        while (n_left > 0) {
-            to[count++] = left[--n_left];
-        }
+        sub->external[k] = external;
     }
     sub->begin[sub->n] = count;
 }
@@ -144,18 +103,14 @@ static void sli_subgraph_leaf(sli_subgraph *sub, const sli_labelling *in, sl_int
  * would be unbalanced. */
 #define SLI_BAND_SHARE 30
 
-/* Makes the band of a node, which has no vertices of its own yet: the vertices at its border, and
- * up to `layers` layers on each side of them. The first layer is added regardless of
- * SLI_BAND_SHARE. */
-static void sli_subgraph_band(sli_subgraph *sub, const sli_labelling *in, sl_int node,
-                              const sli_borders *l, int layers) {
+/* Starts the band of a node, which has no vertices of its own yet, with those at its border. */
+static void sli_subgraph_border(sli_subgraph *sub, const sli_labelling *in, sl_int node,
+                                const sli_borders *l) {
     const sli_level *g = in->g;
     const sli_label_tree *t = in->tree;
     const sl_int *label = in->label;
-    const sl_int most = (sl_int)((int64_t)t->weight[node] * SLI_BAND_SHARE / 100);
-    sl_int entry, head = 0;
+    sl_int entry;
     sl_off e;
-    int layer;
     sub->n = 0;
     for (entry = l->head[node]; entry != -1; entry = sli_border_at(l->pool, entry)->next) {
         const sl_int v = sli_border_at(l->pool, entry)->vertex, own = sli_shared_read(label + v);
@@ -172,22 +127,143 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_labelling *in, sl_int
             sli_subgraph_add(sub, v, 0, side);
         }
     }
+    sub->total[0] = t->weight[t->left[node]];
+    sub->total[1] = t->weight[t->right[node]];
+}
+
+/* A band gets another layer unless it has this many vertices. The first one is added regardless. */
+SLI_INLINE sl_int sli_band_most(const sli_label_tree *t, sl_int node) {
+    return (sl_int)((int64_t)t->weight[node] * SLI_BAND_SHARE / 100);
+}
+
+/* Makes the band of a node: the vertices at its border, and up to `layers` layers on each side of
+ * them. */
+static void sli_subgraph_band(sli_subgraph *sub, const sli_labelling *in, sl_int node,
+                              const sli_borders *l, int layers) {
+    const sli_level *g = in->g;
+    const sl_int most = sli_band_most(in->tree, node);
+    sl_int head = 0;
+    sl_off e;
+    int layer;
+    sli_subgraph_border(sub, in, node, l);
     for (layer = 1; layer <= layers && (layer == 1 || sub->n < most); layer++) {
         const sl_int end = sub->n;
         for (; head < end; head++) {
             for (e = g->begin[sub->vertex[head]]; e < g->begin[sub->vertex[head] + 1]; e++) {
                 const sl_int u = g->to[e];
                 if (sub->local[u] == -1) {
-                    const sl_int own = sli_shared_read(label + u);
-                    if (sli_label_tree_is_below(t, node, own)) {
+                    const sl_int own = sli_shared_read(in->label + u);
+                    if (sli_label_tree_is_below(in->tree, node, own)) {
                         sli_subgraph_add(sub, u, layer, own > node);
                     }
                 }
             }
         }
     }
-    sub->total[0] = t->weight[t->left[node]];
-    sub->total[1] = t->weight[t->right[node]];
+}
+
+/* Appends `count` neighbors, four at a time, which is nearly always one step. Up to four more are
+ * written behind them. */
+SLI_INLINE sl_off sli_subgraph_append(sl_int *to, sl_off at, const sl_int *from, sl_int count) {
+    sl_int k = 0;
+    do {
+        memcpy(to + at + k, from + k, 4 * sizeof(sl_int));
+        k += 4;
+    } while (k < count);
+    return at + count;
+}
+
+/* found := numbers in the band of the neighbors of vertex v of the level, -1 for those that are not
+ * in it. If the band grows, it gets those that are below node. Otherwise, returns whether there are
+ * any.
+ *
+ * What is written here and in sli_subgraph_arcs counts only if it is wanted: branches would be
+ * mispredicted half of the time. */
+SLI_ALWAYS_INLINE int sli_subgraph_neighbors(sli_subgraph *sub, const sli_labelling *in,
+                                             sl_int node, sl_int v, int grows, sl_int *found) {
+    const sl_int *label = in->label, *to = in->g->to, low = in->tree->low[node];
+    const uint32_t below = (uint32_t)(in->tree->high[node] - low);
+    const sl_off end = in->g->begin[v + 1];
+    sl_int *local = sub->local, *vertex = sub->vertex, n = sub->n;
+    unsigned char *side = sub->side;
+    int leaves = 0;
+    sl_off e;
+    for (e = in->g->begin[v]; e < end; e++) {
+        const sl_int u = to[e], own = sli_shared_read(label + u), there = local[u];
+        const int is_new = ((uint32_t)(own - low) <= below) & (there == -1);
+        if (grows) {
+            vertex[n] = u;
+            side[n] = own > node;
+            *found = local[u] = is_new ? n : there;
+            n += is_new;
+        } else {
+            *found = there;
+            leaves |= is_new;
+        }
+        found++;
+    }
+    sub->n = n;
+    return leaves;
+}
+
+/* Builds the edges of vertex k of a band for a search from the left to the right, without weights:
+ * those towards the right come first, those towards the left last, as straight paths leave the most
+ * room for others. found: its `degree` neighbors, and room for three times as many and four. Those
+ * below `first` are in a layer nearer to the border, those from `last` on in one farther from it;
+ * with first = 0, at the border, those on the other side are nearer. */
+SLI_ALWAYS_INLINE void sli_subgraph_arcs(sli_subgraph *sub, sl_int k, sl_int first, sl_int last,
+                                         sl_int *found, sl_int degree) {
+    const int own = sub->side[k];
+    sl_int *to = sub->to + sub->begin[k];
+    sl_int *nearer = found + degree, *farther = nearer + degree, *beside = farther + degree;
+    sl_int e, n_nearer = 0, n_farther = 0, n_beside = 0;
+    sl_off count;
+    for (e = 0; e < degree; e++) {
+        const sl_int there = found[e];
+        const int is_here = (uint32_t)there < (uint32_t)last;
+        const int is_nearer = first == 0 ? is_here & (sub->side[is_here ? there : 0] != own)
+                                         : (uint32_t)there < (uint32_t)first;
+        nearer[n_nearer] = farther[n_farther] = beside[n_beside] = there;
+        n_nearer += is_nearer;
+        n_farther += there >= last;
+        n_beside += is_here & !is_nearer;
+    }
+    count =
+        sli_subgraph_append(to, 0, own == 0 ? nearer : farther, own == 0 ? n_nearer : n_farther);
+    count = sli_subgraph_append(to, count, beside, n_beside);
+    count = sli_subgraph_append(to, count, own == 0 ? farther : nearer,
+                                own == 0 ? n_farther : n_nearer);
+    sub->begin[k + 1] = sub->begin[k] + count;
+}
+
+/* Makes the band of a node as sli_subgraph_band does, and its edges for a search. `external` is
+ * whether an edge leaves the band. */
+static void sli_subgraph_corridor(sli_subgraph *sub, const sli_labelling *in, sl_int node,
+                                  const sli_borders *l, int layers) {
+    const sl_int most = sli_band_most(in->tree, node);
+    const sl_off *begin = in->g->begin;
+    sl_int k = 0, first, last = 0, *found = sub->scratch;
+    int layer = 0, grows = 1;
+    sli_subgraph_border(sub, in, node, l);
+    sub->begin[0] = 0;
+    for (; grows; layer++) {
+        first = last;
+        last = sub->n;
+        grows = layer < layers && (layer == 0 || last < most);
+        for (k = first; k < last; k++) {
+            const sl_int v = sub->vertex[k], degree = (sl_int)(begin[v + 1] - begin[v]);
+            sub->external[k] = grows ? sli_subgraph_neighbors(sub, in, node, v, 1, found)
+                                     : sli_subgraph_neighbors(sub, in, node, v, 0, found);
+            if (first == 0) {
+                sli_subgraph_arcs(sub, k, 0, last, found, degree);
+            } else {
+                sli_subgraph_arcs(sub, k, first, last, found, degree);
+            }
+            sub->weight[k] = sli_level_weight(in->g, v);
+        }
+        memset(sub->layer + first, layer, (size_t)(last - first));
+    }
+    memcpy(sub->home, sub->side, (size_t)sub->n);
 }
 
 /* Moves a vertex to another leaf below node, or into the separator if to == node. */
