@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 54e9143b4c2f58e6
+ * FNV-1a of the lines after this comment, without the license: f0868f9dda2ce42f
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,26 +38,26 @@
  *   4288 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5208 impl/ matrix: sparse matrices of the caller and of the library
  *   5838 impl/ ordering: fill-reducing orderings of a graph
- *  10893 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13119 impl/ factor: the numbers of L and D
- *  16496 impl/ solve: full and local solves
- *  18155 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20086 impl/ pivots: the order of the pivots by the values of a matrix
- *  20494 impl/ float: L and fronts in single precision
- *  20945 impl/ inverse: entries of the inverse, regions
- *  24012 impl/ change: a factor that follows changes of its matrix
- *  30106 impl/ dirichlet: rows fixed at given values
- *  30697 impl/ dirichlet: by a factor of all rows
- *  30929 impl/ io: files that are replaced only when they are complete
- *  31147 impl/ files: Matrix Market files, 64-bit indices
- *  31767 impl/ save: factors in files
- *  33779 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34462 impl/ batch: diagonals of many inverses
- *  34602 impl/ complex: complex Hermitian systems over real factors
- *  35164 impl/ complex: entries of the inverse
- *  35224 impl/ packs: the tables through which the core calls packs
- *  35273 impl/ last: undefine every internal macro
- *  35638 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10909 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13135 impl/ factor: the numbers of L and D
+ *  16512 impl/ solve: full and local solves
+ *  18171 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20102 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20510 impl/ float: L and fronts in single precision
+ *  20961 impl/ inverse: entries of the inverse, regions
+ *  24028 impl/ change: a factor that follows changes of its matrix
+ *  30122 impl/ dirichlet: rows fixed at given values
+ *  30713 impl/ dirichlet: by a factor of all rows
+ *  30945 impl/ io: files that are replaced only when they are complete
+ *  31163 impl/ files: Matrix Market files, 64-bit indices
+ *  31783 impl/ save: factors in files
+ *  33795 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34478 impl/ batch: diagonals of many inverses
+ *  34618 impl/ complex: complex Hermitian systems over real factors
+ *  35180 impl/ complex: entries of the inverse
+ *  35240 impl/ packs: the tables through which the core calls packs
+ *  35289 impl/ last: undefine every internal macro
+ *  35654 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -7986,16 +7986,16 @@ SLI_ALWAYS_INLINE sl_int sli_mindeg_eliminate(sli_mindeg *m, sl_int v, sl_int *o
 }
 
 SLI_ALWAYS_INLINE sl_int sli_mindeg_best(const sli_mindeg *m) {
-  uint32_t least[4] = {SLI_MINDEG_ELIMINATED, SLI_MINDEG_ELIMINATED, SLI_MINDEG_ELIMINATED,
-             SLI_MINDEG_ELIMINATED};
-  sl_int v = 0, k;
-  for (; v <= m->n - 4; v += 4) {
-    for (k = 0; k < 4; k++) {
+  uint32_t least[8];
+  sl_int v, k;
+  memcpy(least, m->key, sizeof least);
+  for (v = 8; v < m->n; v += 8) {
+    for (k = 0; k < 8; k++) {
       least[k] = m->key[v + k] < least[k] ? m->key[v + k] : least[k];
     }
   }
-  for (; v < m->n; v++) {
-    least[0] = m->key[v] < least[0] ? m->key[v] : least[0];
+  for (k = 0; k < 4; k++) {
+    least[k] = least[k + 4] < least[k] ? least[k + 4] : least[k];
   }
   for (k = 1; k < 4; k++) {
     least[0] = least[k] < least[0] ? least[k] : least[0];
@@ -8020,51 +8020,66 @@ SLI_TARGET("avx2,popcnt") static void sli_mindeg_run_avx2(sli_mindeg *m, sl_int 
 }
 #endif
 
-static int sli_mindeg_fill(sli_mindeg *m, const sli_level *g, const sl_int *vertices, sl_int count,
-    sl_int *local) {
+static sl_int sli_mindeg_number(const sli_level *g, const sl_int *vertices, sl_int count,
+    sl_int *local, sl_int *bit, sl_int *halo) {
   sl_int k, bits = count;
   sl_off e;
-  int fits;
   for (k = 0; k < count; k++) {
     local[vertices[k]] = k;
   }
   for (k = 0; k < count; k++) {
     for (e = g->begin[vertices[k]]; e < g->begin[vertices[k] + 1]; e++) {
-      if (local[g->to[e]] == -1) {
-        local[g->to[e]] = bits++;
-      }
+      const sl_int u = g->to[e], known = local[u], b = known == -1 ? bits : known;
+      halo[bits - count] = u;
+      local[u] = b;
+      *bit++ = b;
+      bits += known == -1;
     }
   }
+  return bits;
+}
+
+static int sli_mindeg_fill(sli_mindeg *m, const sli_level *g, const sl_int *vertices, sl_int count,
+    sl_int *local, sl_int *bit, sl_int *halo) {
+  const sl_int bits = sli_mindeg_number(g, vertices, count, local, bit, halo);
+  sl_int k;
+  sl_off e;
+  int fits;
   m->n = count;
   m->words = ((size_t)bits + 63) / 64;
   fits = count <= SLI_MINDEG_MAX && m->words * (size_t)count <= m->room;
   if (fits) {
     memset(m->alive, 0, sizeof m->alive);
+    for (k = count; k % 8 != 0; k++) {
+      m->key[k] = SLI_MINDEG_ELIMINATED;
+    }
     memset(m->rows, 0, m->words * (size_t)count * sizeof(uint64_t));
   }
   for (k = 0; k < count && fits; k++) {
+    const sl_off degree = g->begin[vertices[k] + 1] - g->begin[vertices[k]];
     uint64_t *row = m->rows + (size_t)k * m->words;
-    for (e = g->begin[vertices[k]]; e < g->begin[vertices[k] + 1]; e++) {
-      const sl_int b = local[g->to[e]];
+    for (e = 0; e < degree; e++) {
+      const uint32_t b = (uint32_t)bit[e];
       row[b / 64] |= (uint64_t)1 << (b % 64);
     }
-    m->key[k] = (sli_mindeg_join(row, row, m->words, k) + 1) * SLI_MINDEG_MAX + (uint32_t)k;
+    bit += degree;
+    m->key[k] = (uint32_t)degree * SLI_MINDEG_MAX + (uint32_t)k;
     row[k / 64] |= (uint64_t)1 << (k % 64);
     m->alive[k / 64] |= (uint64_t)1 << (k % 64);
   }
   for (k = 0; k < count; k++) {
-    for (e = g->begin[vertices[k]]; e < g->begin[vertices[k] + 1]; e++) {
-      local[g->to[e]] = -1;
-    }
     local[vertices[k]] = -1;
+  }
+  for (k = 0; k < bits - count; k++) {
+    local[halo[k]] = -1;
   }
   return fits;
 }
 
 static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices, sl_int count,
-    sl_int *local, sl_int *order) {
+    sl_int *local, sl_int *order, sl_int *bit) {
   sl_int k;
-  if (!sli_mindeg_fill(m, g, vertices, count, local)) {
+  if (!sli_mindeg_fill(m, g, vertices, count, local, bit, order)) {
     return;
   }
 #if defined(SLI_X86) && defined(SLI_GNU)
@@ -9015,7 +9030,8 @@ static sl_int sli_thin_dissect(sli_thin *t, sli_dissect_worker *w, const sl_int 
     const sl_int count = cut == -1 ? size : t->ahead[cut];
     const sl_int from = cut == -1 ? p.first : t->begin[cut + 1] - count;
     if (cut == -1) {
-      sli_mindeg_order(&w->mindeg, t->g, t->queue + from, count, w->subgraph.local, t->spare);
+      sli_mindeg_order(&w->mindeg, t->g, t->queue + from, count, w->subgraph.local, t->spare,
+          w->subgraph.to);
     } else {
       sli_thin_split(t, &p, cut, from, node, node);
     }
@@ -9180,7 +9196,7 @@ static void sli_septree_item(void *data, sl_int item, sl_int worker) {
       sli_septree_sort_separator(d, w, node, mine, count);
     } else if (count > 1) {
       sli_mindeg_order(&w->mindeg, &d->levels[0], mine, count, w->subgraph.local,
-          w->subgraph.scratch);
+          w->subgraph.scratch, w->subgraph.to);
     }
   }
 }

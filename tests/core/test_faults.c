@@ -72,14 +72,14 @@ static void borders_separate(void **state) {
  * does not fit. */
 static void minimum_degree_on_any_processor(void **state) {
     (void)state;
-    enum { SIDE = 12, LEAF = 100 };
+    enum { SIDE = 12, LEAF = 100, KEYS = 104 };
     gen_list_t t = gen_list(SIDE * SIDE);
     uint64_t seed = 1;
     gen_edges_grid(&t, SIDE, SIDE, 1, &seed);
     gen_matrix_t M = gen_store(&t, gen_style(2), 1);
     sl_off begin[SIDE * SIDE + 1];
-    sl_int local[SIDE * SIDE], scratch[LEAF], first[LEAF], vertices[LEAF];
-    uint32_t key[LEAF];
+    sl_int local[SIDE * SIDE], scratch[SIDE * SIDE], first[LEAF], vertices[LEAF], bit[4 * LEAF];
+    uint32_t key[KEYS];
     uint64_t rows[LEAF * 3];
     sli_level g;
     sli_mindeg m;
@@ -103,7 +103,7 @@ static void minimum_degree_on_any_processor(void **state) {
         }
         m.room = turn < 2 ? LEAF * 3 : LEAF;
         m.has_avx2 = turn == 1 && isas_present().count > 1;
-        sli_mindeg_order(&m, &g, vertices, LEAF, local, turn == 0 ? first : scratch);
+        sli_mindeg_order(&m, &g, vertices, LEAF, local, scratch, bit);
         for (sl_int k = 0; k < LEAF; k++) {
             first[k] = turn == 0 ? vertices[k] : first[k];
             assert_int_equal(vertices[k], turn < 2 ? first[k] : (k * 37) % LEAF);
@@ -132,7 +132,7 @@ static void large_leaves_keep_their_order(void **state) {
         local[v] = -1;
         vertices[v] = (v * 37) % LEAF;
     }
-    sli_mindeg_order(&m, &g, vertices, LEAF, local, scratch);
+    sli_mindeg_order(&m, &g, vertices, LEAF, local, scratch, NULL);
     for (sl_int v = 0; v < LEAF; v++) {
         assert_int_equal(vertices[v], (v * 37) % LEAF);
         assert_int_equal(local[v], -1);

@@ -14,7 +14,8 @@ typedef struct sli_mindeg {
     sl_int n;       /* vertices of the leaf: bits 0..n-1; the halo follows */
     size_t words;   /* 64-bit words of a row */
     uint64_t *rows; /* n x words: adjacency matrix with diagonal */
-    uint32_t *key;  /* n: degree, then number; SLI_MINDEG_ELIMINATED once eliminated */
+    uint32_t *key;  /* n: degree, then number; SLI_MINDEG_ELIMINATED once eliminated, and up to a
+                       multiple of 8 */
     size_t room;    /* words available in rows */
     uint64_t alive[SLI_MINDEG_MAX / 64]; /* vertices of the leaf not yet eliminated */
     int has_avx2;                        /* and with it an instruction that counts bits */
@@ -100,16 +101,16 @@ SLI_ALWAYS_INLINE sl_int sli_mindeg_eliminate(sli_mindeg *m, sl_int v, sl_int *o
 
 /* The vertex of minimum degree, the one with the smallest number among several. */
 SLI_ALWAYS_INLINE sl_int sli_mindeg_best(const sli_mindeg *m) {
-    uint32_t least[4] = {SLI_MINDEG_ELIMINATED, SLI_MINDEG_ELIMINATED, SLI_MINDEG_ELIMINATED,
-                         SLI_MINDEG_ELIMINATED};
-    sl_int v = 0, k;
-    for (; v <= m->n - 4; v += 4) {
-        for (k = 0; k < 4; k++) {
+    uint32_t least[8];
+    sl_int v, k;
+    memcpy(least, m->key, sizeof least);
+    for (v = 8; v < m->n; v += 8) {
+        for (k = 0; k < 8; k++) {
             least[k] = m->key[v + k] < least[k] ? m->key[v + k] : least[k];
         }
     }
-    for (; v < m->n; v++) {
-        least[0] = m->key[v] < least[0] ? m->key[v] : least[0];
+    for (k = 0; k < 4; k++) {
+        least[k] = least[k + 4] < least[k] ? least[k + 4] : least[k];
     }
     for (k = 1; k < 4; k++) {
         least[0] = least[k] < least[0] ? least[k] : least[0];
@@ -135,54 +136,73 @@ SLI_TARGET("avx2,popcnt") static void sli_mindeg_run_avx2(sli_mindeg *m, sl_int 
 }
 #endif
 
-/* Fills the bit matrix of a leaf. Returns whether it fits. local: -1 for each vertex of g, on entry
- * and on return. */
-static int sli_mindeg_fill(sli_mindeg *m, const sli_level *g, const sl_int *vertices, sl_int count,
-                           sl_int *local) {
+/* Numbers the vertices of a leaf, and after them those of its halo. bit := the numbers of all
+ * neighbors, one vertex after the other; halo := the vertices of the halo. local: -1 for each
+ * vertex of g. Returns how many vertices have numbers. */
+static sl_int sli_mindeg_number(const sli_level *g, const sl_int *vertices, sl_int count,
+                                sl_int *local, sl_int *bit, sl_int *halo) {
     sl_int k, bits = count;
     sl_off e;
-    int fits;
     for (k = 0; k < count; k++) {
         local[vertices[k]] = k;
     }
     for (k = 0; k < count; k++) {
         for (e = g->begin[vertices[k]]; e < g->begin[vertices[k] + 1]; e++) {
-            if (local[g->to[e]] == -1) {
-                local[g->to[e]] = bits++;
-            }
+            const sl_int u = g->to[e], known = local[u], b = known == -1 ? bits : known;
+            halo[bits - count] = u; /* counts only if u is new: a branch would be mispredicted */
+            local[u] = b;
+            *bit++ = b;
+            bits += known == -1;
         }
     }
+    return bits;
+}
+
+/* Fills the bit matrix of a leaf. Returns whether it fits. local: -1 for each vertex of g, on entry
+ * and on return; bit: of scratch for all edges of the leaf, halo: for all vertices of g. */
+static int sli_mindeg_fill(sli_mindeg *m, const sli_level *g, const sl_int *vertices, sl_int count,
+                           sl_int *local, sl_int *bit, sl_int *halo) {
+    const sl_int bits = sli_mindeg_number(g, vertices, count, local, bit, halo);
+    sl_int k;
+    sl_off e;
+    int fits;
     m->n = count;
     m->words = ((size_t)bits + 63) / 64;
     fits = count <= SLI_MINDEG_MAX && m->words * (size_t)count <= m->room;
     if (fits) {
         memset(m->alive, 0, sizeof m->alive);
+        for (k = count; k % 8 != 0; k++) {
+            m->key[k] = SLI_MINDEG_ELIMINATED;
+        }
         memset(m->rows, 0, m->words * (size_t)count * sizeof(uint64_t));
     }
     for (k = 0; k < count && fits; k++) {
+        const sl_off degree = g->begin[vertices[k] + 1] - g->begin[vertices[k]];
         uint64_t *row = m->rows + (size_t)k * m->words;
-        for (e = g->begin[vertices[k]]; e < g->begin[vertices[k] + 1]; e++) {
-            const sl_int b = local[g->to[e]];
+        for (e = 0; e < degree; e++) {
+            const uint32_t b = (uint32_t)bit[e];
             row[b / 64] |= (uint64_t)1 << (b % 64);
         }
-        m->key[k] = (sli_mindeg_join(row, row, m->words, k) + 1) * SLI_MINDEG_MAX + (uint32_t)k;
+        bit += degree;
+        m->key[k] = (uint32_t)degree * SLI_MINDEG_MAX + (uint32_t)k;
         row[k / 64] |= (uint64_t)1 << (k % 64);
         m->alive[k / 64] |= (uint64_t)1 << (k % 64);
     }
     for (k = 0; k < count; k++) {
-        for (e = g->begin[vertices[k]]; e < g->begin[vertices[k] + 1]; e++) {
-            local[g->to[e]] = -1;
-        }
         local[vertices[k]] = -1;
+    }
+    for (k = 0; k < bits - count; k++) {
+        local[halo[k]] = -1;
     }
     return fits;
 }
 
-/* Reorders the vertices of a leaf in place by minimum degree. order: count of scratch. */
+/* Reorders the vertices of a leaf in place by minimum degree. order: scratch for all vertices of g,
+ * bit: for all edges of the leaf. */
 static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices, sl_int count,
-                             sl_int *local, sl_int *order) {
+                             sl_int *local, sl_int *order, sl_int *bit) {
     sl_int k;
-    if (!sli_mindeg_fill(m, g, vertices, count, local)) {
+    if (!sli_mindeg_fill(m, g, vertices, count, local, bit, order)) {
         return;
     }
 #if defined(SLI_X86) && defined(SLI_GNU)

@@ -56,7 +56,7 @@ static void sli_septree_item(void *data, sl_int item, sl_int worker) {
             sli_septree_sort_separator(d, w, node, mine, count);
         } else if (count > 1) {
             sli_mindeg_order(&w->mindeg, &d->levels[0], mine, count, w->subgraph.local,
-                             w->subgraph.scratch);
+                             w->subgraph.scratch, w->subgraph.to);
         }
     }
 }

@@ -178,7 +178,8 @@ static sl_int sli_thin_dissect(sli_thin *t, sli_dissect_worker *w, const sl_int 
         const sl_int count = cut == -1 ? size : t->ahead[cut];
         const sl_int from = cut == -1 ? p.first : t->begin[cut + 1] - count;
         if (cut == -1) {
-            sli_mindeg_order(&w->mindeg, t->g, t->queue + from, count, w->subgraph.local, t->spare);
+            sli_mindeg_order(&w->mindeg, t->g, t->queue + from, count, w->subgraph.local, t->spare,
+                             w->subgraph.to);
         } else {
             sli_thin_split(t, &p, cut, from, node, node);
         }
