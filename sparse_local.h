@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f0868f9dda2ce42f
+ * FNV-1a of the lines after this comment, without the license: 641700f5e7bd7046
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,26 +38,26 @@
  *   4288 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5208 impl/ matrix: sparse matrices of the caller and of the library
  *   5838 impl/ ordering: fill-reducing orderings of a graph
- *  10909 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13135 impl/ factor: the numbers of L and D
- *  16512 impl/ solve: full and local solves
- *  18171 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20102 impl/ pivots: the order of the pivots by the values of a matrix
- *  20510 impl/ float: L and fronts in single precision
- *  20961 impl/ inverse: entries of the inverse, regions
- *  24028 impl/ change: a factor that follows changes of its matrix
- *  30122 impl/ dirichlet: rows fixed at given values
- *  30713 impl/ dirichlet: by a factor of all rows
- *  30945 impl/ io: files that are replaced only when they are complete
- *  31163 impl/ files: Matrix Market files, 64-bit indices
- *  31783 impl/ save: factors in files
- *  33795 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34478 impl/ batch: diagonals of many inverses
- *  34618 impl/ complex: complex Hermitian systems over real factors
- *  35180 impl/ complex: entries of the inverse
- *  35240 impl/ packs: the tables through which the core calls packs
- *  35289 impl/ last: undefine every internal macro
- *  35654 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10946 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13172 impl/ factor: the numbers of L and D
+ *  16549 impl/ solve: full and local solves
+ *  18208 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20139 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20547 impl/ float: L and fronts in single precision
+ *  20998 impl/ inverse: entries of the inverse, regions
+ *  24065 impl/ change: a factor that follows changes of its matrix
+ *  30159 impl/ dirichlet: rows fixed at given values
+ *  30750 impl/ dirichlet: by a factor of all rows
+ *  30982 impl/ io: files that are replaced only when they are complete
+ *  31200 impl/ files: Matrix Market files, 64-bit indices
+ *  31820 impl/ save: factors in files
+ *  33832 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34515 impl/ batch: diagonals of many inverses
+ *  34655 impl/ complex: complex Hermitian systems over real factors
+ *  35217 impl/ complex: entries of the inverse
+ *  35277 impl/ packs: the tables through which the core calls packs
+ *  35326 impl/ last: undefine every internal macro
+ *  35691 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -6476,6 +6476,29 @@ SLI_INLINE sl_int sli_contract_weight(const sli_level *g, sl_int v, sl_off e) {
 }
 
 #define SLI_CONTRACT_BITS 31
+
+SLI_INLINE sl_off sli_contract_plain(const sli_level *g, sli_level *c, sl_int v, sl_off *at,
+    sl_off first, sl_off count) {
+  const sl_int *to = g->to, *coarse = g->coarse;
+  const sl_off least = first << SLI_CONTRACT_BITS, end = g->begin[v + 1];
+  sl_int *edge = c->edge;
+  sl_off e;
+  at[coarse[v]] = least + v;
+  for (e = g->begin[v]; e < end; e++) {
+    const sl_int u = coarse[to[e]];
+    const sl_off known = at[u], slot = known >> SLI_CONTRACT_BITS;
+    if (known < least) {
+      at[u] = (count << SLI_CONTRACT_BITS) + v;
+      c->to[count] = u;
+      edge[count++] = 1;
+    } else {
+      at[u] = (slot << SLI_CONTRACT_BITS) + v;
+      edge[slot] += known != at[u];
+    }
+  }
+  return count;
+}
+
 static void sli_contract_range(void *data, const sli_range *r) {
   sli_contraction *t = (sli_contraction *)data;
   const sli_level *g = t->g;
@@ -6485,6 +6508,7 @@ static void sli_contract_range(void *data, const sli_range *r) {
   const int bits =
     g->begin[g->n] >> 32 == 0 ? SLI_CONTRACT_BITS : 0; /* branches untested: 2^32 edges */
   const sl_off low = ((sl_off)1 << bits) - 1;
+  const int is_plain = g->edge == NULL && g->hub_degree == 0 && bits > 0;
   sl_int k, m;
   memset(at, -1, (size_t)c->n * sizeof(sl_off));
   for (k = r->first; k < r->last; k++) {
@@ -6494,6 +6518,10 @@ static void sli_contract_range(void *data, const sli_range *r) {
     for (m = clusters->start[k]; m < clusters->start[k + 1]; m++) {
       const sl_int v = clusters->member[m];
       c->weight[k] += sli_level_weight(g, v);
+      if (is_plain) {
+        count = sli_contract_plain(g, c, v, at, first, count);
+        continue;
+      }
       for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
         const sl_int u = g->coarse[g->to[e]];
         if (u == k) {
@@ -6509,6 +6537,7 @@ static void sli_contract_range(void *data, const sli_range *r) {
         }
       }
     }
+    at[k] = -1;
   }
   t->end[r->item] = count;
 }
@@ -7374,12 +7403,20 @@ SLI_INLINE void sli_heap_down(sli_heap *h, sl_int k, sli_heap_item v) {
   h->position[v.vertex] = k;
 }
 
+SLI_INLINE void sli_heap_put(sli_heap *h, sl_int k, sli_heap_item v) {
+  if (k > 0 && h->item[(k - 1) / 2].key < v.key) {
+    sli_heap_up(h, k, v);
+  } else {
+    sli_heap_down(h, k, v);
+  }
+}
+
 SLI_INLINE void sli_heap_set(sli_heap *h, sl_int vertex, sl_int key) {
-  const sl_int k = h->position[vertex] == -1 ? h->count++ : h->position[vertex];
+  const sl_int at = h->position[vertex], k = at == -1 ? h->count++ : at;
   sli_heap_item v;
   v.vertex = vertex;
   v.key = key;
-  if (k > 0 && h->item[(k - 1) / 2].key < key) {
+  if (at == -1 || key >= h->item[k].key) {
     sli_heap_up(h, k, v);
   } else {
     sli_heap_down(h, k, v);
@@ -7391,8 +7428,7 @@ SLI_INLINE void sli_heap_remove(sli_heap *h, sl_int vertex) {
   const sli_heap_item last = h->item[--h->count];
   h->position[vertex] = -1;
   if (last.vertex != vertex) {
-    h->position[last.vertex] = k;
-    sli_heap_set(h, last.vertex, last.key);
+    sli_heap_put(h, k, last);
   }
 }
 
@@ -7502,12 +7538,10 @@ static sli_fm sli_fm_of(sli_subgraph *sub) {
   for (v = 0; v < sub->n; v++) {
     sl_int within = sub->external[v], across = 0;
     for (e = sub->begin[v]; e < sub->begin[v + 1]; e++) {
-      if (sub->side[sub->to[e]] != sub->side[v]) {
-        across += sub->edge[e];
-      } else {
-        within += sub->edge[e];
-      }
+      across += sub->side[sub->to[e]] != sub->side[v] ? sub->edge[e] : 0;
+      within += sub->edge[e];
     }
+    within -= across;
     m.degree[v] = across + within;
     m.gain[v] = across - within;
   }
@@ -7535,10 +7569,9 @@ static sl_int sli_subgraph_farthest(const sli_subgraph *sub, sl_int v, sl_int *q
   seen[v] = 1;
   for (head = 0; head < tail; head++) {
     for (e = sub->begin[queue[head]]; e < sub->begin[queue[head] + 1]; e++) {
-      if (!seen[sub->to[e]]) {
-        seen[sub->to[e]] = 1;
-        queue[tail++] = sub->to[e];
-      }
+      queue[tail] = sub->to[e];
+      tail += !seen[sub->to[e]];
+      seen[sub->to[e]] = 1;
     }
   }
   return queue[tail - 1];
@@ -9257,6 +9290,10 @@ static sl_int sli_nd_component(sli_nd *w, sl_int root) {
   w->row[tail++] = root;
   for (head = 0; head < tail; head++) {
     w->begin[head] = edges;
+    if (head + 8 < tail) {
+      SLI_PREFETCH(G->begin + w->row[head + 8], 0);
+      SLI_PREFETCH(G->to + G->begin[w->row[head + 4]], 0);
+    }
     for (e = G->begin[w->row[head]]; e < G->begin[w->row[head] + 1]; e++) {
       const sl_int u = G->to[e];
       if (w->local[u] == -1) {

@@ -44,13 +44,22 @@ SLI_INLINE void sli_heap_down(sli_heap *h, sl_int k, sli_heap_item v) {
     h->position[v.vertex] = k;
 }
 
-/* Adds v, or gives it another key. */
+/* Puts a vertex at place k, or where else it belongs. */
+SLI_INLINE void sli_heap_put(sli_heap *h, sl_int k, sli_heap_item v) {
+    if (k > 0 && h->item[(k - 1) / 2].key < v.key) {
+        sli_heap_up(h, k, v);
+    } else {
+        sli_heap_down(h, k, v);
+    }
+}
+
+/* Adds v, or gives it another key. With a larger one it does not move down. */
 SLI_INLINE void sli_heap_set(sli_heap *h, sl_int vertex, sl_int key) {
-    const sl_int k = h->position[vertex] == -1 ? h->count++ : h->position[vertex];
+    const sl_int at = h->position[vertex], k = at == -1 ? h->count++ : at;
     sli_heap_item v;
     v.vertex = vertex;
     v.key = key;
-    if (k > 0 && h->item[(k - 1) / 2].key < key) {
+    if (at == -1 || key >= h->item[k].key) {
         sli_heap_up(h, k, v);
     } else {
         sli_heap_down(h, k, v);
@@ -62,8 +71,7 @@ SLI_INLINE void sli_heap_remove(sli_heap *h, sl_int vertex) {
     const sli_heap_item last = h->item[--h->count];
     h->position[vertex] = -1;
     if (last.vertex != vertex) {
-        h->position[last.vertex] = k;
-        sli_heap_set(h, last.vertex, last.key);
+        sli_heap_put(h, k, last);
     }
 }
 
@@ -183,12 +191,10 @@ static sli_fm sli_fm_of(sli_subgraph *sub) {
     for (v = 0; v < sub->n; v++) {
         sl_int within = sub->external[v], across = 0;
         for (e = sub->begin[v]; e < sub->begin[v + 1]; e++) {
-            if (sub->side[sub->to[e]] != sub->side[v]) {
-                across += sub->edge[e];
-            } else {
-                within += sub->edge[e];
-            }
+            across += sub->side[sub->to[e]] != sub->side[v] ? sub->edge[e] : 0;
+            within += sub->edge[e];
         }
+        within -= across;
         m.degree[v] = across + within;
         m.gain[v] = across - within;
     }
@@ -208,8 +214,8 @@ static int64_t sli_fm_refine(sli_fm *m, int rounds) {
     return sli_cut_cost(cut, m->sub->total);
 }
 
-/* A vertex far from v: the last one that a breadth-first search reaches. queue, seen: n of
- * scratch. */
+/* A vertex far from v: the last one that a breadth-first search reaches. queue, seen: n + 1 and n
+ * of scratch. */
 static sl_int sli_subgraph_farthest(const sli_subgraph *sub, sl_int v, sl_int *queue,
                                     unsigned char *seen) {
     sl_int head, tail = 0;
@@ -219,10 +225,9 @@ static sl_int sli_subgraph_farthest(const sli_subgraph *sub, sl_int v, sl_int *q
     seen[v] = 1;
     for (head = 0; head < tail; head++) {
         for (e = sub->begin[queue[head]]; e < sub->begin[queue[head] + 1]; e++) {
-            if (!seen[sub->to[e]]) {
-                seen[sub->to[e]] = 1;
-                queue[tail++] = sub->to[e];
-            }
+            queue[tail] = sub->to[e];
+            tail += !seen[sub->to[e]];
+            seen[sub->to[e]] = 1;
         }
     }
     return queue[tail - 1];

@@ -140,11 +140,37 @@ SLI_INLINE sl_int sli_contract_weight(const sli_level *g, sl_int v, sl_off e) {
     return g->edge == NULL && sli_level_is_hub(g, g->to[e]) ? 0 : sli_level_edge(g, v, e);
 }
 
+#define SLI_CONTRACT_BITS 31
+
+/* Adds the edges of v, a vertex of the finest level, to those of its cluster, which begin at
+ * `first`, as sli_contract_range does, if all of them have weight 1. An edge within the cluster
+ * looks like another one of v to the same cluster: neither counts. Returns the new count. */
+SLI_INLINE sl_off sli_contract_plain(const sli_level *g, sli_level *c, sl_int v, sl_off *at,
+                                     sl_off first, sl_off count) {
+    const sl_int *to = g->to, *coarse = g->coarse;
+    const sl_off least = first << SLI_CONTRACT_BITS, end = g->begin[v + 1];
+    sl_int *edge = c->edge;
+    sl_off e;
+    at[coarse[v]] = least + v;
+    for (e = g->begin[v]; e < end; e++) {
+        const sl_int u = coarse[to[e]];
+        const sl_off known = at[u], slot = known >> SLI_CONTRACT_BITS;
+        if (known < least) {
+            at[u] = (count << SLI_CONTRACT_BITS) + v;
+            c->to[count] = u;
+            edge[count++] = 1;
+        } else {
+            at[u] = (slot << SLI_CONTRACT_BITS) + v;
+            edge[slot] += known != at[u];
+        }
+    }
+    return count;
+}
+
 /* Contracts a range of clusters. Weights of edges are added; from the finest level, they are the
  * number of vertices of a cluster that have neighbors in the other. at[u] is, for the edge to u,
  * its position in the upper bits, and in the lower ones the last vertex that has an edge there;
  * with 2^32 edges there is no room for that, and these weights are 1. */
-#define SLI_CONTRACT_BITS 31
 static void sli_contract_range(void *data, const sli_range *r) {
     sli_contraction *t = (sli_contraction *)data;
     const sli_level *g = t->g;
@@ -154,6 +180,7 @@ static void sli_contract_range(void *data, const sli_range *r) {
     const int bits =
         g->begin[g->n] >> 32 == 0 ? SLI_CONTRACT_BITS : 0; /* branches untested: 2^32 edges */
     const sl_off low = ((sl_off)1 << bits) - 1;
+    const int is_plain = g->edge == NULL && g->hub_degree == 0 && bits > 0;
     sl_int k, m;
     memset(at, -1, (size_t)c->n * sizeof(sl_off));
     for (k = r->first; k < r->last; k++) {
@@ -163,6 +190,10 @@ static void sli_contract_range(void *data, const sli_range *r) {
         for (m = clusters->start[k]; m < clusters->start[k + 1]; m++) {
             const sl_int v = clusters->member[m];
             c->weight[k] += sli_level_weight(g, v);
+            if (is_plain) {
+                count = sli_contract_plain(g, c, v, at, first, count);
+                continue;
+            }
             for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
                 const sl_int u = g->coarse[g->to[e]];
                 if (u == k) {
@@ -178,6 +209,7 @@ static void sli_contract_range(void *data, const sli_range *r) {
                 }
             }
         }
+        at[k] = -1;
     }
     t->end[r->item] = count;
 }

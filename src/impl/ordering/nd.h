@@ -123,6 +123,10 @@ static sl_int sli_nd_component(sli_nd *w, sl_int root) {
     w->row[tail++] = root;
     for (head = 0; head < tail; head++) {
         w->begin[head] = edges;
+        if (head + 8 < tail) { /* rows far apart in the numbering of the caller */
+            SLI_PREFETCH(G->begin + w->row[head + 8], 0);
+            SLI_PREFETCH(G->to + G->begin[w->row[head + 4]], 0);
+        }
         for (e = G->begin[w->row[head]]; e < G->begin[w->row[head] + 1]; e++) {
             const sl_int u = G->to[e];
             if (w->local[u] == -1) {
