@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 641700f5e7bd7046
+ * FNV-1a of the lines after this comment, without the license: e45075121a40a21a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,26 +38,26 @@
  *   4288 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5208 impl/ matrix: sparse matrices of the caller and of the library
  *   5838 impl/ ordering: fill-reducing orderings of a graph
- *  10946 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13172 impl/ factor: the numbers of L and D
- *  16549 impl/ solve: full and local solves
- *  18208 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20139 impl/ pivots: the order of the pivots by the values of a matrix
- *  20547 impl/ float: L and fronts in single precision
- *  20998 impl/ inverse: entries of the inverse, regions
- *  24065 impl/ change: a factor that follows changes of its matrix
- *  30159 impl/ dirichlet: rows fixed at given values
- *  30750 impl/ dirichlet: by a factor of all rows
- *  30982 impl/ io: files that are replaced only when they are complete
- *  31200 impl/ files: Matrix Market files, 64-bit indices
- *  31820 impl/ save: factors in files
- *  33832 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34515 impl/ batch: diagonals of many inverses
- *  34655 impl/ complex: complex Hermitian systems over real factors
- *  35217 impl/ complex: entries of the inverse
- *  35277 impl/ packs: the tables through which the core calls packs
- *  35326 impl/ last: undefine every internal macro
- *  35691 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10947 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13173 impl/ factor: the numbers of L and D
+ *  16550 impl/ solve: full and local solves
+ *  18209 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20140 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20548 impl/ float: L and fronts in single precision
+ *  20999 impl/ inverse: entries of the inverse, regions
+ *  24066 impl/ change: a factor that follows changes of its matrix
+ *  30160 impl/ dirichlet: rows fixed at given values
+ *  30751 impl/ dirichlet: by a factor of all rows
+ *  30983 impl/ io: files that are replaced only when they are complete
+ *  31201 impl/ files: Matrix Market files, 64-bit indices
+ *  31821 impl/ save: factors in files
+ *  33833 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34516 impl/ batch: diagonals of many inverses
+ *  34656 impl/ complex: complex Hermitian systems over real factors
+ *  35218 impl/ complex: entries of the inverse
+ *  35278 impl/ packs: the tables through which the core calls packs
+ *  35327 impl/ last: undefine every internal macro
+ *  35692 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -7121,10 +7121,11 @@ static void sli_subgraph_edges(sli_subgraph *sub, const sli_labelling *in, sl_in
     for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
       const sl_int u = g->to[e], own = sli_shared_read(label + u), there = sub->local[u];
       const sl_int edge = sli_level_edge(g, v, e);
+      const int leaves = (there == -1) & (own >= low) & (own <= high);
       sub->to[count] = there;
       sub->edge[count] = edge;
       count += there != -1;
-      external += (there == -1) & (own >= low) & (own <= high) ? edge : 0;
+      external += leaves ? edge : 0;
     }
     sub->external[k] = external;
   }

@@ -12,7 +12,7 @@
 
 cd "$(dirname "$0")/../.." || exit 1
 header_limit=1397000      # sparse_local.h
-core_header_limit=887000  # the core, with the comments of the implementation
+core_header_limit=887500  # the core, with the comments of the implementation
 core_text_limit=344300
 all_text_limit=799200
 frame_limit=28000

@@ -75,10 +75,11 @@ static void sli_subgraph_edges(sli_subgraph *sub, const sli_labelling *in, sl_in
         for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
             const sl_int u = g->to[e], own = sli_shared_read(label + u), there = sub->local[u];
             const sl_int edge = sli_level_edge(g, v, e);
+            const int leaves = (there == -1) & (own >= low) & (own <= high);
             sub->to[count] = there;
             sub->edge[count] = edge;
             count += there != -1;
-            external += (there == -1) & (own >= low) & (own <= high) ? edge : 0;
+            external += leaves ? edge : 0;
         }
         sub->external[k] = external;
     }
