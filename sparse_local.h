@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e45075121a40a21a
+ * FNV-1a of the lines after this comment, without the license: 2462624db4ec63d4
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -27,37 +27,37 @@
  *   2201 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
  *   2232 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
  *   2414 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2515 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2625 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2666 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2752 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2860 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2894 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2971 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3014 impl/ base: the compiler, status, memory, sorting, threads
- *   4288 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5208 impl/ matrix: sparse matrices of the caller and of the library
- *   5838 impl/ ordering: fill-reducing orderings of a graph
- *  10947 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13173 impl/ factor: the numbers of L and D
- *  16550 impl/ solve: full and local solves
- *  18209 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20140 impl/ pivots: the order of the pivots by the values of a matrix
- *  20548 impl/ float: L and fronts in single precision
- *  20999 impl/ inverse: entries of the inverse, regions
- *  24066 impl/ change: a factor that follows changes of its matrix
- *  30160 impl/ dirichlet: rows fixed at given values
- *  30751 impl/ dirichlet: by a factor of all rows
- *  30983 impl/ io: files that are replaced only when they are complete
- *  31201 impl/ files: Matrix Market files, 64-bit indices
- *  31821 impl/ save: factors in files
- *  33833 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34516 impl/ batch: diagonals of many inverses
- *  34656 impl/ complex: complex Hermitian systems over real factors
- *  35218 impl/ complex: entries of the inverse
- *  35278 impl/ packs: the tables through which the core calls packs
- *  35327 impl/ last: undefine every internal macro
- *  35692 impl/ templates: the header includes them from itself, once for each instruction set
+ *   2513 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2623 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2664 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2750 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2858 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2892 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2969 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3012 impl/ base: the compiler, status, memory, sorting, threads
+ *   4286 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5206 impl/ matrix: sparse matrices of the caller and of the library
+ *   5836 impl/ ordering: fill-reducing orderings of a graph
+ *  10945 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13171 impl/ factor: the numbers of L and D
+ *  16548 impl/ solve: full and local solves
+ *  18207 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20138 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20546 impl/ float: L and fronts in single precision
+ *  20997 impl/ inverse: entries of the inverse, regions
+ *  24064 impl/ change: a factor that follows changes of its matrix
+ *  30236 impl/ dirichlet: rows fixed at given values
+ *  30827 impl/ dirichlet: by a factor of all rows
+ *  31059 impl/ io: files that are replaced only when they are complete
+ *  31277 impl/ files: Matrix Market files, 64-bit indices
+ *  31897 impl/ save: factors in files
+ *  33909 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34592 impl/ batch: diagonals of many inverses
+ *  34732 impl/ complex: complex Hermitian systems over real factors
+ *  35294 impl/ complex: entries of the inverse
+ *  35354 impl/ packs: the tables through which the core calls packs
+ *  35403 impl/ last: undefine every internal macro
+ *  35768 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2425,9 +2425,7 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *  null pivot on its way. Errors add up: refactor if growth or stats.change.drift is too large.
  *  Drift counts what a row loses relative to its own entries, if all pivots have one sign.
  *
- *  F      [in,out]  the factor. On error it is as before, bit for bit. It has no numbers only where
- *                   rounding takes every digit of a pivot that a trial had found above 1e-3 of the
- *                   old one.
+ *  F      [in,out]  the factor. On error it is as before, bit for bit.
  *  V      [in]      n x k, any k, in the rows of A; duplicates are summed, zeros ignored.
  *  sigma  [in]      k weights of any sign; NULL: all 1.
  *  stats  [out]     change, factor. For pivots of both signs growth, pivot_min and pivot_max become
@@ -2440,7 +2438,7 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *           numbers; SL_ERR_READ_ONLY: F is mapped; SL_ERR_UNSUPPORTED: null pivots were skipped,
  *           there are 2x2 pivots, or L is not in double; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
- *           written once for 8 vectors. Changes that may fail take another forward sweep or a copy.
+ *           written once for 8 vectors. Changes that may fail read them once more, or copy them.
  *           The first change of a definite factor allocates 9 bytes a row, for drift.
  *  Threads  exclusive use of F.
  *  Source   [DH01], with the factorization of [Bie76] for several vectors.
@@ -24065,7 +24063,11 @@ SL_API sl_region_arrays sl_region_view(const sl_region *R) {
 #if defined(SL_WITH_CHANGE)
 /* src/impl/change/change_kernels.h: the kernels of rank-k changes, for every instruction set */
 
-typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, double *w);
+typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, double *w,
+    int is_trial);
+
+typedef void (*sli_change_pair_kernel)(double *l, double *l1, sl_int columns, const double *c,
+    double *w, int is_trial);
 
 typedef struct sli_ranks {
   double U[SLI_TILE][SLI_TILE];
@@ -24083,17 +24085,19 @@ typedef sl_int (*sli_ranks_kernel)(sli_ranks *u, const double *l, sl_int columns
 typedef struct sli_rank_one {
   double *panel;
   const double *D;
-  sl_int width, below, first_tile;
-  int is_trial;
+  sl_int super, width, below, first_tile;
+  ptrdiff_t ahead;
   double sum;
   double *w;
+  double *y;
   double *b;
   double *e;
 } sli_rank_one;
-typedef void (*sli_rank_one_kernel)(sli_rank_one *u);
+typedef void (*sli_rank_one_kernel)(sli_rank_one *u, int has_sweep, int has_change);
 
 typedef struct sli_change_kernels {
   sli_change_kernel change[SLI_NRHS_KINDS - 1];
+  sli_change_pair_kernel pair;
   sli_ranks_kernel ranks;
   sli_rank_one_kernel panel;
 } sli_change_kernels;
@@ -24553,7 +24557,7 @@ static sl_status sli_loss_begin(sl_factor *F) {
   return SL_OK;
 }
 
-SLI_INLINE void sli_loss_open(sl_factor *F, sl_int s) {
+SLI_NOINLINE static void sli_loss_open(sl_factor *F, sl_int s) {
   sl_int k;
   if (F->history.known[s]) {
     return;
@@ -24564,7 +24568,7 @@ SLI_INLINE void sli_loss_open(sl_factor *F, sl_int s) {
   F->history.known[s] = 1;
 }
 
-static double sli_update_entry(const sl_factor *F, sl_int k, double *magnitude) {
+SLI_COLD static double sli_update_entry(const sl_factor *F, sl_int k, double *magnitude) {
   const sl_symbolic *S = F->S;
   const sl_int own = S->super_of[k];
   double sum = 0.0, entry = F->D[k];
@@ -24602,6 +24606,7 @@ typedef struct sli_update {
   const sl_csc *V;
   const double *sigma;
   double sign;
+  int keeps;
   int keeps_signs;
   int is_trial;
   int is_tried;
@@ -24614,8 +24619,9 @@ typedef struct sli_update {
   double fall;
   sl_int row;
   double least;
-  double shrink;
   double top;
+  double low;
+  int are_usual;
   double entry;
   double growth;
   sli_reach R;
@@ -24631,8 +24637,11 @@ typedef struct sli_update {
   double *column;
   double *local;
   double *c;
-  double *other, *b;
-  double *trial, *scratch;
+  double *e, *magnitude;
+  double *trial;
+  sli_rank_one *path;
+  double *vectors;
+  ptrdiff_t ahead;
 } sli_update;
 
 SLI_INLINE int sli_update_kind(sl_int count) {
@@ -24642,6 +24651,7 @@ SLI_INLINE int sli_update_kind(sl_int count) {
 static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, sl_int lanes,
     int has_trial) {
   const uint64_t many = (uint64_t)lanes;
+  uint64_t columns;
   u->state = SLI_TAKE(b, sli_ranks, 1);
   u->steps = SLI_TAKE(b, sli_step, R->count);
   u->rows = SLI_TAKE(b, sl_int, R->n_rows);
@@ -24649,12 +24659,12 @@ static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, s
   u->gain = SLI_TAKE(b, double, R->columns);
   u->column = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->tallest));
   u->local = SLI_TAKE(b, double, many *SLI_TILE *((uint64_t)sli_tiles(R->tallest) + 4));
-  u->c = SLI_TAKE(b, double, 2 * many * SLI_TILE * (uint64_t)sli_tiles(R->widest));
-  u->other = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->tallest));
-  u->b = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->widest));
+  u->keeps = has_trial;
+  columns = (uint64_t)(has_trial ? R->columns : R->widest + SLI_TILE);
+  u->c = SLI_TAKE(b, double, SLI_TILE + 2 * many * columns);
+  u->e = SLI_TAKE(b, double, has_trial ? R->columns : 0);
+  u->magnitude = SLI_TAKE(b, double, has_trial ? R->columns : 0);
   u->trial = SLI_TAKE(b, double, has_trial ? many *(uint64_t)R->columns : 0);
-  u->scratch =
-    SLI_TAKE(b, double, has_trial ? sli_sweep_scratch(R->tallest, R->widest, lanes) : 0);
 }
 
 static void sli_update_open(sli_update *u, const sli_step *step) {
@@ -24695,16 +24705,17 @@ static double sli_update_cancelled(const sl_factor *F, double d, double e) {
   return fabs(e) > 4.0 * fabs(d) ? fabs(e) * sqrt(largest / fabs(d)) : 0.0;
 }
 
-static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magnitude) {
+SLI_COLD static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magnitude) {
   sl_factor *F = u->F;
   const double d = F->D[k];
   u->value = e;
   u->pivot = k;
-  if (!sli_is_finite(e)) {
+  if (!u->is_tried && !sli_is_finite(e)) {
     return sli_refuse(SL_ERR_NOT_FINITE, NULL);
   }
-  if (fabs(e) < DBL_MIN || (u->keeps_signs && (e < 0.0) != (d < 0.0)) ||
-      (fabs(e) < fabs(d) && (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude)))) {
+  if (!u->is_tried &&
+      (fabs(e) < DBL_MIN || (u->keeps_signs && (e < 0.0) != (d < 0.0)) ||
+      (fabs(e) < fabs(d) && (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude))))) {
     return sli_refuse(SL_ERR_PIVOT, NULL);
   }
   if (!u->is_trial) {
@@ -24725,7 +24736,7 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
   double *D = F->D + k, least = DBL_MAX, top = 0.0, most = 0.0;
   int are_usual = 1, shrink = 0;
   sl_status status = SL_OK;
-  sl_int j, first = 0;
+  sl_int j;
   for (j = 0; j < count; j++) {
     const double d = D[j], size = fabs(e[j]), before = fabs(d);
     const double magnitude = magnitudes != NULL ? magnitudes[j] : before + fabs(e[j] - d);
@@ -24741,16 +24752,18 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
   if (are_usual && least >= DBL_MIN && top <= DBL_MAX &&
       (!shrink || u->is_tried ||
       (least > u->least && !sli_is_null(least, most + known, F->rule.null_tolerance)))) {
+    u->low = least < u->low ? least : u->low;
+    u->top = top > u->top ? top : u->top;
+    u->most = most > u->most ? most : u->most;
     if (!u->is_trial) {
       SLI_COPY(D, e, count);
       info->pivot_min = least < info->pivot_min ? least : info->pivot_min;
       info->pivot_max = top > info->pivot_max ? top : info->pivot_max;
-      u->top = top > u->top ? top : u->top;
-      u->most = most > u->most ? most : u->most;
     }
-    first = count;
+    return SL_OK;
   }
-  for (j = first; j < count && status == SL_OK; j++) {
+  u->are_usual = 0;
+  for (j = 0; j < count && status == SL_OK; j++) {
     const double d = D[j], size = fabs(e[j]);
     const double magnitude = magnitudes != NULL ? magnitudes[j] : fabs(d) + fabs(e[j] - d);
     if (e[j] != d || magnitude != size) {
@@ -24779,37 +24792,46 @@ static void sli_update_lose(sli_update *u, sl_int v) {
   }
 }
 
-static sl_status sli_update_pivots(sli_update *u, sl_int k, sl_int columns, const double *l,
-    const double *w, double *c) {
-  sl_factor *F = u->F;
-  const sl_int done =
-    sli_change_kernels_of(F->kernels->isa)->ranks(u->state, l, columns, F->D + k, w, c);
-  return sli_update_take_all(u, k, done, u->state->e, u->state->magnitude);
-}
-
 /* src/impl/change/update.h: one pass of a rank-k change: the columns on the paths of up to 8 vectors */
+
+SLI_INLINE sl_int sli_update_at(const sli_update *u, const sli_step *step, sl_int j) {
+  return j - SLI_TILE * step->first_tile + (u->keeps ? step->base : 0);
+}
 
 static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, double *w) {
   const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, step->width - first);
+  const sl_int at = sli_update_at(u, step, first);
   double *l = u->panel + sli_panel_at(step->width, first, first);
-  double *at = u->c + 2 * (ptrdiff_t)u->lanes * (first - SLI_TILE * step->first_tile);
+  double *const y = u->c + 2 * (ptrdiff_t)u->lanes * at;
   const sl_int k = step->column + first - SLI_TILE * step->first_tile;
-  const sl_status status = sli_update_pivots(u, k, columns, l, w, at);
-  sl_int j, r;
+  sl_int j, r, done = columns;
+  sl_status status;
+  if (u->is_tried) {
+    status = sli_update_take_all(u, k, columns, u->e + at, u->magnitude + at);
+  } else {
+    done = sli_change_kernels_of(u->F->kernels->isa)
+           ->ranks(u->state, l, columns, u->F->D + k, w, y);
+    status = sli_update_take_all(u, k, done, u->state->e, u->state->magnitude);
+    if (u->is_trial) {
+      SLI_COPY(u->e + at, u->state->e, columns);
+      SLI_COPY(u->magnitude + at, u->state->magnitude, columns);
+    }
+  }
   for (j = 0; j < columns && u->sign == 0.0 && status == SL_OK; j++) {
     if (first + j + 1 < step->width + step->below) {
       u->loss = fmax(u->loss, u->state->magnitude[j] / fabs(u->state->e[j]));
     }
   }
   if (status == SL_OK) {
-    for (j = 0; j < columns && u->state->ranks > 1; j++) {
+    for (j = 0; j < columns && u->state->ranks > 1 && !u->is_tried; j++) {
       const double sum = u->state->magnitude[j] * (double)u->state->ranks;
       if (u->state->swept[j] > u->swept * sum) {
         u->swept = u->state->swept[j] / sum;
       }
     }
-    sli_change_kernels_of(u->F->kernels->isa)->change[u->kind - 1](l, columns, at, w);
-    for (r = 0; r < columns; r++) {
+    sli_change_kernels_of(u->F->kernels->isa)
+      ->change[u->kind - 1](l, columns, y, w, u->is_trial);
+    for (r = 0; r < columns && !u->is_trial; r++) {
       for (j = r; j < columns; j++) {
         l[SLI_TILE * j + r] = 0.0;
       }
@@ -24819,39 +24841,60 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
 }
 
 static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t, sl_int from,
-    sl_int to) {
-  const sl_int entered = step->first_tile;
-  sli_change_kernels_of(u->F->kernels->isa)
-    ->change[u->kind - 1](u->panel + sli_panel_at(step->width, SLI_TILE * t, from), to - from,
-        u->c + 2 * (ptrdiff_t)u->lanes * (from - SLI_TILE * entered),
-        u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
+    sl_int to, int is_pair) {
+  const sli_change_kernels *kernels = sli_change_kernels_of(u->F->kernels->isa);
+  const double *c = u->c + 2 * (ptrdiff_t)u->lanes * sli_update_at(u, step, from);
+  double *l = u->panel + sli_panel_at(step->width, SLI_TILE * t, from);
+  double *w = u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - step->first_tile);
+  if (is_pair) {
+    kernels->pair(l, u->panel + sli_panel_at(step->width, SLI_TILE * (t + 1), from), to - from,
+        c, w, u->is_trial);
+  } else {
+    kernels->change[u->kind - 1](l, to - from, c, w, u->is_trial);
+  }
+}
+
+SLI_ALWAYS_INLINE void sli_update_move_rows(const sli_update *u, const sli_step *step,
+    const sl_int *rows, int is_back, const sl_int lanes) {
+  const sl_int own = sli_step_columns(step), all = own + step->below;
+  sl_int i, r;
+  for (i = is_back ? own : 0; i < all; i++) {
+    double *x = u->x + (ptrdiff_t)lanes * (i < own ? step->base + i : rows[i - own]);
+    double *w = u->local + (ptrdiff_t)lanes * (i - i % SLI_TILE) + i % SLI_TILE;
+    SLI_UNROLL
+    for (r = 0; r < lanes; r++) {
+      if (is_back) {
+        x[r] = w[SLI_TILE * r];
+      } else {
+        w[SLI_TILE * r] = x[r];
+      }
+    }
+  }
 }
 
 static void sli_update_move(const sli_update *u, const sli_step *step, const sl_int *rows,
     int is_back) {
   const sli_kernels *kernels = u->F->kernels;
   const sl_int lanes = u->lanes, own = sli_step_columns(step), all = own + step->below;
-  sl_int t, i, r, at[SLI_TILE];
-  double *w = u->local;
-  for (t = 0; t < all; t += SLI_TILE, w += SLI_TILE * lanes) {
+  sl_int t = all - all % SLI_TILE, i, at[SLI_TILE];
+  if (t < all && !is_back) {
+    memset(u->local + lanes * t, 0, SLI_TILE * (size_t)lanes * sizeof(double));
+  }
+  if (lanes == 2) {
+    sli_update_move_rows(u, step, rows, is_back, 2);
+  } else if (lanes == 4) {
+    sli_update_move_rows(u, step, rows, is_back, 4);
+  }
+  for (t = is_back ? own - own % SLI_TILE : 0; t < all && lanes == SLI_TILE; t += SLI_TILE) {
     const sl_int count = sli_min(SLI_TILE, all - t);
-    if (count < SLI_TILE && !is_back) {
-      memset(w, 0, SLI_TILE * (size_t)lanes * sizeof *w);
-    }
+    double *w = u->local + (ptrdiff_t)lanes * t;
     for (i = 0; i < count; i++) {
       at[i] = t + i < own ? step->base + t + i : rows[t + i - own];
     }
-    if (lanes == SLI_TILE && is_back) {
+    if (is_back) {
       kernels->interleave(u->x, sli_rows_of(at, count, lanes), w, SLI_TILE, 0);
-    } else if (lanes == SLI_TILE) {
-      kernels->separate(w, SLI_TILE, u->x, sli_rows_of(at, count, lanes));
     } else {
-      for (i = 0; i < count; i++) {
-        for (r = 0; r < lanes; r++) {
-          double *x = u->x + (ptrdiff_t)lanes * at[i] + r, *y = w + SLI_TILE * r + i;
-          *(is_back ? x : y) = *(is_back ? y : x);
-        }
-      }
+      kernels->separate(w, SLI_TILE, u->x, sli_rows_of(at, count, lanes));
     }
   }
 }
@@ -24903,15 +24946,20 @@ static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_i
   sli_update_move(u, step, rows, 0);
   if (u->sign == 0.0) {
     sli_update_gains(u, step, rows, -1.0);
-  } else {
+  } else if (!u->is_trial) {
     sli_loss_open(u->F, u->F->S->super_of[step->column]);
   }
   for (c0 = entered; c0 < wide && status == SL_OK; c0 = c1) {
-    c1 = sli_min(c0 + SLI_UPDATE_COLUMNS, wide);
-    for (t = c0; t < tiles && status == SL_OK; t++) {
-      if (t > c0) {
-        sli_update_rows(u, step, t, SLI_TILE * c0,
-            sli_min(SLI_TILE * sli_min(t, c1), step->width));
+    sl_int from = SLI_TILE * c0, next;
+    c1 = u->is_trial ? wide : sli_min(c0 + SLI_UPDATE_COLUMNS, wide);
+    for (t = c0; t < tiles && status == SL_OK; t++, from = next) {
+      const sl_int to = sli_min(SLI_TILE * sli_min(t, c1), step->width);
+      const int is_pair =
+        u->lanes == 2 && from == SLI_TILE * c0 && from < to && t + 1 < tiles;
+      next = is_pair && t < c1 ? to : SLI_TILE * c0;
+      if (from < to) {
+        sli_update_rows(u, step, t, from, to, is_pair);
+        t += is_pair && t >= c1;
       }
       if (t < c1) {
         status = sli_update_tile(u, step, t,
@@ -24919,11 +24967,16 @@ static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_i
       }
     }
   }
-  sli_update_close(u, step);
+  if (!u->is_trial) {
+    sli_update_close(u, step);
+  }
   if (status != SL_OK) {
     return status;
   }
   sli_update_move(u, step, rows, 1);
+  if (u->is_trial) {
+    return SL_OK;
+  }
   if (u->sign == 0.0) {
     sli_update_gains(u, step, rows, 1.0);
   }
@@ -24939,7 +24992,7 @@ static sl_int sli_update_first(const sl_symbolic *S, const sl_csc *V, sl_int v) 
   return first;
 }
 
-static double sli_update_largest(const sli_update *u, sl_int count) {
+SLI_COLD static double sli_update_largest(const sli_update *u, sl_int count) {
   double first[SLI_TILE] = {0.0}, second[SLI_TILE] = {0.0}, most = 0.0;
   sl_int k, r;
   for (k = 0; k < u->R.columns; k++) {
@@ -24958,7 +25011,7 @@ static double sli_update_largest(const sli_update *u, sl_int count) {
   return most;
 }
 
-static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
+SLI_COLD static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
   const sl_symbolic *S = u->F->S;
   const sl_csc *V = u->V;
   double largest = -1.0;
@@ -24969,6 +25022,8 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
   u->state->is_mixed = u->sign == 0.0;
   u->state->lanes = u->lanes;
   u->most = u->fall = u->top = u->entry = u->growth = 0.0;
+  u->low = DBL_MAX;
+  u->is_tried = 0;
   u->loss = u->swept = 1.0;
   u->lost = 0.0;
   memset(u->state->U, 0, sizeof u->state->U);
@@ -24999,37 +25054,6 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
   u->fall = u->sign == 0.0 ? sli_update_largest(u, count) : u->fall;
 }
 
-static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count) {
-  const sli_reach *R = &u->R;
-  sl_status status = SL_OK;
-  sl_int s, j, k, r;
-  memset(u->local, 0, SLI_TILE * (size_t)u->lanes * sizeof(double));
-  SLI_COPY(u->trial, u->x, (size_t)R->columns * (size_t)u->lanes);
-  sli_forward_sweep(u->F, u->kind, R, u->trial, u->scratch);
-  u->is_trial = 1;
-  u->shrink = 1.0;
-  for (s = 0; s < R->count; s++) {
-    const sli_step *step = &R->steps[s];
-    for (j = 0; j < sli_step_columns(step) && status == SL_OK; j += SLI_TILE) {
-      const double *y = u->trial + (ptrdiff_t)u->lanes * (step->base + j);
-      const sl_int columns = sli_min(SLI_TILE, sli_step_columns(step) - j);
-      for (k = 0; k < columns; k++, y += u->lanes) {
-        for (r = 0; r < u->lanes; r++) {
-          u->local[SLI_TILE * r + k] = y[r];
-        }
-      }
-      status = sli_update_pivots(u, step->column + j, columns, NULL, u->local, u->c);
-      for (k = 0; k < columns; k++) {
-        u->shrink = fmin(u->shrink, fabs(u->state->e[k] / u->F->D[step->column + j + k]));
-      }
-    }
-  }
-  u->is_trial = 0;
-  u->is_tried = status == SL_OK;
-  sli_update_load(u, group, count);
-  return status;
-}
-
 static sl_status sli_update_run(sli_update *u) {
   const sl_int *rows = u->R.rows;
   sl_status status = SL_OK;
@@ -25041,9 +25065,30 @@ static sl_status sli_update_run(sli_update *u) {
   return status;
 }
 
+static sl_status sli_update_try(sli_update *u) {
+  const size_t size = (size_t)u->R.columns * (size_t)u->lanes;
+  sl_status status;
+  SLI_COPY(u->trial, u->x, size);
+  u->is_trial = 1;
+  status = sli_update_run(u);
+  u->is_trial = 0;
+  u->is_tried = status == SL_OK;
+  SLI_COPY(u->x, u->trial, size);
+  return status;
+}
+
 /* src/impl/change/path.h: rank-one changes, supernode by supernode on one path */
 
-static double sli_path_load(sli_update *u, sl_int v, sl_int s, double *w) {
+#define SLI_PATH_CACHED (1 << 19)
+
+static void sli_path_layout(sli_update *u, sli_block *b, const sli_reach *R, int is_path) {
+  const uint64_t columns = (uint64_t)R->columns + SLI_TILE * (uint64_t)R->count;
+  u->ahead = R->entries > SLI_PATH_CACHED ? SLI_PREFETCH_DISTANCE / 2 : 0;
+  u->path = SLI_TAKE(b, sli_rank_one, is_path ? R->count : 0);
+  u->vectors = SLI_TAKE(b, double, is_path ? 2 * (2 * columns + (uint64_t)R->n_rows) : 0);
+}
+
+SLI_COLD static double sli_path_load(sli_update *u, sl_int v, sl_int s, double *w) {
   const sl_symbolic *S = u->F->S;
   const sl_csc *V = u->V;
   const double sigma = u->sigma == NULL ? 1.0 : u->sigma[v], scale = sqrt(fabs(sigma));
@@ -25089,63 +25134,110 @@ static sl_int sli_path_extent(sli_update *u, sl_int v, sl_int s) {
   return found;
 }
 
-static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
+static sl_status sli_path_take(sli_update *u, const sli_rank_one *one) {
+  sl_factor *F = u->F;
+  const sl_int entered = SLI_TILE * one->first_tile, count = one->width - entered;
+  const sl_int k = F->S->super_first[one->super] + entered;
+  const double *e = one->e + entered;
+  sl_int j;
+  if (!u->is_trial) {
+    sli_loss_open(F, one->super);
+  }
+  for (j = 0; j < count && u->is_tried && u->are_usual; j++) {
+    const double d = F->D[k + j];
+    F->history.loss[k + j] += fabs(d) + fabs(e[j] - d);
+    F->D[k + j] = e[j];
+  }
+  if (u->is_tried && u->are_usual) {
+    return SL_OK;
+  }
+  return sli_update_take_all(u, k, count, e, NULL);
+}
+
+static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_tried) {
   sl_factor *F = u->F;
   const sl_symbolic *S = F->S;
-  sl_int s = S->super_of[sli_key(seed)], i, rest, entered, k;
+  const sli_change_kernels *kernels = sli_change_kernels_of(F->kernels->isa);
+  sl_factor_info *info = &F->stats.factor;
   const sl_int v = sli_value(seed);
-  double *w = u->local, *next = u->other, *last;
+  sl_int s = S->super_of[sli_key(seed)], count = 0, rest, i, k;
+  double *next = u->vectors, *from = NULL, sum = 0.0;
+  sl_int tile = (sli_key(seed) - S->super_first[s]) / SLI_TILE;
+  const sl_int *to = NULL;
   sl_status status = SL_OK;
-  sli_rank_one one;
-  one.is_trial = u->is_trial = is_trial;
-  one.sum = -sli_path_load(u, v, s, w);
-  one.e = u->c;
-  one.b = u->b;
-  one.first_tile = (sli_key(seed) - S->super_first[s]) / SLI_TILE;
+  u->is_trial = is_tried;
+  u->is_tried = 0;
   u->most = u->top = u->entry = u->growth = 0.0;
+  u->low = DBL_MAX;
+  u->are_usual = 1;
   u->loss = u->swept = 1.0;
   u->lost = 0.0;
   u->state->ranks = 1;
-  for (rest = u->V->p[v + 1] - u->V->p[v]; s != -1 && status == SL_OK; s = S->super_parent[s]) {
+  for (; s != -1 && status == SL_OK; s = S->super_parent[s], count++) {
     const sli_step *step = &S->steps[s];
-    const sl_int *to = S->relative + S->rows_begin[s];
-    sli_loss_open(F, s);
+    const sl_int wide = SLI_TILE * sli_tiles(step->width);
+    const sl_int rows = SLI_TILE * sli_tiles(step->width + step->below);
+    sli_rank_one *one = &u->path[count];
+    one->w = next;
+    one->y = next += rows;
+    one->b = next += rows;
+    one->e = next += wide;
+    next += wide;
+    if (count == 0) {
+      sum = -sli_path_load(u, v, s, one->w);
+    } else {
+      memset(one->w + SLI_TILE * tile, 0, (size_t)(rows - SLI_TILE * tile) * sizeof *next);
+      for (i = 0; i < S->steps[one[-1].super].below; i++) {
+        one->w[to[i]] = from[i];
+      }
+    }
     sli_update_open(u, step);
-    one.panel = u->panel;
-    one.D = F->D + step->column;
-    one.width = step->width;
-    one.below = step->below;
-    one.w = w;
-    sli_change_kernels_of(F->kernels->isa)->panel(&one);
-    sli_update_close(u, step);
-    entered = SLI_TILE * one.first_tile;
-    k = step->column + entered;
-    status = sli_update_take_all(u, k, step->width - entered, one.e + entered, NULL);
-    if (!is_trial) {
-      rest -= rest > 0 ? sli_path_extent(u, v, s) : 0;
-      u->entry = fmax(u->entry, F->extents[s].entry);
-      u->growth = fmax(u->growth, F->extents[s].magnitude);
-      if (F->history.marks != NULL) {
-        F->history.marks[s] = 0;
-      }
+    one->ahead = u->ahead;
+    one->super = s;
+    one->panel = u->panel;
+    one->D = F->D + step->column;
+    one->width = step->width;
+    one->below = step->below;
+    one->first_tile = tile;
+    one->sum = sum;
+    kernels->panel(one, 1, !is_tried);
+    if (!is_tried) {
+      sli_update_close(u, step);
     }
-    if (S->super_parent[s] != -1) {
-      const sli_step *up = &S->steps[S->super_parent[s]];
-      one.first_tile = to[0] / SLI_TILE;
-      memset(next + SLI_TILE * one.first_tile, 0,
-          SLI_TILE * (size_t)(sli_tiles(up->width + up->below) - one.first_tile) *
-          sizeof *next);
-      for (i = 0; i < step->below; i++) {
-        next[to[i]] = w[step->width + i];
-      }
-      last = w;
-      w = next;
-      next = last;
-    }
+    sum = one->sum;
+    status = sli_path_take(u, one);
+    from = (is_tried ? one->y : one->w) + step->width;
+    to = S->relative + S->rows_begin[s];
+    tile = step->below > 0 ? to[0] / SLI_TILE : 0;
   }
   u->is_trial = 0;
-  u->is_tried = is_trial && status == SL_OK;
-  return status;
+  if (status != SL_OK) {
+    return status;
+  }
+  u->is_tried = is_tried;
+  for (k = 0; k < count && is_tried; k++) {
+    (void)sli_path_take(u, &u->path[k]);
+  }
+  info->pivot_min = fmin(info->pivot_min, u->low);
+  info->pivot_max = fmax(info->pivot_max, u->top);
+  for (k = count - 1; k >= 0 && is_tried; k--) {
+    const sli_step *step = &S->steps[u->path[k].super];
+    sli_update_open(u, step);
+    u->path[k].panel = u->panel;
+    kernels->panel(&u->path[k], 0, 1);
+    sli_update_close(u, step);
+  }
+  rest = u->V->p[v + 1] - u->V->p[v];
+  for (k = 0; k < count; k++) {
+    s = u->path[k].super;
+    rest -= rest > 0 ? sli_path_extent(u, v, s) : 0;
+    u->entry = fmax(u->entry, F->extents[s].entry);
+    u->growth = fmax(u->growth, F->extents[s].magnitude);
+    if (F->history.marks != NULL) {
+      F->history.marks[s] = 0;
+    }
+  }
+  return SL_OK;
 }
 
 /* src/impl/change/rank_vectors.h: rank-k changes: the state; the vectors, checked, sorted, measured by passes */
@@ -25163,9 +25255,7 @@ typedef struct sli_rank {
   sl_int updates;
   int has_trial;
   int has_log;
-  int needs_log;
   sl_int logged;
-  int is_changed;
   double flops;
   double pivots;
   sl_off entries;
@@ -25203,7 +25293,7 @@ static sl_status sli_rank_check(const sl_factor *F) {
       : "an update of L in float or complex");
 }
 
-static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first) {
+SLI_COLD static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first) {
   const sl_symbolic *S = q->S;
   const sl_csc *V = q->u.V;
   const double sigma = q->u.sigma == NULL ? 1.0 : q->u.sigma[v];
@@ -25231,7 +25321,7 @@ static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first
   return SL_OK;
 }
 
-static void sli_rank_layout_seeds(void *data, sli_block *b) {
+SLI_COLD static void sli_rank_layout_seeds(void *data, sli_block *b) {
   sli_rank *q = (sli_rank *)data;
   q->seeds = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
   q->scratch = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
@@ -25252,7 +25342,14 @@ static int sli_rank_may_overflow(const sli_rank *q, double size) {
       info->pivot_min >= SLI_RANK_SMALL);
 }
 
-static void sli_rank_group(const sli_rank *q, sl_int first, sl_int last, sl_int *group,
+static int sli_rank_prefers_log(const sli_rank *q) {
+  const sl_isa isa = q->u.F->kernels->isa;
+  const sl_off times = q->count > 4 && isa != SL_ISA_AVX512 ? 8 : 1;
+  return q->count > SLI_TILE || (q->count > (isa == SL_ISA_SCALAR ? 1 : 2) &&
+      q->whole.entries <= SLI_RANK_LOGGED * times);
+}
+
+SLI_NOINLINE static void sli_rank_group(const sli_rank *q, sl_int first, sl_int last, sl_int *group,
     uint64_t *seeds) {
   uint64_t unused[SLI_TILE];
   sl_int k;
@@ -25326,17 +25423,14 @@ static void sli_rank_sort(void *data) {
   }
   sli_sort(q->whole_seeds, q->count, q->scratch);
   sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
-  q->has_log = q->u.sign == 0.0 || q->needs_log || sli_rank_may_overflow(q, size) ||
-         (rest > 0 &&
-          (q->count > SLI_TILE || (q->count > 1 && q->whole.entries <= SLI_RANK_LOGGED))) ||
+  q->has_log = q->u.sign == 0.0 || sli_rank_may_overflow(q, size) ||
+         (rest > 0 && sli_rank_prefers_log(q)) ||
          q->u.F->limits.growth < 2.0;
   q->has_trial = rest > 0 && !q->has_log;
   sli_rank_measure(q);
 }
 
 /* src/impl/change/rank.h: sl_factor_update: passes of a rank-k change, their growth, the log that undoes them */
-
-#define SLI_RANK_CLOSE 1e-3
 
 static const char sli_growth_exceeded[] = "pivot growth exceeds options.growth_limit";
 
@@ -25353,7 +25447,7 @@ static uint64_t sli_rank_panels(const sl_symbolic *S, const uint64_t *seeds, sl_
   return size;
 }
 
-static void sli_rank_layout(void *data, sli_block *b) {
+SLI_COLD static void sli_rank_layout(void *data, sli_block *b) {
   sli_rank *q = (sli_rank *)data;
   const sl_symbolic *S = q->S;
   sli_reach R = q->whole;
@@ -25363,6 +25457,7 @@ static void sli_rank_layout(void *data, sli_block *b) {
   }
   sli_update_layout(&q->u, b, &R, (sl_int)1 << sli_update_kind(sli_min(q->count, 8)),
       q->has_trial);
+  sli_path_layout(&q->u, b, &q->whole, sli_rank_is_path(q, q->count % SLI_TILE));
   if (q->has_log) {
     q->log = SLI_TAKE(b, double, sli_rank_panels(S, q->whole_seeds, q->count));
     q->log_D = SLI_TAKE(b, double, q->whole.columns);
@@ -25373,7 +25468,7 @@ static void sli_rank_layout(void *data, sli_block *b) {
   }
 }
 
-static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
+SLI_COLD static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
   sl_factor *F = q->u.F;
   double *log = q->log, *log_D = q->log_D, *log_loss = q->log_loss;
   sl_int k;
@@ -25405,7 +25500,7 @@ static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
   }
 }
 
-static void sli_rank_identify(sli_rank *q) {
+SLI_COLD static void sli_rank_identify(sli_rank *q) {
   sl_factor *F = q->u.F;
   const sl_csc *V = q->u.V;
   F->identity = sli_hash_ints(F->identity, V->p, (sl_off)V->n_cols + 1);
@@ -25424,7 +25519,7 @@ static void sli_rank_unmark(sl_factor *F, const sli_step *steps, sl_int count) {
   }
 }
 
-static double sli_rank_shown(const sli_update *u) {
+SLI_COLD static double sli_rank_shown(const sli_update *u) {
   const sl_factor *F = u->F;
   const sl_symbolic *S = F->S;
   double unused, most = fabs(sli_update_entry(F, u->row, &unused));
@@ -25485,19 +25580,12 @@ static sl_status sli_rank_passes(sli_rank *q) {
     last = sli_rank_pass(q, k);
     sli_rank_group(q, k, last, group, seeds);
     if (sli_rank_is_path(q, last - k)) {
-      status = q->has_trial ? sli_path_run(&q->u, seeds[0], 1) : SL_OK;
-      q->is_changed |= status == SL_OK;
-      status = status == SL_OK ? sli_path_run(&q->u, seeds[0], 0) : status;
+      status = sli_path_run(&q->u, seeds[0], q->has_trial);
     } else {
       sli_reach_fill(F->S, seeds, last - k, q->u.steps, q->u.rows, &q->u.R);
       sli_update_load(&q->u, group, last - k);
-      status = q->has_trial ? sli_update_try(&q->u, group, last - k) : SL_OK;
-      if (status == SL_OK && q->has_trial && q->u.shrink < SLI_RANK_CLOSE) {
-        q->needs_log = 1;
-        return SL_OK;
-      }
+      status = q->has_trial ? sli_update_try(&q->u) : SL_OK;
       sli_rank_unmark(F, q->u.steps, status == SL_OK ? q->u.R.count : 0);
-      q->is_changed |= status == SL_OK;
       status = status == SL_OK ? sli_update_run(&q->u) : status;
     }
     if (status == SL_OK) {
@@ -25516,7 +25604,7 @@ static sl_status sli_rank_passes(sli_rank *q) {
   return status;
 }
 
-static sl_status sli_rank_run(sli_rank *q) {
+SLI_NOINLINE static sl_status sli_rank_run(sli_rank *q) {
   sl_factor *F = q->u.F;
   const sli_factor_stats before = F->stats;
   sli_history history;
@@ -25542,9 +25630,6 @@ static sl_status sli_rank_run(sli_rank *q) {
     sli_rank_log(q, q->logged, 0);
   }
   status = sli_rank_passes(q);
-  if (q->needs_log && !q->has_log) {
-    return SL_OK;
-  }
   if (status == SL_OK) {
     F->history.updates += q->count;
     F->stats.factor.bytes += F->history.bytes;
@@ -25556,10 +25641,6 @@ static sl_status sli_rank_run(sli_rank *q) {
     sli_rank_log(q, q->logged, 1);
     F->stats = before;
     F->history = history;
-  } else if (q->is_changed) { /* untested: rounding has taken all digits of a pivot, */
-    F->is_valid = 0; /* untested: although the trial found it far from 0 */
-    F->status = status; /* untested: the same */
-    F->generation++; /* untested: the same */
   }
   return sli_fail_at(q->stats, status, F->S->perm[q->u.pivot], -1, q->u.value,
       status == SL_ERR_INACCURATE ? sli_growth_exceeded
@@ -25605,15 +25686,10 @@ static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) 
 static const sli_stage sli_rank_stages[2] = {{sli_rank_layout_seeds, sli_rank_sort},
                        {sli_rank_layout, NULL}};
 
-static sl_status sli_rank_run_logged(sli_rank *q, const sli_stage *stages, int count, sl_work *W) {
+static sl_status sli_rank_run_prepared(sli_rank *q) {
   const int is_counted = q->count > 0 && q->u.sign != 0.0;
-  sl_status status = is_counted ? sli_loss_begin(q->u.F) : SL_OK;
-  status = status == SL_OK ? sli_rank_run(q) : status;
-  if (q->needs_log) {
-    status = sli_work_stages(W, stages, count, q);
-    status = status == SL_OK ? sli_rank_run(q) : status;
-  }
-  return status;
+  const sl_status status = is_counted ? sli_loss_begin(q->u.F) : SL_OK;
+  return status == SL_OK ? sli_rank_run(q) : status;
 }
 
 static sl_status sli_rank_apply(sli_rank *q, const sli_stage *stages, int count, sl_work *W) {
@@ -25623,7 +25699,7 @@ static sl_status sli_rank_apply(sli_rank *q, const sli_stage *stages, int count,
   status = sli_work_grow(W, 1);
   status = status == SL_OK ? sli_work_stages(W, stages, count, q) : status;
   status = status == SL_OK ? q->status : status;
-  status = status == SL_OK ? sli_rank_run_logged(q, stages, count, W) : status;
+  status = status == SL_OK ? sli_rank_run_prepared(q) : status;
   sli_free(&own.allocator, own.block);
   return status;
 }
@@ -25659,7 +25735,7 @@ SL_API sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *s
 
 #define SLI_EDGES_HEAVY 16.0
 
-static void sli_edges_layout(void *data, sli_block *b) {
+SLI_COLD static void sli_edges_layout(void *data, sli_block *b) {
   sli_rank *q = (sli_rank *)data;
   const uint64_t count = (uint64_t)q->n_entries;
   q->p = SLI_TAKE(b, sl_int, 3 * count + 1);
@@ -26031,7 +26107,7 @@ static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc 
     *method = sli_choose_make(c, F, 1);
   }
   if (*method == SL_CHANGE_UPDATE) {
-    status = sli_rank_run_logged(q, sli_edges_stages, 3, W);
+    status = sli_rank_run_prepared(q);
     if (status != SL_OK) {
       c->reason = SL_CHANGE_REFUSED;
       *method = SL_CHANGE_REFACTOR;
@@ -35619,6 +35695,8 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_COST_SUPER_ONE_FACTOR
 #undef SLI_COST_WIDE_ONE_FACTOR
 #undef SLI_UPDATE_COLUMNS
+#undef SLI_RANK_LOGGED
+#undef SLI_PATH_CACHED
 #undef SLI_CHANGE_ENTRY
 #undef SLI_CHANGE_HIDDEN
 #undef SLI_CHANGE_PIVOT
@@ -35637,10 +35715,8 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_PINS_NUMBER
 #undef SLI_PINS_PIN
 #undef SLI_PINS_SINGLY
-#undef SLI_RANK_LOGGED
 #undef SLI_RANK_LARGE
 #undef SLI_RANK_SMALL
-#undef SLI_RANK_CLOSE
 #undef SLI_EDGES_HEAVY
 #undef SLI_LOSS_SMALL
 #undef SLI_PINS_DENSE
@@ -36876,8 +36952,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   SLV_BROADCAST(s, c + (ranks) + (r)) \
   SLV_FNMA(a, w##r, s)
 #define SLI_CHANGE_KERNEL(name, ranks, each) \
-  SLV_FUNCTION static void SLV_NAME(name)(double *l, sl_int columns, const double *c, \
-      double *w) { \
+  SLV_FUNCTION static void SLV_NAME(name)(double *l, sl_int columns, const double *c, double *w, \
+      int is_trial) { \
     sl_int j; \
     SLV_DECLARE(a) \
     SLV_DECLARE(s) \
@@ -36885,7 +36961,9 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
       each(SLI_LOAD, 0) for (j = 0; j < columns; j++, l += SLI_TILE, c += 2 * (ranks)) { \
       SLV_LOAD_PINNED(a, l) \
       SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE); \
-      each(SLI_CARRY, 0) each(SLI_CHANGE, ranks) SLV_STORE(l, a) \
+      each(SLI_CARRY, 0) if (!is_trial) { \
+        each(SLI_CHANGE, ranks) SLV_STORE(l, a) \
+      } \
     } \
     each(SLI_STORE, 0) \
   }
@@ -36893,23 +36971,61 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #if defined(SLV_ARRAYS)
 SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(change)(double *l, sl_int columns, sl_int ranks,
-    const double *c, double *w) {
+    const double *c, double *w, int is_trial) {
   sl_int j, r;
   for (j = 0; j < columns; j++, l += SLI_TILE, c += 2 * ranks) {
     for (r = 0; r < ranks; r++) {
       SLI_LOOP(SLI_TILE, w[SLI_TILE * r + i_] -= l[i_] * c[r])
     }
-    for (r = 0; r < ranks; r++) {
+    for (r = 0; r < ranks && !is_trial; r++) {
       SLI_LOOP(SLI_TILE, l[i_] -= w[SLI_TILE * r + i_] * c[ranks + r])
     }
   }
 }
 #undef SLI_CHANGE_KERNEL
 #define SLI_CHANGE_KERNEL(name, ranks, unused) \
-  SLV_FUNCTION static void SLV_NAME(name)(double *l, sl_int columns, const double *c, \
-      double *w) { \
-    SLV_NAME(change)(l, columns, ranks, c, w); \
+  SLV_FUNCTION static void SLV_NAME(name)(double *l, sl_int columns, const double *c, double *w, \
+      int is_trial) { \
+    SLV_NAME(change)(l, columns, ranks, c, w, is_trial); \
   }
+SLV_FUNCTION static void SLV_NAME(change_pair)(double *l, double *l1, sl_int columns,
+    const double *c, double *w, int is_trial) {
+  SLV_NAME(change)(l, columns, 2, c, w, is_trial);
+  SLV_NAME(change)(l1, columns, 2, c, w + 2 * SLI_TILE, is_trial);
+}
+#else
+SLV_FUNCTION static void SLV_NAME(change_pair)(double *l, double *l1, sl_int columns,
+    const double *c, double *w, int is_trial) {
+  sl_int j;
+  SLV_DECLARE(a)
+  SLV_DECLARE(b)
+  SLV_DECLARE(s)
+  SLI_EACH4(SLI_DECLARE, 0)
+  SLI_EACH4(SLI_LOAD, 0)
+  for (j = 0; j < columns; j++, l += SLI_TILE, l1 += SLI_TILE, c += 4) {
+    SLV_LOAD_PINNED(a, l)
+    SLV_LOAD_PINNED(b, l1)
+    SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+    SLI_PREFETCH(l1, SLI_PREFETCH_DISTANCE);
+    SLV_BROADCAST(s, c)
+    SLV_FNMA(w0, a, s)
+    SLV_FNMA(w2, b, s)
+    SLV_BROADCAST(s, c + 1)
+    SLV_FNMA(w1, a, s)
+    SLV_FNMA(w3, b, s)
+    if (!is_trial) {
+      SLV_BROADCAST(s, c + 2)
+      SLV_FNMA(a, w0, s)
+      SLV_FNMA(b, w2, s)
+      SLV_BROADCAST(s, c + 3)
+      SLV_FNMA(a, w1, s)
+      SLV_FNMA(b, w3, s)
+      SLV_STORE(l, a)
+      SLV_STORE(l1, b)
+    }
+  }
+  SLI_EACH4(SLI_STORE, 0)
+}
 #endif
 
 SLI_CHANGE_KERNEL(change2, 2, SLI_EACH2)
@@ -36918,26 +37034,39 @@ SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
 #undef SLI_CARRY
 #undef SLI_CHANGE
 
+#define SLI_FORWARD(k, unused) \
+  if (SLI_IS_IN(k, columns)) { \
+    SLV_LANE(s, x, k) \
+    SLV_DOT(x, l + SLI_TILE * (k), s) \
+  }
+SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(change_forward)(const double *l, sl_int columns,
+    const double *w, double *y) {
+  SLV_DECLARE(x)
+  SLV_DECLARE(s)
+#if defined(SLV_ARRAYS)
+  sl_int k;
+  SLV_LOAD(x, w)
+  for (k = 0; k < columns; k++) {
+    SLI_FORWARD(k, 0)
+  }
+#else
+  SLV_LOAD(x, w)
+  SLI_EACH8(SLI_FORWARD, 0)
+#endif
+  SLV_STORE(y, x)
+}
+#undef SLI_FORWARD
+
 SLV_FUNCTION SLI_INLINE void SLV_NAME(change_rows)(const sli_ranks *u, const double *l,
     sl_int columns, const double *w, double *f,
     double *y) {
   const sl_int ranks = u->ranks;
-  sl_int i, j, r;
+  sl_int i, r;
   SLV_DECLARE(a)
   SLV_DECLARE(x)
   SLV_DECLARE(s)
-  if (u->lanes < SLI_TILE) {
-    memset(f, 0, SLI_TILE * SLI_TILE * sizeof *f);
-  }
-  memcpy(f, w, SLI_TILE * (size_t)u->lanes * sizeof *f);
-  for (j = 0; j < columns && l != NULL; j++) {
-    SLV_LOAD_PINNED(a, l + SLI_TILE * j)
-    for (r = 0; r < ranks; r++) {
-      SLV_LOAD(x, f + SLI_TILE * r)
-      SLV_BROADCAST(s, f + SLI_TILE * r + j)
-      SLV_FNMA(x, a, s)
-      SLV_STORE(f + SLI_TILE * r, x)
-    }
+  for (r = 0; r < u->lanes; r++) {
+    SLV_NAME(change_forward)(l, columns, w + SLI_TILE * r, f + SLI_TILE * r);
   }
   SLV_TRANSPOSE(y, f)
   for (r = ranks - 1; r > 0; r--) {
@@ -36956,7 +37085,6 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
     const double *d, const double *w, double *c) {
   SLI_ALIGNED(double f[SLI_TILE * SLI_TILE]);
   SLI_ALIGNED(double y[SLI_TILE * SLI_TILE]);
-  SLI_ALIGNED(double b[SLI_TILE]);
   const sl_int ranks = u->ranks, lanes = u->lanes;
   sl_int j, r;
   SLV_DECLARE(a)
@@ -37012,80 +37140,101 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
     inverse = -inverse;
     SLV_BROADCAST(p, &inverse)
     SLV_MULTIPLY(x, t, p)
-    if (lanes == SLI_TILE) {
-      SLV_LOAD(a, y + SLI_TILE * j)
-      SLV_STORE(c, a)
-      SLV_STORE(c + SLI_TILE, x)
-    } else {
-      SLV_STORE(b, x)
-      SLI_COPY(c, y + SLI_TILE * j, lanes);
-      SLI_COPY(c + lanes, b, lanes);
-    }
+    SLV_LOAD(a, y + SLI_TILE * j)
+    SLV_STORE_ANY(c, a)
+    SLV_STORE_ANY(c + lanes, x)
     c += 2 * lanes;
   }
   return columns;
 }
 
 #define SLI_EACH1(op, k) op(0, k)
+#define SLI_EACH3(op, k) op(0, k) op(1, k) op(2, k)
+#if defined(SLV_ARRAYS)
+#define SLI_CHAINS 1
+#define SLI_BY_COUNT(loop) loop(SLI_EACH1)
+#else
+#define SLI_CHAINS 4
+#define SLI_BY_COUNT(loop) \
+  switch (count) { \
+  case 1: \
+    loop(SLI_EACH1) break; \
+  case 2: \
+    loop(SLI_EACH2) break; \
+  case 3: \
+    loop(SLI_EACH3) break; \
+  default: \
+    loop(SLI_EACH4) \
+  }
+#endif
 #define SLI_POINT(t, unused) double *const l##t = tiles[t];
+#define SLI_SWEEP(t, unused) SLV_DOT(w##t, l##t + SLI_TILE * j, s)
+#define SLI_SWEEP_LOOP(each) \
+  { \
+    each(SLI_POINT, 0) each(SLI_DECLARE, 0) each(SLI_LOAD, 0) for (j = first; j < last; j++){ \
+      SLV_BROADCAST(s, y + j) each(SLI_SWEEP, 0)} each(SLI_STORE, 0) \
+  }
 #define SLI_CHANGE(t, unused) \
   SLV_LOAD_PINNED(a, l##t + SLI_TILE * j) \
+  SLI_PREFETCH(l##t + SLI_TILE * j, ahead); \
   SLV_FNMA(w##t, a, s) \
-  if (!is_trial) { \
-    SLV_FNMA(a, w##t, r) \
-    SLV_STORE(l##t + SLI_TILE * j, a) \
-  }
-#define SLI_TILES_KERNEL(name, each) \
-  SLV_FUNCTION SLI_INLINE void SLV_NAME(name)(double *const *tiles, ptrdiff_t first, \
-      ptrdiff_t last, const double *y, const double *b, \
-      double *w, int is_trial) { \
-    ptrdiff_t j; \
-    SLV_DECLARE(a) \
-    SLV_DECLARE(s) \
-    SLV_DECLARE(r) \
+  SLV_FNMA(a, w##t, r) \
+  SLV_STORE(l##t + SLI_TILE * j, a)
+#define SLI_CHANGE_LOOP(each) \
+  { \
     each(SLI_POINT, 0) each(SLI_DECLARE, 0) each(SLI_LOAD, 0) for (j = first; j < last; j++){ \
       SLV_BROADCAST(s, y + j) SLV_BROADCAST(r, b + j) \
         each(SLI_CHANGE, 0)} each(SLI_STORE, 0) \
   }
-#if defined(SLV_ARRAYS)
-#define SLI_CHAINS 1
-#define SLI_ONE_TILE SLV_NAME(change_tiles)
-SLI_TILES_KERNEL(change_tiles, SLI_EACH1)
-#else
-#define SLI_CHAINS 4
-#define SLI_ONE_TILE SLV_NAME(change_tile)
-SLI_TILES_KERNEL(change_tile, SLI_EACH1)
-SLI_TILES_KERNEL(change_tiles, SLI_EACH4)
-#endif
+SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(change_tiles)(sl_int count, double *const *tiles,
+    ptrdiff_t first, ptrdiff_t last,
+    const double *y, const double *b,
+    double *w, int has_change,
+    ptrdiff_t ahead) {
+  ptrdiff_t j;
+  SLV_DECLARE(a)
+  SLV_DECLARE(s)
+  SLV_DECLARE(r)
+  (void)count;
+  (void)ahead;
+  if (has_change) {
+    SLI_BY_COUNT(SLI_CHANGE_LOOP)
+  } else {
+    SLI_BY_COUNT(SLI_SWEEP_LOOP)
+  }
+}
 #undef SLI_EACH1
+#undef SLI_EACH3
+#undef SLI_BY_COUNT
 #undef SLI_POINT
+#undef SLI_SWEEP
+#undef SLI_SWEEP_LOOP
 #undef SLI_CHANGE
-#undef SLI_TILES_KERNEL
+#undef SLI_CHANGE_LOOP
 
+#if defined(SLV_ARRAYS)
+static void SLV_NAME(change_pivots)(sli_rank_one *u, sl_int j, sl_int columns) {
+  sl_int k;
+  for (k = j; k < j + columns; k++) {
+    const double q = u->y[k] / u->D[k], before = u->sum;
+    const double z = u->y[k] * q;
+    u->sum -= z;
+    u->b[k] = q / u->sum;
+    u->e[k] = u->D[k] * (u->sum / before);
+  }
+}
+#else
 #define SLI_BEFORE(k) (k)
 #define SLI_AFTER(k) ((k) + 1)
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(sli_rank_one *u, double *l, sl_int j,
-    sl_int columns) {
-  double *const b = u->b + j, *const w = u->w + j;
+SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(sli_rank_one *u, sl_int j, sl_int columns) {
   SLI_ALIGNED(double z[SLI_TILE]);
   double g[SLI_TILE + 1];
   sl_int k;
-  SLV_DECLARE(x)
   SLV_DECLARE(y)
   SLV_DECLARE(q)
   SLV_DECLARE(s)
-  SLV_LOAD(x, w)
-  if (columns == SLI_TILE) {
-    SLV_SWEEP(tile_forward)(l, w);
-  } else {
-    SLV_LOAD(y, w)
-    for (k = 0; k < columns; k++) {
-      SLV_AXPY(y, l + SLI_TILE * k, w + k)
-      SLV_STORE(w, y)
-    }
-  }
-  SLV_LOAD_PART(y, w, columns, 0.0)
+  SLV_LOAD_PART(y, u->y + j, columns, 0.0)
   SLV_LOAD_PART(s, u->D + j, columns, 1.0)
   SLV_DIVIDE(q, y, s)
   SLV_MULTIPLY(y, y, q)
@@ -37097,58 +37246,78 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(sli_rank_one *u, double *l,
   }
   SLV_GATHER(y, g, SLI_AFTER)
   SLV_DIVIDE(q, q, y)
-  SLV_STORE(b, q)
+  SLV_STORE(u->b + j, q)
   SLV_GATHER(q, g, SLI_BEFORE)
   SLV_DIVIDE(y, y, q)
   SLV_MULTIPLY(s, s, y)
   SLV_STORE(u->e + j, s)
   u->sum = g[SLI_TILE];
-  for (k = 0; k < columns && !u->is_trial; k++, l += SLI_TILE) {
-    SLV_LOAD_PINNED(y, l)
-    SLV_BROADCAST(s, w + k)
-    SLV_FNMA(x, y, s)
-    SLV_BROADCAST(s, b + k)
-    SLV_FNMA(y, x, s)
-    SLV_BELOW(y, k)
-    SLV_STORE(l, y)
-  }
 }
 
 #undef SLI_BEFORE
 #undef SLI_AFTER
+#endif
 
-SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
+SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u, int has_sweep, int has_change) {
   const sl_int width = u->width, first = SLI_TILE * u->first_tile;
-  const sl_int tiles = sli_tiles(width + u->below);
-  double *l = u->panel + sli_tile_offset(width, u->first_tile), *at[SLI_CHAINS];
-  double *const w = u->w, *const b = u->b;
-  sl_int t0 = u->first_tile, count, t, k;
-  for (; t0 < tiles; t0 += count) {
-    const sl_int row = SLI_TILE * t0, last = sli_min(row, width);
-    count = sli_min(tiles - t0, SLI_CHAINS);
+  const sl_int rows = SLI_TILE * sli_tiles(width + u->below);
+  double *l = u->panel + sli_tile_offset(width, u->first_tile), *at[SLI_CHAINS] = {NULL};
+  double *const y = u->y, *const b = u->b, *const w = has_change ? u->w : y;
+  sl_int row, count, t, j, k;
+  if (!has_change) {
+    SLI_COPY(y + first, u->w + first, rows - first);
+  }
+  for (row = first; row < rows; row += SLI_TILE * count) {
+    count = sli_min((rows - row) / SLI_TILE, SLI_CHAINS);
     for (t = 0; t < count; t++) {
       at[t] = l;
       l += SLI_TILE * sli_min(width, row + SLI_TILE * (t + 1));
     }
-    if (count == SLI_CHAINS) {
-      SLV_NAME(change_tiles)(at, first, last, w, b, w + row, u->is_trial);
-    } else {
-      for (t = 0; t < count; t++) {
-        SLI_ONE_TILE(at + t, first, last, w, b, w + row + SLI_TILE * t, u->is_trial);
+    SLV_NAME(change_tiles)(count, at, first, sli_min(row, width), y, b, w + row, has_change,
+        u->ahead);
+    for (t = 1; t <= count && row + SLI_TILE * (t - 1) < width; t++) {
+      double *inner;
+      SLV_DECLARE(x)
+      SLV_DECLARE(a)
+      SLV_DECLARE(s)
+      j = row + SLI_TILE * (t - 1);
+      k = sli_min(SLI_TILE, width - j);
+      inner = at[t - 1] + SLI_TILE * j;
+      if (has_sweep && k < SLI_TILE) {
+        SLV_NAME(change_forward)(inner, k, w + j, y + j);
+      } else if (has_sweep) {
+        if (has_change) {
+          SLV_LOAD(x, w + j)
+          SLV_STORE(y + j, x)
+        }
+        SLV_SWEEP(tile_forward)(inner, y + j);
       }
-    }
-    for (t = 0; t < count && row + SLI_TILE * t < width; t++) {
-      const sl_int j = row + SLI_TILE * t, columns = sli_min(SLI_TILE, width - j);
-      SLV_NAME(change_pivots)(u, at[t] + SLI_TILE * j, j, columns);
-      for (k = t + 1; k < count; k++) {
-        SLI_ONE_TILE(at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);
+      if (has_sweep) {
+        SLV_NAME(change_pivots)(u, j, k);
+      }
+      if (has_change) {
+        SLV_LOAD(x, w + j)
+        for (k = j; k < sli_min(j + SLI_TILE, width); k++, inner += SLI_TILE) {
+          SLV_LOAD_PINNED(a, inner)
+          SLV_BROADCAST(s, y + k)
+          SLV_FNMA(x, a, s)
+          SLV_BROADCAST(s, b + k)
+          SLV_FNMA(a, x, s)
+          SLV_BELOW(a, (k - j))
+          SLV_STORE(inner, a)
+        }
+        SLV_STORE(w + j, x)
+      }
+      if (t < count) {
+        SLV_NAME(change_tiles)
+        (count - t, at + t, j, sli_min(j + SLI_TILE, width), y, b, w + j + SLI_TILE,
+         has_change, 0);
       }
     }
   }
 }
 #undef SLI_CHANGE_KERNEL
 #undef SLI_CHAINS
-#undef SLI_ONE_TILE
 #undef SLI_EACH2
 #undef SLI_DECLARE
 #undef SLI_LOAD
@@ -37156,6 +37325,7 @@ SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
 
 static const sli_change_kernels SLV_NAME(change_kernels) = {
   {SLV_NAME(change2), SLV_NAME(change4), SLV_NAME(change8)},
+  SLV_NAME(change_pair),
   SLV_NAME(change_ranks),
   SLV_NAME(change_panel)};
 #endif

@@ -17,9 +17,7 @@
  *  null pivot on its way. Errors add up: refactor if growth or stats.change.drift is too large.
  *  Drift counts what a row loses relative to its own entries, if all pivots have one sign.
  *
- *  F      [in,out]  the factor. On error it is as before, bit for bit. It has no numbers only where
- *                   rounding takes every digit of a pivot that a trial had found above 1e-3 of the
- *                   old one.
+ *  F      [in,out]  the factor. On error it is as before, bit for bit.
  *  V      [in]      n x k, any k, in the rows of A; duplicates are summed, zeros ignored.
  *  sigma  [in]      k weights of any sign; NULL: all 1.
  *  stats  [out]     change, factor. For pivots of both signs growth, pivot_min and pivot_max become
@@ -32,7 +30,7 @@
  *           numbers; SL_ERR_READ_ONLY: F is mapped; SL_ERR_UNSUPPORTED: null pivots were skipped,
  *           there are 2x2 pivots, or L is not in double; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
- *           written once for 8 vectors. Changes that may fail take another forward sweep or a copy.
+ *           written once for 8 vectors. Changes that may fail read them once more, or copy them.
  *           The first change of a definite factor allocates 9 bytes a row, for drift.
  *  Threads  exclusive use of F.
  *  Source   [DH01], with the factorization of [Bie76] for several vectors.

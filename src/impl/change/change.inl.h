@@ -12,8 +12,8 @@
     SLV_BROADCAST(s, c + (ranks) + (r)) \
     SLV_FNMA(a, w##r, s)
 #define SLI_CHANGE_KERNEL(name, ranks, each) \
-    SLV_FUNCTION static void SLV_NAME(name)(double *l, sl_int columns, const double *c, \
-                                            double *w) { \
+    SLV_FUNCTION static void SLV_NAME(name)(double *l, sl_int columns, const double *c, double *w, \
+                                            int is_trial) { \
         sl_int j; \
         SLV_DECLARE(a) \
         SLV_DECLARE(s) \
@@ -21,7 +21,9 @@
             each(SLI_LOAD, 0) for (j = 0; j < columns; j++, l += SLI_TILE, c += 2 * (ranks)) { \
             SLV_LOAD_PINNED(a, l) \
             SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE); \
-            each(SLI_CARRY, 0) each(SLI_CHANGE, ranks) SLV_STORE(l, a) \
+            each(SLI_CARRY, 0) if (!is_trial) { \
+                each(SLI_CHANGE, ranks) SLV_STORE(l, a) \
+            } \
         } \
         each(SLI_STORE, 0) \
     }
@@ -29,23 +31,62 @@
 
 #if defined(SLV_ARRAYS) /* the same operations, in a loop over the vectors */
 SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(change)(double *l, sl_int columns, sl_int ranks,
-                                                       const double *c, double *w) {
+                                                       const double *c, double *w, int is_trial) {
     sl_int j, r;
     for (j = 0; j < columns; j++, l += SLI_TILE, c += 2 * ranks) {
         for (r = 0; r < ranks; r++) {
             SLI_LOOP(SLI_TILE, w[SLI_TILE * r + i_] -= l[i_] * c[r])
         }
-        for (r = 0; r < ranks; r++) {
+        for (r = 0; r < ranks && !is_trial; r++) {
             SLI_LOOP(SLI_TILE, l[i_] -= w[SLI_TILE * r + i_] * c[ranks + r])
         }
     }
 }
 #undef SLI_CHANGE_KERNEL
 #define SLI_CHANGE_KERNEL(name, ranks, unused) \
-    SLV_FUNCTION static void SLV_NAME(name)(double *l, sl_int columns, const double *c, \
-                                            double *w) { \
-        SLV_NAME(change)(l, columns, ranks, c, w); \
+    SLV_FUNCTION static void SLV_NAME(name)(double *l, sl_int columns, const double *c, double *w, \
+                                            int is_trial) { \
+        SLV_NAME(change)(l, columns, ranks, c, w, is_trial); \
     }
+SLV_FUNCTION static void SLV_NAME(change_pair)(double *l, double *l1, sl_int columns,
+                                               const double *c, double *w, int is_trial) {
+    SLV_NAME(change)(l, columns, 2, c, w, is_trial);
+    SLV_NAME(change)(l1, columns, 2, c, w + 2 * SLI_TILE, is_trial);
+}
+#else
+/* 2 vectors and two row tiles: the chains of w of one tile are too few. */
+SLV_FUNCTION static void SLV_NAME(change_pair)(double *l, double *l1, sl_int columns,
+                                               const double *c, double *w, int is_trial) {
+    sl_int j;
+    SLV_DECLARE(a)
+    SLV_DECLARE(b)
+    SLV_DECLARE(s)
+    SLI_EACH4(SLI_DECLARE, 0)
+    SLI_EACH4(SLI_LOAD, 0)
+    for (j = 0; j < columns; j++, l += SLI_TILE, l1 += SLI_TILE, c += 4) {
+        SLV_LOAD_PINNED(a, l)
+        SLV_LOAD_PINNED(b, l1)
+        SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+        SLI_PREFETCH(l1, SLI_PREFETCH_DISTANCE);
+        SLV_BROADCAST(s, c)
+        SLV_FNMA(w0, a, s)
+        SLV_FNMA(w2, b, s)
+        SLV_BROADCAST(s, c + 1)
+        SLV_FNMA(w1, a, s)
+        SLV_FNMA(w3, b, s)
+        if (!is_trial) {
+            SLV_BROADCAST(s, c + 2)
+            SLV_FNMA(a, w0, s)
+            SLV_FNMA(b, w2, s)
+            SLV_BROADCAST(s, c + 3)
+            SLV_FNMA(a, w1, s)
+            SLV_FNMA(b, w3, s)
+            SLV_STORE(l, a)
+            SLV_STORE(l1, b)
+        }
+    }
+    SLI_EACH4(SLI_STORE, 0)
+}
 #endif
 
 SLI_CHANGE_KERNEL(change2, 2, SLI_EACH2)
@@ -54,28 +95,42 @@ SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
 #undef SLI_CARRY
 #undef SLI_CHANGE
 
+/* y := what a forward sweep makes of the rows of a diagonal tile, which has `columns` columns. */
+#define SLI_FORWARD(k, unused) \
+    if (SLI_IS_IN(k, columns)) { \
+        SLV_LANE(s, x, k) \
+        SLV_DOT(x, l + SLI_TILE * (k), s) \
+    }
+SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(change_forward)(const double *l, sl_int columns,
+                                                               const double *w, double *y) {
+    SLV_DECLARE(x)
+    SLV_DECLARE(s)
+#if defined(SLV_ARRAYS)
+    sl_int k;
+    SLV_LOAD(x, w)
+    for (k = 0; k < columns; k++) {
+        SLI_FORWARD(k, 0)
+    }
+#else
+    SLV_LOAD(x, w)
+    SLI_EACH8(SLI_FORWARD, 0)
+#endif
+    SLV_STORE(y, x)
+}
+#undef SLI_FORWARD
+
 /* The rows of a tile before its pivots change: y := what a forward sweep makes of W', transposed;
- * f(r) := row r of U' Y'. l: the diagonal part of the tile; NULL: the unit matrix. */
+ * f(r) := row r of U' Y'. l: the diagonal part of the tile. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(change_rows)(const sli_ranks *u, const double *l,
                                                    sl_int columns, const double *w, double *f,
                                                    double *y) {
     const sl_int ranks = u->ranks;
-    sl_int i, j, r;
+    sl_int i, r;
     SLV_DECLARE(a)
     SLV_DECLARE(x)
     SLV_DECLARE(s)
-    if (u->lanes < SLI_TILE) {
-        memset(f, 0, SLI_TILE * SLI_TILE * sizeof *f);
-    }
-    memcpy(f, w, SLI_TILE * (size_t)u->lanes * sizeof *f);
-    for (j = 0; j < columns && l != NULL; j++) { /* Y' := what a forward sweep makes of W' */
-        SLV_LOAD_PINNED(a, l + SLI_TILE * j)
-        for (r = 0; r < ranks; r++) {
-            SLV_LOAD(x, f + SLI_TILE * r)
-            SLV_BROADCAST(s, f + SLI_TILE * r + j)
-            SLV_FNMA(x, a, s)
-            SLV_STORE(f + SLI_TILE * r, x)
-        }
+    for (r = 0; r < u->lanes; r++) {
+        SLV_NAME(change_forward)(l, columns, w + SLI_TILE * r, f + SLI_TILE * r);
     }
     SLV_TRANSPOSE(y, f)
     for (r = ranks - 1; r > 0; r--) { /* f(r) = y(r) + sum over i < r of U(i, r) y(i) */
@@ -96,7 +151,6 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
                                                   const double *d, const double *w, double *c) {
     SLI_ALIGNED(double f[SLI_TILE * SLI_TILE]);
     SLI_ALIGNED(double y[SLI_TILE * SLI_TILE]);
-    SLI_ALIGNED(double b[SLI_TILE]);
     const sl_int ranks = u->ranks, lanes = u->lanes;
     sl_int j, r;
     SLV_DECLARE(a)
@@ -152,86 +206,105 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
         inverse = -inverse;
         SLV_BROADCAST(p, &inverse)
         SLV_MULTIPLY(x, t, p)
-        if (lanes == SLI_TILE) {
-            SLV_LOAD(a, y + SLI_TILE * j)
-            SLV_STORE(c, a)
-            SLV_STORE(c + SLI_TILE, x)
-        } else {
-            SLV_STORE(b, x)
-            SLI_COPY(c, y + SLI_TILE * j, lanes);
-            SLI_COPY(c + lanes, b, lanes);
-        }
+        SLV_LOAD(a, y + SLI_TILE * j)
+        SLV_STORE_ANY(c, a) /* what is too much the next column overwrites */
+        SLV_STORE_ANY(c + lanes, x)
         c += 2 * lanes;
     }
     return columns;
 }
 
-/* One vector and columns first .. last-1 of one row tile, or of SLI_CHAINS, whose chains of w
- * overlap: w -= l y, then l += b w. A trial leaves L alone. */
+/* One vector and columns first .. last-1 of 1 .. SLI_CHAINS row tiles, whose chains of w overlap:
+ * w -= l y, then, in a change, l += b w. */
 #define SLI_EACH1(op, k) op(0, k)
+#define SLI_EACH3(op, k) op(0, k) op(1, k) op(2, k)
+#if defined(SLV_ARRAYS)
+#define SLI_CHAINS 1
+#define SLI_BY_COUNT(loop) loop(SLI_EACH1)
+#else
+#define SLI_CHAINS 4
+#define SLI_BY_COUNT(loop) \
+    switch (count) { \
+    case 1: \
+        loop(SLI_EACH1) break; \
+    case 2: \
+        loop(SLI_EACH2) break; \
+    case 3: \
+        loop(SLI_EACH3) break; \
+    default: \
+        loop(SLI_EACH4) \
+    }
+#endif
 #define SLI_POINT(t, unused) double *const l##t = tiles[t];
+#define SLI_SWEEP(t, unused) SLV_DOT(w##t, l##t + SLI_TILE * j, s)
+#define SLI_SWEEP_LOOP(each) \
+    { \
+        each(SLI_POINT, 0) each(SLI_DECLARE, 0) each(SLI_LOAD, 0) for (j = first; j < last; j++){ \
+            SLV_BROADCAST(s, y + j) each(SLI_SWEEP, 0)} each(SLI_STORE, 0) \
+    }
 #define SLI_CHANGE(t, unused) \
     SLV_LOAD_PINNED(a, l##t + SLI_TILE * j) \
+    SLI_PREFETCH(l##t + SLI_TILE * j, ahead); \
     SLV_FNMA(w##t, a, s) \
-    if (!is_trial) { \
-        SLV_FNMA(a, w##t, r) \
-        SLV_STORE(l##t + SLI_TILE * j, a) \
-    }
-#define SLI_TILES_KERNEL(name, each) \
-    SLV_FUNCTION SLI_INLINE void SLV_NAME(name)(double *const *tiles, ptrdiff_t first, \
-                                                ptrdiff_t last, const double *y, const double *b, \
-                                                double *w, int is_trial) { \
-        ptrdiff_t j; \
-        SLV_DECLARE(a) \
-        SLV_DECLARE(s) \
-        SLV_DECLARE(r) \
+    SLV_FNMA(a, w##t, r) \
+    SLV_STORE(l##t + SLI_TILE * j, a)
+#define SLI_CHANGE_LOOP(each) \
+    { \
         each(SLI_POINT, 0) each(SLI_DECLARE, 0) each(SLI_LOAD, 0) for (j = first; j < last; j++){ \
             SLV_BROADCAST(s, y + j) SLV_BROADCAST(r, b + j) \
                 each(SLI_CHANGE, 0)} each(SLI_STORE, 0) \
     }
-#if defined(SLV_ARRAYS)
-#define SLI_CHAINS 1
-#define SLI_ONE_TILE SLV_NAME(change_tiles)
-SLI_TILES_KERNEL(change_tiles, SLI_EACH1)
-#else
-#define SLI_CHAINS 4
-#define SLI_ONE_TILE SLV_NAME(change_tile)
-SLI_TILES_KERNEL(change_tile, SLI_EACH1)
-SLI_TILES_KERNEL(change_tiles, SLI_EACH4)
-#endif
+SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(change_tiles)(sl_int count, double *const *tiles,
+                                                             ptrdiff_t first, ptrdiff_t last,
+                                                             const double *y, const double *b,
+                                                             double *w, int has_change,
+                                                             ptrdiff_t ahead) {
+    ptrdiff_t j;
+    SLV_DECLARE(a)
+    SLV_DECLARE(s)
+    SLV_DECLARE(r)
+    (void)count;
+    (void)ahead;
+    if (has_change) {
+        SLI_BY_COUNT(SLI_CHANGE_LOOP)
+    } else {
+        SLI_BY_COUNT(SLI_SWEEP_LOOP)
+    }
+}
 #undef SLI_EACH1
+#undef SLI_EACH3
+#undef SLI_BY_COUNT
 #undef SLI_POINT
+#undef SLI_SWEEP
+#undef SLI_SWEEP_LOOP
 #undef SLI_CHANGE
-#undef SLI_TILES_KERNEL
+#undef SLI_CHANGE_LOOP
 
+#if defined(SLV_ARRAYS) /* the same as below */
+static void SLV_NAME(change_pivots)(sli_rank_one *u, sl_int j, sl_int columns) {
+    sl_int k;
+    for (k = j; k < j + columns; k++) {
+        const double q = u->y[k] / u->D[k], before = u->sum;
+        const double z = u->y[k] * q;
+        u->sum -= z;
+        u->b[k] = q / u->sum;
+        u->e[k] = u->D[k] * (u->sum / before);
+    }
+}
+#else
 #define SLI_BEFORE(k) (k)
 #define SLI_AFTER(k) ((k) + 1)
 
-/* The pivots of the column tile from column j on. y is what a forward sweep makes of w, whatever
- * the pivots become; with q = y / d and the sums g of y q, the new pivots are d g(after) /
- * g(before), and b = q / g(after). So there is no chain of divisions. l: diagonal part of the
- * tile. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(sli_rank_one *u, double *l, sl_int j,
-                                                     sl_int columns) {
-    double *const b = u->b + j, *const w = u->w + j;
+/* The pivots of a column tile. With q = y / d and the sums g of y q, the new pivots are d g(after)
+ * / g(before), and b = q / g(after). So there is no chain of divisions. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(sli_rank_one *u, sl_int j, sl_int columns) {
     SLI_ALIGNED(double z[SLI_TILE]);
     double g[SLI_TILE + 1];
     sl_int k;
-    SLV_DECLARE(x)
     SLV_DECLARE(y)
     SLV_DECLARE(q)
     SLV_DECLARE(s)
-    SLV_LOAD(x, w)
-    if (columns == SLI_TILE) {
-        SLV_SWEEP(tile_forward)(l, w);
-    } else {
-        SLV_LOAD(y, w)
-        for (k = 0; k < columns; k++) {
-            SLV_AXPY(y, l + SLI_TILE * k, w + k)
-            SLV_STORE(w, y)
-        }
-    }
-    SLV_LOAD_PART(y, w, columns, 0.0)
+    SLV_LOAD_PART(y, u->y + j, columns, 0.0)
     SLV_LOAD_PART(s, u->D + j, columns, 1.0)
     SLV_DIVIDE(q, y, s)
     SLV_MULTIPLY(y, y, q)
@@ -243,58 +316,79 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(sli_rank_one *u, double *l,
     }
     SLV_GATHER(y, g, SLI_AFTER) /* in registers: 8 stores are not forwarded to one load */
     SLV_DIVIDE(q, q, y)
-    SLV_STORE(b, q)
+    SLV_STORE(u->b + j, q)
     SLV_GATHER(q, g, SLI_BEFORE)
     SLV_DIVIDE(y, y, q)
     SLV_MULTIPLY(s, s, y)
     SLV_STORE(u->e + j, s)
     u->sum = g[SLI_TILE]; /* not before y: clang 14 for WebAssembly would give y(0) this value */
-    for (k = 0; k < columns && !u->is_trial; k++, l += SLI_TILE) {
-        SLV_LOAD_PINNED(y, l)
-        SLV_BROADCAST(s, w + k)
-        SLV_FNMA(x, y, s)
-        SLV_BROADCAST(s, b + k)
-        SLV_FNMA(y, x, s)
-        SLV_BELOW(y, k)
-        SLV_STORE(l, y)
-    }
 }
 
 #undef SLI_BEFORE
 #undef SLI_AFTER
+#endif
 
-SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
+/* y is what a forward sweep makes of w, whatever the pivots become. In a sweep, w is y. */
+SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u, int has_sweep, int has_change) {
     const sl_int width = u->width, first = SLI_TILE * u->first_tile;
-    const sl_int tiles = sli_tiles(width + u->below);
-    double *l = u->panel + sli_tile_offset(width, u->first_tile), *at[SLI_CHAINS];
-    double *const w = u->w, *const b = u->b;
-    sl_int t0 = u->first_tile, count, t, k;
-    for (; t0 < tiles; t0 += count) {
-        const sl_int row = SLI_TILE * t0, last = sli_min(row, width);
-        count = sli_min(tiles - t0, SLI_CHAINS);
+    const sl_int rows = SLI_TILE * sli_tiles(width + u->below);
+    double *l = u->panel + sli_tile_offset(width, u->first_tile), *at[SLI_CHAINS] = {NULL};
+    double *const y = u->y, *const b = u->b, *const w = has_change ? u->w : y;
+    sl_int row, count, t, j, k;
+    if (!has_change) {
+        SLI_COPY(y + first, u->w + first, rows - first);
+    }
+    for (row = first; row < rows; row += SLI_TILE * count) {
+        count = sli_min((rows - row) / SLI_TILE, SLI_CHAINS);
         for (t = 0; t < count; t++) {
             at[t] = l;
             l += SLI_TILE * sli_min(width, row + SLI_TILE * (t + 1));
         }
-        if (count == SLI_CHAINS) {
-            SLV_NAME(change_tiles)(at, first, last, w, b, w + row, u->is_trial);
-        } else {
-            for (t = 0; t < count; t++) {
-                SLI_ONE_TILE(at + t, first, last, w, b, w + row + SLI_TILE * t, u->is_trial);
+        SLV_NAME(change_tiles)(count, at, first, sli_min(row, width), y, b, w + row, has_change,
+                               u->ahead);
+        for (t = 1; t <= count && row + SLI_TILE * (t - 1) < width; t++) {
+            double *inner;
+            SLV_DECLARE(x)
+            SLV_DECLARE(a)
+            SLV_DECLARE(s)
+            j = row + SLI_TILE * (t - 1);
+            k = sli_min(SLI_TILE, width - j);
+            inner = at[t - 1] + SLI_TILE * j;
+            if (has_sweep && k < SLI_TILE) {
+                SLV_NAME(change_forward)(inner, k, w + j, y + j);
+            } else if (has_sweep) { /* in scalars: that is a shorter chain */
+                if (has_change) {
+                    SLV_LOAD(x, w + j)
+                    SLV_STORE(y + j, x)
+                }
+                SLV_SWEEP(tile_forward)(inner, y + j);
             }
-        }
-        for (t = 0; t < count && row + SLI_TILE * t < width; t++) {
-            const sl_int j = row + SLI_TILE * t, columns = sli_min(SLI_TILE, width - j);
-            SLV_NAME(change_pivots)(u, at[t] + SLI_TILE * j, j, columns);
-            for (k = t + 1; k < count; k++) {
-                SLI_ONE_TILE(at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);
+            if (has_sweep) {
+                SLV_NAME(change_pivots)(u, j, k);
+            }
+            if (has_change) {
+                SLV_LOAD(x, w + j)
+                for (k = j; k < sli_min(j + SLI_TILE, width); k++, inner += SLI_TILE) {
+                    SLV_LOAD_PINNED(a, inner)
+                    SLV_BROADCAST(s, y + k)
+                    SLV_FNMA(x, a, s)
+                    SLV_BROADCAST(s, b + k)
+                    SLV_FNMA(a, x, s)
+                    SLV_BELOW(a, (k - j))
+                    SLV_STORE(inner, a)
+                }
+                SLV_STORE(w + j, x)
+            }
+            if (t < count) {
+                SLV_NAME(change_tiles)
+                (count - t, at + t, j, sli_min(j + SLI_TILE, width), y, b, w + j + SLI_TILE,
+                 has_change, 0);
             }
         }
     }
 }
 #undef SLI_CHANGE_KERNEL
 #undef SLI_CHAINS
-#undef SLI_ONE_TILE
 #undef SLI_EACH2
 #undef SLI_DECLARE
 #undef SLI_LOAD
@@ -302,5 +396,6 @@ SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
 
 static const sli_change_kernels SLV_NAME(change_kernels) = {
     {SLV_NAME(change2), SLV_NAME(change4), SLV_NAME(change8)},
+    SLV_NAME(change_pair),
     SLV_NAME(change_ranks),
     SLV_NAME(change_panel)};

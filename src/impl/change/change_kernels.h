@@ -5,8 +5,14 @@
 #include "../kernels/dispatch.h"
 
 /* Changes the `columns` columns of one row tile l by k = 2, 4 or 8 vectors: w(r) -= l y(r), then
- * l += sum over r of b(r) w(r). w: [k][8]; c: for each column y(0) .. y(k-1), -b(0) .. -b(k-1). */
-typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, double *w);
+ * l += sum over r of b(r) w(r). w: [k][8]; c: for each column y(0) .. y(k-1), -b(0) .. -b(k-1). A
+ * trial leaves l as it is. */
+typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, double *w,
+                                  int is_trial);
+
+/* The same for k = 2 and two row tiles l and l1. w: [tile][k][8] */
+typedef void (*sli_change_pair_kernel)(double *l, double *l1, sl_int columns, const double *c,
+                                       double *w, int is_trial);
 
 /* k = 2 .. 8 vectors that pass the pivots: W U diag(alpha) U' W'. 64-byte aligned. */
 typedef struct sli_ranks {
@@ -20,28 +26,31 @@ typedef struct sli_ranks {
 } sli_ranks;
 
 /* The pivots of one column tile l: changes u and fills c, as sli_change_kernel takes it. d: the
- * pivots. w: [k][8], rows of the tile; if l is NULL, what a forward sweep makes of them. Returns
- * how many pivots were computed: all, or up to one that vanishes. */
+ * pivots. w: [k][8], rows of the tile. c has room for 8 more. Returns how many pivots were
+ * computed: all, or up to one that vanishes. */
 typedef sl_int (*sli_ranks_kernel)(sli_ranks *u, const double *l, sl_int columns, const double *d,
                                    const double *w, double *c);
 
-/* The change of a panel by one vector w w'/s, from a row tile on. On entry `sum` is -s, on return
- * what is left of it for the rows below. w, b, e: 64-byte aligned, by local rows, up to a multiple
- * of 8. */
+/* The change of a panel by one vector w w'/s, from a row tile on. w, y, b, e: 64-byte aligned, by
+ * local rows, up to a multiple of 8. */
 typedef struct sli_rank_one {
     double *panel;
     const double *D; /* of its columns */
-    sl_int width, below, first_tile;
-    int is_trial; /* computes the pivots alone */
-    double sum;
-    double *w; /* the vector; on return y, and what is left below */
+    sl_int super, width, below, first_tile;
+    ptrdiff_t ahead; /* a change prefetches so many bytes ahead */
+    double sum;      /* -s, then what is left of it for the rows below */
+    double *w;       /* the vector; after the change of the panel, what is left of it below */
+    double *y; /* what a forward sweep makes of w: of its columns or, in a sweep, of all rows */
     double *b; /* scratch */
     double *e; /* the new pivots */
 } sli_rank_one;
-typedef void (*sli_rank_one_kernel)(sli_rank_one *u);
+/* A sweep fills y, b and e and changes sum. A change, by y and b, changes the panel and w; with a
+ * sweep, by those of the columns, which the sweep finds on the way. */
+typedef void (*sli_rank_one_kernel)(sli_rank_one *u, int has_sweep, int has_change);
 
 typedef struct sli_change_kernels {
     sli_change_kernel change[SLI_NRHS_KINDS - 1]; /* from 2 vectors on */
+    sli_change_pair_kernel pair;
     sli_ranks_kernel ranks;
     sli_rank_one_kernel panel;
 } sli_change_kernels;

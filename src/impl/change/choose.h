@@ -230,7 +230,7 @@ static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc 
         *method = sli_choose_make(c, F, 1);
     }
     if (*method == SL_CHANGE_UPDATE) {
-        status = sli_rank_run_logged(q, sli_edges_stages, 3, W);
+        status = sli_rank_run_prepared(q);
         if (status != SL_OK) {
             c->reason = SL_CHANGE_REFUSED; /* A may be indefinite: its factorization decides */
             *method = SL_CHANGE_REFACTOR;

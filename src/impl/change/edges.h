@@ -13,7 +13,7 @@
 /* A row can lose so much and keep all but one hexadecimal digit. */
 #define SLI_EDGES_HEAVY 16.0
 
-static void sli_edges_layout(void *data, sli_block *b) {
+SLI_COLD static void sli_edges_layout(void *data, sli_block *b) {
     sli_rank *q = (sli_rank *)data;
     const uint64_t count = (uint64_t)q->n_entries;
     q->p = SLI_TAKE(b, sl_int, 3 * count + 1);

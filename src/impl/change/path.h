@@ -7,9 +7,19 @@
 /* All pivots have one sign. A path needs no compact vector: what is left of w below a supernode
  * goes to the front of its parent by relative indices. */
 
+/* Entries of L from which on a path does not stay in the second cache, but for a small part. */
+#define SLI_PATH_CACHED (1 << 19)
+
+static void sli_path_layout(sli_update *u, sli_block *b, const sli_reach *R, int is_path) {
+    const uint64_t columns = (uint64_t)R->columns + SLI_TILE * (uint64_t)R->count;
+    u->ahead = R->entries > SLI_PATH_CACHED ? SLI_PREFETCH_DISTANCE / 2 : 0;
+    u->path = SLI_TAKE(b, sli_rank_one, is_path ? R->count : 0);
+    u->vectors = SLI_TAKE(b, double, is_path ? 2 * (2 * columns + (uint64_t)R->n_rows) : 0);
+}
+
 /* Loads vector v into the rows of supernode s, times the root of its weight. Returns the sign of
  * the weight. */
-static double sli_path_load(sli_update *u, sl_int v, sl_int s, double *w) {
+SLI_COLD static double sli_path_load(sli_update *u, sl_int v, sl_int s, double *w) {
     const sl_symbolic *S = u->F->S;
     const sl_csc *V = u->V;
     const double sigma = u->sigma == NULL ? 1.0 : u->sigma[v], scale = sqrt(fabs(sigma));
@@ -57,65 +67,115 @@ static sl_int sli_path_extent(sli_update *u, sl_int v, sl_int s) {
     return found;
 }
 
-/* Changes the columns on the path of a vector, or tries whether that is possible. seed: its first
- * column and its number. On failure some are changed. */
-static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
+/* Takes the pivots of a supernode that is swept, or checks them, or, after all were checked and are
+ * usual, only writes them. */
+static sl_status sli_path_take(sli_update *u, const sli_rank_one *one) {
+    sl_factor *F = u->F;
+    const sl_int entered = SLI_TILE * one->first_tile, count = one->width - entered;
+    const sl_int k = F->S->super_first[one->super] + entered;
+    const double *e = one->e + entered;
+    sl_int j;
+    if (!u->is_trial) {
+        sli_loss_open(F, one->super);
+    }
+    for (j = 0; j < count && u->is_tried && u->are_usual; j++) {
+        const double d = F->D[k + j];
+        F->history.loss[k + j] += fabs(d) + fabs(e[j] - d);
+        F->D[k + j] = e[j];
+    }
+    if (u->is_tried && u->are_usual) {
+        return SL_OK;
+    }
+    return sli_update_take_all(u, k, count, e, NULL);
+}
+
+/* Sweeps a vector along its path, and changes the columns, if `is_tried` after all pivots were
+ * checked. Then the panels change from the root down: what was swept last is in the cache. seed:
+ * its first column and its number. On failure some columns are changed, none if it is tried. */
+static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_tried) {
     sl_factor *F = u->F;
     const sl_symbolic *S = F->S;
-    sl_int s = S->super_of[sli_key(seed)], i, rest, entered, k;
+    const sli_change_kernels *kernels = sli_change_kernels_of(F->kernels->isa);
+    sl_factor_info *info = &F->stats.factor;
     const sl_int v = sli_value(seed);
-    double *w = u->local, *next = u->other, *last;
+    sl_int s = S->super_of[sli_key(seed)], count = 0, rest, i, k;
+    double *next = u->vectors, *from = NULL, sum = 0.0;
+    sl_int tile = (sli_key(seed) - S->super_first[s]) / SLI_TILE;
+    const sl_int *to = NULL;
     sl_status status = SL_OK;
-    sli_rank_one one;
-    one.is_trial = u->is_trial = is_trial;
-    one.sum = -sli_path_load(u, v, s, w);
-    one.e = u->c;
-    one.b = u->b;
-    one.first_tile = (sli_key(seed) - S->super_first[s]) / SLI_TILE;
+    u->is_trial = is_tried;
+    u->is_tried = 0;
     u->most = u->top = u->entry = u->growth = 0.0;
+    u->low = DBL_MAX;
+    u->are_usual = 1;
     u->loss = u->swept = 1.0;
     u->lost = 0.0;
     u->state->ranks = 1;
-    for (rest = u->V->p[v + 1] - u->V->p[v]; s != -1 && status == SL_OK; s = S->super_parent[s]) {
+    for (; s != -1 && status == SL_OK; s = S->super_parent[s], count++) {
         const sli_step *step = &S->steps[s];
-        const sl_int *to = S->relative + S->rows_begin[s];
-        sli_loss_open(F, s);
+        const sl_int wide = SLI_TILE * sli_tiles(step->width);
+        const sl_int rows = SLI_TILE * sli_tiles(step->width + step->below);
+        sli_rank_one *one = &u->path[count];
+        one->w = next;
+        one->y = next += rows;
+        one->b = next += rows;
+        one->e = next += wide;
+        next += wide;
+        if (count == 0) {
+            sum = -sli_path_load(u, v, s, one->w);
+        } else {
+            memset(one->w + SLI_TILE * tile, 0, (size_t)(rows - SLI_TILE * tile) * sizeof *next);
+            for (i = 0; i < S->steps[one[-1].super].below; i++) {
+                one->w[to[i]] = from[i];
+            }
+        }
         sli_update_open(u, step);
-        one.panel = u->panel;
-        one.D = F->D + step->column;
-        one.width = step->width;
-        one.below = step->below;
-        one.w = w;
-        sli_change_kernels_of(F->kernels->isa)->panel(&one);
-        sli_update_close(u, step);
-        entered = SLI_TILE * one.first_tile;
-        k = step->column + entered;
-        status = sli_update_take_all(u, k, step->width - entered, one.e + entered, NULL);
-        if (!is_trial) {
-            rest -= rest > 0 ? sli_path_extent(u, v, s) : 0;
-            u->entry = fmax(u->entry, F->extents[s].entry);
-            u->growth = fmax(u->growth, F->extents[s].magnitude);
-            if (F->history.marks != NULL) {
-                F->history.marks[s] = 0;
-            }
+        one->ahead = u->ahead;
+        one->super = s;
+        one->panel = u->panel;
+        one->D = F->D + step->column;
+        one->width = step->width;
+        one->below = step->below;
+        one->first_tile = tile;
+        one->sum = sum;
+        kernels->panel(one, 1, !is_tried);
+        if (!is_tried) {
+            sli_update_close(u, step);
         }
-        if (S->super_parent[s] != -1) {
-            const sli_step *up = &S->steps[S->super_parent[s]];
-            one.first_tile = to[0] / SLI_TILE;
-            memset(next + SLI_TILE * one.first_tile, 0,
-                   SLI_TILE * (size_t)(sli_tiles(up->width + up->below) - one.first_tile) *
-                       sizeof *next);
-            for (i = 0; i < step->below; i++) {
-                next[to[i]] = w[step->width + i];
-            }
-            last = w;
-            w = next;
-            next = last;
-        }
+        sum = one->sum;
+        status = sli_path_take(u, one);
+        from = (is_tried ? one->y : one->w) + step->width;
+        to = S->relative + S->rows_begin[s];
+        tile = step->below > 0 ? to[0] / SLI_TILE : 0;
     }
     u->is_trial = 0;
-    u->is_tried = is_trial && status == SL_OK;
-    return status;
+    if (status != SL_OK) {
+        return status;
+    }
+    u->is_tried = is_tried;
+    for (k = 0; k < count && is_tried; k++) {
+        (void)sli_path_take(u, &u->path[k]);
+    }
+    info->pivot_min = fmin(info->pivot_min, u->low);
+    info->pivot_max = fmax(info->pivot_max, u->top);
+    for (k = count - 1; k >= 0 && is_tried; k--) {
+        const sli_step *step = &S->steps[u->path[k].super];
+        sli_update_open(u, step);
+        u->path[k].panel = u->panel;
+        kernels->panel(&u->path[k], 0, 1);
+        sli_update_close(u, step);
+    }
+    rest = u->V->p[v + 1] - u->V->p[v];
+    for (k = 0; k < count; k++) {
+        s = u->path[k].super;
+        rest -= rest > 0 ? sli_path_extent(u, v, s) : 0;
+        u->entry = fmax(u->entry, F->extents[s].entry);
+        u->growth = fmax(u->growth, F->extents[s].magnitude);
+        if (F->history.marks != NULL) {
+            F->history.marks[s] = 0;
+        }
+    }
+    return SL_OK;
 }
 
 #endif

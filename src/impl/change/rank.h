@@ -7,10 +7,6 @@
 #include "path.h"
 #include "rank_vectors.h"
 
-/* Where a trial of several vectors takes a pivot to less than this part of it, the pass has a log,
- * too: its rounding is not that of the trial. */
-#define SLI_RANK_CLOSE 1e-3
-
 static const char sli_growth_exceeded[] = "pivot growth exceeds options.growth_limit";
 
 /* Doubles of the panels of all supernodes in the reach. */
@@ -27,7 +23,7 @@ static uint64_t sli_rank_panels(const sl_symbolic *S, const uint64_t *seeds, sl_
     return size;
 }
 
-static void sli_rank_layout(void *data, sli_block *b) {
+SLI_COLD static void sli_rank_layout(void *data, sli_block *b) {
     sli_rank *q = (sli_rank *)data;
     const sl_symbolic *S = q->S;
     sli_reach R = q->whole;
@@ -37,6 +33,7 @@ static void sli_rank_layout(void *data, sli_block *b) {
     }
     sli_update_layout(&q->u, b, &R, (sl_int)1 << sli_update_kind(sli_min(q->count, 8)),
                       q->has_trial);
+    sli_path_layout(&q->u, b, &q->whole, sli_rank_is_path(q, q->count % SLI_TILE));
     if (q->has_log) {
         q->log = SLI_TAKE(b, double, sli_rank_panels(S, q->whole_seeds, q->count));
         q->log_D = SLI_TAKE(b, double, q->whole.columns);
@@ -49,7 +46,7 @@ static void sli_rank_layout(void *data, sli_block *b) {
 
 /* Saves or restores the panels, pivots, extents, marks and losses of the first `count` steps of the
  * log. */
-static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
+SLI_COLD static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
     sl_factor *F = q->u.F;
     double *log = q->log, *log_D = q->log_D, *log_loss = q->log_loss;
     sl_int k;
@@ -82,7 +79,7 @@ static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
 }
 
 /* Mixes the change into the identity of F. */
-static void sli_rank_identify(sli_rank *q) {
+SLI_COLD static void sli_rank_identify(sli_rank *q) {
     sl_factor *F = q->u.F;
     const sl_csc *V = q->u.V;
     F->identity = sli_hash_ints(F->identity, V->p, (sl_off)V->n_cols + 1);
@@ -104,7 +101,7 @@ static void sli_rank_unmark(sl_factor *F, const sli_step *steps, sl_int count) {
 
 /* The largest |a| that L D L' shows in the trees of a pass: of columns that no other one updates,
  * and a_kk of the row that the pass changes most. Not 0, as no pivot is. */
-static double sli_rank_shown(const sli_update *u) {
+SLI_COLD static double sli_rank_shown(const sli_update *u) {
     const sl_factor *F = u->F;
     const sl_symbolic *S = F->S;
     double unused, most = fabs(sli_update_entry(F, u->row, &unused));
@@ -163,8 +160,7 @@ static void sli_rank_note(const sli_update *u) {
     F->history.checked = shown > 0.0 ? scale : F->history.checked;
 }
 
-/* Runs all passes. Where a trial of several vectors was close it changes nothing and asks for a
- * log. The trial of a path has the rounding of the pass. */
+/* Runs all passes. */
 static sl_status sli_rank_passes(sli_rank *q) {
     sl_factor *F = q->u.F;
     sl_factor_info *info = &F->stats.factor;
@@ -175,19 +171,12 @@ static sl_status sli_rank_passes(sli_rank *q) {
         last = sli_rank_pass(q, k);
         sli_rank_group(q, k, last, group, seeds);
         if (sli_rank_is_path(q, last - k)) {
-            status = q->has_trial ? sli_path_run(&q->u, seeds[0], 1) : SL_OK;
-            q->is_changed |= status == SL_OK;
-            status = status == SL_OK ? sli_path_run(&q->u, seeds[0], 0) : status;
+            status = sli_path_run(&q->u, seeds[0], q->has_trial);
         } else {
             sli_reach_fill(F->S, seeds, last - k, q->u.steps, q->u.rows, &q->u.R);
             sli_update_load(&q->u, group, last - k);
-            status = q->has_trial ? sli_update_try(&q->u, group, last - k) : SL_OK;
-            if (status == SL_OK && q->has_trial && q->u.shrink < SLI_RANK_CLOSE) {
-                q->needs_log = 1;
-                return SL_OK;
-            }
+            status = q->has_trial ? sli_update_try(&q->u) : SL_OK;
             sli_rank_unmark(F, q->u.steps, status == SL_OK ? q->u.R.count : 0);
-            q->is_changed |= status == SL_OK;
             status = status == SL_OK ? sli_update_run(&q->u) : status;
         }
         if (status == SL_OK) {
@@ -207,7 +196,7 @@ static sl_status sli_rank_passes(sli_rank *q) {
 }
 
 /* Changes F by the vectors. On failure F is as before. */
-static sl_status sli_rank_run(sli_rank *q) {
+SLI_NOINLINE static sl_status sli_rank_run(sli_rank *q) {
     sl_factor *F = q->u.F;
     const sli_factor_stats before = F->stats;
     sli_history history;
@@ -233,9 +222,6 @@ static sl_status sli_rank_run(sli_rank *q) {
         sli_rank_log(q, q->logged, 0);
     }
     status = sli_rank_passes(q);
-    if (q->needs_log && !q->has_log) {
-        return SL_OK;
-    }
     if (status == SL_OK) {
         F->history.updates += q->count;
         F->stats.factor.bytes += F->history.bytes;
@@ -247,11 +233,7 @@ static sl_status sli_rank_run(sli_rank *q) {
         sli_rank_log(q, q->logged, 1);
         F->stats = before;
         F->history = history;
-    } else if (q->is_changed) { /* untested: rounding has taken all digits of a pivot, */
-        F->is_valid = 0;        /* untested: although the trial found it far from 0 */
-        F->status = status;     /* untested: the same */
-        F->generation++;        /* untested: the same */
-    }
+    } /* else a trial has refused it, and nothing has changed */
     return sli_fail_at(q->stats, status, F->S->perm[q->u.pivot], -1, q->u.value,
                        status == SL_ERR_INACCURATE ? sli_growth_exceeded
                        : status == SL_ERR_NOT_FINITE
@@ -299,16 +281,11 @@ static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) 
 static const sli_stage sli_rank_stages[2] = {{sli_rank_layout_seeds, sli_rank_sort},
                                              {sli_rank_layout, NULL}};
 
-/* Runs a change whose stages are prepared; prepares them once more where it asks for a log. */
-static sl_status sli_rank_run_logged(sli_rank *q, const sli_stage *stages, int count, sl_work *W) {
+/* Runs a change whose stages are prepared. */
+static sl_status sli_rank_run_prepared(sli_rank *q) {
     const int is_counted = q->count > 0 && q->u.sign != 0.0;
-    sl_status status = is_counted ? sli_loss_begin(q->u.F) : SL_OK;
-    status = status == SL_OK ? sli_rank_run(q) : status;
-    if (q->needs_log) {
-        status = sli_work_stages(W, stages, count, q);
-        status = status == SL_OK ? sli_rank_run(q) : status;
-    }
-    return status;
+    const sl_status status = is_counted ? sli_loss_begin(q->u.F) : SL_OK;
+    return status == SL_OK ? sli_rank_run(q) : status;
 }
 
 /* Prepares the stages of a change, in the caller's workspace or in `own`, and runs it. */
@@ -319,7 +296,7 @@ static sl_status sli_rank_apply(sli_rank *q, const sli_stage *stages, int count,
     status = sli_work_grow(W, 1); /* so that no array is NULL, not even an empty one */
     status = status == SL_OK ? sli_work_stages(W, stages, count, q) : status;
     status = status == SL_OK ? q->status : status;
-    status = status == SL_OK ? sli_rank_run_logged(q, stages, count, W) : status;
+    status = status == SL_OK ? sli_rank_run_prepared(q) : status;
     sli_free(&own.allocator, own.block);
     return status;
 }

@@ -18,9 +18,7 @@ typedef struct sli_rank {
     sl_int updates;  /* those of the sign of the pivots: they come first */
     int has_trial;   /* its only pass may fail: it is tried first */
     int has_log;     /* a later pass may fail, growth may become too large, or numbers overflow */
-    int needs_log;   /* the trial was close: the pass itself, rounded otherwise, may fail */
     sl_int logged;   /* steps in the log */
-    int is_changed;  /* a pass has begun to change F */
     double flops;    /* entries of L that the passes change, times their vectors' cost */
     double pivots;   /* pivots that they change, times their vectors */
     sl_off entries;  /* entries of L that the passes change */
@@ -38,8 +36,7 @@ typedef struct sli_rank {
     uint64_t *order, *order_scratch;
 } sli_rank;
 
-/* Up to so many entries of L a pass of several vectors keeps a copy of them. As long as it stays in
- * the caches, that takes less time than a trial. */
+/* Up to so many entries of L a copy takes less time than a trial: it stays in the caches. */
 #define SLI_RANK_LOGGED (1 << 19)
 
 /* Beyond these sizes of pivots and changes, numbers of a pass may overflow. */
@@ -65,7 +62,7 @@ static sl_status sli_rank_check(const sl_factor *F) {
 }
 
 /* Checks vector v: its entries are finite, and its rows are below each other in L. */
-static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first) {
+SLI_COLD static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first) {
     const sl_symbolic *S = q->S;
     const sl_csc *V = q->u.V;
     const double sigma = q->u.sigma == NULL ? 1.0 : q->u.sigma[v];
@@ -93,7 +90,7 @@ static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first
     return SL_OK;
 }
 
-static void sli_rank_layout_seeds(void *data, sli_block *b) {
+SLI_COLD static void sli_rank_layout_seeds(void *data, sli_block *b) {
     sli_rank *q = (sli_rank *)data;
     q->seeds = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
     q->scratch = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
@@ -117,9 +114,19 @@ static int sli_rank_may_overflow(const sli_rank *q, double size) {
              info->pivot_min >= SLI_RANK_SMALL);
 }
 
+/* Do vectors that may fail change a factor of which there is a copy, rather than after a trial?
+ * Several passes do. Of one or two vectors a trial takes less time, but in plain C of one alone.
+ * More than 4 do not fit in the registers, but for AVX-512, and a trial of them takes longer. */
+static int sli_rank_prefers_log(const sli_rank *q) {
+    const sl_isa isa = q->u.F->kernels->isa;
+    const sl_off times = q->count > 4 && isa != SL_ISA_AVX512 ? 8 : 1;
+    return q->count > SLI_TILE || (q->count > (isa == SL_ISA_SCALAR ? 1 : 2) &&
+                                   q->whole.entries <= SLI_RANK_LOGGED * times);
+}
+
 /* Lists the vectors of a pass, updates first, and its seeds. */
-static void sli_rank_group(const sli_rank *q, sl_int first, sl_int last, sl_int *group,
-                           uint64_t *seeds) {
+SLI_NOINLINE static void sli_rank_group(const sli_rank *q, sl_int first, sl_int last, sl_int *group,
+                                        uint64_t *seeds) {
     uint64_t unused[SLI_TILE];
     sl_int k;
     for (k = first; k < last; k++) {
@@ -196,9 +203,8 @@ static void sli_rank_sort(void *data) {
     }
     sli_sort(q->whole_seeds, q->count, q->scratch);
     sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
-    q->has_log = q->u.sign == 0.0 || q->needs_log || sli_rank_may_overflow(q, size) ||
-                 (rest > 0 &&
-                  (q->count > SLI_TILE || (q->count > 1 && q->whole.entries <= SLI_RANK_LOGGED))) ||
+    q->has_log = q->u.sign == 0.0 || sli_rank_may_overflow(q, size) ||
+                 (rest > 0 && sli_rank_prefers_log(q)) ||
                  q->u.F->limits.growth < 2.0; /* else pivots of one sign do not exceed it */
     q->has_trial = rest > 0 && !q->has_log;   /* pivots that grow are not refused */
     sli_rank_measure(q);

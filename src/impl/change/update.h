@@ -4,14 +4,32 @@
 
 #include "update_pivots.h"
 
+/* y and -b of the columns of a step from local column j on, and their e and magnitudes. After a
+ * trial they are those of the whole reach. */
+SLI_INLINE sl_int sli_update_at(const sli_update *u, const sli_step *step, sl_int j) {
+    return j - SLI_TILE * step->first_tile + (u->keeps ? step->base : 0);
+}
+
 /* The pivots of column tile c, and the rows of that tile. w: [lane][8] of its rows. */
 static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, double *w) {
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, step->width - first);
+    const sl_int at = sli_update_at(u, step, first);
     double *l = u->panel + sli_panel_at(step->width, first, first);
-    double *at = u->c + 2 * (ptrdiff_t)u->lanes * (first - SLI_TILE * step->first_tile);
+    double *const y = u->c + 2 * (ptrdiff_t)u->lanes * at;
     const sl_int k = step->column + first - SLI_TILE * step->first_tile;
-    const sl_status status = sli_update_pivots(u, k, columns, l, w, at);
-    sl_int j, r;
+    sl_int j, r, done = columns;
+    sl_status status;
+    if (u->is_tried) {
+        status = sli_update_take_all(u, k, columns, u->e + at, u->magnitude + at);
+    } else {
+        done = sli_change_kernels_of(u->F->kernels->isa)
+                   ->ranks(u->state, l, columns, u->F->D + k, w, y);
+        status = sli_update_take_all(u, k, done, u->state->e, u->state->magnitude);
+        if (u->is_trial) {
+            SLI_COPY(u->e + at, u->state->e, columns);
+            SLI_COPY(u->magnitude + at, u->state->magnitude, columns);
+        }
+    }
     for (j = 0; j < columns && u->sign == 0.0 && status == SL_OK; j++) {
         if (first + j + 1 < step->width + step->below) {
             u->loss = fmax(u->loss, u->state->magnitude[j] / fabs(u->state->e[j]));
@@ -20,15 +38,16 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
     if (status == SL_OK) {
         /* a vector adds alpha f^2 to a pivot, where f is y or, beyond the first vector, a
          * difference of what the old L has made of W: it has the digits of the larger y */
-        for (j = 0; j < columns && u->state->ranks > 1; j++) {
+        for (j = 0; j < columns && u->state->ranks > 1 && !u->is_tried; j++) {
             const double sum = u->state->magnitude[j] * (double)u->state->ranks;
             if (u->state->swept[j] > u->swept * sum) {
                 u->swept = u->state->swept[j] / sum;
             }
         }
-        sli_change_kernels_of(u->F->kernels->isa)->change[u->kind - 1](l, columns, at, w);
+        sli_change_kernels_of(u->F->kernels->isa)
+            ->change[u->kind - 1](l, columns, y, w, u->is_trial);
         /* the kernel has changed the part above them, too; memset is slow for a few bytes */
-        for (r = 0; r < columns; r++) {
+        for (r = 0; r < columns && !u->is_trial; r++) {
             for (j = r; j < columns; j++) {
                 l[SLI_TILE * j + r] = 0.0;
             }
@@ -37,42 +56,65 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
     return status;
 }
 
-/* Applies columns from .. to-1 to row tile t. */
+/* Applies columns from .. to-1 to row tile t, or to two from there on. */
 static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t, sl_int from,
-                            sl_int to) {
-    const sl_int entered = step->first_tile;
-    sli_change_kernels_of(u->F->kernels->isa)
-        ->change[u->kind - 1](u->panel + sli_panel_at(step->width, SLI_TILE * t, from), to - from,
-                              u->c + 2 * (ptrdiff_t)u->lanes * (from - SLI_TILE * entered),
-                              u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
+                            sl_int to, int is_pair) {
+    const sli_change_kernels *kernels = sli_change_kernels_of(u->F->kernels->isa);
+    const double *c = u->c + 2 * (ptrdiff_t)u->lanes * sli_update_at(u, step, from);
+    double *l = u->panel + sli_panel_at(step->width, SLI_TILE * t, from);
+    double *w = u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - step->first_tile);
+    if (is_pair) {
+        kernels->pair(l, u->panel + sli_panel_at(step->width, SLI_TILE * (t + 1), from), to - from,
+                      c, w, u->is_trial);
+    } else {
+        kernels->change[u->kind - 1](l, to - from, c, w, u->is_trial);
+    }
 }
 
-/* Moves the rows of a step between the compact vector and the tiles: into the tiles, or back. */
+/* Moves rows of a step between the compact vector and the tiles, [tile][lane][8]: into the tiles,
+ * or those below the columns back. lanes: a constant */
+SLI_ALWAYS_INLINE void sli_update_move_rows(const sli_update *u, const sli_step *step,
+                                            const sl_int *rows, int is_back, const sl_int lanes) {
+    const sl_int own = sli_step_columns(step), all = own + step->below;
+    sl_int i, r;
+    for (i = is_back ? own : 0; i < all; i++) {
+        double *x = u->x + (ptrdiff_t)lanes * (i < own ? step->base + i : rows[i - own]);
+        double *w = u->local + (ptrdiff_t)lanes * (i - i % SLI_TILE) + i % SLI_TILE;
+        SLI_UNROLL
+        for (r = 0; r < lanes; r++) {
+            if (is_back) {
+                x[r] = w[SLI_TILE * r];
+            } else {
+                w[SLI_TILE * r] = x[r];
+            }
+        }
+    }
+}
+
+/* The same for any number of lanes. */
 static void sli_update_move(const sli_update *u, const sli_step *step, const sl_int *rows,
                             int is_back) {
     const sli_kernels *kernels = u->F->kernels;
     const sl_int lanes = u->lanes, own = sli_step_columns(step), all = own + step->below;
-    sl_int t, i, r, at[SLI_TILE];
-    double *w = u->local;
-    for (t = 0; t < all; t += SLI_TILE, w += SLI_TILE * lanes) {
+    sl_int t = all - all % SLI_TILE, i, at[SLI_TILE];
+    if (t < all && !is_back) {
+        memset(u->local + lanes * t, 0, SLI_TILE * (size_t)lanes * sizeof(double));
+    }
+    if (lanes == 2) {
+        sli_update_move_rows(u, step, rows, is_back, 2);
+    } else if (lanes == 4) {
+        sli_update_move_rows(u, step, rows, is_back, 4);
+    }
+    for (t = is_back ? own - own % SLI_TILE : 0; t < all && lanes == SLI_TILE; t += SLI_TILE) {
         const sl_int count = sli_min(SLI_TILE, all - t);
-        if (count < SLI_TILE && !is_back) {
-            memset(w, 0, SLI_TILE * (size_t)lanes * sizeof *w);
-        }
+        double *w = u->local + (ptrdiff_t)lanes * t;
         for (i = 0; i < count; i++) {
             at[i] = t + i < own ? step->base + t + i : rows[t + i - own];
         }
-        if (lanes == SLI_TILE && is_back) {
+        if (is_back) {
             kernels->interleave(u->x, sli_rows_of(at, count, lanes), w, SLI_TILE, 0);
-        } else if (lanes == SLI_TILE) {
-            kernels->separate(w, SLI_TILE, u->x, sli_rows_of(at, count, lanes));
         } else {
-            for (i = 0; i < count; i++) {
-                for (r = 0; r < lanes; r++) {
-                    double *x = u->x + (ptrdiff_t)lanes * at[i] + r, *y = w + SLI_TILE * r + i;
-                    *(is_back ? x : y) = *(is_back ? y : x);
-                }
-            }
+            kernels->separate(w, SLI_TILE, u->x, sli_rows_of(at, count, lanes));
         }
     }
 }
@@ -116,7 +158,8 @@ static void sli_update_extent(sli_update *u, const sli_step *step) {
     u->growth = fmax(u->growth, extent->magnitude);
 }
 
-/* Column tiles that are applied to all rows together: so their y and b stay in the first cache. */
+/* Column tiles that are applied to all rows together: so their y and b stay in the first cache. A
+ * trial reads L in the order of its tiles. */
 #define SLI_UPDATE_COLUMNS 16
 
 /* Changes the columns of one step. On failure some of them are changed. */
@@ -129,15 +172,20 @@ static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_i
     sli_update_move(u, step, rows, 0);
     if (u->sign == 0.0) {
         sli_update_gains(u, step, rows, -1.0);
-    } else {
+    } else if (!u->is_trial) {
         sli_loss_open(u->F, u->F->S->super_of[step->column]);
     }
     for (c0 = entered; c0 < wide && status == SL_OK; c0 = c1) {
-        c1 = sli_min(c0 + SLI_UPDATE_COLUMNS, wide);
-        for (t = c0; t < tiles && status == SL_OK; t++) {
-            if (t > c0) {
-                sli_update_rows(u, step, t, SLI_TILE * c0,
-                                sli_min(SLI_TILE * sli_min(t, c1), step->width));
+        sl_int from = SLI_TILE * c0, next;
+        c1 = u->is_trial ? wide : sli_min(c0 + SLI_UPDATE_COLUMNS, wide);
+        for (t = c0; t < tiles && status == SL_OK; t++, from = next) {
+            const sl_int to = sli_min(SLI_TILE * sli_min(t, c1), step->width);
+            const int is_pair =
+                u->lanes == 2 && from == SLI_TILE * c0 && from < to && t + 1 < tiles;
+            next = is_pair && t < c1 ? to : SLI_TILE * c0;
+            if (from < to) {
+                sli_update_rows(u, step, t, from, to, is_pair);
+                t += is_pair && t >= c1;
             }
             if (t < c1) {
                 status = sli_update_tile(u, step, t,
@@ -145,11 +193,16 @@ static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_i
             }
         }
     }
-    sli_update_close(u, step);
+    if (!u->is_trial) {
+        sli_update_close(u, step);
+    }
     if (status != SL_OK) {
         return status;
     }
     sli_update_move(u, step, rows, 1);
+    if (u->is_trial) {
+        return SL_OK;
+    }
     if (u->sign == 0.0) {
         sli_update_gains(u, step, rows, 1.0);
     }
@@ -168,7 +221,7 @@ static sl_int sli_update_first(const sl_symbolic *S, const sl_csc *V, sl_int v) 
 
 /* The largest change of an entry of A by the vectors that are loaded, where pivots have both signs.
  * What two vectors change in one entry off the diagonal is not added up. */
-static double sli_update_largest(const sli_update *u, sl_int count) {
+SLI_COLD static double sli_update_largest(const sli_update *u, sl_int count) {
     double first[SLI_TILE] = {0.0}, second[SLI_TILE] = {0.0}, most = 0.0;
     sl_int k, r;
     for (k = 0; k < u->R.columns; k++) {
@@ -188,7 +241,7 @@ static double sli_update_largest(const sli_update *u, sl_int count) {
 }
 
 /* Loads the vectors of a pass, whose reach is compiled. group: their numbers. */
-static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
+SLI_COLD static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
     const sl_symbolic *S = u->F->S;
     const sl_csc *V = u->V;
     double largest = -1.0;
@@ -199,6 +252,8 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
     u->state->is_mixed = u->sign == 0.0;
     u->state->lanes = u->lanes;
     u->most = u->fall = u->top = u->entry = u->growth = 0.0;
+    u->low = DBL_MAX;
+    u->is_tried = 0;
     u->loss = u->swept = 1.0;
     u->lost = 0.0;
     memset(u->state->U, 0, sizeof u->state->U);
@@ -229,39 +284,6 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
     u->fall = u->sign == 0.0 ? sli_update_largest(u, count) : u->fall;
 }
 
-/* Checks the pivots of a pass that is loaded, with F as it is: they depend on L^-1 W alone. A
- * forward sweep takes less time than a copy of the columns, which would undo a failure. */
-static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count) {
-    const sli_reach *R = &u->R;
-    sl_status status = SL_OK;
-    sl_int s, j, k, r;
-    memset(u->local, 0, SLI_TILE * (size_t)u->lanes * sizeof(double));
-    SLI_COPY(u->trial, u->x, (size_t)R->columns * (size_t)u->lanes);
-    sli_forward_sweep(u->F, u->kind, R, u->trial, u->scratch);
-    u->is_trial = 1;
-    u->shrink = 1.0;
-    for (s = 0; s < R->count; s++) {
-        const sli_step *step = &R->steps[s];
-        for (j = 0; j < sli_step_columns(step) && status == SL_OK; j += SLI_TILE) {
-            const double *y = u->trial + (ptrdiff_t)u->lanes * (step->base + j);
-            const sl_int columns = sli_min(SLI_TILE, sli_step_columns(step) - j);
-            for (k = 0; k < columns; k++, y += u->lanes) {
-                for (r = 0; r < u->lanes; r++) {
-                    u->local[SLI_TILE * r + k] = y[r];
-                }
-            }
-            status = sli_update_pivots(u, step->column + j, columns, NULL, u->local, u->c);
-            for (k = 0; k < columns; k++) {
-                u->shrink = fmin(u->shrink, fabs(u->state->e[k] / u->F->D[step->column + j + k]));
-            }
-        }
-    }
-    u->is_trial = 0;
-    u->is_tried = status == SL_OK;
-    sli_update_load(u, group, count); /* U and alpha as they were */
-    return status;
-}
-
 /* Changes the columns on the paths of the vectors that are loaded. */
 static sl_status sli_update_run(sli_update *u) {
     const sl_int *rows = u->R.rows;
@@ -271,6 +293,20 @@ static sl_status sli_update_run(sli_update *u) {
         status = sli_update_step(u, &u->R.steps[s], rows);
         rows += u->R.steps[s].below;
     }
+    return status;
+}
+
+/* Checks the pivots of a pass that is loaded, and changes nothing: the pass without its changes of
+ * L, which takes less time than a copy of the columns. Its y, b and pivots remain for the pass. */
+static sl_status sli_update_try(sli_update *u) {
+    const size_t size = (size_t)u->R.columns * (size_t)u->lanes;
+    sl_status status;
+    SLI_COPY(u->trial, u->x, size);
+    u->is_trial = 1;
+    status = sli_update_run(u);
+    u->is_trial = 0;
+    u->is_tried = status == SL_OK;
+    SLI_COPY(u->x, u->trial, size);
     return status;
 }
 

@@ -38,7 +38,7 @@ static sl_status sli_loss_begin(sl_factor *F) {
 }
 
 /* The rows of supernode s begin with what they have lost before the first change of them. */
-SLI_INLINE void sli_loss_open(sl_factor *F, sl_int s) {
+SLI_NOINLINE static void sli_loss_open(sl_factor *F, sl_int s) {
     sl_int k;
     if (F->history.known[s]) {
         return;
@@ -51,7 +51,7 @@ SLI_INLINE void sli_loss_open(sl_factor *F, sl_int s) {
 
 /* Returns a_kk, as L D L' has it. *magnitude := the sum of the magnitudes |a_kk| + sum
  * |l_kj d_j l_kj| that pivot k was computed from, at most. O(descendants). */
-static double sli_update_entry(const sl_factor *F, sl_int k, double *magnitude) {
+SLI_COLD static double sli_update_entry(const sl_factor *F, sl_int k, double *magnitude) {
     const sl_symbolic *S = F->S;
     const sl_int own = S->super_of[k];
     double sum = 0.0, entry = F->D[k];

@@ -23,6 +23,7 @@ typedef struct sli_update {
     const sl_csc *V; /* the vectors: columns of an n x count matrix in the rows of A */
     const double *sigma;
     double sign;     /* of all pivots, 1 or -1; 0: they have both signs */
+    int keeps;       /* there is a trial, which keeps what the pass needs */
     int keeps_signs; /* a pivot that changes its sign is refused */
     int is_trial;    /* pivots are checked, and not changed */
     int is_tried;    /* the trial of this pass has succeeded */
@@ -35,8 +36,9 @@ typedef struct sli_update {
     double fall;   /* by at most this much the pass changes the largest |a| */
     sl_int row;    /* the pivot whose row it changes most */
     double least;  /* a smaller pivot may be null, and is refused where it was larger */
-    double shrink; /* of a trial: the least ratio of a new pivot to the old one */
     double top;    /* the largest new pivot */
+    double low;    /* the least one, where .. */
+    int are_usual; /* .. the extremes have shown that all can be taken */
     double entry;  /* the largest |a| that is known of the columns of the pass */
     double growth; /* the largest growth of rows in them */
     sli_reach R;
@@ -46,14 +48,17 @@ typedef struct sli_update {
     sli_ranks *state;
     sli_step *steps; /* of the reach */
     sl_int *rows;
-    double *x;               /* lanes for each column of the reach */
-    double *gain;            /* for each column: what the pass adds to its sum of magnitudes */
-    double *panel;           /* of the current step: in L or, if it has one column, .. */
-    double *column;          /* .. a copy with padding */
-    double *local;           /* [tile][lane][8]: the rows of the current step */
-    double *c;               /* 2 lanes for each column of the current step: y and -b */
-    double *other, *b;       /* of one vector: the rows of the next step, and b of the columns */
-    double *trial, *scratch; /* of a trial: the compact vector, and what the kernel needs */
+    double *x;             /* lanes for each column of the reach */
+    double *gain;          /* for each column: what the pass adds to its sum of magnitudes */
+    double *panel;         /* of the current step: in L or, if it has one column, .. */
+    double *column;        /* .. a copy with padding */
+    double *local;         /* [tile][lane][8]: the rows of the current step */
+    double *c;             /* 2 lanes for each column of the current step: y and -b, or .. */
+    double *e, *magnitude; /* .. of the reach, if there is a trial, with the new pivots */
+    double *trial;         /* of a trial: the compact vector before it */
+    sli_rank_one *path;    /* of one vector: the supernodes of its path, .. */
+    double *vectors;       /* .. and their vectors */
+    ptrdiff_t ahead;       /* bytes that their changes prefetch ahead */
 } sli_update;
 
 /* The kernel for passes of `count` vectors. One vector takes another kernel (path.h) where all
@@ -65,6 +70,7 @@ SLI_INLINE int sli_update_kind(sl_int count) {
 static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, sl_int lanes,
                               int has_trial) {
     const uint64_t many = (uint64_t)lanes;
+    uint64_t columns;
     u->state = SLI_TAKE(b, sli_ranks, 1);
     u->steps = SLI_TAKE(b, sli_step, R->count);
     u->rows = SLI_TAKE(b, sl_int, R->n_rows);
@@ -72,12 +78,12 @@ static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, s
     u->gain = SLI_TAKE(b, double, R->columns);
     u->column = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->tallest));
     u->local = SLI_TAKE(b, double, many *SLI_TILE *((uint64_t)sli_tiles(R->tallest) + 4));
-    u->c = SLI_TAKE(b, double, 2 * many * SLI_TILE * (uint64_t)sli_tiles(R->widest));
-    u->other = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->tallest));
-    u->b = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->widest));
+    u->keeps = has_trial;
+    columns = (uint64_t)(has_trial ? R->columns : R->widest + SLI_TILE);
+    u->c = SLI_TAKE(b, double, SLI_TILE + 2 * many * columns);
+    u->e = SLI_TAKE(b, double, has_trial ? R->columns : 0);
+    u->magnitude = SLI_TAKE(b, double, has_trial ? R->columns : 0);
     u->trial = SLI_TAKE(b, double, has_trial ? many *(uint64_t)R->columns : 0);
-    u->scratch =
-        SLI_TAKE(b, double, has_trial ? sli_sweep_scratch(R->tallest, R->widest, lanes) : 0);
 }
 
 /* Finds the panel of a step. */
@@ -126,16 +132,17 @@ static double sli_update_cancelled(const sl_factor *F, double d, double e) {
 }
 
 /* Takes pivot k from d to e. magnitude: the sum of the magnitudes that e was computed from. */
-static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magnitude) {
+SLI_COLD static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magnitude) {
     sl_factor *F = u->F;
     const double d = F->D[k];
     u->value = e;
     u->pivot = k;
-    if (!sli_is_finite(e)) {
+    if (!u->is_tried && !sli_is_finite(e)) {
         return sli_refuse(SL_ERR_NOT_FINITE, NULL); /* sli_rank_run names the pivot */
     }
-    if (fabs(e) < DBL_MIN || (u->keeps_signs && (e < 0.0) != (d < 0.0)) ||
-        (fabs(e) < fabs(d) && (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude)))) {
+    if (!u->is_tried &&
+        (fabs(e) < DBL_MIN || (u->keeps_signs && (e < 0.0) != (d < 0.0)) ||
+         (fabs(e) < fabs(d) && (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude))))) {
         return sli_refuse(SL_ERR_PIVOT, NULL);
     }
     if (!u->is_trial) {
@@ -159,7 +166,7 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
     double *D = F->D + k, least = DBL_MAX, top = 0.0, most = 0.0;
     int are_usual = 1, shrink = 0;
     sl_status status = SL_OK;
-    sl_int j, first = 0;
+    sl_int j;
     for (j = 0; j < count; j++) {
         const double d = D[j], size = fabs(e[j]), before = fabs(d);
         const double magnitude = magnitudes != NULL ? magnitudes[j] : before + fabs(e[j] - d);
@@ -175,16 +182,18 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
     if (are_usual && least >= DBL_MIN && top <= DBL_MAX &&
         (!shrink || u->is_tried ||
          (least > u->least && !sli_is_null(least, most + known, F->rule.null_tolerance)))) {
+        u->low = least < u->low ? least : u->low;
+        u->top = top > u->top ? top : u->top;
+        u->most = most > u->most ? most : u->most;
         if (!u->is_trial) {
             SLI_COPY(D, e, count);
             info->pivot_min = least < info->pivot_min ? least : info->pivot_min;
             info->pivot_max = top > info->pivot_max ? top : info->pivot_max;
-            u->top = top > u->top ? top : u->top;
-            u->most = most > u->most ? most : u->most;
         }
-        first = count;
+        return SL_OK;
     }
-    for (j = first; j < count && status == SL_OK; j++) {
+    u->are_usual = 0;
+    for (j = 0; j < count && status == SL_OK; j++) {
         const double d = D[j], size = fabs(e[j]);
         const double magnitude = magnitudes != NULL ? magnitudes[j] : fabs(d) + fabs(e[j] - d);
         if (e[j] != d || magnitude != size) {
@@ -214,15 +223,6 @@ static void sli_update_lose(sli_update *u, sl_int v) {
             u->lost = fmax(u->lost, *loss / sli_update_magnitude(F, k));
         }
     }
-}
-
-/* Changes the pivots of `columns` columns from k on. l, w: as for the kernel. Writes their c. */
-static sl_status sli_update_pivots(sli_update *u, sl_int k, sl_int columns, const double *l,
-                                   const double *w, double *c) {
-    sl_factor *F = u->F;
-    const sl_int done =
-        sli_change_kernels_of(F->kernels->isa)->ranks(u->state, l, columns, F->D + k, w, c);
-    return sli_update_take_all(u, k, done, u->state->e, u->state->magnitude);
 }
 
 #endif
