@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 2462624db4ec63d4
+ * FNV-1a of the lines after this comment, without the license: 906e51b30688f145
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,26 +38,26 @@
  *   4286 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5206 impl/ matrix: sparse matrices of the caller and of the library
  *   5836 impl/ ordering: fill-reducing orderings of a graph
- *  10945 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13171 impl/ factor: the numbers of L and D
- *  16548 impl/ solve: full and local solves
- *  18207 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20138 impl/ pivots: the order of the pivots by the values of a matrix
- *  20546 impl/ float: L and fronts in single precision
- *  20997 impl/ inverse: entries of the inverse, regions
- *  24064 impl/ change: a factor that follows changes of its matrix
- *  30236 impl/ dirichlet: rows fixed at given values
- *  30827 impl/ dirichlet: by a factor of all rows
- *  31059 impl/ io: files that are replaced only when they are complete
- *  31277 impl/ files: Matrix Market files, 64-bit indices
- *  31897 impl/ save: factors in files
- *  33909 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34592 impl/ batch: diagonals of many inverses
- *  34732 impl/ complex: complex Hermitian systems over real factors
- *  35294 impl/ complex: entries of the inverse
- *  35354 impl/ packs: the tables through which the core calls packs
- *  35403 impl/ last: undefine every internal macro
- *  35768 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10944 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13167 impl/ factor: the numbers of L and D
+ *  16544 impl/ solve: full and local solves
+ *  18203 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20134 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20542 impl/ float: L and fronts in single precision
+ *  20993 impl/ inverse: entries of the inverse, regions
+ *  24060 impl/ change: a factor that follows changes of its matrix
+ *  30232 impl/ dirichlet: rows fixed at given values
+ *  30823 impl/ dirichlet: by a factor of all rows
+ *  31055 impl/ io: files that are replaced only when they are complete
+ *  31273 impl/ files: Matrix Market files, 64-bit indices
+ *  31893 impl/ save: factors in files
+ *  33905 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34588 impl/ batch: diagonals of many inverses
+ *  34728 impl/ complex: complex Hermitian systems over real factors
+ *  35290 impl/ complex: entries of the inverse
+ *  35350 impl/ packs: the tables through which the core calls packs
+ *  35399 impl/ last: undefine every internal macro
+ *  35764 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3256,7 +3256,7 @@ SLI_INLINE void sli_borrow(const sli_atomic *borrowers) {
 }
 
 SLI_INLINE int sli_is_last(sli_atomic *borrowers) {
-  return (sli_atomic_read(borrowers) == 0 ? 0 : sli_atomic_add(borrowers, -1)) == 0;
+  return sli_atomic_read(borrowers) == 0 || sli_atomic_add(borrowers, -1) == 0;
 }
 
 #define SLI_CLEAR(object) memset(&(object), 0, sizeof(object))
@@ -7654,9 +7654,8 @@ enum {
 };
 enum { SLI_FLOW_NONE = -1, SLI_FLOW_END = -2 };
 
-#if !defined(SLI_FLOW_ROUNDS)
-#define SLI_FLOW_ROUNDS \
-  500
+#if !defined(SLI_FLOW_VISITS)
+#define SLI_FLOW_VISITS 500
 #endif
 
 static void sli_flow_terminals(sli_flow *f) {
@@ -7784,7 +7783,7 @@ static int sli_flow_maximize(sli_flow *f) {
   const sl_int n = f->sub->n;
   sl_int v, found = 1;
   memset(f->state, 0, 2 * (size_t)n);
-  f->left = SLI_FLOW_ROUNDS * 2 * (int64_t)n;
+  f->left = SLI_FLOW_VISITS * 2 * (int64_t)n;
   for (v = 0; v < n; v++) {
     f->before[v] = f->after[v] = SLI_FLOW_NONE;
   }
@@ -11688,37 +11687,34 @@ SLI_ALWAYS_INLINE void sli_pattern_count(const sli_analysis *w, sl_int p, sl_int
   }
 }
 
-static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
-  const sl_int *column = w->column, *moved = w->moved;
-  const sl_int ranges = sli_max(w->workers, 1);
-  const sl_int end = (sl_int)((int64_t)sli_nnz(w->A) * (r + 1) / ranges);
+SLI_INLINE sl_int sli_pattern_first(const sli_analysis *w, sl_int r) {
+  return (sl_int)((int64_t)sli_nnz(w->A) * r / sli_max(w->workers, 1));
+}
+
+static void sli_pattern_count_item(void *data, sl_int r, sl_int worker) {
+  const sli_analysis *w = (const sli_analysis *)data;
+  const sl_int p = sli_pattern_first(w, r), end = sli_pattern_first(w, r + 1);
   sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n);
-  sl_int p = (sl_int)((int64_t)sli_nnz(w->A) * r / ranges);
-  if (!is_counted) {
-    SLI_ZERO(at, w->n + 1);
-    if (w->side == 0) {
-      sli_pattern_count(w, p, end, at, 0);
-    } else {
-      sli_pattern_count(w, p, end, at, w->side);
-    }
-    return;
+  (void)worker;
+  SLI_ZERO(at, w->n + 1);
+  if (w->side == 0) {
+    sli_pattern_count(w, p, end, at, 0);
+  } else {
+    sli_pattern_count(w, p, end, at, w->side);
   }
-  for (; p < end; p++) {
+}
+
+static void sli_pattern_fill_item(void *data, sl_int r, sl_int worker) {
+  const sli_analysis *w = (const sli_analysis *)data;
+  const sl_int *column = w->column, *moved = w->moved, end = sli_pattern_first(w, r + 1);
+  sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n), p;
+  (void)worker;
+  for (p = sli_pattern_first(w, r); p < end; p++) {
     sl_int *entry = w->columns.entry + SLI_ENTRY * (size_t)at[column[p]]++;
     entry[0] = moved[p];
     entry[1] = column[p];
     entry[2] = p;
   }
-}
-
-static void sli_pattern_count_item(void *data, sl_int r, sl_int worker) {
-  (void)worker;
-  sli_pattern_range((const sli_analysis *)data, r, 0);
-}
-
-static void sli_pattern_fill_item(void *data, sl_int r, sl_int worker) {
-  (void)worker;
-  sli_pattern_range((const sli_analysis *)data, r, 1);
 }
 
 static void sli_pattern_fill(sli_analysis *w, sli_team *team) {
@@ -25143,15 +25139,15 @@ static sl_status sli_path_take(sli_update *u, const sli_rank_one *one) {
   if (!u->is_trial) {
     sli_loss_open(F, one->super);
   }
-  for (j = 0; j < count && u->is_tried && u->are_usual; j++) {
+  if (!u->is_tried || !u->are_usual) {
+    return sli_update_take_all(u, k, count, e, NULL);
+  }
+  for (j = 0; j < count; j++) {
     const double d = F->D[k + j];
     F->history.loss[k + j] += fabs(d) + fabs(e[j] - d);
     F->D[k + j] = e[j];
   }
-  if (u->is_tried && u->are_usual) {
-    return SL_OK;
-  }
-  return sli_update_take_all(u, k, count, e, NULL);
+  return SL_OK;
 }
 
 static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_tried) {
@@ -35623,7 +35619,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_LEVELS_TRY
 #undef SLI_BAND_SHARE
 #undef SLI_BISECT_BALANCE
-#undef SLI_FLOW_ROUNDS
+#undef SLI_FLOW_VISITS
 #undef SLI_MARKS_BEGIN
 #undef SLI_MINDEG_MAX
 #undef SLI_MINDEG_ELIMINATED

@@ -1,7 +1,7 @@
 /* test_faults.c: METIS that fails, separators of no flow, processors without popcnt, sizes
  * beyond memory: what calls cannot reach on this machine, by replaced functions and direct calls */
 #define SPARSE_LOCAL_IMPLEMENTATION
-#define SLI_FLOW_ROUNDS 0           /* no flow ends in time: each separator is a border */
+#define SLI_FLOW_VISITS 0           /* no flow ends in time: each separator is a border */
 #define SLI_MARKS_BEGIN marks_begin /* of minimum degree: near their largest number, on demand */
 static int marks_begin = 2;
 

@@ -53,38 +53,35 @@ SLI_ALWAYS_INLINE void sli_pattern_count(const sli_analysis *w, sl_int p, sl_int
     }
 }
 
-/* Counts or fills the range of entries of one worker. */
-static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
-    const sl_int *column = w->column, *moved = w->moved;
-    const sl_int ranges = sli_max(w->workers, 1);
-    const sl_int end = (sl_int)((int64_t)sli_nnz(w->A) * (r + 1) / ranges);
+/* Where the entries of range r begin. */
+SLI_INLINE sl_int sli_pattern_first(const sli_analysis *w, sl_int r) {
+    return (sl_int)((int64_t)sli_nnz(w->A) * r / sli_max(w->workers, 1));
+}
+
+static void sli_pattern_count_item(void *data, sl_int r, sl_int worker) {
+    const sli_analysis *w = (const sli_analysis *)data;
+    const sl_int p = sli_pattern_first(w, r), end = sli_pattern_first(w, r + 1);
     sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n);
-    sl_int p = (sl_int)((int64_t)sli_nnz(w->A) * r / ranges);
-    if (!is_counted) {
-        SLI_ZERO(at, w->n + 1);
-        if (w->side == 0) { /* a copy for this case has half of the operations */
-            sli_pattern_count(w, p, end, at, 0);
-        } else {
-            sli_pattern_count(w, p, end, at, w->side);
-        }
-        return;
+    (void)worker;
+    SLI_ZERO(at, w->n + 1);
+    if (w->side == 0) { /* a copy for this case has half of the operations */
+        sli_pattern_count(w, p, end, at, 0);
+    } else {
+        sli_pattern_count(w, p, end, at, w->side);
     }
-    for (; p < end; p++) {
+}
+
+static void sli_pattern_fill_item(void *data, sl_int r, sl_int worker) {
+    const sli_analysis *w = (const sli_analysis *)data;
+    const sl_int *column = w->column, *moved = w->moved, end = sli_pattern_first(w, r + 1);
+    sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n), p;
+    (void)worker;
+    for (p = sli_pattern_first(w, r); p < end; p++) {
         sl_int *entry = w->columns.entry + SLI_ENTRY * (size_t)at[column[p]]++;
         entry[0] = moved[p];
         entry[1] = column[p];
         entry[2] = p;
     }
-}
-
-static void sli_pattern_count_item(void *data, sl_int r, sl_int worker) {
-    (void)worker;
-    sli_pattern_range((const sli_analysis *)data, r, 0);
-}
-
-static void sli_pattern_fill_item(void *data, sl_int r, sl_int worker) {
-    (void)worker;
-    sli_pattern_range((const sli_analysis *)data, r, 1);
 }
 
 /* Fills the lower triangle of P A P', so that later passes walk it in elimination order. It is a

@@ -78,15 +78,15 @@ static sl_status sli_path_take(sli_update *u, const sli_rank_one *one) {
     if (!u->is_trial) {
         sli_loss_open(F, one->super);
     }
-    for (j = 0; j < count && u->is_tried && u->are_usual; j++) {
+    if (!u->is_tried || !u->are_usual) {
+        return sli_update_take_all(u, k, count, e, NULL);
+    }
+    for (j = 0; j < count; j++) {
         const double d = F->D[k + j];
         F->history.loss[k + j] += fabs(d) + fabs(e[j] - d);
         F->D[k + j] = e[j];
     }
-    if (u->is_tried && u->are_usual) {
-        return SL_OK;
-    }
-    return sli_update_take_all(u, k, count, e, NULL);
+    return SL_OK;
 }
 
 /* Sweeps a vector along its path, and changes the columns, if `is_tried` after all pivots were

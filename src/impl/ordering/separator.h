@@ -31,10 +31,10 @@ enum {
 };
 enum { SLI_FLOW_NONE = -1, SLI_FLOW_END = -2 /* the path begins or ends here */ };
 
-#if !defined(SLI_FLOW_ROUNDS) /* a test defines it as 0 */
-#define SLI_FLOW_ROUNDS \
-    500 /* a search may see each state so many times, in the mean: bands of
-                                 volumes of 2.6e5 vertices see them up to 52 times */
+/* A search may see each state so many times, in the mean. Bands of volumes of 2.6e5 vertices see
+ * them up to 52 times. A test defines it as 0. */
+#if !defined(SLI_FLOW_VISITS)
+#define SLI_FLOW_VISITS 500
 #endif
 
 /* Chooses the terminals: vertices with neighbors outside the band. If the whole of
@@ -174,7 +174,7 @@ static int sli_flow_maximize(sli_flow *f) {
     const sl_int n = f->sub->n;
     sl_int v, found = 1;
     memset(f->state, 0, 2 * (size_t)n);
-    f->left = SLI_FLOW_ROUNDS * 2 * (int64_t)n;
+    f->left = SLI_FLOW_VISITS * 2 * (int64_t)n;
     for (v = 0; v < n; v++) {
         f->before[v] = f->after[v] = SLI_FLOW_NONE;
     }
