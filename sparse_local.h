@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 906e51b30688f145
+ * FNV-1a of the lines after this comment, without the license: 02cf8f4e1e8f1e1c
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,28 +36,28 @@
  *   2969 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3012 impl/ base: the compiler, status, memory, sorting, threads
  *   4286 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5206 impl/ matrix: sparse matrices of the caller and of the library
- *   5836 impl/ ordering: fill-reducing orderings of a graph
- *  10944 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13167 impl/ factor: the numbers of L and D
- *  16544 impl/ solve: full and local solves
- *  18203 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20134 impl/ pivots: the order of the pivots by the values of a matrix
- *  20542 impl/ float: L and fronts in single precision
- *  20993 impl/ inverse: entries of the inverse, regions
- *  24060 impl/ change: a factor that follows changes of its matrix
- *  30232 impl/ dirichlet: rows fixed at given values
- *  30823 impl/ dirichlet: by a factor of all rows
- *  31055 impl/ io: files that are replaced only when they are complete
- *  31273 impl/ files: Matrix Market files, 64-bit indices
- *  31893 impl/ save: factors in files
- *  33905 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34588 impl/ batch: diagonals of many inverses
- *  34728 impl/ complex: complex Hermitian systems over real factors
- *  35290 impl/ complex: entries of the inverse
- *  35350 impl/ packs: the tables through which the core calls packs
- *  35399 impl/ last: undefine every internal macro
- *  35764 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5221 impl/ matrix: sparse matrices of the caller and of the library
+ *   5851 impl/ ordering: fill-reducing orderings of a graph
+ *  10959 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13182 impl/ factor: the numbers of L and D
+ *  16559 impl/ solve: full and local solves
+ *  18222 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20153 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20561 impl/ float: L and fronts in single precision
+ *  21026 impl/ inverse: entries of the inverse, regions
+ *  24093 impl/ change: a factor that follows changes of its matrix
+ *  30265 impl/ dirichlet: rows fixed at given values
+ *  30856 impl/ dirichlet: by a factor of all rows
+ *  31088 impl/ io: files that are replaced only when they are complete
+ *  31306 impl/ files: Matrix Market files, 64-bit indices
+ *  31926 impl/ save: factors in files
+ *  33938 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34621 impl/ batch: diagonals of many inverses
+ *  34761 impl/ complex: complex Hermitian systems over real factors
+ *  35323 impl/ complex: entries of the inverse
+ *  35383 impl/ packs: the tables through which the core calls packs
+ *  35432 impl/ last: undefine every internal macro
+ *  35798 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4920,6 +4920,7 @@ typedef struct sli_kernels {
 #define SLV_FRONT_PIVOTS(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME_PIVOTS, f)
 #define SLV_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME, f)
 #define SLV_SWEEP_SMALL(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME_SMALL, f)
+#define SLV_SWEEP_2(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME_2, f)
 #define SLW_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_NAME, f)
 #define SLW_SWEEP_HALF(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_HALF, f)
 #define SLV_READ(l) SLI_BY_TYPE(SLV_READ_, SLV_SINGLE)(l)
@@ -5011,6 +5012,12 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #define SLI_INL_MULTI_RHS_TILES
 #define SLI_INL_LANES_UNDEF
 #include SL_HEADER
+#define SLW_NRHS 2
+#define SLI_INL_LANES_AVX2
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_TWO_RHS
+#define SLI_INL_LANES_UNDEF
+#include SL_HEADER
 #define SLW_NRHS 8
 #define SLW_GROUPS 64
 #define SLI_INL_LANES_AVX2
@@ -5037,6 +5044,8 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #define SLI_INL_COPY_ROWS
 #define SLI_INL_FRONT
 #define SLI_INL_SWEEPS
+#define SLI_INL_TWO_RHS
+#include SL_HEADER
 #define SLI_INL_MULTI_RHS
 #define SLI_INL_MULTI_RHS_TILES
 #define SLI_INL_LANES_UNDEF
@@ -5067,6 +5076,12 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #define SLI_INL_SWEEPS
 #define SLI_INL_MULTI_RHS
 #define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_LANES_UNDEF
+#include SL_HEADER
+#define SLW_NRHS 2
+#define SLI_INL_LANES_NEON
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_TWO_RHS
 #define SLI_INL_LANES_UNDEF
 #include SL_HEADER
 #define SLW_NRHS 8
@@ -16932,6 +16947,8 @@ static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sl
     }
   } else if (nrhs == 3) {
     sli_pack_rows(y, sli_rows_of(index, count, 4), B, at, 3);
+  } else if (nrhs == 2) {
+    sli_pack_rows(y, sli_rows_of(index, count, 2), B, at, 2);
   } else if (nrhs == 1 && index == F->S->iperm && at.row == 1) {
     sli_unpack_rows(y, at, B, sli_rows_of(F->S->perm, count, 1), 1);
   } else if (nrhs == 1) {
@@ -16964,6 +16981,8 @@ static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rh
     }
   } else if (nrhs == 3) {
     sli_unpack_rows(X, at, x, sli_rows_of(index, count, 4), 3);
+  } else if (nrhs == 2) {
+    sli_unpack_rows(X, at, x, sli_rows_of(index, count, 2), 2);
   } else if (nrhs == 1) {
     sli_unpack_rows(X, at, x, sli_rows_of(index, count, 1), 1);
   } else {
@@ -20768,6 +20787,12 @@ typedef struct sli_float_kernels {
 #define SLI_INL_MULTI_RHS_TILES
 #define SLI_INL_LANES_UNDEF
 #include SL_HEADER
+#define SLW_NRHS 2
+#define SLI_INL_LANES_AVX2
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_TWO_RHS
+#define SLI_INL_LANES_UNDEF
+#include SL_HEADER
 #define SLW_NRHS 8
 #define SLW_GROUPS 64
 #define SLI_INL_LANES_AVX2
@@ -20787,6 +20812,8 @@ typedef struct sli_float_kernels {
 #define SLI_INL_WORDS_AVX512
 #define SLI_INL_LANES_AVX512
 #define SLI_INL_SWEEPS
+#define SLI_INL_TWO_RHS
+#include SL_HEADER
 #define SLI_INL_MULTI_RHS
 #define SLI_INL_MULTI_RHS_TILES
 #define SLI_INL_LANES_UNDEF
@@ -20811,6 +20838,12 @@ typedef struct sli_float_kernels {
 #define SLI_INL_SWEEPS
 #define SLI_INL_MULTI_RHS
 #define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_LANES_UNDEF
+#include SL_HEADER
+#define SLW_NRHS 2
+#define SLI_INL_LANES_NEON
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_TWO_RHS
 #define SLI_INL_LANES_UNDEF
 #include SL_HEADER
 #define SLW_NRHS 8
@@ -34740,10 +34773,10 @@ typedef struct sli_complex_kernels {
 #define SLI_INL_WORDS_SCALAR
 #define SLI_INL_LANES_SCALAR
 #define SLI_INL_FRONT
-#define SLI_INL_COMPLEX_GROUPS
-#define SLI_INL_MULTI_RHS_TILES
 #define SLI_INL_COMPLEX_SMALL
 #define SLI_INL_COMPLEX_ROWS
+#define SLI_INL_COMPLEX_GROUPS
+#define SLI_INL_MULTI_RHS_TILES
 #define SLI_INL_COMPLEX_SET
 #define SLI_INL_LANES_UNDEF
 #define SLI_INL_WORDS_UNDEF
@@ -34766,10 +34799,10 @@ typedef struct sli_complex_kernels {
 #define SLW_GROUPS 2
 #define SLI_INL_LANES_AVX2
 #define SLI_INL_COPY_ROWS
-#define SLI_INL_COMPLEX_GROUPS
-#define SLI_INL_MULTI_RHS_TILES
 #define SLI_INL_COMPLEX_SMALL
 #define SLI_INL_COMPLEX_ROWS
+#define SLI_INL_COMPLEX_GROUPS
+#define SLI_INL_MULTI_RHS_TILES
 #define SLI_INL_COMPLEX_SET
 #define SLI_INL_LANES_UNDEF
 #define SLI_INL_WORDS_UNDEF
@@ -34791,10 +34824,10 @@ typedef struct sli_complex_kernels {
 #define SLW_NRHS 16
 #define SLW_GROUPS 64
 #define SLI_INL_LANES_AVX512
-#define SLI_INL_COMPLEX_GROUPS
-#define SLI_INL_MULTI_RHS_TILES
 #define SLI_INL_COMPLEX_SMALL
 #define SLI_INL_COMPLEX_ROWS
+#define SLI_INL_COMPLEX_GROUPS
+#define SLI_INL_MULTI_RHS_TILES
 #define SLI_INL_COMPLEX_SET
 #define SLI_INL_LANES_UNDEF
 #define SLI_INL_WORDS_UNDEF
@@ -34817,10 +34850,10 @@ typedef struct sli_complex_kernels {
 #define SLW_GROUPS 2
 #define SLI_INL_LANES_NEON
 #define SLI_INL_COPY_ROWS
-#define SLI_INL_COMPLEX_GROUPS
-#define SLI_INL_MULTI_RHS_TILES
 #define SLI_INL_COMPLEX_SMALL
 #define SLI_INL_COMPLEX_ROWS
+#define SLI_INL_COMPLEX_GROUPS
+#define SLI_INL_MULTI_RHS_TILES
 #define SLI_INL_COMPLEX_SET
 #define SLI_INL_LANES_UNDEF
 #define SLI_INL_WORDS_UNDEF
@@ -35525,6 +35558,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLV_PIVOT
 #undef SLV_PACK_PAIRS
 #undef SLV_SWEEP
+#undef SLV_SWEEP_2
 #undef SLV_SWEEP_SMALL
 #undef SLW_SWEEP
 #undef SLW_SWEEP_HALF
@@ -38302,6 +38336,414 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
 }
 #endif
 
+#ifdef SLI_INL_COMPLEX_SMALL
+#undef SLI_INL_COMPLEX_SMALL
+/* src/impl/complex/complex_small.inl.h: one right-hand side through a supernode of 1 to 4 complex columns */
+
+#define SLI_XT(j, k) \
+  { \
+    const double re = l[SLI_TILE / 2 * (j) + (k)], im = l[SLI_TILE / 2 * (j) + (k) + 1]; \
+    r[j] = SLV_FNMA1(re, r[k], SLV_FNMA1(im, r[(k) + 1], r[j])); \
+    r[(j) + 1] = SLV_FNMA1(re, r[(k) + 1], SLV_FNMA1(-im, r[k], r[(j) + 1])); \
+  }
+
+#define SLI_UNIT_TRIANGLE(w) \
+  if ((w) > 6) { \
+    SLI_XT(0, 6) SLI_XT(2, 6) SLI_XT(4, 6) \
+  } \
+  if ((w) > 4) { \
+    SLI_XT(0, 4) SLI_XT(2, 4) \
+  } \
+  if ((w) > 2) { \
+    SLI_XT(0, 2) \
+  }
+
+#if defined(SLV_OWN_SMALL)
+#define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
+#define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
+#define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
+#define SLI_EACH_PAIR(op) op(0, 1) op(2, 3) op(4, 5) op(6, 7)
+
+#define SLI_PAIR(k, m) \
+  if ((k) < w) { \
+    SLI_PREFETCH(l + SLI_TILE / 2 * (k), SLI_PREFETCH_DISTANCE); \
+    SLV_LANE(y##k, a, k) \
+    SLV_LANE(y##m, a, m) \
+    SLV_ZERO(b) \
+    SLV_DOT(a, l + SLI_TILE / 2 * (k), y##k) \
+    SLV_DOT(b, l + SLI_TILE / 2 * (k), y##m) \
+    SLV_TURN(b, b) \
+    SLV_ADD(a, b) \
+  }
+#define SLI_PAIR_BELOW(k, m) \
+  if ((k) < w) { \
+    SLI_PREFETCH(l + SLI_TILE / 2 * (k), SLI_PREFETCH_DISTANCE); \
+    SLV_DOT(a, l + SLI_TILE / 2 * (k), y##k) \
+    SLV_DOT(b, l + SLI_TILE / 2 * (k), y##m) \
+  }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void
+SLV_NAME(complex_small_forward)(const sl_int w, const sli_step *s, const sl_int *rows,
+    const double *L, double *x, double *buf) {
+  const sl_int below = s->below;
+  const double *l = L + s->panel / 2;
+  double *xs = x + s->base;
+  sl_int row, i;
+  SLV_DECLARE(a)
+  SLV_DECLARE(b)
+  SLI_EACH8(SLI_DECLARE, y)
+  SLV_LOAD_PART(a, xs, w, 0.0)
+  SLI_EACH_PAIR(SLI_PAIR)
+  SLV_STORE(buf, a)
+  for (i = 0; i < w; i++) {
+    xs[i] = buf[i];
+  }
+  for (row = SLI_TILE; row < w + below; row += SLI_TILE) {
+    l += SLI_TILE / 2 * w;
+    SLV_ZERO(a)
+    SLV_ZERO(b)
+    SLI_EACH_PAIR(SLI_PAIR_BELOW)
+    SLV_TURN(b, b)
+    SLV_ADD(a, b)
+    SLV_STORE(buf + row, a)
+  }
+  buf += w;
+  for (i = 0; i < below; i += 2) {
+    x[rows[i]] += buf[i];
+    x[rows[i + 1]] += buf[i + 1];
+  }
+}
+
+#define SLI_DOT(k, m) \
+  if ((k) < w) { \
+    SLI_PREFETCH(l + SLI_TILE / 2 * (k), -SLI_PREFETCH_DISTANCE); \
+    SLV_SUM_DOT(a##k, l + SLI_TILE / 2 * (k), v) \
+    SLV_SUM_DOT(a##m, l + SLI_TILE / 2 * (k), u) \
+  }
+#define SLI_DOTS \
+  SLV_TURN_BACK(u, v) \
+  SLI_DOT(6, 7) SLI_DOT(4, 5) SLI_DOT(2, 3) SLI_DOT(0, 1)
+#define SLI_ROW_AT(k) rows[at + (k)]
+#define SLI_ROW_AT_PART(k) rows[at + sli_min(k, count - 1)]
+#define SLI_ROW_AT_OWN(k) rows[sli_clamp((k)-w, at - 1)]
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void
+SLV_NAME(complex_small_backward)(const sl_int w, const sli_step *s, const sl_int *rows,
+    const double *L, const double *D, double *x) {
+  const sl_int below = s->below, count = (w + below) % SLI_TILE;
+  const double *l = L + (s->panel + sli_panel_size(w, below)) / 2;
+  const double *d = D + s->column;
+  double *xs = x + s->base;
+  sl_int row = w + below - count, at = below, k;
+  double r[SLI_TILE];
+  SLV_DECLARE(u)
+  SLV_DECLARE(v)
+  SLV_DECLARE(z)
+  SLI_EACH8(SLI_SUM_DECLARE, a)
+  SLI_EACH8(SLI_SUM_ZERO, a)
+  if ((w == SLI_TILE || row > 0) && count > 0) {
+    at -= count;
+    l -= SLI_TILE / 2 * w;
+    SLV_GATHER(v, x, SLI_ROW_AT_PART)
+    SLV_FIRST(v, count)
+    SLI_DOTS
+  }
+  for (; row > SLI_TILE; row -= SLI_TILE) {
+    at -= SLI_TILE;
+    l -= SLI_TILE / 2 * w;
+    SLV_GATHER(v, x, SLI_ROW_AT)
+    SLI_DOTS
+  }
+  l -= SLI_TILE / 2 * w;
+  if (w < SLI_TILE && at > 0) {
+    SLV_GATHER(v, x, SLI_ROW_AT_OWN)
+    SLV_FIRST(v, w + at)
+    SLV_BELOW(v, w - 1)
+    SLI_DOTS
+  }
+  SLV_LOAD_PART(z, xs, w, 0.0)
+  SLV_LOAD_PART(v, d, w, 1.0)
+  SLV_DIVIDE(z, z, v)
+  SLV_SUMS(v, a)
+  SLV_ADD(v, z)
+  SLV_STORE_ANY(r, v)
+  SLI_UNIT_TRIANGLE(w)
+  for (k = 0; k < w; k++) {
+    xs[k] = r[k];
+  }
+}
+
+#define SLI_EACH_WIDTH(call) \
+  switch (w) { \
+    SLI_CASE(2, call) \
+    SLI_CASE(4, call) \
+    SLI_CASE(6, call) \
+  default: \
+    call(8); \
+  }
+#define SLI_FORWARD(k) SLV_NAME(complex_small_forward)(k, s, rows, L, x, buf)
+#define SLI_BACKWARD(k) SLV_NAME(complex_small_backward)(k, s, rows, L, D, x)
+
+SLV_FUNCTION SLI_INLINE const sli_step *
+SLV_NAME(complex_forward_small)(const sli_step *s, const sli_step *end, const sl_int **next_rows,
+    const double *L, double *x, double *buf) {
+  const sl_int *rows = *next_rows;
+  for (; s < end && s->width <= SLI_TILE; s++) {
+    const sl_int w = s->width;
+    SLI_EACH_WIDTH(SLI_FORWARD);
+    rows += s->below;
+  }
+  *next_rows = rows;
+  return s;
+}
+
+SLV_FUNCTION SLI_INLINE const sli_step *
+SLV_NAME(complex_backward_small)(const sli_step *s, const sli_step *begin, const sl_int **rows_end,
+    const double *L, const double *D, double *x) {
+  const sl_int *rows = *rows_end;
+  while (s > begin && s[-1].width <= SLI_TILE) {
+    const sl_int w = (--s)->width;
+    rows -= s->below;
+    SLI_EACH_WIDTH(SLI_BACKWARD);
+  }
+  *rows_end = rows;
+  return s;
+}
+#endif
+
+#undef SLI_DECLARE
+#undef SLI_SUM_DECLARE
+#undef SLI_SUM_ZERO
+#undef SLI_EACH_PAIR
+#undef SLI_PAIR
+#undef SLI_PAIR_BELOW
+#undef SLI_DOT
+#undef SLI_DOTS
+#undef SLI_ROW_AT
+#undef SLI_ROW_AT_PART
+#undef SLI_ROW_AT_OWN
+#undef SLI_EACH_WIDTH
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+#endif
+
+#ifdef SLI_INL_COMPLEX_ROWS
+#undef SLI_INL_COMPLEX_ROWS
+/* src/impl/complex/complex_rows.inl.h: sweeps over L of a complex Hermitian matrix, of which every other column is */
+
+#define SLI_HALF (SLI_TILE / 2)
+#if defined(SLV_PAIR)
+#define SLI_SMALL 1
+#else
+#define SLI_SMALL 0
+#endif
+#define SLI_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
+#define SLI_ROW_AT(k) rows[at + (k)]
+
+#define SLI_INSIDE(k) \
+  if (SLI_IS_IN(k, inner)) { \
+    SLV_LANE(v, a0, k) \
+    SLV_LANE(u, a0, (k) + 1) \
+    SLV_ZERO(b0) \
+    SLV_DOT(a0, l + SLI_HALF * (k), v) \
+    SLV_DOT(b0, l + SLI_HALF * (k), u) \
+    SLV_TURN(b0, b0) \
+    SLV_ADD(a0, b0) \
+  }
+
+SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(complex_forward_step)(const sli_step *s,
+    const sl_int *rows,
+    const double *L, double *x,
+    double *buf) {
+  const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+  const double *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / 2;
+  double *xs = x + s->base;
+  sl_int row, i, j;
+  for (i = first; i < w; i++) {
+    buf[i] = xs[i - first];
+  }
+  for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
+    buf[i] = 0.0;
+  }
+  for (row = first; row < height; row += SLI_TILE) {
+    const sl_int final = sli_min(row, w), inner = sli_clamp(w - row, SLI_TILE);
+    const double *l = tile + SLI_HALF * (ptrdiff_t)first;
+    SLV_DECLARE(a0)
+    SLV_DECLARE(a1)
+    SLV_DECLARE(b0)
+    SLV_DECLARE(b1)
+    SLV_LOAD(a0, buf + row)
+    SLV_ZERO(a1)
+    SLV_ZERO(b0)
+    SLV_ZERO(b1)
+    for (j = first; j + 4 <= final;
+        j += 4, l += 2 * SLI_TILE) {
+      SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+      SLI_PREFETCH(l + SLI_TILE, SLI_PREFETCH_DISTANCE);
+      SLV_AXPY(a0, l, buf + j)
+      SLV_AXPY(b0, l, buf + j + 1)
+      SLV_AXPY(a1, l + SLI_TILE, buf + j + 2)
+      SLV_AXPY(b1, l + SLI_TILE, buf + j + 3)
+    }
+    if (j < final) {
+      SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+      SLV_AXPY(a0, l, buf + j)
+      SLV_AXPY(b0, l, buf + j + 1)
+      l += SLI_TILE;
+    }
+    SLV_ADD(a0, a1)
+    SLV_ADD(b0, b1)
+    SLV_TURN(b0, b0)
+    SLV_ADD(a0, b0)
+    if (inner > 0) {
+      SLV_DECLARE(u)
+      SLV_DECLARE(v)
+      SLI_INSIDE(0)
+      SLI_INSIDE(2)
+      SLI_INSIDE(4)
+      SLI_INSIDE(6)
+    }
+    SLV_STORE(buf + row, a0)
+    tile += SLI_HALF * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+  }
+  for (i = first; i < w; i++) {
+    xs[i - first] = buf[i];
+  }
+  for (i = 0; i < s->below; i++) {
+    x[rows[i]] += buf[w + i];
+  }
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_dots)(const double *tile, const double *x,
+    sl_int first, sl_int final, double *sums) {
+  ptrdiff_t j;
+  SLV_DECLARE(v)
+  SLV_DECLARE(u)
+  SLV_SUM_DECLARE(a)
+  SLV_SUM_DECLARE(b)
+  SLV_LOAD(v, x)
+  SLV_TURN_BACK(u, v)
+  for (j = (ptrdiff_t) final - 2; j >= first; j -= 2) {
+    const double *l = tile + SLI_HALF * j;
+    SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
+    SLV_SUM_LOAD(a, sums + SLI_TILE * j)
+    SLV_SUM_LOAD(b, sums + SLI_TILE * (j + 1))
+    SLV_SUM_DOT(a, l, v)
+    SLV_SUM_DOT(b, l, u)
+    SLV_SUM_STORE(sums + SLI_TILE * j, a)
+    SLV_SUM_STORE(sums + SLI_TILE * (j + 1), b)
+  }
+}
+
+#define SLI_TAKE_SUM(k, unused) \
+  if (SLI_IS_IN((k) / 2 * 2, inner)) { \
+    SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k)) \
+  } else { \
+    SLV_SUM_ZERO(a##k) \
+  }
+SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int inner,
+    const double *sums, const double *d,
+    double *xs, double *buf) {
+  double r[SLI_TILE], b[SLI_TILE];
+  sl_int k;
+  SLV_DECLARE(v)
+  SLV_DECLARE(z)
+  SLI_EACH8(SLI_DECLARE, a)
+  SLI_EACH8(SLI_TAKE_SUM, 0)
+  for (k = 0; k < inner; k++) {
+    b[k] = xs[k];
+  }
+  SLV_LOAD_PART(z, b, inner, 0.0)
+  SLV_LOAD_PART(v, d, inner, 1.0)
+  SLV_DIVIDE(z, z, v)
+  SLV_SUMS(v, a)
+  SLV_ADD(v, z)
+  SLV_STORE_ANY(r, v)
+  SLI_UNIT_TRIANGLE(inner)
+  for (k = 0; k < inner; k++) {
+    xs[k] = buf[k] = r[k];
+  }
+}
+
+SLV_FUNCTION SLI_NOINLINE static void
+SLV_NAME(complex_backward_step)(const sli_step *s, const sl_int *rows, const double *L,
+    const double *D, double *x, double *buf) {
+  const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+  const double *tile = L + (s->panel + sli_panel_size(w, s->below)) / 2;
+  const double *d = D + s->column - first;
+  double *xs = x + (s->base - first), *sums = buf + SLI_TILE;
+  sl_int row, j;
+  SLV_DECLARE(v)
+  SLV_SUM_DECLARE(a)
+  SLV_SUM_ZERO(a)
+  for (j = first; j < w; j++) {
+    SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+  }
+  for (row = SLI_TILE * (sli_tiles(height) - 1); row >= first; row -= SLI_TILE) {
+    const sl_int inner = sli_clamp(w - row, SLI_TILE), final = sli_min(row, w);
+    const sl_int at = row + inner - w, part = sli_min(height - row, SLI_TILE) - inner;
+    tile -= SLI_HALF * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+    if (part == SLI_TILE) {
+      SLV_GATHER(v, x, SLI_ROW_AT)
+      SLV_STORE(buf, v)
+    } else {
+      for (j = 0; j < SLI_TILE; j++) {
+        const int is_below = j >= inner && j < inner + part;
+        buf[j] = is_below ? x[rows[at + j - inner]] : 0.0;
+      }
+    }
+    if (inner > 0) {
+      if (part > 0) {
+        SLV_NAME(complex_dots)(tile, buf, row, row + inner, sums);
+      }
+      SLV_NAME(complex_diagonal)
+      (tile + SLI_HALF * (ptrdiff_t)row, inner, sums + SLI_TILE * (ptrdiff_t)row, d + row,
+       xs + row, buf);
+    }
+    SLV_NAME(complex_dots)(tile, buf, first, final, sums);
+  }
+}
+
+SLV_FUNCTION static void SLV_NAME(complex_forward)(const sli_reach *R, const void *values,
+    double *x, double *buf) {
+  const double *L = (const double *)values;
+  const sli_step *s = R->steps, *end = s + R->count;
+  const sl_int *rows = R->rows;
+  while (s < end) {
+    if (SLI_SMALL && s->width <= SLI_TILE) {
+      s = SLV_NAME_SMALL(complex_forward_small)(s, end, &rows, L, x, buf);
+    } else {
+      SLV_NAME(complex_forward_step)(s, rows, L, x, buf);
+      rows += (s++)->below;
+    }
+  }
+}
+
+SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const void *values,
+    const double *D, double *x, double *buf) {
+  const double *L = (const double *)values;
+  const sli_step *begin = R->steps, *s = begin + R->count;
+  const sl_int *rows = R->rows + R->n_rows;
+  while (s > begin) {
+    if (SLI_SMALL && s[-1].width <= SLI_TILE) {
+      s = SLV_NAME_SMALL(complex_backward_small)(s, begin, &rows, L, D, x);
+    } else {
+      rows -= (--s)->below;
+      SLV_NAME(complex_backward_step)(s, rows, L, D, x, buf);
+    }
+  }
+}
+
+#undef SLI_TAKE_SUM
+#undef SLI_INSIDE
+#undef SLI_ROW_AT
+#undef SLI_DECLARE
+#undef SLI_HALF
+#undef SLI_UNIT_TRIANGLE
+#undef SLI_XT
+#undef SLI_SMALL
+#endif
+
 #ifdef SLI_INL_COMPLEX_GROUPS
 #undef SLI_INL_COMPLEX_GROUPS
 /* src/impl/complex/complex_groups.inl.h: what row tiles of L do to 2 or more right-hand sides of a complex matrix */
@@ -38390,7 +38832,7 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
 
 #ifdef SLI_INL_SWEEPS
 #undef SLI_INL_SWEEPS
-/* src/impl/kernels/sweeps.inl.h: the sweeps for one and two right-hand sides, for one type of L */
+/* src/impl/kernels/sweeps.inl.h: the sweeps for one right-hand side, for one type of L */
 
 /* src/impl/kernels/unit_triangle.inl.h: one right-hand side through the unit triangle of a diagonal tile */
 
@@ -38428,198 +38870,6 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(tile_backward)(const SLV_VALUE *l, double
 #undef SLI_X
 #undef SLI_XT
 /* end of unit_triangle.inl.h */
-#if defined(SLV_PAIR)
-/* src/impl/kernels/two_rhs.inl.h: sweeps for two right-hand sides, vectorized over the 8 rows of a tile */
-
-#define SLI_PAIR_AXPY(e, l, p) \
-  SLV_DUP_LOW(t0, l) \
-  SLV_DUP_HIGH(t1, l) \
-  SLV_PAIR(b, p) \
-  SLV_FNMA(e##0, t0, b) \
-  SLV_FNMA(e##1, t1, b)
-
-#define SLI_PAIR_TILE(solve, l, p) \
-  { \
-    double r[2][SLI_TILE]; \
-    for (k = 0; k < SLI_TILE; k++) { \
-      r[0][k] = (p)[2 * k]; \
-      r[1][k] = (p)[2 * k + 1]; \
-    } \
-    solve((l), r[0]); \
-    solve((l), r[1]); \
-    for (k = 0; k < SLI_TILE; k++) { \
-      (p)[2 * k] = r[0][k]; \
-      (p)[2 * k + 1] = r[1][k]; \
-    } \
-  }
-
-SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *values, double *x,
-    double *buf) {
-  const SLV_VALUE *L = (const SLV_VALUE *)values;
-  const sli_step *s = R->steps, *end = s + R->count;
-  const sl_int *rows = R->rows;
-  for (; s < end; s++) {
-    const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-    const size_t columns = 2 * (size_t)(w - first);
-    const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
-    double *xs = x + 2 * (ptrdiff_t)s->base;
-    sl_int row, i, j, k;
-    if (w == 1) {
-      for (i = 0; i < s->below; i++) {
-        double *to = x + 2 * (ptrdiff_t)rows[i];
-        to[0] = SLV_FNMA1((double)tile[1 + i], xs[0], to[0]);
-        to[1] = SLV_FNMA1((double)tile[1 + i], xs[1], to[1]);
-      }
-      rows += s->below;
-      continue;
-    }
-    memcpy(buf + 2 * (ptrdiff_t)first, xs, columns * sizeof(double));
-    memset(buf + 2 * (ptrdiff_t)w, 0,
-        2 * (size_t)(SLI_TILE * sli_tiles(height) - w) * sizeof(double));
-    for (row = first; row < height; row += SLI_TILE) {
-      const sl_int final = sli_min(row, w), inner = sli_clamp(w - row, SLI_TILE);
-      const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first;
-      double *p = buf + 2 * (ptrdiff_t)row;
-      SLV_DECLARE(e0)
-      SLV_DECLARE(e1)
-      SLV_DECLARE(f0)
-      SLV_DECLARE(f1)
-      SLV_DECLARE(t0)
-      SLV_DECLARE(t1)
-      SLV_DECLARE(b)
-      SLV_LOAD(e0, p)
-      SLV_LOAD(e1, p + SLI_TILE)
-      SLV_ZERO(f0)
-      SLV_ZERO(f1)
-      for (j = first; j + 2 <= final;
-          j += 2, l += 2 * SLI_TILE) {
-        SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
-        SLI_PAIR_AXPY(f, l + SLI_TILE, buf + 2 * (ptrdiff_t)j + 2)
-      }
-      if (j < final) {
-        SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
-      }
-      SLV_ADD(e0, f0)
-      SLV_ADD(e1, f1)
-      SLV_STORE(p, e0)
-      SLV_STORE(p + SLI_TILE, e1)
-      l = tile + SLI_TILE * (ptrdiff_t)row;
-      if (inner == SLI_TILE) {
-        SLI_PAIR_TILE(SLV_SWEEP(tile_forward), l, p)
-      } else {
-        for (k = 0; k < inner; k++, l += SLI_TILE) {
-          SLI_PAIR_AXPY(e, l, p + 2 * k)
-          SLV_STORE(p, e0)
-          SLV_STORE(p + SLI_TILE, e1)
-        }
-      }
-      tile += SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-    }
-    memcpy(xs, buf + 2 * (ptrdiff_t)first, columns * sizeof(double));
-    for (i = 0; i < s->below; i++) {
-      double *to = x + 2 * (ptrdiff_t)rows[i];
-      to[0] += buf[2 * (ptrdiff_t)(w + i)];
-      to[1] += buf[2 * (ptrdiff_t)(w + i) + 1];
-    }
-    rows += s->below;
-  }
-}
-
-#define SLI_PAIR_DOT(a, l) \
-  SLV_DUP_LOW(t0, l) \
-  SLV_DUP_HIGH(t1, l) \
-  SLV_FNMA(a, t0, v0) \
-  SLV_FNMA(a, t1, v1)
-
-SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *values,
-    const double *D, double *x, double *buf) {
-  const SLV_VALUE *L = (const SLV_VALUE *)values;
-  const sli_step *s = R->steps + R->count;
-  const sl_int *rows_end = R->rows + R->n_rows;
-  while (s > R->steps) {
-    const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-    const sl_int padded = SLI_TILE * sli_tiles(height);
-    const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
-    const double *d = D + s->column - first;
-    double *xs = x + 2 * ((ptrdiff_t)s->base - first), *sums = buf + 2 * (ptrdiff_t)padded;
-    sl_int row, i, j, k;
-    SLV_DECLARE(a)
-    SLV_DECLARE(v0)
-    SLV_DECLARE(v1)
-    SLV_DECLARE(t0)
-    SLV_DECLARE(t1)
-    SLV_ZERO(a)
-    rows_end -= s->below;
-    if (w == 1) {
-      xs[0] /= d[0];
-      xs[1] /= d[0];
-      for (i = s->below - 1, tile -= s->below; i >= 0; i--) {
-        const double *from = x + 2 * (ptrdiff_t)rows_end[i];
-        xs[0] = SLV_FNMA1((double)tile[i], from[0], xs[0]);
-        xs[1] = SLV_FNMA1((double)tile[i], from[1], xs[1]);
-      }
-      continue;
-    }
-    for (i = first; i < w; i++) {
-      SLV_STORE(sums + SLI_TILE * (ptrdiff_t)i, a)
-      buf[2 * i] = buf[2 * i + 1] = 0.0;
-    }
-    for (i = 0; i < s->below; i++) {
-      buf[2 * (w + i)] = x[2 * (ptrdiff_t)rows_end[i]];
-      buf[2 * (w + i) + 1] = x[2 * (ptrdiff_t)rows_end[i] + 1];
-    }
-    memset(buf + 2 * (ptrdiff_t)height, 0, 2 * (size_t)(padded - height) * sizeof(double));
-    for (row = padded - SLI_TILE; row >= first; row -= SLI_TILE) {
-      const sl_int inner = sli_clamp(w - row, SLI_TILE);
-      double *p = buf + 2 * (ptrdiff_t)row;
-      const SLV_VALUE *l;
-      tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-      l = tile + SLI_TILE * (ptrdiff_t)row;
-      SLV_LOAD(v0, p)
-      SLV_LOAD(v1, p + SLI_TILE)
-      for (k = 0; k < inner; k++) {
-        double part[SLI_TILE];
-        SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)(row + k))
-        if (inner < SLI_TILE) {
-          SLI_PAIR_DOT(a, l + SLI_TILE * k)
-        }
-        SLV_STORE_ANY(part, a)
-        for (j = 0; j < 2; j++) {
-          p[2 * k + j] = xs[2 * (ptrdiff_t)(row + k) + j] / d[row + k] +
-                   ((part[j] + part[2 + j]) + (part[4 + j] + part[6 + j]));
-        }
-      }
-      if (inner == SLI_TILE) {
-        SLI_PAIR_TILE(SLV_SWEEP(tile_backward), l, p)
-      } else {
-        for (k = inner - 1; k > 0; k--) {
-          for (j = 0; j < k; j++) {
-            const double lkj = l[SLI_TILE * j + k];
-            p[2 * j] = SLV_FNMA1(lkj, p[2 * k], p[2 * j]);
-            p[2 * j + 1] = SLV_FNMA1(lkj, p[2 * k + 1], p[2 * j + 1]);
-          }
-        }
-      }
-      SLV_LOAD(v0, p)
-      SLV_LOAD(v1, p + SLI_TILE)
-      l = tile + SLI_TILE * (ptrdiff_t)sli_min(row, w);
-      for (j = sli_min(row, w) - 1; j >= first; j--) {
-        l -= SLI_TILE;
-        SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLI_PAIR_DOT(a, l)
-        SLV_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
-      }
-    }
-    memcpy(xs + 2 * (ptrdiff_t)first, buf + 2 * (ptrdiff_t)first,
-        2 * (size_t)(w - first) * sizeof(double));
-  }
-}
-
-#undef SLI_PAIR_AXPY
-#undef SLI_PAIR_TILE
-#undef SLI_PAIR_DOT
-/* end of two_rhs.inl.h */
-#endif
 #if defined(SLV_OWN_SMALL)
 /* src/impl/kernels/small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
 
@@ -39402,7 +39652,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
 
 #define SLI_FORWARD(k) SLW_SWEEP(small_forward)(k, below, l, xs, x)
 #define SLI_BACKWARD(k) SLW_SWEEP(small_backward)(k, below, l, d, xs, x)
-#if defined(SLW_GROUPS) || SLV_SINGLE
+#if defined(SLW_GROUPS) || SLV_SINGLE || SLW_NRHS == 2
 #define SLI_BY_WIDTH(call) call(w)
 #else
 #define SLI_BY_WIDTH(call) SLI_CASES(call)
@@ -39452,6 +39702,209 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
 /* end of multi_rhs_small.inl.h */
 #define SLI_SMALL
 #endif
+#endif
+
+#ifdef SLI_INL_TWO_RHS
+#undef SLI_INL_TWO_RHS
+/* src/impl/kernels/two_rhs.inl.h: sweeps for two right-hand sides, vectorized over the 8 rows of a tile */
+
+#define SLI_PAIR_AXPY(e, l, p) \
+  SLV_DUP_LOW(t0, l) \
+  SLV_DUP_HIGH(t1, l) \
+  SLV_PAIR(b, p) \
+  SLV_FNMA(e##0, t0, b) \
+  SLV_FNMA(e##1, t1, b)
+
+#define SLI_PAIR_TILE(solve, l, p) \
+  { \
+    double r[2][SLI_TILE]; \
+    for (k = 0; k < SLI_TILE; k++) { \
+      r[0][k] = (p)[2 * k]; \
+      r[1][k] = (p)[2 * k + 1]; \
+    } \
+    solve((l), r[0]); \
+    solve((l), r[1]); \
+    for (k = 0; k < SLI_TILE; k++) { \
+      (p)[2 * k] = r[0][k]; \
+      (p)[2 * k + 1] = r[1][k]; \
+    } \
+  }
+
+SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *values, double *x,
+    double *buf) {
+  const SLV_VALUE *L = (const SLV_VALUE *)values;
+  const sli_step *s = R->steps, *end = s + R->count;
+  const sl_int *rows = R->rows;
+  for (; s < end; s++) {
+    const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+    const size_t columns = 2 * (size_t)(w - first);
+    const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+    double *xs = x + 2 * (ptrdiff_t)s->base;
+    sl_int row, i, j, k;
+    if (w == 1) {
+      for (i = 0; i < s->below; i++) {
+        double *to = x + 2 * (ptrdiff_t)rows[i];
+        to[0] = SLV_FNMA1((double)tile[1 + i], xs[0], to[0]);
+        to[1] = SLV_FNMA1((double)tile[1 + i], xs[1], to[1]);
+      }
+      rows += s->below;
+      continue;
+    }
+    if (w <= SLI_TILE) {
+      SLV_SWEEP_2(forward_small)(w, sli_rows_of(rows, s->below, 2), tile, xs, x);
+      rows += s->below;
+      continue;
+    }
+    memcpy(buf + 2 * (ptrdiff_t)first, xs, columns * sizeof(double));
+    memset(buf + 2 * (ptrdiff_t)w, 0,
+        2 * (size_t)(SLI_TILE * sli_tiles(height) - w) * sizeof(double));
+    for (row = first; row < height; row += SLI_TILE) {
+      const sl_int final = sli_min(row, w), inner = sli_clamp(w - row, SLI_TILE);
+      const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first;
+      double *p = buf + 2 * (ptrdiff_t)row;
+      SLV_DECLARE(e0)
+      SLV_DECLARE(e1)
+      SLV_DECLARE(f0)
+      SLV_DECLARE(f1)
+      SLV_DECLARE(t0)
+      SLV_DECLARE(t1)
+      SLV_DECLARE(b)
+      SLV_LOAD(e0, p)
+      SLV_LOAD(e1, p + SLI_TILE)
+      SLV_ZERO(f0)
+      SLV_ZERO(f1)
+      for (j = first; j + 2 <= final;
+          j += 2, l += 2 * SLI_TILE) {
+        SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
+        SLI_PAIR_AXPY(f, l + SLI_TILE, buf + 2 * (ptrdiff_t)j + 2)
+      }
+      if (j < final) {
+        SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
+      }
+      SLV_ADD(e0, f0)
+      SLV_ADD(e1, f1)
+      SLV_STORE(p, e0)
+      SLV_STORE(p + SLI_TILE, e1)
+      l = tile + SLI_TILE * (ptrdiff_t)row;
+      if (inner == SLI_TILE) {
+        SLI_PAIR_TILE(SLV_SWEEP(tile_forward), l, p)
+      } else {
+        for (k = 0; k < inner; k++, l += SLI_TILE) {
+          SLI_PAIR_AXPY(e, l, p + 2 * k)
+          SLV_STORE(p, e0)
+          SLV_STORE(p + SLI_TILE, e1)
+        }
+      }
+      tile += SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+    }
+    memcpy(xs, buf + 2 * (ptrdiff_t)first, columns * sizeof(double));
+    for (i = 0; i < s->below; i++) {
+      double *to = x + 2 * (ptrdiff_t)rows[i];
+      to[0] += buf[2 * (ptrdiff_t)(w + i)];
+      to[1] += buf[2 * (ptrdiff_t)(w + i) + 1];
+    }
+    rows += s->below;
+  }
+}
+
+#define SLI_PAIR_DOT(a, l) \
+  SLV_DUP_LOW(t0, l) \
+  SLV_DUP_HIGH(t1, l) \
+  SLV_FNMA(a, t0, v0) \
+  SLV_FNMA(a, t1, v1)
+
+SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *values,
+    const double *D, double *x, double *buf) {
+  const SLV_VALUE *L = (const SLV_VALUE *)values;
+  const sli_step *s = R->steps + R->count;
+  const sl_int *rows_end = R->rows + R->n_rows;
+  while (s > R->steps) {
+    const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+    const sl_int padded = SLI_TILE * sli_tiles(height);
+    const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
+    const double *d = D + s->column - first;
+    double *xs = x + 2 * ((ptrdiff_t)s->base - first), *sums = buf + 2 * (ptrdiff_t)padded;
+    sl_int row, i, j, k;
+    SLV_DECLARE(a)
+    SLV_DECLARE(v0)
+    SLV_DECLARE(v1)
+    SLV_DECLARE(t0)
+    SLV_DECLARE(t1)
+    SLV_ZERO(a)
+    rows_end -= s->below;
+    if (w == 1) {
+      xs[0] /= d[0];
+      xs[1] /= d[0];
+      for (i = s->below - 1, tile -= s->below; i >= 0; i--) {
+        const double *from = x + 2 * (ptrdiff_t)rows_end[i];
+        xs[0] = SLV_FNMA1((double)tile[i], from[0], xs[0]);
+        xs[1] = SLV_FNMA1((double)tile[i], from[1], xs[1]);
+      }
+      continue;
+    }
+    if (w <= SLI_TILE) {
+      SLV_SWEEP_2(backward_small)
+      (w, sli_rows_of(rows_end, s->below, 2), tile - SLI_TILE * w, d, xs, x);
+      continue;
+    }
+    for (i = first; i < w; i++) {
+      SLV_STORE(sums + SLI_TILE * (ptrdiff_t)i, a)
+      buf[2 * i] = buf[2 * i + 1] = 0.0;
+    }
+    for (i = 0; i < s->below; i++) {
+      buf[2 * (w + i)] = x[2 * (ptrdiff_t)rows_end[i]];
+      buf[2 * (w + i) + 1] = x[2 * (ptrdiff_t)rows_end[i] + 1];
+    }
+    memset(buf + 2 * (ptrdiff_t)height, 0, 2 * (size_t)(padded - height) * sizeof(double));
+    for (row = padded - SLI_TILE; row >= first; row -= SLI_TILE) {
+      const sl_int inner = sli_clamp(w - row, SLI_TILE);
+      double *p = buf + 2 * (ptrdiff_t)row;
+      const SLV_VALUE *l;
+      tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+      l = tile + SLI_TILE * (ptrdiff_t)row;
+      SLV_LOAD(v0, p)
+      SLV_LOAD(v1, p + SLI_TILE)
+      for (k = 0; k < inner; k++) {
+        double part[SLI_TILE];
+        SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)(row + k))
+        if (inner < SLI_TILE) {
+          SLI_PAIR_DOT(a, l + SLI_TILE * k)
+        }
+        SLV_STORE_ANY(part, a)
+        for (j = 0; j < 2; j++) {
+          p[2 * k + j] = xs[2 * (ptrdiff_t)(row + k) + j] / d[row + k] +
+                   ((part[j] + part[2 + j]) + (part[4 + j] + part[6 + j]));
+        }
+      }
+      if (inner == SLI_TILE) {
+        SLI_PAIR_TILE(SLV_SWEEP(tile_backward), l, p)
+      } else {
+        for (k = inner - 1; k > 0; k--) {
+          for (j = 0; j < k; j++) {
+            const double lkj = l[SLI_TILE * j + k];
+            p[2 * j] = SLV_FNMA1(lkj, p[2 * k], p[2 * j]);
+            p[2 * j + 1] = SLV_FNMA1(lkj, p[2 * k + 1], p[2 * j + 1]);
+          }
+        }
+      }
+      SLV_LOAD(v0, p)
+      SLV_LOAD(v1, p + SLI_TILE)
+      l = tile + SLI_TILE * (ptrdiff_t)sli_min(row, w);
+      for (j = sli_min(row, w) - 1; j >= first; j--) {
+        l -= SLI_TILE;
+        SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
+        SLI_PAIR_DOT(a, l)
+        SLV_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+      }
+    }
+    memcpy(xs + 2 * (ptrdiff_t)first, buf + 2 * (ptrdiff_t)first,
+        2 * (size_t)(w - first) * sizeof(double));
+  }
+}
+
+#undef SLI_PAIR_AXPY
+#undef SLI_PAIR_TILE
+#undef SLI_PAIR_DOT
 #endif
 
 #ifdef SLI_INL_MULTI_RHS_TILES
@@ -39696,444 +40149,6 @@ SLI_GROUPED_KERNELS(64)
 #undef SLI_STRIDE_PARAMETER
 #undef SLI_SET_STRIDE
 #undef SLI_IS_DIRECT
-
-#undef SLI_DECLARE
-#undef SLI_LOAD
-#undef SLI_STORE
-#undef SLI_PARTS
-#undef SLI_KERNEL
-#undef SLI_TABLE
-#undef SLI_SMALL
-#undef SLI_PREPARE
-#undef SLI_APPLY
-#undef SLI_APPLY_COLUMN
-#undef SLI_GATHER
-#undef SLI_GATHER2
-#undef SLI_GATHER_COLUMN
-#undef SLI_DOWN
-#undef SLI_UP
-#undef SLI_COLUMN
-#undef SLI_ROW
-#undef SLI_TRIANGLE
-#undef SLI_TRIANGLE_UP
-#undef SLI_PAIRS
-#undef SLI_PAIRS_AGAIN
-#undef SLI_PAIRS_DOWN
-#undef SLI_NEGATE
-#undef SLI_SUBTRACT
-#undef SLI_BELOW
-#undef SLI_BEFORE
-#undef SLW_ENTRIES
-#undef SLW_ENTRY
-#undef SLW_SET_ENTRIES
-#endif
-
-#ifdef SLI_INL_COMPLEX_SMALL
-#undef SLI_INL_COMPLEX_SMALL
-/* src/impl/complex/complex_small.inl.h: one right-hand side through a supernode of 1 to 4 complex columns */
-
-#define SLI_XT(j, k) \
-  { \
-    const double re = l[SLI_TILE / 2 * (j) + (k)], im = l[SLI_TILE / 2 * (j) + (k) + 1]; \
-    r[j] = SLV_FNMA1(re, r[k], SLV_FNMA1(im, r[(k) + 1], r[j])); \
-    r[(j) + 1] = SLV_FNMA1(re, r[(k) + 1], SLV_FNMA1(-im, r[k], r[(j) + 1])); \
-  }
-
-#define SLI_UNIT_TRIANGLE(w) \
-  if ((w) > 6) { \
-    SLI_XT(0, 6) SLI_XT(2, 6) SLI_XT(4, 6) \
-  } \
-  if ((w) > 4) { \
-    SLI_XT(0, 4) SLI_XT(2, 4) \
-  } \
-  if ((w) > 2) { \
-    SLI_XT(0, 2) \
-  }
-
-#if defined(SLV_OWN_SMALL)
-#define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
-#define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
-#define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
-#define SLI_EACH_PAIR(op) op(0, 1) op(2, 3) op(4, 5) op(6, 7)
-
-#define SLI_PAIR(k, m) \
-  if ((k) < w) { \
-    SLI_PREFETCH(l + SLI_TILE / 2 * (k), SLI_PREFETCH_DISTANCE); \
-    SLV_LANE(y##k, a, k) \
-    SLV_LANE(y##m, a, m) \
-    SLV_ZERO(b) \
-    SLV_DOT(a, l + SLI_TILE / 2 * (k), y##k) \
-    SLV_DOT(b, l + SLI_TILE / 2 * (k), y##m) \
-    SLV_TURN(b, b) \
-    SLV_ADD(a, b) \
-  }
-#define SLI_PAIR_BELOW(k, m) \
-  if ((k) < w) { \
-    SLI_PREFETCH(l + SLI_TILE / 2 * (k), SLI_PREFETCH_DISTANCE); \
-    SLV_DOT(a, l + SLI_TILE / 2 * (k), y##k) \
-    SLV_DOT(b, l + SLI_TILE / 2 * (k), y##m) \
-  }
-
-SLV_FUNCTION SLI_ALWAYS_INLINE void
-SLV_NAME(complex_small_forward)(const sl_int w, const sli_step *s, const sl_int *rows,
-    const double *L, double *x, double *buf) {
-  const sl_int below = s->below;
-  const double *l = L + s->panel / 2;
-  double *xs = x + s->base;
-  sl_int row, i;
-  SLV_DECLARE(a)
-  SLV_DECLARE(b)
-  SLI_EACH8(SLI_DECLARE, y)
-  SLV_LOAD_PART(a, xs, w, 0.0)
-  SLI_EACH_PAIR(SLI_PAIR)
-  SLV_STORE(buf, a)
-  for (i = 0; i < w; i++) {
-    xs[i] = buf[i];
-  }
-  for (row = SLI_TILE; row < w + below; row += SLI_TILE) {
-    l += SLI_TILE / 2 * w;
-    SLV_ZERO(a)
-    SLV_ZERO(b)
-    SLI_EACH_PAIR(SLI_PAIR_BELOW)
-    SLV_TURN(b, b)
-    SLV_ADD(a, b)
-    SLV_STORE(buf + row, a)
-  }
-  buf += w;
-  for (i = 0; i < below; i += 2) {
-    x[rows[i]] += buf[i];
-    x[rows[i + 1]] += buf[i + 1];
-  }
-}
-
-#define SLI_DOT(k, m) \
-  if ((k) < w) { \
-    SLI_PREFETCH(l + SLI_TILE / 2 * (k), -SLI_PREFETCH_DISTANCE); \
-    SLV_SUM_DOT(a##k, l + SLI_TILE / 2 * (k), v) \
-    SLV_SUM_DOT(a##m, l + SLI_TILE / 2 * (k), u) \
-  }
-#define SLI_DOTS \
-  SLV_TURN_BACK(u, v) \
-  SLI_DOT(6, 7) SLI_DOT(4, 5) SLI_DOT(2, 3) SLI_DOT(0, 1)
-#define SLI_ROW_AT(k) rows[at + (k)]
-#define SLI_ROW_AT_PART(k) rows[at + sli_min(k, count - 1)]
-#define SLI_ROW_AT_OWN(k) rows[sli_clamp((k)-w, at - 1)]
-
-SLV_FUNCTION SLI_ALWAYS_INLINE void
-SLV_NAME(complex_small_backward)(const sl_int w, const sli_step *s, const sl_int *rows,
-    const double *L, const double *D, double *x) {
-  const sl_int below = s->below, count = (w + below) % SLI_TILE;
-  const double *l = L + (s->panel + sli_panel_size(w, below)) / 2;
-  const double *d = D + s->column;
-  double *xs = x + s->base;
-  sl_int row = w + below - count, at = below, k;
-  double r[SLI_TILE];
-  SLV_DECLARE(u)
-  SLV_DECLARE(v)
-  SLV_DECLARE(z)
-  SLI_EACH8(SLI_SUM_DECLARE, a)
-  SLI_EACH8(SLI_SUM_ZERO, a)
-  if ((w == SLI_TILE || row > 0) && count > 0) {
-    at -= count;
-    l -= SLI_TILE / 2 * w;
-    SLV_GATHER(v, x, SLI_ROW_AT_PART)
-    SLV_FIRST(v, count)
-    SLI_DOTS
-  }
-  for (; row > SLI_TILE; row -= SLI_TILE) {
-    at -= SLI_TILE;
-    l -= SLI_TILE / 2 * w;
-    SLV_GATHER(v, x, SLI_ROW_AT)
-    SLI_DOTS
-  }
-  l -= SLI_TILE / 2 * w;
-  if (w < SLI_TILE && at > 0) {
-    SLV_GATHER(v, x, SLI_ROW_AT_OWN)
-    SLV_FIRST(v, w + at)
-    SLV_BELOW(v, w - 1)
-    SLI_DOTS
-  }
-  SLV_LOAD_PART(z, xs, w, 0.0)
-  SLV_LOAD_PART(v, d, w, 1.0)
-  SLV_DIVIDE(z, z, v)
-  SLV_SUMS(v, a)
-  SLV_ADD(v, z)
-  SLV_STORE_ANY(r, v)
-  SLI_UNIT_TRIANGLE(w)
-  for (k = 0; k < w; k++) {
-    xs[k] = r[k];
-  }
-}
-
-#define SLI_EACH_WIDTH(call) \
-  switch (w) { \
-    SLI_CASE(2, call) \
-    SLI_CASE(4, call) \
-    SLI_CASE(6, call) \
-  default: \
-    call(8); \
-  }
-#define SLI_FORWARD(k) SLV_NAME(complex_small_forward)(k, s, rows, L, x, buf)
-#define SLI_BACKWARD(k) SLV_NAME(complex_small_backward)(k, s, rows, L, D, x)
-
-SLV_FUNCTION SLI_INLINE const sli_step *
-SLV_NAME(complex_forward_small)(const sli_step *s, const sli_step *end, const sl_int **next_rows,
-    const double *L, double *x, double *buf) {
-  const sl_int *rows = *next_rows;
-  for (; s < end && s->width <= SLI_TILE; s++) {
-    const sl_int w = s->width;
-    SLI_EACH_WIDTH(SLI_FORWARD);
-    rows += s->below;
-  }
-  *next_rows = rows;
-  return s;
-}
-
-SLV_FUNCTION SLI_INLINE const sli_step *
-SLV_NAME(complex_backward_small)(const sli_step *s, const sli_step *begin, const sl_int **rows_end,
-    const double *L, const double *D, double *x) {
-  const sl_int *rows = *rows_end;
-  while (s > begin && s[-1].width <= SLI_TILE) {
-    const sl_int w = (--s)->width;
-    rows -= s->below;
-    SLI_EACH_WIDTH(SLI_BACKWARD);
-  }
-  *rows_end = rows;
-  return s;
-}
-#endif
-
-#undef SLI_DECLARE
-#undef SLI_SUM_DECLARE
-#undef SLI_SUM_ZERO
-#undef SLI_EACH_PAIR
-#undef SLI_PAIR
-#undef SLI_PAIR_BELOW
-#undef SLI_DOT
-#undef SLI_DOTS
-#undef SLI_ROW_AT
-#undef SLI_ROW_AT_PART
-#undef SLI_ROW_AT_OWN
-#undef SLI_EACH_WIDTH
-#undef SLI_FORWARD
-#undef SLI_BACKWARD
-#endif
-
-#ifdef SLI_INL_COMPLEX_ROWS
-#undef SLI_INL_COMPLEX_ROWS
-/* src/impl/complex/complex_rows.inl.h: sweeps over L of a complex Hermitian matrix, of which every other column is */
-
-#define SLI_HALF (SLI_TILE / 2)
-#if defined(SLV_PAIR)
-#define SLI_SMALL 1
-#else
-#define SLI_SMALL 0
-#endif
-#define SLI_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
-#define SLI_ROW_AT(k) rows[at + (k)]
-
-#define SLI_INSIDE(k) \
-  if (SLI_IS_IN(k, inner)) { \
-    SLV_LANE(v, a0, k) \
-    SLV_LANE(u, a0, (k) + 1) \
-    SLV_ZERO(b0) \
-    SLV_DOT(a0, l + SLI_HALF * (k), v) \
-    SLV_DOT(b0, l + SLI_HALF * (k), u) \
-    SLV_TURN(b0, b0) \
-    SLV_ADD(a0, b0) \
-  }
-
-SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(complex_forward_step)(const sli_step *s,
-    const sl_int *rows,
-    const double *L, double *x,
-    double *buf) {
-  const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-  const double *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / 2;
-  double *xs = x + s->base;
-  sl_int row, i, j;
-  for (i = first; i < w; i++) {
-    buf[i] = xs[i - first];
-  }
-  for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
-    buf[i] = 0.0;
-  }
-  for (row = first; row < height; row += SLI_TILE) {
-    const sl_int final = sli_min(row, w), inner = sli_clamp(w - row, SLI_TILE);
-    const double *l = tile + SLI_HALF * (ptrdiff_t)first;
-    SLV_DECLARE(a0)
-    SLV_DECLARE(a1)
-    SLV_DECLARE(b0)
-    SLV_DECLARE(b1)
-    SLV_LOAD(a0, buf + row)
-    SLV_ZERO(a1)
-    SLV_ZERO(b0)
-    SLV_ZERO(b1)
-    for (j = first; j + 4 <= final;
-        j += 4, l += 2 * SLI_TILE) {
-      SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
-      SLI_PREFETCH(l + SLI_TILE, SLI_PREFETCH_DISTANCE);
-      SLV_AXPY(a0, l, buf + j)
-      SLV_AXPY(b0, l, buf + j + 1)
-      SLV_AXPY(a1, l + SLI_TILE, buf + j + 2)
-      SLV_AXPY(b1, l + SLI_TILE, buf + j + 3)
-    }
-    if (j < final) {
-      SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
-      SLV_AXPY(a0, l, buf + j)
-      SLV_AXPY(b0, l, buf + j + 1)
-      l += SLI_TILE;
-    }
-    SLV_ADD(a0, a1)
-    SLV_ADD(b0, b1)
-    SLV_TURN(b0, b0)
-    SLV_ADD(a0, b0)
-    if (inner > 0) {
-      SLV_DECLARE(u)
-      SLV_DECLARE(v)
-      SLI_INSIDE(0)
-      SLI_INSIDE(2)
-      SLI_INSIDE(4)
-      SLI_INSIDE(6)
-    }
-    SLV_STORE(buf + row, a0)
-    tile += SLI_HALF * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-  }
-  for (i = first; i < w; i++) {
-    xs[i - first] = buf[i];
-  }
-  for (i = 0; i < s->below; i++) {
-    x[rows[i]] += buf[w + i];
-  }
-}
-
-SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_dots)(const double *tile, const double *x,
-    sl_int first, sl_int final, double *sums) {
-  ptrdiff_t j;
-  SLV_DECLARE(v)
-  SLV_DECLARE(u)
-  SLV_SUM_DECLARE(a)
-  SLV_SUM_DECLARE(b)
-  SLV_LOAD(v, x)
-  SLV_TURN_BACK(u, v)
-  for (j = (ptrdiff_t) final - 2; j >= first; j -= 2) {
-    const double *l = tile + SLI_HALF * j;
-    SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
-    SLV_SUM_LOAD(a, sums + SLI_TILE * j)
-    SLV_SUM_LOAD(b, sums + SLI_TILE * (j + 1))
-    SLV_SUM_DOT(a, l, v)
-    SLV_SUM_DOT(b, l, u)
-    SLV_SUM_STORE(sums + SLI_TILE * j, a)
-    SLV_SUM_STORE(sums + SLI_TILE * (j + 1), b)
-  }
-}
-
-#define SLI_TAKE_SUM(k, unused) \
-  if (SLI_IS_IN((k) / 2 * 2, inner)) { \
-    SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k)) \
-  } else { \
-    SLV_SUM_ZERO(a##k) \
-  }
-SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int inner,
-    const double *sums, const double *d,
-    double *xs, double *buf) {
-  double r[SLI_TILE], b[SLI_TILE];
-  sl_int k;
-  SLV_DECLARE(v)
-  SLV_DECLARE(z)
-  SLI_EACH8(SLI_DECLARE, a)
-  SLI_EACH8(SLI_TAKE_SUM, 0)
-  for (k = 0; k < inner; k++) {
-    b[k] = xs[k];
-  }
-  SLV_LOAD_PART(z, b, inner, 0.0)
-  SLV_LOAD_PART(v, d, inner, 1.0)
-  SLV_DIVIDE(z, z, v)
-  SLV_SUMS(v, a)
-  SLV_ADD(v, z)
-  SLV_STORE_ANY(r, v)
-  SLI_UNIT_TRIANGLE(inner)
-  for (k = 0; k < inner; k++) {
-    xs[k] = buf[k] = r[k];
-  }
-}
-
-SLV_FUNCTION SLI_NOINLINE static void
-SLV_NAME(complex_backward_step)(const sli_step *s, const sl_int *rows, const double *L,
-    const double *D, double *x, double *buf) {
-  const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-  const double *tile = L + (s->panel + sli_panel_size(w, s->below)) / 2;
-  const double *d = D + s->column - first;
-  double *xs = x + (s->base - first), *sums = buf + SLI_TILE;
-  sl_int row, j;
-  SLV_DECLARE(v)
-  SLV_SUM_DECLARE(a)
-  SLV_SUM_ZERO(a)
-  for (j = first; j < w; j++) {
-    SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
-  }
-  for (row = SLI_TILE * (sli_tiles(height) - 1); row >= first; row -= SLI_TILE) {
-    const sl_int inner = sli_clamp(w - row, SLI_TILE), final = sli_min(row, w);
-    const sl_int at = row + inner - w, part = sli_min(height - row, SLI_TILE) - inner;
-    tile -= SLI_HALF * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-    if (part == SLI_TILE) {
-      SLV_GATHER(v, x, SLI_ROW_AT)
-      SLV_STORE(buf, v)
-    } else {
-      for (j = 0; j < SLI_TILE; j++) {
-        const int is_below = j >= inner && j < inner + part;
-        buf[j] = is_below ? x[rows[at + j - inner]] : 0.0;
-      }
-    }
-    if (inner > 0) {
-      if (part > 0) {
-        SLV_NAME(complex_dots)(tile, buf, row, row + inner, sums);
-      }
-      SLV_NAME(complex_diagonal)
-      (tile + SLI_HALF * (ptrdiff_t)row, inner, sums + SLI_TILE * (ptrdiff_t)row, d + row,
-       xs + row, buf);
-    }
-    SLV_NAME(complex_dots)(tile, buf, first, final, sums);
-  }
-}
-
-SLV_FUNCTION static void SLV_NAME(complex_forward)(const sli_reach *R, const void *values,
-    double *x, double *buf) {
-  const double *L = (const double *)values;
-  const sli_step *s = R->steps, *end = s + R->count;
-  const sl_int *rows = R->rows;
-  while (s < end) {
-    if (SLI_SMALL && s->width <= SLI_TILE) {
-      s = SLV_NAME_SMALL(complex_forward_small)(s, end, &rows, L, x, buf);
-    } else {
-      SLV_NAME(complex_forward_step)(s, rows, L, x, buf);
-      rows += (s++)->below;
-    }
-  }
-}
-
-SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const void *values,
-    const double *D, double *x, double *buf) {
-  const double *L = (const double *)values;
-  const sli_step *begin = R->steps, *s = begin + R->count;
-  const sl_int *rows = R->rows + R->n_rows;
-  while (s > begin) {
-    if (SLI_SMALL && s[-1].width <= SLI_TILE) {
-      s = SLV_NAME_SMALL(complex_backward_small)(s, begin, &rows, L, D, x);
-    } else {
-      rows -= (--s)->below;
-      SLV_NAME(complex_backward_step)(s, rows, L, D, x, buf);
-    }
-  }
-}
-
-#undef SLI_TAKE_SUM
-#undef SLI_INSIDE
-#undef SLI_ROW_AT
-#undef SLI_DECLARE
-#undef SLI_HALF
-#undef SLI_UNIT_TRIANGLE
-#undef SLI_XT
-#undef SLI_SMALL
 #endif
 
 #ifdef SLI_INL_COMPLEX_SET
@@ -40313,7 +40328,7 @@ static const sli_kernels SLV_NAME(kernels) = {
 
 #ifdef SLI_INL_LANES_UNDEF
 #undef SLI_INL_LANES_UNDEF
-/* src/impl/kernels/lanes_undef.inl.h: undefines the SIMD vocabulary of one number of right-hand sides */
+/* src/impl/kernels/lanes_undef.inl.h: undefines the SIMD vocabulary of one number of right-hand sides, and what */
 
 #undef SLW_NAME
 #undef SLW_NRHS
@@ -40331,6 +40346,36 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLW_FNMA
 #undef SLW_ADD
 #undef SLW_DIVIDE
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_PARTS
+#undef SLI_KERNEL
+#undef SLI_TABLE
+#undef SLI_SMALL
+#undef SLI_PREPARE
+#undef SLI_APPLY
+#undef SLI_APPLY_COLUMN
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_GATHER_COLUMN
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+#undef SLI_TRIANGLE
+#undef SLI_TRIANGLE_UP
+#undef SLI_PAIRS
+#undef SLI_PAIRS_AGAIN
+#undef SLI_PAIRS_DOWN
+#undef SLI_NEGATE
+#undef SLI_SUBTRACT
+#undef SLI_BELOW
+#undef SLI_BEFORE
+#undef SLW_ENTRIES
+#undef SLW_ENTRY
+#undef SLW_SET_ENTRIES
 #endif
 
 #ifdef SLI_INL_WORDS_UNDEF

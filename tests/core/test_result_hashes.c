@@ -135,7 +135,7 @@ static void plain_c_has_the_same_bits(void **state) {
 }
 
 static void avx2_has_the_same_bits(void **state) {
-    static const uint64_t expected[KINDS] = {0xcbba500ba627f194u, 0xa1d949d8d611cbc6u,
+    static const uint64_t expected[KINDS] = {0xcbba500ba627f194u, 0x953632cd28583affu,
                                              0x5ff3cbee940c51deu, 0xd40c771e747ab3fcu,
                                              0x289b0c04dd8de4c3u};
     (void)state;
@@ -143,7 +143,7 @@ static void avx2_has_the_same_bits(void **state) {
 }
 
 static void avx512_has_the_same_bits(void **state) {
-    static const uint64_t expected[KINDS] = {0x6327077f2bc711cdu, 0xa1d949d8d611cbc6u,
+    static const uint64_t expected[KINDS] = {0x6327077f2bc711cdu, 0x953632cd28583affu,
                                              0x58a7bad220a1fd9au, 0xe098c66af662e37du,
                                              0x150437ddf350f54du};
     (void)state;
@@ -151,7 +151,7 @@ static void avx512_has_the_same_bits(void **state) {
 }
 
 static void neon_has_the_same_bits(void **state) {
-    static const uint64_t expected[KINDS] = {0xfb77763f37ec94cdu, 0x805d07fa5c585d48u,
+    static const uint64_t expected[KINDS] = {0xfb77763f37ec94cdu, 0x9b425bf6f7509389u,
                                              0x52b5639a6941d75au, 0x76d3c2118a48329bu,
                                              0x1f906d2d76397f49u};
     (void)state;

@@ -127,6 +127,7 @@
 #undef SLV_PIVOT
 #undef SLV_PACK_PAIRS
 #undef SLV_SWEEP
+#undef SLV_SWEEP_2
 #undef SLV_SWEEP_SMALL
 #undef SLW_SWEEP
 #undef SLW_SWEEP_HALF

@@ -37,6 +37,11 @@ typedef struct sli_float_kernels {
 #include "../kernels/multi_rhs.inl.h"
 #include "../kernels/multi_rhs_tiles.inl.h"
 #include "../kernels/lanes_undef.inl.h"
+#define SLW_NRHS 2
+#include "../kernels/lanes_avx2.inl.h"
+#include "../kernels/multi_rhs.inl.h"
+#include "../kernels/two_rhs.inl.h"
+#include "../kernels/lanes_undef.inl.h"
 #define SLW_NRHS 8
 #define SLW_GROUPS 64
 #include "../kernels/lanes_avx2.inl.h"
@@ -55,6 +60,7 @@ typedef struct sli_float_kernels {
 #include "../kernels/words_avx512.inl.h"
 #include "../kernels/lanes_avx512.inl.h"
 #include "../kernels/sweeps.inl.h"
+#include "../kernels/two_rhs.inl.h"
 #include "../kernels/multi_rhs.inl.h"
 #include "../kernels/multi_rhs_tiles.inl.h"
 #include "../kernels/lanes_undef.inl.h"
@@ -77,6 +83,11 @@ typedef struct sli_float_kernels {
 #include "../kernels/sweeps.inl.h"
 #include "../kernels/multi_rhs.inl.h"
 #include "../kernels/multi_rhs_tiles.inl.h"
+#include "../kernels/lanes_undef.inl.h"
+#define SLW_NRHS 2
+#include "../kernels/lanes_neon.inl.h"
+#include "../kernels/multi_rhs.inl.h"
+#include "../kernels/two_rhs.inl.h"
 #include "../kernels/lanes_undef.inl.h"
 #define SLW_NRHS 8
 #define SLW_GROUPS 64

@@ -1,4 +1,5 @@
-/* lanes_undef.inl.h: undefines the SIMD vocabulary of one number of right-hand sides */
+/* lanes_undef.inl.h: undefines the SIMD vocabulary of one number of right-hand sides, and what
+ * multi_rhs.inl.h or complex_groups.inl.h has defined */
 
 #undef SLW_NAME
 #undef SLW_NRHS
@@ -16,3 +17,33 @@
 #undef SLW_FNMA
 #undef SLW_ADD
 #undef SLW_DIVIDE
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_PARTS
+#undef SLI_KERNEL
+#undef SLI_TABLE
+#undef SLI_SMALL
+#undef SLI_PREPARE
+#undef SLI_APPLY
+#undef SLI_APPLY_COLUMN
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_GATHER_COLUMN
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+#undef SLI_TRIANGLE
+#undef SLI_TRIANGLE_UP
+#undef SLI_PAIRS
+#undef SLI_PAIRS_AGAIN
+#undef SLI_PAIRS_DOWN
+#undef SLI_NEGATE
+#undef SLI_SUBTRACT
+#undef SLI_BELOW
+#undef SLI_BEFORE
+#undef SLW_ENTRIES
+#undef SLW_ENTRY
+#undef SLW_SET_ENTRIES

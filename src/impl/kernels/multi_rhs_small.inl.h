@@ -117,8 +117,9 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
 #define SLI_FORWARD(k) SLW_SWEEP(small_forward)(k, below, l, xs, x)
 #define SLI_BACKWARD(k) SLW_SWEEP(small_backward)(k, below, l, d, xs, x)
 /* Branches on the width are as fast as copies for each, except with L in double and few right-hand
- * sides: without copies, 8 take 1.05 of the time with AVX2 on meshes of 1e4 rows. */
-#if defined(SLW_GROUPS) || SLV_SINGLE
+ * sides: without copies, 8 take 1.05 of the time with AVX2 on meshes of 1e4 rows, and 2 take 1.02
+ * to 1.08, which is not worth 4 kB. */
+#if defined(SLW_GROUPS) || SLV_SINGLE || SLW_NRHS == 2
 #define SLI_BY_WIDTH(call) call(w)
 #else
 #define SLI_BY_WIDTH(call) SLI_CASES(call)

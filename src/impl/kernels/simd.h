@@ -22,7 +22,8 @@
  *
  *  SLV_NAME(f)            name of function f in this instruction set
  *  SLV_NAME_4(f)          name of sweep f for 4 right-hand sides
- *  SLV_NAME_2(f)          the same of a complex sweep for 2 right-hand sides
+ *  SLV_NAME_2(f)          the same for 2 right-hand sides, of a complex sweep and of one through a
+ *                         supernode of at most 8 columns
  *  SLV_NAME_SMALL(f)      name of sweep f for one right-hand side and a supernode of at most 8
  *                         columns; with SLV_OWN_SMALL it is compiled for this instruction set
  *  SLV_ARRAYS             defined: vectors are arrays, and tiles of fronts are computed in loops
@@ -60,7 +61,8 @@
  *  SLV_LEAST, SLV_MOST    the reciprocal of a number between them neither overflows nor underflows
  *  SLV_PIVOT(d)           a pivot in double in the type of the front
  *  SLV_PACK_PAIRS(l, E, j, length, B)  B += L E from column j on; only in double
- *  SLV_SWEEP(f)           SLV_NAME of a function that reads L; SLW_SWEEP(f): SLW_NAME of one
+ *  SLV_SWEEP(f)           SLV_NAME of a function that reads L. SLV_SWEEP_2(f): SLV_NAME_2,
+ *                         SLW_SWEEP(f): SLW_NAME of one
  *  SLV_READ(l)            what SLV_AXPY, SLV_DOT, SLV_SUM_DOT and SLV_DUP_ load at l, as doubles;
  *                         each instruction set defines SLV_READ_0 for double, SLV_READ_1 for float
  *  SLV_WIDE(v, columns)   declares v for SLV_WIDEN(v, l, columns, rows): v = columns 0 .. columns-1
@@ -215,6 +217,7 @@
 #define SLV_FRONT_PIVOTS(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME_PIVOTS, f)
 #define SLV_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME, f)
 #define SLV_SWEEP_SMALL(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME_SMALL, f)
+#define SLV_SWEEP_2(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME_2, f)
 #define SLW_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_NAME, f)
 #define SLW_SWEEP_HALF(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_HALF, f)
 #define SLV_READ(l) SLI_BY_TYPE(SLV_READ_, SLV_SINGLE)(l)

@@ -63,6 +63,12 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #include "multi_rhs_tiles.inl.h"
 #include "lanes_undef.inl.h"
 
+#define SLW_NRHS 2
+#include "lanes_avx2.inl.h"
+#include "multi_rhs.inl.h"
+#include "two_rhs.inl.h"
+#include "lanes_undef.inl.h"
+
 #define SLW_NRHS 8
 #define SLW_GROUPS 64
 #include "lanes_avx2.inl.h"

@@ -18,6 +18,7 @@
 #include "copy_rows.inl.h"
 #include "front.inl.h"
 #include "sweeps.inl.h"
+#include "two_rhs.inl.h"
 #include "multi_rhs.inl.h"
 #include "multi_rhs_tiles.inl.h"
 #include "lanes_undef.inl.h"

@@ -19,6 +19,12 @@
 #include "multi_rhs_tiles.inl.h"
 #include "lanes_undef.inl.h"
 
+#define SLW_NRHS 2
+#include "lanes_neon.inl.h"
+#include "multi_rhs.inl.h"
+#include "two_rhs.inl.h"
+#include "lanes_undef.inl.h"
+
 #define SLW_NRHS 8
 #define SLW_GROUPS 64
 #include "lanes_neon.inl.h"
