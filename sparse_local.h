@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 02cf8f4e1e8f1e1c
+ * FNV-1a of the lines after this comment, without the license: 2fe41139b8218c27
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38765,6 +38765,9 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const vo
 #define SLI_PAIRS_DOWN(op, l) op(2, 3, l) op(0, 1, l)
 #endif
 
+#define SLW_ENTRY double
+#define SLI_BLOCK(columns) (columns)
+#define SLI_READ_BLOCK(lj, l, columns) lj = (l);
 #define SLI_PREPARE const double one = 1.0;
 #define SLI_NEGATE(n, c) \
   SLW_ZERO(n) \
@@ -38782,7 +38785,7 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const vo
   SLW_LOAD(b, xj) \
   SLW_LOAD(c, xj + stride) \
   SLI_NEGATE(n, c) \
-  SLI_PAIRS(SLI_APPLY, l)
+  SLI_PAIRS(SLI_APPLY, lj)
 #define SLI_GATHER(r, s, l) \
   SLW_FNMA(b, (l)[r], a##r) \
   SLW_FNMA(c, (l)[r], a##s) \
@@ -38797,7 +38800,7 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const vo
   SLW_LOAD(c, xj + stride) \
   SLW_ZERO(e) \
   SLW_ZERO(n) \
-  SLI_PAIRS(SLI_GATHER, l) \
+  SLI_PAIRS(SLI_GATHER, lj) \
   SLW_ADD(b, e) \
   SLW_FNMA(c, one, n) \
   SLW_STORE(xj, b) \
@@ -39497,23 +39500,32 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 #define SLW_SET_ENTRIES(v, l, columns, rows) SLV_WIDEN(v, l, columns, rows)
 #endif
 
-#define SLI_PREPARE SLW_ENTRIES(v, SLI_TILE)
+
+#if SLV_SINGLE && !defined(SLW_TAKES_FLOATS)
+#define SLI_COPIED 32
+#define SLI_BLOCK(columns) sli_min(columns, SLI_COPIED)
+#else
+#define SLI_COPIED SLI_TILE
+#define SLI_BLOCK(columns) (columns)
+#endif
+#define SLI_PREPARE SLW_ENTRIES(v, SLI_COPIED)
+#define SLI_READ_BLOCK(lj, l, columns) \
+  SLW_SET_ENTRIES(v, l, columns, SLW_ROWS) \
+  lj = v;
 #define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)
 #define SLI_APPLY_COLUMN \
   SLW_DECLARE(b) \
-  SLW_SET_ENTRIES(v, l, 1, SLW_ROWS) \
   SLW_LOAD(b, xj) \
-  SLW_EACH(SLI_APPLY, v)
+  SLW_EACH(SLI_APPLY, lj)
 #define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r)
 #define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
 #define SLI_GATHER_COLUMN \
   SLW_DECLARE(b) \
   SLW_DECLARE(c) \
-  SLW_SET_ENTRIES(v, l, 1, SLW_ROWS) \
   SLW_LOAD(b, xj) \
   SLW_ZERO(c) \
-  SLW_HIGH(SLI_GATHER, v) \
-  SLW_LOW(SLI_GATHER2, v) \
+  SLW_HIGH(SLI_GATHER, lj) \
+  SLW_LOW(SLI_GATHER2, lj) \
   SLW_ADD(b, c) \
   SLW_STORE(xj, b)
 #define SLI_DOWN(r, k) \
@@ -39992,10 +40004,16 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
           }
           SLW_EACH(SLI_LOAD, p)
         }
-        for (j = first; j < final;
-            j += SLI_PARTS, l += SLI_TILE, xj += SLI_PARTS * (ptrdiff_t)stride) {
-          SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
-          SLI_APPLY_COLUMN
+        for (j = first; j < final;) {
+          const sl_int end = j + SLI_BLOCK(final - j);
+          const SLW_ENTRY *lj;
+          SLI_READ_BLOCK(lj, l, end - j)
+          for (; j < end; j += SLI_PARTS, xj += SLI_PARTS * (ptrdiff_t)stride) {
+            SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+            SLI_APPLY_COLUMN
+            l += SLI_TILE;
+            lj += SLI_TILE;
+          }
         }
         if (inner > 0) {
           SLI_TRIANGLE
@@ -40106,11 +40124,18 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(const sli_reach *R, const void *va
           }
         }
         l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t) final + lane;
-        for (j = final - SLI_PARTS; j >= first; j -= SLI_PARTS) {
-          l -= SLI_TILE;
-          xj -= SLI_PARTS * (ptrdiff_t)stride;
-          SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
-          SLI_GATHER_COLUMN
+        for (j = final; j > first;) {
+          const sl_int begin = j - SLI_BLOCK(j - first);
+          const ptrdiff_t size = SLI_TILE / SLI_PARTS * (ptrdiff_t)(j - begin);
+          const SLW_ENTRY *lj;
+          SLI_READ_BLOCK(lj, l - size, j - begin)
+          for (lj += size; j > begin; j -= SLI_PARTS) {
+            l -= SLI_TILE;
+            lj -= SLI_TILE;
+            xj -= SLI_PARTS * (ptrdiff_t)stride;
+            SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
+            SLI_GATHER_COLUMN
+          }
         }
       }
     }
@@ -40355,6 +40380,9 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLI_TABLE
 #undef SLI_SMALL
 #undef SLI_PREPARE
+#undef SLI_COPIED
+#undef SLI_BLOCK
+#undef SLI_READ_BLOCK
 #undef SLI_APPLY
 #undef SLI_APPLY_COLUMN
 #undef SLI_GATHER

@@ -21,6 +21,9 @@
 #define SLI_PAIRS_DOWN(op, l) op(2, 3, l) op(0, 1, l)
 #endif
 
+#define SLW_ENTRY double
+#define SLI_BLOCK(columns) (columns)
+#define SLI_READ_BLOCK(lj, l, columns) lj = (l);
 #define SLI_PREPARE const double one = 1.0;
 #define SLI_NEGATE(n, c) \
     SLW_ZERO(n) \
@@ -39,7 +42,7 @@
     SLW_LOAD(b, xj) \
     SLW_LOAD(c, xj + stride) \
     SLI_NEGATE(n, c) \
-    SLI_PAIRS(SLI_APPLY, l)
+    SLI_PAIRS(SLI_APPLY, lj)
 /* b + e + i (c - n) -= (l(r) - i l(s)) (a(r) + i a(s)) */
 #define SLI_GATHER(r, s, l) \
     SLW_FNMA(b, (l)[r], a##r) \
@@ -55,7 +58,7 @@
     SLW_LOAD(c, xj + stride) \
     SLW_ZERO(e) \
     SLW_ZERO(n) \
-    SLI_PAIRS(SLI_GATHER, l) \
+    SLI_PAIRS(SLI_GATHER, lj) \
     SLW_ADD(b, e) \
     SLW_FNMA(c, one, n) \
     SLW_STORE(xj, b) \

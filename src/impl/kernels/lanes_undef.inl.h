@@ -26,6 +26,9 @@
 #undef SLI_TABLE
 #undef SLI_SMALL
 #undef SLI_PREPARE
+#undef SLI_COPIED
+#undef SLI_BLOCK
+#undef SLI_READ_BLOCK
 #undef SLI_APPLY
 #undef SLI_APPLY_COLUMN
 #undef SLI_GATHER

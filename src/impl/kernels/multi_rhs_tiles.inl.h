@@ -6,8 +6,10 @@
  *  SLI_KERNEL(f)          the name of sweep f
  *  SLI_TABLE(f)           its name in the table of kernels, for groups
  *  SLI_PREPARE            declares what a sweep needs
- *  SLI_APPLY_COLUMN       a -= l x(j), with x(j) at xj
- *  SLI_GATHER_COLUMN      x(j) -= l' a
+ *  SLI_BLOCK(columns)     how many of so many columns are read at a time, into SLW_ENTRY
+ *  SLI_READ_BLOCK(lj, l, columns)     reads them from l on: lj is the first one
+ *  SLI_APPLY_COLUMN       a -= lj x(j), with x(j) at xj
+ *  SLI_GATHER_COLUMN      x(j) -= lj' a
  *  SLI_TRIANGLE           the first `inner` columns of the triangle at l on the rows a
  *  SLI_TRIANGLE_UP        the same for its transpose
  *
@@ -97,10 +99,16 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
                     }
                     SLW_EACH(SLI_LOAD, p)
                 }
-                for (j = first; j < final;
-                     j += SLI_PARTS, l += SLI_TILE, xj += SLI_PARTS * (ptrdiff_t)stride) {
-                    SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
-                    SLI_APPLY_COLUMN
+                for (j = first; j < final;) {
+                    const sl_int end = j + SLI_BLOCK(final - j);
+                    const SLW_ENTRY *lj;
+                    SLI_READ_BLOCK(lj, l, end - j)
+                    for (; j < end; j += SLI_PARTS, xj += SLI_PARTS * (ptrdiff_t)stride) {
+                        SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+                        SLI_APPLY_COLUMN
+                        l += SLI_TILE;
+                        lj += SLI_TILE;
+                    }
                 }
                 if (inner > 0) {
                     SLI_TRIANGLE
@@ -213,11 +221,18 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(const sli_reach *R, const void *va
                     }
                 }
                 l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t) final + lane;
-                for (j = final - SLI_PARTS; j >= first; j -= SLI_PARTS) {
-                    l -= SLI_TILE;
-                    xj -= SLI_PARTS * (ptrdiff_t)stride;
-                    SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
-                    SLI_GATHER_COLUMN
+                for (j = final; j > first;) {
+                    const sl_int begin = j - SLI_BLOCK(j - first);
+                    const ptrdiff_t size = SLI_TILE / SLI_PARTS * (ptrdiff_t)(j - begin);
+                    const SLW_ENTRY *lj;
+                    SLI_READ_BLOCK(lj, l - size, j - begin)
+                    for (lj += size; j > begin; j -= SLI_PARTS) {
+                        l -= SLI_TILE;
+                        lj -= SLI_TILE;
+                        xj -= SLI_PARTS * (ptrdiff_t)stride;
+                        SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
+                        SLI_GATHER_COLUMN
+                    }
                 }
             }
         }
