@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 2fe41139b8218c27
+ * FNV-1a of the lines after this comment, without the license: e32cb943d1a1e775
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -41,23 +41,23 @@
  *  10959 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  13182 impl/ factor: the numbers of L and D
  *  16559 impl/ solve: full and local solves
- *  18222 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20153 impl/ pivots: the order of the pivots by the values of a matrix
- *  20561 impl/ float: L and fronts in single precision
- *  21026 impl/ inverse: entries of the inverse, regions
- *  24093 impl/ change: a factor that follows changes of its matrix
- *  30265 impl/ dirichlet: rows fixed at given values
- *  30856 impl/ dirichlet: by a factor of all rows
- *  31088 impl/ io: files that are replaced only when they are complete
- *  31306 impl/ files: Matrix Market files, 64-bit indices
- *  31926 impl/ save: factors in files
- *  33938 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34621 impl/ batch: diagonals of many inverses
- *  34761 impl/ complex: complex Hermitian systems over real factors
- *  35323 impl/ complex: entries of the inverse
- *  35383 impl/ packs: the tables through which the core calls packs
- *  35432 impl/ last: undefine every internal macro
- *  35798 impl/ templates: the header includes them from itself, once for each instruction set
+ *  18226 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20157 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20565 impl/ float: L and fronts in single precision
+ *  21030 impl/ inverse: entries of the inverse, regions
+ *  24097 impl/ change: a factor that follows changes of its matrix
+ *  30269 impl/ dirichlet: rows fixed at given values
+ *  30860 impl/ dirichlet: by a factor of all rows
+ *  31092 impl/ io: files that are replaced only when they are complete
+ *  31310 impl/ files: Matrix Market files, 64-bit indices
+ *  31930 impl/ save: factors in files
+ *  33942 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34625 impl/ batch: diagonals of many inverses
+ *  34765 impl/ complex: complex Hermitian systems over real factors
+ *  35327 impl/ complex: entries of the inverse
+ *  35387 impl/ packs: the tables through which the core calls packs
+ *  35436 impl/ last: undefine every internal macro
+ *  35802 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -16945,14 +16945,16 @@ static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sl
       sli_pack_rows(y + r, sli_rows_of(index, count, lanes), B + r, sli_dense_by_rows(at.row),
           8);
     }
-  } else if (nrhs == 3) {
-    sli_pack_rows(y, sli_rows_of(index, count, 4), B, at, 3);
-  } else if (nrhs == 2) {
-    sli_pack_rows(y, sli_rows_of(index, count, 2), B, at, 2);
   } else if (nrhs == 1 && index == F->S->iperm && at.row == 1) {
     sli_unpack_rows(y, at, B, sli_rows_of(F->S->perm, count, 1), 1);
   } else if (nrhs == 1) {
     sli_pack_rows(y, sli_rows_of(index, count, 1), B, at, 1);
+  } else if (nrhs == 2) {
+    sli_pack_rows(y, sli_rows_of(index, count, 2), B, at, 2);
+  } else if (nrhs == 3) {
+    sli_pack_rows(y, sli_rows_of(index, count, 4), B, at, 3);
+  } else if (nrhs == 4) {
+    sli_pack_rows(y, sli_rows_of(index, count, 4), B, at, 4);
   } else {
     sli_pack_rows(y, sli_rows_of(index, count, lanes), B, at, nrhs);
   }
@@ -16979,12 +16981,14 @@ static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rh
       sli_unpack_rows(X + r, sli_dense_by_rows(at.row), x + r,
           sli_rows_of(index, count, lanes), 8);
     }
-  } else if (nrhs == 3) {
-    sli_unpack_rows(X, at, x, sli_rows_of(index, count, 4), 3);
-  } else if (nrhs == 2) {
-    sli_unpack_rows(X, at, x, sli_rows_of(index, count, 2), 2);
   } else if (nrhs == 1) {
     sli_unpack_rows(X, at, x, sli_rows_of(index, count, 1), 1);
+  } else if (nrhs == 2) {
+    sli_unpack_rows(X, at, x, sli_rows_of(index, count, 2), 2);
+  } else if (nrhs == 3) {
+    sli_unpack_rows(X, at, x, sli_rows_of(index, count, 4), 3);
+  } else if (nrhs == 4) {
+    sli_unpack_rows(X, at, x, sli_rows_of(index, count, 4), 4);
   } else {
     sli_unpack_rows(X, at, x, sli_rows_of(index, count, lanes), nrhs);
   }

@@ -338,14 +338,16 @@ static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sl
             sli_pack_rows(y + r, sli_rows_of(index, count, lanes), B + r, sli_dense_by_rows(at.row),
                           8);
         }
-    } else if (nrhs == 3) {
-        sli_pack_rows(y, sli_rows_of(index, count, 4), B, at, 3);
-    } else if (nrhs == 2) {
-        sli_pack_rows(y, sli_rows_of(index, count, 2), B, at, 2);
     } else if (nrhs == 1 && index == F->S->iperm && at.row == 1) {
         sli_unpack_rows(y, at, B, sli_rows_of(F->S->perm, count, 1), 1);
     } else if (nrhs == 1) {
         sli_pack_rows(y, sli_rows_of(index, count, 1), B, at, 1);
+    } else if (nrhs == 2) {
+        sli_pack_rows(y, sli_rows_of(index, count, 2), B, at, 2);
+    } else if (nrhs == 3) {
+        sli_pack_rows(y, sli_rows_of(index, count, 4), B, at, 3);
+    } else if (nrhs == 4) {
+        sli_pack_rows(y, sli_rows_of(index, count, 4), B, at, 4);
     } else {
         sli_pack_rows(y, sli_rows_of(index, count, lanes), B, at, nrhs);
     }
@@ -373,12 +375,14 @@ static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rh
             sli_unpack_rows(X + r, sli_dense_by_rows(at.row), x + r,
                             sli_rows_of(index, count, lanes), 8);
         }
-    } else if (nrhs == 3) {
-        sli_unpack_rows(X, at, x, sli_rows_of(index, count, 4), 3);
-    } else if (nrhs == 2) {
-        sli_unpack_rows(X, at, x, sli_rows_of(index, count, 2), 2);
     } else if (nrhs == 1) {
         sli_unpack_rows(X, at, x, sli_rows_of(index, count, 1), 1);
+    } else if (nrhs == 2) {
+        sli_unpack_rows(X, at, x, sli_rows_of(index, count, 2), 2);
+    } else if (nrhs == 3) {
+        sli_unpack_rows(X, at, x, sli_rows_of(index, count, 4), 3);
+    } else if (nrhs == 4) {
+        sli_unpack_rows(X, at, x, sli_rows_of(index, count, 4), 4);
     } else {
         sli_unpack_rows(X, at, x, sli_rows_of(index, count, lanes), nrhs);
     }
