@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e32cb943d1a1e775
+ * FNV-1a of the lines after this comment, without the license: a0092c1e47c085a4
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,26 +38,26 @@
  *   4286 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5221 impl/ matrix: sparse matrices of the caller and of the library
  *   5851 impl/ ordering: fill-reducing orderings of a graph
- *  10959 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13182 impl/ factor: the numbers of L and D
- *  16559 impl/ solve: full and local solves
- *  18226 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20157 impl/ pivots: the order of the pivots by the values of a matrix
- *  20565 impl/ float: L and fronts in single precision
- *  21030 impl/ inverse: entries of the inverse, regions
- *  24097 impl/ change: a factor that follows changes of its matrix
- *  30269 impl/ dirichlet: rows fixed at given values
- *  30860 impl/ dirichlet: by a factor of all rows
- *  31092 impl/ io: files that are replaced only when they are complete
- *  31310 impl/ files: Matrix Market files, 64-bit indices
- *  31930 impl/ save: factors in files
- *  33942 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34625 impl/ batch: diagonals of many inverses
- *  34765 impl/ complex: complex Hermitian systems over real factors
- *  35327 impl/ complex: entries of the inverse
- *  35387 impl/ packs: the tables through which the core calls packs
- *  35436 impl/ last: undefine every internal macro
- *  35802 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10953 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13177 impl/ factor: the numbers of L and D
+ *  16554 impl/ solve: full and local solves
+ *  18221 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20152 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20560 impl/ float: L and fronts in single precision
+ *  21025 impl/ inverse: entries of the inverse, regions
+ *  24092 impl/ change: a factor that follows changes of its matrix
+ *  30264 impl/ dirichlet: rows fixed at given values
+ *  30855 impl/ dirichlet: by a factor of all rows
+ *  31087 impl/ io: files that are replaced only when they are complete
+ *  31305 impl/ files: Matrix Market files, 64-bit indices
+ *  31925 impl/ save: factors in files
+ *  33937 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34620 impl/ batch: diagonals of many inverses
+ *  34760 impl/ complex: complex Hermitian systems over real factors
+ *  35322 impl/ complex: entries of the inverse
+ *  35382 impl/ packs: the tables through which the core calls packs
+ *  35431 impl/ last: undefine every internal macro
+ *  35797 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -6521,7 +6521,8 @@ static void sli_contract_range(void *data, const sli_range *r) {
   const int bits =
     g->begin[g->n] >> 32 == 0 ? SLI_CONTRACT_BITS : 0; /* branches untested: 2^32 edges */
   const sl_off low = ((sl_off)1 << bits) - 1;
-  const int is_plain = g->edge == NULL && g->hub_degree == 0 && bits > 0;
+  const int is_plain = bits > 0 && /* branches untested: the same */
+             g->edge == NULL && g->hub_degree == 0;
   sl_int k, m;
   memset(at, -1, (size_t)c->n * sizeof(sl_off));
   for (k = r->first; k < r->last; k++) {
@@ -7235,10 +7236,10 @@ SLI_ALWAYS_INLINE int sli_subgraph_neighbors(sli_subgraph *sub, const sli_labell
   for (e = in->g->begin[v]; e < end; e++) {
     const sl_int u = to[e], own = sli_shared_read(label + u), there = local[u];
     const int is_new = ((uint32_t)(own - low) <= below) & (there == -1);
-    if (grows) {
+    if (grows) { /* branches untested: a constant */
       vertex[n] = u;
       side[n] = own > node;
-      *found = local[u] = is_new ? n : there;
+      *found = local[u] = is_new ? n : there; /* branches untested: the same */
       n += is_new;
     } else {
       *found = there;
@@ -7260,8 +7261,11 @@ SLI_ALWAYS_INLINE void sli_subgraph_arcs(sli_subgraph *sub, sl_int k, sl_int fir
   for (e = 0; e < degree; e++) {
     const sl_int there = found[e];
     const int is_here = (uint32_t)there < (uint32_t)last;
-    const int is_nearer = first == 0 ? is_here & (sub->side[is_here ? there : 0] != own)
-                     : (uint32_t)there < (uint32_t)first;
+    const int is_nearer =
+      first == 0 /* branches untested: a constant */
+        ? is_here &
+            (sub->side[is_here ? there : 0] != own) /* branches untested: the same */
+        : (uint32_t)there < (uint32_t)first; /* branches untested: the same */
     nearer[n_nearer] = farther[n_farther] = beside[n_beside] = there;
     n_nearer += is_nearer;
     n_farther += there >= last;
@@ -7417,14 +7421,6 @@ SLI_INLINE void sli_heap_down(sli_heap *h, sl_int k, sli_heap_item v) {
   h->position[v.vertex] = k;
 }
 
-SLI_INLINE void sli_heap_put(sli_heap *h, sl_int k, sli_heap_item v) {
-  if (k > 0 && h->item[(k - 1) / 2].key < v.key) {
-    sli_heap_up(h, k, v);
-  } else {
-    sli_heap_down(h, k, v);
-  }
-}
-
 SLI_INLINE void sli_heap_set(sli_heap *h, sl_int vertex, sl_int key) {
   const sl_int at = h->position[vertex], k = at == -1 ? h->count++ : at;
   sli_heap_item v;
@@ -7437,13 +7433,13 @@ SLI_INLINE void sli_heap_set(sli_heap *h, sl_int vertex, sl_int key) {
   }
 }
 
-SLI_INLINE void sli_heap_remove(sli_heap *h, sl_int vertex) {
-  const sl_int k = h->position[vertex];
-  const sli_heap_item last = h->item[--h->count];
+SLI_INLINE sl_int sli_heap_pop(sli_heap *h) {
+  const sl_int vertex = h->item[0].vertex;
   h->position[vertex] = -1;
-  if (last.vertex != vertex) {
-    sli_heap_put(h, k, last);
+  if (--h->count > 0) {
+    sli_heap_down(h, 0, h->item[h->count]);
   }
+  return vertex;
 }
 
 #define SLI_BISECT_BALANCE 60
@@ -7516,8 +7512,7 @@ static int sli_fm_pass(sli_fm *m, int64_t *cut) {
     }
   }
   while (made - best < patience && (side = sli_fm_choose(m)) != -1) {
-    v = m->heap[side].item[0].vertex;
-    sli_heap_remove(&m->heap[side], v);
+    v = sli_heap_pop(&m->heap[side]);
     m->locked[v] = 1;
     here -= m->gain[v];
     sli_fm_flip(m, v, 1);
@@ -7611,8 +7606,7 @@ static void sli_fm_grow(sli_fm *m, sl_int seed) {
       break;
     }
     if (m->heap[1].count > 0) {
-      v = m->heap[1].item[0].vertex;
-      sli_heap_remove(&m->heap[1], v);
+      v = sli_heap_pop(&m->heap[1]);
     } else {
       while (m->locked[unseen]) {
         unseen++;
@@ -11695,7 +11689,8 @@ SLI_ALWAYS_INLINE void sli_pattern_count(const sli_analysis *w, sl_int p, sl_int
   sl_int *column = w->column, *moved = w->moved;
   for (; p < end; p++) {
     const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_min(a, b);
-    const sl_int to = side * (row[p] - column[p]) >= 0 ? k : n;
+    const sl_int to = /* branches untested: 0 is constant in a copy */
+      side * (row[p] - column[p]) >= 0 ? k : n; /* branches untested: the same */
     moved[p] = a + b - k;
     column[p] = to;
     at[to]++;
@@ -24982,7 +24977,7 @@ static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_i
   } else if (!u->is_trial) {
     sli_loss_open(u->F, u->F->S->super_of[step->column]);
   }
-  for (c0 = entered; c0 < wide && status == SL_OK; c0 = c1) {
+  for (c0 = entered; c0 < wide; c0 = c1) {
     sl_int from = SLI_TILE * c0, next;
     c1 = u->is_trial ? wide : sli_min(c0 + SLI_UPDATE_COLUMNS, wide);
     for (t = c0; t < tiles && status == SL_OK; t++, from = next) {

@@ -46,7 +46,8 @@ SLI_ALWAYS_INLINE void sli_pattern_count(const sli_analysis *w, sl_int p, sl_int
     sl_int *column = w->column, *moved = w->moved;
     for (; p < end; p++) {
         const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_min(a, b);
-        const sl_int to = side * (row[p] - column[p]) >= 0 ? k : n;
+        const sl_int to = /* branches untested: 0 is constant in a copy */
+            side * (row[p] - column[p]) >= 0 ? k : n; /* branches untested: the same */
         moved[p] = a + b - k;
         column[p] = to;
         at[to]++;

@@ -175,7 +175,7 @@ static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_i
     } else if (!u->is_trial) {
         sli_loss_open(u->F, u->F->S->super_of[step->column]);
     }
-    for (c0 = entered; c0 < wide && status == SL_OK; c0 = c1) {
+    for (c0 = entered; c0 < wide; c0 = c1) { /* only a trial fails, and takes all at once */
         sl_int from = SLI_TILE * c0, next;
         c1 = u->is_trial ? wide : sli_min(c0 + SLI_UPDATE_COLUMNS, wide);
         for (t = c0; t < tiles && status == SL_OK; t++, from = next) {

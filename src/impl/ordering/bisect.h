@@ -44,15 +44,6 @@ SLI_INLINE void sli_heap_down(sli_heap *h, sl_int k, sli_heap_item v) {
     h->position[v.vertex] = k;
 }
 
-/* Puts a vertex at place k, or where else it belongs. */
-SLI_INLINE void sli_heap_put(sli_heap *h, sl_int k, sli_heap_item v) {
-    if (k > 0 && h->item[(k - 1) / 2].key < v.key) {
-        sli_heap_up(h, k, v);
-    } else {
-        sli_heap_down(h, k, v);
-    }
-}
-
 /* Adds v, or gives it another key. With a larger one it does not move down. */
 SLI_INLINE void sli_heap_set(sli_heap *h, sl_int vertex, sl_int key) {
     const sl_int at = h->position[vertex], k = at == -1 ? h->count++ : at;
@@ -66,13 +57,14 @@ SLI_INLINE void sli_heap_set(sli_heap *h, sl_int vertex, sl_int key) {
     }
 }
 
-SLI_INLINE void sli_heap_remove(sli_heap *h, sl_int vertex) {
-    const sl_int k = h->position[vertex];
-    const sli_heap_item last = h->item[--h->count];
+/* Removes and returns the vertex of the largest key. */
+SLI_INLINE sl_int sli_heap_pop(sli_heap *h) {
+    const sl_int vertex = h->item[0].vertex;
     h->position[vertex] = -1;
-    if (last.vertex != vertex) {
-        sli_heap_put(h, k, last);
+    if (--h->count > 0) {
+        sli_heap_down(h, 0, h->item[h->count]);
     }
+    return vertex;
 }
 
 #define SLI_BISECT_BALANCE 60 /* percent of the weight that one side may get */
@@ -154,8 +146,7 @@ static int sli_fm_pass(sli_fm *m, int64_t *cut) {
         }
     }
     while (made - best < patience && (side = sli_fm_choose(m)) != -1) {
-        v = m->heap[side].item[0].vertex;
-        sli_heap_remove(&m->heap[side], v);
+        v = sli_heap_pop(&m->heap[side]);
         m->locked[v] = 1;
         here -= m->gain[v];
         sli_fm_flip(m, v, 1);
@@ -255,8 +246,7 @@ static void sli_fm_grow(sli_fm *m, sl_int seed) {
             break;
         }
         if (m->heap[1].count > 0) {
-            v = m->heap[1].item[0].vertex;
-            sli_heap_remove(&m->heap[1], v);
+            v = sli_heap_pop(&m->heap[1]);
         } else {                        /* the subgraph is not connected */
             while (m->locked[unseen]) { /* not all are, as side 1 has weight */
                 unseen++;

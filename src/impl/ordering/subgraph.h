@@ -192,10 +192,10 @@ SLI_ALWAYS_INLINE int sli_subgraph_neighbors(sli_subgraph *sub, const sli_labell
     for (e = in->g->begin[v]; e < end; e++) {
         const sl_int u = to[e], own = sli_shared_read(label + u), there = local[u];
         const int is_new = ((uint32_t)(own - low) <= below) & (there == -1);
-        if (grows) {
+        if (grows) { /* branches untested: a constant */
             vertex[n] = u;
             side[n] = own > node;
-            *found = local[u] = is_new ? n : there;
+            *found = local[u] = is_new ? n : there; /* branches untested: the same */
             n += is_new;
         } else {
             *found = there;
@@ -222,8 +222,11 @@ SLI_ALWAYS_INLINE void sli_subgraph_arcs(sli_subgraph *sub, sl_int k, sl_int fir
     for (e = 0; e < degree; e++) {
         const sl_int there = found[e];
         const int is_here = (uint32_t)there < (uint32_t)last;
-        const int is_nearer = first == 0 ? is_here & (sub->side[is_here ? there : 0] != own)
-                                         : (uint32_t)there < (uint32_t)first;
+        const int is_nearer =
+            first == 0 /* branches untested: a constant */
+                ? is_here &
+                      (sub->side[is_here ? there : 0] != own) /* branches untested: the same */
+                : (uint32_t)there < (uint32_t)first;          /* branches untested: the same */
         nearer[n_nearer] = farther[n_farther] = beside[n_beside] = there;
         n_nearer += is_nearer;
         n_farther += there >= last;
