@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a0092c1e47c085a4
+ * FNV-1a of the lines after this comment, without the license: bd7a83063c849a38
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,28 +36,28 @@
  *   2969 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3012 impl/ base: the compiler, status, memory, sorting, threads
  *   4286 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5221 impl/ matrix: sparse matrices of the caller and of the library
- *   5851 impl/ ordering: fill-reducing orderings of a graph
- *  10953 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13177 impl/ factor: the numbers of L and D
- *  16554 impl/ solve: full and local solves
- *  18221 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20152 impl/ pivots: the order of the pivots by the values of a matrix
- *  20560 impl/ float: L and fronts in single precision
- *  21025 impl/ inverse: entries of the inverse, regions
- *  24092 impl/ change: a factor that follows changes of its matrix
- *  30264 impl/ dirichlet: rows fixed at given values
- *  30855 impl/ dirichlet: by a factor of all rows
- *  31087 impl/ io: files that are replaced only when they are complete
- *  31305 impl/ files: Matrix Market files, 64-bit indices
- *  31925 impl/ save: factors in files
- *  33937 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34620 impl/ batch: diagonals of many inverses
- *  34760 impl/ complex: complex Hermitian systems over real factors
- *  35322 impl/ complex: entries of the inverse
- *  35382 impl/ packs: the tables through which the core calls packs
- *  35431 impl/ last: undefine every internal macro
- *  35797 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5223 impl/ matrix: sparse matrices of the caller and of the library
+ *   5853 impl/ ordering: fill-reducing orderings of a graph
+ *  10955 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13179 impl/ factor: the numbers of L and D
+ *  16556 impl/ solve: full and local solves
+ *  18223 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20154 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20562 impl/ float: L and fronts in single precision
+ *  21027 impl/ inverse: entries of the inverse, regions
+ *  24094 impl/ change: a factor that follows changes of its matrix
+ *  30266 impl/ dirichlet: rows fixed at given values
+ *  30857 impl/ dirichlet: by a factor of all rows
+ *  31089 impl/ io: files that are replaced only when they are complete
+ *  31307 impl/ files: Matrix Market files, 64-bit indices
+ *  31927 impl/ save: factors in files
+ *  33939 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34622 impl/ batch: diagonals of many inverses
+ *  34762 impl/ complex: complex Hermitian systems over real factors
+ *  35324 impl/ complex: entries of the inverse
+ *  35384 impl/ packs: the tables through which the core calls packs
+ *  35433 impl/ last: undefine every internal macro
+ *  35799 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4363,6 +4363,8 @@ SLI_ALWAYS_INLINE sli_rows sli_rows_of(const sl_int *index, sl_int count, sl_int
   rows.lanes = lanes;
   return rows;
 }
+
+static const sl_int sli_tile_rows[SLI_TILE] = {0, 1, 2, 3, 4, 5, 6, 7};
 
 typedef struct sli_reach {
   sl_int count;
@@ -36435,11 +36437,10 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   SLV_BELOW_2(a##_1, (k)-2) SLV_BELOW_2(a##_2, (k)-4) SLV_BELOW_2(a##_3, (k)-6)
 #define SLV_EXPAND SLI_EXPAND_PLAIN
 #define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
-#define SLV_DUP_LOW(e, l) \
-  e##_0 = vdupq_n_f64((l)[0]), e##_1 = vdupq_n_f64((l)[1]), e##_2 = vdupq_n_f64((l)[2]), \
-  e##_3 = vdupq_n_f64((l)[3]);
-#define SLV_DUP_HIGH(e, l) SLV_DUP_LOW(e, (l) + 4)
-#define SLV_PAIR(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_f64(p);
+#define SLV_REPEAT_ROWS(t, l, k) \
+  t##_0 = vdupq_n_f64((l)[4 * (k)]), t##_1 = vdupq_n_f64((l)[4 * (k) + 1]), \
+  t##_2 = vdupq_n_f64((l)[4 * (k) + 2]), t##_3 = vdupq_n_f64((l)[4 * (k) + 3]);
+#define SLV_REPEAT(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_f64(p);
 #define SLV_STREAM(p, a) SLV_STORE(p, a)
 #define SLV_STREAM_END
 #define SLV_VECTOR_TILES 1
@@ -36616,11 +36617,13 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   _mm512_store_pd( \
       (to), _mm512_add_pd(_mm512_load_pd(to), \
       _mm512_maskz_permutexvar_pd(expand_, order_, _mm512_loadu_pd(from))));
-#define SLV_DUP_LOW(e, l) \
-  e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0), SLV_READ(l));
-#define SLV_DUP_HIGH(e, l) \
-  e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(7, 7, 6, 6, 5, 5, 4, 4), SLV_READ(l));
-#define SLV_PAIR(b, p) \
+#define SLV_REPEAT_ROWS(t, l, k) \
+  t = _mm512_maskz_permutexvar_pd( \
+      0xff, \
+      _mm512_set_epi64(4 * (k) + 3, 4 * (k) + 3, 4 * (k) + 2, 4 * (k) + 2, 4 * (k) + 1, \
+      4 * (k) + 1, 4 * (k), 4 * (k)), \
+      SLV_READ(l));
+#define SLV_REPEAT(b, p) \
   b = _mm512_castps_pd(_mm512_maskz_broadcast_f32x4(0xffff, _mm_castpd_ps(_mm_loadu_pd(p))));
 
 #define SLW_TAKES_FLOATS
@@ -36796,15 +36799,14 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   _mm256_store_pd((to) + 4, _mm256_add_pd(_mm256_load_pd((to) + 4), \
       sli_expand_4(_mm256_loadu_pd((from) + second_), high_, \
       keep_high_)));
-#define SLV_DUP_AT(e, l) \
+#define SLV_REPEAT_ROWS(t, l, k) \
   { \
-    const __m256d l_ = SLV_READ(l); \
-    e##_0 = _mm256_permute4x64_pd(l_, 0x50); \
-    e##_1 = _mm256_permute4x64_pd(l_, 0xfa); \
+    const __m256d l_ = SLV_READ((l) + 4 * (k)); \
+    t##_0 = _mm256_permute4x64_pd(l_, 0x50); \
+    t##_1 = _mm256_permute4x64_pd(l_, 0xfa); \
   }
-#define SLV_DUP_LOW(e, l) SLV_DUP_AT(e, l)
-#define SLV_DUP_HIGH(e, l) SLV_DUP_AT(e, (l) + 4)
-#define SLV_PAIR(b, p) b##_0 = b##_1 = _mm256_broadcast_pd((const __m128d *)(const void *)(p));
+#define SLV_REPEAT(b, p) \
+  b##_0 = b##_1 = _mm256_broadcast_pd((const __m128d *)(const void *)(p));
 #define SLV_VECTOR_TILES 1
 #define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
 #define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
@@ -36962,6 +36964,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #define SLV_OWN_SMALL
 #define SLV_NAME_PIVOTS SLV_NAME
 #define SLV_OWN_PIVOTS
+#define SLV_PLAIN
 #if defined(SLI_X86) || defined(SLI_ARM)
 #define SLV_ARRAYS
 #endif
@@ -38531,7 +38534,7 @@ SLV_NAME(complex_backward_small)(const sli_step *s, const sli_step *begin, const
 /* src/impl/complex/complex_rows.inl.h: sweeps over L of a complex Hermitian matrix, of which every other column is */
 
 #define SLI_HALF (SLI_TILE / 2)
-#if defined(SLV_PAIR)
+#if !defined(SLV_PLAIN)
 #define SLI_SMALL 1
 #else
 #define SLI_SMALL 0
@@ -38875,7 +38878,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(tile_backward)(const SLV_VALUE *l, double
 #if defined(SLV_OWN_SMALL)
 /* src/impl/kernels/small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
 
-#if defined(SLV_PAIR)
+#if !defined(SLV_PLAIN)
 #if SLV_SINGLE
 #define SLI_BY_WIDTH(call) call(w)
 #else
@@ -39351,7 +39354,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots2)(const SLV_VALUE *l0, const SLV_VAL
   } else { \
     SLV_SUM_ZERO(a##k) \
   }
-#if defined(SLV_PAIR) || defined(SLV_ARRAYS)
+#if !defined(SLV_PLAIN) || defined(SLV_ARRAYS)
 #define SLI_SHARED SLI_NOINLINE static
 #else
 #define SLI_SHARED SLI_INLINE
@@ -39499,7 +39502,6 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 #define SLW_SET_ENTRIES(v, l, columns, rows) SLV_WIDEN(v, l, columns, rows)
 #endif
 
-
 #if SLV_SINGLE && !defined(SLW_TAKES_FLOATS)
 #define SLI_COPIED 32
 #define SLI_BLOCK(columns) sli_min(columns, SLI_COPIED)
@@ -39622,7 +39624,9 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli
 #define SLI_DIVIDE_OWN(k, unused) \
   if (SLI_IS_IN(k, w)) { \
     SLW_LOAD(b, xs + (k)*stride) \
-    SLW_DIVIDE(b, d[k]) \
+    if (d != NULL) { \
+      SLW_DIVIDE(b, d[k]) \
+    } \
     SLW_ADD(a##k, b) \
   }
 
@@ -39719,51 +39723,40 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
 #undef SLI_INL_TWO_RHS
 /* src/impl/kernels/two_rhs.inl.h: sweeps for two right-hand sides, vectorized over the 8 rows of a tile */
 
-#define SLI_PAIR_AXPY(e, l, p) \
-  SLV_DUP_LOW(t0, l) \
-  SLV_DUP_HIGH(t1, l) \
-  SLV_PAIR(b, p) \
-  SLV_FNMA(e##0, t0, b) \
-  SLV_FNMA(e##1, t1, b)
-
-#define SLI_PAIR_TILE(solve, l, p) \
-  { \
-    double r[2][SLI_TILE]; \
-    for (k = 0; k < SLI_TILE; k++) { \
-      r[0][k] = (p)[2 * k]; \
-      r[1][k] = (p)[2 * k + 1]; \
-    } \
-    solve((l), r[0]); \
-    solve((l), r[1]); \
-    for (k = 0; k < SLI_TILE; k++) { \
-      (p)[2 * k] = r[0][k]; \
-      (p)[2 * k + 1] = r[1][k]; \
-    } \
-  }
+#define SLI_TWO_AXPY(v, l, p) \
+  SLV_REPEAT(b, p) \
+  SLV_REPEAT_ROWS(t, l, 0) \
+  SLV_FNMA(v##0, t, b) \
+  SLV_REPEAT_ROWS(t, l, 1) \
+  SLV_FNMA(v##1, t, b)
+#define SLI_TWO_DOT(a, l) \
+  SLV_REPEAT_ROWS(t, l, 0) \
+  SLV_FNMA(a, t, v0) \
+  SLV_REPEAT_ROWS(t, l, 1) \
+  SLV_FNMA(a, t, v1)
 
 SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *values, double *x,
     double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   const sli_step *s = R->steps, *end = s + R->count;
   const sl_int *rows = R->rows;
-  for (; s < end; s++) {
+  for (; s < end; rows += s->below, s++) {
     const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const size_t columns = 2 * (size_t)(w - first);
     const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
     double *xs = x + 2 * (ptrdiff_t)s->base;
-    sl_int row, i, j, k;
+    sl_int row, i, j;
     if (w == 1) {
       for (i = 0; i < s->below; i++) {
         double *to = x + 2 * (ptrdiff_t)rows[i];
-        to[0] = SLV_FNMA1((double)tile[1 + i], xs[0], to[0]);
-        to[1] = SLV_FNMA1((double)tile[1 + i], xs[1], to[1]);
+        for (j = 0; j < 2; j++) {
+          to[j] = SLV_FNMA1((double)tile[1 + i], xs[j], to[j]);
+        }
       }
-      rows += s->below;
       continue;
     }
     if (w <= SLI_TILE) {
       SLV_SWEEP_2(forward_small)(w, sli_rows_of(rows, s->below, 2), tile, xs, x);
-      rows += s->below;
       continue;
     }
     memcpy(buf + 2 * (ptrdiff_t)first, xs, columns * sizeof(double));
@@ -39773,56 +39766,46 @@ SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *val
       const sl_int final = sli_min(row, w), inner = sli_clamp(w - row, SLI_TILE);
       const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first;
       double *p = buf + 2 * (ptrdiff_t)row;
-      SLV_DECLARE(e0)
-      SLV_DECLARE(e1)
-      SLV_DECLARE(f0)
-      SLV_DECLARE(f1)
-      SLV_DECLARE(t0)
-      SLV_DECLARE(t1)
+      SLV_DECLARE(v0)
+      SLV_DECLARE(v1)
+      SLV_DECLARE(u0)
+      SLV_DECLARE(u1)
+      SLV_DECLARE(t)
       SLV_DECLARE(b)
-      SLV_LOAD(e0, p)
-      SLV_LOAD(e1, p + SLI_TILE)
-      SLV_ZERO(f0)
-      SLV_ZERO(f1)
-      for (j = first; j + 2 <= final;
-          j += 2, l += 2 * SLI_TILE) {
-        SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
-        SLI_PAIR_AXPY(f, l + SLI_TILE, buf + 2 * (ptrdiff_t)j + 2)
+      SLV_LOAD(v0, p)
+      SLV_LOAD(v1, p + SLI_TILE)
+      SLV_ZERO(u0)
+      SLV_ZERO(u1)
+      for (j = first; j + 2 <= final; j += 2, l += 2 * SLI_TILE) {
+        SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+        SLI_PREFETCH(l + SLI_TILE, SLI_PREFETCH_DISTANCE);
+        SLI_TWO_AXPY(v, l, buf + 2 * (ptrdiff_t)j)
+        SLI_TWO_AXPY(u, l + SLI_TILE, buf + 2 * (ptrdiff_t)(j + 1))
       }
       if (j < final) {
-        SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
+        SLI_TWO_AXPY(v, l, buf + 2 * (ptrdiff_t)j)
       }
-      SLV_ADD(e0, f0)
-      SLV_ADD(e1, f1)
-      SLV_STORE(p, e0)
-      SLV_STORE(p + SLI_TILE, e1)
-      l = tile + SLI_TILE * (ptrdiff_t)row;
-      if (inner == SLI_TILE) {
-        SLI_PAIR_TILE(SLV_SWEEP(tile_forward), l, p)
-      } else {
-        for (k = 0; k < inner; k++, l += SLI_TILE) {
-          SLI_PAIR_AXPY(e, l, p + 2 * k)
-          SLV_STORE(p, e0)
-          SLV_STORE(p + SLI_TILE, e1)
-        }
+      SLV_ADD(v0, u0)
+      SLV_ADD(v1, u1)
+      SLV_STORE(p, v0)
+      SLV_STORE(p + SLI_TILE, v1)
+      if (inner > 0) {
+        const sl_int below = sli_min(height - row, SLI_TILE) - inner;
+        SLV_SWEEP_2(forward_small)
+        (inner, sli_rows_of(sli_tile_rows + inner, below, 2),
+         tile + SLI_TILE * (ptrdiff_t)row, p, p);
       }
       tile += SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
     }
     memcpy(xs, buf + 2 * (ptrdiff_t)first, columns * sizeof(double));
     for (i = 0; i < s->below; i++) {
       double *to = x + 2 * (ptrdiff_t)rows[i];
-      to[0] += buf[2 * (ptrdiff_t)(w + i)];
-      to[1] += buf[2 * (ptrdiff_t)(w + i) + 1];
+      for (j = 0; j < 2; j++) {
+        to[j] += buf[2 * (ptrdiff_t)(w + i) + j];
+      }
     }
-    rows += s->below;
   }
 }
-
-#define SLI_PAIR_DOT(a, l) \
-  SLV_DUP_LOW(t0, l) \
-  SLV_DUP_HIGH(t1, l) \
-  SLV_FNMA(a, t0, v0) \
-  SLV_FNMA(a, t1, v1)
 
 SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *values,
     const double *D, double *x, double *buf) {
@@ -39834,22 +39817,23 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *va
     const sl_int padded = SLI_TILE * sli_tiles(height);
     const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
     const double *d = D + s->column - first;
-    double *xs = x + 2 * ((ptrdiff_t)s->base - first), *sums = buf + 2 * (ptrdiff_t)padded;
-    sl_int row, i, j, k;
-    SLV_DECLARE(a)
+    double *xs = x + 2 * ((ptrdiff_t)s->base - first);
+    double *sums = buf + 2 * (ptrdiff_t)padded;
+    sl_int row, i, j;
     SLV_DECLARE(v0)
     SLV_DECLARE(v1)
-    SLV_DECLARE(t0)
-    SLV_DECLARE(t1)
-    SLV_ZERO(a)
+    SLV_DECLARE(a)
+    SLV_DECLARE(t)
     rows_end -= s->below;
     if (w == 1) {
-      xs[0] /= d[0];
-      xs[1] /= d[0];
+      for (j = 0; j < 2; j++) {
+        xs[j] /= d[0];
+      }
       for (i = s->below - 1, tile -= s->below; i >= 0; i--) {
         const double *from = x + 2 * (ptrdiff_t)rows_end[i];
-        xs[0] = SLV_FNMA1((double)tile[i], from[0], xs[0]);
-        xs[1] = SLV_FNMA1((double)tile[i], from[1], xs[1]);
+        for (j = 0; j < 2; j++) {
+          xs[j] = SLV_FNMA1((double)tile[i], from[j], xs[j]);
+        }
       }
       continue;
     }
@@ -39858,13 +39842,14 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *va
       (w, sli_rows_of(rows_end, s->below, 2), tile - SLI_TILE * w, d, xs, x);
       continue;
     }
+    SLV_ZERO(a)
     for (i = first; i < w; i++) {
       SLV_STORE(sums + SLI_TILE * (ptrdiff_t)i, a)
-      buf[2 * i] = buf[2 * i + 1] = 0.0;
     }
     for (i = 0; i < s->below; i++) {
-      buf[2 * (w + i)] = x[2 * (ptrdiff_t)rows_end[i]];
-      buf[2 * (w + i) + 1] = x[2 * (ptrdiff_t)rows_end[i] + 1];
+      for (j = 0; j < 2; j++) {
+        buf[2 * (ptrdiff_t)(w + i) + j] = x[2 * (ptrdiff_t)rows_end[i] + j];
+      }
     }
     memset(buf + 2 * (ptrdiff_t)height, 0, 2 * (size_t)(padded - height) * sizeof(double));
     for (row = padded - SLI_TILE; row >= first; row -= SLI_TILE) {
@@ -39872,39 +39857,27 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *va
       double *p = buf + 2 * (ptrdiff_t)row;
       const SLV_VALUE *l;
       tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-      l = tile + SLI_TILE * (ptrdiff_t)row;
-      SLV_LOAD(v0, p)
-      SLV_LOAD(v1, p + SLI_TILE)
-      for (k = 0; k < inner; k++) {
-        double part[SLI_TILE];
-        SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)(row + k))
-        if (inner < SLI_TILE) {
-          SLI_PAIR_DOT(a, l + SLI_TILE * k)
-        }
-        SLV_STORE_ANY(part, a)
+      for (i = 0; i < inner; i++) {
+        const double *part = sums + SLI_TILE * (ptrdiff_t)(row + i);
         for (j = 0; j < 2; j++) {
-          p[2 * k + j] = xs[2 * (ptrdiff_t)(row + k) + j] / d[row + k] +
+          p[2 * i + j] = xs[2 * (ptrdiff_t)(row + i) + j] / d[row + i] +
                    ((part[j] + part[2 + j]) + (part[4 + j] + part[6 + j]));
         }
       }
-      if (inner == SLI_TILE) {
-        SLI_PAIR_TILE(SLV_SWEEP(tile_backward), l, p)
-      } else {
-        for (k = inner - 1; k > 0; k--) {
-          for (j = 0; j < k; j++) {
-            const double lkj = l[SLI_TILE * j + k];
-            p[2 * j] = SLV_FNMA1(lkj, p[2 * k], p[2 * j]);
-            p[2 * j + 1] = SLV_FNMA1(lkj, p[2 * k + 1], p[2 * j + 1]);
-          }
-        }
+      if (inner > 0) {
+        const sl_int below = sli_min(height - row, SLI_TILE) - inner;
+        SLV_SWEEP_2(backward_small)
+        (inner, sli_rows_of(sli_tile_rows + inner, below, 2),
+         tile + SLI_TILE * (ptrdiff_t)row, NULL, p, p);
       }
       SLV_LOAD(v0, p)
       SLV_LOAD(v1, p + SLI_TILE)
       l = tile + SLI_TILE * (ptrdiff_t)sli_min(row, w);
       for (j = sli_min(row, w) - 1; j >= first; j--) {
         l -= SLI_TILE;
+        SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
         SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLI_PAIR_DOT(a, l)
+        SLI_TWO_DOT(a, l)
         SLV_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
       }
     }
@@ -39913,9 +39886,8 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *va
   }
 }
 
-#undef SLI_PAIR_AXPY
-#undef SLI_PAIR_TILE
-#undef SLI_PAIR_DOT
+#undef SLI_TWO_AXPY
+#undef SLI_TWO_DOT
 #endif
 
 #ifdef SLI_INL_MULTI_RHS_TILES
@@ -40248,7 +40220,7 @@ SLV_FUNCTION static void SLV_NAME(row)(sli_row *k, const sli_step *s, sl_int q,
 /* end of row.inl.h */
 /* src/impl/kernels/interleave.inl.h: 8 columns of a dense block to interleaved rows of a vector, and back */
 
-#if defined(SLV_PAIR)
+#if !defined(SLV_PLAIN)
 #define SLI_UNROLL_ROWS SLI_UNROLL
 #else
 #define SLI_UNROLL_ROWS
@@ -40419,6 +40391,7 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_OWN_SMALL
 #undef SLV_NAME_PIVOTS
 #undef SLV_OWN_PIVOTS
+#undef SLV_PLAIN
 #undef SLV_ARRAYS
 #undef SLV_ISA
 #undef SLV_FUNCTION
@@ -40443,10 +40416,8 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_TURN_2
 #undef SLV_TURN_ALL
 #undef SLV_TURN_BACK
-#undef SLV_DUP_LOW
-#undef SLV_DUP_HIGH
-#undef SLV_DUP_AT
-#undef SLV_PAIR
+#undef SLV_REPEAT_ROWS
+#undef SLV_REPEAT
 #undef SLV_TILES
 #undef SLV_AHEAD
 #undef SLV_HAS_HALF

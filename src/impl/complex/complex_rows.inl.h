@@ -5,7 +5,7 @@
  * column of a pair is i times the first: what it contributes is summed as if it were the first one,
  * and turned once for each row tile. L(rows, j) is at 8 (j / 2) of a tile, j even. */
 #define SLI_HALF (SLI_TILE / 2)
-#if defined(SLV_PAIR)
+#if !defined(SLV_PLAIN)
 #define SLI_SMALL 1
 #else /* arrays gain nothing from copies for small supernodes */
 #define SLI_SMALL 0

@@ -1,6 +1,6 @@
 /* interleave.inl.h: 8 columns of a dense block to interleaved rows of a vector, and back */
 
-#if defined(SLV_PAIR)
+#if !defined(SLV_PLAIN)
 #define SLI_UNROLL_ROWS SLI_UNROLL
 #else
 #define SLI_UNROLL_ROWS /* in plain C it wins 2 % of a solve and takes 2 kB */

@@ -30,7 +30,6 @@
 #define SLW_SET_ENTRIES(v, l, columns, rows) SLV_WIDEN(v, l, columns, rows)
 #endif
 
-
 /* So many columns are copied before the first is used: processors are slow to read what they have
  * just stored. Copied one by one, 3 right-hand sides take 1.15 to 1.4 of the time. */
 #if SLV_SINGLE && !defined(SLW_TAKES_FLOATS)

@@ -74,11 +74,13 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli
 #define SLI_DIVIDE_OWN(k, unused) \
     if (SLI_IS_IN(k, w)) { \
         SLW_LOAD(b, xs + (k)*stride) \
-        SLW_DIVIDE(b, d[k]) \
+        if (d != NULL) { \
+            SLW_DIVIDE(b, d[k]) \
+        } \
         SLW_ADD(a##k, b) \
     }
 
-/* l: the last tile of the panel */
+/* l: the last tile of the panel. d is NULL if x is divided by D already. */
 SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sli_rows below,
                                                               const SLV_VALUE *l, const double *d,
                                                               double *xs, const double *x) {

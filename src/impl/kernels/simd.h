@@ -26,6 +26,7 @@
  *                         supernode of at most 8 columns
  *  SLV_NAME_SMALL(f)      name of sweep f for one right-hand side and a supernode of at most 8
  *                         columns; with SLV_OWN_SMALL it is compiled for this instruction set
+ *  SLV_PLAIN              defined: this is plain C
  *  SLV_ARRAYS             defined: vectors are arrays, and tiles of fronts are computed in loops
  *  SLV_NAME_PIVOTS(f)     name of the function for a tile of pivots; SLV_OWN_PIVOTS: the same
  *  SLV_ISA, SLV_FUNCTION  its sl_isa; the attributes of a function
@@ -51,8 +52,8 @@
  *  SLV_TRANSPOSE(to, from)            8 x 8 doubles, both 64-byte aligned
  *  SLV_EXPAND(mask, lanes, count)     prepares SLV_EXPAND_ADD(to, from), which adds from[i] to
  *                                     to[lanes[i]], i < count. mask has the bits of the lanes
- *  SLV_DUP_LOW(e, l)      e = l[0] l[0] l[1] l[1] l[2] l[2] l[3] l[3]. SLV_DUP_HIGH: from l[4] on
- *  SLV_PAIR(b, p)         b = p[0] p[1] p[0] p[1] p[0] p[1] p[0] p[1]
+ *  SLV_REPEAT_ROWS(t, l, k)           t = l[4k] l[4k] l[4k+1] l[4k+1] .. l[4k+3] l[4k+3], k = 0, 1
+ *  SLV_REPEAT(b, p)       b = p[0] p[1] p[0] p[1] p[0] p[1] p[0] p[1]
  *
  *  What depends on the type of L:
  *
@@ -63,7 +64,7 @@
  *  SLV_PACK_PAIRS(l, E, j, length, B)  B += L E from column j on; only in double
  *  SLV_SWEEP(f)           SLV_NAME of a function that reads L. SLV_SWEEP_2(f): SLV_NAME_2,
  *                         SLW_SWEEP(f): SLW_NAME of one
- *  SLV_READ(l)            what SLV_AXPY, SLV_DOT, SLV_SUM_DOT and SLV_DUP_ load at l, as doubles;
+ *  SLV_READ(l)            what SLV_AXPY, SLV_DOT, SLV_SUM_DOT and SLV_REPEAT_ROWS load, as doubles;
  *                         each instruction set defines SLV_READ_0 for double, SLV_READ_1 for float
  *  SLV_WIDE(v, columns)   declares v for SLV_WIDEN(v, l, columns, rows): v = columns 0 .. columns-1
  *                         from l on, their first 4 or 8 rows, as doubles, [column][8]. For scalars

@@ -125,7 +125,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots2)(const SLV_VALUE *l0, const SLV_VAL
     } else { \
         SLV_SUM_ZERO(a##k) \
     }
-#if defined(SLV_PAIR) || defined(SLV_ARRAYS)
+#if !defined(SLV_PLAIN) || defined(SLV_ARRAYS)
 #define SLI_SHARED SLI_NOINLINE static
 #else
 #define SLI_SHARED SLI_INLINE /* in plain C the call is 3 % of a solve */

@@ -6,7 +6,7 @@
  * gathered directly into registers. For L in double the width is a constant in each of 7 copies.
  * With L in float, branches on the width take 1.00 of the time, at most 1.05. */
 
-#if defined(SLV_PAIR)
+#if !defined(SLV_PLAIN)
 #if SLV_SINGLE
 #define SLI_BY_WIDTH(call) call(w)
 #else

@@ -122,15 +122,14 @@
     _mm256_store_pd((to) + 4, _mm256_add_pd(_mm256_load_pd((to) + 4), \
                                             sli_expand_4(_mm256_loadu_pd((from) + second_), high_, \
                                                          keep_high_)));
-#define SLV_DUP_AT(e, l) \
+#define SLV_REPEAT_ROWS(t, l, k) \
     { \
-        const __m256d l_ = SLV_READ(l); \
-        e##_0 = _mm256_permute4x64_pd(l_, 0x50); \
-        e##_1 = _mm256_permute4x64_pd(l_, 0xfa); \
+        const __m256d l_ = SLV_READ((l) + 4 * (k)); \
+        t##_0 = _mm256_permute4x64_pd(l_, 0x50); \
+        t##_1 = _mm256_permute4x64_pd(l_, 0xfa); \
     }
-#define SLV_DUP_LOW(e, l) SLV_DUP_AT(e, l)
-#define SLV_DUP_HIGH(e, l) SLV_DUP_AT(e, (l) + 4)
-#define SLV_PAIR(b, p) b##_0 = b##_1 = _mm256_broadcast_pd((const __m128d *)(const void *)(p));
+#define SLV_REPEAT(b, p) \
+    b##_0 = b##_1 = _mm256_broadcast_pd((const __m128d *)(const void *)(p));
 #define SLV_VECTOR_TILES 1
 #define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
 #define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)

@@ -123,11 +123,10 @@
     SLV_BELOW_2(a##_1, (k)-2) SLV_BELOW_2(a##_2, (k)-4) SLV_BELOW_2(a##_3, (k)-6)
 #define SLV_EXPAND SLI_EXPAND_PLAIN
 #define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
-#define SLV_DUP_LOW(e, l) \
-    e##_0 = vdupq_n_f64((l)[0]), e##_1 = vdupq_n_f64((l)[1]), e##_2 = vdupq_n_f64((l)[2]), \
-    e##_3 = vdupq_n_f64((l)[3]);
-#define SLV_DUP_HIGH(e, l) SLV_DUP_LOW(e, (l) + 4)
-#define SLV_PAIR(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_f64(p);
+#define SLV_REPEAT_ROWS(t, l, k) \
+    t##_0 = vdupq_n_f64((l)[4 * (k)]), t##_1 = vdupq_n_f64((l)[4 * (k) + 1]), \
+    t##_2 = vdupq_n_f64((l)[4 * (k) + 2]), t##_3 = vdupq_n_f64((l)[4 * (k) + 3]);
+#define SLV_REPEAT(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_f64(p);
 #define SLV_STREAM(p, a) SLV_STORE(p, a)
 #define SLV_STREAM_END
 #define SLV_VECTOR_TILES 1

@@ -85,6 +85,7 @@
 #define SLV_OWN_SMALL
 #define SLV_NAME_PIVOTS SLV_NAME
 #define SLV_OWN_PIVOTS
+#define SLV_PLAIN
 #if defined(SLI_X86) || defined(SLI_ARM) /* few processors there run plain C */
 #define SLV_ARRAYS
 #endif

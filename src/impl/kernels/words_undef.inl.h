@@ -10,6 +10,7 @@
 #undef SLV_OWN_SMALL
 #undef SLV_NAME_PIVOTS
 #undef SLV_OWN_PIVOTS
+#undef SLV_PLAIN
 #undef SLV_ARRAYS
 #undef SLV_ISA
 #undef SLV_FUNCTION
@@ -34,10 +35,8 @@
 #undef SLV_TURN_2
 #undef SLV_TURN_ALL
 #undef SLV_TURN_BACK
-#undef SLV_DUP_LOW
-#undef SLV_DUP_HIGH
-#undef SLV_DUP_AT
-#undef SLV_PAIR
+#undef SLV_REPEAT_ROWS
+#undef SLV_REPEAT
 #undef SLV_TILES
 #undef SLV_AHEAD
 #undef SLV_HAS_HALF
