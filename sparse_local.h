@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: bd7a83063c849a38
+ * FNV-1a of the lines after this comment, without the license: e3c2187f84366935
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -41,23 +41,23 @@
  *  10955 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  13179 impl/ factor: the numbers of L and D
  *  16556 impl/ solve: full and local solves
- *  18223 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20154 impl/ pivots: the order of the pivots by the values of a matrix
- *  20562 impl/ float: L and fronts in single precision
- *  21027 impl/ inverse: entries of the inverse, regions
- *  24094 impl/ change: a factor that follows changes of its matrix
- *  30266 impl/ dirichlet: rows fixed at given values
- *  30857 impl/ dirichlet: by a factor of all rows
- *  31089 impl/ io: files that are replaced only when they are complete
- *  31307 impl/ files: Matrix Market files, 64-bit indices
- *  31927 impl/ save: factors in files
- *  33939 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34622 impl/ batch: diagonals of many inverses
- *  34762 impl/ complex: complex Hermitian systems over real factors
- *  35324 impl/ complex: entries of the inverse
- *  35384 impl/ packs: the tables through which the core calls packs
- *  35433 impl/ last: undefine every internal macro
- *  35799 impl/ templates: the header includes them from itself, once for each instruction set
+ *  18255 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20186 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20594 impl/ float: L and fronts in single precision
+ *  21059 impl/ inverse: entries of the inverse, regions
+ *  24126 impl/ change: a factor that follows changes of its matrix
+ *  30298 impl/ dirichlet: rows fixed at given values
+ *  30889 impl/ dirichlet: by a factor of all rows
+ *  31121 impl/ io: files that are replaced only when they are complete
+ *  31339 impl/ files: Matrix Market files, 64-bit indices
+ *  31959 impl/ save: factors in files
+ *  33971 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34654 impl/ batch: diagonals of many inverses
+ *  34794 impl/ complex: complex Hermitian systems over real factors
+ *  35356 impl/ complex: entries of the inverse
+ *  35416 impl/ packs: the tables through which the core calls packs
+ *  35465 impl/ last: undefine every internal macro
+ *  35831 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -16740,7 +16740,11 @@ SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
 
 SLI_INLINE sl_int sli_block_size(sl_int nrhs, sl_int most) {
   const sl_int size = sli_min(nrhs, most);
-  return size >= 64 ? 64 : size >= 32 ? 32 : size >= 16 ? 16 : sli_min(nrhs, 8);
+  return size >= 64 ? 64
+       : size >= 32 ? 32
+       : size >= 16 ? 16
+       : size > 12 ? size
+            : sli_min(size, 8);
 }
 
 #define SLI_BLOCK_MOST 64
@@ -16915,33 +16919,39 @@ SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v,
 #define SLI_STREAMED 4000000
 #endif
 
+#define SLI_LAST_CASES(columns, call) \
+  switch (columns) { \
+    SLI_CASE(5, call) \
+    SLI_CASE(6, call) \
+  default: \
+    call(7); \
+  }
+
+#define SLI_PACK_LAST(count) sli_pack_rows(v, rows, M, at, count)
+SLI_NOINLINE static void sli_pack_last(double *v, sli_rows rows, const double *M, sli_dense at,
+    sl_int columns){SLI_LAST_CASES(columns, SLI_PACK_LAST)}
+
+#define SLI_UNPACK_LAST(count) sli_unpack_rows(M, at, v, rows, count)
+SLI_NOINLINE static void sli_unpack_last(double *M, sli_dense at, const double *v, sli_rows rows,
+    sl_int columns) {
+  SLI_LAST_CASES(columns, SLI_UNPACK_LAST)
+}
+#undef SLI_LAST_CASES
+#undef SLI_PACK_LAST
+#undef SLI_UNPACK_LAST
+
 static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sli_rhs *rhs) {
   const double *B = rhs->B;
   const sli_dense at = sli_dense_of(rhs->ldb);
   const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs);
   const sl_int *index = q->b_index, count = q->nb;
+  const int is_streamed = (size_t)count * (size_t)lanes > SLI_STREAMED;
+  sl_int first, chunk, r;
   if (q->b_repeats || q->nb < q->forward.columns || nrhs < lanes) {
     SLI_ZERO(y, (size_t)q->forward.columns * (size_t)lanes);
   }
   if (q->b_repeats) {
     sli_pack_sums(y, sli_rows_of(index, count, lanes), B, at, nrhs);
-  } else if (nrhs % 8 == 0 && at.row == 1) {
-    const int is_streamed = (size_t)count * (size_t)lanes > SLI_STREAMED;
-    sl_int first, chunk, r;
-    for (first = 0; first < count; first += chunk) {
-      chunk = sli_min(SLI_PACK_CHUNK, count - first);
-      for (r = 0; r < nrhs; r += 8) {
-        F->kernels->interleave(y + r, sli_rows_of(index + first, chunk, lanes),
-            B + (size_t)first + (size_t)r * at.column, at.column,
-            is_streamed);
-      }
-    }
-  } else if (nrhs % 8 == 0) {
-    sl_int r;
-    for (r = 0; r < nrhs; r += 8) {
-      sli_pack_rows(y + r, sli_rows_of(index, count, lanes), B + r, sli_dense_by_rows(at.row),
-          8);
-    }
   } else if (nrhs == 1 && index == F->S->iperm && at.row == 1) {
     sli_unpack_rows(y, at, B, sli_rows_of(F->S->perm, count, 1), 1);
   } else if (nrhs == 1) {
@@ -16952,8 +16962,26 @@ static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sl
     sli_pack_rows(y, sli_rows_of(index, count, 4), B, at, 3);
   } else if (nrhs == 4) {
     sli_pack_rows(y, sli_rows_of(index, count, 4), B, at, 4);
+  } else if (nrhs > SLI_TILE && at.row > 1) {
+    for (r = 0; r < count; r++) {
+      memcpy(y + (ptrdiff_t)index[r] * lanes, B + (size_t)r * at.row,
+          (size_t)nrhs * sizeof(double));
+    }
   } else {
-    sli_pack_rows(y, sli_rows_of(index, count, lanes), B, at, nrhs);
+    for (first = 0; first < count; first += chunk) {
+      chunk = sli_min(SLI_PACK_CHUNK, count - first);
+      for (r = 0; r < nrhs; r += SLI_TILE) {
+        const sli_rows rows = sli_rows_of(index + first, chunk, lanes);
+        const double *M = B + (size_t)first * at.row + (size_t)r * at.column;
+        if (nrhs - r < SLI_TILE) {
+          sli_pack_last(y + r, rows, M, at, nrhs - r);
+        } else if (at.row == 1) {
+          F->kernels->interleave(y + r, rows, M, at.column, is_streamed);
+        } else {
+          sli_pack_rows(y + r, rows, M, sli_dense_by_rows(at.row), SLI_TILE);
+        }
+      }
+    }
   }
 }
 
@@ -16963,22 +16991,8 @@ static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rh
   const sli_dense at = sli_dense_of(rhs->ldx);
   const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs);
   const sl_int *index = q->x_index, count = q->nx;
-  if (nrhs % 8 == 0 && at.row == 1) {
-    sl_int first, chunk, r;
-    for (first = 0; first < count; first += chunk) {
-      chunk = sli_min(SLI_PACK_CHUNK, count - first);
-      for (r = 0; r < nrhs; r += 8) {
-        F->kernels->separate(X + (size_t)first + (size_t)r * at.column, at.column, x + r,
-            sli_rows_of(index + first, chunk, lanes));
-      }
-    }
-  } else if (nrhs % 8 == 0) {
-    sl_int r;
-    for (r = 0; r < nrhs; r += 8) {
-      sli_unpack_rows(X + r, sli_dense_by_rows(at.row), x + r,
-          sli_rows_of(index, count, lanes), 8);
-    }
-  } else if (nrhs == 1) {
+  sl_int first, chunk, r;
+  if (nrhs == 1) {
     sli_unpack_rows(X, at, x, sli_rows_of(index, count, 1), 1);
   } else if (nrhs == 2) {
     sli_unpack_rows(X, at, x, sli_rows_of(index, count, 2), 2);
@@ -16986,8 +17000,26 @@ static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rh
     sli_unpack_rows(X, at, x, sli_rows_of(index, count, 4), 3);
   } else if (nrhs == 4) {
     sli_unpack_rows(X, at, x, sli_rows_of(index, count, 4), 4);
+  } else if (nrhs > SLI_TILE && at.row > 1) {
+    for (r = 0; r < count; r++) {
+      memcpy(X + (size_t)r * at.row, x + (ptrdiff_t)index[r] * lanes,
+          (size_t)nrhs * sizeof(double));
+    }
   } else {
-    sli_unpack_rows(X, at, x, sli_rows_of(index, count, lanes), nrhs);
+    for (first = 0; first < count; first += chunk) {
+      chunk = sli_min(SLI_PACK_CHUNK, count - first);
+      for (r = 0; r < nrhs; r += SLI_TILE) {
+        const sli_rows rows = sli_rows_of(index + first, chunk, lanes);
+        double *M = X + (size_t)first * at.row + (size_t)r * at.column;
+        if (nrhs - r < SLI_TILE) {
+          sli_unpack_last(M, at, x + r, rows, nrhs - r);
+        } else if (at.row == 1) {
+          F->kernels->separate(M, at.column, x + r, rows);
+        } else {
+          sli_unpack_rows(M, sli_dense_by_rows(at.row), x + r, rows, SLI_TILE);
+        }
+      }
+    }
   }
 }
 

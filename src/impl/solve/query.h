@@ -102,12 +102,15 @@ SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
     return kind;
 }
 
-/* The size of the next block of at most `most` of nrhs right-hand sides: 64, 32, 16 or up to 8.
- * Blocks of 16 and more are full, so that the bits of a right-hand side are those of blocks of 8.
- */
+/* The size of the next block of at most `most` of nrhs right-hand sides: 64, 32, 16 or up to 8. As
+ * 5 to 7 take a sweep of 8, with its bits, 13 to 15 take one of 16. */
 SLI_INLINE sl_int sli_block_size(sl_int nrhs, sl_int most) {
     const sl_int size = sli_min(nrhs, most);
-    return size >= 64 ? 64 : size >= 32 ? 32 : size >= 16 ? 16 : sli_min(nrhs, 8);
+    return size >= 64   ? 64
+           : size >= 32 ? 32
+           : size >= 16 ? 16
+           : size > 12  ? size
+                        : sli_min(size, 8);
 }
 
 /* The largest blocks: a sweep over L is shared by all right-hand sides of a block, which takes as
@@ -297,8 +300,8 @@ SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v,
     }
 }
 
-/* Rows of a wide block that are moved at a time, 8 columns after 8 columns: their rows of the
- * vector stay in the second cache. */
+/* Rows that are moved at a time, 8 columns after 8 columns: their rows of the vector stay in the
+ * second cache. */
 #define SLI_PACK_CHUNK 1024
 
 /* Doubles of a vector that will not be in a cache any more when the sweep reads it: it is written
@@ -309,6 +312,28 @@ SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v,
 #define SLI_STREAMED 4000000
 #endif
 
+/* The last 5 to 7 columns of a block. */
+#define SLI_LAST_CASES(columns, call) \
+    switch (columns) { \
+        SLI_CASE(5, call) \
+        SLI_CASE(6, call) \
+    default: \
+        call(7); \
+    }
+
+#define SLI_PACK_LAST(count) sli_pack_rows(v, rows, M, at, count)
+SLI_NOINLINE static void sli_pack_last(double *v, sli_rows rows, const double *M, sli_dense at,
+                                       sl_int columns){SLI_LAST_CASES(columns, SLI_PACK_LAST)}
+
+#define SLI_UNPACK_LAST(count) sli_unpack_rows(M, at, v, rows, count)
+SLI_NOINLINE static void sli_unpack_last(double *M, sli_dense at, const double *v, sli_rows rows,
+                                         sl_int columns) {
+    SLI_LAST_CASES(columns, SLI_UNPACK_LAST)
+}
+#undef SLI_LAST_CASES
+#undef SLI_PACK_LAST
+#undef SLI_UNPACK_LAST
+
 /* Moves a block of b into the forward vector. Rows that are not given, and unused columns of the
  * block, are 0. */
 static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sli_rhs *rhs) {
@@ -316,28 +341,13 @@ static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sl
     const sli_dense at = sli_dense_of(rhs->ldb);
     const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs);
     const sl_int *index = q->b_index, count = q->nb;
+    const int is_streamed = (size_t)count * (size_t)lanes > SLI_STREAMED;
+    sl_int first, chunk, r;
     if (q->b_repeats || q->nb < q->forward.columns || nrhs < lanes) {
         SLI_ZERO(y, (size_t)q->forward.columns * (size_t)lanes);
     }
     if (q->b_repeats) {
         sli_pack_sums(y, sli_rows_of(index, count, lanes), B, at, nrhs);
-    } else if (nrhs % 8 == 0 && at.row == 1) {
-        const int is_streamed = (size_t)count * (size_t)lanes > SLI_STREAMED;
-        sl_int first, chunk, r;
-        for (first = 0; first < count; first += chunk) {
-            chunk = sli_min(SLI_PACK_CHUNK, count - first);
-            for (r = 0; r < nrhs; r += 8) {
-                F->kernels->interleave(y + r, sli_rows_of(index + first, chunk, lanes),
-                                       B + (size_t)first + (size_t)r * at.column, at.column,
-                                       is_streamed);
-            }
-        }
-    } else if (nrhs % 8 == 0) {
-        sl_int r;
-        for (r = 0; r < nrhs; r += 8) {
-            sli_pack_rows(y + r, sli_rows_of(index, count, lanes), B + r, sli_dense_by_rows(at.row),
-                          8);
-        }
     } else if (nrhs == 1 && index == F->S->iperm && at.row == 1) {
         sli_unpack_rows(y, at, B, sli_rows_of(F->S->perm, count, 1), 1);
     } else if (nrhs == 1) {
@@ -348,8 +358,26 @@ static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sl
         sli_pack_rows(y, sli_rows_of(index, count, 4), B, at, 3);
     } else if (nrhs == 4) {
         sli_pack_rows(y, sli_rows_of(index, count, 4), B, at, 4);
+    } else if (nrhs > SLI_TILE && at.row > 1) { /* whole rows */
+        for (r = 0; r < count; r++) {
+            memcpy(y + (ptrdiff_t)index[r] * lanes, B + (size_t)r * at.row,
+                   (size_t)nrhs * sizeof(double));
+        }
     } else {
-        sli_pack_rows(y, sli_rows_of(index, count, lanes), B, at, nrhs);
+        for (first = 0; first < count; first += chunk) {
+            chunk = sli_min(SLI_PACK_CHUNK, count - first);
+            for (r = 0; r < nrhs; r += SLI_TILE) {
+                const sli_rows rows = sli_rows_of(index + first, chunk, lanes);
+                const double *M = B + (size_t)first * at.row + (size_t)r * at.column;
+                if (nrhs - r < SLI_TILE) {
+                    sli_pack_last(y + r, rows, M, at, nrhs - r);
+                } else if (at.row == 1) {
+                    F->kernels->interleave(y + r, rows, M, at.column, is_streamed);
+                } else {
+                    sli_pack_rows(y + r, rows, M, sli_dense_by_rows(at.row), SLI_TILE);
+                }
+            }
+        }
     }
 }
 
@@ -360,22 +388,8 @@ static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rh
     const sli_dense at = sli_dense_of(rhs->ldx);
     const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs);
     const sl_int *index = q->x_index, count = q->nx;
-    if (nrhs % 8 == 0 && at.row == 1) {
-        sl_int first, chunk, r;
-        for (first = 0; first < count; first += chunk) {
-            chunk = sli_min(SLI_PACK_CHUNK, count - first);
-            for (r = 0; r < nrhs; r += 8) {
-                F->kernels->separate(X + (size_t)first + (size_t)r * at.column, at.column, x + r,
-                                     sli_rows_of(index + first, chunk, lanes));
-            }
-        }
-    } else if (nrhs % 8 == 0) {
-        sl_int r;
-        for (r = 0; r < nrhs; r += 8) {
-            sli_unpack_rows(X + r, sli_dense_by_rows(at.row), x + r,
-                            sli_rows_of(index, count, lanes), 8);
-        }
-    } else if (nrhs == 1) {
+    sl_int first, chunk, r;
+    if (nrhs == 1) {
         sli_unpack_rows(X, at, x, sli_rows_of(index, count, 1), 1);
     } else if (nrhs == 2) {
         sli_unpack_rows(X, at, x, sli_rows_of(index, count, 2), 2);
@@ -383,8 +397,26 @@ static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rh
         sli_unpack_rows(X, at, x, sli_rows_of(index, count, 4), 3);
     } else if (nrhs == 4) {
         sli_unpack_rows(X, at, x, sli_rows_of(index, count, 4), 4);
+    } else if (nrhs > SLI_TILE && at.row > 1) {
+        for (r = 0; r < count; r++) {
+            memcpy(X + (size_t)r * at.row, x + (ptrdiff_t)index[r] * lanes,
+                   (size_t)nrhs * sizeof(double));
+        }
     } else {
-        sli_unpack_rows(X, at, x, sli_rows_of(index, count, lanes), nrhs);
+        for (first = 0; first < count; first += chunk) {
+            chunk = sli_min(SLI_PACK_CHUNK, count - first);
+            for (r = 0; r < nrhs; r += SLI_TILE) {
+                const sli_rows rows = sli_rows_of(index + first, chunk, lanes);
+                double *M = X + (size_t)first * at.row + (size_t)r * at.column;
+                if (nrhs - r < SLI_TILE) {
+                    sli_unpack_last(M, at, x + r, rows, nrhs - r);
+                } else if (at.row == 1) {
+                    F->kernels->separate(M, at.column, x + r, rows);
+                } else {
+                    sli_unpack_rows(M, sli_dense_by_rows(at.row), x + r, rows, SLI_TILE);
+                }
+            }
+        }
     }
 }
 
