@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e3c2187f84366935
+ * FNV-1a of the lines after this comment, without the license: f6e6d7d7573fd627
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -44,20 +44,20 @@
  *  18255 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
  *  20186 impl/ pivots: the order of the pivots by the values of a matrix
  *  20594 impl/ float: L and fronts in single precision
- *  21059 impl/ inverse: entries of the inverse, regions
- *  24126 impl/ change: a factor that follows changes of its matrix
- *  30298 impl/ dirichlet: rows fixed at given values
- *  30889 impl/ dirichlet: by a factor of all rows
- *  31121 impl/ io: files that are replaced only when they are complete
- *  31339 impl/ files: Matrix Market files, 64-bit indices
- *  31959 impl/ save: factors in files
- *  33971 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34654 impl/ batch: diagonals of many inverses
- *  34794 impl/ complex: complex Hermitian systems over real factors
- *  35356 impl/ complex: entries of the inverse
- *  35416 impl/ packs: the tables through which the core calls packs
- *  35465 impl/ last: undefine every internal macro
- *  35831 impl/ templates: the header includes them from itself, once for each instruction set
+ *  21099 impl/ inverse: entries of the inverse, regions
+ *  24166 impl/ change: a factor that follows changes of its matrix
+ *  30338 impl/ dirichlet: rows fixed at given values
+ *  30929 impl/ dirichlet: by a factor of all rows
+ *  31161 impl/ io: files that are replaced only when they are complete
+ *  31379 impl/ files: Matrix Market files, 64-bit indices
+ *  31999 impl/ save: factors in files
+ *  34011 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34694 impl/ batch: diagonals of many inverses
+ *  34834 impl/ complex: complex Hermitian systems over real factors
+ *  35396 impl/ complex: entries of the inverse
+ *  35456 impl/ packs: the tables through which the core calls packs
+ *  35505 impl/ last: undefine every internal macro
+ *  35872 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -20788,12 +20788,28 @@ SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
 
 /* src/impl/float/float_kernels.h: the kernels of L and of fronts in float, for every instruction set */
 
+typedef int (*sli_round_kernel)(float *to, const double *from, ptrdiff_t count);
+
 typedef struct sli_float_kernels {
   sli_sweeps sweeps;
   sli_front_kernels front;
+  sli_round_kernel round;
 } sli_float_kernels;
 
+#define SLI_ROUND_PLAIN(name) \
+  static int name(float *to, const double *from, ptrdiff_t count) { \
+    ptrdiff_t k; \
+    int is_odd = 0; \
+    for (k = 0; k < count; k++) { \
+      const double size = fabs(from[k]); \
+      is_odd |= (size > (double)FLT_MAX) | ((size < (double)FLT_MIN) & (size > 0.0)); \
+      to[k] = (float)from[k]; \
+    } \
+    return is_odd; \
+  }
+
 #if !defined(SLI_SIMD)
+SLI_ROUND_PLAIN(sli_single_round_scalar)
 #define SLV_SINGLE 1
 #define SLV_COMPLEX 0
 #define SLW_NRHS 2
@@ -20810,6 +20826,22 @@ typedef struct sli_float_kernels {
 #endif
 
 #if defined(SLI_X86)
+SLI_TARGET("avx2,fma")
+static int sli_single_round_avx2(float *to, const double *from, ptrdiff_t count) {
+  const __m256d sign = _mm256_set1_pd(-0.0), zero = _mm256_setzero_pd();
+  const __m256d most = _mm256_set1_pd((double)FLT_MAX), least = _mm256_set1_pd((double)FLT_MIN);
+  __m256d odd = zero;
+  ptrdiff_t k;
+  for (k = 0; k < count; k += 4) {
+    const __m256d a = _mm256_load_pd(from + k), size = _mm256_andnot_pd(sign, a);
+    const __m256d is_small = _mm256_and_pd(_mm256_cmp_pd(size, least, _CMP_LT_OQ),
+        _mm256_cmp_pd(size, zero, _CMP_GT_OQ));
+    odd = _mm256_or_pd(odd, _mm256_or_pd(is_small, _mm256_cmp_pd(size, most, _CMP_GT_OQ)));
+    _mm_store_ps(to + k, _mm256_cvtpd_ps(a));
+  }
+  return _mm256_movemask_pd(odd) != 0;
+}
+
 #define SLV_SINGLE 1
 #define SLV_COMPLEX 0
 #define SLW_NRHS 4
@@ -20863,6 +20895,7 @@ typedef struct sli_float_kernels {
 #endif
 
 #if defined(SLI_ARM)
+SLI_ROUND_PLAIN(sli_single_round_neon)
 #define SLV_SINGLE 1
 #define SLV_COMPLEX 0
 #define SLW_NRHS 4
@@ -20936,33 +20969,40 @@ SLI_INLINE int sli_rounding_harms(const sl_factor *F, const sli_front *f, sl_int
   return F->null.vectors <= 1 || f->magnitude[r] > ldexp(1.0, -900);
 }
 
-static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sli_failure *failure) {
-  const sl_int s = f->super;
-  const sl_int w = f->width, tiles = sli_tiles(w + f->below);
-  float *to = (float *)F->values + F->S->steps[s].panel;
-  const double *from = f->panel;
-  const sl_int rows = w + f->below;
-  sl_int t, j, r;
-  for (t = 0; t < tiles; t++) {
-    const sl_int columns = sli_min(w, SLI_TILE * (t + 1));
-    for (j = 0; j < columns; j++, from += SLI_TILE, to += SLI_TILE) {
-      int odd = 0;
-      for (r = 0; r < SLI_TILE; r++) {
-        const double size = fabs(from[r]);
-        odd |= (size > (double)FLT_MAX) | ((size < (double)FLT_MIN) & (size > 0.0));
-      }
-      for (r = 0; r < SLI_TILE && odd; r++) {
-        if (sli_rounding_harms(F, f, SLI_TILE * t + r, j, from[r])) {
-          return sli_fail(failure, SL_ERR_INACCURATE, s, F->S->steps[s].column + j, -1,
-              f->D[j]);
-        }
-      }
-      for (r = 0; r < SLI_TILE && (w > 1 || SLI_TILE * t + r < rows); r++) {
-        to[r] = (float)from[r];
+SLI_NOINLINE static sl_status sli_tile_check(const sl_factor *F, const sli_front *f, sl_int t,
+    const double *from, sl_int columns,
+    sli_failure *failure) {
+  sl_int j, r;
+  for (j = 0; j < columns; j++, from += SLI_TILE) {
+    for (r = 0; r < SLI_TILE; r++) {
+      if (sli_rounding_harms(F, f, SLI_TILE * t + r, j, from[r])) {
+        return sli_fail(failure, SL_ERR_INACCURATE, f->super, f->column + j, -1, f->D[j]);
       }
     }
   }
   return SL_OK;
+}
+
+static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sli_failure *failure) {
+  const sli_round_kernel round = sli_float_kernels_of(F->kernels->isa)->round;
+  const sl_int w = f->width, tiles = sli_tiles(w + f->below);
+  float *to = (float *)F->values + F->S->steps[f->super].panel;
+  const double *from = f->panel;
+  SLI_ALIGNED(float column[SLI_TILE]);
+  sl_status status = SL_OK;
+  sl_int t;
+  for (t = 0; t < tiles && status == SL_OK; t++) {
+    const sl_int columns = sli_min(w, SLI_TILE * (t + 1));
+    if (round(w > 1 ? to : column, from, SLI_TILE * (ptrdiff_t)columns)) {
+      status = sli_tile_check(F, f, t, from, columns, failure);
+    }
+    if (w == 1) {
+      SLI_COPY(to, column, sli_min(1 + f->below - SLI_TILE * t, SLI_TILE));
+    }
+    from += SLI_TILE * (ptrdiff_t)columns;
+    to += SLI_TILE * (ptrdiff_t)columns;
+  }
+  return status;
 }
 
 static double sli_float_entry(const void *values, sl_off at) {
@@ -35542,6 +35582,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_STEPS_AHEAD
 #undef SLI_ROWS_FETCHED
 #undef SLI_FETCHED_BYTES
+#undef SLI_ROUND_PLAIN
 #undef SLI_EACH4
 #undef SLI_EACH8
 #undef SLI_IS_IN
@@ -40206,7 +40247,8 @@ static const sli_float_kernels SLV_NAME(float_kernels) = {
     SLV_NAME(single_backward8), SLV_NAME(single_backward16), SLV_NAME(single_backward32),
     SLV_NAME(single_backward64)}},
   {SLV_NAME(single_pivots), SLV_NAME(single_rows), SLV_NAME(single_update),
-   SLV_NAME(single_assemble)}};
+   SLV_NAME(single_assemble)},
+  SLV_NAME_PIVOTS(single_round)};
 #endif
 
 #ifdef SLI_INL_KERNEL_SET

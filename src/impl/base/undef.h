@@ -78,6 +78,7 @@
 #undef SLI_STEPS_AHEAD
 #undef SLI_ROWS_FETCHED
 #undef SLI_FETCHED_BYTES
+#undef SLI_ROUND_PLAIN
 #undef SLI_EACH4
 #undef SLI_EACH8
 #undef SLI_IS_IN

@@ -64,34 +64,42 @@ SLI_INLINE int sli_rounding_harms(const sl_factor *F, const sli_front *f, sl_int
     return F->null.vectors <= 1 || f->magnitude[r] > ldexp(1.0, -900);
 }
 
-/* Rounds the panel of a front to float. Refuses what float cannot hold. */
-static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sli_failure *failure) {
-    const sl_int s = f->super;
-    const sl_int w = f->width, tiles = sli_tiles(w + f->below);
-    float *to = (float *)F->values + F->S->steps[s].panel;
-    const double *from = f->panel;
-    const sl_int rows = w + f->below;
-    sl_int t, j, r;
-    for (t = 0; t < tiles; t++) {
-        const sl_int columns = sli_min(w, SLI_TILE * (t + 1));
-        for (j = 0; j < columns; j++, from += SLI_TILE, to += SLI_TILE) {
-            int odd = 0;
-            for (r = 0; r < SLI_TILE; r++) {
-                const double size = fabs(from[r]);
-                odd |= (size > (double)FLT_MAX) | ((size < (double)FLT_MIN) & (size > 0.0));
-            }
-            for (r = 0; r < SLI_TILE && odd; r++) {
-                if (sli_rounding_harms(F, f, SLI_TILE * t + r, j, from[r])) {
-                    return sli_fail(failure, SL_ERR_INACCURATE, s, F->S->steps[s].column + j, -1,
-                                    f->D[j]);
-                }
-            }
-            for (r = 0; r < SLI_TILE && (w > 1 || SLI_TILE * t + r < rows); r++) {
-                to[r] = (float)from[r];
+/* Refuses what rounding harms in row tile t of a front, whose `columns` columns are at `from`. */
+SLI_NOINLINE static sl_status sli_tile_check(const sl_factor *F, const sli_front *f, sl_int t,
+                                             const double *from, sl_int columns,
+                                             sli_failure *failure) {
+    sl_int j, r;
+    for (j = 0; j < columns; j++, from += SLI_TILE) {
+        for (r = 0; r < SLI_TILE; r++) {
+            if (sli_rounding_harms(F, f, SLI_TILE * t + r, j, from[r])) {
+                return sli_fail(failure, SL_ERR_INACCURATE, f->super, f->column + j, -1, f->D[j]);
             }
         }
     }
     return SL_OK;
+}
+
+/* Rounds the panel of a front to float. Refuses what float cannot hold. */
+static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sli_failure *failure) {
+    const sli_round_kernel round = sli_float_kernels_of(F->kernels->isa)->round;
+    const sl_int w = f->width, tiles = sli_tiles(w + f->below);
+    float *to = (float *)F->values + F->S->steps[f->super].panel;
+    const double *from = f->panel;
+    SLI_ALIGNED(float column[SLI_TILE]);
+    sl_status status = SL_OK;
+    sl_int t;
+    for (t = 0; t < tiles && status == SL_OK; t++) {
+        const sl_int columns = sli_min(w, SLI_TILE * (t + 1));
+        if (round(w > 1 ? to : column, from, SLI_TILE * (ptrdiff_t)columns)) {
+            status = sli_tile_check(F, f, t, from, columns, failure);
+        }
+        if (w == 1) { /* that panel is not padded */
+            SLI_COPY(to, column, sli_min(1 + f->below - SLI_TILE * t, SLI_TILE));
+        }
+        from += SLI_TILE * (ptrdiff_t)columns;
+        to += SLI_TILE * (ptrdiff_t)columns;
+    }
+    return status;
 }
 
 static double sli_float_entry(const void *values, sl_off at) {
