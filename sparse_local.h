@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f6e6d7d7573fd627
+ * FNV-1a of the lines after this comment, without the license: 68adf6002ee742fa
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,28 +36,28 @@
  *   2969 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3012 impl/ base: the compiler, status, memory, sorting, threads
  *   4286 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5223 impl/ matrix: sparse matrices of the caller and of the library
- *   5853 impl/ ordering: fill-reducing orderings of a graph
- *  10955 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13179 impl/ factor: the numbers of L and D
- *  16556 impl/ solve: full and local solves
- *  18255 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20186 impl/ pivots: the order of the pivots by the values of a matrix
- *  20594 impl/ float: L and fronts in single precision
- *  21099 impl/ inverse: entries of the inverse, regions
- *  24166 impl/ change: a factor that follows changes of its matrix
- *  30338 impl/ dirichlet: rows fixed at given values
- *  30929 impl/ dirichlet: by a factor of all rows
- *  31161 impl/ io: files that are replaced only when they are complete
- *  31379 impl/ files: Matrix Market files, 64-bit indices
- *  31999 impl/ save: factors in files
- *  34011 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34694 impl/ batch: diagonals of many inverses
- *  34834 impl/ complex: complex Hermitian systems over real factors
- *  35396 impl/ complex: entries of the inverse
- *  35456 impl/ packs: the tables through which the core calls packs
- *  35505 impl/ last: undefine every internal macro
- *  35872 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5225 impl/ matrix: sparse matrices of the caller and of the library
+ *   5855 impl/ ordering: fill-reducing orderings of a graph
+ *  10957 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13181 impl/ factor: the numbers of L and D
+ *  16558 impl/ solve: full and local solves
+ *  18257 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20188 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20596 impl/ float: L and fronts in single precision
+ *  21101 impl/ inverse: entries of the inverse, regions
+ *  24168 impl/ change: a factor that follows changes of its matrix
+ *  30340 impl/ dirichlet: rows fixed at given values
+ *  30931 impl/ dirichlet: by a factor of all rows
+ *  31163 impl/ io: files that are replaced only when they are complete
+ *  31381 impl/ files: Matrix Market files, 64-bit indices
+ *  32001 impl/ save: factors in files
+ *  34013 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34696 impl/ batch: diagonals of many inverses
+ *  34836 impl/ complex: complex Hermitian systems over real factors
+ *  35398 impl/ complex: entries of the inverse
+ *  35458 impl/ packs: the tables through which the core calls packs
+ *  35507 impl/ last: undefine every internal macro
+ *  35874 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4364,7 +4364,9 @@ SLI_ALWAYS_INLINE sli_rows sli_rows_of(const sl_int *index, sl_int count, sl_int
   return rows;
 }
 
+#if defined(SLI_X86) || defined(SLI_ARM)
 static const sl_int sli_tile_rows[SLI_TILE] = {0, 1, 2, 3, 4, 5, 6, 7};
+#endif
 
 typedef struct sli_reach {
   sl_int count;
