@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 68adf6002ee742fa
+ * FNV-1a of the lines after this comment, without the license: 9de6211c899a5a76
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -23,41 +23,41 @@
  *   1840 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
  *   1933 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
  *   2040 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2080 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2201 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2232 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2414 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2513 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2623 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2664 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2750 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2858 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2892 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2969 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3012 impl/ base: the compiler, status, memory, sorting, threads
- *   4286 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5225 impl/ matrix: sparse matrices of the caller and of the library
- *   5855 impl/ ordering: fill-reducing orderings of a graph
- *  10957 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13181 impl/ factor: the numbers of L and D
- *  16558 impl/ solve: full and local solves
- *  18257 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20188 impl/ pivots: the order of the pivots by the values of a matrix
- *  20596 impl/ float: L and fronts in single precision
- *  21101 impl/ inverse: entries of the inverse, regions
- *  24168 impl/ change: a factor that follows changes of its matrix
- *  30340 impl/ dirichlet: rows fixed at given values
- *  30931 impl/ dirichlet: by a factor of all rows
- *  31163 impl/ io: files that are replaced only when they are complete
- *  31381 impl/ files: Matrix Market files, 64-bit indices
- *  32001 impl/ save: factors in files
- *  34013 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34696 impl/ batch: diagonals of many inverses
- *  34836 impl/ complex: complex Hermitian systems over real factors
- *  35398 impl/ complex: entries of the inverse
- *  35458 impl/ packs: the tables through which the core calls packs
- *  35507 impl/ last: undefine every internal macro
- *  35874 impl/ templates: the header includes them from itself, once for each instruction set
+ *   2081 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2202 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2233 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2415 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2514 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2624 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2665 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2751 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2859 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2893 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2970 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3013 impl/ base: the compiler, status, memory, sorting, threads
+ *   4287 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5226 impl/ matrix: sparse matrices of the caller and of the library
+ *   5856 impl/ ordering: fill-reducing orderings of a graph
+ *  10958 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13182 impl/ factor: the numbers of L and D
+ *  16559 impl/ solve: full and local solves
+ *  18315 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20246 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20654 impl/ float: L and fronts in single precision
+ *  21159 impl/ inverse: entries of the inverse, regions
+ *  24226 impl/ change: a factor that follows changes of its matrix
+ *  30398 impl/ dirichlet: rows fixed at given values
+ *  30989 impl/ dirichlet: by a factor of all rows
+ *  31221 impl/ io: files that are replaced only when they are complete
+ *  31439 impl/ files: Matrix Market files, 64-bit indices
+ *  32059 impl/ save: factors in files
+ *  34071 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34754 impl/ batch: diagonals of many inverses
+ *  34894 impl/ complex: complex Hermitian systems over real factors
+ *  35456 impl/ complex: entries of the inverse
+ *  35516 impl/ packs: the tables through which the core calls packs
+ *  35565 impl/ last: undefine every internal macro
+ *  35932 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1262,8 +1262,8 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *           solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: a number of B is not, or
  *           X overflows: X is written; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
- *           min(nrhs, 64)). If consistency is checked, right-hand sides beyond the eighth take an
- *           additional forward sweep.
+ *           min(nrhs, 64)). If consistency is checked, right-hand sides beyond the eighth are
+ *           read twice, and take an additional forward sweep where null vectors are not known.
  *  Threads  any number at once on one F, each with its own W. A single right-hand side, and more
  *           than 8, of a regular A are distributed over the threads that W was created with, with
  *           the same bits; W then grows to twice the size, or to that for each thread.
@@ -2069,7 +2069,8 @@ typedef struct sl_request {
  *            in sl_factor_solve; SL_ERR_NOT_FINITE: the same, all requests are solved;
  *            SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost      that of the solves, distributed by the entries of L that each reads; one workspace of
- *            the largest size per thread. If consistency is checked, one more forward sweep of all.
+ *            the largest size per thread. If consistency is checked, all of B is read
+ *            twice, with one more forward sweep where null vectors are not known.
  *  Threads   as sl_plan_solve.
  *  Example   tests/core/test_batch.c
  */
@@ -17722,6 +17723,12 @@ static void sli_sweep_transfer(const sli_query *q, const double *y, double *x, s
   }
 }
 
+static sl_int sli_sweep_dot(const sl_factor *F, const sli_packed *b, sl_int first, sl_int root,
+    sli_null_dot *dot) {
+  dot->next = sli_null_first(F, b->R, root);
+  return sli_null_dot_next(F, b, first, root, dot) ? sli_reach_index_of(b->R, dot->null) : -1;
+}
+
 static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
     sl_int nrhs) {
   const int kind = sli_lanes_kind(nrhs);
@@ -17737,14 +17744,11 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
   tree = *R;
   for (s = 0; s < R->count; s++) {
     sli_null_dot dot;
-    sl_int at = -1;
+    sl_int at;
     if (R->steps[s].up != -1) {
       continue;
     }
-    dot.next = sli_null_first(F, R, s);
-    if (sli_null_dot_next(F, &b, first, s, &dot)) {
-      at = sli_reach_index_of(R, dot.null);
-    }
+    at = sli_sweep_dot(F, &b, first, s, &dot);
     tree.steps = R->steps;
     tree.plain = R->plain;
     sli_reach_cut(&tree, first, s + 1 - first);
@@ -17758,23 +17762,76 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
   }
 }
 
+static int sli_sweep_pack(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+    const sli_rhs *rhs, double *norms) {
+  const sl_int lanes = (sl_int)1 << sli_lanes_kind(rhs->nrhs);
+  const sli_packed b = sli_packed_of(&q->forward, v->y, lanes);
+  sli_pack(F, q, v->y, rhs);
+  sli_norms(&b, norms);
+  return F->null.vectors == 1 || (q->ending != NULL && q->ending->rows > 0) ||
+       sli_null_dots(F, &b, norms, NULL, 0, lanes);
+}
+
 static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vectors *v,
     const sli_rhs *rhs) {
-  sli_pack(F, q, v->y, rhs);
   if (F->null.checks) {
-    const sl_int lanes = (sl_int)1 << sli_lanes_kind(rhs->nrhs);
-    const sli_packed b = sli_packed_of(&q->forward, v->y, lanes);
+    const sli_packed y =
+      sli_packed_of(&q->forward, v->y, (sl_int)1 << sli_lanes_kind(rhs->nrhs));
     double norms[SLI_TILE];
-    sli_norms(&b, norms);
-    if (F->null.vectors > 1 && (q->ending == NULL || q->ending->rows == 0) &&
-        !sli_null_dots(F, &b, norms, NULL, 0, lanes)) {
+    if (!sli_sweep_pack(F, q, v, rhs, norms)) {
       return 0;
     }
     sli_sweep_forward(F, q, v, rhs->nrhs);
-    return sli_is_consistent(F, &b, norms);
+    return sli_is_consistent(F, &y, norms);
   }
+  sli_pack(F, q, v->y, rhs);
   sli_sweep_forward(F, q, v, rhs->nrhs);
   return 1;
+}
+
+static int sli_check_sweeps(const sl_factor *F, const sli_reach *R) {
+  sl_int s, m;
+  for (s = 0; s < R->count; s++) {
+    sl_int known = 0;
+    sli_tree_range tree;
+    if (R->steps[s].up != -1) {
+      continue;
+    }
+    tree = sli_tree_range_of(F->S, &R->steps[s]);
+    m = tree.first == tree.root ? F->null.count : sli_null_first(F, R, s);
+    for (; m < F->null.count && F->null.pivots[m] <= tree.root; m++) {
+      const int is_known = sli_null_column(F, F->null.pivots[m]) != -1;
+      known += is_known;
+      if (!is_known || (known > 1 && F->null.vectors == 1)) {
+        return 1;
+      }
+    }
+  }
+  return 0;
+}
+
+static int sli_sweep_judge(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+    const sli_rhs *rhs) {
+  const sli_reach *R = &q->forward;
+  const sli_packed b = sli_packed_of(R, v->y, (sl_int)1 << sli_lanes_kind(rhs->nrhs));
+  double norms[SLI_TILE];
+  sl_int first = 0, s;
+  if (!sli_sweep_pack(F, q, v, rhs, norms)) {
+    return 0;
+  }
+  for (s = 0; s < R->count && F->null.vectors == 1; s++) {
+    sli_null_dot dot;
+    sl_int at;
+    if (R->steps[s].up != -1) {
+      continue;
+    }
+    at = sli_sweep_dot(F, &b, first, s, &dot);
+    if (at != -1) {
+      SLI_COPY(v->y + (ptrdiff_t)at * b.lanes, dot.sums, b.lanes);
+    }
+    first = s + 1;
+  }
+  return sli_is_consistent(F, &b, norms);
 }
 
 static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
@@ -17807,11 +17864,12 @@ SLI_COLD static sl_status sli_inconsistent(void) {
 
 static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
     void *memory) {
+  const int sweeps = sli_check_sweeps(F, &q->forward);
   sl_int r;
   for (r = 0; r < rhs->nrhs; r += sli_min(8, rhs->nrhs - r)) {
     const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
     const sli_vectors v = sli_vectors_of(q, block.nrhs, memory);
-    if (!sli_sweep_load(F, q, &v, &block)) {
+    if (!(sweeps ? sli_sweep_load(F, q, &v, &block) : sli_sweep_judge(F, q, &v, &block))) {
       return sli_inconsistent();
     }
   }

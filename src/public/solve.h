@@ -88,8 +88,8 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *           solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: a number of B is not, or
  *           X overflows: X is written; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
- *           min(nrhs, 64)). If consistency is checked, right-hand sides beyond the eighth take an
- *           additional forward sweep.
+ *           min(nrhs, 64)). If consistency is checked, right-hand sides beyond the eighth are
+ *           read twice, and take an additional forward sweep where null vectors are not known.
  *  Threads  any number at once on one F, each with its own W. A single right-hand side, and more
  *           than 8, of a regular A are distributed over the threads that W was created with, with
  *           the same bits; W then grows to twice the size, or to that for each thread.

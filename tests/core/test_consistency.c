@@ -161,6 +161,33 @@ static void every_solve_refuses_an_inconsistent_b(void **state) {
     fixture_free(f);
 }
 
+/* Nothing is written if any right-hand side behind the ninth is inconsistent, in components of
+ * any size, whether its null vector is known, so that z' b is a sum over b, or comes from L. */
+static void any_later_column_is_judged_first(void **state) {
+    (void)state;
+    fixture_t *f = fixture_make();
+    variant_list_t variants = variants_present();
+    double *unknown = test_reals(N); /* zeros */
+    for (int k = 0; k < 2 * variants.count; k++) {
+        sl_options opt = options_skip_null(&variants, k / 2);
+        sl_factor *F = NULL;
+        opt.null_vector = k % 2 ? unknown : NULL;
+        SL_CHECK(sl_factor_create(&F, f->S, &f->M.view, &opt, NULL));
+        for (sl_int r = 9; r < R; r++) {
+            double *b = f->B + N * r + 16 * r, *c = f->C + NB * r + 2 * r, b0 = *b, c0 = *c;
+            *b += 1e-3;
+            *c += 1e-3;
+            assert_every_solve(f, F, R, SL_ERR_INCONSISTENT, NULL);
+            *b = b0;
+            *c = c0;
+        }
+        assert_every_solve(f, F, R, SL_OK, NULL);
+        sl_factor_free(F);
+    }
+    free(unknown);
+    fixture_free(f);
+}
+
 /* The defects are the sums over the components; subtracted in the null rows they make any b
  * consistent. */
 static void defects_make_any_b_consistent(void **state) {
@@ -324,6 +351,7 @@ static void defects_report_a_failed_allocation(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_solve_refuses_an_inconsistent_b),
+        cmocka_unit_test(any_later_column_is_judged_first),
         cmocka_unit_test(defects_make_any_b_consistent),
         cmocka_unit_test(matrices_with_no_and_with_several_null_vectors),
         cmocka_unit_test(widely_spread_weights_are_consistent),

@@ -28,6 +28,14 @@ static void expect_solves(const bodies_t *f, sl_status status, const sl_int *row
     SL_EXPECT(status, sl_factor_solve(f->F, y, SL_ROWS(1), full, SL_ROWS(1), 1, NULL));
     SAME_VALUES(x, y, f->n);
     assert_true((x[0] == -7.5) == (status != SL_OK));
+    /* the eleventh of twelve right-hand sides: nothing is written if it is refused */
+    double *many = test_reals(12 * f->n), *X = test_reals(12 * f->n);
+    memcpy(many + 10 * f->n, full, f->n * sizeof *full);
+    X[0] = -7.5;
+    SL_EXPECT(status, sl_factor_solve(f->F, X, f->n, many, f->n, 12, NULL));
+    assert_true((X[0] == -7.5) == (status != SL_OK));
+    free(many);
+    free(X);
     y[0] = y[1] = y[2] = -7.5;
     SL_CHECK(sl_plan_create(&P, f->S, rows, count, xset, 3, NULL, NULL));
     SL_EXPECT(status, sl_plan_solve(P, f->F, y, 3, b, (size_t)count, 1, NULL));
