@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 9de6211c899a5a76
+ * FNV-1a of the lines after this comment, without the license: 19407b1cc747fdfb
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -41,23 +41,23 @@
  *  10958 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  13182 impl/ factor: the numbers of L and D
  *  16559 impl/ solve: full and local solves
- *  18315 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20246 impl/ pivots: the order of the pivots by the values of a matrix
- *  20654 impl/ float: L and fronts in single precision
- *  21159 impl/ inverse: entries of the inverse, regions
- *  24226 impl/ change: a factor that follows changes of its matrix
- *  30398 impl/ dirichlet: rows fixed at given values
- *  30989 impl/ dirichlet: by a factor of all rows
- *  31221 impl/ io: files that are replaced only when they are complete
- *  31439 impl/ files: Matrix Market files, 64-bit indices
- *  32059 impl/ save: factors in files
- *  34071 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34754 impl/ batch: diagonals of many inverses
- *  34894 impl/ complex: complex Hermitian systems over real factors
- *  35456 impl/ complex: entries of the inverse
- *  35516 impl/ packs: the tables through which the core calls packs
- *  35565 impl/ last: undefine every internal macro
- *  35932 impl/ templates: the header includes them from itself, once for each instruction set
+ *  18341 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20272 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20680 impl/ float: L and fronts in single precision
+ *  21185 impl/ inverse: entries of the inverse, regions
+ *  24252 impl/ change: a factor that follows changes of its matrix
+ *  30425 impl/ dirichlet: rows fixed at given values
+ *  31016 impl/ dirichlet: by a factor of all rows
+ *  31248 impl/ io: files that are replaced only when they are complete
+ *  31466 impl/ files: Matrix Market files, 64-bit indices
+ *  32086 impl/ save: factors in files
+ *  34098 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34781 impl/ batch: diagonals of many inverses
+ *  34921 impl/ complex: complex Hermitian systems over real factors
+ *  35483 impl/ complex: entries of the inverse
+ *  35543 impl/ packs: the tables through which the core calls packs
+ *  35592 impl/ last: undefine every internal macro
+ *  35960 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -16751,8 +16751,10 @@ SLI_INLINE sl_int sli_block_size(sl_int nrhs, sl_int most) {
 }
 
 #define SLI_BLOCK_MOST 64
+#define SLI_BLOCK_SINGULAR 32
 SLI_INLINE sl_int sli_block_most(const sl_factor *F) {
-  return F->null.checks || F->null.is_centered || F->null.count > 0 ? 8 : SLI_BLOCK_MOST;
+  return F->null.checks || F->null.is_centered || F->null.count > 0 ? SLI_BLOCK_SINGULAR
+                                    : SLI_BLOCK_MOST;
 }
 
 typedef struct sli_vectors {
@@ -17028,36 +17030,36 @@ static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rh
 
 /* src/impl/solve/singular.h: solves with null pivots: the consistency check, and centering */
 
-static void sli_chains_norm(double *chains, const double *row, ptrdiff_t count) {
+static void sli_chains_norm(double *chains, const double *row, ptrdiff_t count, ptrdiff_t next) {
   ptrdiff_t f = 0;
   sl_int q;
-  for (; f + SLI_TILE <= count; f += SLI_TILE) {
+  for (; f + SLI_TILE <= count; f += SLI_TILE, row += next) {
     SLI_UNROLL
     for (q = 0; q < SLI_TILE; q++) {
-      chains[q] += fabs(row[f + q]);
+      chains[q] += fabs(row[q]);
     }
   }
-  for (q = 0; f < count; q++) {
-    chains[q] += fabs(row[f++]);
+  for (q = 0; f < count; q++, f++) {
+    chains[q] += fabs(row[q]);
   }
 }
 
 SLI_ALWAYS_INLINE void sli_chains_dot(double *chains, const double *v, const double *row,
-    sl_int columns, sl_int lanes) {
+    ptrdiff_t next, sl_int columns, sl_int lanes) {
   const ptrdiff_t count = (ptrdiff_t)columns * lanes;
   ptrdiff_t f = 0;
   double sums[SLI_TILE];
   sl_int q;
   memcpy(sums, chains, sizeof sums);
-  for (; f + SLI_TILE <= count; f += SLI_TILE, v += SLI_TILE / lanes) {
+  for (; f + SLI_TILE <= count; f += SLI_TILE, v += SLI_TILE / lanes, row += next) {
     SLI_UNROLL
     for (q = 0; q < SLI_TILE; q++) {
-      sums[q] += v[q / lanes] * row[f + q];
+      sums[q] += v[q / lanes] * row[q];
     }
   }
   memcpy(chains, sums, sizeof sums);
-  for (q = 0; f < count; q++) { /* untested: none left of 8 lanes */
-    chains[q] += v[q / lanes] * row[f++];
+  for (q = 0; f < count; q++, f++) { /* untested: none left of 8 lanes */
+    chains[q] += v[q / lanes] * row[q];
   }
 }
 
@@ -17082,9 +17084,9 @@ static void sli_chains_sum(const double *chains, sl_int lanes, double *sums) {
     call(8); \
   }
 
-static void sli_chains_add(double *chains, const double *v, const double *row, sl_int columns,
-    sl_int lanes) {
-#define SLI_CALL(constant) sli_chains_dot(chains, v, row, columns, constant)
+static void sli_chains_add(double *chains, const double *v, const double *row, ptrdiff_t next,
+    sl_int columns, sl_int lanes) {
+#define SLI_CALL(constant) sli_chains_dot(chains, v, row, next, columns, constant)
   SLI_FOR_LANES(lanes, SLI_CALL)
 #undef SLI_CALL
 }
@@ -17103,17 +17105,38 @@ SLI_INLINE sli_packed sli_packed_of(const sli_reach *R, double *v, sl_int lanes)
   return b;
 }
 
+SLI_INLINE double *sli_packed_row(const sli_packed *b, sl_int row) {
+  return b->v + (ptrdiff_t)row * b->lanes;
+}
+
+static void sli_chains_add_step(double *chains, const double *v, const sli_packed *b,
+    const sli_step *step, sl_int r) {
+  sli_chains_add(chains, v + step->column, sli_packed_row(b, step->base) + r,
+      sli_max(b->lanes, SLI_TILE), sli_step_columns(step),
+      sli_min(b->lanes, SLI_TILE));
+}
+
+static void sli_chains_sum_all(const double *chains, sl_int lanes, double *sums) {
+  sl_int r;
+  for (r = 0; r < lanes; r += SLI_TILE) {
+    sli_chains_sum(chains + r, sli_min(lanes, SLI_TILE), sums + r);
+  }
+}
+
 static void sli_norms(const sli_packed *b, double *norms) {
   const sli_reach *R = b->R;
   const sl_int lanes = b->lanes;
-  double chains[SLI_TILE];
-  sl_int s;
-  memset(chains, 0, sizeof chains);
+  double chains[SLI_BLOCK_SINGULAR];
+  sl_int s, r;
+  SLI_ZERO(chains, sli_max(lanes, SLI_TILE));
   for (s = 0; s < R->count; s++) {
-    sli_chains_norm(chains, b->v + (ptrdiff_t)R->steps[s].base * lanes,
-        (ptrdiff_t)sli_step_columns(&R->steps[s]) * lanes);
+    for (r = 0; r < lanes; r += SLI_TILE) {
+      sli_chains_norm(chains + r, sli_packed_row(b, R->steps[s].base) + r,
+          (ptrdiff_t)sli_step_columns(&R->steps[s]) * sli_min(lanes, SLI_TILE),
+          sli_max(lanes, SLI_TILE));
+    }
   }
-  sli_chains_sum(chains, lanes, norms);
+  sli_chains_sum_all(chains, lanes, norms);
 }
 
 typedef struct sli_tree_range {
@@ -17132,13 +17155,13 @@ typedef struct sli_null_dot {
   sl_int null;
   sl_int number;
   sl_int next;
-  double sums[SLI_TILE];
+  double sums[SLI_BLOCK_SINGULAR];
 } sli_null_dot;
 
 static int sli_null_dot_next(const sl_factor *F, const sli_packed *b, sl_int first, sl_int root,
     sli_null_dot *dot) {
   const sl_int last = sli_tree_range_of(F->S, &b->R->steps[root]).root, lanes = b->lanes;
-  double chains[SLI_TILE];
+  double chains[SLI_BLOCK_SINGULAR];
   const double *z;
   sl_int column = -1, r;
   for (; dot->next < F->null.count && F->null.pivots[dot->next] <= last && column == -1;
@@ -17151,14 +17174,13 @@ static int sli_null_dot_next(const sl_factor *F, const sli_packed *b, sl_int fir
     return 0;
   }
   z = F->null.g + (size_t)column * (size_t)F->S->n;
-  memset(chains, 0, sizeof chains);
+  SLI_ZERO(chains, sli_max(lanes, SLI_TILE));
   for (; first <= root; first++) {
-    const sli_step *step = &b->R->steps[first];
-    const double *v = z + step->column, *row = b->v + (ptrdiff_t)step->base * lanes;
-    const sl_int columns = sli_step_columns(step);
-    sli_chains_add(chains, v, row, columns, lanes);
+    for (r = 0; r < lanes; r += SLI_TILE) {
+      sli_chains_add_step(chains + r, z, b, &b->R->steps[first], r);
+    }
   }
-  sli_chains_sum(chains, lanes, dot->sums);
+  sli_chains_sum_all(chains, lanes, dot->sums);
   for (r = 0; r < lanes; r++) {
     dot->sums[r] /= z[dot->null];
   }
@@ -17210,7 +17232,7 @@ static int sli_is_consistent(const sl_factor *F, const sli_packed *y, const doub
         F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
       const sl_int at = is_judged ? -1 : sli_reach_index_of(R, F->null.pivots[m]);
       for (r = 0; at != -1 && r < lanes; r++) {
-        if (fabs(y->v[(ptrdiff_t)at * lanes + r]) > F->null.consistency * norms[r]) {
+        if (fabs(sli_packed_row(y, at)[r]) > F->null.consistency * norms[r]) {
           return 0;
         }
       }
@@ -17224,31 +17246,31 @@ typedef struct sli_center_terms {
   double c[2 * SLI_NULL_VECTORS_MAX][SLI_TILE], t[SLI_TILE];
 } sli_center_terms;
 
-static void sli_center_tree_terms(const sl_factor *F, const sli_packed *y, sl_int first,
-    sl_int root, sl_int m, sli_center_terms *terms) {
-  const sl_int lanes = y->lanes, count = terms->count;
+static void sli_center_tree_terms(const sl_factor *F, const sli_packed *y, sl_int lane,
+    sl_int first, sl_int root, sl_int m, sli_center_terms *terms) {
+  const sl_int lanes = sli_min(y->lanes, SLI_TILE), count = terms->count;
   sl_int s, j, r, at;
   for (j = 0; j < count; j++) {
     double chains[SLI_TILE] = {0.0};
     for (s = first; s <= root; s++) {
-      const sli_step *step = &y->R->steps[s];
-      sli_chains_add(chains, F->null.center + (size_t)j * (size_t)F->S->n + step->column,
-          y->v + (ptrdiff_t)step->base * lanes, sli_step_columns(step), lanes);
+      sli_chains_add_step(chains, F->null.center + (size_t)j * (size_t)F->S->n, y,
+          &y->R->steps[s], lane);
     }
     sli_chains_sum(chains, lanes, terms->c[(j + count / 2) % count]);
   }
   at = count == 1 ? sli_reach_index_of(y->R, F->null.anchors[m]) : -1;
   for (r = 0; r < lanes && count == 1; r++) {
-    const double c = at != -1 ? y->v[(ptrdiff_t)at * lanes + r] * F->null.ratios[m] : 0.0;
+    const double c = at != -1 ? sli_packed_row(y, at)[lane + r] * F->null.ratios[m] : 0.0;
     terms->t[r] = c * F->null.squares[m] - terms->c[0][r];
     terms->c[0][r] = c;
   }
 }
 
 SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const double *D,
-    sl_int columns, const double *c, sl_int lanes) {
+    sl_int columns, sl_int width, const double *c,
+    sl_int lanes) {
   sl_int k, r;
-  for (k = 0; k < columns; k++, row += lanes) {
+  for (k = 0; k < columns; k++, row += width) {
     const double w = v[k] * D[k];
     SLI_UNROLL
     for (r = 0; r < lanes; r++) {
@@ -17257,25 +17279,26 @@ SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const do
   }
 }
 
-static void sli_center_clear(const sl_factor *F, const sli_packed *x, sl_int m, sl_int root) {
+static void sli_center_clear(const sl_factor *F, const sli_packed *x, sl_int lane, sl_int m,
+    sl_int root) {
   for (; m < F->null.count && F->null.pivots[m] <= root; m++) {
     const sl_int null = F->null.pivots[m], j = sli_reach_index_of(x->R, null);
     if (j != -1 && F->rule.kinds[null] == SLI_PIVOT_NULL) {
-      SLI_ZERO(x->v + (ptrdiff_t)j * x->lanes, x->lanes);
+      SLI_ZERO(sli_packed_row(x, j) + lane, sli_min(x->lanes, SLI_TILE));
     }
   }
 }
 
-static void sli_center_step(const sl_factor *F, const sli_packed *x, const sli_step *step,
-    const sli_center_terms *terms) {
-  double *row = x->v + (ptrdiff_t)step->base * x->lanes;
-  const sl_int columns = sli_step_columns(step);
+static void sli_center_step(const sl_factor *F, const sli_packed *x, sl_int lane,
+    const sli_step *step, const sli_center_terms *terms) {
+  double *row = sli_packed_row(x, step->base) + lane;
+  const sl_int columns = sli_step_columns(step), width = x->lanes;
   sl_int j;
   for (j = 0; j < terms->count; j++) {
     const double *v = F->null.center + (size_t)j * (size_t)F->S->n + step->column;
     const double *D = F->divisors + step->column;
-#define SLI_CALL(constant) sli_center_columns(row, v, D, columns, terms->c[j], constant)
-    SLI_FOR_LANES(x->lanes, SLI_CALL)
+#define SLI_CALL(constant) sli_center_columns(row, v, D, columns, width, terms->c[j], constant)
+    SLI_FOR_LANES(width, SLI_CALL)
 #undef SLI_CALL
   }
 }
@@ -17287,7 +17310,7 @@ static void sli_center(const sl_factor *F, const sli_packed *y, const sli_packed
   const sl_int listed = is_one ? F->null.n_anchors : F->null.count;
   const sli_reach *to = x->R;
   sli_center_terms terms;
-  sl_int first = 0, at = 0, root, m, j;
+  sl_int first = 0, at = 0, root, m, j, k, lane;
   terms.count = F->null.is_centered ? sli_center_count(F) : 0;
   for (root = 0; root < y->R->count; root++) {
     sli_tree_range tree;
@@ -17298,19 +17321,22 @@ static void sli_center(const sl_factor *F, const sli_packed *y, const sli_packed
     m = sli_lower_bound(list, listed, tree.first);
     if (m < listed && list[m] <= tree.root &&
         (uses == NULL || uses[sli_lower_bound(F->null.pivots, F->null.count, list[m])] == 0)) {
-      sli_center_tree_terms(F, y, first, root, m, &terms);
-      if (!is_one) {
-        sli_center_clear(F, x, m, tree.root);
-      }
-      for (; at < to->count && to->steps[at].column <= tree.root; at++) {
-        if (to->steps[at].column >= tree.first) {
-          sli_center_step(F, x, &to->steps[at], &terms);
+      j = is_one ? sli_reach_index_of(to, list[m]) : -1;
+      for (lane = 0, k = at; lane < y->lanes; lane += SLI_TILE) {
+        sli_center_tree_terms(F, y, lane, first, root, m, &terms);
+        if (!is_one) {
+          sli_center_clear(F, x, lane, m, tree.root);
+        }
+        for (k = at; k < to->count && to->steps[k].column <= tree.root; k++) {
+          if (to->steps[k].column >= tree.first) {
+            sli_center_step(F, x, lane, &to->steps[k], &terms);
+          }
+        }
+        if (j != -1) {
+          SLI_COPY(sli_packed_row(x, j) + lane, terms.t, sli_min(x->lanes, SLI_TILE));
         }
       }
-      j = is_one ? sli_reach_index_of(to, list[m]) : -1;
-      if (j != -1) {
-        SLI_COPY(x->v + (ptrdiff_t)j * x->lanes, terms.t, x->lanes);
-      }
+      at = k;
     }
     first = root + 1;
   }
@@ -17777,7 +17803,7 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
   if (F->null.checks) {
     const sli_packed y =
       sli_packed_of(&q->forward, v->y, (sl_int)1 << sli_lanes_kind(rhs->nrhs));
-    double norms[SLI_TILE];
+    double norms[SLI_BLOCK_SINGULAR];
     if (!sli_sweep_pack(F, q, v, rhs, norms)) {
       return 0;
     }
@@ -17814,7 +17840,7 @@ static int sli_sweep_judge(const sl_factor *F, const sli_query *q, const sli_vec
     const sli_rhs *rhs) {
   const sli_reach *R = &q->forward;
   const sli_packed b = sli_packed_of(R, v->y, (sl_int)1 << sli_lanes_kind(rhs->nrhs));
-  double norms[SLI_TILE];
+  double norms[SLI_BLOCK_SINGULAR];
   sl_int first = 0, s;
   if (!sli_sweep_pack(F, q, v, rhs, norms)) {
     return 0;
@@ -26388,7 +26414,7 @@ struct sl_pins {
 static double sli_dot(const double *a, const double *b, sl_int count) {
   double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, sum;
   sl_int k;
-  sli_chains_dot(chains, a, b, count, 1);
+  sli_chains_dot(chains, a, b, SLI_TILE, count, 1);
   sum = chains[0];
   for (k = 1; k < SLI_TILE; k++) {
     sum += chains[k];
@@ -26714,7 +26740,8 @@ static void sli_pin_dot(const sli_pin *pin, const sli_reach *R, const double *x,
   sli_intersection m = sli_intersection_of(&pin->R, R);
   double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   while (sli_intersection_next(&m)) {
-    sli_chains_add(chains, pin->u + m.in_a, x + (ptrdiff_t)lanes * m.in_b, m.count, lanes);
+    sli_chains_add(chains, pin->u + m.in_a, x + (ptrdiff_t)lanes * m.in_b, SLI_TILE, m.count,
+        lanes);
   }
   sli_chains_sum(chains, lanes, sums);
 }
@@ -26857,7 +26884,7 @@ SLI_HOT static void sli_capacitance_solve(const double *K, size_t ld, sl_int cou
   sl_int i, j, r;
   for (i = 1; i < count; i++) {
     double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, sums[SLI_TILE];
-    sli_chains_add(chains, K + (size_t)i * ld, f, i, lanes);
+    sli_chains_add(chains, K + (size_t)i * ld, f, SLI_TILE, i, lanes);
     sli_chains_sum(chains, lanes, sums);
     for (r = 0; r < lanes; r++) {
       f[(ptrdiff_t)i * lanes + r] -= sums[r];
@@ -35759,6 +35786,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_NEIGHBORHOOD_PAIRS
 #undef SLI_WIDE_DEGREE
 #undef SLI_BLOCK_MOST
+#undef SLI_BLOCK_SINGULAR
 #undef SLI_PACK_CHUNK
 #undef SLI_STREAMED
 #undef SLI_TEMPORARY_NAMES

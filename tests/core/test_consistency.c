@@ -182,6 +182,13 @@ static void any_later_column_is_judged_first(void **state) {
             *c = c0;
         }
         assert_every_solve(f, F, R, SL_OK, NULL);
+        SL_CHECK(sl_factor_solve(F, f->X, N, f->B, N, R, NULL));
+        for (sl_int r = 0; r < R; r += 8) { /* blocks of 8 have the bits of one of 16 */
+            double x[N * 8];
+            sl_int count = r + 8 < R ? 8 : R - r;
+            SL_CHECK(sl_factor_solve(F, x, N, f->B + N * r, N, count, NULL));
+            SAME_VALUES(x, f->X + N * r, (size_t)(N * count));
+        }
         sl_factor_free(F);
     }
     free(unknown);

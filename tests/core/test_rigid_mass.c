@@ -81,11 +81,21 @@ static void every_way_gives_the_same_bits(void **state) {
         for (int k = 0; k < 6; k++) {
             static const sl_int nb[6] = {1, 1, 12, -1, 8, 0}, nx[6] = {1, 8, -1, 5, 8, 3};
             local_solve_t q =
-                local_solve_random(f.F, n, nb[k], nx[k], 1 + which % 9, (uint64_t)(which + 10 * k));
+                local_solve_random(f.F, n, nb[k], nx[k], 1 + which % 9 + 16 * (which % 4),
+                                   (uint64_t)(which + 10 * k));
             local_solve_check(f.S, f.F, &q, W);
             local_solve_free(&q);
         }
         assert_ways_agree(f.S, &f.y.A, f.F, &f.opt);
+        double *many = test_reals(f.n * 48), *wide = test_reals(f.n * 48);
+        gen_reals(many, f.n * 48, seed + 1);
+        SL_CHECK(sl_factor_solve(f.F, wide, f.n, many, f.n, 48, W)); /* blocks of 32 and 16 */
+        for (size_t r = 0; r < 48; r += 8) {
+            SL_CHECK(sl_factor_solve(f.F, many + r * f.n, f.n, many + r * f.n, f.n, 8, W));
+        }
+        SAME_VALUES(many, wide, f.n * 48);
+        free(many);
+        free(wide);
         gen_reals(B, f.n * 9, seed);
         SL_CHECK(sl_factor_solve(f.F, X, f.n, B, f.n, 9, W));
         for (size_t i = 0; i < f.n * 9; i++) {

@@ -96,7 +96,7 @@ static void every_solve_gives_the_same_bits(void **state) {
         SL_CHECK(sl_factor_create(&G, S, &M.view, &opt, NULL));
         assert_same_bits(F, G);
         SL_CHECK(sl_work_create(&W, NULL));
-        for (sl_int nrhs = 1; nrhs <= 9; nrhs++) {
+        for (sl_int nrhs = 1; nrhs <= 51; nrhs += nrhs < 9 ? 1 : 14) {
             for (int which = 0; which < 6; which++) {
                 static const sl_int nb[6] = {1, 1, 20, -1, 30, 0}, nx[6] = {1, 30, -1, 5, 30, 3};
                 local_solve_t q = local_solve_random(F, n, nb[which], nx[which], nrhs,
@@ -116,10 +116,10 @@ static void every_solve_gives_the_same_bits(void **state) {
     gen_matrix_free(&M);
 }
 
-/* Interleaved, in a batch, in place: the same bits. */
+/* Interleaved, in a batch, in place, in blocks of 32, 16 and 8: the same bits. */
 static void interleaved_and_batch_solves_give_the_same_bits(void **state) {
     (void)state;
-    enum { N = 300, R = 11 };
+    enum { N = 300, R = 59 };
     sl_int components = 0, *of = test_ints(N);
     gen_matrix_t M = laplacian_of(GEN_COMPONENTS, N, 0, &components, of);
     double *m = weights(N, 6), *B = test_reals(N * R), *X = test_reals(N * R);
@@ -150,6 +150,12 @@ static void interleaved_and_batch_solves_give_the_same_bits(void **state) {
         }
         sl_request request = {NULL, Y, N, B, N, R, NULL};
         SL_CHECK(sl_batch_solve(F, &request, 1, NULL, NULL, NULL));
+        SAME_VALUES(Y, X, N * R);
+        memset(Y, 0, N * R * sizeof *Y);
+        for (sl_int r = 0; r < R; r += 8) {
+            SL_CHECK(
+                sl_factor_solve(F, Y + N * r, N, B + N * r, N, r + 8 < R ? 8 : R - r, NULL));
+        }
         SAME_VALUES(Y, X, N * R);
         sl_factor_free(F);
     }

@@ -126,7 +126,8 @@ static void sli_pin_dot(const sli_pin *pin, const sli_reach *R, const double *x,
     sli_intersection m = sli_intersection_of(&pin->R, R);
     double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     while (sli_intersection_next(&m)) {
-        sli_chains_add(chains, pin->u + m.in_a, x + (ptrdiff_t)lanes * m.in_b, m.count, lanes);
+        sli_chains_add(chains, pin->u + m.in_a, x + (ptrdiff_t)lanes * m.in_b, SLI_TILE, m.count,
+                       lanes);
     }
     sli_chains_sum(chains, lanes, sums);
 }
@@ -279,7 +280,7 @@ SLI_HOT static void sli_capacitance_solve(const double *K, size_t ld, sl_int cou
     sl_int i, j, r;
     for (i = 1; i < count; i++) {
         double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, sums[SLI_TILE];
-        sli_chains_add(chains, K + (size_t)i * ld, f, i, lanes);
+        sli_chains_add(chains, K + (size_t)i * ld, f, SLI_TILE, i, lanes);
         sli_chains_sum(chains, lanes, sums);
         for (r = 0; r < lanes; r++) {
             f[(ptrdiff_t)i * lanes + r] -= sums[r];

@@ -60,7 +60,7 @@ struct sl_pins {
 static double sli_dot(const double *a, const double *b, sl_int count) {
     double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, sum;
     sl_int k;
-    sli_chains_dot(chains, a, b, count, 1);
+    sli_chains_dot(chains, a, b, SLI_TILE, count, 1);
     sum = chains[0];
     for (k = 1; k < SLI_TILE; k++) {
         sum += chains[k];

@@ -114,10 +114,12 @@ SLI_INLINE sl_int sli_block_size(sl_int nrhs, sl_int most) {
 }
 
 /* The largest blocks: a sweep over L is shared by all right-hand sides of a block, which takes as
- * many vectors. What else a call does with a block, for singular matrices, is written for 8. */
+ * many vectors. Sums over a block, for singular matrices, take 8 of them at a time. */
 #define SLI_BLOCK_MOST 64
+#define SLI_BLOCK_SINGULAR 32
 SLI_INLINE sl_int sli_block_most(const sl_factor *F) {
-    return F->null.checks || F->null.is_centered || F->null.count > 0 ? 8 : SLI_BLOCK_MOST;
+    return F->null.checks || F->null.is_centered || F->null.count > 0 ? SLI_BLOCK_SINGULAR
+                                                                      : SLI_BLOCK_MOST;
 }
 
 /* Vectors and scratch of one block, cut from a workspace. */

@@ -4,41 +4,42 @@
 
 #include "../analysis/reach.h"
 #include "../factor/null_basis.h"
+#include "query.h"
 
 /* Sums over the `count` doubles of a step, which begins at a whole tile. 8 independent chains of
  * additions hide the latency. Double f of a step goes to chain f % 8, in a local sweep as in a full
- * one, so the bits agree. */
-static void sli_chains_norm(double *chains, const double *row, ptrdiff_t count) {
+ * one, so the bits agree. next: from 8 doubles to the next 8. */
+static void sli_chains_norm(double *chains, const double *row, ptrdiff_t count, ptrdiff_t next) {
     ptrdiff_t f = 0;
     sl_int q;
-    for (; f + SLI_TILE <= count; f += SLI_TILE) {
+    for (; f + SLI_TILE <= count; f += SLI_TILE, row += next) {
         SLI_UNROLL
         for (q = 0; q < SLI_TILE; q++) {
-            chains[q] += fabs(row[f + q]);
+            chains[q] += fabs(row[q]);
         }
     }
-    for (q = 0; f < count; q++) {
-        chains[q] += fabs(row[f++]);
+    for (q = 0; f < count; q++, f++) {
+        chains[q] += fabs(row[q]);
     }
 }
 
 /* The same for products with v; called with constant lanes. */
 SLI_ALWAYS_INLINE void sli_chains_dot(double *chains, const double *v, const double *row,
-                                      sl_int columns, sl_int lanes) {
+                                      ptrdiff_t next, sl_int columns, sl_int lanes) {
     const ptrdiff_t count = (ptrdiff_t)columns * lanes;
     ptrdiff_t f = 0;
     double sums[SLI_TILE]; /* in registers: chains could be a part of v */
     sl_int q;
     memcpy(sums, chains, sizeof sums);
-    for (; f + SLI_TILE <= count; f += SLI_TILE, v += SLI_TILE / lanes) {
+    for (; f + SLI_TILE <= count; f += SLI_TILE, v += SLI_TILE / lanes, row += next) {
         SLI_UNROLL
         for (q = 0; q < SLI_TILE; q++) { /* sum(r) += v(k) y(k, r) */
-            sums[q] += v[q / lanes] * row[f + q];
+            sums[q] += v[q / lanes] * row[q];
         }
     }
     memcpy(chains, sums, sizeof sums);
-    for (q = 0; f < count; q++) { /* untested: none left of 8 lanes */
-        chains[q] += v[q / lanes] * row[f++];
+    for (q = 0; f < count; q++, f++) { /* untested: none left of 8 lanes */
+        chains[q] += v[q / lanes] * row[q];
     }
 }
 
@@ -65,14 +66,14 @@ static void sli_chains_sum(const double *chains, sl_int lanes, double *sums) {
         call(8); \
     }
 
-static void sli_chains_add(double *chains, const double *v, const double *row, sl_int columns,
-                           sl_int lanes) {
-#define SLI_CALL(constant) sli_chains_dot(chains, v, row, columns, constant)
+static void sli_chains_add(double *chains, const double *v, const double *row, ptrdiff_t next,
+                           sl_int columns, sl_int lanes) {
+#define SLI_CALL(constant) sli_chains_dot(chains, v, row, next, columns, constant)
     SLI_FOR_LANES(lanes, SLI_CALL)
 #undef SLI_CALL
 }
 
-/* A packed block of vectors over a reach: columns x lanes. */
+/* A packed block of vectors over a reach: columns x lanes. Sums take 8 lanes after 8 lanes. */
 typedef struct sli_packed {
     const sli_reach *R;
     double *v;
@@ -87,18 +88,41 @@ SLI_INLINE sli_packed sli_packed_of(const sli_reach *R, double *v, sl_int lanes)
     return b;
 }
 
+SLI_INLINE double *sli_packed_row(const sli_packed *b, sl_int row) {
+    return b->v + (ptrdiff_t)row * b->lanes;
+}
+
+/* Adds the products of v with lanes r .. r+7 of a step, or with all lanes if they are fewer. */
+static void sli_chains_add_step(double *chains, const double *v, const sli_packed *b,
+                                const sli_step *step, sl_int r) {
+    sli_chains_add(chains, v + step->column, sli_packed_row(b, step->base) + r,
+                   sli_max(b->lanes, SLI_TILE), sli_step_columns(step),
+                   sli_min(b->lanes, SLI_TILE));
+}
+
+/* sums(r) := those of the chains of all lanes. */
+static void sli_chains_sum_all(const double *chains, sl_int lanes, double *sums) {
+    sl_int r;
+    for (r = 0; r < lanes; r += SLI_TILE) {
+        sli_chains_sum(chains + r, sli_min(lanes, SLI_TILE), sums + r);
+    }
+}
+
 /* norms(r) := the sum of |b|. */
 static void sli_norms(const sli_packed *b, double *norms) {
     const sli_reach *R = b->R;
     const sl_int lanes = b->lanes;
-    double chains[SLI_TILE];
-    sl_int s;
-    memset(chains, 0, sizeof chains);
+    double chains[SLI_BLOCK_SINGULAR];
+    sl_int s, r;
+    SLI_ZERO(chains, sli_max(lanes, SLI_TILE));
     for (s = 0; s < R->count; s++) {
-        sli_chains_norm(chains, b->v + (ptrdiff_t)R->steps[s].base * lanes,
-                        (ptrdiff_t)sli_step_columns(&R->steps[s]) * lanes);
+        for (r = 0; r < lanes; r += SLI_TILE) {
+            sli_chains_norm(chains + r, sli_packed_row(b, R->steps[s].base) + r,
+                            (ptrdiff_t)sli_step_columns(&R->steps[s]) * sli_min(lanes, SLI_TILE),
+                            sli_max(lanes, SLI_TILE));
+        }
     }
-    sli_chains_sum(chains, lanes, norms);
+    sli_chains_sum_all(chains, lanes, norms);
 }
 
 /* The columns of the whole tree whose root is a step of a reach. */
@@ -119,7 +143,7 @@ typedef struct sli_null_dot {
     sl_int null;
     sl_int number; /* among the null pivots */
     sl_int next;   /* the number that the search continues with */
-    double sums[SLI_TILE];
+    double sums[SLI_BLOCK_SINGULAR];
 } sli_null_dot;
 
 /* Finds the next null pivot of a tree, from number dot->next on, whose null vector is known, and
@@ -128,7 +152,7 @@ typedef struct sli_null_dot {
 static int sli_null_dot_next(const sl_factor *F, const sli_packed *b, sl_int first, sl_int root,
                              sli_null_dot *dot) {
     const sl_int last = sli_tree_range_of(F->S, &b->R->steps[root]).root, lanes = b->lanes;
-    double chains[SLI_TILE];
+    double chains[SLI_BLOCK_SINGULAR];
     const double *z;
     sl_int column = -1, r;
     for (; dot->next < F->null.count && F->null.pivots[dot->next] <= last && column == -1;
@@ -141,14 +165,13 @@ static int sli_null_dot_next(const sl_factor *F, const sli_packed *b, sl_int fir
         return 0;
     }
     z = F->null.g + (size_t)column * (size_t)F->S->n;
-    memset(chains, 0, sizeof chains);
+    SLI_ZERO(chains, sli_max(lanes, SLI_TILE));
     for (; first <= root; first++) {
-        const sli_step *step = &b->R->steps[first];
-        const double *v = z + step->column, *row = b->v + (ptrdiff_t)step->base * lanes;
-        const sl_int columns = sli_step_columns(step);
-        sli_chains_add(chains, v, row, columns, lanes);
+        for (r = 0; r < lanes; r += SLI_TILE) {
+            sli_chains_add_step(chains + r, z, b, &b->R->steps[first], r);
+        }
     }
-    sli_chains_sum(chains, lanes, dot->sums);
+    sli_chains_sum_all(chains, lanes, dot->sums);
     for (r = 0; r < lanes; r++) {
         dot->sums[r] /= z[dot->null];
     }
@@ -205,7 +228,7 @@ static int sli_is_consistent(const sl_factor *F, const sli_packed *y, const doub
                 F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
             const sl_int at = is_judged ? -1 : sli_reach_index_of(R, F->null.pivots[m]);
             for (r = 0; at != -1 && r < lanes; r++) {
-                if (fabs(y->v[(ptrdiff_t)at * lanes + r]) > F->null.consistency * norms[r]) {
+                if (fabs(sli_packed_row(y, at)[r]) > F->null.consistency * norms[r]) {
                     return 0;
                 }
             }
@@ -221,24 +244,23 @@ typedef struct sli_center_terms {
     double c[2 * SLI_NULL_VECTORS_MAX][SLI_TILE], t[SLI_TILE];
 } sli_center_terms;
 
-/* Computes the terms of the tree of steps first .. root. m: the number of its anchor, if it has
- * only one. */
-static void sli_center_tree_terms(const sl_factor *F, const sli_packed *y, sl_int first,
-                                  sl_int root, sl_int m, sli_center_terms *terms) {
-    const sl_int lanes = y->lanes, count = terms->count;
+/* Computes the terms of the tree of steps first .. root, for up to 8 lanes from `lane` on. m: the
+ * number of its anchor, if it has only one. */
+static void sli_center_tree_terms(const sl_factor *F, const sli_packed *y, sl_int lane,
+                                  sl_int first, sl_int root, sl_int m, sli_center_terms *terms) {
+    const sl_int lanes = sli_min(y->lanes, SLI_TILE), count = terms->count;
     sl_int s, j, r, at;
     for (j = 0; j < count; j++) {
         double chains[SLI_TILE] = {0.0};
         for (s = first; s <= root; s++) {
-            const sli_step *step = &y->R->steps[s];
-            sli_chains_add(chains, F->null.center + (size_t)j * (size_t)F->S->n + step->column,
-                           y->v + (ptrdiff_t)step->base * lanes, sli_step_columns(step), lanes);
+            sli_chains_add_step(chains, F->null.center + (size_t)j * (size_t)F->S->n, y,
+                                &y->R->steps[s], lane);
         }
         sli_chains_sum(chains, lanes, terms->c[(j + count / 2) % count]);
     }
     at = count == 1 ? sli_reach_index_of(y->R, F->null.anchors[m]) : -1;
     for (r = 0; r < lanes && count == 1; r++) {
-        const double c = at != -1 ? y->v[(ptrdiff_t)at * lanes + r] * F->null.ratios[m] : 0.0;
+        const double c = at != -1 ? sli_packed_row(y, at)[lane + r] * F->null.ratios[m] : 0.0;
         terms->t[r] = c * F->null.squares[m] - terms->c[0][r];
         terms->c[0][r] = c;
     }
@@ -246,9 +268,10 @@ static void sli_center_tree_terms(const sl_factor *F, const sli_packed *y, sl_in
 
 /* row := y - c w on the columns of one step of the backward sweep. Called with constant lanes. */
 SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const double *D,
-                                          sl_int columns, const double *c, sl_int lanes) {
+                                          sl_int columns, sl_int width, const double *c,
+                                          sl_int lanes) {
     sl_int k, r;
-    for (k = 0; k < columns; k++, row += lanes) {
+    for (k = 0; k < columns; k++, row += width) {
         const double w = v[k] * D[k];
         SLI_UNROLL
         for (r = 0; r < lanes; r++) {
@@ -258,26 +281,27 @@ SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const do
 }
 
 /* x(j) := 0 at the null pivots from number m on of a tree with several null vectors. */
-static void sli_center_clear(const sl_factor *F, const sli_packed *x, sl_int m, sl_int root) {
+static void sli_center_clear(const sl_factor *F, const sli_packed *x, sl_int lane, sl_int m,
+                             sl_int root) {
     for (; m < F->null.count && F->null.pivots[m] <= root; m++) {
         const sl_int null = F->null.pivots[m], j = sli_reach_index_of(x->R, null);
         if (j != -1 && F->rule.kinds[null] == SLI_PIVOT_NULL) {
-            SLI_ZERO(x->v + (ptrdiff_t)j * x->lanes, x->lanes);
+            SLI_ZERO(sli_packed_row(x, j) + lane, sli_min(x->lanes, SLI_TILE));
         }
     }
 }
 
 /* Subtracts the terms of a tree in one step of the backward vector. */
-static void sli_center_step(const sl_factor *F, const sli_packed *x, const sli_step *step,
-                            const sli_center_terms *terms) {
-    double *row = x->v + (ptrdiff_t)step->base * x->lanes;
-    const sl_int columns = sli_step_columns(step);
+static void sli_center_step(const sl_factor *F, const sli_packed *x, sl_int lane,
+                            const sli_step *step, const sli_center_terms *terms) {
+    double *row = sli_packed_row(x, step->base) + lane;
+    const sl_int columns = sli_step_columns(step), width = x->lanes;
     sl_int j;
     for (j = 0; j < terms->count; j++) {
         const double *v = F->null.center + (size_t)j * (size_t)F->S->n + step->column;
         const double *D = F->divisors + step->column;
-#define SLI_CALL(constant) sli_center_columns(row, v, D, columns, terms->c[j], constant)
-        SLI_FOR_LANES(x->lanes, SLI_CALL)
+#define SLI_CALL(constant) sli_center_columns(row, v, D, columns, width, terms->c[j], constant)
+        SLI_FOR_LANES(width, SLI_CALL)
 #undef SLI_CALL
     }
 }
@@ -294,7 +318,7 @@ static void sli_center(const sl_factor *F, const sli_packed *y, const sli_packed
     const sl_int listed = is_one ? F->null.n_anchors : F->null.count;
     const sli_reach *to = x->R;
     sli_center_terms terms;
-    sl_int first = 0, at = 0, root, m, j;
+    sl_int first = 0, at = 0, root, m, j, k, lane;
     terms.count = F->null.is_centered ? sli_center_count(F) : 0;
     for (root = 0; root < y->R->count; root++) {
         sli_tree_range tree;
@@ -305,19 +329,22 @@ static void sli_center(const sl_factor *F, const sli_packed *y, const sli_packed
         m = sli_lower_bound(list, listed, tree.first);
         if (m < listed && list[m] <= tree.root &&
             (uses == NULL || uses[sli_lower_bound(F->null.pivots, F->null.count, list[m])] == 0)) {
-            sli_center_tree_terms(F, y, first, root, m, &terms);
-            if (!is_one) {
-                sli_center_clear(F, x, m, tree.root);
-            }
-            for (; at < to->count && to->steps[at].column <= tree.root; at++) {
-                if (to->steps[at].column >= tree.first) {
-                    sli_center_step(F, x, &to->steps[at], &terms);
+            j = is_one ? sli_reach_index_of(to, list[m]) : -1;
+            for (lane = 0, k = at; lane < y->lanes; lane += SLI_TILE) {
+                sli_center_tree_terms(F, y, lane, first, root, m, &terms);
+                if (!is_one) {
+                    sli_center_clear(F, x, lane, m, tree.root);
+                }
+                for (k = at; k < to->count && to->steps[k].column <= tree.root; k++) {
+                    if (to->steps[k].column >= tree.first) {
+                        sli_center_step(F, x, lane, &to->steps[k], &terms);
+                    }
+                }
+                if (j != -1) { /* the backward sweep divides by 1 there */
+                    SLI_COPY(sli_packed_row(x, j) + lane, terms.t, sli_min(x->lanes, SLI_TILE));
                 }
             }
-            j = is_one ? sli_reach_index_of(to, list[m]) : -1;
-            if (j != -1) { /* the backward sweep divides by 1 there */
-                SLI_COPY(x->v + (ptrdiff_t)j * x->lanes, terms.t, x->lanes);
-            }
+            at = k;
         }
         first = root + 1;
     }

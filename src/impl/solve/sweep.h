@@ -80,7 +80,7 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
     if (F->null.checks) {
         const sli_packed y =
             sli_packed_of(&q->forward, v->y, (sl_int)1 << sli_lanes_kind(rhs->nrhs));
-        double norms[SLI_TILE];
+        double norms[SLI_BLOCK_SINGULAR];
         if (!sli_sweep_pack(F, q, v, rhs, norms)) {
             return 0;
         }
@@ -120,7 +120,7 @@ static int sli_sweep_judge(const sl_factor *F, const sli_query *q, const sli_vec
                            const sli_rhs *rhs) {
     const sli_reach *R = &q->forward;
     const sli_packed b = sli_packed_of(R, v->y, (sl_int)1 << sli_lanes_kind(rhs->nrhs));
-    double norms[SLI_TILE];
+    double norms[SLI_BLOCK_SINGULAR];
     sl_int first = 0, s;
     if (!sli_sweep_pack(F, q, v, rhs, norms)) {
         return 0;
