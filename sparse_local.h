@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 19407b1cc747fdfb
+ * FNV-1a of the lines after this comment, without the license: c626868cdba1b76d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -47,17 +47,17 @@
  *  21185 impl/ inverse: entries of the inverse, regions
  *  24252 impl/ change: a factor that follows changes of its matrix
  *  30425 impl/ dirichlet: rows fixed at given values
- *  31016 impl/ dirichlet: by a factor of all rows
- *  31248 impl/ io: files that are replaced only when they are complete
- *  31466 impl/ files: Matrix Market files, 64-bit indices
- *  32086 impl/ save: factors in files
- *  34098 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34781 impl/ batch: diagonals of many inverses
- *  34921 impl/ complex: complex Hermitian systems over real factors
- *  35483 impl/ complex: entries of the inverse
- *  35543 impl/ packs: the tables through which the core calls packs
- *  35592 impl/ last: undefine every internal macro
- *  35960 impl/ templates: the header includes them from itself, once for each instruction set
+ *  31075 impl/ dirichlet: by a factor of all rows
+ *  31307 impl/ io: files that are replaced only when they are complete
+ *  31525 impl/ files: Matrix Market files, 64-bit indices
+ *  32145 impl/ save: factors in files
+ *  34157 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34840 impl/ batch: diagonals of many inverses
+ *  34980 impl/ complex: complex Hermitian systems over real factors
+ *  35542 impl/ complex: entries of the inverse
+ *  35602 impl/ packs: the tables through which the core calls packs
+ *  35651 impl/ last: undefine every internal macro
+ *  36019 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -30948,12 +30948,71 @@ static int sli_dirichlet_set_fixed(const sl_dirichlet *D, const sli_rhs *rhs, co
   return is_finite;
 }
 
+static sl_status sli_dirichlet_blocks(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
+    size_t ldg, sl_int *index, void *memory) {
+  const sl_factor *F = D->F;
+  const sli_dense g = sli_dense_of(ldg);
+  sli_query q = sli_query_all(D->S);
+  sl_status status = SL_OK;
+  sl_int k, i = 0, r, c, count;
+  for (k = 0; k < D->n_free; k++) {
+    for (; i <= D->free_rows[k]; i++) {
+      index[i] = D->S->iperm[k];
+    }
+  }
+  q.nb = q.nx = i;
+  q.b_index = q.x_index = index;
+  for (r = 0; r < rhs->nrhs; r += count) {
+    sli_rhs block;
+    sli_vectors v;
+    sl_int lanes;
+    count = sli_block_size(rhs->nrhs - r, SLI_BLOCK_MOST);
+    lanes = (sl_int)1 << sli_lanes_kind(count);
+    block = sli_rhs_part(rhs, r, count);
+    v = sli_vectors_of(&q, count, memory);
+    if (rhs->B == NULL) {
+      SLI_ZERO(v.y, (size_t)q.forward.columns * (size_t)lanes);
+    } else {
+      sli_pack(F, &q, v.y, &block);
+    }
+    for (k = 0; k < D->n_couplings; k++) {
+      double *to = v.y + (ptrdiff_t)D->S->iperm[D->coupling_free[k]] * lanes;
+      const double *from = G + (size_t)D->coupling_fixed[k] * g.row + (size_t)r * g.column;
+      for (c = 0; c < count; c++) {
+        to[c] -= D->couplings[k] * from[(size_t)c * g.column];
+      }
+    }
+    sli_sweep_forward(F, &q, &v, count);
+    sli_sweep_backward(F, &q, &v, count);
+    sli_unpack(F, &q, &block, v.x);
+    if (!sli_sweep_is_finite(F, &q, v.x, lanes)) {
+      status = sli_not_finite();
+    }
+  }
+  return status;
+}
+
 static sl_status sli_dirichlet_run(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
     size_t ldg, sl_work *W) {
   const sli_rhs in_place = sli_rhs_of(rhs->X, rhs->ldx, rhs->X, rhs->ldx, rhs->nrhs);
   const sli_query q = sli_query_all(D->S);
   sli_sweep_tasks t;
   sl_status status = sli_query_prepare(&t, D->F, &q, &in_place, W);
+  if (status == SL_OK && t.workers == 1 && D->F->null.count == 0 &&
+      D->n_free > 0) {
+    const size_t bytes = sli_vectors_bytes(&q, rhs->nrhs, SLI_BLOCK_MOST);
+    sli_block b = {NULL, 0};
+    sl_int *index;
+    (void)sli_take(&b, bytes, 1);
+    (void)SLI_TAKE(&b, sl_int, D->n);
+    status = sli_work_block(W, &b);
+    if (status == SL_OK) {
+      void *memory = sli_take(&b, bytes, 1);
+      index = SLI_TAKE(&b, sl_int, D->n);
+      status = sli_dirichlet_blocks(D, rhs, G, ldg, index, memory);
+    }
+    return status;
+  }
   if (status == SL_OK) {
     sli_dirichlet_gather(D, rhs);
     sli_dirichlet_subtract(D, rhs, G, ldg);

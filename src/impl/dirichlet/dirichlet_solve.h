@@ -65,13 +65,75 @@ static int sli_dirichlet_set_fixed(const sl_dirichlet *D, const sli_rhs *rhs, co
     return is_finite;
 }
 
-/* Solves by the factor of the free rows, in place in X. */
+/* Solves by a regular factor of the free rows, from B to X: index holds
+ * where each row is in the vector, for a fixed row that of the next free one, which overwrites it.
+ */
+static sl_status sli_dirichlet_blocks(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
+                                      size_t ldg, sl_int *index, void *memory) {
+    const sl_factor *F = D->F;
+    const sli_dense g = sli_dense_of(ldg);
+    sli_query q = sli_query_all(D->S);
+    sl_status status = SL_OK;
+    sl_int k, i = 0, r, c, count;
+    for (k = 0; k < D->n_free; k++) {
+        for (; i <= D->free_rows[k]; i++) {
+            index[i] = D->S->iperm[k];
+        }
+    }
+    q.nb = q.nx = i;
+    q.b_index = q.x_index = index;
+    for (r = 0; r < rhs->nrhs; r += count) {
+        sli_rhs block;
+        sli_vectors v;
+        sl_int lanes;
+        count = sli_block_size(rhs->nrhs - r, SLI_BLOCK_MOST);
+        lanes = (sl_int)1 << sli_lanes_kind(count);
+        block = sli_rhs_part(rhs, r, count);
+        v = sli_vectors_of(&q, count, memory);
+        if (rhs->B == NULL) {
+            SLI_ZERO(v.y, (size_t)q.forward.columns * (size_t)lanes);
+        } else {
+            sli_pack(F, &q, v.y, &block);
+        }
+        for (k = 0; k < D->n_couplings; k++) { /* b -= A[free, fixed] g */
+            double *to = v.y + (ptrdiff_t)D->S->iperm[D->coupling_free[k]] * lanes;
+            const double *from = G + (size_t)D->coupling_fixed[k] * g.row + (size_t)r * g.column;
+            for (c = 0; c < count; c++) {
+                to[c] -= D->couplings[k] * from[(size_t)c * g.column];
+            }
+        }
+        sli_sweep_forward(F, &q, &v, count);
+        sli_sweep_backward(F, &q, &v, count);
+        sli_unpack(F, &q, &block, v.x);
+        if (!sli_sweep_is_finite(F, &q, v.x, lanes)) {
+            status = sli_not_finite();
+        }
+    }
+    return status;
+}
+
+/* Solves by the factor of the free rows, in place in X if it is singular or by several workers. */
 static sl_status sli_dirichlet_run(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
                                    size_t ldg, sl_work *W) {
     const sli_rhs in_place = sli_rhs_of(rhs->X, rhs->ldx, rhs->X, rhs->ldx, rhs->nrhs);
     const sli_query q = sli_query_all(D->S);
     sli_sweep_tasks t;
     sl_status status = sli_query_prepare(&t, D->F, &q, &in_place, W);
+    if (status == SL_OK && t.workers == 1 && D->F->null.count == 0 &&
+        D->n_free > 0) {
+        const size_t bytes = sli_vectors_bytes(&q, rhs->nrhs, SLI_BLOCK_MOST);
+        sli_block b = {NULL, 0};
+        sl_int *index;
+        (void)sli_take(&b, bytes, 1);
+        (void)SLI_TAKE(&b, sl_int, D->n);
+        status = sli_work_block(W, &b);
+        if (status == SL_OK) {
+            void *memory = sli_take(&b, bytes, 1);
+            index = SLI_TAKE(&b, sl_int, D->n);
+            status = sli_dirichlet_blocks(D, rhs, G, ldg, index, memory);
+        }
+        return status;
+    }
     if (status == SL_OK) {
         sli_dirichlet_gather(D, rhs);
         sli_dirichlet_subtract(D, rhs, G, ldg);
