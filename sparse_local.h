@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c626868cdba1b76d
+ * FNV-1a of the lines after this comment, without the license: ce628dc58eef1392
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,29 +35,29 @@
  *   2893 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   2970 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3013 impl/ base: the compiler, status, memory, sorting, threads
- *   4287 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5226 impl/ matrix: sparse matrices of the caller and of the library
- *   5856 impl/ ordering: fill-reducing orderings of a graph
- *  10958 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13182 impl/ factor: the numbers of L and D
- *  16559 impl/ solve: full and local solves
- *  18341 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20272 impl/ pivots: the order of the pivots by the values of a matrix
- *  20680 impl/ float: L and fronts in single precision
- *  21185 impl/ inverse: entries of the inverse, regions
- *  24252 impl/ change: a factor that follows changes of its matrix
- *  30425 impl/ dirichlet: rows fixed at given values
- *  31075 impl/ dirichlet: by a factor of all rows
- *  31307 impl/ io: files that are replaced only when they are complete
- *  31525 impl/ files: Matrix Market files, 64-bit indices
- *  32145 impl/ save: factors in files
- *  34157 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34840 impl/ batch: diagonals of many inverses
- *  34980 impl/ complex: complex Hermitian systems over real factors
- *  35542 impl/ complex: entries of the inverse
- *  35602 impl/ packs: the tables through which the core calls packs
- *  35651 impl/ last: undefine every internal macro
- *  36019 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4291 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5230 impl/ matrix: sparse matrices of the caller and of the library
+ *   5905 impl/ ordering: fill-reducing orderings of a graph
+ *  11007 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13231 impl/ factor: the numbers of L and D
+ *  16608 impl/ solve: full and local solves
+ *  18390 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20387 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20795 impl/ float: L and fronts in single precision
+ *  21300 impl/ inverse: entries of the inverse, regions
+ *  24367 impl/ change: a factor that follows changes of its matrix
+ *  30540 impl/ dirichlet: rows fixed at given values
+ *  31190 impl/ dirichlet: by a factor of all rows
+ *  31422 impl/ io: files that are replaced only when they are complete
+ *  31640 impl/ files: Matrix Market files, 64-bit indices
+ *  32260 impl/ save: factors in files
+ *  34272 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34955 impl/ batch: diagonals of many inverses
+ *  35095 impl/ complex: complex Hermitian systems over real factors
+ *  35657 impl/ complex: entries of the inverse
+ *  35717 impl/ packs: the tables through which the core calls packs
+ *  35766 impl/ last: undefine every internal macro
+ *  36135 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3154,7 +3154,11 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #define SLI_PREFETCH(p, bytes) \
   __builtin_prefetch((const void *)((uintptr_t)(p) + (uintptr_t)(bytes)))
 #define SLI_KEEP_CALL __asm__ __volatile__("")
+#if defined(__clang__)
+#define SLI_UNROLL
+#else
 #define SLI_UNROLL _Pragma("GCC unroll 8")
+#endif
 #else
 #define SLI_INLINE static inline
 #define SLI_NOINLINE
@@ -5599,18 +5603,60 @@ SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_opt
 
 /* src/impl/matrix/csc_products.h: products with a matrix in compressed columns, its norm, residuals */
 
-static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, double *y,
-    const double *x) {
-  sl_int j, p;
+#define SLI_PRODUCT_COLUMNS 4
+
+SLI_ALWAYS_INLINE void sli_add_columns(const sl_csc *A, sl_triangle triangle, double sign,
+    double *Y, size_t ldy, const double *X, size_t ldx,
+    sl_int columns, int is_half) {
+  double x[SLI_PRODUCT_COLUMNS], y[SLI_PRODUCT_COLUMNS];
+  sl_int j, p, r;
   for (j = 0; j < A->n_cols; j++) {
+    SLI_UNROLL
+    for (r = 0; r < columns; r++) {
+      x[r] = X[(size_t)r * ldx + (size_t)j];
+      y[r] = is_half ? Y[(size_t)r * ldy + (size_t)j] : 0.0;
+    }
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
       const sl_int i = A->i[p];
-      if (sli_is_read(triangle, i, j)) {
-        y[i] += sign * A->x[p] * x[j];
-        if (triangle != SL_TRIANGLE_NONE && i != j) {
-          y[j] += sign * A->x[p] * x[i];
+      const double a = sign * A->x[p];
+      if (is_half && i == j) {
+        SLI_UNROLL
+        for (r = 0; r < columns; r++) {
+          y[r] += a * x[r];
+        }
+      } else if (!is_half || sli_is_read(triangle, i, j)) {
+        SLI_UNROLL
+        for (r = 0; r < columns; r++) {
+          Y[(size_t)r * ldy + (size_t)i] += a * x[r];
+          if (is_half) {
+            y[r] += a * X[(size_t)r * ldx + (size_t)i];
+          }
         }
       }
+    }
+    if (is_half) {
+      SLI_UNROLL
+      for (r = 0; r < columns; r++) {
+        Y[(size_t)r * ldy + (size_t)j] = y[r];
+      }
+    }
+  }
+}
+
+SLI_HOT static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, double *Y,
+    size_t ldy, const double *X, size_t ldx, sl_int nrhs) {
+  const int is_half = triangle != SL_TRIANGLE_NONE;
+  sl_int r, step;
+  for (r = 0; r < nrhs; r += step, Y += (size_t)step * ldy, X += (size_t)step * ldx) {
+    step = nrhs - r >= SLI_PRODUCT_COLUMNS ? SLI_PRODUCT_COLUMNS : 1;
+    if (step == 1 && is_half) {
+      sli_add_columns(A, triangle, sign, Y, ldy, X, ldx, 1, 1);
+    } else if (step == 1) {
+      sli_add_columns(A, triangle, sign, Y, ldy, X, ldx, 1, 0);
+    } else if (is_half) {
+      sli_add_columns(A, triangle, sign, Y, ldy, X, ldx, SLI_PRODUCT_COLUMNS, 1);
+    } else {
+      sli_add_columns(A, triangle, sign, Y, ldy, X, ldx, SLI_PRODUCT_COLUMNS, 0);
     }
   }
 }
@@ -5636,44 +5682,50 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
   if (status != SL_OK || nrhs == 0 || A->n_rows == 0) {
     return status;
   }
-  status = sli_argument(
-      Y == NULL ? "Y is NULL"
-      : !sli_is_ld(ldy, A->n_rows) ? "ldy is below the rows of A, or too large"
-      : !sli_is_ld(ldx, A->n_cols) ? "ldx is below the columns of A, or too large"
-      : A->n_cols > 0 && X == NULL ? "X is NULL"
-      : A->n_cols > 0 && X == Y ? "X is Y"
-      : NULL);
+  status =
+    sli_argument(Y == NULL ? "Y is NULL"
+        : !sli_is_ld(ldy, A->n_rows) ? "ldy is below the rows of A, or too large"
+        : !sli_is_ld(ldx, A->n_cols) ? "ldx is below the columns of A, or too large"
+        : A->n_cols > 0 && X == NULL ? "X is NULL"
+        : A->n_cols > 0 && X == Y ? "X is Y"
+        : NULL);
   if (status != SL_OK) {
     return status;
   }
   triangle = reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE;
   for (r = 0; r < nrhs; r++) {
     SLI_ZERO(Y + (size_t)r * ldy, A->n_rows);
-    sli_add_product(A, triangle, 1.0, Y + (size_t)r * ldy, X + (size_t)r * ldx);
   }
+  sli_add_product(A, triangle, 1.0, Y, ldy, X, ldx, nrhs);
   return SL_OK;
 }
 
 static double sli_largest(const double *x, sl_int n) {
-  double largest = 0.0;
+  uint64_t largest = 0;
+  double found;
   sl_int i;
   for (i = 0; i < n; i++) {
     const double size = fabs(x[i]);
-    largest = size <= largest || largest != largest ? largest : size;
+    uint64_t bits;
+    memcpy(&bits, &size, sizeof bits);
+    largest = bits > largest ? bits : largest;
   }
-  return largest;
+  memcpy(&found, &largest, sizeof found);
+  return found;
 }
 
 static double sli_csc_norm(const sl_csc *A, sl_triangle triangle, double *sums) {
   sl_int j, p;
   SLI_ZERO(sums, A->n_cols);
   for (j = 0; j < A->n_cols; j++) {
+    double sum = sums[j];
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
       if (sli_is_read(triangle, A->i[p], j)) {
-        sums[j] += fabs(A->x[p]);
-        sums[A->i[p]] += A->i[p] != j ? fabs(A->x[p]) : 0.0;
+        sum += fabs(A->x[p]);
+        sums[A->i[p]] += fabs(A->x[p]);
       }
     }
+    sums[j] = sum;
   }
   return sli_largest(sums, A->n_cols);
 }
@@ -5720,17 +5772,14 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
   if (backward_error != NULL) {
     norm = sli_csc_norm(A, triangle, R);
   }
-  for (r = 0; r < nrhs; r++) {
-    const double *x = X + (size_t)r * ldx, *b = B + (size_t)r * ldb;
-    double *res = R + (size_t)r * ldr;
-    if (res != b) {
-      memcpy(res, b, rows * sizeof(double));
-    }
-    sli_add_product(A, triangle, -1.0, res, x);
-    if (backward_error != NULL) {
-      backward_error[r] =
-        sli_backward_error(sli_largest(res, n), norm, sli_largest(x, n), sli_largest(b, n));
-    }
+  for (r = 0; r < nrhs && R != B; r++) {
+    memcpy(R + (size_t)r * ldr, B + (size_t)r * ldb, rows * sizeof(double));
+  }
+  sli_add_product(A, triangle, -1.0, R, ldr, X, ldx, nrhs);
+  for (r = 0; r < nrhs && backward_error != NULL; r++) {
+    backward_error[r] = sli_backward_error(sli_largest(R + (size_t)r * ldr, n), norm,
+        sli_largest(X + (size_t)r * ldx, n),
+        sli_largest(B + (size_t)r * ldb, n));
   }
   return SL_OK;
 }
@@ -18771,8 +18820,9 @@ typedef struct sli_refinement {
   double *size;
   unsigned char *memory;
   double error[SLI_TILE];
-  int is_done[SLI_TILE];
   int is_slow[SLI_TILE];
+  sl_int todo;
+  sl_int column[SLI_TILE];
   sl_int steps;
 } sli_refinement;
 
@@ -18782,37 +18832,83 @@ static void sli_refinement_layout(sli_refinement *f, sli_block *b, sl_int column
   const size_t bytes = sli_vectors_bytes(&q, columns, 8);
   f->R = SLI_TAKE(b, double, n *(uint64_t)columns);
   f->T = SLI_TAKE(b, double, n *(uint64_t)columns);
-  f->size = SLI_TAKE(b, double, n);
+  f->size = SLI_TAKE(b, double, n *(uint64_t)sli_min(columns, SLI_PRODUCT_COLUMNS));
   f->memory = (unsigned char *)sli_take(b, bytes, 1);
 }
 
-SLI_HOT static double sli_row_error(const sli_refinement *f, double *r, const double *x,
-    const double *b) {
+SLI_ALWAYS_INLINE void sli_subtract_columns(const sli_refinement *f, double *R, const double *X,
+    size_t ldx, sl_int columns) {
   const sl_csc *A = f->A;
-  double *size = f->size, worst = 0.0;
-  sl_int i, j, p;
-  for (i = 0; i < A->n_cols; i++) {
-    r[i] = b[i];
-    size[i] = fabs(b[i]);
-  }
+  const size_t n = (size_t)A->n_cols;
+  double x[SLI_PRODUCT_COLUMNS], r[SLI_PRODUCT_COLUMNS], size[SLI_PRODUCT_COLUMNS];
+  double *sizes = f->size;
+  sl_int j, p, c;
   for (j = 0; j < A->n_cols; j++) {
+    SLI_UNROLL
+    for (c = 0; c < columns; c++) {
+      x[c] = X[(size_t)c * ldx + (size_t)j];
+      r[c] = R[(size_t)c * n + (size_t)j];
+      size[c] = sizes[(size_t)c * n + (size_t)j];
+    }
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
-      i = A->i[p];
-      if (sli_is_read(f->triangle, i, j)) {
-        r[i] -= A->x[p] * x[j];
-        size[i] += fabs(A->x[p] * x[j]);
-        if (i != j) {
-          r[j] -= A->x[p] * x[i];
-          size[j] += fabs(A->x[p] * x[i]);
+      const sl_int i = A->i[p];
+      const double a = A->x[p];
+      if (i == j) {
+        SLI_UNROLL
+        for (c = 0; c < columns; c++) {
+          r[c] -= a * x[c];
+          size[c] += fabs(a * x[c]);
+        }
+      } else if (sli_is_read(f->triangle, i, j)) {
+        SLI_UNROLL
+        for (c = 0; c < columns; c++) {
+          const double other = a * X[(size_t)c * ldx + (size_t)i];
+          R[(size_t)c * n + (size_t)i] -= a * x[c];
+          sizes[(size_t)c * n + (size_t)i] += fabs(a * x[c]);
+          r[c] -= other;
+          size[c] += fabs(other);
         }
       }
     }
+    SLI_UNROLL
+    for (c = 0; c < columns; c++) {
+      R[(size_t)c * n + (size_t)j] = r[c];
+      sizes[(size_t)c * n + (size_t)j] = size[c];
+    }
   }
-  for (i = 0; i < A->n_cols; i++) {
-    const double error = sli_backward_error(fabs(r[i]), 0.0, 0.0, size[i]);
-    worst = error <= worst || worst != worst ? worst : error;
+}
+
+SLI_HOT static void sli_row_errors(const sli_refinement *f, const double *X, size_t ldx,
+    const sli_rhs *rhs, double *error) {
+  const size_t n = (size_t)f->A->n_cols;
+  size_t i;
+  sl_int first, c, step;
+  for (first = 0; first < f->todo; first += step) {
+    double *R = f->R + n * (size_t)first;
+    step = f->todo - first >= SLI_PRODUCT_COLUMNS ? SLI_PRODUCT_COLUMNS : 1;
+    for (c = 0; c < step; c++) {
+      const double *b = rhs->B + rhs->ldb * (size_t)f->column[first + c];
+      double *r = R + n * (size_t)c, *size = f->size + n * (size_t)c;
+      for (i = 0; i < n; i++) {
+        r[i] = b[i];
+        size[i] = fabs(b[i]);
+      }
+    }
+    if (step == 1) {
+      sli_subtract_columns(f, R, X + ldx * (size_t)first, ldx, 1);
+    } else {
+      sli_subtract_columns(f, R, X + ldx * (size_t)first, ldx, SLI_PRODUCT_COLUMNS);
+    }
+    for (c = 0; c < step; c++) {
+      const double *r = R + n * (size_t)c;
+      double *size = f->size + n * (size_t)c;
+      for (i = 0; i < n; i++) {
+        const double d = r[i] == 0.0 ? 1.0 : size[i];
+        size[i] = fabs(r[i]) / d + (d - d);
+      }
+      error[first + c] = sli_largest(size, f->A->n_cols);
+    }
   }
-  return worst;
 }
 
 static void sli_correct(const sli_refinement *f, sl_int columns) {
@@ -18826,47 +18922,66 @@ static void sli_correct(const sli_refinement *f, sl_int columns) {
   sli_unpack(f->F, &q, &rhs, v.x);
 }
 
-static int sli_refine_column(sli_refinement *f, sl_int c, double *x, const double *b) {
-  const size_t n = (size_t)f->F->S->n;
-  double *t = f->T + n * (size_t)c, *r = f->R + n * (size_t)c, error;
+static int sli_refine_column(sli_refinement *f, sl_int c, double *x, const double *t, double error,
+    sl_int step) {
   const int may_wait = sli_is_float(f->F) && !f->is_slow[c];
-  size_t i;
-  int is_kept;
-  for (i = 0; i < n; i++) {
-    t[i] = x[i] + r[i];
-  }
-  error = sli_row_error(f, r, t, b);
-  is_kept = error < f->error[c] || (may_wait && error <= 2.0 * f->error[c]);
+  const int is_kept = error < f->error[c] || (may_wait && error <= 2.0 * f->error[c]);
   f->is_slow[c] = !(error <= 0.5 * f->error[c]);
-  f->is_done[c] = error <= DBL_EPSILON || (f->is_slow[c] && !(may_wait && is_kept));
   if (is_kept) {
-    memcpy(x, t, n * sizeof(double));
+    memcpy(x, t, (size_t)f->F->S->n * sizeof(double));
     f->error[c] = error;
+    f->steps = sli_max(f->steps, step);
   }
-  return is_kept;
+  return error <= DBL_EPSILON || (f->is_slow[c] && !(may_wait && is_kept));
+}
+
+static void sli_refine_rest(sli_refinement *f, const int *is_done) {
+  const size_t n = (size_t)f->F->S->n;
+  sl_int k, rest = 0;
+  for (k = 0; k < f->todo; k++) {
+    if (!is_done[k]) {
+      if (rest < k) {
+        memcpy(f->R + n * (size_t)rest, f->R + n * (size_t)k, n * sizeof(double));
+      }
+      f->column[rest++] = f->column[k];
+    }
+  }
+  f->todo = rest;
 }
 
 static void sli_refine_block(sli_refinement *f, const sli_rhs *rhs, sl_int steps) {
   const size_t n = (size_t)f->F->S->n;
-  sl_int c, step, todo = 0;
+  double error[SLI_TILE];
+  int is_done[SLI_TILE];
+  sl_int c, step;
+  size_t i;
+  f->todo = rhs->nrhs;
   for (c = 0; c < rhs->nrhs; c++) {
-    f->error[c] = sli_row_error(f, f->R + n * (size_t)c, rhs->X + rhs->ldx * (size_t)c,
-        rhs->B + rhs->ldb * (size_t)c);
-    f->is_done[c] = f->error[c] <= DBL_EPSILON;
+    f->column[c] = c;
     f->is_slow[c] = 0;
-    todo += !f->is_done[c];
   }
-  for (step = 1; step <= steps && todo > 0; step++) {
+  sli_row_errors(f, rhs->X, rhs->ldx, rhs, f->error);
+  for (c = 0; c < rhs->nrhs; c++) {
+    is_done[c] = f->error[c] <= DBL_EPSILON;
+  }
+  for (step = 1; step <= steps; step++) {
+    sli_refine_rest(f, is_done);
+    if (f->todo == 0) {
+      return;
+    }
     sli_correct(f, rhs->nrhs);
-    todo = 0;
-    for (c = 0; c < rhs->nrhs; c++) {
-      if (!f->is_done[c]) {
-        if (sli_refine_column(f, c, rhs->X + rhs->ldx * (size_t)c,
-            rhs->B + rhs->ldb * (size_t)c)) {
-          f->steps = sli_max(f->steps, step);
-        }
-        todo += !f->is_done[c];
+    for (c = 0; c < f->todo; c++) {
+      const double *x = rhs->X + rhs->ldx * (size_t)f->column[c], *r = f->R + n * (size_t)c;
+      double *t = f->T + n * (size_t)c;
+      for (i = 0; i < n; i++) {
+        t[i] = x[i] + r[i];
       }
+    }
+    sli_row_errors(f, f->T, n, rhs, error);
+    for (c = 0; c < f->todo; c++) {
+      is_done[c] =
+        sli_refine_column(f, f->column[c], rhs->X + rhs->ldx * (size_t)f->column[c],
+            f->T + n * (size_t)c, error[c], step);
     }
   }
 }
@@ -31180,7 +31295,7 @@ static sl_status sli_dirichlet_probe(const sl_dirichlet *D, const sl_csc *A, con
   status = sl_pins_solve(P, NULL, x, n, r, n, zeros, (size_t)D->n_fixed, 1, NULL);
   if (status == SL_OK) {
     size = sli_csc_norm(A, D->triangle, sums) * sli_largest(x, D->n) + 1.0;
-    sli_add_product(A, D->triangle, -1.0, r, x);
+    sli_add_product(A, D->triangle, -1.0, r, n, x, n, 1);
     for (k = 0; k < D->n_free; k++) {
       error = fmax(error, fabs(r[D->free_rows[k]]));
     }
@@ -36004,6 +36119,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_DOUBLE_FRONTS
 #undef SLI_SQUARE_LEAST
 #undef SLI_WRITE_VERSION_PLAIN
+#undef SLI_PRODUCT_COLUMNS
 #endif
 
 /* templates: the header includes them from itself, once for each instruction set */

@@ -154,6 +154,39 @@ static void every_style_gives_the_same_residual(void **state) {
     gen_list_free(&t);
 }
 
+/* Several columns share a pass over A; each has the bits that it has alone. */
+static void each_of_several_columns_is_the_same_alone(void **state) {
+    (void)state;
+    enum { N = 40, COLUMNS = 7, LD = N + 2 };
+    double X[COLUMNS * LD], B[COLUMNS * LD], Y[COLUMNS * LD], one[N], eta[COLUMNS], eta_one;
+    gen_reals(X, COLUMNS * LD, 1);
+    gen_reals(B, COLUMNS * LD, 2);
+    for (int kind = 0; kind < GEN_KINDS; kind++) {
+        gen_list_t t = gen_make((gen_kind_t)kind, N, 0, 8);
+        for (int which = 0; which < GEN_STYLES && t.n <= N; which++) {
+            gen_matrix_t M = gen_store(&t, gen_style(which), 31);
+            const size_t n = (size_t)t.n;
+            for (int reading = 0; reading < 2; reading++) {
+                const sl_reading as = reading ? SL_AS_STORED : SL_AS_SYMMETRIC;
+                SL_CHECK(sl_csc_multiply(&M.view, as, Y, LD, X, LD, COLUMNS));
+                for (int r = 0; r < COLUMNS; r++) {
+                    SL_CHECK(sl_csc_multiply(&M.view, as, one, n, X + r * LD, LD, 1));
+                    SAME_VALUES(Y + r * LD, one, n);
+                }
+            }
+            SL_CHECK(sl_csc_residual(&M.view, Y, LD, eta, X, LD, B, LD, COLUMNS));
+            for (int r = 0; r < COLUMNS; r++) {
+                SL_CHECK(
+                    sl_csc_residual(&M.view, one, n, &eta_one, X + r * LD, LD, B + r * LD, LD, 1));
+                SAME_VALUES(Y + r * LD, one, n);
+                assert_true(eta[r] == eta_one);
+            }
+            gen_matrix_free(&M);
+        }
+        gen_list_free(&t);
+    }
+}
+
 /* Products need the arrays of A, and a result apart from X. */
 static void missing_arrays_and_products_in_place_are_refused(void **state) {
     (void)state;
@@ -205,6 +238,7 @@ int main(void) {
         cmocka_unit_test(residuals_and_backward_errors_by_hand),
         cmocka_unit_test(the_backward_error_of_an_overflow_is_nan),
         cmocka_unit_test(every_style_gives_the_same_residual),
+        cmocka_unit_test(each_of_several_columns_is_the_same_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -133,10 +133,55 @@ static void a_nearby_factor_converges_a_distant_one_does_no_harm(void **state) {
     }
 }
 
-/* Dependent constraints, regularized. In natural order the constraints follow the rows they
- * constrain: a redundant one gets a multiplier of 0, so E x = 0. In the other order zeros on the
- * diagonal are shifted before they fill in, the plain solve leaves that error in x, and refinement
- * removes it. */
+/* Columns that need different numbers of steps share passes over A; their order does not matter. */
+static void columns_in_another_order_have_the_same_bits(void **state) {
+    (void)state;
+    enum { COLUMNS = 7 };
+    variant_list_t variants = variants_present();
+    for (int k = 0; k < variants.count; k++) {
+        sl_options opt = options_none();
+        options_set_variant(&opt, &variants, k);
+        factored_t y = factored_make(GEN_GRID2, 200, 1, 0, &opt);
+        const size_t n = (size_t)y.M.view.n_cols;
+        double *B = test_reals(n * COLUMNS), *X = test_reals(n * COLUMNS),
+               *b = test_reals(n * COLUMNS), *x = test_reals(n * COLUMNS);
+        uint64_t seed = 3;
+        sl_int fewest = 99, most = 0;
+        gen_reals(B, n * COLUMNS, 8);
+        memset(B, 0, n * sizeof *B); /* is done at once */
+        SL_CHECK(sl_factor_solve(y.F, X, n, B, n, COLUMNS, NULL));
+        for (sl_int p = 0; p < y.M.p[n]; p++) {
+            y.M.x[p] *= 1.0 + 1e-3 * gen_real(&seed);
+        }
+        for (size_t r = 0; r < COLUMNS; r++) {
+            for (size_t i = 0; i < n; i++) {
+                X[r * n + i] *= r % 3 == 1 ? 1e9 : 1.0;
+            }
+            memcpy(x + (COLUMNS - 1 - r) * n, X + r * n, n * sizeof *x);
+            memcpy(b + (COLUMNS - 1 - r) * n, B + r * n, n * sizeof *b);
+        }
+        for (size_t r = 0; r < COLUMNS; r++) {
+            double *alone = test_reals(n);
+            memcpy(alone, X + r * n, n * sizeof *alone);
+            const sl_stats s = refine_checked(y.F, &y.M.view, alone, B + r * n, 1, 30, NULL);
+            fewest = s.refine.steps < fewest ? s.refine.steps : fewest;
+            most = s.refine.steps > most ? s.refine.steps : most;
+            free(alone);
+        }
+        assert_true(fewest == 0 && most > 2);
+        refine_checked(y.F, &y.M.view, X, B, COLUMNS, 30, NULL);
+        refine_checked(y.F, &y.M.view, x, b, COLUMNS, 30, NULL);
+        for (size_t r = 0; r < COLUMNS; r++) {
+            SAME_VALUES(X + r * n, x + (COLUMNS - 1 - r) * n, n);
+        }
+        free(B);
+        free(X);
+        free(b);
+        free(x);
+        factored_free(&y);
+    }
+}
+
 static void refinement_removes_the_effect_of_regularization(void **state) {
     (void)state;
     enum { R = 9 };
@@ -276,6 +321,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(refinement_converges_from_any_start),
         cmocka_unit_test(a_nearby_factor_converges_a_distant_one_does_no_harm),
+        cmocka_unit_test(columns_in_another_order_have_the_same_bits),
         cmocka_unit_test(refinement_removes_the_effect_of_regularization),
         cmocka_unit_test(null_rows_and_means_stay_zero),
         cmocka_unit_test(bad_arguments_and_failed_allocations_change_nothing),

@@ -13,12 +13,13 @@ typedef struct sli_refinement {
     const sl_csc *A;
     sl_triangle triangle;
     double *R, *T;         /* n x columns: residuals, then corrections; trial solutions */
-    double *size;          /* n: |A| |x| + |b| */
+    double *size;          /* n x up to SLI_PRODUCT_COLUMNS: |A| |x| + |b| */
     unsigned char *memory; /* vectors of the sweeps */
     double error[SLI_TILE];
-    int is_done[SLI_TILE];
-    int is_slow[SLI_TILE]; /* the last correction did not halve the error */
-    sl_int steps;          /* the most that a column has taken */
+    int is_slow[SLI_TILE];   /* the last correction did not halve the error */
+    sl_int todo;             /* columns that are not done: the first ones of R and T, which are */
+    sl_int column[SLI_TILE]; /* these of the block */
+    sl_int steps;            /* the most that a column has taken */
 } sli_refinement;
 
 static void sli_refinement_layout(sli_refinement *f, sli_block *b, sl_int columns) {
@@ -27,39 +28,88 @@ static void sli_refinement_layout(sli_refinement *f, sli_block *b, sl_int column
     const size_t bytes = sli_vectors_bytes(&q, columns, 8);
     f->R = SLI_TAKE(b, double, n *(uint64_t)columns);
     f->T = SLI_TAKE(b, double, n *(uint64_t)columns);
-    f->size = SLI_TAKE(b, double, n);
+    f->size = SLI_TAKE(b, double, n *(uint64_t)sli_min(columns, SLI_PRODUCT_COLUMNS));
     f->memory = (unsigned char *)sli_take(b, bytes, 1);
 }
 
-/* r := b - A x. Returns the componentwise backward error of x: the least relative change of the
- * entries of A and b that makes x an exact solution. */
-SLI_HOT static double sli_row_error(const sli_refinement *f, double *r, const double *x,
-                                    const double *b) {
+/* R -= A X and size += |A| |X| for a constant number of columns, each of which is added up as it
+ * would be alone. */
+SLI_ALWAYS_INLINE void sli_subtract_columns(const sli_refinement *f, double *R, const double *X,
+                                            size_t ldx, sl_int columns) {
     const sl_csc *A = f->A;
-    double *size = f->size, worst = 0.0;
-    sl_int i, j, p;
-    for (i = 0; i < A->n_cols; i++) {
-        r[i] = b[i];
-        size[i] = fabs(b[i]);
-    }
+    const size_t n = (size_t)A->n_cols;
+    double x[SLI_PRODUCT_COLUMNS], r[SLI_PRODUCT_COLUMNS], size[SLI_PRODUCT_COLUMNS];
+    double *sizes = f->size;
+    sl_int j, p, c;
     for (j = 0; j < A->n_cols; j++) {
+        SLI_UNROLL
+        for (c = 0; c < columns; c++) {
+            x[c] = X[(size_t)c * ldx + (size_t)j];
+            r[c] = R[(size_t)c * n + (size_t)j];
+            size[c] = sizes[(size_t)c * n + (size_t)j];
+        }
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
-            i = A->i[p];
-            if (sli_is_read(f->triangle, i, j)) {
-                r[i] -= A->x[p] * x[j];
-                size[i] += fabs(A->x[p] * x[j]);
-                if (i != j) {
-                    r[j] -= A->x[p] * x[i];
-                    size[j] += fabs(A->x[p] * x[i]);
+            const sl_int i = A->i[p];
+            const double a = A->x[p];
+            if (i == j) {
+                SLI_UNROLL
+                for (c = 0; c < columns; c++) {
+                    r[c] -= a * x[c];
+                    size[c] += fabs(a * x[c]);
+                }
+            } else if (sli_is_read(f->triangle, i, j)) {
+                SLI_UNROLL
+                for (c = 0; c < columns; c++) {
+                    const double other = a * X[(size_t)c * ldx + (size_t)i];
+                    R[(size_t)c * n + (size_t)i] -= a * x[c];
+                    sizes[(size_t)c * n + (size_t)i] += fabs(a * x[c]);
+                    r[c] -= other;
+                    size[c] += fabs(other);
                 }
             }
         }
+        SLI_UNROLL
+        for (c = 0; c < columns; c++) {
+            R[(size_t)c * n + (size_t)j] = r[c];
+            sizes[(size_t)c * n + (size_t)j] = size[c];
+        }
     }
-    for (i = 0; i < A->n_cols; i++) {
-        const double error = sli_backward_error(fabs(r[i]), 0.0, 0.0, size[i]);
-        worst = error <= worst || worst != worst ? worst : error;
+}
+
+/* For each column to do, the c-th of X and of R: R := B - A X, and error[c], the componentwise
+ * backward error of X: the least relative change of the entries of A and b that makes it an exact
+ * solution. */
+SLI_HOT static void sli_row_errors(const sli_refinement *f, const double *X, size_t ldx,
+                                   const sli_rhs *rhs, double *error) {
+    const size_t n = (size_t)f->A->n_cols;
+    size_t i;
+    sl_int first, c, step;
+    for (first = 0; first < f->todo; first += step) {
+        double *R = f->R + n * (size_t)first;
+        step = f->todo - first >= SLI_PRODUCT_COLUMNS ? SLI_PRODUCT_COLUMNS : 1;
+        for (c = 0; c < step; c++) {
+            const double *b = rhs->B + rhs->ldb * (size_t)f->column[first + c];
+            double *r = R + n * (size_t)c, *size = f->size + n * (size_t)c;
+            for (i = 0; i < n; i++) {
+                r[i] = b[i];
+                size[i] = fabs(b[i]);
+            }
+        }
+        if (step == 1) {
+            sli_subtract_columns(f, R, X + ldx * (size_t)first, ldx, 1);
+        } else {
+            sli_subtract_columns(f, R, X + ldx * (size_t)first, ldx, SLI_PRODUCT_COLUMNS);
+        }
+        for (c = 0; c < step; c++) {
+            const double *r = R + n * (size_t)c;
+            double *size = f->size + n * (size_t)c;
+            for (i = 0; i < n; i++) { /* sli_backward_error, without branches: many r are 0 */
+                const double d = r[i] == 0.0 ? 1.0 : size[i];
+                size[i] = fabs(r[i]) / d + (d - d);
+            }
+            error[first + c] = sli_largest(size, f->A->n_cols);
+        }
     }
-    return worst;
 }
 
 /* R := A^-1 R by the factor, whether consistent or not. */
@@ -74,51 +124,71 @@ static void sli_correct(const sli_refinement *f, sl_int columns) {
     sli_unpack(f->F, &q, &rhs, v.x);
 }
 
-/* Applies the correction of column c, already in R. The column is done once a correction does not
- * halve its error. With L in float that takes two in a row, and the first may double it: where a
- * high condition leaves x without a digit, the first correction is as large as x, and its own
- * backward error is again that of float. Returns whether the correction was kept. */
-static int sli_refine_column(sli_refinement *f, sl_int c, double *x, const double *b) {
-    const size_t n = (size_t)f->F->S->n;
-    double *t = f->T + n * (size_t)c, *r = f->R + n * (size_t)c, error;
+/* Judges a correction of column c, which has led from x to t with this error. The column is done
+ * once a correction does not halve its error. With L in float that takes two in a row, and the
+ * first may double it: where a high condition leaves x without a digit, the first correction is as
+ * large as x, and its own backward error is again that of float. Returns whether it is done. */
+static int sli_refine_column(sli_refinement *f, sl_int c, double *x, const double *t, double error,
+                             sl_int step) {
     const int may_wait = sli_is_float(f->F) && !f->is_slow[c];
-    size_t i;
-    int is_kept;
-    for (i = 0; i < n; i++) {
-        t[i] = x[i] + r[i];
-    }
-    error = sli_row_error(f, r, t, b);
-    is_kept = error < f->error[c] || (may_wait && error <= 2.0 * f->error[c]);
+    const int is_kept = error < f->error[c] || (may_wait && error <= 2.0 * f->error[c]);
     f->is_slow[c] = !(error <= 0.5 * f->error[c]);
-    f->is_done[c] = error <= DBL_EPSILON || (f->is_slow[c] && !(may_wait && is_kept));
     if (is_kept) {
-        memcpy(x, t, n * sizeof(double));
+        memcpy(x, t, (size_t)f->F->S->n * sizeof(double));
         f->error[c] = error;
+        f->steps = sli_max(f->steps, step);
     }
-    return is_kept;
+    return error <= DBL_EPSILON || (f->is_slow[c] && !(may_wait && is_kept));
+}
+
+/* Leaves out the columns that are done; the residuals of the others close up. */
+static void sli_refine_rest(sli_refinement *f, const int *is_done) {
+    const size_t n = (size_t)f->F->S->n;
+    sl_int k, rest = 0;
+    for (k = 0; k < f->todo; k++) {
+        if (!is_done[k]) {
+            if (rest < k) {
+                memcpy(f->R + n * (size_t)rest, f->R + n * (size_t)k, n * sizeof(double));
+            }
+            f->column[rest++] = f->column[k];
+        }
+    }
+    f->todo = rest;
 }
 
 static void sli_refine_block(sli_refinement *f, const sli_rhs *rhs, sl_int steps) {
     const size_t n = (size_t)f->F->S->n;
-    sl_int c, step, todo = 0;
+    double error[SLI_TILE];
+    int is_done[SLI_TILE];
+    sl_int c, step;
+    size_t i;
+    f->todo = rhs->nrhs;
     for (c = 0; c < rhs->nrhs; c++) {
-        f->error[c] = sli_row_error(f, f->R + n * (size_t)c, rhs->X + rhs->ldx * (size_t)c,
-                                    rhs->B + rhs->ldb * (size_t)c);
-        f->is_done[c] = f->error[c] <= DBL_EPSILON;
+        f->column[c] = c;
         f->is_slow[c] = 0;
-        todo += !f->is_done[c];
     }
-    for (step = 1; step <= steps && todo > 0; step++) {
-        sli_correct(f, rhs->nrhs);
-        todo = 0;
-        for (c = 0; c < rhs->nrhs; c++) {
-            if (!f->is_done[c]) {
-                if (sli_refine_column(f, c, rhs->X + rhs->ldx * (size_t)c,
-                                      rhs->B + rhs->ldb * (size_t)c)) {
-                    f->steps = sli_max(f->steps, step);
-                }
-                todo += !f->is_done[c];
+    sli_row_errors(f, rhs->X, rhs->ldx, rhs, f->error);
+    for (c = 0; c < rhs->nrhs; c++) {
+        is_done[c] = f->error[c] <= DBL_EPSILON;
+    }
+    for (step = 1; step <= steps; step++) {
+        sli_refine_rest(f, is_done);
+        if (f->todo == 0) {
+            return;
+        }
+        sli_correct(f, rhs->nrhs); /* the bits depend on how many there are */
+        for (c = 0; c < f->todo; c++) {
+            const double *x = rhs->X + rhs->ldx * (size_t)f->column[c], *r = f->R + n * (size_t)c;
+            double *t = f->T + n * (size_t)c;
+            for (i = 0; i < n; i++) {
+                t[i] = x[i] + r[i];
             }
+        }
+        sli_row_errors(f, f->T, n, rhs, error);
+        for (c = 0; c < f->todo; c++) {
+            is_done[c] =
+                sli_refine_column(f, f->column[c], rhs->X + rhs->ldx * (size_t)f->column[c],
+                                  f->T + n * (size_t)c, error[c], step);
         }
     }
 }

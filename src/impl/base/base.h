@@ -162,8 +162,13 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #define SLI_PREFETCH(p, bytes) \
     __builtin_prefetch((const void *)((uintptr_t)(p) + (uintptr_t)(bytes)))
 #define SLI_KEEP_CALL __asm__ __volatile__("")
-/* unrolls the loop that follows, of at most 8 iterations */
+/* Unrolls the loop that follows, of at most 8 iterations. clang does so by itself, where a constant
+ * number is known; told to, it does so too late to keep arrays in registers. */
+#if defined(__clang__)
+#define SLI_UNROLL
+#else
 #define SLI_UNROLL _Pragma("GCC unroll 8")
+#endif
 #else
 #define SLI_INLINE static inline
 #define SLI_NOINLINE

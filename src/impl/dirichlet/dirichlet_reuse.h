@@ -123,7 +123,7 @@ static sl_status sli_dirichlet_probe(const sl_dirichlet *D, const sl_csc *A, con
     status = sl_pins_solve(P, NULL, x, n, r, n, zeros, (size_t)D->n_fixed, 1, NULL);
     if (status == SL_OK) {
         size = sli_csc_norm(A, D->triangle, sums) * sli_largest(x, D->n) + 1.0; /* of b */
-        sli_add_product(A, D->triangle, -1.0, r, x);
+        sli_add_product(A, D->triangle, -1.0, r, n, x, n, 1);
         for (k = 0; k < D->n_free; k++) {
             error = fmax(error, fabs(r[D->free_rows[k]]));
         }

@@ -4,20 +4,66 @@
 
 #include "csc.h"
 
-/* y += sign A x. SL_TRIANGLE_NONE: every entry counts once, where it is; that is also right for a
- * diagonal matrix. */
-static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, double *y,
-                            const double *x) {
-    sl_int j, p;
+/* Columns that a pass over A multiplies. */
+#define SLI_PRODUCT_COLUMNS 4
+
+/* Y += sign A X for a constant number of columns, each of which is added up as it would be alone.
+ * is_half, constant: an entry counts at its transposed place, too. Row j of Y is kept in variables
+ * while column j passes: through memory, each sum would wait for the last one to be stored. */
+SLI_ALWAYS_INLINE void sli_add_columns(const sl_csc *A, sl_triangle triangle, double sign,
+                                       double *Y, size_t ldy, const double *X, size_t ldx,
+                                       sl_int columns, int is_half) {
+    double x[SLI_PRODUCT_COLUMNS], y[SLI_PRODUCT_COLUMNS];
+    sl_int j, p, r;
     for (j = 0; j < A->n_cols; j++) {
+        SLI_UNROLL
+        for (r = 0; r < columns; r++) {
+            x[r] = X[(size_t)r * ldx + (size_t)j];
+            y[r] = is_half ? Y[(size_t)r * ldy + (size_t)j] : 0.0;
+        }
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
             const sl_int i = A->i[p];
-            if (sli_is_read(triangle, i, j)) {
-                y[i] += sign * A->x[p] * x[j];
-                if (triangle != SL_TRIANGLE_NONE && i != j) {
-                    y[j] += sign * A->x[p] * x[i];
+            const double a = sign * A->x[p];
+            if (is_half && i == j) {
+                SLI_UNROLL
+                for (r = 0; r < columns; r++) {
+                    y[r] += a * x[r];
+                }
+            } else if (!is_half || sli_is_read(triangle, i, j)) {
+                SLI_UNROLL
+                for (r = 0; r < columns; r++) {
+                    Y[(size_t)r * ldy + (size_t)i] += a * x[r];
+                    if (is_half) {
+                        y[r] += a * X[(size_t)r * ldx + (size_t)i];
+                    }
                 }
             }
+        }
+        if (is_half) {
+            SLI_UNROLL
+            for (r = 0; r < columns; r++) {
+                Y[(size_t)r * ldy + (size_t)j] = y[r];
+            }
+        }
+    }
+}
+
+/* Y += sign A X. SL_TRIANGLE_NONE: every entry counts once, where it is; that is also right for a
+ * diagonal matrix. */
+SLI_HOT static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, double *Y,
+                                    size_t ldy, const double *X, size_t ldx, sl_int nrhs) {
+    const int is_half = triangle != SL_TRIANGLE_NONE;
+    sl_int r, step;
+    for (r = 0; r < nrhs; r += step, Y += (size_t)step * ldy, X += (size_t)step * ldx) {
+        step = nrhs - r >= SLI_PRODUCT_COLUMNS ? SLI_PRODUCT_COLUMNS : 1;
+        if (step == 1 && is_half) {
+            sli_add_columns(A, triangle, sign, Y, ldy, X, ldx, 1, 1);
+        } else if (step == 1) {
+            sli_add_columns(A, triangle, sign, Y, ldy, X, ldx, 1, 0);
+        } else if (is_half) {
+            sli_add_columns(A, triangle, sign, Y, ldy, X, ldx, SLI_PRODUCT_COLUMNS, 1);
+        } else {
+            sli_add_columns(A, triangle, sign, Y, ldy, X, ldx, SLI_PRODUCT_COLUMNS, 0);
         }
     }
 }
@@ -44,33 +90,38 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
     if (status != SL_OK || nrhs == 0 || A->n_rows == 0) {
         return status;
     }
-    status = sli_argument(
-        Y == NULL                    ? "Y is NULL"
-        : !sli_is_ld(ldy, A->n_rows) ? "ldy is below the rows of A, or too large"
-        : !sli_is_ld(ldx, A->n_cols) ? "ldx is below the columns of A, or too large"
-        : A->n_cols > 0 && X == NULL ? "X is NULL"
-        : A->n_cols > 0 && X == Y    ? "X is Y"
-                                     : NULL);
+    status =
+        sli_argument(Y == NULL                    ? "Y is NULL"
+                     : !sli_is_ld(ldy, A->n_rows) ? "ldy is below the rows of A, or too large"
+                     : !sli_is_ld(ldx, A->n_cols) ? "ldx is below the columns of A, or too large"
+                     : A->n_cols > 0 && X == NULL ? "X is NULL"
+                     : A->n_cols > 0 && X == Y    ? "X is Y"
+                                                  : NULL);
     if (status != SL_OK) {
         return status;
     }
     triangle = reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE;
     for (r = 0; r < nrhs; r++) {
         SLI_ZERO(Y + (size_t)r * ldy, A->n_rows);
-        sli_add_product(A, triangle, 1.0, Y + (size_t)r * ldy, X + (size_t)r * ldx);
     }
+    sli_add_product(A, triangle, 1.0, Y, ldy, X, ldx, nrhs);
     return SL_OK;
 }
 
-/* The largest magnitude of n numbers; NaN if one of them is, which fmax would ignore. */
+/* The largest magnitude of n numbers; NaN if one of them is. As integers, magnitudes are in their
+ * order, and NaN is the largest. */
 static double sli_largest(const double *x, sl_int n) {
-    double largest = 0.0;
+    uint64_t largest = 0;
+    double found;
     sl_int i;
     for (i = 0; i < n; i++) {
         const double size = fabs(x[i]);
-        largest = size <= largest || largest != largest ? largest : size;
+        uint64_t bits;
+        memcpy(&bits, &size, sizeof bits);
+        largest = bits > largest ? bits : largest;
     }
-    return largest;
+    memcpy(&found, &largest, sizeof found);
+    return found;
 }
 
 /* The largest row sum of |A| for a symmetric A; NaN if A has one. sums: n elements of scratch. */
@@ -78,12 +129,14 @@ static double sli_csc_norm(const sl_csc *A, sl_triangle triangle, double *sums) 
     sl_int j, p;
     SLI_ZERO(sums, A->n_cols);
     for (j = 0; j < A->n_cols; j++) {
+        double sum = sums[j];
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
             if (sli_is_read(triangle, A->i[p], j)) {
-                sums[j] += fabs(A->x[p]);
-                sums[A->i[p]] += A->i[p] != j ? fabs(A->x[p]) : 0.0;
+                sum += fabs(A->x[p]);
+                sums[A->i[p]] += fabs(A->x[p]); /* to that of column j nothing is added */
             }
         }
+        sums[j] = sum;
     }
     return sli_largest(sums, A->n_cols);
 }
@@ -132,17 +185,14 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
     if (backward_error != NULL) {
         norm = sli_csc_norm(A, triangle, R);
     }
-    for (r = 0; r < nrhs; r++) {
-        const double *x = X + (size_t)r * ldx, *b = B + (size_t)r * ldb;
-        double *res = R + (size_t)r * ldr;
-        if (res != b) {
-            memcpy(res, b, rows * sizeof(double));
-        }
-        sli_add_product(A, triangle, -1.0, res, x);
-        if (backward_error != NULL) {
-            backward_error[r] =
-                sli_backward_error(sli_largest(res, n), norm, sli_largest(x, n), sli_largest(b, n));
-        }
+    for (r = 0; r < nrhs && R != B; r++) {
+        memcpy(R + (size_t)r * ldr, B + (size_t)r * ldb, rows * sizeof(double));
+    }
+    sli_add_product(A, triangle, -1.0, R, ldr, X, ldx, nrhs);
+    for (r = 0; r < nrhs && backward_error != NULL; r++) {
+        backward_error[r] = sli_backward_error(sli_largest(R + (size_t)r * ldr, n), norm,
+                                               sli_largest(X + (size_t)r * ldx, n),
+                                               sli_largest(B + (size_t)r * ldb, n));
     }
     return SL_OK;
 }
