@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: ce628dc58eef1392
+ * FNV-1a of the lines after this comment, without the license: f7f6393ca9279b6d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -20,44 +20,44 @@
  *   1576 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
  *   1677 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
  *   1755 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1840 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1933 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2040 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2081 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2202 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2233 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2415 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2514 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2624 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2665 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2751 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2859 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2893 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2970 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3013 impl/ base: the compiler, status, memory, sorting, threads
- *   4291 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5230 impl/ matrix: sparse matrices of the caller and of the library
- *   5905 impl/ ordering: fill-reducing orderings of a graph
- *  11007 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13231 impl/ factor: the numbers of L and D
- *  16608 impl/ solve: full and local solves
- *  18390 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20387 impl/ pivots: the order of the pivots by the values of a matrix
- *  20795 impl/ float: L and fronts in single precision
- *  21300 impl/ inverse: entries of the inverse, regions
- *  24367 impl/ change: a factor that follows changes of its matrix
- *  30540 impl/ dirichlet: rows fixed at given values
- *  31190 impl/ dirichlet: by a factor of all rows
- *  31422 impl/ io: files that are replaced only when they are complete
- *  31640 impl/ files: Matrix Market files, 64-bit indices
- *  32260 impl/ save: factors in files
- *  34272 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34955 impl/ batch: diagonals of many inverses
- *  35095 impl/ complex: complex Hermitian systems over real factors
- *  35657 impl/ complex: entries of the inverse
- *  35717 impl/ packs: the tables through which the core calls packs
- *  35766 impl/ last: undefine every internal macro
- *  36135 impl/ templates: the header includes them from itself, once for each instruction set
+ *   1841 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1934 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2041 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2082 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2203 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2234 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2416 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2515 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2625 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2666 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2752 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2860 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2894 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2971 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3014 impl/ base: the compiler, status, memory, sorting, threads
+ *   4292 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5231 impl/ matrix: sparse matrices of the caller and of the library
+ *   5906 impl/ ordering: fill-reducing orderings of a graph
+ *  11008 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13232 impl/ factor: the numbers of L and D
+ *  16609 impl/ solve: full and local solves
+ *  18391 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20388 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20796 impl/ float: L and fronts in single precision
+ *  21301 impl/ inverse: entries of the inverse, regions
+ *  24392 impl/ change: a factor that follows changes of its matrix
+ *  30565 impl/ dirichlet: rows fixed at given values
+ *  31215 impl/ dirichlet: by a factor of all rows
+ *  31447 impl/ io: files that are replaced only when they are complete
+ *  31665 impl/ files: Matrix Market files, 64-bit indices
+ *  32285 impl/ save: factors in files
+ *  34297 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34980 impl/ batch: diagonals of many inverses
+ *  35120 impl/ complex: complex Hermitian systems over real factors
+ *  35682 impl/ complex: entries of the inverse
+ *  35742 impl/ packs: the tables through which the core calls packs
+ *  35791 impl/ last: undefine every internal macro
+ *  36160 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1772,7 +1772,8 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
  *           SL_ERR_UNSUPPORTED: a factor with 2x2 pivots; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. On error
  *           nothing is written.
  *  Cost     sweeps take 2 entries flops per lane, and 8 lanes take as long as two to three, so that
- *           many requests should share a call. A single pair is a local solve if that is cheaper.
+ *           many requests should share a call. Entries of one row or column, in any number, are a
+ *           local solve; a single entry off the diagonal if that is cheaper.
  *           Nothing O(n), except for NULL sets; no allocation once W has grown to the largest reach
  *           and 16 bytes per request.
  *  Threads  any number at once on one F, each with its own W. Uses the threads that F was
@@ -22898,7 +22899,36 @@ SLI_NOINLINE static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_sta
   return SL_OK;
 }
 
-/* src/impl/inverse/entries_calls.h: calls for entries and diagonals of A^-1; one entry by a local solve */
+/* src/impl/inverse/column.h: entries of one column of A^-1 by a local solve */
+
+static sl_int sli_only_row(const sl_int *rows, sl_int count) {
+  sl_int k;
+  for (k = 1; k < count; k++) {
+    if (rows[k] != rows[0]) {
+      return -1;
+    }
+  }
+  return count > 0 ? rows[0] : -1;
+}
+
+static sl_status sli_entries_of_column(const sl_factor *F, double *out, size_t ld,
+    const sl_int *rows, sl_int count, sl_int column, sl_work *W,
+    sl_stats *stats) {
+  const double one = 1.0;
+  sl_stats found;
+  sl_status status = sl_local_solve(F, &column, 1, rows, count, out, ld, &one, 1, 1, W, &found);
+  status = status == SL_ERR_NOT_FINITE ? SL_OK : status;
+  if (status == SL_OK && stats != NULL) {
+    const sl_plan_info *p = &found.plan;
+    stats->inverse.method = SL_INVERSE_FORWARD;
+    stats->inverse.supernodes = sli_max(p->b_supernodes, p->x_supernodes);
+    stats->inverse.columns = sli_max(p->b_columns, p->x_columns);
+    stats->inverse.entries = p->b_entries + p->x_entries;
+  }
+  return status;
+}
+
+/* src/impl/inverse/entries_calls.h: calls for entries and diagonals of A^-1 */
 
 static sl_status sli_inverse_entries(sli_entries *q, sl_work *W, sl_stats *stats) {
   const sli_requests *r = &q->requests;
@@ -22946,22 +22976,6 @@ static int sli_entry_is_local(const sl_symbolic *S, sl_int a, sl_int b) {
        (apart + common < SLI_PAIR_LARGE ? SLI_PAIR_CACHED : SLI_PAIR_READ) * (apart + common);
 }
 
-static sl_status sli_entry_by_local_solve(const sl_factor *F, double *out, sl_int row,
-    sl_int column, sl_work *W, sl_stats *stats) {
-  const double one = 1.0;
-  sl_stats found;
-  sl_status status = sl_local_solve(F, &column, 1, &row, 1, out, 1, &one, 1, 1, W, &found);
-  status = status == SL_ERR_NOT_FINITE ? SL_OK : status;
-  if (status == SL_OK && stats != NULL) {
-    const sl_plan_info *p = &found.plan;
-    stats->inverse.method = SL_INVERSE_FORWARD;
-    stats->inverse.supernodes = sli_max(p->b_supernodes, p->x_supernodes);
-    stats->inverse.columns = sli_max(p->b_columns, p->x_columns);
-    stats->inverse.entries = p->b_entries + p->x_entries;
-  }
-  return status;
-}
-
 SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
     const sl_int *columns, sl_int count, sl_work *W,
     sl_stats *stats) {
@@ -22972,14 +22986,19 @@ SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int 
         : rows == NULL ? "rows is NULL"
         : "columns is NULL"));
   }
-  if (count == 1 && out != NULL && rows[0] != columns[0] && F->null.count == 0) {
-    sl_status status = sli_check_entries(F, rows, 1, columns, 1, stats);
-    if (status != SL_OK ||
-        sli_entry_is_local(F->S, F->S->iperm[rows[0]], F->S->iperm[columns[0]])) {
-      status = status == SL_OK
-             ? sli_entry_by_local_solve(F, out, rows[0], columns[0], W, stats)
-             : status;
-      return sli_report(stats, status);
+  if (count > 0 && out != NULL && F->null.count == 0) {
+    const sl_int row = sli_only_row(rows, count), column = sli_only_row(columns, count);
+    if (row != column) {
+      sl_status status = sli_check_entries(F, rows, count, columns, count, stats);
+      if (status != SL_OK || count > 1 ||
+          sli_entry_is_local(F->S, F->S->iperm[row], F->S->iperm[column])) {
+        status = status != SL_OK ? status
+             : column != -1 ? sli_entries_of_column(F, out, (size_t)count, rows, count,
+                 column, W, stats)
+                     : sli_entries_of_column(F, out, (size_t)count, columns,
+                         count, row, W, stats);
+        return sli_report(stats, status);
+      }
     }
   }
   q = sli_entries_of(F, out, rows, columns, count);
@@ -23205,6 +23224,12 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
     return sli_report(stats, status);
   }
   sli_inverse_clear_stats(stats);
+  if (F->null.count == 0 && !is_empty && (n_rows == 1) != (n_columns == 1)) {
+    status = n_rows == 1 ? sli_entries_of_column(F, Z, SL_ROWS(ldz), columns, n_columns,
+        rows[0], W, stats)
+               : sli_entries_of_column(F, Z, ldz, rows, n_rows, columns[0], W, stats);
+    return sli_report(stats, status);
+  }
   SLI_CLEAR(q);
   q.F = F;
   q.Z = Z;

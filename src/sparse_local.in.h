@@ -209,6 +209,7 @@ extern "C" {
 #include "impl/inverse/bilinear.h"
 #include "impl/inverse/loss.h"
 #include "impl/inverse/entries.h"
+#include "impl/inverse/column.h"
 #include "impl/inverse/entries_calls.h"
 #include "impl/inverse/block.h"
 #include "impl/inverse/selected.h"

@@ -23,7 +23,8 @@
  *           SL_ERR_UNSUPPORTED: a factor with 2x2 pivots; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. On error
  *           nothing is written.
  *  Cost     sweeps take 2 entries flops per lane, and 8 lanes take as long as two to three, so that
- *           many requests should share a call. A single pair is a local solve if that is cheaper.
+ *           many requests should share a call. Entries of one row or column, in any number, are a
+ *           local solve; a single entry off the diagonal if that is cheaper.
  *           Nothing O(n), except for NULL sets; no allocation once W has grown to the largest reach
  *           and 16 bytes per request.
  *  Threads  any number at once on one F, each with its own W. Uses the threads that F was

@@ -283,9 +283,68 @@ static void single_pairs(void **state) {
     factored_free(&y);
 }
 
+/* Entries of one row or column, as pairs or as a block, are those of a local solve. */
+static void entries_of_one_column(void **state) {
+    (void)state;
+    static const gen_kind_t kinds[3] = {GEN_GRID2, GEN_FOREST, GEN_KKT};
+    enum { MOST = 20, LD = 3 };
+    for (int kind = 0; kind < 3; kind++) {
+        factored_t y = factored_make(kinds[kind], 144, 1, 0, NULL);
+        const sl_int n = y.M.view.n_cols;
+        const double one = 1.0;
+        uint64_t seed = 5;
+        for (sl_int column = 0; column < n; column += 7) {
+            for (sl_int count = 2; count <= MOST; count += 3) {
+                sl_int rows[MOST], same[MOST];
+                double x[MOST], z[4][MOST], wide[LD * MOST];
+                sl_stats stats, plan;
+                random_rows(rows, count, n, &seed);
+                rows[0] = column; /* of the diagonal */
+                for (sl_int k = 0; k < count; k++) {
+                    same[k] = column;
+                }
+                for (sl_int k = 0; k < LD * MOST; k++) {
+                    wide[k] = 4321.5;
+                }
+                rows[1] += rows[1] == column ? column == 0 ? 1 : -1 : 0;
+                SL_CHECK(
+                    sl_local_solve(y.F, &column, 1, rows, count, x, MOST, &one, 1, 1, NULL, &plan));
+                SL_CHECK(sl_inverse_pairs(y.F, z[0], rows, same, count, NULL, &stats));
+                assert_int_equal(stats.inverse.method, SL_INVERSE_FORWARD);
+                assert_int_equal(stats.inverse.entries, plan.plan.b_entries + plan.plan.x_entries);
+                SL_CHECK(sl_inverse_pairs(y.F, z[1], same, rows, count, NULL, NULL));
+                SL_CHECK(sl_inverse_block(y.F, z[2], MOST, rows, count, &column, 1, NULL, &stats));
+                assert_int_equal(stats.inverse.entries, plan.plan.b_entries + plan.plan.x_entries);
+                SL_CHECK(sl_inverse_block(y.F, wide, LD, &column, 1, rows, count, NULL, NULL));
+                for (sl_int k = 0; k < LD * MOST; k++) {
+                    if (k % LD == 0 && k < LD * count) {
+                        z[3][k / LD] = wide[k];
+                    } else {
+                        assert_true(wide[k] == 4321.5);
+                    }
+                }
+                for (int way = 0; way < 4; way++) {
+                    SAME_VALUES(z[way], x, (size_t)count);
+                }
+            }
+        }
+        const sl_int wrong[3] = {1, n, 2}, same[3] = {4, 4, 4};
+        double z[3] = {7.0, 7.0, 7.0};
+        sl_stats stats;
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_inverse_pairs(y.F, z, wrong, same, 3, NULL, &stats));
+        assert_true(stats.error.row == n && stats.error.column == -1);
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_inverse_pairs(y.F, z, same, wrong, 3, NULL, &stats));
+        assert_true(stats.error.row == -1 && stats.error.column == n);
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_inverse_block(y.F, z, 3, wrong, 3, same, 1, NULL, &stats));
+        assert_true(stats.error.row == n && z[0] == 7.0);
+        factored_free(&y);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(single_pairs),
+        cmocka_unit_test(entries_of_one_column),
         cmocka_unit_test(entries_equal_dense_inverses),
         cmocka_unit_test(entries_equal_full_solves_on_a_larger_grid),
         cmocka_unit_test(pivots_with_extreme_reciprocals_are_inverted),

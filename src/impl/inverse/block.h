@@ -4,6 +4,7 @@
 
 #include "inverse_kernels.h"
 #include "bilinear.h"
+#include "column.h"
 
 /* Sweeps of one side that are kept while those of the other side are computed one by one: 128
  * vectors. Each further pass over the other side costs about a tenth of the sums of a pass. */
@@ -239,6 +240,12 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
         return sli_report(stats, status);
     }
     sli_inverse_clear_stats(stats);
+    if (F->null.count == 0 && !is_empty && (n_rows == 1) != (n_columns == 1)) {
+        status = n_rows == 1 ? sli_entries_of_column(F, Z, SL_ROWS(ldz), columns, n_columns,
+                                                     rows[0], W, stats)
+                             : sli_entries_of_column(F, Z, ldz, rows, n_rows, columns[0], W, stats);
+        return sli_report(stats, status);
+    }
     SLI_CLEAR(q);
     q.F = F;
     q.Z = Z;

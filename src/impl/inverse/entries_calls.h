@@ -1,9 +1,9 @@
-/* entries_calls.h: calls for entries and diagonals of A^-1; one entry by a local solve */
+/* entries_calls.h: calls for entries and diagonals of A^-1 */
 #ifndef SLI_INVERSE_ENTRIES_CALLS_H
 #define SLI_INVERSE_ENTRIES_CALLS_H
 
-#include "../solve/local.h"
 #include "entries.h"
+#include "column.h"
 
 /* Checks and runs a call. */
 static sl_status sli_inverse_entries(sli_entries *q, sl_work *W, sl_stats *stats) {
@@ -54,23 +54,6 @@ static int sli_entry_is_local(const sl_symbolic *S, sl_int a, sl_int b) {
            (apart + common < SLI_PAIR_LARGE ? SLI_PAIR_CACHED : SLI_PAIR_READ) * (apart + common);
 }
 
-/* One entry by a local solve. */
-static sl_status sli_entry_by_local_solve(const sl_factor *F, double *out, sl_int row,
-                                          sl_int column, sl_work *W, sl_stats *stats) {
-    const double one = 1.0;
-    sl_stats found;
-    sl_status status = sl_local_solve(F, &column, 1, &row, 1, out, 1, &one, 1, 1, W, &found);
-    status = status == SL_ERR_NOT_FINITE ? SL_OK : status; /* an entry that overflows */
-    if (status == SL_OK && stats != NULL) {
-        const sl_plan_info *p = &found.plan;
-        stats->inverse.method = SL_INVERSE_FORWARD;
-        stats->inverse.supernodes = sli_max(p->b_supernodes, p->x_supernodes);
-        stats->inverse.columns = sli_max(p->b_columns, p->x_columns);
-        stats->inverse.entries = p->b_entries + p->x_entries;
-    }
-    return status;
-}
-
 SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
                                   const sl_int *columns, sl_int count, sl_work *W,
                                   sl_stats *stats) {
@@ -81,14 +64,19 @@ SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int 
                                               : rows == NULL ? "rows is NULL"
                                                              : "columns is NULL"));
     }
-    if (count == 1 && out != NULL && rows[0] != columns[0] && F->null.count == 0) {
-        sl_status status = sli_check_entries(F, rows, 1, columns, 1, stats);
-        if (status != SL_OK ||
-            sli_entry_is_local(F->S, F->S->iperm[rows[0]], F->S->iperm[columns[0]])) {
-            status = status == SL_OK
-                         ? sli_entry_by_local_solve(F, out, rows[0], columns[0], W, stats)
-                         : status;
-            return sli_report(stats, status);
+    if (count > 0 && out != NULL && F->null.count == 0) {
+        const sl_int row = sli_only_row(rows, count), column = sli_only_row(columns, count);
+        if (row != column) { /* all entries are of one row or of one column */
+            sl_status status = sli_check_entries(F, rows, count, columns, count, stats);
+            if (status != SL_OK || count > 1 ||
+                sli_entry_is_local(F->S, F->S->iperm[row], F->S->iperm[column])) {
+                status = status != SL_OK ? status
+                         : column != -1  ? sli_entries_of_column(F, out, (size_t)count, rows, count,
+                                                                 column, W, stats)
+                                         : sli_entries_of_column(F, out, (size_t)count, columns,
+                                                                 count, row, W, stats);
+                return sli_report(stats, status);
+            }
         }
     }
     q = sli_entries_of(F, out, rows, columns, count);
