@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f7f6393ca9279b6d
+ * FNV-1a of the lines after this comment, without the license: a627c3b07ab1bc44
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -19,45 +19,45 @@
  *   1537 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
  *   1576 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
  *   1677 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1755 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1841 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1934 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2041 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2082 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2203 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2234 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2416 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2515 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2625 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2666 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2752 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2860 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2894 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2971 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3014 impl/ base: the compiler, status, memory, sorting, threads
- *   4292 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5231 impl/ matrix: sparse matrices of the caller and of the library
- *   5906 impl/ ordering: fill-reducing orderings of a graph
- *  11008 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13232 impl/ factor: the numbers of L and D
- *  16609 impl/ solve: full and local solves
- *  18391 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20388 impl/ pivots: the order of the pivots by the values of a matrix
- *  20796 impl/ float: L and fronts in single precision
- *  21301 impl/ inverse: entries of the inverse, regions
- *  24392 impl/ change: a factor that follows changes of its matrix
- *  30565 impl/ dirichlet: rows fixed at given values
- *  31215 impl/ dirichlet: by a factor of all rows
- *  31447 impl/ io: files that are replaced only when they are complete
- *  31665 impl/ files: Matrix Market files, 64-bit indices
- *  32285 impl/ save: factors in files
- *  34297 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34980 impl/ batch: diagonals of many inverses
- *  35120 impl/ complex: complex Hermitian systems over real factors
- *  35682 impl/ complex: entries of the inverse
- *  35742 impl/ packs: the tables through which the core calls packs
- *  35791 impl/ last: undefine every internal macro
- *  36160 impl/ templates: the header includes them from itself, once for each instruction set
+ *   1756 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1842 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1935 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2042 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2083 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2204 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2235 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2417 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2516 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2626 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2667 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2753 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2861 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2895 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2972 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3015 impl/ base: the compiler, status, memory, sorting, threads
+ *   4293 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5232 impl/ matrix: sparse matrices of the caller and of the library
+ *   5907 impl/ ordering: fill-reducing orderings of a graph
+ *  11009 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13233 impl/ factor: the numbers of L and D
+ *  16610 impl/ solve: full and local solves
+ *  18392 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20389 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20797 impl/ float: L and fronts in single precision
+ *  21302 impl/ inverse: entries of the inverse, regions
+ *  24393 impl/ change: a factor that follows changes of its matrix
+ *  30566 impl/ dirichlet: rows fixed at given values
+ *  31216 impl/ dirichlet: by a factor of all rows
+ *  31448 impl/ io: files that are replaced only when they are complete
+ *  31666 impl/ files: Matrix Market files, 64-bit indices
+ *  32286 impl/ save: factors in files
+ *  34298 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34981 impl/ batch: diagonals of many inverses
+ *  35121 impl/ complex: complex Hermitian systems over real factors
+ *  35683 impl/ complex: entries of the inverse
+ *  35743 impl/ packs: the tables through which the core calls packs
+ *  35792 impl/ last: undefine every internal macro
+ *  36161 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1494,7 +1494,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_solve_part(const sl_factor *F, unsigne
  *  covariance A. All parts together give A B, or (A + E) B if regularization changed pivots.
  *
  *  Arguments, Returns, Threads  as sl_factor_solve_part.
- *  Cost     2 nnz_panels flops per right-hand side for each of L and L', in plain C: about 8 times
+ *  Cost     2 nnz_panels flops per right-hand side for each of L and L', in plain C: 13 to 27 times
  *           as long as the solve.
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_multiply_part(const sl_factor *F, unsigned parts,
@@ -1699,8 +1699,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
  *           entries of the diagonal beyond 1e-200 .. 1e200; SL_ERR_INACCURATE:
  *           eta exceeds 1/16, as with an A that is not that of F; SL_ERR_TOO_LARGE, SL_ERR_MEMORY.
  *           On errors F has no eta.
- *  Cost     estimated: 15 to 20 full solves; W grows by 20 n numbers. Guaranteed: 7 to 10
- *           factorizations; memory of a second factor while it runs.
+ *  Cost     estimated: 28 solves, 4 or 8 at a time, with products: as long as 15 (n = 1e5) to 45
+ *           (n = 900) single solves; W grows by 20 n numbers. Guaranteed: 7 to 10 factorizations;
+ *           memory of a second factor while it runs.
  *  Threads  the caller serializes calls that change F.
  *  Source   [Ru06] for the eigenvalue; the bounds are derived in the manual.
  *  Manual   tools/docs/bounds.md

@@ -56,7 +56,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_solve_part(const sl_factor *F, unsigne
  *  covariance A. All parts together give A B, or (A + E) B if regularization changed pivots.
  *
  *  Arguments, Returns, Threads  as sl_factor_solve_part.
- *  Cost     2 nnz_panels flops per right-hand side for each of L and L', in plain C: about 8 times
+ *  Cost     2 nnz_panels flops per right-hand side for each of L and L', in plain C: 13 to 27 times
  *           as long as the solve.
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_multiply_part(const sl_factor *F, unsigned parts,

@@ -150,7 +150,7 @@ class Solves:
         """Finds eta, the largest relative error of any solve in the energy norm of A, which
         Plan.solve_bounded needs; A is the factored matrix. Returns eta.
 
-        certainty  'estimated': from errors that are measured, 15 to 20 full solves; 'guaranteed': a
+        certainty  'estimated': from errors that are measured, 15 to 45 full solves; 'guaranteed': a
                    proved bound, much larger, 7 to 10 factorizations.
         InaccurateError: eta exceeds 1/16, as with a matrix that was not factored.
         """
