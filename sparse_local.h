@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a627c3b07ab1bc44
+ * FNV-1a of the lines after this comment, without the license: 0b012150d4b50dd4
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -45,19 +45,19 @@
  *  20389 impl/ pivots: the order of the pivots by the values of a matrix
  *  20797 impl/ float: L and fronts in single precision
  *  21302 impl/ inverse: entries of the inverse, regions
- *  24393 impl/ change: a factor that follows changes of its matrix
- *  30566 impl/ dirichlet: rows fixed at given values
- *  31216 impl/ dirichlet: by a factor of all rows
- *  31448 impl/ io: files that are replaced only when they are complete
- *  31666 impl/ files: Matrix Market files, 64-bit indices
- *  32286 impl/ save: factors in files
- *  34298 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34981 impl/ batch: diagonals of many inverses
- *  35121 impl/ complex: complex Hermitian systems over real factors
- *  35683 impl/ complex: entries of the inverse
- *  35743 impl/ packs: the tables through which the core calls packs
- *  35792 impl/ last: undefine every internal macro
- *  36161 impl/ templates: the header includes them from itself, once for each instruction set
+ *  24400 impl/ change: a factor that follows changes of its matrix
+ *  30675 impl/ dirichlet: rows fixed at given values
+ *  31325 impl/ dirichlet: by a factor of all rows
+ *  31557 impl/ io: files that are replaced only when they are complete
+ *  31775 impl/ files: Matrix Market files, 64-bit indices
+ *  32395 impl/ save: factors in files
+ *  34407 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35090 impl/ batch: diagonals of many inverses
+ *  35230 impl/ complex: complex Hermitian systems over real factors
+ *  35792 impl/ complex: entries of the inverse
+ *  35852 impl/ packs: the tables through which the core calls packs
+ *  35901 impl/ last: undefine every internal macro
+ *  36276 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -21951,13 +21951,14 @@ typedef struct sli_costs {
   double lanes[4];
   double inverse_front, inverse_entry, inverse_flop;
   double flop;
+  double change[4];
 } sli_costs;
 
 static const sli_costs sli_costs_table[SLI_ISAS] = {
-  {{1.0, 1.3, 1.9, 3.3}, 2000.0, 4.0, 0.35, 0.08e-9},
-  {{1.0, 1.2, 3.8, 8.6}, 2000.0, 4.0, 2.2, 0.155e-9},
-  {{1.0, 1.3, 1.9, 3.3}, 2000.0, 4.0, 0.35, 0.024e-9},
-  {{1.0, 1.2, 1.9, 2.1}, 2000.0, 4.0, 0.2, 0.014e-9}};
+  {{1.0, 1.3, 1.9, 3.3}, 2000.0, 4.0, 0.35, 0.08e-9, {1.0, 2.1, 3.2, 5.8}},
+  {{1.0, 1.2, 3.8, 8.6}, 2000.0, 4.0, 2.2, 0.155e-9, {1.0, 2.0, 4.0, 8.0}},
+  {{1.0, 1.3, 1.9, 3.3}, 2000.0, 4.0, 0.35, 0.024e-9, {1.0, 2.1, 3.2, 5.8}},
+  {{1.0, 1.2, 1.9, 2.1}, 2000.0, 4.0, 0.2, 0.014e-9, {1.0, 2.1, 2.9, 4.6}}};
 
 SLI_INLINE const sli_costs *sli_costs_of(sl_isa isa) {
   return &sli_costs_table[sli_isa_row(isa)];
@@ -21973,6 +21974,12 @@ SLI_INLINE const sli_costs *sli_costs_of(sl_isa isa) {
 #define SLI_CHANGE_FRONT(flop) (0.4e-6 + 20000.0 * (flop))
 #define SLI_CHANGE_VISIT(flop) (0.4e-6 + 3000.0 * (flop))
 #define SLI_CHANGE_INPUT 2.5e-9
+
+#define SLI_CHANGE_PATH 800.0
+#define SLI_CHANGE_PASS 3000.0
+#define SLI_CHANGE_SPLIT 500.0
+#define SLI_CHANGE_LOG(entries) ((entries) <= 65536 ? 0.7 : 1.5)
+#define SLI_CHANGE_TRIAL 1.5
 
 #define SLI_REUSE_FLOP 0.1e-9
 #define SLI_REUSE_FRONT 400e-9
@@ -25590,6 +25597,7 @@ typedef struct sli_rank {
   sl_off entries;
   sli_reach whole;
   uint64_t *seeds, *scratch, *whole_seeds;
+  sl_int *ends;
   double *log, *log_D, *log_loss;
   uint64_t *log_marks;
   sli_extent *log_extents;
@@ -25655,10 +25663,7 @@ SLI_COLD static void sli_rank_layout_seeds(void *data, sli_block *b) {
   q->seeds = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
   q->scratch = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
   q->whole_seeds = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
-}
-
-SLI_INLINE sl_int sli_rank_pass(const sli_rank *q, sl_int k) {
-  return sli_min(k + SLI_TILE, q->count);
+  q->ends = SLI_TAKE(b, sl_int, q->u.V->n_cols);
 }
 
 SLI_INLINE int sli_rank_is_path(const sli_rank *q, sl_int count) {
@@ -25674,8 +25679,7 @@ static int sli_rank_may_overflow(const sli_rank *q, double size) {
 static int sli_rank_prefers_log(const sli_rank *q) {
   const sl_isa isa = q->u.F->kernels->isa;
   const sl_off times = q->count > 4 && isa != SL_ISA_AVX512 ? 8 : 1;
-  return q->count > SLI_TILE || (q->count > (isa == SL_ISA_SCALAR ? 1 : 2) &&
-      q->whole.entries <= SLI_RANK_LOGGED * times);
+  return q->count > (isa == SL_ISA_SCALAR ? 1 : 2) && q->whole.entries <= SLI_RANK_LOGGED * times;
 }
 
 SLI_NOINLINE static void sli_rank_group(const sli_rank *q, sl_int first, sl_int last, sl_int *group,
@@ -25689,22 +25693,120 @@ SLI_NOINLINE static void sli_rank_group(const sli_rank *q, sl_int first, sl_int 
   sli_sort(seeds, last - first, unused);
 }
 
-static void sli_rank_measure(sli_rank *q) {
-  sl_int k, last, group[SLI_TILE];
-  uint64_t seeds[SLI_TILE];
-  q->flops = q->pivots = 0.0;
-  q->entries = 0;
-  for (k = 0; k < q->count; k = last) {
-    sli_reach R = q->whole;
-    last = sli_rank_pass(q, k);
-    if (last - k < q->count) {
-      sli_rank_group(q, k, last, group, seeds);
-      sli_reach_measure(q->S, seeds, last - k, &R);
-    }
-    q->flops += 4.0 * (double)R.entries * (double)((sl_int)1 << sli_lanes_kind(last - k));
-    q->pivots += (double)R.columns * (double)(last - k);
-    q->entries += R.entries;
+typedef struct sli_rank_path {
+  sl_off entries, columns;
+} sli_rank_path;
+
+static void sli_rank_climb(const sl_symbolic *S, sl_int k, sl_int other, sli_rank_path *below,
+    sli_rank_path *through) {
+  sl_int s = S->super_of[k], tile = (k - S->super_first[s]) / SLI_TILE;
+  int is_met = 0;
+  through->entries = through->columns = 0;
+  for (; s != -1 && !is_met; s = S->super_parent[s]) {
+    const sli_step *step = &S->steps[s];
+    *below = *through;
+    through->entries += sli_entries_from(step->width, step->below, tile);
+    through->columns += step->width;
+    is_met = s >= other && S->first_descendant[s] <= other;
+    tile = step->below > 0 ? S->relative[S->rows_begin[s]] / SLI_TILE : 0;
   }
+  *below = is_met ? *below : *through;
+}
+
+static void sli_rank_walk(const sli_rank *q, sl_int k, sli_rank_path *path, sli_rank_path *added) {
+  const sl_symbolic *S = q->S;
+  const sl_int first = sli_key(q->seeds[k]);
+  sli_rank_path below, through;
+  if (k + 1 == q->count) {
+    sli_rank_climb(S, first, S->n_supers, &below, path);
+    return;
+  }
+  sli_rank_climb(S, sli_key(q->seeds[k + 1]), S->super_of[first], added, &through);
+  path->entries -= through.entries;
+  path->columns -= through.columns;
+  sli_rank_climb(S, first, S->super_of[sli_key(q->seeds[k + 1])], &below, &through);
+  path->entries += through.entries;
+  path->columns += through.columns;
+}
+
+static double sli_rank_cost(const sli_rank *q, sl_int count, sl_off entries) {
+  const int is_path = sli_rank_is_path(q, count);
+  const int kind = is_path ? SLI_NRHS_1 : sli_update_kind(count);
+  return sli_costs_of(q->u.F->kernels->isa)->change[kind] * (double)entries +
+       (is_path ? SLI_CHANGE_PATH : SLI_CHANGE_PASS);
+}
+
+typedef struct sli_rank_rest {
+  double cost, flops, pivots;
+  sl_off entries;
+} sli_rank_rest;
+
+static void sli_rank_prepend(const sli_rank *q, sl_int count, const sli_rank_path *path,
+    const sli_rank_rest *rest, sli_rank_rest *all) {
+  const double lanes = (double)((sl_int)1 << sli_lanes_kind(count));
+  all->cost = rest->cost + sli_rank_cost(q, count, path->entries);
+  all->flops = rest->flops + 4.0 * (double)path->entries * lanes;
+  all->pivots = rest->pivots + (double)path->columns * (double)count;
+  all->entries = rest->entries + path->entries;
+}
+
+#define SLI_RANK_RING (2 * SLI_TILE)
+
+static void sli_rank_split(const sli_rank *q, sli_rank_rest *best) {
+  sli_rank_rest rest[SLI_RANK_RING];
+  sli_rank_path added[SLI_RANK_RING], path = {0, 0}, joined, chosen;
+  sl_int k, m;
+  SLI_CLEAR(rest[q->count % SLI_RANK_RING]);
+  for (k = q->count - 1; k >= 0; k--) {
+    double least = DBL_MAX;
+    sli_rank_walk(q, k, &path, &added[(k + 1) % SLI_RANK_RING]);
+    joined = chosen = path;
+    for (m = 1; m <= sli_min(SLI_TILE, q->count - k); m++) {
+      const sl_int next = (k + m) % SLI_RANK_RING;
+      const double cost = sli_rank_cost(q, m, joined.entries) + rest[next].cost;
+      if (cost < least) {
+        least = cost;
+        chosen = joined;
+        q->ends[k] = k + m;
+      }
+      if (k + m < q->count) {
+        joined.entries += added[next].entries;
+        joined.columns += added[next].columns;
+      }
+    }
+    sli_rank_prepend(q, q->ends[k] - k, &chosen, &rest[q->ends[k] % SLI_RANK_RING],
+        &rest[k % SLI_RANK_RING]);
+  }
+  *best = rest[0];
+}
+
+static void sli_rank_plan(sli_rank *q, int may_fail) {
+  const double whole = (double)q->whole.entries, log = SLI_CHANGE_LOG(whole) * whole;
+  const int prefers_log = sli_rank_prefers_log(q);
+  const double least = whole + 2.0 * SLI_CHANGE_PATH;
+  sli_rank_rest none, best, one;
+  sli_rank_path path;
+  path.entries = q->whole.entries;
+  path.columns = q->whole.columns;
+  SLI_CLEAR(none);
+  sli_rank_prepend(q, sli_min(q->count, SLI_TILE), &path, &none, &one);
+  best = one;
+  q->ends[0] = q->count;
+  if (q->count > SLI_TILE || one.cost > least + SLI_CHANGE_SPLIT * (double)q->count) {
+    sli_rank_split(q, &best);
+  }
+  if (q->count <= SLI_TILE &&
+      (one.cost <= best.cost ||
+      (may_fail && (prefers_log ? one.cost + log : SLI_CHANGE_TRIAL * one.cost) <=
+      best.cost + log))) {
+    best = one;
+    q->ends[0] = q->count;
+  }
+  q->has_log |= may_fail && (q->ends[0] < q->count || prefers_log);
+  q->has_trial = may_fail && !q->has_log;
+  q->flops = best.flops;
+  q->pivots = best.pivots;
+  q->entries = best.entries;
 }
 
 static double sli_rank_size(const sl_csc *V, sl_int v, double sigma) {
@@ -25723,6 +25825,8 @@ static void sli_rank_sort(void *data) {
   double size = 0.0;
   sl_int v, rest = 0;
   q->count = 0;
+  q->flops = q->pivots = 0.0;
+  q->entries = 0;
   for (v = 0; v < V->n_cols && q->status == SL_OK; v++) {
     const double sigma = q->u.sigma == NULL ? 1.0 : q->u.sigma[v];
     const sl_int first = sli_update_first(S, V, v);
@@ -25753,10 +25857,10 @@ static void sli_rank_sort(void *data) {
   sli_sort(q->whole_seeds, q->count, q->scratch);
   sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
   q->has_log = q->u.sign == 0.0 || sli_rank_may_overflow(q, size) ||
-         (rest > 0 && sli_rank_prefers_log(q)) ||
          q->u.F->limits.growth < 2.0;
-  q->has_trial = rest > 0 && !q->has_log;
-  sli_rank_measure(q);
+  if (q->count > 0) {
+    sli_rank_plan(q, rest > 0 && !q->has_log);
+  }
 }
 
 /* src/impl/change/rank.h: sl_factor_update: passes of a rank-k change, their growth, the log that undoes them */
@@ -25780,13 +25884,18 @@ SLI_COLD static void sli_rank_layout(void *data, sli_block *b) {
   sli_rank *q = (sli_rank *)data;
   const sl_symbolic *S = q->S;
   sli_reach R = q->whole;
-  if (sli_rank_is_path(q, q->count) && !q->has_log) {
+  sl_int k, most = 1;
+  int has_path = 0;
+  for (k = 0; k < q->count; k = q->ends[k]) {
+    most = sli_max(most, q->ends[k] - k);
+    has_path |= sli_rank_is_path(q, q->ends[k] - k);
+  }
+  if (sli_rank_is_path(q, most) && !q->has_log) {
     R.count = R.columns = 0;
     R.n_rows = 0;
   }
-  sli_update_layout(&q->u, b, &R, (sl_int)1 << sli_update_kind(sli_min(q->count, 8)),
-      q->has_trial);
-  sli_path_layout(&q->u, b, &q->whole, sli_rank_is_path(q, q->count % SLI_TILE));
+  sli_update_layout(&q->u, b, &R, (sl_int)1 << sli_update_kind(most), q->has_trial);
+  sli_path_layout(&q->u, b, &q->whole, has_path);
   if (q->has_log) {
     q->log = SLI_TAKE(b, double, sli_rank_panels(S, q->whole_seeds, q->count));
     q->log_D = SLI_TAKE(b, double, q->whole.columns);
@@ -25906,7 +26015,7 @@ static sl_status sli_rank_passes(sli_rank *q) {
   sl_int k, v, last, group[SLI_TILE];
   uint64_t seeds[SLI_TILE];
   for (k = 0; k < q->count && status == SL_OK; k = last) {
-    last = sli_rank_pass(q, k);
+    last = q->ends[k];
     sli_rank_group(q, k, last, group, seeds);
     if (sli_rank_is_path(q, last - k)) {
       status = sli_path_run(&q->u, seeds[0], q->has_trial);
@@ -36090,6 +36199,11 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_RANK_LOGGED
 #undef SLI_PATH_CACHED
 #undef SLI_CHANGE_ENTRY
+#undef SLI_CHANGE_PATH
+#undef SLI_CHANGE_PASS
+#undef SLI_CHANGE_SPLIT
+#undef SLI_CHANGE_LOG
+#undef SLI_CHANGE_TRIAL
 #undef SLI_CHANGE_HIDDEN
 #undef SLI_CHANGE_PIVOT
 #undef SLI_CHANGE_FRONT
@@ -36108,6 +36222,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_PINS_PIN
 #undef SLI_PINS_SINGLY
 #undef SLI_RANK_LARGE
+#undef SLI_RANK_RING
 #undef SLI_RANK_SMALL
 #undef SLI_EDGES_HEAVY
 #undef SLI_LOSS_SMALL

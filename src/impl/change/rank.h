@@ -27,13 +27,18 @@ SLI_COLD static void sli_rank_layout(void *data, sli_block *b) {
     sli_rank *q = (sli_rank *)data;
     const sl_symbolic *S = q->S;
     sli_reach R = q->whole;
-    if (sli_rank_is_path(q, q->count) && !q->has_log) {
+    sl_int k, most = 1;
+    int has_path = 0;
+    for (k = 0; k < q->count; k = q->ends[k]) {
+        most = sli_max(most, q->ends[k] - k);
+        has_path |= sli_rank_is_path(q, q->ends[k] - k);
+    }
+    if (sli_rank_is_path(q, most) && !q->has_log) {
         R.count = R.columns = 0;
         R.n_rows = 0;
     }
-    sli_update_layout(&q->u, b, &R, (sl_int)1 << sli_update_kind(sli_min(q->count, 8)),
-                      q->has_trial);
-    sli_path_layout(&q->u, b, &q->whole, sli_rank_is_path(q, q->count % SLI_TILE));
+    sli_update_layout(&q->u, b, &R, (sl_int)1 << sli_update_kind(most), q->has_trial);
+    sli_path_layout(&q->u, b, &q->whole, has_path);
     if (q->has_log) {
         q->log = SLI_TAKE(b, double, sli_rank_panels(S, q->whole_seeds, q->count));
         q->log_D = SLI_TAKE(b, double, q->whole.columns);
@@ -168,7 +173,7 @@ static sl_status sli_rank_passes(sli_rank *q) {
     sl_int k, v, last, group[SLI_TILE];
     uint64_t seeds[SLI_TILE];
     for (k = 0; k < q->count && status == SL_OK; k = last) {
-        last = sli_rank_pass(q, k);
+        last = q->ends[k];
         sli_rank_group(q, k, last, group, seeds);
         if (sli_rank_is_path(q, last - k)) {
             status = sli_path_run(&q->u, seeds[0], q->has_trial);

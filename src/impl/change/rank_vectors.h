@@ -2,6 +2,7 @@
 #ifndef SLI_CHANGE_RANK_VECTORS_H
 #define SLI_CHANGE_RANK_VECTORS_H
 
+#include "../inverse/costs.h"
 #include "update.h"
 
 /* A rank-k change in progress. */
@@ -24,6 +25,7 @@ typedef struct sli_rank {
     sl_off entries;  /* entries of L that the passes change */
     sli_reach whole; /* of all vectors */
     uint64_t *seeds, *scratch, *whole_seeds; /* vectors: first pivot and number */
+    sl_int *ends;                            /* for each vector: of the pass that begins with it */
     double *log, *log_D, *log_loss;
     uint64_t *log_marks;
     sli_extent *log_extents;
@@ -95,11 +97,7 @@ SLI_COLD static void sli_rank_layout_seeds(void *data, sli_block *b) {
     q->seeds = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
     q->scratch = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
     q->whole_seeds = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
-}
-
-/* The end of the pass that begins with vector k. */
-SLI_INLINE sl_int sli_rank_pass(const sli_rank *q, sl_int k) {
-    return sli_min(k + SLI_TILE, q->count);
+    q->ends = SLI_TAKE(b, sl_int, q->u.V->n_cols);
 }
 
 /* Is a pass of `count` vectors one path through the tree? */
@@ -114,14 +112,13 @@ static int sli_rank_may_overflow(const sli_rank *q, double size) {
              info->pivot_min >= SLI_RANK_SMALL);
 }
 
-/* Do vectors that may fail change a factor of which there is a copy, rather than after a trial?
- * Several passes do. Of one or two vectors a trial takes less time, but in plain C of one alone.
+/* Does a pass that may fail change a factor of which there is a copy, rather than after a trial?
+ * Of one or two vectors a trial takes less time, but in plain C of one alone.
  * More than 4 do not fit in the registers, but for AVX-512, and a trial of them takes longer. */
 static int sli_rank_prefers_log(const sli_rank *q) {
     const sl_isa isa = q->u.F->kernels->isa;
     const sl_off times = q->count > 4 && isa != SL_ISA_AVX512 ? 8 : 1;
-    return q->count > SLI_TILE || (q->count > (isa == SL_ISA_SCALAR ? 1 : 2) &&
-                                   q->whole.entries <= SLI_RANK_LOGGED * times);
+    return q->count > (isa == SL_ISA_SCALAR ? 1 : 2) && q->whole.entries <= SLI_RANK_LOGGED * times;
 }
 
 /* Lists the vectors of a pass, updates first, and its seeds. */
@@ -136,24 +133,134 @@ SLI_NOINLINE static void sli_rank_group(const sli_rank *q, sl_int first, sl_int 
     sli_sort(seeds, last - first, unused);
 }
 
-/* Measures the passes. A pass of k vectors reads and writes its entries once, with 4 k flops each.
- */
-static void sli_rank_measure(sli_rank *q) {
-    sl_int k, last, group[SLI_TILE];
-    uint64_t seeds[SLI_TILE];
-    q->flops = q->pivots = 0.0;
-    q->entries = 0;
-    for (k = 0; k < q->count; k = last) {
-        sli_reach R = q->whole;
-        last = sli_rank_pass(q, k);
-        if (last - k < q->count) {
-            sli_rank_group(q, k, last, group, seeds);
-            sli_reach_measure(q->S, seeds, last - k, &R);
-        }
-        q->flops += 4.0 * (double)R.entries * (double)((sl_int)1 << sli_lanes_kind(last - k));
-        q->pivots += (double)R.columns * (double)(last - k);
-        q->entries += R.entries;
+/* The size of a path, or of several that are joined. */
+typedef struct sli_rank_path {
+    sl_off entries, columns;
+} sli_rank_path;
+
+/* Measures the path of column k up to where it meets that of supernode `other`: *below without the
+ * supernode where they meet, *through with it; both are the whole path if they do not meet. */
+static void sli_rank_climb(const sl_symbolic *S, sl_int k, sl_int other, sli_rank_path *below,
+                           sli_rank_path *through) {
+    sl_int s = S->super_of[k], tile = (k - S->super_first[s]) / SLI_TILE;
+    int is_met = 0;
+    through->entries = through->columns = 0;
+    for (; s != -1 && !is_met; s = S->super_parent[s]) {
+        const sli_step *step = &S->steps[s];
+        *below = *through;
+        through->entries += sli_entries_from(step->width, step->below, tile);
+        through->columns += step->width;
+        is_met = s >= other && S->first_descendant[s] <= other;
+        tile = step->below > 0 ? S->relative[S->rows_begin[s]] / SLI_TILE : 0;
     }
+    *below = is_met ? *below : *through;
+}
+
+/* Measures the path of vector k from that of the next one, *path. *added := what the next one adds
+ * to it. */
+static void sli_rank_walk(const sli_rank *q, sl_int k, sli_rank_path *path, sli_rank_path *added) {
+    const sl_symbolic *S = q->S;
+    const sl_int first = sli_key(q->seeds[k]);
+    sli_rank_path below, through;
+    if (k + 1 == q->count) {
+        sli_rank_climb(S, first, S->n_supers, &below, path);
+        return;
+    }
+    sli_rank_climb(S, sli_key(q->seeds[k + 1]), S->super_of[first], added, &through);
+    path->entries -= through.entries;
+    path->columns -= through.columns;
+    sli_rank_climb(S, first, S->super_of[sli_key(q->seeds[k + 1])], &below, &through);
+    path->entries += through.entries;
+    path->columns += through.columns;
+}
+
+/* The cost of a pass of `count` vectors over so many entries, in entries of a pass of one. */
+static double sli_rank_cost(const sli_rank *q, sl_int count, sl_off entries) {
+    const int is_path = sli_rank_is_path(q, count);
+    const int kind = is_path ? SLI_NRHS_1 : sli_update_kind(count);
+    return sli_costs_of(q->u.F->kernels->isa)->change[kind] * (double)entries +
+           (is_path ? SLI_CHANGE_PATH : SLI_CHANGE_PASS);
+}
+
+/* The passes from one vector on. A pass of k vectors reads and writes its entries once, with 4 k
+ * flops each. */
+typedef struct sli_rank_rest {
+    double cost, flops, pivots;
+    sl_off entries;
+} sli_rank_rest;
+
+/* *all := a pass of `count` vectors on a path, then *rest. */
+static void sli_rank_prepend(const sli_rank *q, sl_int count, const sli_rank_path *path,
+                             const sli_rank_rest *rest, sli_rank_rest *all) {
+    const double lanes = (double)((sl_int)1 << sli_lanes_kind(count));
+    all->cost = rest->cost + sli_rank_cost(q, count, path->entries);
+    all->flops = rest->flops + 4.0 * (double)path->entries * lanes;
+    all->pivots = rest->pivots + (double)path->columns * (double)count;
+    all->entries = rest->entries + path->entries;
+}
+
+#define SLI_RANK_RING (2 * SLI_TILE)
+
+/* Splits the vectors into passes, of neighbours in the order of the pivots. A pass computes all of
+ * its vectors in all of its columns, and one vector takes a faster kernel: so only vectors that
+ * share most of their paths share a pass. *best := a split that costs least. O(reach) */
+static void sli_rank_split(const sli_rank *q, sli_rank_rest *best) {
+    sli_rank_rest rest[SLI_RANK_RING];
+    sli_rank_path added[SLI_RANK_RING], path = {0, 0}, joined, chosen;
+    sl_int k, m;
+    SLI_CLEAR(rest[q->count % SLI_RANK_RING]);
+    for (k = q->count - 1; k >= 0; k--) {
+        double least = DBL_MAX;
+        sli_rank_walk(q, k, &path, &added[(k + 1) % SLI_RANK_RING]);
+        joined = chosen = path;
+        for (m = 1; m <= sli_min(SLI_TILE, q->count - k); m++) {
+            const sl_int next = (k + m) % SLI_RANK_RING;
+            const double cost = sli_rank_cost(q, m, joined.entries) + rest[next].cost;
+            if (cost < least) {
+                least = cost;
+                chosen = joined;
+                q->ends[k] = k + m;
+            }
+            if (k + m < q->count) {
+                joined.entries += added[next].entries;
+                joined.columns += added[next].columns;
+            }
+        }
+        sli_rank_prepend(q, q->ends[k] - k, &chosen, &rest[q->ends[k] % SLI_RANK_RING],
+                         &rest[k % SLI_RANK_RING]);
+    }
+    *best = rest[0];
+}
+
+/* Splits the vectors, measures the passes, and chooses how they are undone. may_fail: their
+ * pivots; one pass may be tried first, several need a copy. */
+static void sli_rank_plan(sli_rank *q, int may_fail) {
+    const double whole = (double)q->whole.entries, log = SLI_CHANGE_LOG(whole) * whole;
+    const int prefers_log = sli_rank_prefers_log(q);
+    const double least = whole + 2.0 * SLI_CHANGE_PATH; /* of two passes */
+    sli_rank_rest none, best, one;
+    sli_rank_path path;
+    path.entries = q->whole.entries;
+    path.columns = q->whole.columns;
+    SLI_CLEAR(none);
+    sli_rank_prepend(q, sli_min(q->count, SLI_TILE), &path, &none, &one);
+    best = one;
+    q->ends[0] = q->count;
+    if (q->count > SLI_TILE || one.cost > least + SLI_CHANGE_SPLIT * (double)q->count) {
+        sli_rank_split(q, &best);
+    }
+    if (q->count <= SLI_TILE && /* of both signs they are not in one order: its reach is less */
+        (one.cost <= best.cost ||
+         (may_fail && (prefers_log ? one.cost + log : SLI_CHANGE_TRIAL * one.cost) <=
+                          best.cost + log))) {
+        best = one;
+        q->ends[0] = q->count;
+    }
+    q->has_log |= may_fail && (q->ends[0] < q->count || prefers_log);
+    q->has_trial = may_fail && !q->has_log; /* pivots that grow are not refused */
+    q->flops = best.flops;
+    q->pivots = best.pivots;
+    q->entries = best.entries;
 }
 
 /* The largest change of an entry of the diagonal of A by vector v. */
@@ -174,6 +281,8 @@ static void sli_rank_sort(void *data) {
     double size = 0.0;
     sl_int v, rest = 0;
     q->count = 0;
+    q->flops = q->pivots = 0.0;
+    q->entries = 0;
     for (v = 0; v < V->n_cols && q->status == SL_OK; v++) {
         const double sigma = q->u.sigma == NULL ? 1.0 : q->u.sigma[v];
         const sl_int first = sli_update_first(S, V, v);
@@ -204,10 +313,10 @@ static void sli_rank_sort(void *data) {
     sli_sort(q->whole_seeds, q->count, q->scratch);
     sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
     q->has_log = q->u.sign == 0.0 || sli_rank_may_overflow(q, size) ||
-                 (rest > 0 && sli_rank_prefers_log(q)) ||
                  q->u.F->limits.growth < 2.0; /* else pivots of one sign do not exceed it */
-    q->has_trial = rest > 0 && !q->has_log;   /* pivots that grow are not refused */
-    sli_rank_measure(q);
+    if (q->count > 0) {
+        sli_rank_plan(q, rest > 0 && !q->has_log);
+    }
 }
 
 #endif
