@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 0b012150d4b50dd4
+ * FNV-1a of the lines after this comment, without the license: 74ee56dafddd7281
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -46,18 +46,18 @@
  *  20797 impl/ float: L and fronts in single precision
  *  21302 impl/ inverse: entries of the inverse, regions
  *  24400 impl/ change: a factor that follows changes of its matrix
- *  30675 impl/ dirichlet: rows fixed at given values
- *  31325 impl/ dirichlet: by a factor of all rows
- *  31557 impl/ io: files that are replaced only when they are complete
- *  31775 impl/ files: Matrix Market files, 64-bit indices
- *  32395 impl/ save: factors in files
- *  34407 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35090 impl/ batch: diagonals of many inverses
- *  35230 impl/ complex: complex Hermitian systems over real factors
- *  35792 impl/ complex: entries of the inverse
- *  35852 impl/ packs: the tables through which the core calls packs
- *  35901 impl/ last: undefine every internal macro
- *  36276 impl/ templates: the header includes them from itself, once for each instruction set
+ *  30684 impl/ dirichlet: rows fixed at given values
+ *  31334 impl/ dirichlet: by a factor of all rows
+ *  31566 impl/ io: files that are replaced only when they are complete
+ *  31784 impl/ files: Matrix Market files, 64-bit indices
+ *  32404 impl/ save: factors in files
+ *  34416 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35099 impl/ batch: diagonals of many inverses
+ *  35239 impl/ complex: complex Hermitian systems over real factors
+ *  35801 impl/ complex: entries of the inverse
+ *  35861 impl/ packs: the tables through which the core calls packs
+ *  35910 impl/ last: undefine every internal macro
+ *  36285 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -24405,6 +24405,9 @@ typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, do
 typedef void (*sli_change_pair_kernel)(double *l, double *l1, sl_int columns, const double *c,
     double *w, int is_trial);
 
+typedef void (*sli_magnitudes_kernel)(const double *l, sl_int columns, const double *d,
+    double *sums);
+
 typedef struct sli_ranks {
   double U[SLI_TILE][SLI_TILE];
   double alpha[SLI_TILE];
@@ -24434,6 +24437,7 @@ typedef void (*sli_rank_one_kernel)(sli_rank_one *u, int has_sweep, int has_chan
 typedef struct sli_change_kernels {
   sli_change_kernel change[SLI_NRHS_KINDS - 1];
   sli_change_pair_kernel pair;
+  sli_magnitudes_kernel magnitudes;
   sli_ranks_kernel ranks;
   sli_rank_one_kernel panel;
 } sli_change_kernels;
@@ -25237,18 +25241,23 @@ static void sli_update_move(const sli_update *u, const sli_step *step, const sl_
 
 static void sli_update_gains(const sli_update *u, const sli_step *step, const sl_int *rows,
     double sign) {
-  const sl_factor *F = u->F;
-  const sl_int start = step->column - SLI_TILE * step->first_tile;
-  sl_int r, j;
-  for (r = SLI_TILE * step->first_tile; r < step->width + step->below; r++) {
-    const double *l = (const double *)F->values + step->panel + sli_panel_at(step->width, r, 0);
-    double *gain = &u->gain[r < step->width ? step->base + start + r - step->column
-                        : rows[r - step->width]];
-    double sum = r < step->width ? fabs(F->D[start + r]) : 0.0;
-    for (j = SLI_TILE * step->first_tile; j < sli_min(r, step->width); j++) {
-      sum += fabs(l[SLI_TILE * (ptrdiff_t)j] * F->D[start + j] * l[SLI_TILE * (ptrdiff_t)j]);
+  const sl_int entered = SLI_TILE * step->first_tile, all = step->width + step->below;
+  const double *D = u->F->D + step->column;
+  const sli_change_kernels *kernels = sli_change_kernels_of(u->F->kernels->isa);
+  double *sums = u->local;
+  sl_int t, r;
+  for (t = step->first_tile; t < sli_tiles(all); t++) {
+    const sl_int first = SLI_TILE * t, end = sli_min(first + SLI_TILE, all);
+    for (r = first; r < first + SLI_TILE; r++) {
+      sums[r - first] = r < step->width ? fabs(D[r - entered]) : 0.0;
     }
-    *gain += sign * sum;
+    kernels->magnitudes(u->panel + sli_panel_at(step->width, first, entered),
+        sli_min(first + SLI_TILE, step->width) - entered, D, sums);
+    for (r = first; r < end; r++) {
+      double *gain =
+        &u->gain[r < step->width ? step->base + r - entered : rows[r - step->width]];
+      *gain += sign * sums[r - first];
+    }
   }
 }
 
@@ -25279,12 +25288,12 @@ static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_i
   sl_status status = SL_OK;
   sl_int c0, c1, t;
   sli_update_open(u, step);
-  sli_update_move(u, step, rows, 0);
   if (u->sign == 0.0) {
     sli_update_gains(u, step, rows, -1.0);
   } else if (!u->is_trial) {
     sli_loss_open(u->F, u->F->S->super_of[step->column]);
   }
+  sli_update_move(u, step, rows, 0);
   for (c0 = entered; c0 < wide; c0 = c1) {
     sl_int from = SLI_TILE * c0, next;
     c1 = u->is_trial ? wide : sli_min(c0 + SLI_UPDATE_COLUMNS, wide);
@@ -37543,6 +37552,25 @@ SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
 #undef SLI_CARRY
 #undef SLI_CHANGE
 
+SLV_FUNCTION static void SLV_NAME(change_magnitudes)(const double *l, sl_int columns,
+    const double *d, double *sums) {
+  sl_int j;
+  SLV_DECLARE(a)
+  SLV_DECLARE(b)
+  SLV_DECLARE(s)
+  SLV_LOAD(s, sums)
+  for (j = 0; j < columns; j++, l += SLI_TILE) {
+    const double size = fabs(d[j]);
+    SLV_LOAD(a, l)
+    SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+    SLV_BROADCAST(b, &size)
+    SLV_MULTIPLY(b, a, b)
+    SLV_MULTIPLY(b, a, b)
+    SLV_ADD(s, b)
+  }
+  SLV_STORE(sums, s)
+}
+
 #define SLI_FORWARD(k, unused) \
   if (SLI_IS_IN(k, columns)) { \
     SLV_LANE(s, x, k) \
@@ -37835,6 +37863,7 @@ SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u, int has_sweep, 
 static const sli_change_kernels SLV_NAME(change_kernels) = {
   {SLV_NAME(change2), SLV_NAME(change4), SLV_NAME(change8)},
   SLV_NAME(change_pair),
+  SLV_NAME(change_magnitudes),
   SLV_NAME(change_ranks),
   SLV_NAME(change_panel)};
 #endif

@@ -95,6 +95,26 @@ SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
 #undef SLI_CARRY
 #undef SLI_CHANGE
 
+/* sums(i) += |l(i, j)| |d(j)| |l(i, j)| for the rows of one tile. */
+SLV_FUNCTION static void SLV_NAME(change_magnitudes)(const double *l, sl_int columns,
+                                                     const double *d, double *sums) {
+    sl_int j;
+    SLV_DECLARE(a)
+    SLV_DECLARE(b)
+    SLV_DECLARE(s)
+    SLV_LOAD(s, sums)
+    for (j = 0; j < columns; j++, l += SLI_TILE) {
+        const double size = fabs(d[j]);
+        SLV_LOAD(a, l)
+        SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+        SLV_BROADCAST(b, &size)
+        SLV_MULTIPLY(b, a, b)
+        SLV_MULTIPLY(b, a, b)
+        SLV_ADD(s, b)
+    }
+    SLV_STORE(sums, s)
+}
+
 /* y := what a forward sweep makes of the rows of a diagonal tile, which has `columns` columns. */
 #define SLI_FORWARD(k, unused) \
     if (SLI_IS_IN(k, columns)) { \
@@ -397,5 +417,6 @@ SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u, int has_sweep, 
 static const sli_change_kernels SLV_NAME(change_kernels) = {
     {SLV_NAME(change2), SLV_NAME(change4), SLV_NAME(change8)},
     SLV_NAME(change_pair),
+    SLV_NAME(change_magnitudes),
     SLV_NAME(change_ranks),
     SLV_NAME(change_panel)};

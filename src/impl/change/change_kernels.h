@@ -14,6 +14,11 @@ typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, do
 typedef void (*sli_change_pair_kernel)(double *l, double *l1, sl_int columns, const double *c,
                                        double *w, int is_trial);
 
+/* Adds |l| |d| |l| of the columns of one row tile l to the sums of its rows. sums: [8], 64-byte
+ * aligned */
+typedef void (*sli_magnitudes_kernel)(const double *l, sl_int columns, const double *d,
+                                      double *sums);
+
 /* k = 2 .. 8 vectors that pass the pivots: W U diag(alpha) U' W'. 64-byte aligned. */
 typedef struct sli_ranks {
     double U[SLI_TILE][SLI_TILE]; /* column by column, with a unit diagonal */
@@ -51,6 +56,7 @@ typedef void (*sli_rank_one_kernel)(sli_rank_one *u, int has_sweep, int has_chan
 typedef struct sli_change_kernels {
     sli_change_kernel change[SLI_NRHS_KINDS - 1]; /* from 2 vectors on */
     sli_change_pair_kernel pair;
+    sli_magnitudes_kernel magnitudes;
     sli_ranks_kernel ranks;
     sli_rank_one_kernel panel;
 } sli_change_kernels;

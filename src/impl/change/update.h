@@ -122,18 +122,24 @@ static void sli_update_move(const sli_update *u, const sli_step *step, const sl_
 /* Adds sign |L| |D| |L'| of the columns of a step to the gains of their rows. */
 static void sli_update_gains(const sli_update *u, const sli_step *step, const sl_int *rows,
                              double sign) {
-    const sl_factor *F = u->F;
-    const sl_int start = step->column - SLI_TILE * step->first_tile;
-    sl_int r, j;
-    for (r = SLI_TILE * step->first_tile; r < step->width + step->below; r++) {
-        const double *l = (const double *)F->values + step->panel + sli_panel_at(step->width, r, 0);
-        double *gain = &u->gain[r < step->width ? step->base + start + r - step->column
-                                                : rows[r - step->width]];
-        double sum = r < step->width ? fabs(F->D[start + r]) : 0.0;
-        for (j = SLI_TILE * step->first_tile; j < sli_min(r, step->width); j++) {
-            sum += fabs(l[SLI_TILE * (ptrdiff_t)j] * F->D[start + j] * l[SLI_TILE * (ptrdiff_t)j]);
+    const sl_int entered = SLI_TILE * step->first_tile, all = step->width + step->below;
+    const double *D = u->F->D + step->column;
+    const sli_change_kernels *kernels = sli_change_kernels_of(u->F->kernels->isa);
+    double *sums = u->local; /* before and after the vectors */
+    sl_int t, r;
+    for (t = step->first_tile; t < sli_tiles(all); t++) {
+        const sl_int first = SLI_TILE * t, end = sli_min(first + SLI_TILE, all);
+        for (r = first; r < first + SLI_TILE; r++) {
+            sums[r - first] = r < step->width ? fabs(D[r - entered]) : 0.0;
         }
-        *gain += sign * sum;
+        /* of the tile's own rows what is not below the diagonal is 0 */
+        kernels->magnitudes(u->panel + sli_panel_at(step->width, first, entered),
+                            sli_min(first + SLI_TILE, step->width) - entered, D, sums);
+        for (r = first; r < end; r++) {
+            double *gain =
+                &u->gain[r < step->width ? step->base + r - entered : rows[r - step->width]];
+            *gain += sign * sums[r - first];
+        }
     }
 }
 
@@ -169,12 +175,12 @@ static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_i
     sl_status status = SL_OK;
     sl_int c0, c1, t;
     sli_update_open(u, step);
-    sli_update_move(u, step, rows, 0);
     if (u->sign == 0.0) {
         sli_update_gains(u, step, rows, -1.0);
     } else if (!u->is_trial) {
         sli_loss_open(u->F, u->F->S->super_of[step->column]);
     }
+    sli_update_move(u, step, rows, 0);
     for (c0 = entered; c0 < wide; c0 = c1) { /* only a trial fails, and takes all at once */
         sl_int from = SLI_TILE * c0, next;
         c1 = u->is_trial ? wide : sli_min(c0 + SLI_UPDATE_COLUMNS, wide);
