@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 74ee56dafddd7281
+ * FNV-1a of the lines after this comment, without the license: 76bf105295d968c6
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -45,19 +45,19 @@
  *  20389 impl/ pivots: the order of the pivots by the values of a matrix
  *  20797 impl/ float: L and fronts in single precision
  *  21302 impl/ inverse: entries of the inverse, regions
- *  24400 impl/ change: a factor that follows changes of its matrix
- *  30684 impl/ dirichlet: rows fixed at given values
- *  31334 impl/ dirichlet: by a factor of all rows
- *  31566 impl/ io: files that are replaced only when they are complete
- *  31784 impl/ files: Matrix Market files, 64-bit indices
- *  32404 impl/ save: factors in files
- *  34416 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35099 impl/ batch: diagonals of many inverses
- *  35239 impl/ complex: complex Hermitian systems over real factors
- *  35801 impl/ complex: entries of the inverse
- *  35861 impl/ packs: the tables through which the core calls packs
- *  35910 impl/ last: undefine every internal macro
- *  36285 impl/ templates: the header includes them from itself, once for each instruction set
+ *  24401 impl/ change: a factor that follows changes of its matrix
+ *  30690 impl/ dirichlet: rows fixed at given values
+ *  31340 impl/ dirichlet: by a factor of all rows
+ *  31572 impl/ io: files that are replaced only when they are complete
+ *  31790 impl/ files: Matrix Market files, 64-bit indices
+ *  32410 impl/ save: factors in files
+ *  34422 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35105 impl/ batch: diagonals of many inverses
+ *  35245 impl/ complex: complex Hermitian systems over real factors
+ *  35807 impl/ complex: entries of the inverse
+ *  35867 impl/ packs: the tables through which the core calls packs
+ *  35916 impl/ last: undefine every internal macro
+ *  36292 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -21978,6 +21978,7 @@ SLI_INLINE const sli_costs *sli_costs_of(sl_isa isa) {
 #define SLI_CHANGE_PATH 800.0
 #define SLI_CHANGE_PASS 3000.0
 #define SLI_CHANGE_SPLIT 500.0
+#define SLI_CHANGE_GAINS 2.0
 #define SLI_CHANGE_LOG(entries) ((entries) <= 65536 ? 0.7 : 1.5)
 #define SLI_CHANGE_TRIAL 1.5
 
@@ -24405,8 +24406,8 @@ typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, do
 typedef void (*sli_change_pair_kernel)(double *l, double *l1, sl_int columns, const double *c,
     double *w, int is_trial);
 
-typedef void (*sli_magnitudes_kernel)(const double *l, sl_int columns, const double *d,
-    double *sums);
+typedef void (*sli_magnitudes_kernel)(const double *l, ptrdiff_t stride, sl_int tiles,
+    sl_int columns, const double *d, double *w);
 
 typedef struct sli_ranks {
   double U[SLI_TILE][SLI_TILE];
@@ -25245,18 +25246,21 @@ static void sli_update_gains(const sli_update *u, const sli_step *step, const sl
   const double *D = u->F->D + step->column;
   const sli_change_kernels *kernels = sli_change_kernels_of(u->F->kernels->isa);
   double *sums = u->local;
-  sl_int t, r;
-  for (t = step->first_tile; t < sli_tiles(all); t++) {
-    const sl_int first = SLI_TILE * t, end = sli_min(first + SLI_TILE, all);
-    for (r = first; r < first + SLI_TILE; r++) {
+  const sl_int stride = SLI_TILE * step->width, square = step->width / SLI_TILE;
+  sl_int t, r, tiles;
+  for (t = step->first_tile; t < sli_tiles(all); t += tiles) {
+    const sl_int first = SLI_TILE * t;
+    tiles = t >= square && t + 4 <= sli_tiles(all) ? 4 : 1;
+    for (r = first; r < first + SLI_TILE * tiles; r++) {
       sums[r - first] = r < step->width ? fabs(D[r - entered]) : 0.0;
     }
-    kernels->magnitudes(u->panel + sli_panel_at(step->width, first, entered),
+    kernels->magnitudes(u->panel + sli_panel_at(step->width, first, entered), stride, tiles,
         sli_min(first + SLI_TILE, step->width) - entered, D, sums);
-    for (r = first; r < end; r++) {
-      double *gain =
-        &u->gain[r < step->width ? step->base + r - entered : rows[r - step->width]];
-      *gain += sign * sums[r - first];
+    for (r = first; r < sli_min(first + SLI_TILE * tiles, step->width); r++) {
+      u->gain[step->base + r - entered] += sign * sums[r - first];
+    }
+    for (; r < sli_min(first + SLI_TILE * tiles, all); r++) {
+      u->gain[rows[r - step->width]] += sign * sums[r - first];
     }
   }
 }
@@ -25741,8 +25745,9 @@ static void sli_rank_walk(const sli_rank *q, sl_int k, sli_rank_path *path, sli_
 static double sli_rank_cost(const sli_rank *q, sl_int count, sl_off entries) {
   const int is_path = sli_rank_is_path(q, count);
   const int kind = is_path ? SLI_NRHS_1 : sli_update_kind(count);
-  return sli_costs_of(q->u.F->kernels->isa)->change[kind] * (double)entries +
-       (is_path ? SLI_CHANGE_PATH : SLI_CHANGE_PASS);
+  const double entry = sli_costs_of(q->u.F->kernels->isa)->change[kind] +
+             (q->u.sign == 0.0 ? SLI_CHANGE_GAINS : 0.0);
+  return entry * (double)entries + (is_path ? SLI_CHANGE_PATH : SLI_CHANGE_PASS);
 }
 
 typedef struct sli_rank_rest {
@@ -25806,8 +25811,8 @@ static void sli_rank_plan(sli_rank *q, int may_fail) {
   }
   if (q->count <= SLI_TILE &&
       (one.cost <= best.cost ||
-      (may_fail && (prefers_log ? one.cost + log : SLI_CHANGE_TRIAL * one.cost) <=
-      best.cost + log))) {
+      (may_fail &&
+      (prefers_log ? one.cost + log : SLI_CHANGE_TRIAL * one.cost) <= best.cost + log))) {
     best = one;
     q->ends[0] = q->count;
   }
@@ -25851,6 +25856,7 @@ static void sli_rank_sort(void *data) {
   }
   SLI_CLEAR(q->whole);
   if (q->status != SL_OK) {
+    q->count = 0;
     return;
   }
   q->updates = q->count;
@@ -36211,6 +36217,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_CHANGE_PATH
 #undef SLI_CHANGE_PASS
 #undef SLI_CHANGE_SPLIT
+#undef SLI_CHANGE_GAINS
 #undef SLI_CHANGE_LOG
 #undef SLI_CHANGE_TRIAL
 #undef SLI_CHANGE_HIDDEN
@@ -37552,24 +37559,35 @@ SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
 #undef SLI_CARRY
 #undef SLI_CHANGE
 
-SLV_FUNCTION static void SLV_NAME(change_magnitudes)(const double *l, sl_int columns,
-    const double *d, double *sums) {
+#define SLI_ADD(r, unused) \
+  SLV_LOAD(a, l + (r)*stride) \
+  SLV_MULTIPLY(b, a, s) \
+  SLV_MULTIPLY(b, a, b) \
+  SLV_ADD(w##r, b)
+#define SLI_MAGNITUDES(each) \
+  each(SLI_DECLARE, 0) each(SLI_LOAD, 0) for (j = 0; j < columns; j++, l += SLI_TILE) { \
+    const double size = fabs(d[j]); \
+    SLV_BROADCAST(s, &size) \
+    each(SLI_ADD, 0) \
+  } \
+  each(SLI_STORE, 0)
+#define SLI_EACH1(op, k) op(0, k)
+SLV_FUNCTION static void SLV_NAME(change_magnitudes)(const double *l, ptrdiff_t stride,
+    sl_int tiles, sl_int columns, const double *d,
+    double *w) {
   sl_int j;
   SLV_DECLARE(a)
   SLV_DECLARE(b)
   SLV_DECLARE(s)
-  SLV_LOAD(s, sums)
-  for (j = 0; j < columns; j++, l += SLI_TILE) {
-    const double size = fabs(d[j]);
-    SLV_LOAD(a, l)
-    SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
-    SLV_BROADCAST(b, &size)
-    SLV_MULTIPLY(b, a, b)
-    SLV_MULTIPLY(b, a, b)
-    SLV_ADD(s, b)
+  if (tiles == 4) {
+    SLI_MAGNITUDES(SLI_EACH4)
+  } else {
+    SLI_MAGNITUDES(SLI_EACH1)
   }
-  SLV_STORE(sums, s)
 }
+#undef SLI_ADD
+#undef SLI_MAGNITUDES
+#undef SLI_EACH1
 
 #define SLI_FORWARD(k, unused) \
   if (SLI_IS_IN(k, columns)) { \
@@ -37810,8 +37828,8 @@ SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u, int has_sweep, 
       at[t] = l;
       l += SLI_TILE * sli_min(width, row + SLI_TILE * (t + 1));
     }
-    SLV_NAME(change_tiles)(count, at, first, sli_min(row, width), y, b, w + row, has_change,
-        u->ahead);
+    SLV_NAME(change_tiles)
+    (count, at, first, sli_min(row, width), y, b, w + row, has_change, u->ahead);
     for (t = 1; t <= count && row + SLI_TILE * (t - 1) < width; t++) {
       double *inner;
       SLV_DECLARE(x)

@@ -95,25 +95,37 @@ SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
 #undef SLI_CARRY
 #undef SLI_CHANGE
 
-/* sums(i) += |l(i, j)| |d(j)| |l(i, j)| for the rows of one tile. */
-SLV_FUNCTION static void SLV_NAME(change_magnitudes)(const double *l, sl_int columns,
-                                                     const double *d, double *sums) {
+/* sums(i) += |l(i, j)| |d(j)| |l(i, j)| for the rows of one tile, or of 4 so that their sums do not
+ * wait for each other. */
+#define SLI_ADD(r, unused) \
+    SLV_LOAD(a, l + (r)*stride) \
+    SLV_MULTIPLY(b, a, s) \
+    SLV_MULTIPLY(b, a, b) \
+    SLV_ADD(w##r, b)
+#define SLI_MAGNITUDES(each) \
+    each(SLI_DECLARE, 0) each(SLI_LOAD, 0) for (j = 0; j < columns; j++, l += SLI_TILE) { \
+        const double size = fabs(d[j]); \
+        SLV_BROADCAST(s, &size) \
+        each(SLI_ADD, 0) \
+    } \
+    each(SLI_STORE, 0)
+#define SLI_EACH1(op, k) op(0, k)
+SLV_FUNCTION static void SLV_NAME(change_magnitudes)(const double *l, ptrdiff_t stride,
+                                                     sl_int tiles, sl_int columns, const double *d,
+                                                     double *w) {
     sl_int j;
     SLV_DECLARE(a)
     SLV_DECLARE(b)
     SLV_DECLARE(s)
-    SLV_LOAD(s, sums)
-    for (j = 0; j < columns; j++, l += SLI_TILE) {
-        const double size = fabs(d[j]);
-        SLV_LOAD(a, l)
-        SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
-        SLV_BROADCAST(b, &size)
-        SLV_MULTIPLY(b, a, b)
-        SLV_MULTIPLY(b, a, b)
-        SLV_ADD(s, b)
+    if (tiles == 4) {
+        SLI_MAGNITUDES(SLI_EACH4)
+    } else {
+        SLI_MAGNITUDES(SLI_EACH1)
     }
-    SLV_STORE(sums, s)
 }
+#undef SLI_ADD
+#undef SLI_MAGNITUDES
+#undef SLI_EACH1
 
 /* y := what a forward sweep makes of the rows of a diagonal tile, which has `columns` columns. */
 #define SLI_FORWARD(k, unused) \
@@ -364,8 +376,8 @@ SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u, int has_sweep, 
             at[t] = l;
             l += SLI_TILE * sli_min(width, row + SLI_TILE * (t + 1));
         }
-        SLV_NAME(change_tiles)(count, at, first, sli_min(row, width), y, b, w + row, has_change,
-                               u->ahead);
+        SLV_NAME(change_tiles)
+        (count, at, first, sli_min(row, width), y, b, w + row, has_change, u->ahead);
         for (t = 1; t <= count && row + SLI_TILE * (t - 1) < width; t++) {
             double *inner;
             SLV_DECLARE(x)

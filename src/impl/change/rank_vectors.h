@@ -178,8 +178,9 @@ static void sli_rank_walk(const sli_rank *q, sl_int k, sli_rank_path *path, sli_
 static double sli_rank_cost(const sli_rank *q, sl_int count, sl_off entries) {
     const int is_path = sli_rank_is_path(q, count);
     const int kind = is_path ? SLI_NRHS_1 : sli_update_kind(count);
-    return sli_costs_of(q->u.F->kernels->isa)->change[kind] * (double)entries +
-           (is_path ? SLI_CHANGE_PATH : SLI_CHANGE_PASS);
+    const double entry = sli_costs_of(q->u.F->kernels->isa)->change[kind] +
+                         (q->u.sign == 0.0 ? SLI_CHANGE_GAINS : 0.0);
+    return entry * (double)entries + (is_path ? SLI_CHANGE_PATH : SLI_CHANGE_PASS);
 }
 
 /* The passes from one vector on. A pass of k vectors reads and writes its entries once, with 4 k
@@ -251,8 +252,8 @@ static void sli_rank_plan(sli_rank *q, int may_fail) {
     }
     if (q->count <= SLI_TILE && /* of both signs they are not in one order: its reach is less */
         (one.cost <= best.cost ||
-         (may_fail && (prefers_log ? one.cost + log : SLI_CHANGE_TRIAL * one.cost) <=
-                          best.cost + log))) {
+         (may_fail &&
+          (prefers_log ? one.cost + log : SLI_CHANGE_TRIAL * one.cost) <= best.cost + log))) {
         best = one;
         q->ends[0] = q->count;
     }
@@ -298,6 +299,7 @@ static void sli_rank_sort(void *data) {
     }
     SLI_CLEAR(q->whole);
     if (q->status != SL_OK) {
+        q->count = 0; /* there are no passes */
         return;
     }
     q->updates = q->count;

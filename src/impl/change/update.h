@@ -126,19 +126,22 @@ static void sli_update_gains(const sli_update *u, const sli_step *step, const sl
     const double *D = u->F->D + step->column;
     const sli_change_kernels *kernels = sli_change_kernels_of(u->F->kernels->isa);
     double *sums = u->local; /* before and after the vectors */
-    sl_int t, r;
-    for (t = step->first_tile; t < sli_tiles(all); t++) {
-        const sl_int first = SLI_TILE * t, end = sli_min(first + SLI_TILE, all);
-        for (r = first; r < first + SLI_TILE; r++) {
+    const sl_int stride = SLI_TILE * step->width, square = step->width / SLI_TILE;
+    sl_int t, r, tiles;
+    for (t = step->first_tile; t < sli_tiles(all); t += tiles) {
+        const sl_int first = SLI_TILE * t;
+        tiles = t >= square && t + 4 <= sli_tiles(all) ? 4 : 1;
+        for (r = first; r < first + SLI_TILE * tiles; r++) {
             sums[r - first] = r < step->width ? fabs(D[r - entered]) : 0.0;
         }
-        /* of the tile's own rows what is not below the diagonal is 0 */
-        kernels->magnitudes(u->panel + sli_panel_at(step->width, first, entered),
+        /* of the diagonal tiles what is not below the diagonal is 0 */
+        kernels->magnitudes(u->panel + sli_panel_at(step->width, first, entered), stride, tiles,
                             sli_min(first + SLI_TILE, step->width) - entered, D, sums);
-        for (r = first; r < end; r++) {
-            double *gain =
-                &u->gain[r < step->width ? step->base + r - entered : rows[r - step->width]];
-            *gain += sign * sums[r - first];
+        for (r = first; r < sli_min(first + SLI_TILE * tiles, step->width); r++) {
+            u->gain[step->base + r - entered] += sign * sums[r - first];
+        }
+        for (; r < sli_min(first + SLI_TILE * tiles, all); r++) {
+            u->gain[rows[r - step->width]] += sign * sums[r - first];
         }
     }
 }
