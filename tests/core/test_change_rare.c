@@ -235,7 +235,7 @@ static void a_laplacian_may_become_singular(void **state) {
     }
 }
 
-/* A vector of two rows is accepted if L has their entry, and only then. */
+/* Vectors of two rows, one or two, are accepted if L has their entry, and only then. */
 static void entries_outside_of_L_are_refused(void **state) {
     (void)state;
     enum { N = 64 };
@@ -243,7 +243,7 @@ static void entries_outside_of_L_are_refused(void **state) {
     opt.relaxation = SL_RELAXATION_NONE;
     factored_t y = factored_make(GEN_GRID2, N, 1, 0, &opt);
     const sl_int *perm = sl_symbolic_view(y.S).perm;
-    const double x[2] = {1e-3, 1e-3};
+    const double x[4] = {1e-3, 1e-3, 1e-3, 1e-3};
     sl_matrix *lower = NULL;
     SL_CHECK(sl_factor_lower(&lower, y.F, NULL));
     const sl_csc L = sl_matrix_view(lower);
@@ -253,8 +253,8 @@ static void entries_outside_of_L_are_refused(void **state) {
             has[L.i[q]] = 1;
         }
         for (sl_int k = j + 1; k < N; k++) {
-            const sl_int p[2] = {0, 2}, i[2] = {perm[k], perm[j]};
-            const sl_csc V = {N, 1, p, i, x};
+            const sl_int p[3] = {0, 2, 4}, i[4] = {perm[k], perm[j], perm[k], perm[j]};
+            const sl_csc V = {N, 1 + (j + k) % 2, p, i, x};
             SL_EXPECT(has[k] ? SL_OK : SL_ERR_OTHER_PATTERN,
                       sl_factor_update(y.F, &V, NULL, NULL, NULL));
         }

@@ -80,8 +80,8 @@ static void a_factor_that_becomes_singular_is_refused(void **state) {
     }
 }
 
-/* A downdate is tried first, by 1 to 8 vectors in a pass. What is tried and refused leaves F; what is
- * tried and taken is undone by an update. */
+/* A downdate is tried first, by 1 to 8 vectors in a pass. What is tried and refused leaves F; what
+ * is tried and taken is undone by an update. */
 static void a_downdate_is_tried_first(void **state) {
     (void)state;
     enum { N = 210, MOST = 8 };

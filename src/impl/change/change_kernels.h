@@ -14,7 +14,7 @@ typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, do
 typedef void (*sli_change_pair_kernel)(double *l, double *l1, sl_int columns, const double *c,
                                        double *w, int is_trial);
 
-/* Adds |l| |d| |l| of the columns of row tile l, or of 4 tiles `stride` doubles apart, to the sums w of
+/* Adds |l| |d| |l| of the columns of row tile l, or of 4 `stride` doubles apart, to the sums w of
  * their rows. w: [tile][8], 64-byte aligned */
 typedef void (*sli_magnitudes_kernel)(const double *l, ptrdiff_t stride, sl_int tiles,
                                       sl_int columns, const double *d, double *w);

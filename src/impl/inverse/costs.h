@@ -50,7 +50,7 @@ SLI_INLINE const sli_costs *sli_costs_of(sl_isa isa) {
 #define SLI_CHANGE_INPUT 2.5e-9                            /* an entry of A */
 
 /* In entries of L in a pass of one vector: such a pass, another one, and for each vector the search
- * for the best passes; the gains of an entry in a pass where pivots have both signs; the copy of one
+ * for the best passes; the gains of an entry where pivots have both signs; the copy of one
  * of so many entries; and, in the pass alone, a pass that is tried first. */
 #define SLI_CHANGE_PATH 800.0
 #define SLI_CHANGE_PASS 3000.0

@@ -28,8 +28,8 @@
  *                         columns; with SLV_OWN_SMALL it is compiled for this instruction set
  *  SLV_PLAIN              defined: this is plain C
  *  SLV_ARRAYS             defined: vectors are arrays, and tiles of fronts are computed in loops
- *  SLV_NAME_PIVOTS(f)     name of the function for a tile of pivots, and of others that gain nothing
- *                         from longer registers; SLV_OWN_PIVOTS: SLV_NAME
+ *  SLV_NAME_PIVOTS(f)     name of the function for a tile of pivots, and of others that gain
+ *                         nothing from longer registers; SLV_OWN_PIVOTS: SLV_NAME
  *  SLV_ISA, SLV_FUNCTION  its sl_isa; the attributes of a function
  *  SLV_FNMA1(a, b, c)     scalars: c - a b, fused where the vectors are
  *  SLV_DECLARE(a)         declares a
