@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 76bf105295d968c6
+ * FNV-1a of the lines after this comment, without the license: a6a0732c6a4418be
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40148,7 +40148,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli
 #define SLI_DIVIDE_OWN(k, unused) \
   if (SLI_IS_IN(k, w)) { \
     SLW_LOAD(b, xs + (k)*stride) \
-    if (d != NULL) { \
+    if (SLW_NRHS > 2 || d != NULL) { \
       SLW_DIVIDE(b, d[k]) \
     } \
     SLW_ADD(a##k, b) \

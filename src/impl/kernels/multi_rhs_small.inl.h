@@ -74,13 +74,13 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli
 #define SLI_DIVIDE_OWN(k, unused) \
     if (SLI_IS_IN(k, w)) { \
         SLW_LOAD(b, xs + (k)*stride) \
-        if (d != NULL) { \
+        if (SLW_NRHS > 2 || d != NULL) { \
             SLW_DIVIDE(b, d[k]) \
         } \
         SLW_ADD(a##k, b) \
     }
 
-/* l: the last tile of the panel. d is NULL if x is divided by D already. */
+/* l: the last tile of the panel. d may be NULL for 2 right-hand sides: D has divided x already. */
 SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sli_rows below,
                                                               const SLV_VALUE *l, const double *d,
                                                               double *xs, const double *x) {
