@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a6a0732c6a4418be
+ * FNV-1a of the lines after this comment, without the license: 389952c77c214c3a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -47,17 +47,17 @@
  *  21302 impl/ inverse: entries of the inverse, regions
  *  24401 impl/ change: a factor that follows changes of its matrix
  *  30690 impl/ dirichlet: rows fixed at given values
- *  31340 impl/ dirichlet: by a factor of all rows
- *  31572 impl/ io: files that are replaced only when they are complete
- *  31790 impl/ files: Matrix Market files, 64-bit indices
- *  32410 impl/ save: factors in files
- *  34422 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35105 impl/ batch: diagonals of many inverses
- *  35245 impl/ complex: complex Hermitian systems over real factors
- *  35807 impl/ complex: entries of the inverse
- *  35867 impl/ packs: the tables through which the core calls packs
- *  35916 impl/ last: undefine every internal macro
- *  36292 impl/ templates: the header includes them from itself, once for each instruction set
+ *  31339 impl/ dirichlet: by a factor of all rows
+ *  31571 impl/ io: files that are replaced only when they are complete
+ *  31789 impl/ files: Matrix Market files, 64-bit indices
+ *  32409 impl/ save: factors in files
+ *  34421 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35104 impl/ batch: diagonals of many inverses
+ *  35244 impl/ complex: complex Hermitian systems over real factors
+ *  35806 impl/ complex: entries of the inverse
+ *  35866 impl/ packs: the tables through which the core calls packs
+ *  35915 impl/ last: undefine every internal macro
+ *  36291 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -31263,8 +31263,7 @@ static sl_status sli_dirichlet_run(const sl_dirichlet *D, const sli_rhs *rhs, co
   const sli_query q = sli_query_all(D->S);
   sli_sweep_tasks t;
   sl_status status = sli_query_prepare(&t, D->F, &q, &in_place, W);
-  if (status == SL_OK && t.workers == 1 && D->F->null.count == 0 &&
-      D->n_free > 0) {
+  if (status == SL_OK && t.workers == 1 && D->F->null.count == 0 && D->n_free > 0) {
     const size_t bytes = sli_vectors_bytes(&q, rhs->nrhs, SLI_BLOCK_MOST);
     sli_block b = {NULL, 0};
     sl_int *index;
@@ -37111,10 +37110,10 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
       (to), _mm512_add_pd(_mm512_load_pd(to), \
       _mm512_maskz_permutexvar_pd(expand_, order_, _mm512_loadu_pd(from))));
 #define SLV_REPEAT_ROWS(t, l, k) \
-  t = _mm512_maskz_permutexvar_pd( \
-      0xff, \
-      _mm512_set_epi64(4 * (k) + 3, 4 * (k) + 3, 4 * (k) + 2, 4 * (k) + 2, 4 * (k) + 1, \
-      4 * (k) + 1, 4 * (k), 4 * (k)), \
+  t = _mm512_maskz_permutexvar_pd(0xff, \
+      _mm512_set_epi64(4 * (k) + 3, 4 * (k) + 3, 4 * (k) + 2, \
+      4 * (k) + 2, 4 * (k) + 1, 4 * (k) + 1, \
+      4 * (k), 4 * (k)), \
       SLV_READ(l));
 #define SLV_REPEAT(b, p) \
   b = _mm512_castps_pd(_mm512_maskz_broadcast_f32x4(0xffff, _mm_castpd_ps(_mm_loadu_pd(p))));

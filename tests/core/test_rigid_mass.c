@@ -80,9 +80,8 @@ static void every_way_gives_the_same_bits(void **state) {
         SL_CHECK(sl_work_create(&W, NULL));
         for (int k = 0; k < 6; k++) {
             static const sl_int nb[6] = {1, 1, 12, -1, 8, 0}, nx[6] = {1, 8, -1, 5, 8, 3};
-            local_solve_t q =
-                local_solve_random(f.F, n, nb[k], nx[k], 1 + which % 9 + 16 * (which % 4),
-                                   (uint64_t)(which + 10 * k));
+            local_solve_t q = local_solve_random(
+                f.F, n, nb[k], nx[k], 1 + which % 9 + 16 * (which % 4), (uint64_t)(which + 10 * k));
             local_solve_check(f.S, f.F, &q, W);
             local_solve_free(&q);
         }

@@ -153,8 +153,7 @@ static void interleaved_and_batch_solves_give_the_same_bits(void **state) {
         SAME_VALUES(Y, X, N * R);
         memset(Y, 0, N * R * sizeof *Y);
         for (sl_int r = 0; r < R; r += 8) {
-            SL_CHECK(
-                sl_factor_solve(F, Y + N * r, N, B + N * r, N, r + 8 < R ? 8 : R - r, NULL));
+            SL_CHECK(sl_factor_solve(F, Y + N * r, N, B + N * r, N, r + 8 < R ? 8 : R - r, NULL));
         }
         SAME_VALUES(Y, X, N * R);
         sl_factor_free(F);

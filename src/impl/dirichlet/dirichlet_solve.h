@@ -65,9 +65,8 @@ static int sli_dirichlet_set_fixed(const sl_dirichlet *D, const sli_rhs *rhs, co
     return is_finite;
 }
 
-/* Solves by a regular factor of the free rows, from B to X: index holds
- * where each row is in the vector, for a fixed row that of the next free one, which overwrites it.
- */
+/* Solves by a regular factor of the free rows, from B to X. index: gets where each row is in the
+ * vector, for a fixed row that of the next free one, which overwrites it. */
 static sl_status sli_dirichlet_blocks(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
                                       size_t ldg, sl_int *index, void *memory) {
     const sl_factor *F = D->F;
@@ -119,8 +118,7 @@ static sl_status sli_dirichlet_run(const sl_dirichlet *D, const sli_rhs *rhs, co
     const sli_query q = sli_query_all(D->S);
     sli_sweep_tasks t;
     sl_status status = sli_query_prepare(&t, D->F, &q, &in_place, W);
-    if (status == SL_OK && t.workers == 1 && D->F->null.count == 0 &&
-        D->n_free > 0) {
+    if (status == SL_OK && t.workers == 1 && D->F->null.count == 0 && D->n_free > 0) {
         const size_t bytes = sli_vectors_bytes(&q, rhs->nrhs, SLI_BLOCK_MOST);
         sli_block b = {NULL, 0};
         sl_int *index;
