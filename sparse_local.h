@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 389952c77c214c3a
+ * FNV-1a of the lines after this comment, without the license: 4415fb6a53d1d7e9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -1256,8 +1256,8 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *                untouched.
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements, or row-major as X.
  *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 64, 32 and
- *                16, with the bits of blocks of 8, then of up to 8. 8 take as long as two to three
- *                single solves, 32 as long as six to eight.
+ *                13 to 16, with the bits of blocks of 8, then of up to 8. 8 take as long as two to
+ *                three single solves, 32 as long as six to eight.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_INCONSISTENT: a column of B has no
  *           solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: a number of B is not, or
  *           X overflows: X is written; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
@@ -2071,8 +2071,8 @@ typedef struct sl_request {
  *            in sl_factor_solve; SL_ERR_NOT_FINITE: the same, all requests are solved;
  *            SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost      that of the solves, distributed by the entries of L that each reads; one workspace of
- *            the largest size per thread. If consistency is checked, all of B is read
- *            twice, with one more forward sweep where null vectors are not known.
+ *            the largest size per thread. If consistency is checked, all of B is read twice,
+ *            with one more forward sweep where null vectors are not known.
  *  Threads   as sl_plan_solve.
  *  Example   tests/core/test_batch.c
  */
@@ -2441,7 +2441,7 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *           numbers; SL_ERR_READ_ONLY: F is mapped; SL_ERR_UNSUPPORTED: null pivots were skipped,
  *           there are 2x2 pivots, or L is not in double; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
- *           written once for 8 vectors. Changes that may fail read them once more, or copy them.
+ *           written once for up to 8 vectors. Changes that may fail read them again, or copy them.
  *           The first change of a definite factor allocates 9 bytes a row, for drift.
  *  Threads  exclusive use of F.
  *  Source   [DH01], with the factorization of [Bie76] for several vectors.
@@ -37110,10 +37110,9 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
       (to), _mm512_add_pd(_mm512_load_pd(to), \
       _mm512_maskz_permutexvar_pd(expand_, order_, _mm512_loadu_pd(from))));
 #define SLV_REPEAT_ROWS(t, l, k) \
-  t = _mm512_maskz_permutexvar_pd(0xff, \
-      _mm512_set_epi64(4 * (k) + 3, 4 * (k) + 3, 4 * (k) + 2, \
-      4 * (k) + 2, 4 * (k) + 1, 4 * (k) + 1, \
-      4 * (k), 4 * (k)), \
+  t = _mm512_maskz_permutexvar_pd( \
+      0xff, \
+      _mm512_add_epi64(_mm512_set1_epi64(4 * (k)), _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0)), \
       SLV_READ(l));
 #define SLV_REPEAT(b, p) \
   b = _mm512_castps_pd(_mm512_maskz_broadcast_f32x4(0xffff, _mm_castpd_ps(_mm_loadu_pd(p))));

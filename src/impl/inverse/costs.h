@@ -5,7 +5,8 @@
 
 #include "../kernels/dispatch.h"
 
-/* `make measure-costs` prints a row of the machine that it runs on. */
+/* `make measure-costs` prints a row of the machine that it runs on, but for `change`, which was
+ * fitted to changes on grids of 1e4 and 1e5 rows and 20^3. */
 typedef struct sli_costs {
     /* A forward sweep of 1, 2, 4, 8 lanes over an entry of L, the compilation of the reach
      * included. The unit is that of one lane. */

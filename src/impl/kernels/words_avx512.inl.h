@@ -96,11 +96,10 @@
         (to), _mm512_add_pd(_mm512_load_pd(to), \
                             _mm512_maskz_permutexvar_pd(expand_, order_, _mm512_loadu_pd(from))));
 #define SLV_REPEAT_ROWS(t, l, k) \
-    t = _mm512_maskz_permutexvar_pd(0xff, \
-                                    _mm512_set_epi64(4 * (k) + 3, 4 * (k) + 3, 4 * (k) + 2, \
-                                                     4 * (k) + 2, 4 * (k) + 1, 4 * (k) + 1, \
-                                                     4 * (k), 4 * (k)), \
-                                    SLV_READ(l));
+    t = _mm512_maskz_permutexvar_pd( \
+        0xff, \
+        _mm512_add_epi64(_mm512_set1_epi64(4 * (k)), _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0)), \
+        SLV_READ(l));
 #define SLV_REPEAT(b, p) \
     b = _mm512_castps_pd(_mm512_maskz_broadcast_f32x4(0xffff, _mm_castpd_ps(_mm_loadu_pd(p))));
 
