@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4415fb6a53d1d7e9
+ * FNV-1a of the lines after this comment, without the license: c586fb80acfdf703
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38299,11 +38299,16 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
     sli_rows below, double *x) {
   sl_int r;
   SLW_DECLARE(b)
+  SLW_DECLARE(c)
   for (r = 0; r < SLW_ROWS && r < inner + below.count; r++) {
+    double *to = r < inner ? own + (ptrdiff_t)r * below.lanes
+                 : x + (ptrdiff_t)below.index[r - inner] * below.lanes;
     SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_NRHS)
-    SLW_STORE(r < inner ? own + (ptrdiff_t)r * below.lanes
-        : x + (ptrdiff_t)below.index[r - inner] * below.lanes,
-        b)
+    if (r >= inner) {
+      SLW_LOAD(c, to)
+      SLW_ADD(b, c)
+    }
+    SLW_STORE(to, b)
   }
 }
 #endif
@@ -40112,6 +40117,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli
   sl_int lane = w, i;
   SLW_EACH(SLI_DECLARE, 0)
   SLW_DECLARE(b)
+  SLW_DECLARE(c)
   SLW_ENTRIES(v, SLI_TILE)
   SLI_CLEAR_WIDE
   SLW_SET_ENTRIES(v, l, w, SLI_TILE)
@@ -40128,9 +40134,11 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli
       SLW_SET_ENTRIES(v, l, w, SLI_TILE)
       SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
     }
-    SLW_LOAD(b, to)
+    SLW_ZERO(b)
+    SLW_LOAD(c, to)
     SLW_EACH(SLI_BELOW_OWN, 0)
-    SLW_STORE(to, b)
+    SLW_ADD(c, b)
+    SLW_STORE(to, c)
   }
 }
 
@@ -40272,7 +40280,7 @@ SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *val
       for (i = 0; i < s->below; i++) {
         double *to = x + 2 * (ptrdiff_t)rows[i];
         for (j = 0; j < 2; j++) {
-          to[j] = SLV_FNMA1((double)tile[1 + i], xs[j], to[j]);
+          to[j] += SLV_FNMA1((double)tile[1 + i], xs[j], 0.0);
         }
       }
       continue;
@@ -40417,7 +40425,15 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *va
 /* src/impl/kernels/multi_rhs_tiles.inl.h: several right-hand sides through supernodes of any width, by row tiles */
 
 #define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below.index[r] * stride)
-#define SLI_STORE_BELOW(r, p) SLW_STORE((p) + (ptrdiff_t)below.index[r] * stride, a##r)
+#define SLI_ZERO_ROW(r, unused) SLW_ZERO(a##r)
+#define SLI_ADD_BELOW(r, p) \
+  { \
+    double *to = (p) + (ptrdiff_t)below.index[r] * stride; \
+    SLW_DECLARE(b) \
+    SLW_LOAD(b, to) \
+    SLW_ADD(b, a##r) \
+    SLW_STORE(to, b) \
+  }
 
 #if defined(SLW_GROUPS)
 #define SLI_STRIDE_PARAMETER , sl_int stride
@@ -40455,13 +40471,16 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
     for (group = 0; group < stride && w == 1; group += SLW_NRHS) {
       SLW_DECLARE(a)
       SLW_DECLARE(b)
+      SLW_DECLARE(c)
       SLW_LOAD(a, xs + group)
       for (j = 0; j < s->below; j++) {
         double *to = x + (ptrdiff_t)rows[j] * stride + group;
         const SLW_ENTRY l = tile[1 + j];
-        SLW_LOAD(b, to)
+        SLW_ZERO(b)
         SLW_FNMA(b, l, a)
-        SLW_STORE(to, b)
+        SLW_LOAD(c, to)
+        SLW_ADD(c, b)
+        SLW_STORE(to, c)
       }
     }
     if (w == 1) {
@@ -40489,11 +40508,11 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
         const SLV_VALUE *l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t)first + lane;
         const double *xj = xs + (ptrdiff_t)first * stride + group;
         SLW_EACH(SLI_DECLARE, 0)
-        if (is_below) {
-          SLW_EACH(SLI_LOAD_BELOW, x + group)
+        if (inner == 0) {
+          SLW_EACH(SLI_ZERO_ROW, 0)
         } else {
           if (inner < SLW_ROWS) {
-            SLW_NAME(rows_in)(buf, inner, own, below, x + group);
+            SLW_NAME(rows_in)(buf, inner, own, sli_rows_of(NULL, 0, stride), x);
           }
           SLW_EACH(SLI_LOAD, p)
         }
@@ -40512,7 +40531,7 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
           SLI_TRIANGLE
         }
         if (is_below) {
-          SLW_EACH(SLI_STORE_BELOW, x + group)
+          SLW_EACH(SLI_ADD_BELOW, x + group)
           continue;
         }
         SLW_EACH(SLI_STORE, p)
@@ -40663,7 +40682,8 @@ SLI_GROUPED_KERNELS(64)
 #endif
 
 #undef SLI_LOAD_BELOW
-#undef SLI_STORE_BELOW
+#undef SLI_ZERO_ROW
+#undef SLI_ADD_BELOW
 #undef SLI_STRIDE_PARAMETER
 #undef SLI_SET_STRIDE
 #undef SLI_IS_DIRECT

@@ -17,15 +17,20 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, const 
     }
 }
 
-/* Copies the rows back from buf. */
+/* Copies the rows of the supernode's columns back from buf, and adds those below to x. */
 SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, double *own,
                                                 sli_rows below, double *x) {
     sl_int r;
     SLW_DECLARE(b)
+    SLW_DECLARE(c)
     for (r = 0; r < SLW_ROWS && r < inner + below.count; r++) {
+        double *to = r < inner ? own + (ptrdiff_t)r * below.lanes
+                               : x + (ptrdiff_t)below.index[r - inner] * below.lanes;
         SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_NRHS)
-        SLW_STORE(r < inner ? own + (ptrdiff_t)r * below.lanes
-                            : x + (ptrdiff_t)below.index[r - inner] * below.lanes,
-                  b)
+        if (r >= inner) {
+            SLW_LOAD(c, to)
+            SLW_ADD(b, c)
+        }
+        SLW_STORE(to, b)
     }
 }

@@ -40,6 +40,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli
     sl_int lane = w, i;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
+    SLW_DECLARE(c)
     SLW_ENTRIES(v, SLI_TILE)
     SLI_CLEAR_WIDE
     SLW_SET_ENTRIES(v, l, w, SLI_TILE)
@@ -48,7 +49,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli
     SLW_EACH(SLI_LOAD_OWN, xs)
     SLW_EACH(SLI_COLUMN_OWN, 0)
     SLW_EACH(SLI_STORE_OWN, xs)
-    for (i = 0; i < below.count; lane++, i++) { /* x(i) -= L(i, j) x(j) */
+    for (i = 0; i < below.count; lane++, i++) { /* x(i) -= the sum of L(i, j) x(j) */
         double *to = x + (ptrdiff_t)below.index[i] * stride;
         if (lane == SLI_TILE) {
             lane = 0;
@@ -56,9 +57,11 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli
             SLW_SET_ENTRIES(v, l, w, SLI_TILE)
             SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
         }
-        SLW_LOAD(b, to)
+        SLW_ZERO(b)
+        SLW_LOAD(c, to)
         SLW_EACH(SLI_BELOW_OWN, 0)
-        SLW_STORE(to, b)
+        SLW_ADD(c, b)
+        SLW_STORE(to, c)
     }
 }
 

@@ -17,7 +17,15 @@
 
 /* Rows below the diagonal block, at their positions in x. */
 #define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below.index[r] * stride)
-#define SLI_STORE_BELOW(r, p) SLW_STORE((p) + (ptrdiff_t)below.index[r] * stride, a##r)
+#define SLI_ZERO_ROW(r, unused) SLW_ZERO(a##r)
+#define SLI_ADD_BELOW(r, p) \
+    { \
+        double *to = (p) + (ptrdiff_t)below.index[r] * stride; \
+        SLW_DECLARE(b) \
+        SLW_LOAD(b, to) \
+        SLW_ADD(b, a##r) \
+        SLW_STORE(to, b) \
+    }
 
 #if defined(SLW_GROUPS)
 #define SLI_STRIDE_PARAMETER , sl_int stride
@@ -57,13 +65,16 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
         for (group = 0; group < stride && w == 1; group += SLW_NRHS) {
             SLW_DECLARE(a)
             SLW_DECLARE(b)
+            SLW_DECLARE(c)
             SLW_LOAD(a, xs + group)
             for (j = 0; j < s->below; j++) { /* x(i) -= L(i) y */
                 double *to = x + (ptrdiff_t)rows[j] * stride + group;
                 const SLW_ENTRY l = tile[1 + j];
-                SLW_LOAD(b, to)
+                SLW_ZERO(b)
                 SLW_FNMA(b, l, a)
-                SLW_STORE(to, b)
+                SLW_LOAD(c, to)
+                SLW_ADD(c, b)
+                SLW_STORE(to, c)
             }
         }
         if (w == 1) {
@@ -91,11 +102,11 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
                 const SLV_VALUE *l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t)first + lane;
                 const double *xj = xs + (ptrdiff_t)first * stride + group;
                 SLW_EACH(SLI_DECLARE, 0)
-                if (is_below) {
-                    SLW_EACH(SLI_LOAD_BELOW, x + group)
+                if (inner == 0) {
+                    SLW_EACH(SLI_ZERO_ROW, 0)
                 } else {
                     if (inner < SLW_ROWS) {
-                        SLW_NAME(rows_in)(buf, inner, own, below, x + group);
+                        SLW_NAME(rows_in)(buf, inner, own, sli_rows_of(NULL, 0, stride), x);
                     }
                     SLW_EACH(SLI_LOAD, p)
                 }
@@ -114,7 +125,7 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
                     SLI_TRIANGLE
                 }
                 if (is_below) {
-                    SLW_EACH(SLI_STORE_BELOW, x + group)
+                    SLW_EACH(SLI_ADD_BELOW, x + group)
                     continue;
                 }
                 SLW_EACH(SLI_STORE, p)
@@ -268,7 +279,8 @@ SLI_GROUPED_KERNELS(64)
 #endif
 
 #undef SLI_LOAD_BELOW
-#undef SLI_STORE_BELOW
+#undef SLI_ZERO_ROW
+#undef SLI_ADD_BELOW
 #undef SLI_STRIDE_PARAMETER
 #undef SLI_SET_STRIDE
 #undef SLI_IS_DIRECT

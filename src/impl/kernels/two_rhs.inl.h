@@ -34,7 +34,7 @@ SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *val
             for (i = 0; i < s->below; i++) {
                 double *to = x + 2 * (ptrdiff_t)rows[i];
                 for (j = 0; j < 2; j++) {
-                    to[j] = SLV_FNMA1((double)tile[1 + i], xs[j], to[j]);
+                    to[j] += SLV_FNMA1((double)tile[1 + i], xs[j], 0.0);
                 }
             }
             continue;
