@@ -58,7 +58,7 @@ CORE_TESTS := $(wildcard tests/core/test_*.c)
 TOOL_TESTS := $(wildcard tests/tools/test_*.c)
 TESTS := $(CORE_TESTS) $(TOOL_TESTS)
 FUZZERS := $(wildcard tests/fuzz/fuzz_*.c)
-SMALL_TASK_TESTS := $(patsubst %,tests/core/test_%.c,threads threads_solve inverse_threads reserve_inverse)
+SMALL_TASK_TESTS := $(patsubst %,tests/core/test_%.c,threads threads_solve inverse_threads reserve_inverse batch)
 # Tests that compile the bodies with their own faults, or are linked with small tasks.
 OWN_BODIES := $(shell grep -l 'define SPARSE_LOCAL_IMPLEMENTATION' $(TESTS) /dev/null) $(SMALL_TASK_TESTS)
 BENCH_SOURCES := $(wildcard bench/lib/*.c bench/questions/*.c)
@@ -264,7 +264,7 @@ test-no-simd: deps sparse_local.h ## tests of kernels and of choices by their co
 	@+$(SUB_MAKE) run-tests B=build/no_simd CFLAGS='-DSL_NO_SIMD $(CFLAGS)' REPLAYS= \
 	TEST_PROGRAMS='$(NO_SIMD:%=build/no_simd/tests/core/%)'
 
-THREADED = test_threads test_threads_solve test_ordering_threads test_batch test_batch_factor test_batch_inverse test_inverse_threads test_change_threads
+THREADED = test_threads test_threads_least test_threads_solve test_ordering_threads test_batch test_batch_factor test_batch_inverse test_inverse_threads test_change_threads
 
 test-openmp: deps sparse_local.h ## the tests of threads, with OpenMP compiled in
 	@+$(SUB_MAKE) run-tests B=build/openmp OPT='-O2 -fopenmp' REPLAYS= \

@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c586fb80acfdf703
+ * FNV-1a of the lines after this comment, without the license: 19ab707cfb4b859a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -23,41 +23,41 @@
  *   1842 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
  *   1935 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
  *   2042 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2083 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2204 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2235 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2417 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2516 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2626 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2667 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2753 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2861 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2895 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2972 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3015 impl/ base: the compiler, status, memory, sorting, threads
- *   4293 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5232 impl/ matrix: sparse matrices of the caller and of the library
- *   5907 impl/ ordering: fill-reducing orderings of a graph
- *  11009 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13233 impl/ factor: the numbers of L and D
- *  16610 impl/ solve: full and local solves
- *  18392 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20389 impl/ pivots: the order of the pivots by the values of a matrix
- *  20797 impl/ float: L and fronts in single precision
- *  21302 impl/ inverse: entries of the inverse, regions
- *  24401 impl/ change: a factor that follows changes of its matrix
- *  30690 impl/ dirichlet: rows fixed at given values
- *  31339 impl/ dirichlet: by a factor of all rows
- *  31571 impl/ io: files that are replaced only when they are complete
- *  31789 impl/ files: Matrix Market files, 64-bit indices
- *  32409 impl/ save: factors in files
- *  34421 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35104 impl/ batch: diagonals of many inverses
- *  35244 impl/ complex: complex Hermitian systems over real factors
- *  35806 impl/ complex: entries of the inverse
- *  35866 impl/ packs: the tables through which the core calls packs
- *  35915 impl/ last: undefine every internal macro
- *  36291 impl/ templates: the header includes them from itself, once for each instruction set
+ *   2084 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2205 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2236 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2418 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2517 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2627 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2668 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2754 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2862 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2896 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2973 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3016 impl/ base: the compiler, status, memory, sorting, threads
+ *   4294 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5233 impl/ matrix: sparse matrices of the caller and of the library
+ *   5908 impl/ ordering: fill-reducing orderings of a graph
+ *  11010 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13234 impl/ factor: the numbers of L and D
+ *  16611 impl/ solve: full and local solves
+ *  18458 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20455 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20863 impl/ float: L and fronts in single precision
+ *  21368 impl/ inverse: entries of the inverse, regions
+ *  24467 impl/ change: a factor that follows changes of its matrix
+ *  30756 impl/ dirichlet: rows fixed at given values
+ *  31405 impl/ dirichlet: by a factor of all rows
+ *  31637 impl/ io: files that are replaced only when they are complete
+ *  31855 impl/ files: Matrix Market files, 64-bit indices
+ *  32475 impl/ save: factors in files
+ *  34487 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35173 impl/ batch: diagonals of many inverses
+ *  35313 impl/ complex: complex Hermitian systems over real factors
+ *  35875 impl/ complex: entries of the inverse
+ *  35935 impl/ packs: the tables through which the core calls packs
+ *  35984 impl/ last: undefine every internal macro
+ *  36364 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1225,7 +1225,7 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  |-----------------------------------|--------------------------------------------------------|
  *  | sl_factor_solve, _solve_part,     | the analysis, nrhs, the threads of W, and whether F    |
  *  |  _multiply_part, _defects,        | has null pivots. Fewer right-hand sides need no more,  |
- *  |  _refine, _rcond                  | but a single one may with threads: try both            |
+ *  |  _refine, _rcond                  | but they may with threads: try each number             |
  *  | sl_factor_pseudo_inverse          | the analysis and the number of columns                 |
  *  | sl_dirichlet_solve                | the object, nrhs, and the threads of W                 |
  *  | sl_plan_solve, _solve_part        | the plan, nrhs, whether F has null pivots; fewer       |
@@ -1264,9 +1264,9 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
  *           min(nrhs, 64)). If consistency is checked, right-hand sides beyond the eighth are
  *           read twice, and take an additional forward sweep where null vectors are not known.
- *  Threads  any number at once on one F, each with its own W. A single right-hand side, and more
- *           than 8, of a regular A are distributed over the threads that W was created with, with
- *           the same bits; W then grows to twice the size, or to that for each thread.
+ *  Threads  any number at once on one F, each with its own W. Solves of a regular A that take a
+ *           few tenths of a ms are distributed over the threads that W was created with, with the
+ *           same bits; W then grows to twice the size, or to that for each thread.
  *  Example  tests/core/test_solve.c, test_interleaved.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx,
@@ -2071,8 +2071,9 @@ typedef struct sl_request {
  *            in sl_factor_solve; SL_ERR_NOT_FINITE: the same, all requests are solved;
  *            SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost      that of the solves, distributed by the entries of L that each reads; one workspace of
- *            the largest size per thread. If consistency is checked, all of B is read twice,
- *            with one more forward sweep where null vectors are not known.
+ *            the largest size per thread. A batch that takes less than a tenth of a ms is left to
+ *            one thread. If consistency is checked, all of B is read twice, with one more
+ *            forward sweep where null vectors are not known.
  *  Threads   as sl_plan_solve.
  *  Example   tests/core/test_batch.c
  */
@@ -16996,20 +16997,16 @@ SLI_NOINLINE static void sli_unpack_last(double *M, sli_dense at, const double *
 #undef SLI_PACK_LAST
 #undef SLI_UNPACK_LAST
 
-static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sli_rhs *rhs) {
-  const double *B = rhs->B;
+SLI_NOINLINE static void sli_pack_part(const sl_factor *F, const sli_query *q, double *y,
+    const sli_rhs *rhs, sl_int begin, sl_int end) {
   const sli_dense at = sli_dense_of(rhs->ldb);
-  const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs);
-  const sl_int *index = q->b_index, count = q->nb;
-  const int is_streamed = (size_t)count * (size_t)lanes > SLI_STREAMED;
+  const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs), count = end - begin;
+  const sl_int *index = q->b_index + begin;
+  const double *B = rhs->B + (size_t)begin * at.row;
+  const int is_streamed = (size_t)q->nb * (size_t)lanes > SLI_STREAMED;
   sl_int first, chunk, r;
-  if (q->b_repeats || q->nb < q->forward.columns || nrhs < lanes) {
-    SLI_ZERO(y, (size_t)q->forward.columns * (size_t)lanes);
-  }
-  if (q->b_repeats) {
-    sli_pack_sums(y, sli_rows_of(index, count, lanes), B, at, nrhs);
-  } else if (nrhs == 1 && index == F->S->iperm && at.row == 1) {
-    sli_unpack_rows(y, at, B, sli_rows_of(F->S->perm, count, 1), 1);
+  if (nrhs == 1 && q->b_index == F->S->iperm && at.row == 1) {
+    sli_unpack_rows(y + begin, at, rhs->B, sli_rows_of(F->S->perm + begin, count, 1), 1);
   } else if (nrhs == 1) {
     sli_pack_rows(y, sli_rows_of(index, count, 1), B, at, 1);
   } else if (nrhs == 2) {
@@ -17041,12 +17038,25 @@ static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sl
   }
 }
 
-static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
-    const double *x) {
-  double *X = rhs->X;
+static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sli_rhs *rhs) {
+  const sl_int lanes = (sl_int)1 << sli_lanes_kind(rhs->nrhs);
+  if (q->b_repeats || q->nb < q->forward.columns || rhs->nrhs < lanes) {
+    SLI_ZERO(y, (size_t)q->forward.columns * (size_t)lanes);
+  }
+  if (q->b_repeats) {
+    sli_pack_sums(y, sli_rows_of(q->b_index, q->nb, lanes), rhs->B, sli_dense_of(rhs->ldb),
+        rhs->nrhs);
+  } else if (q->nb > 0) {
+    sli_pack_part(F, q, y, rhs, 0, q->nb);
+  }
+}
+
+SLI_NOINLINE static void sli_unpack_part(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
+    const double *x, sl_int begin, sl_int end) {
   const sli_dense at = sli_dense_of(rhs->ldx);
-  const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs);
-  const sl_int *index = q->x_index, count = q->nx;
+  const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs), count = end - begin;
+  const sl_int *index = q->x_index + begin;
+  double *X = rhs->X + (size_t)begin * at.row;
   sl_int first, chunk, r;
   if (nrhs == 1) {
     sli_unpack_rows(X, at, x, sli_rows_of(index, count, 1), 1);
@@ -17077,6 +17087,11 @@ static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rh
       }
     }
   }
+}
+
+static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
+    const double *x) {
+  sli_unpack_part(F, q, rhs, x, 0, q->nx);
 }
 
 /* src/impl/solve/singular.h: solves with null pivots: the consistency check, and centering */
@@ -17453,14 +17468,21 @@ static int sli_reach_is_finite(const sl_factor *F, const sli_reach *R, const dou
   return is_finite;
 }
 
-/* src/impl/solve/sweep_tasks.h: one right-hand side of a full solve by several workers: subtrees, then the rest */
+/* src/impl/solve/sweep_tasks.h: full solves by several workers: by subtrees, or by blocks of right-hand sides */
 
 #if defined(SLI_SMALL_TASKS)
 #define SLI_SOLVE_ENTRIES 1
+#define SLI_SOLVE_GAIN (-1e30)
 #else
 #define SLI_SOLVE_ENTRIES 400000
+#define SLI_SOLVE_GAIN 400000.0
 #endif
+#define SLI_SOLVE_SLOT 12.0
 #define SLI_SOLVE_TASKS 64
+
+#define SLI_SOLVE_ROWS 4096
+
+#define SLI_SOLVE_SHARE 16
 
 typedef struct sli_sweep_task {
   sl_int first, last;
@@ -17471,6 +17493,8 @@ typedef struct sli_sweep_tasks {
   const sl_factor *F;
   const sli_query *q;
   sli_rhs rhs;
+  sli_rhs block;
+  int kind;
   sl_int workers;
   sl_int share;
   sl_int n_tasks, n_tops, n_slots;
@@ -17606,75 +17630,74 @@ static void sli_sweep_tasks_finish(sli_sweep_tasks *t) {
   }
 }
 
+static size_t sli_sweep_tasks_scratch(const sli_sweep_tasks *t) {
+  const sl_symbolic *S = t->F->S;
+  const size_t few = sli_sweep_scratch(S->tallest, S->widest, 2);
+  const size_t many = sli_sweep_scratch(S->tallest, S->widest, SLI_BLOCK_MOST);
+  return few > many ? few : many;
+}
+
 static void sli_sweep_tasks_layout(sli_sweep_tasks *t, sli_block *b) {
   const sl_symbolic *S = t->F->S;
-  const uint64_t workers = (uint64_t)t->workers;
-  t->y = SLI_TAKE(b, double, (uint64_t)S->n + (uint64_t)t->n_slots);
-  t->scratch = SLI_TAKE(b, double, workers *sli_sweep_scratch(S->tallest, S->widest, 1));
+  const uint64_t workers = (uint64_t)t->workers, rows = (uint64_t)S->n + (uint64_t)t->n_slots;
+  const int kind = sli_lanes_kind(sli_block_size(t->rhs.nrhs, SLI_BLOCK_MOST));
+  t->y = SLI_TAKE(b, double, rows << kind);
+  t->scratch = SLI_TAKE(b, double, workers *sli_sweep_tasks_scratch(t));
   t->slot_row = SLI_TAKE(b, sl_int, t->n_slots);
   t->rows = SLI_TAKE(b, sl_int, workers * (uint64_t)S->tallest);
+}
+
+static int sli_sweep_tasks_by_trees(sli_sweep_tasks *t, sl_int workers) {
+  const sl_symbolic *S = t->F->S;
+  const double entries = (double)S->panel_begin[S->n_supers], nrhs = t->rhs.nrhs;
+  const double weight = (4.0 + nrhs) / 5.0;
+  const double shares = weight * entries / SLI_SOLVE_ENTRIES;
+  double gain;
+  workers = shares < workers ? (sl_int)shares : workers;
+  if (workers < 2) {
+    return 0;
+  }
+  gain = entries - sli_sweep_tasks_divide(t, workers);
+  if (gain <= 0.0) {
+    return 0;
+  }
+  sli_sweep_tasks_finish(t);
+  if (weight * gain - SLI_SOLVE_SLOT * nrhs * t->n_slots < SLI_SOLVE_GAIN * (1.0 + nrhs / 16.0) ||
+      t->n_slots > SLI_ROWS_MAX - S->n) { /* untested: 2^31 rows */
+    return 0;
+  }
+  t->workers = workers;
+  return 1;
 }
 
 static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const sli_query *q,
     const sli_rhs *rhs, const sl_threads *threads) {
   const sl_symbolic *S = F->S;
-  const sl_int nrhs = rhs->nrhs;
-  sl_off entries = S->panel_begin[S->n_supers] / SLI_SOLVE_ENTRIES;
+  const sl_int nrhs = rhs->nrhs, most = sli_team_workers(threads);
+  const double shares = 8.0 * (double)S->panel_begin[S->n_supers] / SLI_SOLVE_ENTRIES;
   sli_block b = {NULL, 0};
-  sl_int workers;
   t->workers = 1;
-  workers = sli_team_workers(threads);
-  if (nrhs > 8) {
-    workers = sli_min(workers, sli_tiles(nrhs));
-    entries *= 8;
-  }
-  workers = entries < workers ? (sl_int)entries : workers;
-  if (workers < 2 || (nrhs > 1 && nrhs <= 8) || q->b_index != S->iperm ||
-      q->x_index != S->iperm || F->null.checks || F->null.count > 0) {
+  t->share = 0;
+  if (most < 2 || q->b_index != S->iperm || q->x_index != S->iperm || F->null.checks ||
+      F->null.count > 0) {
     return;
   }
   t->F = F;
   t->q = q;
   t->rhs = *rhs;
-  if (nrhs > 8) {
+  if (nrhs < SLI_SOLVE_SHARE * (int64_t)most && sli_sweep_tasks_by_trees(t, most)) {
+    sli_sweep_tasks_layout(t, &b);
+  } else if (nrhs > 8) {
+    t->workers = sli_min(most, sli_tiles(nrhs));
+    t->workers = shares < t->workers ? sli_max((sl_int)shares, 1) : t->workers;
     t->share = 8;
-    while (2 * t->share * workers <= nrhs && t->share < SLI_BLOCK_MOST) {
+    while (2 * t->share * t->workers <= nrhs && t->share < SLI_BLOCK_MOST) {
       t->share *= 2;
     }
     t->bytes = sli_vectors_bytes(q, t->share, SLI_BLOCK_MOST);
-    (void)sli_take(&b, (uint64_t)workers, t->bytes);
-    t->total = b.used;
-    t->workers = workers;
-    return;
+    (void)sli_take(&b, (uint64_t)t->workers, t->bytes);
   }
-  if (1.25 * sli_sweep_tasks_divide(t, workers) > (double)S->panel_begin[S->n_supers]) {
-    return;
-  }
-  sli_sweep_tasks_finish(t);
-  if (t->n_slots > SLI_ROWS_MAX - S->n) { /* untested: 2^31 rows */
-    return; /* untested: the same */
-  }
-  t->workers = workers;
-  sli_sweep_tasks_layout(t, &b);
   t->total = b.used;
-}
-
-static void sli_sweep_tasks_pack(const sli_sweep_tasks *t, sl_int first, sl_int last) {
-  const sl_symbolic *S = t->F->S;
-  const size_t row = sli_dense_of(t->rhs.ldb).row;
-  sl_int k;
-  for (k = S->super_first[first]; k < S->super_first[last + 1]; k++) {
-    t->y[k] = t->rhs.B[(size_t)S->perm[k] * row];
-  }
-}
-
-static void sli_sweep_tasks_unpack(const sli_sweep_tasks *t, sl_int first, sl_int last) {
-  const sl_symbolic *S = t->F->S;
-  const size_t row = sli_dense_of(t->rhs.ldx).row;
-  sl_int k;
-  for (k = S->super_first[first]; k < S->super_first[last + 1]; k++) {
-    t->rhs.X[(size_t)S->perm[k] * row] = t->y[k];
-  }
 }
 
 static void sli_sweep_tasks_steps(const sli_sweep_tasks *t, sl_int first, sl_int last,
@@ -17684,7 +17707,7 @@ static void sli_sweep_tasks_steps(const sli_sweep_tasks *t, sl_int first, sl_int
   if (first <= last) {
     sli_reach_cut(&R, first, last + 1 - first);
     R.rows = rows == NULL ? S->rows + S->rows_begin[first] : rows;
-    sli_forward_sweep(t->F, SLI_NRHS_1, &R, t->y, scratch);
+    sli_forward_sweep(t->F, t->kind, &R, t->y, scratch);
   }
 }
 
@@ -17695,15 +17718,15 @@ static void sli_sweep_tasks_backward(const sli_sweep_tasks *t, sl_int first, sl_
   sli_reach_cut(&R, first, last + 1 - first);
   R.rows = S->rows + S->rows_begin[first];
   R.n_rows = S->rows_begin[last + 1] - S->rows_begin[first];
-  sli_backward(t->F, &R, SLI_NRHS_1, t->y, scratch);
+  sli_backward(t->F, &R, t->kind, t->y, scratch);
 }
 
 static void sli_sweep_tasks_forward(const sli_sweep_tasks *t, const sli_sweep_task *task,
     double *scratch, sl_int *rows) {
   const sl_symbolic *S = t->F->S;
   const sl_int end = S->super_first[task->last + 1];
-  sl_int s, from = task->first, slot = task->slots, k;
-  sli_sweep_tasks_pack(t, task->first, task->last);
+  const sl_int lanes = (sl_int)1 << t->kind;
+  sl_int s, from = task->first, slot = task->slots, k, r;
   for (s = task->first; s <= task->last; s++) {
     const sl_int below = S->steps[s].below, leaves = sli_sweep_leaves_at(S, s, end);
     if (leaves == below) {
@@ -17713,7 +17736,9 @@ static void sli_sweep_tasks_forward(const sli_sweep_tasks *t, const sli_sweep_ta
     for (k = leaves; k < below; k++) {
       t->slot_row[slot] = rows[k];
       rows[k] = S->n + slot++;
-      t->y[rows[k]] = -0.0;
+      for (r = 0; r < lanes; r++) {
+        t->y[(ptrdiff_t)rows[k] * lanes + r] = -0.0;
+      }
     }
     sli_sweep_tasks_steps(t, from, s - 1, NULL, scratch);
     sli_sweep_tasks_steps(t, s, s, rows, scratch);
@@ -17723,17 +17748,19 @@ static void sli_sweep_tasks_forward(const sli_sweep_tasks *t, const sli_sweep_ta
 }
 
 static void sli_sweep_tasks_tops(const sli_sweep_tasks *t, double *scratch) {
-  sl_int m, k, at = 0;
-  for (m = 0; m < t->n_tops; m++) {
-    sli_sweep_tasks_pack(t, t->tops[m], t->tops[m]);
-  }
+  const sl_int lanes = (sl_int)1 << t->kind;
+  sl_int m, k, r, at = 0;
   for (m = 0; m < t->n_tasks; m++) {
     const sl_int last = m + 1 < t->n_tasks ? t->tasks[m + 1].slots : t->n_slots;
     for (; at < t->n_tops && t->tops[at] < t->tasks[m].first; at++) {
       sli_sweep_tasks_steps(t, t->tops[at], t->tops[at], NULL, scratch);
     }
     for (k = t->tasks[m].slots; k < last; k++) {
-      t->y[t->slot_row[k]] += t->y[t->F->S->n + k];
+      double *row = t->y + (ptrdiff_t)t->slot_row[k] * lanes;
+      const double *slot = t->y + ((ptrdiff_t)t->F->S->n + k) * lanes;
+      for (r = 0; r < lanes; r++) {
+        row[r] += slot[r];
+      }
     }
   }
   for (; at < t->n_tops; at++) {
@@ -17741,39 +17768,78 @@ static void sli_sweep_tasks_tops(const sli_sweep_tasks *t, double *scratch) {
   }
   for (m = t->n_tops - 1; m >= 0; m--) {
     sli_sweep_tasks_backward(t, t->tops[m], t->tops[m], scratch);
-    sli_sweep_tasks_unpack(t, t->tops[m], t->tops[m]);
   }
 }
 
 static void sli_sweep_tasks_forward_item(void *data, sl_int item, sl_int worker) {
   const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
-  const sl_symbolic *S = t->F->S;
   sli_sweep_tasks_forward(t, &t->tasks[t->order[item]],
-      t->scratch +
-      (size_t)worker * sli_sweep_scratch(S->tallest, S->widest, 1),
-      t->rows + (size_t)worker * (size_t)S->tallest);
+      t->scratch + (size_t)worker * sli_sweep_tasks_scratch(t),
+      t->rows + (size_t)worker * (size_t)t->F->S->tallest);
 }
 
 static void sli_sweep_tasks_backward_item(void *data, sl_int item, sl_int worker) {
   const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
-  const sl_symbolic *S = t->F->S;
   const sli_sweep_task *task = &t->tasks[t->order[item]];
   sli_sweep_tasks_backward(t, task->first, task->last,
-      t->scratch +
-      (size_t)worker * sli_sweep_scratch(S->tallest, S->widest, 1));
-  sli_sweep_tasks_unpack(t, task->first, task->last);
+      t->scratch + (size_t)worker * sli_sweep_tasks_scratch(t));
+}
+
+static sl_int sli_sweep_tasks_end(const sli_sweep_tasks *t, sl_int item) {
+  return sli_min(t->F->S->n - SLI_SOLVE_ROWS * item, SLI_SOLVE_ROWS) + SLI_SOLVE_ROWS * item;
+}
+
+static void sli_sweep_tasks_zero_item(void *data, sl_int item, sl_int worker) {
+  const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
+  const sl_int begin = SLI_SOLVE_ROWS * item, end = sli_sweep_tasks_end(t, item);
+  (void)worker;
+  SLI_ZERO(t->y + ((ptrdiff_t)begin << t->kind), (size_t)(end - begin) << t->kind);
+}
+
+static void sli_sweep_tasks_pack_item(void *data, sl_int item, sl_int worker) {
+  const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
+  (void)worker;
+  sli_pack_part(t->F, t->q, t->y, &t->block, SLI_SOLVE_ROWS * item, sli_sweep_tasks_end(t, item));
+}
+
+static void sli_sweep_tasks_unpack_item(void *data, sl_int item, sl_int worker) {
+  const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
+  (void)worker;
+  sli_unpack_part(t->F, t->q, &t->block, t->y, SLI_SOLVE_ROWS * item,
+      sli_sweep_tasks_end(t, item));
+}
+
+static void sli_sweep_tasks_trees(sli_sweep_tasks *t, sli_team *team, sl_int first, sl_int count) {
+  const sl_int items = (t->F->S->n - 1) / SLI_SOLVE_ROWS + 1;
+  sl_int lanes;
+  t->block = sli_rhs_part(&t->rhs, first, count);
+  t->kind = sli_lanes_kind(count);
+  lanes = (sl_int)1 << t->kind;
+  if (count < lanes) {
+    sli_team_loop(team, items, NULL, sli_sweep_tasks_zero_item, t);
+  }
+  sli_team_loop(team, items, NULL, sli_sweep_tasks_pack_item, t);
+  sli_team_loop(team, t->n_tasks, NULL, sli_sweep_tasks_forward_item, t);
+  sli_sweep_tasks_tops(t, t->scratch);
+  sli_team_loop(team, t->n_tasks, NULL, sli_sweep_tasks_backward_item, t);
+  sli_team_loop(team, items, NULL, sli_sweep_tasks_unpack_item, t);
+  if (!sli_reach_is_finite(t->F, &t->q->backward, t->y, lanes)) {
+    sli_atomic_write(&t->has_failed, 1);
+  }
 }
 
 static void sli_sweep_tasks_lead(sli_team *team, void *data) {
   sli_sweep_tasks *t = (sli_sweep_tasks *)data;
-  if (t->rhs.nrhs > 8) {
-    sli_team_loop(team, (t->rhs.nrhs - 1) / t->share + 1, NULL, t->run_block, t);
+  const sl_int nrhs = t->rhs.nrhs;
+  sl_int r, count;
+  if (t->share > 0) {
+    sli_team_loop(team, (nrhs - 1) / t->share + 1, NULL, t->run_block, t);
     return;
   }
-  sli_team_loop(team, t->n_tasks, NULL, sli_sweep_tasks_forward_item, t);
-  sli_sweep_tasks_tops(t, t->scratch);
-  sli_team_loop(team, t->n_tasks, NULL, sli_sweep_tasks_backward_item, t);
-  sli_atomic_write(&t->has_failed, !sli_reach_is_finite(t->F, &t->q->backward, t->y, 1));
+  for (r = 0; r < nrhs; r += count) {
+    count = sli_block_size(nrhs - r, SLI_BLOCK_MOST);
+    sli_sweep_tasks_trees(t, team, r, count);
+  }
 }
 
 static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, void *memory,
@@ -17782,7 +17848,7 @@ static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, v
   t->memory = memory;
   t->run_block = run_block;
   t->has_failed = 0;
-  if (t->rhs.nrhs <= 8) {
+  if (t->share == 0) {
     b.base = (unsigned char *)memory;
     sli_sweep_tasks_layout(t, &b);
   }
@@ -34794,7 +34860,7 @@ static sl_status sli_check_works(sl_work *const *works, sl_int workers) {
 static sl_status sli_solve_batch_reserve(sli_solve_batch *b, sl_work *const *works,
     const sl_allocator *a) {
   sli_block block = {NULL, 0};
-  sl_status status = works == NULL ? SL_OK : sli_check_works(works, b->workers);
+  sl_status status = SL_OK;
   sl_int k;
   for (k = 0; works != NULL && k < b->workers && status == SL_OK; k++) {
     status = sli_work_grow(works[k], b->bytes);
@@ -34836,8 +34902,11 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
   status = sli_solve_batch_check(&b, &at);
   b.workers = sli_workers(threads);
   b.workers = b.blocks < b.workers ? (sl_int)b.blocks : b.workers;
+  status = status == SL_OK && works != NULL ? sli_check_works(works, b.workers) : status;
   if (status == SL_OK && b.blocks > 0) {
     const sl_allocator *a = &sli_request_factor(&b, requests)->allocator;
+    const double shares = b.total / SLI_SOLVE_ENTRIES;
+    b.workers = shares < b.workers ? sli_max((sl_int)shares, 1) : b.workers;
     status = sli_solve_batch_reserve(&b, works, a);
     if (status == SL_OK && b.checks) {
       b.only_checks = 1;
@@ -35951,6 +36020,10 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_DISSECT_TASKS
 #undef SLI_SEPTREE_NODES
 #undef SLI_SOLVE_ENTRIES
+#undef SLI_SOLVE_GAIN
+#undef SLI_SOLVE_ROWS
+#undef SLI_SOLVE_SHARE
+#undef SLI_SOLVE_SLOT
 #undef SLI_SOLVE_TASKS
 #undef SLI_ASYMMETRY_MOST
 #undef SLI_ASSERT

@@ -50,6 +50,7 @@ void bench_change_patch(bench_run *run);
 void bench_storage(bench_run *run);
 void bench_restrict(bench_run *run);
 void bench_edit(bench_run *run);
+void bench_two_threads(bench_run *run);
 #ifdef SL_BENCH_PEERS
 void bench_peers(bench_run *run);
 void bench_peers_harmonic(bench_run *run);

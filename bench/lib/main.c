@@ -67,6 +67,8 @@ static const question questions[] = {
      bench_restrict},
     {"edit", "an analysis that follows a remeshed mesh against a new order and analysis",
      bench_edit},
+    {"two_threads", "two threads against one: ordering, factorization, full solves, a batch",
+     bench_two_threads},
 #ifdef SL_BENCH_ARPACK
     {"eigenpairs",
      "auto-diffusion and heat kernel signatures by ARPACK's eigenpairs: digits and time",

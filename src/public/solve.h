@@ -51,7 +51,7 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  |-----------------------------------|--------------------------------------------------------|
  *  | sl_factor_solve, _solve_part,     | the analysis, nrhs, the threads of W, and whether F    |
  *  |  _multiply_part, _defects,        | has null pivots. Fewer right-hand sides need no more,  |
- *  |  _refine, _rcond                  | but a single one may with threads: try both            |
+ *  |  _refine, _rcond                  | but they may with threads: try each number             |
  *  | sl_factor_pseudo_inverse          | the analysis and the number of columns                 |
  *  | sl_dirichlet_solve                | the object, nrhs, and the threads of W                 |
  *  | sl_plan_solve, _solve_part        | the plan, nrhs, whether F has null pivots; fewer       |
@@ -90,9 +90,9 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
  *           min(nrhs, 64)). If consistency is checked, right-hand sides beyond the eighth are
  *           read twice, and take an additional forward sweep where null vectors are not known.
- *  Threads  any number at once on one F, each with its own W. A single right-hand side, and more
- *           than 8, of a regular A are distributed over the threads that W was created with, with
- *           the same bits; W then grows to twice the size, or to that for each thread.
+ *  Threads  any number at once on one F, each with its own W. Solves of a regular A that take a
+ *           few tenths of a ms are distributed over the threads that W was created with, with the
+ *           same bits; W then grows to twice the size, or to that for each thread.
  *  Example  tests/core/test_solve.c, test_interleaved.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx,

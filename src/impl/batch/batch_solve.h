@@ -146,7 +146,7 @@ static sl_status sli_check_works(sl_work *const *works, sl_int workers) {
 static sl_status sli_solve_batch_reserve(sli_solve_batch *b, sl_work *const *works,
                                          const sl_allocator *a) {
     sli_block block = {NULL, 0};
-    sl_status status = works == NULL ? SL_OK : sli_check_works(works, b->workers);
+    sl_status status = SL_OK;
     sl_int k;
     for (k = 0; works != NULL && k < b->workers && status == SL_OK; k++) {
         status = sli_work_grow(works[k], b->bytes);
@@ -188,8 +188,11 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
     status = sli_solve_batch_check(&b, &at);
     b.workers = sli_workers(threads);
     b.workers = b.blocks < b.workers ? (sl_int)b.blocks : b.workers;
+    status = status == SL_OK && works != NULL ? sli_check_works(works, b.workers) : status;
     if (status == SL_OK && b.blocks > 0) {
         const sl_allocator *a = &sli_request_factor(&b, requests)->allocator;
+        const double shares = b.total / SLI_SOLVE_ENTRIES; /* few small ones are left to one */
+        b.workers = shares < b.workers ? sli_max((sl_int)shares, 1) : b.workers;
         status = sli_solve_batch_reserve(&b, works, a);
         if (status == SL_OK && b.checks) {
             b.only_checks = 1;

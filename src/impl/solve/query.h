@@ -336,22 +336,17 @@ SLI_NOINLINE static void sli_unpack_last(double *M, sli_dense at, const double *
 #undef SLI_PACK_LAST
 #undef SLI_UNPACK_LAST
 
-/* Moves a block of b into the forward vector. Rows that are not given, and unused columns of the
- * block, are 0. */
-static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sli_rhs *rhs) {
-    const double *B = rhs->B;
+/* Moves rows begin .. end-1 of a block of b into the forward vector, where no row repeats. */
+SLI_NOINLINE static void sli_pack_part(const sl_factor *F, const sli_query *q, double *y,
+                                       const sli_rhs *rhs, sl_int begin, sl_int end) {
     const sli_dense at = sli_dense_of(rhs->ldb);
-    const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs);
-    const sl_int *index = q->b_index, count = q->nb;
-    const int is_streamed = (size_t)count * (size_t)lanes > SLI_STREAMED;
+    const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs), count = end - begin;
+    const sl_int *index = q->b_index + begin;
+    const double *B = rhs->B + (size_t)begin * at.row;
+    const int is_streamed = (size_t)q->nb * (size_t)lanes > SLI_STREAMED;
     sl_int first, chunk, r;
-    if (q->b_repeats || q->nb < q->forward.columns || nrhs < lanes) {
-        SLI_ZERO(y, (size_t)q->forward.columns * (size_t)lanes);
-    }
-    if (q->b_repeats) {
-        sli_pack_sums(y, sli_rows_of(index, count, lanes), B, at, nrhs);
-    } else if (nrhs == 1 && index == F->S->iperm && at.row == 1) {
-        sli_unpack_rows(y, at, B, sli_rows_of(F->S->perm, count, 1), 1);
+    if (nrhs == 1 && q->b_index == F->S->iperm && at.row == 1) {
+        sli_unpack_rows(y + begin, at, rhs->B, sli_rows_of(F->S->perm + begin, count, 1), 1);
     } else if (nrhs == 1) {
         sli_pack_rows(y, sli_rows_of(index, count, 1), B, at, 1);
     } else if (nrhs == 2) {
@@ -383,13 +378,28 @@ static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sl
     }
 }
 
-/* Moves the wanted rows of a block out of the backward vector. */
-static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
-                       const double *x) {
-    double *X = rhs->X;
+/* Moves a block of b into the forward vector. Rows that are not given, and unused columns of the
+ * block, are 0. */
+static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sli_rhs *rhs) {
+    const sl_int lanes = (sl_int)1 << sli_lanes_kind(rhs->nrhs);
+    if (q->b_repeats || q->nb < q->forward.columns || rhs->nrhs < lanes) {
+        SLI_ZERO(y, (size_t)q->forward.columns * (size_t)lanes);
+    }
+    if (q->b_repeats) {
+        sli_pack_sums(y, sli_rows_of(q->b_index, q->nb, lanes), rhs->B, sli_dense_of(rhs->ldb),
+                      rhs->nrhs);
+    } else if (q->nb > 0) {
+        sli_pack_part(F, q, y, rhs, 0, q->nb);
+    }
+}
+
+/* Moves the wanted rows begin .. end-1 of a block out of the backward vector. */
+SLI_NOINLINE static void sli_unpack_part(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
+                                         const double *x, sl_int begin, sl_int end) {
     const sli_dense at = sli_dense_of(rhs->ldx);
-    const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs);
-    const sl_int *index = q->x_index, count = q->nx;
+    const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs), count = end - begin;
+    const sl_int *index = q->x_index + begin;
+    double *X = rhs->X + (size_t)begin * at.row;
     sl_int first, chunk, r;
     if (nrhs == 1) {
         sli_unpack_rows(X, at, x, sli_rows_of(index, count, 1), 1);
@@ -420,6 +430,12 @@ static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rh
             }
         }
     }
+}
+
+/* Moves the wanted rows of a block out of the backward vector. */
+static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
+                       const double *x) {
+    sli_unpack_part(F, q, rhs, x, 0, q->nx);
 }
 
 #endif

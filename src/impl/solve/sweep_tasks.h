@@ -1,4 +1,4 @@
-/* sweep_tasks.h: one right-hand side of a full solve by several workers: subtrees, then the rest */
+/* sweep_tasks.h: full solves by several workers: by subtrees, or by blocks of right-hand sides */
 #ifndef SLI_SOLVE_SWEEP_TASKS_H
 #define SLI_SOLVE_SWEEP_TASKS_H
 
@@ -6,13 +6,26 @@
 #include "backward.h"
 #include "query.h"
 
-/* Each worker reads at least so many entries of L: about half a ms. */
+/* The least work of a worker, and the least gain of all for one right-hand side, in entries of L,
+ * of which a solve reads 5 to 10 in a ns. For each 16 right-hand sides the gain has to be as large
+ * once more. Starting a worker takes as long as 1e5 entries and more. What a subtree passes up
+ * costs as much as SLI_SOLVE_SLOT entries for each number. Fitted to 2 workers on grids of 50^2 to
+ * 316^2 and 15^3 to 40^3, 1 to 128 right-hand sides. */
 #if defined(SLI_SMALL_TASKS)
 #define SLI_SOLVE_ENTRIES 1
+#define SLI_SOLVE_GAIN (-1e30)
 #else
 #define SLI_SOLVE_ENTRIES 400000
+#define SLI_SOLVE_GAIN 400000.0
 #endif
+#define SLI_SOLVE_SLOT 12.0
 #define SLI_SOLVE_TASKS 64
+
+/* Rows of X and B that a worker moves at a time. */
+#define SLI_SOLVE_ROWS 4096
+
+/* From so many right-hand sides for each worker on, blocks of them take less time than subtrees. */
+#define SLI_SOLVE_SHARE 16
 
 /* Supernodes first .. last: whole trees whose parent, if any, is above. */
 typedef struct sli_sweep_task {
@@ -20,21 +33,24 @@ typedef struct sli_sweep_task {
     sl_int slots; /* its first slot */
 } sli_sweep_task;
 
-/* A full solve. Workers take the subtrees in the forward sweep, one takes the supernodes above
- * them in both sweeps, then workers take the subtrees in the backward sweep.
+/* A full solve of a block of right-hand sides. Workers move its rows into the vector. They take the
+ * subtrees in the forward sweep, one takes the supernodes above them in both sweeps, then workers
+ * take the subtrees in the backward sweep, and the rows of the solution.
  *
  * In a forward sweep, many supernodes add to the same row above. Sums are rounded, so that they
- * must be added in the order of supernodes: a subtree writes each number that leaves it to a slot,
- * behind the vector. Kernels for one right-hand side add the whole contribution of a supernode to
- * a row at once; a slot that begins as -0 then holds just that. Those for more do not.
+ * must be added in the order of supernodes: a subtree writes each row that leaves it to a slot,
+ * behind the vector. Kernels add the whole contribution of a supernode to a row at once; a slot
+ * that begins as -0 then holds just that.
  *
- * More than 8 right-hand sides are distributed by blocks of 8 to 64. */
+ * Many right-hand sides are distributed by blocks of 8 to 64 instead, each a solve of its own. */
 typedef struct sli_sweep_tasks {
     const sl_factor *F;
     const sli_query *q;
-    sli_rhs rhs;
+    sli_rhs rhs;   /* of the call */
+    sli_rhs block; /* those that subtrees are taken for */
+    int kind;      /* of their kernels */
     sl_int workers;
-    sl_int share; /* right-hand sides of a block that is distributed */
+    sl_int share; /* right-hand sides of a block that is distributed; 0: none is */
     sl_int n_tasks, n_tops, n_slots;
     sli_sweep_task tasks[SLI_SOLVE_TASKS]; /* ascending */
     sl_int order[SLI_SOLVE_TASKS];         /* the largest first */
@@ -43,7 +59,7 @@ typedef struct sli_sweep_tasks {
     sli_atomic has_failed; /* a solution is not finite */
     void *memory;
     size_t bytes, total; /* of one worker's vectors where blocks are distributed; of everything */
-    double *y, *scratch; /* y: n + slots */
+    double *y, *scratch; /* y: n + slots, for each right-hand side of a block */
     sl_int *slot_row;    /* slots: the row that each is added to */
     sl_int *rows;        /* tallest, for each worker */
 } sli_sweep_tasks;
@@ -175,13 +191,46 @@ static void sli_sweep_tasks_finish(sli_sweep_tasks *t) {
     }
 }
 
+/* The scratch of one worker's sweeps. */
+static size_t sli_sweep_tasks_scratch(const sli_sweep_tasks *t) {
+    const sl_symbolic *S = t->F->S;
+    const size_t few = sli_sweep_scratch(S->tallest, S->widest, 2);
+    const size_t many = sli_sweep_scratch(S->tallest, S->widest, SLI_BLOCK_MOST);
+    return few > many ? few : many;
+}
+
 static void sli_sweep_tasks_layout(sli_sweep_tasks *t, sli_block *b) {
     const sl_symbolic *S = t->F->S;
-    const uint64_t workers = (uint64_t)t->workers;
-    t->y = SLI_TAKE(b, double, (uint64_t)S->n + (uint64_t)t->n_slots);
-    t->scratch = SLI_TAKE(b, double, workers *sli_sweep_scratch(S->tallest, S->widest, 1));
+    const uint64_t workers = (uint64_t)t->workers, rows = (uint64_t)S->n + (uint64_t)t->n_slots;
+    const int kind = sli_lanes_kind(sli_block_size(t->rhs.nrhs, SLI_BLOCK_MOST));
+    t->y = SLI_TAKE(b, double, rows << kind);
+    t->scratch = SLI_TAKE(b, double, workers *sli_sweep_tasks_scratch(t));
     t->slot_row = SLI_TAKE(b, sl_int, t->n_slots);
     t->rows = SLI_TAKE(b, sl_int, workers * (uint64_t)S->tallest);
+}
+
+/* Plans a solve by subtrees, if that is worthwhile. Returns 0 if not. */
+static int sli_sweep_tasks_by_trees(sli_sweep_tasks *t, sl_int workers) {
+    const sl_symbolic *S = t->F->S;
+    const double entries = (double)S->panel_begin[S->n_supers], nrhs = t->rhs.nrhs;
+    const double weight = (4.0 + nrhs) / 5.0; /* 8 take some 2.4 times as long as 1 */
+    const double shares = weight * entries / SLI_SOLVE_ENTRIES;
+    double gain;
+    workers = shares < workers ? (sl_int)shares : workers;
+    if (workers < 2) {
+        return 0;
+    }
+    gain = entries - sli_sweep_tasks_divide(t, workers);
+    if (gain <= 0.0) { /* with a single task, too */
+        return 0;
+    }
+    sli_sweep_tasks_finish(t);
+    if (weight * gain - SLI_SOLVE_SLOT * nrhs * t->n_slots < SLI_SOLVE_GAIN * (1.0 + nrhs / 16.0) ||
+        t->n_slots > SLI_ROWS_MAX - S->n) { /* untested: 2^31 rows */
+        return 0;
+    }
+    t->workers = workers;
+    return 1;
 }
 
 /* Plans a solve by several workers. workers := 1 where one is as fast, or where rounding would
@@ -189,64 +238,31 @@ static void sli_sweep_tasks_layout(sli_sweep_tasks *t, sli_block *b) {
 static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const sli_query *q,
                                  const sli_rhs *rhs, const sl_threads *threads) {
     const sl_symbolic *S = F->S;
-    const sl_int nrhs = rhs->nrhs;
-    sl_off entries = S->panel_begin[S->n_supers] / SLI_SOLVE_ENTRIES;
+    const sl_int nrhs = rhs->nrhs, most = sli_team_workers(threads);
+    const double shares = 8.0 * (double)S->panel_begin[S->n_supers] / SLI_SOLVE_ENTRIES;
     sli_block b = {NULL, 0};
-    sl_int workers;
     t->workers = 1;
-    workers = sli_team_workers(threads);
-    if (nrhs > 8) {
-        workers = sli_min(workers, sli_tiles(nrhs));
-        entries *= 8;
-    }
-    workers = entries < workers ? (sl_int)entries : workers;
-    if (workers < 2 || (nrhs > 1 && nrhs <= 8) || q->b_index != S->iperm ||
-        q->x_index != S->iperm || F->null.checks || F->null.count > 0) {
+    t->share = 0;
+    if (most < 2 || q->b_index != S->iperm || q->x_index != S->iperm || F->null.checks ||
+        F->null.count > 0) {
         return;
     }
     t->F = F;
     t->q = q;
     t->rhs = *rhs;
-    if (nrhs > 8) {
+    if (nrhs < SLI_SOLVE_SHARE * (int64_t)most && sli_sweep_tasks_by_trees(t, most)) {
+        sli_sweep_tasks_layout(t, &b);
+    } else if (nrhs > 8) {
+        t->workers = sli_min(most, sli_tiles(nrhs));
+        t->workers = shares < t->workers ? sli_max((sl_int)shares, 1) : t->workers;
         t->share = 8;
-        while (2 * t->share * workers <= nrhs && t->share < SLI_BLOCK_MOST) {
+        while (2 * t->share * t->workers <= nrhs && t->share < SLI_BLOCK_MOST) {
             t->share *= 2;
         }
         t->bytes = sli_vectors_bytes(q, t->share, SLI_BLOCK_MOST);
-        (void)sli_take(&b, (uint64_t)workers, t->bytes);
-        t->total = b.used;
-        t->workers = workers;
-        return;
+        (void)sli_take(&b, (uint64_t)t->workers, t->bytes);
     }
-    if (1.25 * sli_sweep_tasks_divide(t, workers) > (double)S->panel_begin[S->n_supers]) {
-        return; /* with a single task, too */
-    }
-    sli_sweep_tasks_finish(t);
-    if (t->n_slots > SLI_ROWS_MAX - S->n) { /* untested: 2^31 rows */
-        return;                             /* untested: the same */
-    }
-    t->workers = workers;
-    sli_sweep_tasks_layout(t, &b);
     t->total = b.used;
-}
-
-/* y := P b in the columns of supernodes first .. last. */
-static void sli_sweep_tasks_pack(const sli_sweep_tasks *t, sl_int first, sl_int last) {
-    const sl_symbolic *S = t->F->S;
-    const size_t row = sli_dense_of(t->rhs.ldb).row;
-    sl_int k;
-    for (k = S->super_first[first]; k < S->super_first[last + 1]; k++) {
-        t->y[k] = t->rhs.B[(size_t)S->perm[k] * row];
-    }
-}
-
-static void sli_sweep_tasks_unpack(const sli_sweep_tasks *t, sl_int first, sl_int last) {
-    const sl_symbolic *S = t->F->S;
-    const size_t row = sli_dense_of(t->rhs.ldx).row;
-    sl_int k;
-    for (k = S->super_first[first]; k < S->super_first[last + 1]; k++) {
-        t->rhs.X[(size_t)S->perm[k] * row] = t->y[k];
-    }
 }
 
 /* The forward sweep over supernodes first .. last, with other positions of the rows, or NULL. */
@@ -257,7 +273,7 @@ static void sli_sweep_tasks_steps(const sli_sweep_tasks *t, sl_int first, sl_int
     if (first <= last) {
         sli_reach_cut(&R, first, last + 1 - first);
         R.rows = rows == NULL ? S->rows + S->rows_begin[first] : rows;
-        sli_forward_sweep(t->F, SLI_NRHS_1, &R, t->y, scratch);
+        sli_forward_sweep(t->F, t->kind, &R, t->y, scratch);
     }
 }
 
@@ -268,7 +284,7 @@ static void sli_sweep_tasks_backward(const sli_sweep_tasks *t, sl_int first, sl_
     sli_reach_cut(&R, first, last + 1 - first);
     R.rows = S->rows + S->rows_begin[first];
     R.n_rows = S->rows_begin[last + 1] - S->rows_begin[first];
-    sli_backward(t->F, &R, SLI_NRHS_1, t->y, scratch);
+    sli_backward(t->F, &R, t->kind, t->y, scratch);
 }
 
 /* The forward sweep over a task. */
@@ -276,8 +292,8 @@ static void sli_sweep_tasks_forward(const sli_sweep_tasks *t, const sli_sweep_ta
                                     double *scratch, sl_int *rows) {
     const sl_symbolic *S = t->F->S;
     const sl_int end = S->super_first[task->last + 1];
-    sl_int s, from = task->first, slot = task->slots, k;
-    sli_sweep_tasks_pack(t, task->first, task->last);
+    const sl_int lanes = (sl_int)1 << t->kind;
+    sl_int s, from = task->first, slot = task->slots, k, r;
     for (s = task->first; s <= task->last; s++) {
         const sl_int below = S->steps[s].below, leaves = sli_sweep_leaves_at(S, s, end);
         if (leaves == below) {
@@ -287,7 +303,9 @@ static void sli_sweep_tasks_forward(const sli_sweep_tasks *t, const sli_sweep_ta
         for (k = leaves; k < below; k++) {
             t->slot_row[slot] = rows[k];
             rows[k] = S->n + slot++;
-            t->y[rows[k]] = -0.0;
+            for (r = 0; r < lanes; r++) {
+                t->y[(ptrdiff_t)rows[k] * lanes + r] = -0.0;
+            }
         }
         sli_sweep_tasks_steps(t, from, s - 1, NULL, scratch);
         sli_sweep_tasks_steps(t, s, s, rows, scratch);
@@ -298,17 +316,19 @@ static void sli_sweep_tasks_forward(const sli_sweep_tasks *t, const sli_sweep_ta
 
 /* Both sweeps over the supernodes above the tasks, with what the tasks pass to them. */
 static void sli_sweep_tasks_tops(const sli_sweep_tasks *t, double *scratch) {
-    sl_int m, k, at = 0;
-    for (m = 0; m < t->n_tops; m++) {
-        sli_sweep_tasks_pack(t, t->tops[m], t->tops[m]);
-    }
+    const sl_int lanes = (sl_int)1 << t->kind;
+    sl_int m, k, r, at = 0;
     for (m = 0; m < t->n_tasks; m++) {
         const sl_int last = m + 1 < t->n_tasks ? t->tasks[m + 1].slots : t->n_slots;
         for (; at < t->n_tops && t->tops[at] < t->tasks[m].first; at++) {
             sli_sweep_tasks_steps(t, t->tops[at], t->tops[at], NULL, scratch);
         }
         for (k = t->tasks[m].slots; k < last; k++) {
-            t->y[t->slot_row[k]] += t->y[t->F->S->n + k];
+            double *row = t->y + (ptrdiff_t)t->slot_row[k] * lanes;
+            const double *slot = t->y + ((ptrdiff_t)t->F->S->n + k) * lanes;
+            for (r = 0; r < lanes; r++) {
+                row[r] += slot[r];
+            }
         }
     }
     for (; at < t->n_tops; at++) {
@@ -316,40 +336,81 @@ static void sli_sweep_tasks_tops(const sli_sweep_tasks *t, double *scratch) {
     }
     for (m = t->n_tops - 1; m >= 0; m--) {
         sli_sweep_tasks_backward(t, t->tops[m], t->tops[m], scratch);
-        sli_sweep_tasks_unpack(t, t->tops[m], t->tops[m]);
     }
 }
 
 /* The loops over the tasks, and the supernodes above them in between. */
 static void sli_sweep_tasks_forward_item(void *data, sl_int item, sl_int worker) {
     const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
-    const sl_symbolic *S = t->F->S;
     sli_sweep_tasks_forward(t, &t->tasks[t->order[item]],
-                            t->scratch +
-                                (size_t)worker * sli_sweep_scratch(S->tallest, S->widest, 1),
-                            t->rows + (size_t)worker * (size_t)S->tallest);
+                            t->scratch + (size_t)worker * sli_sweep_tasks_scratch(t),
+                            t->rows + (size_t)worker * (size_t)t->F->S->tallest);
 }
 
 static void sli_sweep_tasks_backward_item(void *data, sl_int item, sl_int worker) {
     const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
-    const sl_symbolic *S = t->F->S;
     const sli_sweep_task *task = &t->tasks[t->order[item]];
     sli_sweep_tasks_backward(t, task->first, task->last,
-                             t->scratch +
-                                 (size_t)worker * sli_sweep_scratch(S->tallest, S->widest, 1));
-    sli_sweep_tasks_unpack(t, task->first, task->last);
+                             t->scratch + (size_t)worker * sli_sweep_tasks_scratch(t));
+}
+
+/* The loops that move rows: item m has rows SLI_SOLVE_ROWS m .. */
+static sl_int sli_sweep_tasks_end(const sli_sweep_tasks *t, sl_int item) {
+    return sli_min(t->F->S->n - SLI_SOLVE_ROWS * item, SLI_SOLVE_ROWS) + SLI_SOLVE_ROWS * item;
+}
+
+static void sli_sweep_tasks_zero_item(void *data, sl_int item, sl_int worker) {
+    const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
+    const sl_int begin = SLI_SOLVE_ROWS * item, end = sli_sweep_tasks_end(t, item);
+    (void)worker;
+    SLI_ZERO(t->y + ((ptrdiff_t)begin << t->kind), (size_t)(end - begin) << t->kind);
+}
+
+static void sli_sweep_tasks_pack_item(void *data, sl_int item, sl_int worker) {
+    const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
+    (void)worker;
+    sli_pack_part(t->F, t->q, t->y, &t->block, SLI_SOLVE_ROWS * item, sli_sweep_tasks_end(t, item));
+}
+
+static void sli_sweep_tasks_unpack_item(void *data, sl_int item, sl_int worker) {
+    const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
+    (void)worker;
+    sli_unpack_part(t->F, t->q, &t->block, t->y, SLI_SOLVE_ROWS * item,
+                    sli_sweep_tasks_end(t, item));
+}
+
+/* Solves for right-hand sides first .. first+count-1 by subtrees. */
+static void sli_sweep_tasks_trees(sli_sweep_tasks *t, sli_team *team, sl_int first, sl_int count) {
+    const sl_int items = (t->F->S->n - 1) / SLI_SOLVE_ROWS + 1;
+    sl_int lanes;
+    t->block = sli_rhs_part(&t->rhs, first, count);
+    t->kind = sli_lanes_kind(count);
+    lanes = (sl_int)1 << t->kind;
+    if (count < lanes) {
+        sli_team_loop(team, items, NULL, sli_sweep_tasks_zero_item, t);
+    }
+    sli_team_loop(team, items, NULL, sli_sweep_tasks_pack_item, t);
+    sli_team_loop(team, t->n_tasks, NULL, sli_sweep_tasks_forward_item, t);
+    sli_sweep_tasks_tops(t, t->scratch);
+    sli_team_loop(team, t->n_tasks, NULL, sli_sweep_tasks_backward_item, t);
+    sli_team_loop(team, items, NULL, sli_sweep_tasks_unpack_item, t);
+    if (!sli_reach_is_finite(t->F, &t->q->backward, t->y, lanes)) {
+        sli_atomic_write(&t->has_failed, 1);
+    }
 }
 
 static void sli_sweep_tasks_lead(sli_team *team, void *data) {
     sli_sweep_tasks *t = (sli_sweep_tasks *)data;
-    if (t->rhs.nrhs > 8) {
-        sli_team_loop(team, (t->rhs.nrhs - 1) / t->share + 1, NULL, t->run_block, t);
+    const sl_int nrhs = t->rhs.nrhs;
+    sl_int r, count;
+    if (t->share > 0) {
+        sli_team_loop(team, (nrhs - 1) / t->share + 1, NULL, t->run_block, t);
         return;
     }
-    sli_team_loop(team, t->n_tasks, NULL, sli_sweep_tasks_forward_item, t);
-    sli_sweep_tasks_tops(t, t->scratch);
-    sli_team_loop(team, t->n_tasks, NULL, sli_sweep_tasks_backward_item, t);
-    sli_atomic_write(&t->has_failed, !sli_reach_is_finite(t->F, &t->q->backward, t->y, 1));
+    for (r = 0; r < nrhs; r += count) {
+        count = sli_block_size(nrhs - r, SLI_BLOCK_MOST);
+        sli_sweep_tasks_trees(t, team, r, count);
+    }
 }
 
 /* Runs a planned solve in memory of t->total bytes; run_block solves t->share right-hand sides. */
@@ -359,7 +420,7 @@ static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, v
     t->memory = memory;
     t->run_block = run_block;
     t->has_failed = 0;
-    if (t->rhs.nrhs <= 8) {
+    if (t->share == 0) {
         b.base = (unsigned char *)memory;
         sli_sweep_tasks_layout(t, &b);
     }

@@ -1,0 +1,89 @@
+/* test_threads_least.c: how much work several threads share: small solves are left to one */
+#define _POSIX_C_SOURCE 200112L /* nanosleep */
+#include "tests/lib/threads.h"
+
+/* How often full solves and a batch of local ones call for threads. */
+typedef struct shared_calls {
+    int one, three, twenty, batch;
+} shared_calls;
+
+enum { PLANS = 40, RHS = 20 };
+
+/* Solves with 4 threads on the grid of `rows` rows, and compares with solves by one. */
+static shared_calls solve_on_grid(sl_int rows) {
+    factored_t y = factored_make(GEN_GRID2, rows, 0, 0, NULL);
+    const size_t n = (size_t)y.M.view.n_cols;
+    double *B = test_reals(n * RHS), *X = test_reals(n * RHS), *Y = test_reals(n * RHS);
+    int calls = 0, *result;
+    shared_calls shared = {0};
+    sl_plan *plans[PLANS];
+    sl_request requests[PLANS];
+    sl_work *W = NULL;
+    const sl_options opt = options_of_workers(4, &calls);
+    gen_reals(B, n * RHS, 3);
+    SL_CHECK(sl_work_create(&W, &opt));
+    for (sl_int nrhs = 1; nrhs <= RHS; nrhs++) {
+        result = nrhs == 1 ? &shared.one : nrhs == 3 ? &shared.three : &shared.twenty;
+        if (nrhs == 1 || nrhs == 3 || nrhs == RHS) {
+            calls = 0;
+            SL_CHECK(sl_factor_solve(y.F, X, n, B, n, nrhs, W));
+            *result = calls;
+            SL_CHECK(sl_factor_solve(y.F, Y, n, B, n, nrhs, NULL));
+            assert_memory_equal(X, Y, n * (size_t)nrhs * sizeof *X);
+        }
+    }
+    for (int k = 0; k < PLANS; k++) {
+        const sl_int row = k * (y.M.view.n_cols / PLANS);
+        SL_CHECK(sl_plan_create(&plans[k], y.S, &row, 1, &row, 1, NULL, NULL));
+        memset(&requests[k], 0, sizeof requests[k]);
+        requests[k].plan = plans[k];
+        requests[k].X = X + k;
+        requests[k].B = B + k;
+        requests[k].ldx = requests[k].ldb = 1;
+        requests[k].nrhs = 1;
+    }
+    calls = 0;
+    SL_CHECK(sl_batch_solve(y.F, requests, PLANS, &opt, NULL, NULL));
+    shared.batch = calls;
+    for (int k = 0; k < PLANS; k++) {
+        SL_CHECK(sl_plan_solve(plans[k], y.F, Y + k, 1, B + k, 1, 1, NULL));
+        sl_plan_free(plans[k]);
+    }
+    assert_memory_equal(X, Y, PLANS * sizeof *X);
+    sl_work_free(W);
+    free(B);
+    free(X);
+    free(Y);
+    factored_free(&y);
+    return shared;
+}
+
+static void small_solves_are_left_to_one_thread(void **state) {
+    (void)state;
+    const shared_calls shared = solve_on_grid(900);
+#if defined(SL_VERIFY) /* where they are shared, too */
+    (void)shared;
+#else
+    assert_int_equal(shared.one, 0);
+    assert_int_equal(shared.three, 0);
+    assert_int_equal(shared.twenty, 0);
+    assert_int_equal(shared.batch, 0);
+#endif
+}
+
+static void large_solves_are_shared(void **state) {
+    (void)state;
+    const shared_calls shared = solve_on_grid(60000);
+    assert_int_equal(shared.one, 1);
+    assert_int_equal(shared.three, 1);
+    assert_int_equal(shared.twenty, 1);
+    assert_int_equal(shared.batch, 1);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(small_solves_are_left_to_one_thread),
+        cmocka_unit_test(large_solves_are_shared),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
