@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 19ab707cfb4b859a
+ * FNV-1a of the lines after this comment, without the license: af281a53d20189c7
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -41,23 +41,23 @@
  *  11010 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  13234 impl/ factor: the numbers of L and D
  *  16611 impl/ solve: full and local solves
- *  18458 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20455 impl/ pivots: the order of the pivots by the values of a matrix
- *  20863 impl/ float: L and fronts in single precision
- *  21368 impl/ inverse: entries of the inverse, regions
- *  24467 impl/ change: a factor that follows changes of its matrix
- *  30756 impl/ dirichlet: rows fixed at given values
- *  31405 impl/ dirichlet: by a factor of all rows
- *  31637 impl/ io: files that are replaced only when they are complete
- *  31855 impl/ files: Matrix Market files, 64-bit indices
- *  32475 impl/ save: factors in files
- *  34487 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35173 impl/ batch: diagonals of many inverses
- *  35313 impl/ complex: complex Hermitian systems over real factors
- *  35875 impl/ complex: entries of the inverse
- *  35935 impl/ packs: the tables through which the core calls packs
- *  35984 impl/ last: undefine every internal macro
- *  36364 impl/ templates: the header includes them from itself, once for each instruction set
+ *  18468 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20465 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20873 impl/ float: L and fronts in single precision
+ *  21378 impl/ inverse: entries of the inverse, regions
+ *  24477 impl/ change: a factor that follows changes of its matrix
+ *  30766 impl/ dirichlet: rows fixed at given values
+ *  31415 impl/ dirichlet: by a factor of all rows
+ *  31647 impl/ io: files that are replaced only when they are complete
+ *  31865 impl/ files: Matrix Market files, 64-bit indices
+ *  32485 impl/ save: factors in files
+ *  34497 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35183 impl/ batch: diagonals of many inverses
+ *  35323 impl/ complex: complex Hermitian systems over real factors
+ *  35885 impl/ complex: entries of the inverse
+ *  35945 impl/ packs: the tables through which the core calls packs
+ *  35994 impl/ last: undefine every internal macro
+ *  36374 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -17440,30 +17440,40 @@ static void sli_backward(const sl_factor *F, const sli_reach *R, int kind, doubl
       scratch);
 }
 
-SLI_INLINE int sli_are_finite(const double *x, ptrdiff_t count) {
-  ptrdiff_t k = 0;
-  while (k < count && sli_is_finite(x[k])) {
-    k++;
+SLI_NOINLINE static int sli_are_finite(const double *x, ptrdiff_t count) {
+  uint64_t bits, beyond = 0;
+  ptrdiff_t k;
+  SLI_UNROLL
+  for (k = 0; k < count; k++) {
+    memcpy(&bits, &x[k], sizeof bits);
+    beyond |= (bits & (UINT64_MAX >> 1)) + ((uint64_t)1 << 52);
   }
-  return k == count;
+  return beyond >> 63 == 0;
 }
 
 static int sli_reach_is_finite(const sl_factor *F, const sli_reach *R, const double *x,
     sl_int lanes) {
   const sl_symbolic *S = F->S;
-  const int is_full = R->count == S->n_supers;
-  sl_int s = R->count - 1;
+  const sl_int *low = R->count == S->n_supers ? S->first_descendant : NULL;
+  const sl_int least = S->stats.symbolic.components == 1 ? sli_max(R->count - 1, 0) : 0;
+  const sli_step *steps = R->steps;
+  sl_int s;
   int is_finite = 1;
   if (F->null.vectors > 1) {
     return sli_are_finite(x, (ptrdiff_t)R->columns * lanes);
   }
-  while (s >= 0) {
-    const sli_step *step = &R->steps[s];
-    if (step->up == -1) {
-      is_finite &= sli_are_finite(
-          x + (ptrdiff_t)(step->base + sli_step_columns(step) - 1) * lanes, lanes);
+  for (s = R->count - 1; s >= least; s = (low != NULL ? low[s] : s) - 1) {
+    ptrdiff_t first, end;
+    if (steps[s].up != -1) {
+      continue;
     }
-    s = S->stats.symbolic.components == 1 ? -1 : is_full ? S->first_descendant[s] - 1 : s - 1;
+    end = (ptrdiff_t)steps[s].base + sli_step_columns(&steps[s]);
+    first = end - 1;
+    while (s > least && steps[s].base == first && steps[s - 1].up == -1) {
+      s--;
+      first--;
+    }
+    is_finite &= sli_are_finite(x + first * lanes, (end - first) * lanes);
   }
   return is_finite;
 }

@@ -36,13 +36,16 @@ static void sli_backward(const sl_factor *F, const sli_reach *R, int kind, doubl
                        scratch);
 }
 
-/* Are so many numbers finite? */
-SLI_INLINE int sli_are_finite(const double *x, ptrdiff_t count) {
-    ptrdiff_t k = 0;
-    while (k < count && sli_is_finite(x[k])) {
-        k++;
+/* Are so many numbers finite? No branch for each: the largest exponent carries into the sign. */
+SLI_NOINLINE static int sli_are_finite(const double *x, ptrdiff_t count) {
+    uint64_t bits, beyond = 0;
+    ptrdiff_t k;
+    SLI_UNROLL
+    for (k = 0; k < count; k++) {
+        memcpy(&bits, &x[k], sizeof bits);
+        beyond |= (bits & (UINT64_MAX >> 1)) + ((uint64_t)1 << 52);
     }
-    return k == count;
+    return beyond >> 63 == 0;
 }
 
 /* Is a solution in the vector of a reach, which ends at the roots, finite? A number of b that is
@@ -52,19 +55,26 @@ SLI_INLINE int sli_are_finite(const double *x, ptrdiff_t count) {
 static int sli_reach_is_finite(const sl_factor *F, const sli_reach *R, const double *x,
                                sl_int lanes) {
     const sl_symbolic *S = F->S;
-    const int is_full = R->count == S->n_supers;
-    sl_int s = R->count - 1; /* a root */
+    const sl_int *low = R->count == S->n_supers ? S->first_descendant : NULL;
+    const sl_int least = S->stats.symbolic.components == 1 ? sli_max(R->count - 1, 0) : 0;
+    const sli_step *steps = R->steps;
+    sl_int s;
     int is_finite = 1;
     if (F->null.vectors > 1) {
         return sli_are_finite(x, (ptrdiff_t)R->columns * lanes);
     }
-    while (s >= 0) {
-        const sli_step *step = &R->steps[s];
-        if (step->up == -1) {
-            is_finite &= sli_are_finite(
-                x + (ptrdiff_t)(step->base + sli_step_columns(step) - 1) * lanes, lanes);
+    for (s = R->count - 1; s >= least; s = (low != NULL ? low[s] : s) - 1) {
+        ptrdiff_t first, end;
+        if (steps[s].up != -1) {
+            continue;
         }
-        s = S->stats.symbolic.components == 1 ? -1 : is_full ? S->first_descendant[s] - 1 : s - 1;
+        end = (ptrdiff_t)steps[s].base + sli_step_columns(&steps[s]);
+        first = end - 1;
+        while (s > least && steps[s].base == first && steps[s - 1].up == -1) { /* of one column */
+            s--;
+            first--;
+        }
+        is_finite &= sli_are_finite(x + first * lanes, (end - first) * lanes);
     }
     return is_finite;
 }
