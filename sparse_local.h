@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: af281a53d20189c7
+ * FNV-1a of the lines after this comment, without the license: 2081c8f9f737d42d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40,24 +40,24 @@
  *   5908 impl/ ordering: fill-reducing orderings of a graph
  *  11010 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  13234 impl/ factor: the numbers of L and D
- *  16611 impl/ solve: full and local solves
- *  18468 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20465 impl/ pivots: the order of the pivots by the values of a matrix
- *  20873 impl/ float: L and fronts in single precision
- *  21378 impl/ inverse: entries of the inverse, regions
- *  24477 impl/ change: a factor that follows changes of its matrix
- *  30766 impl/ dirichlet: rows fixed at given values
- *  31415 impl/ dirichlet: by a factor of all rows
- *  31647 impl/ io: files that are replaced only when they are complete
- *  31865 impl/ files: Matrix Market files, 64-bit indices
- *  32485 impl/ save: factors in files
- *  34497 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35183 impl/ batch: diagonals of many inverses
- *  35323 impl/ complex: complex Hermitian systems over real factors
- *  35885 impl/ complex: entries of the inverse
- *  35945 impl/ packs: the tables through which the core calls packs
- *  35994 impl/ last: undefine every internal macro
- *  36374 impl/ templates: the header includes them from itself, once for each instruction set
+ *  16626 impl/ solve: full and local solves
+ *  18483 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20480 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20888 impl/ float: L and fronts in single precision
+ *  21393 impl/ inverse: entries of the inverse, regions
+ *  24492 impl/ change: a factor that follows changes of its matrix
+ *  30781 impl/ dirichlet: rows fixed at given values
+ *  31430 impl/ dirichlet: by a factor of all rows
+ *  31662 impl/ io: files that are replaced only when they are complete
+ *  31880 impl/ files: Matrix Market files, 64-bit indices
+ *  32500 impl/ save: factors in files
+ *  34512 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35198 impl/ batch: diagonals of many inverses
+ *  35338 impl/ complex: complex Hermitian systems over real factors
+ *  35900 impl/ complex: entries of the inverse
+ *  35960 impl/ packs: the tables through which the core calls packs
+ *  36009 impl/ last: undefine every internal macro
+ *  36389 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -14478,6 +14478,9 @@ static int sli_null_is_suspected(sl_factor *F) {
     return 0;
   }
   sli_count_pivots(F, S->n);
+  if (F->E == NULL && F->stats.factor.pivot_min > rounding * F->stats.factor.pivot_max) {
+    return 0;
+  }
   for (root = S->n_supers - 1; root >= 0; root = first - 1) {
     const sl_int last = S->super_first[root + 1] - 1;
     const double size = fabs(F->D[last]);
@@ -15475,31 +15478,43 @@ SLI_COLD static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl
 }
 
 static int sli_growth_check(sl_factor *F, sli_failure *failure) {
-  const sl_symbolic *S = F->S;
-  sl_factor_info *info = &F->stats.factor;
+  const sl_int *low = F->S->first_descendant;
+  const sli_extent *const extents = F->extents;
+  double most_growth = 0.0, most_entry = 0.0, bound = 0.0;
   sl_int s, first, root, suspects = 0;
   int has_refused = 0;
-  for (root = S->n_supers - 1; root >= 0; root = first - 1) {
-    uint64_t bits[2], most[2] = {0, 0};
+  for (root = F->S->n_supers - 1; root >= 0; root = first - 1) {
+    uint64_t bits[2], most[2];
     double entry, magnitude, growth;
-    first = S->first_descendant[root];
-    for (s = first; s <= root; s++) {
-      memcpy(bits, &F->extents[s], sizeof bits);
+    memcpy(most, &extents[root], sizeof most);
+    suspects |= extents[root].suspects;
+    first = low[root];
+    for (s = first; s < root; s++) {
+      memcpy(bits, &extents[s], sizeof bits);
       most[0] = bits[0] > most[0] ? bits[0] : most[0];
       most[1] = bits[1] > most[1] ? bits[1] : most[1];
-      suspects |= F->extents[s].suspects;
+      suspects |= extents[s].suspects;
     }
     memcpy(&entry, &most[0], sizeof entry);
     memcpy(&magnitude, &most[1], sizeof magnitude);
+    most_entry = entry > most_entry ? entry : most_entry;
+    if (entry >= DBL_MIN && magnitude <= bound * entry) {
+      continue;
+    }
     growth = sli_growth(magnitude, entry);
-    info->growth = growth > info->growth ? growth : info->growth;
-    info->entry_max = entry > info->entry_max ? entry : info->entry_max;
+    most_growth = growth > most_growth ? growth : most_growth;
+    bound = most_growth < 1.0 || most_growth > F->limits.growth ? 0.0
+        : most_growth * (1.0 - 4.0 * DBL_EPSILON) > 1.0
+          ? most_growth * (1.0 - 4.0 * DBL_EPSILON)
+          : 1.0;
     if (growth > F->limits.growth &&
         (failure->status == SL_OK || has_refused)) { /* branches untested: no other failure */
       has_refused = 1;
       (void)sli_growth_refuse(F, first, root, entry, failure);
     }
   }
+  F->stats.factor.growth = most_growth;
+  F->stats.factor.entry_max = most_entry;
   return suspects != 0;
 }
 

@@ -81,31 +81,44 @@ SLI_COLD static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl
 /* Measures the growth of every tree, and refuses the first one beyond the limit. Returns whether
  * pivots are left to sli_nulls_judge. */
 static int sli_growth_check(sl_factor *F, sli_failure *failure) {
-    const sl_symbolic *S = F->S;
-    sl_factor_info *info = &F->stats.factor;
+    const sl_int *low = F->S->first_descendant;
+    const sli_extent *const extents = F->extents;
+    double most_growth = 0.0, most_entry = 0.0, bound = 0.0;
     sl_int s, first, root, suspects = 0;
     int has_refused = 0;
-    for (root = S->n_supers - 1; root >= 0; root = first - 1) {
-        uint64_t bits[2], most[2] = {0, 0}; /* integers: half of the latency */
+    for (root = F->S->n_supers - 1; root >= 0; root = first - 1) {
+        uint64_t bits[2], most[2]; /* integers: half of the latency */
         double entry, magnitude, growth;
-        first = S->first_descendant[root];
-        for (s = first; s <= root; s++) {
-            memcpy(bits, &F->extents[s], sizeof bits); /* entry, magnitude */
+        memcpy(most, &extents[root], sizeof most); /* entry, magnitude */
+        suspects |= extents[root].suspects;
+        first = low[root];
+        for (s = first; s < root; s++) {
+            memcpy(bits, &extents[s], sizeof bits);
             most[0] = bits[0] > most[0] ? bits[0] : most[0];
             most[1] = bits[1] > most[1] ? bits[1] : most[1];
-            suspects |= F->extents[s].suspects;
+            suspects |= extents[s].suspects;
         }
         memcpy(&entry, &most[0], sizeof entry);
         memcpy(&magnitude, &most[1], sizeof magnitude);
+        most_entry = entry > most_entry ? entry : most_entry; /* fmax is a call */
+        if (entry >= DBL_MIN && magnitude <= bound * entry) {
+            continue; /* the growth is not the largest: no division */
+        }
         growth = sli_growth(magnitude, entry);
-        info->growth = growth > info->growth ? growth : info->growth; /* fmax is a call */
-        info->entry_max = entry > info->entry_max ? entry : info->entry_max;
+        most_growth = growth > most_growth ? growth : most_growth;
+        /* 1 has no rounding, and 4 epsilon exceed those of a product and a quotient */
+        bound = most_growth < 1.0 || most_growth > F->limits.growth ? 0.0
+                : most_growth * (1.0 - 4.0 * DBL_EPSILON) > 1.0
+                    ? most_growth * (1.0 - 4.0 * DBL_EPSILON)
+                    : 1.0;
         if (growth > F->limits.growth &&
             (failure->status == SL_OK || has_refused)) { /* branches untested: no other failure */
             has_refused = 1;                             /* of several trees, the first one */
             (void)sli_growth_refuse(F, first, root, entry, failure);
         }
     }
+    F->stats.factor.growth = most_growth;
+    F->stats.factor.entry_max = most_entry;
     return suspects != 0;
 }
 

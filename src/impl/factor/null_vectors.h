@@ -150,6 +150,9 @@ static int sli_null_is_suspected(sl_factor *F) {
         return 0;
     }
     sli_count_pivots(F, S->n);
+    if (F->E == NULL && F->stats.factor.pivot_min > rounding * F->stats.factor.pivot_max) {
+        return 0; /* no pivot is */
+    }
     for (root = S->n_supers - 1; root >= 0; root = first - 1) {
         const sl_int last = S->super_first[root + 1] - 1;
         const double size = fabs(F->D[last]);
