@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 2081c8f9f737d42d
+ * FNV-1a of the lines after this comment, without the license: cf550d0dcf88b773
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,25 +39,25 @@
  *   5233 impl/ matrix: sparse matrices of the caller and of the library
  *   5908 impl/ ordering: fill-reducing orderings of a graph
  *  11010 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13234 impl/ factor: the numbers of L and D
- *  16626 impl/ solve: full and local solves
- *  18483 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20480 impl/ pivots: the order of the pivots by the values of a matrix
- *  20888 impl/ float: L and fronts in single precision
- *  21393 impl/ inverse: entries of the inverse, regions
- *  24492 impl/ change: a factor that follows changes of its matrix
- *  30781 impl/ dirichlet: rows fixed at given values
- *  31430 impl/ dirichlet: by a factor of all rows
- *  31662 impl/ io: files that are replaced only when they are complete
- *  31880 impl/ files: Matrix Market files, 64-bit indices
- *  32500 impl/ save: factors in files
- *  34512 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35198 impl/ batch: diagonals of many inverses
- *  35338 impl/ complex: complex Hermitian systems over real factors
- *  35900 impl/ complex: entries of the inverse
- *  35960 impl/ packs: the tables through which the core calls packs
- *  36009 impl/ last: undefine every internal macro
- *  36389 impl/ templates: the header includes them from itself, once for each instruction set
+ *  13238 impl/ factor: the numbers of L and D
+ *  16642 impl/ solve: full and local solves
+ *  18499 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20496 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20904 impl/ float: L and fronts in single precision
+ *  21409 impl/ inverse: entries of the inverse, regions
+ *  24508 impl/ change: a factor that follows changes of its matrix
+ *  30797 impl/ dirichlet: rows fixed at given values
+ *  31446 impl/ dirichlet: by a factor of all rows
+ *  31678 impl/ io: files that are replaced only when they are complete
+ *  31896 impl/ files: Matrix Market files, 64-bit indices
+ *  32516 impl/ save: factors in files
+ *  34528 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35214 impl/ batch: diagonals of many inverses
+ *  35354 impl/ complex: complex Hermitian systems over real factors
+ *  35916 impl/ complex: entries of the inverse
+ *  35976 impl/ packs: the tables through which the core calls packs
+ *  36025 impl/ last: undefine every internal macro
+ *  36405 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12175,7 +12175,7 @@ static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int 
     for (s = p->first[m]; s < p->last[m]; s++) {
       sli_stacks_push(&k, p, S, s, side);
     }
-    for (s = p->first[m]; s < p->last[m]; s++) {
+    for (s = p->first[m]; k.most > 0 && s < p->last[m]; s++) {
       p->stack_begin[s] += side[s] == 0 ? 0 : k.most;
     }
     p->own = k.most > p->own ? k.most : p->own;
@@ -12295,34 +12295,37 @@ static double sli_schedule_gain(const sl_symbolic *S, const sli_schedule_work *w
   return longest > 0.0 ? total / longest : 1.0; /* untested: fronts have a cost */
 }
 
-static int sli_is_direct(const sli_schedule *p, const sl_symbolic *S, sl_int s) {
-  const sl_off first = S->scatter_begin[s], count = 1 + (sl_off)S->steps[s].below;
-  sl_off m = 0;
-  sl_int c;
-  if (S->nnz_input < 0 || S->scatter_begin[s + 1] - first != count) {
-    return 0;
-  }
-  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-    if (p->is_plain[c] == SLI_PLAIN_NOT) {
-      return 0;
+static void sli_schedule_plain(unsigned char *is_plain, const sl_symbolic *S, int plain) {
+  const sli_step *steps = S->steps;
+  const sl_int *low = S->first_descendant, supers = S->n_supers;
+  const sl_off *begin = S->scatter_begin, *map = S->scatter_to;
+  const int may_be_direct = plain == SLI_PLAIN && S->nnz_input >= 0;
+  ptrdiff_t s, c;
+  for (s = 0; s < supers; s++) {
+    int kind = steps[s].width == 1 ? plain : SLI_PLAIN_NOT, is_direct = may_be_direct;
+    for (c = s - 1; c >= low[s] && kind != SLI_PLAIN_NOT; c = (ptrdiff_t)low[c] - 1) {
+      kind = steps[c].below == 1 ? kind : SLI_PLAIN_NOT;
+      is_direct &= is_plain[c] != SLI_PLAIN_NOT;
+    }
+    is_plain[s] = (unsigned char)kind;
+    if (kind != SLI_PLAIN_NOT && is_direct) {
+      const sl_off *to = map + begin[s], *end = map + begin[s + 1];
+      sl_off at = steps[s].panel;
+      const sl_off last = at + steps[s].below;
+      while (to < end && *to == at) {
+        to++;
+        at++;
+      }
+      is_plain[s] = (unsigned char)(to == end && at == last + 1 ? SLI_PLAIN_DIRECT : kind);
     }
   }
-  while (m < count && S->scatter_to[first + m] == S->steps[s].panel + m) {
-    m++;
-  }
-  return m == count;
 }
 
 static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, int plain,
     sli_schedule_work *w) {
   const sli_forest f = {S->n_supers, S->super_parent, S->first_descendant};
   sl_int s;
-  for (s = 0; s < S->n_supers; s++) {
-    p->is_plain[s] =
-      (unsigned char)(plain == SLI_PLAIN_NOT || !sli_is_plain(S, s) ? SLI_PLAIN_NOT
-          : plain == SLI_PLAIN && sli_is_direct(p, S, s) ? SLI_PLAIN_DIRECT
-          : plain);
-  }
+  sli_schedule_plain(p->is_plain, S, plain);
   if (p->workers > 1) {
     for (s = 0; s < S->n_supers; s++) {
       w->flops[s] = sli_front_flops(&S->steps[s]) + SLI_FRONT_COST;
@@ -12332,7 +12335,8 @@ static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, int plain,
   sli_plan_tasks(p, &f, w);
   sli_bundle_tasks(p, w);
   for (s = S->n_supers - 1; s >= 0; s--) {
-    w->side[s] = S->super_parent[s] == -1 ? 0 : 1 - w->side[S->super_parent[s]];
+    const sl_int up = S->super_parent[s];
+    w->side[s] = up == -1 ? 0 : 1 - w->side[up];
   }
   sli_plan_stacks(p, S, w->side, (sl_off *)(void *)w->flops, (sl_off *)(void *)w->path);
 }
@@ -15798,13 +15802,17 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
 static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
   const sl_symbolic *S = F->S;
   const uint64_t workers = (uint64_t)F->schedule.workers + (F->schedule.workers > 1);
+  sl_off room = 0;
   sl_int s;
   for (s = 0; s < S->n_supers; s++) {
     const sl_int w = S->steps[s].width;
-    const sl_off size = sli_tile_offset(w, sli_last_tile(S, s) + 1);
-    const int is_copied = sli_panel_is_copied(F, s);
-    F->work.panel_room = is_copied && size > F->work.panel_room ? size : F->work.panel_room;
+    if (sli_panel_is_copied(F, s)) {
+      const sl_int tiles = sli_last_tile(S, s) + 1;
+      const sl_off size = w == 1 ? SLI_TILE * (sl_off)tiles : sli_tile_offset(w, tiles);
+      room = size > room ? size : room;
+    }
   }
+  F->work.panel_room = room;
   F->work.panels = SLI_CUT(b, double, workers *(uint64_t)F->work.panel_room);
 }
 
@@ -15999,8 +16007,15 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
 static int sli_updates_exceed(const sl_symbolic *S) {
   const double room = 8.0 * (double)S->panel_begin[S->n_supers];
   const sl_off most = room > 1e6 ? (sl_off)room : 1000000;
+  const sl_int children = S->n_supers - S->stats.symbolic.components;
+  sli_step tallest;
   sl_off sum = 0;
   sl_int s, c;
+  tallest.width = SLI_TILE - 1;
+  tallest.below = S->tallest;
+  if ((double)sli_update_size(&tallest) * children <= (double)most) {
+    return 0;
+  }
   for (s = 0; s < S->n_supers && sum <= most; s++) {
     sum = 0;
     for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
@@ -16061,13 +16076,14 @@ SLI_INLINE double sli_factor_clock(const sl_symbolic *S) {
 }
 
 static void sli_factor_clear_gaps(sl_factor *F) {
-  const sl_symbolic *S = F->S;
-  sl_int s;
-  for (s = 0; s < S->n_supers; s++) {
-    if (S->steps[s].width == 1) {
-      const sl_off end = S->panel_begin[s] + 1 + S->steps[s].below;
+  const sli_step *step = F->S->steps, *last = step + F->S->n_supers;
+  const sl_off *next = F->S->panel_begin;
+  for (; step < last; step++) {
+    const sl_off end = step->panel + 1 + step->below;
+    next++;
+    if (step->width == 1 && end < *next) {
       memset((char *)F->values + (size_t)end * F->type->value_bytes, 0,
-          (size_t)(S->panel_begin[s + 1] - end) * F->type->value_bytes);
+          (size_t)(*next - end) * F->type->value_bytes);
     }
   }
 }

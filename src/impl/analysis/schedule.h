@@ -127,23 +127,32 @@ static double sli_schedule_gain(const sl_symbolic *S, const sli_schedule_work *w
     return longest > 0.0 ? total / longest : 1.0; /* untested: fronts have a cost */
 }
 
-/* Is the map of entries of plain column s its rows one by one, and are its children plain? */
-static int sli_is_direct(const sli_schedule *p, const sl_symbolic *S, sl_int s) {
-    const sl_off first = S->scatter_begin[s], count = 1 + (sl_off)S->steps[s].below;
-    sl_off m = 0;
-    sl_int c;
-    if (S->nnz_input < 0 || S->scatter_begin[s + 1] - first != count) {
-        return 0;
-    }
-    for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-        if (p->is_plain[c] == SLI_PLAIN_NOT) {
-            return 0;
+/* Finds what supernodes are, SLI_PLAIN_*. A plain column is direct if the map of its entries is its
+ * rows one by one, and its children are plain. */
+static void sli_schedule_plain(unsigned char *is_plain, const sl_symbolic *S, int plain) {
+    const sli_step *steps = S->steps; /* copies: stores of bytes may change S, for a compiler */
+    const sl_int *low = S->first_descendant, supers = S->n_supers;
+    const sl_off *begin = S->scatter_begin, *map = S->scatter_to;
+    const int may_be_direct = plain == SLI_PLAIN && S->nnz_input >= 0;
+    ptrdiff_t s, c;
+    for (s = 0; s < supers; s++) {
+        int kind = steps[s].width == 1 ? plain : SLI_PLAIN_NOT, is_direct = may_be_direct;
+        for (c = s - 1; c >= low[s] && kind != SLI_PLAIN_NOT; c = (ptrdiff_t)low[c] - 1) {
+            kind = steps[c].below == 1 ? kind : SLI_PLAIN_NOT;
+            is_direct &= is_plain[c] != SLI_PLAIN_NOT;
+        }
+        is_plain[s] = (unsigned char)kind;
+        if (kind != SLI_PLAIN_NOT && is_direct) {
+            const sl_off *to = map + begin[s], *end = map + begin[s + 1];
+            sl_off at = steps[s].panel;
+            const sl_off last = at + steps[s].below;
+            while (to < end && *to == at) {
+                to++;
+                at++;
+            }
+            is_plain[s] = (unsigned char)(to == end && at == last + 1 ? SLI_PLAIN_DIRECT : kind);
         }
     }
-    while (m < count && S->scatter_to[first + m] == S->steps[s].panel + m) {
-        m++;
-    }
-    return m == count;
 }
 
 /* Fills a schedule for at most p->workers. plain: what plain columns are, SLI_PLAIN_*. The arrays
@@ -152,12 +161,7 @@ static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, int plain,
                               sli_schedule_work *w) {
     const sli_forest f = {S->n_supers, S->super_parent, S->first_descendant};
     sl_int s;
-    for (s = 0; s < S->n_supers; s++) {
-        p->is_plain[s] =
-            (unsigned char)(plain == SLI_PLAIN_NOT || !sli_is_plain(S, s)  ? SLI_PLAIN_NOT
-                            : plain == SLI_PLAIN && sli_is_direct(p, S, s) ? SLI_PLAIN_DIRECT
-                                                                           : plain);
-    }
+    sli_schedule_plain(p->is_plain, S, plain);
     if (p->workers > 1) {
         for (s = 0; s < S->n_supers; s++) {
             w->flops[s] = sli_front_flops(&S->steps[s]) + SLI_FRONT_COST;
@@ -167,7 +171,8 @@ static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, int plain,
     sli_plan_tasks(p, &f, w);
     sli_bundle_tasks(p, w);
     for (s = S->n_supers - 1; s >= 0; s--) {
-        w->side[s] = S->super_parent[s] == -1 ? 0 : 1 - w->side[S->super_parent[s]];
+        const sl_int up = S->super_parent[s];
+        w->side[s] = up == -1 ? 0 : 1 - w->side[up];
     }
     sli_plan_stacks(p, S, w->side, (sl_off *)(void *)w->flops, (sl_off *)(void *)w->path);
 }

@@ -111,8 +111,8 @@ static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int 
         for (s = p->first[m]; s < p->last[m]; s++) {
             sli_stacks_push(&k, p, S, s, side);
         }
-        for (s = p->first[m]; s < p->last[m]; s++) { /* the second stack counts from the end */
-            p->stack_begin[s] += side[s] == 0 ? 0 : k.most;
+        for (s = p->first[m]; k.most > 0 && s < p->last[m]; s++) { /* the second stack counts */
+            p->stack_begin[s] += side[s] == 0 ? 0 : k.most;        /* from the end */
         }
         p->own = k.most > p->own ? k.most : p->own;
     }

@@ -48,13 +48,17 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
 static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
     const sl_symbolic *S = F->S;
     const uint64_t workers = (uint64_t)F->schedule.workers + (F->schedule.workers > 1);
+    sl_off room = 0;
     sl_int s;
     for (s = 0; s < S->n_supers; s++) {
         const sl_int w = S->steps[s].width;
-        const sl_off size = sli_tile_offset(w, sli_last_tile(S, s) + 1);
-        const int is_copied = sli_panel_is_copied(F, s);
-        F->work.panel_room = is_copied && size > F->work.panel_room ? size : F->work.panel_room;
+        if (sli_panel_is_copied(F, s)) {
+            const sl_int tiles = sli_last_tile(S, s) + 1;
+            const sl_off size = w == 1 ? SLI_TILE * (sl_off)tiles : sli_tile_offset(w, tiles);
+            room = size > room ? size : room;
+        }
     }
+    F->work.panel_room = room;
     F->work.panels = SLI_CUT(b, double, workers *(uint64_t)F->work.panel_room);
 }
 

@@ -109,8 +109,15 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
 static int sli_updates_exceed(const sl_symbolic *S) {
     const double room = 8.0 * (double)S->panel_begin[S->n_supers];
     const sl_off most = room > 1e6 ? (sl_off)room : 1000000; /* fmax is a call */
+    const sl_int children = S->n_supers - S->stats.symbolic.components;
+    sli_step tallest; /* its update matrix is the largest that there may be */
     sl_off sum = 0;
     sl_int s, c;
+    tallest.width = SLI_TILE - 1;
+    tallest.below = S->tallest;
+    if ((double)sli_update_size(&tallest) * children <= (double)most) {
+        return 0;
+    }
     for (s = 0; s < S->n_supers && sum <= most; s++) {
         sum = 0;
         for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
@@ -176,13 +183,14 @@ SLI_INLINE double sli_factor_clock(const sl_symbolic *S) {
 
 /* Clears what is between a panel of one column and the next panel: it is saved with L. */
 static void sli_factor_clear_gaps(sl_factor *F) {
-    const sl_symbolic *S = F->S;
-    sl_int s;
-    for (s = 0; s < S->n_supers; s++) {
-        if (S->steps[s].width == 1) {
-            const sl_off end = S->panel_begin[s] + 1 + S->steps[s].below;
+    const sli_step *step = F->S->steps, *last = step + F->S->n_supers;
+    const sl_off *next = F->S->panel_begin;
+    for (; step < last; step++) {
+        const sl_off end = step->panel + 1 + step->below;
+        next++;
+        if (step->width == 1 && end < *next) {
             memset((char *)F->values + (size_t)end * F->type->value_bytes, 0,
-                   (size_t)(S->panel_begin[s + 1] - end) * F->type->value_bytes);
+                   (size_t)(*next - end) * F->type->value_bytes);
         }
     }
 }
