@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: cf550d0dcf88b773
+ * FNV-1a of the lines after this comment, without the license: 2fe57ab706253fcf
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,25 +39,25 @@
  *   5233 impl/ matrix: sparse matrices of the caller and of the library
  *   5908 impl/ ordering: fill-reducing orderings of a graph
  *  11010 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13238 impl/ factor: the numbers of L and D
- *  16642 impl/ solve: full and local solves
- *  18499 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20496 impl/ pivots: the order of the pivots by the values of a matrix
- *  20904 impl/ float: L and fronts in single precision
- *  21409 impl/ inverse: entries of the inverse, regions
- *  24508 impl/ change: a factor that follows changes of its matrix
- *  30797 impl/ dirichlet: rows fixed at given values
- *  31446 impl/ dirichlet: by a factor of all rows
- *  31678 impl/ io: files that are replaced only when they are complete
- *  31896 impl/ files: Matrix Market files, 64-bit indices
- *  32516 impl/ save: factors in files
- *  34528 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35214 impl/ batch: diagonals of many inverses
- *  35354 impl/ complex: complex Hermitian systems over real factors
- *  35916 impl/ complex: entries of the inverse
- *  35976 impl/ packs: the tables through which the core calls packs
- *  36025 impl/ last: undefine every internal macro
- *  36405 impl/ templates: the header includes them from itself, once for each instruction set
+ *  13248 impl/ factor: the numbers of L and D
+ *  16652 impl/ solve: full and local solves
+ *  18509 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20506 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20914 impl/ float: L and fronts in single precision
+ *  21419 impl/ inverse: entries of the inverse, regions
+ *  24518 impl/ change: a factor that follows changes of its matrix
+ *  30807 impl/ dirichlet: rows fixed at given values
+ *  31456 impl/ dirichlet: by a factor of all rows
+ *  31688 impl/ io: files that are replaced only when they are complete
+ *  31906 impl/ files: Matrix Market files, 64-bit indices
+ *  32526 impl/ save: factors in files
+ *  34538 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35224 impl/ batch: diagonals of many inverses
+ *  35364 impl/ complex: complex Hermitian systems over real factors
+ *  35926 impl/ complex: entries of the inverse
+ *  35986 impl/ packs: the tables through which the core calls packs
+ *  36035 impl/ last: undefine every internal macro
+ *  36415 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11488,8 +11488,13 @@ static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, 
   }
   for (s = 0; s < g->count; s++) {
     const sl_int up = g->parent[s];
-    sl_off cost = sli_supernode_cost(g, g->width[s], g->below[s]);
+    sl_off cost;
+    if (child[s] == -1 && up == -1) {
+      g->apart[s] = INT32_MAX;
+      continue;
+    }
     count = 0;
+    cost = sli_supernode_cost(g, g->width[s], g->below[s]);
     g->apart[s] = sli_apart_cost(g, s, child, sibling);
     for (c = child[s]; c != -1; c = sibling[c]) {
       const sl_off zeros = sli_new_zeros(g, c, s);
@@ -11514,7 +11519,7 @@ static sl_int sli_find_tops(sli_amalgamation *g, const sl_int *sequence, sl_int 
     sl_int *number) {
   sl_int s, k, count = 0;
   for (s = g->count - 1; s >= 0; s--) {
-    g->merged_into[s] = g->merged_into[s] == s ? s : g->merged_into[g->merged_into[s]];
+    g->merged_into[s] = g->merged_into[g->merged_into[s]];
   }
   for (s = g->count - 1; s >= 0 && g->merges; s--) {
     const sl_int to = g->merged_into[s];
@@ -11813,16 +11818,14 @@ typedef struct sli_structure_super {
 } sli_structure_super;
 
 static void sli_structure_count(const sli_analysis *w, const sl_symbolic *S) {
-  const sl_int *begin = w->columns.begin, *old_of = w->old_of;
-  sl_int s, k = 0;
-  sl_off total = 0;
-  for (s = 0; s < S->n_supers; s++) {
-    S->scatter_begin[s] = total;
-    for (; k < S->super_first[s + 1]; k++) {
-      total += begin[old_of[k] + 1] - begin[old_of[k]];
-    }
+  const sl_int *begin = w->columns.begin, *old_of = w->old_of, *super_of = S->super_of;
+  sl_off *end = S->scatter_begin + 1, total = 0;
+  sl_int k;
+  S->scatter_begin[0] = 0;
+  for (k = 0; k < w->n; k++) {
+    total += begin[old_of[k] + 1] - begin[old_of[k]];
+    end[super_of[k]] = total;
   }
-  S->scatter_begin[s] = total;
 }
 
 static void sli_structure_sort(const sli_analysis *w, sl_int *to, sl_int *at) {
@@ -12573,18 +12576,25 @@ static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *
 }
 
 static void sli_analyze_stats(const sl_symbolic *S, sl_int *depth, sl_stats *stats) {
-  sl_int k;
+  sl_int k, height = 0, components = 0;
+  sl_off nnz_l = 0;
+  double flops = 0.0;
+  for (k = S->n - 1; k >= 0; k--) {
+    const double count = S->counts[k];
+    const sl_int up = S->parent[k];
+    depth[k] = up == -1 ? 1 : depth[up] + 1;
+    height = sli_max(height, depth[k]);
+    components += up == -1;
+    nnz_l += S->counts[k];
+    flops += count * count;
+  }
   stats->symbolic.n = S->n;
   stats->symbolic.supernodes = S->n_supers;
   stats->symbolic.nnz_panels = S->panel_begin[S->n_supers];
-  for (k = S->n - 1; k >= 0; k--) {
-    const double count = S->counts[k];
-    depth[k] = S->parent[k] == -1 ? 1 : depth[S->parent[k]] + 1;
-    stats->symbolic.tree_height = sli_max(stats->symbolic.tree_height, depth[k]);
-    stats->symbolic.components += S->parent[k] == -1;
-    stats->symbolic.nnz_l += S->counts[k];
-    stats->symbolic.flops += count * count;
-  }
+  stats->symbolic.tree_height = height;
+  stats->symbolic.components = components;
+  stats->symbolic.nnz_l = nnz_l;
+  stats->symbolic.flops = flops;
 }
 
 static void sli_fill_septree(sl_symbolic *S, const sli_septree *septree) {

@@ -18,16 +18,14 @@ typedef struct sli_structure_super {
 
 /* Fills scatter_begin: sums of the numbers of entries of A in each supernode's columns. */
 static void sli_structure_count(const sli_analysis *w, const sl_symbolic *S) {
-    const sl_int *begin = w->columns.begin, *old_of = w->old_of;
-    sl_int s, k = 0;
-    sl_off total = 0;
-    for (s = 0; s < S->n_supers; s++) {
-        S->scatter_begin[s] = total;
-        for (; k < S->super_first[s + 1]; k++) {
-            total += begin[old_of[k] + 1] - begin[old_of[k]];
-        }
+    const sl_int *begin = w->columns.begin, *old_of = w->old_of, *super_of = S->super_of;
+    sl_off *end = S->scatter_begin + 1, total = 0; /* of each supernode */
+    sl_int k;
+    S->scatter_begin[0] = 0;
+    for (k = 0; k < w->n; k++) { /* its last column writes last: without branches */
+        total += begin[old_of[k] + 1] - begin[old_of[k]];
+        end[super_of[k]] = total;
     }
-    S->scatter_begin[s] = total;
 }
 
 /* Sorts the entries of A by rows: to[] := column and position in A, of the rows in the final order.

@@ -210,8 +210,13 @@ static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, 
     }
     for (s = 0; s < g->count; s++) {
         const sl_int up = g->parent[s];
-        sl_off cost = sli_supernode_cost(g, g->width[s], g->below[s]);
+        sl_off cost;
+        if (child[s] == -1 && up == -1) { /* stays as it is */
+            g->apart[s] = INT32_MAX;
+            continue;
+        }
         count = 0;
+        cost = sli_supernode_cost(g, g->width[s], g->below[s]);
         g->apart[s] = sli_apart_cost(g, s, child, sibling);
         for (c = child[s]; c != -1; c = sibling[c]) {
             const sl_off zeros = sli_new_zeros(g, c, s);
@@ -240,7 +245,7 @@ static sl_int sli_find_tops(sli_amalgamation *g, const sl_int *sequence, sl_int 
                             sl_int *number) {
     sl_int s, k, count = 0;
     for (s = g->count - 1; s >= 0; s--) { /* parents first, so that theirs is final */
-        g->merged_into[s] = g->merged_into[s] == s ? s : g->merged_into[g->merged_into[s]];
+        g->merged_into[s] = g->merged_into[g->merged_into[s]];
     }
     for (s = g->count - 1; s >= 0 && g->merges; s--) { /* columns that are better apart */
         const sl_int to = g->merged_into[s];

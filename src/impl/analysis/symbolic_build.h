@@ -197,18 +197,25 @@ static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *
 
 /* Fills the counts. depth: n of scratch. */
 static void sli_analyze_stats(const sl_symbolic *S, sl_int *depth, sl_stats *stats) {
-    sl_int k;
+    sl_int k, height = 0, components = 0;
+    sl_off nnz_l = 0;
+    double flops = 0.0;
+    for (k = S->n - 1; k >= 0; k--) {
+        const double count = S->counts[k];
+        const sl_int up = S->parent[k];
+        depth[k] = up == -1 ? 1 : depth[up] + 1;
+        height = sli_max(height, depth[k]);
+        components += up == -1;
+        nnz_l += S->counts[k];
+        flops += count * count;
+    }
     stats->symbolic.n = S->n;
     stats->symbolic.supernodes = S->n_supers;
     stats->symbolic.nnz_panels = S->panel_begin[S->n_supers];
-    for (k = S->n - 1; k >= 0; k--) {
-        const double count = S->counts[k];
-        depth[k] = S->parent[k] == -1 ? 1 : depth[S->parent[k]] + 1;
-        stats->symbolic.tree_height = sli_max(stats->symbolic.tree_height, depth[k]);
-        stats->symbolic.components += S->parent[k] == -1;
-        stats->symbolic.nnz_l += S->counts[k];
-        stats->symbolic.flops += count * count;
-    }
+    stats->symbolic.tree_height = height;
+    stats->symbolic.components = components;
+    stats->symbolic.nnz_l = nnz_l;
+    stats->symbolic.flops = flops;
 }
 
 /* Copies the separator tree, indexed by columns of L. Parents have higher numbers. */
