@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 2fe57ab706253fcf
+ * FNV-1a of the lines after this comment, without the license: 9c4bfcd845ce24ae
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,29 +35,29 @@
  *   2896 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   2973 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3016 impl/ base: the compiler, status, memory, sorting, threads
- *   4294 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5233 impl/ matrix: sparse matrices of the caller and of the library
- *   5908 impl/ ordering: fill-reducing orderings of a graph
- *  11010 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13248 impl/ factor: the numbers of L and D
- *  16652 impl/ solve: full and local solves
- *  18509 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20506 impl/ pivots: the order of the pivots by the values of a matrix
- *  20914 impl/ float: L and fronts in single precision
- *  21419 impl/ inverse: entries of the inverse, regions
- *  24518 impl/ change: a factor that follows changes of its matrix
- *  30807 impl/ dirichlet: rows fixed at given values
- *  31456 impl/ dirichlet: by a factor of all rows
- *  31688 impl/ io: files that are replaced only when they are complete
- *  31906 impl/ files: Matrix Market files, 64-bit indices
- *  32526 impl/ save: factors in files
- *  34538 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35224 impl/ batch: diagonals of many inverses
- *  35364 impl/ complex: complex Hermitian systems over real factors
- *  35926 impl/ complex: entries of the inverse
- *  35986 impl/ packs: the tables through which the core calls packs
- *  36035 impl/ last: undefine every internal macro
- *  36415 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4296 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5235 impl/ matrix: sparse matrices of the caller and of the library
+ *   5910 impl/ ordering: fill-reducing orderings of a graph
+ *  11012 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13250 impl/ factor: the numbers of L and D
+ *  16654 impl/ solve: full and local solves
+ *  18511 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20508 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20916 impl/ float: L and fronts in single precision
+ *  21421 impl/ inverse: entries of the inverse, regions
+ *  24520 impl/ change: a factor that follows changes of its matrix
+ *  30809 impl/ dirichlet: rows fixed at given values
+ *  31458 impl/ dirichlet: by a factor of all rows
+ *  31690 impl/ io: files that are replaced only when they are complete
+ *  31908 impl/ files: Matrix Market files, 64-bit indices
+ *  32528 impl/ save: factors in files
+ *  34540 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35226 impl/ batch: diagonals of many inverses
+ *  35366 impl/ complex: complex Hermitian systems over real factors
+ *  35928 impl/ complex: entries of the inverse
+ *  35988 impl/ packs: the tables through which the core calls packs
+ *  36037 impl/ last: undefine every internal macro
+ *  36418 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3154,6 +3154,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #define SLI_HOT __attribute__((unused, noinline, hot))
 #define SLI_TARGET(list) __attribute__((target(list)))
 #define SLI_ALIGNED(variable) variable __attribute__((aligned(64)))
+#define SLI_AT_LINE __attribute__((aligned(64)))
 #define SLI_PREFETCH(p, bytes) \
   __builtin_prefetch((const void *)((uintptr_t)(p) + (uintptr_t)(bytes)))
 #define SLI_KEEP_CALL __asm__ __volatile__("")
@@ -3167,6 +3168,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #define SLI_NOINLINE
 #define SLI_COLD
 #define SLI_HOT
+#define SLI_AT_LINE
 #define SLI_TARGET(list)
 #if defined(_MSC_VER)
 #define SLI_ALWAYS_INLINE static __forceinline
@@ -36054,6 +36056,7 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_UNROLL
 #undef SLI_KEEP_CALL
 #undef SLI_ALIGNED
+#undef SLI_AT_LINE
 #undef SLI_PREFETCH
 #undef SLI_SPIN
 #undef SLI_ATOMIC
@@ -39932,8 +39935,8 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(panel_forward)(const SLV_VALUE *tile, sl_
   }
 }
 
-SLV_FUNCTION static void SLV_SWEEP(forward)(const sli_reach *R, const void *values, double *x,
-    double *buf) {
+SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(forward)(const sli_reach *R, const void *values,
+    double *x, double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   const sli_step *s = R->steps, *end = s + R->count;
   const sl_int *rows = R->rows;
@@ -40045,7 +40048,7 @@ SLV_FUNCTION SLI_SHARED void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inne
 
 #define SLI_FEW_STEPS 512
 
-SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *values,
+SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *values,
     const double *D, double *x, double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   const int by_two = R->count <= SLI_FEW_STEPS;

@@ -157,6 +157,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #define SLI_HOT __attribute__((unused, noinline, hot)) /* loops that cold functions call */
 #define SLI_TARGET(list) __attribute__((target(list)))
 #define SLI_ALIGNED(variable) variable __attribute__((aligned(64)))
+#define SLI_AT_LINE __attribute__((aligned(64))) /* a function that begins at a cache line */
 /* Prefetches the cache line `bytes` after p. The line need not exist: prefetching an invalid
  * address has no effect. */
 #define SLI_PREFETCH(p, bytes) \
@@ -174,6 +175,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #define SLI_NOINLINE
 #define SLI_COLD
 #define SLI_HOT
+#define SLI_AT_LINE
 #define SLI_TARGET(list)
 #if defined(_MSC_VER)
 #define SLI_ALWAYS_INLINE static __forceinline

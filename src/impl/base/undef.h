@@ -20,6 +20,7 @@
 #undef SLI_UNROLL
 #undef SLI_KEEP_CALL
 #undef SLI_ALIGNED
+#undef SLI_AT_LINE
 #undef SLI_PREFETCH
 #undef SLI_SPIN
 #undef SLI_ATOMIC
