@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 9c4bfcd845ce24ae
+ * FNV-1a of the lines after this comment, without the license: 3def8c25e6092d41
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -41,23 +41,23 @@
  *  11012 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  13250 impl/ factor: the numbers of L and D
  *  16654 impl/ solve: full and local solves
- *  18511 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20508 impl/ pivots: the order of the pivots by the values of a matrix
- *  20916 impl/ float: L and fronts in single precision
- *  21421 impl/ inverse: entries of the inverse, regions
- *  24520 impl/ change: a factor that follows changes of its matrix
- *  30809 impl/ dirichlet: rows fixed at given values
- *  31458 impl/ dirichlet: by a factor of all rows
- *  31690 impl/ io: files that are replaced only when they are complete
- *  31908 impl/ files: Matrix Market files, 64-bit indices
- *  32528 impl/ save: factors in files
- *  34540 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35226 impl/ batch: diagonals of many inverses
- *  35366 impl/ complex: complex Hermitian systems over real factors
- *  35928 impl/ complex: entries of the inverse
- *  35988 impl/ packs: the tables through which the core calls packs
- *  36037 impl/ last: undefine every internal macro
- *  36418 impl/ templates: the header includes them from itself, once for each instruction set
+ *  18528 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20525 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20933 impl/ float: L and fronts in single precision
+ *  21438 impl/ inverse: entries of the inverse, regions
+ *  24537 impl/ change: a factor that follows changes of its matrix
+ *  30826 impl/ dirichlet: rows fixed at given values
+ *  31475 impl/ dirichlet: by a factor of all rows
+ *  31707 impl/ io: files that are replaced only when they are complete
+ *  31925 impl/ files: Matrix Market files, 64-bit indices
+ *  32545 impl/ save: factors in files
+ *  34557 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35243 impl/ batch: diagonals of many inverses
+ *  35383 impl/ complex: complex Hermitian systems over real factors
+ *  35945 impl/ complex: entries of the inverse
+ *  36005 impl/ packs: the tables through which the core calls packs
+ *  36054 impl/ last: undefine every internal macro
+ *  36435 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -17587,10 +17587,24 @@ static void sli_sweep_tasks_add(sli_sweep_tasks *t, sl_int first, sl_int last, s
   }
 }
 
+static double sli_sweep_tasks_load(double *sizes, sl_int count, sl_int workers) {
+  double most = 0.0;
+  sl_int m, k, least;
+  for (m = 0; m < count; m++) {
+    least = sli_min(m, workers - 1);
+    for (k = 0; k < workers && m >= workers; k++) {
+      least = sizes[k] < sizes[least] ? k : least;
+    }
+    sizes[least] = m < workers ? sizes[m] : sizes[least] + sizes[m];
+    most = sizes[least] > most ? sizes[least] : most;
+  }
+  return most;
+}
+
 static double sli_sweep_tasks_path(const sli_sweep_tasks *t, sl_int workers, sl_int *largest) {
   const sl_symbolic *S = t->F->S;
-  double sum = 0.0, most = 0.0, tops = 0.0, most_tree = 0.0;
-  sl_int m;
+  double sizes[SLI_SOLVE_TASKS], tops = 0.0, most_tree = 0.0;
+  sl_int m, k;
   *largest = -1;
   for (m = 0; m < t->n_tops; m++) {
     tops += (double)sli_sweep_entries(S, t->tops[m], t->tops[m]);
@@ -17598,15 +17612,17 @@ static double sli_sweep_tasks_path(const sli_sweep_tasks *t, sl_int workers, sl_
   for (m = 0; m < t->n_tasks; m++) {
     const sli_sweep_task *task = &t->tasks[m];
     const double entries = (double)sli_sweep_entries(S, task->first, task->last);
-    sum += entries;
-    most = entries > most ? entries : most;
+    for (k = m; k > 0 && sizes[k - 1] < entries; k--) {
+      sizes[k] = sizes[k - 1];
+    }
+    sizes[k] = entries;
     if (task->first < task->last && S->first_descendant[task->last] == task->first &&
         entries > most_tree) {
       most_tree = entries;
       *largest = m;
     }
   }
-  return tops + (most > sum / workers ? most : sum / workers);
+  return tops + sli_sweep_tasks_load(sizes, t->n_tasks, workers);
 }
 
 static double sli_sweep_tasks_divide(sli_sweep_tasks *t, sl_int workers) {
@@ -17705,17 +17721,18 @@ static int sli_sweep_tasks_by_trees(sli_sweep_tasks *t, sl_int workers) {
   const double entries = (double)S->panel_begin[S->n_supers], nrhs = t->rhs.nrhs;
   const double weight = (4.0 + nrhs) / 5.0;
   const double shares = weight * entries / SLI_SOLVE_ENTRIES;
+  const double least = SLI_SOLVE_GAIN * (1.0 + nrhs / 16.0);
   double gain;
   workers = shares < workers ? (sl_int)shares : workers;
   if (workers < 2) {
     return 0;
   }
   gain = entries - sli_sweep_tasks_divide(t, workers);
-  if (gain <= 0.0) {
+  if (gain <= 0.0 || weight * gain < least) {
     return 0;
   }
   sli_sweep_tasks_finish(t);
-  if (weight * gain - SLI_SOLVE_SLOT * nrhs * t->n_slots < SLI_SOLVE_GAIN * (1.0 + nrhs / 16.0) ||
+  if (weight * gain - SLI_SOLVE_SLOT * nrhs * t->n_slots < least ||
       t->n_slots > SLI_ROWS_MAX - S->n) { /* untested: 2^31 rows */
     return 0;
   }

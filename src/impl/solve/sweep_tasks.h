@@ -90,12 +90,28 @@ static void sli_sweep_tasks_add(sli_sweep_tasks *t, sl_int first, sl_int last, s
     }
 }
 
+/* Entries of the tasks of the worker with most of them, if each in turn, the largest first, goes to
+ * the one with least. sizes: of the tasks, in descending order; replaced. */
+static double sli_sweep_tasks_load(double *sizes, sl_int count, sl_int workers) {
+    double most = 0.0;
+    sl_int m, k, least;
+    for (m = 0; m < count; m++) {
+        least = sli_min(m, workers - 1);
+        for (k = 0; k < workers && m >= workers; k++) { /* the first ones hold what workers have */
+            least = sizes[k] < sizes[least] ? k : least;
+        }
+        sizes[least] = m < workers ? sizes[m] : sizes[least] + sizes[m];
+        most = sizes[least] > most ? sizes[least] : most;
+    }
+    return most;
+}
+
 /* Entries that follow one another with so many workers, and the largest task that is a tree with
  * children, or -1. */
 static double sli_sweep_tasks_path(const sli_sweep_tasks *t, sl_int workers, sl_int *largest) {
     const sl_symbolic *S = t->F->S;
-    double sum = 0.0, most = 0.0, tops = 0.0, most_tree = 0.0;
-    sl_int m;
+    double sizes[SLI_SOLVE_TASKS], tops = 0.0, most_tree = 0.0;
+    sl_int m, k;
     *largest = -1;
     for (m = 0; m < t->n_tops; m++) {
         tops += (double)sli_sweep_entries(S, t->tops[m], t->tops[m]);
@@ -103,15 +119,17 @@ static double sli_sweep_tasks_path(const sli_sweep_tasks *t, sl_int workers, sl_
     for (m = 0; m < t->n_tasks; m++) {
         const sli_sweep_task *task = &t->tasks[m];
         const double entries = (double)sli_sweep_entries(S, task->first, task->last);
-        sum += entries;
-        most = entries > most ? entries : most;
+        for (k = m; k > 0 && sizes[k - 1] < entries; k--) {
+            sizes[k] = sizes[k - 1];
+        }
+        sizes[k] = entries;
         if (task->first < task->last && S->first_descendant[task->last] == task->first &&
             entries > most_tree) {
             most_tree = entries;
             *largest = m;
         }
     }
-    return tops + (most > sum / workers ? most : sum / workers);
+    return tops + sli_sweep_tasks_load(sizes, t->n_tasks, workers);
 }
 
 /* Divides trees, the largest first, as long as that shortens the path, with a few steps beyond. */
@@ -215,17 +233,18 @@ static int sli_sweep_tasks_by_trees(sli_sweep_tasks *t, sl_int workers) {
     const double entries = (double)S->panel_begin[S->n_supers], nrhs = t->rhs.nrhs;
     const double weight = (4.0 + nrhs) / 5.0; /* 8 take some 2.4 times as long as 1 */
     const double shares = weight * entries / SLI_SOLVE_ENTRIES;
+    const double least = SLI_SOLVE_GAIN * (1.0 + nrhs / 16.0);
     double gain;
     workers = shares < workers ? (sl_int)shares : workers;
     if (workers < 2) {
         return 0;
     }
     gain = entries - sli_sweep_tasks_divide(t, workers);
-    if (gain <= 0.0) { /* with a single task, too */
+    if (gain <= 0.0 || weight * gain < least) { /* with a single task, too */
         return 0;
     }
     sli_sweep_tasks_finish(t);
-    if (weight * gain - SLI_SOLVE_SLOT * nrhs * t->n_slots < SLI_SOLVE_GAIN * (1.0 + nrhs / 16.0) ||
+    if (weight * gain - SLI_SOLVE_SLOT * nrhs * t->n_slots < least ||
         t->n_slots > SLI_ROWS_MAX - S->n) { /* untested: 2^31 rows */
         return 0;
     }
