@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 3def8c25e6092d41
+ * FNV-1a of the lines after this comment, without the license: a7b14da2da766913
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40,24 +40,24 @@
  *   5910 impl/ ordering: fill-reducing orderings of a graph
  *  11012 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  13250 impl/ factor: the numbers of L and D
- *  16654 impl/ solve: full and local solves
- *  18528 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20525 impl/ pivots: the order of the pivots by the values of a matrix
- *  20933 impl/ float: L and fronts in single precision
- *  21438 impl/ inverse: entries of the inverse, regions
- *  24537 impl/ change: a factor that follows changes of its matrix
- *  30826 impl/ dirichlet: rows fixed at given values
- *  31475 impl/ dirichlet: by a factor of all rows
- *  31707 impl/ io: files that are replaced only when they are complete
- *  31925 impl/ files: Matrix Market files, 64-bit indices
- *  32545 impl/ save: factors in files
- *  34557 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35243 impl/ batch: diagonals of many inverses
- *  35383 impl/ complex: complex Hermitian systems over real factors
- *  35945 impl/ complex: entries of the inverse
- *  36005 impl/ packs: the tables through which the core calls packs
- *  36054 impl/ last: undefine every internal macro
- *  36435 impl/ templates: the header includes them from itself, once for each instruction set
+ *  16667 impl/ solve: full and local solves
+ *  18541 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20538 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20946 impl/ float: L and fronts in single precision
+ *  21451 impl/ inverse: entries of the inverse, regions
+ *  24550 impl/ change: a factor that follows changes of its matrix
+ *  30841 impl/ dirichlet: rows fixed at given values
+ *  31490 impl/ dirichlet: by a factor of all rows
+ *  31722 impl/ io: files that are replaced only when they are complete
+ *  31940 impl/ files: Matrix Market files, 64-bit indices
+ *  32560 impl/ save: factors in files
+ *  34572 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35258 impl/ batch: diagonals of many inverses
+ *  35398 impl/ complex: complex Hermitian systems over real factors
+ *  35960 impl/ complex: entries of the inverse
+ *  36020 impl/ packs: the tables through which the core calls packs
+ *  36069 impl/ last: undefine every internal macro
+ *  36450 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13738,18 +13738,31 @@ SLI_COLD static void sli_refuse_negative(const sl_factor *F, sli_failure *failur
   (void)sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, fmin(values[0], values[1]));
 }
 
+static sl_int sli_list_regularized(const sl_factor *F, sl_int count) {
+  sl_int k, listed = 0;
+  for (k = 0; k < count && F->rule.shifts != NULL; k++) {
+    if (F->rule.shifts[k] != 0.0) {
+      F->rule.regularized[listed++] = k;
+    }
+  }
+  return listed;
+}
+
 static void sli_count_pivots(sl_factor *F, sl_int count) {
   sl_factor_info info = F->stats.factor;
   sl_int k = 0;
   info.positive = info.negative = info.null = info.regularized = info.weak = 0;
   info.pivot_min = info.pivot_max = 0.0;
-  if (count > 0 && F->E == NULL && !F->rule.replaces) {
+  if (count > 0 && F->E == NULL && F->null.mode != SL_NULL_PIVOT_SKIP) {
     const sli_spread r = sli_spread_of(F->D, count);
-    info.positive = r.positive;
-    info.negative = count - r.positive;
-    info.pivot_min = r.least;
-    info.pivot_max = r.most;
-    k = count;
+    if (r.least > 0.0) {
+      info.positive = r.positive;
+      info.negative = count - r.positive;
+      info.pivot_min = r.least;
+      info.pivot_max = r.most;
+      info.regularized = sli_list_regularized(F, count);
+      k = count;
+    }
   }
   for (; k < count; k++) {
     double values[2] = {F->D[k], 0.0};
@@ -30628,7 +30641,9 @@ static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_
   const sl_off begin = T->steps[s].panel, least = T->scatter_begin[0] + SLI_ENTRIES_AHEAD;
   const double *l = (const double *)F->values + S->steps[there].panel;
   const double d = F->D[S->steps[there].column];
-  const int has_mark = F->schedule.is_plain[there] != SLI_PLAIN_DIRECT || F->rule.replaces;
+  const int has_mark = F->schedule.is_plain[there] != SLI_PLAIN_DIRECT ||
+             F->null.mode == SL_NULL_PIVOT_SKIP ||
+             sli_is_regularized(F, S->steps[there].column);
   int is_same = has_mark || r->G->schedule.is_plain[s] == SLI_PLAIN_DIRECT;
   uint64_t mark = SLI_MARK_BEGIN, before = SLI_MARK_BEGIN;
   double pivot = 0.0, magnitude = 0.0;
@@ -36635,7 +36650,7 @@ SLI_INLINE void sli_plain_take(const sl_factor *F, sl_int c, sl_int worker, doub
 SLI_INLINE int sli_plain_runs(const sl_factor *F, const sli_source *from) {
   return from->A != NULL && F->work.copied == NULL &&
        F->history.marks != NULL && /* branches untested: of a restriction, none is direct */
-       !F->rule.replaces;
+       F->null.mode != SL_NULL_PIVOT_SKIP;
 }
 
 SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl_int s,
@@ -36644,7 +36659,8 @@ SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl
   const double tolerance = F->rule.null_tolerance > 0.0 ? F->rule.null_tolerance : 0.0;
   const sl_int *at = S->scatter_from + S->scatter_begin[s], *low = S->first_descendant;
   const sli_step *steps = S->steps;
-  double *const L = (double *)F->values, *const D = F->D;
+  const signed char *const signs = F->rule.signs;
+  double *const L = (double *)F->values, *const D = F->D, *const shifts = F->rule.shifts;
   sli_extent *extent = F->extents + s;
   for (; s <= last && F->schedule.is_plain[s] == SLI_PLAIN_DIRECT; s++, extent++) {
     const sli_step *step = &steps[s];
@@ -36667,6 +36683,12 @@ SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl
     }
     if (!(fabs(pivot) > tolerance * magnitude)) {
       return s;
+    }
+    if (shifts != NULL) {
+      if (pivot * (signs == NULL ? 1.0 : signs[step->column]) < 0.0) {
+        return s;
+      }
+      shifts[step->column] = 0.0;
     }
     D[step->column] = pivot;
     extent->entry = entry;

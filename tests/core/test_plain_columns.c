@@ -1,5 +1,5 @@
 /* test_plain_columns.c: nearly diagonal systems, whose columns of L stay apart and unpadded */
-#include "tests/lib/factored.h"
+#include "tests/lib/factor_ways.h"
 #include "tests/lib/local_solve.h"
 #include "tests/lib/parallel_for.h"
 #include "tests/lib/saved.h"
@@ -269,6 +269,65 @@ static void changes_are_followed(void **state) {
     }
 }
 
+/* Regularization changes null pivots and those of the wrong sign, in the middle of runs, too. A
+ * factor of a combination, which has no runs, has the same bits, shifts and statistics. */
+static void pivots_are_regularized(void **state) {
+    (void)state;
+    enum { FEATURES = 12, POINTS = 60, ROWS = FEATURES + POINTS };
+    gen_matrix_t M = separable(FEATURES, POINTS, 0);
+    const sl_int n = M.view.n_cols;
+    const double one = 1.0;
+    sl_int *signs = test_ints((size_t)n);
+    sl_int *row = test_ints(2 * (size_t)n);
+    double *shift = test_reals(2 * (size_t)n), *values;
+    sl_symbolic *S = NULL;
+    SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+    values = test_reals((size_t)scatter_length(S) + 1);
+    const double *const terms[1] = {values};
+    for (sl_int k = 0; k < n; k++) {
+        signs[k] = k < ROWS ? 1 : k % 5 == 0 ? 0 : -1;
+    }
+    for (int way = 0; way < 4; way++) {
+        sl_options opt = options_none();
+        sl_factor *F[2] = {NULL, NULL};
+        sl_stats stats[2];
+        sl_int count[2];
+        opt.regularization = 1e-8;
+        opt.signs = way % 2 == 0 ? NULL : signs; /* NULL: all pivots shall be positive */
+        for (sl_int k = ROWS + POINTS / 2; k < ROWS + POINTS && way > 1; k += 3) {
+            M.x[M.p[k]] = k % 2 == 0 ? 0.0 : 10.0; /* bounds of points, each the only entry */
+        }
+        SL_CHECK(sl_symbolic_scatter(S, values, &M.view, NULL));
+        SL_CHECK(sl_factor_create(&F[0], S, &M.view, FOR_FACTOR(&opt), &stats[0]));
+        SL_CHECK(sl_batch_factor(&F[1], 1, S, &one, terms, 1, FOR_FACTOR(&opt), NULL, &stats[1]));
+        assert_same_bits(F[0], F[1]);
+        assert_ways_agree(S, &M.view, F[0], &opt);
+        for (int k = 0; k < 2; k++) {
+            SL_CHECK(sl_factor_pivot_rows(F[k], SL_PIVOT_REGULARIZED, row + k * n, shift + k * n, n,
+                                          &count[k]));
+        }
+        assert_int_equal(count[0], count[1]);
+        assert_int_equal(count[0], stats[0].factor.regularized);
+        assert_true(way == 1 ? count[0] == 0 : count[0] > 0);
+        assert_memory_equal(row, row + n, (size_t)count[0] * sizeof *row);
+        assert_memory_equal(shift, shift + n, (size_t)count[0] * sizeof *shift);
+        assert_int_equal(stats[0].factor.regularized, stats[1].factor.regularized);
+        assert_int_equal(stats[0].factor.positive, stats[1].factor.positive);
+        assert_int_equal(stats[0].factor.negative, stats[1].factor.negative);
+        assert_true(stats[0].factor.pivot_min == stats[1].factor.pivot_min);
+        assert_true(stats[0].factor.pivot_max == stats[1].factor.pivot_max);
+        assert_true(stats[0].factor.growth == stats[1].factor.growth);
+        sl_factor_free(F[0]);
+        sl_factor_free(F[1]);
+    }
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+    free(values);
+    free(signs);
+    free(row);
+    free(shift);
+}
+
 /* Edits keep what has the same values, in the same order and in another one of the features, and
  * notice each value that has changed: runs of plain columns leave no marks. */
 static void edits_are_followed(void **state) {
@@ -277,11 +336,11 @@ static void edits_are_followed(void **state) {
     gen_matrix_t M = separable(FEATURES, POINTS, 1);
     const sl_int n = M.view.n_cols;
     sl_int *map = test_ints((size_t)n), *order = test_ints((size_t)n);
+    sl_int *signs = test_ints((size_t)n); /* 0: any */
     sl_symbolic *S[2] = {NULL, NULL};
     sl_factor *F = NULL, *G = NULL;
     sl_stats stats;
     SL_CHECK(sl_symbolic_create(&S[0], &M.view, NULL, NULL));
-    SL_CHECK(sl_factor_create(&F, S[0], &M.view, NULL, NULL));
     const sl_int *perm = sl_symbolic_view(S[0]).perm;
     for (sl_int k = 0, at = n; k < n; k++) { /* features in reverse order */
         map[k] = k;
@@ -297,27 +356,32 @@ static void edits_are_followed(void **state) {
     opt.ordering = SL_ORDERING_GIVEN;
     opt.perm = order;
     SL_CHECK(sl_symbolic_create(&S[1], &M.view, FOR_ANALYSIS(&opt), NULL));
-    for (int way = 0; way < 2; way++) {
-        SL_CHECK(sl_factor_edit(&G, F, S[way], &M.view, map, NULL, &stats));
+    for (int way = 0; way < 4; way++) {
+        sl_options any = options_none();
+        any.regularization = way < 2 ? 0.0 : 1e-8; /* which changes no pivot */
+        any.signs = signs;
+        SL_CHECK(sl_factor_create(&F, S[0], &M.view, FOR_FACTOR(&any), NULL));
+        SL_CHECK(sl_factor_edit(&G, F, S[way % 2], &M.view, map, FOR_FACTOR(&any), &stats));
         NOTHING_WRONG(check_factor(G, &M.view));
-        assert_in_range(stats.reuse.kept, way == 0 ? n : n - 40, n); /* rows are in another order */
+        assert_in_range(stats.reuse.kept, way % 2 == 0 ? n : n - 40, n); /* rows in another order */
         sl_factor_free(G);
         for (sl_int p = 0; p < M.p[n]; p += 41) {
             const double a = M.x[p];
             M.x[p] *= 1.0 + 1e-9;
-            SL_CHECK(sl_factor_edit(&G, F, S[way], &M.view, map, NULL, &stats));
+            SL_CHECK(sl_factor_edit(&G, F, S[way % 2], &M.view, map, FOR_FACTOR(&any), &stats));
             NOTHING_WRONG(check_factor(G, &M.view));
             assert_true(stats.reuse.computed > 0);
             sl_factor_free(G);
             M.x[p] = a;
         }
+        sl_factor_free(F);
     }
-    sl_factor_free(F);
     sl_symbolic_free(S[0]);
     sl_symbolic_free(S[1]);
     gen_matrix_free(&M);
     free(map);
     free(order);
+    free(signs);
 }
 
 /* A file of the time when panels of one column were padded to whole tiles: this system's. */
@@ -365,6 +429,7 @@ int main(void) {
         cmocka_unit_test(a_null_pivot_is_named),
         cmocka_unit_test(a_diagonal_may_be_missing),
         cmocka_unit_test(changes_are_followed),
+        cmocka_unit_test(pivots_are_regularized),
         cmocka_unit_test(edits_are_followed),
         cmocka_unit_test(padded_files_are_read),
     };

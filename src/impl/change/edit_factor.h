@@ -122,7 +122,9 @@ static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_
     const sl_off begin = T->steps[s].panel, least = T->scatter_begin[0] + SLI_ENTRIES_AHEAD;
     const double *l = (const double *)F->values + S->steps[there].panel;
     const double d = F->D[S->steps[there].column];
-    const int has_mark = F->schedule.is_plain[there] != SLI_PLAIN_DIRECT || F->rule.replaces;
+    const int has_mark = F->schedule.is_plain[there] != SLI_PLAIN_DIRECT ||
+                         F->null.mode == SL_NULL_PIVOT_SKIP ||
+                         sli_is_regularized(F, S->steps[there].column);
     int is_same = has_mark || r->G->schedule.is_plain[s] == SLI_PLAIN_DIRECT;
     uint64_t mark = SLI_MARK_BEGIN, before = SLI_MARK_BEGIN;
     double pivot = 0.0, magnitude = 0.0;

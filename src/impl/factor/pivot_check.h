@@ -165,19 +165,33 @@ SLI_COLD static void sli_refuse_negative(const sl_factor *F, sli_failure *failur
     (void)sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, fmin(values[0], values[1]));
 }
 
+/* Lists those of the first pivots that regularization changed. Returns how many. */
+static sl_int sli_list_regularized(const sl_factor *F, sl_int count) {
+    sl_int k, listed = 0;
+    for (k = 0; k < count && F->rule.shifts != NULL; k++) {
+        if (F->rule.shifts[k] != 0.0) {
+            F->rule.regularized[listed++] = k;
+        }
+    }
+    return listed;
+}
+
 /* Counts the first pivots by sign and records their least and largest magnitude. */
 static void sli_count_pivots(sl_factor *F, sl_int count) {
     sl_factor_info info = F->stats.factor; /* in registers: 3 times as fast */
     sl_int k = 0;
     info.positive = info.negative = info.null = info.regularized = info.weak = 0;
     info.pivot_min = info.pivot_max = 0.0;
-    if (count > 0 && F->E == NULL && !F->rule.replaces) {
+    if (count > 0 && F->E == NULL && F->null.mode != SL_NULL_PIVOT_SKIP) {
         const sli_spread r = sli_spread_of(F->D, count);
-        info.positive = r.positive;
-        info.negative = count - r.positive;
-        info.pivot_min = r.least;
-        info.pivot_max = r.most;
-        k = count;
+        if (r.least > 0.0) { /* regularization may underflow */
+            info.positive = r.positive;
+            info.negative = count - r.positive;
+            info.pivot_min = r.least;
+            info.pivot_max = r.most;
+            info.regularized = sli_list_regularized(F, count);
+            k = count;
+        }
     }
     for (; k < count; k++) {
         double values[2] = {F->D[k], 0.0};

@@ -81,7 +81,7 @@ SLI_INLINE void sli_plain_take(const sl_factor *F, sl_int c, sl_int worker, doub
 SLI_INLINE int sli_plain_runs(const sl_factor *F, const sli_source *from) {
     return from->A != NULL && F->work.copied == NULL &&
            F->history.marks != NULL && /* branches untested: of a restriction, none is direct */
-           !F->rule.replaces;
+           F->null.mode != SL_NULL_PIVOT_SKIP;
 }
 
 /* Computes plain columns from supernode s up to `last` while each is regular: direct, and there is
@@ -93,7 +93,8 @@ SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl
     const double tolerance = F->rule.null_tolerance > 0.0 ? F->rule.null_tolerance : 0.0;
     const sl_int *at = S->scatter_from + S->scatter_begin[s], *low = S->first_descendant;
     const sli_step *steps = S->steps;
-    double *const L = (double *)F->values, *const D = F->D;
+    const signed char *const signs = F->rule.signs;
+    double *const L = (double *)F->values, *const D = F->D, *const shifts = F->rule.shifts;
     sli_extent *extent = F->extents + s;
     for (; s <= last && F->schedule.is_plain[s] == SLI_PLAIN_DIRECT; s++, extent++) {
         const sli_step *step = &steps[s];
@@ -116,6 +117,12 @@ SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl
         }
         if (!(fabs(pivot) > tolerance * magnitude)) { /* also if they are not finite */
             return s;
+        }
+        if (shifts != NULL) {
+            if (pivot * (signs == NULL ? 1.0 : signs[step->column]) < 0.0) {
+                return s;
+            }
+            shifts[step->column] = 0.0;
         }
         D[step->column] = pivot;
         extent->entry = entry;
