@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a7b14da2da766913
+ * FNV-1a of the lines after this comment, without the license: 881c95ab9b84fa76
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,25 +39,25 @@
  *   5235 impl/ matrix: sparse matrices of the caller and of the library
  *   5910 impl/ ordering: fill-reducing orderings of a graph
  *  11012 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13250 impl/ factor: the numbers of L and D
- *  16667 impl/ solve: full and local solves
- *  18541 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20538 impl/ pivots: the order of the pivots by the values of a matrix
- *  20946 impl/ float: L and fronts in single precision
- *  21451 impl/ inverse: entries of the inverse, regions
- *  24550 impl/ change: a factor that follows changes of its matrix
- *  30841 impl/ dirichlet: rows fixed at given values
- *  31490 impl/ dirichlet: by a factor of all rows
- *  31722 impl/ io: files that are replaced only when they are complete
- *  31940 impl/ files: Matrix Market files, 64-bit indices
- *  32560 impl/ save: factors in files
- *  34572 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35258 impl/ batch: diagonals of many inverses
- *  35398 impl/ complex: complex Hermitian systems over real factors
- *  35960 impl/ complex: entries of the inverse
- *  36020 impl/ packs: the tables through which the core calls packs
- *  36069 impl/ last: undefine every internal macro
- *  36450 impl/ templates: the header includes them from itself, once for each instruction set
+ *  13252 impl/ factor: the numbers of L and D
+ *  16669 impl/ solve: full and local solves
+ *  18544 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20541 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20949 impl/ float: L and fronts in single precision
+ *  21454 impl/ inverse: entries of the inverse, regions
+ *  24553 impl/ change: a factor that follows changes of its matrix
+ *  30844 impl/ dirichlet: rows fixed at given values
+ *  31493 impl/ dirichlet: by a factor of all rows
+ *  31725 impl/ io: files that are replaced only when they are complete
+ *  31943 impl/ files: Matrix Market files, 64-bit indices
+ *  32563 impl/ save: factors in files
+ *  34575 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35261 impl/ batch: diagonals of many inverses
+ *  35401 impl/ complex: complex Hermitian systems over real factors
+ *  35963 impl/ complex: entries of the inverse
+ *  36023 impl/ packs: the tables through which the core calls packs
+ *  36072 impl/ last: undefine every internal macro
+ *  36453 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3732,7 +3732,7 @@ SLI_INLINE void *sli_take_inline(sli_block *b, uint64_t count, size_t size) {
   return b->base == NULL ? NULL : b->base + at;
 }
 
-SLI_NOINLINE static void *sli_take(sli_block *b, uint64_t count, size_t size) {
+SLI_AT_LINE SLI_NOINLINE static void *sli_take(sli_block *b, uint64_t count, size_t size) {
   void *array = sli_take_inline(b, count, size);
   b->used = b->used > SIZE_MAX / 2 ? SIZE_MAX : b->used;
   return array;
@@ -12170,7 +12170,8 @@ static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int
   }
 }
 
-static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int *side, sl_off *size,
+SLI_AT_LINE SLI_NOINLINE static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S,
+    const sl_int *side, sl_off *size,
     sl_off *subtree) {
   sl_int m, s;
   p->own = 0;
@@ -13099,8 +13100,9 @@ SLI_INLINE sl_int sli_reach_find(const sli_step *steps, sl_int low, sl_int high,
 
 #define SLI_REACH_WALK 8
 
-static void sli_reach_map_rows(const sl_int *rows, sl_int inside, const sli_step *steps,
-    sl_int count, sl_int at, sl_int *indices) {
+SLI_AT_LINE SLI_NOINLINE static void sli_reach_map_rows(const sl_int *rows, sl_int inside,
+    const sli_step *steps, sl_int count,
+    sl_int at, sl_int *indices) {
   sl_int i = 0;
   while (i < inside) {
     sl_int end, shift, walked = 0;
@@ -17107,8 +17109,9 @@ static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sl
   }
 }
 
-SLI_NOINLINE static void sli_unpack_part(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
-    const double *x, sl_int begin, sl_int end) {
+SLI_AT_LINE SLI_NOINLINE static void sli_unpack_part(const sl_factor *F, const sli_query *q,
+    const sli_rhs *rhs, const double *x,
+    sl_int begin, sl_int end) {
   const sli_dense at = sli_dense_of(rhs->ldx);
   const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs), count = end - begin;
   const sl_int *index = q->x_index + begin;
@@ -17507,7 +17510,7 @@ SLI_NOINLINE static int sli_are_finite(const double *x, ptrdiff_t count) {
   return beyond >> 63 == 0;
 }
 
-static int sli_reach_is_finite(const sl_factor *F, const sli_reach *R, const double *x,
+SLI_AT_LINE static int sli_reach_is_finite(const sl_factor *F, const sli_reach *R, const double *x,
     sl_int lanes) {
   const sl_symbolic *S = F->S;
   const sl_int *low = R->count == S->n_supers ? S->first_descendant : NULL;
@@ -36618,8 +36621,9 @@ SLI_INLINE double *sli_plain_column(const sl_factor *F, sl_int s, sl_int worker)
                              : sli_double_update_matrix(F, s, worker);
 }
 
-SLI_NOINLINE static sl_int sli_plain_children(const sl_factor *F, const sli_front *f, sl_int c,
-    sl_int worker, sl_int from, sl_int to) {
+SLI_AT_LINE SLI_NOINLINE static sl_int sli_plain_children(const sl_factor *F, const sli_front *f,
+    sl_int c, sl_int worker, sl_int from,
+    sl_int to) {
   const sl_symbolic *S = F->S;
   const sl_int *low = S->first_descendant, end = low[f->super], rows = f->width + f->below;
   for (; c >= end && F->schedule.is_plain[c]; c = low[c] - 1) {
@@ -38204,8 +38208,9 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(solve_triangle)(const double *l, double *x
 #undef SLI_BEFORE
 #undef SLI_SOLVE
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_triangle)(const sli_inverse_front *f, sl_int j0,
-    sl_int c0, sl_int c1, double *scratch) {
+SLI_AT_LINE SLV_FUNCTION SLI_INLINE void SLV_NAME(group_triangle)(const sli_inverse_front *f,
+    sl_int j0, sl_int c0, sl_int c1,
+    double *scratch) {
   const sl_int m = sli_inverse_group_columns(f, j0), tiles = sli_tiles(m),
          tile_size = SLI_TILE * SLI_TILE;
   double *N = scratch + SLI_INVERSE_ROW * (ptrdiff_t)c0,
@@ -39871,10 +39876,9 @@ SLV_SWEEP(backward_plain)(const sli_step *s, const sli_reach *R, const sl_int **
 #define SLI_FORWARD(k) SLV_SWEEP(small_forward)(k, s, rows, L, x, buf)
 #define SLI_BACKWARD(k) SLV_SWEEP(small_backward)(k, s, rows, L, D, x)
 
-SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, const sli_reach *R,
-    const sl_int **next_rows,
-    const SLV_VALUE *L, double *x,
-    double *buf) {
+SLI_AT_LINE SLV_FUNCTION static const sli_step *
+SLV_SWEEP(forward_small)(const sli_step *s, const sli_reach *R, const sl_int **next_rows,
+    const SLV_VALUE *L, double *x, double *buf) {
   const sl_int *rows = *next_rows;
   const sli_step *end = R->steps + R->count;
   while (s < end && s->width <= SLI_TILE) {
@@ -39890,10 +39894,9 @@ SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, 
   return s;
 }
 
-SLV_FUNCTION static const sli_step *SLV_SWEEP(backward_small)(const sli_step *s, const sli_reach *R,
-    const sl_int **rows_end,
-    const SLV_VALUE *L, const double *D,
-    double *x) {
+SLI_AT_LINE SLV_FUNCTION static const sli_step *
+SLV_SWEEP(backward_small)(const sli_step *s, const sli_reach *R, const sl_int **rows_end,
+    const SLV_VALUE *L, const double *D, double *x) {
   const sl_int *rows = *rows_end;
   const sli_step *begin = R->steps;
   while (s > begin && s[-1].width <= SLI_TILE) {
@@ -39974,8 +39977,8 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(panel_forward)(const SLV_VALUE *tile, sl_
   }
 }
 
-SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(forward)(const sli_reach *R, const void *values,
-    double *x, double *buf) {
+SLV_FUNCTION static void SLV_SWEEP(forward)(const sli_reach *R, const void *values, double *x,
+    double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   const sli_step *s = R->steps, *end = s + R->count;
   const sl_int *rows = R->rows;
@@ -40087,7 +40090,7 @@ SLV_FUNCTION SLI_SHARED void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inne
 
 #define SLI_FEW_STEPS 512
 
-SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *values,
+SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *values,
     const double *D, double *x, double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   const int by_two = R->count <= SLI_FEW_STEPS;
@@ -40369,13 +40372,14 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
 #define SLI_BY_WIDTH(call) SLI_CASES(call)
 #endif
 
-SLV_FUNCTION static void SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l,
-    double *xs, double *x) {
+SLI_AT_LINE SLV_FUNCTION static void
+SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l, double *xs, double *x) {
   SLI_BY_WIDTH(SLI_FORWARD);
 }
 
-SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_rows below, const SLV_VALUE *l,
-    const double *d, double *xs, const double *x) {
+SLI_AT_LINE SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
+    const SLV_VALUE *l, const double *d,
+    double *xs, const double *x) {
   SLI_BY_WIDTH(SLI_BACKWARD);
 }
 
@@ -40431,8 +40435,8 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
   SLV_REPEAT_ROWS(t, l, 1) \
   SLV_FNMA(a, t, v1)
 
-SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *values, double *x,
-    double *buf) {
+SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *values,
+    double *x, double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   const sli_step *s = R->steps, *end = s + R->count;
   const sl_int *rows = R->rows;
@@ -40503,7 +40507,7 @@ SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *val
   }
 }
 
-SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *values,
+SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *values,
     const double *D, double *x, double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   const sli_step *s = R->steps + R->count;

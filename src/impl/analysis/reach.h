@@ -182,8 +182,9 @@ SLI_INLINE sl_int sli_reach_find(const sli_step *steps, sl_int low, sl_int high,
  * the ancestors that own them ascend, and the owner of the next row is usually a few ancestors up.
  * If it is not, it is searched among all `count` steps: following ancestors only would take
  * quadratic time in a tree with one long branch. */
-static void sli_reach_map_rows(const sl_int *rows, sl_int inside, const sli_step *steps,
-                               sl_int count, sl_int at, sl_int *indices) {
+SLI_AT_LINE SLI_NOINLINE static void sli_reach_map_rows(const sl_int *rows, sl_int inside,
+                                                        const sli_step *steps, sl_int count,
+                                                        sl_int at, sl_int *indices) {
     sl_int i = 0;
     while (i < inside) {
         sl_int end, shift, walked = 0;

@@ -101,8 +101,9 @@ static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int
 
 /* Lays out the update stacks. Each worker has room for the two stacks of any task. size, subtree:
  * n_supers of scratch each. */
-static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int *side, sl_off *size,
-                            sl_off *subtree) {
+SLI_AT_LINE SLI_NOINLINE static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S,
+                                                     const sl_int *side, sl_off *size,
+                                                     sl_off *subtree) {
     sl_int m, s;
     p->own = 0;
     for (m = 0; m < p->n_tasks; m++) {

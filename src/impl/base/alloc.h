@@ -120,7 +120,7 @@ SLI_INLINE void *sli_take_inline(sli_block *b, uint64_t count, size_t size) {
 }
 
 /* The same as one function. It is called in 500 places: inlined, they were 25 kB of the object. */
-SLI_NOINLINE static void *sli_take(sli_block *b, uint64_t count, size_t size) {
+SLI_AT_LINE SLI_NOINLINE static void *sli_take(sli_block *b, uint64_t count, size_t size) {
     void *array = sli_take_inline(b, count, size);
     b->used = b->used > SIZE_MAX / 2 ? SIZE_MAX : b->used; /* sli_cut may follow */
     return array;

@@ -47,8 +47,9 @@ SLI_INLINE double *sli_plain_column(const sl_factor *F, sl_int s, sl_int worker)
 
 /* Adds what plain children c, the one before, ... pass up to rows from .. to-1 of a front. Returns
  * the first child that is not plain, or what is before all children. */
-SLI_NOINLINE static sl_int sli_plain_children(const sl_factor *F, const sli_front *f, sl_int c,
-                                              sl_int worker, sl_int from, sl_int to) {
+SLI_AT_LINE SLI_NOINLINE static sl_int sli_plain_children(const sl_factor *F, const sli_front *f,
+                                                          sl_int c, sl_int worker, sl_int from,
+                                                          sl_int to) {
     const sl_symbolic *S = F->S;
     const sl_int *low = S->first_descendant, end = low[f->super], rows = f->width + f->below;
     for (; c >= end && F->schedule.is_plain[c]; c = low[c] - 1) {

@@ -100,8 +100,9 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(solve_triangle)(const double *l, double *x
 
 /* N = -L_JJ'^-1 and P = -N D^-1 for the group of m columns from j0 on: row tiles c0 .. c1-1, row
  * tile c from column 8c on. Rows after the last are 0. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_triangle)(const sli_inverse_front *f, sl_int j0,
-                                                      sl_int c0, sl_int c1, double *scratch) {
+SLI_AT_LINE SLV_FUNCTION SLI_INLINE void SLV_NAME(group_triangle)(const sli_inverse_front *f,
+                                                                  sl_int j0, sl_int c0, sl_int c1,
+                                                                  double *scratch) {
     const sl_int m = sli_inverse_group_columns(f, j0), tiles = sli_tiles(m),
                  tile_size = SLI_TILE * SLI_TILE;
     double *N = scratch + SLI_INVERSE_ROW * (ptrdiff_t)c0,

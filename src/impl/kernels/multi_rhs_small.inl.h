@@ -130,13 +130,14 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
 #define SLI_BY_WIDTH(call) SLI_CASES(call)
 #endif
 
-SLV_FUNCTION static void SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l,
-                                                  double *xs, double *x) {
+SLI_AT_LINE SLV_FUNCTION static void
+SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l, double *xs, double *x) {
     SLI_BY_WIDTH(SLI_FORWARD);
 }
 
-SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_rows below, const SLV_VALUE *l,
-                                                   const double *d, double *xs, const double *x) {
+SLI_AT_LINE SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
+                                                               const SLV_VALUE *l, const double *d,
+                                                               double *xs, const double *x) {
     SLI_BY_WIDTH(SLI_BACKWARD);
 }
 

@@ -46,9 +46,8 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(panel_forward)(const SLV_VALUE *tile, sl_
     }
 }
 
-/* Where its loops begin in a line changes the time of solves by up to a fifth. */
-SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(forward)(const sli_reach *R, const void *values,
-                                                        double *x, double *buf) {
+SLV_FUNCTION static void SLV_SWEEP(forward)(const sli_reach *R, const void *values, double *x,
+                                            double *buf) {
     const SLV_VALUE *L = (const SLV_VALUE *)values;
     const sli_step *s = R->steps, *end = s + R->count;
     const sl_int *rows = R->rows;
@@ -171,8 +170,8 @@ SLV_FUNCTION SLI_SHARED void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inne
 #define SLI_FEW_STEPS 512
 
 /* buf: the rows of two tiles, then the sums. */
-SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *values,
-                                                         const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *values,
+                                             const double *D, double *x, double *buf) {
     const SLV_VALUE *L = (const SLV_VALUE *)values;
     const int by_two = R->count <= SLI_FEW_STEPS;
     const sli_step *begin = R->steps, *s = begin + R->count;

@@ -322,10 +322,9 @@ SLV_SWEEP(backward_plain)(const sli_step *s, const sli_reach *R, const sl_int **
 /* A run of such supernodes from step s on, up to one that is wider. Returns the step
  * after the run and moves next_rows on. A function for runs, because a call for each supernode took
  * 3 % of the time of a solve. */
-SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, const sli_reach *R,
-                                                             const sl_int **next_rows,
-                                                             const SLV_VALUE *L, double *x,
-                                                             double *buf) {
+SLI_AT_LINE SLV_FUNCTION static const sli_step *
+SLV_SWEEP(forward_small)(const sli_step *s, const sli_reach *R, const sl_int **next_rows,
+                         const SLV_VALUE *L, double *x, double *buf) {
     const sl_int *rows = *next_rows;
     const sli_step *end = R->steps + R->count;
     while (s < end && s->width <= SLI_TILE) {
@@ -343,10 +342,9 @@ SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, 
 
 /* The same before step s, in descending order. Returns the first step of the run.
  */
-SLV_FUNCTION static const sli_step *SLV_SWEEP(backward_small)(const sli_step *s, const sli_reach *R,
-                                                              const sl_int **rows_end,
-                                                              const SLV_VALUE *L, const double *D,
-                                                              double *x) {
+SLI_AT_LINE SLV_FUNCTION static const sli_step *
+SLV_SWEEP(backward_small)(const sli_step *s, const sli_reach *R, const sl_int **rows_end,
+                          const SLV_VALUE *L, const double *D, double *x) {
     const sl_int *rows = *rows_end;
     const sli_step *begin = R->steps;
     while (s > begin && s[-1].width <= SLI_TILE) {

@@ -19,8 +19,8 @@
     SLV_REPEAT_ROWS(t, l, 1) \
     SLV_FNMA(a, t, v1)
 
-SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *values, double *x,
-                                             double *buf) {
+SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *values,
+                                                         double *x, double *buf) {
     const SLV_VALUE *L = (const SLV_VALUE *)values;
     const sli_step *s = R->steps, *end = s + R->count;
     const sl_int *rows = R->rows;
@@ -91,8 +91,8 @@ SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *val
     }
 }
 
-SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *values,
-                                              const double *D, double *x, double *buf) {
+SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, const void *values,
+                                                          const double *D, double *x, double *buf) {
     const SLV_VALUE *L = (const SLV_VALUE *)values;
     const sli_step *s = R->steps + R->count;
     const sl_int *rows_end = R->rows + R->n_rows;

@@ -52,8 +52,8 @@ SLI_NOINLINE static int sli_are_finite(const double *x, ptrdiff_t count) {
  * not shows at the root of its tree: sums, products and quotients with it, also those with 0, are
  * not finite either. So only the roots are looked at. Where components have several null vectors,
  * x is 0 at their null pivots. */
-static int sli_reach_is_finite(const sl_factor *F, const sli_reach *R, const double *x,
-                               sl_int lanes) {
+SLI_AT_LINE static int sli_reach_is_finite(const sl_factor *F, const sli_reach *R, const double *x,
+                                           sl_int lanes) {
     const sl_symbolic *S = F->S;
     const sl_int *low = R->count == S->n_supers ? S->first_descendant : NULL;
     const sl_int least = S->stats.symbolic.components == 1 ? sli_max(R->count - 1, 0) : 0;

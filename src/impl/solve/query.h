@@ -394,8 +394,9 @@ static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sl
 }
 
 /* Moves the wanted rows begin .. end-1 of a block out of the backward vector. */
-SLI_NOINLINE static void sli_unpack_part(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
-                                         const double *x, sl_int begin, sl_int end) {
+SLI_AT_LINE SLI_NOINLINE static void sli_unpack_part(const sl_factor *F, const sli_query *q,
+                                                     const sli_rhs *rhs, const double *x,
+                                                     sl_int begin, sl_int end) {
     const sli_dense at = sli_dense_of(rhs->ldx);
     const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs), count = end - begin;
     const sl_int *index = q->x_index + begin;
