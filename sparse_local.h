@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 881c95ab9b84fa76
+ * FNV-1a of the lines after this comment, without the license: 0b3e8653ce80a624
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39595,6 +39595,10 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(tile_backward)(const SLV_VALUE *l, double
     SLV_LANE(y##k, a, k) \
     SLV_DOT(a, l + SLI_TILE * (k), y##k) \
   }
+#define SLI_PUT(k, unused) \
+  if (SLI_HAS(k)) { \
+    xs[k] = buf[k]; \
+  }
 #define SLI_EVEN_ODD(k, unused) \
   if (SLI_HAS(k)) { \
     SLV_PREFETCH(l, k, SLI_PREFETCH_DISTANCE) \
@@ -39618,9 +39622,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, con
   SLV_LOAD_PART(a, xs, w, 0.0)
   SLI_EACH8(SLI_COLUMN, 0)
   SLV_STORE(buf, a)
-  for (i = 0; i < w; i++) {
-    xs[i] = buf[i];
-  }
+  SLI_EACH8(SLI_PUT, 0)
   for (row = SLI_TILE; row < w + below; row += SLI_TILE) {
     l += SLI_TILE * w;
     SLV_ZERO(a)
@@ -39917,6 +39919,7 @@ SLV_SWEEP(backward_small)(const sli_step *s, const sli_reach *R, const sl_int **
 #undef SLI_SUM_DECLARE
 #undef SLI_SUM_ZERO
 #undef SLI_COLUMN
+#undef SLI_PUT
 #undef SLI_EVEN_ODD
 #undef SLI_DOT
 #undef SLI_DOTS

@@ -27,6 +27,10 @@
         SLV_LANE(y##k, a, k) \
         SLV_DOT(a, l + SLI_TILE * (k), y##k) \
     }
+#define SLI_PUT(k, unused) \
+    if (SLI_HAS(k)) { \
+        xs[k] = buf[k]; \
+    }
 /* A tile below: even and odd columns have a sum each, two independent chains of FMAs. */
 #define SLI_EVEN_ODD(k, unused) \
     if (SLI_HAS(k)) { \
@@ -51,9 +55,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, con
     SLV_LOAD_PART(a, xs, w, 0.0)
     SLI_EACH8(SLI_COLUMN, 0)
     SLV_STORE(buf, a)
-    for (i = 0; i < w; i++) {
-        xs[i] = buf[i];
-    }
+    SLI_EACH8(SLI_PUT, 0)
     for (row = SLI_TILE; row < w + below; row += SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
         l += SLI_TILE * w;
         SLV_ZERO(a)
@@ -365,6 +367,7 @@ SLV_SWEEP(backward_small)(const sli_step *s, const sli_reach *R, const sl_int **
 #undef SLI_SUM_DECLARE
 #undef SLI_SUM_ZERO
 #undef SLI_COLUMN
+#undef SLI_PUT
 #undef SLI_EVEN_ODD
 #undef SLI_DOT
 #undef SLI_DOTS
