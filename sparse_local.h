@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 0b3e8653ce80a624
+ * FNV-1a of the lines after this comment, without the license: 8bbb5626052cc63e
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,25 +39,25 @@
  *   5235 impl/ matrix: sparse matrices of the caller and of the library
  *   5910 impl/ ordering: fill-reducing orderings of a graph
  *  11012 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13252 impl/ factor: the numbers of L and D
- *  16669 impl/ solve: full and local solves
- *  18544 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20541 impl/ pivots: the order of the pivots by the values of a matrix
- *  20949 impl/ float: L and fronts in single precision
- *  21454 impl/ inverse: entries of the inverse, regions
- *  24553 impl/ change: a factor that follows changes of its matrix
- *  30844 impl/ dirichlet: rows fixed at given values
- *  31493 impl/ dirichlet: by a factor of all rows
- *  31725 impl/ io: files that are replaced only when they are complete
- *  31943 impl/ files: Matrix Market files, 64-bit indices
- *  32563 impl/ save: factors in files
- *  34575 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35261 impl/ batch: diagonals of many inverses
- *  35401 impl/ complex: complex Hermitian systems over real factors
- *  35963 impl/ complex: entries of the inverse
- *  36023 impl/ packs: the tables through which the core calls packs
- *  36072 impl/ last: undefine every internal macro
- *  36453 impl/ templates: the header includes them from itself, once for each instruction set
+ *  13251 impl/ factor: the numbers of L and D
+ *  16668 impl/ solve: full and local solves
+ *  18543 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20540 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20948 impl/ float: L and fronts in single precision
+ *  21453 impl/ inverse: entries of the inverse, regions
+ *  24552 impl/ change: a factor that follows changes of its matrix
+ *  30843 impl/ dirichlet: rows fixed at given values
+ *  31492 impl/ dirichlet: by a factor of all rows
+ *  31724 impl/ io: files that are replaced only when they are complete
+ *  31942 impl/ files: Matrix Market files, 64-bit indices
+ *  32562 impl/ save: factors in files
+ *  34574 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35260 impl/ batch: diagonals of many inverses
+ *  35400 impl/ complex: complex Hermitian systems over real factors
+ *  35962 impl/ complex: entries of the inverse
+ *  36022 impl/ packs: the tables through which the core calls packs
+ *  36071 impl/ last: undefine every internal macro
+ *  36452 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13100,9 +13100,8 @@ SLI_INLINE sl_int sli_reach_find(const sli_step *steps, sl_int low, sl_int high,
 
 #define SLI_REACH_WALK 8
 
-SLI_AT_LINE SLI_NOINLINE static void sli_reach_map_rows(const sl_int *rows, sl_int inside,
-    const sli_step *steps, sl_int count,
-    sl_int at, sl_int *indices) {
+static void sli_reach_map_rows(const sl_int *rows, sl_int inside, const sli_step *steps,
+    sl_int count, sl_int at, sl_int *indices) {
   sl_int i = 0;
   while (i < inside) {
     sl_int end, shift, walked = 0;
@@ -13118,8 +13117,8 @@ SLI_AT_LINE SLI_NOINLINE static void sli_reach_map_rows(const sl_int *rows, sl_i
   }
 }
 
-static void sli_extent_map_rows(const sli_region_extent *extent, sl_int base, const sl_int *rows,
-    sl_int count, sl_int *indices) {
+SLI_NOINLINE static void sli_extent_map_rows(const sli_region_extent *extent, sl_int base,
+    const sl_int *rows, sl_int count, sl_int *indices) {
   sl_int i, at = 0;
   for (i = 0; i < count; i++) {
     at += sli_lower_bound(extent->rows + at, extent->n_rows - at, rows[i]);
@@ -13132,7 +13131,7 @@ typedef struct sli_reach_arrays {
   sl_int *rows;
 } sli_reach_arrays;
 
-static void sli_reach_fill_within(const sl_symbolic *S, const sli_region_extent *extent,
+SLI_AT_LINE static void sli_reach_fill_within(const sl_symbolic *S, const sli_region_extent *extent,
     const uint64_t *seeds, sl_int count,
     const sli_reach_arrays *arrays, sli_reach *R) {
   sli_step *steps = arrays->steps;

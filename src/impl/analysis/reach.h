@@ -182,9 +182,8 @@ SLI_INLINE sl_int sli_reach_find(const sli_step *steps, sl_int low, sl_int high,
  * the ancestors that own them ascend, and the owner of the next row is usually a few ancestors up.
  * If it is not, it is searched among all `count` steps: following ancestors only would take
  * quadratic time in a tree with one long branch. */
-SLI_AT_LINE SLI_NOINLINE static void sli_reach_map_rows(const sl_int *rows, sl_int inside,
-                                                        const sli_step *steps, sl_int count,
-                                                        sl_int at, sl_int *indices) {
+static void sli_reach_map_rows(const sl_int *rows, sl_int inside, const sli_step *steps,
+                               sl_int count, sl_int at, sl_int *indices) {
     sl_int i = 0;
     while (i < inside) {
         sl_int end, shift, walked = 0;
@@ -201,8 +200,8 @@ SLI_AT_LINE SLI_NOINLINE static void sli_reach_map_rows(const sl_int *rows, sl_i
 }
 
 /* Converts rows in a boundary, which starts at index `base`. Both ascend. */
-static void sli_extent_map_rows(const sli_region_extent *extent, sl_int base, const sl_int *rows,
-                                sl_int count, sl_int *indices) {
+SLI_NOINLINE static void sli_extent_map_rows(const sli_region_extent *extent, sl_int base,
+                                             const sl_int *rows, sl_int count, sl_int *indices) {
     sl_int i, at = 0;
     for (i = 0; i < count; i++) {
         at += sli_lower_bound(extent->rows + at, extent->n_rows - at, rows[i]);
@@ -218,9 +217,9 @@ typedef struct sli_reach_arrays {
 
 /* Compiles the reach of seeds. O(reach), with a logarithmic factor where rows skip many ancestors
  * and for rows in the boundary. */
-static void sli_reach_fill_within(const sl_symbolic *S, const sli_region_extent *extent,
-                                  const uint64_t *seeds, sl_int count,
-                                  const sli_reach_arrays *arrays, sli_reach *R) {
+SLI_AT_LINE static void sli_reach_fill_within(const sl_symbolic *S, const sli_region_extent *extent,
+                                              const uint64_t *seeds, sl_int count,
+                                              const sli_reach_arrays *arrays, sli_reach *R) {
     sli_step *steps = arrays->steps;
     sl_int *rows = arrays->rows;
     sl_int k = 0, at, s, next, end;
