@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 8bbb5626052cc63e
+ * FNV-1a of the lines after this comment, without the license: bab863e615f443c4
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -41,23 +41,23 @@
  *  11012 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  13251 impl/ factor: the numbers of L and D
  *  16668 impl/ solve: full and local solves
- *  18543 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20540 impl/ pivots: the order of the pivots by the values of a matrix
- *  20948 impl/ float: L and fronts in single precision
- *  21453 impl/ inverse: entries of the inverse, regions
- *  24552 impl/ change: a factor that follows changes of its matrix
- *  30843 impl/ dirichlet: rows fixed at given values
- *  31492 impl/ dirichlet: by a factor of all rows
- *  31724 impl/ io: files that are replaced only when they are complete
- *  31942 impl/ files: Matrix Market files, 64-bit indices
- *  32562 impl/ save: factors in files
- *  34574 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35260 impl/ batch: diagonals of many inverses
- *  35400 impl/ complex: complex Hermitian systems over real factors
- *  35962 impl/ complex: entries of the inverse
- *  36022 impl/ packs: the tables through which the core calls packs
- *  36071 impl/ last: undefine every internal macro
- *  36452 impl/ templates: the header includes them from itself, once for each instruction set
+ *  18544 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20541 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20949 impl/ float: L and fronts in single precision
+ *  21454 impl/ inverse: entries of the inverse, regions
+ *  24553 impl/ change: a factor that follows changes of its matrix
+ *  30847 impl/ dirichlet: rows fixed at given values
+ *  31496 impl/ dirichlet: by a factor of all rows
+ *  31728 impl/ io: files that are replaced only when they are complete
+ *  31946 impl/ files: Matrix Market files, 64-bit indices
+ *  32566 impl/ save: factors in files
+ *  34578 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35264 impl/ batch: diagonals of many inverses
+ *  35404 impl/ complex: complex Hermitian systems over real factors
+ *  35966 impl/ complex: entries of the inverse
+ *  36026 impl/ packs: the tables through which the core calls packs
+ *  36075 impl/ last: undefine every internal macro
+ *  36456 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -17514,6 +17514,7 @@ SLI_AT_LINE static int sli_reach_is_finite(const sl_factor *F, const sli_reach *
   const sl_symbolic *S = F->S;
   const sl_int *low = R->count == S->n_supers ? S->first_descendant : NULL;
   const sl_int least = S->stats.symbolic.components == 1 ? sli_max(R->count - 1, 0) : 0;
+  const sl_int last = F->type->storage == SL_STORAGE_COMPLEX ? 2 : 1;
   const sli_step *steps = R->steps;
   sl_int s;
   int is_finite = 1;
@@ -17526,10 +17527,10 @@ SLI_AT_LINE static int sli_reach_is_finite(const sl_factor *F, const sli_reach *
       continue;
     }
     end = (ptrdiff_t)steps[s].base + sli_step_columns(&steps[s]);
-    first = end - 1;
+    first = end - last;
     while (s > least && steps[s].base == first && steps[s - 1].up == -1) {
       s--;
-      first--;
+      first -= last;
     }
     is_finite &= sli_are_finite(x + first * lanes, (end - first) * lanes);
   }
@@ -30648,7 +30649,7 @@ static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_
              sli_is_regularized(F, S->steps[there].column);
   int is_same = has_mark || r->G->schedule.is_plain[s] == SLI_PLAIN_DIRECT;
   uint64_t mark = SLI_MARK_BEGIN, before = SLI_MARK_BEGIN;
-  double pivot = 0.0, magnitude = 0.0;
+  double pivot = 0.0, entry = 0.0, magnitude;
   sl_int tile = sli_last_tile(T, s), k, j;
   sl_off m;
   of += S->rows_begin[there];
@@ -30668,16 +30669,19 @@ static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_
       before += sli_mark_entry(a, at);
     }
     pivot = 0.0 + a;
+    entry = fabs(a) > entry ? fabs(a) : entry;
     is_same &= has_mark || at == 0 || l[at] == pivot / d;
   }
   r->G->history.marks[s] = mark;
   if (has_mark) {
     return F->history.marks[there] == (is_moved ? before : mark);
   }
+  magnitude = fabs(pivot);
   for (j = there - 1; j >= S->first_descendant[there]; j = S->first_descendant[j] - 1) {
     sli_plain_take(F, j, 0, &pivot, &magnitude);
   }
-  return is_same && pivot == d;
+  return is_same && pivot == d && F->extents[there].entry == entry &&
+       F->extents[there].magnitude == magnitude;
 }
 
 static int sli_reuse_choose(sli_reuse *r) {

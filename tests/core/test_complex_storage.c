@@ -127,6 +127,30 @@ static void check_solves(const pair_t *y, sl_isa isa) {
     free(X);
 }
 
+/* A number of B that is not finite is found at each place, in the last rows of trees, too. */
+static void check_not_finite(const pair_t *y, sl_isa isa) {
+    const size_t n = (size_t)y->n;
+    double *b = test_reals(3 * n), *x = test_reals(3 * n);
+    gen_reals(b, 3 * n, 7);
+    (void)isa;
+    for (sl_int nrhs = 1; nrhs <= 3; nrhs++) {
+        SL_CHECK(sl_factor_solve(y->F[1], x, n ? n : 1, b, n ? n : 1, nrhs, NULL));
+        for (size_t k = 0; k < n * (size_t)nrhs; k++) {
+            const double keep = b[k];
+            b[k] = k % 2 == 0 ? (double)NAN : (double)INFINITY;
+            SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_solve(y->F[1], x, n ? n : 1, b, n ? n : 1, nrhs, NULL));
+            b[k] = keep;
+        }
+    }
+    free(b);
+    free(x);
+}
+
+static void numbers_that_are_not_finite_are_found(void **state) {
+    (void)state;
+    for_each(check_not_finite);
+}
+
 static void solves_are_exact_and_local(void **state) {
     (void)state;
     const isa_list_t isas = isas_present();
@@ -274,6 +298,7 @@ int main(void) {
         cmocka_unit_test(l_is_a_factor_of_blocks),
         cmocka_unit_test(pivots_without_reciprocal_are_divided_by),
         cmocka_unit_test(solves_are_exact_and_local),
+        cmocka_unit_test(numbers_that_are_not_finite_are_found),
         cmocka_unit_test(other_calls_agree),
         cmocka_unit_test(memory_is_halved),
         cmocka_unit_test(restrictions_are_complex),

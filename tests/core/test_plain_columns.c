@@ -384,6 +384,83 @@ static void edits_are_followed(void **state) {
     free(signs);
 }
 
+/* Blocks of two leaves and their parent, a bit of each kind. Row 2 is the parent in the first. */
+enum { BLOCKS = 200 };
+static gen_matrix_t blocks_of_three(double leaf, double other, double parent) {
+    gen_list_t t = gen_list(3 * BLOCKS);
+    for (sl_int k = 0; k < t.n; k += 3) {
+        gen_add(&t, k, k, leaf);
+        gen_add(&t, k + 1, k + 1, other);
+        gen_add(&t, k + 2, k + 2, parent);
+        gen_add(&t, k + 2, k, 1.0);
+        gen_add(&t, k + 2, k + 1, 1.0);
+    }
+    const gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    gen_list_free(&t);
+    return M;
+}
+
+/* An edit of F after row 2 of A has changed gives the numbers, statistics and verdict of a factor
+ * made anew. */
+static void edit_row_2(const sl_symbolic *S, const sl_factor *F, const gen_matrix_t *M,
+                       const sl_options *opt) {
+    sl_int *map = test_ints(3 * BLOCKS);
+    sl_factor *G = NULL, *H = NULL;
+    sl_stats edited, anew;
+    for (sl_int k = 0; k < 3 * BLOCKS; k++) {
+        map[k] = k;
+    }
+    const sl_status status = sl_factor_create(&H, S, &M->view, FOR_FACTOR(opt), &anew);
+    SL_EXPECT(status, sl_factor_edit(&G, F, S, &M->view, map, FOR_FACTOR(opt), &edited));
+    assert_true(edited.factor.entry_max == anew.factor.entry_max);
+    assert_true(edited.factor.growth == anew.factor.growth);
+    if (status == SL_OK) {
+        assert_same_bits(G, H);
+    }
+    sl_factor_free(G);
+    sl_factor_free(H);
+    free(map);
+}
+
+/* What a run computed may have been changed by other ways since, which leave bounds of entries and
+ * growth; and regularization may absorb a new value. */
+static void edits_after_changes_have_their_growth(void **state) {
+    (void)state;
+    const sl_int row = 2;
+    const double delta = -982.0;
+    sl_int *any = test_ints(3 * BLOCKS), *signs = test_ints(3 * BLOCKS);
+    for (sl_int k = 0; k < 3 * BLOCKS; k++) {
+        signs[k] = k % 3 == 2 ? -1 : 1;
+    }
+    for (int way = 0; way < 5; way++) {
+        const int absorbs = way == 4;
+        sl_options opt = options_none();
+        sl_factor *F = NULL;
+        gen_matrix_t M = absorbs ? blocks_of_three(0.0, 1.0, -1.0) : blocks_of_three(4.0, 8.0, 8.0);
+        sl_symbolic *S = analyze_natural(&M.view, SL_RELAXATION_NONE);
+        opt.regularization = absorbs ? 1e-17 : way < 2 ? 0.0 : 1e-8;
+        opt.signs = absorbs ? signs : any;
+        opt.growth_limit = -1.0;
+        if (!absorbs) {
+            M.x[M.p[0]] = M.x[M.p[1]] = 0.125;
+            M.x[M.p[2]] = 1000.0;
+            M.x[M.p[5]] = -4.0;
+        }
+        SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
+        if (!absorbs) {
+            SL_CHECK(sl_factor_change(F, NULL, &row, &row, &delta, 1, NULL, NULL));
+        }
+        M.x[M.p[2]] = absorbs ? -5.0 : 18.0;
+        opt.growth_limit = way % 2 == 0 ? -1.0 : 1.5;
+        edit_row_2(S, F, &M, &opt);
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+    }
+    free(any);
+    free(signs);
+}
+
 /* A file of the time when panels of one column were padded to whole tiles: this system's. */
 static void padded_files_are_read(void **state) {
     (void)state;
@@ -431,6 +508,7 @@ int main(void) {
         cmocka_unit_test(changes_are_followed),
         cmocka_unit_test(pivots_are_regularized),
         cmocka_unit_test(edits_are_followed),
+        cmocka_unit_test(edits_after_changes_have_their_growth),
         cmocka_unit_test(padded_files_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

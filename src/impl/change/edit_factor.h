@@ -114,7 +114,8 @@ static sl_int sli_reuse_candidate(const sli_reuse *r, sl_int s, int *is_moved) {
 }
 
 /* Has supernode s the entries that the one of F was computed from? Marks it in G. A run of plain
- * columns leaves no marks in F: they are the same if they give the same numbers. */
+ * columns leaves no marks in F: they are the same if they give the same numbers, and F has not been
+ * changed by other ways, which leave bounds of the entries and magnitudes. */
 static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_moved) {
     const sl_factor *F = r->F;
     const sl_symbolic *S = F->S, *T = r->G->S;
@@ -127,7 +128,7 @@ static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_
                          sli_is_regularized(F, S->steps[there].column);
     int is_same = has_mark || r->G->schedule.is_plain[s] == SLI_PLAIN_DIRECT;
     uint64_t mark = SLI_MARK_BEGIN, before = SLI_MARK_BEGIN;
-    double pivot = 0.0, magnitude = 0.0;
+    double pivot = 0.0, entry = 0.0, magnitude;
     sl_int tile = sli_last_tile(T, s), k, j;
     sl_off m;
     of += S->rows_begin[there];
@@ -147,16 +148,19 @@ static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_
             before += sli_mark_entry(a, at);
         }
         pivot = 0.0 + a; /* at the end */
+        entry = fabs(a) > entry ? fabs(a) : entry;
         is_same &= has_mark || at == 0 || l[at] == pivot / d;
     }
     r->G->history.marks[s] = mark;
     if (has_mark) {
         return F->history.marks[there] == (is_moved ? before : mark);
     }
+    magnitude = fabs(pivot);
     for (j = there - 1; j >= S->first_descendant[there]; j = S->first_descendant[j] - 1) {
         sli_plain_take(F, j, 0, &pivot, &magnitude);
     }
-    return is_same && pivot == d;
+    return is_same && pivot == d && F->extents[there].entry == entry &&
+           F->extents[there].magnitude == magnitude;
 }
 
 /* Counts the flops of what is kept and of what is not. Returns whether to keep is faster. */

@@ -51,12 +51,13 @@ SLI_NOINLINE static int sli_are_finite(const double *x, ptrdiff_t count) {
 /* Is a solution in the vector of a reach, which ends at the roots, finite? A number of b that is
  * not shows at the root of its tree: sums, products and quotients with it, also those with 0, are
  * not finite either. So only the roots are looked at. Where components have several null vectors,
- * x is 0 at their null pivots. */
+ * x is 0 at their null pivots. The last two rows of a complex matrix are a number. */
 SLI_AT_LINE static int sli_reach_is_finite(const sl_factor *F, const sli_reach *R, const double *x,
                                            sl_int lanes) {
     const sl_symbolic *S = F->S;
     const sl_int *low = R->count == S->n_supers ? S->first_descendant : NULL;
     const sl_int least = S->stats.symbolic.components == 1 ? sli_max(R->count - 1, 0) : 0;
+    const sl_int last = F->type->storage == SL_STORAGE_COMPLEX ? 2 : 1;
     const sli_step *steps = R->steps;
     sl_int s;
     int is_finite = 1;
@@ -69,10 +70,10 @@ SLI_AT_LINE static int sli_reach_is_finite(const sl_factor *F, const sli_reach *
             continue;
         }
         end = (ptrdiff_t)steps[s].base + sli_step_columns(&steps[s]);
-        first = end - 1;
-        while (s > least && steps[s].base == first && steps[s - 1].up == -1) { /* of one column */
+        first = end - last;
+        while (s > least && steps[s].base == first && steps[s - 1].up == -1) { /* nothing else */
             s--;
-            first--;
+            first -= last;
         }
         is_finite &= sli_are_finite(x + first * lanes, (end - first) * lanes);
     }
