@@ -58,7 +58,7 @@ CORE_TESTS := $(wildcard tests/core/test_*.c)
 TOOL_TESTS := $(wildcard tests/tools/test_*.c)
 TESTS := $(CORE_TESTS) $(TOOL_TESTS)
 FUZZERS := $(wildcard tests/fuzz/fuzz_*.c)
-SMALL_TASK_TESTS := $(patsubst %,tests/core/test_%.c,threads threads_solve inverse_threads reserve_inverse batch)
+SMALL_TASK_TESTS := $(patsubst %,tests/core/test_%.c,threads threads_solve inverse_threads reserve_inverse batch change_threads)
 # Tests that compile the bodies with their own faults, or are linked with small tasks.
 OWN_BODIES := $(shell grep -l 'define SPARSE_LOCAL_IMPLEMENTATION' $(TESTS) /dev/null) $(SMALL_TASK_TESTS)
 BENCH_SOURCES := $(wildcard bench/lib/*.c bench/questions/*.c)
