@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: bab863e615f443c4
+ * FNV-1a of the lines after this comment, without the license: 3d3b9ade930f23b9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,29 +35,29 @@
  *   2896 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   2973 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3016 impl/ base: the compiler, status, memory, sorting, threads
- *   4296 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5235 impl/ matrix: sparse matrices of the caller and of the library
- *   5910 impl/ ordering: fill-reducing orderings of a graph
- *  11012 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13251 impl/ factor: the numbers of L and D
- *  16668 impl/ solve: full and local solves
- *  18544 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20541 impl/ pivots: the order of the pivots by the values of a matrix
- *  20949 impl/ float: L and fronts in single precision
- *  21454 impl/ inverse: entries of the inverse, regions
- *  24553 impl/ change: a factor that follows changes of its matrix
- *  30847 impl/ dirichlet: rows fixed at given values
- *  31496 impl/ dirichlet: by a factor of all rows
- *  31728 impl/ io: files that are replaced only when they are complete
- *  31946 impl/ files: Matrix Market files, 64-bit indices
- *  32566 impl/ save: factors in files
- *  34578 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35264 impl/ batch: diagonals of many inverses
- *  35404 impl/ complex: complex Hermitian systems over real factors
- *  35966 impl/ complex: entries of the inverse
- *  36026 impl/ packs: the tables through which the core calls packs
- *  36075 impl/ last: undefine every internal macro
- *  36456 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4297 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5236 impl/ matrix: sparse matrices of the caller and of the library
+ *   5912 impl/ ordering: fill-reducing orderings of a graph
+ *  11014 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13253 impl/ factor: the numbers of L and D
+ *  16670 impl/ solve: full and local solves
+ *  18543 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20540 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20948 impl/ float: L and fronts in single precision
+ *  21453 impl/ inverse: entries of the inverse, regions
+ *  24552 impl/ change: a factor that follows changes of its matrix
+ *  30845 impl/ dirichlet: rows fixed at given values
+ *  31494 impl/ dirichlet: by a factor of all rows
+ *  31726 impl/ io: files that are replaced only when they are complete
+ *  31944 impl/ files: Matrix Market files, 64-bit indices
+ *  32564 impl/ save: factors in files
+ *  34576 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35262 impl/ batch: diagonals of many inverses
+ *  35402 impl/ complex: complex Hermitian systems over real factors
+ *  35964 impl/ complex: entries of the inverse
+ *  36024 impl/ packs: the tables through which the core calls packs
+ *  36073 impl/ last: undefine every internal macro
+ *  36454 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3266,7 +3266,8 @@ SLI_INLINE void sli_borrow(const sli_atomic *borrowers) {
 }
 
 SLI_INLINE int sli_is_last(sli_atomic *borrowers) {
-  return sli_atomic_read(borrowers) == 0 || sli_atomic_add(borrowers, -1) == 0;
+  return sli_atomic_read(borrowers) == 0 || /* branches untested: another was last just now */
+       sli_atomic_add(borrowers, -1) == 0; /* branches untested: the same */
 }
 
 #define SLI_CLEAR(object) memset(&(object), 0, sizeof(object))
@@ -5619,29 +5620,30 @@ SLI_ALWAYS_INLINE void sli_add_columns(const sl_csc *A, sl_triangle triangle, do
     SLI_UNROLL
     for (r = 0; r < columns; r++) {
       x[r] = X[(size_t)r * ldx + (size_t)j];
-      y[r] = is_half ? Y[(size_t)r * ldy + (size_t)j] : 0.0;
+      y[r] = is_half ? Y[(size_t)r * ldy + (size_t)j] : 0.0; /* branches untested: constant */
     }
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
       const sl_int i = A->i[p];
       const double a = sign * A->x[p];
-      if (is_half && i == j) {
+      if (is_half && i == j) { /* branches untested: the same */
         SLI_UNROLL
-        for (r = 0; r < columns; r++) {
+        for (r = 0; r < columns; r++) { /* branches untested: the same */
           y[r] += a * x[r];
         }
-      } else if (!is_half || sli_is_read(triangle, i, j)) {
+      } else if (!is_half || /* branches untested: the same */
+          sli_is_read(triangle, i, j)) {
         SLI_UNROLL
         for (r = 0; r < columns; r++) {
           Y[(size_t)r * ldy + (size_t)i] += a * x[r];
-          if (is_half) {
+          if (is_half) { /* branches untested: the same */
             y[r] += a * X[(size_t)r * ldx + (size_t)i];
           }
         }
       }
     }
-    if (is_half) {
+    if (is_half) { /* branches untested: the same */
       SLI_UNROLL
-      for (r = 0; r < columns; r++) {
+      for (r = 0; r < columns; r++) { /* branches untested: the same */
         Y[(size_t)r * ldy + (size_t)j] = y[r];
       }
     }
@@ -6580,8 +6582,7 @@ static void sli_contract_range(void *data, const sli_range *r) {
   const int bits =
     g->begin[g->n] >> 32 == 0 ? SLI_CONTRACT_BITS : 0; /* branches untested: 2^32 edges */
   const sl_off low = ((sl_off)1 << bits) - 1;
-  const int is_plain = bits > 0 && /* branches untested: the same */
-             g->edge == NULL && g->hub_degree == 0;
+  const int is_plain = (bits > 0) & (g->edge == NULL) & (g->hub_degree == 0);
   sl_int k, m;
   memset(at, -1, (size_t)c->n * sizeof(sl_off));
   for (k = r->first; k < r->last; k++) {
@@ -7770,7 +7771,8 @@ static sl_int sli_flow_find_path(sli_flow *f, sl_int u) {
     state[2 * u] |= SLI_FLOW_SEEN;
     list[count++] = 2 * u;
     v = f->before[u] == SLI_FLOW_NONE ? u : f->before[u];
-    if (v >= 0 && state[2 * v + 1] == 0) {
+    if (v >= 0) {
+      SLI_ASSERT(state[2 * v + 1] == 0);
       state[2 * v + 1] = SLI_FLOW_SEEN;
       list[count++] = 2 * v + 1;
       f->path[length] = v;
@@ -18021,7 +18023,6 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
 static int sli_check_sweeps(const sl_factor *F, const sli_reach *R) {
   sl_int s, m;
   for (s = 0; s < R->count; s++) {
-    sl_int known = 0;
     sli_tree_range tree;
     if (R->steps[s].up != -1) {
       continue;
@@ -18029,9 +18030,7 @@ static int sli_check_sweeps(const sl_factor *F, const sli_reach *R) {
     tree = sli_tree_range_of(F->S, &R->steps[s]);
     m = tree.first == tree.root ? F->null.count : sli_null_first(F, R, s);
     for (; m < F->null.count && F->null.pivots[m] <= tree.root; m++) {
-      const int is_known = sli_null_column(F, F->null.pivots[m]) != -1;
-      known += is_known;
-      if (!is_known || (known > 1 && F->null.vectors == 1)) {
+      if (sli_null_column(F, F->null.pivots[m]) == -1) {
         return 1;
       }
     }
@@ -23069,7 +23068,7 @@ static sl_int sli_only_row(const sl_int *rows, sl_int count) {
       return -1;
     }
   }
-  return count > 0 ? rows[0] : -1;
+  return rows[0];
 }
 
 static sl_status sli_entries_of_column(const sl_factor *F, double *out, size_t ld,
@@ -25963,8 +25962,7 @@ static void sli_rank_plan(sli_rank *q, int may_fail) {
   }
   if (q->count <= SLI_TILE &&
       (one.cost <= best.cost ||
-      (may_fail &&
-      (prefers_log ? one.cost + log : SLI_CHANGE_TRIAL * one.cost) <= best.cost + log))) {
+      (may_fail && !prefers_log && SLI_CHANGE_TRIAL * one.cost <= best.cost + log))) {
     best = one;
     q->ends[0] = q->count;
   }
@@ -37760,10 +37758,12 @@ SLV_FUNCTION static void SLV_NAME(change_magnitudes)(const double *l, ptrdiff_t 
 #undef SLI_MAGNITUDES
 #undef SLI_EACH1
 
-#define SLI_FORWARD(k, unused) \
+#define SLI_FORWARD(k) \
+  SLV_LANE(s, x, k) \
+  SLV_DOT(x, l + SLI_TILE * (k), s)
+#define SLI_FORWARD_IN(k, unused) \
   if (SLI_IS_IN(k, columns)) { \
-    SLV_LANE(s, x, k) \
-    SLV_DOT(x, l + SLI_TILE * (k), s) \
+    SLI_FORWARD(k) \
   }
 SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(change_forward)(const double *l, sl_int columns,
     const double *w, double *y) {
@@ -37773,15 +37773,16 @@ SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(change_forward)(const double *l, 
   sl_int k;
   SLV_LOAD(x, w)
   for (k = 0; k < columns; k++) {
-    SLI_FORWARD(k, 0)
+    SLI_FORWARD(k)
   }
 #else
   SLV_LOAD(x, w)
-  SLI_EACH8(SLI_FORWARD, 0)
+  SLI_EACH8(SLI_FORWARD_IN, 0)
 #endif
   SLV_STORE(y, x)
 }
 #undef SLI_FORWARD
+#undef SLI_FORWARD_IN
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(change_rows)(const sli_ranks *u, const double *l,
     sl_int columns, const double *w, double *f,

@@ -284,7 +284,8 @@ SLI_INLINE void sli_borrow(const sli_atomic *borrowers) {
 
 /* Takes one of borrowers and owner away. Was it the last one? Nobody else counts then. */
 SLI_INLINE int sli_is_last(sli_atomic *borrowers) {
-    return sli_atomic_read(borrowers) == 0 || sli_atomic_add(borrowers, -1) == 0;
+    return sli_atomic_read(borrowers) == 0 || /* branches untested: another was last just now */
+           sli_atomic_add(borrowers, -1) == 0; /* branches untested: the same */
 }
 
 /* Sets a struct to 0; sets elements of an array to 0, or to those of another one. */

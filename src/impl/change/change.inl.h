@@ -128,10 +128,12 @@ SLV_FUNCTION static void SLV_NAME(change_magnitudes)(const double *l, ptrdiff_t 
 #undef SLI_EACH1
 
 /* y := what a forward sweep makes of the rows of a diagonal tile, which has `columns` columns. */
-#define SLI_FORWARD(k, unused) \
+#define SLI_FORWARD(k) \
+    SLV_LANE(s, x, k) \
+    SLV_DOT(x, l + SLI_TILE * (k), s)
+#define SLI_FORWARD_IN(k, unused) \
     if (SLI_IS_IN(k, columns)) { \
-        SLV_LANE(s, x, k) \
-        SLV_DOT(x, l + SLI_TILE * (k), s) \
+        SLI_FORWARD(k) \
     }
 SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(change_forward)(const double *l, sl_int columns,
                                                                const double *w, double *y) {
@@ -141,15 +143,16 @@ SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(change_forward)(const double *l, 
     sl_int k;
     SLV_LOAD(x, w)
     for (k = 0; k < columns; k++) {
-        SLI_FORWARD(k, 0)
+        SLI_FORWARD(k)
     }
 #else
     SLV_LOAD(x, w)
-    SLI_EACH8(SLI_FORWARD, 0)
+    SLI_EACH8(SLI_FORWARD_IN, 0)
 #endif
     SLV_STORE(y, x)
 }
 #undef SLI_FORWARD
+#undef SLI_FORWARD_IN
 
 /* The rows of a tile before its pivots change: y := what a forward sweep makes of W', transposed;
  * f(r) := row r of U' Y'. l: the diagonal part of the tile. */

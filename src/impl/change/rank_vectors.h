@@ -252,8 +252,7 @@ static void sli_rank_plan(sli_rank *q, int may_fail) {
     }
     if (q->count <= SLI_TILE && /* of both signs they are not in one order: its reach is less */
         (one.cost <= best.cost ||
-         (may_fail &&
-          (prefers_log ? one.cost + log : SLI_CHANGE_TRIAL * one.cost) <= best.cost + log))) {
+         (may_fail && !prefers_log && SLI_CHANGE_TRIAL * one.cost <= best.cost + log))) {
         best = one;
         q->ends[0] = q->count;
     }

@@ -4,7 +4,7 @@
 
 #include "../solve/local.h"
 
-/* The row that all of these are, or -1. */
+/* The row that all of these, at least one, are, or -1. */
 static sl_int sli_only_row(const sl_int *rows, sl_int count) {
     sl_int k;
     for (k = 1; k < count; k++) {
@@ -12,7 +12,7 @@ static sl_int sli_only_row(const sl_int *rows, sl_int count) {
             return -1;
         }
     }
-    return count > 0 ? rows[0] : -1;
+    return rows[0];
 }
 
 /* The entries of a column in these rows, which may repeat, are in range. ld: as in sl_local_solve.

@@ -19,29 +19,30 @@ SLI_ALWAYS_INLINE void sli_add_columns(const sl_csc *A, sl_triangle triangle, do
         SLI_UNROLL
         for (r = 0; r < columns; r++) {
             x[r] = X[(size_t)r * ldx + (size_t)j];
-            y[r] = is_half ? Y[(size_t)r * ldy + (size_t)j] : 0.0;
+            y[r] = is_half ? Y[(size_t)r * ldy + (size_t)j] : 0.0; /* branches untested: constant */
         }
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
             const sl_int i = A->i[p];
             const double a = sign * A->x[p];
-            if (is_half && i == j) {
+            if (is_half && i == j) { /* branches untested: the same */
                 SLI_UNROLL
-                for (r = 0; r < columns; r++) {
+                for (r = 0; r < columns; r++) { /* branches untested: the same */
                     y[r] += a * x[r];
                 }
-            } else if (!is_half || sli_is_read(triangle, i, j)) {
+            } else if (!is_half || /* branches untested: the same */
+                       sli_is_read(triangle, i, j)) {
                 SLI_UNROLL
                 for (r = 0; r < columns; r++) {
                     Y[(size_t)r * ldy + (size_t)i] += a * x[r];
-                    if (is_half) {
+                    if (is_half) { /* branches untested: the same */
                         y[r] += a * X[(size_t)r * ldx + (size_t)i];
                     }
                 }
             }
         }
-        if (is_half) {
+        if (is_half) { /* branches untested: the same */
             SLI_UNROLL
-            for (r = 0; r < columns; r++) {
+            for (r = 0; r < columns; r++) { /* branches untested: the same */
                 Y[(size_t)r * ldy + (size_t)j] = y[r];
             }
         }

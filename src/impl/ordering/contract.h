@@ -180,8 +180,7 @@ static void sli_contract_range(void *data, const sli_range *r) {
     const int bits =
         g->begin[g->n] >> 32 == 0 ? SLI_CONTRACT_BITS : 0; /* branches untested: 2^32 edges */
     const sl_off low = ((sl_off)1 << bits) - 1;
-    const int is_plain = bits > 0 && /* branches untested: the same */
-                         g->edge == NULL && g->hub_degree == 0;
+    const int is_plain = (bits > 0) & (g->edge == NULL) & (g->hub_degree == 0);
     sl_int k, m;
     memset(at, -1, (size_t)c->n * sizeof(sl_off));
     for (k = r->first; k < r->last; k++) {

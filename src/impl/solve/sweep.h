@@ -97,7 +97,6 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
 static int sli_check_sweeps(const sl_factor *F, const sli_reach *R) {
     sl_int s, m;
     for (s = 0; s < R->count; s++) {
-        sl_int known = 0;
         sli_tree_range tree;
         if (R->steps[s].up != -1) {
             continue;
@@ -105,9 +104,7 @@ static int sli_check_sweeps(const sl_factor *F, const sli_reach *R) {
         tree = sli_tree_range_of(F->S, &R->steps[s]);
         m = tree.first == tree.root ? F->null.count : sli_null_first(F, R, s);
         for (; m < F->null.count && F->null.pivots[m] <= tree.root; m++) {
-            const int is_known = sli_null_column(F, F->null.pivots[m]) != -1;
-            known += is_known;
-            if (!is_known || (known > 1 && F->null.vectors == 1)) {
+            if (sli_null_column(F, F->null.pivots[m]) == -1) {
                 return 1;
             }
         }
