@@ -141,6 +141,30 @@ static void one_vector_changes_a_wide_panel(void **state) {
     }
 }
 
+/* One vector after the other in a factor with pivots of both signs, whose supernodes have several
+ * tiles of rows below. */
+static void one_vector_changes_pivots_of_both_signs(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    for (int k = 0; k < isas.count; k++) {
+        static const sl_int p[2] = {0, 1};
+        sl_options opt = options_none();
+        opt.isa = isas.isa[k];
+        changed_t c = changed_make(GEN_GRID3, 343, 0, &opt);
+        const sl_int n = c.y.M.view.n_cols, *perm = sl_symbolic_view(c.y.S).perm;
+        sl_stats stats;
+        for (sl_int row = 0; row < n; row += 50) {
+            const double sigma = row % 20 ? 0.5 : -0.25, x = 0.5;
+            const sl_csc V = {n, 1, p, &perm[row], &x};
+            changed_add(&c, perm[row], perm[row], sigma * x * x);
+            SL_CHECK(sl_factor_update(c.y.F, &V, &sigma, NULL, &stats));
+            assert_true(stats.factor.positive > 0 && stats.factor.negative > 0);
+        }
+        assert_true(changed_error(&c) <= 1e-14);
+        changed_free(&c);
+    }
+}
+
 static void an_update_and_its_downdate_return(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
@@ -209,6 +233,7 @@ int main(void) {
         cmocka_unit_test(ranks_are_as_few_as_the_edges),
         cmocka_unit_test(vectors_give_the_factor_of_the_new_matrix),
         cmocka_unit_test(one_vector_changes_a_wide_panel),
+        cmocka_unit_test(one_vector_changes_pivots_of_both_signs),
         cmocka_unit_test(an_update_and_its_downdate_return),
         cmocka_unit_test(ten_thousand_edits_stay_below_the_drift),
     };

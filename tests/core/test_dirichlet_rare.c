@@ -92,6 +92,30 @@ static void growth_is_refused_until_other_values_come(void **state) {
     sl_dirichlet_free(D);
 }
 
+/* Stiffnesses of 1e-300: a solution overflows, of one right-hand side or of several. */
+static void a_solution_may_overflow(void **state) {
+    (void)state;
+    static const sl_int fixed[1] = {2};
+    static const double x[10] = {1e-300, -1e-301, 2e-300, -1e-300, 1.0, 1.0, -0.5, 2.0, -1.0, 1.0};
+    static const double g[3] = {0.0, 0.0, 0.0};
+    sl_csc A = two_paths;
+    sl_dirichlet *D = NULL;
+    A.x = x;
+    SL_CHECK(sl_dirichlet_create(&D, &A, fixed, 1, NULL, NULL, NULL));
+    for (sl_int nrhs = 1; nrhs <= 3; nrhs++) {
+        double B[18] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0}, X[18];
+        B[6 * nrhs - 6] = 1e10;
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_dirichlet_solve(D, X, 6, B, 6, g, 1, nrhs, NULL));
+        assert_true(!isfinite(X[6 * nrhs - 6]));
+        B[6 * nrhs - 6] = 1.0;
+        SL_CHECK(sl_dirichlet_solve(D, X, 6, B, 6, g, 1, nrhs, NULL));
+        for (const double *x0 = X; x0 < X + 6 * nrhs; x0 += 6) {
+            assert_true(fabs(1e-300 * x0[0] - 1e-301 * x0[1] - B[x0 - X]) < 1e-14);
+        }
+    }
+    sl_dirichlet_free(D);
+}
+
 /* Pins need no kernels of their own. A factor of the free rows does: it is refused where this
  * machine does not have them. */
 static void a_factor_of_its_own_may_be_unsupported(void **state) {
@@ -200,6 +224,7 @@ int main(void) {
         cmocka_unit_test(the_last_block_may_be_cut),
         cmocka_unit_test(what_is_no_pattern_is_refused),
         cmocka_unit_test(growth_is_refused_until_other_values_come),
+        cmocka_unit_test(a_solution_may_overflow),
         cmocka_unit_test(a_factor_of_its_own_may_be_unsupported),
         cmocka_unit_test(factors_that_do_not_suit_are_not_used),
         cmocka_unit_test(a_restriction_may_be_the_slower_way),

@@ -1,9 +1,9 @@
 /* test_faults.c: METIS that fails, separators of no flow, processors without popcnt, sizes
  * beyond memory: what calls cannot reach on this machine, by replaced functions and direct calls */
 #define SPARSE_LOCAL_IMPLEMENTATION
-#define SLI_FLOW_VISITS 0           /* no flow ends in time: each separator is a border */
+#define SLI_FLOW_VISITS flow_visits /* 0: no flow ends in time, each separator is a border */
 #define SLI_MARKS_BEGIN marks_begin /* of minimum degree: near their largest number, on demand */
-static int marks_begin = 2;
+static int flow_visits, marks_begin = 2;
 
 #if defined(SL_METIS) && !defined(SL_NO_METIS)
 #include <metis.h>
@@ -58,13 +58,51 @@ static void errors_of_metis_are_reported(void **state) {
 
 #endif
 
-/* The separators that take the place of those that a flow did not find in time separate too. */
+/* The separators that take the place of those that a flow did not find in time separate too. Some
+ * flows end in time, some not at once. */
 static void borders_separate(void **state) {
     (void)state;
     static const gen_kind_t kinds[5] = {GEN_GRID2, GEN_GRID3, GEN_FOREST, GEN_RANDOM,
                                         GEN_COMPONENTS};
-    for (int kind = 0; kind < 5; kind++) {
-        SL_CHECK(order(kinds[kind], 1500, SL_ORDERING_ND));
+    for (int kind = 0; kind < 10; kind++) {
+        flow_visits = kind / 5;
+        SL_CHECK(order(kinds[kind % 5], 1500, SL_ORDERING_ND));
+    }
+    flow_visits = 0;
+}
+
+/* Eight of `count` numbers, at a multiple of 64 bytes. */
+static double *at_line(double *numbers, size_t count, uint64_t seed) {
+    gen_reals(numbers, count, seed);
+    return numbers + (64 - (uintptr_t)numbers % 64) / sizeof(double) % 8;
+}
+
+/* A trial of a change leaves the columns as they are, and the vectors as the change does: with each
+ * number of vectors, of which some are never tried on some instruction sets. */
+static void trials_change_the_vectors_alone(void **state) {
+    (void)state;
+    enum { COLUMNS = 5, TILE = 64, ROOM = 2 * TILE + 2 * 8 * COLUMNS + 8 };
+    const isa_list_t isas = isas_present();
+    for (int k = 0; k < isas.count; k++) {
+        const sli_change_kernels *kernels = sli_change_kernels_of(isas.isa[k]);
+        for (int kind = 0; kind < SLI_NRHS_KINDS; kind++) { /* the last one: two tiles at once */
+            double numbers[5][ROOM], *l[2], *w[2];
+            const double *c = at_line(numbers[4], ROOM, 3);
+            for (int is_trial = 0; is_trial < 2; is_trial++) {
+                l[is_trial] = at_line(numbers[is_trial], ROOM, 1);
+                w[is_trial] = at_line(numbers[2 + is_trial], ROOM, 2);
+                if (kind < SLI_NRHS_KINDS - 1) {
+                    kernels->change[kind](l[is_trial], COLUMNS, c, w[is_trial], is_trial);
+                } else {
+                    kernels->pair(l[is_trial], l[is_trial] + TILE, COLUMNS, c, w[is_trial],
+                                  is_trial);
+                }
+            }
+            assert_memory_equal(w[0], w[1], 2 * TILE * sizeof(double));
+            assert_true(memcmp(l[0], l[1], 2 * TILE * sizeof(double)) != 0);
+            (void)at_line(numbers[0], ROOM, 1);
+            assert_memory_equal(l[0], l[1], 2 * TILE * sizeof(double));
+        }
     }
 }
 
@@ -377,6 +415,7 @@ int main(void) {
         cmocka_unit_test(errors_of_metis_are_reported),
 #endif
         cmocka_unit_test(borders_separate),
+        cmocka_unit_test(trials_change_the_vectors_alone),
         cmocka_unit_test(minimum_degree_on_any_processor),
         cmocka_unit_test(large_leaves_keep_their_order),
         cmocka_unit_test(levels_end),

@@ -1,5 +1,6 @@
 /* test_ordering_rare.c: what only other processors and sizes beyond memory reach, by direct calls:
- * small orders without AVX2, hubs of many edges, hierarchies that end, rows of equal keys */
+ * small orders without AVX2, hubs of many edges, hierarchies that end, rows of equal keys; bands of
+ * random graphs */
 #define SPARSE_LOCAL_IMPLEMENTATION
 #include "tests/lib/check_factor.h"
 
@@ -75,6 +76,27 @@ static void rows_of_equal_keys_may_differ(void **state) {
         assert_int_equal(sli_compress_is_indistinguishable(&G, 2, 0), !hangs);
         assert_false(sli_compress_is_indistinguishable(&G, 0, 1));
         assert_false(sli_compress_is_indistinguishable(&G, 1, 2));
+    }
+}
+
+/* Few steps from a border are most vertices of a random graph: its bands end early. */
+static void bands_of_random_graphs_end(void **state) {
+    (void)state;
+    for (sl_int per_mille = 3; per_mille <= 5; per_mille++) { /* 6 edges a row */
+        gen_list_t t = gen_list(6000 / per_mille);
+        sl_options opt = options_none();
+        sl_symbolic *S = NULL;
+        uint64_t seed = 1;
+        gen_edges_random(&t, per_mille, &seed);
+        gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+        opt.ordering = SL_ORDERING_ND;
+        SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+        const sl_symbolic_arrays v = sl_symbolic_view(S);
+        NOTHING_WRONG(check_permutation(v.n, v.perm, v.iperm));
+        NOTHING_WRONG(check_septree(&v, &M.view));
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+        gen_list_free(&t);
     }
 }
 
@@ -203,6 +225,7 @@ int main(void) {
         cmocka_unit_test(hubs_are_few_and_of_few_edges),
         cmocka_unit_test(a_hierarchy_that_does_not_shrink_ends),
         cmocka_unit_test(rows_of_equal_keys_may_differ),
+        cmocka_unit_test(bands_of_random_graphs_end),
         cmocka_unit_test(parts_without_rows_are_none),
         cmocka_unit_test(columns_of_too_many_rows_are_merged),
         cmocka_unit_test(the_null_tolerance_has_a_limit),

@@ -1,6 +1,7 @@
 /* test_threads_solve.c: full solves by several threads: the same bits, errors and memory */
 #define _POSIX_C_SOURCE 200112L /* nanosleep */
 #include "tests/lib/threads.h"
+#include "tests/lib/dirichlet.h"
 #include "tests/lib/reserved.h"
 
 /* Full solves with the threads of the workspace: by subtrees, many right-hand sides by blocks.
@@ -57,6 +58,33 @@ static void solves_give_the_same_bits(void **state) {
             factored_free(&y);
         }
     }
+}
+
+/* Solves for free rows with the threads of the workspace, in each layout. */
+static void fixed_rows_share_the_threads(void **state) {
+    (void)state;
+    enum { SIDE = 20, FIXED = 30 };
+    static const sl_int widths[4] = {1, 3, 8, 70};
+    factored_t y = factored_make(GEN_GRID2, SIDE * SIDE, 1, 0, NULL);
+    sl_int rows[FIXED];
+    sl_dirichlet *D = NULL;
+    for (sl_int k = 0; k < FIXED; k++) {
+        rows[k] = 13 * k + 2;
+    }
+    SL_CHECK(sl_dirichlet_create(&D, &y.M.view, rows, FIXED, NULL, NULL, NULL));
+    for (int k = 0; k < 4 * 4; k++) {
+        const dirichlet_t p = {&y.M.view, rows,      FIXED,     widths[k / 4], k % 2,
+                               k / 2 % 2, k % 4 < 2, k % 3 > 0, 0};
+        int calls = 0;
+        const sl_options opt = options_of_workers(3, &calls);
+        sl_work *W = NULL;
+        SL_CHECK(sl_work_create(&W, &opt));
+        dirichlet_check(D, &p, W);
+        assert_true(calls > 0);
+        sl_work_free(W);
+    }
+    sl_dirichlet_free(D);
+    factored_free(&y);
 }
 
 /* Full solves and plans in a workspace with threads and in one without. P: NULL for full ones. */
@@ -289,6 +317,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_nan_is_reported),
         cmocka_unit_test(solves_give_the_same_bits),
+        cmocka_unit_test(fixed_rows_share_the_threads),
         cmocka_unit_test(many_trees_give_the_same_bits),
         cmocka_unit_test(two_trees_give_the_same_bits),
         cmocka_unit_test(some_systems_are_left_to_one_worker),
