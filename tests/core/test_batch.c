@@ -229,6 +229,82 @@ static void a_failed_allocation_is_reported(void **state) {
     COUNTER_CLEAN(&counter);
 }
 
+/* Requests by several workers, of which some fail: the first one is named, the others are solved.
+ * Nothing is if one is not consistent. */
+static void failures_of_several_workers(void **state) {
+    (void)state;
+    enum { N = 100, COUNT = 4 };
+    factored_t y = factored_make(GEN_GRID2, N, 1, 0, NULL);
+    sl_options opt = options_none();
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    factored_t z = factored_make(GEN_SINGULAR, N, 1, 0, &opt);
+    double B[COUNT][N], X[COUNT][N], expected[COUNT][N];
+    sl_request r[COUNT];
+    memset(r, 0, sizeof r);
+    for (int k = 0; k < COUNT; k++) {
+        gen_reals(B[k], N, 1 + (uint64_t)k);
+        SL_CHECK(sl_factor_solve(y.F, expected[k], N, B[k], N, 1, NULL));
+        r[k].X = X[k];
+        r[k].B = B[k];
+        r[k].ldx = r[k].ldb = N;
+        r[k].nrhs = 1;
+    }
+    for (int workers = 1; workers <= COUNT; workers++) {
+        int calls = 0;
+        sl_int failed = 7;
+        const sl_threads threads = {workers, run_backwards, &calls};
+        B[1][3] = B[3][7] = NAN;
+        SL_EXPECT(SL_ERR_NOT_FINITE,
+                  sl_batch_solve(y.F, r, COUNT, THREADS(threads), NULL, &failed));
+        assert_int_equal(failed, 1);
+        assert_int_equal(calls, workers > 1);
+        for (int k = 0; k < COUNT; k += 2) {
+            assert_memory_equal(X[k], expected[k], sizeof X[k]);
+        }
+        gen_reals(B[1], N, 2);
+        memset(B[3], 0, sizeof B[3]);
+        memset(X, 0, sizeof X);
+        B[3][5] = 1.0;
+        r[3].factor = z.F;
+        SL_EXPECT(SL_ERR_INCONSISTENT,
+                  sl_batch_solve(y.F, r, COUNT, THREADS(threads), NULL, &failed));
+        assert_int_equal(failed, 3);
+        assert_true(X[0][0] == 0.0 && X[1][0] == 0.0 && X[2][0] == 0.0);
+        B[3][6] = -1.0;
+        SL_CHECK(sl_batch_solve(y.F, r, COUNT, THREADS(threads), NULL, &failed));
+        assert_memory_equal(X, expected, 3 * sizeof X[0]);
+        r[3].factor = NULL;
+    }
+    factored_free(&y);
+    factored_free(&z);
+}
+
+/* The workspace of the first of two workers does not grow: no other does. */
+static void a_failed_workspace_is_reported(void **state) {
+    (void)state;
+    counter_t counter = counter_make();
+    batch_t t = batch_make(GEN_GRID2, 100, SL_ISA_AUTO, 0);
+    const sl_options opt = options_counted(&counter);
+    sl_work *works[2];
+    int calls = 0;
+    const sl_threads threads = {2, run_backwards, &calls};
+    for (int k = 0; k < 2; k++) {
+        SL_CHECK(sl_work_create(&works[k], &opt));
+    }
+    counter.fail_at = (int64_t)counter.calls;
+    SL_EXPECT(SL_ERR_MEMORY,
+              sl_batch_solve(t.y.F, t.request, REQUESTS, THREADS(threads), works, NULL));
+    assert_int_equal(sl_work_bytes(works[1]), 0);
+    counter.fail_at = -1;
+    SL_CHECK(sl_batch_solve(t.y.F, t.request, REQUESTS, THREADS(threads), works, NULL));
+    batch_check(&t);
+    for (int k = 0; k < 2; k++) {
+        sl_work_free(works[k]);
+    }
+    batch_free(&t);
+    COUNTER_CLEAN(&counter);
+}
+
 /* One plan on all factors, with one B for all and with one for each; a full solve in the same
  * batch. */
 static void one_plan_solves_with_all_factors(void **state) {
@@ -344,6 +420,8 @@ int main(void) {
         cmocka_unit_test(all_workers_take_part),
         cmocka_unit_test(invalid_requests_change_nothing),
         cmocka_unit_test(a_failed_allocation_is_reported),
+        cmocka_unit_test(failures_of_several_workers),
+        cmocka_unit_test(a_failed_workspace_is_reported),
         cmocka_unit_test(one_plan_solves_with_all_factors),
         cmocka_unit_test(requests_with_invalid_factors_are_refused),
     };

@@ -80,10 +80,51 @@ static void large_solves_are_shared(void **state) {
     assert_int_equal(shared.batch, 1);
 }
 
+/* What subtrees pass up may cost more than what is saved: leaves of many rows. */
+static void leaves_that_pass_up_much_are_left_to_one_thread(void **state) {
+    (void)state;
+    enum { LEAVES = 12600, TOP = 64, ROWS = LEAVES + TOP, MOST = 8 };
+    gen_list_t t = gen_list(ROWS);
+    sl_options opt = options_none();
+    factored_t y = {{0}, NULL, NULL};
+    int calls = 0;
+    const sl_options many = options_of_workers(2, &calls);
+    sl_work *W = NULL;
+    double *B = test_reals(ROWS * MOST), *X = test_reals(ROWS * MOST), *Y = test_reals(ROWS * MOST);
+    for (sl_int k = 0; k < ROWS; k++) {
+        gen_add(&t, k, k, k < LEAVES ? 100.0 : 1e5);
+        for (sl_int i = LEAVES; i < ROWS && k < LEAVES; i++) {
+            gen_add(&t, i, k, -1.0);
+        }
+    }
+    y.M = gen_store(&t, gen_style(0), 1);
+    gen_list_free(&t);
+    opt.ordering = SL_ORDERING_NATURAL;
+    opt.relaxation = SL_RELAXATION_NONE;
+    SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, &opt, NULL));
+    SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, NULL, NULL));
+    SL_CHECK(sl_work_create(&W, &many));
+    gen_reals(B, ROWS * MOST, 3);
+    for (sl_int nrhs = 1; nrhs <= MOST; nrhs++) {
+        SL_CHECK(sl_factor_solve(y.F, X, ROWS, B, ROWS, nrhs, W));
+        SL_CHECK(sl_factor_solve(y.F, Y, ROWS, B, ROWS, nrhs, NULL));
+        assert_memory_equal(X, Y, (size_t)(ROWS * nrhs) * sizeof *X);
+    }
+#if !defined(SL_VERIFY)
+    assert_int_equal(calls, 0);
+#endif
+    sl_work_free(W);
+    free(B);
+    free(X);
+    free(Y);
+    factored_free(&y);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(small_solves_are_left_to_one_thread),
         cmocka_unit_test(large_solves_are_shared),
+        cmocka_unit_test(leaves_that_pass_up_much_are_left_to_one_thread),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
