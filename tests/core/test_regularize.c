@@ -220,6 +220,29 @@ static void shifts_in_float_are_limited(void **state) {
     }
 }
 
+/* Regularization relative to the row of a null pivot may underflow: the pivot stays 0, is of
+ * neither sign, and no solution is finite. */
+static void regularization_may_underflow(void **state) {
+    (void)state;
+    static const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    static const double values[3] = {1e-300, 1e-300, 1e-300}, b[2] = {0.0, 1e-300};
+    const sl_csc A = {2, 2, p, i, values};
+    sl_options opt = options_none();
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_stats stats;
+    double x[2];
+    opt.regularization = 1e-30;
+    SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
+    assert_true(stats.factor.pivot_min == 0.0 && stats.factor.pivot_max == 1e-300);
+    assert_int_equal(stats.factor.positive, 1);
+    assert_int_equal(stats.factor.negative + stats.factor.regularized, 0);
+    SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_solve(F, x, 2, b, 2, 1, NULL));
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(dependent_constraints_are_regularized),
@@ -227,6 +250,7 @@ int main(void) {
         cmocka_unit_test(without_signs_all_pivots_become_positive),
         cmocka_unit_test(zero_pivots_get_the_shift_and_bad_options_are_refused),
         cmocka_unit_test(shifts_in_float_are_limited),
+        cmocka_unit_test(regularization_may_underflow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
