@@ -50,13 +50,15 @@ static void pairs_of_pivots_are_not_kept(void **state) {
     saved_case_free(&c);
 }
 
-/* A row that may now have any sign, or that has another null pivot, is computed. */
+/* A row that may now have any sign, or that has another null pivot, is computed. A regularized
+ * pivot is kept. */
 static void other_rules_of_a_row_are_noticed(void **state) {
     (void)state;
     factored_t y = factored_make(GEN_GRID2, 400, 1, 0, NULL);
     sl_options opt = options_none();
     sl_int signs[400];
     sl_factor *F;
+    sl_stats stats;
     for (int k = 0; k < 400; k++) {
         signs[k] = 1;
     }
@@ -68,6 +70,15 @@ static void other_rules_of_a_row_are_noticed(void **state) {
     assert_in_range(kept_of(F, y.S, &y.M.view, &opt, SL_CHANGE_CHEAPEST), 100, 399);
     sl_factor_free(F);
     SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
+    assert_int_equal(kept_of(F, y.S, &y.M.view, &opt, SL_CHANGE_CHEAPEST), 400);
+    sl_factor_free(F);
+    factored_free(&y);
+    y = factored_make(GEN_FOREST, 400, 1, 0, NULL);
+    for (int k = 0; k < 400; k++) {
+        signs[k] = k % 9 == 0 ? -1 : 1;
+    }
+    SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, &stats)); /* pivots of the wrong sign */
+    assert_in_range(stats.factor.regularized, 1, 60);
     assert_int_equal(kept_of(F, y.S, &y.M.view, &opt, SL_CHANGE_CHEAPEST), 400);
     sl_factor_free(F);
     factored_free(&y);
