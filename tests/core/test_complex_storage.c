@@ -138,7 +138,8 @@ static void check_not_finite(const pair_t *y, sl_isa isa) {
         for (size_t k = 0; k < n * (size_t)nrhs; k++) {
             const double keep = b[k];
             b[k] = k % 2 == 0 ? (double)NAN : (double)INFINITY;
-            SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_solve(y->F[1], x, n ? n : 1, b, n ? n : 1, nrhs, NULL));
+            SL_EXPECT(SL_ERR_NOT_FINITE,
+                      sl_factor_solve(y->F[1], x, n ? n : 1, b, n ? n : 1, nrhs, NULL));
             b[k] = keep;
         }
     }

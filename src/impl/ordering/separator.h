@@ -88,8 +88,8 @@ static sl_int sli_flow_find_path(sli_flow *f, sl_int u) {
         state[2 * u] |= SLI_FLOW_SEEN;
         list[count++] = 2 * u;
         v = f->before[u] == SLI_FLOW_NONE ? u : f->before[u];
-        if (v >= 0) {
-            SLI_ASSERT(state[2 * v + 1] == 0); /* its successor alone leads here, or it itself */
+        if (v >= 0 && /* branches untested: its successor alone leads here, or it itself */
+            state[2 * v + 1] == 0) { /* branches untested: the same */
             state[2 * v + 1] = SLI_FLOW_SEEN;
             list[count++] = 2 * v + 1;
             f->path[length] = v;

@@ -97,6 +97,7 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
 static int sli_check_sweeps(const sl_factor *F, const sli_reach *R) {
     sl_int s, m;
     for (s = 0; s < R->count; s++) {
+        sl_int known = 0;
         sli_tree_range tree;
         if (R->steps[s].up != -1) {
             continue;
@@ -104,7 +105,10 @@ static int sli_check_sweeps(const sl_factor *F, const sli_reach *R) {
         tree = sli_tree_range_of(F->S, &R->steps[s]);
         m = tree.first == tree.root ? F->null.count : sli_null_first(F, R, s);
         for (; m < F->null.count && F->null.pivots[m] <= tree.root; m++) {
-            if (sli_null_column(F, F->null.pivots[m]) == -1) {
+            const int is_known = sli_null_column(F, F->null.pivots[m]) != -1;
+            known += is_known;
+            if (!is_known || /* branches untested: one vector has one null pivot in a tree */
+                (known > 1 && F->null.vectors == 1)) { /* branches untested: the same */
                 return 1;
             }
         }
