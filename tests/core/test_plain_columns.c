@@ -384,7 +384,7 @@ static void edits_are_followed(void **state) {
     free(signs);
 }
 
-/* Blocks of two leaves and their parent, a bit of each kind. Row 2 is the parent in the first. */
+/* Blocks of two leaves and their parent. Row 2 is the parent of the first. */
 enum { BLOCKS = 200 };
 static gen_matrix_t blocks_of_three(double leaf, double other, double parent) {
     gen_list_t t = gen_list(3 * BLOCKS);
