@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: bcf92827ed5b3dc0
+ * FNV-1a of the lines after this comment, without the license: e19cb964453cbe9b
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40,24 +40,24 @@
  *   5912 impl/ ordering: fill-reducing orderings of a graph
  *  11014 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  13253 impl/ factor: the numbers of L and D
- *  16670 impl/ solve: full and local solves
- *  18547 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20544 impl/ pivots: the order of the pivots by the values of a matrix
- *  20952 impl/ float: L and fronts in single precision
- *  21457 impl/ inverse: entries of the inverse, regions
- *  24556 impl/ change: a factor that follows changes of its matrix
- *  30849 impl/ dirichlet: rows fixed at given values
- *  31498 impl/ dirichlet: by a factor of all rows
- *  31730 impl/ io: files that are replaced only when they are complete
- *  31948 impl/ files: Matrix Market files, 64-bit indices
- *  32568 impl/ save: factors in files
- *  34580 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35266 impl/ batch: diagonals of many inverses
- *  35406 impl/ complex: complex Hermitian systems over real factors
- *  35968 impl/ complex: entries of the inverse
- *  36028 impl/ packs: the tables through which the core calls packs
- *  36077 impl/ last: undefine every internal macro
- *  36458 impl/ templates: the header includes them from itself, once for each instruction set
+ *  16666 impl/ solve: full and local solves
+ *  18543 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20540 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20948 impl/ float: L and fronts in single precision
+ *  21453 impl/ inverse: entries of the inverse, regions
+ *  24552 impl/ change: a factor that follows changes of its matrix
+ *  30845 impl/ dirichlet: rows fixed at given values
+ *  31494 impl/ dirichlet: by a factor of all rows
+ *  31726 impl/ io: files that are replaced only when they are complete
+ *  31944 impl/ files: Matrix Market files, 64-bit indices
+ *  32564 impl/ save: factors in files
+ *  34576 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35262 impl/ batch: diagonals of many inverses
+ *  35402 impl/ complex: complex Hermitian systems over real factors
+ *  35964 impl/ complex: entries of the inverse
+ *  36024 impl/ packs: the tables through which the core calls packs
+ *  36073 impl/ last: undefine every internal macro
+ *  36454 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13754,7 +13754,8 @@ static sl_int sli_list_regularized(const sl_factor *F, sl_int count) {
 static void sli_count_pivots(sl_factor *F, sl_int count) {
   sl_factor_info info = F->stats.factor;
   sl_int k = 0;
-  info.positive = info.negative = info.null = info.regularized = info.weak = 0;
+  info.positive = info.negative = info.null = info.weak = 0;
+  info.regularized = sli_list_regularized(F, count);
   info.pivot_min = info.pivot_max = 0.0;
   if (count > 0 && F->E == NULL && F->null.mode != SL_NULL_PIVOT_SKIP) {
     const sli_spread r = sli_spread_of(F->D, count);
@@ -13763,7 +13764,6 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
       info.negative = count - r.positive;
       info.pivot_min = r.least;
       info.pivot_max = r.most;
-      info.regularized = sli_list_regularized(F, count);
       k = count;
     }
   }
@@ -13775,9 +13775,6 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
       continue;
     }
     info.weak += F->rule.kinds != NULL && F->rule.kinds[k] == SLI_PIVOT_WEAK;
-    if (sli_is_regularized(F, k)) {
-      F->rule.regularized[info.regularized++] = k;
-    }
     if (F->E != NULL && F->S->pairs[k] != SLI_PAIR_NONE) {
       n_values = F->S->pairs[k] == SLI_PAIR_FIRST ? 2 : 0;
       if (n_values > 0) {
@@ -15535,10 +15532,10 @@ static int sli_growth_check(sl_factor *F, sli_failure *failure) {
     }
     growth = sli_growth(magnitude, entry);
     most_growth = growth > most_growth ? growth : most_growth;
+    bound = most_growth * (1.0 - 4.0 * DBL_EPSILON);
     bound = most_growth < 1.0 || most_growth > F->limits.growth ? 0.0
-        : most_growth * (1.0 - 4.0 * DBL_EPSILON) > 1.0
-          ? most_growth * (1.0 - 4.0 * DBL_EPSILON)
-          : 1.0;
+        : bound > 1.0 ? bound
+                                  : 1.0;
     if (growth > F->limits.growth &&
         (failure->status == SL_OK || has_refused)) { /* branches untested: no other failure */
       has_refused = 1;
@@ -15835,8 +15832,7 @@ static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
   for (s = 0; s < S->n_supers; s++) {
     const sl_int w = S->steps[s].width;
     if (sli_panel_is_copied(F, s)) {
-      const sl_int tiles = sli_last_tile(S, s) + 1;
-      const sl_off size = w == 1 ? SLI_TILE * (sl_off)tiles : sli_tile_offset(w, tiles);
+      const sl_off size = sli_tile_offset(w, sli_last_tile(S, s) + 1);
       room = size > room ? size : room;
     }
   }

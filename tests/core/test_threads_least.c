@@ -14,7 +14,7 @@ static shared_calls solve_on_grid(sl_int rows) {
     factored_t y = factored_make(GEN_GRID2, rows, 0, 0, NULL);
     const size_t n = (size_t)y.M.view.n_cols;
     double *B = test_reals(n * RHS), *X = test_reals(n * RHS), *Y = test_reals(n * RHS);
-    int calls = 0, *result;
+    int calls = 0;
     shared_calls shared = {0};
     sl_plan *plans[PLANS];
     sl_request requests[PLANS];
@@ -22,15 +22,14 @@ static shared_calls solve_on_grid(sl_int rows) {
     const sl_options opt = options_of_workers(4, &calls);
     gen_reals(B, n * RHS, 3);
     SL_CHECK(sl_work_create(&W, &opt));
-    for (sl_int nrhs = 1; nrhs <= RHS; nrhs++) {
-        result = nrhs == 1 ? &shared.one : nrhs == 3 ? &shared.three : &shared.twenty;
-        if (nrhs == 1 || nrhs == 3 || nrhs == RHS) {
-            calls = 0;
-            SL_CHECK(sl_factor_solve(y.F, X, n, B, n, nrhs, W));
-            *result = calls;
-            SL_CHECK(sl_factor_solve(y.F, Y, n, B, n, nrhs, NULL));
-            assert_memory_equal(X, Y, n * (size_t)nrhs * sizeof *X);
-        }
+    for (int k = 0; k < 3; k++) {
+        static const sl_int counts[3] = {1, 3, RHS};
+        int *const results[3] = {&shared.one, &shared.three, &shared.twenty};
+        calls = 0;
+        SL_CHECK(sl_factor_solve(y.F, X, n, B, n, counts[k], W));
+        *results[k] = calls;
+        SL_CHECK(sl_factor_solve(y.F, Y, n, B, n, counts[k], NULL));
+        assert_memory_equal(X, Y, n * (size_t)counts[k] * sizeof *X);
     }
     for (int k = 0; k < PLANS; k++) {
         const sl_int row = k * (y.M.view.n_cols / PLANS);

@@ -53,8 +53,7 @@ static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
     for (s = 0; s < S->n_supers; s++) {
         const sl_int w = S->steps[s].width;
         if (sli_panel_is_copied(F, s)) {
-            const sl_int tiles = sli_last_tile(S, s) + 1;
-            const sl_off size = w == 1 ? SLI_TILE * (sl_off)tiles : sli_tile_offset(w, tiles);
+            const sl_off size = sli_tile_offset(w, sli_last_tile(S, s) + 1);
             room = size > room ? size : room;
         }
     }

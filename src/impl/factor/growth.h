@@ -107,10 +107,10 @@ static int sli_growth_check(sl_factor *F, sli_failure *failure) {
         growth = sli_growth(magnitude, entry);
         most_growth = growth > most_growth ? growth : most_growth;
         /* 1 has no rounding, and 4 epsilon exceed those of a product and a quotient */
+        bound = most_growth * (1.0 - 4.0 * DBL_EPSILON);
         bound = most_growth < 1.0 || most_growth > F->limits.growth ? 0.0
-                : most_growth * (1.0 - 4.0 * DBL_EPSILON) > 1.0
-                    ? most_growth * (1.0 - 4.0 * DBL_EPSILON)
-                    : 1.0;
+                : bound > 1.0                                       ? bound
+                                                                    : 1.0;
         if (growth > F->limits.growth &&
             (failure->status == SL_OK || has_refused)) { /* branches untested: no other failure */
             has_refused = 1;                             /* of several trees, the first one */

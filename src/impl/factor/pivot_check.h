@@ -180,7 +180,8 @@ static sl_int sli_list_regularized(const sl_factor *F, sl_int count) {
 static void sli_count_pivots(sl_factor *F, sl_int count) {
     sl_factor_info info = F->stats.factor; /* in registers: 3 times as fast */
     sl_int k = 0;
-    info.positive = info.negative = info.null = info.regularized = info.weak = 0;
+    info.positive = info.negative = info.null = info.weak = 0;
+    info.regularized = sli_list_regularized(F, count);
     info.pivot_min = info.pivot_max = 0.0;
     if (count > 0 && F->E == NULL && F->null.mode != SL_NULL_PIVOT_SKIP) {
         const sli_spread r = sli_spread_of(F->D, count);
@@ -189,7 +190,6 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
             info.negative = count - r.positive;
             info.pivot_min = r.least;
             info.pivot_max = r.most;
-            info.regularized = sli_list_regularized(F, count);
             k = count;
         }
     }
@@ -201,9 +201,6 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
             continue;
         }
         info.weak += F->rule.kinds != NULL && F->rule.kinds[k] == SLI_PIVOT_WEAK;
-        if (sli_is_regularized(F, k)) {
-            F->rule.regularized[info.regularized++] = k;
-        }
         if (F->E != NULL && F->S->pairs[k] != SLI_PAIR_NONE) {
             n_values = F->S->pairs[k] == SLI_PAIR_FIRST ? 2 : 0;
             if (n_values > 0) {
