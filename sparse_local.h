@@ -1,63 +1,63 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e19cb964453cbe9b
+ * FNV-1a of the lines after this comment, without the license: 409b108c6b18d59b
  * The comments of the implementation are in src/impl.
  *
  * Contents
  *     65 intro.h      what the library does, a quick start, which call for which question, references
- *    194 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    238 config.h     macros that a user may define before the include, the version, and the integer types
- *    325 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    505 options.h    options of all calls, threads, and the allocator
- *    631 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    875 csc.h        sparse matrices: creation, checks, products, residuals
- *    976 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1052 factor.h     the numerical factorization P A P' = L D L'
- *   1180 solve.h      full solves, and the workspace of all solves
- *   1276 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1352 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_DIRICHLET)
+ *    195 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    239 config.h     macros that a user may define before the include, the version, and the integer types
+ *    326 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    506 options.h    options of all calls, threads, and the allocator
+ *    632 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    876 csc.h        sparse matrices: creation, checks, products, residuals
+ *    977 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1053 factor.h     the numerical factorization P A P' = L D L'
+ *   1182 solve.h      full solves, and the workspace of all solves
+ *   1278 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1354 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
  *   1444 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
  *   1537 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
  *   1576 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
  *   1677 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1756 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1842 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1935 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2042 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2084 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2205 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2236 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2418 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2517 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2627 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2668 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2754 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2862 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2896 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2973 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3016 impl/ base: the compiler, status, memory, sorting, threads
- *   4297 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5236 impl/ matrix: sparse matrices of the caller and of the library
- *   5912 impl/ ordering: fill-reducing orderings of a graph
- *  11014 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13253 impl/ factor: the numbers of L and D
- *  16666 impl/ solve: full and local solves
- *  18543 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20540 impl/ pivots: the order of the pivots by the values of a matrix
- *  20948 impl/ float: L and fronts in single precision
- *  21453 impl/ inverse: entries of the inverse, regions
- *  24552 impl/ change: a factor that follows changes of its matrix
- *  30845 impl/ dirichlet: rows fixed at given values
- *  31494 impl/ dirichlet: by a factor of all rows
- *  31726 impl/ io: files that are replaced only when they are complete
- *  31944 impl/ files: Matrix Market files, 64-bit indices
- *  32564 impl/ save: factors in files
- *  34576 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35262 impl/ batch: diagonals of many inverses
- *  35402 impl/ complex: complex Hermitian systems over real factors
- *  35964 impl/ complex: entries of the inverse
- *  36024 impl/ packs: the tables through which the core calls packs
- *  36073 impl/ last: undefine every internal macro
- *  36454 impl/ templates: the header includes them from itself, once for each instruction set
+ *   1757 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1843 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1936 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2043 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2085 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2207 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2238 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2420 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2523 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2634 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2675 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2761 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2869 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2903 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2980 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3023 impl/ base: the compiler, status, memory, sorting, threads
+ *   4304 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5243 impl/ matrix: sparse matrices of the caller and of the library
+ *   5919 impl/ ordering: fill-reducing orderings of a graph
+ *  11021 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13260 impl/ factor: the numbers of L and D
+ *  16673 impl/ solve: full and local solves
+ *  18550 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20547 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20955 impl/ float: L and fronts in single precision
+ *  21460 impl/ inverse: entries of the inverse, regions
+ *  24559 impl/ change: a factor that follows changes of its matrix
+ *  30864 impl/ fixed: rows fixed at given values
+ *  31505 impl/ fixed: by a factor of all rows
+ *  31739 impl/ io: files that are replaced only when they are complete
+ *  31957 impl/ files: Matrix Market files, 64-bit indices
+ *  32577 impl/ save: factors in files
+ *  34590 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35276 impl/ batch: diagonals of many inverses
+ *  35416 impl/ complex: complex Hermitian systems over real factors
+ *  35978 impl/ complex: entries of the inverse
+ *  36038 impl/ packs: the tables through which the core calls packs
+ *  36087 impl/ last: undefine every internal macro
+ *  36468 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -106,10 +106,11 @@
  *  an indefinite or KKT system                    sl_symbolic_create_pivoted             pivots.h
  *  can the solution be trusted?                   sl_factor_refine, sl_factor_rcond      accuracy.h
  *  how far off is each answer?                    sl_factor_certify                      bounds.h
- *  a few entries changed, A + V V'                sl_factor_change, sl_factor_update     change.h
- *  rows fixed at values, b in the others          sl_dirichlet_create               dirichlet.h
- *  rows pinned and released one by one            sl_pins_create                         pins.h
- *  a part of A, with zero values around it        sl_factor_restrict                     restrict.h
+ *  a few entries of A changed                     sl_factor_change_entries               change.h
+ *  A + V V'                                       sl_factor_rank_update                  change.h
+ *  rows that stay fixed, b in the others          sl_fixed_create                        fixed.h
+ *  rows held and released one by one              sl_constraints_create                  constraints.h
+ *  a part of A, with zero values around it        sl_factor_submatrix                    submatrix.h
  *  a mesh that is cut or remeshed in places       sl_symbolic_edit, sl_factor_edit       edit.h
  *  variances, entries of the inverse              sl_inverse_diagonal, sl_inverse_pairs  inverse.h
  *  the inverse on the whole pattern of L          sl_selected_create                     selected.h
@@ -117,7 +118,7 @@
  *  L, D or L' alone, samples of covariance A^-1   sl_factor_solve_part                   parts.h
  *  the pseudo-inverse of a singular A             sl_factor_pseudo_inverse               pseudo.h
  *  many solves by one call                        sl_batch_solve                         batch.h
- *  M + t K for many t                             sl_batch_factor                        several.h
+ *  M + t K for many t                             sl_factor_create_sums                  several.h
  *  a factor in a file, mapped without a copy      sl_map_file                            save.h
  *  a complex Hermitian system                     sl_matrix_from_hermitian               complex.h
  *  a matrix from a file                           sl_matrix_read                         files.h
@@ -199,7 +200,7 @@
  *
  *  SL_WITH_INVERSE    entries of the inverse, bilinear forms, selected inversion, regions
  *  SL_WITH_CHANGE     changes of a factor in place, pins, factors of submatrices, edits
- *  SL_WITH_DIRICHLET  rows fixed at given values: harmonic maps, interpolation
+ *  SL_WITH_FIXED      rows fixed at given values: harmonic maps, interpolation
  *  SL_WITH_SAVE       factors, selected inverses and regions in files and in mapped memory
  *  SL_WITH_BATCH      many factors or solves by one call, weighted sums of matrices
  *  SL_WITH_COMPLEX    complex Hermitian systems, SL_STORAGE_COMPLEX
@@ -213,7 +214,7 @@
  * pins need, and so does SL_WITH_SAVE. Objects and structs are the same with any packs. */
 #if defined(SL_WITH_ALL)
 #undef SL_WITH_CHANGE
-#undef SL_WITH_DIRICHLET
+#undef SL_WITH_FIXED
 #undef SL_WITH_SAVE
 #undef SL_WITH_BATCH
 #undef SL_WITH_COMPLEX
@@ -222,7 +223,7 @@
 #undef SL_WITH_FILES
 #undef SL_WITH_PIVOTS
 #define SL_WITH_CHANGE
-#define SL_WITH_DIRICHLET
+#define SL_WITH_FIXED
 #define SL_WITH_SAVE
 #define SL_WITH_BATCH
 #define SL_WITH_COMPLEX
@@ -335,7 +336,7 @@ typedef enum sl_status {
     /* the allocator returned NULL */
     SL_ERR_MEMORY,
     /* a malformed matrix, or both triangles stored with different patterns or values */
-    SL_ERR_PATTERN,
+    SL_ERR_MALFORMED,
     /* a null pivot: the matrix is singular or needs pivoting; stats name the row */
     SL_ERR_PIVOT,
     /* a NaN or an infinity in the values or in a result; stats name the row */
@@ -349,7 +350,7 @@ typedef enum sl_status {
     /* METIS failed */
     SL_ERR_ORDERING,
     /* objects that do not belong together, such as a plan and a factor of different analyses */
-    SL_ERR_STATE,
+    SL_ERR_MISMATCH,
     /* a singular system whose right-hand side has no solution */
     SL_ERR_INCONSISTENT,
     /* pivot growth beyond options.growth_limit (stats name a row), or a refinement that ended above
@@ -361,7 +362,7 @@ typedef enum sl_status {
      * older numbers of the factor: refactor them */
     SL_ERR_STALE,
     /* a mapped object that would have to change: load it instead; or a factor of
-     * sl_factor_restrict */
+     * sl_factor_submatrix */
     SL_ERR_READ_ONLY
 } sl_status;
 
@@ -477,7 +478,7 @@ typedef enum sl_change_method {
     SL_CHANGE_REFACTOR  /* sl_factor_refactor */
 } sl_change_method;
 
-/** Why sl_factor_change took its way. */
+/** Why sl_factor_change_entries took its way. */
 typedef enum sl_change_reason {
     SL_CHANGE_CHEAPEST = 0, /* the fewest flops, weighted by what one costs in each way */
     SL_CHANGE_UNSUITED,     /* null pivots, 2x2 pivots, or F has no numbers */
@@ -485,12 +486,12 @@ typedef enum sl_change_reason {
     SL_CHANGE_REFUSED       /* rank-one changes met a pivot that they refuse */
 } sl_change_reason;
 
-/** How sl_dirichlet_create fixes rows. */
-typedef enum sl_dirichlet_method {
-    SL_DIRICHLET_SUBMATRIX = 0, /* a factor of the free rows */
-    SL_DIRICHLET_RESTRICTION,   /* the same, from a factor of all rows (sl_factor_restrict) */
-    SL_DIRICHLET_PINS           /* pins on a factor of all rows (sl_pins_create) */
-} sl_dirichlet_method;
+/** How sl_fixed_create fixes rows. */
+typedef enum sl_fixed_method {
+    SL_FIXED_SUBMATRIX = 0, /* a factor of the free rows */
+    SL_FIXED_RESTRICTION,   /* the same, from a factor of all rows (sl_factor_submatrix) */
+    SL_FIXED_PINS           /* pins on a factor of all rows (sl_constraints_create) */
+} sl_fixed_method;
 
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
 typedef struct sl_symbolic sl_symbolic; /* the analysis of one pattern; immutable */
@@ -498,9 +499,9 @@ typedef struct sl_factor sl_factor;     /* L and D over a symbolic analysis */
 typedef struct sl_plan sl_plan;         /* the reaches of a b-set and an x-set; immutable */
 typedef struct sl_work sl_work;         /* workspace of one thread */
 typedef struct sl_selected sl_selected; /* entries of the inverse on the pattern of L; immutable */
-typedef struct sl_pins sl_pins;         /* rows held at given values */
-typedef struct sl_region sl_region;     /* a part of the matrix where local solves can stop early */
-typedef struct sl_dirichlet sl_dirichlet; /* a system with rows fixed at given values */
+typedef struct sl_constraints sl_constraints; /* rows held at given values */
+typedef struct sl_region sl_region; /* a part of the matrix where local solves can stop early */
+typedef struct sl_fixed sl_fixed;   /* a system with rows fixed at given values */
 
 /* src/public/options.h: options of all calls, threads, and the allocator */
 
@@ -602,8 +603,8 @@ typedef struct sl_options {
      * 1 / epsilon = 4.5e15, or 8.4e6 if L is in float, beyond which L D L' may agree with A in
      * no digit; negative: no limit */
     double growth_limit;
-    /* sl_factor_refine and sl_plan_solve_refined return SL_ERR_INACCURATE if they end above this
-     * backward error; 0: 1e-8; negative: never */
+    /* sl_factor_refine and sl_plan_solve_regularized return SL_ERR_INACCURATE if they end above
+     * this backward error; 0: 1e-8; negative: never */
     double error_limit;
 
     /* the columns of null_vector, at most 32: the null vectors of each component are combinations
@@ -733,7 +734,7 @@ typedef struct sl_region_info {
     size_t bytes;
 } sl_region_info;
 
-/** Refinement: sl_factor_refine, sl_plan_solve_refined. */
+/** Refinement: sl_factor_refine, sl_plan_solve_regularized. */
 typedef struct sl_refine_info {
     sl_int steps;          /* corrections applied, the maximum over all right-hand sides */
     double backward_error; /* what remains, the maximum over all right-hand sides */
@@ -748,10 +749,10 @@ typedef struct sl_certificate_info {
     double seconds;
 } sl_certificate_info;
 
-/** A change of a factor in place: sl_factor_update, sl_factor_change. */
+/** A change of a factor in place: sl_factor_rank_update, sl_factor_change_entries. */
 typedef struct sl_change_info {
     sl_change_method method; /* the way that was taken */
-    sl_change_reason reason; /* why; of sl_factor_change */
+    sl_change_reason reason; /* why; of sl_factor_change_entries */
     sl_int ranks;            /* rank-one changes that the change consists of; 0: not counted */
     sl_int padding;          /* not written */
     sl_off entries;          /* doubles of L that rank-one changes read and write */
@@ -762,21 +763,21 @@ typedef struct sl_change_info {
     double drift;
     double flops_update; /* of the rank-one changes, about; 0 if F cannot be changed so */
     /* of sl_factor_refactor_changed, counted up to the cost of the cheapest way; of
-     * sl_factor_change, else 0 */
+     * sl_factor_change_entries, else 0 */
     double flops_changed;
-    double flops_refactor; /* of sl_factor_refactor; of sl_factor_change, else 0 */
+    double flops_refactor; /* of sl_factor_refactor; of sl_factor_change_entries, else 0 */
     double seconds;
 } sl_change_info;
 
-/** The factor of a principal submatrix: sl_factor_restrict. */
-typedef struct sl_restrict_info {
+/** The factor of a principal submatrix: sl_factor_submatrix. */
+typedef struct sl_submatrix_info {
     sl_int kept;     /* columns of L that were copied */
     sl_int computed; /* the others */
     sl_off entries;  /* doubles of L that were copied */
     int is_anew;     /* 1: too few columns to copy: all were analyzed and computed */
     int padding;     /* not written */
     double seconds;  /* analysis included */
-} sl_restrict_info;
+} sl_submatrix_info;
 
 /** An analysis that follows an edit of the pattern: sl_symbolic_edit. */
 typedef struct sl_edit_info {
@@ -804,24 +805,24 @@ typedef struct sl_reuse_info {
     double seconds;
 } sl_reuse_info;
 
-/** A set of pins: sl_pins_add, _add_equality, _release, _refactor. */
-typedef struct sl_pins_info {
+/** A set of pins: sl_constraints_add, _add_equality, _release, _refactor. */
+typedef struct sl_constraints_info {
     sl_int count;   /* pins and equalities */
     double seconds; /* of the call; where it is about stats.factor.seconds or more,
-                     * sl_dirichlet_create holds the same rows sooner */
-} sl_pins_info;
+                     * sl_fixed_create holds the same rows sooner */
+} sl_constraints_info;
 
-/** Rows fixed at given values: sl_dirichlet_create, sl_dirichlet_refactor. */
-typedef struct sl_dirichlet_info {
-    sl_dirichlet_method method; /* the way in use */
-    sl_int n_free;              /* rows that are not fixed */
-    sl_off couplings;           /* entries of A between free and fixed rows */
+/** Rows fixed at given values: sl_fixed_create, sl_fixed_refactor. */
+typedef struct sl_fixed_info {
+    sl_fixed_method method; /* the way in use */
+    sl_int n_free;          /* rows that are not fixed */
+    sl_off couplings;       /* entries of A between free and fixed rows */
     /* of a choice among ways, as estimated from counts; 0: there was none */
     double seconds_submatrix;
     double seconds_restriction; /* the same */
     double seconds_pins;        /* the same; 0 also where pins are not possible */
     double seconds;             /* of the call */
-} sl_dirichlet_info;
+} sl_fixed_info;
 
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
  *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
@@ -837,16 +838,16 @@ typedef struct sl_stats {
     sl_region_info region;
     sl_refine_info refine;
     sl_change_info change;
-    sl_restrict_info restriction;
+    sl_submatrix_info submatrix;
     sl_edit_info edit;
     sl_off storage; /* sl_storage of the factor; with the group factor */
     sl_reuse_info reuse;
-    sl_pins_info pins;
+    sl_constraints_info constraints;
     sl_certificate_info certificate;
     /* of a factorization that was refused with SL_ERR_PIVOT: a pivot (error.value) up to this size
      * is null; 0: not known */
     double null_bound;
-    sl_dirichlet_info dirichlet;
+    sl_fixed_info fixed;
     /* that a factorization is divided among; 1: the matrix is small, or the header was compiled
      * with neither SL_PTHREADS nor OpenMP and options.threads has no pool; with the group factor */
     sl_off threads;
@@ -895,7 +896,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int 
 
 /** The transpose of a general matrix (as SL_AS_STORED). Rows are ascending; duplicates stay.
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MALFORMED; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n_rows + n_cols + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A,
@@ -909,7 +910,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_cs
  *
  *  rows   [in]   count rows of A in 0..n-1, any order, none twice.
  *  stats  [out]  error.row: a row out of range or given twice.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also not square; SL_ERR_PATTERN; SL_ERR_TOO_LARGE;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also not square; SL_ERR_MALFORMED; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
  */
@@ -926,7 +927,7 @@ SL_API void sl_matrix_free(sl_matrix *M);
 /** Checks a view: sizes, positions ascending from 0, indices in range.
  *
  *  stats  [out]  error.column and, for an index out of range, error.row.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: A or one of its arrays is NULL; SL_ERR_PATTERN;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: A or one of its arrays is NULL; SL_ERR_MALFORMED;
  *           SL_ERR_TOO_LARGE: more rows or columns than sl_csc allows.
  *  Cost     O(n_cols + nnz).
  */
@@ -939,7 +940,7 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_check(const sl_csc *A, sl_stats *stats);
  *  out    [out]  the triangle; on error untouched.
  *  opt    [in]   allocator, triangle.
  *  stats  [out]  error.row, error.column: an entry without its mirror image.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_MALFORMED; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out,
@@ -989,7 +990,7 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
  *                SL_ORDERING_NATURAL; every ordering refuses an invalid one.
  *  stats  [out]  symbolic.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first
- *           offending position), or another option that is not allowed; SL_ERR_PATTERN;
+ *           offending position), or another option that is not allowed; SL_ERR_MALFORMED;
  *           SL_ERR_UNSUPPORTED: METIS is not compiled in; SL_ERR_ORDERING: METIS failed;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes). Each further thread has
@@ -1068,14 +1069,15 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  stats  [out]  factor.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, or at error.row a
  *           weight, sign or null vector that is not allowed; SL_ERR_OTHER_PATTERN: not the analyzed
- *           one, from error.row, error.column on; SL_ERR_PATTERN: malformed, or two triangles whose
- *           values differ by more than 1e-6 of the row; SL_ERR_PIVOT: a null pivot at error.row, or
- *           a negative one that options do not allow; error.what says what helps, such as
- *           sl_symbolic_create_pivoted, and null_bound up to which size the pivot error.value is
- *           null; SL_ERR_NOT_FINITE: at error.row, and error.column if it is an entry of A;
- *           SL_ERR_INACCURATE: growth above its limit by the pivot error.value of error.row, or a
- *           number that float cannot hold; SL_ERR_UNSUPPORTED: the isa, or a combination of options
- *           and matrix that the manual excludes; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           one, from error.row, error.column on; SL_ERR_MALFORMED: malformed, or two triangles
+ *           whose values differ by more than 1e-6 of the row; SL_ERR_PIVOT: a null pivot at
+ *           error.row, or a negative one that options do not allow; error.what says what helps,
+ *           such as sl_symbolic_create_pivoted, and null_bound up to which size the pivot
+ *           error.value is null; SL_ERR_NOT_FINITE: at error.row, and error.column if it is an
+ *           entry of A; SL_ERR_INACCURATE: growth above its limit by the pivot error.value of
+ *           error.row, or a number that float cannot hold; SL_ERR_UNSUPPORTED: the isa, or a
+ *           combination of options and matrix that the manual excludes; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles and, with the
  *           supernodal method, the update stack: about 5 % more for 2D meshes and 30 % for 3D
  *           meshes, more with threads.
@@ -1097,9 +1099,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *  nothing, but 24 bytes a row where small pivots have to be judged (singular.md); without this
  *  memory they are null.
  *
- *  F      [in,out]  unchanged after SL_ERR_ARGUMENT, SL_ERR_PATTERN and SL_ERR_OTHER_PATTERN. After
- *                   SL_ERR_PIVOT, _NOT_FINITE, _INACCURATE and _UNSUPPORTED it has no numbers, and
- *                   every solve refuses it until a refactor succeeds.
+ *  F      [in,out]  unchanged after SL_ERR_ARGUMENT, SL_ERR_MALFORMED and SL_ERR_OTHER_PATTERN.
+ *                   After SL_ERR_PIVOT, _NOT_FINITE, _INACCURATE and _UNSUPPORTED it has no
+ *                   numbers, and every solve refuses it until a refactor succeeds.
  *  A      [in]      the analyzed pattern, new values. Two triangles are not compared.
  *  stats  [out]     factor.
  *  Returns  as sl_factor_create; SL_ERR_READ_ONLY: a mapped factor, or one that
@@ -1189,7 +1191,7 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
  *  ld must be at least the number of right-hand sides. Its two top bits, one of which says the
  *  layout, must be clear. X and B of a call may have different layouts, unless they are one array.
  *  Accepted by sl_factor_solve, sl_plan_solve, sl_plan_solve_bounded, sl_local_solve,
- *  sl_dirichlet_solve, the requests of sl_batch_solve, and the half solves and products of parts.h;
+ *  sl_fixed_solve, the requests of sl_batch_solve, and the half solves and products of parts.h;
  *  all other calls refuse it with SL_ERR_ARGUMENT.
  */
 #define SL_ROWS(ld) ((size_t)(ld) | SL_ROW_MAJOR)
@@ -1227,10 +1229,10 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  |  _multiply_part, _defects,        | has null pivots. Fewer right-hand sides need no more,  |
  *  |  _refine, _rcond                  | but they may with threads: try each number             |
  *  | sl_factor_pseudo_inverse          | the analysis and the number of columns                 |
- *  | sl_dirichlet_solve                | the object, nrhs, and the threads of W                 |
+ *  | sl_fixed_solve                    | the object, nrhs, and the threads of W                 |
  *  | sl_plan_solve, _solve_part        | the plan, nrhs, whether F has null pivots; fewer       |
  *  |                                   | right-hand sides need no more                          |
- *  | sl_plan_solve_refined             | the same, and the number of regularized rows           |
+ *  | sl_plan_solve_regularized         | the same, and the number of regularized rows           |
  *  | sl_selected_refactor              | the selected inverse and options.storage of F          |
  *  | sl_region_refactor                | the region, the instruction set of F, and Z            |
  *  | sl_local_solve, sl_inverse_*,     | the rows of the call, too. Fewer rows can need more:   |
@@ -1291,8 +1293,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, s
  *  opt    [in]   allocator, region. If both sets are inside the region, the sweeps end at its
  *                boundary. If they are not, or if one is NULL, the region is not used.
  *  stats  [out]  plan; error.row: an index out of range.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a region of another analysis; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MISMATCH: a region of another analysis;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(nb + nx + rows of the supernodes reached), with a logarithmic factor for rows that
  *           skip many ancestors; nothing O(n). Keeps 4 bytes per row of a set, and 4 per row and 32
  *           per supernode reached.
@@ -1323,7 +1325,7 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *                in the order of bset.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed factor, or, in a region, one whose
- *           numbers are not those that the region was computed from; SL_ERR_STATE: a factor of
+ *           numbers are not those that the region was computed from; SL_ERR_MISMATCH: a factor of
  *           another analysis; SL_ERR_INCONSISTENT, _NOT_FINITE: as in sl_factor_solve, of what x
  *           depends on; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     2 (b_entries + x_entries) + 4 region_entries flops per right-hand side; nothing O(n);
@@ -1348,15 +1350,15 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int 
                                                const double *B, size_t ldb, sl_int nrhs, sl_work *W,
                                                sl_stats *stats);
 
-#if defined(SL_WITH_DIRICHLET)
-/* src/public/dirichlet.h: rows fixed at given values, of a matrix that need not be factored as a whole */
+#if defined(SL_WITH_FIXED)
+/* src/public/fixed.h: rows fixed at given values, of a matrix that need not be factored as a whole */
 
 /** Prepares solves of A x = b in the free rows, where x is given in the others: Dirichlet problems,
  *  harmonic maps, interpolation. For definite A, x minimizes x' A x / 2 - b' x under x(rows) = g.
  *
  *  The free rows have a factor of A[free, free] of their own; A may be singular. If a factor F of A
  *  is given, and the pack of changes is on, the cheapest of three ways is taken, by counted cost
- *  (stats.dirichlet): the same, sl_factor_restrict, or pins on F.
+ *  (stats.fixed): the same, sl_factor_submatrix, or pins on F.
  *
  *  out    [out]  the object.
  *  A      [in]   n x n with values, symmetric, not kept. Entries between fixed rows are not read,
@@ -1375,26 +1377,24 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int 
  *  Manual   tools/docs/dirichlet.md: what pins, restrictions and submatrices cost
  *  Example  tests/core/test_dirichlet.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A,
-                                                    const sl_int *rows, sl_int count,
-                                                    const sl_factor *F, const sl_options *opt,
-                                                    sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_fixed_create(sl_fixed **out, const sl_csc *A, const sl_int *rows,
+                                                sl_int count, const sl_factor *F,
+                                                const sl_options *opt, sl_stats *stats);
 
 /** Releases the object. */
-SL_API void sl_dirichlet_free(sl_dirichlet *D);
+SL_API void sl_fixed_free(sl_fixed *D);
 
 /** Takes new values of A. An object that uses a factor of A gets one of its own.
  *
- *  A      [in]   the pattern that sl_dirichlet_create was given, its entries in the same order.
+ *  A      [in]   the pattern that sl_fixed_create was given, its entries in the same order.
  *  stats  [out]  dirichlet, factor; errors are in rows of A.
- *  Returns  as sl_dirichlet_create; SL_ERR_OTHER_PATTERN. After SL_ERR_PIVOT,
+ *  Returns  as sl_fixed_create; SL_ERR_OTHER_PATTERN. After SL_ERR_PIVOT,
  *           _NOT_FINITE, _INACCURATE and _UNSUPPORTED solves are refused until a
  *           refactorization succeeds; after other errors D is as before.
  *  Cost     a refactorization of A[free, free]; nothing is allocated, except for its first factor.
  *  Threads  exclusive use of D.
  */
-SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A,
-                                                      sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_fixed_refactor(sl_fixed *D, const sl_csc *A, sl_stats *stats);
 
 /** Solves for x in the free rows, for any values of the fixed ones.
  *
@@ -1409,19 +1409,19 @@ SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_
  *  nrhs  [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed refactorization, or the factor whose
  *           pins are used has changed; SL_ERR_NOT_FINITE, SL_ERR_INCONSISTENT: as sl_factor_solve;
- *           SL_ERR_INACCURATE: as sl_pins_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           SL_ERR_INACCURATE: as sl_constraints_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     for each right-hand side a full solve of the free rows, 2 flops per entry of A between
  *           free and fixed rows, and a pass over X and B. No allocation once W has grown, except
  *           for pins with row-major blocks.
  *  Threads  any number at once on one D, each with its own W, whose threads are used.
  */
-SL_API SL_WARN_UNUSED sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx,
-                                                   const double *B, size_t ldb, const double *G,
-                                                   size_t ldg, sl_int nrhs, sl_work *W);
+SL_API SL_WARN_UNUSED sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx,
+                                               const double *B, size_t ldb, const double *G,
+                                               size_t ldg, sl_int nrhs, sl_work *W);
 
 /** What the object is made of, for local solves on plans and for all other calls on a factor: row k
- *  of its system is row free_rows[k] of A. Valid until sl_dirichlet_refactor or _free. */
-typedef struct sl_dirichlet_arrays {
+ *  of its system is row free_rows[k] of A. Valid until sl_fixed_refactor or _free. */
+typedef struct sl_fixed_arrays {
     sl_int n_free, n_fixed;
     const sl_int *free_rows;     /* n_free: ascending */
     const sl_int *fixed_rows;    /* n_fixed: rows, in the order of the caller */
@@ -1429,16 +1429,16 @@ typedef struct sl_dirichlet_arrays {
     const sl_factor *factor;     /* the same */
     sl_csc matrix;               /* A[free, free], one triangle; 0 x 0: not kept */
     const void *reserved[2];     /* NULL; new fields take their place */
-} sl_dirichlet_arrays;
+} sl_fixed_arrays;
 
-SL_API sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D);
+SL_API sl_fixed_arrays sl_fixed_view(const sl_fixed *D);
 
 #else
-#define sl_dirichlet_create(...) sl_dirichlet_create_needs_SL_WITH_DIRICHLET
-#define sl_dirichlet_free(...) sl_dirichlet_free_needs_SL_WITH_DIRICHLET
-#define sl_dirichlet_refactor(...) sl_dirichlet_refactor_needs_SL_WITH_DIRICHLET
-#define sl_dirichlet_solve(...) sl_dirichlet_solve_needs_SL_WITH_DIRICHLET
-#define sl_dirichlet_view(...) sl_dirichlet_view_needs_SL_WITH_DIRICHLET
+#define sl_fixed_create(...) sl_fixed_create_needs_SL_WITH_FIXED
+#define sl_fixed_free(...) sl_fixed_free_needs_SL_WITH_FIXED
+#define sl_fixed_refactor(...) sl_fixed_refactor_needs_SL_WITH_FIXED
+#define sl_fixed_solve(...) sl_fixed_solve_needs_SL_WITH_FIXED
+#define sl_fixed_view(...) sl_fixed_view_needs_SL_WITH_FIXED
 #endif
 #if defined(SL_WITH_ACCURACY)
 /* src/public/parts.h: L, D, L' and the permutation applied one by one: half solves, products, samples */
@@ -1513,7 +1513,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_multiply_part(const sl_factor *F, unsi
  *
  *  P, F   [in]   a plan without a region, and a factor over its analysis.
  *  X, B, ldx, ldb, nrhs, W  as in sl_plan_solve, but for their rows.
- *  Returns  as sl_factor_solve_part; SL_ERR_ARGUMENT: other parts; SL_ERR_STATE: a factor of
+ *  Returns  as sl_factor_solve_part; SL_ERR_ARGUMENT: other parts; SL_ERR_MISMATCH: a factor of
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region.
  *  Cost     2 b_entries or 2 x_entries flops per right-hand side; nothing O(n).
  *  Threads  any number at once on one P and one F, each with its own W.
@@ -1627,10 +1627,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
  *  Manual   tools/docs/indefinite.md
  *  Example  tests/core/test_refine_local.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F,
-                                                      double *X, size_t ldx, const double *B,
-                                                      size_t ldb, sl_int nrhs, sl_int steps,
-                                                      sl_work *W, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_plan_solve_regularized(const sl_plan *P, const sl_factor *F,
+                                                          double *X, size_t ldx, const double *B,
+                                                          size_t ldb, sl_int nrhs, sl_int steps,
+                                                          sl_work *W, sl_stats *stats);
 
 /** Estimates the reciprocal condition number 1 / (||A|| ||A^-1||) in the one-norm.
  *
@@ -1685,15 +1685,16 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
  *  F          [in,out]  a factor of A, definite, or semidefinite with skipped null pivots; L in
  *                       double or float. With options.mass: one known null vector a component.
  *  A          [in]      the matrix, or A[R, R] of a restriction. Guaranteed: with the values that
- *                       F was computed from as a whole, not by sl_factor_change and the like.
+ *                       F was computed from as a whole, not by sl_factor_change_entries and the
+ *                       like.
  *  certainty  [in]      SL_ESTIMATED: 4 times the largest error that 12 solves show, whose
  *                       right-hand sides approach the worst ones.
  *                       SL_GUARANTEED: a proved bound, by rounding errors a priori and the smallest
  *                       eigenvalue of A, which a second factor of A with a smaller diagonal proves;
  *                       as a rule 1e3 to 1e6 times larger. Barring underflow.
  *  stats      [out]     certificate.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_STATE: guaranteed, and other values than
- *           those of F; SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_UNSUPPORTED:
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_MISMATCH: guaranteed, and other values
+ *           than those of F; SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_UNSUPPORTED:
  *           negative or regularized pivots, complex storage, options.mass with several or unknown
  *           null vectors; guaranteed also null pivots, L in float, restrictions, duplicate entries,
  *           entries of the diagonal beyond 1e-200 .. 1e200; SL_ERR_INACCURATE:
@@ -1746,7 +1747,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
 #define sl_plan_columns(...) sl_plan_columns_needs_SL_WITH_ACCURACY
 #define sl_factor_pseudo_inverse(...) sl_factor_pseudo_inverse_needs_SL_WITH_ACCURACY
 #define sl_factor_refine(...) sl_factor_refine_needs_SL_WITH_ACCURACY
-#define sl_plan_solve_refined(...) sl_plan_solve_refined_needs_SL_WITH_ACCURACY
+#define sl_plan_solve_regularized(...) sl_plan_solve_regularized_needs_SL_WITH_ACCURACY
 #define sl_factor_rcond(...) sl_factor_rcond_needs_SL_WITH_ACCURACY
 #define sl_factor_defects(...) sl_factor_defects_needs_SL_WITH_ACCURACY
 #define sl_factor_certify(...) sl_factor_certify_needs_SL_WITH_ACCURACY
@@ -1880,7 +1881,7 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_create(sl_selected **out, const sl_f
  *
  *  Z      [in,out]  unchanged on error.
  *  F      [in]      a factor over the analysis that Z was made for.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_STATE: a factor of another analysis;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_MISMATCH: a factor of another analysis;
  *           SL_ERR_READ_ONLY: Z is mapped; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     as sl_selected_create; no allocation once W has grown. Up to twice as fast, since the
  *           memory is mapped already.
@@ -1995,8 +1996,8 @@ SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_facto
  *  F      [in]      a factor over the analysis that R was made for; from now on the only one that R
  *                   accepts.
  *  Z      [in]      as in sl_region_create; may be NULL.
- *  Returns  as sl_region_create; SL_ERR_STATE: a factor of another analysis; SL_ERR_READ_ONLY: R is
- *           mapped.
+ *  Returns  as sl_region_create; SL_ERR_MISMATCH: a factor of another analysis; SL_ERR_READ_ONLY: R
+ *           is mapped.
  *  Cost     as sl_region_create without the plan; no allocation once W has grown.
  *  Threads  exclusive use of R and of its plans.
  */
@@ -2066,7 +2067,7 @@ typedef struct sl_request {
  *                      allocated for this call.
  *  failed    [out]     the request that caused the error, or -1; may be NULL. On error no X has
  *                      been written.
- *  Returns   SL_OK; SL_ERR_ARGUMENT: also if a workspace is NULL or given twice; SL_ERR_STATE,
+ *  Returns   SL_OK; SL_ERR_ARGUMENT: also if a workspace is NULL or given twice; SL_ERR_MISMATCH,
  *            SL_ERR_STALE: a factor or a plan that sl_plan_solve refuses; SL_ERR_INCONSISTENT: as
  *            in sl_factor_solve; SL_ERR_NOT_FINITE: the same, all requests are solved;
  *            SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
@@ -2094,8 +2095,8 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
  *     sl_symbolic_scatter(S, m, &M, NULL);  sl_symbolic_scatter(S, k, &K, NULL);
  *     const double *v[2] = {m, k};
  *     for i < count: c[2 i] = 1, c[2 i + 1] = t[i];
- *     sl_batch_factor(F, count, S, c, v, 2, &opt, NULL, NULL);   F[i]: the factor of M + t[i] K
- *     sl_batch_diagonal(F, count, h, n_rows, rows, n_rows, &opt, NULL, NULL, NULL);
+ *     sl_factor_create_sums(F, count, S, c, v, 2, &opt, NULL, NULL);   F[i]: the factor of M + t[i]
+ *     K sl_batch_diagonal(F, count, h, n_rows, rows, n_rows, &opt, NULL, NULL, NULL);
  *
  * A plan belongs to the analysis. It serves all of these factors, one by one or in a batch whose
  * requests name their factors.
@@ -2111,7 +2112,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
  *                       factorization reads them. Entries whose sum is 0 stay in the pattern.
  *  opt           [in]   allocator, triangle.
  *  stats         [out]  error.row, error.column: a malformed entry.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: different sizes, no term, no values; SL_ERR_PATTERN;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: different sizes, no term, no values; SL_ERR_MALFORMED;
  *           SL_ERR_TOO_LARGE: 2^31 or more entries in total; SL_ERR_MEMORY.
  *  Cost     O(n + entries of all terms).
  *  Threads  any number with different outputs.
@@ -2130,7 +2131,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coe
  *                 be anything.
  *  stats   [out]  error.row, error.column: the first stored entry outside the analyzed pattern, or
  *                 a malformed one.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, no values; SL_ERR_PATTERN: malformed, or both
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, no values; SL_ERR_MALFORMED: malformed, or both
  *           triangles with an unsymmetric pattern; SL_ERR_OTHER_PATTERN: another size, or an entry
  *           outside the analyzed pattern; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + entries of S and of K); temporary memory from the allocator of S.
@@ -2162,17 +2163,18 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_scatter(const sl_symbolic *S, double
  *  stats         [out]  error and factor: those of the failed factor, else of the last one; seconds
  *                       and bytes are sums over all factors.
  *  Returns  SL_OK, or the status of the first factor that failed: as sl_factor_create, but never
- *           SL_ERR_PATTERN or SL_ERR_OTHER_PATTERN. SL_ERR_NOT_FINITE: a coefficient (error.value,
- *           no row) or a sum, at error.row >= error.column.
+ *           SL_ERR_MALFORMED or SL_ERR_OTHER_PATTERN. SL_ERR_NOT_FINITE: a coefficient
+ *           (error.value, no row) or a sum, at error.row >= error.column.
  *  Cost     that of the factors, distributed; the terms are read once for each, in order.
  *  Threads  as sl_factor_create; only the calling thread allocates.
  *  Example  tests/core/test_combination.c, test_batch_factor.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symbolic *S,
-                                                const double *coefficients,
-                                                const double *const *values, sl_int terms,
-                                                const sl_options *opt, sl_int *failed,
-                                                sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_factor_create_sums(sl_factor **out, sl_int count,
+                                                      const sl_symbolic *S,
+                                                      const double *coefficients,
+                                                      const double *const *values, sl_int terms,
+                                                      const sl_options *opt, sl_int *failed,
+                                                      sl_stats *stats);
 
 /** Refactors one or several factors of one analysis with other coefficients or values. Allocates
  *  nothing, but to judge small pivots as sl_factor_refactor does, on the calling thread.
@@ -2181,25 +2183,25 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, c
  *                      numbers afterwards; the others are computed nevertheless.
  *  opt       [in]      threads; NULL: the calling thread only. Factors that have threads of their
  *                      own use these, one after the other.
- *  coefficients, values, terms, failed, stats  as in sl_batch_factor.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also if a factor is NULL or given twice; SL_ERR_STATE: factors
- *           of several analyses; SL_ERR_READ_ONLY: a mapped one; SL_ERR_MEMORY and
+ *  coefficients, values, terms, failed, stats  as in sl_factor_create_sums.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also if a factor is NULL or given twice; SL_ERR_MISMATCH:
+ *           factors of several analyses; SL_ERR_READ_ONLY: a mapped one; SL_ERR_MEMORY and
  *           SL_ERR_TOO_LARGE: only with the first refactorization of a loaded factor. After these
  *           no factor has changed. Else the status of the first factor that failed.
  *  Threads  exclusive use of the factors.
  */
-SL_API SL_WARN_UNUSED sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
-                                                  const double *coefficients,
-                                                  const double *const *values, sl_int terms,
-                                                  const sl_options *opt, sl_int *failed,
-                                                  sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_sums(sl_factor *const *factors, sl_int count,
+                                                        const double *coefficients,
+                                                        const double *const *values, sl_int terms,
+                                                        const sl_options *opt, sl_int *failed,
+                                                        sl_stats *stats);
 
 #else
 #define sl_batch_solve(...) sl_batch_solve_needs_SL_WITH_BATCH
 #define sl_matrix_sum(...) sl_matrix_sum_needs_SL_WITH_BATCH
 #define sl_symbolic_scatter(...) sl_symbolic_scatter_needs_SL_WITH_BATCH
-#define sl_batch_factor(...) sl_batch_factor_needs_SL_WITH_BATCH
-#define sl_batch_refactor(...) sl_batch_refactor_needs_SL_WITH_BATCH
+#define sl_factor_create_sums(...) sl_factor_create_sums_needs_SL_WITH_BATCH
+#define sl_factor_refactor_sums(...) sl_factor_refactor_sums_needs_SL_WITH_BATCH
 #endif
 #if defined(SL_WITH_BATCH) && defined(SL_WITH_INVERSE)
 /* src/public/batch_diagonal.h: diagonals of the inverses of many factors by one call */
@@ -2217,7 +2219,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_refactor(sl_factor *const *factors, sl_
  *  failed   [out]     the factor that caused the error, or -1; may be NULL.
  *  stats    [out]     error.row: an index out of range.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range; SL_ERR_STALE: a failed factor;
- *           SL_ERR_STATE: factors of several analyses; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           SL_ERR_MISMATCH: factors of several analyses; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     that of sl_inverse_diagonal for each factor, distributed.
  *  Threads  as sl_inverse_diagonal.
  *  Source   [HDA17] 5.
@@ -2252,7 +2254,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(sl_factor *const *factors, sl_
  * A loaded or mapped factor solves like the saved one, with the same bits on the same instruction
  * set. It works with plans, regions and selected inverses that are made over the analysis that came
  * with it, and with those that were loaded with it: they have the bits of the saved ones. A plan of
- * another analysis is refused (SL_ERR_STATE), also if both were loaded from one file.
+ * another analysis is refused (SL_ERR_MISMATCH), also if both were loaded from one file.
  *
  * Loaded objects can be refactored; the first refactorization of a factor allocates the memory of
  * its fronts. Mapped ones are immutable, and so are those in a file that a newer version has
@@ -2303,7 +2305,7 @@ typedef enum sl_load_checks {
  *  Returns  SL_OK; SL_ERR_ARGUMENT: memory is too small, bytes, set or an object of it is NULL,
  *           n_regions is below 0, a reserved field is set, or regions without a factor;
  *           SL_ERR_STALE: a failed factor, or a selected inverse or region that is not of its
- *           present numbers; SL_ERR_STATE: objects of different analyses, or from a file that a
+ *           present numbers; SL_ERR_MISMATCH: objects of different analyses, or from a file that a
  *           newer version has written and this one reads in part; SL_ERR_UNSUPPORTED:
  *           SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds.
  *  Cost     reads the objects twice; O(1 + n_regions) without memory.
@@ -2434,13 +2436,14 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *  sigma  [in]      k weights of any sign; NULL: all 1.
  *  stats  [out]     change, factor. For pivots of both signs growth, pivot_min and pivot_max become
  *                   bounds until the next refactorization.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also if V does not have n rows; SL_ERR_PATTERN: V is malformed;
- *           SL_ERR_OTHER_PATTERN: row error.row of V is not in the column of L of error.column;
- *           SL_ERR_PIVOT: a pivot would change its sign or vanish, at error.row; SL_ERR_NOT_FINITE:
- *           an entry of V at error.row, a weight (error.row = -1) or a pivot; SL_ERR_INACCURATE:
- *           growth beyond its limit, that of a loaded factor with its drift; SL_ERR_STALE: F has no
- *           numbers; SL_ERR_READ_ONLY: F is mapped; SL_ERR_UNSUPPORTED: null pivots were skipped,
- *           there are 2x2 pivots, or L is not in double; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also if V does not have n rows; SL_ERR_MALFORMED: V is
+ *           malformed; SL_ERR_OTHER_PATTERN: row error.row of V is not in the column of L of
+ *           error.column; SL_ERR_PIVOT: a pivot would change its sign or vanish, at error.row;
+ *           SL_ERR_NOT_FINITE: an entry of V at error.row, a weight (error.row = -1) or a pivot;
+ *           SL_ERR_INACCURATE: growth beyond its limit, that of a loaded factor with its drift;
+ *           SL_ERR_STALE: F has no numbers; SL_ERR_READ_ONLY: F is mapped; SL_ERR_UNSUPPORTED: null
+ *           pivots were skipped, there are 2x2 pivots, or L is not in double; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
  *           written once for up to 8 vectors. Changes that may fail read them again, or copy them.
  *           The first change of a definite factor allocates 9 bytes a row, for drift.
@@ -2449,8 +2452,9 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_change.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *sigma,
-                                                 sl_work *W, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_factor_rank_update(sl_factor *F, const sl_csc *V,
+                                                      const double *sigma, sl_work *W,
+                                                      sl_stats *stats);
 
 /** Changes a factor by entries of A, a_ij and a_ji by delta, in the cheapest way: by rank-one
  *  changes, by recomputing the columns of L that the change reaches, or by a refactorization. By
@@ -2464,8 +2468,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, 
  *  are not possible or have added up too much error, the other two remain (stats.change.reason).
  *
  *  F              [in,out]  the factor, or, with A, a failed one, which is refactored. On error as
- *                           with sl_factor_update; with A as with sl_factor_refactor, and without
- *                           numbers where the error of a change is too large and A is refused.
+ *                           with sl_factor_rank_update; with A as with sl_factor_refactor, and
+ *                           without numbers where the error of a change is too large and A is
+ *                           refused.
  *  A              [in]      the changed matrix, in the analyzed pattern, or NULL. Rank-one changes
  *                           compare its size only; the other ways read it and check its pattern.
  *  rows, columns  [in]  count entries (i, j) of either triangle, each pair i != j once for both
@@ -2473,7 +2478,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, 
  *                       do.
  *  deltas         [in]  count changes.
  *  stats          [out]     change, factor.
- *  Returns  as sl_factor_refactor and sl_factor_update; SL_ERR_ARGUMENT: also an index out of
+ *  Returns  as sl_factor_refactor and sl_factor_rank_update; SL_ERR_ARGUMENT: also an index out of
  *           range, at error.row and error.column.
  *  Cost     that of the way, and at most a few percent of a refactorization to count flops;
  *           nothing of O(n) or O(nnz) for rank-one changes, but for one look at L where pivots have
@@ -2482,9 +2487,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, 
  *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_change_choice.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,
-                                                 const sl_int *columns, const double *deltas,
-                                                 sl_int count, sl_work *W, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_factor_change_entries(sl_factor *F, const sl_csc *A,
+                                                         const sl_int *rows, const sl_int *columns,
+                                                         const double *deltas, sl_int count,
+                                                         sl_work *W, sl_stats *stats);
 
 /** Refactors after local changes: recomputes only the columns of L that the changes reach.
  *
@@ -2492,7 +2498,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
  *  up-looking factor is recomputed completely.
  *
  *  F        [in,out]  the factor of a matrix that differs from A in the given columns only.
- *                     Unchanged after SL_ERR_ARGUMENT, _PATTERN, _OTHER_PATTERN, _READ_ONLY and
+ *                     Unchanged after SL_ERR_ARGUMENT, _MALFORMED, _OTHER_PATTERN, _READ_ONLY and
  *                     _MEMORY; without numbers after other errors.
  *  A        [in]      the analyzed pattern, new values.
  *  columns  [in]      count columns of A, in which A stores changed entries; any order, repetitions
@@ -2514,12 +2520,12 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const s
                                                            const sl_int *columns, sl_int count,
                                                            sl_stats *stats);
 
-/* src/public/pins.h: rows held at given values, on top of a factor that stays as it is */
+/* src/public/constraints.h: rows held at given values, on top of a factor that stays as it is */
 
 /** Creates an empty set of pins: rows, or linear combinations of rows, that solves hold at given
  *  values. For definite A this minimizes x' A x / 2 - b' x under these equalities. The factor does
  *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep. For
- *  hundreds of rows that are held together, sl_dirichlet_create is the faster call.
+ *  hundreds of rows that are held together, sl_fixed_create is the faster call.
  *
  *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
  *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
@@ -2534,7 +2540,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const s
  *
  *  out  [out]  the set.
  *  F    [in]   the factor; kept by the object. When F changes, solves are refused until
- *              sl_pins_refactor.
+ *              sl_constraints_refactor.
  *  opt  [in]   allocator.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_UNSUPPORTED: pivots of both signs, or 2x2
  *           pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
@@ -2542,11 +2548,11 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const s
  *  Source   capacitance matrix of a change of low rank, as in [Hager89].
  *  Example  tests/core/test_pins.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_create(sl_pins **out, const sl_factor *F,
-                                               const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_constraints_create(sl_constraints **out, const sl_factor *F,
+                                                      const sl_options *opt);
 
 /** Releases a set of pins. */
-SL_API void sl_pins_free(sl_pins *P);
+SL_API void sl_constraints_free(sl_constraints *P);
 
 /** Adds pins, all or none: x is held at values in rows of A. They become the last ones of P, in the
  *  order of rows.
@@ -2563,18 +2569,18 @@ SL_API void sl_pins_free(sl_pins *P);
  *           per row below its supernodes. 100 pins together take half as long as one by one.
  *  Threads  exclusive use of P; F is read.
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count,
-                                            sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_constraints_add(sl_constraints *P, const sl_int *rows,
+                                                   sl_int count, sl_stats *stats);
 
 /** Adds an equality: the sum of values[k] x(rows[k]) is held. A pin is the case of one row and the
  *  value 1.
  *
  *  rows, values  [in]  count >= 1 entries, copied; a row given twice counts with the sum.
- *  Returns, Cost, Threads  as in sl_pins_add; SL_ERR_NOT_FINITE: also a value (error.row).
+ *  Returns, Cost, Threads  as in sl_constraints_add; SL_ERR_NOT_FINITE: also a value (error.row).
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows,
-                                                     const double *values, sl_int count,
-                                                     sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_constraints_add_equality(sl_constraints *P, const sl_int *rows,
+                                                            const double *values, sl_int count,
+                                                            sl_stats *stats);
 
 /** Releases pins, all or none. The others move together and keep their order.
  *
@@ -2584,18 +2590,18 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *r
  *  Cost     O(k^2) for each.
  *  Threads  exclusive use of P; F is read.
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count,
-                                                sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_constraints_release(sl_constraints *P, const sl_int *indices,
+                                                       sl_int count, sl_stats *stats);
 
 /** Takes the present numbers of the factor, after it has changed.
  *
  *  stats  [out]  pins; error.row.
- *  Returns  as sl_pins_add; SL_ERR_STALE: failed factor. On error solves are refused until a later
- *           call succeeds.
- *  Cost     that of sl_pins_add for all pins.
+ *  Returns  as sl_constraints_add; SL_ERR_STALE: failed factor. On error solves are refused until a
+ *           later call succeeds.
+ *  Cost     that of sl_constraints_add for all pins.
  *  Threads  exclusive use of P; F is read.
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_constraints_refactor(sl_constraints *P, sl_stats *stats);
 
 /** Solves A x = b + C f with C' x = g, where the columns of C are the equalities: for pins, x is g
  *  in their rows, and A x = b in all others.
@@ -2610,7 +2616,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
  *                values in rows that are pins are not used.
  *  G      [in]   k x nrhs, column-major, leading dimension ldg elements: the values, in the order
  *                of the pins.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: F has changed; SL_ERR_STATE: the plan is of
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: F has changed; SL_ERR_MISMATCH: the plan is of
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: C' x = g
  *           does not hold to 1e-8 of x or, where g is 0, of b / max |a|, or rounding hides whether
  *           pins rule out the motions of a body; SL_ERR_INCONSISTENT: b is out of balance with a
@@ -2620,24 +2626,25 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
  *           as much for each null vector of components with pins.
  *  Threads  any number at once on one P, each with its own W.
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
-                                              size_t ldx, const double *B, size_t ldb,
-                                              const double *G, size_t ldg, sl_int nrhs, sl_work *W);
+SL_API SL_WARN_UNUSED sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *plan,
+                                                     double *X, size_t ldx, const double *B,
+                                                     size_t ldb, const double *G, size_t ldg,
+                                                     sl_int nrhs, sl_work *W);
 
-/* src/public/restrict.h: the factor of a principal submatrix, from that of the whole matrix */
+/* src/public/submatrix.h: the factor of a principal submatrix, from that of the whole matrix */
 
 /** EXPERIMENTAL. Factors A[R, R], the matrix of the rows and columns R of A, from a factor of A.
  *
  *  This is the system of a part of a mesh with zero Dirichlet values around it. Columns of L are
  *  copied if their supernode and all its descendants are in R. The others are computed again, in
- *  the order of A; if fewer than 40 % could be copied, all are (stats.restriction.is_anew).
+ *  the order of A; if fewer than 40 % could be copied, all are (stats.submatrix.is_anew).
  *
  *  G and S do not depend on F. Their row k is row rows[k] of A. They can be solved with, pinned and
- *  inverted as any factor. Refactorizations and changes give SL_ERR_READ_ONLY, saving SL_ERR_STATE;
- *  what compares a matrix with the analyzed pattern gives SL_ERR_OTHER_PATTERN: refinement,
- *  sl_factor_rcond, another factor over S. G has the options and the storage of F, but refuses null
- *  pivots by null_tolerance: a component of a singular Laplacian that is in R as a whole gives
- *  SL_ERR_PIVOT.
+ *  inverted as any factor. Refactorizations and changes give SL_ERR_READ_ONLY, saving
+ *  SL_ERR_MISMATCH; what compares a matrix with the analyzed pattern gives SL_ERR_OTHER_PATTERN:
+ *  refinement, sl_factor_rcond, another factor over S. G has the options and the storage of F, but
+ *  refuses null pivots by null_tolerance: a component of a singular Laplacian that is in R as a
+ *  whole gives SL_ERR_PIVOT.
  *
  *  S      [out]  the analysis.
  *  G      [out]  the factor.
@@ -2649,7 +2656,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *p
  *  stats  [out]  restriction, factor; errors are in rows of A.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
  *           SL_ERR_OTHER_PATTERN: A differs in size, entries or triangle from the analyzed matrix;
- *           SL_ERR_PATTERN: error.column of it is malformed; SL_ERR_PIVOT, _NOT_FINITE,
+ *           SL_ERR_MALFORMED: error.column of it is malformed; SL_ERR_PIVOT, _NOT_FINITE,
  *           _INACCURATE: as sl_factor_create; SL_ERR_STALE: F has no numbers; SL_ERR_UNSUPPORTED: F
  *           has 2x2 pivots or is a restriction itself; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     linear in the entries of A in R and the rows of supernodes in R, a copy of the kept
@@ -2660,10 +2667,10 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *p
  *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_restrict.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G,
-                                                   const sl_factor *F, const sl_csc *A,
-                                                   const sl_int *rows, sl_int count,
-                                                   const sl_options *opt, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_factor_submatrix(sl_symbolic **S, sl_factor **G,
+                                                    const sl_factor *F, const sl_csc *A,
+                                                    const sl_int *rows, sl_int count,
+                                                    const sl_options *opt, sl_stats *stats);
 
 /* src/public/edit.h: analyses and factors that follow edits of the pattern: rows and entries come and go */
 
@@ -2688,9 +2695,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **
  *  stats   [out]  symbolic, edit.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
  *           the row of A), and as sl_symbolic_create; SL_ERR_OTHER_PATTERN: A does not have the
- *           analyzed pattern; SL_ERR_PATTERN: B is malformed or not symmetric; SL_ERR_UNSUPPORTED:
- *           S was created with pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
+ *           analyzed pattern; SL_ERR_MALFORMED: B is malformed or not symmetric;
+ *           SL_ERR_UNSUPPORTED: S was created with pivots or by sl_factor_submatrix;
+ *           SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + nnz + rows of supernodes) with small constants, and the order and analysis of the
  *           columns above the edit. Where 0.1 % of a mesh of 1e6 vertices is remeshed, about 1/14
  *           of a new order and analysis.
@@ -2736,17 +2743,17 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor 
                                                sl_stats *stats);
 
 #else
-#define sl_factor_update(...) sl_factor_update_needs_SL_WITH_CHANGE
-#define sl_factor_change(...) sl_factor_change_needs_SL_WITH_CHANGE
+#define sl_factor_rank_update(...) sl_factor_rank_update_needs_SL_WITH_CHANGE
+#define sl_factor_change_entries(...) sl_factor_change_entries_needs_SL_WITH_CHANGE
 #define sl_factor_refactor_changed(...) sl_factor_refactor_changed_needs_SL_WITH_CHANGE
-#define sl_pins_create(...) sl_pins_create_needs_SL_WITH_CHANGE
-#define sl_pins_free(...) sl_pins_free_needs_SL_WITH_CHANGE
-#define sl_pins_add(...) sl_pins_add_needs_SL_WITH_CHANGE
-#define sl_pins_add_equality(...) sl_pins_add_equality_needs_SL_WITH_CHANGE
-#define sl_pins_release(...) sl_pins_release_needs_SL_WITH_CHANGE
-#define sl_pins_refactor(...) sl_pins_refactor_needs_SL_WITH_CHANGE
-#define sl_pins_solve(...) sl_pins_solve_needs_SL_WITH_CHANGE
-#define sl_factor_restrict(...) sl_factor_restrict_needs_SL_WITH_CHANGE
+#define sl_constraints_create(...) sl_constraints_create_needs_SL_WITH_CHANGE
+#define sl_constraints_free(...) sl_constraints_free_needs_SL_WITH_CHANGE
+#define sl_constraints_add(...) sl_constraints_add_needs_SL_WITH_CHANGE
+#define sl_constraints_add_equality(...) sl_constraints_add_equality_needs_SL_WITH_CHANGE
+#define sl_constraints_release(...) sl_constraints_release_needs_SL_WITH_CHANGE
+#define sl_constraints_refactor(...) sl_constraints_refactor_needs_SL_WITH_CHANGE
+#define sl_constraints_solve(...) sl_constraints_solve_needs_SL_WITH_CHANGE
+#define sl_factor_submatrix(...) sl_factor_submatrix_needs_SL_WITH_CHANGE
 #define sl_symbolic_edit(...) sl_symbolic_edit_needs_SL_WITH_CHANGE
 #define sl_factor_edit(...) sl_factor_edit_needs_SL_WITH_CHANGE
 #endif
@@ -2797,8 +2804,8 @@ typedef struct sl_hermitian {
  *  opt    [in]   allocator.
  *  stats  [out]  error.row, error.column, in complex rows.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also im without x, or a diagonal entry with an imaginary part
- *           that is not 0; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^30 - 4 rows, or more than
- *           2^31 - 1 entries, of which a complex one is 4; SL_ERR_MEMORY.
+ *           that is not 0; SL_ERR_MALFORMED; SL_ERR_TOO_LARGE: more than 2^30 - 4 rows, or more
+ *           than 2^31 - 1 entries, of which a complex one is 4; SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
  *  Threads  any number with different outputs.
  *  Example  tests/core/test_complex.c
@@ -2811,7 +2818,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_hermitian(sl_matrix **out, const 
  *
  *  M      [in,out]  of sl_matrix_from_hermitian, with values; on error untouched.
  *  stats  [out]     error.row, error.column, in complex rows.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also a pattern without values; SL_ERR_PATTERN;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a pattern without values; SL_ERR_MALFORMED;
  *           SL_ERR_OTHER_PATTERN: not that of M.
  *  Cost     O(n + nnz).
  *  Threads  exclusive use of M.
@@ -2909,9 +2916,9 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_pairs(const sl_factor *F, dou
  *  stats  [out]  error.
  *  Returns  SL_OK; SL_ERR_IO: no such file, or malformed at error.line, also by a line of 65536
  *           bytes or more that is not a comment; SL_ERR_UNSUPPORTED: complex, array or
- *           skew-symmetric, which error.what names; SL_ERR_PATTERN: a symmetric file with an entry
- *           (error.row, error.column) in both triangles; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. NaN and
- *           infinity are accepted here.
+ *           skew-symmetric, which error.what names; SL_ERR_MALFORMED: a symmetric file with an
+ *           entry (error.row, error.column) in both triangles; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. NaN
+ *           and infinity are accepted here.
  *  Cost     O(file size + n_rows + n_cols). Memory grows with the entries read, so that a device
  *           without an end does not fill it.
  */
@@ -2929,7 +2936,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *tex
  *
  *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of
  *                 one triangle.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN: malformed, or not symmetric with
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MALFORMED: malformed, or not symmetric with
  *           SL_AS_SYMMETRIC; SL_ERR_IO; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
  *  Manual   tools/docs/files.md: temporary names, permissions, systems without POSIX
  */
@@ -2954,7 +2961,7 @@ typedef struct sl_csc64 {
  *  opt    [in]   allocator.
  *  stats  [out]  error.column: positions that are not ascending; with error.row, if it fits its
  *                type, an index out of range.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^31 - 8 rows or
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MALFORMED; SL_ERR_TOO_LARGE: more than 2^31 - 8 rows or
  *           columns, or more than 2^31 - 1 entries; SL_ERR_MEMORY.
  *  Cost     O(n_cols + nnz).
  *  Threads  any number with different outputs.
@@ -3389,7 +3396,7 @@ SL_API const char *sl_status_string(sl_status status) {
     return "invalid argument";
   case SL_ERR_MEMORY:
     return "out of memory";
-  case SL_ERR_PATTERN:
+  case SL_ERR_MALFORMED:
     return "malformed or unsymmetric pattern";
   case SL_ERR_PIVOT:
     return "null pivot: singular matrix, or one that needs pivoting";
@@ -3403,7 +3410,7 @@ SL_API const char *sl_status_string(sl_status status) {
     return "file cannot be read, parsed or written";
   case SL_ERR_ORDERING:
     return "ordering failed";
-  case SL_ERR_STATE:
+  case SL_ERR_MISMATCH:
     return "objects that do not belong together";
   case SL_ERR_INCONSISTENT:
     return "inconsistent right-hand side of a singular system";
@@ -5272,11 +5279,11 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
     return sli_report(stats, status);
   }
   if (A->p[0] != 0) {
-    return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0, "A.p[0] is not 0");
+    return sli_fail_at(stats, SL_ERR_MALFORMED, -1, 0, 0.0, "A.p[0] is not 0");
   }
   for (j = 0; j < A->n_cols; j++) {
     if (A->p[j + 1] < A->p[j]) {
-      return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0, "A.p descends");
+      return sli_fail_at(stats, SL_ERR_MALFORMED, -1, j, 0.0, "A.p descends");
     }
   }
   status = sli_argument(sli_nnz(A) > 0 && A->i == NULL ? "A.i is NULL" : NULL);
@@ -5289,7 +5296,7 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
   for (j = 0; beyond; j++) {
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
       if (A->i[p] < 0 || A->i[p] >= A->n_rows) {
-        return sli_fail_at(stats, SL_ERR_PATTERN, A->i[p], j, 0.0,
+        return sli_fail_at(stats, SL_ERR_MALFORMED, A->i[p], j, 0.0,
             "a row of A is out of range; rows count from 0");
       }
     }
@@ -5550,7 +5557,7 @@ static sl_status sli_csc_check_symmetry(const sl_csc *A, const sl_csc *T, sl_int
     }
     for (p = T->p[j]; p < T->p[j + 1]; p++) {
       if (mark[T->i[p]] != j + 1) {
-        return sli_fail_at(stats, SL_ERR_PATTERN, j, T->i[p], 0.0,
+        return sli_fail_at(stats, SL_ERR_MALFORMED, j, T->i[p], 0.0,
             "both triangles are stored, and this entry in one of them only");
       }
     }
@@ -12895,7 +12902,7 @@ static sl_status sli_pattern_check_size(const sl_symbolic *S, const sl_csc *A, i
     return sli_refuse(SL_ERR_OTHER_PATTERN, "A has another size than the analyzed matrix");
   }
   if (sli_nnz(A) != S->nnz_input) {
-    return sli_nnz(A) < 0 ? sli_refuse(SL_ERR_PATTERN, "A.p descends")
+    return sli_nnz(A) < 0 ? sli_refuse(SL_ERR_MALFORMED, "A.p descends")
                 : sli_refuse(SL_ERR_OTHER_PATTERN, "A has more or fewer entries than "
                     "the analyzed matrix");
   }
@@ -13446,7 +13453,7 @@ SLI_INLINE sl_status sli_inverse_check(const sl_factor *F) {
 
 SLI_COLD static sl_status sli_refuse_mapped(void) {
   return sli_refuse(SL_ERR_READ_ONLY, "it is mapped (sl_load_file copies it), of "
-      "sl_factor_restrict, or saved by a newer version");
+      "sl_factor_submatrix, or saved by a newer version");
 }
 
 SLI_INLINE sl_status sli_factor_may_change(const sl_factor *F) {
@@ -16209,7 +16216,7 @@ SLI_COLD static sl_status sli_symmetry_report(const sl_csc *A, sl_int r, sl_stat
     }
   }
   return column == -1 ? SL_OK
-            : sli_fail_at(stats, SL_ERR_PATTERN, r, column, value,
+            : sli_fail_at(stats, SL_ERR_MALFORMED, r, column, value,
                 "the values of the two triangles differ; options.triangle "
                 "chooses one");
 }
@@ -16823,7 +16830,7 @@ SLI_INLINE int sli_query_fits(const sli_query *q, const sl_factor *F) {
 }
 
 SLI_COLD static sl_status sli_query_refuse_analysis(void) {
-  return sli_refuse(SL_ERR_STATE, "the plan is of another analysis than F");
+  return sli_refuse(SL_ERR_MISMATCH, "the plan is of another analysis than F");
 }
 
 static sl_status sli_query_check(const sli_query *q, const sl_factor *F) {
@@ -18391,7 +18398,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
          : status;
   status = status == SL_OK ? sli_check_sets(bset, nb, xset, nx) : status;
   if (status == SL_OK && ending != NULL && !ending->calls->belongs(ending, S)) {
-    status = sli_refuse(SL_ERR_STATE, "options.region is a region of another analysis");
+    status = sli_refuse(SL_ERR_MISMATCH, "options.region is a region of another analysis");
   }
   if (status != SL_OK) {
     return sli_report(stats, status);
@@ -19198,7 +19205,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
   return sli_report(stats, status);
 }
 
-/* src/impl/accuracy/refine_local.h: sl_plan_solve_refined: local solves without the error of regularization */
+/* src/impl/accuracy/refine_local.h: sl_plan_solve_regularized: local solves without the error of regularization */
 
 typedef struct sli_local_refinement {
   const sl_factor *F;
@@ -19372,9 +19379,9 @@ static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, s
   return sli_refine_done(f->F, stats, steps, f->steps, worst);
 }
 
-SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
-    const double *B, size_t ldb, sl_int nrhs, sl_int steps,
-    sl_work *W, sl_stats *stats) {
+SL_API sl_status sl_plan_solve_regularized(const sl_plan *P, const sl_factor *F, double *X,
+    size_t ldx, const double *B, size_t ldb, sl_int nrhs,
+    sl_int steps, sl_work *W, sl_stats *stats) {
   const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sli_local_refinement f;
   sl_work own;
@@ -19824,10 +19831,10 @@ static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
   if (F->null.count > 0 || F->type->storage != SL_STORAGE_DOUBLE || F->S->nnz_input < 0 ||
       sli_map_has_duplicates(F->S)) {
     return sli_refuse(SL_ERR_UNSUPPORTED, "SL_GUARANTEED with null pivots, L in float, "
-        "duplicate entries of A or sl_factor_restrict");
+        "duplicate entries of A or sl_factor_submatrix");
   }
   if (!sli_guarantee_fits(F, A)) {
-    return sli_refuse(SL_ERR_STATE, "A is not the matrix that F was computed from");
+    return sli_refuse(SL_ERR_MISMATCH, "A is not the matrix that F was computed from");
   }
   SLI_CLEAR(p);
   p.F = F;
@@ -23685,7 +23692,7 @@ SL_API sl_status sl_selected_refactor(sl_selected *Z, const sl_factor *F, sl_wor
   sl_status status = sli_argument(Z == NULL ? "Z is NULL" : F == NULL ? "F is NULL" : NULL);
   status = status == SL_OK ? sli_factor_has_numbers(F) : status;
   if (status == SL_OK && F->S != Z->traversal.S) {
-    status = sli_refuse(SL_ERR_STATE, "Z and F are of different analyses");
+    status = sli_refuse(SL_ERR_MISMATCH, "Z and F are of different analyses");
   }
   if (status == SL_OK && Z->is_immutable) {
     status = sli_refuse_mapped();
@@ -24496,7 +24503,7 @@ SL_API sl_status sl_region_refactor(sl_region *R, const sl_factor *F, const sl_s
     sl_work *W) {
   sl_status status = sli_argument(R == NULL ? "R is NULL" : F == NULL ? "F is NULL" : NULL);
   if (status == SL_OK && F->S != R->S) {
-    status = sli_refuse(SL_ERR_STATE, "R and F are of different analyses");
+    status = sli_refuse(SL_ERR_MISMATCH, "R and F are of different analyses");
   }
   if (status == SL_OK && R->is_immutable) {
     status = sli_refuse_mapped();
@@ -26028,7 +26035,7 @@ static void sli_rank_sort(void *data) {
   }
 }
 
-/* src/impl/change/rank.h: sl_factor_update: passes of a rank-k change, their growth, the log that undoes them */
+/* src/impl/change/rank.h: sl_factor_rank_update: passes of a rank-k change, their growth, the log that undoes them */
 
 static const char sli_growth_exceeded[] = "pivot growth exceeds options.growth_limit";
 
@@ -26307,8 +26314,8 @@ static sl_status sli_rank_apply(sli_rank *q, const sli_stage *stages, int count,
   return status;
 }
 
-SL_API sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *sigma, sl_work *W,
-    sl_stats *stats) {
+SL_API sl_status sl_factor_rank_update(sl_factor *F, const sl_csc *V, const double *sigma,
+    sl_work *W, sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
   sli_rank q;
   sl_status status;
@@ -26501,7 +26508,7 @@ static void sli_edges_begin(sli_rank *q, const sl_int *rows, const sl_int *colum
   q->n_entries = count;
 }
 
-/* src/impl/change/choose.h: sl_factor_change: rank-one changes, the reach of the change, or all of L */
+/* src/impl/change/choose.h: sl_factor_change_entries: rank-one changes, the reach of the change, or all of L */
 
 typedef struct sli_change_choice {
   uint64_t *seeds;
@@ -26583,8 +26590,8 @@ static void sli_choose_measure(sli_change_choice *c, const sl_factor *F, double 
     for (; s != -1 && s < next && c->changed <= limit; s = S->super_parent[s]) {
       fronts++;
       c->flops_changed += sli_choose_step(c, S, s, &visits);
-      c->changed = input + SLI_CHANGE_FRONT(flop) * fronts +
-             SLI_CHANGE_VISIT(flop) * visits + flop * c->flops_changed;
+      c->changed = input + SLI_CHANGE_FRONT(flop) * fronts + SLI_CHANGE_VISIT(flop) * visits +
+             flop * c->flops_changed;
     }
   }
 }
@@ -26765,7 +26772,7 @@ static sl_status sli_choose_cheapest(sli_rank *q, const sl_csc *A, sl_work *W, d
   return status;
 }
 
-SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,
+SL_API sl_status sl_factor_change_entries(sl_factor *F, const sl_csc *A, const sl_int *rows,
     const sl_int *columns, const double *deltas, sl_int count,
     sl_work *W, sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
@@ -26794,7 +26801,7 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
   return sli_report(stats, status);
 }
 
-/* src/impl/change/pins_types.h: a set of pins: the method, and what it keeps */
+/* src/impl/change/constraints_types.h: a set of pins: the method, and what it keeps */
 
 static const char sli_pinned_twice[] = "the row is pinned twice";
 static const char sli_nulls_unknown[] =
@@ -26812,7 +26819,7 @@ typedef struct sli_pin {
   double *z;
 } sli_pin;
 
-struct sl_pins {
+struct sl_constraints {
   sl_allocator allocator;
   const sl_factor *F;
   sli_numbers numbers;
@@ -26837,15 +26844,15 @@ static double sli_dot(const double *a, const double *b, sl_int count) {
   return sum;
 }
 
-static sl_status sli_pins_are_current(const sl_pins *P) {
+static sl_status sli_constraints_are_current(const sl_constraints *P) {
   const sl_status status = sli_factor_has_numbers(P->F);
   return status == SL_OK && !sli_numbers_are_of(&P->numbers, P->F)
          ? sli_refuse(SL_ERR_STALE,
-             "F has changed since the pins were made: sl_pins_refactor")
+             "F has changed since the pins were made: sl_constraints_refactor")
          : status;
 }
 
-/* src/impl/change/pins_nulls.h: null vectors under pins: their products with the pins, and what remains free */
+/* src/impl/change/constraints_nulls.h: null vectors under pins: their products with the pins, and what remains free */
 
 static sli_tree_range sli_tree_of(const sl_symbolic *S, sl_int column) {
   sli_tree_range tree;
@@ -26915,7 +26922,7 @@ SLI_HOT static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, i
   return SL_OK;
 }
 
-static sl_status sli_pin_find_nulls(const sl_pins *P, sli_pin *pin, sl_int *row) {
+static sl_status sli_pin_find_nulls(const sl_constraints *P, sli_pin *pin, sl_int *row) {
   sli_block b = {NULL, 0};
   sl_status status = SL_OK;
   sli_free(&P->allocator, pin->nulls);
@@ -26936,7 +26943,7 @@ static sl_status sli_pin_find_nulls(const sl_pins *P, sli_pin *pin, sl_int *row)
   return status;
 }
 
-static void sli_pins_count_nulls(sl_pins *P, const sli_pin *pin, int comes) {
+static void sli_constraints_count_nulls(sl_constraints *P, const sli_pin *pin, int comes) {
   sl_int k;
   for (k = 0; k < pin->n_nulls; k++) {
     sl_int *uses = &P->uses[pin->nulls[k]];
@@ -26960,7 +26967,7 @@ static double sli_pin_nulls_dot(const sli_pin *a, const sli_pin *b) {
   return sum;
 }
 
-typedef struct sli_pins_nulls {
+typedef struct sli_constraints_nulls {
   sl_int count;
   sl_int *numbers;
   sl_int *place;
@@ -26970,9 +26977,10 @@ typedef struct sli_pins_nulls {
   double *s;
   double *defects;
   double *sizes;
-} sli_pins_nulls;
+} sli_constraints_nulls;
 
-static void sli_pins_nulls_layout(sli_pins_nulls *w, sli_block *b, const sl_pins *P) {
+static void sli_constraints_nulls_layout(sli_constraints_nulls *w, sli_block *b,
+    const sl_constraints *P) {
   const uint64_t count = (uint64_t)P->n_used;
   w->count = P->n_used;
   w->numbers = SLI_TAKE(b, sl_int, count);
@@ -26985,7 +26993,7 @@ static void sli_pins_nulls_layout(sli_pins_nulls *w, sli_block *b, const sl_pins
   w->sizes = SLI_TAKE(b, double, SLI_TILE *count);
 }
 
-static void sli_pins_nulls_load(const sli_pins_nulls *w, const sl_pins *P) {
+static void sli_constraints_nulls_load(const sli_constraints_nulls *w, const sl_constraints *P) {
   sl_int p, k;
   SLI_ZERO(w->W, (size_t)w->count * (size_t)P->n_pins);
   SLI_ZERO(w->s, w->count);
@@ -27000,7 +27008,7 @@ static void sli_pins_nulls_load(const sli_pins_nulls *w, const sl_pins *P) {
   }
 }
 
-static void sli_pins_nulls_mark(const sli_pins_nulls *w, const sl_pins *P) {
+static void sli_constraints_nulls_mark(const sli_constraints_nulls *w, const sl_constraints *P) {
   const size_t count = (size_t)P->n_pins;
   sl_int a, b, p;
   for (a = 0; a < w->count; a++) {
@@ -27026,7 +27034,7 @@ static void sli_pins_nulls_mark(const sli_pins_nulls *w, const sl_pins *P) {
   }
 }
 
-static void sli_pins_nulls_begin(const sli_pins_nulls *w, const sl_pins *P) {
+static void sli_constraints_nulls_begin(const sli_constraints_nulls *w, const sl_constraints *P) {
   sl_int m, at = 0;
   for (m = 0; at < w->count; m++) {
     if (P->uses[m] > 0) {
@@ -27034,14 +27042,14 @@ static void sli_pins_nulls_begin(const sli_pins_nulls *w, const sl_pins *P) {
       w->numbers[at++] = m;
     }
   }
-  sli_pins_nulls_load(w, P);
-  sli_pins_nulls_mark(w, P);
+  sli_constraints_nulls_load(w, P);
+  sli_constraints_nulls_mark(w, P);
 }
 
-/* src/impl/change/pins_capacitance.h: the sweeps of pins, and the factor of their capacitance matrix */
+/* src/impl/change/constraints_capacitance.h: the sweeps of pins, and the factor of their capacitance matrix */
 
-static void sli_pin_clear_nulls(const sl_pins *P, const sli_pin *pin, const sli_reach *R, double *y,
-    sl_int lanes) {
+static void sli_pin_clear_nulls(const sl_constraints *P, const sli_pin *pin, const sli_reach *R,
+    double *y, sl_int lanes) {
   sl_int k;
   for (k = 0; k < pin->n_nulls; k++) {
     const ptrdiff_t at = sli_reach_index_of(R, P->F->null.pivots[pin->nulls[k]]);
@@ -27051,7 +27059,7 @@ static void sli_pin_clear_nulls(const sl_pins *P, const sli_pin *pin, const sli_
   }
 }
 
-static void sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) {
+static void sli_pin_sweep(const sl_constraints *P, sli_pin *pin, double *scratch) {
   const sl_factor *F = P->F;
   const sl_symbolic *S = F->S;
   sli_forward f;
@@ -27068,7 +27076,7 @@ static void sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) {
   sli_forward_divide(F, &f, pin->u);
 }
 
-static void sli_pin_free(const sl_pins *P, sli_pin *pin) {
+static void sli_pin_free(const sl_constraints *P, sli_pin *pin) {
   sli_free(&P->allocator, pin->nulls);
   sli_free(&P->allocator, pin);
 }
@@ -27087,7 +27095,7 @@ SLI_INLINE sli_equality sli_equality_of(const sl_int *rows, const double *values
   return e;
 }
 
-static sl_status sli_pin_new(sli_pin **out, const sl_pins *P, sli_set *set, sl_int count,
+static sl_status sli_pin_new(sli_pin **out, const sl_constraints *P, sli_set *set, sl_int count,
     const sli_reach *R) {
   sli_pin pin;
   sli_block b = {NULL, 0};
@@ -27110,7 +27118,7 @@ static sl_status sli_pin_new(sli_pin **out, const sl_pins *P, sli_set *set, sl_i
   return status;
 }
 
-static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sli_equality *e,
+static sl_status sli_pin_create(sli_pin **out, const sl_constraints *P, const sli_equality *e,
     int is_swept, sl_stats *stats) {
   const sl_symbolic *S = P->F->S;
   sli_block seeds = {NULL, 0};
@@ -27188,7 +27196,7 @@ static void sli_capacitance_factor(double *K, size_t ld, sl_int k) {
   }
 }
 
-static sl_status sli_pins_factor(sl_pins *P, sl_int k) {
+static sl_status sli_constraints_factor(sl_constraints *P, sl_int k) {
   const double *d = &P->K[(size_t)k * (size_t)P->capacity + (size_t)k], own = *d;
   sli_capacitance_factor(P->K, (size_t)P->capacity, k);
   if (!sli_is_finite(*d)) {
@@ -27199,8 +27207,8 @@ static sl_status sli_pins_factor(sl_pins *P, sl_int k) {
          : sli_refuse(SL_ERR_PIVOT, NULL);
 }
 
-SLI_COLD static sl_status sli_pins_refuse(const sl_pins *P, sl_status status, sl_int row,
-    sl_int count, sl_stats *stats) {
+SLI_COLD static sl_status sli_constraints_refuse(const sl_constraints *P, sl_status status,
+    sl_int row, sl_int count, sl_stats *stats) {
   const char *what = status == SL_ERR_PIVOT ? "it depends on the other pins and equalities"
                         : "numbers of F overflow in its solution";
   sl_int k;
@@ -27212,7 +27220,7 @@ SLI_COLD static sl_status sli_pins_refuse(const sl_pins *P, sl_status status, sl
   return sli_fail_at(stats, status, row, -1, 0.0, what);
 }
 
-static void sli_pins_remove(sl_pins *P, sl_int p) {
+static void sli_constraints_remove(sl_constraints *P, sl_int p) {
   const size_t ld = (size_t)P->capacity;
   double *y = P->scratch, *b = y + ld, alpha = P->K[(size_t)p * ld + (size_t)p];
   sl_int i, j;
@@ -27237,7 +27245,7 @@ static void sli_pins_remove(sl_pins *P, sl_int p) {
   P->n_pins--;
 }
 
-static sl_status sli_pins_grow(sl_pins *P, sl_int more) {
+static sl_status sli_constraints_grow(sl_constraints *P, sl_int more) {
   const sl_int capacity = sli_max(sli_max(8, 2 * P->capacity), P->n_pins + more);
   sli_block b = {NULL, 0};
   sli_pin **pins = NULL;
@@ -27269,10 +27277,10 @@ static sl_status sli_pins_grow(sl_pins *P, sl_int more) {
   return SL_OK;
 }
 
-static sl_status sli_pins_push(sl_pins *P, const sli_equality *e, sl_stats *stats) {
+static sl_status sli_constraints_push(sl_constraints *P, const sli_equality *e, sl_stats *stats) {
   const sl_int at = P->n_pins;
   sli_pin *pin = NULL;
-  sl_status status = sli_pins_grow(P, 1);
+  sl_status status = sli_constraints_grow(P, 1);
   sl_int i;
   status = status == SL_OK ? sli_pin_create(&pin, P, e, 1, stats) : status;
   if (status != SL_OK) {
@@ -27284,12 +27292,12 @@ static sl_status sli_pins_push(sl_pins *P, const sli_equality *e, sl_stats *stat
     sli_pin_dot(P->pins[i], &pin->R, pin->y, 1, entry);
     *entry += sli_pin_nulls_dot(P->pins[i], pin) / P->delta;
   }
-  status = sli_pins_factor(P, at);
+  status = sli_constraints_factor(P, at);
   if (status != SL_OK) {
     sli_pin_free(P, pin);
-    return sli_pins_refuse(P, status, e->rows[0], e->count, stats);
+    return sli_constraints_refuse(P, status, e->rows[0], e->count, stats);
   }
-  sli_pins_count_nulls(P, pin, 1);
+  sli_constraints_count_nulls(P, pin, 1);
   P->n_pins++;
   return SL_OK;
 }
@@ -27322,16 +27330,16 @@ SLI_HOT static void sli_capacitance_solve(const double *K, size_t ld, sl_int cou
   }
 }
 
-static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
+static void sli_constraints_apply(const sl_constraints *P, double *f, sl_int lanes) {
   sli_capacitance_solve(P->K, (size_t)P->capacity, P->n_pins, f, lanes);
 }
 
-/* src/impl/change/pins_rows.h: rows pinned together: up to 8 of them share a sweep */
+/* src/impl/change/constraints_rows.h: rows pinned together: up to 8 of them share a sweep */
 
-#define SLI_PINS_SINGLY 4
+#define SLI_CONSTRAINTS_SINGLY 4
 
-static sl_status sli_pins_sweep_block(sl_pins *P, sli_inverse_block *q, sl_int k, sl_int first,
-    sl_stats *stats) {
+static sl_status sli_constraints_sweep_block(sl_constraints *P, sli_inverse_block *q, sl_int k,
+    sl_int first, sl_stats *stats) {
   const uint64_t *order = q->kept.order + first;
   const sli_forward *f = &q->sweeps[k].forward;
   const double one = 1.0;
@@ -27364,8 +27372,8 @@ static sl_status sli_pins_sweep_block(sl_pins *P, sli_inverse_block *q, sl_int k
   return status;
 }
 
-static void sli_pins_fill_entries(const sl_pins *P, const sli_inverse_block *q, sl_int p,
-    const sli_swept_block *b, const double *sums) {
+static void sli_constraints_fill_entries(const sl_constraints *P, const sli_inverse_block *q,
+    sl_int p, const sli_swept_block *b, const double *sums) {
   sl_int j;
   for (j = 0; j < b->block_size; j++) {
     const sl_int r = P->n_pins + sli_value(q->kept.order[b->first + j]);
@@ -27374,49 +27382,51 @@ static void sli_pins_fill_entries(const sl_pins *P, const sli_inverse_block *q, 
   }
 }
 
-static sl_status sli_pins_push_blocks(sl_pins *P, sli_inverse_block *q, sl_stats *stats) {
+static sl_status sli_constraints_push_blocks(sl_constraints *P, sli_inverse_block *q,
+    sl_stats *stats) {
   SLI_ALIGNED(double sums[SLI_LANES_MAX * SLI_LANES_MAX]);
   sl_status status = SL_OK;
   sl_int k, m, j, first = 0;
   for (k = 0; k < q->kept.n_blocks && status == SL_OK; k++) {
     const sli_swept_block *b = &q->sweeps[k];
-    status = sli_pins_sweep_block(P, q, k, first, stats);
+    status = sli_constraints_sweep_block(P, q, k, first, stats);
     for (j = 0; j < P->n_pins && status == SL_OK; j++) {
       sli_pin_dot(P->pins[j], &b->forward.reach, b->forward.y, b->forward.lanes, sums);
-      sli_pins_fill_entries(P, q, j, b, sums);
+      sli_constraints_fill_entries(P, q, j, b, sums);
     }
     for (m = 0; m <= k && status == SL_OK; m++) {
       const sli_swept_block *a = &q->sweeps[m];
       sli_cross_sums(q->F, &a->forward, &b->forward, q->divided, sums);
       for (j = 0; j < a->block_size; j++) {
-        sli_pins_fill_entries(P, q, P->n_pins + sli_value(q->kept.order[a->first + j]), b,
+        sli_constraints_fill_entries(P, q,
+            P->n_pins + sli_value(q->kept.order[a->first + j]), b,
             sums + SLI_LANES_MAX * j);
       }
     }
     first += b->block_size;
   }
   for (k = 0; k < q->kept.count && status == SL_OK; k++) {
-    status = sli_pins_factor(P, P->n_pins + k);
+    status = sli_constraints_factor(P, P->n_pins + k);
     if (status != SL_OK) {
-      (void)sli_pins_refuse(P, status, q->kept.rows[k], 1, stats);
+      (void)sli_constraints_refuse(P, status, q->kept.rows[k], 1, stats);
     }
   }
   return status;
 }
 
-static sl_status sli_pins_push_rows(sl_pins *P, const sl_int *rows, sl_int count,
+static sl_status sli_constraints_push_rows(sl_constraints *P, const sl_int *rows, sl_int count,
     sl_stats *stats) {
   const double one = 1.0;
   const sl_int before = P->n_pins;
   sl_work W = sli_work_own(&P->allocator);
-  sl_status status = sli_pins_grow(P, count);
+  sl_status status = sli_constraints_grow(P, count);
   sl_int done = 0, k;
   while (done < count && status == SL_OK) {
     sl_int m = sli_min(count - done, SLI_LANES_MAX * SLI_BLOCK_KEPT);
     sli_inverse_block q;
-    if (m <= SLI_PINS_SINGLY) {
+    if (m <= SLI_CONSTRAINTS_SINGLY) {
       const sli_equality e = sli_equality_of(&rows[done], &one, 1);
-      status = sli_pins_push(P, &e, stats);
+      status = sli_constraints_push(P, &e, stats);
       done++;
       continue;
     }
@@ -27428,10 +27438,10 @@ static sl_status sli_pins_push_rows(sl_pins *P, const sl_int *rows, sl_int count
       }
     }
     SLI_ZERO(P->pins + P->n_pins, m);
-    status = status == SL_OK ? sli_pins_push_blocks(P, &q, stats) : status;
+    status = status == SL_OK ? sli_constraints_push_blocks(P, &q, stats) : status;
     for (k = P->n_pins; k < P->n_pins + m; k++) {
       if (status == SL_OK) {
-        sli_pins_count_nulls(P, P->pins[k], 1);
+        sli_constraints_count_nulls(P, P->pins[k], 1);
       } else if (P->pins[k] != NULL) {
         sli_pin_free(P, P->pins[k]);
       }
@@ -27441,23 +27451,24 @@ static sl_status sli_pins_push_rows(sl_pins *P, const sl_int *rows, sl_int count
   }
   while (status != SL_OK && P->n_pins > before) {
     sli_pin *last = P->pins[--P->n_pins];
-    sli_pins_count_nulls(P, last, 0);
+    sli_constraints_count_nulls(P, last, 0);
     sli_pin_free(P, last);
   }
   sli_free(&W.allocator, W.block);
   return status;
 }
 
-/* src/impl/change/pins_balance.h: null vectors in solves with pins: balance of forces, and motions */
+/* src/impl/change/constraints_balance.h: null vectors in solves with pins: balance of forces, and motions */
 
-static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P) {
+static sl_status sli_constraints_nulls_factor(const sli_constraints_nulls *w,
+    const sl_constraints *P) {
   const size_t count = (size_t)P->n_pins, ld = (size_t)w->count;
   sl_int a, b, p, k;
-  sli_pins_nulls_begin(w, P);
-  sli_pins_nulls_load(w, P);
+  sli_constraints_nulls_begin(w, P);
+  sli_constraints_nulls_load(w, P);
   memset(w->S, 0, ld * ld * sizeof(double));
   for (a = 0; a < w->count; a++) {
-    sli_pins_apply(P, w->W + (size_t)a * count, 1);
+    sli_constraints_apply(P, w->W + (size_t)a * count, 1);
   }
   for (p = 0; p < P->n_pins; p++) {
     const sli_pin *pin = P->pins[p];
@@ -27483,8 +27494,8 @@ static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P
   return SL_OK;
 }
 
-static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli_packed *b,
-    const double *norms) {
+static int sli_constraints_defects(const sl_constraints *P, const sli_constraints_nulls *w,
+    const sli_packed *b, const double *norms) {
   const sl_factor *F = P->F;
   const sli_reach *R = b->R;
   const sl_int lanes = b->lanes;
@@ -27518,8 +27529,8 @@ static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli
   return 1;
 }
 
-static int sli_pins_clear(const sl_pins *P, const sli_reach *R, double *y, sl_int lanes,
-    const double *norms) {
+static int sli_constraints_clear(const sl_constraints *P, const sli_reach *R, double *y,
+    sl_int lanes, const double *norms) {
   const sl_factor *F = P->F;
   sl_int m, r;
   for (m = 0; m < F->null.count; m++) {
@@ -27538,8 +27549,8 @@ static int sli_pins_clear(const sl_pins *P, const sli_reach *R, double *y, sl_in
   return 1;
 }
 
-static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f, sl_int lanes,
-    const double *norms) {
+static int sli_constraints_balance(const sl_constraints *P, const sli_constraints_nulls *w,
+    double *f, sl_int lanes, const double *norms) {
   const size_t count = (size_t)P->n_pins;
   sl_int p, k, r;
   for (k = 0; k < w->count * lanes; k++) {
@@ -27572,16 +27583,15 @@ static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f
     }
   }
   for (k = 0; k < w->count * lanes && P->F->null.consistency >= 0.0; k++) {
-    if (w->is_free[k / lanes] &&
-        fabs(w->defects[k]) > P->F->null.consistency * w->sizes[k]) {
+    if (w->is_free[k / lanes] && fabs(w->defects[k]) > P->F->null.consistency * w->sizes[k]) {
       return 0;
     }
   }
   return 1;
 }
 
-static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w, double *x,
-    sl_int lanes) {
+static void sli_constraints_shift(const sl_constraints *P, const sli_query *q,
+    const sli_constraints_nulls *w, double *x, sl_int lanes) {
   const sl_factor *F = P->F;
   const sli_reach *R = &q->backward;
   sl_int first = 0, root, s, m, k, r;
@@ -27610,9 +27620,9 @@ static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_
   }
 }
 
-/* src/impl/change/pins.h: sets of pins: created, added, released, and made again for other numbers */
+/* src/impl/change/constraints.h: sets of pins: created, added, released, and made again for other numbers */
 
-static sl_status sli_pins_take(sl_pins *P) {
+static sl_status sli_constraints_take(sl_constraints *P) {
   const sl_factor *F = P->F;
   const sl_factor_info *info = &F->stats.factor;
   P->sign = info->negative > 0 ? -1.0 : 1.0;
@@ -27631,7 +27641,7 @@ static sl_status sli_pins_take(sl_pins *P) {
   return SL_OK;
 }
 
-static sl_status sli_pins_check(const sl_factor *F) {
+static sl_status sli_constraints_check(const sl_factor *F) {
   const sl_factor_info *info = &F->stats.factor;
   const sl_status status = sli_factor_has_numbers(F);
   if (status != SL_OK || (F->E == NULL && (info->positive == 0 || info->negative == 0))) {
@@ -27640,7 +27650,7 @@ static sl_status sli_pins_check(const sl_factor *F) {
   return sli_refuse(SL_ERR_UNSUPPORTED, "pins with pivots of both signs or 2x2 pivots");
 }
 
-static void sli_pins_release(sl_pins *P) {
+static void sli_constraints_release(sl_constraints *P) {
   sl_int k;
   for (k = 0; k < P->n_pins; k++) {
     sli_pin_free(P, P->pins[k]);
@@ -27649,26 +27659,28 @@ static void sli_pins_release(sl_pins *P) {
   sli_free(&P->allocator, P->uses);
 }
 
-SLI_NOINLINE static void sli_pins_report(const sl_pins *P, double started, sl_stats *stats) {
+SLI_NOINLINE static void sli_constraints_report(const sl_constraints *P, double started,
+    sl_stats *stats) {
   if (stats != NULL) {
-    stats->pins.count = P->n_pins;
-    stats->pins.seconds = sli_seconds() - started;
+    stats->constraints.count = P->n_pins;
+    stats->constraints.seconds = sli_seconds() - started;
   }
 }
 
-SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_options *opt) {
+SL_API sl_status sl_constraints_create(sl_constraints **out, const sl_factor *F,
+    const sl_options *opt) {
   const sl_allocator a = sli_allocator(opt);
-  sl_pins *P = NULL;
+  sl_constraints *P = NULL;
   sl_status status;
   status = sli_begin(out);
   status = status == SL_OK
          ? sli_argument(F == NULL ? "F is NULL" : sli_options_wrong(opt, SLI_READS_NOTHING))
          : status;
-  status = status == SL_OK ? sli_pins_check(F) : status;
+  status = status == SL_OK ? sli_constraints_check(F) : status;
   if (status != SL_OK) {
     return status;
   }
-  P = (sl_pins *)sli_alloc(&a, sizeof *P);
+  P = (sl_constraints *)sli_alloc(&a, sizeof *P);
   if (P == NULL) {
     return sli_no_memory();
   }
@@ -27676,34 +27688,34 @@ SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_opti
   P->allocator = a;
   P->F = F;
   sli_borrow(&F->borrowers);
-  status = sli_pins_take(P);
+  status = sli_constraints_take(P);
   if (status == SL_OK) {
     *out = P;
   } else {
-    sl_pins_free(P);
+    sl_constraints_free(P);
   }
   return status;
 }
 
-SL_API void sl_pins_free(sl_pins *P) {
+SL_API void sl_constraints_free(sl_constraints *P) {
   if (P != NULL) {
     const sl_allocator a = P->allocator;
-    sli_pins_release(P);
+    sli_constraints_release(P);
     sl_factor_free((sl_factor *)P->F);
     sli_free(&a, P);
   }
 }
 
-static void sli_pins_drop(sl_pins *P, sl_int index) {
+static void sli_constraints_drop(sl_constraints *P, sl_int index) {
   if (P->numbers.generation != 0) {
-    sli_pins_count_nulls(P, P->pins[index], 0);
+    sli_constraints_count_nulls(P, P->pins[index], 0);
   }
   sli_pin_free(P, P->pins[index]);
-  sli_pins_remove(P, index);
+  sli_constraints_remove(P, index);
 }
 
-SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const double *values,
-    sl_int count, sl_stats *stats) {
+SL_API sl_status sl_constraints_add_equality(sl_constraints *P, const sl_int *rows,
+    const double *values, sl_int count, sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
   const sli_equality e = sli_equality_of(rows, values, count);
   sl_status status;
@@ -27714,7 +27726,7 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
       : rows == NULL ? "rows is NULL"
       : values == NULL ? "values is NULL"
       : NULL);
-  status = status == SL_OK ? sli_pins_are_current(P) : status;
+  status = status == SL_OK ? sli_constraints_are_current(P) : status;
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
@@ -27724,14 +27736,15 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
           "a value of the equality is not finite");
     }
   }
-  status = sli_pins_push(P, &e, stats);
+  status = sli_constraints_push(P, &e, stats);
   if (status == SL_OK) {
-    sli_pins_report(P, started, stats);
+    sli_constraints_report(P, started, stats);
   }
   return sli_report(stats, status);
 }
 
-SL_API sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count, sl_stats *stats) {
+SL_API sl_status sl_constraints_add(sl_constraints *P, const sl_int *rows, sl_int count,
+    sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
   sl_status status;
   sl_int k;
@@ -27740,7 +27753,7 @@ SL_API sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count, sl_st
       : count < 0 ? "count is below 0"
       : count > 0 && rows == NULL ? "rows is NULL"
       : NULL);
-  status = status == SL_OK ? sli_pins_are_current(P) : status;
+  status = status == SL_OK ? sli_constraints_are_current(P) : status;
   if (status == SL_OK && count > INT32_MAX - P->n_pins) {
     status = sli_refuse(SL_ERR_TOO_LARGE, "more than 2^31 - 1 pins");
   }
@@ -27749,14 +27762,15 @@ SL_API sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count, sl_st
       return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0, "a row is out of range");
     }
   }
-  status = status == SL_OK ? sli_pins_push_rows(P, rows, count, stats) : status;
+  status = status == SL_OK ? sli_constraints_push_rows(P, rows, count, stats) : status;
   if (status == SL_OK) {
-    sli_pins_report(P, started, stats);
+    sli_constraints_report(P, started, stats);
   }
   return sli_report(stats, status);
 }
 
-SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count, sl_stats *stats) {
+SL_API sl_status sl_constraints_release(sl_constraints *P, const sl_int *indices, sl_int count,
+    sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
   sli_block b = {NULL, 0};
   unsigned char *gone = NULL;
@@ -27771,7 +27785,7 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
     return sli_report(stats, status);
   }
   if (count == 0) {
-    sli_pins_report(P, started, stats);
+    sli_constraints_report(P, started, stats);
     return SL_OK;
   }
   SLI_LAYOUT(&b, &P->allocator, status) {
@@ -27790,12 +27804,12 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
   }
   for (k = P->n_pins - 1; k >= 0 && status == SL_OK; k--) {
     if (gone[k]) {
-      sli_pins_drop(P, k);
+      sli_constraints_drop(P, k);
     }
   }
   sli_free(&P->allocator, b.base);
   if (status == SL_OK) {
-    sli_pins_report(P, started, stats);
+    sli_constraints_report(P, started, stats);
   }
   return sli_report(stats, status);
 }
@@ -27804,8 +27818,9 @@ SLI_INLINE int sli_pin_is_row(const sli_pin *pin) {
   return pin->count == 1 && pin->values[0] == 1.0;
 }
 
-static sl_status sli_pins_fill(sl_pins *D, const sl_pins *P, sl_int *rows, sl_stats *stats) {
-  sl_status status = sli_pins_take(D);
+static sl_status sli_constraints_fill(sl_constraints *D, const sl_constraints *P, sl_int *rows,
+    sl_stats *stats) {
+  sl_status status = sli_constraints_take(D);
   sl_int k, last;
   for (k = 0; k < P->n_pins && status == SL_OK; k = last) {
     const sli_pin *pin = P->pins[k];
@@ -27814,54 +27829,54 @@ static sl_status sli_pins_fill(sl_pins *D, const sl_pins *P, sl_int *rows, sl_st
     }
     if (last == k) {
       const sli_equality e = sli_equality_of(pin->rows, pin->values, pin->count);
-      status = sli_pins_push(D, &e, stats);
+      status = sli_constraints_push(D, &e, stats);
       last = k + 1;
     } else {
-      status = sli_pins_push_rows(D, rows, last - k, stats);
+      status = sli_constraints_push_rows(D, rows, last - k, stats);
     }
   }
   return status;
 }
 
-static sl_status sli_pins_renew(sl_pins *P, sl_stats *stats) {
-  sl_pins D = *P;
+static sl_status sli_constraints_renew(sl_constraints *P, sl_stats *stats) {
+  sl_constraints D = *P;
   sli_block b = {NULL, 0};
   sl_int *rows = NULL;
-  sl_status status = sli_pins_check(P->F);
+  sl_status status = sli_constraints_check(P->F);
   D.n_pins = D.capacity = 0;
   D.pins = NULL;
   D.uses = NULL;
   SLI_LAYOUT(&b, &P->allocator, status) {
     rows = SLI_TAKE(&b, sl_int, P->n_pins);
   }
-  status = status == SL_OK ? sli_pins_fill(&D, P, rows, stats) : status;
+  status = status == SL_OK ? sli_constraints_fill(&D, P, rows, stats) : status;
   sli_free(&P->allocator, b.base);
   if (status != SL_OK) {
     P->numbers.generation = 0;
   }
-  sli_pins_release(status == SL_OK ? P : &D);
+  sli_constraints_release(status == SL_OK ? P : &D);
   if (status == SL_OK) {
     *P = D;
   }
   return status;
 }
 
-SL_API sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats) {
+SL_API sl_status sl_constraints_refactor(sl_constraints *P, sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
   sl_status status;
   sli_stats_clear_error(stats);
   status = sli_argument(P == NULL ? "P is NULL" : NULL);
-  status = status == SL_OK ? sli_pins_renew(P, stats) : status;
+  status = status == SL_OK ? sli_constraints_renew(P, stats) : status;
   if (status == SL_OK) {
-    sli_pins_report(P, started, stats);
+    sli_constraints_report(P, started, stats);
   }
   return sli_report(stats, status);
 }
 
-/* src/impl/change/pins_solve.h: sl_pins_solve: solves with rows held */
+/* src/impl/change/constraints_solve.h: sl_constraints_solve: solves with rows held */
 
-typedef struct sli_pins_solve {
-  const sl_pins *P;
+typedef struct sli_constraints_solve {
+  const sl_constraints *P;
   const sli_query *q;
   sli_rhs rhs;
   const double *G;
@@ -27871,21 +27886,22 @@ typedef struct sli_pins_solve {
   double *largest;
   double *forces;
   double *f;
-  sli_pins_nulls nulls;
-} sli_pins_solve;
+  sli_constraints_nulls nulls;
+} sli_constraints_solve;
 
-static void sli_pins_layout(sli_pins_solve *w, sli_block *b, sl_int nrhs) {
-  const sl_pins *P = w->P;
+static void sli_constraints_layout(sli_constraints_solve *w, sli_block *b, sl_int nrhs) {
+  const sl_constraints *P = w->P;
   const sli_query *q = w->q;
   const sl_int lanes = (sl_int)1 << sli_lanes_kind(sli_min(nrhs, 8));
   w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs, 8), 1);
   w->largest = SLI_TAKE(b, double, (uint64_t)q->backward.count *(uint64_t)lanes);
   w->forces = SLI_TAKE(b, double, (uint64_t)q->forward.count *(uint64_t)lanes);
   w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->n_pins);
-  sli_pins_nulls_layout(&w->nulls, b, P);
+  sli_constraints_nulls_layout(&w->nulls, b, P);
 }
 
-static void sli_pins_clear_rows(const sl_pins *P, const sli_reach *R, double *b, sl_int lanes) {
+static void sli_constraints_clear_rows(const sl_constraints *P, const sli_reach *R, double *b,
+    sl_int lanes) {
   sl_int p, r;
   for (p = 0; p < P->n_pins; p++) {
     const sli_pin *pin = P->pins[p];
@@ -27897,8 +27913,8 @@ static void sli_pins_clear_rows(const sl_pins *P, const sli_reach *R, double *b,
   }
 }
 
-static void sli_pins_load(const sli_pins_solve *w, const double *y) {
-  const sl_pins *P = w->P;
+static void sli_constraints_load(const sli_constraints_solve *w, const double *y) {
+  const sl_constraints *P = w->P;
   const sl_int lanes = w->lanes, nrhs = w->rhs.nrhs;
   sl_int p, r, k;
   for (p = 0; p < P->n_pins; p++) {
@@ -27917,9 +27933,10 @@ static void sli_pins_load(const sli_pins_solve *w, const double *y) {
   }
 }
 
-#define SLI_PINS_LOST 1e-8
+#define SLI_CONSTRAINTS_LOST 1e-8
 
-static void sli_pins_largest(const sli_reach *R, const double *x, double *largest, sl_int lanes) {
+static void sli_constraints_largest(const sli_reach *R, const double *x, double *largest,
+    sl_int lanes) {
   double most[SLI_TILE] = {0.0};
   sl_int s, k, r, first = 0;
   for (s = 0; s < R->count; s++) {
@@ -27939,7 +27956,7 @@ static void sli_pins_largest(const sli_reach *R, const double *x, double *larges
   }
 }
 
-SLI_COLD static double sli_pins_least(const sli_pins_solve *w, sl_int k, sl_int r) {
+SLI_COLD static double sli_constraints_least(const sli_constraints_solve *w, sl_int k, sl_int r) {
   const sl_symbolic *S = w->P->F->S;
   const sl_factor_info *info = &w->P->F->stats.factor;
   const double largest = fmax(info->entry_max, info->pivot_max);
@@ -27953,8 +27970,8 @@ SLI_COLD static double sli_pins_least(const sli_pins_solve *w, sl_int k, sl_int 
          : w->forces[(ptrdiff_t)s * w->lanes + r] / largest;
 }
 
-static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
-  const sl_pins *P = w->P;
+static int sli_constraints_hold(const sli_constraints_solve *w, const double *x) {
+  const sl_constraints *P = w->P;
   const sli_reach *R = &w->q->backward;
   const sl_int lanes = w->lanes;
   sl_int p, r, k;
@@ -27974,9 +27991,9 @@ static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
           weight += fabs(pin->values[k]);
         }
       }
-      if (s != -1 && fabs(sum) > SLI_PINS_LOST * (size + fabs(g)) &&
-          (g != 0.0 ||
-          fabs(sum) > SLI_PINS_LOST * weight * sli_pins_least(w, R->steps[s].column, r))) {
+      if (s != -1 && fabs(sum) > SLI_CONSTRAINTS_LOST * (size + fabs(g)) &&
+          (g != 0.0 || fabs(sum) > SLI_CONSTRAINTS_LOST * weight *
+          sli_constraints_least(w, R->steps[s].column, r))) {
         return 0;
       }
     }
@@ -27984,36 +28001,37 @@ static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
   return 1;
 }
 
-static int sli_pins_forward(const sli_pins_solve *w, const sli_vectors *v, double *norms) {
-  const sl_pins *P = w->P;
+static int sli_constraints_forward(const sli_constraints_solve *w, const sli_vectors *v,
+    double *norms) {
+  const sl_constraints *P = w->P;
   const sl_factor *F = P->F;
   const sli_reach *R = &w->q->forward;
   const sli_packed b = sli_packed_of(R, v->y, w->lanes);
   sli_pack(F, w->q, v->y, &w->rhs);
-  sli_pins_clear_rows(P, R, v->y, w->lanes);
+  sli_constraints_clear_rows(P, R, v->y, w->lanes);
   if (P->n_pins > 0) {
-    sli_pins_largest(R, v->y, w->forces, w->lanes);
+    sli_constraints_largest(R, v->y, w->forces, w->lanes);
   }
   if (F->null.count > 0) {
     sli_norms(&b, norms);
   }
-  if (!sli_pins_defects(P, &w->nulls, &b, norms)) {
+  if (!sli_constraints_defects(P, &w->nulls, &b, norms)) {
     return 0;
   }
   sli_sweep_forward(F, w->q, v, w->rhs.nrhs);
-  if (!sli_pins_clear(P, R, v->y, w->lanes, norms)) {
+  if (!sli_constraints_clear(P, R, v->y, w->lanes, norms)) {
     return 0;
   }
-  sli_pins_load(w, v->y);
+  sli_constraints_load(w, v->y);
   return 1;
 }
 
-SLI_COLD static sl_status sli_pins_inconsistent(void) {
+SLI_COLD static sl_status sli_constraints_inconsistent(void) {
   return sli_refuse(SL_ERR_INCONSISTENT, "B has a part along a null vector that no pin holds");
 }
 
-SLI_HOT static sl_status sli_pins_block(sli_pins_solve *w) {
-  const sl_pins *P = w->P;
+SLI_HOT static sl_status sli_constraints_block(sli_constraints_solve *w) {
+  const sl_constraints *P = w->P;
   const sli_query *q = w->q;
   const sl_factor *F = P->F;
   const sli_vectors v = sli_vectors_of(q, w->rhs.nrhs, w->memory);
@@ -28022,15 +28040,15 @@ SLI_HOT static sl_status sli_pins_block(sli_pins_solve *w) {
   double norms[SLI_TILE];
   sl_int p;
   w->lanes = lanes;
-  if (!sli_pins_forward(w, &v, norms)) {
-    return sli_pins_inconsistent();
+  if (!sli_constraints_forward(w, &v, norms)) {
+    return sli_constraints_inconsistent();
   }
   if (!q->is_shared) {
     sli_sweep_transfer(q, v.y, v.x, lanes);
   }
-  sli_pins_apply(P, w->f, lanes);
-  if (!sli_pins_balance(P, &w->nulls, w->f, lanes, norms)) {
-    return sli_pins_inconsistent();
+  sli_constraints_apply(P, w->f, lanes);
+  if (!sli_constraints_balance(P, &w->nulls, w->f, lanes, norms)) {
+    return sli_constraints_inconsistent();
   }
   for (p = 0; p < P->n_pins; p++) {
     sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
@@ -28041,23 +28059,23 @@ SLI_HOT static sl_status sli_pins_block(sli_pins_solve *w) {
     sli_center(F, &y, &x, P->uses);
   }
   sli_backward(F, &q->backward, kind, v.x, v.scratch);
-  sli_pins_shift(P, q, &w->nulls, v.x, lanes);
+  sli_constraints_shift(P, q, &w->nulls, v.x, lanes);
   if (P->n_pins > 0) {
-    sli_pins_largest(&q->backward, v.x, w->largest, lanes);
+    sli_constraints_largest(&q->backward, v.x, w->largest, lanes);
   }
-  if (!sli_pins_hold(w, v.x)) {
+  if (!sli_constraints_hold(w, v.x)) {
     return sli_refuse(SL_ERR_INACCURATE, "C' x = g holds too inaccurately");
   }
   sli_unpack(F, q, &w->rhs, v.x);
   return sli_sweep_is_finite(F, q, v.x, lanes) ? SL_OK : sli_not_finite();
 }
 
-SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X, size_t ldx,
-    const double *B, size_t ldb, const double *G, size_t ldg,
-    sl_int nrhs, sl_work *W) {
+SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *plan, double *X,
+    size_t ldx, const double *B, size_t ldb, const double *G,
+    size_t ldg, sl_int nrhs, sl_work *W) {
   const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sli_block counted = {NULL, 0};
-  sli_pins_solve w;
+  sli_constraints_solve w;
   sli_query all;
   const sli_query *q = plan == NULL ? &all : &plan->query;
   sl_work own;
@@ -28073,7 +28091,7 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
         : !sli_is_ld(ldg, P->n_pins) ? "ldg is below the number of pins"
         : NULL);
   }
-  status = status == SL_OK ? sli_pins_are_current(P) : status;
+  status = status == SL_OK ? sli_constraints_are_current(P) : status;
   status = status == SL_OK ? sli_query_check(q, P->F) : status;
   if (status == SL_OK && q->ending != NULL) {
     status = sli_refuse_region();
@@ -28089,15 +28107,15 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
   w.P = P;
   w.q = q;
   w.ldg = ldg;
-  sli_pins_layout(&w, &counted, nrhs);
+  sli_constraints_layout(&w, &counted, nrhs);
   status = sli_work_block(W, &counted);
   if (status == SL_OK) {
-    sli_pins_layout(&w, &counted, nrhs);
-    status = sli_pins_nulls_factor(&w.nulls, P);
+    sli_constraints_layout(&w, &counted, nrhs);
+    status = sli_constraints_nulls_factor(&w.nulls, P);
     for (r = 0; r < nrhs && status == SL_OK; r += sli_min(8, nrhs - r)) {
       w.rhs = sli_rhs_part(&rhs, r, sli_min(8, nrhs - r));
       w.G = P->n_pins == 0 ? G : G + (size_t)r * ldg;
-      status = sli_pins_block(&w);
+      status = sli_constraints_block(&w);
     }
   }
   sli_free(&own.allocator, own.block);
@@ -28262,7 +28280,7 @@ SLI_HOT static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, co
   return SL_OK;
 }
 
-/* src/impl/change/restrict_kept.h: a set R of rows of A, and what the analysis of A[R, R] keeps of that of A */
+/* src/impl/change/submatrix_kept.h: a set R of rows of A, and what the analysis of A[R, R] keeps of that of A */
 
 #define SLI_RESTRICT_KEPT 0.4
 
@@ -28453,15 +28471,14 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
   return status;
 }
 
-/* src/impl/change/restrict_analysis.h: the analysis of A[R, R] from that of A: new for columns with a removed */
+/* src/impl/change/submatrix_analysis.h: the analysis of A[R, R] from that of A: new for columns with a removed */
 
 static sl_status sli_restriction_work(sli_restriction *r, uint64_t entries, const sl_allocator *a) {
   sli_analysis *w = &r->w;
   sli_block b = {NULL, 0};
-  sl_status status =
-    entries > INT32_MAX
-      ? sli_refuse(SL_ERR_TOO_LARGE, "more than 2^31 - 1 entries of new columns")
-      : SL_OK;
+  sl_status status = entries > INT32_MAX ? sli_refuse(SL_ERR_TOO_LARGE,
+      "more than 2^31 - 1 entries of new columns")
+                       : SL_OK;
   SLI_LAYOUT(&b, a, status) {
     sli_analysis_layout(w, &b, r->n_fresh, (sl_int)entries);
   }
@@ -28528,7 +28545,8 @@ SLI_HOT static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *sta
       const sl_int i = A->i[p];
       sl_int other = own, is_there;
       if (i < 0 || i >= A->n_rows) {
-        return sli_fail_at(stats, SL_ERR_PATTERN, i, j, 0.0, "a row of A is out of range");
+        return sli_fail_at(stats, SL_ERR_MALFORMED, i, j, 0.0,
+            "a row of A is out of range");
       }
       is_there = sli_is_read(triangle, i, j);
       others |= !is_there;
@@ -28608,7 +28626,7 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
       SLI_PREFETCH(p + r->rows[k + SLI_RESTRICT_AHEAD], 0);
     }
     if (p[j] < 0 || p[j + 1] < p[j] || p[j + 1] > sli_nnz(r->A)) {
-      return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0, "A.p descends");
+      return sli_fail_at(stats, SL_ERR_MALFORMED, -1, j, 0.0, "A.p descends");
     }
     if (r->n_kept > 0) {
       r->number_of[k] = number = r->fresh_of[number];
@@ -28701,7 +28719,7 @@ static sl_status sli_restriction_list(sli_restriction *r, const sl_allocator *a,
   return sli_restriction_graph(r, stats);
 }
 
-/* src/impl/change/restrict_symbolic.h: joins kept subtrees and new supernodes to the analysis of A[R, R] */
+/* src/impl/change/submatrix_symbolic.h: joins kept subtrees and new supernodes to the analysis of A[R, R] */
 
 typedef struct sli_joint {
   sl_symbolic *S;
@@ -28917,9 +28935,9 @@ static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_
   return status;
 }
 
-/* src/impl/change/restrict.h: sl_factor_restrict: the factor of A[R, R] from that of A */
+/* src/impl/change/submatrix.h: sl_factor_submatrix: the factor of A[R, R] from that of A */
 
-static sl_status sli_restrict_check(const sl_factor *F, const sli_restriction *r,
+static sl_status sli_submatrix_check(const sl_factor *F, const sli_restriction *r,
     sli_failure *failure) {
   sl_int q, k;
   for (q = 0; q < r->n_kept && F->null.count > 0; q++) {
@@ -28934,7 +28952,7 @@ static sl_status sli_restrict_check(const sl_factor *F, const sli_restriction *r
   return SL_OK;
 }
 
-static void sli_restrict_keep(const sl_factor *G, sli_restriction *r, sl_int *from,
+static void sli_submatrix_keep(const sl_factor *G, sli_restriction *r, sl_int *from,
     sl_int *columns) {
   sl_int q, k;
   for (q = 0; q < G->S->n_supers; q++) {
@@ -28950,7 +28968,7 @@ static void sli_restrict_keep(const sl_factor *G, sli_restriction *r, sl_int *fr
   }
 }
 
-static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_restriction *r,
+static sl_status sli_submatrix_numbers(sl_factor *G, const sl_factor *F, sli_restriction *r,
     sl_stats *stats) {
   const double started = sli_seconds();
   const sli_source source = sli_source_matrix(&r->B);
@@ -28967,7 +28985,7 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
   }
   kept = sli_kept_of(F, from, columns, 1);
   if (status == SL_OK && r->n_kept > 0) {
-    sli_restrict_keep(G, r, from, columns);
+    sli_submatrix_keep(G, r, from, columns);
     status = sli_kept_room(&kept, G, &room);
   }
   if (status == SL_OK) {
@@ -28977,7 +28995,7 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
     G->work.copied = r->n_kept > 0 ? &kept.copied : NULL;
     G->history.drift = r->n_kept > 0 ? F->history.drift : 0.0;
     G->history.marks = NULL;
-    if (sli_restrict_check(F, r, &failure) == SL_OK) {
+    if (sli_submatrix_check(F, r, &failure) == SL_OK) {
       (void)sli_factor_eliminate(G, &source, &failure);
     }
     G->work.copied = NULL;
@@ -28988,7 +29006,7 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
   return status;
 }
 
-static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction *r,
+static sl_options sli_submatrix_options(const sl_factor *F, const sli_restriction *r,
     const sl_allocator *a, sl_int *signs) {
   sl_options opt = sli_options_with(a);
   sl_int k;
@@ -29006,8 +29024,9 @@ static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction
   return opt;
 }
 
-static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, const sl_factor *F,
-    sli_restriction *r, const sl_options *rules, sl_stats *stats) {
+static sl_status sli_submatrix_factor(sl_factor **out, const sl_symbolic *S, const sl_factor *F,
+    sli_restriction *r, const sl_options *rules,
+    sl_stats *stats) {
   sl_options opt = *rules;
   sl_factor *G = NULL;
   sl_status status;
@@ -29017,7 +29036,7 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
     opt.storage = SL_STORAGE_DOUBLE;
   }
   status = sli_factor_new_with(&G, S, &opt, F->kernels, stats);
-  status = status == SL_OK ? sli_restrict_numbers(G, F, r, stats) : status;
+  status = status == SL_OK ? sli_submatrix_numbers(G, F, r, stats) : status;
   if (status == SL_OK) {
     *out = G;
   } else {
@@ -29026,7 +29045,7 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
   return status;
 }
 
-static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
+static void sli_submatrix_done(sl_symbolic *S, sl_factor *G) {
   sl_factor counted = *G;
   sli_block b = {NULL, 0};
   sli_free(&G->allocator, G->scratch);
@@ -29040,7 +29059,7 @@ static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
   SLI_ZERO(S->scatter_begin, S->n_supers + 1);
 }
 
-static sl_status sli_restrict_report(const sli_restriction *r, sl_status status, sl_stats *stats) {
+static sl_status sli_submatrix_report(const sli_restriction *r, sl_status status, sl_stats *stats) {
   sl_error found = sli_found(stats, status);
   if (status == SL_ERR_NOT_FINITE && found.column != -1) {
     if (r->B_values != NULL) {
@@ -29053,11 +29072,11 @@ static sl_status sli_restrict_report(const sli_restriction *r, sl_status status,
   return sli_fail_as(stats, status, &found);
 }
 
-SLI_COLD static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_factor *F,
+SLI_COLD static sl_status sli_submatrix_run(sl_symbolic **S, sl_factor **G, const sl_factor *F,
     sli_restriction *r, const sl_allocator *a,
     sl_stats *stats) {
   const double started = sli_seconds();
-  const sl_options rules = sli_restrict_options(F, r, a, (sl_int *)(void *)r->scratch);
+  const sl_options rules = sli_submatrix_options(F, r, a, (sl_int *)(void *)r->scratch);
   sl_stats found;
   sl_status status;
   SLI_CLEAR(found);
@@ -29070,12 +29089,12 @@ SLI_COLD static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const
   sli_restriction_done(r, a);
   if (status == SL_OK) {
     (*S)->stats.symbolic.seconds_analyze = sli_seconds() - started;
-    status = sli_restrict_factor(G, *S, F, r, &rules, stats);
+    status = sli_submatrix_factor(G, *S, F, r, &rules, stats);
   }
   return status;
 }
 
-static sl_status sli_restrict_arguments(const sl_factor *F, const sl_csc *A, const sl_int *rows,
+static sl_status sli_submatrix_arguments(const sl_factor *F, const sl_csc *A, const sl_int *rows,
     sl_int count, const sl_options *opt) {
   sl_status status =
     sli_argument(F == NULL ? "F is NULL"
@@ -29091,7 +29110,7 @@ static sl_status sli_restrict_arguments(const sl_factor *F, const sl_csc *A, con
   return status == SL_OK ? sli_pattern_check_size(F->S, A, 1) : status;
 }
 
-SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_factor *F,
+SL_API sl_status sl_factor_submatrix(sl_symbolic **S, sl_factor **G, const sl_factor *F,
     const sl_csc *A, const sl_int *rows, sl_int count,
     const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
@@ -29103,7 +29122,7 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
   if (status == SL_OK) {
     *S = NULL;
     *G = NULL;
-    status = sli_restrict_arguments(F, A, rows, count, opt);
+    status = sli_submatrix_arguments(F, A, rows, count, opt);
   }
   if (status != SL_OK) {
     return sli_report(stats, status);
@@ -29117,19 +29136,19 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
   r.R.count = count;
   status = sli_restriction_begin(&r, &a, stats);
   if (status == SL_OK) {
-    status = sli_restrict_run(S, G, F, &r, &a, stats);
+    status = sli_submatrix_run(S, G, F, &r, &a, stats);
     if (status != SL_OK) {
-      status = sli_restrict_report(&r, status, stats);
+      status = sli_submatrix_report(&r, status, stats);
     }
   }
   if (status == SL_OK) {
-    sli_restrict_done(*S, *G);
+    sli_submatrix_done(*S, *G);
   } else {
     sl_symbolic_free(*S);
     *S = NULL;
   }
   if (status == SL_OK && stats != NULL) {
-    sl_restrict_info *info = &stats->restriction;
+    sl_submatrix_info *info = &stats->submatrix;
     stats->factor.bytes = (*G)->stats.factor.bytes;
     info->is_anew = r.n_kept == 0 && count > 0;
     info->kept = count - r.n_fresh;
@@ -30406,7 +30425,7 @@ static sl_status sli_edit_arguments(const sl_symbolic *S, const sl_csc *A, const
   if (status == SL_OK && (S->is_pivoted || S->nnz_input < 0)) {
     status = sli_refuse(SL_ERR_UNSUPPORTED, S->is_pivoted
         ? "an analysis of sl_symbolic_create_pivoted"
-        : "an analysis of sl_factor_restrict");
+        : "an analysis of sl_factor_submatrix");
   }
   return status == SL_OK ? sli_pattern_check(S, A, 0) : status;
 }
@@ -30840,18 +30859,18 @@ SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_sy
 }
 
 #endif
-/* dirichlet: rows fixed at given values */
-#if defined(SL_WITH_DIRICHLET)
-/* src/impl/dirichlet/dirichlet_rows.h: free and fixed rows, the entries of A between them, and what is copied of A */
+/* fixed: rows fixed at given values */
+#if defined(SL_WITH_FIXED)
+/* src/impl/fixed/fixed_rows.h: free and fixed rows, the entries of A between them, and what is copied of A */
 
-typedef struct sli_dirichlet_ways {
-  sl_status (*take)(sl_dirichlet *D, const sl_factor *F, const sl_csc *A, sl_stats *stats);
-  sl_status (*solve)(const sl_dirichlet *D, const sli_rhs *rhs, const double *G, size_t ldg,
+typedef struct sli_fixed_ways {
+  sl_status (*take)(sl_fixed *D, const sl_factor *F, const sl_csc *A, sl_stats *stats);
+  sl_status (*solve)(const sl_fixed *D, const sli_rhs *rhs, const double *G, size_t ldg,
       sl_work *W);
-  void (*release)(sl_dirichlet *D);
-} sli_dirichlet_ways;
+  void (*release)(sl_fixed *D);
+} sli_fixed_ways;
 
-struct sl_dirichlet {
+struct sl_fixed {
   sl_allocator allocator;
   sl_options analysis, factorization;
   sli_hash pattern;
@@ -30861,18 +30880,18 @@ struct sl_dirichlet {
   sl_int *fixed_rows;
   sl_int *coupling_free, *coupling_fixed, *coupling_from;
   double *couplings;
-  sl_dirichlet_info info;
+  sl_fixed_info info;
 
   sl_matrix *M;
   sl_int *from;
   sl_symbolic *S;
   sl_factor *F;
-  const sli_dirichlet_ways *ways;
+  const sli_fixed_ways *ways;
   void *pins;
   int is_stale;
 };
 
-static sl_int sli_dirichlet_couple(sl_dirichlet *D, const sl_csc *A, sl_triangle triangle,
+static sl_int sli_fixed_couple(sl_fixed *D, const sl_csc *A, sl_triangle triangle,
     const sl_int *where) {
   sl_int j, p, count = 0;
   for (j = 0; j < A->n_cols; j++) {
@@ -30893,8 +30912,7 @@ static sl_int sli_dirichlet_couple(sl_dirichlet *D, const sl_csc *A, sl_triangle
   return count;
 }
 
-static sl_status sli_dirichlet_check_values(const sl_dirichlet *D, const sl_csc *A,
-    sl_stats *stats) {
+static sl_status sli_fixed_check_values(const sl_fixed *D, const sl_csc *A, sl_stats *stats) {
   sl_int k;
   for (k = 0; k < D->n_couplings; k++) {
     const sl_int p = D->coupling_from[k];
@@ -30906,7 +30924,7 @@ static sl_status sli_dirichlet_check_values(const sl_dirichlet *D, const sl_csc 
   return SL_OK;
 }
 
-static void sli_dirichlet_copy_values(sl_dirichlet *D, const sl_csc *A) {
+static void sli_fixed_copy_values(sl_fixed *D, const sl_csc *A) {
   sl_int k;
   for (k = 0; k < D->n_couplings; k++) {
     D->couplings[k] = A->x[D->coupling_from[k]];
@@ -30916,7 +30934,7 @@ static void sli_dirichlet_copy_values(sl_dirichlet *D, const sl_csc *A) {
   }
 }
 
-static void sli_dirichlet_number(const sl_dirichlet *D, sl_int *where) {
+static void sli_fixed_number(const sl_fixed *D, sl_int *where) {
   sl_int k;
   for (k = 0; k < D->n_free; k++) {
     where[D->free_rows[k]] = k;
@@ -30926,7 +30944,7 @@ static void sli_dirichlet_number(const sl_dirichlet *D, sl_int *where) {
   }
 }
 
-static sl_status sli_dirichlet_report(const sl_dirichlet *D, sl_status status, sl_stats *stats) {
+static sl_status sli_fixed_report(const sl_fixed *D, sl_status status, sl_stats *stats) {
   sl_error found;
   if (status == SL_OK) {
     return status;
@@ -30945,13 +30963,13 @@ static sl_status sli_dirichlet_report(const sl_dirichlet *D, sl_status status, s
   return sli_fail_as(stats, status, &found);
 }
 
-typedef struct sli_dirichlet_arrays {
+typedef struct sli_fixed_arrays {
   sl_int *perm, *signs;
   double *mass, *null_vector;
-} sli_dirichlet_arrays;
+} sli_fixed_arrays;
 
-static void sli_dirichlet_arrays_layout(sli_dirichlet_arrays *r, sli_block *b,
-    const sl_options *opt, sl_int n) {
+static void sli_fixed_arrays_layout(sli_fixed_arrays *r, sli_block *b, const sl_options *opt,
+    sl_int n) {
   const uint64_t count = (uint64_t)n;
   r->perm =
     opt->ordering != SL_ORDERING_GIVEN || opt->perm == NULL ? NULL : SLI_TAKE(b, sl_int, count);
@@ -30961,9 +30979,9 @@ static void sli_dirichlet_arrays_layout(sli_dirichlet_arrays *r, sli_block *b,
     opt->null_vector == NULL ? NULL : SLI_TAKE(b, double, count *(opt->null_vector_count + 1));
 }
 
-static sl_status sli_dirichlet_arrays_fill(const sli_dirichlet_arrays *r, const sl_dirichlet *D,
-    const sl_options *opt, const sl_int *where,
-    sl_int *scratch, sl_stats *stats) {
+static sl_status sli_fixed_arrays_fill(const sli_fixed_arrays *r, const sl_fixed *D,
+    const sl_options *opt, const sl_int *where, sl_int *scratch,
+    sl_stats *stats) {
   const sl_int m = D->n_free;
   const size_t vectors = opt->null_vector_count == 0 ? 1 : opt->null_vector_count;
   sl_int k, at = 0;
@@ -30996,7 +31014,7 @@ static sl_status sli_dirichlet_arrays_fill(const sli_dirichlet_arrays *r, const 
   return SL_OK;
 }
 
-static int sli_dirichlet_keeps_blocks(const sl_dirichlet *D, sl_int size) {
+static int sli_fixed_keeps_blocks(const sl_fixed *D, sl_int size) {
   sl_int k;
   for (k = 0; k < D->n_free && size > 1; k++) {
     const sl_int first = D->free_rows[k - k % size];
@@ -31007,11 +31025,11 @@ static int sli_dirichlet_keeps_blocks(const sl_dirichlet *D, sl_int size) {
   return size > 1 && D->n_free % size == 0;
 }
 
-/* src/impl/dirichlet/dirichlet.h: systems with rows fixed at given values: a factor of the free rows */
+/* src/impl/fixed/fixed.h: systems with rows fixed at given values: a factor of the free rows */
 
-static const sli_dirichlet_ways *sli_dirichlet_ways_of(void);
+static const sli_fixed_ways *sli_fixed_ways_of(void);
 
-static void sli_dirichlet_clear(sl_dirichlet *D) {
+static void sli_fixed_clear(sl_fixed *D) {
   if (D->pins != NULL) {
     D->ways->release(D);
   }
@@ -31021,25 +31039,23 @@ static void sli_dirichlet_clear(sl_dirichlet *D) {
   sli_free(&D->allocator, D->from);
 }
 
-SL_API void sl_dirichlet_free(sl_dirichlet *D) {
+SL_API void sl_fixed_free(sl_fixed *D) {
   if (D != NULL) {
     const sl_allocator a = D->allocator;
-    sli_dirichlet_clear(D);
+    sli_fixed_clear(D);
     sli_free(&a, D);
   }
 }
 
-SLI_COLD static sl_status sli_dirichlet_factor(sl_dirichlet *D, const sl_csc *A,
-    const sli_dirichlet_arrays *arrays,
-    const sl_int *where, sl_int *scratch,
-    sl_stats *stats) {
+SLI_COLD static sl_status sli_fixed_factor(sl_fixed *D, const sl_csc *A,
+    const sli_fixed_arrays *arrays, const sl_int *where,
+    sl_int *scratch, sl_stats *stats) {
   sl_options analysis = D->analysis, factorization = D->factorization;
   sli_submatrix s;
   sl_csc view;
   sl_status status;
   analysis.perm = arrays->perm;
-  analysis.block_size =
-    sli_dirichlet_keeps_blocks(D, analysis.block_size) ? analysis.block_size : 0;
+  analysis.block_size = sli_fixed_keeps_blocks(D, analysis.block_size) ? analysis.block_size : 0;
   factorization.signs = arrays->signs;
   factorization.mass = arrays->mass;
   factorization.null_vector = arrays->null_vector;
@@ -31055,13 +31071,13 @@ SLI_COLD static sl_status sli_dirichlet_factor(sl_dirichlet *D, const sl_csc *A,
   }
   if (status == SL_OK) {
     status = sl_factor_create(&D->F, D->S, &view, &factorization, stats);
-    status = sli_dirichlet_report(D, status, stats);
+    status = sli_fixed_report(D, status, stats);
   }
-  D->info.method = SL_DIRICHLET_SUBMATRIX;
+  D->info.method = SL_FIXED_SUBMATRIX;
   return status;
 }
 
-static void sli_dirichlet_options(sl_dirichlet *D, const sl_options *opt) {
+static void sli_fixed_options(sl_fixed *D, const sl_options *opt) {
   const sl_options none = sli_options_with(&D->allocator);
   sl_options *f = &D->factorization, *s = &D->analysis;
   *f = *s = none;
@@ -31087,7 +31103,7 @@ static void sli_dirichlet_options(sl_dirichlet *D, const sl_options *opt) {
   f->definite = opt->definite;
 }
 
-static sl_status sli_dirichlet_check(const sl_csc *A, const sl_int *rows, sl_int count,
+static sl_status sli_fixed_check(const sl_csc *A, const sl_int *rows, sl_int count,
     const sl_options *opt, sl_stats *stats) {
   sl_status status = sl_csc_check(A, stats);
   if (status == SL_OK) {
@@ -31108,8 +31124,8 @@ static sl_status sli_dirichlet_check(const sl_csc *A, const sl_int *rows, sl_int
          : status;
 }
 
-static void sli_dirichlet_layout(sl_dirichlet *D, sli_block *b) {
-  (void)sli_take(b, 1, sizeof(sl_dirichlet));
+static void sli_fixed_layout(sl_fixed *D, sli_block *b) {
+  (void)sli_take(b, 1, sizeof(sl_fixed));
   D->free_rows = SLI_TAKE(b, sl_int, D->n_free);
   D->fixed_rows = SLI_TAKE(b, sl_int, D->n_fixed);
   D->coupling_free = SLI_TAKE(b, sl_int, D->n_couplings);
@@ -31118,10 +31134,10 @@ static void sli_dirichlet_layout(sl_dirichlet *D, sli_block *b) {
   D->couplings = SLI_TAKE(b, double, D->n_couplings);
 }
 
-static sl_status sli_dirichlet_new(sl_dirichlet **out, const sl_csc *A, const sl_int *rows,
-    sl_dirichlet *draft, sl_int *where, sl_stats *stats) {
+static sl_status sli_fixed_new(sl_fixed **out, const sl_csc *A, const sl_int *rows, sl_fixed *draft,
+    sl_int *where, sl_stats *stats) {
   sli_block b = {NULL, 0};
-  sl_dirichlet *D;
+  sl_fixed *D;
   sl_status status = SL_OK;
   sl_int k, free_row = 0;
   const sl_int bad = sli_rows_invert(rows, draft->n_fixed, draft->n, where);
@@ -31133,14 +31149,14 @@ static sl_status sli_dirichlet_new(sl_dirichlet **out, const sl_csc *A, const sl
     where[k] = where[k] < 0 ? free_row++ : -1 - where[k];
   }
   draft->n_free = free_row;
-  draft->n_couplings = sli_dirichlet_couple(NULL, A, draft->triangle, where);
+  draft->n_couplings = sli_fixed_couple(NULL, A, draft->triangle, where);
   SLI_LAYOUT(&b, &draft->allocator, status) {
-    sli_dirichlet_layout(draft, &b);
+    sli_fixed_layout(draft, &b);
   }
   if (status != SL_OK) {
     return status;
   }
-  D = (sl_dirichlet *)(void *)b.base;
+  D = (sl_fixed *)(void *)b.base;
   *D = *draft;
   *out = D;
   for (k = 0; k < D->n_fixed; k++) {
@@ -31151,17 +31167,17 @@ static sl_status sli_dirichlet_new(sl_dirichlet **out, const sl_csc *A, const sl
       D->free_rows[where[k]] = k;
     }
   }
-  (void)sli_dirichlet_couple(D, A, D->triangle, where);
+  (void)sli_fixed_couple(D, A, D->triangle, where);
   D->info.n_free = D->n_free;
   D->info.couplings = D->n_couplings;
-  status = sli_dirichlet_check_values(D, A, stats);
+  status = sli_fixed_check_values(D, A, stats);
   if (status == SL_OK) {
-    sli_dirichlet_copy_values(D, A);
+    sli_fixed_copy_values(D, A);
   }
   return status;
 }
 
-static int sli_dirichlet_may_reuse(const sl_factor *F, const sl_options *opt) {
+static int sli_fixed_may_reuse(const sl_factor *F, const sl_options *opt) {
   return F != NULL &&
        (opt == NULL ||
         ((opt->perm == NULL || opt->ordering != SL_ORDERING_GIVEN) && opt->mass == NULL &&
@@ -31170,23 +31186,23 @@ static int sli_dirichlet_may_reuse(const sl_factor *F, const sl_options *opt) {
        F->type->storage == (opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
 }
 
-static void sli_dirichlet_done(sl_dirichlet *D, double started, sl_stats *stats) {
+static void sli_fixed_done(sl_fixed *D, double started, sl_stats *stats) {
   D->info.seconds = sli_seconds() - started;
   if (stats != NULL) {
-    stats->dirichlet = D->info;
+    stats->fixed = D->info;
   }
 }
 
-static sl_status sli_dirichlet_begin(sl_dirichlet *D, const sl_csc *A, const sl_factor *F,
+static sl_status sli_fixed_begin(sl_fixed *D, const sl_csc *A, const sl_factor *F,
     const sl_options *opt, const sl_int *where, sl_int *scratch,
     sl_stats *stats) {
   const sl_options none = sli_options_with(&D->allocator);
   const sl_options *arrays_of = opt == NULL ? &none : opt;
-  const sli_dirichlet_ways *ways = sli_dirichlet_ways_of();
+  const sli_fixed_ways *ways = sli_fixed_ways_of();
   sli_block b = {NULL, 0};
-  sli_dirichlet_arrays arrays;
+  sli_fixed_arrays arrays;
   sl_status status = SL_OK;
-  if (ways != NULL && sli_dirichlet_may_reuse(F, opt)) { /* untested: all packs are there */
+  if (ways != NULL && sli_fixed_may_reuse(F, opt)) { /* untested: all packs are there */
     D->ways = ways;
     status = ways->take(D, F, A, stats);
     if (status != SL_OK || D->F != NULL || D->pins != NULL) {
@@ -31194,29 +31210,27 @@ static sl_status sli_dirichlet_begin(sl_dirichlet *D, const sl_csc *A, const sl_
     }
   }
   SLI_LAYOUT(&b, &D->allocator, status) {
-    sli_dirichlet_arrays_layout(&arrays, &b, arrays_of, D->n_free);
+    sli_fixed_arrays_layout(&arrays, &b, arrays_of, D->n_free);
   }
   if (status == SL_OK) {
-    status = sli_dirichlet_arrays_fill(&arrays, D, arrays_of, where, scratch, stats);
-    status =
-      status == SL_OK ? sli_dirichlet_factor(D, A, &arrays, where, scratch, stats) : status;
+    status = sli_fixed_arrays_fill(&arrays, D, arrays_of, where, scratch, stats);
+    status = status == SL_OK ? sli_fixed_factor(D, A, &arrays, where, scratch, stats) : status;
     sli_free(&D->allocator, b.base);
   }
   D->analysis.metis_options = NULL;
   return status;
 }
 
-SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const sl_int *rows,
-    sl_int count, const sl_factor *F, const sl_options *opt,
-    sl_stats *stats) {
+SL_API sl_status sl_fixed_create(sl_fixed **out, const sl_csc *A, const sl_int *rows, sl_int count,
+    const sl_factor *F, const sl_options *opt, sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
   sli_block b = {NULL, 0};
-  sl_dirichlet draft, *D = NULL;
+  sl_fixed draft, *D = NULL;
   sl_int *where = NULL, *scratch = NULL;
   sl_status status;
   sli_stats_clear_error(stats);
   status = sli_begin(out);
-  status = status == SL_OK ? sli_dirichlet_check(A, rows, count, opt, stats) : status;
+  status = status == SL_OK ? sli_fixed_check(A, rows, count, opt, stats) : status;
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
@@ -31225,7 +31239,7 @@ SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const 
   draft.n = A->n_cols;
   draft.n_fixed = count;
   (void)sli_pattern_hash(A, &draft.pattern);
-  sli_dirichlet_options(&draft, opt);
+  sli_fixed_options(&draft, opt);
   status = sli_csc_triangle(A, sli_triangle_scan(A), &draft.triangle, opt, stats);
   SLI_LAYOUT(&b, &draft.allocator, status) {
     where = SLI_TAKE(&b, sl_int, draft.n);
@@ -31234,21 +31248,21 @@ SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const 
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
-  status = sli_dirichlet_new(&D, A, rows, &draft, where, stats);
-  status = status == SL_OK ? sli_dirichlet_begin(D, A, F, opt, where, scratch, stats) : status;
+  status = sli_fixed_new(&D, A, rows, &draft, where, stats);
+  status = status == SL_OK ? sli_fixed_begin(D, A, F, opt, where, scratch, stats) : status;
   sli_free(&draft.allocator, b.base);
   if (status == SL_OK) {
-    sli_dirichlet_done(D, started, stats);
+    sli_fixed_done(D, started, stats);
     *out = D;
   } else {
-    sl_dirichlet_free(D);
+    sl_fixed_free(D);
   }
   return sli_report(stats, status);
 }
 
-static sl_status sli_dirichlet_replace(sl_dirichlet *D, const sl_csc *A, sl_stats *stats) {
-  const sli_dirichlet_arrays none = {NULL, NULL, NULL, NULL};
-  sl_dirichlet own = *D;
+static sl_status sli_fixed_replace(sl_fixed *D, const sl_csc *A, sl_stats *stats) {
+  const sli_fixed_arrays none = {NULL, NULL, NULL, NULL};
+  sl_fixed own = *D;
   sli_block b = {NULL, 0};
   sl_int *where = NULL, *scratch = NULL;
   sl_status status = SL_OK;
@@ -31263,19 +31277,19 @@ static sl_status sli_dirichlet_replace(sl_dirichlet *D, const sl_csc *A, sl_stat
     scratch = SLI_TAKE(&b, sl_int, (uint64_t)D->n + 1);
   }
   if (status == SL_OK) {
-    sli_dirichlet_number(D, where);
-    status = sli_dirichlet_factor(&own, A, &none, where, scratch, stats);
+    sli_fixed_number(D, where);
+    status = sli_fixed_factor(&own, A, &none, where, scratch, stats);
     sli_free(&D->allocator, b.base);
   }
-  sli_dirichlet_clear(status == SL_OK ? D : &own);
+  sli_fixed_clear(status == SL_OK ? D : &own);
   if (status == SL_OK) {
     *D = own;
-    sli_dirichlet_copy_values(D, A);
+    sli_fixed_copy_values(D, A);
   }
   return status;
 }
 
-SL_API sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A, sl_stats *stats) {
+SL_API sl_status sl_fixed_refactor(sl_fixed *D, const sl_csc *A, sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
   sli_hash pattern;
   sl_status status;
@@ -31291,17 +31305,17 @@ SL_API sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A, sl_stat
   if (status == SL_OK) {
     status = sli_argument(sli_nnz(A) > 0 && A->x == NULL ? "A.x is NULL" : NULL);
   }
-  status = status == SL_OK ? sli_dirichlet_check_values(D, A, stats) : status;
+  status = status == SL_OK ? sli_fixed_check_values(D, A, stats) : status;
   if (status == SL_OK && D->M == NULL) {
-    status = sli_dirichlet_replace(D, A, stats);
+    status = sli_fixed_replace(D, A, stats);
   } else if (status == SL_OK) {
     const sl_csc view = sl_matrix_view(D->M);
-    sli_dirichlet_copy_values(D, A);
+    sli_fixed_copy_values(D, A);
     status = sl_factor_refactor(D->F, &view, stats);
-    status = sli_dirichlet_report(D, status, stats);
+    status = sli_fixed_report(D, status, stats);
   }
   if (status == SL_OK) {
-    sli_dirichlet_done(D, started, stats);
+    sli_fixed_done(D, started, stats);
     D->is_stale = 0;
   } else if (D != NULL) {
     D->is_stale |= status == SL_ERR_PIVOT || status == SL_ERR_NOT_FINITE ||
@@ -31310,9 +31324,9 @@ SL_API sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A, sl_stat
   return sli_report(stats, status);
 }
 
-/* src/impl/dirichlet/dirichlet_solve.h: solves for the free rows, with given values in the fixed ones */
+/* src/impl/fixed/fixed_solve.h: solves for the free rows, with given values in the fixed ones */
 
-static void sli_dirichlet_gather(const sl_dirichlet *D, const sli_rhs *rhs) {
+static void sli_fixed_gather(const sl_fixed *D, const sli_rhs *rhs) {
   const sli_dense x = sli_dense_of(rhs->ldx), b = sli_dense_of(rhs->ldb);
   const sl_int by_rows = x.column == 1;
   const sl_int outer = by_rows ? D->n_free : rhs->nrhs, inner = by_rows ? rhs->nrhs : D->n_free;
@@ -31326,8 +31340,7 @@ static void sli_dirichlet_gather(const sl_dirichlet *D, const sli_rhs *rhs) {
   }
 }
 
-static void sli_dirichlet_subtract(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
-    size_t ldg) {
+static void sli_fixed_subtract(const sl_fixed *D, const sli_rhs *rhs, const double *G, size_t ldg) {
   const sli_dense x = sli_dense_of(rhs->ldx), g = sli_dense_of(ldg);
   sl_int k, r;
   for (k = 0; k < D->n_couplings; k++) {
@@ -31339,7 +31352,7 @@ static void sli_dirichlet_subtract(const sl_dirichlet *D, const sli_rhs *rhs, co
   }
 }
 
-static void sli_dirichlet_scatter(const sl_dirichlet *D, const sli_rhs *rhs) {
+static void sli_fixed_scatter(const sl_fixed *D, const sli_rhs *rhs) {
   const sli_dense x = sli_dense_of(rhs->ldx);
   const sl_int by_rows = x.column == 1;
   const sl_int outer = by_rows ? D->n_free : rhs->nrhs, inner = by_rows ? rhs->nrhs : D->n_free;
@@ -31353,8 +31366,7 @@ static void sli_dirichlet_scatter(const sl_dirichlet *D, const sli_rhs *rhs) {
   }
 }
 
-static int sli_dirichlet_set_fixed(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
-    size_t ldg) {
+static int sli_fixed_set_fixed(const sl_fixed *D, const sli_rhs *rhs, const double *G, size_t ldg) {
   const sli_dense x = sli_dense_of(rhs->ldx), g = sli_dense_of(ldg);
   sl_int k, r;
   int is_finite = 1;
@@ -31368,7 +31380,7 @@ static int sli_dirichlet_set_fixed(const sl_dirichlet *D, const sli_rhs *rhs, co
   return is_finite;
 }
 
-static sl_status sli_dirichlet_blocks(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
+static sl_status sli_fixed_blocks(const sl_fixed *D, const sli_rhs *rhs, const double *G,
     size_t ldg, sl_int *index, void *memory) {
   const sl_factor *F = D->F;
   const sli_dense g = sli_dense_of(ldg);
@@ -31412,8 +31424,8 @@ static sl_status sli_dirichlet_blocks(const sl_dirichlet *D, const sli_rhs *rhs,
   return status;
 }
 
-static sl_status sli_dirichlet_run(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
-    size_t ldg, sl_work *W) {
+static sl_status sli_fixed_run(const sl_fixed *D, const sli_rhs *rhs, const double *G, size_t ldg,
+    sl_work *W) {
   const sli_rhs in_place = sli_rhs_of(rhs->X, rhs->ldx, rhs->X, rhs->ldx, rhs->nrhs);
   const sli_query q = sli_query_all(D->S);
   sli_sweep_tasks t;
@@ -31428,22 +31440,21 @@ static sl_status sli_dirichlet_run(const sl_dirichlet *D, const sli_rhs *rhs, co
     if (status == SL_OK) {
       void *memory = sli_take(&b, bytes, 1);
       index = SLI_TAKE(&b, sl_int, D->n);
-      status = sli_dirichlet_blocks(D, rhs, G, ldg, index, memory);
+      status = sli_fixed_blocks(D, rhs, G, ldg, index, memory);
     }
     return status;
   }
   if (status == SL_OK) {
-    sli_dirichlet_gather(D, rhs);
-    sli_dirichlet_subtract(D, rhs, G, ldg);
+    sli_fixed_gather(D, rhs);
+    sli_fixed_subtract(D, rhs, G, ldg);
     status = D->n_free > 0 ? sli_query_run(&t, D->F, &q, &in_place, W) : SL_OK;
-    sli_dirichlet_scatter(D, rhs);
+    sli_fixed_scatter(D, rhs);
   }
   return status;
 }
 
-SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx, const double *B,
-    size_t ldb, const double *G, size_t ldg, sl_int nrhs,
-    sl_work *W) {
+SL_API sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx, const double *B,
+    size_t ldb, const double *G, size_t ldg, sl_int nrhs, sl_work *W) {
   sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sl_work own;
   sl_status status;
@@ -31460,21 +31471,21 @@ SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx
   }
   if (D->is_stale ||
       (D->pins == NULL && !D->F->is_valid)) { /* branches untested: then it is stale, too */
-    return sli_refuse(SL_ERR_STALE, "the last sl_dirichlet_refactor has failed");
+    return sli_refuse(SL_ERR_STALE, "the last sl_fixed_refactor has failed");
   }
   own = sli_work_own(&D->allocator);
   W = W == NULL ? &own : W;
-  status = D->pins != NULL ? D->ways->solve(D, &rhs, G, ldg, W)
-               : sli_dirichlet_run(D, &rhs, G, ldg, W);
+  status =
+    D->pins != NULL ? D->ways->solve(D, &rhs, G, ldg, W) : sli_fixed_run(D, &rhs, G, ldg, W);
   sli_free(&own.allocator, own.block);
-  if (status == SL_OK && !sli_dirichlet_set_fixed(D, &rhs, G, ldg)) {
+  if (status == SL_OK && !sli_fixed_set_fixed(D, &rhs, G, ldg)) {
     status = sli_refuse(SL_ERR_NOT_FINITE, "a value of G is not finite");
   }
   return status;
 }
 
-SL_API sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D) {
-  sl_dirichlet_arrays v;
+SL_API sl_fixed_arrays sl_fixed_view(const sl_fixed *D) {
+  sl_fixed_arrays v;
   SLI_CLEAR(v);
   if (D != NULL) {
     v.n_free = D->n_free;
@@ -31489,26 +31500,26 @@ SL_API sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D) {
 }
 
 #endif
-/* dirichlet: by a factor of all rows */
-#if defined(SL_WITH_DIRICHLET) && defined(SL_WITH_CHANGE)
-/* src/impl/dirichlet/dirichlet_reuse.h: rows fixed at given values, by a factor of all rows: restriction or pins */
+/* fixed: by a factor of all rows */
+#if defined(SL_WITH_FIXED) && defined(SL_WITH_CHANGE)
+/* src/impl/fixed/fixed_reuse.h: rows fixed at given values, by a factor of all rows: restriction or pins */
 
-#define SLI_PINS_ENTRY 0.12e-9
-#define SLI_PINS_JOINT 0.26
-#define SLI_PINS_BLOCK 1.05
-#define SLI_PINS_PRODUCT 0.04e-9
-#define SLI_PINS_NUMBER 1e-9
-#define SLI_PINS_PIN 1e-6
-#define SLI_PINS_DENSE 0.13e-9
+#define SLI_CONSTRAINTS_ENTRY 0.12e-9
+#define SLI_CONSTRAINTS_JOINT 0.26
+#define SLI_CONSTRAINTS_BLOCK 1.05
+#define SLI_CONSTRAINTS_PRODUCT 0.04e-9
+#define SLI_CONSTRAINTS_NUMBER 1e-9
+#define SLI_CONSTRAINTS_PIN 1e-6
+#define SLI_CONSTRAINTS_DENSE 0.13e-9
 
-#define SLI_DIRICHLET_ANALYSIS 280e-9
-#define SLI_DIRICHLET_ROW 120e-9
-#define SLI_DIRICHLET_COPY 1.2e-9
-#define SLI_DIRICHLET_PROBE 2e-9
-#define SLI_DIRICHLET_PINS 3.0
-#define SLI_DIRICHLET_LOST 1000.0
+#define SLI_FIXED_ANALYSIS 280e-9
+#define SLI_FIXED_ROW 120e-9
+#define SLI_FIXED_COPY 1.2e-9
+#define SLI_FIXED_PROBE 2e-9
+#define SLI_FIXED_PINS 3.0
+#define SLI_FIXED_LOST 1000.0
 
-static int sli_dirichlet_is_factor_of(const sl_factor *F, const sl_csc *A) {
+static int sli_fixed_is_factor_of(const sl_factor *F, const sl_csc *A) {
   sl_factor as;
   if (sli_factor_fits(F, A) != SL_OK || F->E != NULL) {
     return 0;
@@ -31519,13 +31530,13 @@ static int sli_dirichlet_is_factor_of(const sl_factor *F, const sl_csc *A) {
   return sli_hash_equals(as.identity, F->identity);
 }
 
-typedef struct sli_dirichlet_choice {
+typedef struct sli_fixed_choice {
   const sl_factor *F;
   uint64_t *seeds, *scratch;
   sl_int *uses;
-} sli_dirichlet_choice;
+} sli_fixed_choice;
 
-static void sli_dirichlet_count(const sli_dirichlet_choice *c, sl_dirichlet *D) {
+static void sli_fixed_count(const sli_fixed_choice *c, sl_fixed *D) {
   const sl_factor *F = c->F;
   const sl_symbolic *S = F->S;
   const double flop = sli_costs_of(F->kernels->isa)->flop, whole = sli_choose_refactor(F);
@@ -31533,7 +31544,8 @@ static void sli_dirichlet_count(const sli_dirichlet_choice *c, sl_dirichlet *D) 
   const double entries = (double)S->scatter_begin[S->n_supers];
   const double fixed = D->n_fixed;
   double computed = 0.0, kept = 0.0;
-  double pins = SLI_PINS_DENSE / 3.0 * (fixed * fixed * fixed) + SLI_PINS_PIN * fixed;
+  double pins =
+    SLI_CONSTRAINTS_DENSE / 3.0 * (fixed * fixed * fixed) + SLI_CONSTRAINTS_PIN * fixed;
   sl_int kept_columns = 0, s, k;
   for (k = 0; k < D->n_fixed; k++) {
     c->seeds[k] = sli_keyed(S->iperm[D->fixed_rows[k]], 0);
@@ -31553,28 +31565,29 @@ static void sli_dirichlet_count(const sli_dirichlet_choice *c, sl_dirichlet *D) 
     }
     u = c->uses[s];
     if (u > 0.0) {
-      pins += SLI_PINS_ENTRY * fmin(u, SLI_PINS_JOINT * u + SLI_PINS_BLOCK) *
+      pins += SLI_CONSTRAINTS_ENTRY *
+            fmin(u, SLI_CONSTRAINTS_JOINT * u + SLI_CONSTRAINTS_BLOCK) *
             (double)sli_panel_size(width, S->steps[s].below) +
-          (SLI_PINS_NUMBER + SLI_PINS_PRODUCT / 2.0 * u) * width * u;
+          (SLI_CONSTRAINTS_NUMBER + SLI_CONSTRAINTS_PRODUCT / 2.0 * u) * width * u;
     }
     if (c->uses[s] == 0) {
-      kept += SLI_DIRICHLET_COPY * (double)(S->panel_begin[s + 1] - S->panel_begin[s]);
+      kept += SLI_FIXED_COPY * (double)(S->panel_begin[s + 1] - S->panel_begin[s]);
       kept_columns += width;
     } else if (free_columns > 0) {
       computed += (flop * sli_choose_front(S, s) + SLI_CHANGE_FRONT(flop)) * free_columns /
             (double)width;
     }
   }
-  D->info.seconds_submatrix = share * (whole + SLI_DIRICHLET_ANALYSIS * entries);
+  D->info.seconds_submatrix = share * (whole + SLI_FIXED_ANALYSIS * entries);
   D->info.seconds_restriction =
-    SLI_DIRICHLET_ROW * D->n_free +
+    SLI_FIXED_ROW * D->n_free +
     (kept_columns < 0.4 * D->n_free ? share * whole : kept + computed);
-  pins = SLI_DIRICHLET_PINS * pins +
-       SLI_DIRICHLET_PROBE * ((double)S->panel_begin[S->n_supers] + entries);
-  D->info.seconds_pins = sli_pins_check(F) == SL_OK && F->null.vectors == 1 ? pins : 0.0;
+  pins =
+    SLI_FIXED_PINS * pins + SLI_FIXED_PROBE * ((double)S->panel_begin[S->n_supers] + entries);
+  D->info.seconds_pins = sli_constraints_check(F) == SL_OK && F->null.vectors == 1 ? pins : 0.0;
 }
 
-static sl_status sli_dirichlet_probe(const sl_dirichlet *D, const sl_csc *A, const sl_pins *P,
+static sl_status sli_fixed_probe(const sl_fixed *D, const sl_csc *A, const sl_constraints *P,
     int *is_good) {
   const size_t n = (size_t)D->n;
   uint64_t random = 1;
@@ -31596,55 +31609,54 @@ static sl_status sli_dirichlet_probe(const sl_dirichlet *D, const sl_csc *A, con
     r[k] = sli_random(&random);
   }
   SLI_ZERO(zeros, D->n_fixed);
-  status = sl_pins_solve(P, NULL, x, n, r, n, zeros, (size_t)D->n_fixed, 1, NULL);
+  status = sl_constraints_solve(P, NULL, x, n, r, n, zeros, (size_t)D->n_fixed, 1, NULL);
   if (status == SL_OK) {
     size = sli_csc_norm(A, D->triangle, sums) * sli_largest(x, D->n) + 1.0;
     sli_add_product(A, D->triangle, -1.0, r, n, x, n, 1);
     for (k = 0; k < D->n_free; k++) {
       error = fmax(error, fabs(r[D->free_rows[k]]));
     }
-    *is_good = error <= SLI_DIRICHLET_LOST * P->F->rule.epsilon * size;
+    *is_good = error <= SLI_FIXED_LOST * P->F->rule.epsilon * size;
   }
   sli_free(&D->allocator, b.base);
   return status;
 }
 
-static sl_status sli_dirichlet_pin(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
-    sl_stats *stats) {
+static sl_status sli_fixed_pin(sl_fixed *D, const sl_factor *F, const sl_csc *A, sl_stats *stats) {
   const sl_options only_memory = sli_options_with(&D->allocator);
-  sl_pins *P = NULL;
+  sl_constraints *P = NULL;
   int is_good = 0;
-  sl_status status = sl_pins_create(&P, F, &only_memory);
-  status = status == SL_OK ? sl_pins_add(P, D->fixed_rows, D->n_fixed, stats) : status;
+  sl_status status = sl_constraints_create(&P, F, &only_memory);
+  status = status == SL_OK ? sl_constraints_add(P, D->fixed_rows, D->n_fixed, stats) : status;
   if (status == SL_OK && P->n_used == F->null.count) {
-    status = sli_dirichlet_probe(D, A, P, &is_good);
+    status = sli_fixed_probe(D, A, P, &is_good);
   }
   if (is_good) {
     D->pins = P;
-    D->info.method = SL_DIRICHLET_PINS;
+    D->info.method = SL_FIXED_PINS;
   } else {
-    sl_pins_free(P);
+    sl_constraints_free(P);
   }
   return status;
 }
 
-static sl_status sli_dirichlet_restrict(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
+static sl_status sli_fixed_restrict(sl_fixed *D, const sl_factor *F, const sl_csc *A,
     sl_stats *stats) {
   const sl_options only_memory = sli_options_with(&D->allocator);
-  D->info.method = SL_DIRICHLET_RESTRICTION;
-  return sl_factor_restrict(&D->S, &D->F, F, A, D->free_rows, D->n_free, &only_memory, stats);
+  D->info.method = SL_FIXED_RESTRICTION;
+  return sl_factor_submatrix(&D->S, &D->F, F, A, D->free_rows, D->n_free, &only_memory, stats);
 }
 
-SLI_INLINE int sli_dirichlet_is_over(sl_status status) {
+SLI_INLINE int sli_fixed_is_over(sl_status status) {
   return status == SL_ERR_MEMORY || status == SL_ERR_TOO_LARGE;
 }
 
-SLI_COLD static sl_status sli_dirichlet_take(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
+SLI_COLD static sl_status sli_fixed_take(sl_fixed *D, const sl_factor *F, const sl_csc *A,
     sl_stats *stats) {
-  sli_dirichlet_choice c;
+  sli_fixed_choice c;
   sli_block b = {NULL, 0};
   sl_status status = SL_OK;
-  if (!sli_dirichlet_is_factor_of(F, A)) {
+  if (!sli_fixed_is_factor_of(F, A)) {
     return SL_OK;
   }
   SLI_CLEAR(c);
@@ -31657,21 +31669,21 @@ SLI_COLD static sl_status sli_dirichlet_take(sl_dirichlet *D, const sl_factor *F
   if (status != SL_OK) {
     return status;
   }
-  sli_dirichlet_count(&c, D);
+  sli_fixed_count(&c, D);
   sli_free(&D->allocator, b.base);
   if (D->info.seconds_pins > 0.0 &&
       D->info.seconds_pins <= fmin(D->info.seconds_restriction, D->info.seconds_submatrix)) {
-    status = sli_dirichlet_pin(D, F, A, stats);
+    status = sli_fixed_pin(D, F, A, stats);
   }
-  if (!sli_dirichlet_is_over(status) && D->pins == NULL &&
+  if (!sli_fixed_is_over(status) && D->pins == NULL &&
       D->info.seconds_restriction <= D->info.seconds_submatrix) {
-    status = sli_dirichlet_restrict(D, F, A, stats);
+    status = sli_fixed_restrict(D, F, A, stats);
   }
-  return sli_dirichlet_is_over(status) ? status : SL_OK;
+  return sli_fixed_is_over(status) ? status : SL_OK;
 }
 
-static void sli_dirichlet_copy(double *to, sli_dense t, const double *from, sli_dense f,
-    sl_int rows, sl_int columns) {
+static void sli_fixed_copy(double *to, sli_dense t, const double *from, sli_dense f, sl_int rows,
+    sl_int columns) {
   sl_int k, r;
   for (k = 0; k < rows; k++) {
     for (r = 0; r < columns; r++) {
@@ -31681,16 +31693,17 @@ static void sli_dirichlet_copy(double *to, sli_dense t, const double *from, sli_
   }
 }
 
-static sl_status sli_dirichlet_solve_pins(const sl_dirichlet *D, const sli_rhs *rhs,
-    const double *G, size_t ldg, sl_work *W) {
-  const sl_pins *P = (const sl_pins *)D->pins;
+static sl_status sli_fixed_solve_pins(const sl_fixed *D, const sli_rhs *rhs, const double *G,
+    size_t ldg, sl_work *W) {
+  const sl_constraints *P = (const sl_constraints *)D->pins;
   const size_t n = (size_t)D->n, m = (size_t)D->n_fixed;
   sli_block b = {NULL, 0};
   double *X = NULL, *held = NULL;
   sl_status status = SL_OK;
   sl_int r, count;
   if (rhs->B != NULL && ((rhs->ldx | rhs->ldb | ldg) & SL_ROW_MAJOR) == 0) {
-    return sl_pins_solve(P, NULL, rhs->X, rhs->ldx, rhs->B, rhs->ldb, G, ldg, rhs->nrhs, W);
+    return sl_constraints_solve(P, NULL, rhs->X, rhs->ldx, rhs->B, rhs->ldb, G, ldg, rhs->nrhs,
+        W);
   }
   SLI_LAYOUT(&b, &D->allocator, status) {
     X = SLI_TAKE(&b, double, 8 * (uint64_t)n);
@@ -31702,23 +31715,23 @@ static sl_status sli_dirichlet_solve_pins(const sl_dirichlet *D, const sli_rhs *
     sli_rhs part;
     count = sli_min(8, rhs->nrhs - r);
     part = sli_rhs_part(rhs, r, count);
-    sli_dirichlet_copy(X, x, part.B, sli_dense_of(part.ldb), D->n, count);
-    sli_dirichlet_copy(held, h, m == 0 ? NULL : G + (size_t)r * g.column, g, D->n_fixed, count);
-    status = sl_pins_solve(P, NULL, X, n, X, n, held, m, count, W);
+    sli_fixed_copy(X, x, part.B, sli_dense_of(part.ldb), D->n, count);
+    sli_fixed_copy(held, h, m == 0 ? NULL : G + (size_t)r * g.column, g, D->n_fixed, count);
+    status = sl_constraints_solve(P, NULL, X, n, X, n, held, m, count, W);
     if (status == SL_OK) {
-      sli_dirichlet_copy(part.X, sli_dense_of(part.ldx), X, x, D->n, count);
+      sli_fixed_copy(part.X, sli_dense_of(part.ldx), X, x, D->n, count);
     }
   }
   sli_free(&D->allocator, b.base);
   return status;
 }
 
-static void sli_dirichlet_release(sl_dirichlet *D) {
-  sl_pins_free((sl_pins *)D->pins);
+static void sli_fixed_release(sl_fixed *D) {
+  sl_constraints_free((sl_constraints *)D->pins);
 }
 
-static const sli_dirichlet_ways sli_dirichlet_reuse = {sli_dirichlet_take, sli_dirichlet_solve_pins,
-                             sli_dirichlet_release};
+static const sli_fixed_ways sli_fixed_reuse = {sli_fixed_take, sli_fixed_solve_pins,
+                         sli_fixed_release};
 
 #endif
 /* io: files that are replaced only when they are complete */
@@ -31952,11 +31965,11 @@ static sl_status sli_csc64_check(const sl_csc64 *A, sl_stats *stats) {
     return status;
   }
   if (A->p[0] != 0) {
-    return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0, "A.p[0] is not 0");
+    return sli_fail_at(stats, SL_ERR_MALFORMED, -1, 0, 0.0, "A.p[0] is not 0");
   }
   for (j = 0; j < A->n_cols; j++) {
     if (A->p[j + 1] < A->p[j]) {
-      return sli_fail_at(stats, SL_ERR_PATTERN, -1, (sl_int)j, 0.0, "A.p descends");
+      return sli_fail_at(stats, SL_ERR_MALFORMED, -1, (sl_int)j, 0.0, "A.p descends");
     }
   }
   if (A->p[A->n_cols] > INT32_MAX) {
@@ -31974,7 +31987,7 @@ static sl_status sli_csc64_copy(const sl_csc64 *A, sl_matrix *M, sl_stats *stats
       const int64_t i = A->i[p];
       if (i < 0 || i >= A->n_rows) {
         const sl_int row = i < INT32_MIN || i > INT32_MAX ? -1 : (sl_int)i;
-        return sli_fail_at(stats, SL_ERR_PATTERN, row, j, 0.0,
+        return sli_fail_at(stats, SL_ERR_MALFORMED, row, j, 0.0,
             "a row of A is out of range; rows count from 0");
       }
       M->i[p] = (sl_int)i;
@@ -32334,7 +32347,7 @@ static sl_status sli_check_mirrored(const sl_matrix *M, sli_reader *r) {
         r->what = "both triangles of a symmetric matrix";
         r->twice[0] = i;
         r->twice[1] = j;
-        return sli_refuse(SL_ERR_PATTERN, r->what);
+        return sli_refuse(SL_ERR_MALFORMED, r->what);
       }
     }
   }
@@ -32413,7 +32426,7 @@ static sl_status sli_read_matrix(sl_matrix **out, sli_reader *r, const sl_alloca
   sl_status status;
   sli_find_point(r->point);
   status = sli_parse(out, r, a);
-  if (status == SL_ERR_PATTERN) {
+  if (status == SL_ERR_MALFORMED) {
     (void)sli_fail_at(stats, status, r->twice[0], r->twice[1], 0.0, r->what);
   } else if (status != SL_OK) {
     if (r->what != NULL) {
@@ -33659,15 +33672,16 @@ static sl_status sli_save_check(const sl_saved_set *set) {
     status = sli_argument(set->regions[k] == NULL ? "a region is NULL" : NULL);
   }
   if (status == SL_OK && S->is_partial) {
-    status = sli_refuse(SL_ERR_STATE, "an analysis of sl_factor_restrict, or from a file of a "
-        "newer version");
+    status =
+      sli_refuse(SL_ERR_MISMATCH, "an analysis of sl_factor_submatrix, or from a file of a "
+          "newer version");
   }
   status = status == SL_OK && F != NULL ? sli_factor_has_numbers(F) : status;
   if (status != SL_OK) {
     return status;
   }
   if ((F != NULL && F->S != S) || (Z != NULL && Z->traversal.S != S)) {
-    return sli_refuse(SL_ERR_STATE, "the set has objects of different analyses");
+    return sli_refuse(SL_ERR_MISMATCH, "the set has objects of different analyses");
   }
   if (Z != NULL && F != NULL && !sli_numbers_are_of(&Z->numbers, F)) {
     return sli_refuse(SL_ERR_STALE, "the selected inverse is not of the present factor");
@@ -33675,7 +33689,7 @@ static sl_status sli_save_check(const sl_saved_set *set) {
   for (k = 0; k < set->n_regions; k++) {
     const sl_region *R = set->regions[k];
     if (R->S != S) {
-      return sli_refuse(SL_ERR_STATE, "the set has objects of different analyses");
+      return sli_refuse(SL_ERR_MISMATCH, "the set has objects of different analyses");
     }
     if (!sli_region_fits(R, F)) {
       return sli_refuse(SL_ERR_STALE, "a region is not of the present factor");
@@ -35131,7 +35145,7 @@ static sl_int sli_factor_batch_create(sl_factor **out, sl_int count, const sl_sy
   return at;
 }
 
-SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symbolic *S,
+SL_API sl_status sl_factor_create_sums(sl_factor **out, sl_int count, const sl_symbolic *S,
     const double *coefficients, const double *const *values,
     sl_int terms, const sl_options *opt, sl_int *failed,
     sl_stats *stats) {
@@ -35197,7 +35211,7 @@ static sl_status sli_factor_batch_check(sl_factor *const *factors, sl_int count,
       }
     }
     if (factors[k]->S != factors[0]->S) {
-      return sli_refuse(SL_ERR_STATE, "factors are of different analyses");
+      return sli_refuse(SL_ERR_MISMATCH, "factors are of different analyses");
     }
     status = sli_factor_may_change(factors[k]);
     if (status != SL_OK) {
@@ -35218,7 +35232,7 @@ static sl_status sli_factor_batch_prepare(sl_factor *const *factors, sl_int coun
   return status;
 }
 
-SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
+SL_API sl_status sl_factor_refactor_sums(sl_factor *const *factors, sl_int count,
     const double *coefficients, const double *const *values,
     sl_int terms, const sl_options *opt, sl_int *failed,
     sl_stats *stats) {
@@ -35299,7 +35313,7 @@ static sl_status sli_diagonal_batch_check(const sli_diagonal_batch *d, sl_int *a
       return status;
     }
     if (F->S != d->factors[0]->S) {
-      return sli_refuse(SL_ERR_STATE, "factors are of different analyses");
+      return sli_refuse(SL_ERR_MISMATCH, "factors are of different analyses");
     }
   }
   *at = -1;
@@ -36053,16 +36067,16 @@ static const char *sli_storage_needs(sl_storage storage) { /* untested: the same
          : "options.storage needs SL_WITH_FLOAT"; /* untested: the same */
 }
 
-#if defined(SL_WITH_DIRICHLET)
-/* src/impl/packs/dirichlet_ways.h: the ways to fix rows that are compiled in beside a factor of the free rows */
+#if defined(SL_WITH_FIXED)
+/* src/impl/packs/fixed_ways.h: the ways to fix rows that are compiled in beside a factor of the free rows */
 
 #if defined(SL_WITH_CHANGE)
 #else
 #endif
 
-static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
+static const sli_fixed_ways *sli_fixed_ways_of(void) {
 #if defined(SL_WITH_CHANGE)
-  return &sli_dirichlet_reuse;
+  return &sli_fixed_reuse;
 #else
   return NULL;
 #endif
@@ -36392,30 +36406,30 @@ static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
 #undef SLI_LATTICE_SHARE
 #undef SLI_NULL_ANCHOR
 #undef SLI_NULL_DEPENDENT
-#undef SLI_PINS_ENTRY
-#undef SLI_PINS_JOINT
-#undef SLI_PINS_BLOCK
-#undef SLI_PINS_PRODUCT
-#undef SLI_PINS_NUMBER
-#undef SLI_PINS_PIN
-#undef SLI_PINS_SINGLY
+#undef SLI_CONSTRAINTS_ENTRY
+#undef SLI_CONSTRAINTS_JOINT
+#undef SLI_CONSTRAINTS_BLOCK
+#undef SLI_CONSTRAINTS_PRODUCT
+#undef SLI_CONSTRAINTS_NUMBER
+#undef SLI_CONSTRAINTS_PIN
+#undef SLI_CONSTRAINTS_SINGLY
 #undef SLI_RANK_LARGE
 #undef SLI_RANK_RING
 #undef SLI_RANK_SMALL
 #undef SLI_EDGES_HEAVY
 #undef SLI_LOSS_SMALL
-#undef SLI_PINS_DENSE
+#undef SLI_CONSTRAINTS_DENSE
 #undef SLI_PAIR_CACHED
 #undef SLI_PAIR_READ
 #undef SLI_PAIR_LARGE
 #undef SLI_SWEEP_FLOPS
-#undef SLI_DIRICHLET_ANALYSIS
-#undef SLI_DIRICHLET_ROW
-#undef SLI_DIRICHLET_COPY
-#undef SLI_DIRICHLET_PROBE
-#undef SLI_DIRICHLET_PINS
-#undef SLI_DIRICHLET_LOST
-#undef SLI_PINS_LOST
+#undef SLI_FIXED_ANALYSIS
+#undef SLI_FIXED_ROW
+#undef SLI_FIXED_COPY
+#undef SLI_FIXED_PROBE
+#undef SLI_FIXED_PINS
+#undef SLI_FIXED_LOST
+#undef SLI_CONSTRAINTS_LOST
 #undef SLI_NULL_VECTORS_MAX
 #undef SLI_READ_VERSION_DOUBLE
 #undef SLI_RESTRICT_AHEAD

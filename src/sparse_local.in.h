@@ -19,8 +19,8 @@ extern "C" {
 #include "public/factor.h"
 #include "public/solve.h"
 #include "public/plan.h"
-#if defined(SL_WITH_DIRICHLET)
-#include "public/dirichlet.h"
+#if defined(SL_WITH_FIXED)
+#include "public/fixed.h"
 #endif
 #if defined(SL_WITH_ACCURACY)
 #include "public/parts.h"
@@ -45,8 +45,8 @@ extern "C" {
 #endif
 #if defined(SL_WITH_CHANGE)
 #include "public/change.h"
-#include "public/pins.h"
-#include "public/restrict.h"
+#include "public/constraints.h"
+#include "public/submatrix.h"
 #include "public/edit.h"
 #endif
 #if defined(SL_WITH_COMPLEX)
@@ -232,18 +232,18 @@ extern "C" {
 #include "impl/change/rank.h"
 #include "impl/change/edges.h"
 #include "impl/change/choose.h"
-#include "impl/change/pins_types.h"
-#include "impl/change/pins_nulls.h"
-#include "impl/change/pins_capacitance.h"
-#include "impl/change/pins_rows.h"
-#include "impl/change/pins_balance.h"
-#include "impl/change/pins.h"
-#include "impl/change/pins_solve.h"
+#include "impl/change/constraints_types.h"
+#include "impl/change/constraints_nulls.h"
+#include "impl/change/constraints_capacitance.h"
+#include "impl/change/constraints_rows.h"
+#include "impl/change/constraints_balance.h"
+#include "impl/change/constraints.h"
+#include "impl/change/constraints_solve.h"
 #include "impl/change/subset.h"
-#include "impl/change/restrict_kept.h"
-#include "impl/change/restrict_analysis.h"
-#include "impl/change/restrict_symbolic.h"
-#include "impl/change/restrict.h"
+#include "impl/change/submatrix_kept.h"
+#include "impl/change/submatrix_analysis.h"
+#include "impl/change/submatrix_symbolic.h"
+#include "impl/change/submatrix.h"
 #include "impl/change/edit_match.h"
 #include "impl/change/edit_place.h"
 #include "impl/change/edit_separate.h"
@@ -253,15 +253,15 @@ extern "C" {
 #include "impl/change/edit.h"
 #include "impl/change/edit_factor.h"
 #endif
-/* dirichlet: rows fixed at given values */
-#if defined(SL_WITH_DIRICHLET)
-#include "impl/dirichlet/dirichlet_rows.h"
-#include "impl/dirichlet/dirichlet.h"
-#include "impl/dirichlet/dirichlet_solve.h"
+/* fixed: rows fixed at given values */
+#if defined(SL_WITH_FIXED)
+#include "impl/fixed/fixed_rows.h"
+#include "impl/fixed/fixed.h"
+#include "impl/fixed/fixed_solve.h"
 #endif
-/* dirichlet: by a factor of all rows */
-#if defined(SL_WITH_DIRICHLET) && defined(SL_WITH_CHANGE)
-#include "impl/dirichlet/dirichlet_reuse.h"
+/* fixed: by a factor of all rows */
+#if defined(SL_WITH_FIXED) && defined(SL_WITH_CHANGE)
+#include "impl/fixed/fixed_reuse.h"
 #endif
 /* io: files that are replaced only when they are complete */
 #if defined(SL_WITH_FILES) || defined(SL_WITH_SAVE)
@@ -308,8 +308,8 @@ extern "C" {
 #endif
 /* packs: the tables through which the core calls packs */
 #include "impl/packs/storage_types.h"
-#if defined(SL_WITH_DIRICHLET)
-#include "impl/packs/dirichlet_ways.h"
+#if defined(SL_WITH_FIXED)
+#include "impl/packs/fixed_ways.h"
 #endif
 /* last: undefine every internal macro */
 #include "impl/base/undef.h"

@@ -78,8 +78,8 @@ static void surface_free(surface *s) {
 
 static void refactor(surface *s, double c) {
     const double coefficients[SHIFTED_TERMS] = {1, c};
-    bench_must(sl_batch_refactor(&s->F, 1, coefficients, shifted_systems_values(&s->split),
-                                 SHIFTED_TERMS, NULL, NULL, NULL),
+    bench_must(sl_factor_refactor_sums(&s->F, 1, coefficients, shifted_systems_values(&s->split),
+                                       SHIFTED_TERMS, NULL, NULL, NULL),
                "refactor");
 }
 

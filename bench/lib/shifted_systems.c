@@ -52,8 +52,8 @@ void shifted_systems_make(shifted_systems *f, const bench_system *system) {
         f->sums[k] = bench_alloc(nnz, sizeof(double));
         memcpy(f->sums[k], shifted_systems_sum(f, k), nnz * sizeof(double));
     }
-    bench_must(sl_batch_factor(f->F, SHIFTED_COUNT, S, f->c, shifted_systems_values(f),
-                               SHIFTED_TERMS, NULL, NULL, NULL),
+    bench_must(sl_factor_create_sums(f->F, SHIFTED_COUNT, S, f->c, shifted_systems_values(f),
+                                     SHIFTED_TERMS, NULL, NULL, NULL),
                "factor a batch");
 }
 
@@ -104,8 +104,9 @@ void shifted_call_summed_by_hand(void *state) {
 void shifted_call_one_by_one(void *state) {
     shifted_systems *f = state;
     for (int k = 0; k < SHIFTED_COUNT; k++) {
-        bench_must(sl_batch_refactor(&f->F[k], 1, f->c + SHIFTED_TERMS * k,
-                                     shifted_systems_values(f), SHIFTED_TERMS, NULL, NULL, NULL),
+        bench_must(sl_factor_refactor_sums(&f->F[k], 1, f->c + SHIFTED_TERMS * k,
+                                           shifted_systems_values(f), SHIFTED_TERMS, NULL, NULL,
+                                           NULL),
                    "refactor a combination");
     }
 }
@@ -113,8 +114,8 @@ void shifted_call_one_by_one(void *state) {
 void shifted_call_batch(void *state) {
     shifted_systems *f = state;
     sl_options options = {.threads = f->threads};
-    bench_must(sl_batch_refactor(f->F, SHIFTED_COUNT, f->c, shifted_systems_values(f),
-                                 SHIFTED_TERMS, &options, NULL, NULL),
+    bench_must(sl_factor_refactor_sums(f->F, SHIFTED_COUNT, f->c, shifted_systems_values(f),
+                                       SHIFTED_TERMS, &options, NULL, NULL),
                "refactor a batch");
 }
 

@@ -17,7 +17,7 @@ typedef struct changes {
     comparison *cmp;
     peer_change *peer;
     sl_factor *F;
-    sl_pins *pins;
+    sl_constraints *pins;
     sl_plan *plan[PLACES];
     sl_int near[PLACES][RANK]; /* a vertex and its neighbors */
     double w;
@@ -39,8 +39,9 @@ static void ours(const changes *c, int at, int which, double w) {
     for (int r = 0; r < RANK && which == 1; r++) {
         deltas[r] = w;
     }
-    bench_must(which == 0 ? sl_factor_change(c->F, NULL, rows, columns, deltas, 3, c->cmp->W, NULL)
-                          : sl_factor_change(c->F, NULL, v, v, deltas, RANK, c->cmp->W, NULL),
+    bench_must(which == 0
+                   ? sl_factor_change_entries(c->F, NULL, rows, columns, deltas, 3, c->cmp->W, NULL)
+                   : sl_factor_change_entries(c->F, NULL, v, v, deltas, RANK, c->cmp->W, NULL),
                "update");
 }
 
@@ -86,10 +87,10 @@ static double our_pinned(const changes *c, int at) {
     const double one = 1, zero = 0;
     const sl_int first = 0;
     double x;
-    bench_must(sl_pins_add(c->pins, &c->near[at][1], 1, NULL), "pin");
-    bench_must(sl_pins_solve(c->pins, c->plan[at], &x, 1, &one, 1, &zero, 1, 1, c->cmp->W),
+    bench_must(sl_constraints_add(c->pins, &c->near[at][1], 1, NULL), "pin");
+    bench_must(sl_constraints_solve(c->pins, c->plan[at], &x, 1, &one, 1, &zero, 1, 1, c->cmp->W),
                "solve with a pin");
-    bench_must(sl_pins_release(c->pins, &first, 1, NULL), "release");
+    bench_must(sl_constraints_release(c->pins, &first, 1, NULL), "release");
     return x;
 }
 
@@ -133,7 +134,7 @@ static changes *changes_create(comparison *cmp) {
     }
     c->peer = peer_change_create(cmp->cholmod, &system->A, PREPARED);
     bench_must(sl_factor_create(&c->F, system->S, &system->A, NULL, NULL), "factor");
-    bench_must(sl_pins_create(&c->pins, c->F, NULL), "pins");
+    bench_must(sl_constraints_create(&c->pins, c->F, NULL), "pins");
     for (int k = 0; k < PLACES; k++) {
         bench_patch near = bench_patch_create(system, bench_random_below(&rng, system->n), RANK);
         memcpy(c->near[k], near.vertices, sizeof c->near[k]);
@@ -151,7 +152,7 @@ static void changes_free(changes *c) {
     for (int k = 0; k < PLACES; k++) {
         sl_plan_free(c->plan[k]);
     }
-    sl_pins_free(c->pins);
+    sl_constraints_free(c->pins);
     sl_factor_free(c->F);
     peer_change_free(c->peer);
     free(c);
@@ -187,7 +188,7 @@ static int check(bench_run *run, const changes *c) {
         }
         apart = fmax(apart, difference(c));
     }
-    bench_must(sl_pins_refactor(c->pins, NULL), "pins");
+    bench_must(sl_constraints_refactor(c->pins, NULL), "pins");
     for (int k = 0; k < PLACES; k++) {
         values[0] = our_pinned(c, k);
         values[1] = their_pinned(c, k);
@@ -225,7 +226,7 @@ static void pin_step(bench_run *run, bench_report *report, changes *c) {
                          {.method = "CHOLMOD rowdel/rowadd", .call = call_their_pin, .is_peer = 1}};
     rows[0].state = &places[0];
     rows[1].state = &places[1];
-    bench_must(sl_pins_refactor(c->pins, NULL), "pins");
+    bench_must(sl_constraints_refactor(c->pins, NULL), "pins");
     peers_race(run->seconds / 2, report, c->cmp, "pin, solve, release", 0, rows, 2, NULL, 0);
 }
 

@@ -10,7 +10,7 @@
  * and a backward sweep on about the same path. Each update is undone by a downdate that is not
  * timed, and the other way round. Eight vertices in one place change by one pass of rank 8. Pins
  * are added and released again, one alone and the hundredth in one place. Many pins in one place
- * are added in one call, and the same rows are fixed by sl_dirichlet_create with the factor. */
+ * are added in one call, and the same rows are fixed by sl_fixed_create with the factor. */
 enum { EDGES = 16, RANK = 8, PINS = 100, MANY = 400 };
 
 typedef struct change {
@@ -22,7 +22,7 @@ typedef struct change {
     int next, is_plus; /* the entries are those after an update */
     double w;
     sl_stats stats;
-    sl_pins *pins;
+    sl_constraints *pins;
     sl_int n_pins;
     sl_int held[MANY];
     double values[PINS];
@@ -32,7 +32,7 @@ static void edge_change(change *c, double w) {
     const sl_int i = c->i[c->next], j = c->j[c->next];
     const sl_int rows[3] = {i, j, i}, columns[3] = {i, j, j};
     const double deltas[3] = {w, w, -w};
-    bench_must(sl_factor_change(c->F, NULL, rows, columns, deltas, 3, c->W, NULL),
+    bench_must(sl_factor_change_entries(c->F, NULL, rows, columns, deltas, 3, c->W, NULL),
                "change of an edge");
 }
 
@@ -41,9 +41,9 @@ static void eight_change(change *c, double w) {
     for (int k = 0; k < RANK; k++) {
         deltas[k] = w;
     }
-    bench_must(
-        sl_factor_change(c->F, NULL, c->near[c->next], c->near[c->next], deltas, RANK, c->W, NULL),
-        "change of eight vertices");
+    bench_must(sl_factor_change_entries(c->F, NULL, c->near[c->next], c->near[c->next], deltas,
+                                        RANK, c->W, NULL),
+               "change of eight vertices");
 }
 
 /* ---- contenders; state is a change * ---- */
@@ -110,17 +110,18 @@ static void call_pin(void *state) {
     const sl_int count = c->n_pins;
     const double b = 1.0;
     double x;
-    bench_must(sl_pins_add(c->pins, &c->held[count], 1, NULL), "pin");
-    bench_must(sl_pins_solve(c->pins, c->plan[c->next], &x, 1, &b, 1, c->values, PINS, 1, c->W),
-               "solve with pins");
-    bench_must(sl_pins_release(c->pins, &count, 1, NULL), "release");
+    bench_must(sl_constraints_add(c->pins, &c->held[count], 1, NULL), "pin");
+    bench_must(
+        sl_constraints_solve(c->pins, c->plan[c->next], &x, 1, &b, 1, c->values, PINS, 1, c->W),
+        "solve with pins");
+    bench_must(sl_constraints_release(c->pins, &count, 1, NULL), "release");
     c->next = (c->next + 1) % EDGES;
 }
 
 static void call_hundred(void *state) {
     change *c = state;
     for (; c->n_pins < PINS; c->n_pins++) {
-        bench_must(sl_pins_add(c->pins, &c->held[c->n_pins], 1, NULL), "pin");
+        bench_must(sl_constraints_add(c->pins, &c->held[c->n_pins], 1, NULL), "pin");
     }
 }
 
@@ -128,7 +129,7 @@ static void call_hundred(void *state) {
 static void release_to(change *c, sl_int count) {
     while (c->n_pins > count) {
         c->n_pins--;
-        bench_must(sl_pins_release(c->pins, &c->n_pins, 1, NULL), "release");
+        bench_must(sl_constraints_release(c->pins, &c->n_pins, 1, NULL), "release");
     }
 }
 
@@ -138,15 +139,15 @@ static void ready_hundred(void *state) {
 
 static void call_many(void *state) {
     change *c = state;
-    bench_must(sl_pins_add(c->pins, c->held, MANY, &c->stats), "pins");
+    bench_must(sl_constraints_add(c->pins, c->held, MANY, &c->stats), "pins");
     c->n_pins = MANY;
 }
 
 static void call_fixed(void *state) {
     change *c = state;
-    sl_dirichlet *D;
-    bench_must(sl_dirichlet_create(&D, &c->system->A, c->held, MANY, c->F, NULL, NULL), "rows");
-    sl_dirichlet_free(D);
+    sl_fixed *D;
+    bench_must(sl_fixed_create(&D, &c->system->A, c->held, MANY, c->F, NULL, NULL), "rows");
+    sl_fixed_free(D);
 }
 
 static void ready_many(void *state) {
@@ -155,7 +156,7 @@ static void ready_many(void *state) {
     for (sl_int k = 0; k < MANY; k++) {
         indices[k] = k;
     }
-    bench_must(sl_pins_release(c->pins, indices, c->n_pins, NULL), "release");
+    bench_must(sl_constraints_release(c->pins, indices, c->n_pins, NULL), "release");
     c->n_pins = 0;
 }
 
@@ -168,7 +169,7 @@ static change *change_create(const bench_system *system) {
     c->system = system;
     bench_must(sl_factor_create(&c->F, system->S, &system->A, NULL, NULL), "factor");
     bench_must(sl_work_create(&c->W, NULL), "workspace");
-    bench_must(sl_pins_create(&c->pins, c->F, NULL), "pins");
+    bench_must(sl_constraints_create(&c->pins, c->F, NULL), "pins");
     for (int k = 0; k < EDGES; k++) {
         bench_patch p = bench_patch_create(system, bench_random_below(&rng, system->n), RANK);
         c->i[k] = p.vertices[0]; /* the seed, and a neighbor */
@@ -191,7 +192,7 @@ static void change_free(change *c) {
     for (int k = 0; k < EDGES; k++) {
         sl_plan_free(c->plan[k]);
     }
-    sl_pins_free(c->pins);
+    sl_constraints_free(c->pins);
     sl_factor_free(c->F);
     sl_work_free(c->W);
     free(c);
@@ -200,7 +201,7 @@ static void change_free(change *c) {
 /* F := the factor of A again. */
 static void restore(change *c) {
     bench_must(sl_factor_refactor(c->F, &c->system->A, NULL), "refactorization");
-    bench_must(sl_pins_refactor(c->pins, NULL), "pins");
+    bench_must(sl_constraints_refactor(c->pins, NULL), "pins");
 }
 
 /* An update and its downdate leave a factor of A. */

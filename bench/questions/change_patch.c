@@ -1,4 +1,4 @@
-/* change_patch.c: does sl_factor_change take the fastest way when a patch changes? */
+/* change_patch.c: does sl_factor_change_entries take the fastest way when a patch changes? */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,8 +6,9 @@
 #include "bench/lib/bench.h"
 
 /* The weights of all edges in a patch become larger and, in the next call, smaller again: by
- * sl_factor_change, and by each of the ways between which it chooses. The baseline is the best of
- * the three. Rank-one changes are left out where they would take much longer than the others. */
+ * sl_factor_change_entries, and by each of the ways between which it chooses. The baseline is the
+ * best of the three. Rank-one changes are left out where they would take much longer than the
+ * others. */
 enum { SIZES = 4, MOST_RANKS = 4000, PATCHES = 3 };
 
 static const sl_int sizes[SIZES] = {10, 100, 1000, 10000};
@@ -94,8 +95,8 @@ static void call_change(void *state) {
     change_state *s = state;
     const patch_change *p = &s->patches[s->next];
     const sl_csc A = target(s);
-    bench_must(sl_factor_change(s->F, &A, p->rows, p->columns, p->deltas[s->is_changed], p->count,
-                                s->W, &s->stats),
+    bench_must(sl_factor_change_entries(s->F, &A, p->rows, p->columns, p->deltas[s->is_changed],
+                                        p->count, s->W, &s->stats),
                "change");
     step_on(s);
 }
@@ -103,8 +104,8 @@ static void call_change(void *state) {
 static void call_update(void *state) {
     change_state *s = state;
     const patch_change *p = &s->patches[s->next];
-    bench_must(sl_factor_change(s->F, NULL, p->rows, p->columns, p->deltas[s->is_changed], p->count,
-                                s->W, NULL),
+    bench_must(sl_factor_change_entries(s->F, NULL, p->rows, p->columns, p->deltas[s->is_changed],
+                                        p->count, s->W, NULL),
                "update");
     step_on(s);
 }
@@ -175,8 +176,8 @@ static void time_size(bench_run *run, bench_report *report, const bench_system *
                                                {.call = call_reach, .state = &s, .batch = 2},
                                                {.call = call_refactor, .state = &s, .batch = 2},
                                                {.call = call_update, .state = &s, .batch = 2}};
-        static const char *const names[4] = {"sl_factor_change", "refactor changed", "refactor",
-                                             "updates"};
+        static const char *const names[4] = {"sl_factor_change_entries", "refactor changed",
+                                             "refactor", "updates"};
         bench_sample samples[4];
         const int count = with_updates ? 4 : 3;
         bench_race(samples, contenders, count, run->seconds);
@@ -190,7 +191,7 @@ static void time_size(bench_run *run, bench_report *report, const bench_system *
             row.baseline = best;
             bench_report_row(report, system, &row);
         }
-        bench_report_note(report, "%-14s   sl_factor_change took %s, drift %.2g", "",
+        bench_report_note(report, "%-14s   sl_factor_change_entries took %s, drift %.2g", "",
                           ways[s.stats.change.method], s.stats.change.drift);
     }
     for (int k = 0; k < PATCHES; k++) {

@@ -73,7 +73,7 @@ static const bench_query *add_inside(bench_queries *q, const sl_region *R, const
     bench_must(
         sl_plan_create(&one->plan, q->system->S, set, size, set, size, &options, &one->reach),
         "plan in a region");
-    bench_must(one->reach.plan.in_region ? SL_OK : SL_ERR_STATE, "a plan inside its region");
+    bench_must(one->reach.plan.in_region ? SL_OK : SL_ERR_MISMATCH, "a plan inside its region");
     return one;
 }
 

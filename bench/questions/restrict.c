@@ -26,8 +26,8 @@ static void release(void *state) {
 
 static void call_restrict(void *state) {
     restricted *c = state;
-    bench_must(sl_factor_restrict(&c->S, &c->G, c->system->F, &c->system->A, c->patch.vertices,
-                                  c->patch.size, NULL, NULL),
+    bench_must(sl_factor_submatrix(&c->S, &c->G, c->system->F, &c->system->A, c->patch.vertices,
+                                   c->patch.size, NULL, NULL),
                "restriction");
 }
 

@@ -54,8 +54,9 @@ static void call_batch_made(void *state) {
     sl_options options;
     memset(&options, 0, sizeof options);
     options.threads = q->f.threads;
-    bench_must(sl_batch_factor(q->made, SHIFTED_COUNT, q->f.system->S, q->f.c,
-                               shifted_systems_values(&q->f), SHIFTED_TERMS, &options, NULL, NULL),
+    bench_must(sl_factor_create_sums(q->made, SHIFTED_COUNT, q->f.system->S, q->f.c,
+                                     shifted_systems_values(&q->f), SHIFTED_TERMS, &options, NULL,
+                                     NULL),
                "factor a batch");
 }
 

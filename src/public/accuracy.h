@@ -57,10 +57,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
  *  Manual   tools/docs/indefinite.md
  *  Example  tests/core/test_refine_local.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F,
-                                                      double *X, size_t ldx, const double *B,
-                                                      size_t ldb, sl_int nrhs, sl_int steps,
-                                                      sl_work *W, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_plan_solve_regularized(const sl_plan *P, const sl_factor *F,
+                                                          double *X, size_t ldx, const double *B,
+                                                          size_t ldb, sl_int nrhs, sl_int steps,
+                                                          sl_work *W, sl_stats *stats);
 
 /** Estimates the reciprocal condition number 1 / (||A|| ||A^-1||) in the one-norm.
  *

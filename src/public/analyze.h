@@ -19,7 +19,7 @@
  *                SL_ORDERING_NATURAL; every ordering refuses an invalid one.
  *  stats  [out]  symbolic.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first
- *           offending position), or another option that is not allowed; SL_ERR_PATTERN;
+ *           offending position), or another option that is not allowed; SL_ERR_MALFORMED;
  *           SL_ERR_UNSUPPORTED: METIS is not compiled in; SL_ERR_ORDERING: METIS failed;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes). Each further thread has

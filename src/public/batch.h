@@ -29,7 +29,7 @@ typedef struct sl_request {
  *                      allocated for this call.
  *  failed    [out]     the request that caused the error, or -1; may be NULL. On error no X has
  *                      been written.
- *  Returns   SL_OK; SL_ERR_ARGUMENT: also if a workspace is NULL or given twice; SL_ERR_STATE,
+ *  Returns   SL_OK; SL_ERR_ARGUMENT: also if a workspace is NULL or given twice; SL_ERR_MISMATCH,
  *            SL_ERR_STALE: a factor or a plan that sl_plan_solve refuses; SL_ERR_INCONSISTENT: as
  *            in sl_factor_solve; SL_ERR_NOT_FINITE: the same, all requests are solved;
  *            SL_ERR_TOO_LARGE; SL_ERR_MEMORY.

@@ -17,7 +17,7 @@
  *  failed   [out]     the factor that caused the error, or -1; may be NULL.
  *  stats    [out]     error.row: an index out of range.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range; SL_ERR_STALE: a failed factor;
- *           SL_ERR_STATE: factors of several analyses; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           SL_ERR_MISMATCH: factors of several analyses; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     that of sl_inverse_diagonal for each factor, distributed.
  *  Threads  as sl_inverse_diagonal.
  *  Source   [HDA17] 5.

@@ -15,15 +15,16 @@
  *  F          [in,out]  a factor of A, definite, or semidefinite with skipped null pivots; L in
  *                       double or float. With options.mass: one known null vector a component.
  *  A          [in]      the matrix, or A[R, R] of a restriction. Guaranteed: with the values that
- *                       F was computed from as a whole, not by sl_factor_change and the like.
+ *                       F was computed from as a whole, not by sl_factor_change_entries and the
+ *                       like.
  *  certainty  [in]      SL_ESTIMATED: 4 times the largest error that 12 solves show, whose
  *                       right-hand sides approach the worst ones.
  *                       SL_GUARANTEED: a proved bound, by rounding errors a priori and the smallest
  *                       eigenvalue of A, which a second factor of A with a smaller diagonal proves;
  *                       as a rule 1e3 to 1e6 times larger. Barring underflow.
  *  stats      [out]     certificate.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_STATE: guaranteed, and other values than
- *           those of F; SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_UNSUPPORTED:
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_MISMATCH: guaranteed, and other values
+ *           than those of F; SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_UNSUPPORTED:
  *           negative or regularized pivots, complex storage, options.mass with several or unknown
  *           null vectors; guaranteed also null pivots, L in float, restrictions, duplicate entries,
  *           entries of the diagonal beyond 1e-200 .. 1e200; SL_ERR_INACCURATE:

@@ -22,13 +22,14 @@
  *  sigma  [in]      k weights of any sign; NULL: all 1.
  *  stats  [out]     change, factor. For pivots of both signs growth, pivot_min and pivot_max become
  *                   bounds until the next refactorization.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also if V does not have n rows; SL_ERR_PATTERN: V is malformed;
- *           SL_ERR_OTHER_PATTERN: row error.row of V is not in the column of L of error.column;
- *           SL_ERR_PIVOT: a pivot would change its sign or vanish, at error.row; SL_ERR_NOT_FINITE:
- *           an entry of V at error.row, a weight (error.row = -1) or a pivot; SL_ERR_INACCURATE:
- *           growth beyond its limit, that of a loaded factor with its drift; SL_ERR_STALE: F has no
- *           numbers; SL_ERR_READ_ONLY: F is mapped; SL_ERR_UNSUPPORTED: null pivots were skipped,
- *           there are 2x2 pivots, or L is not in double; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also if V does not have n rows; SL_ERR_MALFORMED: V is
+ *           malformed; SL_ERR_OTHER_PATTERN: row error.row of V is not in the column of L of
+ *           error.column; SL_ERR_PIVOT: a pivot would change its sign or vanish, at error.row;
+ *           SL_ERR_NOT_FINITE: an entry of V at error.row, a weight (error.row = -1) or a pivot;
+ *           SL_ERR_INACCURATE: growth beyond its limit, that of a loaded factor with its drift;
+ *           SL_ERR_STALE: F has no numbers; SL_ERR_READ_ONLY: F is mapped; SL_ERR_UNSUPPORTED: null
+ *           pivots were skipped, there are 2x2 pivots, or L is not in double; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
  *           written once for up to 8 vectors. Changes that may fail read them again, or copy them.
  *           The first change of a definite factor allocates 9 bytes a row, for drift.
@@ -37,8 +38,9 @@
  *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_change.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *sigma,
-                                                 sl_work *W, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_factor_rank_update(sl_factor *F, const sl_csc *V,
+                                                      const double *sigma, sl_work *W,
+                                                      sl_stats *stats);
 
 /** Changes a factor by entries of A, a_ij and a_ji by delta, in the cheapest way: by rank-one
  *  changes, by recomputing the columns of L that the change reaches, or by a refactorization. By
@@ -52,8 +54,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, 
  *  are not possible or have added up too much error, the other two remain (stats.change.reason).
  *
  *  F              [in,out]  the factor, or, with A, a failed one, which is refactored. On error as
- *                           with sl_factor_update; with A as with sl_factor_refactor, and without
- *                           numbers where the error of a change is too large and A is refused.
+ *                           with sl_factor_rank_update; with A as with sl_factor_refactor, and
+ *                           without numbers where the error of a change is too large and A is
+ *                           refused.
  *  A              [in]      the changed matrix, in the analyzed pattern, or NULL. Rank-one changes
  *                           compare its size only; the other ways read it and check its pattern.
  *  rows, columns  [in]  count entries (i, j) of either triangle, each pair i != j once for both
@@ -61,7 +64,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, 
  *                       do.
  *  deltas         [in]  count changes.
  *  stats          [out]     change, factor.
- *  Returns  as sl_factor_refactor and sl_factor_update; SL_ERR_ARGUMENT: also an index out of
+ *  Returns  as sl_factor_refactor and sl_factor_rank_update; SL_ERR_ARGUMENT: also an index out of
  *           range, at error.row and error.column.
  *  Cost     that of the way, and at most a few percent of a refactorization to count flops;
  *           nothing of O(n) or O(nnz) for rank-one changes, but for one look at L where pivots have
@@ -70,9 +73,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, 
  *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_change_choice.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,
-                                                 const sl_int *columns, const double *deltas,
-                                                 sl_int count, sl_work *W, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_factor_change_entries(sl_factor *F, const sl_csc *A,
+                                                         const sl_int *rows, const sl_int *columns,
+                                                         const double *deltas, sl_int count,
+                                                         sl_work *W, sl_stats *stats);
 
 /** Refactors after local changes: recomputes only the columns of L that the changes reach.
  *
@@ -80,7 +84,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
  *  up-looking factor is recomputed completely.
  *
  *  F        [in,out]  the factor of a matrix that differs from A in the given columns only.
- *                     Unchanged after SL_ERR_ARGUMENT, _PATTERN, _OTHER_PATTERN, _READ_ONLY and
+ *                     Unchanged after SL_ERR_ARGUMENT, _MALFORMED, _OTHER_PATTERN, _READ_ONLY and
  *                     _MEMORY; without numbers after other errors.
  *  A        [in]      the analyzed pattern, new values.
  *  columns  [in]      count columns of A, in which A stores changed entries; any order, repetitions

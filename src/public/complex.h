@@ -49,8 +49,8 @@ typedef struct sl_hermitian {
  *  opt    [in]   allocator.
  *  stats  [out]  error.row, error.column, in complex rows.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also im without x, or a diagonal entry with an imaginary part
- *           that is not 0; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^30 - 4 rows, or more than
- *           2^31 - 1 entries, of which a complex one is 4; SL_ERR_MEMORY.
+ *           that is not 0; SL_ERR_MALFORMED; SL_ERR_TOO_LARGE: more than 2^30 - 4 rows, or more
+ *           than 2^31 - 1 entries, of which a complex one is 4; SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
  *  Threads  any number with different outputs.
  *  Example  tests/core/test_complex.c
@@ -63,7 +63,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_hermitian(sl_matrix **out, const 
  *
  *  M      [in,out]  of sl_matrix_from_hermitian, with values; on error untouched.
  *  stats  [out]     error.row, error.column, in complex rows.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also a pattern without values; SL_ERR_PATTERN;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a pattern without values; SL_ERR_MALFORMED;
  *           SL_ERR_OTHER_PATTERN: not that of M.
  *  Cost     O(n + nnz).
  *  Threads  exclusive use of M.

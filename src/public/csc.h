@@ -26,7 +26,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int 
 
 /** The transpose of a general matrix (as SL_AS_STORED). Rows are ascending; duplicates stay.
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MALFORMED; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n_rows + n_cols + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A,
@@ -40,7 +40,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_cs
  *
  *  rows   [in]   count rows of A in 0..n-1, any order, none twice.
  *  stats  [out]  error.row: a row out of range or given twice.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also not square; SL_ERR_PATTERN; SL_ERR_TOO_LARGE;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also not square; SL_ERR_MALFORMED; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
  */
@@ -57,7 +57,7 @@ SL_API void sl_matrix_free(sl_matrix *M);
 /** Checks a view: sizes, positions ascending from 0, indices in range.
  *
  *  stats  [out]  error.column and, for an index out of range, error.row.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: A or one of its arrays is NULL; SL_ERR_PATTERN;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: A or one of its arrays is NULL; SL_ERR_MALFORMED;
  *           SL_ERR_TOO_LARGE: more rows or columns than sl_csc allows.
  *  Cost     O(n_cols + nnz).
  */
@@ -70,7 +70,7 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_check(const sl_csc *A, sl_stats *stats);
  *  out    [out]  the triangle; on error untouched.
  *  opt    [in]   allocator, triangle.
  *  stats  [out]  error.row, error.column: an entry without its mirror image.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_MALFORMED; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out,

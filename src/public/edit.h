@@ -26,9 +26,9 @@
  *  stats   [out]  symbolic, edit.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
  *           the row of A), and as sl_symbolic_create; SL_ERR_OTHER_PATTERN: A does not have the
- *           analyzed pattern; SL_ERR_PATTERN: B is malformed or not symmetric; SL_ERR_UNSUPPORTED:
- *           S was created with pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
+ *           analyzed pattern; SL_ERR_MALFORMED: B is malformed or not symmetric;
+ *           SL_ERR_UNSUPPORTED: S was created with pivots or by sl_factor_submatrix;
+ *           SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + nnz + rows of supernodes) with small constants, and the order and analysis of the
  *           columns above the edit. Where 0.1 % of a mesh of 1e6 vertices is remeshed, about 1/14
  *           of a new order and analysis.

@@ -22,14 +22,15 @@
  *  stats  [out]  factor.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, or at error.row a
  *           weight, sign or null vector that is not allowed; SL_ERR_OTHER_PATTERN: not the analyzed
- *           one, from error.row, error.column on; SL_ERR_PATTERN: malformed, or two triangles whose
- *           values differ by more than 1e-6 of the row; SL_ERR_PIVOT: a null pivot at error.row, or
- *           a negative one that options do not allow; error.what says what helps, such as
- *           sl_symbolic_create_pivoted, and null_bound up to which size the pivot error.value is
- *           null; SL_ERR_NOT_FINITE: at error.row, and error.column if it is an entry of A;
- *           SL_ERR_INACCURATE: growth above its limit by the pivot error.value of error.row, or a
- *           number that float cannot hold; SL_ERR_UNSUPPORTED: the isa, or a combination of options
- *           and matrix that the manual excludes; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           one, from error.row, error.column on; SL_ERR_MALFORMED: malformed, or two triangles
+ *           whose values differ by more than 1e-6 of the row; SL_ERR_PIVOT: a null pivot at
+ *           error.row, or a negative one that options do not allow; error.what says what helps,
+ *           such as sl_symbolic_create_pivoted, and null_bound up to which size the pivot
+ *           error.value is null; SL_ERR_NOT_FINITE: at error.row, and error.column if it is an
+ *           entry of A; SL_ERR_INACCURATE: growth above its limit by the pivot error.value of
+ *           error.row, or a number that float cannot hold; SL_ERR_UNSUPPORTED: the isa, or a
+ *           combination of options and matrix that the manual excludes; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles and, with the
  *           supernodal method, the update stack: about 5 % more for 2D meshes and 30 % for 3D
  *           meshes, more with threads.
@@ -51,9 +52,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *  nothing, but 24 bytes a row where small pivots have to be judged (singular.md); without this
  *  memory they are null.
  *
- *  F      [in,out]  unchanged after SL_ERR_ARGUMENT, SL_ERR_PATTERN and SL_ERR_OTHER_PATTERN. After
- *                   SL_ERR_PIVOT, _NOT_FINITE, _INACCURATE and _UNSUPPORTED it has no numbers, and
- *                   every solve refuses it until a refactor succeeds.
+ *  F      [in,out]  unchanged after SL_ERR_ARGUMENT, SL_ERR_MALFORMED and SL_ERR_OTHER_PATTERN.
+ *                   After SL_ERR_PIVOT, _NOT_FINITE, _INACCURATE and _UNSUPPORTED it has no
+ *                   numbers, and every solve refuses it until a refactor succeeds.
  *  A      [in]      the analyzed pattern, new values. Two triangles are not compared.
  *  stats  [out]     factor.
  *  Returns  as sl_factor_create; SL_ERR_READ_ONLY: a mapped factor, or one that

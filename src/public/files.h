@@ -18,9 +18,9 @@
  *  stats  [out]  error.
  *  Returns  SL_OK; SL_ERR_IO: no such file, or malformed at error.line, also by a line of 65536
  *           bytes or more that is not a comment; SL_ERR_UNSUPPORTED: complex, array or
- *           skew-symmetric, which error.what names; SL_ERR_PATTERN: a symmetric file with an entry
- *           (error.row, error.column) in both triangles; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. NaN and
- *           infinity are accepted here.
+ *           skew-symmetric, which error.what names; SL_ERR_MALFORMED: a symmetric file with an
+ *           entry (error.row, error.column) in both triangles; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. NaN
+ *           and infinity are accepted here.
  *  Cost     O(file size + n_rows + n_cols). Memory grows with the entries read, so that a device
  *           without an end does not fill it.
  */
@@ -38,7 +38,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *tex
  *
  *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of
  *                 one triangle.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN: malformed, or not symmetric with
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MALFORMED: malformed, or not symmetric with
  *           SL_AS_SYMMETRIC; SL_ERR_IO; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
  *  Manual   tools/docs/files.md: temporary names, permissions, systems without POSIX
  */
@@ -63,7 +63,7 @@ typedef struct sl_csc64 {
  *  opt    [in]   allocator.
  *  stats  [out]  error.column: positions that are not ascending; with error.row, if it fits its
  *                type, an index out of range.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^31 - 8 rows or
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MALFORMED; SL_ERR_TOO_LARGE: more than 2^31 - 8 rows or
  *           columns, or more than 2^31 - 1 entries; SL_ERR_MEMORY.
  *  Cost     O(n_cols + nnz).
  *  Threads  any number with different outputs.

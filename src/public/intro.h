@@ -44,10 +44,11 @@
  *  an indefinite or KKT system                    sl_symbolic_create_pivoted             pivots.h
  *  can the solution be trusted?                   sl_factor_refine, sl_factor_rcond      accuracy.h
  *  how far off is each answer?                    sl_factor_certify                      bounds.h
- *  a few entries changed, A + V V'                sl_factor_change, sl_factor_update     change.h
- *  rows fixed at values, b in the others          sl_dirichlet_create               dirichlet.h
- *  rows pinned and released one by one            sl_pins_create                         pins.h
- *  a part of A, with zero values around it        sl_factor_restrict                     restrict.h
+ *  a few entries of A changed                     sl_factor_change_entries               change.h
+ *  A + V V'                                       sl_factor_rank_update                  change.h
+ *  rows that stay fixed, b in the others          sl_fixed_create                        fixed.h
+ *  rows held and released one by one              sl_constraints_create                  constraints.h
+ *  a part of A, with zero values around it        sl_factor_submatrix                    submatrix.h
  *  a mesh that is cut or remeshed in places       sl_symbolic_edit, sl_factor_edit       edit.h
  *  variances, entries of the inverse              sl_inverse_diagonal, sl_inverse_pairs  inverse.h
  *  the inverse on the whole pattern of L          sl_selected_create                     selected.h
@@ -55,7 +56,7 @@
  *  L, D or L' alone, samples of covariance A^-1   sl_factor_solve_part                   parts.h
  *  the pseudo-inverse of a singular A             sl_factor_pseudo_inverse               pseudo.h
  *  many solves by one call                        sl_batch_solve                         batch.h
- *  M + t K for many t                             sl_batch_factor                        several.h
+ *  M + t K for many t                             sl_factor_create_sums                  several.h
  *  a factor in a file, mapped without a copy      sl_map_file                            save.h
  *  a complex Hermitian system                     sl_matrix_from_hermitian               complex.h
  *  a matrix from a file                           sl_matrix_read                         files.h

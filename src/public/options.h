@@ -102,8 +102,8 @@ typedef struct sl_options {
      * 1 / epsilon = 4.5e15, or 8.4e6 if L is in float, beyond which L D L' may agree with A in
      * no digit; negative: no limit */
     double growth_limit;
-    /* sl_factor_refine and sl_plan_solve_refined return SL_ERR_INACCURATE if they end above this
-     * backward error; 0: 1e-8; negative: never */
+    /* sl_factor_refine and sl_plan_solve_regularized return SL_ERR_INACCURATE if they end above
+     * this backward error; 0: 1e-8; negative: never */
     double error_limit;
 
     /* the columns of null_vector, at most 32: the null vectors of each component are combinations

@@ -8,7 +8,7 @@
  *
  *  SL_WITH_INVERSE    entries of the inverse, bilinear forms, selected inversion, regions
  *  SL_WITH_CHANGE     changes of a factor in place, pins, factors of submatrices, edits
- *  SL_WITH_DIRICHLET  rows fixed at given values: harmonic maps, interpolation
+ *  SL_WITH_FIXED      rows fixed at given values: harmonic maps, interpolation
  *  SL_WITH_SAVE       factors, selected inverses and regions in files and in mapped memory
  *  SL_WITH_BATCH      many factors or solves by one call, weighted sums of matrices
  *  SL_WITH_COMPLEX    complex Hermitian systems, SL_STORAGE_COMPLEX
@@ -22,7 +22,7 @@
  * pins need, and so does SL_WITH_SAVE. Objects and structs are the same with any packs. */
 #if defined(SL_WITH_ALL)
 #undef SL_WITH_CHANGE
-#undef SL_WITH_DIRICHLET
+#undef SL_WITH_FIXED
 #undef SL_WITH_SAVE
 #undef SL_WITH_BATCH
 #undef SL_WITH_COMPLEX
@@ -31,7 +31,7 @@
 #undef SL_WITH_FILES
 #undef SL_WITH_PIVOTS
 #define SL_WITH_CHANGE
-#define SL_WITH_DIRICHLET
+#define SL_WITH_FIXED
 #define SL_WITH_SAVE
 #define SL_WITH_BATCH
 #define SL_WITH_COMPLEX

@@ -75,7 +75,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_multiply_part(const sl_factor *F, unsi
  *
  *  P, F   [in]   a plan without a region, and a factor over its analysis.
  *  X, B, ldx, ldb, nrhs, W  as in sl_plan_solve, but for their rows.
- *  Returns  as sl_factor_solve_part; SL_ERR_ARGUMENT: other parts; SL_ERR_STATE: a factor of
+ *  Returns  as sl_factor_solve_part; SL_ERR_ARGUMENT: other parts; SL_ERR_MISMATCH: a factor of
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region.
  *  Cost     2 b_entries or 2 x_entries flops per right-hand side; nothing O(n).
  *  Threads  any number at once on one P and one F, each with its own W.

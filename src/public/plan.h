@@ -20,8 +20,8 @@
  *  opt    [in]   allocator, region. If both sets are inside the region, the sweeps end at its
  *                boundary. If they are not, or if one is NULL, the region is not used.
  *  stats  [out]  plan; error.row: an index out of range.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a region of another analysis; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MISMATCH: a region of another analysis;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(nb + nx + rows of the supernodes reached), with a logarithmic factor for rows that
  *           skip many ancestors; nothing O(n). Keeps 4 bytes per row of a set, and 4 per row and 32
  *           per supernode reached.
@@ -52,7 +52,7 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *                in the order of bset.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed factor, or, in a region, one whose
- *           numbers are not those that the region was computed from; SL_ERR_STATE: a factor of
+ *           numbers are not those that the region was computed from; SL_ERR_MISMATCH: a factor of
  *           another analysis; SL_ERR_INCONSISTENT, _NOT_FINITE: as in sl_factor_solve, of what x
  *           depends on; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     2 (b_entries + x_entries) + 4 region_entries flops per right-hand side; nothing O(n);

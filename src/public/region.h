@@ -66,8 +66,8 @@ SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_facto
  *  F      [in]      a factor over the analysis that R was made for; from now on the only one that R
  *                   accepts.
  *  Z      [in]      as in sl_region_create; may be NULL.
- *  Returns  as sl_region_create; SL_ERR_STATE: a factor of another analysis; SL_ERR_READ_ONLY: R is
- *           mapped.
+ *  Returns  as sl_region_create; SL_ERR_MISMATCH: a factor of another analysis; SL_ERR_READ_ONLY: R
+ *           is mapped.
  *  Cost     as sl_region_create without the plan; no allocation once W has grown.
  *  Threads  exclusive use of R and of its plans.
  */

@@ -21,7 +21,7 @@
  * A loaded or mapped factor solves like the saved one, with the same bits on the same instruction
  * set. It works with plans, regions and selected inverses that are made over the analysis that came
  * with it, and with those that were loaded with it: they have the bits of the saved ones. A plan of
- * another analysis is refused (SL_ERR_STATE), also if both were loaded from one file.
+ * another analysis is refused (SL_ERR_MISMATCH), also if both were loaded from one file.
  *
  * Loaded objects can be refactored; the first refactorization of a factor allocates the memory of
  * its fronts. Mapped ones are immutable, and so are those in a file that a newer version has
@@ -72,7 +72,7 @@ typedef enum sl_load_checks {
  *  Returns  SL_OK; SL_ERR_ARGUMENT: memory is too small, bytes, set or an object of it is NULL,
  *           n_regions is below 0, a reserved field is set, or regions without a factor;
  *           SL_ERR_STALE: a failed factor, or a selected inverse or region that is not of its
- *           present numbers; SL_ERR_STATE: objects of different analyses, or from a file that a
+ *           present numbers; SL_ERR_MISMATCH: objects of different analyses, or from a file that a
  *           newer version has written and this one reads in part; SL_ERR_UNSUPPORTED:
  *           SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds.
  *  Cost     reads the objects twice; O(1 + n_regions) without memory.

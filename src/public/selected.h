@@ -44,7 +44,7 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_create(sl_selected **out, const sl_f
  *
  *  Z      [in,out]  unchanged on error.
  *  F      [in]      a factor over the analysis that Z was made for.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_STATE: a factor of another analysis;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_MISMATCH: a factor of another analysis;
  *           SL_ERR_READ_ONLY: Z is mapped; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     as sl_selected_create; no allocation once W has grown. Up to twice as fast, since the
  *           memory is mapped already.

@@ -16,8 +16,8 @@
  *     sl_symbolic_scatter(S, m, &M, NULL);  sl_symbolic_scatter(S, k, &K, NULL);
  *     const double *v[2] = {m, k};
  *     for i < count: c[2 i] = 1, c[2 i + 1] = t[i];
- *     sl_batch_factor(F, count, S, c, v, 2, &opt, NULL, NULL);   F[i]: the factor of M + t[i] K
- *     sl_batch_diagonal(F, count, h, n_rows, rows, n_rows, &opt, NULL, NULL, NULL);
+ *     sl_factor_create_sums(F, count, S, c, v, 2, &opt, NULL, NULL);   F[i]: the factor of M + t[i]
+ *     K sl_batch_diagonal(F, count, h, n_rows, rows, n_rows, &opt, NULL, NULL, NULL);
  *
  * A plan belongs to the analysis. It serves all of these factors, one by one or in a batch whose
  * requests name their factors.
@@ -33,7 +33,7 @@
  *                       factorization reads them. Entries whose sum is 0 stay in the pattern.
  *  opt           [in]   allocator, triangle.
  *  stats         [out]  error.row, error.column: a malformed entry.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: different sizes, no term, no values; SL_ERR_PATTERN;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: different sizes, no term, no values; SL_ERR_MALFORMED;
  *           SL_ERR_TOO_LARGE: 2^31 or more entries in total; SL_ERR_MEMORY.
  *  Cost     O(n + entries of all terms).
  *  Threads  any number with different outputs.
@@ -52,7 +52,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coe
  *                 be anything.
  *  stats   [out]  error.row, error.column: the first stored entry outside the analyzed pattern, or
  *                 a malformed one.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, no values; SL_ERR_PATTERN: malformed, or both
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, no values; SL_ERR_MALFORMED: malformed, or both
  *           triangles with an unsymmetric pattern; SL_ERR_OTHER_PATTERN: another size, or an entry
  *           outside the analyzed pattern; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + entries of S and of K); temporary memory from the allocator of S.
@@ -84,17 +84,18 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_scatter(const sl_symbolic *S, double
  *  stats         [out]  error and factor: those of the failed factor, else of the last one; seconds
  *                       and bytes are sums over all factors.
  *  Returns  SL_OK, or the status of the first factor that failed: as sl_factor_create, but never
- *           SL_ERR_PATTERN or SL_ERR_OTHER_PATTERN. SL_ERR_NOT_FINITE: a coefficient (error.value,
- *           no row) or a sum, at error.row >= error.column.
+ *           SL_ERR_MALFORMED or SL_ERR_OTHER_PATTERN. SL_ERR_NOT_FINITE: a coefficient
+ *           (error.value, no row) or a sum, at error.row >= error.column.
  *  Cost     that of the factors, distributed; the terms are read once for each, in order.
  *  Threads  as sl_factor_create; only the calling thread allocates.
  *  Example  tests/core/test_combination.c, test_batch_factor.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symbolic *S,
-                                                const double *coefficients,
-                                                const double *const *values, sl_int terms,
-                                                const sl_options *opt, sl_int *failed,
-                                                sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_factor_create_sums(sl_factor **out, sl_int count,
+                                                      const sl_symbolic *S,
+                                                      const double *coefficients,
+                                                      const double *const *values, sl_int terms,
+                                                      const sl_options *opt, sl_int *failed,
+                                                      sl_stats *stats);
 
 /** Refactors one or several factors of one analysis with other coefficients or values. Allocates
  *  nothing, but to judge small pivots as sl_factor_refactor does, on the calling thread.
@@ -103,17 +104,17 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, c
  *                      numbers afterwards; the others are computed nevertheless.
  *  opt       [in]      threads; NULL: the calling thread only. Factors that have threads of their
  *                      own use these, one after the other.
- *  coefficients, values, terms, failed, stats  as in sl_batch_factor.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also if a factor is NULL or given twice; SL_ERR_STATE: factors
- *           of several analyses; SL_ERR_READ_ONLY: a mapped one; SL_ERR_MEMORY and
+ *  coefficients, values, terms, failed, stats  as in sl_factor_create_sums.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also if a factor is NULL or given twice; SL_ERR_MISMATCH:
+ *           factors of several analyses; SL_ERR_READ_ONLY: a mapped one; SL_ERR_MEMORY and
  *           SL_ERR_TOO_LARGE: only with the first refactorization of a loaded factor. After these
  *           no factor has changed. Else the status of the first factor that failed.
  *  Threads  exclusive use of the factors.
  */
-SL_API SL_WARN_UNUSED sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
-                                                  const double *coefficients,
-                                                  const double *const *values, sl_int terms,
-                                                  const sl_options *opt, sl_int *failed,
-                                                  sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_sums(sl_factor *const *factors, sl_int count,
+                                                        const double *coefficients,
+                                                        const double *const *values, sl_int terms,
+                                                        const sl_options *opt, sl_int *failed,
+                                                        sl_stats *stats);
 
 #endif

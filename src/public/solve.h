@@ -15,7 +15,7 @@
  *  ld must be at least the number of right-hand sides. Its two top bits, one of which says the
  *  layout, must be clear. X and B of a call may have different layouts, unless they are one array.
  *  Accepted by sl_factor_solve, sl_plan_solve, sl_plan_solve_bounded, sl_local_solve,
- *  sl_dirichlet_solve, the requests of sl_batch_solve, and the half solves and products of parts.h;
+ *  sl_fixed_solve, the requests of sl_batch_solve, and the half solves and products of parts.h;
  *  all other calls refuse it with SL_ERR_ARGUMENT.
  */
 #define SL_ROWS(ld) ((size_t)(ld) | SL_ROW_MAJOR)
@@ -53,10 +53,10 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  |  _multiply_part, _defects,        | has null pivots. Fewer right-hand sides need no more,  |
  *  |  _refine, _rcond                  | but they may with threads: try each number             |
  *  | sl_factor_pseudo_inverse          | the analysis and the number of columns                 |
- *  | sl_dirichlet_solve                | the object, nrhs, and the threads of W                 |
+ *  | sl_fixed_solve                    | the object, nrhs, and the threads of W                 |
  *  | sl_plan_solve, _solve_part        | the plan, nrhs, whether F has null pivots; fewer       |
  *  |                                   | right-hand sides need no more                          |
- *  | sl_plan_solve_refined             | the same, and the number of regularized rows           |
+ *  | sl_plan_solve_regularized         | the same, and the number of regularized rows           |
  *  | sl_selected_refactor              | the selected inverse and options.storage of F          |
  *  | sl_region_refactor                | the region, the instruction set of F, and Z            |
  *  | sl_local_solve, sl_inverse_*,     | the rows of the call, too. Fewer rows can need more:   |

@@ -107,7 +107,7 @@ typedef struct sl_region_info {
     size_t bytes;
 } sl_region_info;
 
-/** Refinement: sl_factor_refine, sl_plan_solve_refined. */
+/** Refinement: sl_factor_refine, sl_plan_solve_regularized. */
 typedef struct sl_refine_info {
     sl_int steps;          /* corrections applied, the maximum over all right-hand sides */
     double backward_error; /* what remains, the maximum over all right-hand sides */
@@ -122,10 +122,10 @@ typedef struct sl_certificate_info {
     double seconds;
 } sl_certificate_info;
 
-/** A change of a factor in place: sl_factor_update, sl_factor_change. */
+/** A change of a factor in place: sl_factor_rank_update, sl_factor_change_entries. */
 typedef struct sl_change_info {
     sl_change_method method; /* the way that was taken */
-    sl_change_reason reason; /* why; of sl_factor_change */
+    sl_change_reason reason; /* why; of sl_factor_change_entries */
     sl_int ranks;            /* rank-one changes that the change consists of; 0: not counted */
     sl_int padding;          /* not written */
     sl_off entries;          /* doubles of L that rank-one changes read and write */
@@ -136,21 +136,21 @@ typedef struct sl_change_info {
     double drift;
     double flops_update; /* of the rank-one changes, about; 0 if F cannot be changed so */
     /* of sl_factor_refactor_changed, counted up to the cost of the cheapest way; of
-     * sl_factor_change, else 0 */
+     * sl_factor_change_entries, else 0 */
     double flops_changed;
-    double flops_refactor; /* of sl_factor_refactor; of sl_factor_change, else 0 */
+    double flops_refactor; /* of sl_factor_refactor; of sl_factor_change_entries, else 0 */
     double seconds;
 } sl_change_info;
 
-/** The factor of a principal submatrix: sl_factor_restrict. */
-typedef struct sl_restrict_info {
+/** The factor of a principal submatrix: sl_factor_submatrix. */
+typedef struct sl_submatrix_info {
     sl_int kept;     /* columns of L that were copied */
     sl_int computed; /* the others */
     sl_off entries;  /* doubles of L that were copied */
     int is_anew;     /* 1: too few columns to copy: all were analyzed and computed */
     int padding;     /* not written */
     double seconds;  /* analysis included */
-} sl_restrict_info;
+} sl_submatrix_info;
 
 /** An analysis that follows an edit of the pattern: sl_symbolic_edit. */
 typedef struct sl_edit_info {
@@ -178,24 +178,24 @@ typedef struct sl_reuse_info {
     double seconds;
 } sl_reuse_info;
 
-/** A set of pins: sl_pins_add, _add_equality, _release, _refactor. */
-typedef struct sl_pins_info {
+/** A set of pins: sl_constraints_add, _add_equality, _release, _refactor. */
+typedef struct sl_constraints_info {
     sl_int count;   /* pins and equalities */
     double seconds; /* of the call; where it is about stats.factor.seconds or more,
-                     * sl_dirichlet_create holds the same rows sooner */
-} sl_pins_info;
+                     * sl_fixed_create holds the same rows sooner */
+} sl_constraints_info;
 
-/** Rows fixed at given values: sl_dirichlet_create, sl_dirichlet_refactor. */
-typedef struct sl_dirichlet_info {
-    sl_dirichlet_method method; /* the way in use */
-    sl_int n_free;              /* rows that are not fixed */
-    sl_off couplings;           /* entries of A between free and fixed rows */
+/** Rows fixed at given values: sl_fixed_create, sl_fixed_refactor. */
+typedef struct sl_fixed_info {
+    sl_fixed_method method; /* the way in use */
+    sl_int n_free;          /* rows that are not fixed */
+    sl_off couplings;       /* entries of A between free and fixed rows */
     /* of a choice among ways, as estimated from counts; 0: there was none */
     double seconds_submatrix;
     double seconds_restriction; /* the same */
     double seconds_pins;        /* the same; 0 also where pins are not possible */
     double seconds;             /* of the call */
-} sl_dirichlet_info;
+} sl_fixed_info;
 
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
  *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
@@ -211,16 +211,16 @@ typedef struct sl_stats {
     sl_region_info region;
     sl_refine_info refine;
     sl_change_info change;
-    sl_restrict_info restriction;
+    sl_submatrix_info submatrix;
     sl_edit_info edit;
     sl_off storage; /* sl_storage of the factor; with the group factor */
     sl_reuse_info reuse;
-    sl_pins_info pins;
+    sl_constraints_info constraints;
     sl_certificate_info certificate;
     /* of a factorization that was refused with SL_ERR_PIVOT: a pivot (error.value) up to this size
      * is null; 0: not known */
     double null_bound;
-    sl_dirichlet_info dirichlet;
+    sl_fixed_info fixed;
     /* that a factorization is divided among; 1: the matrix is small, or the header was compiled
      * with neither SL_PTHREADS nor OpenMP and options.threads has no pool; with the group factor */
     sl_off threads;

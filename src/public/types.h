@@ -15,7 +15,7 @@ typedef enum sl_status {
     /* the allocator returned NULL */
     SL_ERR_MEMORY,
     /* a malformed matrix, or both triangles stored with different patterns or values */
-    SL_ERR_PATTERN,
+    SL_ERR_MALFORMED,
     /* a null pivot: the matrix is singular or needs pivoting; stats name the row */
     SL_ERR_PIVOT,
     /* a NaN or an infinity in the values or in a result; stats name the row */
@@ -29,7 +29,7 @@ typedef enum sl_status {
     /* METIS failed */
     SL_ERR_ORDERING,
     /* objects that do not belong together, such as a plan and a factor of different analyses */
-    SL_ERR_STATE,
+    SL_ERR_MISMATCH,
     /* a singular system whose right-hand side has no solution */
     SL_ERR_INCONSISTENT,
     /* pivot growth beyond options.growth_limit (stats name a row), or a refinement that ended above
@@ -41,7 +41,7 @@ typedef enum sl_status {
      * older numbers of the factor: refactor them */
     SL_ERR_STALE,
     /* a mapped object that would have to change: load it instead; or a factor of
-     * sl_factor_restrict */
+     * sl_factor_submatrix */
     SL_ERR_READ_ONLY
 } sl_status;
 
@@ -157,7 +157,7 @@ typedef enum sl_change_method {
     SL_CHANGE_REFACTOR  /* sl_factor_refactor */
 } sl_change_method;
 
-/** Why sl_factor_change took its way. */
+/** Why sl_factor_change_entries took its way. */
 typedef enum sl_change_reason {
     SL_CHANGE_CHEAPEST = 0, /* the fewest flops, weighted by what one costs in each way */
     SL_CHANGE_UNSUITED,     /* null pivots, 2x2 pivots, or F has no numbers */
@@ -165,12 +165,12 @@ typedef enum sl_change_reason {
     SL_CHANGE_REFUSED       /* rank-one changes met a pivot that they refuse */
 } sl_change_reason;
 
-/** How sl_dirichlet_create fixes rows. */
-typedef enum sl_dirichlet_method {
-    SL_DIRICHLET_SUBMATRIX = 0, /* a factor of the free rows */
-    SL_DIRICHLET_RESTRICTION,   /* the same, from a factor of all rows (sl_factor_restrict) */
-    SL_DIRICHLET_PINS           /* pins on a factor of all rows (sl_pins_create) */
-} sl_dirichlet_method;
+/** How sl_fixed_create fixes rows. */
+typedef enum sl_fixed_method {
+    SL_FIXED_SUBMATRIX = 0, /* a factor of the free rows */
+    SL_FIXED_RESTRICTION,   /* the same, from a factor of all rows (sl_factor_submatrix) */
+    SL_FIXED_PINS           /* pins on a factor of all rows (sl_constraints_create) */
+} sl_fixed_method;
 
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
 typedef struct sl_symbolic sl_symbolic; /* the analysis of one pattern; immutable */
@@ -178,8 +178,8 @@ typedef struct sl_factor sl_factor;     /* L and D over a symbolic analysis */
 typedef struct sl_plan sl_plan;         /* the reaches of a b-set and an x-set; immutable */
 typedef struct sl_work sl_work;         /* workspace of one thread */
 typedef struct sl_selected sl_selected; /* entries of the inverse on the pattern of L; immutable */
-typedef struct sl_pins sl_pins;         /* rows held at given values */
-typedef struct sl_region sl_region;     /* a part of the matrix where local solves can stop early */
-typedef struct sl_dirichlet sl_dirichlet; /* a system with rows fixed at given values */
+typedef struct sl_constraints sl_constraints; /* rows held at given values */
+typedef struct sl_region sl_region; /* a part of the matrix where local solves can stop early */
+typedef struct sl_fixed sl_fixed;   /* a system with rows fixed at given values */
 
 #endif

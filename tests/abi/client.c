@@ -71,8 +71,8 @@ static void packs(const sl_csc *A, sl_symbolic *S, sl_factor *F, const double *b
     const double sides[] = {1, 2}, values[] = {1, -1}, delta = 0.5;
     double one = 0, again = 0, z = 0, y[N], error[1];
     sl_plan *P = NULL;
-    sl_pins *pins = NULL;
-    sl_dirichlet *D = NULL;
+    sl_constraints *pins = NULL;
+    sl_fixed *D = NULL;
     sl_request request;
     sl_stats stats;
     HOLDS(sl_plan_create(&P, S, bset, 2, xset, 1, NULL, &stats) == SL_OK);
@@ -88,21 +88,21 @@ static void packs(const sl_csc *A, sl_symbolic *S, sl_factor *F, const double *b
     HOLDS(sl_batch_solve(F, &request, 1, NULL, NULL, NULL) == SL_OK && again == one);
     HOLDS(sl_inverse_pairs(F, &z, xset, bset, 1, NULL, &stats) == SL_OK);
     HOLDS(stats.inverse.method != SL_INVERSE_NONE && z > 0);
-    HOLDS(sl_pins_create(&pins, F, NULL) == SL_OK);
-    HOLDS(sl_pins_add(pins, fixed, 2, &stats) == SL_OK && stats.pins.count == 2);
-    HOLDS(sl_pins_solve(pins, NULL, y, N, b, N, values, 2, 1, NULL) == SL_OK);
+    HOLDS(sl_constraints_create(&pins, F, NULL) == SL_OK);
+    HOLDS(sl_constraints_add(pins, fixed, 2, &stats) == SL_OK && stats.constraints.count == 2);
+    HOLDS(sl_constraints_solve(pins, NULL, y, N, b, N, values, 2, 1, NULL) == SL_OK);
     HOLDS(fabs(y[0] - 1) < 1e-12 && fabs(y[N - 1] + 1) < 1e-12);
-    HOLDS(sl_dirichlet_create(&D, A, fixed, 2, NULL, NULL, &stats) == SL_OK);
-    HOLDS(sl_dirichlet_view(D).n_free == N - 2 && stats.dirichlet.n_free == N - 2);
-    HOLDS(sl_factor_change(F, NULL, xset, xset, &delta, 1, NULL, &stats) == SL_OK);
+    HOLDS(sl_fixed_create(&D, A, fixed, 2, NULL, NULL, &stats) == SL_OK);
+    HOLDS(sl_fixed_view(D).n_free == N - 2 && stats.fixed.n_free == N - 2);
+    HOLDS(sl_factor_change_entries(F, NULL, xset, xset, &delta, 1, NULL, &stats) == SL_OK);
     HOLDS(stats.change.method == SL_CHANGE_UPDATE && stats.factor.positive == N);
     HOLDS(sl_factor_refactor(F, A, &stats) == SL_OK);
     memcpy(y, full, sizeof y);
     HOLDS(sl_factor_refine(F, A, y, N, b, N, 1, 2, NULL, &stats) == SL_OK);
     HOLDS(stats.refine.backward_error < 1e-14);
     HOLDS(sl_csc_residual(A, y, N, error, full, N, b, N, 1) == SL_OK && error[0] < 1e-14);
-    sl_dirichlet_free(D);
-    sl_pins_free(pins);
+    sl_fixed_free(D);
+    sl_constraints_free(pins);
     sl_plan_free(P);
 }
 

@@ -157,7 +157,7 @@ int main(void) {
     const sl_csc A = {4, 4, p, i, x};
     sl_symbolic *S = NULL, *T = NULL;
     sl_factor *F = NULL, *G = NULL;
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     sl_options natural = {0};
     sl_stats s = {0};
     int failed = 0;
@@ -165,13 +165,13 @@ int main(void) {
     if (sl_symbolic_create(&S, &A, &natural, NULL) != SL_OK) return 1;
     if (sl_factor_create(&F, S, &A, NULL, NULL) != SL_OK) return 1;
     x[5] = NAN;
-    failed += wrong(sl_factor_restrict(&T, &G, F, &A, rows, 2, NULL, &s), SL_ERR_NOT_FINITE, &s,
+    failed += wrong(sl_factor_submatrix(&T, &G, F, &A, rows, 2, NULL, &s), SL_ERR_NOT_FINITE, &s,
                     3, 2);
-    failed += sl_factor_restrict(&T, &G, F, &A, rows, 2, NULL, NULL) != SL_ERR_NOT_FINITE;
+    failed += sl_factor_submatrix(&T, &G, F, &A, rows, 2, NULL, NULL) != SL_ERR_NOT_FINITE;
     x[5] = x[6] = 0;
-    failed += wrong(sl_dirichlet_create(&D, &A, fixed, 2, NULL, NULL, &s), SL_ERR_PIVOT, &s,
+    failed += wrong(sl_fixed_create(&D, &A, fixed, 2, NULL, NULL, &s), SL_ERR_PIVOT, &s,
                     3, -1);
-    failed += sl_dirichlet_create(&D, &A, fixed, 2, NULL, NULL, NULL) != SL_ERR_PIVOT;
+    failed += sl_fixed_create(&D, &A, fixed, 2, NULL, NULL, NULL) != SL_ERR_PIVOT;
     sl_factor_free(F);
     sl_symbolic_free(S);
     return failed;
@@ -319,7 +319,7 @@ check "SL_CONFIG_HEADER: a header of the user's with the macros, for all files" 
      $cc $c99 -I$dir \"\$mine\" $dir/configured.c -c -o $dir/configured.o &&
      $cc $c99 -I$dir \"\$mine\" $dir/bodies.c -c -o $dir/configured_bodies.o &&
      $cc $dir/configured.o $dir/configured_bodies.o -o $dir/configured $libs && $dir/configured &&
-     nm $dir/configured_bodies.o | grep -E '_(avx2|avx512|neon)|sl_factor_update' | none &&
+     nm $dir/configured_bodies.o | grep -E '_(avx2|avx512|neon)|sl_factor_rank_update' | none &&
      refused 'needs_SL_WITH_INVERSE' $cc $c99 -I$dir -fsyntax-only $dir/configured.c"
 
 cp sparse_local.h $x/renamed.h

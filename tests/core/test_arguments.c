@@ -81,19 +81,19 @@ static const struct {
     {"p NULL", no_positions, A_, SL_ERR_ARGUMENT, "is NULL"},
     {"i NULL", no_rows, A_, SL_ERR_ARGUMENT, "is NULL"},
     {"x NULL", no_values, VALUES_, SL_ERR_ARGUMENT, "is NULL"},
-    {"p[0] = 1", late_start, A_, SL_ERR_PATTERN, "A.p"},
-    {"p[0] = -1000", early_start, A_, SL_ERR_PATTERN, "A.p"},
-    {"p[3] = -5", negative_position, A_, SL_ERR_PATTERN, "A.p"},
-    {"p[3] > p[4]", descending_position, A_, SL_ERR_PATTERN, "A.p"},
-    {"p[n] = -3", negative_end, A_, SL_ERR_PATTERN, "A.p"},
-    {"i = n", row_n, A_, SL_ERR_PATTERN, "row of A is out of range"},
-    {"i = -1", row_negative, A_, SL_ERR_PATTERN, "row of A is out of range"},
-    {"i = -2^31", row_least, A_, SL_ERR_PATTERN, "row of A is out of range"},
-    {"last i = 2^31 - 1", row_last_too_large, A_, SL_ERR_PATTERN, "row of A is out of range"},
+    {"p[0] = 1", late_start, A_, SL_ERR_MALFORMED, "A.p"},
+    {"p[0] = -1000", early_start, A_, SL_ERR_MALFORMED, "A.p"},
+    {"p[3] = -5", negative_position, A_, SL_ERR_MALFORMED, "A.p"},
+    {"p[3] > p[4]", descending_position, A_, SL_ERR_MALFORMED, "A.p"},
+    {"p[n] = -3", negative_end, A_, SL_ERR_MALFORMED, "A.p"},
+    {"i = n", row_n, A_, SL_ERR_MALFORMED, "row of A is out of range"},
+    {"i = -1", row_negative, A_, SL_ERR_MALFORMED, "row of A is out of range"},
+    {"i = -2^31", row_least, A_, SL_ERR_MALFORMED, "row of A is out of range"},
+    {"last i = 2^31 - 1", row_last_too_large, A_, SL_ERR_MALFORMED, "row of A is out of range"},
     {"S NULL", no_analysis, S_, SL_ERR_ARGUMENT, "is NULL"},
     {"F NULL", no_factor, F_, SL_ERR_ARGUMENT, "is NULL"},
     {"failed F", failed_factor, FAILED_, SL_ERR_STALE, "no numbers"},
-    {"F of another analysis", other_factor, OTHER_, SL_ERR_STATE, "anal"},
+    {"F of another analysis", other_factor, OTHER_, SL_ERR_MISMATCH, "anal"},
     {"P NULL", no_plan, P_, SL_ERR_ARGUMENT, "is NULL"},
     {"Z NULL", no_selected, Z_, SL_ERR_ARGUMENT, "is NULL"},
     {"R NULL", no_region, R_, SL_ERR_ARGUMENT, "is NULL"},
@@ -238,7 +238,7 @@ static void one_wrong_argument_is_refused(void **state) {
             }
             const sl_status status = run(call, wrong);
             const int is_right = wrongs[wrong].expected == BAD_MATRIX
-                                     ? status == SL_ERR_ARGUMENT || status == SL_ERR_PATTERN ||
+                                     ? status == SL_ERR_ARGUMENT || status == SL_ERR_MALFORMED ||
                                            status == SL_ERR_OTHER_PATTERN ||
                                            status == SL_ERR_TOO_LARGE
                                      : status == wrongs[wrong].expected;

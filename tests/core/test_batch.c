@@ -183,7 +183,7 @@ static void invalid_requests_change_nothing(void **state) {
             r->nrhs = 1;
             break;
         }
-        SL_EXPECT(wrong == 4 ? SL_ERR_STATE : SL_ERR_ARGUMENT,
+        SL_EXPECT(wrong == 4 ? SL_ERR_MISMATCH : SL_ERR_ARGUMENT,
                   sl_batch_solve(t.y.F, t.request, REQUESTS, THREADS(threads), NULL, &failed));
         assert_int_equal(failed, 5);
         *r = keep;
@@ -325,7 +325,8 @@ static void one_plan_solves_with_all_factors(void **state) {
         opt.isa = isas.isa[isa];
         gen_reals(B, 4 * MOST, 5);
         gen_reals(expected, n * MOST, 6);
-        SL_CHECK(sl_batch_factor(F, MOST, y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL, NULL));
+        SL_CHECK(sl_factor_create_sums(F, MOST, y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL,
+                                       NULL));
         SL_CHECK(sl_plan_create(&P, y.S, bset, 2, xset, 3, NULL, NULL));
         memset(requests, 0, sizeof requests);
         for (size_t k = 0; k < MOST; k++) {
@@ -378,11 +379,12 @@ static void requests_with_invalid_factors_are_refused(void **state) {
     sl_factor *F = NULL, *G = NULL, *bad = NULL;
     sl_plan *P = NULL;
     sl_int failed = 9;
-    SL_CHECK(sl_batch_factor(&F, 1, y.S, c, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
-    SL_CHECK(sl_batch_factor(&bad, 1, y.S, c, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
-    SL_CHECK(sl_batch_factor(&G, 1, z.S, c, matrix_pair_values(&z), TERMS, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_PIVOT,
-              sl_batch_refactor(&bad, 1, none, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
+    SL_CHECK(sl_factor_create_sums(&F, 1, y.S, c, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
+    SL_CHECK(
+        sl_factor_create_sums(&bad, 1, y.S, c, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
+    SL_CHECK(sl_factor_create_sums(&G, 1, z.S, c, matrix_pair_values(&z), TERMS, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor_sums(&bad, 1, none, matrix_pair_values(&y), TERMS,
+                                                    NULL, NULL, NULL));
     SL_CHECK(sl_plan_create(&P, y.S, &row, 1, &row, 1, NULL, NULL));
     sl_request r[3];
     memset(r, 0, sizeof r);
@@ -395,7 +397,7 @@ static void requests_with_invalid_factors_are_refused(void **state) {
         r[k].factor = F;
     }
     r[2].factor = G;
-    SL_EXPECT(SL_ERR_STATE, sl_batch_solve(F, r, 3, NULL, NULL, &failed));
+    SL_EXPECT(SL_ERR_MISMATCH, sl_batch_solve(F, r, 3, NULL, NULL, &failed));
     assert_int_equal(failed, 2);
     r[1].factor = bad;
     SL_EXPECT(SL_ERR_STALE, sl_batch_solve(F, r, 3, NULL, NULL, &failed));

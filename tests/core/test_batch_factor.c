@@ -1,4 +1,5 @@
-/* test_batch_factor.c: sl_batch_factor and sl_batch_refactor: bits, threads, errors, memory */
+/* test_batch_factor.c: sl_factor_create_sums and sl_factor_refactor_sums: bits, threads, errors,
+ * memory */
 #include "tests/lib/factor_array.h"
 #include "tests/lib/saved_pair.h"
 
@@ -7,8 +8,8 @@ static void assert_factors(const matrix_pair_t *y, sl_factor *const *F, const do
     opt.threads.count = 0;
     for (int k = 0; k < count; k++) {
         sl_factor *single = NULL;
-        SL_CHECK(sl_batch_factor(&single, 1, y->S, c + TERMS * k, matrix_pair_values(y), TERMS,
-                                 &opt, NULL, NULL));
+        SL_CHECK(sl_factor_create_sums(&single, 1, y->S, c + TERMS * k, matrix_pair_values(y),
+                                       TERMS, &opt, NULL, NULL));
         assert_same_bits(F[k], single);
         sl_factor_free(single);
     }
@@ -33,8 +34,8 @@ static void a_batch_gives_the_bits_of_single_factors(void **state) {
                     int calls = 0;
                     options_set_variant(&opt, &variants, variant);
                     opt.threads = threads_of(threads, &calls);
-                    SL_CHECK(sl_batch_factor(F, count, y.S, c, matrix_pair_values(&y), TERMS, &opt,
-                                             &failed, NULL));
+                    SL_CHECK(sl_factor_create_sums(F, count, y.S, c, matrix_pair_values(&y), TERMS,
+                                                   &opt, &failed, NULL));
                     assert_int_equal(failed, -1);
                     assert_true(calls == 0 || (threads > 1 && count > 0));
                     assert_factors(&y, F, c, count, opt);
@@ -42,8 +43,9 @@ static void a_batch_gives_the_bits_of_single_factors(void **state) {
                     for (int again = 0; again <= 4; again++) {
                         const sl_threads others = threads_of(again, &calls);
                         const double *now = again % 2 ? c : other;
-                        SL_CHECK(sl_batch_refactor(F, count, now, matrix_pair_values(&y), TERMS,
-                                                   again ? THREADS(others) : NULL, &failed, NULL));
+                        SL_CHECK(sl_factor_refactor_sums(F, count, now, matrix_pair_values(&y),
+                                                         TERMS, again ? THREADS(others) : NULL,
+                                                         &failed, NULL));
                         assert_int_equal(failed, -1);
                         assert_int_equal(counter.calls, requests); /* allocates nothing */
                         if (again == 0 || again == 3) {
@@ -76,8 +78,8 @@ static void threads_take_whole_factors_and_share_the_rest(void **state) {
         memset(&single, 0, sizeof single);
         opt.method = SL_METHOD_SUPERNODAL;
         opt.threads = threads_of(3, &calls);
-        SL_CHECK(
-            sl_batch_factor(F, count, y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL, &stats));
+        SL_CHECK(sl_factor_create_sums(F, count, y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL,
+                                       &stats));
         /* one loop over three factors, then one over the tasks of each other factor */
         assert_int_equal(calls, count / 3 + count % 3);
         assert_int_equal(stats.factor.positive, y.n);
@@ -115,8 +117,8 @@ static void the_first_failure_is_reported_and_the_others_succeed(void **state) {
             memset(&own, 0, sizeof own);
             opt.threads = threads_of(threads, &calls);
             sl_status status = first == at ? SL_ERR_PIVOT : SL_ERR_NOT_FINITE;
-            SL_EXPECT(status, sl_batch_factor(F, MOST, y.S, c, matrix_pair_values(&y), TERMS, &opt,
-                                              &failed, &stats));
+            SL_EXPECT(status, sl_factor_create_sums(F, MOST, y.S, c, matrix_pair_values(&y), TERMS,
+                                                    &opt, &failed, &stats));
             assert_int_equal(failed, first);
             assert_int_equal(stats.error.row, first == at ? sl_symbolic_view(y.S).perm[0] : -1);
             assert_int_equal(stats.factor.positive, 0);
@@ -127,11 +129,11 @@ static void the_first_failure_is_reported_and_the_others_succeed(void **state) {
                 }
             }
             free_all(F, MOST);
-            SL_CHECK(sl_batch_factor(F, MOST, y.S, good, matrix_pair_values(&y), TERMS, &opt, NULL,
-                                     &own));
+            SL_CHECK(sl_factor_create_sums(F, MOST, y.S, good, matrix_pair_values(&y), TERMS, &opt,
+                                           NULL, &own));
             assert_int_equal(own.error.row, -1);
-            SL_EXPECT(status, sl_batch_refactor(F, MOST, c, matrix_pair_values(&y), TERMS, &opt,
-                                                &failed, &stats));
+            SL_EXPECT(status, sl_factor_refactor_sums(F, MOST, c, matrix_pair_values(&y), TERMS,
+                                                      &opt, &failed, &stats));
             assert_int_equal(failed, first);
             assert_int_equal(stats.error.row, first == at ? sl_symbolic_view(y.S).perm[0] : -1);
             for (int k = 0; k < MOST; k++) {
@@ -141,8 +143,8 @@ static void the_first_failure_is_reported_and_the_others_succeed(void **state) {
             SL_EXPECT(SL_ERR_STALE,
                       sl_batch_diagonal(F, MOST, good, 1, &row, 1, NULL, NULL, &failed, NULL));
             assert_int_equal(failed, first);
-            SL_CHECK(sl_batch_refactor(F, MOST, good, matrix_pair_values(&y), TERMS, &opt, &failed,
-                                       NULL));
+            SL_CHECK(sl_factor_refactor_sums(F, MOST, good, matrix_pair_values(&y), TERMS, &opt,
+                                             &failed, NULL));
             assert_int_equal(failed, -1);
             free_all(F, MOST);
         }
@@ -162,37 +164,41 @@ static void invalid_arguments_are_refused(void **state) {
     sl_threads threads = {-1, NULL, NULL};
     coefficients_of(c, MOST, 1);
     memset(F, 0x5a, sizeof F);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_factor(F, 3, NULL, c, v, TERMS, NULL, &failed, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create_sums(F, 3, NULL, c, v, TERMS, NULL, &failed, NULL));
     assert_true(F[0] == NULL && F[1] == NULL && F[2] == NULL && failed == -1);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_factor(NULL, 3, y.S, c, v, TERMS, NULL, &failed, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_factor(F, -1, y.S, c, v, TERMS, NULL, &failed, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_factor(F, 3, y.S, NULL, v, TERMS, NULL, &failed, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_factor(F, 3, y.S, c, NULL, TERMS, NULL, &failed, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_factor(F, 3, y.S, c, v, -1, NULL, &failed, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_factor_create_sums(NULL, 3, y.S, c, v, TERMS, NULL, &failed, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create_sums(F, -1, y.S, c, v, TERMS, NULL, &failed, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_factor_create_sums(F, 3, y.S, NULL, v, TERMS, NULL, &failed, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_factor_create_sums(F, 3, y.S, c, NULL, TERMS, NULL, &failed, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create_sums(F, 3, y.S, c, v, -1, NULL, &failed, NULL));
     opt.threads = threads;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_factor(F, 3, y.S, c, v, TERMS, &opt, &failed, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create_sums(F, 3, y.S, c, v, TERMS, &opt, &failed, NULL));
     opt = options_none();
     opt.isa = (sl_isa)17;
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_batch_factor(F, 3, y.S, c, v, TERMS, &opt, &failed, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED,
+              sl_factor_create_sums(F, 3, y.S, c, v, TERMS, &opt, &failed, NULL));
     assert_true(F[0] == NULL && F[1] == NULL && F[2] == NULL && failed == 0);
-    SL_CHECK(sl_batch_factor(NULL, 0, y.S, NULL, NULL, 0, NULL, &failed, NULL));
-    SL_CHECK(sl_batch_factor(F, 3, y.S, c, v, TERMS, NULL, &failed, NULL));
-    SL_CHECK(sl_batch_factor(G, 3, z.S, c, matrix_pair_values(&z), TERMS, NULL, NULL, NULL));
+    SL_CHECK(sl_factor_create_sums(NULL, 0, y.S, NULL, NULL, 0, NULL, &failed, NULL));
+    SL_CHECK(sl_factor_create_sums(F, 3, y.S, c, v, TERMS, NULL, &failed, NULL));
+    SL_CHECK(sl_factor_create_sums(G, 3, z.S, c, matrix_pair_values(&z), TERMS, NULL, NULL, NULL));
     sl_factor *mixed[3] = {F[0], F[1], G[0]}, *twice[3] = {F[0], F[1], F[0]},
               *bare[3] = {F[0], NULL, F[1]};
-    SL_EXPECT(SL_ERR_STATE, sl_batch_refactor(mixed, 3, c, v, TERMS, NULL, &failed, NULL));
+    SL_EXPECT(SL_ERR_MISMATCH, sl_factor_refactor_sums(mixed, 3, c, v, TERMS, NULL, &failed, NULL));
     assert_int_equal(failed, 2);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(twice, 3, c, v, TERMS, NULL, &failed, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_sums(twice, 3, c, v, TERMS, NULL, &failed, NULL));
     assert_int_equal(failed, 2);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(bare, 3, c, v, TERMS, NULL, &failed, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_sums(bare, 3, c, v, TERMS, NULL, &failed, NULL));
     assert_int_equal(failed, 1);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(NULL, 3, c, v, TERMS, NULL, &failed, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(F, -1, c, v, TERMS, NULL, &failed, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_sums(NULL, 3, c, v, TERMS, NULL, &failed, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_sums(F, -1, c, v, TERMS, NULL, &failed, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT,
-              sl_batch_refactor(F, 3, c, v, TERMS, THREADS(threads), &failed, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(F, 3, c, NULL, TERMS, NULL, &failed, NULL));
+              sl_factor_refactor_sums(F, 3, c, v, TERMS, THREADS(threads), &failed, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_sums(F, 3, c, NULL, TERMS, NULL, &failed, NULL));
     assert_int_equal(failed, -1);
-    SL_CHECK(sl_batch_refactor(NULL, 0, NULL, NULL, 0, NULL, &failed, NULL));
+    SL_CHECK(sl_factor_refactor_sums(NULL, 0, NULL, NULL, 0, NULL, &failed, NULL));
     free_all(F, 3);
     free_all(G, 3);
     matrix_pair_free(&y);
@@ -215,7 +221,8 @@ static void a_failed_allocation_leaves_the_other_factors(void **state) {
         opt.threads = threads_of(3, &calls);
         memset(F, 0x5a, sizeof F);
         counter.fail_at = k;
-        status = sl_batch_factor(F, 4, y.S, c, matrix_pair_values(&y), TERMS, &opt, &failed, NULL);
+        status =
+            sl_factor_create_sums(F, 4, y.S, c, matrix_pair_values(&y), TERMS, &opt, &failed, NULL);
         assert_true(status == SL_OK || status == SL_ERR_MEMORY);
         assert_int_equal(status == SL_ERR_MEMORY, counter.calls > (size_t)k);
         for (int j = 0; j < 4; j++) {
@@ -245,8 +252,8 @@ static void a_failed_matrix_and_a_failed_allocation(void **state) {
         sl_int failed = 9;
         sl_stats stats;
         counter.fail_at = (int64_t)k;
-        const sl_status status =
-            sl_batch_factor(F, 3, y.S, c, matrix_pair_values(&y), TERMS, &opt, &failed, &stats);
+        const sl_status status = sl_factor_create_sums(F, 3, y.S, c, matrix_pair_values(&y), TERMS,
+                                                       &opt, &failed, &stats);
         assert_true(status == SL_ERR_PIVOT || status == SL_ERR_MEMORY);
         assert_int_equal(failed, 0);
         assert_null(F[0]);
@@ -284,11 +291,12 @@ static void loaded_factors_allocate_when_they_are_refactored(void **state) {
         memcpy(twice, c, sizeof c);
         memcpy(twice + TERMS, c, sizeof c);
         SL_CHECK(pair_load_memory(&S, &F[0], memory, size, SL_LOAD_CHECKED, &opt));
-        SL_CHECK(sl_batch_factor(&F[1], 1, S, c, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
+        SL_CHECK(
+            sl_factor_create_sums(&F[1], 1, S, c, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
         for (int k = 0; status != SL_OK; k++) {
             counter.fail_at = turn == 0 ? -1 : (int64_t)counter.calls + k;
-            status = sl_batch_refactor(F, 2, twice, matrix_pair_values(&y), TERMS, NULL, &failed,
-                                       &stats);
+            status = sl_factor_refactor_sums(F, 2, twice, matrix_pair_values(&y), TERMS, NULL,
+                                             &failed, &stats);
             assert_int_equal(failed, status == SL_OK ? -1 : 0);
             assert_true(status == SL_OK || status == SL_ERR_MEMORY);
             failures += status != SL_OK;
@@ -297,7 +305,7 @@ static void loaded_factors_allocate_when_they_are_refactored(void **state) {
         assert_same_bits(made, F[0]);
         assert_true(turn == 0 || stats.factor.bytes == bytes);
         bytes = stats.factor.bytes;
-        SL_CHECK(sl_batch_refactor(NULL, 0, NULL, NULL, 0, NULL, NULL, &stats));
+        SL_CHECK(sl_factor_refactor_sums(NULL, 0, NULL, NULL, 0, NULL, NULL, &stats));
         sl_factor_free(F[0]);
         sl_factor_free(F[1]);
         sl_symbolic_free(S);
@@ -315,11 +323,11 @@ static void batches_of_no_terms_are_zero_matrices(void **state) {
     sl_options opt = options_none();
     sl_factor *F[2];
     sl_int failed = -2, count = -1;
-    SL_EXPECT(SL_ERR_PIVOT, sl_batch_factor(F, 2, y.S, NULL, NULL, 0, &opt, &failed, NULL));
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_create_sums(F, 2, y.S, NULL, NULL, 0, &opt, &failed, NULL));
     assert_true(F[0] == NULL && F[1] == NULL && failed == 0);
     opt.null_pivots = SL_NULL_PIVOT_SKIP;
-    SL_CHECK(sl_batch_factor(F, 2, y.S, NULL, NULL, 0, &opt, &failed, NULL));
-    SL_CHECK(sl_batch_refactor(F, 2, NULL, NULL, 0, NULL, &failed, NULL));
+    SL_CHECK(sl_factor_create_sums(F, 2, y.S, NULL, NULL, 0, &opt, &failed, NULL));
+    SL_CHECK(sl_factor_refactor_sums(F, 2, NULL, NULL, 0, NULL, &failed, NULL));
     for (int k = 0; k < 2; k++) {
         SL_CHECK(sl_factor_pivot_rows(F[k], SL_PIVOT_NULL, NULL, NULL, 0, &count));
         assert_int_equal(count, y.n);

@@ -21,7 +21,8 @@ static void diagonals_equal_those_of_single_calls(void **state) {
         uint64_t seed = 8;
         double *out = test_reals(ld * MOST), *one = test_reals(n);
         opt.isa = isas.isa[isa];
-        SL_CHECK(sl_batch_factor(F, MOST, y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL, NULL));
+        SL_CHECK(sl_factor_create_sums(F, MOST, y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL,
+                                       NULL));
         for (int k = 0; k < 50; k++) {
             rows[k] = gen_below(&seed, y.n); /* with repetitions */
         }
@@ -105,7 +106,8 @@ static void heat_kernel_signatures_conserve_heat(void **state) {
         c[TERMS * k] = 1;
         c[TERMS * k + 1] = t[k];
     }
-    SL_CHECK(sl_batch_factor(F, TIMES, S, c, (const double *const *)v, TERMS, NULL, NULL, NULL));
+    SL_CHECK(
+        sl_factor_create_sums(F, TIMES, S, c, (const double *const *)v, TERMS, NULL, NULL, NULL));
     SL_CHECK(sl_batch_diagonal(F, TIMES, h, (size_t)n, NULL, 0, NULL, NULL, NULL, NULL));
     for (int k = 0; k < TIMES; k++) {
         sl_matrix *system = NULL;
@@ -168,8 +170,8 @@ static void factors_of_several_instruction_sets_share_a_call(void **state) {
     const sl_threads threads = {3, run_without_memory, &counter};
     for (int k = 0; k < isas.count; k++) {
         opt.isa = isas.isa[k];
-        SL_CHECK(
-            sl_batch_factor(&F[k], 1, y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL, NULL));
+        SL_CHECK(sl_factor_create_sums(&F[k], 1, y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL,
+                                       NULL));
     }
     SL_CHECK(sl_batch_diagonal(F, isas.count, out, (size_t)y.n, NULL, 0, THREADS(threads), NULL,
                                NULL, NULL));
@@ -194,8 +196,8 @@ static void invalid_arguments_of_diagonals_are_refused(void **state) {
     sl_threads threads = {-1, NULL, NULL};
     coefficients_of(c, MOST, 1);
     memcpy(before, c, sizeof c);
-    SL_CHECK(sl_batch_factor(F, 3, y.S, c, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
-    SL_CHECK(sl_batch_factor(G, 1, z.S, c, matrix_pair_values(&z), TERMS, NULL, NULL, NULL));
+    SL_CHECK(sl_factor_create_sums(F, 3, y.S, c, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
+    SL_CHECK(sl_factor_create_sums(G, 1, z.S, c, matrix_pair_values(&z), TERMS, NULL, NULL, NULL));
     sl_factor *mixed[3] = {F[0], F[1], G[0]}, *bare[3] = {F[0], NULL, F[1]};
     sl_int rows[2] = {3, 25};
     sl_stats stats;
@@ -209,7 +211,8 @@ static void invalid_arguments_of_diagonals_are_refused(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(F, -1, c, 1, rows, 1, NULL, NULL, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT,
               sl_batch_diagonal(F, 3, c, 1, rows, 1, THREADS(threads), NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_batch_diagonal(mixed, 3, c, 1, rows, 1, NULL, NULL, &failed, NULL));
+    SL_EXPECT(SL_ERR_MISMATCH,
+              sl_batch_diagonal(mixed, 3, c, 1, rows, 1, NULL, NULL, &failed, NULL));
     assert_int_equal(failed, 2);
     SL_EXPECT(SL_ERR_ARGUMENT,
               sl_batch_diagonal(bare, 3, c, 1, rows, 1, NULL, NULL, &failed, NULL));
@@ -246,8 +249,8 @@ static void a_failed_allocation_leaves_the_output(void **state) {
     int calls = 0;
     const sl_threads threads = threads_of(3, &calls);
     coefficients_of(c, 4, 1);
-    SL_CHECK(
-        sl_batch_factor(F, 4, y.S, c, matrix_pair_values(&y), TERMS, FOR_FACTOR(&opt), NULL, NULL));
+    SL_CHECK(sl_factor_create_sums(F, 4, y.S, c, matrix_pair_values(&y), TERMS, FOR_FACTOR(&opt),
+                                   NULL, NULL));
     for (int own = 0; own < 2; own++) {
         sl_status status = SL_ERR_MEMORY;
         for (int64_t k = 0; status != SL_OK; k++) {

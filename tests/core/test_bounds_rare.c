@@ -163,9 +163,9 @@ static void restrictions_check_what_they_are_given(void **state) {
     const sl_csc A = {2, 2, p, i, x}, wide = {1, 2, p, rows, x};
     sl_symbolic *S = NULL, *T = NULL;
     sl_factor *F = factor_of(&A, &S, NULL), *G = NULL;
-    SL_CHECK(sl_factor_restrict(&T, &G, F, &A, rows, 2, NULL, NULL));
+    SL_CHECK(sl_factor_submatrix(&T, &G, F, &A, rows, 2, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_certify(G, NULL, SL_ESTIMATED, NULL, NULL));
-    SL_EXPECT(SL_ERR_PATTERN, sl_factor_certify(G, &wide, SL_ESTIMATED, NULL, NULL));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_factor_certify(G, &wide, SL_ESTIMATED, NULL, NULL));
     SL_CHECK(sl_factor_certify(G, &A, SL_ESTIMATED, NULL, NULL));
     sl_factor_free(G);
     sl_symbolic_free(T);

@@ -31,7 +31,7 @@ static void bounds_are_those_of_the_numbers(void **state) {
         double w = 0.1;
         static const sl_int column[2] = {0, 1}, row[1] = {7};
         const sl_csc v = {100, 1, column, row, &w};
-        SL_CHECK(sl_factor_update(F, &v, NULL, NULL, NULL));
+        SL_CHECK(sl_factor_rank_update(F, &v, NULL, NULL, NULL));
         SL_EXPECT(SL_ERR_STALE, solve_bounded(P, F, NULL));
         SL_CHECK(sl_factor_refactor(F, &y.M.view, NULL));
     }
@@ -54,7 +54,7 @@ static void other_values_are_noticed(void **state) {
     SL_EXPECT(SL_ERR_INACCURATE, sl_factor_certify(y.F, &y.M.view, SL_ESTIMATED, NULL, &stats));
     assert_true(stats.certificate.eta > 1.0);
     SL_EXPECT(SL_ERR_STALE, solve_bounded(P, y.F, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_factor_certify(y.F, &y.M.view, SL_GUARANTEED, NULL, NULL));
+    SL_EXPECT(SL_ERR_MISMATCH, sl_factor_certify(y.F, &y.M.view, SL_GUARANTEED, NULL, NULL));
     y.M.x[0] = -1.0; /* not definite */
     SL_EXPECT(SL_ERR_INACCURATE, sl_factor_certify(y.F, &y.M.view, SL_ESTIMATED, NULL, NULL));
     y.M.x[0] = (double)NAN;

@@ -1,4 +1,5 @@
-/* test_change.c: sl_factor_update, sl_factor_change: the new factor and its accuracy */
+/* test_change.c: sl_factor_rank_update, sl_factor_change_entries: the new factor and its accuracy
+ * */
 #include "tests/lib/changed.h"
 
 enum { EDGES = 24 };
@@ -25,8 +26,8 @@ static void changed_entries_give_the_factor_of_the_new_matrix(void **state) {
                 random_entry(&c, &seed, &i, &j);
                 at = add_edge(&c, i, j, 0.5 + 0.4 * gen_real(&seed), rows, columns, deltas, at);
             }
-            sl_status status =
-                sl_factor_change(c.y.F, NULL, rows, columns, deltas, at, k % 2 ? W : NULL, &stats);
+            sl_status status = sl_factor_change_entries(c.y.F, NULL, rows, columns, deltas, at,
+                                                        k % 2 ? W : NULL, &stats);
             if (kind == GEN_KKT && status == SL_ERR_PIVOT) { /* may become singular on its way */
                 sl_work_free(W);
                 changed_free(&c);
@@ -56,22 +57,22 @@ static void ranks_are_as_few_as_the_edges(void **state) {
     at = add_edge(&c, 3, 4, 0.3, rows, columns, deltas, at);
     at = add_edge(&c, 4, 5, 0.1, rows, columns, deltas, at);
     at = add_edge(&c, 5, 4, 0.7, rows, columns, deltas, at); /* the same edge from the other side */
-    SL_CHECK(sl_factor_change(c.y.F, NULL, rows, columns, deltas, at, NULL, &stats));
+    SL_CHECK(sl_factor_change_entries(c.y.F, NULL, rows, columns, deltas, at, NULL, &stats));
     assert_int_equal(stats.change.ranks, 2);
     at = add_edge(&c, 7, 7, 0.5, rows, columns, deltas, 0);
-    SL_CHECK(sl_factor_change(c.y.F, NULL, rows, columns, deltas, at, NULL, &stats));
+    SL_CHECK(sl_factor_change_entries(c.y.F, NULL, rows, columns, deltas, at, NULL, &stats));
     assert_int_equal(stats.change.ranks, 1);
     rows[0] = 8;
     columns[0] = 9;
     deltas[0] = 0.01;
     changed_add(&c, 8, 9, 0.01);
-    SL_CHECK(sl_factor_change(c.y.F, NULL, rows, columns, deltas, 1, NULL, &stats));
+    SL_CHECK(sl_factor_change_entries(c.y.F, NULL, rows, columns, deltas, 1, NULL, &stats));
     assert_int_equal(stats.change.ranks, 3);
     deltas[0] = 0.0;
-    SL_CHECK(sl_factor_change(c.y.F, NULL, rows, columns, deltas, 1, NULL, &stats));
+    SL_CHECK(sl_factor_change_entries(c.y.F, NULL, rows, columns, deltas, 1, NULL, &stats));
     assert_int_equal(stats.change.ranks, 0);
     assert_int_equal(stats.change.method, SL_CHANGE_NONE);
-    SL_CHECK(sl_factor_change(c.y.F, NULL, NULL, NULL, NULL, 0, NULL, &stats));
+    SL_CHECK(sl_factor_change_entries(c.y.F, NULL, NULL, NULL, NULL, 0, NULL, &stats));
     assert_int_equal(stats.change.updates, 6);
     assert_true(changed_error(&c) <= 1e-14);
     changed_free(&c);
@@ -103,7 +104,7 @@ static void vectors_give_the_factor_of_the_new_matrix(void **state) {
                     }
                 }
             }
-            SL_CHECK(sl_factor_update(c.y.F, &V, sigma, NULL, NULL));
+            SL_CHECK(sl_factor_rank_update(c.y.F, &V, sigma, NULL, NULL));
             assert_true(changed_error(&c) <= 1e-14);
             changed_free(&c);
         }
@@ -133,7 +134,7 @@ static void one_vector_changes_a_wide_panel(void **state) {
                     }
                 }
                 sl_csc V = {n, 1, p, i, x};
-                SL_CHECK(sl_factor_update(c.y.F, &V, &sigma, NULL, NULL));
+                SL_CHECK(sl_factor_rank_update(c.y.F, &V, &sigma, NULL, NULL));
                 assert_true(changed_error(&c) <= 1e-14);
             }
             changed_free(&c);
@@ -157,7 +158,7 @@ static void one_vector_changes_pivots_of_both_signs(void **state) {
             const double sigma = row % 20 ? 0.5 : -0.25, x = 0.5;
             const sl_csc V = {n, 1, p, &perm[row], &x};
             changed_add(&c, perm[row], perm[row], sigma * x * x);
-            SL_CHECK(sl_factor_update(c.y.F, &V, &sigma, NULL, &stats));
+            SL_CHECK(sl_factor_rank_update(c.y.F, &V, &sigma, NULL, &stats));
             assert_true(stats.factor.positive > 0 && stats.factor.negative > 0);
         }
         assert_true(changed_error(&c) <= 1e-14);
@@ -184,11 +185,11 @@ static void an_update_and_its_downdate_return(void **state) {
                 random_entry(&c, &seed, &i, &j);
                 at = add_edge(&c, i, j, 1.0, rows, columns, deltas, at);
             }
-            SL_CHECK(sl_factor_change(c.y.F, NULL, rows, columns, deltas, at, NULL, NULL));
+            SL_CHECK(sl_factor_change_entries(c.y.F, NULL, rows, columns, deltas, at, NULL, NULL));
             for (sl_int m = 0; m < at; m++) {
                 deltas[m] = -deltas[m];
             }
-            SL_CHECK(sl_factor_change(c.y.F, NULL, rows, columns, deltas, at, NULL, NULL));
+            SL_CHECK(sl_factor_change_entries(c.y.F, NULL, rows, columns, deltas, at, NULL, NULL));
         }
         for (size_t m = 0; m < size; m++) {
             assert_true(fabs(sl_factor_view(c.y.F).L[m] - before[m]) <= 1e-12);
@@ -214,13 +215,13 @@ static void ten_thousand_edits_stay_below_the_drift(void **state) {
         double deltas[3];
         sl_int at = add_edge(&c, i, j, w - weight[i], rows, columns, deltas, 0);
         weight[i] = w;
-        SL_CHECK(sl_factor_change(c.y.F, NULL, rows, columns, deltas, at, W, &stats));
+        SL_CHECK(sl_factor_change_entries(c.y.F, NULL, rows, columns, deltas, at, W, &stats));
     }
     assert_true(stats.change.updates > 9000 && stats.change.updates <= 10000);
     assert_true(changed_error(&c) <= stats.change.drift);
     assert_true(stats.change.drift <= 1e-10 && stats.factor.growth <= 2.0);
     SL_CHECK(sl_factor_refactor(c.y.F, &c.y.M.view, NULL));
-    SL_CHECK(sl_factor_change(c.y.F, NULL, NULL, NULL, NULL, 0, W, &stats));
+    SL_CHECK(sl_factor_change_entries(c.y.F, NULL, NULL, NULL, NULL, 0, W, &stats));
     assert_int_equal(stats.change.updates, 0);
     assert_true(stats.change.drift == 0.0);
     sl_work_free(W);

@@ -1,4 +1,5 @@
-/* test_change_choice.c: sl_factor_change: the way that it takes, its result, its fallbacks */
+/* test_change_choice.c: sl_factor_change_entries: the way that it takes, its result, its fallbacks
+ * */
 #include "tests/lib/factored.h"
 
 /* A grid Laplacian with 0.1 on the diagonal, as triplets that the tests change. */
@@ -72,8 +73,8 @@ static void assert_is_factor_of(const grid_t *g) {
 }
 
 static sl_change_method change(grid_t *g, const list_t *l, sl_stats *stats) {
-    SL_CHECK(sl_factor_change(g->F, &g->M.view, l->rows, l->columns, l->deltas, l->count, NULL,
-                              stats));
+    SL_CHECK(sl_factor_change_entries(g->F, &g->M.view, l->rows, l->columns, l->deltas, l->count,
+                                      NULL, stats));
     return stats->change.method;
 }
 
@@ -162,8 +163,8 @@ static void patterns_are_checked_where_they_are_read(void **state) {
             l->deltas[k] = 0.5;
         }
         sl_stats stats;
-        const sl_status status = sl_factor_change(g.F, &A, l->rows, l->columns, l->deltas, count,
-                                                  NULL, &stats);
+        const sl_status status =
+            sl_factor_change_entries(g.F, &A, l->rows, l->columns, l->deltas, count, NULL, &stats);
         if (status == SL_OK) {
             assert_int_equal(stats.change.method, SL_CHANGE_UPDATE);
             for (sl_int k = 0; k < count; k++) {
@@ -202,8 +203,8 @@ static void refused_updates_are_refactored(void **state) {
         l->deltas[k] = 1.0;
     }
     l->count = g.n;
-    SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_change(g.F, &g.M.view, l->rows, l->columns, l->deltas,
-                                                  l->count, NULL, &stats));
+    SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_change_entries(g.F, &g.M.view, l->rows, l->columns,
+                                                          l->deltas, l->count, NULL, &stats));
     g.M.x[0] = keep;
     l->count = 0; /* F has no numbers: whatever the change is, it is refactored */
     assert_int_equal(change(&g, l, &stats), SL_CHANGE_REFACTOR);
@@ -256,8 +257,8 @@ static void float_factors_are_refactored(void **state) {
     assert_int_equal(stats.change.reason, SL_CHANGE_UNSUITED);
     SL_CHECK(sl_factor_create(&F, g.S, &g.M.view, &opt, NULL));
     assert_same_bits(g.F, F);
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_change(g.F, NULL, l->rows, l->columns, l->deltas,
-                                                           l->count, NULL, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_change_entries(g.F, NULL, l->rows, l->columns,
+                                                           l->deltas, l->count, NULL, NULL));
     assert_same_bits(g.F, F);
     sl_factor_free(F);
     free(l);
@@ -293,19 +294,24 @@ static void invalid_arguments_and_failing_allocations(void **state) {
     double one = 1.0;
     sl_csc other = g.M.view;
     other.x = NULL;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change(NULL, &g.M.view, &bad, &bad, &one, 0, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change(g.F, NULL, &bad, &bad, &one, 1, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change(g.F, &other, &bad, &bad, &one, 0, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change(g.F, &g.M.view, &bad, &bad, &one, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_factor_change_entries(NULL, &g.M.view, &bad, &bad, &one, 0, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_factor_change_entries(g.F, NULL, &bad, &bad, &one, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_factor_change_entries(g.F, &other, &bad, &bad, &one, 0, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_factor_change_entries(g.F, &g.M.view, &bad, &bad, &one, 1, NULL, NULL));
     other = g.M.view;
     other.n_cols = 9;
-    SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_factor_change(g.F, &other, &bad, &bad, &one, 0, NULL, NULL));
+    SL_EXPECT(SL_ERR_OTHER_PATTERN,
+              sl_factor_change_entries(g.F, &other, &bad, &bad, &one, 0, NULL, NULL));
     list_edge(l, &g, 41, 42, 0.5);
     sl_status status = SL_ERR_MEMORY;
     for (int k = 0; status != SL_OK; k++) {
         counter.fail_at = (int64_t)counter.calls + k;
-        status = sl_factor_change(g.F, &g.M.view, l->rows, l->columns, l->deltas, l->count, NULL,
-                                  NULL);
+        status = sl_factor_change_entries(g.F, &g.M.view, l->rows, l->columns, l->deltas, l->count,
+                                          NULL, NULL);
         counter.fail_at = -1;
         if (status != SL_OK) { /* F is that of the old matrix */
             assert_int_equal(status, SL_ERR_MEMORY);

@@ -10,16 +10,16 @@ static void drift_is_relative_to_what_remains(void **state) {
         const sl_int row = 44, other = 3;
         double b[100], x[100], r[100], delta = 1e10 * sign / 3.0, error = 0.0;
         sl_stats stats;
-        SL_CHECK(sl_factor_change(y.F, NULL, &row, &row, &delta, 1, NULL, &stats));
+        SL_CHECK(sl_factor_change_entries(y.F, NULL, &row, &row, &delta, 1, NULL, &stats));
         assert_true(stats.change.drift <= 1e-14);
         delta = -delta;
-        SL_CHECK(sl_factor_change(y.F, NULL, &row, &row, &delta, 1, NULL, &stats));
+        SL_CHECK(sl_factor_change_entries(y.F, NULL, &row, &row, &delta, 1, NULL, &stats));
         gen_reals(b, 100, 5);
         SL_CHECK(sl_factor_solve(y.F, x, 100, b, 100, 1, NULL));
         SL_CHECK(sl_csc_residual(&y.M.view, r, 100, &error, x, 100, b, 100, 1));
         assert_true(error > 1e-12 && stats.change.drift > error && stats.change.drift < 1e-4);
         delta = 1e-3 * sign;
-        SL_CHECK(sl_factor_change(y.F, NULL, &other, &other, &delta, 1, NULL, &stats));
+        SL_CHECK(sl_factor_change_entries(y.F, NULL, &other, &other, &delta, 1, NULL, &stats));
         assert_true(stats.change.drift > error && stats.change.drift < 1e-4);
         factored_free(&y);
     }
@@ -38,7 +38,7 @@ static void growth_is_relative_to_what_remains(void **state) {
     sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
     SL_CHECK(sl_factor_create(&F, S, &A, NULL, &stats));
     assert_true(stats.factor.growth < 100.0);
-    SL_CHECK(sl_factor_change(F, NULL, &last, &last, &down, 1, NULL, &stats));
+    SL_CHECK(sl_factor_change_entries(F, NULL, &last, &last, &down, 1, NULL, &stats));
     assert_true(stats.factor.growth >= 1e10 && stats.factor.growth < 1e12);
     sl_factor_free(F);
     sl_symbolic_free(S);
@@ -70,8 +70,8 @@ static void a_change_as_large_as_the_matrix(void **state) {
         sl_stats stats;
         sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_NONE);
         SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
-        SL_CHECK(sl_factor_change(F, NULL, &cases[c].row, &cases[c].row, &cases[c].delta, 1, NULL,
-                                  &stats));
+        SL_CHECK(sl_factor_change_entries(F, NULL, &cases[c].row, &cases[c].row, &cases[c].delta, 1,
+                                          NULL, &stats));
         assert_int_equal(stats.change.method, SL_CHANGE_UPDATE);
         assert_true(stats.factor.growth <= cases[c].growth);
         assert_true(stats.change.drift <= 4.0 * DBL_EPSILON * cases[c].growth);
@@ -104,8 +104,8 @@ static void lost_digits_are_counted(void **state) {
         SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
         SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
         a[1] += delta;
-        SL_CHECK(k % 2 ? sl_factor_change(F, &A, &row, &column, &delta, 1, NULL, &stats)
-                       : sl_factor_change(F, NULL, &row, &column, &delta, 1, NULL, &stats));
+        SL_CHECK(k % 2 ? sl_factor_change_entries(F, &A, &row, &column, &delta, 1, NULL, &stats)
+                       : sl_factor_change_entries(F, NULL, &row, &column, &delta, 1, NULL, &stats));
         SL_CHECK(sl_factor_solve(F, x, 2, b, 2, 1, NULL));
         SL_CHECK(sl_csc_residual(&A, r, 2, &eta, x, 2, b, 2, 1));
         const double error =
@@ -131,7 +131,7 @@ static void changes_may_make_a_matrix_definite(void **state) {
     SL_CHECK(sl_factor_create(&F, S, &A, NULL, &stats));
     assert_int_equal(stats.factor.negative, 1);
     for (int k = 0; k < 3; k++) {
-        SL_CHECK(sl_factor_update(F, &V, sigma + k, NULL, &stats));
+        SL_CHECK(sl_factor_rank_update(F, &V, sigma + k, NULL, &stats));
         assert_int_equal(stats.factor.positive, 2);
         assert_int_equal(stats.change.updates, k + 1);
         const double error = fabs(sl_factor_view(F).D[1] / wanted[k] - 1.0);

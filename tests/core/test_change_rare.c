@@ -13,7 +13,7 @@ static void zeros_change_nothing(void **state) {
     memcpy(D, sl_factor_view(y.F).D, sizeof D);
     for (int k = 0; k < 2; k++) {
         const sl_csc V = {100, 1, p, i, x + k};
-        SL_CHECK(sl_factor_update(y.F, &V, sigma, NULL, NULL));
+        SL_CHECK(sl_factor_rank_update(y.F, &V, sigma, NULL, NULL));
         assert_memory_equal(L, sl_factor_view(y.F).L, size * sizeof *L);
         assert_memory_equal(D, sl_factor_view(y.F).D, sizeof D);
     }
@@ -37,11 +37,11 @@ static void matrices_of_zeros_are_changed(void **state) {
     opt.growth_limit = 0.5;
     opt.error_limit = -1.0;
     SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
-    SL_CHECK(sl_factor_update(F, &V, sigma, NULL, NULL));
+    SL_CHECK(sl_factor_rank_update(F, &V, sigma, NULL, NULL));
     SL_CHECK(sl_factor_solve(F, &x, 1, &b, 1, 1, NULL));
     assert_true(x == 3.0);
     one[0] = 1.0; /* any growth is more than 0.5 */
-    SL_EXPECT(SL_ERR_INACCURATE, sl_factor_update(F, &V, sigma, NULL, &stats));
+    SL_EXPECT(SL_ERR_INACCURATE, sl_factor_rank_update(F, &V, sigma, NULL, &stats));
     assert_int_equal(stats.error.row, 0);
     SL_CHECK(sl_factor_solve(F, &x, 1, &b, 1, 1, NULL));
     assert_true(x == 3.0);
@@ -71,10 +71,10 @@ static void matrices_of_zeros_have_no_scale(void **state) {
         opt.error_limit = -1.0;
         SL_CHECK(sl_factor_create(&F, S, &A, FOR_FACTOR(&opt), NULL));
         if (both) {
-            SL_CHECK(sl_factor_update(F, &V, NULL, NULL, &stats));
+            SL_CHECK(sl_factor_rank_update(F, &V, NULL, NULL, &stats));
             assert_true(stats.change.drift <= DBL_EPSILON);
         } else {
-            SL_EXPECT(SL_ERR_INACCURATE, sl_factor_update(F, &V, NULL, NULL, &stats));
+            SL_EXPECT(SL_ERR_INACCURATE, sl_factor_rank_update(F, &V, NULL, NULL, &stats));
             assert_int_equal(stats.error.row, 0);
         }
         SL_CHECK(sl_factor_solve(F, y, 3, b, 3, 1, NULL));
@@ -100,15 +100,15 @@ static void two_vectors_may_store_zeros(void **state) {
         SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
         const sl_int *at = sl_symbolic_view(S).iperm;
         const double *D = sl_factor_view(F).D;
-        SL_CHECK(sl_factor_update(F, &V, NULL, NULL, NULL));
+        SL_CHECK(sl_factor_rank_update(F, &V, NULL, NULL, NULL));
         assert_true(D[at[0]] == 5.0 && D[at[1]] == 9.0 * sign + 1.0);
-        SL_CHECK(sl_factor_update(F, &V, sigma, NULL, NULL));
+        SL_CHECK(sl_factor_rank_update(F, &V, sigma, NULL, NULL));
         assert_true(D[at[0]] == 4.0 && D[at[1]] == 9.0 * sign);
         for (int row = 0; row < 2; row++) { /* one of them comes first */
             const double away[2] = {-1.0, -sign};
             v[0] = row == 0 ? 2.0 : 1.0;
             v[3] = row == 0 ? 1.0 : 3.0;
-            SL_EXPECT(SL_ERR_PIVOT, sl_factor_update(F, &V, away, NULL, &stats));
+            SL_EXPECT(SL_ERR_PIVOT, sl_factor_rank_update(F, &V, away, NULL, &stats));
             assert_int_equal(stats.error.row, row);
             assert_true(D[at[0]] == 4.0 && D[at[1]] == 9.0 * sign);
         }
@@ -132,7 +132,7 @@ static void vectors_of_a_pass_may_cancel(void **state) {
         sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
         opt.isa = isas.isa[k];
         SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
-        SL_CHECK(sl_factor_update(F, &V, sigma, NULL, &stats));
+        SL_CHECK(sl_factor_rank_update(F, &V, sigma, NULL, &stats));
         assert_int_equal(stats.change.ranks, 3);
         assert_true(sl_factor_view(F).D[0] == 4.0 && sl_factor_view(F).D[1] == 10.0);
         sl_factor_free(F);
@@ -154,11 +154,12 @@ static void a_pivot_of_rounding_is_null(void **state) {
     const double pivot = sl_factor_view(F).D[1];
     double delta = 1e-17 - pivot;
     assert_true(pivot > 9e-11 && pivot < 1.1e-10 && pivot + delta > 0.0);
-    SL_EXPECT(SL_ERR_PIVOT, sl_factor_change(F, NULL, &last, &last, &delta, 1, NULL, &stats));
+    SL_EXPECT(SL_ERR_PIVOT,
+              sl_factor_change_entries(F, NULL, &last, &last, &delta, 1, NULL, &stats));
     assert_int_equal(stats.error.row, 1);
     assert_true(sl_factor_view(F).D[1] == pivot);
     delta = 1e-12 - pivot;
-    SL_CHECK(sl_factor_change(F, NULL, &last, &last, &delta, 1, NULL, &stats));
+    SL_CHECK(sl_factor_change_entries(F, NULL, &last, &last, &delta, 1, NULL, &stats));
     sl_factor_free(F);
     sl_symbolic_free(S);
 }
@@ -223,11 +224,12 @@ static void a_laplacian_may_become_singular(void **state) {
         w[7] *= 0.02;
         tree_set(&M, parent, w, 0.0, deltas);
         if (k % 3 == 2) {
-            SL_EXPECT(SL_ERR_PIVOT,
-                      sl_factor_change(F, NULL, rows, columns, deltas, ENTRIES, NULL, &stats));
+            SL_EXPECT(SL_ERR_PIVOT, sl_factor_change_entries(F, NULL, rows, columns, deltas,
+                                                             ENTRIES, NULL, &stats));
         }
-        SL_EXPECT(k % 3 > 0 ? SL_OK : SL_ERR_PIVOT,
-                  sl_factor_change(F, &M.view, rows, columns, deltas, ENTRIES, NULL, &stats));
+        SL_EXPECT(
+            k % 3 > 0 ? SL_OK : SL_ERR_PIVOT,
+            sl_factor_change_entries(F, &M.view, rows, columns, deltas, ENTRIES, NULL, &stats));
         assert_true(k % 3 == 0 || stats.factor.null == 1);
         sl_factor_free(F);
         sl_symbolic_free(S);
@@ -256,7 +258,7 @@ static void entries_outside_of_L_are_refused(void **state) {
             const sl_int p[3] = {0, 2, 4}, i[4] = {perm[k], perm[j], perm[k], perm[j]};
             const sl_csc V = {N, 1 + (j + k) % 2, p, i, x};
             SL_EXPECT(has[k] ? SL_OK : SL_ERR_OTHER_PATTERN,
-                      sl_factor_update(y.F, &V, NULL, NULL, NULL));
+                      sl_factor_rank_update(y.F, &V, NULL, NULL, NULL));
         }
     }
     sl_matrix_free(lower);
@@ -293,7 +295,7 @@ static void check_tiny_and_huge(sl_int count, sl_isa isa) {
         SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
         SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
         const double *D = sl_factor_view(F).D;
-        SL_EXPECT(cases[k].status, sl_factor_update(F, &V, NULL, NULL, &stats));
+        SL_EXPECT(cases[k].status, sl_factor_rank_update(F, &V, NULL, NULL, &stats));
         double b = D[0], y = 0.0;
         if (cases[k].status == SL_OK) {
             assert_true(fabs(D[0] - wanted) <= 16.0 * DBL_EPSILON * wanted);

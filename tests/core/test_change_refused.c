@@ -27,8 +27,8 @@ static subject_t subject_make(int history, double growth_limit) {
     s.S = s.y.S;
     s.F = s.y.F;
     if (history != FRESH) {
-        SL_CHECK(sl_factor_change(s.F, NULL, &row, &row, &up, 1, NULL, NULL));
-        SL_CHECK(sl_factor_change(s.F, NULL, &row, &row, &down, 1, NULL, NULL));
+        SL_CHECK(sl_factor_change_entries(s.F, NULL, &row, &row, &up, 1, NULL, NULL));
+        SL_CHECK(sl_factor_change_entries(s.F, NULL, &row, &row, &down, 1, NULL, NULL));
     }
     if (history == LOADED || history == MAPPED) {
         size_t bytes;
@@ -91,23 +91,23 @@ static sl_status refused_call(const subject_t *s, int k) {
     }
     q[MOST] = MOST;
     if (k < 9) { /* downdates, weights that are not finite, overflows */
-        return sl_factor_update(s->F, &V, sigma, NULL, NULL);
+        return sl_factor_rank_update(s->F, &V, sigma, NULL, NULL);
     }
     switch (k) {
     case 9:
-        return sl_factor_update(s->F, &W, NULL, NULL, NULL); /* outside of L */
+        return sl_factor_rank_update(s->F, &W, NULL, NULL, NULL); /* outside of L */
     case 10:
-        return sl_factor_change(s->F, NULL, &beyond, &first, &delta, 1, NULL, NULL);
+        return sl_factor_change_entries(s->F, NULL, &beyond, &first, &delta, 1, NULL, NULL);
     case 11:
-        return sl_factor_change(s->F, NULL, &first, &first, &nan, 1, NULL, NULL);
+        return sl_factor_change_entries(s->F, NULL, &first, &first, &nan, 1, NULL, NULL);
     case 12:
-        return sl_factor_change(s->F, NULL, &first, &first, &less, 1, NULL, NULL);
+        return sl_factor_change_entries(s->F, NULL, &first, &first, &less, 1, NULL, NULL);
     case 13:
-        return sl_factor_change(s->F, NULL, far, far + 1, &huge, 1, NULL, NULL);
+        return sl_factor_change_entries(s->F, NULL, far, far + 1, &huge, 1, NULL, NULL);
     case 14:
-        return sl_factor_change(s->F, &small, &first, &first, &delta, 1, NULL, NULL);
+        return sl_factor_change_entries(s->F, &small, &first, &first, &delta, 1, NULL, NULL);
     case 15:
-        return sl_factor_change(s->F, A, &first, &first, &nan, 1, NULL, NULL);
+        return sl_factor_change_entries(s->F, A, &first, &first, &nan, 1, NULL, NULL);
     case 16:
         return sl_factor_refactor_changed(s->F, A, &beyond, 1, NULL);
     case 17:
@@ -143,7 +143,7 @@ static void refused_calls_change_nothing(void **state) {
 }
 
 /* The drift of a saved factor is growth once it is loaded. Where that is above the limit, no change
- * is made, and sl_factor_change refactors. */
+ * is made, and sl_factor_change_entries refactors. */
 static void the_drift_of_a_loaded_factor_is_refused(void **state) {
     (void)state;
     const double up = 1e6;
@@ -152,11 +152,11 @@ static void the_drift_of_a_loaded_factor_is_refused(void **state) {
     subject_t s = subject_make(LOADED, 1e4);
     image_t before = image_make(&s);
     SL_EXPECT(SL_ERR_INACCURATE,
-              sl_factor_change(s.F, NULL, &row, &row, &up, 1, NULL, &stats));
+              sl_factor_change_entries(s.F, NULL, &row, &row, &up, 1, NULL, &stats));
     assert_int_equal(stats.error.row, 0);
     image_t after = image_make(&s);
     assert_memory_equal(before.bytes, after.bytes, before.size);
-    SL_CHECK(sl_factor_change(s.F, &s.y.M.view, &row, &row, &up, 1, NULL, &stats));
+    SL_CHECK(sl_factor_change_entries(s.F, &s.y.M.view, &row, &row, &up, 1, NULL, &stats));
     assert_int_equal(stats.change.method, SL_CHANGE_REFACTOR);
     free(before.bytes);
     free(after.bytes);
@@ -173,9 +173,9 @@ static void a_lost_matrix_is_not_solved(void **state) {
     sl_csc other = s.y.M.view;
     sl_int *i = test_ints((size_t)other.p[N]);
     other.i = i;
-    SL_CHECK(sl_factor_change(s.F, &other, rows, rows, &up, 1, NULL, NULL));
+    SL_CHECK(sl_factor_change_entries(s.F, &other, rows, rows, &up, 1, NULL, NULL));
     SL_EXPECT(SL_ERR_OTHER_PATTERN,
-              sl_factor_change(s.F, &other, rows, rows, &down, 1, NULL, NULL));
+              sl_factor_change_entries(s.F, &other, rows, rows, &down, 1, NULL, NULL));
     SL_EXPECT(SL_ERR_STALE, sl_factor_solve(s.F, x, N, b, N, 1, NULL));
     SL_CHECK(sl_factor_refactor(s.F, &s.y.M.view, NULL));
     free(i);
@@ -218,7 +218,7 @@ static sl_status large_change(large_t *t, int64_t k, size_t *count, sl_stats *st
     counter_t counter = counter_make();
     sl_work *W = work_failing(&counter, k);
     const size_t before = counter.calls;
-    const sl_status status = sl_factor_update(t->y.F, &t->V, t->sigma, W, stats);
+    const sl_status status = sl_factor_rank_update(t->y.F, &t->V, t->sigma, W, stats);
     *count = counter.calls - before;
     sl_work_free(W);
     COUNTER_CLEAN(&counter);

@@ -73,7 +73,8 @@ static void entries_change_by_the_scales_of_their_rows(void **state) {
                 deltas[count++] = 0.1 * *a;
                 *a += deltas[count - 1];
             }
-            SL_CHECK(sl_factor_change(y.F, NULL, rows, columns, deltas, count, NULL, &stats));
+            SL_CHECK(
+                sl_factor_change_entries(y.F, NULL, rows, columns, deltas, count, NULL, &stats));
             assert_true(error_of(&y, s) <= 64.0 * DBL_EPSILON);
             assert_true(stats.change.drift <= 64.0 * DBL_EPSILON);
             band_free(&y);
@@ -94,11 +95,11 @@ static void lost_digits_of_small_rows_are_drift(void **state) {
         band_make(&y, s);
         if (way < 2) {
             const sl_csc V = {N, 4, p, rows, one};
-            SL_CHECK(sl_factor_update(y.F, &V, weights, NULL, &stats));
+            SL_CHECK(sl_factor_rank_update(y.F, &V, weights, NULL, &stats));
         } else {
             const sl_csc V = {N, way % 2 ? 2 : 1, p, rows, one};
-            SL_CHECK(sl_factor_update(y.F, &V, weights, NULL, NULL));
-            SL_CHECK(sl_factor_update(y.F, &V, weights + 2, NULL, &stats));
+            SL_CHECK(sl_factor_rank_update(y.F, &V, weights, NULL, NULL));
+            SL_CHECK(sl_factor_rank_update(y.F, &V, weights + 2, NULL, &stats));
         }
         const double lost = error_of(&y, s);
         print_message("way %d: error %.1e, drift %.1e\n", way, lost, stats.change.drift);
@@ -121,12 +122,12 @@ static void a_weight_that_rises_and_falls_leaves_no_error(void **state) {
     for (double weight = 1e10; weight > 0.0; weight = weight < 1.0 ? 0.0 : weight / 2) {
         const double delta = base + weight - *a;
         *a += delta;
-        SL_CHECK(sl_factor_change(y.F, &y.view, &row, &row, &delta, 1, NULL, &stats));
+        SL_CHECK(sl_factor_change_entries(y.F, &y.view, &row, &row, &delta, 1, NULL, &stats));
         refactored += stats.change.method == SL_CHANGE_REFACTOR;
     }
     const double delta = base - *a;
     *a = base;
-    SL_CHECK(sl_factor_change(y.F, &y.view, &row, &row, &delta, 1, NULL, &stats));
+    SL_CHECK(sl_factor_change_entries(y.F, &y.view, &row, &row, &delta, 1, NULL, &stats));
     assert_true(refactored > 0);
     assert_true(error_of(&y, 1.0) < 1e-10);
     band_free(&y);
@@ -139,11 +140,11 @@ static void row_change(band_t *y, int way, sl_int row, double delta, sl_stats *s
     const sl_csc one = {N, 1, p, rows + 1, ones}, three = {N, 3, p, rows, ones};
     y->a[y->p[row]] += delta;
     if (way == 0) {
-        SL_CHECK(sl_factor_change(y->F, NULL, &row, &row, &delta, 1, NULL, stats));
+        SL_CHECK(sl_factor_change_entries(y->F, NULL, &row, &row, &delta, 1, NULL, stats));
     } else if (way == 1) {
-        SL_CHECK(sl_factor_update(y->F, &one, sigma + 1, NULL, stats));
+        SL_CHECK(sl_factor_rank_update(y->F, &one, sigma + 1, NULL, stats));
     } else {
-        SL_CHECK(sl_factor_update(y->F, &three, sigma, NULL, stats));
+        SL_CHECK(sl_factor_rank_update(y->F, &three, sigma, NULL, stats));
         y->a[y->p[3]] += 1e-9;
         y->a[y->p[50]] += 1e-9;
     }
@@ -193,11 +194,11 @@ static void a_row_loses_more_than_its_pivot(void **state) {
         band_t y;
         band_make(&y, 1.0);
         sl_csc V = {N, is_late ? 1 : 2, p, rows, values};
-        SL_CHECK(sl_factor_update(y.F, &V, sigma, NULL, NULL));
+        SL_CHECK(sl_factor_rank_update(y.F, &V, sigma, NULL, NULL));
         for (left = sigma[0]; left > 0.0; left += sigma[0]) {
             sigma[0] = way / 2 == 1 && left > 1.0 ? -0.5 * left : -left;
             V.n_cols = is_late ? 2 : 1;
-            SL_CHECK(sl_factor_update(y.F, &V, sigma, NULL, &stats));
+            SL_CHECK(sl_factor_rank_update(y.F, &V, sigma, NULL, &stats));
         }
         y.a[y.p[heavy]] += sigma[1];
         const double lost = error_of(&y, 1.0);
@@ -244,7 +245,7 @@ static void a_refused_change_loses_nothing(void **state) {
         sigma[k] = k == MANY - 1 ? -1e14 : 1e12;
     }
     p[MANY] = MANY;
-    SL_EXPECT(SL_ERR_PIVOT, sl_factor_update(y.F, &V, sigma, NULL, NULL));
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_rank_update(y.F, &V, sigma, NULL, NULL));
     for (sl_int k = 0; k < MANY; k++) {
         row_change(&y, 0, k, 1.0, &stats);
     }

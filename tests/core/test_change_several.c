@@ -115,7 +115,7 @@ static int update_small(small_t *y, uint64_t *rng, sl_stats *stats) {
     }
     p[count] = at;
     const sl_csc V = {y->n, count, p, i, x};
-    const sl_status status = sl_factor_update(y->F, &V, sigma, NULL, stats);
+    const sl_status status = sl_factor_rank_update(y->F, &V, sigma, NULL, stats);
     assert_true(status == SL_OK || status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE);
     for (sl_int v = 0; v < count && status == SL_OK; v++) {
         for (sl_int s = p[v]; s < p[v + 1]; s++) {
@@ -132,7 +132,8 @@ static int change_small(small_t *y, uint64_t *rng, sl_stats *stats) {
     const sl_int row = 1 + gen_below(rng, y->n - 1), column = gen_below(rng, row);
     const double size = 0.25 * (double)(1 + gen_below(rng, 4));
     const double delta = gen_below(rng, 2) ? size : -size;
-    const sl_status status = sl_factor_change(y->F, NULL, &row, &column, &delta, 1, NULL, stats);
+    const sl_status status =
+        sl_factor_change_entries(y->F, NULL, &row, &column, &delta, 1, NULL, stats);
     assert_true(status == SL_OK || status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE);
     if (status == SL_OK) {
         y->a[row][column] += delta;
@@ -194,7 +195,7 @@ static void a_pivot_grows_below_a_large_row(void **state) {
     y.a[2][1] = y.a[1][2] = 0.75;
     y.a[2][2] = -1.0;
     assert_true(factor_small(&y));
-    SL_CHECK(sl_factor_change(y.F, NULL, &row, &column, &delta, 1, NULL, &stats));
+    SL_CHECK(sl_factor_change_entries(y.F, NULL, &row, &column, &delta, 1, NULL, &stats));
     y.a[1][0] = y.a[0][1] = -0.5;
     const double error = error_of(&y, &rng);
     assert_true(error > 1e-8);

@@ -10,7 +10,7 @@ typedef struct shared_t {
     factored_t y;
     sl_int n;
     sl_plan *plan; /* b and x in NEAR rows */
-    sl_pins *pins;
+    sl_constraints *pins;
     double *B, G[PINS];
     double *X[TASKS];
     sl_status status[TASKS];
@@ -29,9 +29,9 @@ static shared_t shared_make(void) {
     gen_reals(s.B, (size_t)s.n, 7);
     gen_reals(s.G, PINS, 8);
     SL_CHECK(sl_plan_create(&s.plan, s.y.S, near_rows, NEAR, near_rows, NEAR, NULL, NULL));
-    SL_CHECK(sl_pins_create(&s.pins, s.y.F, NULL));
+    SL_CHECK(sl_constraints_create(&s.constraints, s.y.F, NULL));
     for (int k = 0; k < PINS; k++) {
-        SL_CHECK(pin_row(s.pins, pinned[k], NULL));
+        SL_CHECK(pin_row(s.constraints, pinned[k], NULL));
     }
     for (int k = 0; k < TASKS; k++) {
         s.X[k] = test_reals((size_t)s.n);
@@ -49,7 +49,7 @@ static void shared_free(shared_t *s) {
     }
     free(s->B);
     sl_plan_free(s->plan);
-    sl_pins_free(s->pins);
+    sl_constraints_free(s->pins);
     factored_free(&s->y);
 }
 
@@ -85,20 +85,22 @@ static void solve_task(void *shared, sl_int k) {
         s->status[k] = sl_plan_solve(s->plan, s->y.F, x, NEAR, s->B, NEAR, 1, s->W[k]);
         break;
     case 2:
-        s->status[k] = sl_pins_solve(s->pins, NULL, x, n, s->B, n, s->G, PINS, 1, s->W[k]);
+        s->status[k] = sl_constraints_solve(s->pins, NULL, x, n, s->B, n, s->G, PINS, 1, s->W[k]);
         break;
     default:
-        s->status[k] = sl_pins_solve(s->pins, s->plan, x, NEAR, s->B, NEAR, s->G, PINS, 1, s->W[k]);
+        s->status[k] =
+            sl_constraints_solve(s->pins, s->plan, x, NEAR, s->B, NEAR, s->G, PINS, 1, s->W[k]);
         break;
     }
 }
 
-/* Changes an entry of the diagonal in the factor and, for sl_factor_change, in the matrix. */
+/* Changes an entry of the diagonal in the factor and, for sl_factor_change_entries, in the matrix.
+ * */
 static void edit(shared_t *s, int round) {
     const sl_int row = (sl_int)(round * 61 % s->n);
     const double delta = round % 2 ? -0.25 : 0.5;
     if (round % 3 < 2) {
-        SL_CHECK(sl_factor_change(s->y.F, NULL, &row, &row, &delta, 1, s->W[0], NULL));
+        SL_CHECK(sl_factor_change_entries(s->y.F, NULL, &row, &row, &delta, 1, s->W[0], NULL));
     }
     for (sl_int p = s->y.M.p[row]; p < s->y.M.p[row + 1]; p++) {
         if (s->y.M.i[p] == row) {
@@ -107,9 +109,10 @@ static void edit(shared_t *s, int round) {
         }
     }
     if (round % 3 == 2) {
-        SL_CHECK(sl_factor_change(s->y.F, &s->y.M.view, &row, &row, &delta, 1, s->W[0], NULL));
+        SL_CHECK(
+            sl_factor_change_entries(s->y.F, &s->y.M.view, &row, &row, &delta, 1, s->W[0], NULL));
     }
-    SL_CHECK(sl_pins_refactor(s->pins, NULL));
+    SL_CHECK(sl_constraints_refactor(s->pins, NULL));
 }
 
 static void solves_between_edits_share_a_factor(void **state) {
@@ -164,9 +167,10 @@ static void edit_task(void *shared, sl_int k) {
     const double up = 0.5 + 0.1 * (double)k, down = -up;
     s->status[k] = sl_factor_refactor(s->F[k], &s->y.M.view, NULL);
     for (int turn = 0; turn < 3 && s->status[k] == SL_OK; turn++) {
-        s->status[k] = sl_factor_change(s->F[k], NULL, &row, &row, &up, 1, s->W[k], NULL);
+        s->status[k] = sl_factor_change_entries(s->F[k], NULL, &row, &row, &up, 1, s->W[k], NULL);
         if (s->status[k] == SL_OK && turn < 2) {
-            s->status[k] = sl_factor_change(s->F[k], NULL, &row, &row, &down, 1, s->W[k], NULL);
+            s->status[k] =
+                sl_factor_change_entries(s->F[k], NULL, &row, &row, &down, 1, s->W[k], NULL);
         }
     }
     if (s->status[k] == SL_OK) {
@@ -187,8 +191,8 @@ static void factors_of_one_analysis_are_edited_at_once(void **state) {
 /* Each task has its own pins on the factor that all share. */
 static void pin_task(void *shared, sl_int k) {
     shared_t *s = (shared_t *)shared;
-    sl_pins *pins = NULL;
-    s->status[k] = sl_pins_create(&pins, s->y.F, NULL);
+    sl_constraints *pins = NULL;
+    s->status[k] = sl_constraints_create(&pins, s->y.F, NULL);
     for (sl_int p = 0; p < PINS + 1 && s->status[k] == SL_OK; p++) {
         s->status[k] = pin_row(pins, (17 * k + 41 * p) % s->n, NULL);
     }
@@ -196,10 +200,10 @@ static void pin_task(void *shared, sl_int k) {
         s->status[k] = unpin(pins, k % PINS);
     }
     if (s->status[k] == SL_OK) {
-        s->status[k] = sl_pins_solve(pins, NULL, s->X[k], (size_t)s->n, s->B, (size_t)s->n, s->G,
-                                     PINS, 1, s->W[k]);
+        s->status[k] = sl_constraints_solve(pins, NULL, s->X[k], (size_t)s->n, s->B, (size_t)s->n,
+                                            s->G, PINS, 1, s->W[k]);
     }
-    sl_pins_free(pins);
+    sl_constraints_free(pins);
 }
 
 static void pins_are_made_at_once_on_one_factor(void **state) {

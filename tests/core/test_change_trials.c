@@ -55,12 +55,12 @@ static void downdates_are_tried(void **state) {
             downdate_fill(&d, y.S, count, -0.1);
             const sl_csc V = {ROWS, count, d.p, d.rows, d.x};
             d.sigma[count - 1] = -1e5; /* too much for a pivot */
-            SL_EXPECT(SL_ERR_PIVOT, sl_factor_update(y.F, &V, d.sigma, NULL, &stats));
+            SL_EXPECT(SL_ERR_PIVOT, sl_factor_rank_update(y.F, &V, d.sigma, NULL, &stats));
             assert_memory_equal(sl_factor_view(y.F).D, before, ROWS * sizeof *before);
             assert_true(residual_of(&y, &d, 0) <= 1e-11);
             downdate_fill(&d, y.S, count, -0.1);
             d.sigma[0] = count % 2 ? 1e5 : -0.1; /* a pivot grows, or none */
-            SL_CHECK(sl_factor_update(y.F, &V, d.sigma, NULL, &stats));
+            SL_CHECK(sl_factor_rank_update(y.F, &V, d.sigma, NULL, &stats));
             assert_true(stats.change.entries > 1 << 19);
             assert_true(residual_of(&y, &d, count) <= 1e-11);
             SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));

@@ -1,4 +1,5 @@
-/* test_change_use.c: sl_factor_update, sl_factor_change: what is refused and leaves F as it was */
+/* test_change_use.c: sl_factor_rank_update, sl_factor_change_entries: what is refused and leaves F
+ * as it was */
 #include "tests/lib/changed.h"
 #include "tests/lib/saved_pair.h"
 
@@ -42,8 +43,8 @@ static void a_lost_definiteness_is_refused_and_undone(void **state) {
                 rows[m] = columns[m] = 11 * m;
                 deltas[m] = m + 1 < many ? -0.01 * sign : -1000.0 * sign;
             }
-            SL_EXPECT(SL_ERR_PIVOT,
-                      sl_factor_change(c.y.F, NULL, rows, columns, deltas, many, NULL, &stats));
+            SL_EXPECT(SL_ERR_PIVOT, sl_factor_change_entries(c.y.F, NULL, rows, columns, deltas,
+                                                             many, NULL, &stats));
             assert_true(stats.error.row >= 0 && stats.error.row < n);
             assert_true(stats.error.value * sign < 0.0);
             assert_kept(&kept, c.y.F);
@@ -71,7 +72,8 @@ static void a_factor_that_becomes_singular_is_refused(void **state) {
         SL_CHECK(sl_factor_create(&F, S, &M.view, NULL, NULL));
         double minus = -1.0;
         kept_t kept = keep(F);
-        SL_EXPECT(SL_ERR_PIVOT, sl_factor_change(F, NULL, &anchor, &anchor, &minus, 1, NULL, NULL));
+        SL_EXPECT(SL_ERR_PIVOT,
+                  sl_factor_change_entries(F, NULL, &anchor, &anchor, &minus, 1, NULL, NULL));
         assert_kept(&kept, F);
         sl_factor_free(F);
         sl_symbolic_free(S);
@@ -105,12 +107,12 @@ static void a_downdate_is_tried_first(void **state) {
         sl_stats stats;
         kept_t kept = keep(c.y.F);
         SL_EXPECT(SL_ERR_PIVOT,
-                  sl_factor_change(c.y.F, NULL, rows, rows, away, count, NULL, &stats));
+                  sl_factor_change_entries(c.y.F, NULL, rows, rows, away, count, NULL, &stats));
         assert_true(stats.error.row >= 0 && stats.error.value < 0.0);
         assert_kept(&kept, c.y.F);
-        SL_CHECK(sl_factor_change(c.y.F, NULL, rows, rows, down, count, NULL, NULL));
+        SL_CHECK(sl_factor_change_entries(c.y.F, NULL, rows, rows, down, count, NULL, NULL));
         assert_true(D[N - 1] < before[N - 1]);
-        SL_CHECK(sl_factor_change(c.y.F, NULL, rows, rows, up, count, NULL, NULL));
+        SL_CHECK(sl_factor_change_entries(c.y.F, NULL, rows, rows, up, count, NULL, NULL));
         for (sl_int m = 0; m < N; m++) {
             assert_true(fabs(D[m] - before[m]) <= 1e-12 * before[m]);
         }
@@ -126,46 +128,46 @@ static void invalid_changes_are_refused(void **state) {
     kept_t kept = keep(F);
     sl_int i[2] = {3, 40}, j[2] = {3, 3}, below = -1, above = 50;
     double d[2] = {1.0, 1.0}, nan = NAN, one = 1.0;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change(NULL, NULL, i, j, d, 1, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change(F, NULL, NULL, j, d, 1, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change(F, NULL, i, NULL, d, 1, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change(F, NULL, i, j, NULL, 1, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change(F, NULL, i, j, d, -1, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change(F, NULL, &below, j, d, 1, NULL, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change_entries(NULL, NULL, i, j, d, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change_entries(F, NULL, NULL, j, d, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change_entries(F, NULL, i, NULL, d, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change_entries(F, NULL, i, j, NULL, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change_entries(F, NULL, i, j, d, -1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change_entries(F, NULL, &below, j, d, 1, NULL, &stats));
     assert_int_equal(stats.error.row, -1);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change(F, NULL, i, &above, d, 1, NULL, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_change_entries(F, NULL, i, &above, d, 1, NULL, &stats));
     assert_int_equal(stats.error.column, 50);
-    SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_change(F, NULL, i, j, &nan, 1, NULL, &stats));
+    SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_change_entries(F, NULL, i, j, &nan, 1, NULL, &stats));
     assert_int_equal(stats.error.row, 3);
-    SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_factor_change(F, NULL, i, j, d, 2, NULL, &stats));
+    SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_factor_change_entries(F, NULL, i, j, d, 2, NULL, &stats));
     assert_true((stats.error.row == 3 && stats.error.column == 40) ||
                 (stats.error.row == 40 && stats.error.column == 3));
     sl_int p[2] = {0, 1}, row = 3, bad[2] = {0, -1};
     sl_csc V = {50, 1, p, &row, &one}, W = V;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_update(F, NULL, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_update(NULL, &V, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_update(F, &V, &nan, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_rank_update(F, NULL, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_rank_update(NULL, &V, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_rank_update(F, &V, &nan, NULL, NULL));
     W.x = &nan;
-    SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_update(F, &W, NULL, NULL, &stats));
+    SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_rank_update(F, &W, NULL, NULL, &stats));
     assert_int_equal(stats.error.row, 3);
     W.x = NULL;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_update(F, &W, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_rank_update(F, &W, NULL, NULL, NULL));
     W = V;
     W.n_rows = 51;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_update(F, &W, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_rank_update(F, &W, NULL, NULL, NULL));
     W = V;
     W.p = bad;
-    SL_EXPECT(SL_ERR_PATTERN, sl_factor_update(F, &W, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_factor_rank_update(F, &W, NULL, NULL, NULL));
     W = V;
     W.i = &above;
-    SL_EXPECT(SL_ERR_PATTERN, sl_factor_update(F, &W, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_factor_rank_update(F, &W, NULL, NULL, NULL));
     assert_kept(&kept, F);
     kept = keep(F);
     double large = 1e300;
     SL_EXPECT(SL_ERR_NOT_FINITE,
-              sl_factor_update(F, ((W = V), (W.x = &large), &W), NULL, NULL, NULL));
+              sl_factor_rank_update(F, ((W = V), (W.x = &large), &W), NULL, NULL, NULL));
     assert_kept(&kept, F);
-    SL_CHECK(sl_factor_update(F, &V, NULL, NULL, NULL));
+    SL_CHECK(sl_factor_rank_update(F, &V, NULL, NULL, NULL));
     changed_free(&c);
 }
 
@@ -184,7 +186,7 @@ static void null_pivots_are_unsupported(void **state) {
     SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
     sl_int i = 3;
     double d = 1.0;
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_change(F, NULL, &i, &i, &d, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_change_entries(F, NULL, &i, &i, &d, 1, NULL, NULL));
     sl_factor_free(F);
     sl_symbolic_free(S);
     gen_matrix_free(&M);
@@ -205,7 +207,7 @@ static void regions_of_the_old_numbers_are_refused(void **state) {
     SL_CHECK(sl_plan_create(&inside, c.y.S, set, 3, set, 3, &opt, NULL));
     SL_CHECK(sl_plan_create(&whole, c.y.S, set, 3, set, 3, NULL, NULL));
     SL_CHECK(sl_plan_solve(inside, c.y.F, x, 3, b, 3, 1, NULL));
-    SL_CHECK(sl_factor_change(c.y.F, NULL, &i, &i, &d, 1, NULL, NULL));
+    SL_CHECK(sl_factor_change_entries(c.y.F, NULL, &i, &i, &d, 1, NULL, NULL));
     SL_EXPECT(SL_ERR_STALE, sl_plan_solve(inside, c.y.F, x, 3, b, 3, 1, NULL));
     SL_CHECK(sl_plan_solve(whole, c.y.F, x, 3, b, 3, 1, NULL));
     memset(full, 0, sizeof full);
@@ -229,19 +231,19 @@ static void mapped_factors_are_refused(void **state) {
     sl_factor *F = NULL;
     sl_int i = 3;
     double d = 1.0;
-    SL_CHECK(sl_factor_change(c.y.F, NULL, &i, &i, &d, 1, NULL, NULL));
+    SL_CHECK(sl_factor_change_entries(c.y.F, NULL, &i, &i, &d, 1, NULL, NULL));
     SL_CHECK(pair_save_memory(NULL, &bytes, c.y.S, c.y.F));
     double *memory = test_reals(bytes / sizeof(double) + 16);
     unsigned char *block = (unsigned char *)memory;
     block += (64 - (uintptr_t)block % 64) % 64;
     SL_CHECK(pair_save_memory(block, &bytes, c.y.S, c.y.F));
     SL_CHECK(pair_map_memory(&S, &F, block, bytes, SL_LOAD_VERIFIED, NULL));
-    SL_EXPECT(SL_ERR_READ_ONLY, sl_factor_change(F, NULL, &i, &i, &d, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_READ_ONLY, sl_factor_change_entries(F, NULL, &i, &i, &d, 1, NULL, NULL));
     sl_factor_free(F);
     sl_symbolic_free(S);
     SL_CHECK(pair_load_memory(&S, &F, block, bytes, SL_LOAD_VERIFIED, NULL));
-    SL_CHECK(sl_factor_change(F, NULL, &i, &i, &d, 1, NULL, NULL));
-    SL_CHECK(sl_factor_change(c.y.F, NULL, &i, &i, &d, 1, NULL, NULL));
+    SL_CHECK(sl_factor_change_entries(F, NULL, &i, &i, &d, 1, NULL, NULL));
+    SL_CHECK(sl_factor_change_entries(c.y.F, NULL, &i, &i, &d, 1, NULL, NULL));
     assert_same_bits(F, c.y.F);
     sl_factor_free(F);
     sl_symbolic_free(S);
@@ -261,7 +263,7 @@ static void failing_allocations_leave_the_factor(void **state) {
     for (int k = 0; status != SL_OK; k++) {
         kept_t kept = keep(c.y.F);
         counter.fail_at = (int64_t)counter.calls + k;
-        status = sl_factor_change(c.y.F, NULL, i, i, d, 2, NULL, NULL);
+        status = sl_factor_change_entries(c.y.F, NULL, i, i, d, 2, NULL, NULL);
         counter.fail_at = -1;
         if (status != SL_OK) {
             assert_int_equal(status, SL_ERR_MEMORY);
@@ -289,11 +291,11 @@ static void a_grown_workspace_is_enough(void **state) {
     SL_CHECK(sl_work_create(&W, &opt));
     sl_int i = 3;
     double d[2] = {1.0, -1.0};
-    SL_CHECK(sl_factor_change(c.y.F, NULL, &i, &i, d, 1, W, NULL));
-    SL_CHECK(sl_factor_change(c.y.F, NULL, &i, &i, d + 1, 1, W, NULL));
+    SL_CHECK(sl_factor_change_entries(c.y.F, NULL, &i, &i, d, 1, W, NULL));
+    SL_CHECK(sl_factor_change_entries(c.y.F, NULL, &i, &i, d + 1, 1, W, NULL));
     size_t calls = counter.calls;
-    SL_CHECK(sl_factor_change(c.y.F, NULL, &i, &i, d, 1, W, NULL));
-    SL_CHECK(sl_factor_change(c.y.F, NULL, &i, &i, d + 1, 1, W, NULL));
+    SL_CHECK(sl_factor_change_entries(c.y.F, NULL, &i, &i, d, 1, W, NULL));
+    SL_CHECK(sl_factor_change_entries(c.y.F, NULL, &i, &i, d + 1, 1, W, NULL));
     assert_int_equal(counter.calls, calls);
     sl_work_free(W);
     changed_free(&c);

@@ -1,4 +1,5 @@
-/* test_change_ways.c: sl_factor_change on factors and matrices that rank-one changes do not suit */
+/* test_change_ways.c: sl_factor_change_entries on factors and matrices that rank-one changes do not
+ * suit */
 #include "tests/lib/factored.h"
 
 enum { SIDE = 30 };
@@ -16,7 +17,7 @@ static void change_diagonal(factored_t *y, sl_int row, double delta, sl_stats *s
         p++;
     }
     y->M.x[p] += delta;
-    SL_CHECK(sl_factor_change(y->F, &y->M.view, &row, &row, &delta, 1, NULL, stats));
+    SL_CHECK(sl_factor_change_entries(y->F, &y->M.view, &row, &row, &delta, 1, NULL, stats));
 }
 
 /* Is the factor one of A? After a refactorization it has the bits of a new one. */
@@ -58,7 +59,8 @@ static void up_looking_factors_are_updated_or_refactored(void **state) {
         deltas[k] = 0.25;
         y.M.x[p] += deltas[k];
     }
-    SL_CHECK(sl_factor_change(y.F, &y.M.view, rows, rows, deltas, SIDE * SIDE, NULL, &stats));
+    SL_CHECK(
+        sl_factor_change_entries(y.F, &y.M.view, rows, rows, deltas, SIDE * SIDE, NULL, &stats));
     assert_int_equal(stats.change.method, SL_CHANGE_REFACTOR);
     assert_int_equal(stats.change.reason, SL_CHANGE_CHEAPEST);
     assert_is_factor(&y, &opt, 1);
@@ -86,7 +88,7 @@ static void upper_triangles_are_recomputed(void **state) {
             y.M.x[p] += y.M.i[p] == j ? 0.5 : y.M.i[p] == 0 ? -0.5 : 0.0;
         }
     }
-    SL_CHECK(sl_factor_change(y.F, &y.M.view, rows, columns, deltas, 3, NULL, &stats));
+    SL_CHECK(sl_factor_change_entries(y.F, &y.M.view, rows, columns, deltas, 3, NULL, &stats));
     assert_int_equal(stats.change.method, SL_CHANGE_REACH);
     assert_int_equal(stats.factor.null, 1);
     assert_is_factor(&y, &opt, 0);
@@ -108,9 +110,10 @@ static void pivoted_factors_are_recomputed(void **state) {
     SL_CHECK(sl_symbolic_create_pivoted(&S, &A, NULL, &stats));
     assert_true(stats.symbolic.pairs > 0);
     SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_change(F, NULL, &row, &row, &delta, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED,
+              sl_factor_change_entries(F, NULL, &row, &row, &delta, 1, NULL, NULL));
     x[3] += delta;
-    SL_CHECK(sl_factor_change(F, &A, &row, &row, &delta, 1, NULL, &stats));
+    SL_CHECK(sl_factor_change_entries(F, &A, &row, &row, &delta, 1, NULL, &stats));
     assert_true(stats.change.method >= SL_CHANGE_REACH);
     assert_int_equal(stats.change.reason, SL_CHANGE_UNSUITED);
     SL_CHECK(sl_factor_solve(F, out, 3, b, 3, 1, NULL));
@@ -158,12 +161,12 @@ static void growth_beyond_the_limit_is_refused(void **state) {
     sl_stats stats;
     two_make(&t, 1.0, 0.5, -1.0, 10.0);
     SL_EXPECT(SL_ERR_INACCURATE,
-              sl_factor_change(t.F, NULL, &row, &row, &delta, 1, NULL, &stats));
+              sl_factor_change_entries(t.F, NULL, &row, &row, &delta, 1, NULL, &stats));
     assert_true(stats.error.row >= 0 && stats.error.row < 2);
     SL_CHECK(sl_factor_refactor(t.F, &t.A, NULL));
     t.x[0] += delta;
     SL_EXPECT(SL_ERR_INACCURATE,
-              sl_factor_change(t.F, &t.A, &row, &row, &delta, 1, NULL, &stats));
+              sl_factor_change_entries(t.F, &t.A, &row, &row, &delta, 1, NULL, &stats));
     SL_EXPECT(SL_ERR_STALE, sl_factor_solve(t.F, out, 2, b, 2, 1, NULL));
     t.x[0] = 1.0;
     SL_CHECK(sl_factor_refactor(t.F, &t.A, NULL));
@@ -183,7 +186,7 @@ static void a_small_pivot_is_no_light_row(void **state) {
     two_t t;
     two_make(&t, 1.0, 1.0, 1.0 + small, 0.0);
     assert_true(sl_factor_view(t.F).D[1] == small);
-    SL_CHECK(sl_factor_change(t.F, NULL, &row, &column, &delta, 1, NULL, &stats));
+    SL_CHECK(sl_factor_change_entries(t.F, NULL, &row, &column, &delta, 1, NULL, &stats));
     assert_int_equal(stats.change.method, SL_CHANGE_UPDATE);
     assert_int_equal(stats.change.ranks, 3); /* the edge, and two entries of the diagonal */
     const double *D = sl_factor_view(t.F).D, wanted = 1.0 + small - 0.75 * 0.75;
@@ -202,7 +205,7 @@ static void overflows_of_updates_are_refactored(void **state) {
     sl_stats stats;
     two_make(&t, 1.7e308, 0.0, 1.7e308, 0.0);
     t.x[1] += delta;
-    SL_CHECK(sl_factor_change(t.F, &t.A, &row, &column, &delta, 1, NULL, &stats));
+    SL_CHECK(sl_factor_change_entries(t.F, &t.A, &row, &column, &delta, 1, NULL, &stats));
     assert_int_equal(stats.change.method, SL_CHANGE_REFACTOR);
     assert_int_equal(stats.change.reason, SL_CHANGE_REFUSED);
     SL_CHECK(sl_factor_solve(t.F, out, 2, b, 2, 1, NULL));
@@ -221,7 +224,7 @@ static void small_pivot(sl_int row, double delta) {
     sl_factor *F;
     assert_int_equal(sl_symbolic_view(S).n_supers, 3);
     SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
-    SL_CHECK(sl_factor_change(F, NULL, &row, &row, &delta, 1, NULL, NULL));
+    SL_CHECK(sl_factor_change_entries(F, NULL, &row, &row, &delta, 1, NULL, NULL));
     x[p[row]] += delta;
     const double d = sl_factor_view(F).D[row];
     assert_true(d > 0.0 && d < 2e-5);
@@ -262,7 +265,7 @@ static void changes_of_a_zero_matrix(void **state) {
     SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
     assert_int_equal(stats.factor.regularized, 2);
-    SL_CHECK(sl_factor_change(F, NULL, i, i, deltas, 2, NULL, &stats));
+    SL_CHECK(sl_factor_change_entries(F, NULL, i, i, deltas, 2, NULL, &stats));
     SL_CHECK(sl_factor_solve(F, out, 2, b, 2, 1, NULL));
     assert_true(fabs(out[0] - 0.5) <= 1e-15 && fabs(out[1] - 0.25) <= 1e-15);
     sl_factor_free(F);
@@ -290,7 +293,7 @@ static void signs_of_regularized_pivots_stay(void **state) {
         const double d = sl_factor_view(y.F).D[sl_symbolic_view(y.S).iperm[row]];
         const double away = -d * 4.0;
         const sl_status status =
-            sl_factor_change(y.F, NULL, &row, &row, &away, 1, NULL, &stats);
+            sl_factor_change_entries(y.F, NULL, &row, &row, &away, 1, NULL, &stats);
         assert_true(status == SL_OK || status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE);
         if (status == SL_OK) {
             assert_int_equal(stats.factor.positive, before.factor.positive);
@@ -309,11 +312,11 @@ static void zeros_are_no_changes(void **state) {
     const sl_csc V = {SIDE * SIDE, 4, p, i, x};
     const sl_csc none = {SIDE * SIDE, 1, p, NULL, NULL}, few = {SIDE * SIDE - 1, 1, p, NULL, NULL};
     sl_stats stats;
-    SL_CHECK(sl_factor_update(y.F, &none, NULL, NULL, &stats));
+    SL_CHECK(sl_factor_rank_update(y.F, &none, NULL, NULL, &stats));
     assert_int_equal(stats.change.method, SL_CHANGE_NONE);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_update(y.F, &few, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_rank_update(y.F, &few, NULL, NULL, NULL));
     assert_is_factor(&y, NULL, 1);
-    SL_CHECK(sl_factor_update(y.F, &V, sigma, NULL, &stats));
+    SL_CHECK(sl_factor_rank_update(y.F, &V, sigma, NULL, &stats));
     assert_int_equal(stats.change.ranks, 1);
     y.M.x[y.M.p[4]] += 0.25; /* the diagonal comes first in its column */
     assert_int_equal(y.M.i[y.M.p[4]], 4);
@@ -327,11 +330,11 @@ static void long_lists_are_refused(void **state) {
     const sl_int row = 0, wrong[2] = {-1, SIDE * SIDE};
     const double one = 1.0;
     sl_stats stats;
-    SL_EXPECT(SL_ERR_TOO_LARGE, sl_factor_change(y.F, NULL, &row, &row, &one, INT32_MAX / 4 + 1,
-                                                         NULL, NULL));
+    SL_EXPECT(SL_ERR_TOO_LARGE,
+              sl_factor_change_entries(y.F, NULL, &row, &row, &one, INT32_MAX / 4 + 1, NULL, NULL));
     for (int k = 0; k < 2; k++) {
         SL_EXPECT(SL_ERR_ARGUMENT,
-                  sl_factor_change(y.F, NULL, &row, &wrong[k], &one, 1, NULL, &stats));
+                  sl_factor_change_entries(y.F, NULL, &row, &wrong[k], &one, 1, NULL, &stats));
         assert_int_equal(stats.error.column, wrong[k]);
     }
     assert_is_factor(&y, NULL, 1);

@@ -1,4 +1,5 @@
-/* test_combination.c: sl_batch_factor of one sum: bits of a factor of the summed matrix, errors */
+/* test_combination.c: sl_factor_create_sums of one sum: bits of a factor of the summed matrix,
+ * errors */
 #include "tests/lib/matrix_pair.h"
 
 /* With every method and instruction set: without duplicates the bits of the factor of the summed
@@ -18,11 +19,11 @@ static void a_combination_has_the_bits_of_the_factored_sum(void **state) {
                 options_set_variant(&opt, &variants, variant);
                 for (int k = 0; k < 3; k++) {
                     if (k == 0) {
-                        SL_CHECK(sl_batch_factor(&F, 1, y.S, c[k], matrix_pair_values(&y), TERMS,
-                                                 &opt, NULL, NULL));
+                        SL_CHECK(sl_factor_create_sums(&F, 1, y.S, c[k], matrix_pair_values(&y),
+                                                       TERMS, &opt, NULL, NULL));
                     } else {
-                        SL_CHECK(sl_batch_refactor(&F, 1, c[k], matrix_pair_values(&y), TERMS, NULL,
-                                                   NULL, NULL));
+                        SL_CHECK(sl_factor_refactor_sums(&F, 1, c[k], matrix_pair_values(&y), TERMS,
+                                                         NULL, NULL, NULL));
                     }
                     sl_factor *plain = matrix_pair_factor(&y, c[k], &opt);
                     if (exact) {
@@ -51,14 +52,14 @@ static void a_combination_of_many_terms_has_the_same_bits(void **state) {
         values[t] = y.values[t == 2];
     }
     sl_factor *F = NULL, *plain = matrix_pair_factor(&y, two, NULL);
-    SL_CHECK(sl_batch_factor(&F, 1, y.S, c, values, 7, NULL, NULL, NULL));
+    SL_CHECK(sl_factor_create_sums(&F, 1, y.S, c, values, 7, NULL, NULL, NULL));
     sl_matrix *A = matrix_pair_sum(&y, two);
     sl_csc view = sl_matrix_view(A);
     NOTHING_WRONG(check_factor(F, &view));
     SL_CHECK(sl_factor_refactor(F, &view, NULL)); /* the matrix of the sum into the same factor */
     assert_same_bits(F, plain);
     y.values[0][0] = NAN; /* in the first block of several */
-    SL_EXPECT(SL_ERR_NOT_FINITE, sl_batch_refactor(&F, 1, c, values, 7, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor_sums(&F, 1, c, values, 7, NULL, NULL, NULL));
     sl_matrix_free(A);
     sl_factor_free(F);
     sl_factor_free(plain);
@@ -73,7 +74,7 @@ static void a_combination_in_float(void **state) {
     sl_options opt = options_none();
     sl_factor *F = NULL;
     opt.storage = SL_STORAGE_FLOAT_FRONTS;
-    SL_CHECK(sl_batch_factor(&F, 1, y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL, NULL));
+    SL_CHECK(sl_factor_create_sums(&F, 1, y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL, NULL));
     sl_factor *plain = matrix_pair_factor(&y, c, &opt);
     const size_t size = (size_t)panel_doubles(F);
     assert_memory_equal(sl_factor_view(F).L_float, sl_factor_view(plain).L_float,
@@ -82,8 +83,9 @@ static void a_combination_in_float(void **state) {
     static const double bad[2] = {1e100, NAN};
     for (int k = 0; k < 2; k++) {
         y.values[0][0] = bad[k];
-        SL_EXPECT(k == 0 ? SL_ERR_INACCURATE : SL_ERR_NOT_FINITE,
-                  sl_batch_refactor(&F, 1, c, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
+        SL_EXPECT(
+            k == 0 ? SL_ERR_INACCURATE : SL_ERR_NOT_FINITE,
+            sl_factor_refactor_sums(&F, 1, c, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
     }
     sl_factor_free(F);
     sl_factor_free(plain);
@@ -103,14 +105,15 @@ static void a_combination_of_no_terms_is_the_zero_matrix(void **state) {
         sl_factor *F = NULL;
         options_set_variant(&opt, &variants, variant);
         memset(&stats, 0, sizeof stats);
-        SL_EXPECT(SL_ERR_PIVOT, sl_batch_factor(&F, 1, y.S, NULL, NULL, 0, &opt, NULL, &stats));
+        SL_EXPECT(SL_ERR_PIVOT,
+                  sl_factor_create_sums(&F, 1, y.S, NULL, NULL, 0, &opt, NULL, &stats));
         assert_null(F);
         assert_int_equal(stats.error.row, sl_symbolic_view(y.S).perm[0]);
         opt.null_pivots = SL_NULL_PIVOT_SKIP;
-        SL_CHECK(sl_batch_factor(&F, 1, y.S, NULL, NULL, 0, &opt, NULL, &stats));
+        SL_CHECK(sl_factor_create_sums(&F, 1, y.S, NULL, NULL, 0, &opt, NULL, &stats));
         assert_int_equal(stats.factor.null, y.n);
         sl_factor_free(F);
-        SL_CHECK(sl_batch_factor(&F, 1, S, NULL, NULL, 0, &opt, NULL, NULL));
+        SL_CHECK(sl_factor_create_sums(&F, 1, S, NULL, NULL, 0, &opt, NULL, NULL));
         sl_factor_free(F);
     }
     sl_symbolic_free(S);
@@ -150,7 +153,7 @@ static void values_that_are_not_finite_are_refused(void **state) {
         const double *const *v = matrix_pair_values(&y);
         sl_factor *F = NULL, *G = NULL;
         options_set_variant(&opt, &variants, variant);
-        SL_CHECK(sl_batch_factor(&F, 1, y.S, good, v, TERMS, &opt, NULL, NULL));
+        SL_CHECK(sl_factor_create_sums(&F, 1, y.S, good, v, TERMS, &opt, NULL, NULL));
         for (int which = 0; which < 9; which++) {
             sl_int row = cases[which].row, column = row < 0 ? -1 : 14, at = 3;
             double x = 1;
@@ -160,10 +163,11 @@ static void values_that_are_not_finite_are_refused(void **state) {
             set_entry(&y, 1, 14, 14, cases[which].k);
             set_entry(&y, 1, 14, 15, cases[which].edge);
             for (int again = 0; again < 2; again++) {
-                SL_EXPECT(SL_ERR_NOT_FINITE, again ? sl_batch_refactor(&F, 1, cases[which].c, v,
-                                                                       TERMS, NULL, NULL, &stats)
-                                                   : sl_batch_factor(&G, 1, y.S, cases[which].c, v,
-                                                                     TERMS, &opt, NULL, &stats));
+                SL_EXPECT(SL_ERR_NOT_FINITE,
+                          again ? sl_factor_refactor_sums(&F, 1, cases[which].c, v, TERMS, NULL,
+                                                          NULL, &stats)
+                                : sl_factor_create_sums(&G, 1, y.S, cases[which].c, v, TERMS, &opt,
+                                                        NULL, &stats));
                 assert_true(stats.error.row == row && stats.error.column == column);
                 assert_true(stats.error.value - stats.error.value != 0.0);
                 assert_true(stats.factor.positive >= 0 && stats.factor.positive < y.n);
@@ -174,7 +178,7 @@ static void values_that_are_not_finite_are_refused(void **state) {
             set_entry(&y, 0, 14, 14, 9);
             set_entry(&y, 1, 14, 14, 9);
             set_entry(&y, 1, 14, 15, 0.5);
-            SL_CHECK(sl_batch_refactor(&F, 1, good, v, TERMS, NULL, NULL, NULL));
+            SL_CHECK(sl_factor_refactor_sums(&F, 1, good, v, TERMS, NULL, NULL, NULL));
             SL_CHECK(sl_inverse_diagonal(F, &x, &at, 1, NULL, NULL));
         }
         sl_factor_free(F);
@@ -196,8 +200,9 @@ static void the_entry_that_is_not_finite_is_reported(void **state) {
             double keep = y.K.x[p];
             y.K.x[p] = NAN;
             SL_CHECK(sl_symbolic_scatter(y.S, y.values[1], &K, NULL));
-            SL_EXPECT(SL_ERR_NOT_FINITE, sl_batch_factor(&F, 1, y.S, c, matrix_pair_values(&y),
-                                                         TERMS, NULL, NULL, &stats));
+            SL_EXPECT(SL_ERR_NOT_FINITE,
+                      sl_factor_create_sums(&F, 1, y.S, c, matrix_pair_values(&y), TERMS, NULL,
+                                            NULL, &stats));
             assert_int_equal(stats.error.row, K.i[p]);
             assert_int_equal(stats.error.column, j);
             y.K.x[p] = keep;
@@ -220,7 +225,7 @@ static void a_null_pivot_is_reported(void **state) {
     memset(&one, 0, sizeof one);
     memset(&other, 0, sizeof other);
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&plain, S, &A.view, NULL, &one));
-    SL_EXPECT(SL_ERR_PIVOT, sl_batch_factor(&F, 1, S, &c, &values, 1, NULL, NULL, &other));
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_create_sums(&F, 1, S, &c, &values, 1, NULL, NULL, &other));
     assert_int_equal(one.error.row, other.error.row);
     assert_true(one.error.value == other.error.value &&
                 one.factor.positive == other.factor.positive);
@@ -239,21 +244,21 @@ static void invalid_arguments_are_refused(void **state) {
     sl_options opt = options_none();
     double x = 0;
     sl_int row = 0;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_factor(NULL, 1, y.S, c, v, TERMS, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_factor(&F, 1, NULL, c, v, TERMS, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create_sums(NULL, 1, y.S, c, v, TERMS, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create_sums(&F, 1, NULL, c, v, TERMS, NULL, NULL, NULL));
     assert_null(F);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_factor(&F, 1, y.S, NULL, v, TERMS, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_factor(&F, 1, y.S, c, NULL, TERMS, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_factor(&F, 1, y.S, c, missing, 2, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_factor(&F, 1, y.S, c, v, -1, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create_sums(&F, 1, y.S, NULL, v, TERMS, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create_sums(&F, 1, y.S, c, NULL, TERMS, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create_sums(&F, 1, y.S, c, missing, 2, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create_sums(&F, 1, y.S, c, v, -1, NULL, NULL, NULL));
     opt.null_tolerance = NAN;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_factor(&F, 1, y.S, c, v, TERMS, &opt, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create_sums(&F, 1, y.S, c, v, TERMS, &opt, NULL, NULL));
     opt = options_none();
     opt.isa = (sl_isa)17;
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_batch_factor(&F, 1, y.S, c, v, TERMS, &opt, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(NULL, 1, c, v, TERMS, NULL, NULL, NULL));
-    SL_CHECK(sl_batch_factor(&F, 1, y.S, c, v, TERMS, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(&F, 1, c, missing, TERMS, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_create_sums(&F, 1, y.S, c, v, TERMS, &opt, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_sums(NULL, 1, c, v, TERMS, NULL, NULL, NULL));
+    SL_CHECK(sl_factor_create_sums(&F, 1, y.S, c, v, TERMS, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_sums(&F, 1, c, missing, TERMS, NULL, NULL, NULL));
     SL_CHECK(sl_inverse_diagonal(F, &x, &row, 1, NULL, NULL)); /* F is as it was */
     sl_factor_free(F);
     matrix_pair_free(&y);
@@ -279,14 +284,14 @@ static sl_status sum_scatter_and_factor(matrix_pair_t *y, const sl_options *opt,
     }
     if (status == SL_OK) {
         size_t live = counter->live_blocks;
-        status =
-            sl_batch_factor(&F, 1, S, c, matrix_pair_values(y), TERMS, FOR_FACTOR(opt), NULL, NULL);
+        status = sl_factor_create_sums(&F, 1, S, c, matrix_pair_values(y), TERMS, FOR_FACTOR(opt),
+                                       NULL, NULL);
         assert_true((F != NULL) == (status == SL_OK));
         assert_true(status == SL_OK || counter->live_blocks == live);
     }
     if (status == SL_OK) {
         size_t calls = counter->calls;
-        SL_CHECK(sl_batch_refactor(&F, 1, c, matrix_pair_values(y), TERMS, NULL, NULL, NULL));
+        SL_CHECK(sl_factor_refactor_sums(&F, 1, c, matrix_pair_values(y), TERMS, NULL, NULL, NULL));
         assert_int_equal(counter->calls, calls); /* allocates nothing */
     }
     sl_factor_free(F);

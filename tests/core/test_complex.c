@@ -157,7 +157,7 @@ static void new_values_in_the_same_pattern(void **state) {
     assert_true(stats.error.column >= 0);
     d->i[4] = d->i[4] - 1;
     d->H.n = N - 1;
-    SL_EXPECT(SL_ERR_PATTERN, sl_matrix_refill_hermitian(y.M, &d->H, NULL));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_matrix_refill_hermitian(y.M, &d->H, NULL));
     d->H.n = N;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_refill_hermitian(NULL, &d->H, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_refill_hermitian(y.M, NULL, NULL));
@@ -203,7 +203,7 @@ static void wrong_arguments(void **state) {
     sl_matrix_free(M);
     c->H.x = c->x;
     c->i[3] = N;
-    SL_EXPECT(SL_ERR_PATTERN, sl_matrix_from_hermitian(&M, &c->H, NULL, &stats));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_matrix_from_hermitian(&M, &c->H, NULL, &stats));
     assert_int_equal(stats.error.row, N);
     assert_null(M);
 

@@ -267,8 +267,8 @@ static void check_restricted(const pair_t *y, sl_isa isa) {
             sl_symbolic *S = NULL;
             sl_factor *G = NULL;
             sl_stats stats;
-            SL_CHECK(sl_factor_restrict(&S, &G, y->F[k], &y->A, rows, count, NULL, &stats));
-            assert_true(!is_half || stats.restriction.kept == 0);
+            SL_CHECK(sl_factor_submatrix(&S, &G, y->F[k], &y->A, rows, count, NULL, &stats));
+            assert_true(!is_half || stats.submatrix.kept == 0);
             assert_int_equal(stats.storage, is_half && (way == FORWARD || n == 0)
                                                 ? SL_STORAGE_COMPLEX
                                                 : SL_STORAGE_DOUBLE);

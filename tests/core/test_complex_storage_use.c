@@ -71,16 +71,16 @@ static void what_is_not_complex_is_refused(void **state) {
     const sl_int p[2] = {0, 1}, row = 3;
     const double one = 1.0;
     const sl_csc V = {y.n, 1, p, &row, &one};
-    assert_int_equal(sl_factor_update(y.F[1], &V, &one, NULL, NULL), SL_ERR_UNSUPPORTED);
+    assert_int_equal(sl_factor_rank_update(y.F[1], &V, &one, NULL, NULL), SL_ERR_UNSUPPORTED);
     opt = options_complex(SL_ISA_AUTO);
     double *terms = test_reals((size_t)scatter_length(y.S));
     const double *const term[1] = {terms};
     sl_factor *G = NULL;
     SL_CHECK(sl_symbolic_scatter(y.S, terms, &y.A, NULL));
-    assert_int_equal(sl_batch_factor(&G, 1, y.S, &one, term, 1, &opt, NULL, NULL),
+    assert_int_equal(sl_factor_create_sums(&G, 1, y.S, &one, term, 1, &opt, NULL, NULL),
                      SL_ERR_UNSUPPORTED);
     const double none = (double)NAN; /* a coefficient that is not finite is refused as such */
-    assert_int_equal(sl_batch_factor(&G, 1, y.S, &none, term, 1, &opt, NULL, NULL),
+    assert_int_equal(sl_factor_create_sums(&G, 1, y.S, &none, term, 1, &opt, NULL, NULL),
                      SL_ERR_NOT_FINITE);
     assert_int_equal(create_pivoted(&y.A), SL_ERR_UNSUPPORTED);
     free(terms);

@@ -34,28 +34,28 @@ static void check_reports_each_defect(void **state) {
     const sl_int ends_negative[4] = {0, 0, 0, -4};
     bad = good;
     bad.p = starts_late;
-    SL_EXPECT(SL_ERR_PATTERN, sl_csc_check(&bad, &stats));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_csc_check(&bad, &stats));
     bad.p = decreases;
-    SL_EXPECT(SL_ERR_PATTERN, sl_csc_check(&bad, &stats));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_csc_check(&bad, &stats));
     assert_int_equal(stats.error.column, 1);
     bad.p = negative;
-    SL_EXPECT(SL_ERR_PATTERN, sl_csc_check(&bad, &stats));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_csc_check(&bad, &stats));
     assert_int_equal(stats.error.column, 0);
     bad.p = ends_negative;
-    SL_EXPECT(SL_ERR_PATTERN, sl_csc_check(&bad, &stats));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_csc_check(&bad, &stats));
     assert_int_equal(stats.error.column, 2);
 
     const sl_int too_big[4] = {0, 2, 3, 2}, below_zero[4] = {0, 2, 1, -7};
     bad = good;
     bad.i = too_big;
-    SL_EXPECT(SL_ERR_PATTERN, sl_csc_check(&bad, &stats));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_csc_check(&bad, &stats));
     assert_int_equal(stats.error.row, 3);
     assert_int_equal(stats.error.column, 1);
     bad.i = below_zero;
-    SL_EXPECT(SL_ERR_PATTERN, sl_csc_check(&bad, &stats));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_csc_check(&bad, &stats));
     assert_int_equal(stats.error.row, -7);
     assert_int_equal(stats.error.column, 2);
-    SL_EXPECT(SL_ERR_PATTERN, sl_csc_check(&bad, NULL));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_csc_check(&bad, NULL));
 
     bad = good; /* the smallest size that is too large; p is not read */
     bad.n_rows = INT32_MAX - 6;
@@ -104,16 +104,16 @@ static void an_entry_without_mirror_image_is_reported(void **state) {
     sl_triangle found = SL_TRIANGLE_UPPER;
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
-    SL_EXPECT(SL_ERR_PATTERN, sl_csc_triangle(&A, &found, NULL, &stats));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_csc_triangle(&A, &found, NULL, &stats));
     assert_int_equal(stats.error.row, 2);
     assert_int_equal(stats.error.column, 0);
     /* the same above the diagonal: only (0,2) */
     const sl_int q[4] = {0, 1, 2, 3}, k[3] = {1, 0, 0};
     sl_csc B = {3, 3, q, k, NULL};
-    SL_EXPECT(SL_ERR_PATTERN, sl_csc_triangle(&B, &found, NULL, &stats));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_csc_triangle(&B, &found, NULL, &stats));
     assert_int_equal(stats.error.row, 0);
     assert_int_equal(stats.error.column, 2);
-    SL_EXPECT(SL_ERR_PATTERN, sl_csc_triangle(&B, &found, NULL, NULL));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_csc_triangle(&B, &found, NULL, NULL));
     A.n_rows = 4;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_triangle(&A, &found, NULL, NULL));
     A.n_rows = 3;
@@ -149,7 +149,7 @@ static void triangle_detection_agrees_with_dense_patterns(void **state) {
         sl_triangle found = SL_TRIANGLE_NONE;
         sl_status status = sl_csc_triangle(&A, &found, NULL, NULL);
         if (lower && upper && !mirrored) {
-            assert_int_equal(status, SL_ERR_PATTERN);
+            assert_int_equal(status, SL_ERR_MALFORMED);
         } else {
             assert_int_equal(status, SL_OK);
             assert_int_equal(found, lower ? (upper ? SL_TRIANGLE_BOTH : SL_TRIANGLE_LOWER)
@@ -196,7 +196,7 @@ static void transpose_keeps_every_entry(void **state) {
     assert_null(T);
     const sl_int bad[6] = {3, 0, 4, 1, 2, 0};
     A.i = bad;
-    SL_EXPECT(SL_ERR_PATTERN, sl_matrix_transpose(&T, &A, NULL));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_matrix_transpose(&T, &A, NULL));
     assert_null(T);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_transpose(NULL, &A, NULL));
 }

@@ -107,20 +107,20 @@ static void damage_is_located(void **state) {
     A.x = x;
     for (int k = 0; k < 5; k++) {
         i[1] = wrong[k];
-        SL_EXPECT(SL_ERR_PATTERN, sl_matrix_from_csc64(&M, &A, NULL, &stats));
+        SL_EXPECT(SL_ERR_MALFORMED, sl_matrix_from_csc64(&M, &A, NULL, &stats));
         assert_null(M);
         assert_int_equal(stats.error.column, 1);
         assert_int_equal(stats.error.row, wrong[k] == 3 ? 3 : -1);
     }
     i[1] = 1;
     p[1] = 3;
-    SL_EXPECT(SL_ERR_PATTERN, sl_matrix_from_csc64(&M, &A, NULL, &stats));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_matrix_from_csc64(&M, &A, NULL, &stats));
     assert_int_equal(stats.error.column, 1);
     p[1] = -1;
-    SL_EXPECT(SL_ERR_PATTERN, sl_matrix_from_csc64(&M, &A, NULL, NULL));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_matrix_from_csc64(&M, &A, NULL, NULL));
     p[1] = 1;
     p[0] = 1;
-    SL_EXPECT(SL_ERR_PATTERN, sl_matrix_from_csc64(&M, &A, NULL, &stats));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_matrix_from_csc64(&M, &A, NULL, &stats));
     assert_int_equal(stats.error.column, 0);
     p[0] = 0;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_csc64(NULL, &A, NULL, NULL));

@@ -10,14 +10,14 @@ static void solutions_hold_in_free_rows(void **state) {
             factored_t y = factored_make((gen_kind_t)kind, 90, 1, style, NULL);
             const sl_int n = y.M.view.n_cols;
             sl_int *rows = test_ints((size_t)n), count = subset_fill(rows, n, shape, y.S);
-            sl_dirichlet *D = NULL;
+            sl_fixed *D = NULL;
             sl_stats stats;
-            SL_CHECK(sl_dirichlet_create(&D, &y.M.view, rows, count, NULL, NULL, &stats));
-            assert_int_equal(stats.dirichlet.method, SL_DIRICHLET_SUBMATRIX);
-            assert_int_equal(stats.dirichlet.n_free, n - count);
+            SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, count, NULL, NULL, &stats));
+            assert_int_equal(stats.fixed.method, SL_FIXED_SUBMATRIX);
+            assert_int_equal(stats.fixed.n_free, n - count);
             assert_int_equal(stats.factor.positive + stats.factor.negative, n - count);
             dirichlet_check_all(D, &y.M.view, rows, count);
-            sl_dirichlet_free(D);
+            sl_fixed_free(D);
             free(rows);
             factored_free(&y);
         }
@@ -32,18 +32,18 @@ static void a_laplacian_with_one_fixed_row(void **state) {
     const sl_int row = 24;
     const double g = 7.0;
     double x[49];
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     sl_stats stats;
-    SL_EXPECT(SL_ERR_PIVOT, sl_dirichlet_create(&D, &M.view, NULL, 0, NULL, NULL, &stats));
+    SL_EXPECT(SL_ERR_PIVOT, sl_fixed_create(&D, &M.view, NULL, 0, NULL, NULL, &stats));
     assert_null(D);
     assert_in_range(stats.error.row, 0, 48);
-    SL_CHECK(sl_dirichlet_create(&D, &M.view, &row, 1, NULL, NULL, NULL));
-    SL_CHECK(sl_dirichlet_solve(D, x, 49, NULL, 0, &g, 1, 1, NULL));
+    SL_CHECK(sl_fixed_create(&D, &M.view, &row, 1, NULL, NULL, NULL));
+    SL_CHECK(sl_fixed_solve(D, x, 49, NULL, 0, &g, 1, 1, NULL));
     for (int k = 0; k < 49; k++) {
         assert_true(fabs(x[k] - 7.0) < 1e-12);
     }
-    sl_dirichlet_free(D);
-    sl_dirichlet_free(NULL);
+    sl_fixed_free(D);
+    sl_fixed_free(NULL);
     gen_matrix_free(&M);
     gen_list_free(&t);
 }
@@ -59,24 +59,24 @@ static void a_singular_free_part_is_named_by_its_row(void **state) {
     const double mass[6] = {9, 9, 9, 1, 2, 3}, g[2] = {5, 1}, b[6] = {0, 0, 0, 1, 0, 0};
     double x[6], mean;
     sl_options opt = options_none();
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     sl_stats stats;
-    SL_EXPECT(SL_ERR_PIVOT, sl_dirichlet_create(&D, &two_paths, rows, 2, NULL, NULL, &stats));
+    SL_EXPECT(SL_ERR_PIVOT, sl_fixed_create(&D, &two_paths, rows, 2, NULL, NULL, &stats));
     assert_in_range(stats.error.row, 3, 5);
     assert_int_equal(stats.error.column, -1);
-    SL_EXPECT(SL_ERR_PIVOT, sl_dirichlet_create(&D, &two_paths, rows, 2, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_PIVOT, sl_fixed_create(&D, &two_paths, rows, 2, NULL, NULL, NULL));
     opt.null_pivots = SL_NULL_PIVOT_SKIP; /* b has to be in balance there */
-    SL_CHECK(sl_dirichlet_create(&D, &two_paths, rows, 2, NULL, &opt, NULL));
-    SL_EXPECT(SL_ERR_INCONSISTENT, sl_dirichlet_solve(D, x, 6, b, 6, g, 2, 1, NULL));
-    SL_CHECK(sl_dirichlet_solve(D, x, 6, NULL, 0, g, 2, 1, NULL));
+    SL_CHECK(sl_fixed_create(&D, &two_paths, rows, 2, NULL, &opt, NULL));
+    SL_EXPECT(SL_ERR_INCONSISTENT, sl_fixed_solve(D, x, 6, b, 6, g, 2, 1, NULL));
+    SL_CHECK(sl_fixed_solve(D, x, 6, NULL, 0, g, 2, 1, NULL));
     assert_true(fabs(x[1] - 3.0) < 1e-14 && fabs(x[4] - x[3]) < 1e-14);
-    sl_dirichlet_free(D);
+    sl_fixed_free(D);
     opt.mass = mass;
-    SL_CHECK(sl_dirichlet_create(&D, &two_paths, rows, 2, NULL, &opt, NULL));
-    SL_CHECK(sl_dirichlet_solve(D, x, 6, b, 6, g, 2, 1, NULL));
+    SL_CHECK(sl_fixed_create(&D, &two_paths, rows, 2, NULL, &opt, NULL));
+    SL_CHECK(sl_fixed_solve(D, x, 6, b, 6, g, 2, 1, NULL));
     mean = x[3] + 2 * x[4] + 3 * x[5];
     assert_true(fabs(mean) < 1e-14 && x[3] > 0.1 && fabs(x[1] - 3.0) < 1e-14);
-    sl_dirichlet_free(D);
+    sl_fixed_free(D);
 }
 
 static void wrong_arguments_are_named(void **state) {
@@ -86,53 +86,53 @@ static void wrong_arguments_are_named(void **state) {
     const double g[4] = {1, 2, 3, 4};
     double X[12], Y[12];
     sl_options opt = options_none();
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     sl_stats stats;
     sl_csc A = two_paths;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_create(NULL, &A, good, 2, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_create(&D, NULL, good, 2, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_create(&D, &A, NULL, 2, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_create(&D, &A, good, -1, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_create(&D, &A, twice, 2, NULL, NULL, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(NULL, &A, good, 2, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, NULL, good, 2, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, NULL, 2, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, -1, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, twice, 2, NULL, NULL, &stats));
     assert_int_equal(stats.error.row, 4);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_create(&D, &A, beyond, 2, NULL, NULL, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, beyond, 2, NULL, NULL, &stats));
     assert_int_equal(stats.error.row, 6);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_create(&D, &A, below, 2, NULL, NULL, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, below, 2, NULL, NULL, &stats));
     assert_int_equal(stats.error.row, -2);
     opt.ordering = SL_ORDERING_GIVEN;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_create(&D, &A, good, 2, NULL, &opt, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, NULL, &opt, NULL));
     opt.perm = perm;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_create(&D, &A, good, 2, NULL, &opt, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, NULL, &opt, &stats));
     assert_int_equal(stats.error.row, 5);
     opt = options_none();
     opt.block_size = 4;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_create(&D, &A, good, 2, NULL, &opt, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, NULL, &opt, NULL));
     opt.block_size = -1;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_create(&D, &A, good, 2, NULL, &opt, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, NULL, &opt, NULL));
     opt.block_size = 0;
     opt.regularization = -1.0;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_create(&D, &A, good, 2, NULL, &opt, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, NULL, &opt, NULL));
     A.x = NULL;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_create(&D, &A, good, 2, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, NULL, NULL, NULL));
     A = two_paths;
     A.n_rows = 7;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_create(&D, &A, good, 2, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, NULL, NULL, NULL));
     assert_null(D);
 
-    SL_CHECK(sl_dirichlet_create(&D, &two_paths, good, 2, NULL, NULL, NULL));
+    SL_CHECK(sl_fixed_create(&D, &two_paths, good, 2, NULL, NULL, NULL));
     memset(X, 0x55, sizeof X);
     memcpy(Y, X, sizeof X);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_solve(NULL, X, 6, NULL, 0, g, 2, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_solve(D, NULL, 6, NULL, 0, g, 2, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_solve(D, X, 5, NULL, 0, g, 2, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_solve(D, X, 6, X, 7, g, 2, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_solve(D, X, 6, NULL, 0, NULL, 2, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_solve(D, X, 6, NULL, 0, g, 1, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_solve(D, X, 6, NULL, 0, g, SL_ROWS(1), 2, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_solve(D, X, 6, NULL, 0, g, 2, -1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_solve(NULL, X, 6, NULL, 0, g, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_solve(D, NULL, 6, NULL, 0, g, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_solve(D, X, 5, NULL, 0, g, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_solve(D, X, 6, X, 7, g, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_solve(D, X, 6, NULL, 0, NULL, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_solve(D, X, 6, NULL, 0, g, 1, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_solve(D, X, 6, NULL, 0, g, SL_ROWS(1), 2, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_solve(D, X, 6, NULL, 0, g, 2, -1, NULL));
     assert_memory_equal(X, Y, sizeof X);
-    SL_CHECK(sl_dirichlet_solve(D, NULL, 0, NULL, 0, NULL, 0, 0, NULL));
-    sl_dirichlet_free(D);
+    SL_CHECK(sl_fixed_solve(D, NULL, 0, NULL, 0, NULL, 0, 0, NULL));
+    sl_fixed_free(D);
 }
 
 /* Entries between fixed rows may be anything; others are named. */
@@ -141,7 +141,7 @@ static void values_that_are_not_finite(void **state) {
     const sl_int rows[3] = {0, 1, 5};
     double x[10], g[3] = {1, 2, 3}, out[6];
     sl_csc A = two_paths;
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     sl_stats stats;
     A.x = x;
     for (int k = 0; k < 10; k++) {
@@ -150,25 +150,25 @@ static void values_that_are_not_finite(void **state) {
         memcpy(x, two_x, sizeof x);
         x[k] = k % 2 ? NAN : INFINITY;
         if (is_row_fixed && is_column_fixed) {
-            SL_CHECK(sl_dirichlet_create(&D, &A, rows, 3, NULL, NULL, NULL));
-            SL_CHECK(sl_dirichlet_refactor(D, &A, NULL));
-            sl_dirichlet_free(D);
+            SL_CHECK(sl_fixed_create(&D, &A, rows, 3, NULL, NULL, NULL));
+            SL_CHECK(sl_fixed_refactor(D, &A, NULL));
+            sl_fixed_free(D);
             continue;
         }
-        SL_EXPECT(SL_ERR_NOT_FINITE, sl_dirichlet_create(&D, &A, rows, 3, NULL, NULL, &stats));
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_fixed_create(&D, &A, rows, 3, NULL, NULL, &stats));
         assert_int_equal(stats.error.row, row);
         assert_int_equal(stats.error.column, column);
-        SL_CHECK(sl_dirichlet_create(&D, &two_paths, rows, 3, NULL, NULL, NULL));
-        SL_EXPECT(SL_ERR_NOT_FINITE, sl_dirichlet_refactor(D, &A, &stats));
+        SL_CHECK(sl_fixed_create(&D, &two_paths, rows, 3, NULL, NULL, NULL));
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_fixed_refactor(D, &A, &stats));
         assert_int_equal(stats.error.row, row);
         assert_int_equal(stats.error.column, column);
-        SL_EXPECT(SL_ERR_STALE, sl_dirichlet_solve(D, out, 6, NULL, 0, g, 3, 1, NULL));
-        sl_dirichlet_free(D);
+        SL_EXPECT(SL_ERR_STALE, sl_fixed_solve(D, out, 6, NULL, 0, g, 3, 1, NULL));
+        sl_fixed_free(D);
     }
-    SL_CHECK(sl_dirichlet_create(&D, &two_paths, rows, 3, NULL, NULL, NULL));
+    SL_CHECK(sl_fixed_create(&D, &two_paths, rows, 3, NULL, NULL, NULL));
     g[0] = NAN; /* has no free neighbor */
-    SL_EXPECT(SL_ERR_NOT_FINITE, sl_dirichlet_solve(D, out, 6, NULL, 0, g, 3, 1, NULL));
-    sl_dirichlet_free(D);
+    SL_EXPECT(SL_ERR_NOT_FINITE, sl_fixed_solve(D, out, 6, NULL, 0, g, 3, 1, NULL));
+    sl_fixed_free(D);
 }
 
 /* New values give the bits of a new object. A failure is refused until the next success. */
@@ -181,7 +181,7 @@ static void refactoring_equals_creating(void **state) {
         sl_int rows[100], count = subset_fill(rows, n, SUBSET_STRIPES, y.S);
         double *x = test_reals((size_t)nnz), *b = test_reals((size_t)n), g[100], got[100],
                want[100];
-        sl_dirichlet *D = NULL, *E = NULL;
+        sl_fixed *D = NULL, *E = NULL;
         sl_stats stats;
         gen_reals(b, (size_t)n, 1);
         gen_reals(g, 100, 2);
@@ -189,29 +189,29 @@ static void refactoring_equals_creating(void **state) {
             x[k] = 3.0 * y.M.x[k];
         }
         other.x = x;
-        SL_CHECK(sl_dirichlet_create(&D, &y.M.view, rows, count, NULL, NULL, NULL));
-        SL_CHECK(sl_dirichlet_create(&E, &other, rows, count, NULL, NULL, NULL));
-        SL_CHECK(sl_dirichlet_refactor(D, &other, &stats));
-        assert_int_equal(stats.dirichlet.method, SL_DIRICHLET_SUBMATRIX);
-        SL_CHECK(sl_dirichlet_solve(D, got, 100, b, 100, g, 100, 1, NULL));
-        SL_CHECK(sl_dirichlet_solve(E, want, 100, b, 100, g, 100, 1, NULL));
+        SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, count, NULL, NULL, NULL));
+        SL_CHECK(sl_fixed_create(&E, &other, rows, count, NULL, NULL, NULL));
+        SL_CHECK(sl_fixed_refactor(D, &other, &stats));
+        assert_int_equal(stats.fixed.method, SL_FIXED_SUBMATRIX);
+        SL_CHECK(sl_fixed_solve(D, got, 100, b, 100, g, 100, 1, NULL));
+        SL_CHECK(sl_fixed_solve(E, want, 100, b, 100, g, 100, 1, NULL));
         assert_memory_equal(got, want, sizeof got);
-        assert_same_bits(sl_dirichlet_view(D).factor, sl_dirichlet_view(E).factor);
+        assert_same_bits(sl_fixed_view(D).factor, sl_fixed_view(E).factor);
 
         memset(x, 0, (size_t)nnz * sizeof *x);
-        SL_EXPECT(SL_ERR_PIVOT, sl_dirichlet_refactor(D, &other, &stats));
+        SL_EXPECT(SL_ERR_PIVOT, sl_fixed_refactor(D, &other, &stats));
         assert_int_equal(rows[0] == stats.error.row, 0);
-        SL_EXPECT(SL_ERR_PIVOT, sl_dirichlet_refactor(D, &other, NULL));
-        SL_EXPECT(SL_ERR_STALE, sl_dirichlet_solve(D, got, 100, b, 100, g, 100, 1, NULL));
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_refactor(NULL, &other, NULL));
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_refactor(D, NULL, NULL));
+        SL_EXPECT(SL_ERR_PIVOT, sl_fixed_refactor(D, &other, NULL));
+        SL_EXPECT(SL_ERR_STALE, sl_fixed_solve(D, got, 100, b, 100, g, 100, 1, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_refactor(NULL, &other, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_refactor(D, NULL, NULL));
         other.x = NULL;
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_refactor(D, &other, NULL));
-        SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_dirichlet_refactor(D, &two_paths, NULL));
-        SL_CHECK(sl_dirichlet_refactor(D, &y.M.view, NULL));
-        SL_CHECK(sl_dirichlet_solve(D, got, 100, b, 100, g, 100, 1, NULL));
-        sl_dirichlet_free(D);
-        sl_dirichlet_free(E);
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_refactor(D, &other, NULL));
+        SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_fixed_refactor(D, &two_paths, NULL));
+        SL_CHECK(sl_fixed_refactor(D, &y.M.view, NULL));
+        SL_CHECK(sl_fixed_solve(D, got, 100, b, 100, g, 100, 1, NULL));
+        sl_fixed_free(D);
+        sl_fixed_free(E);
         free(x);
         free(b);
         factored_free(&y);
@@ -223,13 +223,13 @@ static void another_pattern_is_refused(void **state) {
     (void)state;
     const sl_int i[10] = {0, 2, 1, 2, 2, 3, 4, 4, 5, 5}, rows[2] = {0, 3};
     sl_csc A = two_paths;
-    sl_dirichlet *D = NULL;
-    SL_CHECK(sl_dirichlet_create(&D, &A, rows, 2, NULL, NULL, NULL));
+    sl_fixed *D = NULL;
+    SL_CHECK(sl_fixed_create(&D, &A, rows, 2, NULL, NULL, NULL));
     A.i = i;
-    SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_dirichlet_refactor(D, &A, NULL));
+    SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_fixed_refactor(D, &A, NULL));
     A.n_rows = 7;
-    SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_dirichlet_refactor(D, &A, NULL));
-    sl_dirichlet_free(D);
+    SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_fixed_refactor(D, &A, NULL));
+    sl_fixed_free(D);
 }
 
 /* options.perm and the arrays of rows are those of A; blocks stay that are free as a whole. */
@@ -241,13 +241,13 @@ static void options_are_in_rows_of_the_matrix(void **state) {
     double x[10];
     sl_csc A = two_paths;
     sl_options opt = options_none();
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     sl_stats stats;
     opt.ordering = SL_ORDERING_GIVEN;
     opt.perm = perm;
     opt.relaxation = SL_RELAXATION_NONE;
-    SL_CHECK(sl_dirichlet_create(&D, &A, fixed, 2, NULL, &opt, NULL));
-    const sl_dirichlet_arrays v = sl_dirichlet_view(D);
+    SL_CHECK(sl_fixed_create(&D, &A, fixed, 2, NULL, &opt, NULL));
+    const sl_fixed_arrays v = sl_fixed_view(D);
     const sl_int *order = sl_symbolic_view(v.symbolic).perm;
     assert_int_equal(v.n_free, 4);
     assert_int_equal(v.n_fixed, 2);
@@ -257,7 +257,7 @@ static void options_are_in_rows_of_the_matrix(void **state) {
         const sl_int want[2][2] = {{1, 2}, {5, 4}};
         assert_int_equal(row, want[row > 2][at[row > 2]++]);
     }
-    sl_dirichlet_free(D);
+    sl_fixed_free(D);
 
     opt = options_none();
     opt.regularization = 1e-8;
@@ -265,37 +265,37 @@ static void options_are_in_rows_of_the_matrix(void **state) {
     memcpy(x, two_x, sizeof x);
     x[4] = -3.0; /* the diagonal of row 2 */
     A.x = x;
-    SL_CHECK(sl_dirichlet_create(&D, &A, fixed, 2, NULL, &opt, &stats));
+    SL_CHECK(sl_fixed_create(&D, &A, fixed, 2, NULL, &opt, &stats));
     assert_int_equal(stats.factor.regularized, 0);
     assert_int_equal(stats.factor.negative, 1);
-    sl_dirichlet_free(D);
+    sl_fixed_free(D);
     memcpy(wrong, signs, sizeof wrong);
     wrong[4] = 2;
     opt.signs = wrong;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_dirichlet_create(&D, &A, fixed, 2, NULL, &opt, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, fixed, 2, NULL, &opt, &stats));
     assert_int_equal(stats.error.row, 4);
 
     opt = options_none();
     opt.null_pivots = SL_NULL_PIVOT_SKIP;
     opt.null_vector = ones;
     opt.null_vector_count = 2;
-    SL_CHECK(sl_dirichlet_create(&D, &two_paths, fixed, 1, NULL, &opt, &stats));
+    SL_CHECK(sl_fixed_create(&D, &two_paths, fixed, 1, NULL, &opt, &stats));
     assert_int_equal(stats.factor.null, 1);
-    sl_dirichlet_free(D);
+    sl_fixed_free(D);
     opt.null_vector_count = 0;
-    SL_CHECK(sl_dirichlet_create(&D, &two_paths, fixed, 1, NULL, &opt, &stats));
-    sl_dirichlet_free(D);
+    SL_CHECK(sl_fixed_create(&D, &two_paths, fixed, 1, NULL, &opt, &stats));
+    sl_fixed_free(D);
 
     opt = options_none();
     for (int k = 0; k < 3; k++) { /* whole blocks; parts of blocks; none are left */
         const sl_int rows[3][6] = {{2, 3}, {1, 3}, {0, 1, 2, 3, 4, 5}};
         opt.block_size = 2;
-        SL_CHECK(sl_dirichlet_create(&D, &two_paths, rows[k], k < 2 ? 2 : 6, NULL, &opt, NULL));
-        sl_dirichlet_free(D);
+        SL_CHECK(sl_fixed_create(&D, &two_paths, rows[k], k < 2 ? 2 : 6, NULL, &opt, NULL));
+        sl_fixed_free(D);
     }
     const sl_int shifted[2] = {0, 5};
-    SL_CHECK(sl_dirichlet_create(&D, &two_paths, shifted, 2, NULL, &opt, NULL));
-    sl_dirichlet_free(D);
+    SL_CHECK(sl_fixed_create(&D, &two_paths, shifted, 2, NULL, &opt, NULL));
+    sl_fixed_free(D);
 }
 
 /* What is in the view serves local solves: the same bits. */
@@ -305,16 +305,16 @@ static void a_view_serves_plans(void **state) {
     const sl_int n = y.M.view.n_cols, b_row = 5, x_row = 60;
     sl_int rows[144], count = subset_fill(rows, n, SUBSET_STRIPES, y.S);
     double b[144] = {0.0}, g[144] = {0.0}, x[144], local, one = 1.0;
-    sl_dirichlet *D = NULL;
-    SL_CHECK(sl_dirichlet_create(&D, &y.M.view, rows, count, NULL, NULL, NULL));
-    const sl_dirichlet_arrays v = sl_dirichlet_view(D);
+    sl_fixed *D = NULL;
+    SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, count, NULL, NULL, NULL));
+    const sl_fixed_arrays v = sl_fixed_view(D);
     assert_int_equal(v.matrix.n_cols, v.n_free);
     b[v.free_rows[b_row]] = 1.0;
-    SL_CHECK(sl_dirichlet_solve(D, x, 144, b, 144, g, 144, 1, NULL));
+    SL_CHECK(sl_fixed_solve(D, x, 144, b, 144, g, 144, 1, NULL));
     SL_CHECK(sl_local_solve(v.factor, &b_row, 1, &x_row, 1, &local, 1, &one, 1, 1, NULL, NULL));
     assert_true(local == x[v.free_rows[x_row]]);
-    sl_dirichlet_free(D);
-    assert_int_equal(sl_dirichlet_view(NULL).n_free, 0);
+    sl_fixed_free(D);
+    assert_int_equal(sl_fixed_view(NULL).n_free, 0);
     factored_free(&y);
 }
 
@@ -330,17 +330,17 @@ static void threads_change_no_bit(void **state) {
     opt.threads.context = &calls;
     sl_int *rows = test_ints((size_t)n), count = subset_fill(rows, n, SUBSET_FEW, y.S);
     double *X = test_reals(2 * (size_t)n), *Y = X + n, *G = test_reals((size_t)n);
-    sl_dirichlet *D = NULL, *E = NULL;
+    sl_fixed *D = NULL, *E = NULL;
     sl_work *W = NULL;
     gen_reals(G, (size_t)n, 1);
     SL_CHECK(sl_work_create(&W, &opt));
-    SL_CHECK(sl_dirichlet_create(&D, &y.M.view, rows, count, NULL, NULL, NULL));
-    SL_CHECK(sl_dirichlet_create(&E, &y.M.view, rows, count, NULL, &opt, NULL));
-    SL_CHECK(sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, G, (size_t)n, 1, NULL));
-    SL_CHECK(sl_dirichlet_solve(E, Y, (size_t)n, NULL, 0, G, (size_t)n, 1, W));
+    SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, count, NULL, NULL, NULL));
+    SL_CHECK(sl_fixed_create(&E, &y.M.view, rows, count, NULL, &opt, NULL));
+    SL_CHECK(sl_fixed_solve(D, X, (size_t)n, NULL, 0, G, (size_t)n, 1, NULL));
+    SL_CHECK(sl_fixed_solve(E, Y, (size_t)n, NULL, 0, G, (size_t)n, 1, W));
     assert_memory_equal(X, Y, (size_t)n * sizeof *X);
-    sl_dirichlet_free(D);
-    sl_dirichlet_free(E);
+    sl_fixed_free(D);
+    sl_fixed_free(E);
     sl_work_free(W);
     free(rows);
     free(X);
@@ -357,23 +357,23 @@ static void solves_allocate_nothing(void **state) {
     double X[200], before[200];
     counter_t c = counter_make();
     const sl_options opt = options_counted(&c);
-    sl_dirichlet *D = NULL;
-    SL_CHECK(sl_dirichlet_create(&D, &y.M.view, rows, 2, NULL, &opt, NULL));
+    sl_fixed *D = NULL;
+    SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, 2, NULL, &opt, NULL));
     gen_reals(X, 200, 1);
     memcpy(before, X, sizeof X);
     sl_work *W = work_failing(&c, 0);
-    SL_EXPECT(SL_ERR_MEMORY, sl_dirichlet_solve(D, X, 100, X, 100, g, 2, 2, W));
+    SL_EXPECT(SL_ERR_MEMORY, sl_fixed_solve(D, X, 100, X, 100, g, 2, 2, W));
     assert_memory_equal(X, before, sizeof X);
     c.fail_at = -1;
-    SL_CHECK(sl_dirichlet_solve(D, X, 100, X, 100, g, 2, 2, W));
+    SL_CHECK(sl_fixed_solve(D, X, 100, X, 100, g, 2, 2, W));
     const size_t calls = c.calls;
-    SL_CHECK(sl_dirichlet_solve(D, X, 100, X, 100, g, 2, 2, W));
-    SL_CHECK(sl_dirichlet_refactor(D, &y.M.view, NULL));
+    SL_CHECK(sl_fixed_solve(D, X, 100, X, 100, g, 2, 2, W));
+    SL_CHECK(sl_fixed_refactor(D, &y.M.view, NULL));
     assert_int_equal(c.calls, calls);
     c.fail_at = (int64_t)calls;
-    SL_EXPECT(SL_ERR_MEMORY, sl_dirichlet_solve(D, X, 100, X, 100, g, 2, 2, NULL));
+    SL_EXPECT(SL_ERR_MEMORY, sl_fixed_solve(D, X, 100, X, 100, g, 2, 2, NULL));
     sl_work_free(W);
-    sl_dirichlet_free(D);
+    sl_fixed_free(D);
     COUNTER_CLEAN(&c);
     factored_free(&y);
 }

@@ -17,17 +17,17 @@ static void a_negative_pivot_is_named_by_its_row(void **state) {
     static const double x[5] = {1.0, 0.5, 1.0, 1.0, -2.0};
     const sl_csc A = {3, 3, three_p, three_i, x};
     sl_options opt = options_none();
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     sl_stats stats;
     opt.definite = 1;
-    SL_EXPECT(SL_ERR_PIVOT, sl_dirichlet_create(&D, &A, fixed, 1, NULL, &opt, &stats));
+    SL_EXPECT(SL_ERR_PIVOT, sl_fixed_create(&D, &A, fixed, 1, NULL, &opt, &stats));
     assert_null(D);
     assert_int_equal(stats.error.row, 2);
     assert_null(strstr(stats.error.what, "singular"));
     opt.definite = 0;
-    SL_CHECK(sl_dirichlet_create(&D, &A, fixed, 1, NULL, &opt, &stats));
+    SL_CHECK(sl_fixed_create(&D, &A, fixed, 1, NULL, &opt, &stats));
     assert_int_equal(stats.factor.negative, 1);
-    sl_dirichlet_free(D);
+    sl_fixed_free(D);
 }
 
 /* Blocks are kept if all of them are free as a whole: here the last one is not. */
@@ -40,10 +40,10 @@ static void the_last_block_may_be_cut(void **state) {
     A.x = x;
     opt.block_size = 2;
     for (sl_int count = 1; count <= 2; count++) { /* or, without row 2, blocks begin elsewhere */
-        sl_dirichlet *D = NULL;
-        SL_CHECK(sl_dirichlet_create(&D, &A, last, count, NULL, &opt, NULL));
+        sl_fixed *D = NULL;
+        SL_CHECK(sl_fixed_create(&D, &A, last, count, NULL, &opt, NULL));
         dirichlet_check_all(D, &A, last, count);
-        sl_dirichlet_free(D);
+        sl_fixed_free(D);
     }
 }
 
@@ -55,18 +55,18 @@ static void what_is_no_pattern_is_refused(void **state) {
     static const double g[2] = {1.0, 2.0};
     double before[6], after[6];
     sl_csc A[2] = {two_paths, two_paths};
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     A[0].n_cols = 7;
     A[0].p = wide;
     A[1].p = down;
-    SL_CHECK(sl_dirichlet_create(&D, &two_paths, rows, 2, NULL, NULL, NULL));
-    SL_CHECK(sl_dirichlet_solve(D, before, 6, NULL, 0, g, 2, 1, NULL));
+    SL_CHECK(sl_fixed_create(&D, &two_paths, rows, 2, NULL, NULL, NULL));
+    SL_CHECK(sl_fixed_solve(D, before, 6, NULL, 0, g, 2, 1, NULL));
     for (int k = 0; k < 2; k++) {
-        SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_dirichlet_refactor(D, &A[k], NULL));
-        SL_CHECK(sl_dirichlet_solve(D, after, 6, NULL, 0, g, 2, 1, NULL));
+        SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_fixed_refactor(D, &A[k], NULL));
+        SL_CHECK(sl_fixed_solve(D, after, 6, NULL, 0, g, 2, 1, NULL));
         assert_memory_equal(before, after, sizeof before);
     }
-    sl_dirichlet_free(D);
+    sl_fixed_free(D);
 }
 
 /* Too much growth of the free rows 0 and 1: refused until other values come. */
@@ -76,20 +76,20 @@ static void growth_is_refused_until_other_values_come(void **state) {
     static const double g = 3.0;
     double x[5] = {2.0, 0.5, 1.0, 1.0, 2.0}, y[3], z[3];
     const sl_csc A = {3, 3, three_p, three_i, x};
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     sl_stats stats;
-    SL_CHECK(sl_dirichlet_create(&D, &A, fixed, 1, NULL, NULL, NULL));
-    SL_CHECK(sl_dirichlet_solve(D, y, 3, NULL, 0, &g, 1, 1, NULL));
+    SL_CHECK(sl_fixed_create(&D, &A, fixed, 1, NULL, NULL, NULL));
+    SL_CHECK(sl_fixed_solve(D, y, 3, NULL, 0, &g, 1, 1, NULL));
     x[0] = x[2] = 1e-17;
-    SL_EXPECT(SL_ERR_INACCURATE, sl_dirichlet_refactor(D, &A, &stats));
+    SL_EXPECT(SL_ERR_INACCURATE, sl_fixed_refactor(D, &A, &stats));
     assert_in_range(stats.error.row, 0, 1);
-    SL_EXPECT(SL_ERR_STALE, sl_dirichlet_solve(D, z, 3, NULL, 0, &g, 1, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_fixed_solve(D, z, 3, NULL, 0, &g, 1, 1, NULL));
     x[0] = 2.0;
     x[2] = 1.0;
-    SL_CHECK(sl_dirichlet_refactor(D, &A, NULL));
-    SL_CHECK(sl_dirichlet_solve(D, z, 3, NULL, 0, &g, 1, 1, NULL));
+    SL_CHECK(sl_fixed_refactor(D, &A, NULL));
+    SL_CHECK(sl_fixed_solve(D, z, 3, NULL, 0, &g, 1, 1, NULL));
     assert_memory_equal(y, z, sizeof y);
-    sl_dirichlet_free(D);
+    sl_fixed_free(D);
 }
 
 /* Stiffnesses of 1e-300: a solution overflows, of one right-hand side or of several. */
@@ -99,21 +99,21 @@ static void a_solution_may_overflow(void **state) {
     static const double x[10] = {1e-300, -1e-301, 2e-300, -1e-300, 1.0, 1.0, -0.5, 2.0, -1.0, 1.0};
     static const double g[3] = {0.0, 0.0, 0.0};
     sl_csc A = two_paths;
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     A.x = x;
-    SL_CHECK(sl_dirichlet_create(&D, &A, fixed, 1, NULL, NULL, NULL));
+    SL_CHECK(sl_fixed_create(&D, &A, fixed, 1, NULL, NULL, NULL));
     for (sl_int nrhs = 1; nrhs <= 3; nrhs++) {
         double B[18] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0}, X[18];
         B[6 * nrhs - 6] = 1e10;
-        SL_EXPECT(SL_ERR_NOT_FINITE, sl_dirichlet_solve(D, X, 6, B, 6, g, 1, nrhs, NULL));
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_fixed_solve(D, X, 6, B, 6, g, 1, nrhs, NULL));
         assert_true(!isfinite(X[6 * nrhs - 6]));
         B[6 * nrhs - 6] = 1.0;
-        SL_CHECK(sl_dirichlet_solve(D, X, 6, B, 6, g, 1, nrhs, NULL));
+        SL_CHECK(sl_fixed_solve(D, X, 6, B, 6, g, 1, nrhs, NULL));
         for (const double *x0 = X; x0 < X + 6 * nrhs; x0 += 6) {
             assert_true(fabs(1e-300 * x0[0] - 1e-301 * x0[1] - B[x0 - X]) < 1e-14);
         }
     }
-    sl_dirichlet_free(D);
+    sl_fixed_free(D);
 }
 
 /* Pins need no kernels of their own. A factor of the free rows does: it is refused where this
@@ -125,18 +125,18 @@ static void a_factor_of_its_own_may_be_unsupported(void **state) {
     static const double g = 1.0;
     double x[400];
     sl_options opt = options_none();
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     sl_stats stats;
     for (opt.isa = SL_ISA_SCALAR; isa_is_present(opt.isa);) {
         opt.isa = (sl_isa)(opt.isa + 1);
         assert_in_range(opt.isa, SL_ISA_SCALAR, SL_ISA_NEON);
     }
-    SL_CHECK(sl_dirichlet_create(&D, &y.M.view, row, 1, y.F, &opt, &stats));
-    assert_int_equal(stats.dirichlet.method, SL_DIRICHLET_PINS);
-    SL_CHECK(sl_dirichlet_solve(D, x, 400, NULL, 0, &g, 1, 1, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_dirichlet_refactor(D, &y.M.view, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_dirichlet_solve(D, x, 400, NULL, 0, &g, 1, 1, NULL));
-    sl_dirichlet_free(D);
+    SL_CHECK(sl_fixed_create(&D, &y.M.view, row, 1, y.F, &opt, &stats));
+    assert_int_equal(stats.fixed.method, SL_FIXED_PINS);
+    SL_CHECK(sl_fixed_solve(D, x, 400, NULL, 0, &g, 1, 1, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_fixed_refactor(D, &y.M.view, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_fixed_solve(D, x, 400, NULL, 0, &g, 1, 1, NULL));
+    sl_fixed_free(D);
     factored_free(&y);
 }
 
@@ -149,15 +149,15 @@ static void factors_that_do_not_suit_are_not_used(void **state) {
     const sl_csc A = {3, 3, three_p, three_i, x};
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     sl_stats stats;
     SL_CHECK(sl_symbolic_create_pivoted(&S, &A, NULL, NULL));
     assert_non_null(sl_symbolic_view(S).pairs);
     SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
-    SL_CHECK(sl_dirichlet_create(&D, &A, middle, 1, F, NULL, &stats));
-    assert_int_equal(stats.dirichlet.method, SL_DIRICHLET_SUBMATRIX);
+    SL_CHECK(sl_fixed_create(&D, &A, middle, 1, F, NULL, &stats));
+    assert_int_equal(stats.fixed.method, SL_FIXED_SUBMATRIX);
     dirichlet_check_all(D, &A, middle, 1);
-    sl_dirichlet_free(D);
+    sl_fixed_free(D);
     sl_factor_free(F);
     sl_symbolic_free(S);
     for (size_t vectors = 1; vectors <= 2; vectors++) {
@@ -168,11 +168,11 @@ static void factors_that_do_not_suit_are_not_used(void **state) {
         SL_CHECK(sl_symbolic_create(&S, &two_paths, NULL, NULL));
         SL_CHECK(sl_factor_create(&F, S, &two_paths, &opt, &stats));
         assert_int_equal(stats.factor.null, 2);
-        SL_CHECK(sl_dirichlet_create(&D, &two_paths, middle, 2, F, NULL, &stats));
-        assert_true((stats.dirichlet.seconds_pins > 0.0) == (vectors == 1));
-        assert_true(vectors == 1 || stats.dirichlet.method != SL_DIRICHLET_PINS);
+        SL_CHECK(sl_fixed_create(&D, &two_paths, middle, 2, F, NULL, &stats));
+        assert_true((stats.fixed.seconds_pins > 0.0) == (vectors == 1));
+        assert_true(vectors == 1 || stats.fixed.method != SL_FIXED_PINS);
         dirichlet_check_all(D, &two_paths, middle, 2);
-        sl_dirichlet_free(D);
+        sl_fixed_free(D);
         sl_factor_free(F);
         sl_symbolic_free(S);
     }
@@ -187,7 +187,7 @@ static void a_restriction_may_be_the_slower_way(void **state) {
     gen_list_t t = gen_list(N);
     sl_int *rows = test_ints(ALONE + 1);
     sl_factor *F = NULL;
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     sl_stats stats;
     for (sl_int k = 0; k < N; k++) {
         gen_add(&t, k, k, k == 0 ? STAR : 3.0);
@@ -204,13 +204,13 @@ static void a_restriction_may_be_the_slower_way(void **state) {
     for (sl_int k = 0; k < ALONE; k++) {
         rows[1 + k] = STAR + PATH + k;
     }
-    SL_CHECK(sl_dirichlet_create(&D, &M.view, rows, ALONE + 1, F, NULL, &stats));
-    assert_true(stats.dirichlet.seconds_pins > stats.dirichlet.seconds_submatrix);
-    assert_true(stats.dirichlet.seconds_restriction > stats.dirichlet.seconds_submatrix);
-    assert_int_equal(stats.dirichlet.method, SL_DIRICHLET_SUBMATRIX);
+    SL_CHECK(sl_fixed_create(&D, &M.view, rows, ALONE + 1, F, NULL, &stats));
+    assert_true(stats.fixed.seconds_pins > stats.fixed.seconds_submatrix);
+    assert_true(stats.fixed.seconds_restriction > stats.fixed.seconds_submatrix);
+    assert_int_equal(stats.fixed.method, SL_FIXED_SUBMATRIX);
     const dirichlet_t p = {&M.view, rows, ALONE + 1, 2, 0, 0, 0, 1, 0};
     dirichlet_check(D, &p, NULL);
-    sl_dirichlet_free(D);
+    sl_fixed_free(D);
     sl_factor_free(F);
     sl_symbolic_free(S);
     gen_matrix_free(&M);

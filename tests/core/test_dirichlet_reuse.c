@@ -2,20 +2,19 @@
 #include "tests/lib/dirichlet.h"
 
 /* Creates an object with a factor of A, and checks its solutions. Returns the way it took. */
-static sl_dirichlet_method taken(const sl_csc *A, const sl_factor *F, const sl_int *rows,
-                                 sl_int count, const sl_options *opt) {
-    sl_dirichlet *D = NULL;
+static sl_fixed_method taken(const sl_csc *A, const sl_factor *F, const sl_int *rows, sl_int count,
+                             const sl_options *opt) {
+    sl_fixed *D = NULL;
     sl_stats stats;
-    SL_CHECK(sl_dirichlet_create(&D, A, rows, count, F, opt, &stats));
-    assert_int_equal(stats.dirichlet.n_free, A->n_cols - count);
-    assert_int_equal(sl_dirichlet_view(D).factor == NULL,
-                     stats.dirichlet.method == SL_DIRICHLET_PINS);
+    SL_CHECK(sl_fixed_create(&D, A, rows, count, F, opt, &stats));
+    assert_int_equal(stats.fixed.n_free, A->n_cols - count);
+    assert_int_equal(sl_fixed_view(D).factor == NULL, stats.fixed.method == SL_FIXED_PINS);
     dirichlet_check_all(D, A, rows, count);
-    SL_CHECK(sl_dirichlet_refactor(D, A, NULL));
-    assert_true(sl_dirichlet_view(D).matrix.n_cols == A->n_cols - count);
+    SL_CHECK(sl_fixed_refactor(D, A, NULL));
+    assert_true(sl_fixed_view(D).matrix.n_cols == A->n_cols - count);
     dirichlet_check_all(D, A, rows, count);
-    sl_dirichlet_free(D);
-    return stats.dirichlet.method;
+    sl_fixed_free(D);
+    return stats.fixed.method;
 }
 
 static void all_ways_hold(void **state) {
@@ -28,14 +27,14 @@ static void all_ways_hold(void **state) {
                                          kind == GEN_KKT || shape % 2 ? 1 : -1, style, NULL);
             const sl_int n = y.M.view.n_cols;
             sl_int *rows = test_ints((size_t)n), count = subset_fill(rows, n, shape, y.S);
-            const sl_dirichlet_method way = taken(&y.M.view, y.F, rows, count, NULL);
-            assert_true(kind != GEN_KKT || way != SL_DIRICHLET_PINS);
+            const sl_fixed_method way = taken(&y.M.view, y.F, rows, count, NULL);
+            assert_true(kind != GEN_KKT || way != SL_FIXED_PINS);
             ways[way]++;
             free(rows);
             factored_free(&y);
         }
     }
-    assert_true(ways[SL_DIRICHLET_PINS] > 10 && ways[SL_DIRICHLET_RESTRICTION] > 30);
+    assert_true(ways[SL_FIXED_PINS] > 10 && ways[SL_FIXED_RESTRICTION] > 30);
 }
 
 static void few_rows_are_pinned_and_many_restricted(void **state) {
@@ -43,14 +42,14 @@ static void few_rows_are_pinned_and_many_restricted(void **state) {
     factored_t y = factored_make(GEN_GRID2, 2500, 1, 0, NULL);
     const sl_int n = y.M.view.n_cols;
     sl_int *rows = test_ints((size_t)n), count = subset_fill(rows, n, SUBSET_FEW, y.S);
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     sl_stats stats;
-    assert_int_equal(taken(&y.M.view, y.F, rows, 1, NULL), SL_DIRICHLET_PINS);
-    assert_int_equal(taken(&y.M.view, y.F, rows, count, NULL), SL_DIRICHLET_RESTRICTION);
-    SL_CHECK(sl_dirichlet_create(&D, &y.M.view, rows, 1, y.F, NULL, &stats));
-    assert_true(stats.dirichlet.seconds_pins < stats.dirichlet.seconds_restriction &&
-                stats.dirichlet.seconds_restriction < stats.dirichlet.seconds_submatrix);
-    sl_dirichlet_free(D);
+    assert_int_equal(taken(&y.M.view, y.F, rows, 1, NULL), SL_FIXED_PINS);
+    assert_int_equal(taken(&y.M.view, y.F, rows, count, NULL), SL_FIXED_RESTRICTION);
+    SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, 1, y.F, NULL, &stats));
+    assert_true(stats.fixed.seconds_pins < stats.fixed.seconds_restriction &&
+                stats.fixed.seconds_restriction < stats.fixed.seconds_submatrix);
+    sl_fixed_free(D);
     free(rows);
     factored_free(&y);
 }
@@ -71,9 +70,9 @@ static void an_unsuited_factor_is_not_used(void **state) {
     }
     memcpy(x, A->x, (size_t)A->p[n] * sizeof *x);
     other.x = x;
-    assert_int_equal(taken(&other, y.F, &row, 1, NULL), SL_DIRICHLET_PINS); /* the same values */
+    assert_int_equal(taken(&other, y.F, &row, 1, NULL), SL_FIXED_PINS); /* the same values */
     x[0] += 1.0;
-    assert_int_equal(taken(&other, y.F, &row, 1, NULL), SL_DIRICHLET_SUBMATRIX);
+    assert_int_equal(taken(&other, y.F, &row, 1, NULL), SL_FIXED_SUBMATRIX);
     for (int k = 0; k < 7; k++) {
         sl_options opt = options_none();
         opt.null_pivots = k == 1 || k == 2 || k == 6 ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
@@ -83,13 +82,12 @@ static void an_unsuited_factor_is_not_used(void **state) {
         opt.signs = k == 3 ? signs : NULL;
         opt.ordering = k == 5 ? SL_ORDERING_GIVEN : SL_ORDERING_ND;
         opt.perm = k == 0 || k == 5 ? perm : NULL; /* read with GIVEN only */
-        assert_int_equal(taken(A, y.F, &row, 1, &opt),
-                         k == 0 ? SL_DIRICHLET_PINS : SL_DIRICHLET_SUBMATRIX);
+        assert_int_equal(taken(A, y.F, &row, 1, &opt), k == 0 ? SL_FIXED_PINS : SL_FIXED_SUBMATRIX);
     }
     x[0] = 0.0;
     x[1] = 1e300;
     assert_int_not_equal(sl_factor_refactor(y.F, &other, NULL), SL_OK);
-    assert_int_equal(taken(A, y.F, &row, 1, NULL), SL_DIRICHLET_SUBMATRIX);
+    assert_int_equal(taken(A, y.F, &row, 1, NULL), SL_FIXED_SUBMATRIX);
     free(x);
     free(ones);
     free(perm);
@@ -124,13 +122,13 @@ static void a_singular_factor_needs_a_row_of_each_component(void **state) {
     sl_options opt = options_none();
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     sl_stats stats;
     opt.null_pivots = SL_NULL_PIVOT_SKIP;
     SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
-    assert_int_equal(taken(&M.view, F, rows, 2, NULL), SL_DIRICHLET_PINS);
-    SL_EXPECT(SL_ERR_PIVOT, sl_dirichlet_create(&D, &M.view, rows, 1, F, NULL, &stats));
+    assert_int_equal(taken(&M.view, F, rows, 2, NULL), SL_FIXED_PINS);
+    SL_EXPECT(SL_ERR_PIVOT, sl_fixed_create(&D, &M.view, rows, 1, F, NULL, &stats));
     assert_null(D);
     assert_in_range(stats.error.row, 400, 799);
     sl_factor_free(F);
@@ -149,7 +147,7 @@ static void pins_that_lose_digits_are_not_used(void **state) {
         SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
         SL_CHECK(sl_factor_create(&F, S, &M.view, NULL, NULL));
         assert_int_equal(taken(&M.view, F, &row, 1, NULL),
-                         k == 0 ? SL_DIRICHLET_PINS : SL_DIRICHLET_RESTRICTION);
+                         k == 0 ? SL_FIXED_PINS : SL_FIXED_RESTRICTION);
         sl_factor_free(F);
         sl_symbolic_free(S);
         gen_matrix_free(&M);
@@ -164,23 +162,23 @@ static void pins_follow_their_factor(void **state) {
     sl_csc other = y.M.view;
     const sl_int n = other.n_cols, row = 7;
     double *x = test_reals((size_t)other.p[n]), *X = test_reals((size_t)n), g = 2.0;
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     sl_stats stats;
     other.x = x;
-    SL_CHECK(sl_dirichlet_create(&D, &y.M.view, &row, 1, y.F, NULL, &stats));
-    assert_int_equal(stats.dirichlet.method, SL_DIRICHLET_PINS);
-    SL_EXPECT(SL_ERR_PIVOT, sl_dirichlet_refactor(D, &other, NULL)); /* all 0 */
-    SL_EXPECT(SL_ERR_STALE, sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, &g, 1, 1, NULL));
-    sl_dirichlet_free(D);
-    SL_CHECK(sl_dirichlet_create(&D, &y.M.view, &row, 1, y.F, NULL, &stats));
-    SL_CHECK(sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, &g, 1, 1, NULL));
+    SL_CHECK(sl_fixed_create(&D, &y.M.view, &row, 1, y.F, NULL, &stats));
+    assert_int_equal(stats.fixed.method, SL_FIXED_PINS);
+    SL_EXPECT(SL_ERR_PIVOT, sl_fixed_refactor(D, &other, NULL)); /* all 0 */
+    SL_EXPECT(SL_ERR_STALE, sl_fixed_solve(D, X, (size_t)n, NULL, 0, &g, 1, 1, NULL));
+    sl_fixed_free(D);
+    SL_CHECK(sl_fixed_create(&D, &y.M.view, &row, 1, y.F, NULL, &stats));
+    SL_CHECK(sl_fixed_solve(D, X, (size_t)n, NULL, 0, &g, 1, 1, NULL));
     SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, &g, 1, 1, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_dirichlet_solve(D, X, SL_ROWS(1), NULL, 0, &g, SL_ROWS(1), 1, NULL));
-    SL_CHECK(sl_dirichlet_refactor(D, &y.M.view, &stats));
-    assert_int_equal(stats.dirichlet.method, SL_DIRICHLET_SUBMATRIX);
+    SL_EXPECT(SL_ERR_STALE, sl_fixed_solve(D, X, (size_t)n, NULL, 0, &g, 1, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_fixed_solve(D, X, SL_ROWS(1), NULL, 0, &g, SL_ROWS(1), 1, NULL));
+    SL_CHECK(sl_fixed_refactor(D, &y.M.view, &stats));
+    assert_int_equal(stats.fixed.method, SL_FIXED_SUBMATRIX);
     dirichlet_check_all(D, &y.M.view, &row, 1);
-    sl_dirichlet_free(D);
+    sl_fixed_free(D);
     free(x);
     free(X);
     factored_free(&y);
@@ -198,20 +196,19 @@ static void memory_may_end_at_any_time(void **state) {
         for (int64_t k = 0; status != SL_OK; k++) {
             counter_t c = counter_make();
             sl_options opt = options_counted(&c);
-            sl_dirichlet *D = NULL;
+            sl_fixed *D = NULL;
             sl_stats stats;
             c.fail_at = k;
-            status = sl_dirichlet_create(&D, &y.M.view, rows, which ? count : 1, y.F, &opt, &stats);
+            status = sl_fixed_create(&D, &y.M.view, rows, which ? count : 1, y.F, &opt, &stats);
             if (status == SL_OK) {
-                assert_int_equal(stats.dirichlet.method,
-                                 which ? SL_DIRICHLET_RESTRICTION : SL_DIRICHLET_PINS);
-                status = sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, G, (size_t)n, 1, NULL);
+                assert_int_equal(stats.fixed.method, which ? SL_FIXED_RESTRICTION : SL_FIXED_PINS);
+                status = sl_fixed_solve(D, X, (size_t)n, NULL, 0, G, (size_t)n, 1, NULL);
             }
             if (status == SL_OK) {
-                status = sl_dirichlet_refactor(D, &y.M.view, NULL);
+                status = sl_fixed_refactor(D, &y.M.view, NULL);
             }
             assert_true(status == SL_OK || status == SL_ERR_MEMORY);
-            sl_dirichlet_free(D);
+            sl_fixed_free(D);
             COUNTER_CLEAN(&c);
         }
     }
@@ -230,22 +227,20 @@ static void refused_values_are_not_forgotten(void **state) {
     double *X = test_reals((size_t)n), *g = test_reals((size_t)n), kept;
     for (int many = 0; many < 2; many++) {
         const sl_int count = many ? few : 1, at = y.M.p[n] - 1; /* the last diagonal entry */
-        sl_dirichlet *D = NULL;
+        sl_fixed *D = NULL;
         sl_stats stats;
         assert_int_not_equal(rows[0], n - 1);
-        SL_CHECK(sl_dirichlet_create(&D, &y.M.view, rows, count, y.F, NULL, &stats));
-        assert_int_equal(stats.dirichlet.method,
-                         many ? SL_DIRICHLET_RESTRICTION : SL_DIRICHLET_PINS);
-        SL_CHECK(sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, g, (size_t)n, 1, NULL));
+        SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, count, y.F, NULL, &stats));
+        assert_int_equal(stats.fixed.method, many ? SL_FIXED_RESTRICTION : SL_FIXED_PINS);
+        SL_CHECK(sl_fixed_solve(D, X, (size_t)n, NULL, 0, g, (size_t)n, 1, NULL));
         kept = y.M.x[at];
         y.M.x[at] = NAN;
-        SL_EXPECT(SL_ERR_NOT_FINITE, sl_dirichlet_refactor(D, &y.M.view, NULL));
-        SL_EXPECT(SL_ERR_STALE,
-                  sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, g, (size_t)n, 1, NULL));
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_fixed_refactor(D, &y.M.view, NULL));
+        SL_EXPECT(SL_ERR_STALE, sl_fixed_solve(D, X, (size_t)n, NULL, 0, g, (size_t)n, 1, NULL));
         y.M.x[at] = kept;
-        SL_CHECK(sl_dirichlet_refactor(D, &y.M.view, NULL));
-        SL_CHECK(sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, g, (size_t)n, 1, NULL));
-        sl_dirichlet_free(D);
+        SL_CHECK(sl_fixed_refactor(D, &y.M.view, NULL));
+        SL_CHECK(sl_fixed_solve(D, X, (size_t)n, NULL, 0, g, (size_t)n, 1, NULL));
+        sl_fixed_free(D);
     }
     free(rows);
     free(X);

@@ -52,7 +52,7 @@ static void a_matrix_without_rows_needs_no_arrays(void **state) {
     memset(&stats, 0, sizeof stats);
     opt.ordering = SL_ORDERING_GIVEN;
     SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
-    SL_CHECK(sl_batch_factor(&F, 1, S, &one, values, 1, NULL, NULL, NULL));
+    SL_CHECK(sl_factor_create_sums(&F, 1, S, &one, values, 1, NULL, NULL, NULL));
     SL_CHECK(sl_factor_solve(F, NULL, 1, NULL, 1, 1, NULL));
     SL_CHECK(sl_factor_refine(F, &A, NULL, 1, NULL, 1, 1, 2, NULL, &stats));
     SL_CHECK(sl_csc_residual(&A, NULL, 1, eta, NULL, 1, NULL, 1, 2));
@@ -93,7 +93,7 @@ static void empty_sets_share_no_memory(void **state) {
     }
     SL_CHECK(sl_plan_solve(from_nothing, y.F, shared, 3, shared, 2, 2, NULL));
     assert_true(shared[0] == 0 && shared[1] == 0 && shared[2] == 5 && shared[3] == 0);
-    SL_CHECK(sl_plan_solve_refined(to_nothing, y.F, shared, 2, shared, 3, 1, 2, NULL, NULL));
+    SL_CHECK(sl_plan_solve_regularized(to_nothing, y.F, shared, 2, shared, 3, 1, 2, NULL, NULL));
     sl_plan_free(from_nothing);
     sl_plan_free(to_nothing);
     factored_free(&y);

@@ -34,7 +34,7 @@ static const struct {
     {no_numbers, SL_ERR_STALE,
      "numbers that are missing or out of date: F has no numbers: its last factorization has "
      "failed"},
-    {other_analysis, SL_ERR_STATE,
+    {other_analysis, SL_ERR_MISMATCH,
      "objects that do not belong together: the plan is of another analysis than F"},
     {no_perm, SL_ERR_ARGUMENT, "invalid argument: options.perm is NULL though ordering is GIVEN"},
     {row_twice_in_perm, SL_ERR_ARGUMENT,
@@ -55,7 +55,7 @@ static const struct {
      "invalid argument: options.signs has a value other than -1, 0 and 1 (row 3, value 7)"},
     {infinite_weight, SL_ERR_ARGUMENT,
      "invalid argument: options.mass is not finite (row 4, value inf)"},
-    {counted_from_1, SL_ERR_PATTERN,
+    {counted_from_1, SL_ERR_MALFORMED,
      "malformed or unsymmetric pattern: a row of A is out of range; rows count from 0 (row 2, "
      "column 1)"},
     {other_triangle, SL_ERR_OTHER_PATTERN, "not the analyzed pattern: A stores the other triangle"},
@@ -71,7 +71,7 @@ static const struct {
      "null pivot: it depends on the other pins and equalities (row 5)"},
     {old_pins, SL_ERR_STALE,
      "numbers that are missing or out of date: F has changed since the pins were made: "
-     "sl_pins_refactor"},
+     "sl_constraints_refactor"},
     {not_in_l, SL_ERR_OTHER_PATTERN, "not the analyzed pattern: L has no such entry"},
     {no_memory, SL_ERR_MEMORY, "out of memory: the allocator returned NULL"},
     {no_file, SL_ERR_IO,
@@ -163,7 +163,7 @@ static void errors_cross_threads(void **state) {
     opt.threads.count = 2;
     opt.threads.run = run_threads;
     opt.threads.context = &calls;
-    SL_EXPECT(SL_ERR_PIVOT, sl_batch_factor(F, 4, w.y.S, NULL, NULL, 0, &opt, NULL, NULL));
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_create_sums(F, 4, w.y.S, NULL, NULL, 0, &opt, NULL, NULL));
     assert_true(calls > 0);
     sl_error_text(text, TEXT, SL_ERR_PIVOT, NULL);
     assert_non_null(strstr(text, "null pivot: if A is regular, sl_symbolic_create_pivoted"));

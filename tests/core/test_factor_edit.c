@@ -168,7 +168,7 @@ static void changed_factors_follow(void **state) {
     sl_stats stats;
     sl_factor *G = NULL;
     assert_true(row != column);
-    SL_CHECK(sl_factor_change(y.F, NULL, &row, &column, &delta, 1, NULL, NULL));
+    SL_CHECK(sl_factor_change_entries(y.F, NULL, &row, &column, &delta, 1, NULL, NULL));
     SL_CHECK(sl_factor_edit(&G, y.F, y.S, &y.A.view, map, NULL, &stats));
     check_right(G, &y.A.view);
     assert_true(!stats.reuse.is_anew && stats.reuse.computed > 0);
@@ -226,7 +226,7 @@ static void other_factors_are_made_anew(void **state) {
     }
     sl_symbolic *T = NULL;
     sl_factor *G = NULL, *H = NULL;
-    SL_CHECK(sl_factor_restrict(&T, &G, y.F, &y.A.view, map, y.t.n, NULL, NULL));
+    SL_CHECK(sl_factor_submatrix(&T, &G, y.F, &y.A.view, map, y.t.n, NULL, NULL));
     sl_stats stats;
     SL_CHECK(sl_factor_edit(&H, G, y.S, &y.A.view, map, NULL, &stats));
     assert_int_equal(stats.reuse.is_anew, 1);

@@ -388,7 +388,7 @@ static void more_entries_than_indices_are_refused(void **state) {
     assert_int_equal(status, SL_ERR_TOO_LARGE);
     assert_null(r.blocks[2]);
     assert_int_equal(counter.calls, 0);
-    assert_true(sli_dirichlet_is_over(status) && !sli_dirichlet_is_over(SL_ERR_PIVOT));
+    assert_true(sli_fixed_is_over(status) && !sli_fixed_is_over(SL_ERR_PIVOT));
     r.n_fresh = 2;
     SL_CHECK(sli_restriction_work(&r, 3, &opt.allocator));
     assert_true(r.entry_column == r.entry_row + 3);

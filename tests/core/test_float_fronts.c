@@ -62,7 +62,7 @@ static void every_way_gives_the_same_bits(void **state) {
             SL_CHECK(sl_factor_refactor(G, &y.M.view, NULL));
             assert_same_bits(y.F, G);
             SL_CHECK(sl_symbolic_scatter(y.S, values, &y.M.view, NULL));
-            SL_CHECK(sl_batch_refactor(&G, 1, &one, arrays, 1, NULL, NULL, NULL));
+            SL_CHECK(sl_factor_refactor_sums(&G, 1, &one, arrays, 1, NULL, NULL, NULL));
             assert_same_bits(y.F, G);
             sl_factor_free(G);
             free(values);

@@ -222,14 +222,14 @@ static void batches_have_the_bits_of_single_calls(void **state) {
         sl_int failed = 7;
         int calls = 0;
         opt.threads = threads_of(threads, &calls);
-        SL_CHECK(
-            sl_batch_factor(F, COUNT, y.S, c, matrix_pair_values(&y), TERMS, &opt, &failed, NULL));
+        SL_CHECK(sl_factor_create_sums(F, COUNT, y.S, c, matrix_pair_values(&y), TERMS, &opt,
+                                       &failed, NULL));
         assert_int_equal(failed, -1);
         for (int k = 0; k < COUNT; k++) {
             const sl_options alone = options_float(SL_ISA_AUTO);
             sl_factor *G = NULL;
-            SL_CHECK(sl_batch_factor(&G, 1, y.S, c + TERMS * k, matrix_pair_values(&y), TERMS,
-                                     &alone, NULL, NULL));
+            SL_CHECK(sl_factor_create_sums(&G, 1, y.S, c + TERMS * k, matrix_pair_values(&y), TERMS,
+                                           &alone, NULL, NULL));
             assert_same_bits(F[k], G);
             sl_factor_free(G);
             memset(requests, 0, sizeof requests);

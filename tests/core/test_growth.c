@@ -284,12 +284,13 @@ static void growth_beyond_the_limit_is_refused_with_its_pivot(void **state) {
             double *scattered = test_reals((size_t)bad.p[N]);
             SL_CHECK(sl_symbolic_scatter(S, scattered, &bad.view, NULL));
             values = scattered;
-            assert_refused(sl_batch_refactor(&F, 1, &one, &values, 1, NULL, NULL, &stats), &stats,
-                           at, -1e-20);
+            assert_refused(sl_factor_refactor_sums(&F, 1, &one, &values, 1, NULL, NULL, &stats),
+                           &stats, at, -1e-20);
             sl_int failed = -1;
             sl_factor *batch = NULL;
-            assert_refused(sl_batch_factor(&batch, 1, S, &one, &values, 1, &opt, &failed, &stats),
-                           &stats, at, -1e-20);
+            assert_refused(
+                sl_factor_create_sums(&batch, 1, S, &one, &values, 1, &opt, &failed, &stats),
+                &stats, at, -1e-20);
             assert_int_equal(failed, 0);
             assert_null(batch);
             free(scattered);

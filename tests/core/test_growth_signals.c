@@ -69,10 +69,10 @@ static void local_refinement_reports_a_large_error(void **state) {
             opt.error_limit = off ? -1.0 : 0.0;
             SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
             assert_true(stats.factor.regularized > 0);
-            SL_CHECK(sl_plan_solve_refined(P, F, X, 3, B, 3, 1, 0, NULL, &stats));
+            SL_CHECK(sl_plan_solve_regularized(P, F, X, 3, B, 3, 1, 0, NULL, &stats));
             assert_true(stats.refine.backward_error > 1e-8);
             SL_EXPECT(off ? SL_OK : SL_ERR_INACCURATE,
-                      sl_plan_solve_refined(P, F, Y, 3, B, 3, 1, 1, NULL, &stats));
+                      sl_plan_solve_regularized(P, F, Y, 3, B, 3, 1, 1, NULL, &stats));
             assert_true(stats.refine.backward_error > 1e-8);
             assert_true(Y[0] != 9.0 && Y[1] != 9.0 && Y[2] != 9.0);
             sl_factor_free(F);
@@ -116,8 +116,8 @@ static void solve_and_judge(const random_system_t *y, const sl_symbolic *S, cons
         assert_true(is_trusted || !y->is_definite);
         t->flagged += !is_trusted;
         SL_CHECK(sl_factor_rcond(F, &y->M.view, &rcond, NULL));
-        t->missed += stats.factor.regularized == 0 && error > 1e-8 &&
-                     !(DBL_EPSILON / rcond >= 0.01 * error);
+        t->missed +=
+            stats.factor.regularized == 0 && error > 1e-8 && !(DBL_EPSILON / rcond >= 0.01 * error);
         const sl_status refined =
             sl_factor_refine(F, &y->M.view, X, n, y->b, n, 1, 5, NULL, &stats);
         SL_CHECK(sl_csc_residual(&y->M.view, r, n, &error, X, n, y->b, n, 1));

@@ -206,19 +206,19 @@ static void an_analysis_created_again(void **state) {
         SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
         assert_true((uintptr_t)S != old);
         SL_CHECK(sl_factor_create(&G, S, &M.view, &rest, NULL));
-        SL_EXPECT(SL_ERR_STATE, sl_plan_solve(P, G, x, 6, b, 6, 1, NULL));
+        SL_EXPECT(SL_ERR_MISMATCH, sl_plan_solve(P, G, x, 6, b, 6, 1, NULL));
         SL_CHECK(sl_plan_solve(P, F, x, 6, b, 6, 1, NULL));
         SL_CHECK(sl_factor_solve(F, full, N, rhs, N, 1, NULL));
         SL_CHECK(sl_factor_refine(F, &M.view, full, N, rhs, N, 1, 1, NULL, NULL));
         SL_CHECK(sl_factor_refactor(F, &M.view, NULL));
-        SL_EXPECT(SL_ERR_STATE, sl_selected_refactor(Z, G, NULL));
+        SL_EXPECT(SL_ERR_MISMATCH, sl_selected_refactor(Z, G, NULL));
         rest.region = R;
-        SL_EXPECT(SL_ERR_STATE, sl_plan_create(&inside, S, set, 6, set, 6, &rest, NULL));
-        SL_EXPECT(SL_ERR_STATE, sl_region_refactor(R, G, NULL, NULL));
+        SL_EXPECT(SL_ERR_MISMATCH, sl_plan_create(&inside, S, set, 6, set, 6, &rest, NULL));
+        SL_EXPECT(SL_ERR_MISMATCH, sl_region_refactor(R, G, NULL, NULL));
         SL_CHECK(sl_region_refactor(R, F, NULL, NULL));
-        assert_saving(SL_ERR_STATE, S, F, NULL, NULL);
-        assert_saving(SL_ERR_STATE, S, G, Z, NULL);
-        assert_saving(SL_ERR_STATE, S, G, NULL, R);
+        assert_saving(SL_ERR_MISMATCH, S, F, NULL, NULL);
+        assert_saving(SL_ERR_MISMATCH, S, G, Z, NULL);
+        assert_saving(SL_ERR_MISMATCH, S, G, NULL, R);
         sl_selected_free(Z);
         sl_region_free(R);
         sl_plan_free(P);
@@ -251,7 +251,7 @@ static void sums_and_changed_columns(void **state) {
             const double c = 1.0 + turn * DBL_EPSILON;
             const sl_int column = 7;
             if (way == 0) {
-                SL_CHECK(sl_batch_factor(&F, 1, S, &c, values, 1, &opt, NULL, NULL));
+                SL_CHECK(sl_factor_create_sums(&F, 1, S, &c, values, 1, &opt, NULL, NULL));
             } else {
                 SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
                 memcpy(x, M.x, (size_t)M.p[N] * sizeof *x);

@@ -125,8 +125,8 @@ static void invalid_arguments_are_refused(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, back, B, back, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, 6, B, 6 | later, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve(P, y.F, X, SL_ROWS(3) | later, B, 2, 3, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_plan_solve(P, z.F, X, SL_ROWS(3), B, SL_ROWS(3), 3,
-                                          NULL)); /* of another analysis */
+    SL_EXPECT(SL_ERR_MISMATCH, sl_plan_solve(P, z.F, X, SL_ROWS(3), B, SL_ROWS(3), 3,
+                                             NULL)); /* of another analysis */
     assert_true(X[0] == 1 && X[1] == 2 && X[2] == 0);
     /* a leading dimension below n */
     SL_CHECK(sl_factor_solve(y.F, X, SL_ROWS(1), B, SL_ROWS(1), 1, NULL));
@@ -202,9 +202,9 @@ static void other_calls_refuse_rows(void **state) {
     double X[12] = {1, 2}, B[12] = {3, 4}, G[2] = {0}, before[12];
     const sl_int set[6] = {0, 1, 2, 3, 4, 5};
     sl_plan *P = NULL;
-    sl_pins *pins = NULL;
+    sl_constraints *pins = NULL;
     SL_CHECK(sl_plan_create(&P, y.S, set, 6, set, 6, NULL, NULL));
-    SL_CHECK(sl_pins_create(&pins, F, NULL));
+    SL_CHECK(sl_constraints_create(&pins, F, NULL));
     SL_CHECK(pin_row(pins, 2, NULL));
     memcpy(before, X, sizeof X);
     for (int k = 0; k < 4; k++) {
@@ -213,14 +213,17 @@ static void other_calls_refuse_rows(void **state) {
             SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refine(F, A, X, w, B, 6, nrhs, 1, NULL, NULL));
             SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refine(F, A, X, 6, B, w, nrhs, 1, NULL, NULL));
             SL_EXPECT(SL_ERR_ARGUMENT,
-                      sl_plan_solve_refined(P, F, X, w, B, 6, nrhs, 1, NULL, NULL));
+                      sl_plan_solve_regularized(P, F, X, w, B, 6, nrhs, 1, NULL, NULL));
             SL_EXPECT(SL_ERR_ARGUMENT,
-                      sl_plan_solve_refined(P, F, X, 6, B, w, nrhs, 1, NULL, NULL));
+                      sl_plan_solve_regularized(P, F, X, 6, B, w, nrhs, 1, NULL, NULL));
             SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_defects(F, X, w, B, 6, nrhs, NULL));
             SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_defects(F, X, 6, B, w, nrhs, NULL));
-            SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(pins, NULL, X, w, B, 6, G, 1, nrhs, NULL));
-            SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(pins, NULL, X, 6, B, w, G, 1, nrhs, NULL));
-            SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(pins, NULL, X, 6, B, 6, G, w, nrhs, NULL));
+            SL_EXPECT(SL_ERR_ARGUMENT,
+                      sl_constraints_solve(pins, NULL, X, w, B, 6, G, 1, nrhs, NULL));
+            SL_EXPECT(SL_ERR_ARGUMENT,
+                      sl_constraints_solve(pins, NULL, X, 6, B, w, G, 1, nrhs, NULL));
+            SL_EXPECT(SL_ERR_ARGUMENT,
+                      sl_constraints_solve(pins, NULL, X, 6, B, 6, G, w, nrhs, NULL));
             SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(A, SL_AS_STORED, X, w, B, 6, nrhs));
             SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(A, SL_AS_STORED, X, 6, B, w, nrhs));
             SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(A, X, w, NULL, B, 6, B, 6, nrhs));
@@ -237,7 +240,7 @@ static void other_calls_refuse_rows(void **state) {
         memcpy(X, before, sizeof X);
     }
     assert_memory_equal(X, before, sizeof X);
-    sl_pins_free(pins);
+    sl_constraints_free(pins);
     sl_plan_free(P);
     factored_free(&y);
 }

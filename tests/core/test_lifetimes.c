@@ -11,7 +11,7 @@ typedef struct objects_t {
     sl_plan *P; /* in R */
     sl_region *R;
     sl_selected *Z;
-    sl_pins *pins;
+    sl_constraints *pins;
 } objects_t;
 
 static const sl_int set[4] = {0, 1, 4, 5};
@@ -25,8 +25,8 @@ static objects_t objects_make(const sl_csc *A, const sl_options *opt) {
     SL_CHECK(sl_region_create(&o.R, o.F, set, 4, NULL, opt, NULL));
     in_region.region = o.R;
     SL_CHECK(sl_plan_create(&o.P, o.S, set, 4, set, 4, &in_region, NULL));
-    SL_CHECK(sl_pins_create(&o.pins, o.F, opt));
-    SL_CHECK(sl_pins_add(o.pins, set, 1, NULL));
+    SL_CHECK(sl_constraints_create(&o.pins, o.F, opt));
+    SL_CHECK(sl_constraints_add(o.pins, set, 1, NULL));
     return o;
 }
 
@@ -53,7 +53,7 @@ static void objects_free(objects_t *o, int which) {
         o->Z = NULL;
         break;
     default:
-        sl_pins_free(o->pins);
+        sl_constraints_free(o->pins);
         o->pins = NULL;
     }
 }
@@ -71,7 +71,7 @@ static void objects_use(const objects_t *o, const double *b, const double *x, co
         SL_CHECK(sl_plan_solve(o->P, o->F, y, 4, b, 4, 1, NULL));
     }
     if (o->pins != NULL) {
-        SL_CHECK(sl_pins_solve(o->pins, NULL, y, N, b, N, &g, 1, 1, NULL));
+        SL_CHECK(sl_constraints_solve(o->pins, NULL, y, N, b, N, &g, 1, 1, NULL));
         assert_memory_equal(y, held, sizeof y);
     }
     sl_region_stats(o->R, &stats);
@@ -91,7 +91,7 @@ static void every_order_of_frees(void **state) {
         int left[OBJECTS] = {0, 1, 2, 3, 4, 5}, order = k;
         const double g = 2.0;
         SL_CHECK(sl_factor_solve(o.F, x, N, b, N, 1, NULL));
-        SL_CHECK(sl_pins_solve(o.pins, NULL, held, N, b, N, &g, 1, 1, NULL));
+        SL_CHECK(sl_constraints_solve(o.pins, NULL, held, N, b, N, &g, 1, 1, NULL));
         for (int count = OBJECTS; count > 0; count--) {
             const int at = order % count;
             order /= count;
@@ -114,23 +114,23 @@ static void other_objects(void **state) {
     double x[400] = {0.0}, g = 1.0;
     sl_symbolic *S = NULL, *T = NULL;
     sl_factor *F = NULL, *G = NULL;
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     sl_stats stats;
     for (sl_int k = 0; k < 200; k++) {
         rows[k] = k;
     }
     SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
     SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
-    SL_CHECK(sl_factor_restrict(&T, &G, F, &M.view, rows, 200, &opt, NULL));
-    SL_CHECK(sl_dirichlet_create(&D, &M.view, rows, 1, F, &opt, &stats));
-    assert_int_equal(stats.dirichlet.method, SL_DIRICHLET_PINS);
+    SL_CHECK(sl_factor_submatrix(&T, &G, F, &M.view, rows, 200, &opt, NULL));
+    SL_CHECK(sl_fixed_create(&D, &M.view, rows, 1, F, &opt, &stats));
+    assert_int_equal(stats.fixed.method, SL_FIXED_PINS);
     sl_symbolic_free(T);
     sl_symbolic_free(S);
     sl_factor_free(F);
     SL_CHECK(sl_factor_solve(G, x, 200, x, 200, 1, NULL));
-    SL_CHECK(sl_dirichlet_solve(D, x, 400, NULL, 0, &g, 1, 1, NULL));
+    SL_CHECK(sl_fixed_solve(D, x, 400, NULL, 0, &g, 1, 1, NULL));
     sl_factor_free(G);
-    sl_dirichlet_free(D);
+    sl_fixed_free(D);
     COUNTER_CLEAN(&c);
     gen_matrix_free(&M);
 }

@@ -210,8 +210,8 @@ static void both_triangles_are_refused(void **state) {
         sl_matrix *M = NULL;
         sl_stats stats;
         memset(&stats, 0, sizeof stats);
-        SL_EXPECT(SL_ERR_PATTERN, parse(&M, texts[k], NULL));
-        SL_EXPECT(SL_ERR_PATTERN, parse(&M, texts[k], &stats));
+        SL_EXPECT(SL_ERR_MALFORMED, parse(&M, texts[k], NULL));
+        SL_EXPECT(SL_ERR_MALFORMED, parse(&M, texts[k], &stats));
         assert_true(stats.error.row == 0 && stats.error.column == 2 && stats.error.line == -1);
         assert_string_equal(stats.error.what, "both triangles of a symmetric matrix");
     }

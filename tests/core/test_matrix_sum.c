@@ -88,7 +88,7 @@ static void wrong_arguments_are_refused(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_sum(&A, NULL, wrong, TERMS, NULL, NULL));
     wrong[1] = y.terms[1];
     wrong[1].n_rows = --wrong[1].n_cols; /* an index out of range */
-    SL_EXPECT(SL_ERR_PATTERN, sl_matrix_sum(&A, NULL, wrong, TERMS, NULL, &stats));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_matrix_sum(&A, NULL, wrong, TERMS, NULL, &stats));
     assert_int_equal(stats.error.row, y.n - 1);
     const sl_int p[3] = {0, 2, 4}, i[4] = {0, 1, 1, 1}, q[4] = {0, 1, 2, 3}, k[3] = {1, 0, 1};
     const double x[4] = {1, 1, 1, 1};
@@ -97,7 +97,7 @@ static void wrong_arguments_are_refused(void **state) {
     /* n = y.n and n = 2 */
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_sum(&A, c, wrong, TERMS, NULL, NULL));
     const sl_csc skew = {3, 3, q, k, x}; /* (1,0), (0,1), (1,2), but no (2,1) */
-    SL_EXPECT(SL_ERR_PATTERN, sl_matrix_sum(&A, c, &skew, 1, NULL, &stats));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_matrix_sum(&A, c, &skew, 1, NULL, &stats));
     assert_true(stats.error.row == 1 && stats.error.column == 2);
     assert_null(A);
     matrix_pair_free(&y);

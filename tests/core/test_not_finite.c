@@ -61,7 +61,7 @@ static void regions_pins_and_batches(void **state) {
     double b[60], x[60], B[400], X[400], g = 1.0;
     sl_region *R = NULL;
     sl_plan *P = NULL;
-    sl_pins *pins = NULL;
+    sl_constraints *pins = NULL;
     sl_options opt = options_none();
     for (sl_int k = 0; k < 60; k++) {
         set[k] = 100 + k % 6 + 20 * (k / 6);
@@ -69,8 +69,8 @@ static void regions_pins_and_batches(void **state) {
     SL_CHECK(sl_region_create(&R, y.F, set, 60, NULL, NULL, NULL));
     opt.region = R;
     SL_CHECK(sl_plan_create(&P, y.S, set, 60, set, 60, &opt, NULL));
-    SL_CHECK(sl_pins_create(&pins, y.F, NULL));
-    SL_CHECK(sl_pins_add(pins, set, 1, NULL));
+    SL_CHECK(sl_constraints_create(&pins, y.F, NULL));
+    SL_CHECK(sl_constraints_add(pins, set, 1, NULL));
     gen_reals(b, 60, 1);
     gen_reals(B, 400, 1);
     SL_CHECK(sl_plan_solve(P, y.F, x, 60, b, 60, 1, NULL));
@@ -79,7 +79,8 @@ static void regions_pins_and_batches(void **state) {
         sl_int failed = 7;
         b[k] = B[set[k]] = bad[k % 3];
         SL_EXPECT(SL_ERR_NOT_FINITE, sl_plan_solve(P, y.F, x, 60, b, 60, 1, NULL));
-        SL_EXPECT(SL_ERR_NOT_FINITE, sl_pins_solve(pins, NULL, X, 400, B, 400, &g, 1, 1, NULL));
+        SL_EXPECT(SL_ERR_NOT_FINITE,
+                  sl_constraints_solve(pins, NULL, X, 400, B, 400, &g, 1, 1, NULL));
         const sl_request requests[3] = {{NULL, X, 400, X, 400, 0, NULL},
                                         {P, x, 60, b, 60, 1, NULL},
                                         {P, x, 60, b, 60, 1, NULL}};
@@ -87,7 +88,7 @@ static void regions_pins_and_batches(void **state) {
         assert_int_equal(failed, 1);
         b[k] = B[set[k]] = keep;
     }
-    sl_pins_free(pins);
+    sl_constraints_free(pins);
     sl_plan_free(P);
     sl_region_free(R);
     factored_free(&y);

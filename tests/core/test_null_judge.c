@@ -105,8 +105,8 @@ static void factors_of_a_batch_are_judged(void **state) {
     opt.threads.context = &calls;
     SL_CHECK(sl_symbolic_create(&S, &A.view, NULL, NULL));
     SL_CHECK(sl_symbolic_scatter(S, v, &A.view, NULL));
-    SL_CHECK(sl_batch_factor(F, COUNT, S, c, values, 1, FOR_FACTOR(&opt), NULL, NULL));
-    SL_CHECK(sl_batch_refactor(F, COUNT, c, values, 1, NULL, NULL, NULL));
+    SL_CHECK(sl_factor_create_sums(F, COUNT, S, c, values, 1, FOR_FACTOR(&opt), NULL, NULL));
+    SL_CHECK(sl_factor_refactor_sums(F, COUNT, c, values, 1, NULL, NULL, NULL));
     SL_CHECK(sl_factor_create(&G, S, &A.view, NULL, NULL));
     assert_same_bits(F[0], G);
     for (int k = 0; k < COUNT; k++) {
@@ -181,7 +181,7 @@ static void every_way_judges_alike(void **state) {
     SL_CHECK(sl_factor_refactor_changed(G, &A.view, column, 1, NULL));
     assert_same_bits(F, G);
     sl_factor_free(G);
-    SL_CHECK(sl_factor_restrict(&T, &G, F, &A.view, same, n, NULL, NULL));
+    SL_CHECK(sl_factor_submatrix(&T, &G, F, &A.view, same, n, NULL, NULL));
     sl_factor_free(G);
     sl_symbolic_free(T);
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_edit(&G, F, S, &B.view, same, NULL, &stats));
@@ -219,8 +219,8 @@ static void a_restriction_and_an_update_judge_by_their_rows(void **state) {
         opt.null_tolerance = k == 0 ? 0.0 : 1e-16;
         SL_CHECK(sl_symbolic_create(&S, &A.view, FOR_ANALYSIS(&opt), NULL));
         SL_CHECK(sl_factor_create(&F, S, &A.view, FOR_FACTOR(&opt), NULL));
-        SL_CHECK(sl_factor_restrict(&T, &G, F, &A.view, rows, 3, NULL, NULL));
-        SL_CHECK(sl_factor_update(F, &V, sigma, NULL, NULL));
+        SL_CHECK(sl_factor_submatrix(&T, &G, F, &A.view, rows, 3, NULL, NULL));
+        SL_CHECK(sl_factor_rank_update(F, &V, sigma, NULL, NULL));
         sl_factor_free(G);
         sl_symbolic_free(T);
         sl_factor_free(F);

@@ -213,7 +213,7 @@ static void null_pivots_of_a_sum_are_confirmed(void **state) {
     SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
     SL_CHECK(sl_symbolic_scatter(S, first, &A, NULL));
     SL_CHECK(sl_symbolic_scatter(S, second, &B, NULL));
-    SL_CHECK(sl_batch_factor(&F, 1, S, c, values, 2, &opt, NULL, &stats));
+    SL_CHECK(sl_factor_create_sums(&F, 1, S, c, values, 2, &opt, NULL, &stats));
     assert_int_equal(stats.factor.null, 1);
     SL_CHECK(sl_factor_solve(F, x, N, b, N, 1, NULL));
     for (sl_int k = 0; k < t; k++) {

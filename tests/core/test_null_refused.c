@@ -261,7 +261,8 @@ static void an_entry_of_a_sum_that_is_not_finite_is_named(void **state) {
     values[0] = v;
     SL_CHECK(sl_symbolic_create(&S, &A.view, NULL, NULL));
     SL_CHECK(sl_symbolic_scatter(S, v, &A.view, NULL));
-    SL_EXPECT(SL_ERR_NOT_FINITE, sl_batch_factor(&F, 1, S, one, values, 1, &opt, NULL, &stats));
+    SL_EXPECT(SL_ERR_NOT_FINITE,
+              sl_factor_create_sums(&F, 1, S, one, values, 1, &opt, NULL, &stats));
     assert_true(stats.error.row == 2 && stats.error.column == 2);
     sl_symbolic_free(S);
     gen_matrix_free(&A);

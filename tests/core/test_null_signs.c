@@ -111,7 +111,7 @@ static void growth_beside_a_small_pivot_is_reported(void **state) {
     SL_CHECK(sl_symbolic_create(&S, &A.view, FOR_ANALYSIS(&opt), NULL));
     SL_CHECK(sl_factor_create(&F, S, &A.view, FOR_FACTOR(&opt), &stats));
     assert_true(stats.factor.growth < 10.0);
-    SL_EXPECT(SL_ERR_INACCURATE, sl_factor_restrict(&T, &G, F, &A.view, inner, 4, NULL, &stats));
+    SL_EXPECT(SL_ERR_INACCURATE, sl_factor_submatrix(&T, &G, F, &A.view, inner, 4, NULL, &stats));
     assert_in_range(stats.error.row, 3, 4);
     assert_true(stats.factor.growth > 1e8 && stats.factor.growth < 1e10);
     sl_factor_free(F);

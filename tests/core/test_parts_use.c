@@ -28,7 +28,7 @@ static void wrong_arguments_are_refused(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_part(plan, y.F, P | L, X, 1, B, 2, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT,
               sl_plan_solve_part(plan, y.F, P | L | D | ROOT, X, 25, B, 2, 1, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_plan_solve_part(plan, k.F, P | L, X, 40, B, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_MISMATCH, sl_plan_solve_part(plan, k.F, P | L, X, 40, B, 2, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_columns(plan, SL_PART_D, columns, 25, &count));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_columns(plan, SL_PART_L, NULL, 25, &count));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_columns(plan, SL_PART_L, columns, 25, NULL));

@@ -1,4 +1,5 @@
-/* test_pins.c: sl_pins: solutions against dense ones, full and local, added and released pins */
+/* test_pins.c: sl_constraints: solutions against dense ones, full and local, added and released
+ * pins */
 #include "tests/lib/pinned.h"
 
 enum { PINS = 12 };
@@ -57,14 +58,14 @@ static void rows_are_pinned_together(void **state) {
         pin(&p, rows[count]);
         pin_rows(&p, rows, count, NULL);
         assert_pinned(&p, gen_bits(&seed));
-        SL_EXPECT(SL_ERR_PIVOT, sl_pins_add(p.P, rows + count, 2, &stats));
+        SL_EXPECT(SL_ERR_PIVOT, sl_constraints_add(p.P, rows + count, 2, &stats));
         assert_int_equal(stats.error.row, rows[count]);
         for (sl_int m = 0; m <= count; m++) {
             release(&p, p.count - 1);
         }
         const sl_int other = rows[count - 2];
         rows[count - 2] = rows[1];
-        SL_EXPECT(SL_ERR_PIVOT, sl_pins_add(p.P, rows, count, &stats));
+        SL_EXPECT(SL_ERR_PIVOT, sl_constraints_add(p.P, rows, count, &stats));
         assert_int_equal(stats.error.row, rows[1]);
         assert_int_equal(pins_count(p.P), 0);
         rows[count - 2] = other;
@@ -80,7 +81,7 @@ static void equalities_hold(void **state) {
     pinned_t p = pinned_make(GEN_GRID2, 100, 1, NULL);
     const sl_int rows[5] = {3, 40, 41, 3, 70};
     const double values[5] = {1.0, -2.0, 0.5, 1.0, 3.0};
-    SL_CHECK(sl_pins_add_equality(p.P, rows, values, 5, NULL));
+    SL_CHECK(sl_constraints_add_equality(p.P, rows, values, 5, NULL));
     for (int k = 0; k < 5; k++) {
         p.C[rows[k]] += values[k];
     }
@@ -105,8 +106,8 @@ static void a_pinned_row_takes_no_load(void **state) {
     B[row] = 1.0;
     pin(&p, 43);
     pin(&p, row);
-    SL_CHECK(sl_pins_solve(p.P, plan, x, 2, &one, 1, g, 2, 1, NULL));
-    SL_CHECK(sl_pins_solve(p.P, NULL, X, (size_t)p.n, B, (size_t)p.n, g, 2, 1, NULL));
+    SL_CHECK(sl_constraints_solve(p.P, plan, x, 2, &one, 1, g, 2, 1, NULL));
+    SL_CHECK(sl_constraints_solve(p.P, NULL, X, (size_t)p.n, B, (size_t)p.n, g, 2, 1, NULL));
     assert_true(x[0] == 0.0 && x[1] == 0.0);
     for (sl_int k = 0; k < p.n; k++) {
         assert_true(X[k] == 0.0);
@@ -170,7 +171,7 @@ static void pins_of_several_components(void **state) {
     SL_CHECK(sl_factor_create(&p.y.F, p.y.S, &p.y.M.view, &opt, NULL));
     p.dense = ref_dense(&p.y.M.view);
     p.C = test_reals(50 * 100);
-    SL_CHECK(sl_pins_create(&p.P, p.y.F, NULL));
+    SL_CHECK(sl_constraints_create(&p.P, p.y.F, NULL));
     pin(&p, 3);
     pin(&p, 33);
     assert_pinned(&p, 5);
@@ -182,7 +183,7 @@ static void pins_of_several_components(void **state) {
     assert_pinned(&p, 7);
     const sl_int both[2] = {2, 30};
     const double ones[2] = {1.0, 1.0};
-    SL_CHECK(sl_pins_add_equality(p.P, both, ones, 2, NULL));
+    SL_CHECK(sl_constraints_add_equality(p.P, both, ones, 2, NULL));
     p.C[(size_t)p.count * 50 + 2] = p.C[(size_t)p.count * 50 + 30] = 1.0;
     p.count++;
     assert_pinned(&p, 8);
@@ -201,11 +202,11 @@ static void a_changed_factor_is_refused_until_the_refactorization(void **state) 
     pin(&p, 3);
     pin(&p, 20);
     pin(&p, 21);
-    SL_CHECK(sl_factor_change(p.y.F, NULL, &i, &i, &two, 1, NULL, NULL));
+    SL_CHECK(sl_factor_change_entries(p.y.F, NULL, &i, &i, &two, 1, NULL, NULL));
     p.dense[(size_t)i * (n + 1)] += two;
-    SL_EXPECT(SL_ERR_STALE, sl_pins_solve(p.P, NULL, x, n, x, n, g, 3, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_constraints_solve(p.P, NULL, x, n, x, n, g, 3, 1, NULL));
     SL_EXPECT(SL_ERR_STALE, pin_row(p.P, 4, NULL));
-    SL_CHECK(sl_pins_refactor(p.P, NULL));
+    SL_CHECK(sl_constraints_refactor(p.P, NULL));
     assert_pinned(&p, 3);
     free(x);
     pinned_free(&p);
@@ -218,21 +219,21 @@ static void invalid_arguments_are_refused(void **state) {
     size_t n = (size_t)p.n;
     double *x = test_reals(n), one = 1.0, nan = NAN;
     sl_int row = 3, set[2] = {0, 1};
-    sl_pins *P = NULL;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_create(NULL, p.y.F, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_create(&P, NULL, NULL));
+    sl_constraints *P = NULL;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_create(NULL, p.y.F, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_create(&P, NULL, NULL));
     sl_options wrong = options_none();
     wrong.size = 1;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_create(&P, p.y.F, &wrong));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_create(&P, p.y.F, &wrong));
     SL_EXPECT(SL_ERR_ARGUMENT, pin_row(NULL, 0, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, pin_row(p.P, -1, &stats));
     assert_int_equal(stats.error.row, -1);
     SL_EXPECT(SL_ERR_ARGUMENT, pin_row(p.P, p.n, &stats));
     assert_int_equal(stats.error.row, p.n);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add_equality(p.P, &row, &one, 0, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add_equality(p.P, NULL, &one, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add_equality(p.P, &row, NULL, 1, NULL));
-    SL_EXPECT(SL_ERR_NOT_FINITE, sl_pins_add_equality(p.P, &row, &nan, 1, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add_equality(p.P, &row, &one, 0, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add_equality(p.P, NULL, &one, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add_equality(p.P, &row, NULL, 1, NULL));
+    SL_EXPECT(SL_ERR_NOT_FINITE, sl_constraints_add_equality(p.P, &row, &nan, 1, &stats));
     assert_int_equal(stats.error.row, 3);
     SL_EXPECT(SL_ERR_ARGUMENT, unpin(p.P, 0));
     pin(&p, 3);
@@ -241,30 +242,30 @@ static void invalid_arguments_are_refused(void **state) {
     assert_int_equal(stats.error.row, 3);
     SL_EXPECT(SL_ERR_ARGUMENT, unpin(p.P, -1));
     SL_EXPECT(SL_ERR_ARGUMENT, unpin(NULL, 0));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_refactor(NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(NULL, NULL, x, n, x, n, x, 2, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(p.P, NULL, x, n, x, n, NULL, 2, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(p.P, NULL, x, n, x, n, x, 1, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(p.P, NULL, NULL, n, x, n, x, 2, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(p.P, NULL, x, n, x, n, x, 2, -1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_refactor(NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_solve(NULL, NULL, x, n, x, n, x, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_solve(p.P, NULL, x, n, x, n, NULL, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_solve(p.P, NULL, x, n, x, n, x, 1, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_solve(p.P, NULL, NULL, n, x, n, x, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_solve(p.P, NULL, x, n, x, n, x, 2, -1, NULL));
     sl_region *R = NULL;
     sl_plan *plan = NULL;
     sl_options opt = options_none();
     SL_CHECK(sl_region_create(&R, p.y.F, set, 2, NULL, NULL, NULL));
     opt.region = R;
     SL_CHECK(sl_plan_create(&plan, p.y.S, set, 2, set, 2, &opt, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_solve(p.P, plan, x, 2, x, 2, x, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_constraints_solve(p.P, plan, x, 2, x, 2, x, 2, 1, NULL));
     sl_plan_free(plan);
     sl_region_free(R);
     free(x);
     assert_pinned(&p, 5);
     pinned_free(&p);
     factored_t kkt = factored_make(GEN_KKT, 40, 1, 0, NULL);
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_create(&P, kkt.F, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_constraints_create(&P, kkt.F, NULL));
     assert_null(P);
     factored_free(&kkt);
     assert_int_equal(pins_count(NULL), 0);
-    sl_pins_free(NULL);
+    sl_constraints_free(NULL);
 }
 
 static void failing_allocations_leave_the_pins(void **state) {
@@ -272,13 +273,13 @@ static void failing_allocations_leave_the_pins(void **state) {
     counter_t counter = counter_make();
     sl_options opt = options_counted(&counter);
     factored_t y = factored_make(GEN_GRID2, 60, 1, 0, NULL);
-    sl_pins *P = NULL;
+    sl_constraints *P = NULL;
     double b[60] = {0.0}, x[60], g[PINS] = {1.0};
     counter.fail_at = 0;
-    SL_EXPECT(SL_ERR_MEMORY, sl_pins_create(&P, y.F, &opt));
+    SL_EXPECT(SL_ERR_MEMORY, sl_constraints_create(&P, y.F, &opt));
     assert_null(P);
     counter.fail_at = -1;
-    SL_CHECK(sl_pins_create(&P, y.F, &opt));
+    SL_CHECK(sl_constraints_create(&P, y.F, &opt));
     for (sl_int k = 0; k < PINS; k++) {
         sl_status status = SL_ERR_MEMORY;
         for (int m = 0; status != SL_OK; m++) {
@@ -290,17 +291,17 @@ static void failing_allocations_leave_the_pins(void **state) {
         counter.fail_at = -1;
     }
     counter.fail_at = (int64_t)counter.calls;
-    SL_EXPECT(SL_ERR_MEMORY, sl_pins_solve(P, NULL, x, 60, b, 60, g, PINS, 1, NULL));
+    SL_EXPECT(SL_ERR_MEMORY, sl_constraints_solve(P, NULL, x, 60, b, 60, g, PINS, 1, NULL));
     counter.fail_at = (int64_t)counter.calls;
-    SL_EXPECT(SL_ERR_MEMORY, sl_pins_refactor(P, NULL));
+    SL_EXPECT(SL_ERR_MEMORY, sl_constraints_refactor(P, NULL));
     counter.fail_at = -1;
-    SL_EXPECT(SL_ERR_STALE, sl_pins_solve(P, NULL, x, 60, b, 60, g, PINS, 1, NULL));
-    SL_CHECK(sl_pins_refactor(P, NULL));
-    SL_CHECK(sl_pins_solve(P, NULL, x, 60, b, 60, g, PINS, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_constraints_solve(P, NULL, x, 60, b, 60, g, PINS, 1, NULL));
+    SL_CHECK(sl_constraints_refactor(P, NULL));
+    SL_CHECK(sl_constraints_solve(P, NULL, x, 60, b, 60, g, PINS, 1, NULL));
     for (sl_int k = 0; k < PINS; k++) {
         assert_true(fabs(x[4 * k] - g[k]) <= 1e-13);
     }
-    sl_pins_free(P);
+    sl_constraints_free(P);
     factored_free(&y);
     COUNTER_CLEAN(&counter);
 }

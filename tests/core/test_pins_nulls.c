@@ -41,22 +41,22 @@ static sl_int null_count(const sl_factor *F) {
 static void null_vectors_must_be_known(void **state) {
     (void)state;
     factored_t y = path(1.0, 0, 0.0);
-    sl_pins *P;
+    sl_constraints *P;
     sl_stats stats;
     assert_int_equal(null_count(y.F), 1);
-    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_CHECK(sl_constraints_create(&P, y.F, NULL));
     SL_EXPECT(SL_ERR_UNSUPPORTED, pin_row(P, 3, &stats));
     assert_int_equal(stats.error.row, 3);
     assert_int_equal(pins_count(P), 0);
-    sl_pins_free(P);
+    sl_constraints_free(P);
     factored_free(&y);
 
     y = path(1.0, 20, 0.0); /* two such components */
     assert_int_equal(null_count(y.F), 2);
-    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_CHECK(sl_constraints_create(&P, y.F, NULL));
     SL_EXPECT(SL_ERR_UNSUPPORTED, pin_row(P, 3, NULL));
     SL_EXPECT(SL_ERR_UNSUPPORTED, pin_row(P, 33, NULL));
-    sl_pins_free(P);
+    sl_constraints_free(P);
     factored_free(&y);
 
     double z[2 * N], b[N] = {0.0}, x[N];
@@ -72,28 +72,28 @@ static void null_vectors_must_be_known(void **state) {
     y = path(1.0, 0, 0.0); /* none holds */
     sl_factor_free(y.F);
     SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, &opt, NULL));
-    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_CHECK(sl_constraints_create(&P, y.F, NULL));
     SL_EXPECT(SL_ERR_UNSUPPORTED, pin_row(P, 3, NULL));
-    sl_pins_free(P);
+    sl_constraints_free(P);
     factored_free(&y);
     y = path(-1.0, 0, 0.0);
     sl_factor_free(y.F);
     SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, &opt, NULL));
-    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_CHECK(sl_constraints_create(&P, y.F, NULL));
     SL_CHECK(pin_row(P, 3, NULL));
-    SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, g, 2, 1, NULL));
+    SL_CHECK(sl_constraints_solve(P, NULL, x, N, b, N, g, 2, 1, NULL));
     for (sl_int k = 0; k < N; k++) {
         assert_true(fabs(x[k] - g[0]) <= 1e-12);
     }
-    sl_pins_free(P);
+    sl_constraints_free(P);
     factored_free(&y);
 
     y = path(-1.0, 20, 0.5);
     assert_int_equal(null_count(y.F), 1);
-    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_CHECK(sl_constraints_create(&P, y.F, NULL));
     SL_CHECK(pin_row(P, 30, NULL));
     SL_CHECK(pin_row(P, 3, NULL));
-    SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, g, 2, 1, NULL));
+    SL_CHECK(sl_constraints_solve(P, NULL, x, N, b, N, g, 2, 1, NULL));
     assert_true(fabs(x[30] - g[0]) <= 1e-13);
     for (sl_int k = 0; k < 20; k++) { /* a constant */
         assert_true(fabs(x[k] - g[1]) <= 1e-12);
@@ -107,7 +107,7 @@ static void null_vectors_must_be_known(void **state) {
         assert_true(i == 30 || i == 3 || fabs(r) <= 1e-12);
     }
     free(A);
-    sl_pins_free(P);
+    sl_constraints_free(P);
     factored_free(&y);
 }
 
@@ -119,17 +119,17 @@ static void a_difference_leaves_the_constant_free(void **state) {
     const double values[2] = {1.0, -1.0}, g = 6.0;
     double b[N] = {0.0}, x[N];
     sl_int null, count;
-    sl_pins *P;
+    sl_constraints *P;
     SL_CHECK(sl_factor_pivot_rows(y.F, SL_PIVOT_NULL, &null, NULL, 1, &count));
-    SL_CHECK(sl_pins_create(&P, y.F, NULL));
-    SL_CHECK(sl_pins_add_equality(P, rows, values, 2, NULL));
-    SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
+    SL_CHECK(sl_constraints_create(&P, y.F, NULL));
+    SL_CHECK(sl_constraints_add_equality(P, rows, values, 2, NULL));
+    SL_CHECK(sl_constraints_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
     assert_true(x[null] == 0.0);
     for (sl_int k = 0; k + 1 < N; k++) { /* linear between the two rows, constant outside */
         const double step = k >= 3 && k < 33 ? g / 30.0 : 0.0;
         assert_true(fabs(x[k] - x[k + 1] - step) <= 1e-12);
     }
-    sl_pins_free(P);
+    sl_constraints_free(P);
     factored_free(&y);
 }
 
@@ -139,22 +139,22 @@ static void a_refactorization_may_lose_the_null_vector(void **state) {
     (void)state;
     factored_t y = path(-1.0, 0, 0.0), bad = path(1.0, 0, 0.0);
     double b[N] = {0.0}, x[N], g = 4.0;
-    sl_pins *P;
-    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    sl_constraints *P;
+    SL_CHECK(sl_constraints_create(&P, y.F, NULL));
     SL_CHECK(pin_row(P, 8, NULL));
     SL_CHECK(pin_row(P, 3, NULL));
     SL_CHECK(sl_factor_refactor(y.F, &bad.M.view, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_refactor(P, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_constraints_refactor(P, NULL));
     SL_CHECK(unpin(P, 0));
     assert_int_equal(pins_count(P), 1);
-    SL_EXPECT(SL_ERR_STALE, sl_pins_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_constraints_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
     SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
-    SL_CHECK(sl_pins_refactor(P, NULL));
-    SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
+    SL_CHECK(sl_constraints_refactor(P, NULL));
+    SL_CHECK(sl_constraints_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
     for (sl_int k = 0; k < N; k++) {
         assert_true(fabs(x[k] - g) <= 1e-12);
     }
-    sl_pins_free(P);
+    sl_constraints_free(P);
     factored_free(&bad);
     factored_free(&y);
 }
@@ -171,22 +171,22 @@ static void failing_allocations_leave_the_set(void **state) {
         for (int k = 0; status != SL_OK; k++) {
             counter_t counter = counter_make();
             sl_options opt = options_counted(&counter);
-            sl_pins *P = (sl_pins *)(void *)&y;
+            sl_constraints *P = (sl_constraints *)(void *)&y;
             counter.fail_at = step == 0 ? k : -1;
-            status = sl_pins_create(&P, y.F, &opt);
+            status = sl_constraints_create(&P, y.F, &opt);
             assert_true((P != NULL) == (status == SL_OK));
             if (step == 1) {
                 counter.fail_at = (int64_t)counter.calls + k;
-                status = sl_pins_add_equality(P, rows, values, 2, NULL);
+                status = sl_constraints_add_equality(P, rows, values, 2, NULL);
                 assert_int_equal(pins_count(P), status == SL_OK);
             }
             assert_true(status == SL_ERR_MEMORY || (status == SL_OK && k > step));
             counter.fail_at = -1;
             if (step == 1 && status == SL_OK) {
-                SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
+                SL_CHECK(sl_constraints_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
                 assert_true(fabs(x[0] - g) <= 1e-12);
             }
-            sl_pins_free(P);
+            sl_constraints_free(P);
             COUNTER_CLEAN(&counter);
         }
     }
@@ -203,7 +203,7 @@ static void rows_of_zeros_can_be_pinned(void **state) {
         gen_list_t t = gen_list(N);
         double b[N] = {0.0}, x[N];
         const double g[2] = {2.0, -7.0};
-        sl_pins *P;
+        sl_constraints *P;
         opt.null_pivots = SL_NULL_PIVOT_SKIP;
         for (sl_int k = 0; k + 2 < N; k++) { /* row N - 1 is 0 */
             const double weight = way == 2 && k == 19 ? 0.0 : 1.0;
@@ -219,22 +219,22 @@ static void rows_of_zeros_can_be_pinned(void **state) {
         SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, NULL, NULL));
         SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, &opt, NULL));
         assert_int_equal(null_count(y.F), way == 2 ? 3 : 2);
-        SL_CHECK(sl_pins_create(&P, y.F, NULL));
+        SL_CHECK(sl_constraints_create(&P, y.F, NULL));
         if (way == 2) {
             SL_EXPECT(SL_ERR_UNSUPPORTED, pin_row(P, 30, NULL));
             SL_CHECK(pin_row(P, N - 1, NULL));
-            sl_pins_free(P);
+            sl_constraints_free(P);
             gen_list_free(&t);
             factored_free(&y);
             continue;
         }
         SL_CHECK(pin_row(P, 30, NULL));
         SL_CHECK(pin_row(P, N - 1, NULL));
-        SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, g, 2, 1, NULL));
+        SL_CHECK(sl_constraints_solve(P, NULL, x, N, b, N, g, 2, 1, NULL));
         for (sl_int k = 0; k < N; k++) {
             assert_true(fabs(x[k] - (k == N - 1 ? g[1] : g[0])) <= 1e-12);
         }
-        sl_pins_free(P);
+        sl_constraints_free(P);
         gen_list_free(&t);
         factored_free(&y);
     }
@@ -248,12 +248,12 @@ static void an_underflow_is_refused(void **state) {
     const sl_int rows[3] = {perm[0], perm[N / 2], perm[N - 1]}; /* summed in the order of L */
     const double values[3] = {1.0, -1.0, 1e-160};
     double b[N] = {0.0}, x[N] = {0.0}, g = 1.0;
-    sl_pins *P;
-    SL_CHECK(sl_pins_create(&P, y.F, NULL));
-    SL_CHECK(sl_pins_add_equality(P, rows, values, 3, NULL));
-    SL_EXPECT(SL_ERR_INACCURATE, sl_pins_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
+    sl_constraints *P;
+    SL_CHECK(sl_constraints_create(&P, y.F, NULL));
+    SL_CHECK(sl_constraints_add_equality(P, rows, values, 3, NULL));
+    SL_EXPECT(SL_ERR_INACCURATE, sl_constraints_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
     assert_true(x[0] == 0.0);
-    sl_pins_free(P);
+    sl_constraints_free(P);
     factored_free(&y);
 }
 

@@ -1,8 +1,8 @@
 /* test_pins_refused.c: pins that are refused, memory that ends, and factors of other kinds */
 #include "tests/lib/pinned.h"
 
-/* Each allocation of sl_pins_refactor fails once after the factor has changed: solves are refused
- * until it succeeds. */
+/* Each allocation of sl_constraints_refactor fails once after the factor has changed: solves are
+ * refused until it succeeds. */
 static void failing_allocations_refuse_solves(void **state) {
     (void)state;
     counter_t counter = counter_make();
@@ -12,17 +12,17 @@ static void failing_allocations_refuse_solves(void **state) {
     double x[100] = {0.0};
     sl_status status = SL_ERR_MEMORY;
     sl_stats stats;
-    sl_pins_free(p.P);
-    SL_CHECK(sl_pins_create(&p.P, p.y.F, &opt));
+    sl_constraints_free(p.P);
+    SL_CHECK(sl_constraints_create(&p.P, p.y.F, &opt));
     for (sl_int k = 0; k < 48; k++) {
         rows[k] = 2 * k;
     }
     pin_rows(&p, rows, 48, &stats);
     SL_CHECK(sl_factor_refactor(p.y.F, &p.y.M.view, NULL));
     for (int m = 0; status != SL_OK; m++) {
-        SL_EXPECT(SL_ERR_STALE, sl_pins_solve(p.P, NULL, x, 100, x, 100, x, 100, 1, NULL));
+        SL_EXPECT(SL_ERR_STALE, sl_constraints_solve(p.P, NULL, x, 100, x, 100, x, 100, 1, NULL));
         counter.fail_at = (int64_t)counter.calls + m;
-        status = sl_pins_refactor(p.P, &stats);
+        status = sl_constraints_refactor(p.P, &stats);
         assert_true(status == SL_ERR_MEMORY || (status == SL_OK && m > 5));
         counter.fail_at = -1;
     }
@@ -51,7 +51,7 @@ static void a_null_vector_may_be_lost(void **state) {
     gen_matrix_t A = gen_store(&t, gen_style(0), 1), B = gen_store(&u, gen_style(0), 1);
     sl_symbolic *S;
     sl_factor *F;
-    sl_pins *P;
+    sl_constraints *P;
     const sl_int ends[2] = {260, 450};
     const double values[2] = {1.0, 0.5};
     sl_int rows[240];
@@ -61,14 +61,14 @@ static void a_null_vector_may_be_lost(void **state) {
     }
     SL_CHECK(sl_symbolic_create(&S, &A.view, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &A.view, &opt, NULL));
-    SL_CHECK(sl_pins_create(&P, F, NULL));
-    SL_CHECK(sl_pins_add_equality(P, ends, values, 2, NULL));
-    SL_CHECK(sl_pins_add(P, rows, 240, &stats));
+    SL_CHECK(sl_constraints_create(&P, F, NULL));
+    SL_CHECK(sl_constraints_add_equality(P, ends, values, 2, NULL));
+    SL_CHECK(sl_constraints_add(P, rows, 240, &stats));
     SL_CHECK(sl_factor_refactor(F, &B.view, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_refactor(P, &stats));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_constraints_refactor(P, &stats));
     SL_CHECK(sl_factor_refactor(F, &A.view, NULL));
-    SL_CHECK(sl_pins_refactor(P, &stats));
-    sl_pins_free(P);
+    SL_CHECK(sl_constraints_refactor(P, &stats));
+    sl_constraints_free(P);
     sl_factor_free(F);
     sl_symbolic_free(S);
     gen_matrix_free(&A);
@@ -82,16 +82,16 @@ static void assert_held(const sl_symbolic *S, const sl_csc *A, const sl_options 
     const size_t n = (size_t)A->n_cols;
     double *x = test_reals(n), *b = test_reals(n), g[2] = {2.0, -3.0};
     sl_factor *F;
-    sl_pins *P;
+    sl_constraints *P;
     SL_CHECK(sl_factor_create(&F, S, A, opt, NULL));
-    SL_CHECK(sl_pins_create(&P, F, NULL));
+    SL_CHECK(sl_constraints_create(&P, F, NULL));
     SL_CHECK(pin_row(P, 7, NULL));
     SL_CHECK(sl_factor_refactor(F, A, NULL));
-    SL_CHECK(sl_pins_refactor(P, NULL));
+    SL_CHECK(sl_constraints_refactor(P, NULL));
     SL_CHECK(pin_row(P, 30, NULL));
-    SL_CHECK(sl_pins_solve(P, NULL, x, n, b, n, g, 2, 1, NULL));
+    SL_CHECK(sl_constraints_solve(P, NULL, x, n, b, n, g, 2, 1, NULL));
     assert_true(fabs(x[7] - g[0]) <= 1e-9 && fabs(x[30] - g[1]) <= 1e-9);
-    sl_pins_free(P);
+    sl_constraints_free(P);
     sl_factor_free(F);
     free(x);
     free(b);
@@ -150,7 +150,7 @@ static void a_row_twice_among_many_is_refused(void **state) {
     for (sl_int k = 0; k < 20; k++) {
         rows[k] = 2 * (k % 19);
     }
-    SL_EXPECT(SL_ERR_PIVOT, sl_pins_add(p.P, rows, 20, &stats));
+    SL_EXPECT(SL_ERR_PIVOT, sl_constraints_add(p.P, rows, 20, &stats));
     assert_int_equal(stats.error.row, 0);
     assert_int_equal(pins_count(p.P), 1);
     assert_pinned(&p, 3);

@@ -8,7 +8,7 @@ typedef struct held_t {
     elastic_t y;
     sl_symbolic *S;
     sl_factor *F;
-    sl_pins *P;
+    sl_constraints *P;
     size_t n, count;
     unsigned char *is_held;
     sl_int *rows;
@@ -22,7 +22,7 @@ static held_t held_make(int dim, const variant_list_t *variants, int k, uint64_t
     sl_options opt = options_rigid(&h.y, variants, k);
     SL_CHECK(sl_symbolic_create(&h.S, &h.y.A, NULL, NULL));
     SL_CHECK(sl_factor_create(&h.F, h.S, &h.y.A, &opt, NULL));
-    SL_CHECK(sl_pins_create(&h.P, h.F, NULL));
+    SL_CHECK(sl_constraints_create(&h.P, h.F, NULL));
     h.n = (size_t)h.y.n;
     h.is_held = (unsigned char *)test_array(h.n, 1);
     h.rows = test_ints(h.n);
@@ -33,7 +33,7 @@ static held_t held_make(int dim, const variant_list_t *variants, int k, uint64_t
 }
 
 static void held_free(held_t *h) {
-    sl_pins_free(h->P);
+    sl_constraints_free(h->P);
     sl_factor_free(h->F);
     sl_symbolic_free(h->S);
     elastic_free(&h->y);
@@ -70,7 +70,7 @@ static void assert_held(held_t *h, uint64_t *seed) {
     for (sl_int i = 0; i < h->y.A.p[n]; i++) {
         most = fmax(most, fabs(h->y.A.x[i]));
     }
-    SL_CHECK(sl_pins_solve(h->P, NULL, h->X, n, h->B, n, h->G, n, R, NULL));
+    SL_CHECK(sl_constraints_solve(h->P, NULL, h->X, n, h->B, n, h->G, n, R, NULL));
     for (size_t i = 0; i < n * R; i++) {
         largest = fmax(largest, fabs(h->X[i]));
     }
@@ -93,7 +93,7 @@ static void assert_held(held_t *h, uint64_t *seed) {
         all[i] = i;
     }
     SL_CHECK(sl_plan_create(&plan, h->S, all, h->y.n, xset, nx, NULL, NULL));
-    SL_CHECK(sl_pins_solve(h->P, plan, x, n, h->B, n, h->G, n, R, NULL));
+    SL_CHECK(sl_constraints_solve(h->P, plan, x, n, h->B, n, h->G, n, R, NULL));
     for (size_t r = 0; r < R; r++) {
         for (sl_int i = 0; i < nx; i++) {
             assert_true(fabs(x[(size_t)i + r * n] - h->X[(size_t)xset[i] + r * n]) <=
@@ -186,8 +186,8 @@ static void bodies_that_move_need_balance(void **state) {
                     double b = h.B[at], d = h.B[at + 1];
                     h.B[at] += h.y.at[row + 1] - h.y.at[at + 1];
                     h.B[at + 1] += h.y.at[at] - h.y.at[row];
-                    SL_EXPECT(SL_ERR_INCONSISTENT,
-                              sl_pins_solve(h.P, NULL, h.X, h.n, h.B, h.n, h.G, h.n, R, NULL));
+                    SL_EXPECT(SL_ERR_INCONSISTENT, sl_constraints_solve(h.P, NULL, h.X, h.n, h.B,
+                                                                        h.n, h.G, h.n, R, NULL));
                     h.B[at] = b;
                     h.B[at + 1] = d;
                 }

@@ -37,7 +37,7 @@ static void release_rows(pinned_t *p, sl_int least, sl_int count, uint64_t *seed
     for (sl_int k = 0; k < count; k++) {
         set[k] += least;
     }
-    SL_CHECK(sl_pins_release(p->P, set, count, stats));
+    SL_CHECK(sl_constraints_release(p->P, set, count, stats));
     for (sl_int k = 0; k < p->count; k++) {
         int is_gone = 0;
         for (sl_int m = 0; m < count; m++) {
@@ -65,7 +65,7 @@ static void add_equality(pinned_t *p, uint64_t *seed) {
         is_dependent &= uses(p, rows[k]) >= 1000;
         is_free |= uses(p, rows[k]) == 0;
     }
-    const sl_status status = sl_pins_add_equality(p->P, rows, values, 3, NULL);
+    const sl_status status = sl_constraints_add_equality(p->P, rows, values, 3, NULL);
     if (is_free) {
         SL_CHECK(status);
     } else if (is_dependent || status != SL_OK) {
@@ -99,8 +99,8 @@ static void change(pinned_t *p, sl_int least, uint64_t *seed) {
         } else {
             continue;
         }
-        assert_int_equal(stats.pins.count, p->count);
-        assert_true(stats.pins.seconds >= 0.0);
+        assert_int_equal(stats.constraints.count, p->count);
+        assert_true(stats.constraints.seconds >= 0.0);
         assert_pinned(p, gen_bits(seed));
     }
     free(rows);
@@ -138,8 +138,8 @@ static void failing_allocations_leave_the_pins(void **state) {
     pinned_t p = pinned_make(GEN_GRID2, 100, 1, NULL);
     sl_int rows[50], some[10];
     sl_stats stats;
-    sl_pins_free(p.P);
-    SL_CHECK(sl_pins_create(&p.P, p.y.F, &opt));
+    sl_constraints_free(p.P);
+    SL_CHECK(sl_constraints_create(&p.P, p.y.F, &opt));
     for (sl_int k = 0; k < 50; k++) {
         rows[k] = 2 * k + 1;
         some[k % 10] = 3 * (k % 10);
@@ -148,10 +148,10 @@ static void failing_allocations_leave_the_pins(void **state) {
         sl_status status = SL_ERR_MEMORY;
         for (int m = 0; status != SL_OK; m++) {
             counter.fail_at = (int64_t)counter.calls + m;
-            status = step == 1   ? sl_pins_add(p.P, rows, 47, &stats)
-                     : step == 2 ? sl_pins_add(p.P, rows + 47, 2, &stats)
+            status = step == 1   ? sl_constraints_add(p.P, rows, 47, &stats)
+                     : step == 2 ? sl_constraints_add(p.P, rows + 47, 2, &stats)
                      : step == 3 ? pin_row(p.P, rows[49], &stats)
-                     : step == 4 ? sl_pins_release(p.P, some, 10, &stats)
+                     : step == 4 ? sl_constraints_release(p.P, some, 10, &stats)
                                  : unpin(p.P, 0);
             assert_true(status == SL_OK || status == SL_ERR_MEMORY);
             counter.fail_at = -1;
@@ -179,7 +179,7 @@ static void failing_allocations_leave_the_pins(void **state) {
     COUNTER_CLEAN(&counter);
 }
 
-/* New numbers are refused until sl_pins_refactor takes them; a set may lose pins before. */
+/* New numbers are refused until sl_constraints_refactor takes them; a set may lose pins before. */
 static void new_numbers_are_taken(void **state) {
     (void)state;
     pinned_t p = pinned_make(GEN_GRID2, 100, 1, NULL);
@@ -197,8 +197,8 @@ static void new_numbers_are_taken(void **state) {
     pin_rows(&p, rows + 20, 28, &stats);
     const sl_int one_row = 97;
     const double one = 1.0, two = 2.0;
-    SL_CHECK(sl_pins_add_equality(p.P, &one_row, &two, 1, NULL));
-    SL_EXPECT(SL_ERR_PIVOT, sl_pins_add_equality(p.P, &one_row, &one, 1, NULL));
+    SL_CHECK(sl_constraints_add_equality(p.P, &one_row, &two, 1, NULL));
+    SL_EXPECT(SL_ERR_PIVOT, sl_constraints_add_equality(p.P, &one_row, &one, 1, NULL));
     p.C[n * (size_t)p.count++ + (size_t)one_row] = two;
     SL_EXPECT(SL_ERR_PIVOT, pin_row(p.P, 4, &stats));
     assert_int_equal(stats.error.row, 4);
@@ -211,34 +211,34 @@ static void new_numbers_are_taken(void **state) {
         p.dense[k] *= 1.5;
     }
     SL_CHECK(sl_factor_refactor(p.y.F, A, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_pins_solve(p.P, NULL, x, n, x, n, x, n, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_constraints_solve(p.P, NULL, x, n, x, n, x, n, 1, NULL));
     SL_EXPECT(SL_ERR_STALE, pin_row(p.P, 99, NULL));
     release_rows(&p, 0, 3, &(uint64_t){7}, &stats);
-    SL_CHECK(sl_pins_refactor(p.P, &stats));
-    assert_int_equal(stats.pins.count, p.count);
+    SL_CHECK(sl_constraints_refactor(p.P, &stats));
+    assert_int_equal(stats.constraints.count, p.count);
     assert_pinned(&p, 4);
     SL_CHECK(sl_factor_refactor(p.y.F, A, NULL));
-    SL_CHECK(sl_pins_refactor(p.P, NULL));
+    SL_CHECK(sl_constraints_refactor(p.P, NULL));
     release_rows(&p, 0, 3, &(uint64_t){7}, &stats);
     assert_pinned(&p, 6);
     const sl_int twice[2] = {3, 3}, outside[2] = {3, p.n};
-    SL_EXPECT(SL_ERR_PIVOT, sl_pins_add(p.P, twice, 2, &stats));
+    SL_EXPECT(SL_ERR_PIVOT, sl_constraints_add(p.P, twice, 2, &stats));
     assert_int_equal(stats.error.row, 3);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add(p.P, outside, 2, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add(p.P, outside, 2, &stats));
     assert_int_equal(stats.error.row, p.n);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add(p.P, NULL, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add(p.P, twice, -1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add(NULL, twice, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release(p.P, twice, 2, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release(p.P, outside, 2, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release(NULL, twice, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release(p.P, NULL, 1, NULL));
-    SL_EXPECT(SL_ERR_TOO_LARGE, sl_pins_add(p.P, twice, INT32_MAX, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add(p.P, NULL, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add(p.P, twice, -1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add(NULL, twice, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_release(p.P, twice, 2, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_release(p.P, outside, 2, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_release(NULL, twice, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_release(p.P, NULL, 1, NULL));
+    SL_EXPECT(SL_ERR_TOO_LARGE, sl_constraints_add(p.P, twice, INT32_MAX, NULL));
     assert_pinned(&p, 7);
-    SL_CHECK(sl_pins_add(p.P, NULL, 0, NULL));
+    SL_CHECK(sl_constraints_add(p.P, NULL, 0, NULL));
     A->x = x; /* zeros */
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(p.y.F, A, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_pins_refactor(p.P, &stats));
+    SL_EXPECT(SL_ERR_STALE, sl_constraints_refactor(p.P, &stats));
     SL_CHECK(unpin(p.P, p.count - 1));
     assert_int_equal(pins_count(p.P), p.count - 1);
     A->x = p.y.M.x;
@@ -269,16 +269,16 @@ static void many_pins_with_long_paths_hold(void **state) {
     gen_matrix_t M = gen_store(&t, gen_style(0), 1);
     factored_t y = {M, analyze_natural(&M.view, SL_RELAXATION_DEFAULT), NULL};
     SL_CHECK(sl_factor_create(&y.F, y.S, &M.view, NULL, NULL));
-    sl_pins *P = NULL;
-    SL_CHECK(sl_pins_create(&P, y.F, NULL));
-    SL_CHECK(sl_pins_add(P, rows, PINS, NULL));
-    SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, g, PINS, 1, NULL));
+    sl_constraints *P = NULL;
+    SL_CHECK(sl_constraints_create(&P, y.F, NULL));
+    SL_CHECK(sl_constraints_add(P, rows, PINS, NULL));
+    SL_CHECK(sl_constraints_solve(P, NULL, x, N, b, N, g, PINS, 1, NULL));
     SL_CHECK(sl_csc_residual(&M.view, r, N, NULL, x, N, b, N, 1));
     for (sl_int k = 0; k < N; k++) {
         const int is_pin = k < 2 * PINS && k % 2 == 0;
         assert_true(fabs(is_pin ? x[k] - g[k / 2] : r[k]) <= 1e-12);
     }
-    sl_pins_free(P);
+    sl_constraints_free(P);
     gen_list_free(&t);
     factored_free(&y);
     free(b);
@@ -299,29 +299,29 @@ static void large_fronts_have_room(void **state) {
     sl_int *rows = test_ints(n), count = 0;
     double *B = test_reals(n * MOST), *X = test_reals(n * MOST), *G = test_reals(n * MOST);
     double b[SET * MOST], x[SET * MOST];
-    sl_pins *P = NULL;
+    sl_constraints *P = NULL;
     sl_plan *plan = NULL;
     for (sl_int i = 0; i < (sl_int)n; i += 5) {
         rows[count++] = i;
     }
     gen_reals(G, n * MOST, 1);
     gen_reals(b, SET * MOST, 2);
-    SL_CHECK(sl_pins_create(&P, y.F, &opt));
-    SL_CHECK(sl_pins_add(P, rows, count, NULL));
+    SL_CHECK(sl_constraints_create(&P, y.F, &opt));
+    SL_CHECK(sl_constraints_add(P, rows, count, NULL));
     SL_CHECK(sl_plan_create(&plan, y.S, set, SET, set, SET, NULL, NULL));
     for (sl_int nrhs = 1; nrhs <= MOST; nrhs++) {
         for (size_t k = 0; k < SET * (size_t)nrhs; k++) {
             B[(size_t)set[k % SET] + n * (k / SET)] = b[k];
         }
-        SL_CHECK(sl_pins_solve(P, NULL, X, n, B, n, G, n, nrhs, NULL));
-        SL_CHECK(sl_pins_solve(P, plan, x, SET, b, SET, G, n, nrhs, NULL));
+        SL_CHECK(sl_constraints_solve(P, NULL, X, n, B, n, G, n, nrhs, NULL));
+        SL_CHECK(sl_constraints_solve(P, plan, x, SET, b, SET, G, n, nrhs, NULL));
         assert_int_equal(counter.damaged, 0);
         for (size_t k = 0; k < SET * (size_t)nrhs; k++) {
             assert_true(fabs(x[k] - X[(size_t)set[k % SET] + n * (k / SET)]) <= 1e-11);
         }
     }
     sl_plan_free(plan);
-    sl_pins_free(P);
+    sl_constraints_free(P);
     factored_free(&y);
     COUNTER_CLEAN(&counter);
     free(rows);

@@ -36,19 +36,19 @@ typedef struct paths_t {
     gen_matrix_t M;
     sl_symbolic *S;
     sl_factor *F;
-    sl_pins *P;
+    sl_constraints *P;
 } paths_t;
 
 static paths_t paths_make(gen_matrix_t M, const sl_options *opt) {
     paths_t y = {M, NULL, NULL, NULL};
     SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, NULL, NULL));
     SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, opt, NULL));
-    SL_CHECK(sl_pins_create(&y.P, y.F, NULL));
+    SL_CHECK(sl_constraints_create(&y.P, y.F, NULL));
     return y;
 }
 
 static void paths_free(paths_t *y) {
-    sl_pins_free(y->P);
+    sl_constraints_free(y->P);
     sl_factor_free(y->F);
     sl_symbolic_free(y->S);
     gen_matrix_free(&y->M);
@@ -66,7 +66,7 @@ static void lost_digits_are_reported_in_each_component(void **state) {
         paths_t y = paths_make(two_paths(firm ? 1e-4 : 1e-13, 1e-20, 1e-20), NULL);
         SL_CHECK(pin_row(y.P, 5, NULL));
         SL_EXPECT(firm ? SL_OK : SL_ERR_INACCURATE,
-                  sl_pins_solve(y.P, NULL, x, N, b, N, &g, 1, 1, NULL));
+                  sl_constraints_solve(y.P, NULL, x, N, b, N, &g, 1, 1, NULL));
         paths_free(&y);
     }
 }
@@ -86,10 +86,10 @@ static void forces_of_pins_alone_are_judged(void **state) {
         double whole[N], all[N] = {0.0}, x[2] = {7.0, 7.0};
         sl_plan *plan = NULL;
         SL_CHECK(sl_plan_create(&plan, y.S, bset, 1, pins, 2, NULL, NULL));
-        SL_CHECK(sl_pins_add(y.P, pins, 2, NULL));
+        SL_CHECK(sl_constraints_add(y.P, pins, 2, NULL));
         all[bset[0]] = b;
-        const sl_status status = sl_pins_solve(y.P, plan, x, 2, &b, 1, g, 2, 1, NULL);
-        SL_EXPECT(status, sl_pins_solve(y.P, NULL, whole, N, all, N, g, 2, 1, NULL));
+        const sl_status status = sl_constraints_solve(y.P, plan, x, 2, &b, 1, g, 2, 1, NULL);
+        SL_EXPECT(status, sl_constraints_solve(y.P, NULL, whole, N, all, N, g, 2, 1, NULL));
         assert_true(status == SL_OK || status == SL_ERR_INACCURATE);
         for (int p = 0; p < 2; p++) {
             assert_true(status == SL_OK ? fabs(x[p] - g[p]) <= 1e-7 : x[p] == 7.0);
@@ -110,9 +110,9 @@ static void expect_solves(const paths_t *y, sl_status status, double *x, const d
     for (sl_int k = 0; k < N; k++) {
         rows[k] = k;
     }
-    SL_EXPECT(status, sl_pins_solve(y->P, NULL, x, N, b, N, g, N, 1, NULL));
+    SL_EXPECT(status, sl_constraints_solve(y->P, NULL, x, N, b, N, g, N, 1, NULL));
     SL_CHECK(sl_plan_create(&P, y->S, rows, N, rows + HALF - 10, 20, NULL, NULL));
-    SL_EXPECT(status, sl_pins_solve(y->P, P, local, 20, b, N, g, N, 1, NULL));
+    SL_EXPECT(status, sl_constraints_solve(y->P, P, local, 20, b, N, g, N, 1, NULL));
     for (int k = 0; k < 20 && status == SL_OK; k++) {
         assert_true(fabs(local[k] - x[HALF - 10 + k]) <= 1e-11);
     }
@@ -136,7 +136,7 @@ static void a_second_tree_may_have_an_unknown_null_vector(void **state) {
         const double values[2] = {1.0, 1.0};
         paths_t y = paths_make(M, &opt);
         sl_stats stats;
-        SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_add_equality(y.P, rows, values, 2, &stats));
+        SL_EXPECT(SL_ERR_UNSUPPORTED, sl_constraints_add_equality(y.P, rows, values, 2, &stats));
         assert_int_equal(stats.error.row, HALF + 3);
         assert_int_equal(pins_count(y.P), 0);
         SL_CHECK(pin_row(y.P, 3, NULL));
@@ -171,7 +171,7 @@ static void components_without_pins_are_as_without_a_set(void **state) {
         for (sl_int k = 0; k < HALF / 3; k++) {
             rows[k] = 3 * k;
         }
-        SL_CHECK(sl_pins_add(y.P, rows, is_many ? HALF / 3 : 1, NULL));
+        SL_CHECK(sl_constraints_add(y.P, rows, is_many ? HALF / 3 : 1, NULL));
         gen_reals(b, N, 3);
         b[HALF] += 1.0;
         expect_solves(&y, way == 0 ? SL_ERR_INCONSISTENT : SL_OK, x, b, g);
@@ -219,7 +219,7 @@ static void motions_that_pins_leave_need_balance(void **state) {
         opt.null_pivots = SL_NULL_PIVOT_SKIP;
         opt.mass = weighted ? m : NULL;
         paths_t y = paths_make(two_paths(0.0, 0.0, 1.0), &opt);
-        SL_CHECK(sl_pins_add_equality(y.P, rows, values, 2, NULL));
+        SL_CHECK(sl_constraints_add_equality(y.P, rows, values, 2, NULL));
         b[10] = 1.0;
         expect_solves(&y, SL_ERR_INCONSISTENT, x, b, g);
         b[20] = -1.0;
@@ -258,10 +258,10 @@ static void a_weak_bridge_holds_what_pins_leave(void **state) {
             rows[k] = first + k;
         }
         b[rest + 7] = 1.0;
-        const sl_status status = sl_pins_add(y.P, rows, HALF, NULL);
+        const sl_status status = sl_constraints_add(y.P, rows, HALF, NULL);
         assert_true(status == SL_OK || status == SL_ERR_PIVOT);
         if (status == SL_OK) {
-            SL_CHECK(sl_pins_solve(y.P, NULL, x, N, b, N, g, N, 1, NULL));
+            SL_CHECK(sl_constraints_solve(y.P, NULL, x, N, b, N, g, N, 1, NULL));
             solved++;
         }
         for (int k = rest; k < rest + HALF && status == SL_OK; k++) {
@@ -283,23 +283,23 @@ static void failing_allocations_change_nothing(void **state) {
     paths_t y = paths_make(two_paths(0.0, 0.0, 1.0), &opt);
     counter_t counter = counter_make();
     sl_options counted = options_counted(&counter);
-    sl_pins *P = NULL;
-    SL_CHECK(sl_pins_create(&P, y.F, &counted));
+    sl_constraints *P = NULL;
+    SL_CHECK(sl_constraints_create(&P, y.F, &counted));
     sl_status status = SL_ERR_MEMORY;
     for (int64_t k = 0; status == SL_ERR_MEMORY; k++) {
         counter.fail_at = (int64_t)counter.calls + k;
-        status = sl_pins_add_equality(P, rows, values, 2, NULL);
+        status = sl_constraints_add_equality(P, rows, values, 2, NULL);
         assert_int_equal(pins_count(P), status == SL_OK);
     }
     SL_CHECK(status);
     status = SL_ERR_MEMORY;
     for (int64_t k = 0; status == SL_ERR_MEMORY; k++) {
         counter.fail_at = (int64_t)counter.calls + k;
-        status = sl_pins_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL);
+        status = sl_constraints_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL);
     }
     SL_CHECK(status);
     assert_true(fabs(x[3] + 2.0 * x[HALF + 3] - g) <= 1e-13);
-    sl_pins_free(P);
+    sl_constraints_free(P);
     assert_int_equal(counter.live_blocks, 0);
     assert_int_equal(counter.damaged, 0);
     paths_free(&y);

@@ -10,25 +10,25 @@ static void failed_factors_are_refused(void **state) {
     const size_t n = (size_t)y.M.view.n_cols;
     double *bad = test_reals((size_t)y.M.view.p[n]), x[N] = {0.0}, g = 1.0;
     sl_csc A = y.M.view;
-    sl_pins *P, *Q = (sl_pins *)(void *)&y;
+    sl_constraints *P, *Q = (sl_constraints *)(void *)&y;
     A.x = bad; /* zeros */
-    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_CHECK(sl_constraints_create(&P, y.F, NULL));
     SL_CHECK(pin_row(P, 3, NULL));
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(y.F, &A, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_pins_create(&Q, y.F, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_constraints_create(&Q, y.F, NULL));
     assert_null(Q);
     const sl_int row = 4;
     SL_EXPECT(SL_ERR_STALE, pin_row(P, row, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_pins_add_equality(P, &row, &g, 1, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_pins_refactor(P, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_pins_solve(P, NULL, x, n, x, n, &g, 1, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_constraints_add_equality(P, &row, &g, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_constraints_refactor(P, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_constraints_solve(P, NULL, x, n, x, n, &g, 1, 1, NULL));
     SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
     SL_EXPECT(SL_ERR_STALE, pin_row(P, row, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_pins_add_equality(P, &row, &g, 1, NULL));
-    SL_CHECK(sl_pins_refactor(P, NULL));
-    SL_CHECK(sl_pins_solve(P, NULL, x, n, x, n, &g, 1, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_constraints_add_equality(P, &row, &g, 1, NULL));
+    SL_CHECK(sl_constraints_refactor(P, NULL));
+    SL_CHECK(sl_constraints_solve(P, NULL, x, n, x, n, &g, 1, 1, NULL));
     assert_true(fabs(x[3] - g) <= 1e-14);
-    sl_pins_free(P);
+    sl_constraints_free(P);
     free(bad);
     factored_free(&y);
 }
@@ -38,13 +38,13 @@ static void unsuited_factors_are_refused(void **state) {
     factored_t y = factored_make(GEN_GRID2, 36, 1, 0, NULL);
     sl_symbolic *S;
     sl_factor *F;
-    sl_pins *P;
+    sl_constraints *P;
     static const sl_int p[3] = {0, 1, 2}, i[2] = {1, 0};
     static const double x[2] = {1.0, 1.0};
     const sl_csc swap = {2, 2, p, i, x}; /* [0 1; 1 0]: one 2x2 pivot */
     SL_CHECK(sl_symbolic_create_pivoted(&S, &swap, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &swap, NULL, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_create(&P, F, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_constraints_create(&P, F, NULL));
     sl_factor_free(F);
     sl_symbolic_free(S);
 
@@ -54,17 +54,17 @@ static void unsuited_factors_are_refused(void **state) {
     const size_t n = (size_t)y.M.view.n_cols;
     double b[N] = {0.0}, out[N] = {0.0}, g = 1.0;
     sl_plan *plan;
-    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_CHECK(sl_constraints_create(&P, y.F, NULL));
     SL_CHECK(pin_row(P, 3, NULL));
     SL_CHECK(sl_plan_create(&plan, z.S, &row, 1, &row, 1, NULL, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_pins_solve(P, plan, out, 1, b, 1, &g, 1, 1, NULL));
+    SL_EXPECT(SL_ERR_MISMATCH, sl_constraints_solve(P, plan, out, 1, b, 1, &g, 1, 1, NULL));
     sl_plan_free(plan);
     SL_CHECK(sl_plan_create(&plan, y.S, &row, 1, &row, 0, NULL, NULL));
-    SL_CHECK(sl_pins_solve(P, plan, NULL, 0, b, 1, &g, 1, 1, NULL));
+    SL_CHECK(sl_constraints_solve(P, plan, NULL, 0, b, 1, &g, 1, 1, NULL));
     sl_plan_free(plan);
-    SL_CHECK(sl_pins_solve(P, NULL, NULL, n, NULL, n, NULL, 1, 0, NULL));
+    SL_CHECK(sl_constraints_solve(P, NULL, NULL, n, NULL, n, NULL, 1, 0, NULL));
     assert_true(out[0] == 0.0);
-    sl_pins_free(P);
+    sl_constraints_free(P);
     factored_free(&z);
     factored_free(&y);
 }
@@ -78,15 +78,15 @@ static void an_overflow_is_refused(void **state) {
     const double large = 1e200;
     double x[N] = {0.0}, g = 2.0;
     sl_stats stats;
-    sl_pins *P;
-    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    sl_constraints *P;
+    SL_CHECK(sl_constraints_create(&P, y.F, NULL));
     SL_CHECK(pin_row(P, 3, NULL));
-    SL_EXPECT(SL_ERR_NOT_FINITE, sl_pins_add_equality(P, &row, &large, 1, &stats));
+    SL_EXPECT(SL_ERR_NOT_FINITE, sl_constraints_add_equality(P, &row, &large, 1, &stats));
     assert_int_equal(stats.error.row, row);
     assert_int_equal(pins_count(P), 1);
-    SL_CHECK(sl_pins_solve(P, NULL, x, n, x, n, &g, 1, 1, NULL));
+    SL_CHECK(sl_constraints_solve(P, NULL, x, n, x, n, &g, 1, 1, NULL));
     assert_true(fabs(x[3] - g) <= 1e-14);
-    sl_pins_free(P);
+    sl_constraints_free(P);
     factored_free(&y);
 }
 
@@ -97,7 +97,7 @@ static void lost_digits_are_noticed(void **state) {
     gen_list_t t = gen_list(N);
     double B[9 * N], X[9 * N], before[9 * N];
     const double G[9] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0};
-    sl_pins *P;
+    sl_constraints *P;
     factored_free(&y);
     for (sl_int k = 0; k + 1 < N; k++) {
         gen_add(&t, k + 1, k, -1.0);
@@ -107,15 +107,15 @@ static void lost_digits_are_noticed(void **state) {
     y.M = gen_store(&t, gen_style(0), 1);
     SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, NULL, NULL));
     SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, NULL, NULL));
-    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_CHECK(sl_constraints_create(&P, y.F, NULL));
     SL_CHECK(pin_row(P, 3, NULL));
     for (int k = 0; k < 9 * N; k++) {
         B[k] = 1.0 + 0.1 * (k % 7);
         X[k] = before[k] = 123.0;
     }
-    SL_EXPECT(SL_ERR_INACCURATE, sl_pins_solve(P, NULL, X, N, B, N, G, 1, 9, NULL));
+    SL_EXPECT(SL_ERR_INACCURATE, sl_constraints_solve(P, NULL, X, N, B, N, G, 1, 9, NULL));
     assert_memory_equal(X, before, sizeof X);
-    sl_pins_free(P);
+    sl_constraints_free(P);
     gen_list_free(&t);
     factored_free(&y);
 }
@@ -128,33 +128,33 @@ static void zeros_between_pins_are_accurate(void **state) {
     sl_int rows[ROWS], count = 0;
     double x[ROWS], b[1] = {1.0}, g[ROWS] = {0.0};
     const sl_int at = FREE;
-    sl_pins *P;
-    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    sl_constraints *P;
+    SL_CHECK(sl_constraints_create(&P, y.F, NULL));
     for (sl_int k = 0; k < ROWS; k++) {
         rows[count] = k;
         count += k != FREE;
     }
-    SL_CHECK(sl_pins_add(P, rows, count, NULL));
+    SL_CHECK(sl_constraints_add(P, rows, count, NULL));
     for (sl_int k = 0; k < count; k++) {
         sl_plan *plan = NULL;
         SL_CHECK(sl_plan_create(&plan, y.S, &at, 1, rows + k, 1, NULL, NULL));
-        SL_CHECK(sl_pins_solve(P, plan, x, 1, b, 1, g, ROWS, 1, NULL));
+        SL_CHECK(sl_constraints_solve(P, plan, x, 1, b, 1, g, ROWS, 1, NULL));
         assert_true(fabs(x[0]) <= 1e-14);
         sl_plan_free(plan);
     }
-    sl_pins_free(P);
+    sl_constraints_free(P);
     factored_free(&y);
 }
 
 static void a_matrix_without_rows_has_no_pins(void **state) {
     (void)state;
     factored_t y = factored_make(GEN_NONE, 0, 1, 0, NULL);
-    sl_pins *P;
-    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    sl_constraints *P;
+    SL_CHECK(sl_constraints_create(&P, y.F, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, pin_row(P, 0, NULL));
-    SL_CHECK(sl_pins_refactor(P, NULL));
-    SL_CHECK(sl_pins_solve(P, NULL, NULL, 0, NULL, 0, NULL, 0, 1, NULL));
-    sl_pins_free(P);
+    SL_CHECK(sl_constraints_refactor(P, NULL));
+    SL_CHECK(sl_constraints_solve(P, NULL, NULL, 0, NULL, 0, NULL, 0, 1, NULL));
+    sl_constraints_free(P);
     factored_free(&y);
 }
 

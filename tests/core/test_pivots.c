@@ -299,7 +299,7 @@ static void bad_arguments_are_refused(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create_pivoted(&S, &A, NULL, NULL));
     A.x = x;
     A.i = far;
-    SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_create_pivoted(&S, &A, NULL, &stats));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_symbolic_create_pivoted(&S, &A, NULL, &stats));
     A.i = i;
     A.n_rows = 3;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create_pivoted(&S, &A, NULL, NULL));

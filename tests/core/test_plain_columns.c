@@ -299,7 +299,8 @@ static void pivots_are_regularized(void **state) {
         }
         SL_CHECK(sl_symbolic_scatter(S, values, &M.view, NULL));
         SL_CHECK(sl_factor_create(&F[0], S, &M.view, FOR_FACTOR(&opt), &stats[0]));
-        SL_CHECK(sl_batch_factor(&F[1], 1, S, &one, terms, 1, FOR_FACTOR(&opt), NULL, &stats[1]));
+        SL_CHECK(
+            sl_factor_create_sums(&F[1], 1, S, &one, terms, 1, FOR_FACTOR(&opt), NULL, &stats[1]));
         assert_same_bits(F[0], F[1]);
         assert_ways_agree(S, &M.view, F[0], &opt);
         for (int k = 0; k < 2; k++) {
@@ -448,7 +449,7 @@ static void edits_after_changes_have_their_growth(void **state) {
         }
         SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
         if (!absorbs) {
-            SL_CHECK(sl_factor_change(F, NULL, &row, &row, &delta, 1, NULL, NULL));
+            SL_CHECK(sl_factor_change_entries(F, NULL, &row, &row, &delta, 1, NULL, NULL));
         }
         M.x[M.p[2]] = absorbs ? -5.0 : 18.0;
         opt.growth_limit = way % 2 == 0 ? -1.0 : 1.5;

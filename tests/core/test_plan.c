@@ -164,7 +164,7 @@ static void one_plan_works_with_every_factor_of_its_analysis(void **state) {
     /* A factor of another analysis is refused, even if its matrix is the same. */
     factored_t z = factored_make(GEN_GRID2, 300, 1, 0, NULL);
     double keep = X[0];
-    SL_EXPECT(SL_ERR_STATE, sl_plan_solve(P, z.F, X, 40, first.B, 32, 4, NULL));
+    SL_EXPECT(SL_ERR_MISMATCH, sl_plan_solve(P, z.F, X, 40, first.B, 32, 4, NULL));
     assert_true(X[0] == keep);
     factored_free(&z);
     sl_plan_free(P);

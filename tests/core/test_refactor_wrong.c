@@ -83,10 +83,10 @@ static sl_status wrong_matrix(int which, const sl_csc *A, sl_csc *bad, sl_int *p
         return SL_ERR_OTHER_PATTERN;
     case 4: /* the columns do not begin at 0 */
         p[0] = 1;
-        return SL_ERR_PATTERN;
+        return SL_ERR_MALFORMED;
     case 5: /* a row that does not exist */
         i[nnz / 2] = N;
-        return SL_ERR_PATTERN;
+        return SL_ERR_MALFORMED;
     case 6: /* no values */
         bad->x = NULL;
         return SL_ERR_ARGUMENT;
@@ -147,7 +147,7 @@ static void a_region_stays_valid(void **state) {
     SL_CHECK(sl_plan_create(&P, y.S, set, 4, set, 4, &opt, NULL));
     SL_CHECK(sl_plan_solve(P, y.F, first, 4, b, 4, 1, NULL));
     SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_factor_refactor(y.F, &other.view, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(&y.F, 1, NULL, NULL, 1, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_sums(&y.F, 1, NULL, NULL, 1, NULL, NULL, NULL));
     SL_CHECK(sl_plan_solve(P, y.F, second, 4, b, 4, 1, NULL));
     SAME_VALUES(first, second, 4);
     SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL)); /* new numbers, even if they are equal */
@@ -243,27 +243,31 @@ static void a_wrong_combination_changes_nothing(void **state) {
         sl_int failed = 5;
         SL_CHECK(sl_symbolic_scatter(y.S, values, &y.M.view, NULL));
         for (int m = 0; m < 2; m++) {
-            SL_CHECK(sl_batch_factor(&F[m], 1, y.S, c, good, TERMS, &opt, NULL, NULL));
+            SL_CHECK(sl_factor_create_sums(&F[m], 1, y.S, c, good, TERMS, &opt, NULL, NULL));
         }
         snapshot_t before = snapshot(F[0]), other = snapshot(F[1]);
         SL_EXPECT(SL_ERR_ARGUMENT,
-                  sl_batch_refactor(&F[0], 1, c, missing, TERMS, NULL, NULL, NULL));
+                  sl_factor_refactor_sums(&F[0], 1, c, missing, TERMS, NULL, NULL, NULL));
         SL_EXPECT(SL_ERR_ARGUMENT,
-                  sl_batch_refactor(&F[0], 1, NULL, good, TERMS, NULL, NULL, NULL));
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(&F[0], 1, c, NULL, TERMS, NULL, NULL, NULL));
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(&F[0], 1, c, good, -1, NULL, NULL, NULL));
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(F, 2, c, missing, TERMS, NULL, &failed, NULL));
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(F, 2, NULL, good, TERMS, NULL, NULL, NULL));
+                  sl_factor_refactor_sums(&F[0], 1, NULL, good, TERMS, NULL, NULL, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_factor_refactor_sums(&F[0], 1, c, NULL, TERMS, NULL, NULL, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_factor_refactor_sums(&F[0], 1, c, good, -1, NULL, NULL, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_factor_refactor_sums(F, 2, c, missing, TERMS, NULL, &failed, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_factor_refactor_sums(F, 2, NULL, good, TERMS, NULL, NULL, NULL));
         assert_int_equal(failed, -1);
         assert_unchanged(F[0], &before);
         assert_unchanged(F[1], &other);
         SL_EXPECT(SL_ERR_NOT_FINITE,
-                  sl_batch_refactor(F, 2, poison, good, TERMS, NULL, &failed, NULL));
+                  sl_factor_refactor_sums(F, 2, poison, good, TERMS, NULL, &failed, NULL));
         assert_int_equal(failed, 1);
         solve(F[0], SL_OK, x);
         solve(F[1], SL_ERR_STALE, x);
         SL_EXPECT(SL_ERR_NOT_FINITE,
-                  sl_batch_refactor(&F[0], 1, poison + TERMS, good, TERMS, NULL, NULL, NULL));
+                  sl_factor_refactor_sums(&F[0], 1, poison + TERMS, good, TERMS, NULL, NULL, NULL));
         solve(F[0], SL_ERR_STALE, x);
         free(values);
         snapshot_free(&before);

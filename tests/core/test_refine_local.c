@@ -1,4 +1,4 @@
-/* test_refine_local.c: sl_plan_solve_refined: regularized systems on a few rows */
+/* test_refine_local.c: sl_plan_solve_regularized: regularized systems on a few rows */
 #include "tests/lib/kkt.h"
 #include "tests/lib/factored.h"
 
@@ -93,9 +93,10 @@ static void local_refinement_matches_full_and_dense(void **state) {
             sl_stats stats, whole;
             memset(&stats, 0, sizeof stats);
             memset(&whole, 0, sizeof whole);
-            SL_CHECK(sl_plan_solve_refined(f->P, f->F, X, nx, f->B, nb, nrhs, 20, NULL, &stats));
             SL_CHECK(
-                sl_plan_solve_refined(f->all, f->F, all, N, f->full, N, nrhs, 20, NULL, &whole));
+                sl_plan_solve_regularized(f->P, f->F, X, nx, f->B, nb, nrhs, 20, NULL, &stats));
+            SL_CHECK(sl_plan_solve_regularized(f->all, f->F, all, N, f->full, N, nrhs, 20, NULL,
+                                               &whole));
             SL_CHECK(sl_plan_solve(f->P, f->F, plain, nx, f->B, nb, nrhs, NULL));
             assert_in_range(stats.refine.steps, 1, 6);
             assert_int_equal(stats.refine.steps, whole.refine.steps);
@@ -125,11 +126,12 @@ static void local_refinement_matches_full_and_dense(void **state) {
             }
         }
         /* Zero steps are the plain solve. */
-        SL_CHECK(sl_plan_solve_refined(f->P, f->F, X, nx, f->B, nb, 3, 0, NULL, NULL));
+        SL_CHECK(sl_plan_solve_regularized(f->P, f->F, X, nx, f->B, nb, 3, 0, NULL, NULL));
         SL_CHECK(sl_plan_solve(f->P, f->F, plain, nx, f->B, nb, 3, NULL));
         SAME_VALUES(X, plain, 3 * nx);
         /* In place, with the plan of all rows. */
-        SL_CHECK(sl_plan_solve_refined(f->all, f->F, f->full, N, f->full, N, R, 20, NULL, NULL));
+        SL_CHECK(
+            sl_plan_solve_regularized(f->all, f->F, f->full, N, f->full, N, R, 20, NULL, NULL));
         SAME_VALUES(f->full, all, N * R);
         free(X);
         free(all);
@@ -163,9 +165,9 @@ static void growth_is_an_error_that_remains(void **state) {
         sl_factor_free(F);
         opt.error_limit = way < 2 ? 0.5 * least : -1.0;
         SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
-        SL_CHECK(sl_plan_solve_refined(P, F, same, N, b, N, 1, 0, NULL, NULL)); /* measures */
+        SL_CHECK(sl_plan_solve_regularized(P, F, same, N, b, N, 1, 0, NULL, NULL)); /* measures */
         SL_EXPECT(way < 2 ? SL_ERR_INACCURATE : SL_OK,
-                  sl_plan_solve_refined(P, F, x, N, b, N, 1, 20, NULL, &stats));
+                  sl_plan_solve_regularized(P, F, x, N, b, N, 1, 20, NULL, &stats));
         assert_true(stats.refine.backward_error >= least);
         assert_true(is_float || x[0] != same[0]);
         sl_factor_free(F);
@@ -197,40 +199,42 @@ static void a_plan_must_hold_the_regularized_rows(void **state) {
         for (int side = 0; side < 2; side++) {
             SL_CHECK(sl_plan_create(&P, f->y.S, side ? f->bset : &top, side ? f->nb : 1,
                                     side ? &top : f->xset, side ? 1 : f->nx, NULL, NULL));
-            SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_refined(P, f->F, x, N, f->B, (size_t)f->nb, 1,
-                                                             5, NULL, &stats));
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_regularized(P, f->F, x, N, f->B, (size_t)f->nb,
+                                                                 1, 5, NULL, &stats));
             assert_true(contains(f->rows, f->count, stats.error.row));
             assert_memory_equal(x, before, sizeof x);
             sl_plan_free(P);
         }
         SL_CHECK(sl_plan_create(&P, f->y.S, &top, 0, &top, 1, NULL, NULL)); /* b = 0 */
-        SL_CHECK(sl_plan_solve_refined(P, f->F, x, 1, NULL, 0, 1, 5, NULL, &stats));
+        SL_CHECK(sl_plan_solve_regularized(P, f->F, x, 1, NULL, 0, 1, 5, NULL, &stats));
         assert_true(x[0] == 0.0 && stats.refine.backward_error <= 1e-8);
         sl_plan_free(P);
         SL_CHECK(sl_plan_create(&P, f->y.S, f->bset, f->nb, &top, 0, NULL, NULL));
-        SL_CHECK(sl_plan_solve_refined(P, f->F, NULL, 0, f->B, (size_t)f->nb, 1, 5, NULL, &stats));
+        SL_CHECK(
+            sl_plan_solve_regularized(P, f->F, NULL, 0, f->B, (size_t)f->nb, 1, 5, NULL, &stats));
         sl_plan_free(P);
         SL_EXPECT(SL_ERR_ARGUMENT,
-                  sl_plan_solve_refined(NULL, f->F, x, N, f->B, N, 1, 5, NULL, NULL));
+                  sl_plan_solve_regularized(NULL, f->F, x, N, f->B, N, 1, 5, NULL, NULL));
         SL_EXPECT(SL_ERR_ARGUMENT,
-                  sl_plan_solve_refined(f->P, NULL, x, N, f->B, N, 1, 5, NULL, NULL));
+                  sl_plan_solve_regularized(f->P, NULL, x, N, f->B, N, 1, 5, NULL, NULL));
         SL_EXPECT(SL_ERR_ARGUMENT,
-                  sl_plan_solve_refined(f->P, f->F, NULL, N, f->B, N, 1, 5, NULL, NULL));
+                  sl_plan_solve_regularized(f->P, f->F, NULL, N, f->B, N, 1, 5, NULL, NULL));
         SL_EXPECT(SL_ERR_ARGUMENT,
-                  sl_plan_solve_refined(f->P, f->F, x, 1, f->B, N, 1, 5, NULL, NULL));
+                  sl_plan_solve_regularized(f->P, f->F, x, 1, f->B, N, 1, 5, NULL, NULL));
         SL_EXPECT(SL_ERR_ARGUMENT,
-                  sl_plan_solve_refined(f->P, f->F, x, N, f->B, N, -1, 5, NULL, NULL));
+                  sl_plan_solve_regularized(f->P, f->F, x, N, f->B, N, -1, 5, NULL, NULL));
         SL_EXPECT(SL_ERR_ARGUMENT,
-                  sl_plan_solve_refined(f->P, f->F, x, N, f->B, N, 1, -5, NULL, NULL));
+                  sl_plan_solve_regularized(f->P, f->F, x, N, f->B, N, 1, -5, NULL, NULL));
         /* A factor of another analysis, a factor without regularized rows, a failed factor. */
         sl_options opt = options_none();
         options_set_variant(&opt, &variants, k);
         factored_t y = factored_make(GEN_GRID2, 225, 1, 0, &opt);
-        SL_EXPECT(SL_ERR_STATE, sl_plan_solve_refined(f->P, y.F, x, N, f->B, N, 1, 5, NULL, NULL));
+        SL_EXPECT(SL_ERR_MISMATCH,
+                  sl_plan_solve_regularized(f->P, y.F, x, N, f->B, N, 1, 5, NULL, NULL));
         sl_int set[3] = {3, 50, 200};
         double b[3] = {1, -2, 3}, plain[3];
         SL_CHECK(sl_plan_create(&P, y.S, set, 3, set, 3, NULL, NULL));
-        SL_CHECK(sl_plan_solve_refined(P, y.F, x, 3, b, 3, 1, 5, NULL, &stats));
+        SL_CHECK(sl_plan_solve_regularized(P, y.F, x, 3, b, 3, 1, 5, NULL, &stats));
         SL_CHECK(sl_plan_solve(P, y.F, plain, 3, b, 3, 1, NULL));
         SAME_VALUES(x, plain, 3);
         assert_int_equal(stats.refine.steps, 0);
@@ -238,8 +242,8 @@ static void a_plan_must_hold_the_regularized_rows(void **state) {
         factored_free(&y);
         f->y.M.x[0] = NAN;
         SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(f->F, &f->y.M.view, NULL));
-        SL_EXPECT(SL_ERR_STALE,
-                  sl_plan_solve_refined(f->P, f->F, x, N, f->B, (size_t)f->nb, 1, 5, NULL, NULL));
+        SL_EXPECT(SL_ERR_STALE, sl_plan_solve_regularized(f->P, f->F, x, N, f->B, (size_t)f->nb, 1,
+                                                          5, NULL, NULL));
         fixture_free(f);
     }
 }
@@ -278,7 +282,7 @@ static void rows_of_other_components_may_be_missing(void **state) {
     double b[2] = {1, 2}, x[2];
     SL_CHECK(sl_plan_create(&P, S, rows, 2, rows, 2, NULL, NULL));
     /* these constraints are redundant, and b is inconsistent: solved, but not accurately */
-    SL_EXPECT(SL_ERR_INACCURATE, sl_plan_solve_refined(P, F, x, 2, b, 2, 1, 5, NULL, &stats));
+    SL_EXPECT(SL_ERR_INACCURATE, sl_plan_solve_regularized(P, F, x, 2, b, 2, 1, 5, NULL, &stats));
     sl_plan_free(P);
     sl_factor_free(F);
     sl_symbolic_free(S);
@@ -307,7 +311,7 @@ static void what_is_not_finite_is_refused(void **state) {
         b[k * N / 6 + 1] = wrong[k % 2];
         for (sl_int steps = 0; steps < 3; steps++) {
             const sl_status status =
-                sl_plan_solve_refined(P, F, x, N, b, N, 1, steps, NULL, NULL);
+                sl_plan_solve_regularized(P, F, x, N, b, N, 1, steps, NULL, NULL);
             assert_true(status == SL_ERR_NOT_FINITE || (k % 2 == 1 && status == SL_OK));
         }
     }
@@ -335,10 +339,10 @@ static void what_is_not_finite_elsewhere_is_refused(void **state) {
     assert_true(stats.factor.regularized == 1);
     SL_CHECK(sl_plan_create(&P, S, NULL, 0, NULL, 0, NULL, NULL));
     for (sl_int steps = 0; steps < 3; steps++) {
-        SL_CHECK(sl_plan_solve_refined(P, F, x, 3, good, 3, 1, steps, NULL, NULL));
+        SL_CHECK(sl_plan_solve_regularized(P, F, x, 3, good, 3, 1, steps, NULL, NULL));
         for (int k = 0; k < 3; k++) {
             SL_EXPECT(SL_ERR_NOT_FINITE,
-                      sl_plan_solve_refined(P, F, x, 3, wrong[k], 3, 1, steps, NULL, NULL));
+                      sl_plan_solve_regularized(P, F, x, 3, wrong[k], 3, 1, steps, NULL, NULL));
         }
     }
     sl_plan_free(P);
@@ -358,14 +362,14 @@ static void failed_allocations_change_nothing(void **state) {
     for (int64_t k = 0, done = 0; !done; k++) {
         counter_t counter = counter_make();
         sl_work *W = work_failing(&counter, k);
-        sl_status status = sl_plan_solve_refined(f->P, f->F, X, nx, f->B, nb, R, 5, W, NULL);
+        sl_status status = sl_plan_solve_regularized(f->P, f->F, X, nx, f->B, nb, R, 5, W, NULL);
         done = status == SL_OK;
         if (!done) {
-            test_status(status, SL_ERR_MEMORY, "sl_plan_solve_refined", __FILE__, __LINE__);
+            test_status(status, SL_ERR_MEMORY, "sl_plan_solve_regularized", __FILE__, __LINE__);
             assert_memory_equal(X, keep, nx * R * sizeof *X);
         } else {
             size_t calls = counter.calls;
-            SL_CHECK(sl_plan_solve_refined(f->P, f->F, X, nx, f->B, nb, R, 5, W, NULL));
+            SL_CHECK(sl_plan_solve_regularized(f->P, f->F, X, nx, f->B, nb, R, 5, W, NULL));
             assert_int_equal(counter.calls, calls);
             assert_true(k > 0);
         }

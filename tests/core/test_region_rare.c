@@ -70,9 +70,9 @@ static void unknown_weights_and_shifts_are_refused(void **state) {
     assert_true(sl_region_view(R).n_boundary > 0);
     opt.region = R;
     SL_CHECK(sl_plan_create(&P, y.S, &row, 1, &row, 1, FOR_PLAN(&opt), NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_plan_solve_refined(P, E, &x, 1, &b, 1, 1, 3, NULL, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_plan_solve_regularized(P, E, &x, 1, &b, 1, 1, 3, NULL, NULL));
     assert_true(x == 7.0);
-    SL_EXPECT(SL_ERR_STALE, sl_plan_solve_refined(P, y.F, &x, 1, &b, 1, 1, 3, NULL, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_plan_solve_regularized(P, y.F, &x, 1, &b, 1, 1, 3, NULL, NULL));
     SL_CHECK(sl_plan_solve(P, E, &x, 1, &b, 1, 1, NULL));
     sl_plan_free(P);
     sl_region_free(R);

@@ -127,14 +127,14 @@ static void a_region_belongs_to_one_factor(void **state) {
     A.x = values;
     SL_CHECK(sl_factor_create(&G, f->y.S, &A, NULL, NULL));
     SL_EXPECT(SL_ERR_STALE, fixture_solve(f, G));
-    SL_EXPECT(SL_ERR_STATE, fixture_solve(f, other.F)); /* another analysis */
-    SL_EXPECT(SL_ERR_STATE, sl_region_refactor(f->R, other.F, NULL, NULL));
+    SL_EXPECT(SL_ERR_MISMATCH, fixture_solve(f, other.F)); /* another analysis */
+    SL_EXPECT(SL_ERR_MISMATCH, sl_region_refactor(f->R, other.F, NULL, NULL));
     assert_solution_matches(f, f->y.F); /* still valid */
     SL_CHECK(sl_region_refactor(f->R, G, NULL, NULL));
     SL_EXPECT(SL_ERR_STALE, fixture_solve(f, f->y.F));
     assert_solution_matches(f, G);
     opt.region = f->R;
-    SL_EXPECT(SL_ERR_STATE,
+    SL_EXPECT(SL_ERR_MISMATCH,
               sl_plan_create(&P, other.S, f->set, 3, f->set, 3, FOR_PLAN(&opt), NULL));
     assert_null(P);
     free(values);

@@ -99,7 +99,7 @@ static void check_plan(local_solve_t *q, const sl_plan *P, const sl_plan *once,
         memset(X, 0, sizeof X);
         SL_CHECK(sl_batch_solve(F, &request, 1, NULL, NULL, NULL));
         assert_columns(q, X, nrhs);
-        SL_CHECK(sl_plan_solve_refined(P, F, X, LD, q->B, LD, nrhs, 2, NULL, NULL));
+        SL_CHECK(sl_plan_solve_regularized(P, F, X, LD, q->B, LD, nrhs, 2, NULL, NULL));
         assert_columns(q, X, nrhs);
         for (sl_int k = 0; k < q->nb; k++) {
             for (sl_int r = 0; r < nrhs; r++) {
@@ -264,8 +264,9 @@ static void refinement(void **state) {
         sl_stats stats, alone;
         memset(&stats, 0, sizeof stats);
         memset(&alone, 0, sizeof alone);
-        SL_CHECK(sl_plan_solve_refined(once, F, wanted, ROWS, sums, ROWS, nrhs, 4, NULL, &alone));
-        SL_CHECK(sl_plan_solve_refined(P, F, X, 2 * ROWS, B, 2 * ROWS, nrhs, 4, NULL, &stats));
+        SL_CHECK(
+            sl_plan_solve_regularized(once, F, wanted, ROWS, sums, ROWS, nrhs, 4, NULL, &alone));
+        SL_CHECK(sl_plan_solve_regularized(P, F, X, 2 * ROWS, B, 2 * ROWS, nrhs, 4, NULL, &stats));
         for (sl_int r = 0; r < nrhs; r++) {
             SAME_VALUES(X + 2 * ROWS * r, wanted + ROWS * r, (size_t)count);
             SAME_VALUES(X + 2 * ROWS * r + count, wanted + ROWS * r, (size_t)count);

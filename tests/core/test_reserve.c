@@ -183,10 +183,10 @@ static void refined_local_solves(void **state) {
             reserved_t r;
             reserved_begin(&r);
             RESERVE_FOR(r.W, NULL,
-                        sl_plan_solve_refined(P, F, X, 240, B, 240, most, 3, trial, NULL));
+                        sl_plan_solve_regularized(P, F, X, 240, B, 240, most, 3, trial, NULL));
             reserved_done(&r);
             for (sl_int nrhs = 0; nrhs <= most; nrhs++) {
-                SL_CHECK(sl_plan_solve_refined(P, F, X, 240, B, 240, nrhs, 3, r.W, NULL));
+                SL_CHECK(sl_plan_solve_regularized(P, F, X, 240, B, 240, nrhs, 3, r.W, NULL));
             }
             reserved_end(&r);
         }
@@ -241,7 +241,7 @@ static void no_x_needs_no_workspace(void **state) {
     SL_CHECK(sl_work_create(&W, NULL));
     SL_CHECK(sl_plan_create(&empty, y.S, NULL, 0, none, 0, NULL, NULL));
     SL_CHECK(sl_plan_solve(empty, y.F, &x, 1, B, n, 3, W));
-    SL_CHECK(sl_plan_solve_refined(empty, y.F, &x, 1, B, n, 3, 2, W, NULL));
+    SL_CHECK(sl_plan_solve_regularized(empty, y.F, &x, 1, B, n, 3, 2, W, NULL));
     assert_int_equal(sl_work_bytes(W), 0);
     assert_true(x == 7.0);
     sl_plan_free(empty);

@@ -1,4 +1,4 @@
-/* test_restrict.c: sl_factor_restrict: the factor of A[R, R], what is kept, solves with it */
+/* test_restrict.c: sl_factor_submatrix: the factor of A[R, R], what is kept, solves with it */
 #include "tests/lib/check_inverse.h"
 #include "tests/lib/restricted.h"
 #include "tests/lib/pin_calls.h"
@@ -18,8 +18,8 @@ static void restrictions_are_factors_of_the_submatrix(void **state) {
                                                  kind == GEN_KKT || k < 3 ? 1 : -1,
                                                  (3 * shape + k) % GEN_STYLES, shape, &opt);
                 restricted_check(&t);
-                kept += t.stats.restriction.kept > 0 && t.stats.restriction.computed > 0;
-                anew += t.stats.restriction.is_anew;
+                kept += t.stats.submatrix.kept > 0 && t.stats.submatrix.computed > 0;
+                anew += t.stats.submatrix.is_anew;
                 restricted_free(&t);
             }
         }
@@ -32,7 +32,7 @@ static void all_rows_give_the_same_factor(void **state) {
     (void)state;
     for (int kind = 0; kind < GEN_REGULAR; kind++) {
         restricted_t t = restricted_make((gen_kind_t)kind, 150, 1, 0, SUBSET_ALL, NULL);
-        assert_int_equal(t.stats.restriction.kept, t.count);
+        assert_int_equal(t.stats.submatrix.kept, t.count);
         assert_same_bits(t.y.F, t.G);
         restricted_free(&t);
     }
@@ -59,9 +59,9 @@ static void kept_pivots_have_the_same_bits(void **state) {
         const sl_int from = a.iperm[t.rows[k]];
         same += !is_below[from] && D[from] == E[b.iperm[k]];
     }
-    assert_true(same >= t.stats.restriction.kept);
-    assert_true(t.stats.restriction.kept > t.count / 2 && t.stats.restriction.kept < t.count);
-    assert_true(t.stats.restriction.entries > 0);
+    assert_true(same >= t.stats.submatrix.kept);
+    assert_true(t.stats.submatrix.kept > t.count / 2 && t.stats.submatrix.kept < t.count);
+    assert_true(t.stats.submatrix.entries > 0);
     free(is_below);
     restricted_free(&t);
 }
@@ -77,7 +77,7 @@ static void rows_may_be_in_any_order(void **state) {
     for (sl_int k = 0; k < n; k++) {
         rows[k] = t.rows[order[k]];
     }
-    SL_CHECK(sl_factor_restrict(&S, &G, t.y.F, &t.y.M.view, rows, n, NULL, NULL));
+    SL_CHECK(sl_factor_submatrix(&S, &G, t.y.F, &t.y.M.view, rows, n, NULL, NULL));
     double *b = test_reals((size_t)n), *x = test_reals((size_t)n), *y = test_reals((size_t)n);
     gen_reals(b, (size_t)n, 4);
     SL_CHECK(sl_factor_solve(t.G, x, (size_t)n, b, (size_t)n, 1, NULL));
@@ -112,7 +112,7 @@ static void few_rows_of_many(void **state) {
         memset(&t, 0, sizeof t);
         t.count = count;
         t.B = subset_matrix(&y.M.view, rows, count);
-        SL_CHECK(sl_factor_restrict(&t.S, &t.G, y.F, &y.M.view, rows, count, NULL, &t.stats));
+        SL_CHECK(sl_factor_submatrix(&t.S, &t.G, y.F, &y.M.view, rows, count, NULL, &t.stats));
         restricted_check(&t);
         sl_factor_free(t.G);
         sl_symbolic_free(t.S);
@@ -120,9 +120,9 @@ static void few_rows_of_many(void **state) {
         if (count > 0) {
             sl_stats stats;
             rows[count] = rows[count / 2];
-            assert_int_equal(sl_factor_restrict(&t.S, &t.G, y.F, &y.M.view, rows, count + 1, NULL,
-                                                &stats),
-                             SL_ERR_ARGUMENT);
+            assert_int_equal(
+                sl_factor_submatrix(&t.S, &t.G, y.F, &y.M.view, rows, count + 1, NULL, &stats),
+                SL_ERR_ARGUMENT);
             assert_int_equal(stats.error.row, rows[count]);
             assert_true(t.S == NULL && t.G == NULL);
         }
@@ -148,9 +148,9 @@ static void few_neighbors_of_many(void **state) {
         rows[COUNT] = rows[0] + SIDE + PERIOD;
         t.count = rows[COUNT] < SIDE * SIDE ? COUNT + 1 : COUNT;
         t.B = subset_matrix(&y.M.view, rows, t.count);
-        SL_CHECK(sl_factor_restrict(&t.S, &t.G, y.F, &y.M.view, rows, t.count, NULL, &t.stats));
+        SL_CHECK(sl_factor_submatrix(&t.S, &t.G, y.F, &y.M.view, rows, t.count, NULL, &t.stats));
         restricted_check(&t);
-        with_kept += t.stats.restriction.kept > 0;
+        with_kept += t.stats.submatrix.kept > 0;
         sl_factor_free(t.G);
         sl_symbolic_free(t.S);
         gen_matrix_free(&t.B);
@@ -174,7 +174,7 @@ static void restrictions_are_independent_and_complete(void **state) {
                *x = test_reals((size_t)n);
         sl_selected *selected = NULL;
         sl_region *region = NULL;
-        sl_pins *pins = NULL;
+        sl_constraints *pins = NULL;
         const double two = 2.0;
         SL_CHECK(sl_inverse_diagonal(t.G, diagonal, NULL, n, NULL, NULL));
         for (sl_int k = 0; k < n; k++) {
@@ -188,11 +188,11 @@ static void restrictions_are_independent_and_complete(void **state) {
         sl_int some[3] = {0, n / 2, n - 1};
         SL_CHECK(sl_region_create(&region, t.G, some, 3, NULL, NULL, NULL));
         gen_reals(b, (size_t)n, 6);
-        SL_CHECK(sl_pins_create(&pins, t.G, NULL));
+        SL_CHECK(sl_constraints_create(&pins, t.G, NULL));
         SL_CHECK(pin_row(pins, n / 2, NULL));
-        SL_CHECK(sl_pins_solve(pins, NULL, x, (size_t)n, b, (size_t)n, &two, 1, 1, NULL));
+        SL_CHECK(sl_constraints_solve(pins, NULL, x, (size_t)n, b, (size_t)n, &two, 1, 1, NULL));
         assert_true(fabs(x[n / 2] - 2.0) <= 1e-14);
-        sl_pins_free(pins);
+        sl_constraints_free(pins);
         sl_region_free(region);
         sl_selected_free(selected);
         free(M);
@@ -222,7 +222,7 @@ static void every_entry_that_is_not_finite_is_named(void **state) {
                 sl_factor *G = NULL;
                 sl_stats stats;
                 y.M.x[p] = NAN;
-                if (sl_factor_restrict(&S, &G, y.F, &y.M.view, rows, counts[c], NULL, &stats) !=
+                if (sl_factor_submatrix(&S, &G, y.F, &y.M.view, rows, counts[c], NULL, &stats) !=
                     SL_OK) {
                     assert_int_equal(stats.error.row, y.M.i[p]);
                     assert_int_equal(stats.error.column, j);

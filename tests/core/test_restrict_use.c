@@ -1,4 +1,4 @@
-/* test_restrict_use.c: sl_factor_restrict: what is refused, and how null pivots are treated */
+/* test_restrict_use.c: sl_factor_submatrix: what is refused, and how null pivots are treated */
 #include "tests/lib/restricted.h"
 #include "tests/lib/saved_pair.h"
 
@@ -22,20 +22,20 @@ static void numbers_of_a_restriction_stay(void **state) {
         sl_csc V = {t.count, 0, &row, NULL, NULL};
         size_t bytes;
         double rcond;
-        assert_int_equal(t.stats.restriction.is_anew, anew);
+        assert_int_equal(t.stats.submatrix.is_anew, anew);
         assert_int_equal(sl_factor_refactor(t.G, B, NULL), SL_ERR_READ_ONLY);
         assert_int_equal(sl_factor_refactor_changed(t.G, B, &row, 1, NULL), SL_ERR_READ_ONLY);
-        assert_int_equal(sl_factor_change(t.G, B, &row, &row, &one, 1, NULL, NULL),
+        assert_int_equal(sl_factor_change_entries(t.G, B, &row, &row, &one, 1, NULL, NULL),
                          SL_ERR_READ_ONLY);
-        assert_int_equal(sl_factor_update(t.G, &V, NULL, NULL, NULL), SL_ERR_READ_ONLY);
-        assert_int_equal(pair_save_memory(NULL, &bytes, t.S, t.G), SL_ERR_STATE);
+        assert_int_equal(sl_factor_rank_update(t.G, &V, NULL, NULL, NULL), SL_ERR_READ_ONLY);
+        assert_int_equal(pair_save_memory(NULL, &bytes, t.S, t.G), SL_ERR_MISMATCH);
         assert_int_equal(sl_factor_rcond(t.G, B, &rcond, NULL), SL_ERR_OTHER_PATTERN);
         assert_int_equal(
             sl_factor_refine(t.G, B, x, (size_t)t.count, b, (size_t)t.count, 1, 1, NULL, NULL),
             SL_ERR_OTHER_PATTERN);
         assert_int_equal(sl_factor_create(&G, t.S, B, NULL, NULL), SL_ERR_OTHER_PATTERN);
         assert_int_equal(sl_symbolic_scatter(t.S, entries, B, NULL), SL_ERR_OTHER_PATTERN);
-        assert_int_equal(sl_factor_restrict(&S, &G, t.G, B, &row, 1, NULL, NULL),
+        assert_int_equal(sl_factor_submatrix(&S, &G, t.G, B, &row, 1, NULL, NULL),
                          SL_ERR_UNSUPPORTED);
         assert_true(S == NULL && G == NULL);
         restricted_check(&t);
@@ -51,7 +51,7 @@ static sl_status restriction_status(const factored_t *y, const sl_csc *A, const 
                                     sl_int count, sl_stats *stats) {
     sl_symbolic *S = GARBAGE(sl_symbolic);
     sl_factor *G = GARBAGE(sl_factor);
-    const sl_status status = sl_factor_restrict(&S, &G, y->F, A, rows, count, NULL, stats);
+    const sl_status status = sl_factor_submatrix(&S, &G, y->F, A, rows, count, NULL, stats);
     assert_true((S != NULL) == (status == SL_OK) && (G != NULL) == (status == SL_OK));
     sl_factor_free(G);
     sl_symbolic_free(S);
@@ -78,9 +78,9 @@ static void invalid_arguments_are_refused(void **state) {
     assert_int_equal(restriction_status(&y, A, rows, -1, &stats), SL_ERR_ARGUMENT);
     assert_int_equal(restriction_status(&y, A, NULL, 1, &stats), SL_ERR_ARGUMENT);
     assert_int_equal(restriction_status(&y, NULL, rows, 3, &stats), SL_ERR_ARGUMENT);
-    assert_int_equal(sl_factor_restrict(NULL, &G, y.F, A, rows, 3, NULL, NULL), SL_ERR_ARGUMENT);
-    assert_int_equal(sl_factor_restrict(&S, NULL, y.F, A, rows, 3, NULL, NULL), SL_ERR_ARGUMENT);
-    assert_int_equal(sl_factor_restrict(&S, &G, NULL, A, rows, 3, NULL, NULL), SL_ERR_ARGUMENT);
+    assert_int_equal(sl_factor_submatrix(NULL, &G, y.F, A, rows, 3, NULL, NULL), SL_ERR_ARGUMENT);
+    assert_int_equal(sl_factor_submatrix(&S, NULL, y.F, A, rows, 3, NULL, NULL), SL_ERR_ARGUMENT);
+    assert_int_equal(sl_factor_submatrix(&S, &G, NULL, A, rows, 3, NULL, NULL), SL_ERR_ARGUMENT);
     B.x = NULL;
     assert_int_equal(restriction_status(&y, &B, rows, 3, &stats), SL_ERR_ARGUMENT);
     B = *A;
@@ -103,7 +103,7 @@ static void invalid_arguments_are_refused(void **state) {
         y.M.i[y.M.p[4]] = wrong == 0 ? -1 : wrong == 1 ? 100 : keep;
         y.M.p[4] = wrong == 2 ? -1 : p;
         y.M.p[5] = wrong == 3 ? INT32_MAX : end;
-        assert_int_equal(restriction_status(&y, A, rows, 3, &stats), SL_ERR_PATTERN);
+        assert_int_equal(restriction_status(&y, A, rows, 3, &stats), SL_ERR_MALFORMED);
         assert_int_equal(stats.error.column, wrong == 2 ? 3 : 4); /* 3 ends at p[4] */
         y.M.p[4] = p;
         y.M.p[5] = end;
@@ -111,7 +111,7 @@ static void invalid_arguments_are_refused(void **state) {
     }
     const sl_int begin = y.M.p[4];
     y.M.p[4] = -1; /* and column 3 is not read */
-    assert_int_equal(restriction_status(&y, A, rows + 1, 2, &stats), SL_ERR_PATTERN);
+    assert_int_equal(restriction_status(&y, A, rows + 1, 2, &stats), SL_ERR_MALFORMED);
     assert_int_equal(stats.error.column, 4);
     y.M.p[4] = begin;
     assert_int_equal(restriction_status(&y, A, rows, 3, NULL), SL_OK);
@@ -175,8 +175,8 @@ static void null_pivots_may_be_removed(void **state) {
             t.rows = test_ints((size_t)n);
             t.count = subset_fill(t.rows, n, shape, t.y.S);
             t.B = subset_matrix(&t.y.M.view, t.rows, t.count);
-            sl_status status =
-                sl_factor_restrict(&t.S, &t.G, t.y.F, &t.y.M.view, t.rows, t.count, NULL, &t.stats);
+            sl_status status = sl_factor_submatrix(&t.S, &t.G, t.y.F, &t.y.M.view, t.rows, t.count,
+                                                   NULL, &t.stats);
             assert_int_equal(status, t.count == n ? SL_ERR_PIVOT : SL_OK);
             if (status == SL_OK) {
                 restricted_check(&t);
@@ -206,7 +206,7 @@ static void regularization_is_inherited(void **state) {
         sl_factor *G = NULL;
         sl_stats stats;
         sl_int size = subset_fill(rows, 100, shape, y.S);
-        SL_CHECK(sl_factor_restrict(&S, &G, y.F, &y.M.view, rows, size, NULL, &stats));
+        SL_CHECK(sl_factor_submatrix(&S, &G, y.F, &y.M.view, rows, size, NULL, &stats));
         const sl_int *iperm = sl_symbolic_view(S).iperm;
         const double *D = sl_factor_view(G).D;
         for (sl_int k = 0; k < size; k++) {
@@ -239,12 +239,11 @@ static void limits_are_inherited(void **state) {
             sl_stats stats;
             assert_int_equal(restriction_status(&y, &y.M.view, rows, count, &stats), SL_OK);
             /* a column that is computed, and not in the last front, gets a small pivot */
-            for (sl_int k = 0; k < count && stats.restriction.computed > 0; k++) {
+            for (sl_int k = 0; k < count && stats.submatrix.computed > 0; k++) {
                 const sl_int p = y.M.p[rows[k]];
                 const double keep = y.M.x[p];
                 y.M.x[p] = 1e-300;
-                const sl_status status =
-                    restriction_status(&y, &y.M.view, rows, count, &stats);
+                const sl_status status = restriction_status(&y, &y.M.view, rows, count, &stats);
                 assert_true(status == SL_OK || (has_limits && status == SL_ERR_INACCURATE));
                 assert_true(status == SL_OK || y.M.x[y.M.p[stats.error.row]] > 0.0);
                 y.M.x[p] = keep;
@@ -299,7 +298,7 @@ static void regularized_zeros_are_restricted(void **state) {
     opt.regularization = 2.0;
     SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
-    SL_CHECK(sl_factor_restrict(&T, &G, F, &A, rows, 2, NULL, NULL));
+    SL_CHECK(sl_factor_submatrix(&T, &G, F, &A, rows, 2, NULL, NULL));
     SL_CHECK(sl_factor_solve(G, y, 2, b, 2, 1, NULL));
     assert_true(y[0] == 1.0 && y[1] == 3.0);
     sl_factor_free(F);
@@ -321,8 +320,8 @@ static void diagonal_matrices_are_restricted(void **state) {
         rows[k] = 39 - k;
         b[k] = k;
     }
-    SL_CHECK(sl_factor_restrict(&S, &G, y.F, &y.M.view, rows, 39, NULL, &stats));
-    assert_int_equal(stats.restriction.kept, 39);
+    SL_CHECK(sl_factor_submatrix(&S, &G, y.F, &y.M.view, rows, 39, NULL, &stats));
+    assert_int_equal(stats.submatrix.kept, 39);
     SL_CHECK(sl_factor_solve(G, x, 39, b, 39, 1, NULL));
     for (sl_int k = 0; k < 39; k++) {
         const double d = y.M.x[y.M.p[rows[k]]];
@@ -363,7 +362,7 @@ static void any_storage_and_several_null_vectors_are_restricted(void **state) {
         restricted_t t = restricted_make(GEN_GRID2, 225, 1, 0, SUBSET_HALF, &opt);
         const size_t n = (size_t)t.count;
         double *b = test_reals(n), *x = test_reals(n), *r = test_reals(n), error;
-        assert_int_equal(t.stats.restriction.is_anew, 1);
+        assert_int_equal(t.stats.submatrix.is_anew, 1);
         assert_int_equal(t.stats.storage, storages[kind]);
         gen_reals(b, n, 3);
         SL_CHECK(sl_factor_solve(t.G, x, n, b, n, 1, NULL));

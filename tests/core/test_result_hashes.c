@@ -86,7 +86,7 @@ static uint64_t hash_of(const sl_csc *A, sl_isa isa) {
     h = hash_numbers(h, local, ROWS);
     SL_CHECK(sl_inverse_diagonal(F, local, rows, ROWS, NULL, NULL));
     h = hash_numbers(h, local, ROWS);
-    SL_CHECK(sl_factor_change(F, NULL, rows + 3, rows + 3, &delta, 1, NULL, NULL));
+    SL_CHECK(sl_factor_change_entries(F, NULL, rows + 3, rows + 3, &delta, 1, NULL, NULL));
     h = hash_numbers(h, sl_factor_view(F).D, n);
     sl_factor_free(F);
     sl_symbolic_free(S);

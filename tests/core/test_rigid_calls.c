@@ -326,7 +326,7 @@ static void check_refusals(bodies_t *f, const sl_options *opt) {
     sl_options bad = *opt;
     sl_factor *F = NULL;
     sl_stats stats;
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_update(f->F, &v, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_rank_update(f->F, &v, NULL, NULL, NULL));
     bad.null_vector = Z;
     bad.null_vector_count = 33;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, f->S, &f->y.A, &bad, NULL));

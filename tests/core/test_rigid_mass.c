@@ -173,8 +173,8 @@ static void bodies_without_pins_are_centered(void **state) {
         double *g = test_reals(f.n), *p = test_reals(f.n), *r = test_reals(f.n), most = 0.0;
         double entry = 0.0;
         sl_int count = 0;
-        sl_pins *P = NULL;
-        SL_CHECK(sl_pins_create(&P, f.F, NULL));
+        sl_constraints *P = NULL;
+        SL_CHECK(sl_constraints_create(&P, f.F, NULL));
         for (sl_int i = 0; i < f.y.n; i++) {
             if (f.y.body[i] == 0 && i / f.y.dim % 2 == 0) {
                 SL_CHECK(pin_row(P, i, NULL));
@@ -183,7 +183,7 @@ static void bodies_without_pins_are_centered(void **state) {
         }
         gen_reals(g, f.n, seed);
         assert_means(&f, f.F);
-        SL_CHECK(sl_pins_solve(P, NULL, p, f.n, f.b, f.n, g, (size_t)count, 1, NULL));
+        SL_CHECK(sl_constraints_solve(P, NULL, p, f.n, f.b, f.n, g, (size_t)count, 1, NULL));
         SL_CHECK(sl_csc_residual(&f.y.A, r, f.n, NULL, p, f.n, f.b, f.n, 1));
         for (sl_int k = 0; k < f.y.A.p[f.y.n]; k++) {
             entry = fmax(entry, fabs(f.y.A.x[k]));
@@ -201,7 +201,7 @@ static void bodies_without_pins_are_centered(void **state) {
                 assert_true(fabs(r[i]) <= 1e-10 * entry * most);
             }
         }
-        sl_pins_free(P);
+        sl_constraints_free(P);
         weighed_free(&f);
         free(g);
         free(p);

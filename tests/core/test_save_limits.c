@@ -44,7 +44,7 @@ static void a_drift_is_kept_as_growth(void **state) {
     sl_stats before, after;
     SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
-    SL_CHECK(sl_factor_change(F, NULL, &row, &column, &delta, 1, NULL, &before));
+    SL_CHECK(sl_factor_change_entries(F, NULL, &row, &column, &delta, 1, NULL, &before));
     saved_t m = saved_make(S, F);
     SL_CHECK(pair_load_memory(&T, &G, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
     sl_factor_stats(G, &after);
@@ -69,18 +69,18 @@ static void a_drift_goes_on_after_loading(void **state) {
     sl_factor *G = NULL;
     sl_stats before, after;
     double weight = 1e10 / 3.0, delta = weight;
-    SL_CHECK(sl_factor_change(f.F, NULL, &row, &row, &delta, 1, NULL, NULL));
+    SL_CHECK(sl_factor_change_entries(f.F, NULL, &row, &row, &delta, 1, NULL, NULL));
     for (; weight > 1e8; weight += delta) {
         delta = -0.5 * weight;
-        SL_CHECK(sl_factor_change(f.F, NULL, &row, &row, &delta, 1, NULL, &before));
+        SL_CHECK(sl_factor_change_entries(f.F, NULL, &row, &row, &delta, 1, NULL, &before));
     }
     saved_t m = saved_make(f.S, f.F);
     SL_CHECK(pair_load_memory(&T, &G, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
-    SL_CHECK(sl_factor_change(G, NULL, NULL, NULL, NULL, 0, NULL, &after));
+    SL_CHECK(sl_factor_change_entries(G, NULL, NULL, NULL, NULL, 0, NULL, &after));
     assert_true(before.change.drift < 1e-11 && after.change.drift == before.change.drift);
     for (; weight > 0.0; weight += delta) {
         delta = weight > 1.0 ? -0.5 * weight : -weight;
-        SL_CHECK(sl_factor_change(G, NULL, &row, &row, &delta, 1, NULL, &after));
+        SL_CHECK(sl_factor_change_entries(G, NULL, &row, &row, &delta, 1, NULL, &after));
     }
     b[ROW] = 1.0;
     SL_CHECK(sl_factor_refactor(f.F, &f.M.view, NULL));

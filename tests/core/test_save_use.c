@@ -55,7 +55,7 @@ static void two_loads_are_independent(void **state) {
     sl_symbolic_free(S[1]);
     assert_same_answers(y.F, F[2]);
     /* of another analysis */
-    SL_EXPECT(SL_ERR_STATE, pair_save_memory(m.bytes, &m.size, S[2], y.F));
+    SL_EXPECT(SL_ERR_MISMATCH, pair_save_memory(m.bytes, &m.size, S[2], y.F));
     sl_factor_free(F[2]);
     sl_symbolic_free(S[2]);
     saved_free(&m);
@@ -115,7 +115,8 @@ static void a_mapped_factor_is_immutable(void **state) {
     SL_EXPECT(SL_ERR_READ_ONLY, sl_factor_refactor(F, &y.M.view, NULL));
     SL_EXPECT(SL_ERR_READ_ONLY, sl_factor_refactor_changed(F, &y.M.view, &column, 1, NULL));
     SL_EXPECT(SL_ERR_READ_ONLY, sl_factor_refactor_changed(F, &y.M.view, &column, 0, NULL));
-    SL_EXPECT(SL_ERR_READ_ONLY, sl_batch_refactor(&F, 1, &one, &values, 1, NULL, &failed, NULL));
+    SL_EXPECT(SL_ERR_READ_ONLY,
+              sl_factor_refactor_sums(&F, 1, &one, &values, 1, NULL, &failed, NULL));
     assert_int_equal(failed, 0);
     assert_same_answers(y.F, F);
     sl_factor_free(F);
@@ -140,8 +141,8 @@ static void batches_refactor_loaded_factors(void **state) {
     m = saved_make(y.S, y.F);
     SL_CHECK(pair_load_memory(&S, &F[0], m.bytes, m.size, SL_LOAD_CHECKED, NULL));
     SL_CHECK(sl_factor_create(&F[1], S, &y.M.view, NULL, NULL));
-    SL_CHECK(sl_batch_refactor(F, 2, coefficients, arrays, 1, NULL, NULL, NULL));
-    SL_CHECK(sl_batch_factor(G, 2, y.S, coefficients, arrays, 1, NULL, NULL, NULL));
+    SL_CHECK(sl_factor_refactor_sums(F, 2, coefficients, arrays, 1, NULL, NULL, NULL));
+    SL_CHECK(sl_factor_create_sums(G, 2, y.S, coefficients, arrays, 1, NULL, NULL, NULL));
     assert_same_answers(F[0], G[0]);
     assert_same_answers(F[1], G[1]);
     for (int k = 0; k < 2; k++) {
@@ -189,7 +190,7 @@ static void wrong_arguments_are_refused(void **state) {
     sl_options opt = options_none();
     SL_EXPECT(SL_ERR_ARGUMENT, pair_save_memory(NULL, NULL, y.S, y.F));
     SL_EXPECT(SL_ERR_ARGUMENT, pair_save_memory(NULL, &size, NULL, y.F));
-    SL_EXPECT(SL_ERR_STATE, pair_save_memory(NULL, &size, y.S, z.F));
+    SL_EXPECT(SL_ERR_MISMATCH, pair_save_memory(NULL, &size, y.S, z.F));
     SL_EXPECT(SL_ERR_ARGUMENT, pair_save_memory(m.bytes, NULL, y.S, y.F));
     SL_EXPECT(SL_ERR_ARGUMENT, pair_save_memory(m.bytes, &m.size, NULL, y.F));
     SL_EXPECT(SL_ERR_ARGUMENT, pair_save_file(NULL, y.S, y.F, NULL));

@@ -74,16 +74,16 @@ static void what_does_not_belong_together_is_refused(void **state) {
     set.n_regions = 2;
     REFUSED(SL_ERR_ARGUMENT, &set); /* a region that is NULL */
     mixed[1] = z.regions[0];        /* and one of the same numbers, but of another analysis */
-    REFUSED(SL_ERR_STATE, &set);
+    REFUSED(SL_ERR_MISMATCH, &set);
     set = q.set;
     set.selected = z.set.selected;
-    REFUSED(SL_ERR_STATE, &set);
+    REFUSED(SL_ERR_MISMATCH, &set);
     set.factor = NULL;
     set.n_regions = 0;
-    REFUSED(SL_ERR_STATE, &set);
+    REFUSED(SL_ERR_MISMATCH, &set);
     set = q.set;
     set.factor = z.set.factor;
-    REFUSED(SL_ERR_STATE, &set);
+    REFUSED(SL_ERR_MISMATCH, &set);
     assert_int_equal(size, 7); /* as before */
     assert_true(kept == m.size);
     set = *set_of(&q);

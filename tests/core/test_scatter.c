@@ -22,7 +22,7 @@ static void every_storage_style_scatters_alike(void **state) {
             sl_symbolic_stats(S, &stats);
             assert_int_equal(size, stats.symbolic.nnz_a);
             SL_CHECK(sl_symbolic_scatter(S, first, &A.view, NULL));
-            SL_CHECK(sl_batch_factor(&F, 1, S, &one, &values, 1, NULL, NULL, NULL));
+            SL_CHECK(sl_factor_create_sums(&F, 1, S, &one, &values, 1, NULL, NULL, NULL));
             assert_same_bits(F, plain);
             for (int style = 0; style < GEN_STYLES; style++) {
                 gen_matrix_t K = gen_store(&t, gen_style(style), 3);
@@ -123,7 +123,7 @@ static void wide_panels_receive_every_entry(void **state) {
             double *v = test_reals((size_t)scatter_length(S)), one = 1;
             const double *values = v;
             SL_CHECK(sl_symbolic_scatter(S, v, &A.view, NULL));
-            SL_CHECK(sl_batch_factor(&F, 1, S, &one, &values, 1, NULL, NULL, NULL));
+            SL_CHECK(sl_factor_create_sums(&F, 1, S, &one, &values, 1, NULL, NULL, NULL));
             assert_same_bits(F, plain);
             free(v);
             sl_factor_free(F);

@@ -69,7 +69,7 @@ static void empty_problems_work(void **state) {
 static void wrong_arguments_are_refused(void **state) {
     (void)state;
     factored_t y = factored_make(GEN_PATH, 20, 1, 0, NULL),
-              other = factored_make(GEN_PATH, 20, 1, 0, NULL);
+               other = factored_make(GEN_PATH, 20, 1, 0, NULL);
     const sl_int below[3] = {7, -1, 4}, above[3] = {7, 8, 20}, fine[3] = {7, 8, 7},
                  far[3] = {7, 8, 19};
     sl_options incomplete = options_none();
@@ -120,7 +120,7 @@ static void wrong_arguments_are_refused(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_refactor(NULL, y.F, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_refactor(Z, NULL, NULL));
     /* another analysis, although of the same pattern */
-    SL_EXPECT(SL_ERR_STATE, sl_selected_refactor(Z, other.F, NULL));
+    SL_EXPECT(SL_ERR_MISMATCH, sl_selected_refactor(Z, other.F, NULL));
     factored_free(&other);
     sl_selected_free(Z);
     sl_selected_free(NULL);

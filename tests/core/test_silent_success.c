@@ -49,7 +49,7 @@ static void every_use_is_refused(const sl_factor *F, const sl_symbolic *S) {
     SL_EXPECT(SL_ERR_STALE, sl_region_create(&R, F, set, 2, NULL, NULL, NULL));
     SL_CHECK(sl_plan_create(&P, S, set, 2, set, 2, NULL, NULL));
     SL_EXPECT(SL_ERR_STALE, sl_plan_solve(P, F, x, 2, b, 2, 1, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_plan_solve_refined(P, F, x, 2, b, 2, 1, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_plan_solve_regularized(P, F, x, 2, b, 2, 1, 1, NULL, NULL));
     sl_plan_free(P);
 }
 
@@ -90,7 +90,7 @@ static void an_indefinite_matrix_is_not_taken_for_definite(void **state) {
     for (sl_int p = A.p[row]; p < A.p[row + 1]; p++) {
         values[p] += A.i[p] == row ? less : 0.0;
     }
-    SL_EXPECT(SL_ERR_PIVOT, sl_factor_change(y.F, NULL, &row, &row, &less, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_change_entries(y.F, NULL, &row, &row, &less, 1, NULL, NULL));
     SL_CHECK(sl_factor_refactor(y.F, &A, &stats));
     assert_int_equal(stats.factor.negative, 1);
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_solve_part(y.F, SL_PART_P | SL_PART_L | SL_PART_SQRT_D, x, N,
@@ -166,7 +166,7 @@ static void derived_factors_count_or_refuse_negative_pivots(void **state) {
         const sl_status wanted = is_definite ? SL_ERR_PIVOT : SL_OK;
         sl_symbolic *S = NULL;
         sl_factor *G = NULL;
-        sl_pins *P = NULL;
+        sl_constraints *P = NULL;
         sl_stats stats;
         sl_status status[3];
         for (sl_int i = 0; i < N; i++) {
@@ -174,15 +174,15 @@ static void derived_factors_count_or_refuse_negative_pivots(void **state) {
         }
         for (int way = 0; way < 3; way++) {
             if (way == 0) { /* the numbers of F are not used */
-                status[way] = sl_factor_restrict(&S, &G, y.F, &A, rows, count, NULL, &stats);
+                status[way] = sl_factor_submatrix(&S, &G, y.F, &A, rows, count, NULL, &stats);
             } else if (way == 1) {
                 status[way] = sl_factor_edit(&G, y.F, y.S, &A, same, &opt, &stats);
             } else {
                 sl_symbolic_stats(y.S, &stats);
                 scattered = test_reals((size_t)stats.symbolic.nnz_a);
                 SL_CHECK(sl_symbolic_scatter(y.S, scattered, &A, NULL));
-                status[way] = sl_batch_factor(&G, 1, y.S, &one, (const double *const *)&scattered,
-                                              1, &opt, NULL, &stats);
+                status[way] = sl_factor_create_sums(
+                    &G, 1, y.S, &one, (const double *const *)&scattered, 1, &opt, NULL, &stats);
             }
             if (is_definite) {
                 assert_refused(status[way], wanted, &stats);
@@ -190,7 +190,7 @@ static void derived_factors_count_or_refuse_negative_pivots(void **state) {
             } else {
                 assert_int_equal(status[way], SL_OK);
                 assert_int_equal(stats.factor.negative, 1);
-                assert_refused(sl_pins_create(&P, G, NULL), SL_ERR_UNSUPPORTED, NULL);
+                assert_refused(sl_constraints_create(&P, G, NULL), SL_ERR_UNSUPPORTED, NULL);
                 assert_null(P);
             }
             sl_factor_free(G);
@@ -223,7 +223,7 @@ static void derived_factors_compare_patterns(void **state) {
             sl_factor *G = NULL;
             sl_stats stats;
             if (other != style) {
-                assert_refused(sl_factor_restrict(&S, &G, y.F, A, rows, count, NULL, &stats),
+                assert_refused(sl_factor_submatrix(&S, &G, y.F, A, rows, count, NULL, &stats),
                                SL_ERR_OTHER_PATTERN, &stats);
                 assert_null(S);
                 assert_refused(sl_factor_edit(&G, y.F, y.S, A, same, NULL, &stats),
@@ -255,35 +255,35 @@ static void nothing_is_derived_from_a_failed_factor(void **state) {
     const sl_request request = {NULL, x, N, b, N, 1, y.F};
     sl_symbolic *S = NULL;
     sl_factor *G = NULL;
-    sl_pins *P = NULL, *Q = NULL;
+    sl_constraints *P = NULL, *Q = NULL;
     sl_stats stats;
     for (sl_int i = 0; i < N; i++) {
         same[i] = i;
     }
-    SL_CHECK(sl_pins_create(&P, y.F, NULL));
-    SL_CHECK(sl_pins_add(P, rows, 1, NULL));
+    SL_CHECK(sl_constraints_create(&P, y.F, NULL));
+    SL_CHECK(sl_constraints_add(P, rows, 1, NULL));
     A.x = zeros;
     assert_refused(sl_factor_refactor(y.F, &A, &stats), SL_ERR_PIVOT, &stats);
     A.x = y.M.view.x;
-    assert_refused(sl_factor_restrict(&S, &G, y.F, &A, rows, count, NULL, &stats), SL_ERR_STALE,
+    assert_refused(sl_factor_submatrix(&S, &G, y.F, &A, rows, count, NULL, &stats), SL_ERR_STALE,
                    &stats);
     assert_refused(sl_factor_edit(&G, y.F, y.S, &A, same, NULL, &stats), SL_ERR_STALE, &stats);
     assert_true(S == NULL && G == NULL);
-    assert_refused(sl_pins_create(&Q, y.F, NULL), SL_ERR_STALE, NULL);
-    assert_refused(sl_pins_solve(P, NULL, x, N, b, N, &one, 1, 1, NULL), SL_ERR_STALE, NULL);
-    assert_refused(sl_pins_add(P, rows + 1, 1, &stats), SL_ERR_STALE, &stats);
-    assert_refused(sl_pins_refactor(P, &stats), SL_ERR_STALE, &stats);
+    assert_refused(sl_constraints_create(&Q, y.F, NULL), SL_ERR_STALE, NULL);
+    assert_refused(sl_constraints_solve(P, NULL, x, N, b, N, &one, 1, 1, NULL), SL_ERR_STALE, NULL);
+    assert_refused(sl_constraints_add(P, rows + 1, 1, &stats), SL_ERR_STALE, &stats);
+    assert_refused(sl_constraints_refactor(P, &stats), SL_ERR_STALE, &stats);
     assert_refused(sl_batch_solve(NULL, &request, 1, NULL, NULL, &failed), SL_ERR_STALE, NULL);
     assert_int_equal(failed, 0);
     assert_true(x[0] == 0.0);
     assert_refused(sl_factor_refactor_changed(y.F, &A, rows, 1, &stats), SL_ERR_STALE, &stats);
-    assert_refused(sl_factor_change(y.F, NULL, rows, rows, &one, 1, NULL, &stats), SL_ERR_STALE,
-                   &stats);
+    assert_refused(sl_factor_change_entries(y.F, NULL, rows, rows, &one, 1, NULL, &stats),
+                   SL_ERR_STALE, &stats);
     SL_CHECK(sl_factor_refactor(y.F, &A, NULL)); /* a refactorization mends it */
-    assert_refused(sl_pins_solve(P, NULL, x, N, b, N, &one, 1, 1, NULL), SL_ERR_STALE, NULL);
-    SL_CHECK(sl_pins_refactor(P, NULL));
-    SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, &one, 1, 1, NULL));
-    sl_pins_free(P);
+    assert_refused(sl_constraints_solve(P, NULL, x, N, b, N, &one, 1, 1, NULL), SL_ERR_STALE, NULL);
+    SL_CHECK(sl_constraints_refactor(P, NULL));
+    SL_CHECK(sl_constraints_solve(P, NULL, x, N, b, N, &one, 1, 1, NULL));
+    sl_constraints_free(P);
     free(zeros);
     factored_free(&y);
 }

@@ -72,7 +72,7 @@ static void tall_panels_are_changed(void **state) {
         const double delta = 3.0;
         double b[100], x[100];
         gen_reals(b, 100, 4);
-        SL_CHECK(sl_factor_change(y.F, NULL, &row, &row, &delta, 1, NULL, NULL));
+        SL_CHECK(sl_factor_change_entries(y.F, NULL, &row, &row, &delta, 1, NULL, NULL));
         assert_int_equal(y.M.i[y.M.p[row]], row);
         y.M.x[y.M.p[row]] += delta;
         SL_CHECK(sl_factor_solve(y.F, x, 100, b, 100, 1, NULL));

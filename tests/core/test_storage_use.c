@@ -78,7 +78,7 @@ static void changes_of(sl_storage storage) {
     const double wx[1] = {0.5}, sigma = 1.0;
     const sl_csc W = {y.M.view.n_rows, 1, wp, wi, wx};
     memset(&stats, 0, sizeof stats);
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_update(y.F, &W, &sigma, NULL, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_rank_update(y.F, &W, &sigma, NULL, NULL));
     y.M.x[y.M.p[column]] += 1.0; /* its diagonal entry comes first */
     SL_CHECK(sl_factor_refactor_changed(y.F, &y.M.view, &column, 1, &stats));
     SL_CHECK(sl_factor_create(&G, y.S, &y.M.view, &opt, NULL));

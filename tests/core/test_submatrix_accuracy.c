@@ -37,7 +37,7 @@ static void restrict_and_judge(const random_system_t *y, const sl_factor *F, uin
     sl_symbolic *S = NULL;
     sl_factor *G = NULL;
     sl_stats stats;
-    const sl_status status = sl_factor_restrict(&S, &G, F, &y->M.view, rows, count, NULL, &stats);
+    const sl_status status = sl_factor_submatrix(&S, &G, F, &y->M.view, rows, count, NULL, &stats);
     if (status == SL_OK && count > 0) {
         const size_t n = (size_t)count;
         gen_matrix_t B = subset_matrix(&y->M.view, rows, count);
@@ -98,8 +98,8 @@ static void pin_and_judge(const random_system_t *y, const sl_factor *F, uint64_t
     const sl_int most = 1 + y->n / 4;
     sl_int *rows = test_ints(n), count = 0;
     double *X = test_reals(n), *g = test_reals(n);
-    sl_pins *P = NULL;
-    sl_status status = sl_pins_create(&P, F, NULL);
+    sl_constraints *P = NULL;
+    sl_status status = sl_constraints_create(&P, F, NULL);
     sl_stats stats;
     if (status != SL_OK) {
         assert_int_equal(status, SL_ERR_UNSUPPORTED);
@@ -107,11 +107,11 @@ static void pin_and_judge(const random_system_t *y, const sl_factor *F, uint64_t
     } else {
         gen_set(rows, y->n, y->n, gen_bits(seed));
         gen_reals(g, n, gen_bits(seed));
-        status = sl_pins_add(P, rows, most, &stats);
+        status = sl_constraints_add(P, rows, most, &stats);
         count = pins_count(P);
         assert_int_equal(count, status == SL_OK ? most : 0);
         t->refused += status != SL_OK;
-        status = sl_pins_solve(P, NULL, X, n, y->b, n, g, n, 1, NULL);
+        status = sl_constraints_solve(P, NULL, X, n, y->b, n, g, n, 1, NULL);
         assert_true(status == SL_OK || (status == SL_ERR_INACCURATE && !is_good));
         t->grown += status != SL_OK;
     }
@@ -121,7 +121,7 @@ static void pin_and_judge(const random_system_t *y, const sl_factor *F, uint64_t
         t->lost += error > 1e-8;
         t->solved++;
     }
-    sl_pins_free(P);
+    sl_constraints_free(P);
     free(rows);
     free(X);
     free(g);

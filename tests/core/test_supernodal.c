@@ -220,7 +220,7 @@ static void check_dense_rows(sl_int rest, sl_ordering ordering, int in_pairs) {
     SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, &stats));
     assert_true((double)counter.total_bytes <= most);
     counter.total_bytes = 0;
-    SL_CHECK(sl_factor_restrict(&part, &G, F, &M.view, rows, count, &opt, &stats));
+    SL_CHECK(sl_factor_submatrix(&part, &G, F, &M.view, rows, count, &opt, &stats));
     assert_true((double)counter.total_bytes <= most);
     sl_factor_free(G);
     sl_symbolic_free(part);

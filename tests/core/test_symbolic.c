@@ -202,11 +202,11 @@ static void wrong_arguments(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, &bad, NULL, NULL));
     bad = M.view;
     M.i[3] = 9;
-    SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_create(&S, &M.view, NULL, NULL));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_symbolic_create(&S, &M.view, NULL, NULL));
     M.i[3] = -1;
-    SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_create(&S, &M.view, NULL, NULL));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_symbolic_create(&S, &M.view, NULL, NULL));
     M.p[4] = M.p[9] + 1;
-    SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_create(&S, &M.view, NULL, NULL));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_symbolic_create(&S, &M.view, NULL, NULL));
     assert_null(S);
     sl_symbolic_free(NULL);
     gen_matrix_free(&M);
@@ -216,7 +216,7 @@ static void wrong_arguments(void **state) {
     const sl_int p[4] = {0, 2, 3, 3}, i[3] = {1, 2, 0};
     sl_csc lonely = {3, 3, p, i, NULL};
     memset(&stats, 0, sizeof stats);
-    SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_create(&S, &lonely, NULL, &stats));
+    SL_EXPECT(SL_ERR_MALFORMED, sl_symbolic_create(&S, &lonely, NULL, &stats));
     assert_int_equal(stats.error.row, 2);
     assert_int_equal(stats.error.column, 0);
 }
@@ -261,7 +261,7 @@ static void hostile_arrays(void **state) {
             SL_CHECK(sl_csc_check(&A, NULL));
             check_all(&A, &opt);
         } else {
-            assert_int_equal(status, SL_ERR_PATTERN);
+            assert_int_equal(status, SL_ERR_MALFORMED);
         }
     }
     assert_true(accepted > 1000 && accepted < 19000);

@@ -330,7 +330,7 @@ static void wrong_maps_and_matrices_are_refused(void **state) {
     sl_factor *F = NULL, *G = NULL;
     SL_CHECK(sl_symbolic_create(&S, &A.view, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &A.view, NULL, NULL));
-    SL_CHECK(sl_factor_restrict(&T, &G, F, &A.view, new_of, 20, NULL, NULL));
+    SL_CHECK(sl_factor_submatrix(&T, &G, F, &A.view, new_of, 20, NULL, NULL));
     sl_symbolic *U = NULL;
     assert_int_equal(sl_symbolic_edit(&U, T, &A.view, &B.view, new_of, NULL, NULL),
                      SL_ERR_UNSUPPORTED);

@@ -57,13 +57,13 @@ static void different_values_are_refused_with_an_entry(void **state) {
             SL_CHECK(create(&y->A, SL_TRIANGLE_NONE, &stats));
             continue;
         }
-        SL_EXPECT(SL_ERR_PATTERN, create(&y->A, SL_TRIANGLE_NONE, &stats));
+        SL_EXPECT(SL_ERR_MALFORMED, create(&y->A, SL_TRIANGLE_NONE, &stats));
         assert_non_null(strstr(stats.error.what, "triangles differ"));
         const sl_int row = stats.error.row, column = stats.error.column;
         const sl_int changed = k < 3 ? 0 : k < 6 ? 1 : 2; /* column of the entry */
         assert_true((row == y->i[k] && column == changed) || (row == changed && column == y->i[k]));
         assert_true(stats.error.value < -0.9 && stats.error.value > -2.1);
-        SL_EXPECT(SL_ERR_PATTERN, create(&y->A, SL_TRIANGLE_BOTH, NULL));
+        SL_EXPECT(SL_ERR_MALFORMED, create(&y->A, SL_TRIANGLE_BOTH, NULL));
         SL_CHECK(create(&y->A, SL_TRIANGLE_LOWER, NULL)); /* the caller has chosen */
         SL_CHECK(create(&y->A, SL_TRIANGLE_UPPER, NULL));
     }
@@ -84,7 +84,7 @@ static void a_laplacian_divided_by_masses_is_refused(void **state) {
             x[q] = M.view.x[q] / (1.0 + 0.001 * M.view.i[q]);
         }
         M.view.x = x;
-        SL_EXPECT(SL_ERR_PATTERN, create(&M.view, SL_TRIANGLE_NONE, &stats));
+        SL_EXPECT(SL_ERR_MALFORMED, create(&M.view, SL_TRIANGLE_NONE, &stats));
         assert_in_range(stats.error.row, 0, M.view.n_rows - 1);
         assert_int_not_equal(stats.error.row, stats.error.column);
         free(x);
@@ -116,7 +116,7 @@ static void huge_values_are_compared(void **state) {
         const sl_csc A = {2, 2, p, i, x};
         sl_stats stats;
         const sl_status status = create(&A, SL_TRIANGLE_NONE, &stats);
-        assert_true(differ ? status == SL_ERR_PATTERN : status != SL_ERR_PATTERN);
+        assert_true(differ ? status == SL_ERR_MALFORMED : status != SL_ERR_MALFORMED);
     }
 }
 

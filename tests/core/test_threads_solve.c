@@ -67,14 +67,14 @@ static void fixed_rows_share_the_threads(void **state) {
     static const sl_int widths[4] = {1, 3, 8, 70};
     factored_t y = factored_make(GEN_GRID2, SIDE * SIDE, 1, 0, NULL);
     sl_int rows[FIXED];
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     for (sl_int k = 0; k < FIXED; k++) {
         rows[k] = 13 * k + 2;
     }
-    SL_CHECK(sl_dirichlet_create(&D, &y.M.view, rows, FIXED, NULL, NULL, NULL));
+    SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, FIXED, NULL, NULL, NULL));
     for (int k = 0; k < 4 * 4; k++) {
-        const dirichlet_t p = {&y.M.view, rows,      FIXED,     widths[k / 4], k % 2,
-                               k / 2 % 2, k % 4 < 2, k % 3 > 0, 0};
+        const dirichlet_t p = {&y.M.view, rows,      FIXED, widths[k / 4], k % 2, k / 2 % 2,
+                               k % 4 < 2, k % 3 > 0, 0};
         int calls = 0;
         const sl_options opt = options_of_workers(3, &calls);
         sl_work *W = NULL;
@@ -83,7 +83,7 @@ static void fixed_rows_share_the_threads(void **state) {
         assert_true(calls > 0);
         sl_work_free(W);
     }
-    sl_dirichlet_free(D);
+    sl_fixed_free(D);
     factored_free(&y);
 }
 

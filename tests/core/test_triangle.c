@@ -34,13 +34,13 @@ static void without_the_option_a_pruned_pattern_is_refused(void **state) {
             sl_symbolic *S = (sl_symbolic *)(void *)&y;
             sl_matrix *C = (sl_matrix *)(void *)&y;
             sl_stats stats;
-            SL_EXPECT(SL_ERR_PATTERN, sl_csc_triangle(&y.A, &found, &opt, &stats));
+            SL_EXPECT(SL_ERR_MALFORMED, sl_csc_triangle(&y.A, &found, &opt, &stats));
             assert_int_equal(found, SL_TRIANGLE_UPPER);
             assert_names_an_entry(&y.A, &stats);
-            SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_create(&S, &y.A, &opt, &stats));
+            SL_EXPECT(SL_ERR_MALFORMED, sl_symbolic_create(&S, &y.A, &opt, &stats));
             assert_null(S);
             assert_names_an_entry(&y.A, &stats);
-            SL_EXPECT(SL_ERR_PATTERN, sl_matrix_sum(&C, NULL, &y.A, 1, &opt, &stats));
+            SL_EXPECT(SL_ERR_MALFORMED, sl_matrix_sum(&C, NULL, &y.A, 1, &opt, &stats));
             assert_null(C);
             assert_names_an_entry(&y.A, &stats);
         }

@@ -49,7 +49,7 @@ static void use(const sl_symbolic *S, sl_factor *F) {
     ignore(sl_local_solve(F, set, count, set, count, x, ld, b, ld, 1, NULL, NULL));
     if (sl_plan_create(&P, S, set, count, set, count > 0 ? 1 : 0, NULL, NULL) == SL_OK) {
         ignore(sl_plan_solve(P, F, x, ld, b, ld, 2, NULL));
-        ignore(sl_plan_solve_refined(P, F, x, ld, b, ld, 1, 1, NULL, NULL));
+        ignore(sl_plan_solve_regularized(P, F, x, ld, b, ld, 1, 1, NULL, NULL));
     }
     ignore(sl_inverse_diagonal(F, x, NULL, 0, NULL, NULL));
     ignore(sl_factor_defects(F, x, ld, b, ld, 1, NULL));

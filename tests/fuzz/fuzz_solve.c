@@ -133,7 +133,7 @@ static void solve_parts(case_t *c, const sl_symbolic *S, sl_factor *F) {
         }
         if (c->part == REFINED_SHOT) {
             const sl_status refined =
-                sl_plan_solve_refined(P, F, c->X, MOST, c->B, MOST, c->nrhs, 3, W, NULL);
+                sl_plan_solve_regularized(P, F, c->X, MOST, c->B, MOST, c->nrhs, 3, W, NULL);
             /* a plan that lacks a regularized row is refused before anything is solved */
             PROMISE(refined == local || refined == SL_ERR_ARGUMENT ||
                     (local == SL_OK && (is_answer(refined) || refined == SL_ERR_INACCURATE)));

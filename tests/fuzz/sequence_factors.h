@@ -125,7 +125,7 @@ static void combine(input_t *in) {
     }
     set_dense(s, &v);
     if (form % 2) {
-        note_numbers(f, sl_batch_refactor(&f->F, 1, c, terms, 2, NULL, NULL, NULL), &v);
+        note_numbers(f, sl_factor_refactor_sums(&f->F, 1, c, terms, 2, NULL, NULL, NULL), &v);
         return;
     }
     free_factor(which);
@@ -135,18 +135,18 @@ static void combine(input_t *in) {
     if (form / 2 % 2) {
         sl_factor *both[2];
         sl_int failed = -2;
-        status = sl_batch_factor(both, 2, s->S, c, terms, 2, &opt, &failed, NULL);
+        status = sl_factor_create_sums(both, 2, s->S, c, terms, 2, &opt, &failed, NULL);
         PROMISE((failed == -1) == (status == SL_OK));
         f->F = both[0];
         if (status == SL_OK) { /* the same matrices again, without an allocation */
             const sl_options run = threaded(opt.threads.count);
-            PROMISE(sl_batch_refactor(both, 2, c, terms, 2, &run, NULL, NULL) == SL_OK);
+            PROMISE(sl_factor_refactor_sums(both, 2, c, terms, 2, &run, NULL, NULL) == SL_OK);
         }
         sl_factor_free(both[1]);
         PROMISE(f->F != NULL || no_memory(status));
         status = f->F ? SL_OK : status;
     } else {
-        status = sl_batch_factor(&f->F, 1, s->S, c, terms, 2, &opt, NULL, NULL);
+        status = sl_factor_create_sums(&f->F, 1, s->S, c, terms, 2, &opt, NULL, NULL);
     }
     PROMISE((f->F != NULL) == (status == SL_OK));
     note_numbers(f, status, &v);

@@ -120,7 +120,7 @@ static int no_memory(sl_status status) {
 
 /* Were objects refused that do not belong together, or whose numbers do not? */
 static int is_apart(sl_status status) {
-    return status == SL_ERR_STATE || status == SL_ERR_STALE;
+    return status == SL_ERR_MISMATCH || status == SL_ERR_STALE;
 }
 
 static void run_backwards(void *context, sl_int count, void (*body)(void *data, sl_int k),

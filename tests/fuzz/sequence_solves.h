@@ -174,7 +174,7 @@ static sl_status solve_zeros(const factor_t *f, const plan_t *p, sl_int nrhs, sl
     }
     if (p != NULL) {
         status[5] = sl_plan_solve(p->P, f->F, X, SET, B, SET, nrhs, W);
-        status[6] = sl_plan_solve_refined(p->P, f->F, X, SET, B, SET, nrhs, 2, W, NULL);
+        status[6] = sl_plan_solve_regularized(p->P, f->F, X, SET, B, SET, nrhs, 2, W, NULL);
     }
     for (int k = 0; k < 7; k++) {
         if (no_memory(status[k])) {

@@ -212,19 +212,18 @@ static sl_status solve_without_work(fixture_t *f, const sl_options *opt) {
 
 /* The solution is untouched without memory. */
 static sl_status dirichlet(fixture_t *f, const sl_options *opt) {
-    sl_dirichlet *D = GARBAGE(sl_dirichlet);
+    sl_fixed *D = GARBAGE(sl_fixed);
     sl_options given = *opt;
     given.ordering = SL_ORDERING_GIVEN;
     given.perm = f->perm;
-    sl_status status =
-        sl_dirichlet_create(&D, &f->y.M.view, f->bset, 20, NULL, &given, NULL);
+    sl_status status = sl_fixed_create(&D, &f->y.M.view, f->bset, 20, NULL, &given, NULL);
     MADE_OR_NULL(status, D);
     if (status == SL_OK) {
         memcpy(f->X, f->before, sizeof f->X);
-        status = sl_dirichlet_solve(D, f->X, 225, f->X, 225, f->B, 20, 3, NULL);
+        status = sl_fixed_solve(D, f->X, 225, f->X, 225, f->B, 20, 3, NULL);
         assert_true((memcmp(f->X, f->before, sizeof f->X) != 0) == (status == SL_OK));
     }
-    sl_dirichlet_free(D);
+    sl_fixed_free(D);
     return status;
 }
 
@@ -234,7 +233,7 @@ static sl_status restriction(fixture_t *f, const sl_int *rows, sl_int count,
     sl_symbolic *S = GARBAGE(sl_symbolic);
     sl_factor *G = GARBAGE(sl_factor);
     const sl_status status =
-        sl_factor_restrict(&S, &G, f->y.F, &f->y.M.view, rows, count, opt, NULL);
+        sl_factor_submatrix(&S, &G, f->y.F, &f->y.M.view, rows, count, opt, NULL);
     MADE_OR_NULL(status, S);
     MADE_OR_NULL(status, G);
     sl_factor_free(G);
@@ -309,23 +308,23 @@ static sl_status edit_factor(fixture_t *f, const sl_options *opt) {
 /* A set of pins is as before after each call that fails. */
 static sl_status pins(fixture_t *f, const sl_int *rows, sl_int count, const sl_options *opt) {
     static const sl_int gone[3] = {7, 0, 12};
-    sl_pins *P = GARBAGE(sl_pins);
-    sl_status status = sl_pins_create(&P, f->y.F, opt);
+    sl_constraints *P = GARBAGE(sl_constraints);
+    sl_status status = sl_constraints_create(&P, f->y.F, opt);
     MADE_OR_NULL(status, P);
     if (status == SL_OK) {
-        status = sl_pins_add(P, rows, count, NULL);
+        status = sl_constraints_add(P, rows, count, NULL);
         assert_int_equal(pins_count(P), status == SL_OK ? count : 0);
     }
     if (status == SL_OK) {
-        status = sl_pins_release(P, gone, 3, NULL);
+        status = sl_constraints_release(P, gone, 3, NULL);
         assert_int_equal(pins_count(P), status == SL_OK ? count - 3 : count);
     }
     if (status == SL_OK) {
         memcpy(f->X, f->before, sizeof f->X);
-        status = sl_pins_solve(P, NULL, f->X, 225, f->B, 225, f->B, 225, 3, NULL);
+        status = sl_constraints_solve(P, NULL, f->X, 225, f->B, 225, f->B, 225, 3, NULL);
         assert_true((memcmp(f->X, f->before, sizeof f->X) != 0) == (status == SL_OK));
     }
-    sl_pins_free(P);
+    sl_constraints_free(P);
     return status;
 }
 

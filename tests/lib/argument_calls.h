@@ -169,7 +169,7 @@ static sl_status restriction(arguments_t *a) {
     sl_symbolic *S = (sl_symbolic *)(void *)a;
     sl_factor *G = (sl_factor *)(void *)a;
     const sl_status status =
-        sl_factor_restrict(&S, &G, a->F, a->A, a->xset, a->nx, NULL, &a->stats);
+        sl_factor_submatrix(&S, &G, a->F, a->A, a->xset, a->nx, NULL, &a->stats);
     assert_true((S != NULL) == (status == SL_OK) && (G != NULL) == (status == SL_OK));
     sl_factor_free(G);
     sl_symbolic_free(S);
@@ -179,17 +179,17 @@ static sl_status restriction(arguments_t *a) {
 /* A call on a set of so many pins, which the call may change. */
 #define ON_PINS(name, count, call) \
     static sl_status name(arguments_t *a) { \
-        sl_pins *pins = a->has_pins ? pins_make(count) : NULL; \
+        sl_constraints *pins = a->has_pins ? pins_make(count) : NULL; \
         const sl_status status = call; \
-        sl_pins_free(pins); \
+        sl_constraints_free(pins); \
         return status; \
     }
 
-static sl_pins *pins_make(sl_int count) {
-    sl_pins *pins = NULL;
-    SL_CHECK(sl_pins_create(&pins, o->good.F, NULL));
+static sl_constraints *pins_make(sl_int count) {
+    sl_constraints *pins = NULL;
+    SL_CHECK(sl_constraints_create(&pins, o->good.F, NULL));
     for (sl_int row = 0; row < count; row++) {
-        SL_CHECK(sl_pins_add(pins, &row, 1, NULL));
+        SL_CHECK(sl_constraints_add(pins, &row, 1, NULL));
     }
     return pins;
 }
@@ -204,8 +204,8 @@ CALL(scatter, sl_symbolic_scatter(a->S, o->entries, a->A, &a->stats))
 CALL(write_file, sl_csc_write(a->A, SL_AS_SYMMETRIC, NOWHERE))
 CALL(solve, sl_factor_solve(a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs, NULL))
 CALL(plan_solve, sl_plan_solve(a->P, a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs, NULL))
-CALL(plan_refined, sl_plan_solve_refined(a->P, a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs, a->steps,
-                                         NULL, &a->stats))
+CALL(plan_refined, sl_plan_solve_regularized(a->P, a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs,
+                                             a->steps, NULL, &a->stats))
 CALL(local, sl_local_solve(a->F, a->bset, a->nb, a->xset, a->nx, a->X, a->ldx, a->B, a->ldb,
                            a->nrhs, NULL, &a->stats))
 CALL(defects, sl_factor_defects(a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs, NULL))
@@ -218,13 +218,13 @@ CALL(selected_entries, sl_selected_entries(a->Z, a->X, a->xset, a->xset == NULL 
                                            a->nx, &a->stats))
 CALL(region_refactor, sl_region_refactor(a->R, a->F, NULL, NULL))
 CALL(reserve, sl_work_reserve(a->W, 64))
-ON_PINS(pins_add, 1, sl_pins_add(pins, a->xset, a->nx, &a->stats))
-ON_PINS(pins_equality, 1, sl_pins_add_equality(pins, a->xset, a->B, a->nx, &a->stats))
-ON_PINS(pins_release, N, sl_pins_release(pins, a->xset, a->nx, &a->stats))
-ON_PINS(pins_refactor, 1, sl_pins_refactor(pins, &a->stats))
+ON_PINS(pins_add, 1, sl_constraints_add(pins, a->xset, a->nx, &a->stats))
+ON_PINS(pins_equality, 1, sl_constraints_add_equality(pins, a->xset, a->B, a->nx, &a->stats))
+ON_PINS(pins_release, N, sl_constraints_release(pins, a->xset, a->nx, &a->stats))
+ON_PINS(pins_refactor, 1, sl_constraints_refactor(pins, &a->stats))
 ON_PINS(pins_solve, 1,
-        sl_pins_solve(pins, NULL, a->X, a->ldx, a->B, a->ldb, o->entries, N, a->nrhs, NULL))
-CREATE(pins, sl_pins, sl_pins_free, sl_pins_create(&out, a->F, NULL))
+        sl_constraints_solve(pins, NULL, a->X, a->ldx, a->B, a->ldb, o->entries, N, a->nrhs, NULL))
+CREATE(pins, sl_constraints, sl_constraints_free, sl_constraints_create(&out, a->F, NULL))
 CREATE(symbolic, sl_symbolic, sl_symbolic_free, sl_symbolic_create(&out, a->A, NULL, &a->stats))
 CREATE(edit, sl_symbolic, sl_symbolic_free,
        sl_symbolic_edit(&out, a->S, &o->good.M.view, a->A, o->perm, NULL, &a->stats))
@@ -234,8 +234,8 @@ CREATE(edit_factor, sl_factor, sl_factor_free,
        sl_factor_edit(&out, a->F, a->S, a->A, o->perm, NULL, &a->stats))
 CREATE(factor, sl_factor, sl_factor_free, sl_factor_create(&out, a->S, a->A, NULL, &a->stats))
 CREATE(transpose, sl_matrix, sl_matrix_free, sl_matrix_transpose(&out, a->A, NULL))
-CREATE(dirichlet, sl_dirichlet, sl_dirichlet_free,
-       sl_dirichlet_create(&out, a->A, a->xset, a->nx, NULL, NULL, &a->stats))
+CREATE(dirichlet, sl_fixed, sl_fixed_free,
+       sl_fixed_create(&out, a->A, a->xset, a->nx, NULL, NULL, &a->stats))
 CREATE(submatrix, sl_matrix, sl_matrix_free,
        sl_matrix_submatrix(&out, a->A, a->xset, a->nx, NULL, &a->stats))
 CREATE(sum, sl_matrix, sl_matrix_free, sl_matrix_sum(&out, NULL, a->A, 1, NULL, &a->stats))
@@ -256,7 +256,7 @@ static const struct {
     {"sl_csc_triangle", triangle, A_ | SQUARE_},
     {"sl_csc_write", write_file, A_ | SQUARE_},
     {"sl_matrix_transpose", transpose, A_},
-    {"sl_dirichlet_create", dirichlet, A_ | SQUARE_ | VALUES_ | LIST_},
+    {"sl_fixed_create", dirichlet, A_ | SQUARE_ | VALUES_ | LIST_},
     {"sl_matrix_submatrix", submatrix, A_ | SQUARE_ | LIST_},
     {"sl_matrix_sum", sum, A_ | SQUARE_},
     {"sl_symbolic_create", symbolic, A_ | SQUARE_},
@@ -270,7 +270,7 @@ static const struct {
     {"sl_factor_refine", refine, A_ | SQUARE_ | VALUES_ | SOLVE_ | STEPS_},
     {"sl_factor_rcond", rcond, A_ | SQUARE_ | VALUES_ | F_ | FAILED_},
     {"sl_factor_certify", certify, A_ | SQUARE_ | VALUES_ | F_ | FAILED_},
-    {"sl_factor_restrict", restriction, SQUARE_ | VALUES_ | F_ | FAILED_ | LIST_},
+    {"sl_factor_submatrix", restriction, SQUARE_ | VALUES_ | F_ | FAILED_ | LIST_},
     {"sl_factor_logdet", logdet, F_ | FAILED_},
     {"sl_factor_pivot_rows", null_rows, F_ | FAILED_},
     {"sl_factor_pseudo_inverse", pseudo, F_ | FAILED_},
@@ -279,7 +279,7 @@ static const struct {
     {"sl_factor_solve", solve, SOLVE_},
     {"sl_plan_create", plan, S_ | BSET_ | XSET_},
     {"sl_plan_solve", plan_solve, SOLVE_ | P_ | OTHER_},
-    {"sl_plan_solve_refined", plan_refined, SOLVE_ | P_ | OTHER_ | STEPS_},
+    {"sl_plan_solve_regularized", plan_refined, SOLVE_ | P_ | OTHER_ | STEPS_},
     {"sl_plan_solve_bounded", plan_bounded, SOLVE_ | P_ | OTHER_},
     {"sl_local_solve", local, SOLVE_ | BSET_ | XSET_},
     {"sl_inverse_diagonal", diagonal, F_ | FAILED_ | X_ | XSET_},
@@ -292,12 +292,12 @@ static const struct {
     {"sl_selected_entries", selected_entries, Z_ | X_ | LIST_},
     {"sl_region_create", region, F_ | FAILED_ | XSET_},
     {"sl_region_refactor", region_refactor, F_ | FAILED_ | OTHER_ | R_},
-    {"sl_pins_create", pins, F_ | FAILED_},
-    {"sl_pins_add", pins_add, PINS_ | LIST_},
-    {"sl_pins_add_equality", pins_equality, PINS_ | LIST_ | B_},
-    {"sl_pins_release", pins_release, PINS_ | LIST_},
-    {"sl_pins_refactor", pins_refactor, PINS_},
-    {"sl_pins_solve", pins_solve, PINS_ | X_ | LDX_ | B_ | LDB_ | NRHS_},
+    {"sl_constraints_create", pins, F_ | FAILED_},
+    {"sl_constraints_add", pins_add, PINS_ | LIST_},
+    {"sl_constraints_add_equality", pins_equality, PINS_ | LIST_ | B_},
+    {"sl_constraints_release", pins_release, PINS_ | LIST_},
+    {"sl_constraints_refactor", pins_refactor, PINS_},
+    {"sl_constraints_solve", pins_solve, PINS_ | X_ | LDX_ | B_ | LDB_ | NRHS_},
     {"sl_save_memory", save_memory, S_ | FAILED_ | OTHER_},
     {"sl_save_file", save_file, S_ | FAILED_ | OTHER_},
     {"sl_batch_solve", batch_solve, SOLVE_},

@@ -60,7 +60,7 @@ static inline double dirichlet_error(const dirichlet_t *p, const double *x, cons
 }
 
 /* Solves a problem in its layouts, and checks the solution. */
-static inline void dirichlet_check(const sl_dirichlet *D, const dirichlet_t *p, sl_work *W) {
+static inline void dirichlet_check(const sl_fixed *D, const dirichlet_t *p, sl_work *W) {
     const sl_int n = p->A->n_cols, nrhs = p->nrhs;
     const layout_t lx = layout_of(p->x_by_rows, n, nrhs),
                    lg = layout_of(p->g_by_rows, p->count, nrhs);
@@ -72,11 +72,11 @@ static inline void dirichlet_check(const sl_dirichlet *D, const dirichlet_t *p, 
     gen_reals(B, layout_room(n, nrhs), 5);
     gen_reals(G, layout_room(p->count, nrhs), 6);
     memcpy(X, B, layout_room(n, nrhs) * sizeof *X);
-    SL_CHECK(sl_dirichlet_solve(D, X, lx.ld,
-                                p->is_in_place ? X
-                                : p->has_b     ? B
-                                               : NULL,
-                                lb.ld, G, lg.ld, nrhs, W));
+    SL_CHECK(sl_fixed_solve(D, X, lx.ld,
+                            p->is_in_place ? X
+                            : p->has_b     ? B
+                                           : NULL,
+                            lb.ld, G, lg.ld, nrhs, W));
     for (sl_int r = 0; r < nrhs; r++) {
         for (sl_int k = 0; k < n; k++) {
             x[k] = X[(size_t)k * lx.row + (size_t)r * lx.column];
@@ -96,7 +96,7 @@ static inline void dirichlet_check(const sl_dirichlet *D, const dirichlet_t *p, 
 }
 
 /* Solves problems with 0 to DIRICHLET_RHS right-hand sides, in all layouts. */
-static inline void dirichlet_check_all(const sl_dirichlet *D, const sl_csc *A, const sl_int *rows,
+static inline void dirichlet_check_all(const sl_fixed *D, const sl_csc *A, const sl_int *rows,
                                        sl_int count) {
     dirichlet_t p = {A, rows, count, 0, 0, 0, 0, 0, 0};
     sl_work *W = NULL;

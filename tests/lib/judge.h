@@ -65,8 +65,8 @@ static inline void judge_grown(judge_t *t, double entries, double sweeps) {
 /* Counts a call that did not succeed; returns 1 if it did. SL_ERR_ARGUMENT and the like are no
  * answers to a correct call. */
 static inline int judge_succeeded(judge_t *t, sl_status status, const char *what) {
-    if (status == SL_ERR_ARGUMENT || status == SL_ERR_STATE || status == SL_ERR_STALE ||
-        status == SL_ERR_PATTERN || status == SL_ERR_OTHER_PATTERN || status == SL_ERR_MEMORY) {
+    if (status == SL_ERR_ARGUMENT || status == SL_ERR_MISMATCH || status == SL_ERR_STALE ||
+        status == SL_ERR_MALFORMED || status == SL_ERR_OTHER_PATTERN || status == SL_ERR_MEMORY) {
         print_error("%s: ", sl_status_string(status));
         judge_count(t, JUDGE_SILENT, 0.0, what);
     } else if (status != SL_OK) {

@@ -9,7 +9,7 @@ enum { JUDGE_EQUALITIES = 3 };
 
 /* Pins, equalities and what they demand. */
 typedef struct judge_pins_t {
-    sl_pins *P;
+    sl_constraints *P;
     sl_int count;
     sl_int *row;   /* of pin k; -1: equality */
     sl_int *which; /* equality k is column which[k] of C */
@@ -25,7 +25,7 @@ static inline void judge_pins_add(judge_t *t, judge_pins_t *p, unsigned char *he
         double *c = p->C + (size_t)p->equalities * t->n, values[6];
         gen_permutation(rows, n, gen_bits(&t->state));
         gen_reals(values, 6, gen_bits(&t->state));
-        const sl_status status = sl_pins_add_equality(p->P, rows, values, size, NULL);
+        const sl_status status = sl_constraints_add_equality(p->P, rows, values, size, NULL);
         if (status == SL_OK) {
             memset(c, 0, t->n * sizeof *c);
             for (sl_int k = 0; k < size; k++) {
@@ -42,7 +42,7 @@ static inline void judge_pins_add(judge_t *t, judge_pins_t *p, unsigned char *he
                 rows[count++] = row;
             }
         }
-        const sl_status status = sl_pins_add(p->P, rows, count, NULL);
+        const sl_status status = sl_constraints_add(p->P, rows, count, NULL);
         for (sl_int k = 0; k < count; k++) {
             if (status == SL_OK) {
                 p->row[p->count] = rows[k];
@@ -167,7 +167,7 @@ static inline void judge_pins_solve(judge_t *t, const judge_pins_t *p) {
         }
     }
     const sl_status status =
-        sl_pins_solve(p->P, NULL, x, n, b, n, g, n + JUDGE_EQUALITIES, 1, NULL);
+        sl_constraints_solve(p->P, NULL, x, n, b, n, g, n + JUDGE_EQUALITIES, 1, NULL);
     if (judge_succeeded(t, status, "pins")) {
         const sl_int rank = judge_pins_basis(t, p, Q);
         double mean = 0.0;
@@ -197,7 +197,7 @@ static inline void judge_way_pins(judge_t *t) {
     p.row = test_ints(t->n + JUDGE_EQUALITIES);
     p.which = test_ints(t->n + JUDGE_EQUALITIES);
     p.C = test_reals(t->n * JUDGE_EQUALITIES);
-    if (judge_succeeded(t, sl_pins_create(&p.P, t->F, NULL), "pins create")) {
+    if (judge_succeeded(t, sl_constraints_create(&p.P, t->F, NULL), "pins create")) {
         for (int k = 0; k < 1 + gen_below(&t->state, 6); k++) {
             if (p.count > 0 && gen_below(&t->state, 4) == 0) {
                 judge_pins_release(t, &p, held);
@@ -207,7 +207,7 @@ static inline void judge_way_pins(judge_t *t) {
             judge_pins_solve(t, &p);
         }
     }
-    sl_pins_free(p.P);
+    sl_constraints_free(p.P);
     free(held);
     free(p.row);
     free(p.which);

@@ -217,7 +217,7 @@ static inline void judge_way_change(judge_t *t) {
             *entry += deltas[c];
         }
         if (kind == 0) {
-            status = sl_factor_change(F, NULL, rows, columns, deltas, count, NULL, &stats);
+            status = sl_factor_change_entries(F, NULL, rows, columns, deltas, count, NULL, &stats);
             if (status == SL_ERR_UNSUPPORTED) {
                 status = sl_factor_refactor(F, &M.view, &stats);
             } else if (status != SL_OK && status != SL_ERR_NOT_FINITE) { /* F is as before */
@@ -231,7 +231,8 @@ static inline void judge_way_change(judge_t *t) {
         } else if (kind == 1) {
             status = sl_factor_refactor_changed(F, &M.view, columns, count, &stats);
         } else if (kind == 2) {
-            status = sl_factor_change(F, &M.view, rows, columns, deltas, count, NULL, &stats);
+            status =
+                sl_factor_change_entries(F, &M.view, rows, columns, deltas, count, NULL, &stats);
         } else {
             status = sl_factor_refactor(F, &M.view, &stats);
         }
@@ -279,7 +280,7 @@ static inline void judge_way_restrict(judge_t *t) {
         }
     }
     if (judge_succeeded(t,
-                        sl_factor_restrict(&S, &G, t->F, &t->y->M.view, rows, count, NULL, &stats),
+                        sl_factor_submatrix(&S, &G, t->F, &t->y->M.view, rows, count, NULL, &stats),
                         "restrict") &&
         count > 0) {
         gen_matrix_t B = subset_matrix(&t->y->M.view, rows, count);

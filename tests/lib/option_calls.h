@@ -30,8 +30,8 @@ static inline option_fixture_t *option_fixture_make(void) {
     f->pair = matrix_pair_make(GEN_GRID2, 25, 0, 0, NULL);
     f->U = sl_matrix_view(f->pair.U);
     f->coefficients[0] = f->coefficients[1] = 1;
-    SL_CHECK(sl_batch_factor(&f->F, 1, f->pair.S, f->coefficients, matrix_pair_values(&f->pair),
-                             TERMS, NULL, NULL, NULL));
+    SL_CHECK(sl_factor_create_sums(&f->F, 1, f->pair.S, f->coefficients,
+                                   matrix_pair_values(&f->pair), TERMS, NULL, NULL, NULL));
     f->perm = test_ints((size_t)f->pair.n);
     for (sl_int k = 0; k < f->pair.n; k++) {
         f->perm[k] = k;
@@ -79,8 +79,8 @@ OPTION_CALL(option_from_hermitian, sl_matrix,
             sl_matrix_from_hermitian(&out, &option_hermitian, opt, NULL))
 OPTION_CALL(option_transpose, sl_matrix, sl_matrix_transpose(&out, &f->U, opt))
 OPTION_CALL(option_submatrix, sl_matrix, sl_matrix_submatrix(&out, &f->U, f->perm, 2, opt, NULL))
-OPTION_CALL(option_dirichlet, sl_dirichlet,
-            sl_dirichlet_create(&out, f->pair.terms, f->perm, 2, f->F, opt, NULL))
+OPTION_CALL(option_dirichlet, sl_fixed,
+            sl_fixed_create(&out, f->pair.terms, f->perm, 2, f->F, opt, NULL))
 OPTION_CALL(option_sum, sl_matrix,
             sl_matrix_sum(&out, f->coefficients, f->pair.terms, TERMS, opt, NULL))
 OPTION_CALL(option_lower, sl_matrix, sl_factor_lower(&out, f->F, opt))
@@ -97,8 +97,8 @@ OPTION_CALL(option_plan, sl_plan,
 OPTION_CALL(option_selected, sl_selected, sl_selected_create(&out, f->F, NULL, 0, opt, NULL))
 OPTION_CALL(option_region, sl_region, sl_region_create(&out, f->F, f->perm, 1, NULL, opt, NULL))
 OPTION_CALL(option_batch_factor, sl_factor,
-            sl_batch_factor(&out, 1, f->pair.S, f->coefficients, matrix_pair_values(&f->pair),
-                            TERMS, opt, NULL, NULL))
+            sl_factor_create_sums(&out, 1, f->pair.S, f->coefficients, matrix_pair_values(&f->pair),
+                                  TERMS, opt, NULL, NULL))
 
 /* The file does not exist: SL_ERR_IO if the options are accepted. */
 static inline sl_status option_read(option_fixture_t *f, const sl_options *opt) {
@@ -141,7 +141,7 @@ static inline sl_status option_restrict(option_fixture_t *f, const sl_options *o
             x[p] = A.i[p] == j ? 1.0 : 0.0;
         }
     }
-    const sl_status status = sl_factor_restrict(&S, &G, f->F, &A, f->perm, 2, opt, NULL);
+    const sl_status status = sl_factor_submatrix(&S, &G, f->F, &A, f->perm, 2, opt, NULL);
     assert_true((S != NULL) == (status == SL_OK) && (G != NULL) == (status == SL_OK));
     sl_factor_free(G);
     sl_symbolic_free(S);
@@ -185,8 +185,8 @@ static inline sl_status option_batch_by_rows(option_fixture_t *f, const sl_optio
 }
 
 static inline sl_status option_batch_refactor(option_fixture_t *f, const sl_options *opt) {
-    return sl_batch_refactor(&f->F, 1, f->coefficients, matrix_pair_values(&f->pair), TERMS, opt,
-                             NULL, NULL);
+    return sl_factor_refactor_sums(&f->F, 1, f->coefficients, matrix_pair_values(&f->pair), TERMS,
+                                   opt, NULL, NULL);
 }
 
 static inline sl_status option_batch_diagonal(option_fixture_t *f, const sl_options *opt) {
@@ -216,19 +216,19 @@ static const struct {
     {"sl_factor_create", option_factor, READS_FACTOR | READS_ISA},
     {"sl_factor_edit", option_edit_factor, READS_FACTOR | READS_ISA},
     {"sl_factor_lower", option_lower, READS_NOTHING},
-    {"sl_factor_restrict", option_restrict, READS_NOTHING},
-    {"sl_dirichlet_create", option_dirichlet,
+    {"sl_factor_submatrix", option_restrict, READS_NOTHING},
+    {"sl_fixed_create", option_dirichlet,
      READS_ANALYSIS | READS_TRIANGLE | READS_FACTOR | READS_ISA},
     {"sl_work_create", option_work, READS_NOTHING},
     {"sl_plan_create", option_plan, READS_REGION},
     {"sl_selected_create", option_selected, READS_NOTHING},
     {"sl_region_create", option_region, READS_REGION_BYTES},
-    {"sl_batch_factor", option_batch_factor, READS_FACTOR | READS_ISA},
+    {"sl_factor_create_sums", option_batch_factor, READS_FACTOR | READS_ISA},
     {"sl_load_memory", option_load, READS_ISA},
     {"sl_save_file", option_save, READS_NOTHING},
     {"sl_batch_solve", option_batch_solve, READS_NOTHING},
     {"sl_batch_solve by rows", option_batch_by_rows, READS_NOTHING},
-    {"sl_batch_refactor", option_batch_refactor, READS_NOTHING},
+    {"sl_factor_refactor_sums", option_batch_refactor, READS_NOTHING},
     {"sl_batch_diagonal", option_batch_diagonal, READS_NOTHING},
 };
 

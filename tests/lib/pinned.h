@@ -8,7 +8,7 @@
 /* A system and its pins, as the tests keep them. */
 typedef struct pinned_t {
     factored_t y;
-    sl_pins *P;
+    sl_constraints *P;
     double *dense, *C; /* n x n; n x 2n, column-major */
     sl_int n, count;
 } pinned_t;
@@ -18,12 +18,12 @@ static inline pinned_t pinned_make(gen_kind_t kind, sl_int size, int sign, const
     p.n = p.y.M.view.n_cols;
     p.dense = ref_dense(&p.y.M.view);
     p.C = test_reals((size_t)(p.n * p.n) * 2);
-    SL_CHECK(sl_pins_create(&p.P, p.y.F, NULL));
+    SL_CHECK(sl_constraints_create(&p.P, p.y.F, NULL));
     return p;
 }
 
 static inline void pinned_free(pinned_t *p) {
-    sl_pins_free(p->P);
+    sl_constraints_free(p->P);
     factored_free(&p->y);
     free(p->dense);
     free(p->C);
@@ -36,7 +36,7 @@ static inline void pin(pinned_t *p, sl_int row) {
 }
 
 static inline void pin_rows(pinned_t *p, const sl_int *rows, sl_int count, sl_stats *stats) {
-    SL_CHECK(sl_pins_add(p->P, rows, count, stats));
+    SL_CHECK(sl_constraints_add(p->P, rows, count, stats));
     for (sl_int k = 0; k < count; k++) {
         p->C[(size_t)p->n * (size_t)p->count++ + (size_t)rows[k]] = 1.0;
     }
@@ -78,7 +78,7 @@ static inline void assert_pinned(const pinned_t *p, uint64_t seed) {
     }
     for (sl_int nrhs = 1; nrhs <= 9; nrhs += nrhs == 1 ? 2 : 6) {
         memset(X, 0, n * 9 * sizeof(double));
-        SL_CHECK(sl_pins_solve(p->P, NULL, X, n, B, n, G, k, nrhs, NULL));
+        SL_CHECK(sl_constraints_solve(p->P, NULL, X, n, B, n, G, k, nrhs, NULL));
         for (size_t r = 0; r < (size_t)nrhs; r++) {
             for (size_t i = 0; i < n; i++) {
                 assert_true(fabs(X[i + r * n] - wanted[i + r * m]) <= 1e-11 * largest);
@@ -95,14 +95,14 @@ static inline void assert_pinned(const pinned_t *p, uint64_t seed) {
     for (sl_int i = 0; i < 2 * nb; i++) {
         full[bset[i % nb] + (i / nb) * p->n] = b[i];
     }
-    SL_CHECK(sl_pins_solve(p->P, NULL, X, n, full, n, G, k, 2, NULL));
+    SL_CHECK(sl_constraints_solve(p->P, NULL, X, n, full, n, G, k, 2, NULL));
     for (int kind = 0; kind < 3; kind++) { /* all, no b, and everywhere in x */
         if (kind == 1) {
             memset(full, 0, n * 2 * sizeof(double));
-            SL_CHECK(sl_pins_solve(p->P, NULL, X, n, full, n, G, k, 2, NULL));
+            SL_CHECK(sl_constraints_solve(p->P, NULL, X, n, full, n, G, k, 2, NULL));
         }
         SL_CHECK(sl_plan_create(&plan, p->y.S, bset, kind == 0 ? nb : 0, xset, nx, NULL, NULL));
-        SL_CHECK(sl_pins_solve(p->P, plan, x, (size_t)nx, b, (size_t)nb, G, k, 2, NULL));
+        SL_CHECK(sl_constraints_solve(p->P, plan, x, (size_t)nx, b, (size_t)nb, G, k, 2, NULL));
         for (sl_int i = 0; i < 2 * nx; i++) {
             assert_true(fabs(x[i] - X[xset[i % nx] + (i / nx) * p->n]) <= 1e-11 * largest);
         }

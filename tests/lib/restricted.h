@@ -23,7 +23,7 @@ static inline restricted_t restricted_make(gen_kind_t kind, sl_int size, int sig
     t.rows = test_ints((size_t)A->n_cols);
     t.count = subset_fill(t.rows, A->n_cols, shape, t.y.S);
     t.B = subset_matrix(A, t.rows, t.count);
-    SL_CHECK(sl_factor_restrict(&t.S, &t.G, t.y.F, A, t.rows, t.count, NULL, &t.stats));
+    SL_CHECK(sl_factor_submatrix(&t.S, &t.G, t.y.F, A, t.rows, t.count, NULL, &t.stats));
     return t;
 }
 
@@ -43,8 +43,8 @@ static inline void restricted_check(const restricted_t *t) {
     NOTHING_WRONG(check_permutation(n, v.perm, v.iperm));
     NOTHING_WRONG(check_supernodes(&v));
     NOTHING_WRONG(check_factor(t->G, &t->B.view));
-    assert_int_equal(t->stats.restriction.kept + t->stats.restriction.computed, n);
-    assert_true(t->stats.restriction.is_anew == 0 || t->stats.restriction.kept == 0);
+    assert_int_equal(t->stats.submatrix.kept + t->stats.submatrix.computed, n);
+    assert_true(t->stats.submatrix.is_anew == 0 || t->stats.submatrix.kept == 0);
     assert_int_equal(t->stats.factor.positive + t->stats.factor.negative, n);
     double *B = test_reals(2 * (size_t)n), *X = test_reals(2 * (size_t)n);
     gen_reals(B, 2 * (size_t)n, 3);

@@ -156,14 +156,14 @@ static inline void assert_same_answers(const sl_factor *F, const sl_factor *G) {
         SL_CHECK(sl_plan_solve(Q, G, Y, ld, B, ld, nrhs, NULL));
         assert_memory_equal(X, Y, 9 * ld * sizeof *X);
 #ifdef SL_WITH_ACCURACY
-        sl_status refined = sl_plan_solve_refined(P, F, X, ld, B, ld, nrhs, 2, NULL, NULL);
+        sl_status refined = sl_plan_solve_regularized(P, F, X, ld, B, ld, nrhs, 2, NULL, NULL);
         assert_true(refined == SL_OK || refined == SL_ERR_INACCURATE ||
                     refined == SL_ERR_ARGUMENT); /* not all rows in the sets */
-        SL_EXPECT(refined, sl_plan_solve_refined(Q, G, Y, ld, B, ld, nrhs, 2, NULL, NULL));
+        SL_EXPECT(refined, sl_plan_solve_regularized(Q, G, Y, ld, B, ld, nrhs, 2, NULL, NULL));
         assert_memory_equal(X, Y, 9 * ld * sizeof *X);
 #endif
         if (S != T) {
-            SL_EXPECT(SL_ERR_STATE, sl_plan_solve(P, G, Y, ld, B, ld, nrhs, NULL));
+            SL_EXPECT(SL_ERR_MISMATCH, sl_plan_solve(P, G, Y, ld, B, ld, nrhs, NULL));
         }
         sl_plan_free(P);
         sl_plan_free(Q);

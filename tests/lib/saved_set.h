@@ -135,7 +135,7 @@ static inline void assert_same_region(const sl_region *R, const sl_factor *F, co
         assert_memory_equal(X, Y, 9 * ld * sizeof *X);
     }
     if (F != G) {
-        SL_EXPECT(SL_ERR_STATE, sl_plan_solve(P, G, X, ld, B, ld, 1, NULL));
+        SL_EXPECT(SL_ERR_MISMATCH, sl_plan_solve(P, G, X, ld, B, ld, 1, NULL));
     }
     sl_plan_free(P);
     sl_plan_free(T);

@@ -239,35 +239,35 @@ WRONG(another_size) {
 
 WRONG(pinned_twice) {
     const sl_int row = 5;
-    sl_pins *P = NULL;
-    SL_CHECK(sl_pins_create(&P, w.y.F, NULL));
-    SL_CHECK(sl_pins_add(P, &row, 1, NULL));
-    const sl_status status = sl_pins_add(P, &row, 1, stats);
-    sl_pins_free(P);
+    sl_constraints *P = NULL;
+    SL_CHECK(sl_constraints_create(&P, w.y.F, NULL));
+    SL_CHECK(sl_constraints_add(P, &row, 1, NULL));
+    const sl_status status = sl_constraints_add(P, &row, 1, stats);
+    sl_constraints_free(P);
     return status;
 }
 
 WRONG(depends_on_pins) {
     const sl_int rows[] = {5, 6};
     const double ones[] = {1, 1};
-    sl_pins *P = NULL;
-    SL_CHECK(sl_pins_create(&P, w.y.F, NULL));
-    SL_CHECK(sl_pins_add(P, rows, 2, NULL));
-    const sl_status status = sl_pins_add_equality(P, rows, ones, 2, stats);
-    sl_pins_free(P);
+    sl_constraints *P = NULL;
+    SL_CHECK(sl_constraints_create(&P, w.y.F, NULL));
+    SL_CHECK(sl_constraints_add(P, rows, 2, NULL));
+    const sl_status status = sl_constraints_add_equality(P, rows, ones, 2, stats);
+    sl_constraints_free(P);
     return status;
 }
 
 WRONG(old_pins) {
     const double g = 1;
     const sl_int row = 5;
-    sl_pins *P = NULL;
+    sl_constraints *P = NULL;
     (void)stats;
-    SL_CHECK(sl_pins_create(&P, w.y.F, NULL));
-    SL_CHECK(sl_pins_add(P, &row, 1, NULL));
+    SL_CHECK(sl_constraints_create(&P, w.y.F, NULL));
+    SL_CHECK(sl_constraints_add(P, &row, 1, NULL));
     SL_CHECK(sl_factor_refactor(w.y.F, &w.y.M.view, NULL));
-    const sl_status status = sl_pins_solve(P, NULL, w.x, N, w.b, N, &g, 1, 1, NULL);
-    sl_pins_free(P);
+    const sl_status status = sl_constraints_solve(P, NULL, w.x, N, w.b, N, &g, 1, 1, NULL);
+    sl_constraints_free(P);
     return status;
 }
 
@@ -275,7 +275,8 @@ WRONG(not_in_l) {
     const sl_int row = 0, column = N - 1;
     const double delta = 1;
     factored_t path = factored_make(GEN_PATH, N, 1, 0, NULL);
-    const sl_status status = sl_factor_change(path.F, NULL, &row, &column, &delta, 1, NULL, stats);
+    const sl_status status =
+        sl_factor_change_entries(path.F, NULL, &row, &column, &delta, 1, NULL, stats);
     factored_free(&path);
     return status;
 }

@@ -63,7 +63,7 @@ static void adopted_factors_give_the_same_distances(void **state) {
         assert_true(sets[0].factor == NULL && sets[1].symbolic == NULL);
         assert_int_equal(status, damage == 0   ? SL_OK
                                  : damage == 3 ? SL_ERR_ARGUMENT
-                                               : SL_ERR_PATTERN);
+                                               : SL_ERR_MALFORMED);
         if (damage == 0) {
             heat_field f;
             assert_true(fabs(s.t - y.s.t) <= 1e-12 * y.s.t);

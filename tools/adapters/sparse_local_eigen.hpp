@@ -75,21 +75,24 @@ namespace sl {
 
 /** A set of rows for local calls: a vector of Eigen or a std::vector of integers, or all(). */
 class RowSet {
-public:
+  public:
     RowSet() : all_(false) {
     }
     template <class Derived> RowSet(const Eigen::DenseBase<Derived> &rows) : all_(false) {
         static_assert(std::numeric_limits<typename Derived::Scalar>::is_integer,
                       "a set of rows contains integers");
         for (Eigen::Index c = 0; c < rows.cols(); c++) {
-            for (Eigen::Index r = 0; r < rows.rows(); r++) add(rows.derived().coeff(r, c));
+            for (Eigen::Index r = 0; r < rows.rows(); r++)
+                add(rows.derived().coeff(r, c));
         }
     }
     template <class Integer> RowSet(const std::vector<Integer> &rows) : all_(false) {
-        for (Integer row : rows) add(row);
+        for (Integer row : rows)
+            add(row);
     }
     RowSet(std::initializer_list<int> rows) : all_(false) {
-        for (int row : rows) add(row);
+        for (int row : rows)
+            add(row);
     }
     static RowSet all() {
         RowSet every;
@@ -128,7 +131,7 @@ public:
         return real;
     }
 
-private:
+  private:
     /* A row that does not fit becomes -1, which is out of range as the row is. */
     template <class Integer> void add(Integer row) {
         const long long wide = static_cast<long long>(row);
@@ -143,7 +146,7 @@ namespace internal {
 /* The arrays of a sparse matrix of Eigen as an sl_csc: in place, or converted to arrays of its own.
  * A row-major matrix is seen as its transpose, so that its triangles change places. */
 class MatrixArrays {
-public:
+  public:
     template <class MatrixType>
     MatrixArrays(const MatrixType &A, int, double offset, double scale) : status_(SL_OK) {
         typedef typename MatrixType::Scalar Scalar;
@@ -156,9 +159,10 @@ public:
         view_.n_rows = sl_int(A.innerSize());
         view_.n_cols = sl_int(A.outerSize());
         if (A.outerIndexPtr() && A.isCompressed() && A.outerIndexPtr()[0] == 0) {
-            use(A, std::integral_constant<int, std::is_same<Index, sl_int>::value         ? 32
-                                               : std::is_same<Index, std::int64_t>::value ? 64
-                                                                                          : 0>(),
+            use(A, std::integral_constant < int,
+                std::is_same<Index, sl_int>::value         ? 32
+                : std::is_same<Index, std::int64_t>::value ? 64
+                                                           : 0 > (),
                 std::integral_constant<bool, std::is_same<Scalar, double>::value>());
         } else {
             compress(A);
@@ -174,7 +178,7 @@ public:
         return status_;
     }
 
-private:
+  private:
     /* Changes each diagonal entry d to offset + scale d, in a copy. The first entry of a repeated
      * one takes the offset. */
     void shift_diagonal(double offset, double scale) {
@@ -190,7 +194,7 @@ private:
                 is_first = false;
             }
             /* A diagonal entry that is not stored cannot be shifted. */
-            if (is_first && offset != 0) status_ = SL_ERR_PATTERN;
+            if (is_first && offset != 0) status_ = SL_ERR_MALFORMED;
         }
         x_.swap(shifted);
         if (!x_.empty()) view_.x = x_.data();
@@ -261,7 +265,7 @@ private:
 
 /* The real matrix of a complex Hermitian one, from the triangle that is read. */
 class HermitianArrays {
-public:
+  public:
     template <class MatrixType>
     HermitianArrays(const MatrixType &A, int triangle, double offset, double scale)
         : status_(SL_OK), view_(sl_csc()) {
@@ -280,7 +284,7 @@ public:
         return status_;
     }
 
-private:
+  private:
     /* A row-major matrix is seen as its transpose, whose entries are conjugate. Imaginary parts on
      * the diagonal are ignored. */
     template <class M> void copy(const M &A, int triangle, double offset, double scale) {
@@ -298,17 +302,17 @@ private:
                 }
                 const double re = double(entry.value().real()), im = double(entry.value().imag());
                 i.push_back(entry.index() >= 0 && entry.index() < A.rows() ? sl_int(entry.index())
-                                                                          : -1);
+                                                                           : -1);
                 x.push_back(is_diagonal ? (is_first ? offset : 0) + scale * re : re);
                 x.push_back(is_diagonal ? 0 : M::IsRowMajor ? -im : im);
                 is_first = is_first && !is_diagonal;
                 has_off_diagonal = has_off_diagonal || !is_diagonal;
             }
-            if (is_first && offset != 0) status_ = SL_ERR_PATTERN;
+            if (is_first && offset != 0) status_ = SL_ERR_MALFORMED;
             p.push_back(sl_int(i.size()));
         }
         /* only the other triangle is stored: what is read would be a diagonal matrix */
-        if (is_other && !has_off_diagonal) status_ = SL_ERR_PATTERN;
+        if (is_other && !has_off_diagonal) status_ = SL_ERR_MALFORMED;
         if (i.empty()) {
             i.push_back(0);
             x.push_back(0);
@@ -332,7 +336,7 @@ private:
 /* Lends one workspace to one call at a time, so that repeated calls of one thread allocate nothing.
  * A call that finds it lent works with a new one. */
 class WorkSlot {
-public:
+  public:
     WorkSlot() : kept_(nullptr) {
     }
     ~WorkSlot() {
@@ -347,14 +351,14 @@ public:
         sl_work_free(kept_.exchange(work));
     }
 
-private:
+  private:
     WorkSlot(const WorkSlot &);
     WorkSlot &operator=(const WorkSlot &);
     std::atomic<sl_work *> kept_;
 };
 
 class LentWork {
-public:
+  public:
     explicit LentWork(WorkSlot &slot) : slot_(slot), work_(slot.take()) {
     }
     ~LentWork() {
@@ -364,7 +368,7 @@ public:
         return work_;
     }
 
-private:
+  private:
     LentWork(const LentWork &);
     LentWork &operator=(const LentWork &);
     WorkSlot &slot_;
@@ -381,7 +385,7 @@ struct RegionHolder {
     std::shared_ptr<sl_factor> factor;
     sl_region *region;
 
-private:
+  private:
     RegionHolder(const RegionHolder &);
     RegionHolder &operator=(const RegionHolder &);
 };
@@ -435,7 +439,7 @@ template <class Solver> class BasicSolver;
 
 /** The region of a set of rows, from BasicSolver::region. Copies share it. Empty after an error. */
 class LocalRegion {
-public:
+  public:
     explicit operator bool() const {
         return bool(holder_);
     }
@@ -445,7 +449,7 @@ public:
         return stats.region;
     }
 
-private:
+  private:
     template <class> friend class BasicSolver;
     sl_region *get() const {
         return holder_ ? holder_->region : nullptr;
@@ -455,7 +459,7 @@ private:
 
 /** A prepared local solve, from BasicSolver::plan. Copies share it. Empty after an error. */
 class LocalPlan {
-public:
+  public:
     LocalPlan() : nb_(0), nx_(0) {
     }
     explicit operator bool() const {
@@ -474,7 +478,7 @@ public:
         return stats.plan;
     }
 
-private:
+  private:
     template <class> friend class BasicSolver;
     std::shared_ptr<sl_plan> plan_;
     Eigen::Index nb_, nx_;
@@ -485,7 +489,7 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
     typedef Eigen::SparseSolverBase<Solver> Base;
     typedef internal::SolverTraits<Solver> Traits;
 
-public:
+  public:
     typedef typename Traits::MatrixType MatrixType;
     typedef typename Traits::OrderingType OrderingType;
     typedef typename MatrixType::Scalar Scalar;
@@ -641,8 +645,7 @@ public:
         return solve_sets(bset, B.template cast<Wide>(), xset);
     }
     /** The same on a plan, whose sets are the rows of B and of the result. */
-    template <class Rhs>
-    Dense solve(const LocalPlan &plan, const Eigen::MatrixBase<Rhs> &B) const {
+    template <class Rhs> Dense solve(const LocalPlan &plan, const Eigen::MatrixBase<Rhs> &B) const {
         const Dense b = B.template cast<Wide>();
         return local(plan.nb_ == b.rows(), plan.nx_, b, [&](Dense &x, sl_work *work) {
             return sl_plan_solve(plan.plan_.get(), factor_.get(), data(x), stride(x), data(b),
@@ -697,8 +700,7 @@ public:
     /** Computes a region again from the present unit; its plans stay valid. */
     bool update(LocalRegion &region) const {
         internal::LentWork work(work_);
-        sl_status status =
-            sl_region_refactor(region.get(), factor_.get(), nullptr, work.get());
+        sl_status status = sl_region_refactor(region.get(), factor_.get(), nullptr, work.get());
         set_status(status);
         if (status == SL_OK) region.holder_->factor = factor_;
         return status == SL_OK;
@@ -785,13 +787,13 @@ public:
                      Eigen::SparseMatrixBase<Dest> &dest) const {
         typedef Eigen::SparseMatrix<typename Dest::Scalar, Eigen::ColMajor, Eigen::Index> Result;
         Result X(n_, b.cols());
-        const sl_status status = b.rows() == n_ ? solve_sparse(b.derived(), X, IsSplit<Rhs>())
-                                                : SL_ERR_ARGUMENT;
+        const sl_status status =
+            b.rows() == n_ ? solve_sparse(b.derived(), X, IsSplit<Rhs>()) : SL_ERR_ARGUMENT;
         set_status(ready_ ? ready_ : status);
         assign(dest.derived(), X, std::integral_constant<bool, Dest::ColsAtCompileTime == 1>());
     }
 
-protected:
+  protected:
     BasicSolver() {
         sl_options_init(&options_, sizeof options_);
         options_.purpose = SL_PURPOSE_ONE_FACTOR;
@@ -803,7 +805,7 @@ protected:
             options_.storage = SL_STORAGE_COMPLEX;
         }
         analyzed_with_ = options_;
-        status_.store(SL_ERR_STATE);
+        status_.store(SL_ERR_MISMATCH);
     }
 
     /* For classes that derive from Eigen's and set m_P and m_Pinv: the next factorization takes
@@ -815,7 +817,7 @@ protected:
         m_P = P;
         m_Pinv = inverse;
         report(SL_OK, A.rows());
-        ready_ = SL_ERR_STATE;
+        ready_ = SL_ERR_MISMATCH;
     }
 
     /* L: of LDLT without its unit diagonal. Computed when it is first asked for. */
@@ -836,13 +838,13 @@ protected:
         if (is_llt == is_llt_) return;
         is_llt_ = is_llt;
         forget();
-        ready_ = SL_ERR_STATE;
+        ready_ = SL_ERR_MISMATCH;
     }
 
     Permutation m_P, m_Pinv;
     VectorI m_parent; /* the elimination tree, -1 at a root */
 
-private:
+  private:
     typedef typename internal::Numbers<Scalar>::Arrays Arrays;
     enum { unit = internal::Numbers<Scalar>::unit };
     typedef std::integral_constant<bool, unit == 2> is_complex;
@@ -853,9 +855,8 @@ private:
     /* Complex right-hand sides of a real matrix. */
     template <class Rhs>
     struct IsSplit
-        : std::integral_constant<bool,
-                                 bool(Eigen::NumTraits<typename Rhs::Scalar>::IsComplex) &&
-                                     !is_complex::value> {};
+        : std::integral_constant<bool, bool(Eigen::NumTraits<typename Rhs::Scalar>::IsComplex) &&
+                                           !is_complex::value> {};
 
     void forget() {
         factor_.reset();
@@ -884,7 +885,7 @@ private:
         report(arrays.status() == SL_OK ? analyze(A, arrays.view(), pivoting_ == pivoted_always)
                                         : arrays.status(),
                A.rows());
-        if (ready_ == SL_OK) ready_ = SL_ERR_STATE;
+        if (ready_ == SL_OK) ready_ = SL_ERR_MISMATCH;
     }
     void keep_order(const Permutation &order) {
         order_.clear();
@@ -910,9 +911,8 @@ private:
     }
     /* The order of the caller in options; false: there is one, but not of a matrix of this size. */
     bool use_order(const MatrixType &A, const sl_csc &view, sl_options &options) {
-        typedef std::integral_constant<bool,
-                                       internal::is_own_order<OrderingType>::value ||
-                                           internal::is_natural_order<OrderingType>::value>
+        typedef std::integral_constant<bool, internal::is_own_order<OrderingType>::value ||
+                                                 internal::is_natural_order<OrderingType>::value>
             is_library;
         Permutation order;
         if (!has_order_ && !order_by_class(A, order, is_library())) return true;
@@ -948,7 +948,7 @@ private:
         if (options.triangle != SL_TRIANGLE_NONE && read.components == read.n &&
             sl_off(view.p[view.n_cols]) > read.nnz_a) {
             forget();
-            return SL_ERR_PATTERN;
+            return SL_ERR_MALFORMED;
         }
         has_pivots_ = with_pivots;
         analyzed_with_ = options_;
@@ -1052,7 +1052,8 @@ private:
         options.null_pivots = SL_NULL_PIVOT_SKIP;
         if (!options.mass) options.mass = ones.data();
         if (unit == 1 || options.null_vector) return;
-        for (std::size_t k = 0; k < 2 * n; k++) ones[n + k] = k % 2 == (k < n ? 0u : 1u) ? 1 : 0;
+        for (std::size_t k = 0; k < 2 * n; k++)
+            ones[n + k] = k % 2 == (k < n ? 0u : 1u) ? 1 : 0;
         options.null_vector = ones.data() + n;
         options.null_vector_count = 2;
     }
@@ -1160,17 +1161,17 @@ private:
 
     std::pair<double, double> logdet() const {
         std::pair<double, double> out(nan<double>(), nan<double>());
-        set_status(ready_        ? ready_
+        set_status(ready_      ? ready_
                    : unit == 2 ? sl_complex_logdet(factor_.get(), &out.first, &out.second)
-                                 : sl_factor_logdet(factor_.get(), &out.first, &out.second));
+                               : sl_factor_logdet(factor_.get(), &out.first, &out.second));
         return out;
     }
 
     /* b in double, without a copy if it is. */
     template <class Rhs>
-    static typename std::enable_if<std::is_same<typename Rhs::Scalar, Wide>::value,
-                                   const Rhs &>::type
-    cast(const Rhs &b) {
+    static
+        typename std::enable_if<std::is_same<typename Rhs::Scalar, Wide>::value, const Rhs &>::type
+        cast(const Rhs &b) {
         return b;
     }
     template <class Rhs>
@@ -1211,13 +1212,11 @@ private:
         internal::LentWork work(work_);
         if (B.cols() > INT32_MAX) return SL_ERR_TOO_LARGE;
         return sl_factor_solve(factor_.get(), reinterpret_cast<double *>(x),
-                               std::size_t(ldx) * unit,
-                               reinterpret_cast<const double *>(B.data()),
+                               std::size_t(ldx) * unit, reinterpret_cast<const double *>(B.data()),
                                std::size_t(stride_of(B)) * unit, sl_int(B.cols()), work.get());
     }
     /* Writes into dest itself, if its columns are contiguous and it is B or apart from B. */
-    template <class Dest>
-    sl_status solve_into(Dest &dest, const Input &B, std::true_type) const {
+    template <class Dest> sl_status solve_into(Dest &dest, const Input &B, std::true_type) const {
         const Eigen::Index ldx = stride_of(dest), ldb = stride_of(B);
         if (dest.size() > 0 && dest.innerStride() == 1 && ldx >= n_ && ldb >= n_) {
             const Wide *x = dest.data(), *b = B.data();
@@ -1230,8 +1229,7 @@ private:
         }
         return solve_into(dest, B, std::false_type());
     }
-    template <class Dest>
-    sl_status solve_into(Dest &dest, const Input &B, std::false_type) const {
+    template <class Dest> sl_status solve_into(Dest &dest, const Input &B, std::false_type) const {
         Dense x(n_, B.cols());
         if (x.size() == 0) return SL_OK;
         const sl_status status = solve_block(x.data(), n_, B);
@@ -1248,7 +1246,8 @@ private:
             sl_status of_block = SL_OK;
             const Dense x = solve_columns(B, c, width, &of_block);
             if (status == SL_OK) status = of_block;
-            for (Eigen::Index r = 0; r < width; r++) append(X, x.col(r), c + r);
+            for (Eigen::Index r = 0; r < width; r++)
+                append(X, x.col(r), c + r);
         }
         X.finalize();
         return status;
@@ -1308,7 +1307,7 @@ private:
     std::vector<sl_int> order_;
     sl_stats stats_ = sl_stats();
     Eigen::Index n_ = 0;
-    sl_status ready_ = SL_ERR_STATE; /* SL_OK, or why there are no numbers */
+    sl_status ready_ = SL_ERR_MISMATCH; /* SL_OK, or why there are no numbers */
     int analyses_ = 0;
     double shift_offset_ = 0, shift_scale_ = 1;
     mutable std::atomic<int> status_;
@@ -1353,7 +1352,7 @@ template <class MatrixType_, int UpLo_, class Ordering_>
 class SimplicialLDLT : public BasicSolver<SimplicialLDLT<MatrixType_, UpLo_, Ordering_>> {
     typedef internal::SolverTraits<SimplicialLDLT> Traits;
 
-public:
+  public:
     typedef BasicSolver<SimplicialLDLT> Base;
     typedef MatrixType_ MatrixType;
     typedef typename Traits::MatrixL MatrixL;
@@ -1378,7 +1377,7 @@ template <class MatrixType_, int UpLo_, class Ordering_>
 class SimplicialLLT : public BasicSolver<SimplicialLLT<MatrixType_, UpLo_, Ordering_>> {
     typedef internal::SolverTraits<SimplicialLLT> Traits;
 
-public:
+  public:
     typedef BasicSolver<SimplicialLLT> Base;
     typedef MatrixType_ MatrixType;
     typedef typename Traits::MatrixL MatrixL;
@@ -1400,7 +1399,7 @@ public:
 /** Either of them, as setMode says; LDLT at first. */
 template <class MatrixType_, int UpLo_, class Ordering_>
 class SimplicialCholesky : public BasicSolver<SimplicialCholesky<MatrixType_, UpLo_, Ordering_>> {
-public:
+  public:
     typedef BasicSolver<SimplicialCholesky> Base;
     typedef MatrixType_ MatrixType;
     SimplicialCholesky() {
@@ -1422,7 +1421,7 @@ public:
 /** SimplicialLLT with the template arguments of Eigen::CholmodSupernodalLLT. */
 template <class MatrixType, int UpLo = Eigen::Lower>
 class CholmodSupernodalLLT : public SimplicialLLT<MatrixType, UpLo> {
-public:
+  public:
     CholmodSupernodalLLT() {
     }
     explicit CholmodSupernodalLLT(const MatrixType &A) : SimplicialLLT<MatrixType, UpLo>(A) {
@@ -1433,7 +1432,7 @@ public:
 template <class MatrixType, int UpLo = Eigen::Lower,
           class Ordering = Eigen::AMDOrdering<typename MatrixType::StorageIndex>>
 class LocalLDLT : public SimplicialLDLT<MatrixType, UpLo, Ordering> {
-public:
+  public:
     LocalLDLT() {
         this->options().purpose = SL_PURPOSE_MANY_SOLVES;
     }
@@ -1445,7 +1444,7 @@ public:
 template <class MatrixType, int UpLo = Eigen::Lower,
           class Ordering = Eigen::AMDOrdering<typename MatrixType::StorageIndex>>
 class LocalLLT : public SimplicialLLT<MatrixType, UpLo, Ordering> {
-public:
+  public:
     LocalLLT() {
         this->options().purpose = SL_PURPOSE_MANY_SOLVES;
     }

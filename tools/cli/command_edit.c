@@ -15,7 +15,8 @@ static const options_usage usage = {
 static const options_manual manual = {
     "The system is M + t L. Edits change the weight of an edge, add springs to a patch, pin or "
     "release a vertex (its row and column are eliminated or put back), or flip an edge. "
-    "sl_factor_change takes the cheapest of rank-one updates, a refactorization of the reach and a "
+    "sl_factor_change_entries takes the cheapest of rank-one updates, a refactorization of the "
+    "reach and a "
     "complete one. A flip joins two vertices by a new entry, which is a change of pattern: where L "
     "holds the fill, rank-one updates follow, also for the edits after it; elsewhere the "
     "system is analyzed and factored anew. Positions do not change. With split, collapse or remesh "

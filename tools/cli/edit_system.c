@@ -13,7 +13,7 @@
 enum { TRIES = 200 };
 
 /* Beyond these the factor is made anew while entries are outside of the analyzed pattern, where
- * sl_factor_change cannot choose: changed entries, and the drift at which it refactors. */
+ * sl_factor_change_entries cannot choose: changed entries, and the drift at which it refactors. */
 enum { MOST_OUTSIDE = 256 };
 static const double most_drift = 1e-11;
 
@@ -302,14 +302,14 @@ edit_way edit_system_follow(edit_system *e, const entry_changes *changes) {
     const sl_csc A = edited_matrix_view(&e->A);
     const sl_int count = (sl_int)changes->count;
     if (e->A.more.count == 0) {
-        app_must(
-            sl_factor_change(e->F, &A, changes->i, changes->j, changes->x, count, e->W, &e->stats),
-            "change", &e->stats);
+        app_must(sl_factor_change_entries(e->F, &A, changes->i, changes->j, changes->x, count, e->W,
+                                          &e->stats),
+                 "change", &e->stats);
         return (edit_way)e->stats.change.method;
     }
     if (count <= MOST_OUTSIDE && e->stats.change.drift < most_drift) {
-        const sl_status status = sl_factor_change(e->F, NULL, changes->i, changes->j, changes->x,
-                                                  count, e->W, &e->stats);
+        const sl_status status = sl_factor_change_entries(e->F, NULL, changes->i, changes->j,
+                                                          changes->x, count, e->W, &e->stats);
         if (status == SL_OK) {
             return EDIT_OUTSIDE;
         }

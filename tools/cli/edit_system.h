@@ -30,7 +30,7 @@ typedef enum edit_kind {
     EDIT_ALL_KINDS
 } edit_kind;
 
-/** How the factor followed. The first four are those of sl_factor_change.
+/** How the factor followed. The first four are those of sl_factor_change_entries.
  *
  *  EDIT_OUTSIDE  by rank-one changes: entries outside of the analyzed pattern, from flips,
  *                are present where L holds the fill

@@ -46,7 +46,7 @@ void heat_factors_open(heat_solver *s, intrinsic *surface, const mesh *m, const 
     sl_status status =
         heat_solver_adopt(s, is_intrinsic ? &surface->m : m, is_intrinsic ? surface->lengths : NULL,
                           &sets[0], &sets[1]);
-    if (status == SL_ERR_PATTERN) {
+    if (status == SL_ERR_MALFORMED) {
         app_die("%s, %s: not the factors of this mesh that save --poisson writes, with the same "
                 "--laplacian",
                 heat, poisson);

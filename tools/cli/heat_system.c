@@ -79,7 +79,7 @@ void heat_system_create(heat_system *h, const mesh *m, double t, const char *lap
     const double one_and_t[2] = {1, t};
     const double *const terms[2] = {h->terms[0], h->terms[1]};
     app_stage_factor(h->stats.symbolic.flops);
-    app_must(sl_batch_factor(&h->F, 1, h->S, one_and_t, terms, 2, opt, NULL, &h->stats),
+    app_must(sl_factor_create_sums(&h->F, 1, h->S, one_and_t, terms, 2, opt, NULL, &h->stats),
              "factorization", &h->stats);
     h->t = t;
     app_progress_end();
@@ -158,11 +158,11 @@ void heat_system_factors(heat_system *h, sl_factor **factors, const double *t, s
         coefficients[2 * k + 1] = t[k];
     }
     bool again = count > 0 && factors[0] != NULL;
-    app_must(
-        again
-            ? sl_batch_refactor(factors, count, coefficients, terms, 2, &opt, NULL, &h->stats)
-            : sl_batch_factor(factors, count, h->S, coefficients, terms, 2, &opt, NULL, &h->stats),
-        "factorization", &h->stats);
+    app_must(again ? sl_factor_refactor_sums(factors, count, coefficients, terms, 2, &opt, NULL,
+                                             &h->stats)
+                   : sl_factor_create_sums(factors, count, h->S, coefficients, terms, 2, &opt, NULL,
+                                           &h->stats),
+             "factorization", &h->stats);
     free(coefficients);
 }
 

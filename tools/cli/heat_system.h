@@ -86,7 +86,7 @@ void heat_system_diagonal(const heat_system *h, double *values, const sl_int *ve
  *  factors  [in,out]  count factors: either all NULL, or all from an earlier call with this h,
  *                     which are then refactored in place. Release with sl_factor_free.
  *  t        [in]      count times, each as in heat_system_create.
- *  threads  [in]      as in sl_batch_factor.
+ *  threads  [in]      as in sl_factor_create_sums.
  */
 void heat_system_factors(heat_system *h, sl_factor **factors, const double *t, sl_int count,
                          const sl_threads *threads);

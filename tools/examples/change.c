@@ -26,7 +26,7 @@ int main(void) {
         values[A.p[at]] += 2.0;
         values[A.p[right]] += 2.0;
         values[A.p[at] + 1] -= 2.0;
-        ok(sl_factor_change(F, &changed, rows, columns, deltas, 3, NULL, &stats));
+        ok(sl_factor_change_entries(F, &changed, rows, columns, deltas, 3, NULL, &stats));
     }
     ok(sl_factor_solve(F, x, N, b, N, 1, NULL));
     printf("%d rank-one changes since the factorization\n", (int)stats.change.updates);

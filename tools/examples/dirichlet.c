@@ -1,5 +1,5 @@
 /* dirichlet.c: a harmonic map: the border of a mesh is laid on a circle, the rest follows */
-#define SL_WITH_DIRICHLET
+#define SL_WITH_FIXED
 #include "example.h"
 
 int main(void) {
@@ -9,7 +9,7 @@ int main(void) {
     static sl_int border[4 * SIDE];
     static double circle[8 * SIDE], uv[2 * N];
     double most = 0.0, middle = 0.0;
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     sl_int k;
     for (k = 0; k < SIDE - 1; k++) { /* around the border, side after side */
         border[k] = k;
@@ -21,8 +21,8 @@ int main(void) {
         circle[2 * k] = cos(6.283185307179586 * k / count);
         circle[2 * k + 1] = sin(6.283185307179586 * k / count);
     }
-    ok(sl_dirichlet_create(&D, &A, border, count, NULL, NULL, NULL));
-    ok(sl_dirichlet_solve(D, uv, SL_ROWS(2), NULL, 0, circle, SL_ROWS(2), 2, NULL));
+    ok(sl_fixed_create(&D, &A, border, count, NULL, NULL, NULL));
+    ok(sl_fixed_solve(D, uv, SL_ROWS(2), NULL, 0, circle, SL_ROWS(2), 2, NULL));
     for (k = 0; k < N; k++) { /* a harmonic function is largest on the border */
         most = fmax(most, hypot(uv[2 * k], uv[2 * k + 1]));
     }
@@ -31,8 +31,8 @@ int main(void) {
     for (k = 0; k < 2 * count; k++) {
         circle[k] *= 3.0; /* moved: no new factorization */
     }
-    ok(sl_dirichlet_solve(D, uv, SL_ROWS(2), NULL, 0, circle, SL_ROWS(2), 2, NULL));
-    sl_dirichlet_free(D);
+    ok(sl_fixed_solve(D, uv, SL_ROWS(2), NULL, 0, circle, SL_ROWS(2), 2, NULL));
+    sl_fixed_free(D);
     sl_matrix_free(M);
     return !(fabs(most - 1.0) < 1e-12 && middle < 0.1 &&
              fabs(hypot(uv[2 * border[5]], uv[2 * border[5] + 1]) - 3.0) < 1e-12);

@@ -69,7 +69,7 @@ int main(void) {
             v[0] = sqrt(step);
             v[1] = -v[0];
             sigma = k == 0 ? 1.0 : -2.0;
-            ok(sl_factor_update(F, &V, &sigma, NULL, NULL));
+            ok(sl_factor_rank_update(F, &V, &sigma, NULL, NULL));
             losses[k] = loss(F, forward, 1.0, other, unused);
         }
         ok(sl_factor_refactor(F, &A, NULL));

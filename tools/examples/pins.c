@@ -11,24 +11,24 @@ int main(void) {
     sl_options options;
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
-    sl_pins *P = NULL;
+    sl_constraints *P = NULL;
     sl_options_init(&options, sizeof options);
     options.null_pivots = SL_NULL_PIVOT_SKIP; /* without pins the Laplacian is singular */
     ok(sl_symbolic_create(&S, &A, NULL, NULL));
     ok(sl_factor_create(&F, S, &A, &options, NULL));
-    ok(sl_pins_create(&P, F, NULL));
-    ok(sl_pins_add(P, handles, 4, NULL)); /* a forward sweep each; F stays as it is */
-    ok(sl_pins_solve(P, NULL, x, N, b, N, heights, 4, 1, NULL));
+    ok(sl_constraints_create(&P, F, NULL));
+    ok(sl_constraints_add(P, handles, 4, NULL)); /* a forward sweep each; F stays as it is */
+    ok(sl_constraints_solve(P, NULL, x, N, b, N, heights, 4, 1, NULL));
     printf("three corners at 0, the middle at %g: the fourth corner at %.4f\n", x[handles[3]],
            x[N - 1]);
     heights[3] = 2.0; /* moved: the solution is twice as high */
     const double before = x[N - 1];
-    ok(sl_pins_solve(P, NULL, x, N, b, N, heights, 4, 1, NULL));
+    ok(sl_constraints_solve(P, NULL, x, N, b, N, heights, 4, 1, NULL));
     const double twice = x[N - 1];
-    ok(sl_pins_release(P, &last, 1, NULL));
-    ok(sl_pins_solve(P, NULL, x, N, b, N, heights, 4, 1, NULL));
+    ok(sl_constraints_release(P, &last, 1, NULL));
+    ok(sl_constraints_solve(P, NULL, x, N, b, N, heights, 4, 1, NULL));
     printf("moved to 2: %.4f; released: %.4f\n", twice, fabs(x[N - 1]));
-    sl_pins_free(P);
+    sl_constraints_free(P);
     sl_factor_free(F);
     sl_symbolic_free(S);
     sl_matrix_free(M);

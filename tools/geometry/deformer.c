@@ -13,8 +13,8 @@
 
 void deformer_free(deformer *d) {
     sl_plan_free(d->near);
-    sl_pins_free(d->pins);
-    sl_dirichlet_free(d->fixed);
+    sl_constraints_free(d->pins);
+    sl_fixed_free(d->fixed);
     sl_factor_free(d->F);
     sl_symbolic_free(d->S);
     sl_work_free(d->W);
@@ -123,7 +123,7 @@ static sl_status factor(deformer *d) {
         status = sl_factor_create(&d->F, d->S, &K, &opt, &d->stats);
     }
     if (status == SL_OK) {
-        status = sl_pins_create(&d->pins, d->F, NULL);
+        status = sl_constraints_create(&d->pins, d->F, NULL);
     }
     if (status == SL_OK) {
         status = sl_work_create(&d->W, NULL);
@@ -168,7 +168,7 @@ enum { MANY_PINS = 200 };
 
 /* The handles have changed. */
 static void forget_fixed(deformer *d) {
-    sl_dirichlet_free(d->fixed);
+    sl_fixed_free(d->fixed);
     d->fixed = NULL;
 }
 
@@ -202,7 +202,7 @@ sl_status deformer_hold(deformer *d, const sl_int *vertices, sl_int count) {
     }
     forget_fixed(d);
     d->anew = d->anew || d->n_pins + n_added > MANY_PINS;
-    sl_status status = d->anew ? SL_OK : sl_pins_add(d->pins, added, n_added, &d->stats);
+    sl_status status = d->anew ? SL_OK : sl_constraints_add(d->pins, added, n_added, &d->stats);
     status = is_refused(d, status) ? SL_OK : status;
     d->n_pins += status == SL_OK ? n_added : 0;
     for (sl_int k = 0; k < count; k++) {
@@ -234,7 +234,7 @@ sl_status deformer_release(deformer *d, const sl_int *vertices, sl_int count) {
     sl_status status = gone != NULL ? SL_OK : SL_ERR_MEMORY;
     forget_fixed(d);
     if (status == SL_OK && !d->anew) {
-        status = sl_pins_release(d->pins, gone, n_gone, &d->stats);
+        status = sl_constraints_release(d->pins, gone, n_gone, &d->stats);
     }
     for (sl_int k = 0; k < n_pins && status == SL_OK; k++) {
         if (d->is_held[d->held[k]] != CHANGING) {
@@ -305,7 +305,7 @@ sl_status deformer_solve(deformer *d) {
     gather_pins(d);
     sl_status status = SL_OK;
     if (!d->anew) {
-        status = sl_pins_solve(d->pins, NULL, d->U, n, d->B, n, d->G, n, 3, d->W);
+        status = sl_constraints_solve(d->pins, NULL, d->U, n, d->B, n, d->G, n, 3, d->W);
     }
     if (is_refused(d, status)) {
         status = deformer_solve_anew(d);
@@ -354,7 +354,7 @@ sl_status deformer_solve_watched(deformer *d, double *Y) {
     gather_pins(d);
     sl_status status = SL_OK;
     if (!d->anew) {
-        status = sl_pins_solve(d->pins, d->near, Y, count, d->B, 0, d->G, n, 3, d->W);
+        status = sl_constraints_solve(d->pins, d->near, Y, count, d->B, 0, d->G, n, 3, d->W);
     }
     if (is_refused(d, status)) {
         status = deformer_solve_anew(d);

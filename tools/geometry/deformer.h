@@ -10,9 +10,9 @@ typedef enum deform_method {
 } deform_method;
 
 /* The matrix K, L or L M^-1 L, is singular by a constant on each component. It is factored once,
- * with SL_NULL_PIVOT_SKIP. Vertices that are held are pins (sl_pins), which change nothing in the
- * factor; hundreds are fixed by sl_dirichlet instead. A component without held vertices keeps its
- * mean position (ARAP) or is at rest.
+ * with SL_NULL_PIVOT_SKIP. Vertices that are held are pins (sl_constraints), which change nothing
+ * in the factor; hundreds are fixed by sl_fixed instead. A component without held vertices keeps
+ * its mean position (ARAP) or is at rest.
  *
  * Unknowns are displacements: K u = b(R) - K x with the positions x at rest; b(R) - K x = 0 for
  * DEFORM_BIHARMONIC. A step of the deformation is
@@ -27,8 +27,8 @@ typedef struct deformer {
     sl_matrix *K; /* lower triangle */
     sl_symbolic *S;
     sl_factor *F;
-    sl_pins *pins;
-    sl_dirichlet *fixed; /* of deformer_solve_anew; NULL: not made for these handles yet */
+    sl_constraints *pins;
+    sl_fixed *fixed; /* of deformer_solve_anew; NULL: not made for these handles yet */
     sl_work *W;
     sl_stats stats;    /* of analysis and factorization */
     arap_surface arap; /* DEFORM_ARAP */
@@ -69,24 +69,25 @@ void deformer_free(deformer *d);
 
 /** Holds vertices where they are, all or none. Those that are held already stay so.
  *
- *  Returns  SL_OK; as sl_pins_add, with the vertex in stats.error.row; where that finds a null
- *           pivot, pins are no longer used.
- *  Cost     that of sl_pins_add; beyond 200 pins the next solve makes a factor of the other rows.
+ *  Returns  SL_OK; as sl_constraints_add, with the vertex in stats.error.row; where that finds a
+ *           null pivot, pins are no longer used.
+ *  Cost     that of sl_constraints_add; beyond 200 pins the next solve makes a factor of the other
+ *           rows.
  */
 sl_status deformer_hold(deformer *d, const sl_int *vertices, sl_int count);
 
 /** Moves a held vertex to a position, which the next solve reaches. */
 void deformer_move(deformer *d, sl_int vertex, const double position[3]);
 
-/** Releases the held ones of some vertices, all or none. Returns as sl_pins_release. */
+/** Releases the held ones of some vertices, all or none. Returns as sl_constraints_release. */
 sl_status deformer_release(deformer *d, const sl_int *vertices, sl_int count);
 
 /** Computes the best rotations for the present positions; returns the energy. 0 and no effect for
  *  DEFORM_BIHARMONIC. */
 double deformer_rotations(deformer *d);
 
-/** Computes all positions for the present rotations. Returns as sl_pins_solve; SL_ERR_NOT_FINITE:
- *  positions beyond the range of numbers, and d->Y is as before. */
+/** Computes all positions for the present rotations. Returns as sl_constraints_solve;
+ *  SL_ERR_NOT_FINITE: positions beyond the range of numbers, and d->Y is as before. */
 sl_status deformer_solve(deformer *d);
 
 /** Prepares local solves at some vertices; DEFORM_BIHARMONIC only, where the right-hand side is 0.
@@ -97,7 +98,7 @@ sl_status deformer_solve(deformer *d);
 sl_status deformer_watch(deformer *d, const sl_int *vertices, sl_int count);
 
 /** The positions of the watched vertices alone, by a local solve: Y is n_watched x 3, column-major.
- *  Returns as sl_pins_solve. */
+ *  Returns as sl_constraints_solve. */
 sl_status deformer_solve_watched(deformer *d, double *Y);
 
 /** Repeats the last deformer_solve with a new factor: analyzes and factors K without the rows that

@@ -19,7 +19,7 @@ static sl_int list_fixed(const deformer *d, sl_int *rows) {
 }
 
 /* Rows that are close to null may be regular by rounding: they are skipped where that is needed. */
-static sl_status create(sl_dirichlet **out, deformer *d, const sl_int *rows, sl_int count,
+static sl_status create(sl_fixed **out, deformer *d, const sl_int *rows, sl_int count,
                         const sl_factor *F) {
     const sl_csc K = sl_matrix_view(d->K);
     sl_options opt;
@@ -28,15 +28,15 @@ static sl_status create(sl_dirichlet **out, deformer *d, const sl_int *rows, sl_
     opt.consistency_tolerance = -1;
     sl_status status = SL_ERR_PIVOT;
     if (F != NULL) {
-        status = sl_dirichlet_create(out, &K, rows, count, F, NULL, &d->stats);
+        status = sl_fixed_create(out, &K, rows, count, F, NULL, &d->stats);
     }
     return status == SL_OK || status == SL_ERR_MEMORY
                ? status
-               : sl_dirichlet_create(out, &K, rows, count, NULL, &opt, &d->stats);
+               : sl_fixed_create(out, &K, rows, count, NULL, &opt, &d->stats);
 }
 
 /* U becomes the displacements. G: 3 n of scratch. */
-static sl_status solve(const deformer *d, const sl_dirichlet *D, const sl_int *rows, sl_int count,
+static sl_status solve(const deformer *d, const sl_fixed *D, const sl_int *rows, sl_int count,
                        double *G, double *U) {
     const size_t n = (size_t)d->n, m = (size_t)count;
     for (size_t k = 0; k < 3 * m; k++) {
@@ -45,7 +45,7 @@ static sl_status solve(const deformer *d, const sl_dirichlet *D, const sl_int *r
                : d->method == DEFORM_ARAP ? d->Y[at] - d->rest[at]
                                           : 0;
     }
-    return sl_dirichlet_solve(D, U, n, d->B, n, G, m, 3, d->W);
+    return sl_fixed_solve(D, U, n, d->B, n, G, m, 3, d->W);
 }
 
 sl_status deformer_solve_anew(deformer *d) {
@@ -69,7 +69,7 @@ sl_status deformer_compare(deformer *d, double *difference, double *seconds) {
     const size_t n = (size_t)d->n;
     double *G = (double *)malloc((6 * n + 1) * sizeof *G), *U = G + 3 * n;
     sl_int *rows = (sl_int *)malloc((n + 1) * sizeof *rows), count = 0;
-    sl_dirichlet *D = NULL;
+    sl_fixed *D = NULL;
     sl_status status = G != NULL && rows != NULL ? SL_OK : SL_ERR_MEMORY;
     *difference = *seconds = 0;
     if (status == SL_OK) {
@@ -87,7 +87,7 @@ sl_status deformer_compare(deformer *d, double *difference, double *seconds) {
         /* written so that a NaN counts */
         *difference = distance / d->diameter <= *difference ? *difference : distance / d->diameter;
     }
-    sl_dirichlet_free(D);
+    sl_fixed_free(D);
     free(G);
     free(rows);
     return status;

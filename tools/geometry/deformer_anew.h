@@ -8,7 +8,7 @@
  *  in d->fixed. Vertices of components without held ones stay where they are (ARAP) or are at rest;
  *  those in rows of null pivots are at rest.
  *
- *  Returns  SL_OK; SL_ERR_MEMORY; as sl_dirichlet_create and sl_dirichlet_solve.
+ *  Returns  SL_OK; SL_ERR_MEMORY; as sl_fixed_create and sl_fixed_solve.
  *  Cost     a restriction or a factorization after handles have changed.
  */
 sl_status deformer_solve_anew(deformer *d);

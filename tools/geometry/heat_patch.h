@@ -80,8 +80,8 @@ void heat_patch_free(heat_patch *h);
  *  solves   [in]   the largest number of local solves for d, 1 or more. With several sources and
  *                  more than 1, d is 0 at all of them, by a factor of the patch's own Laplacian,
  *                  with four solves: X is corrected by the gradient of d three times.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: the patch has regions and the time has changed;
- *           SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MISMATCH: the patch has regions and the time has
+ *           changed; SL_ERR_MEMORY.
  *  Cost     as heat_patch_create; with regions O(patch).
  */
 sl_status heat_patch_distance(heat_field *out, heat_patch *h, const sl_int *sources, sl_int count,

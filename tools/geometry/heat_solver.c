@@ -140,7 +140,7 @@ static sl_status check(heat_solver *s, check_vectors *v, const sl_csc *L) {
     sl_status status = sl_factor_solve(s->heat, v->x, n, v->b, n, 1, s->work);
     if (status == SL_OK) {
         multiply(v, L);
-        status = find_time(&s->t, v, n) ? SL_OK : SL_ERR_PATTERN;
+        status = find_time(&s->t, v, n) ? SL_OK : SL_ERR_MALFORMED;
     }
     if (status == SL_OK) {
         memcpy(v->x, v->y, n * sizeof *v->x);
@@ -151,7 +151,7 @@ static sl_status check(heat_solver *s, check_vectors *v, const sl_csc *L) {
     if (status == SL_OK) {
         multiply(v, L);
         for (size_t i = 0; i < n && status == SL_OK; i++) {
-            status = agrees(v, i, 0, 1) ? SL_OK : SL_ERR_PATTERN;
+            status = agrees(v, i, 0, 1) ? SL_OK : SL_ERR_MALFORMED;
         }
     }
     return status;
@@ -172,7 +172,7 @@ sl_status heat_solver_adopt(heat_solver *out, const mesh *m, const double *lengt
     sl_status status = out->heat != NULL && out->poisson != NULL ? SL_OK : SL_ERR_ARGUMENT;
     if (status == SL_OK && (sl_symbolic_view(out->S).n != m->n_vertices ||
                             sl_symbolic_view(out->poisson_S).n != m->n_vertices)) {
-        status = SL_ERR_PATTERN;
+        status = SL_ERR_MALFORMED;
     }
     if (status == SL_OK) {
         status = prepare(out, m, lengths);

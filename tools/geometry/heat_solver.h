@@ -64,8 +64,8 @@ sl_status heat_solver_create_intrinsic(heat_solver *out, const intrinsic *a, dou
  *
  *  lengths        [in]      of an intrinsic triangulation, whose mesh is then m; else NULL.
  *  heat, poisson  [in,out]  analysis and factor are taken out of the sets, also on error.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: a set without a factor; SL_ERR_PATTERN: the factors are not of
- *           this mesh; SL_ERR_MEMORY; as sl_factor_solve.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: a set without a factor; SL_ERR_MALFORMED: the factors are not
+ *           of this mesh; SL_ERR_MEMORY; as sl_factor_solve.
  *  Cost     O(entries of both factors).
  *  Example  tests/tools/test_heat_solver.c
  */

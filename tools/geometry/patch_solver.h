@@ -73,7 +73,7 @@ void patch_solver_free(patch_solver *s);
  *
  *  s  [in,out]  unchanged on error; if it already has a region, nothing is done.
  *  S  [in]      the analysis that s was created with.
- *  Returns  SL_OK; SL_ERR_STATE: the factor has failed; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_MISMATCH: the factor has failed; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     sl_region_create for the vertices of the patch, and both plans again.
  *  Example  tests/tools/test_patch_regions.c
  */

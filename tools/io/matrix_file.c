@@ -54,7 +54,7 @@ static bool read_matrix_market(sl_matrix **out, input *in) {
     memset(&stats, 0, sizeof stats);
     sl_status status = sl_matrix_parse(out, in->at, (size_t)(in->end - in->at), NULL, &stats);
     in->line = status != SL_OK && stats.error.line > 0 ? stats.error.line : 0;
-    if (status == SL_ERR_PATTERN) {
+    if (status == SL_ERR_MALFORMED) {
         return input_error(in,
                            "the banner says symmetric, but both (%d, %d) and (%d, %d) are entries: "
                            "one triangle is expected, or the word general",

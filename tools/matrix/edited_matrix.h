@@ -18,7 +18,7 @@ typedef struct edited_matrix {
     triplets more;  /* entries (i, j), i > j, outside of the pattern; few, each once */
 } edited_matrix;
 
-/** Changes of entries: a_ij and a_ji by delta, as sl_factor_change takes them. */
+/** Changes of entries: a_ij and a_ji by delta, as sl_factor_change_entries takes them. */
 typedef triplets entry_changes;
 
 /** Copies a matrix.

@@ -28,7 +28,7 @@ typedef struct object {
     sl_factor *factor;
     sl_work *work;
     sl_plan *plan;
-    sl_pins *pins;
+    sl_constraints *pins;
     sl_int b_rows; /* rows of right-hand sides: n, or the b-set of a plan */
     sl_int x_rows; /* rows of solutions */
     struct object *next;
@@ -38,7 +38,7 @@ static object *objects = NULL;
 static double last_id = 0;
 
 static void release(object *o) {
-    sl_pins_free(o->pins);
+    sl_constraints_free(o->pins);
     sl_plan_free(o->plan);
     sl_work_free(o->work);
     sl_factor_free(o->factor);

@@ -164,7 +164,7 @@ static sl_status update(call *c) {
     sl_matrix *indices;
     sl_csc V;
     sl_status status = matrix_of(c->in[1], &indices, &V);
-    if (status == SL_OK) status = sl_factor_update(f->factor, &V, sigma, f->work, NULL);
+    if (status == SL_OK) status = sl_factor_rank_update(f->factor, &V, sigma, f->work, NULL);
     sl_matrix_free(indices);
     return status;
 }
@@ -181,7 +181,8 @@ static sl_status change(call *c) {
     deltas = dense(c->in[4], "deltas", count, &one);
     status = matrix_of(c->in[1], &indices, &A);
     if (status == SL_OK) {
-        status = sl_factor_change(f->factor, &A, rows, columns, deltas, count, f->work, NULL);
+        status =
+            sl_factor_change_entries(f->factor, &A, rows, columns, deltas, count, f->work, NULL);
     }
     sl_matrix_free(indices);
     return status;

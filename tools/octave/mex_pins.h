@@ -10,7 +10,7 @@ static sl_status pins(call *c) {
     (void)new_output(c, 0, 1, 1);
     p = new_object(PINS);
     p->b_rows = p->x_rows = f->b_rows;
-    return keep(c, p, sl_pins_create(&p->pins, f->factor, NULL));
+    return keep(c, p, sl_constraints_create(&p->pins, f->factor, NULL));
 }
 
 /* pins_add(pins, rows) */
@@ -18,19 +18,19 @@ static sl_status pins_add(call *c) {
     object *p = find(c->in[0], PINS);
     sl_int count, *rows = rows_of(c->in[1], &count);
     if (rows == NULL) refuse("pins have a set of rows");
-    return sl_pins_add(p->pins, rows, count, NULL);
+    return sl_constraints_add(p->pins, rows, count, NULL);
 }
 
 /* pins_release(pins, numbers) */
 static sl_status pins_release(call *c) {
     object *p = find(c->in[0], PINS);
     sl_int count, *numbers = rows_of(c->in[1], &count);
-    return sl_pins_release(p->pins, numbers, count, NULL);
+    return sl_constraints_release(p->pins, numbers, count, NULL);
 }
 
 /* pins_refactor(pins): the present numbers of the factor */
 static sl_status pins_refactor(call *c) {
-    return sl_pins_refactor(find(c->in[0], PINS)->pins, NULL);
+    return sl_constraints_refactor(find(c->in[0], PINS)->pins, NULL);
 }
 
 /* X = pins_solve(factor, pins, B, G, count, plan): of count pins; plan 0: all rows */
@@ -43,8 +43,8 @@ static sl_status pins_solve(call *c) {
     const double *G = dense(c->in[3], "the values of pins", count, &sets);
     double *X = new_output(c, 0, (size_t)sides->x_rows, (size_t)nrhs);
     if (sets != nrhs) refuse("b and the values of pins have as many columns");
-    return sl_pins_solve(p->pins, q == NULL ? NULL : q->plan, X, (size_t)sides->x_rows, B,
-                         (size_t)sides->b_rows, G, (size_t)count, nrhs, f->work);
+    return sl_constraints_solve(p->pins, q == NULL ? NULL : q->plan, X, (size_t)sides->x_rows, B,
+                                (size_t)sides->b_rows, G, (size_t)count, nrhs, f->work);
 }
 
 #endif

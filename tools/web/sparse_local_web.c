@@ -226,51 +226,52 @@ sl_status web_update(sl_factor *F, sl_int n, sl_int k, const sl_int *p, const sl
                      const double *x, const double *sigma) {
     const sl_csc V = {n, k, p, i, x};
     forget();
-    return keep(sl_factor_update(F, &V, sigma, workspace(), &stats));
+    return keep(sl_factor_rank_update(F, &V, sigma, workspace(), &stats));
 }
 
 WEB_EXPORT(web_update_entries)
 sl_status web_update_entries(sl_factor *F, const sl_int *rows, const sl_int *columns,
                              const double *deltas, sl_int count) {
     forget();
-    return keep(sl_factor_change(F, NULL, rows, columns, deltas, count, workspace(), &stats));
+    return keep(
+        sl_factor_change_entries(F, NULL, rows, columns, deltas, count, workspace(), &stats));
 }
 
 /* ---- pins ---- */
 
 WEB_EXPORT(web_pins) sl_status web_pins(const sl_factor *F) {
-    sl_pins *P = NULL;
+    sl_constraints *P = NULL;
     forget();
-    const sl_status status = sl_pins_create(&P, F, NULL);
+    const sl_status status = sl_constraints_create(&P, F, NULL);
     made = P;
     return keep(status);
 }
 
 WEB_EXPORT(web_pins_add)
-sl_status web_pins_add(sl_pins *P, const sl_int *rows, sl_int count) {
+sl_status web_pins_add(sl_constraints *P, const sl_int *rows, sl_int count) {
     forget();
-    return keep(sl_pins_add(P, rows, count, &stats));
+    return keep(sl_constraints_add(P, rows, count, &stats));
 }
 
 WEB_EXPORT(web_pins_release)
-sl_status web_pins_release(sl_pins *P, const sl_int *indices, sl_int count) {
+sl_status web_pins_release(sl_constraints *P, const sl_int *indices, sl_int count) {
     forget();
-    return keep(sl_pins_release(P, indices, count, &stats));
+    return keep(sl_constraints_release(P, indices, count, &stats));
 }
 
-WEB_EXPORT(web_pins_refactor) sl_status web_pins_refactor(sl_pins *P) {
+WEB_EXPORT(web_pins_refactor) sl_status web_pins_refactor(sl_constraints *P) {
     forget();
-    return keep(sl_pins_refactor(P, &stats));
+    return keep(sl_constraints_refactor(P, &stats));
 }
 
 WEB_EXPORT(web_pins_solve)
-sl_status web_pins_solve(const sl_pins *P, const sl_plan *plan, double *X, sl_int ldx,
+sl_status web_pins_solve(const sl_constraints *P, const sl_plan *plan, double *X, sl_int ldx,
                          const double *B, sl_int ldb, const double *G, sl_int ldg, sl_int nrhs) {
     forget();
-    return keep(
-        sl_pins_solve(P, plan, X, (size_t)ldx, B, (size_t)ldb, G, (size_t)ldg, nrhs, workspace()));
+    return keep(sl_constraints_solve(P, plan, X, (size_t)ldx, B, (size_t)ldb, G, (size_t)ldg, nrhs,
+                                     workspace()));
 }
 
-WEB_EXPORT(web_pins_free) void web_pins_free(sl_pins *P) {
-    sl_pins_free(P);
+WEB_EXPORT(web_pins_free) void web_pins_free(sl_constraints *P) {
+    sl_constraints_free(P);
 }

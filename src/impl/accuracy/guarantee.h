@@ -247,10 +247,10 @@ static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
     if (F->null.count > 0 || F->type->storage != SL_STORAGE_DOUBLE || F->S->nnz_input < 0 ||
         sli_map_has_duplicates(F->S)) {
         return sli_refuse(SL_ERR_UNSUPPORTED, "SL_GUARANTEED with null pivots, L in float, "
-                                              "duplicate entries of A or sl_factor_restrict");
+                                              "duplicate entries of A or sl_factor_submatrix");
     }
     if (!sli_guarantee_fits(F, A)) {
-        return sli_refuse(SL_ERR_STATE, "A is not the matrix that F was computed from");
+        return sli_refuse(SL_ERR_MISMATCH, "A is not the matrix that F was computed from");
     }
     SLI_CLEAR(p);
     p.F = F;

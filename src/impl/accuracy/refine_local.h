@@ -1,4 +1,4 @@
-/* refine_local.h: sl_plan_solve_refined: local solves without the error of regularization */
+/* refine_local.h: sl_plan_solve_regularized: local solves without the error of regularization */
 #ifndef SLI_ACCURACY_REFINE_LOCAL_H
 #define SLI_ACCURACY_REFINE_LOCAL_H
 
@@ -188,9 +188,9 @@ static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, s
     return sli_refine_done(f->F, stats, steps, f->steps, worst);
 }
 
-SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
-                                       const double *B, size_t ldb, sl_int nrhs, sl_int steps,
-                                       sl_work *W, sl_stats *stats) {
+SL_API sl_status sl_plan_solve_regularized(const sl_plan *P, const sl_factor *F, double *X,
+                                           size_t ldx, const double *B, size_t ldb, sl_int nrhs,
+                                           sl_int steps, sl_work *W, sl_stats *stats) {
     const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
     sli_local_refinement f;
     sl_work own;

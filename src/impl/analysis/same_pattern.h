@@ -17,7 +17,7 @@ static sl_status sli_pattern_check_size(const sl_symbolic *S, const sl_csc *A, i
         return sli_refuse(SL_ERR_OTHER_PATTERN, "A has another size than the analyzed matrix");
     }
     if (sli_nnz(A) != S->nnz_input) {
-        return sli_nnz(A) < 0 ? sli_refuse(SL_ERR_PATTERN, "A.p descends")
+        return sli_nnz(A) < 0 ? sli_refuse(SL_ERR_MALFORMED, "A.p descends")
                               : sli_refuse(SL_ERR_OTHER_PATTERN, "A has more or fewer entries than "
                                                                  "the analyzed matrix");
     }

@@ -17,7 +17,7 @@ SL_API const char *sl_status_string(sl_status status) {
         return "invalid argument";
     case SL_ERR_MEMORY:
         return "out of memory";
-    case SL_ERR_PATTERN:
+    case SL_ERR_MALFORMED:
         return "malformed or unsymmetric pattern";
     case SL_ERR_PIVOT:
         return "null pivot: singular matrix, or one that needs pivoting";
@@ -31,7 +31,7 @@ SL_API const char *sl_status_string(sl_status status) {
         return "file cannot be read, parsed or written";
     case SL_ERR_ORDERING:
         return "ordering failed";
-    case SL_ERR_STATE:
+    case SL_ERR_MISMATCH:
         return "objects that do not belong together";
     case SL_ERR_INCONSISTENT:
         return "inconsistent right-hand side of a singular system";

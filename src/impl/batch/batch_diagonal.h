@@ -50,7 +50,7 @@ static sl_status sli_diagonal_batch_check(const sli_diagonal_batch *d, sl_int *a
             return status;
         }
         if (F->S != d->factors[0]->S) {
-            return sli_refuse(SL_ERR_STATE, "factors are of different analyses");
+            return sli_refuse(SL_ERR_MISMATCH, "factors are of different analyses");
         }
     }
     *at = -1;

@@ -132,10 +132,10 @@ static sl_int sli_factor_batch_create(sl_factor **out, sl_int count, const sl_sy
     return at;
 }
 
-SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symbolic *S,
-                                 const double *coefficients, const double *const *values,
-                                 sl_int terms, const sl_options *opt, sl_int *failed,
-                                 sl_stats *stats) {
+SL_API sl_status sl_factor_create_sums(sl_factor **out, sl_int count, const sl_symbolic *S,
+                                       const double *coefficients, const double *const *values,
+                                       sl_int terms, const sl_options *opt, sl_int *failed,
+                                       sl_stats *stats) {
     double started;
     sli_factor_batch f;
     sl_stats first;
@@ -199,7 +199,7 @@ static sl_status sli_factor_batch_check(sl_factor *const *factors, sl_int count,
             }
         }
         if (factors[k]->S != factors[0]->S) {
-            return sli_refuse(SL_ERR_STATE, "factors are of different analyses");
+            return sli_refuse(SL_ERR_MISMATCH, "factors are of different analyses");
         }
         status = sli_factor_may_change(factors[k]);
         if (status != SL_OK) {
@@ -221,10 +221,10 @@ static sl_status sli_factor_batch_prepare(sl_factor *const *factors, sl_int coun
     return status;
 }
 
-SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
-                                   const double *coefficients, const double *const *values,
-                                   sl_int terms, const sl_options *opt, sl_int *failed,
-                                   sl_stats *stats) {
+SL_API sl_status sl_factor_refactor_sums(sl_factor *const *factors, sl_int count,
+                                         const double *coefficients, const double *const *values,
+                                         sl_int terms, const sl_options *opt, sl_int *failed,
+                                         sl_stats *stats) {
     const sl_threads *threads = sli_threads_of(opt);
     const double started = sli_seconds();
     sli_factor_batch f;

@@ -1,4 +1,4 @@
-/* choose.h: sl_factor_change: rank-one changes, the reach of the change, or all of L */
+/* choose.h: sl_factor_change_entries: rank-one changes, the reach of the change, or all of L */
 #ifndef SLI_CHANGE_CHOOSE_H
 #define SLI_CHANGE_CHOOSE_H
 
@@ -94,8 +94,8 @@ static void sli_choose_measure(sli_change_choice *c, const sl_factor *F, double 
         for (; s != -1 && s < next && c->changed <= limit; s = S->super_parent[s]) {
             fronts++;
             c->flops_changed += sli_choose_step(c, S, s, &visits);
-            c->changed = input + SLI_CHANGE_FRONT(flop) * fronts +
-                         SLI_CHANGE_VISIT(flop) * visits + flop * c->flops_changed;
+            c->changed = input + SLI_CHANGE_FRONT(flop) * fronts + SLI_CHANGE_VISIT(flop) * visits +
+                         flop * c->flops_changed;
         }
     }
 }
@@ -286,9 +286,9 @@ static sl_status sli_choose_cheapest(sli_rank *q, const sl_csc *A, sl_work *W, d
     return status;
 }
 
-SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,
-                                  const sl_int *columns, const double *deltas, sl_int count,
-                                  sl_work *W, sl_stats *stats) {
+SL_API sl_status sl_factor_change_entries(sl_factor *F, const sl_csc *A, const sl_int *rows,
+                                          const sl_int *columns, const double *deltas, sl_int count,
+                                          sl_work *W, sl_stats *stats) {
     const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
     sli_rank q;
     sl_status status;

@@ -23,7 +23,7 @@ static sl_status sli_edit_arguments(const sl_symbolic *S, const sl_csc *A, const
     if (status == SL_OK && (S->is_pivoted || S->nnz_input < 0)) {
         status = sli_refuse(SL_ERR_UNSUPPORTED, S->is_pivoted
                                                     ? "an analysis of sl_symbolic_create_pivoted"
-                                                    : "an analysis of sl_factor_restrict");
+                                                    : "an analysis of sl_factor_submatrix");
     }
     return status == SL_OK ? sli_pattern_check(S, A, 0) : status;
 }

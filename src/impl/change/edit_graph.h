@@ -3,7 +3,7 @@
 #define SLI_CHANGE_EDIT_GRAPH_H
 
 #include "edit_order.h"
-#include "restrict_symbolic.h"
+#include "submatrix_symbolic.h"
 
 /* As in a restriction, a kept subtree is a clique of the rows below its root, which are all fresh:
  * here all subtrees without a fresh supernode are kept. Fresh columns are numbered by their

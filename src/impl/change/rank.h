@@ -1,4 +1,5 @@
-/* rank.h: sl_factor_update: passes of a rank-k change, their growth, the log that undoes them */
+/* rank.h: sl_factor_rank_update: passes of a rank-k change, their growth, the log that undoes them
+ * */
 #ifndef SLI_CHANGE_RANK_H
 #define SLI_CHANGE_RANK_H
 
@@ -306,8 +307,8 @@ static sl_status sli_rank_apply(sli_rank *q, const sli_stage *stages, int count,
     return status;
 }
 
-SL_API sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *sigma, sl_work *W,
-                                  sl_stats *stats) {
+SL_API sl_status sl_factor_rank_update(sl_factor *F, const sl_csc *V, const double *sigma,
+                                       sl_work *W, sl_stats *stats) {
     const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
     sli_rank q;
     sl_status status;

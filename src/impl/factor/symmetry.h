@@ -48,7 +48,7 @@ SLI_COLD static sl_status sli_symmetry_report(const sl_csc *A, sl_int r, sl_stat
         }
     }
     return column == -1 ? SL_OK
-                        : sli_fail_at(stats, SL_ERR_PATTERN, r, column, value,
+                        : sli_fail_at(stats, SL_ERR_MALFORMED, r, column, value,
                                       "the values of the two triangles differ; options.triangle "
                                       "chooses one");
 }

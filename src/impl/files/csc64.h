@@ -15,11 +15,11 @@ static sl_status sli_csc64_check(const sl_csc64 *A, sl_stats *stats) {
         return status;
     }
     if (A->p[0] != 0) {
-        return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0, "A.p[0] is not 0");
+        return sli_fail_at(stats, SL_ERR_MALFORMED, -1, 0, 0.0, "A.p[0] is not 0");
     }
     for (j = 0; j < A->n_cols; j++) {
         if (A->p[j + 1] < A->p[j]) {
-            return sli_fail_at(stats, SL_ERR_PATTERN, -1, (sl_int)j, 0.0, "A.p descends");
+            return sli_fail_at(stats, SL_ERR_MALFORMED, -1, (sl_int)j, 0.0, "A.p descends");
         }
     }
     if (A->p[A->n_cols] > INT32_MAX) {
@@ -38,7 +38,7 @@ static sl_status sli_csc64_copy(const sl_csc64 *A, sl_matrix *M, sl_stats *stats
             const int64_t i = A->i[p];
             if (i < 0 || i >= A->n_rows) {
                 const sl_int row = i < INT32_MIN || i > INT32_MAX ? -1 : (sl_int)i;
-                return sli_fail_at(stats, SL_ERR_PATTERN, row, j, 0.0,
+                return sli_fail_at(stats, SL_ERR_MALFORMED, row, j, 0.0,
                                    "a row of A is out of range; rows count from 0");
             }
             M->i[p] = (sl_int)i;

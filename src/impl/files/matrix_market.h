@@ -140,7 +140,7 @@ static sl_status sli_check_mirrored(const sl_matrix *M, sli_reader *r) {
                 r->what = "both triangles of a symmetric matrix";
                 r->twice[0] = i;
                 r->twice[1] = j;
-                return sli_refuse(SL_ERR_PATTERN, r->what);
+                return sli_refuse(SL_ERR_MALFORMED, r->what);
             }
         }
     }
@@ -226,7 +226,7 @@ static sl_status sli_read_matrix(sl_matrix **out, sli_reader *r, const sl_alloca
     sl_status status;
     sli_find_point(r->point);
     status = sli_parse(out, r, a);
-    if (status == SL_ERR_PATTERN) { /* not at the line that was read last */
+    if (status == SL_ERR_MALFORMED) { /* not at the line that was read last */
         (void)sli_fail_at(stats, status, r->twice[0], r->twice[1], 0.0, r->what);
     } else if (status != SL_OK) {
         if (r->what != NULL) {

@@ -256,7 +256,7 @@ SL_API sl_status sl_region_refactor(sl_region *R, const sl_factor *F, const sl_s
                                     sl_work *W) {
     sl_status status = sli_argument(R == NULL ? "R is NULL" : F == NULL ? "F is NULL" : NULL);
     if (status == SL_OK && F->S != R->S) {
-        status = sli_refuse(SL_ERR_STATE, "R and F are of different analyses");
+        status = sli_refuse(SL_ERR_MISMATCH, "R and F are of different analyses");
     }
     if (status == SL_OK && R->is_immutable) {
         status = sli_refuse_mapped();

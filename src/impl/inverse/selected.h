@@ -300,7 +300,7 @@ SL_API sl_status sl_selected_refactor(sl_selected *Z, const sl_factor *F, sl_wor
     sl_status status = sli_argument(Z == NULL ? "Z is NULL" : F == NULL ? "F is NULL" : NULL);
     status = status == SL_OK ? sli_factor_has_numbers(F) : status;
     if (status == SL_OK && F->S != Z->traversal.S) {
-        status = sli_refuse(SL_ERR_STATE, "Z and F are of different analyses");
+        status = sli_refuse(SL_ERR_MISMATCH, "Z and F are of different analyses");
     }
     if (status == SL_OK && Z->is_immutable) {
         status = sli_refuse_mapped();

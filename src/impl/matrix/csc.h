@@ -45,11 +45,11 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
         return sli_report(stats, status);
     }
     if (A->p[0] != 0) {
-        return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0, "A.p[0] is not 0");
+        return sli_fail_at(stats, SL_ERR_MALFORMED, -1, 0, 0.0, "A.p[0] is not 0");
     }
     for (j = 0; j < A->n_cols; j++) {
         if (A->p[j + 1] < A->p[j]) {
-            return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0, "A.p descends");
+            return sli_fail_at(stats, SL_ERR_MALFORMED, -1, j, 0.0, "A.p descends");
         }
     }
     status = sli_argument(sli_nnz(A) > 0 && A->i == NULL ? "A.i is NULL" : NULL);
@@ -62,7 +62,7 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
     for (j = 0; beyond; j++) {
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
             if (A->i[p] < 0 || A->i[p] >= A->n_rows) {
-                return sli_fail_at(stats, SL_ERR_PATTERN, A->i[p], j, 0.0,
+                return sli_fail_at(stats, SL_ERR_MALFORMED, A->i[p], j, 0.0,
                                    "a row of A is out of range; rows count from 0");
             }
         }

@@ -16,7 +16,7 @@ static sl_status sli_csc_check_symmetry(const sl_csc *A, const sl_csc *T, sl_int
         }
         for (p = T->p[j]; p < T->p[j + 1]; p++) {
             if (mark[T->i[p]] != j + 1) {
-                return sli_fail_at(stats, SL_ERR_PATTERN, j, T->i[p], 0.0,
+                return sli_fail_at(stats, SL_ERR_MALFORMED, j, T->i[p], 0.0,
                                    "both triangles are stored, and this entry in one of them only");
             }
         }

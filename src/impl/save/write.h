@@ -176,15 +176,16 @@ static sl_status sli_save_check(const sl_saved_set *set) {
         status = sli_argument(set->regions[k] == NULL ? "a region is NULL" : NULL);
     }
     if (status == SL_OK && S->is_partial) {
-        status = sli_refuse(SL_ERR_STATE, "an analysis of sl_factor_restrict, or from a file of a "
-                                          "newer version");
+        status =
+            sli_refuse(SL_ERR_MISMATCH, "an analysis of sl_factor_submatrix, or from a file of a "
+                                        "newer version");
     }
     status = status == SL_OK && F != NULL ? sli_factor_has_numbers(F) : status;
     if (status != SL_OK) {
         return status;
     }
     if ((F != NULL && F->S != S) || (Z != NULL && Z->traversal.S != S)) {
-        return sli_refuse(SL_ERR_STATE, "the set has objects of different analyses");
+        return sli_refuse(SL_ERR_MISMATCH, "the set has objects of different analyses");
     }
     if (Z != NULL && F != NULL && !sli_numbers_are_of(&Z->numbers, F)) {
         return sli_refuse(SL_ERR_STALE, "the selected inverse is not of the present factor");
@@ -192,7 +193,7 @@ static sl_status sli_save_check(const sl_saved_set *set) {
     for (k = 0; k < set->n_regions; k++) {
         const sl_region *R = set->regions[k];
         if (R->S != S) {
-            return sli_refuse(SL_ERR_STATE, "the set has objects of different analyses");
+            return sli_refuse(SL_ERR_MISMATCH, "the set has objects of different analyses");
         }
         if (!sli_region_fits(R, F)) {
             return sli_refuse(SL_ERR_STALE, "a region is not of the present factor");

@@ -58,7 +58,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
                  : status;
     status = status == SL_OK ? sli_check_sets(bset, nb, xset, nx) : status;
     if (status == SL_OK && ending != NULL && !ending->calls->belongs(ending, S)) {
-        status = sli_refuse(SL_ERR_STATE, "options.region is a region of another analysis");
+        status = sli_refuse(SL_ERR_MISMATCH, "options.region is a region of another analysis");
     }
     if (status != SL_OK) {
         return sli_report(stats, status);

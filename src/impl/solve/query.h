@@ -74,7 +74,7 @@ SLI_INLINE int sli_query_fits(const sli_query *q, const sl_factor *F) {
 }
 
 SLI_COLD static sl_status sli_query_refuse_analysis(void) {
-    return sli_refuse(SL_ERR_STATE, "the plan is of another analysis than F");
+    return sli_refuse(SL_ERR_MISMATCH, "the plan is of another analysis than F");
 }
 
 /* The same as a status with its reason. */

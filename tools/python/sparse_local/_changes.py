@@ -54,7 +54,7 @@ class Changes:
         i, j, delta = _entries(rows, columns, deltas)
         stats = Stats()
         self._nulls = None
-        self._checked(self._lib.sl_factor_change(self._factor.pointer, matrix.reference(),
+        self._checked(self._lib.sl_factor_change_entries(self._factor.pointer, matrix.reference(),
                                                  arrays.address(i), arrays.address(j),
                                                  arrays.address(delta), i.size, self._work(),
                                                  ctypes.byref(stats)), stats)
@@ -79,7 +79,7 @@ class Changes:
         if sigma is not None:
             sigma = arrays.vector(sigma, matrix.csc.n_cols, "sigma")
         self._nulls = None
-        self._checked(self._lib.sl_factor_update(self._pointer, matrix.reference(),
+        self._checked(self._lib.sl_factor_rank_update(self._pointer, matrix.reference(),
                                                  None if sigma is None else arrays.address(sigma),
                                                  self._work(), ctypes.byref(stats)), stats)
         self.changed = as_dict(stats.change)
@@ -94,7 +94,7 @@ class Changes:
         i, j, delta = _entries(rows, columns, deltas)
         stats = Stats()
         self._nulls = None
-        self._checked(self._lib.sl_factor_change(
+        self._checked(self._lib.sl_factor_change_entries(
             self._pointer, None, arrays.address(i), arrays.address(j), arrays.address(delta),
             i.size, self._work(), ctypes.byref(stats)), stats)
         self.changed = as_dict(stats.change)
@@ -118,7 +118,7 @@ class Changes:
             raise ArgumentError("a set of rows is needed")
         matrix, stats = self.analysis._matrix(A), Stats()
         symbolic, factor = ctypes.c_void_p(), ctypes.c_void_p()
-        check(lib.sl_factor_restrict(ctypes.byref(symbolic), ctypes.byref(factor), self._pointer,
+        check(lib.sl_factor_submatrix(ctypes.byref(symbolic), ctypes.byref(factor), self._pointer,
                                      matrix.reference(), address, count, None,
                                      ctypes.byref(stats)), stats, self._kind.width)
         analysis = Analysis._of(symbolic.value, None, self._kind)

@@ -12,7 +12,7 @@ from ._threads import calls
 from ._works import Works
 
 _METHODS = ("submatrix", "restriction", "pins")
-_PINS = 2  # SL_DIRICHLET_PINS
+_PINS = 2  # SL_FIXED_PINS
 
 
 class Dirichlet:
@@ -47,16 +47,16 @@ class Dirichlet:
         both.options.definite = 1 if definite else 0
         self._lib = calls(options.get("threads"))
         pointer, stats = ctypes.c_void_p(), Stats()
-        check(self._lib.sl_dirichlet_create(
+        check(self._lib.sl_fixed_create(
             ctypes.byref(pointer), matrix.reference(), address, count,
             None if factor is None else factor._pointer, ctypes.byref(both.options),
             ctypes.byref(stats)), stats, self._kind.width)
-        self._method = stats.dirichlet.method
+        self._method = stats.fixed.method
         self._factor = factor if self._method == _PINS else None
         self._dirichlet = Handle("dirichlet", pointer.value,
                                  *(() if factor is None else (factor._factor, factor._symbolic)))
         self._works = Works(options.get("threads"))
-        self.n, self.stats = matrix.n, as_dict(stats.dirichlet)
+        self.n, self.stats = matrix.n, as_dict(stats.fixed)
         self._count = count // self._kind.width
 
     def _checked(self, A):
@@ -73,7 +73,7 @@ class Dirichlet:
     @property
     def free(self):
         """The rows that are not fixed, ascending."""
-        view, width = lib.sl_dirichlet_view(self._dirichlet.pointer), self._kind.width
+        view, width = lib.sl_fixed_view(self._dirichlet.pointer), self._kind.width
         if not view.n_free:
             return np.zeros(0, dtype=np.int32)
         rows = np.ctypeslib.as_array(ctypes.cast(view.free_rows, ctypes.POINTER(ctypes.c_int32)),
@@ -92,9 +92,9 @@ class Dirichlet:
         if matrix.kind() is not self._kind:
             raise TypeError("both matrices are real, or both complex")
         stats = Stats()
-        check(self._lib.sl_dirichlet_refactor(self._dirichlet.pointer, matrix.reference(),
+        check(self._lib.sl_fixed_refactor(self._dirichlet.pointer, matrix.reference(),
                                               ctypes.byref(stats)), stats, self._kind.width)
-        self._method, self.stats = stats.dirichlet.method, as_dict(stats.dirichlet)
+        self._method, self.stats = stats.fixed.method, as_dict(stats.fixed)
         if self._method != _PINS:
             self._factor = None
         return self
@@ -125,7 +125,7 @@ class Dirichlet:
             arrays.check_finite(B, "the right-hand side")
             B = np.require(B, held.X.dtype, ["C" if held.is_by_rows() else "F", "A"])
             right = arrays.address(B)
-        check(self._lib.sl_dirichlet_solve(self._dirichlet.pointer, X, ldx, right, ldb, G, ldg,
+        check(self._lib.sl_fixed_solve(self._dirichlet.pointer, X, ldx, right, ldb, G, ldg,
                                            count, self._works.pointer()))
         return held.X
 

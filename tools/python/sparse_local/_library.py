@@ -123,8 +123,8 @@ def _load():
     lib.sl_matrix_view.restype = Csc
     lib.sl_symbolic_view.argtypes = [PTR]
     lib.sl_symbolic_view.restype = SymbolicArrays
-    lib.sl_dirichlet_view.argtypes = [PTR]
-    lib.sl_dirichlet_view.restype = DirichletArrays
+    lib.sl_fixed_view.argtypes = [PTR]
+    lib.sl_fixed_view.restype = DirichletArrays
     lib.sl_factor_view.argtypes = [PTR]
     lib.sl_factor_view.restype = FactorArrays
     for name in ("symbolic_stats", "factor_stats", "plan_stats", "region_stats",

@@ -23,7 +23,7 @@ class Pins:
 
     def __init__(self, factor, rows=()):
         pointer = ctypes.c_void_p()
-        check(lib.sl_pins_create(ctypes.byref(pointer), factor._pointer, None))
+        check(lib.sl_constraints_create(ctypes.byref(pointer), factor._pointer, None))
         self._factor, self._lib = factor, factor._lib
         self._pins = Handle("pins", pointer.value, factor._factor, factor._symbolic)
         self._count = 0
@@ -37,7 +37,7 @@ class Pins:
     def _done(self, status, stats, count):
         check(status, stats, self._factor._kind.width)
         self._count = count
-        self.stats = as_dict(stats.pins)
+        self.stats = as_dict(stats.constraints)
         return self
 
     def add(self, rows):
@@ -47,7 +47,7 @@ class Pins:
             raise ArgumentError("a set of rows is needed")
         stats, width = Stats(), self._factor._kind.width
         self._factor._pointer
-        return self._done(self._lib.sl_pins_add(
+        return self._done(self._lib.sl_constraints_add(
             self._pins.pointer, address, count, ctypes.byref(stats)), stats, self._count + count //
             width)
 
@@ -60,7 +60,7 @@ class Pins:
             raise ArgumentError("an equality needs rows")
         values, stats = arrays.vector(coefficients, count, "coefficients"), Stats()
         self._factor._pointer
-        return self._done(self._lib.sl_pins_add_equality(
+        return self._done(self._lib.sl_constraints_add_equality(
             self._pins.pointer, address, arrays.address(values), count, ctypes.byref(stats)),
                           stats, self._count + 1)
 
@@ -74,7 +74,7 @@ class Pins:
         self._factor._pointer  # refuses a failed or closed factor
         if not count:
             return self
-        return self._done(self._lib.sl_pins_release(self._pins.pointer, address, count,
+        return self._done(self._lib.sl_constraints_release(self._pins.pointer, address, count,
                                                     ctypes.byref(stats)),
                           stats, self._count - count // width)
 
@@ -82,7 +82,8 @@ class Pins:
         """Takes the present numbers of the factor, after it has changed."""
         self._factor._pointer
         stats = Stats()
-        return self._done(self._lib.sl_pins_refactor(self._pins.pointer, ctypes.byref(stats)),
+        return self._done(self._lib.sl_constraints_refactor(self._pins.pointer,
+                                                            ctypes.byref(stats)),
                           stats, self._count)
 
     def solve(self, B, values, plan=None):
@@ -111,7 +112,7 @@ class Pins:
         dense = kind.dense(np.asfortranarray(B), n_b, n_x)
         right = kind.dense(np.asfortranarray(held), self._count, self._count)
         out = np.empty((max(n_x * width, 1), dense.count), order="F")
-        check(self._lib.sl_pins_solve(
+        check(self._lib.sl_constraints_solve(
             self._pins.pointer, None if plan is None else plan._plan.pointer, arrays.address(out),
             out.shape[0], arrays.address(dense.B), dense.ldb, arrays.address(right.B), right.ldb,
             dense.count, self._solving()))

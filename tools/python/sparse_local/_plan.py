@@ -131,9 +131,10 @@ class Plan:
         b = dense.right()
         out = np.empty((max(self.nx * width, 1), dense.count), order="F")
         factor, stats = self._factor, Stats()
-        check(lib.sl_plan_solve_refined(self._plan.pointer, factor._pointer, arrays.address(out),
-                                        out.shape[0], arrays.address(b), max(self.nb * width, 1),
-                                        dense.count, steps, factor._work(), ctypes.byref(stats)),
+        check(lib.sl_plan_solve_regularized(self._plan.pointer, factor._pointer,
+                                            arrays.address(out), out.shape[0], arrays.address(b),
+                                            max(self.nb * width, 1), dense.count, steps,
+                                            factor._work(), ctypes.byref(stats)),
               stats, width)
         return dense.shaped(out[:self.nx * width]), stats.refine.backward_error
 

@@ -95,7 +95,7 @@ class Sum:
         out = (ctypes.c_void_p * max(len(c), 1))()
         failed, stats = ctypes.c_int32(), Stats()
         ours = calls(numbers.get("threads"))
-        status = ours.sl_batch_factor(out, len(c), self.analysis._symbolic.pointer,
+        status = ours.sl_factor_create_sums(out, len(c), self.analysis._symbolic.pointer,
                                       arrays.address(c), self._pointers(), len(self._values),
                                       ctypes.byref(chosen.options), ctypes.byref(failed),
                                       ctypes.byref(stats))
@@ -127,9 +127,10 @@ class Sum:
                 raise ArgumentError("a factor of another sum")
             F._nulls = None
         ours = calls(self._numbers.get("threads"))
-        status = ours.sl_batch_refactor(handles, len(many), arrays.address(c), self._pointers(),
-                                        len(self._values), ctypes.byref(options),
-                                        ctypes.byref(failed), ctypes.byref(stats))
+        status = ours.sl_factor_refactor_sums(handles, len(many), arrays.address(c),
+                                              self._pointers(), len(self._values),
+                                              ctypes.byref(options), ctypes.byref(failed),
+                                              ctypes.byref(stats))
         for F in many:
             F._refused = None
         _checked(status, stats, failed.value)

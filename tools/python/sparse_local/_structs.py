@@ -126,7 +126,7 @@ class FactorArrays(ctypes.Structure):
 
 
 class DirichletArrays(ctypes.Structure):
-    """sl_dirichlet_arrays"""
+    """sl_fixed_arrays"""
     _fields_ = [("n_free", INT), ("n_fixed", INT), ("free_rows", PTR), ("fixed_rows", PTR),
                 ("symbolic", PTR), ("factor", PTR), ("matrix", Csc), ("reserved", PTR * 2)]
 

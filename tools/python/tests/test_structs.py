@@ -25,7 +25,7 @@ def test_structs_are_those_of_the_header(tmp_path, name):
               "SavedSet": "sl_saved_set", "SymbolicArrays": "sl_symbolic_arrays",
               "PseudoInverse": "sl_pseudo_inverse", "FactorArrays": "sl_factor_arrays",
               "Hermitian": "sl_hermitian", "Request": "sl_request",
-              "DirichletArrays": "sl_dirichlet_arrays"}[name]
+              "DirichletArrays": "sl_fixed_arrays"}[name]
     ours = dict(leaves(getattr(_structs, name)))
     with open(os.path.join(HEADER, "sparse_local.h")) as file:
         theirs = c_members(file.read(), struct)

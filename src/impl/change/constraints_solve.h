@@ -1,12 +1,12 @@
-/* pins_solve.h: sl_pins_solve: solves with rows held */
-#ifndef SLI_CHANGE_PINS_SOLVE_H
-#define SLI_CHANGE_PINS_SOLVE_H
+/* constraints_solve.h: sl_constraints_solve: solves with rows held */
+#ifndef SLI_CHANGE_CONSTRAINTS_SOLVE_H
+#define SLI_CHANGE_CONSTRAINTS_SOLVE_H
 
-#include "pins_balance.h"
+#include "constraints_balance.h"
 
 /* A solve in progress. */
-typedef struct sli_pins_solve {
-    const sl_pins *P;
+typedef struct sli_constraints_solve {
+    const sl_constraints *P;
     const sli_query *q;
     sli_rhs rhs;     /* the current block of up to 8 right-hand sides */
     const double *G; /* its n_pins x rhs.nrhs, column-major: C' x */
@@ -16,23 +16,24 @@ typedef struct sli_pins_solve {
     double *largest;       /* steps of the backward reach x lanes: |x| */
     double *forces;        /* steps of the forward reach x lanes: |b| */
     double *f;             /* n_pins x lanes: K f, then f */
-    sli_pins_nulls nulls;
-} sli_pins_solve;
+    sli_constraints_nulls nulls;
+} sli_constraints_solve;
 
-static void sli_pins_layout(sli_pins_solve *w, sli_block *b, sl_int nrhs) {
-    const sl_pins *P = w->P;
+static void sli_constraints_layout(sli_constraints_solve *w, sli_block *b, sl_int nrhs) {
+    const sl_constraints *P = w->P;
     const sli_query *q = w->q;
     const sl_int lanes = (sl_int)1 << sli_lanes_kind(sli_min(nrhs, 8));
     w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs, 8), 1);
     w->largest = SLI_TAKE(b, double, (uint64_t)q->backward.count *(uint64_t)lanes);
     w->forces = SLI_TAKE(b, double, (uint64_t)q->forward.count *(uint64_t)lanes);
     w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->n_pins);
-    sli_pins_nulls_layout(&w->nulls, b, P);
+    sli_constraints_nulls_layout(&w->nulls, b, P);
 }
 
 /* Clears b in pinned rows, where it changes nothing but the multiplier. So x is 0, and no rounding
  * of 0, where b is nonzero in pinned rows only. */
-static void sli_pins_clear_rows(const sl_pins *P, const sli_reach *R, double *b, sl_int lanes) {
+static void sli_constraints_clear_rows(const sl_constraints *P, const sli_reach *R, double *b,
+                                       sl_int lanes) {
     sl_int p, r;
     for (p = 0; p < P->n_pins; p++) {
         const sli_pin *pin = P->pins[p];
@@ -45,8 +46,8 @@ static void sli_pins_clear_rows(const sl_pins *P, const sli_reach *R, double *b,
 }
 
 /* f := K f = g - C' A^-1 b, where y = L^-1 P b. */
-static void sli_pins_load(const sli_pins_solve *w, const double *y) {
-    const sl_pins *P = w->P;
+static void sli_constraints_load(const sli_constraints_solve *w, const double *y) {
+    const sl_constraints *P = w->P;
     const sl_int lanes = w->lanes, nrhs = w->rhs.nrhs;
     sl_int p, r, k;
     for (p = 0; p < P->n_pins; p++) {
@@ -68,10 +69,11 @@ static void sli_pins_load(const sli_pins_solve *w, const double *y) {
 /* Beyond this error of C' x = g, relative to x and g, digits are lost: the solution without pins is
  * much larger than x. Where g is 0, x may be 0 and its rounding is not: an error of this part of
  * b / max |a| changes A x by no more than this part of b. */
-#define SLI_PINS_LOST 1e-8
+#define SLI_CONSTRAINTS_LOST 1e-8
 
 /* largest := the largest |x| or |b| of the tree of each step. */
-static void sli_pins_largest(const sli_reach *R, const double *x, double *largest, sl_int lanes) {
+static void sli_constraints_largest(const sli_reach *R, const double *x, double *largest,
+                                    sl_int lanes) {
     double most[SLI_TILE] = {0.0};
     sl_int s, k, r, first = 0;
     for (s = 0; s < R->count; s++) {
@@ -93,7 +95,7 @@ static void sli_pins_largest(const sli_reach *R, const double *x, double *larges
 
 /* What is small of right-hand side r in the tree of column k: b / max |a|. Rank-one changes change
  * pivot_max, and not entry_max. */
-SLI_COLD static double sli_pins_least(const sli_pins_solve *w, sl_int k, sl_int r) {
+SLI_COLD static double sli_constraints_least(const sli_constraints_solve *w, sl_int k, sl_int r) {
     const sl_symbolic *S = w->P->F->S;
     const sl_factor_info *info = &w->P->F->stats.factor;
     const double largest = fmax(info->entry_max, info->pivot_max);
@@ -108,8 +110,8 @@ SLI_COLD static double sli_pins_least(const sli_pins_solve *w, sl_int k, sl_int 
 }
 
 /* Is C' x = g, for the equalities whose rows are all in the vector? */
-static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
-    const sl_pins *P = w->P;
+static int sli_constraints_hold(const sli_constraints_solve *w, const double *x) {
+    const sl_constraints *P = w->P;
     const sli_reach *R = &w->q->backward;
     const sl_int lanes = w->lanes;
     sl_int p, r, k;
@@ -129,9 +131,9 @@ static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
                     weight += fabs(pin->values[k]);
                 }
             }
-            if (s != -1 && fabs(sum) > SLI_PINS_LOST * (size + fabs(g)) &&
-                (g != 0.0 ||
-                 fabs(sum) > SLI_PINS_LOST * weight * sli_pins_least(w, R->steps[s].column, r))) {
+            if (s != -1 && fabs(sum) > SLI_CONSTRAINTS_LOST * (size + fabs(g)) &&
+                (g != 0.0 || fabs(sum) > SLI_CONSTRAINTS_LOST * weight *
+                                             sli_constraints_least(w, R->steps[s].column, r))) {
                 return 0;
             }
         }
@@ -141,37 +143,38 @@ static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
 
 /* y := L^-1 P b for the block, and f := K f. Returns 0 if b is inconsistent. norms := of b, if
  * there are null pivots. */
-static int sli_pins_forward(const sli_pins_solve *w, const sli_vectors *v, double *norms) {
-    const sl_pins *P = w->P;
+static int sli_constraints_forward(const sli_constraints_solve *w, const sli_vectors *v,
+                                   double *norms) {
+    const sl_constraints *P = w->P;
     const sl_factor *F = P->F;
     const sli_reach *R = &w->q->forward;
     const sli_packed b = sli_packed_of(R, v->y, w->lanes);
     sli_pack(F, w->q, v->y, &w->rhs);
-    sli_pins_clear_rows(P, R, v->y, w->lanes);
+    sli_constraints_clear_rows(P, R, v->y, w->lanes);
     if (P->n_pins > 0) {
-        sli_pins_largest(R, v->y, w->forces, w->lanes);
+        sli_constraints_largest(R, v->y, w->forces, w->lanes);
     }
     if (F->null.count > 0) {
         sli_norms(&b, norms);
     }
-    if (!sli_pins_defects(P, &w->nulls, &b, norms)) {
+    if (!sli_constraints_defects(P, &w->nulls, &b, norms)) {
         return 0;
     }
     sli_sweep_forward(F, w->q, v, w->rhs.nrhs);
-    if (!sli_pins_clear(P, R, v->y, w->lanes, norms)) {
+    if (!sli_constraints_clear(P, R, v->y, w->lanes, norms)) {
         return 0;
     }
-    sli_pins_load(w, v->y);
+    sli_constraints_load(w, v->y);
     return 1;
 }
 
-SLI_COLD static sl_status sli_pins_inconsistent(void) {
+SLI_COLD static sl_status sli_constraints_inconsistent(void) {
     return sli_refuse(SL_ERR_INCONSISTENT, "B has a part along a null vector that no pin holds");
 }
 
 /* Solves the current block. */
-SLI_HOT static sl_status sli_pins_block(sli_pins_solve *w) {
-    const sl_pins *P = w->P;
+SLI_HOT static sl_status sli_constraints_block(sli_constraints_solve *w) {
+    const sl_constraints *P = w->P;
     const sli_query *q = w->q;
     const sl_factor *F = P->F;
     const sli_vectors v = sli_vectors_of(q, w->rhs.nrhs, w->memory);
@@ -180,15 +183,15 @@ SLI_HOT static sl_status sli_pins_block(sli_pins_solve *w) {
     double norms[SLI_TILE];
     sl_int p;
     w->lanes = lanes;
-    if (!sli_pins_forward(w, &v, norms)) {
-        return sli_pins_inconsistent();
+    if (!sli_constraints_forward(w, &v, norms)) {
+        return sli_constraints_inconsistent();
     }
     if (!q->is_shared) {
         sli_sweep_transfer(q, v.y, v.x, lanes);
     }
-    sli_pins_apply(P, w->f, lanes);
-    if (!sli_pins_balance(P, &w->nulls, w->f, lanes, norms)) {
-        return sli_pins_inconsistent();
+    sli_constraints_apply(P, w->f, lanes);
+    if (!sli_constraints_balance(P, &w->nulls, w->f, lanes, norms)) {
+        return sli_constraints_inconsistent();
     }
     for (p = 0; p < P->n_pins; p++) {
         sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
@@ -199,23 +202,23 @@ SLI_HOT static sl_status sli_pins_block(sli_pins_solve *w) {
         sli_center(F, &y, &x, P->uses);
     }
     sli_backward(F, &q->backward, kind, v.x, v.scratch);
-    sli_pins_shift(P, q, &w->nulls, v.x, lanes);
+    sli_constraints_shift(P, q, &w->nulls, v.x, lanes);
     if (P->n_pins > 0) {
-        sli_pins_largest(&q->backward, v.x, w->largest, lanes);
+        sli_constraints_largest(&q->backward, v.x, w->largest, lanes);
     }
-    if (!sli_pins_hold(w, v.x)) {
+    if (!sli_constraints_hold(w, v.x)) {
         return sli_refuse(SL_ERR_INACCURATE, "C' x = g holds too inaccurately");
     }
     sli_unpack(F, q, &w->rhs, v.x);
     return sli_sweep_is_finite(F, q, v.x, lanes) ? SL_OK : sli_not_finite();
 }
 
-SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X, size_t ldx,
-                               const double *B, size_t ldb, const double *G, size_t ldg,
-                               sl_int nrhs, sl_work *W) {
+SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *plan, double *X,
+                                      size_t ldx, const double *B, size_t ldb, const double *G,
+                                      size_t ldg, sl_int nrhs, sl_work *W) {
     const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
     sli_block counted = {NULL, 0};
-    sli_pins_solve w;
+    sli_constraints_solve w;
     sli_query all;
     const sli_query *q = plan == NULL ? &all : &plan->query;
     sl_work own;
@@ -231,7 +234,7 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
                               : !sli_is_ld(ldg, P->n_pins) ? "ldg is below the number of pins"
                                                            : NULL);
     }
-    status = status == SL_OK ? sli_pins_are_current(P) : status;
+    status = status == SL_OK ? sli_constraints_are_current(P) : status;
     status = status == SL_OK ? sli_query_check(q, P->F) : status;
     if (status == SL_OK && q->ending != NULL) {
         status = sli_refuse_region();
@@ -247,15 +250,15 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
     w.P = P;
     w.q = q;
     w.ldg = ldg;
-    sli_pins_layout(&w, &counted, nrhs);
+    sli_constraints_layout(&w, &counted, nrhs);
     status = sli_work_block(W, &counted);
     if (status == SL_OK) {
-        sli_pins_layout(&w, &counted, nrhs);
-        status = sli_pins_nulls_factor(&w.nulls, P);
+        sli_constraints_layout(&w, &counted, nrhs);
+        status = sli_constraints_nulls_factor(&w.nulls, P);
         for (r = 0; r < nrhs && status == SL_OK; r += sli_min(8, nrhs - r)) {
             w.rhs = sli_rhs_part(&rhs, r, sli_min(8, nrhs - r));
             w.G = P->n_pins == 0 ? G : G + (size_t)r * ldg;
-            status = sli_pins_block(&w);
+            status = sli_constraints_block(&w);
         }
     }
     sli_free(&own.allocator, own.block);

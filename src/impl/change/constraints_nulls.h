@@ -1,9 +1,10 @@
-/* pins_nulls.h: null vectors under pins: their products with the pins, and what remains free */
-#ifndef SLI_CHANGE_PINS_NULLS_H
-#define SLI_CHANGE_PINS_NULLS_H
+/* constraints_nulls.h: null vectors under pins: their products with the pins, and what remains free
+ * */
+#ifndef SLI_CHANGE_CONSTRAINTS_NULLS_H
+#define SLI_CHANGE_CONSTRAINTS_NULLS_H
 
 #include "../factor/null_basis.h"
-#include "pins_types.h"
+#include "constraints_types.h"
 
 /* The tree of a column. */
 static sli_tree_range sli_tree_of(const sl_symbolic *S, sl_int column) {
@@ -80,7 +81,7 @@ SLI_HOT static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, i
 }
 
 /* Finds the null pivots of an equality and the entries of W. */
-static sl_status sli_pin_find_nulls(const sl_pins *P, sli_pin *pin, sl_int *row) {
+static sl_status sli_pin_find_nulls(const sl_constraints *P, sli_pin *pin, sl_int *row) {
     sli_block b = {NULL, 0};
     sl_status status = SL_OK;
     sli_free(&P->allocator, pin->nulls);
@@ -102,7 +103,7 @@ static sl_status sli_pin_find_nulls(const sl_pins *P, sli_pin *pin, sl_int *row)
 }
 
 /* Counts the null pivots of an equality that comes or goes. */
-static void sli_pins_count_nulls(sl_pins *P, const sli_pin *pin, int comes) {
+static void sli_constraints_count_nulls(sl_constraints *P, const sli_pin *pin, int comes) {
     sl_int k;
     for (k = 0; k < pin->n_nulls; k++) {
         sl_int *uses = &P->uses[pin->nulls[k]];
@@ -128,7 +129,7 @@ static double sli_pin_nulls_dot(const sli_pin *a, const sli_pin *b) {
 }
 
 /* The null vectors of components with pins, for solves. */
-typedef struct sli_pins_nulls {
+typedef struct sli_constraints_nulls {
     sl_int count;
     sl_int *numbers;        /* count: among the null pivots of F */
     sl_int *place;          /* by null pivot of F: here; undefined where there are no pins */
@@ -138,9 +139,10 @@ typedef struct sli_pins_nulls {
     double *s;              /* count x lanes: Z' b, then v */
     double *defects;        /* count x lanes: Z' (b + C f) */
     double *sizes;          /* count x lanes: of the terms of defects */
-} sli_pins_nulls;
+} sli_constraints_nulls;
 
-static void sli_pins_nulls_layout(sli_pins_nulls *w, sli_block *b, const sl_pins *P) {
+static void sli_constraints_nulls_layout(sli_constraints_nulls *w, sli_block *b,
+                                         const sl_constraints *P) {
     const uint64_t count = (uint64_t)P->n_used;
     w->count = P->n_used;
     w->numbers = SLI_TAKE(b, sl_int, count);
@@ -155,7 +157,7 @@ static void sli_pins_nulls_layout(sli_pins_nulls *w, sli_block *b, const sl_pins
 
 /* Fills W, and s with the size of what its columns are computed from. A single null vector is not
  * combined from several, and exact. */
-static void sli_pins_nulls_load(const sli_pins_nulls *w, const sl_pins *P) {
+static void sli_constraints_nulls_load(const sli_constraints_nulls *w, const sl_constraints *P) {
     sl_int p, k;
     SLI_ZERO(w->W, (size_t)w->count * (size_t)P->n_pins);
     SLI_ZERO(w->s, w->count);
@@ -171,7 +173,7 @@ static void sli_pins_nulls_load(const sli_pins_nulls *w, const sl_pins *P) {
 }
 
 /* Marks the columns of W that depend on those before them. */
-static void sli_pins_nulls_mark(const sli_pins_nulls *w, const sl_pins *P) {
+static void sli_constraints_nulls_mark(const sli_constraints_nulls *w, const sl_constraints *P) {
     const size_t count = (size_t)P->n_pins;
     sl_int a, b, p;
     for (a = 0; a < w->count; a++) {
@@ -198,7 +200,7 @@ static void sli_pins_nulls_mark(const sli_pins_nulls *w, const sl_pins *P) {
 }
 
 /* Lists the null vectors of components with pins and marks those that stay free. */
-static void sli_pins_nulls_begin(const sli_pins_nulls *w, const sl_pins *P) {
+static void sli_constraints_nulls_begin(const sli_constraints_nulls *w, const sl_constraints *P) {
     sl_int m, at = 0;
     for (m = 0; at < w->count; m++) {
         if (P->uses[m] > 0) {
@@ -206,8 +208,8 @@ static void sli_pins_nulls_begin(const sli_pins_nulls *w, const sl_pins *P) {
             w->numbers[at++] = m;
         }
     }
-    sli_pins_nulls_load(w, P);
-    sli_pins_nulls_mark(w, P);
+    sli_constraints_nulls_load(w, P);
+    sli_constraints_nulls_mark(w, P);
 }
 
 #endif

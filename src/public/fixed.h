@@ -1,6 +1,6 @@
-/* dirichlet.h: rows fixed at given values, of a matrix that need not be factored as a whole */
-#ifndef SL_PUBLIC_DIRICHLET_H
-#define SL_PUBLIC_DIRICHLET_H
+/* fixed.h: rows fixed at given values, of a matrix that need not be factored as a whole */
+#ifndef SL_PUBLIC_FIXED_H
+#define SL_PUBLIC_FIXED_H
 
 #include "solve.h"
 
@@ -9,7 +9,7 @@
  *
  *  The free rows have a factor of A[free, free] of their own; A may be singular. If a factor F of A
  *  is given, and the pack of changes is on, the cheapest of three ways is taken, by counted cost
- *  (stats.dirichlet): the same, sl_factor_restrict, or pins on F.
+ *  (stats.fixed): the same, sl_factor_submatrix, or pins on F.
  *
  *  out    [out]  the object.
  *  A      [in]   n x n with values, symmetric, not kept. Entries between fixed rows are not read,
@@ -28,26 +28,24 @@
  *  Manual   tools/docs/dirichlet.md: what pins, restrictions and submatrices cost
  *  Example  tests/core/test_dirichlet.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A,
-                                                    const sl_int *rows, sl_int count,
-                                                    const sl_factor *F, const sl_options *opt,
-                                                    sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_fixed_create(sl_fixed **out, const sl_csc *A, const sl_int *rows,
+                                                sl_int count, const sl_factor *F,
+                                                const sl_options *opt, sl_stats *stats);
 
 /** Releases the object. */
-SL_API void sl_dirichlet_free(sl_dirichlet *D);
+SL_API void sl_fixed_free(sl_fixed *D);
 
 /** Takes new values of A. An object that uses a factor of A gets one of its own.
  *
- *  A      [in]   the pattern that sl_dirichlet_create was given, its entries in the same order.
+ *  A      [in]   the pattern that sl_fixed_create was given, its entries in the same order.
  *  stats  [out]  dirichlet, factor; errors are in rows of A.
- *  Returns  as sl_dirichlet_create; SL_ERR_OTHER_PATTERN. After SL_ERR_PIVOT,
+ *  Returns  as sl_fixed_create; SL_ERR_OTHER_PATTERN. After SL_ERR_PIVOT,
  *           _NOT_FINITE, _INACCURATE and _UNSUPPORTED solves are refused until a
  *           refactorization succeeds; after other errors D is as before.
  *  Cost     a refactorization of A[free, free]; nothing is allocated, except for its first factor.
  *  Threads  exclusive use of D.
  */
-SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A,
-                                                      sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_fixed_refactor(sl_fixed *D, const sl_csc *A, sl_stats *stats);
 
 /** Solves for x in the free rows, for any values of the fixed ones.
  *
@@ -62,19 +60,19 @@ SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_
  *  nrhs  [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed refactorization, or the factor whose
  *           pins are used has changed; SL_ERR_NOT_FINITE, SL_ERR_INCONSISTENT: as sl_factor_solve;
- *           SL_ERR_INACCURATE: as sl_pins_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           SL_ERR_INACCURATE: as sl_constraints_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     for each right-hand side a full solve of the free rows, 2 flops per entry of A between
  *           free and fixed rows, and a pass over X and B. No allocation once W has grown, except
  *           for pins with row-major blocks.
  *  Threads  any number at once on one D, each with its own W, whose threads are used.
  */
-SL_API SL_WARN_UNUSED sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx,
-                                                   const double *B, size_t ldb, const double *G,
-                                                   size_t ldg, sl_int nrhs, sl_work *W);
+SL_API SL_WARN_UNUSED sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx,
+                                               const double *B, size_t ldb, const double *G,
+                                               size_t ldg, sl_int nrhs, sl_work *W);
 
 /** What the object is made of, for local solves on plans and for all other calls on a factor: row k
- *  of its system is row free_rows[k] of A. Valid until sl_dirichlet_refactor or _free. */
-typedef struct sl_dirichlet_arrays {
+ *  of its system is row free_rows[k] of A. Valid until sl_fixed_refactor or _free. */
+typedef struct sl_fixed_arrays {
     sl_int n_free, n_fixed;
     const sl_int *free_rows;     /* n_free: ascending */
     const sl_int *fixed_rows;    /* n_fixed: rows, in the order of the caller */
@@ -82,8 +80,8 @@ typedef struct sl_dirichlet_arrays {
     const sl_factor *factor;     /* the same */
     sl_csc matrix;               /* A[free, free], one triangle; 0 x 0: not kept */
     const void *reserved[2];     /* NULL; new fields take their place */
-} sl_dirichlet_arrays;
+} sl_fixed_arrays;
 
-SL_API sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D);
+SL_API sl_fixed_arrays sl_fixed_view(const sl_fixed *D);
 
 #endif

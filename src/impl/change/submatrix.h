@@ -1,15 +1,15 @@
-/* restrict.h: sl_factor_restrict: the factor of A[R, R] from that of A */
-#ifndef SLI_CHANGE_RESTRICT_H
-#define SLI_CHANGE_RESTRICT_H
+/* submatrix.h: sl_factor_submatrix: the factor of A[R, R] from that of A */
+#ifndef SLI_CHANGE_SUBMATRIX_H
+#define SLI_CHANGE_SUBMATRIX_H
 
-#include "../../public/restrict.h"
+#include "../../public/submatrix.h"
 #include "../factor/factor.h"
 #include "kept.h"
-#include "restrict_symbolic.h"
+#include "submatrix_symbolic.h"
 
 /* Refuses a kept pivot that was skipped as null. */
-static sl_status sli_restrict_check(const sl_factor *F, const sli_restriction *r,
-                                    sli_failure *failure) {
+static sl_status sli_submatrix_check(const sl_factor *F, const sli_restriction *r,
+                                     sli_failure *failure) {
     sl_int q, k;
     for (q = 0; q < r->n_kept && F->null.count > 0; q++) {
         const sl_int s = r->kept[q];
@@ -24,8 +24,8 @@ static sl_status sli_restrict_check(const sl_factor *F, const sli_restriction *r
 }
 
 /* Names the numbers that G keeps of F. from, columns: by supernodes and by columns of G. */
-static void sli_restrict_keep(const sl_factor *G, sli_restriction *r, sl_int *from,
-                              sl_int *columns) {
+static void sli_submatrix_keep(const sl_factor *G, sli_restriction *r, sl_int *from,
+                               sl_int *columns) {
     sl_int q, k;
     for (q = 0; q < G->S->n_supers; q++) {
         from[q] = -1;
@@ -40,8 +40,8 @@ static void sli_restrict_keep(const sl_factor *G, sli_restriction *r, sl_int *fr
     }
 }
 
-static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_restriction *r,
-                                      sl_stats *stats) {
+static sl_status sli_submatrix_numbers(sl_factor *G, const sl_factor *F, sli_restriction *r,
+                                       sl_stats *stats) {
     const double started = sli_seconds();
     const sli_source source = sli_source_matrix(&r->B);
     sli_kept kept;
@@ -57,7 +57,7 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
     }
     kept = sli_kept_of(F, from, columns, 1);
     if (status == SL_OK && r->n_kept > 0) {
-        sli_restrict_keep(G, r, from, columns);
+        sli_submatrix_keep(G, r, from, columns);
         status = sli_kept_room(&kept, G, &room);
     }
     if (status == SL_OK) {
@@ -67,7 +67,7 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
         G->work.copied = r->n_kept > 0 ? &kept.copied : NULL;
         G->history.drift = r->n_kept > 0 ? F->history.drift : 0.0;
         G->history.marks = NULL; /* no later factorization compares its entries */
-        if (sli_restrict_check(F, r, &failure) == SL_OK) {
+        if (sli_submatrix_check(F, r, &failure) == SL_OK) {
             (void)sli_factor_eliminate(G, &source, &failure);
         }
         G->work.copied = NULL;
@@ -79,8 +79,8 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
 }
 
 /* The options that give a factor over R the rules of F. signs: count of scratch. */
-static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction *r,
-                                       const sl_allocator *a, sl_int *signs) {
+static sl_options sli_submatrix_options(const sl_factor *F, const sli_restriction *r,
+                                        const sl_allocator *a, sl_int *signs) {
     sl_options opt = sli_options_with(a);
     sl_int k;
     opt.null_tolerance = sli_tolerance_option(F);
@@ -98,8 +98,9 @@ static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction
 }
 
 /* Creates the factor over its analysis. */
-static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, const sl_factor *F,
-                                     sli_restriction *r, const sl_options *rules, sl_stats *stats) {
+static sl_status sli_submatrix_factor(sl_factor **out, const sl_symbolic *S, const sl_factor *F,
+                                      sli_restriction *r, const sl_options *rules,
+                                      sl_stats *stats) {
     sl_options opt = *rules;
     sl_factor *G = NULL;
     sl_status status;
@@ -109,7 +110,7 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
         opt.storage = SL_STORAGE_DOUBLE; /* A[R, R] is not complex, or not its order */
     }
     status = sli_factor_new_with(&G, S, &opt, F->kernels, stats);
-    status = status == SL_OK ? sli_restrict_numbers(G, F, r, stats) : status;
+    status = status == SL_OK ? sli_submatrix_numbers(G, F, r, stats) : status;
     if (status == SL_OK) {
         *out = G;
     } else {
@@ -120,7 +121,7 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
 
 /* Ends the creation of both objects. There is no matrix that they could be refactored with: the
  * numbers stay, and what a refactorization needs is released. */
-static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
+static void sli_submatrix_done(sl_symbolic *S, sl_factor *G) {
     sl_factor counted = *G;
     sli_block b = {NULL, 0};
     sli_free(&G->allocator, G->scratch);
@@ -135,7 +136,7 @@ static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
 }
 
 /* Reports an error, which F has in rows and columns of A[R, R], in those of A. */
-static sl_status sli_restrict_report(const sli_restriction *r, sl_status status, sl_stats *stats) {
+static sl_status sli_submatrix_report(const sli_restriction *r, sl_status status, sl_stats *stats) {
     sl_error found = sli_found(stats, status);
     if (status == SL_ERR_NOT_FINITE && found.column != -1) { /* an entry of A or B */
         if (r->B_values != NULL) {
@@ -148,11 +149,11 @@ static sl_status sli_restrict_report(const sli_restriction *r, sl_status status,
     return sli_fail_as(stats, status, &found);
 }
 
-SLI_COLD static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_factor *F,
-                                           sli_restriction *r, const sl_allocator *a,
-                                           sl_stats *stats) {
+SLI_COLD static sl_status sli_submatrix_run(sl_symbolic **S, sl_factor **G, const sl_factor *F,
+                                            sli_restriction *r, const sl_allocator *a,
+                                            sl_stats *stats) {
     const double started = sli_seconds();
-    const sl_options rules = sli_restrict_options(F, r, a, (sl_int *)(void *)r->scratch);
+    const sl_options rules = sli_submatrix_options(F, r, a, (sl_int *)(void *)r->scratch);
     sl_stats found;
     sl_status status;
     SLI_CLEAR(found);
@@ -165,14 +166,14 @@ SLI_COLD static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const
     sli_restriction_done(r, a);
     if (status == SL_OK) {
         (*S)->stats.symbolic.seconds_analyze = sli_seconds() - started;
-        status = sli_restrict_factor(G, *S, F, r, &rules, stats);
+        status = sli_submatrix_factor(G, *S, F, r, &rules, stats);
     }
     return status;
 }
 
 /* Checks F and what can be checked of A and rows before they are read. */
-static sl_status sli_restrict_arguments(const sl_factor *F, const sl_csc *A, const sl_int *rows,
-                                        sl_int count, const sl_options *opt) {
+static sl_status sli_submatrix_arguments(const sl_factor *F, const sl_csc *A, const sl_int *rows,
+                                         sl_int count, const sl_options *opt) {
     sl_status status =
         sli_argument(F == NULL                   ? "F is NULL"
                      : A == NULL                 ? "A is NULL"
@@ -187,9 +188,9 @@ static sl_status sli_restrict_arguments(const sl_factor *F, const sl_csc *A, con
     return status == SL_OK ? sli_pattern_check_size(F->S, A, 1) : status;
 }
 
-SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_factor *F,
-                                    const sl_csc *A, const sl_int *rows, sl_int count,
-                                    const sl_options *opt, sl_stats *stats) {
+SL_API sl_status sl_factor_submatrix(sl_symbolic **S, sl_factor **G, const sl_factor *F,
+                                     const sl_csc *A, const sl_int *rows, sl_int count,
+                                     const sl_options *opt, sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
     sli_restriction r;
@@ -199,7 +200,7 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
     if (status == SL_OK) {
         *S = NULL;
         *G = NULL;
-        status = sli_restrict_arguments(F, A, rows, count, opt);
+        status = sli_submatrix_arguments(F, A, rows, count, opt);
     }
     if (status != SL_OK) {
         return sli_report(stats, status);
@@ -213,19 +214,19 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
     r.R.count = count;
     status = sli_restriction_begin(&r, &a, stats);
     if (status == SL_OK) {
-        status = sli_restrict_run(S, G, F, &r, &a, stats);
+        status = sli_submatrix_run(S, G, F, &r, &a, stats);
         if (status != SL_OK) {
-            status = sli_restrict_report(&r, status, stats);
+            status = sli_submatrix_report(&r, status, stats);
         }
     }
     if (status == SL_OK) {
-        sli_restrict_done(*S, *G);
+        sli_submatrix_done(*S, *G);
     } else {
         sl_symbolic_free(*S);
         *S = NULL;
     }
     if (status == SL_OK && stats != NULL) {
-        sl_restrict_info *info = &stats->restriction;
+        sl_submatrix_info *info = &stats->submatrix;
         stats->factor.bytes = (*G)->stats.factor.bytes;
         info->is_anew = r.n_kept == 0 && count > 0;
         info->kept = count - r.n_fresh;

@@ -1,8 +1,8 @@
-/* restrict_symbolic.h: joins kept subtrees and new supernodes to the analysis of A[R, R] */
-#ifndef SLI_CHANGE_RESTRICT_SYMBOLIC_H
-#define SLI_CHANGE_RESTRICT_SYMBOLIC_H
+/* submatrix_symbolic.h: joins kept subtrees and new supernodes to the analysis of A[R, R] */
+#ifndef SLI_CHANGE_SUBMATRIX_SYMBOLIC_H
+#define SLI_CHANGE_SUBMATRIX_SYMBOLIC_H
 
-#include "restrict_analysis.h"
+#include "submatrix_analysis.h"
 
 /* Where the next supernode goes. */
 typedef struct sli_joint {

@@ -1,8 +1,8 @@
-/* pins_types.h: a set of pins: the method, and what it keeps */
-#ifndef SLI_CHANGE_PINS_TYPES_H
-#define SLI_CHANGE_PINS_TYPES_H
+/* constraints_types.h: a set of pins: the method, and what it keeps */
+#ifndef SLI_CHANGE_CONSTRAINTS_TYPES_H
+#define SLI_CHANGE_CONSTRAINTS_TYPES_H
 
-#include "../../public/pins.h"
+#include "../../public/constraints.h"
 #include "../solve/plan.h"
 #include "../solve/sweep.h"
 
@@ -42,7 +42,7 @@ typedef struct sli_pin {
     double *z;      /* n_nulls: z' c of their null vectors, the entries of W */
 } sli_pin;
 
-struct sl_pins {
+struct sl_constraints {
     sl_allocator allocator;
     const sl_factor *F; /* borrowed */
     sli_numbers numbers;
@@ -69,11 +69,11 @@ static double sli_dot(const double *a, const double *b, sl_int count) {
 }
 
 /* Refuses pins on older numbers of their factor. */
-static sl_status sli_pins_are_current(const sl_pins *P) {
+static sl_status sli_constraints_are_current(const sl_constraints *P) {
     const sl_status status = sli_factor_has_numbers(P->F);
     return status == SL_OK && !sli_numbers_are_of(&P->numbers, P->F)
                ? sli_refuse(SL_ERR_STALE,
-                            "F has changed since the pins were made: sl_pins_refactor")
+                            "F has changed since the pins were made: sl_constraints_refactor")
                : status;
 }
 

@@ -1,13 +1,13 @@
-/* dirichlet.h: systems with rows fixed at given values: a factor of the free rows */
-#ifndef SLI_DIRICHLET_DIRICHLET_H
-#define SLI_DIRICHLET_DIRICHLET_H
+/* fixed.h: systems with rows fixed at given values: a factor of the free rows */
+#ifndef SLI_FIXED_H
+#define SLI_FIXED_H
 
-#include "dirichlet_rows.h"
+#include "fixed_rows.h"
 
-static const sli_dirichlet_ways *sli_dirichlet_ways_of(void); /* of a pack; NULL: none */
+static const sli_fixed_ways *sli_fixed_ways_of(void); /* of a pack; NULL: none */
 
 /* Releases what a way has made. */
-static void sli_dirichlet_clear(sl_dirichlet *D) {
+static void sli_fixed_clear(sl_fixed *D) {
     if (D->pins != NULL) {
         D->ways->release(D);
     }
@@ -17,27 +17,25 @@ static void sli_dirichlet_clear(sl_dirichlet *D) {
     sli_free(&D->allocator, D->from);
 }
 
-SL_API void sl_dirichlet_free(sl_dirichlet *D) {
+SL_API void sl_fixed_free(sl_fixed *D) {
     if (D != NULL) {
         const sl_allocator a = D->allocator;
-        sli_dirichlet_clear(D);
+        sli_fixed_clear(D);
         sli_free(&a, D);
     }
 }
 
 /* Copies A[free, free], analyzes and factors it. arrays: those of the options. scratch: n + 1
  * elements. On error all are NULL. */
-SLI_COLD static sl_status sli_dirichlet_factor(sl_dirichlet *D, const sl_csc *A,
-                                               const sli_dirichlet_arrays *arrays,
-                                               const sl_int *where, sl_int *scratch,
-                                               sl_stats *stats) {
+SLI_COLD static sl_status sli_fixed_factor(sl_fixed *D, const sl_csc *A,
+                                           const sli_fixed_arrays *arrays, const sl_int *where,
+                                           sl_int *scratch, sl_stats *stats) {
     sl_options analysis = D->analysis, factorization = D->factorization;
     sli_submatrix s;
     sl_csc view;
     sl_status status;
     analysis.perm = arrays->perm;
-    analysis.block_size =
-        sli_dirichlet_keeps_blocks(D, analysis.block_size) ? analysis.block_size : 0;
+    analysis.block_size = sli_fixed_keeps_blocks(D, analysis.block_size) ? analysis.block_size : 0;
     factorization.signs = arrays->signs;
     factorization.mass = arrays->mass;
     factorization.null_vector = arrays->null_vector;
@@ -53,14 +51,14 @@ SLI_COLD static sl_status sli_dirichlet_factor(sl_dirichlet *D, const sl_csc *A,
     }
     if (status == SL_OK) {
         status = sl_factor_create(&D->F, D->S, &view, &factorization, stats);
-        status = sli_dirichlet_report(D, status, stats);
+        status = sli_fixed_report(D, status, stats);
     }
-    D->info.method = SL_DIRICHLET_SUBMATRIX;
+    D->info.method = SL_FIXED_SUBMATRIX;
     return status;
 }
 
 /* Splits the options of both steps, without their arrays. */
-static void sli_dirichlet_options(sl_dirichlet *D, const sl_options *opt) {
+static void sli_fixed_options(sl_fixed *D, const sl_options *opt) {
     const sl_options none = sli_options_with(&D->allocator);
     sl_options *f = &D->factorization, *s = &D->analysis;
     *f = *s = none;
@@ -87,8 +85,8 @@ static void sli_dirichlet_options(sl_dirichlet *D, const sl_options *opt) {
 }
 
 /* Checks the arguments of a creation. */
-static sl_status sli_dirichlet_check(const sl_csc *A, const sl_int *rows, sl_int count,
-                                     const sl_options *opt, sl_stats *stats) {
+static sl_status sli_fixed_check(const sl_csc *A, const sl_int *rows, sl_int count,
+                                 const sl_options *opt, sl_stats *stats) {
     sl_status status = sl_csc_check(A, stats);
     if (status == SL_OK) {
         status = sli_argument(A->n_rows != A->n_cols           ? "A is not square"
@@ -108,8 +106,8 @@ static sl_status sli_dirichlet_check(const sl_csc *A, const sl_int *rows, sl_int
                : status;
 }
 
-static void sli_dirichlet_layout(sl_dirichlet *D, sli_block *b) {
-    (void)sli_take(b, 1, sizeof(sl_dirichlet));
+static void sli_fixed_layout(sl_fixed *D, sli_block *b) {
+    (void)sli_take(b, 1, sizeof(sl_fixed));
     D->free_rows = SLI_TAKE(b, sl_int, D->n_free);
     D->fixed_rows = SLI_TAKE(b, sl_int, D->n_fixed);
     D->coupling_free = SLI_TAKE(b, sl_int, D->n_couplings);
@@ -118,11 +116,11 @@ static void sli_dirichlet_layout(sl_dirichlet *D, sli_block *b) {
     D->couplings = SLI_TAKE(b, double, D->n_couplings);
 }
 
-/* Makes the object without a factor. where := as in sli_dirichlet_number. */
-static sl_status sli_dirichlet_new(sl_dirichlet **out, const sl_csc *A, const sl_int *rows,
-                                   sl_dirichlet *draft, sl_int *where, sl_stats *stats) {
+/* Makes the object without a factor. where := as in sli_fixed_number. */
+static sl_status sli_fixed_new(sl_fixed **out, const sl_csc *A, const sl_int *rows, sl_fixed *draft,
+                               sl_int *where, sl_stats *stats) {
     sli_block b = {NULL, 0};
-    sl_dirichlet *D;
+    sl_fixed *D;
     sl_status status = SL_OK;
     sl_int k, free_row = 0;
     const sl_int bad = sli_rows_invert(rows, draft->n_fixed, draft->n, where);
@@ -134,14 +132,14 @@ static sl_status sli_dirichlet_new(sl_dirichlet **out, const sl_csc *A, const sl
         where[k] = where[k] < 0 ? free_row++ : -1 - where[k];
     }
     draft->n_free = free_row;
-    draft->n_couplings = sli_dirichlet_couple(NULL, A, draft->triangle, where);
+    draft->n_couplings = sli_fixed_couple(NULL, A, draft->triangle, where);
     SLI_LAYOUT(&b, &draft->allocator, status) {
-        sli_dirichlet_layout(draft, &b);
+        sli_fixed_layout(draft, &b);
     }
     if (status != SL_OK) {
         return status;
     }
-    D = (sl_dirichlet *)(void *)b.base;
+    D = (sl_fixed *)(void *)b.base;
     *D = *draft;
     *out = D;
     for (k = 0; k < D->n_fixed; k++) {
@@ -152,18 +150,18 @@ static sl_status sli_dirichlet_new(sl_dirichlet **out, const sl_csc *A, const sl
             D->free_rows[where[k]] = k;
         }
     }
-    (void)sli_dirichlet_couple(D, A, D->triangle, where);
+    (void)sli_fixed_couple(D, A, D->triangle, where);
     D->info.n_free = D->n_free;
     D->info.couplings = D->n_couplings;
-    status = sli_dirichlet_check_values(D, A, stats);
+    status = sli_fixed_check_values(D, A, stats);
     if (status == SL_OK) {
-        sli_dirichlet_copy_values(D, A);
+        sli_fixed_copy_values(D, A);
     }
     return status;
 }
 
 /* May a factor of A take the place of one with these options? */
-static int sli_dirichlet_may_reuse(const sl_factor *F, const sl_options *opt) {
+static int sli_fixed_may_reuse(const sl_factor *F, const sl_options *opt) {
     return F != NULL &&
            (opt == NULL ||
             ((opt->perm == NULL || opt->ordering != SL_ORDERING_GIVEN) && opt->mass == NULL &&
@@ -173,24 +171,24 @@ static int sli_dirichlet_may_reuse(const sl_factor *F, const sl_options *opt) {
 }
 
 /* Ends a creation or a refactorization. */
-static void sli_dirichlet_done(sl_dirichlet *D, double started, sl_stats *stats) {
+static void sli_fixed_done(sl_fixed *D, double started, sl_stats *stats) {
     D->info.seconds = sli_seconds() - started;
     if (stats != NULL) {
-        stats->dirichlet = D->info;
+        stats->fixed = D->info;
     }
 }
 
 /* Makes the factor of an object: from F, or of its own. scratch: n + 1 elements. */
-static sl_status sli_dirichlet_begin(sl_dirichlet *D, const sl_csc *A, const sl_factor *F,
-                                     const sl_options *opt, const sl_int *where, sl_int *scratch,
-                                     sl_stats *stats) {
+static sl_status sli_fixed_begin(sl_fixed *D, const sl_csc *A, const sl_factor *F,
+                                 const sl_options *opt, const sl_int *where, sl_int *scratch,
+                                 sl_stats *stats) {
     const sl_options none = sli_options_with(&D->allocator);
     const sl_options *arrays_of = opt == NULL ? &none : opt;
-    const sli_dirichlet_ways *ways = sli_dirichlet_ways_of();
+    const sli_fixed_ways *ways = sli_fixed_ways_of();
     sli_block b = {NULL, 0};
-    sli_dirichlet_arrays arrays;
+    sli_fixed_arrays arrays;
     sl_status status = SL_OK;
-    if (ways != NULL && sli_dirichlet_may_reuse(F, opt)) { /* untested: all packs are there */
+    if (ways != NULL && sli_fixed_may_reuse(F, opt)) { /* untested: all packs are there */
         D->ways = ways;
         status = ways->take(D, F, A, stats);
         if (status != SL_OK || D->F != NULL || D->pins != NULL) {
@@ -198,29 +196,27 @@ static sl_status sli_dirichlet_begin(sl_dirichlet *D, const sl_csc *A, const sl_
         }
     }
     SLI_LAYOUT(&b, &D->allocator, status) {
-        sli_dirichlet_arrays_layout(&arrays, &b, arrays_of, D->n_free);
+        sli_fixed_arrays_layout(&arrays, &b, arrays_of, D->n_free);
     }
     if (status == SL_OK) {
-        status = sli_dirichlet_arrays_fill(&arrays, D, arrays_of, where, scratch, stats);
-        status =
-            status == SL_OK ? sli_dirichlet_factor(D, A, &arrays, where, scratch, stats) : status;
+        status = sli_fixed_arrays_fill(&arrays, D, arrays_of, where, scratch, stats);
+        status = status == SL_OK ? sli_fixed_factor(D, A, &arrays, where, scratch, stats) : status;
         sli_free(&D->allocator, b.base);
     }
     D->analysis.metis_options = NULL;
     return status;
 }
 
-SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const sl_int *rows,
-                                     sl_int count, const sl_factor *F, const sl_options *opt,
-                                     sl_stats *stats) {
+SL_API sl_status sl_fixed_create(sl_fixed **out, const sl_csc *A, const sl_int *rows, sl_int count,
+                                 const sl_factor *F, const sl_options *opt, sl_stats *stats) {
     const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
     sli_block b = {NULL, 0};
-    sl_dirichlet draft, *D = NULL;
+    sl_fixed draft, *D = NULL;
     sl_int *where = NULL, *scratch = NULL;
     sl_status status;
     sli_stats_clear_error(stats);
     status = sli_begin(out);
-    status = status == SL_OK ? sli_dirichlet_check(A, rows, count, opt, stats) : status;
+    status = status == SL_OK ? sli_fixed_check(A, rows, count, opt, stats) : status;
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
@@ -229,7 +225,7 @@ SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const 
     draft.n = A->n_cols;
     draft.n_fixed = count;
     (void)sli_pattern_hash(A, &draft.pattern);
-    sli_dirichlet_options(&draft, opt);
+    sli_fixed_options(&draft, opt);
     status = sli_csc_triangle(A, sli_triangle_scan(A), &draft.triangle, opt, stats);
     SLI_LAYOUT(&b, &draft.allocator, status) {
         where = SLI_TAKE(&b, sl_int, draft.n);
@@ -238,22 +234,22 @@ SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const 
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
-    status = sli_dirichlet_new(&D, A, rows, &draft, where, stats);
-    status = status == SL_OK ? sli_dirichlet_begin(D, A, F, opt, where, scratch, stats) : status;
+    status = sli_fixed_new(&D, A, rows, &draft, where, stats);
+    status = status == SL_OK ? sli_fixed_begin(D, A, F, opt, where, scratch, stats) : status;
     sli_free(&draft.allocator, b.base);
     if (status == SL_OK) {
-        sli_dirichlet_done(D, started, stats);
+        sli_fixed_done(D, started, stats);
         *out = D;
     } else {
-        sl_dirichlet_free(D);
+        sl_fixed_free(D);
     }
     return sli_report(stats, status);
 }
 
 /* Replaces what a pack has made by a factor of A[free, free]. On error D is as before. */
-static sl_status sli_dirichlet_replace(sl_dirichlet *D, const sl_csc *A, sl_stats *stats) {
-    const sli_dirichlet_arrays none = {NULL, NULL, NULL, NULL};
-    sl_dirichlet own = *D;
+static sl_status sli_fixed_replace(sl_fixed *D, const sl_csc *A, sl_stats *stats) {
+    const sli_fixed_arrays none = {NULL, NULL, NULL, NULL};
+    sl_fixed own = *D;
     sli_block b = {NULL, 0};
     sl_int *where = NULL, *scratch = NULL;
     sl_status status = SL_OK;
@@ -268,19 +264,19 @@ static sl_status sli_dirichlet_replace(sl_dirichlet *D, const sl_csc *A, sl_stat
         scratch = SLI_TAKE(&b, sl_int, (uint64_t)D->n + 1);
     }
     if (status == SL_OK) {
-        sli_dirichlet_number(D, where);
-        status = sli_dirichlet_factor(&own, A, &none, where, scratch, stats);
+        sli_fixed_number(D, where);
+        status = sli_fixed_factor(&own, A, &none, where, scratch, stats);
         sli_free(&D->allocator, b.base);
     }
-    sli_dirichlet_clear(status == SL_OK ? D : &own);
+    sli_fixed_clear(status == SL_OK ? D : &own);
     if (status == SL_OK) {
         *D = own;
-        sli_dirichlet_copy_values(D, A);
+        sli_fixed_copy_values(D, A);
     }
     return status;
 }
 
-SL_API sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A, sl_stats *stats) {
+SL_API sl_status sl_fixed_refactor(sl_fixed *D, const sl_csc *A, sl_stats *stats) {
     const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
     sli_hash pattern;
     sl_status status;
@@ -296,17 +292,17 @@ SL_API sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A, sl_stat
     if (status == SL_OK) {
         status = sli_argument(sli_nnz(A) > 0 && A->x == NULL ? "A.x is NULL" : NULL);
     }
-    status = status == SL_OK ? sli_dirichlet_check_values(D, A, stats) : status;
+    status = status == SL_OK ? sli_fixed_check_values(D, A, stats) : status;
     if (status == SL_OK && D->M == NULL) {
-        status = sli_dirichlet_replace(D, A, stats);
+        status = sli_fixed_replace(D, A, stats);
     } else if (status == SL_OK) {
         const sl_csc view = sl_matrix_view(D->M);
-        sli_dirichlet_copy_values(D, A);
+        sli_fixed_copy_values(D, A);
         status = sl_factor_refactor(D->F, &view, stats);
-        status = sli_dirichlet_report(D, status, stats);
+        status = sli_fixed_report(D, status, stats);
     }
     if (status == SL_OK) {
-        sli_dirichlet_done(D, started, stats);
+        sli_fixed_done(D, started, stats);
         D->is_stale = 0;
     } else if (D != NULL) {
         D->is_stale |= status == SL_ERR_PIVOT || status == SL_ERR_NOT_FINITE ||

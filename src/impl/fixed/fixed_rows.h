@@ -1,24 +1,24 @@
-/* dirichlet_rows.h: free and fixed rows, the entries of A between them, and what is copied of A */
-#ifndef SLI_DIRICHLET_DIRICHLET_ROWS_H
-#define SLI_DIRICHLET_DIRICHLET_ROWS_H
+/* fixed_rows.h: free and fixed rows, the entries of A between them, and what is copied of A */
+#ifndef SLI_FIXED_ROWS_H
+#define SLI_FIXED_ROWS_H
 
-#include "../../public/dirichlet.h"
+#include "../../public/fixed.h"
 #include "../factor/factor.h"
 #include "../matrix/csc_triangle.h"
 #include "../matrix/submatrix.h"
 #include "../solve/query.h"
 
 /* The ways of a pack, which use a factor of A. */
-typedef struct sli_dirichlet_ways {
+typedef struct sli_fixed_ways {
     /* Takes the cheapest way: sets S and F of D, or pins; leaves all three NULL where a factor of
      * A[free, free] is cheapest. */
-    sl_status (*take)(sl_dirichlet *D, const sl_factor *F, const sl_csc *A, sl_stats *stats);
-    sl_status (*solve)(const sl_dirichlet *D, const sli_rhs *rhs, const double *G, size_t ldg,
+    sl_status (*take)(sl_fixed *D, const sl_factor *F, const sl_csc *A, sl_stats *stats);
+    sl_status (*solve)(const sl_fixed *D, const sli_rhs *rhs, const double *G, size_t ldg,
                        sl_work *W);
-    void (*release)(sl_dirichlet *D); /* of the pins */
-} sli_dirichlet_ways;
+    void (*release)(sl_fixed *D); /* of the pins */
+} sli_fixed_ways;
 
-struct sl_dirichlet {
+struct sl_fixed {
     sl_allocator allocator;
     sl_options analysis, factorization; /* without arrays */
     sli_hash pattern;                   /* of A */
@@ -30,22 +30,22 @@ struct sl_dirichlet {
      * and the value */
     sl_int *coupling_free, *coupling_fixed, *coupling_from;
     double *couplings;
-    sl_dirichlet_info info;
+    sl_fixed_info info;
 
     /* A[free, free]; NULL: pins hold the fixed rows, or M is not needed yet */
     sl_matrix *M;
     sl_int *from; /* the positions of its entries in A */
     sl_symbolic *S;
     sl_factor *F;
-    const sli_dirichlet_ways *ways; /* that made the factor, or the pins; NULL: none */
+    const sli_fixed_ways *ways; /* that made the factor, or the pins; NULL: none */
     void *pins;
     int is_stale; /* the last refactorization has refused its values */
 };
 
 /* Visits the entries of A between free and fixed rows. where: the number of a free row, or -1 minus
  * that of a fixed one. D NULL: only counts them. */
-static sl_int sli_dirichlet_couple(sl_dirichlet *D, const sl_csc *A, sl_triangle triangle,
-                                   const sl_int *where) {
+static sl_int sli_fixed_couple(sl_fixed *D, const sl_csc *A, sl_triangle triangle,
+                               const sl_int *where) {
     sl_int j, p, count = 0;
     for (j = 0; j < A->n_cols; j++) {
         const sl_int c = where[j];
@@ -66,8 +66,7 @@ static sl_int sli_dirichlet_couple(sl_dirichlet *D, const sl_csc *A, sl_triangle
 }
 
 /* Checks the values of the couplings. */
-static sl_status sli_dirichlet_check_values(const sl_dirichlet *D, const sl_csc *A,
-                                            sl_stats *stats) {
+static sl_status sli_fixed_check_values(const sl_fixed *D, const sl_csc *A, sl_stats *stats) {
     sl_int k;
     for (k = 0; k < D->n_couplings; k++) {
         const sl_int p = D->coupling_from[k];
@@ -79,7 +78,7 @@ static sl_status sli_dirichlet_check_values(const sl_dirichlet *D, const sl_csc 
     return SL_OK;
 }
 
-static void sli_dirichlet_copy_values(sl_dirichlet *D, const sl_csc *A) {
+static void sli_fixed_copy_values(sl_fixed *D, const sl_csc *A) {
     sl_int k;
     for (k = 0; k < D->n_couplings; k++) {
         D->couplings[k] = A->x[D->coupling_from[k]];
@@ -90,7 +89,7 @@ static void sli_dirichlet_copy_values(sl_dirichlet *D, const sl_csc *A) {
 }
 
 /* where := the numbers of the free rows, and -1 minus those of the fixed ones. */
-static void sli_dirichlet_number(const sl_dirichlet *D, sl_int *where) {
+static void sli_fixed_number(const sl_fixed *D, sl_int *where) {
     sl_int k;
     for (k = 0; k < D->n_free; k++) {
         where[D->free_rows[k]] = k;
@@ -101,7 +100,7 @@ static void sli_dirichlet_number(const sl_dirichlet *D, sl_int *where) {
 }
 
 /* Reports an error of the system of free rows in rows of A. */
-static sl_status sli_dirichlet_report(const sl_dirichlet *D, sl_status status, sl_stats *stats) {
+static sl_status sli_fixed_report(const sl_fixed *D, sl_status status, sl_stats *stats) {
     sl_error found;
     if (status == SL_OK) {
         return status;
@@ -121,13 +120,13 @@ static sl_status sli_dirichlet_report(const sl_dirichlet *D, sl_status status, s
 }
 
 /* The arrays among the options, in free rows. */
-typedef struct sli_dirichlet_arrays {
+typedef struct sli_fixed_arrays {
     sl_int *perm, *signs;
     double *mass, *null_vector;
-} sli_dirichlet_arrays;
+} sli_fixed_arrays;
 
-static void sli_dirichlet_arrays_layout(sli_dirichlet_arrays *r, sli_block *b,
-                                        const sl_options *opt, sl_int n) {
+static void sli_fixed_arrays_layout(sli_fixed_arrays *r, sli_block *b, const sl_options *opt,
+                                    sl_int n) {
     const uint64_t count = (uint64_t)n;
     r->perm =
         opt->ordering != SL_ORDERING_GIVEN || opt->perm == NULL ? NULL : SLI_TAKE(b, sl_int, count);
@@ -137,11 +136,11 @@ static void sli_dirichlet_arrays_layout(sli_dirichlet_arrays *r, sli_block *b,
         opt->null_vector == NULL ? NULL : SLI_TAKE(b, double, count *(opt->null_vector_count + 1));
 }
 
-/* Fills the arrays. scratch: n elements; where: as in sli_dirichlet_number. Refuses an order that
+/* Fills the arrays. scratch: n elements; where: as in sli_fixed_number. Refuses an order that
  * is not a permutation of all rows. */
-static sl_status sli_dirichlet_arrays_fill(const sli_dirichlet_arrays *r, const sl_dirichlet *D,
-                                           const sl_options *opt, const sl_int *where,
-                                           sl_int *scratch, sl_stats *stats) {
+static sl_status sli_fixed_arrays_fill(const sli_fixed_arrays *r, const sl_fixed *D,
+                                       const sl_options *opt, const sl_int *where, sl_int *scratch,
+                                       sl_stats *stats) {
     const sl_int m = D->n_free;
     const size_t vectors = opt->null_vector_count == 0 ? 1 : opt->null_vector_count;
     sl_int k, at = 0;
@@ -175,7 +174,7 @@ static sl_status sli_dirichlet_arrays_fill(const sli_dirichlet_arrays *r, const 
 }
 
 /* Are blocks of so many rows either free or fixed as a whole? */
-static int sli_dirichlet_keeps_blocks(const sl_dirichlet *D, sl_int size) {
+static int sli_fixed_keeps_blocks(const sl_fixed *D, sl_int size) {
     sl_int k;
     for (k = 0; k < D->n_free && size > 1; k++) {
         const sl_int first = D->free_rows[k - k % size];

@@ -1,19 +1,18 @@
-/* restrict_analysis.h: the analysis of A[R, R] from that of A: new for columns with a removed
+/* submatrix_analysis.h: the analysis of A[R, R] from that of A: new for columns with a removed
  * descendant only */
-#ifndef SLI_CHANGE_RESTRICT_ANALYSIS_H
-#define SLI_CHANGE_RESTRICT_ANALYSIS_H
+#ifndef SLI_CHANGE_SUBMATRIX_ANALYSIS_H
+#define SLI_CHANGE_SUBMATRIX_ANALYSIS_H
 
-#include "restrict_kept.h"
+#include "submatrix_kept.h"
 
 /* Allocates the graph of the new columns, which has no entry yet, and their analysis. entries: how
  * many there may be. */
 static sl_status sli_restriction_work(sli_restriction *r, uint64_t entries, const sl_allocator *a) {
     sli_analysis *w = &r->w;
     sli_block b = {NULL, 0};
-    sl_status status =
-        entries > INT32_MAX
-            ? sli_refuse(SL_ERR_TOO_LARGE, "more than 2^31 - 1 entries of new columns")
-            : SL_OK;
+    sl_status status = entries > INT32_MAX ? sli_refuse(SL_ERR_TOO_LARGE,
+                                                        "more than 2^31 - 1 entries of new columns")
+                                           : SL_OK;
     SLI_LAYOUT(&b, a, status) {
         sli_analysis_layout(w, &b, r->n_fresh, (sl_int)entries);
     }
@@ -85,7 +84,8 @@ SLI_HOT static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *sta
             const sl_int i = A->i[p];
             sl_int other = own, is_there;
             if (i < 0 || i >= A->n_rows) {
-                return sli_fail_at(stats, SL_ERR_PATTERN, i, j, 0.0, "a row of A is out of range");
+                return sli_fail_at(stats, SL_ERR_MALFORMED, i, j, 0.0,
+                                   "a row of A is out of range");
             }
             is_there = sli_is_read(triangle, i, j);
             others |= !is_there;
@@ -167,7 +167,7 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
             SLI_PREFETCH(p + r->rows[k + SLI_RESTRICT_AHEAD], 0);
         }
         if (p[j] < 0 || p[j + 1] < p[j] || p[j + 1] > sli_nnz(r->A)) {
-            return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0, "A.p descends");
+            return sli_fail_at(stats, SL_ERR_MALFORMED, -1, j, 0.0, "A.p descends");
         }
         if (r->n_kept > 0) {
             r->number_of[k] = number = r->fresh_of[number];

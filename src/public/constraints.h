@@ -1,6 +1,6 @@
-/* pins.h: rows held at given values, on top of a factor that stays as it is */
-#ifndef SL_PUBLIC_PINS_H
-#define SL_PUBLIC_PINS_H
+/* constraints.h: rows held at given values, on top of a factor that stays as it is */
+#ifndef SL_PUBLIC_CONSTRAINTS_H
+#define SL_PUBLIC_CONSTRAINTS_H
 
 #include "options.h"
 #include "stats.h"
@@ -8,7 +8,7 @@
 /** Creates an empty set of pins: rows, or linear combinations of rows, that solves hold at given
  *  values. For definite A this minimizes x' A x / 2 - b' x under these equalities. The factor does
  *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep. For
- *  hundreds of rows that are held together, sl_dirichlet_create is the faster call.
+ *  hundreds of rows that are held together, sl_fixed_create is the faster call.
  *
  *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
  *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
@@ -23,7 +23,7 @@
  *
  *  out  [out]  the set.
  *  F    [in]   the factor; kept by the object. When F changes, solves are refused until
- *              sl_pins_refactor.
+ *              sl_constraints_refactor.
  *  opt  [in]   allocator.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_UNSUPPORTED: pivots of both signs, or 2x2
  *           pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
@@ -31,11 +31,11 @@
  *  Source   capacitance matrix of a change of low rank, as in [Hager89].
  *  Example  tests/core/test_pins.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_create(sl_pins **out, const sl_factor *F,
-                                               const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_constraints_create(sl_constraints **out, const sl_factor *F,
+                                                      const sl_options *opt);
 
 /** Releases a set of pins. */
-SL_API void sl_pins_free(sl_pins *P);
+SL_API void sl_constraints_free(sl_constraints *P);
 
 /** Adds pins, all or none: x is held at values in rows of A. They become the last ones of P, in the
  *  order of rows.
@@ -52,18 +52,18 @@ SL_API void sl_pins_free(sl_pins *P);
  *           per row below its supernodes. 100 pins together take half as long as one by one.
  *  Threads  exclusive use of P; F is read.
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count,
-                                            sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_constraints_add(sl_constraints *P, const sl_int *rows,
+                                                   sl_int count, sl_stats *stats);
 
 /** Adds an equality: the sum of values[k] x(rows[k]) is held. A pin is the case of one row and the
  *  value 1.
  *
  *  rows, values  [in]  count >= 1 entries, copied; a row given twice counts with the sum.
- *  Returns, Cost, Threads  as in sl_pins_add; SL_ERR_NOT_FINITE: also a value (error.row).
+ *  Returns, Cost, Threads  as in sl_constraints_add; SL_ERR_NOT_FINITE: also a value (error.row).
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows,
-                                                     const double *values, sl_int count,
-                                                     sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_constraints_add_equality(sl_constraints *P, const sl_int *rows,
+                                                            const double *values, sl_int count,
+                                                            sl_stats *stats);
 
 /** Releases pins, all or none. The others move together and keep their order.
  *
@@ -73,18 +73,18 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *r
  *  Cost     O(k^2) for each.
  *  Threads  exclusive use of P; F is read.
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count,
-                                                sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_constraints_release(sl_constraints *P, const sl_int *indices,
+                                                       sl_int count, sl_stats *stats);
 
 /** Takes the present numbers of the factor, after it has changed.
  *
  *  stats  [out]  pins; error.row.
- *  Returns  as sl_pins_add; SL_ERR_STALE: failed factor. On error solves are refused until a later
- *           call succeeds.
- *  Cost     that of sl_pins_add for all pins.
+ *  Returns  as sl_constraints_add; SL_ERR_STALE: failed factor. On error solves are refused until a
+ *           later call succeeds.
+ *  Cost     that of sl_constraints_add for all pins.
  *  Threads  exclusive use of P; F is read.
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_constraints_refactor(sl_constraints *P, sl_stats *stats);
 
 /** Solves A x = b + C f with C' x = g, where the columns of C are the equalities: for pins, x is g
  *  in their rows, and A x = b in all others.
@@ -99,7 +99,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
  *                values in rows that are pins are not used.
  *  G      [in]   k x nrhs, column-major, leading dimension ldg elements: the values, in the order
  *                of the pins.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: F has changed; SL_ERR_STATE: the plan is of
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: F has changed; SL_ERR_MISMATCH: the plan is of
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: C' x = g
  *           does not hold to 1e-8 of x or, where g is 0, of b / max |a|, or rounding hides whether
  *           pins rule out the motions of a body; SL_ERR_INCONSISTENT: b is out of balance with a
@@ -109,8 +109,9 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
  *           as much for each null vector of components with pins.
  *  Threads  any number at once on one P, each with its own W.
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
-                                              size_t ldx, const double *B, size_t ldb,
-                                              const double *G, size_t ldg, sl_int nrhs, sl_work *W);
+SL_API SL_WARN_UNUSED sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *plan,
+                                                     double *X, size_t ldx, const double *B,
+                                                     size_t ldb, const double *G, size_t ldg,
+                                                     sl_int nrhs, sl_work *W);
 
 #endif

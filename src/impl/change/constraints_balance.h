@@ -1,18 +1,19 @@
-/* pins_balance.h: null vectors in solves with pins: balance of forces, and motions */
-#ifndef SLI_CHANGE_PINS_BALANCE_H
-#define SLI_CHANGE_PINS_BALANCE_H
+/* constraints_balance.h: null vectors in solves with pins: balance of forces, and motions */
+#ifndef SLI_CHANGE_CONSTRAINTS_BALANCE_H
+#define SLI_CHANGE_CONSTRAINTS_BALANCE_H
 
-#include "pins_capacitance.h"
+#include "constraints_capacitance.h"
 
 /* Factors W' K^-1 W for the columns of W that are not left out. */
-static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P) {
+static sl_status sli_constraints_nulls_factor(const sli_constraints_nulls *w,
+                                              const sl_constraints *P) {
     const size_t count = (size_t)P->n_pins, ld = (size_t)w->count;
     sl_int a, b, p, k;
-    sli_pins_nulls_begin(w, P);
-    sli_pins_nulls_load(w, P);
+    sli_constraints_nulls_begin(w, P);
+    sli_constraints_nulls_load(w, P);
     memset(w->S, 0, ld * ld * sizeof(double));
     for (a = 0; a < w->count; a++) {
-        sli_pins_apply(P, w->W + (size_t)a * count, 1);
+        sli_constraints_apply(P, w->W + (size_t)a * count, 1);
     }
     for (p = 0; p < P->n_pins; p++) {
         const sli_pin *pin = P->pins[p];
@@ -40,8 +41,8 @@ static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P
 
 /* s := Z' b before the forward sweep. Returns 0 if b is inconsistent in a component without pins
  * that has several null vectors. norms: of b. */
-static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli_packed *b,
-                            const double *norms) {
+static int sli_constraints_defects(const sl_constraints *P, const sli_constraints_nulls *w,
+                                   const sli_packed *b, const double *norms) {
     const sl_factor *F = P->F;
     const sli_reach *R = b->R;
     const sl_int lanes = b->lanes;
@@ -77,8 +78,8 @@ static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli
 
 /* y := 0 at null pivots after the forward sweep, but for those that weights will center. Returns 0
  * if b is inconsistent in a component without pins. norms: of b. */
-static int sli_pins_clear(const sl_pins *P, const sli_reach *R, double *y, sl_int lanes,
-                          const double *norms) {
+static int sli_constraints_clear(const sl_constraints *P, const sli_reach *R, double *y,
+                                 sl_int lanes, const double *norms) {
     const sl_factor *F = P->F;
     sl_int m, r;
     for (m = 0; m < F->null.count; m++) {
@@ -99,8 +100,8 @@ static int sli_pins_clear(const sl_pins *P, const sli_reach *R, double *y, sl_in
 
 /* s := v, where W' f = -Z' b; f := that of this v. Returns 0 if b is out of balance with a motion
  * that the pins leave. norms: of b. */
-static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f, sl_int lanes,
-                            const double *norms) {
+static int sli_constraints_balance(const sl_constraints *P, const sli_constraints_nulls *w,
+                                   double *f, sl_int lanes, const double *norms) {
     const size_t count = (size_t)P->n_pins;
     sl_int p, k, r;
     for (k = 0; k < w->count * lanes; k++) {
@@ -133,8 +134,7 @@ static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f
         }
     }
     for (k = 0; k < w->count * lanes && P->F->null.consistency >= 0.0; k++) {
-        if (w->is_free[k / lanes] &&
-            fabs(w->defects[k]) > P->F->null.consistency * w->sizes[k]) {
+        if (w->is_free[k / lanes] && fabs(w->defects[k]) > P->F->null.consistency * w->sizes[k]) {
             return 0;
         }
     }
@@ -142,8 +142,8 @@ static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f
 }
 
 /* x += Z v */
-static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w, double *x,
-                           sl_int lanes) {
+static void sli_constraints_shift(const sl_constraints *P, const sli_query *q,
+                                  const sli_constraints_nulls *w, double *x, sl_int lanes) {
     const sl_factor *F = P->F;
     const sli_reach *R = &q->backward;
     sl_int first = 0, root, s, m, k, r;

@@ -1,13 +1,13 @@
-/* pins_capacitance.h: the sweeps of pins, and the factor of their capacitance matrix */
-#ifndef SLI_CHANGE_PINS_CAPACITANCE_H
-#define SLI_CHANGE_PINS_CAPACITANCE_H
+/* constraints_capacitance.h: the sweeps of pins, and the factor of their capacitance matrix */
+#ifndef SLI_CHANGE_CONSTRAINTS_CAPACITANCE_H
+#define SLI_CHANGE_CONSTRAINTS_CAPACITANCE_H
 
 #include "../inverse/block.h"
-#include "pins_nulls.h"
+#include "constraints_nulls.h"
 
 /* Clears the null pivots of an equality's trees in a vector. */
-static void sli_pin_clear_nulls(const sl_pins *P, const sli_pin *pin, const sli_reach *R, double *y,
-                                sl_int lanes) {
+static void sli_pin_clear_nulls(const sl_constraints *P, const sli_pin *pin, const sli_reach *R,
+                                double *y, sl_int lanes) {
     sl_int k;
     for (k = 0; k < pin->n_nulls; k++) {
         const ptrdiff_t at = sli_reach_index_of(R, P->F->null.pivots[pin->nulls[k]]);
@@ -18,7 +18,7 @@ static void sli_pin_clear_nulls(const sl_pins *P, const sli_pin *pin, const sli_
 }
 
 /* y := L^-1 P c, u := D^-1 y */
-static void sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) {
+static void sli_pin_sweep(const sl_constraints *P, sli_pin *pin, double *scratch) {
     const sl_factor *F = P->F;
     const sl_symbolic *S = F->S;
     sli_forward f;
@@ -35,7 +35,7 @@ static void sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) {
     sli_forward_divide(F, &f, pin->u);
 }
 
-static void sli_pin_free(const sl_pins *P, sli_pin *pin) {
+static void sli_pin_free(const sl_constraints *P, sli_pin *pin) {
     sli_free(&P->allocator, pin->nulls);
     sli_free(&P->allocator, pin);
 }
@@ -56,7 +56,7 @@ SLI_INLINE sli_equality sli_equality_of(const sl_int *rows, const double *values
 }
 
 /* Makes the object of an equality whose sorted rows are `set` and reach R, without y and u. */
-static sl_status sli_pin_new(sli_pin **out, const sl_pins *P, sli_set *set, sl_int count,
+static sl_status sli_pin_new(sli_pin **out, const sl_constraints *P, sli_set *set, sl_int count,
                              const sli_reach *R) {
     sli_pin pin;
     sli_block b = {NULL, 0};
@@ -80,7 +80,7 @@ static sl_status sli_pin_new(sli_pin **out, const sl_pins *P, sli_set *set, sl_i
 }
 
 /* Makes an equality; without y and u if is_swept is 0. */
-static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sli_equality *e,
+static sl_status sli_pin_create(sli_pin **out, const sl_constraints *P, const sli_equality *e,
                                 int is_swept, sl_stats *stats) {
     const sl_symbolic *S = P->F->S;
     sli_block seeds = {NULL, 0};
@@ -163,20 +163,20 @@ static void sli_capacitance_factor(double *K, size_t ld, sl_int k) {
 
 /* Factors row k of the pins' K. A pin that depends on the others leaves a pivot of rounding
  * errors. */
-static sl_status sli_pins_factor(sl_pins *P, sl_int k) {
+static sl_status sli_constraints_factor(sl_constraints *P, sl_int k) {
     const double *d = &P->K[(size_t)k * (size_t)P->capacity + (size_t)k], own = *d;
     sli_capacitance_factor(P->K, (size_t)P->capacity, k);
     if (!sli_is_finite(*d)) {
-        return sli_refuse(SL_ERR_NOT_FINITE, NULL); /* sli_pins_refuse names the row */
+        return sli_refuse(SL_ERR_NOT_FINITE, NULL); /* sli_constraints_refuse names the row */
     }
     return *d * P->sign > (64.0 + k) * 8.0 * DBL_EPSILON * fabs(own)
                ? SL_OK
                : sli_refuse(SL_ERR_PIVOT, NULL);
 }
 
-/* Refuses a row, or an equality of several rows, that sli_pins_factor has refused. */
-SLI_COLD static sl_status sli_pins_refuse(const sl_pins *P, sl_status status, sl_int row,
-                                          sl_int count, sl_stats *stats) {
+/* Refuses a row, or an equality of several rows, that sli_constraints_factor has refused. */
+SLI_COLD static sl_status sli_constraints_refuse(const sl_constraints *P, sl_status status,
+                                                 sl_int row, sl_int count, sl_stats *stats) {
     const char *what = status == SL_ERR_PIVOT ? "it depends on the other pins and equalities"
                                               : "numbers of F overflow in its solution";
     sl_int k;
@@ -190,7 +190,7 @@ SLI_COLD static sl_status sli_pins_refuse(const sl_pins *P, sl_status status, sl
 
 /* Removes equality p: the rows below it take over what its column contributed, a rank-one update of
  * their factor. */
-static void sli_pins_remove(sl_pins *P, sl_int p) {
+static void sli_constraints_remove(sl_constraints *P, sl_int p) {
     const size_t ld = (size_t)P->capacity;
     double *y = P->scratch, *b = y + ld, alpha = P->K[(size_t)p * ld + (size_t)p];
     sl_int i, j;
@@ -216,7 +216,7 @@ static void sli_pins_remove(sl_pins *P, sl_int p) {
 }
 
 /* Makes room for more equalities. */
-static sl_status sli_pins_grow(sl_pins *P, sl_int more) {
+static sl_status sli_constraints_grow(sl_constraints *P, sl_int more) {
     const sl_int capacity = sli_max(sli_max(8, 2 * P->capacity), P->n_pins + more);
     sli_block b = {NULL, 0};
     sli_pin **pins = NULL;
@@ -249,10 +249,10 @@ static sl_status sli_pins_grow(sl_pins *P, sl_int more) {
 }
 
 /* Adds an equality. On error P is as before. */
-static sl_status sli_pins_push(sl_pins *P, const sli_equality *e, sl_stats *stats) {
+static sl_status sli_constraints_push(sl_constraints *P, const sli_equality *e, sl_stats *stats) {
     const sl_int at = P->n_pins;
     sli_pin *pin = NULL;
-    sl_status status = sli_pins_grow(P, 1);
+    sl_status status = sli_constraints_grow(P, 1);
     sl_int i;
     status = status == SL_OK ? sli_pin_create(&pin, P, e, 1, stats) : status;
     if (status != SL_OK) {
@@ -264,12 +264,12 @@ static sl_status sli_pins_push(sl_pins *P, const sli_equality *e, sl_stats *stat
         sli_pin_dot(P->pins[i], &pin->R, pin->y, 1, entry);
         *entry += sli_pin_nulls_dot(P->pins[i], pin) / P->delta;
     }
-    status = sli_pins_factor(P, at);
+    status = sli_constraints_factor(P, at);
     if (status != SL_OK) {
         sli_pin_free(P, pin);
-        return sli_pins_refuse(P, status, e->rows[0], e->count, stats);
+        return sli_constraints_refuse(P, status, e->rows[0], e->count, stats);
     }
-    sli_pins_count_nulls(P, pin, 1);
+    sli_constraints_count_nulls(P, pin, 1);
     P->n_pins++;
     return SL_OK;
 }
@@ -303,7 +303,7 @@ SLI_HOT static void sli_capacitance_solve(const double *K, size_t ld, sl_int cou
     }
 }
 
-static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
+static void sli_constraints_apply(const sl_constraints *P, double *f, sl_int lanes) {
     sli_capacitance_solve(P->K, (size_t)P->capacity, P->n_pins, f, lanes);
 }
 

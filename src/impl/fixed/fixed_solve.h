@@ -1,12 +1,12 @@
-/* dirichlet_solve.h: solves for the free rows, with given values in the fixed ones */
-#ifndef SLI_DIRICHLET_DIRICHLET_SOLVE_H
-#define SLI_DIRICHLET_DIRICHLET_SOLVE_H
+/* fixed_solve.h: solves for the free rows, with given values in the fixed ones */
+#ifndef SLI_FIXED_SOLVE_H
+#define SLI_FIXED_SOLVE_H
 
 #include "../solve/sweep.h"
-#include "dirichlet_rows.h"
+#include "fixed_rows.h"
 
 /* Moves rows free_rows of B to the first rows of X, which may be B: they move up. */
-static void sli_dirichlet_gather(const sl_dirichlet *D, const sli_rhs *rhs) {
+static void sli_fixed_gather(const sl_fixed *D, const sli_rhs *rhs) {
     const sli_dense x = sli_dense_of(rhs->ldx), b = sli_dense_of(rhs->ldb);
     const sl_int by_rows = x.column == 1;
     const sl_int outer = by_rows ? D->n_free : rhs->nrhs, inner = by_rows ? rhs->nrhs : D->n_free;
@@ -21,8 +21,7 @@ static void sli_dirichlet_gather(const sl_dirichlet *D, const sli_rhs *rhs) {
 }
 
 /* x -= A[free, fixed] g in the first rows of X. */
-static void sli_dirichlet_subtract(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
-                                   size_t ldg) {
+static void sli_fixed_subtract(const sl_fixed *D, const sli_rhs *rhs, const double *G, size_t ldg) {
     const sli_dense x = sli_dense_of(rhs->ldx), g = sli_dense_of(ldg);
     sl_int k, r;
     for (k = 0; k < D->n_couplings; k++) {
@@ -35,7 +34,7 @@ static void sli_dirichlet_subtract(const sl_dirichlet *D, const sli_rhs *rhs, co
 }
 
 /* Moves the first rows of X to free_rows, from the last one on. */
-static void sli_dirichlet_scatter(const sl_dirichlet *D, const sli_rhs *rhs) {
+static void sli_fixed_scatter(const sl_fixed *D, const sli_rhs *rhs) {
     const sli_dense x = sli_dense_of(rhs->ldx);
     const sl_int by_rows = x.column == 1;
     const sl_int outer = by_rows ? D->n_free : rhs->nrhs, inner = by_rows ? rhs->nrhs : D->n_free;
@@ -50,8 +49,7 @@ static void sli_dirichlet_scatter(const sl_dirichlet *D, const sli_rhs *rhs) {
 }
 
 /* Sets the fixed rows of X to g. Returns 0 if a value is not finite. */
-static int sli_dirichlet_set_fixed(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
-                                   size_t ldg) {
+static int sli_fixed_set_fixed(const sl_fixed *D, const sli_rhs *rhs, const double *G, size_t ldg) {
     const sli_dense x = sli_dense_of(rhs->ldx), g = sli_dense_of(ldg);
     sl_int k, r;
     int is_finite = 1;
@@ -67,8 +65,8 @@ static int sli_dirichlet_set_fixed(const sl_dirichlet *D, const sli_rhs *rhs, co
 
 /* Solves by a regular factor of the free rows, from B to X. index: gets where each row is in the
  * vector, for a fixed row that of the next free one, which overwrites it. */
-static sl_status sli_dirichlet_blocks(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
-                                      size_t ldg, sl_int *index, void *memory) {
+static sl_status sli_fixed_blocks(const sl_fixed *D, const sli_rhs *rhs, const double *G,
+                                  size_t ldg, sl_int *index, void *memory) {
     const sl_factor *F = D->F;
     const sli_dense g = sli_dense_of(ldg);
     sli_query q = sli_query_all(D->S);
@@ -112,8 +110,8 @@ static sl_status sli_dirichlet_blocks(const sl_dirichlet *D, const sli_rhs *rhs,
 }
 
 /* Solves by the factor of the free rows, in place in X if it is singular or by several workers. */
-static sl_status sli_dirichlet_run(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
-                                   size_t ldg, sl_work *W) {
+static sl_status sli_fixed_run(const sl_fixed *D, const sli_rhs *rhs, const double *G, size_t ldg,
+                               sl_work *W) {
     const sli_rhs in_place = sli_rhs_of(rhs->X, rhs->ldx, rhs->X, rhs->ldx, rhs->nrhs);
     const sli_query q = sli_query_all(D->S);
     sli_sweep_tasks t;
@@ -128,22 +126,21 @@ static sl_status sli_dirichlet_run(const sl_dirichlet *D, const sli_rhs *rhs, co
         if (status == SL_OK) {
             void *memory = sli_take(&b, bytes, 1);
             index = SLI_TAKE(&b, sl_int, D->n);
-            status = sli_dirichlet_blocks(D, rhs, G, ldg, index, memory);
+            status = sli_fixed_blocks(D, rhs, G, ldg, index, memory);
         }
         return status;
     }
     if (status == SL_OK) {
-        sli_dirichlet_gather(D, rhs);
-        sli_dirichlet_subtract(D, rhs, G, ldg);
+        sli_fixed_gather(D, rhs);
+        sli_fixed_subtract(D, rhs, G, ldg);
         status = D->n_free > 0 ? sli_query_run(&t, D->F, &q, &in_place, W) : SL_OK;
-        sli_dirichlet_scatter(D, rhs);
+        sli_fixed_scatter(D, rhs);
     }
     return status;
 }
 
-SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx, const double *B,
-                                    size_t ldb, const double *G, size_t ldg, sl_int nrhs,
-                                    sl_work *W) {
+SL_API sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx, const double *B,
+                                size_t ldb, const double *G, size_t ldg, sl_int nrhs, sl_work *W) {
     sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
     sl_work own;
     sl_status status;
@@ -160,21 +157,21 @@ SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx
     }
     if (D->is_stale ||
         (D->pins == NULL && !D->F->is_valid)) { /* branches untested: then it is stale, too */
-        return sli_refuse(SL_ERR_STALE, "the last sl_dirichlet_refactor has failed");
+        return sli_refuse(SL_ERR_STALE, "the last sl_fixed_refactor has failed");
     }
     own = sli_work_own(&D->allocator);
     W = W == NULL ? &own : W;
-    status = D->pins != NULL ? D->ways->solve(D, &rhs, G, ldg, W)
-                             : sli_dirichlet_run(D, &rhs, G, ldg, W);
+    status =
+        D->pins != NULL ? D->ways->solve(D, &rhs, G, ldg, W) : sli_fixed_run(D, &rhs, G, ldg, W);
     sli_free(&own.allocator, own.block);
-    if (status == SL_OK && !sli_dirichlet_set_fixed(D, &rhs, G, ldg)) {
+    if (status == SL_OK && !sli_fixed_set_fixed(D, &rhs, G, ldg)) {
         status = sli_refuse(SL_ERR_NOT_FINITE, "a value of G is not finite");
     }
     return status;
 }
 
-SL_API sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D) {
-    sl_dirichlet_arrays v;
+SL_API sl_fixed_arrays sl_fixed_view(const sl_fixed *D) {
+    sl_fixed_arrays v;
     SLI_CLEAR(v);
     if (D != NULL) {
         v.n_free = D->n_free;

@@ -1,12 +1,12 @@
-/* pins.h: sets of pins: created, added, released, and made again for other numbers */
-#ifndef SLI_CHANGE_PINS_H
-#define SLI_CHANGE_PINS_H
+/* constraints.h: sets of pins: created, added, released, and made again for other numbers */
+#ifndef SLI_CHANGE_CONSTRAINTS_H
+#define SLI_CHANGE_CONSTRAINTS_H
 
 #include "../factor/factor_setup.h"
-#include "pins_rows.h"
+#include "constraints_rows.h"
 
 /* Prepares a set without pins for the numbers of its base. */
-static sl_status sli_pins_take(sl_pins *P) {
+static sl_status sli_constraints_take(sl_constraints *P) {
     const sl_factor *F = P->F;
     const sl_factor_info *info = &F->stats.factor;
     P->sign = info->negative > 0 ? -1.0 : 1.0;
@@ -26,7 +26,7 @@ static sl_status sli_pins_take(sl_pins *P) {
 }
 
 /* May F have pins? */
-static sl_status sli_pins_check(const sl_factor *F) {
+static sl_status sli_constraints_check(const sl_factor *F) {
     const sl_factor_info *info = &F->stats.factor;
     const sl_status status = sli_factor_has_numbers(F);
     if (status != SL_OK || (F->E == NULL && (info->positive == 0 || info->negative == 0))) {
@@ -36,7 +36,7 @@ static sl_status sli_pins_check(const sl_factor *F) {
 }
 
 /* Releases what a set has made on top of its factor. */
-static void sli_pins_release(sl_pins *P) {
+static void sli_constraints_release(sl_constraints *P) {
     sl_int k;
     for (k = 0; k < P->n_pins; k++) {
         sli_pin_free(P, P->pins[k]);
@@ -45,26 +45,28 @@ static void sli_pins_release(sl_pins *P) {
     sli_free(&P->allocator, P->uses);
 }
 
-SLI_NOINLINE static void sli_pins_report(const sl_pins *P, double started, sl_stats *stats) {
+SLI_NOINLINE static void sli_constraints_report(const sl_constraints *P, double started,
+                                                sl_stats *stats) {
     if (stats != NULL) {
-        stats->pins.count = P->n_pins;
-        stats->pins.seconds = sli_seconds() - started;
+        stats->constraints.count = P->n_pins;
+        stats->constraints.seconds = sli_seconds() - started;
     }
 }
 
-SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_options *opt) {
+SL_API sl_status sl_constraints_create(sl_constraints **out, const sl_factor *F,
+                                       const sl_options *opt) {
     const sl_allocator a = sli_allocator(opt);
-    sl_pins *P = NULL;
+    sl_constraints *P = NULL;
     sl_status status;
     status = sli_begin(out);
     status = status == SL_OK
                  ? sli_argument(F == NULL ? "F is NULL" : sli_options_wrong(opt, SLI_READS_NOTHING))
                  : status;
-    status = status == SL_OK ? sli_pins_check(F) : status;
+    status = status == SL_OK ? sli_constraints_check(F) : status;
     if (status != SL_OK) {
         return status;
     }
-    P = (sl_pins *)sli_alloc(&a, sizeof *P);
+    P = (sl_constraints *)sli_alloc(&a, sizeof *P);
     if (P == NULL) {
         return sli_no_memory();
     }
@@ -72,35 +74,35 @@ SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_opti
     P->allocator = a;
     P->F = F;
     sli_borrow(&F->borrowers);
-    status = sli_pins_take(P);
+    status = sli_constraints_take(P);
     if (status == SL_OK) {
         *out = P;
     } else {
-        sl_pins_free(P);
+        sl_constraints_free(P);
     }
     return status;
 }
 
-SL_API void sl_pins_free(sl_pins *P) {
+SL_API void sl_constraints_free(sl_constraints *P) {
     if (P != NULL) {
         const sl_allocator a = P->allocator;
-        sli_pins_release(P);
+        sli_constraints_release(P);
         sl_factor_free((sl_factor *)P->F);
         sli_free(&a, P);
     }
 }
 
 /* Takes a pin out of the set. */
-static void sli_pins_drop(sl_pins *P, sl_int index) {
+static void sli_constraints_drop(sl_constraints *P, sl_int index) {
     if (P->numbers.generation != 0) { /* else its null pivots may be those of another F */
-        sli_pins_count_nulls(P, P->pins[index], 0);
+        sli_constraints_count_nulls(P, P->pins[index], 0);
     }
     sli_pin_free(P, P->pins[index]);
-    sli_pins_remove(P, index);
+    sli_constraints_remove(P, index);
 }
 
-SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const double *values,
-                                      sl_int count, sl_stats *stats) {
+SL_API sl_status sl_constraints_add_equality(sl_constraints *P, const sl_int *rows,
+                                             const double *values, sl_int count, sl_stats *stats) {
     const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
     const sli_equality e = sli_equality_of(rows, values, count);
     sl_status status;
@@ -111,7 +113,7 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
                           : rows == NULL   ? "rows is NULL"
                           : values == NULL ? "values is NULL"
                                            : NULL);
-    status = status == SL_OK ? sli_pins_are_current(P) : status;
+    status = status == SL_OK ? sli_constraints_are_current(P) : status;
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
@@ -121,14 +123,15 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
                                "a value of the equality is not finite");
         }
     }
-    status = sli_pins_push(P, &e, stats);
+    status = sli_constraints_push(P, &e, stats);
     if (status == SL_OK) {
-        sli_pins_report(P, started, stats);
+        sli_constraints_report(P, started, stats);
     }
     return sli_report(stats, status);
 }
 
-SL_API sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count, sl_stats *stats) {
+SL_API sl_status sl_constraints_add(sl_constraints *P, const sl_int *rows, sl_int count,
+                                    sl_stats *stats) {
     const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
     sl_status status;
     sl_int k;
@@ -137,7 +140,7 @@ SL_API sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count, sl_st
                           : count < 0                 ? "count is below 0"
                           : count > 0 && rows == NULL ? "rows is NULL"
                                                       : NULL);
-    status = status == SL_OK ? sli_pins_are_current(P) : status;
+    status = status == SL_OK ? sli_constraints_are_current(P) : status;
     if (status == SL_OK && count > INT32_MAX - P->n_pins) {
         status = sli_refuse(SL_ERR_TOO_LARGE, "more than 2^31 - 1 pins");
     }
@@ -146,14 +149,15 @@ SL_API sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count, sl_st
             return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0, "a row is out of range");
         }
     }
-    status = status == SL_OK ? sli_pins_push_rows(P, rows, count, stats) : status;
+    status = status == SL_OK ? sli_constraints_push_rows(P, rows, count, stats) : status;
     if (status == SL_OK) {
-        sli_pins_report(P, started, stats);
+        sli_constraints_report(P, started, stats);
     }
     return sli_report(stats, status);
 }
 
-SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count, sl_stats *stats) {
+SL_API sl_status sl_constraints_release(sl_constraints *P, const sl_int *indices, sl_int count,
+                                        sl_stats *stats) {
     const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
     sli_block b = {NULL, 0};
     unsigned char *gone = NULL;
@@ -168,7 +172,7 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
         return sli_report(stats, status);
     }
     if (count == 0) {
-        sli_pins_report(P, started, stats);
+        sli_constraints_report(P, started, stats);
         return SL_OK;
     }
     SLI_LAYOUT(&b, &P->allocator, status) {
@@ -187,12 +191,12 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
     }
     for (k = P->n_pins - 1; k >= 0 && status == SL_OK; k--) {
         if (gone[k]) {
-            sli_pins_drop(P, k);
+            sli_constraints_drop(P, k);
         }
     }
     sli_free(&P->allocator, b.base);
     if (status == SL_OK) {
-        sli_pins_report(P, started, stats);
+        sli_constraints_report(P, started, stats);
     }
     return sli_report(stats, status);
 }
@@ -203,8 +207,9 @@ SLI_INLINE int sli_pin_is_row(const sli_pin *pin) {
 }
 
 /* Fills a new set, D, from the pins of P; rows: P->n_pins of scratch. */
-static sl_status sli_pins_fill(sl_pins *D, const sl_pins *P, sl_int *rows, sl_stats *stats) {
-    sl_status status = sli_pins_take(D);
+static sl_status sli_constraints_fill(sl_constraints *D, const sl_constraints *P, sl_int *rows,
+                                      sl_stats *stats) {
+    sl_status status = sli_constraints_take(D);
     sl_int k, last;
     for (k = 0; k < P->n_pins && status == SL_OK; k = last) {
         const sli_pin *pin = P->pins[k];
@@ -213,47 +218,47 @@ static sl_status sli_pins_fill(sl_pins *D, const sl_pins *P, sl_int *rows, sl_st
         }
         if (last == k) {
             const sli_equality e = sli_equality_of(pin->rows, pin->values, pin->count);
-            status = sli_pins_push(D, &e, stats);
+            status = sli_constraints_push(D, &e, stats);
             last = k + 1;
         } else {
-            status = sli_pins_push_rows(D, rows, last - k, stats);
+            status = sli_constraints_push_rows(D, rows, last - k, stats);
         }
     }
     return status;
 }
 
 /* Makes the set again for the present numbers of F. On error solves are refused. */
-static sl_status sli_pins_renew(sl_pins *P, sl_stats *stats) {
-    sl_pins D = *P;
+static sl_status sli_constraints_renew(sl_constraints *P, sl_stats *stats) {
+    sl_constraints D = *P;
     sli_block b = {NULL, 0};
     sl_int *rows = NULL;
-    sl_status status = sli_pins_check(P->F);
+    sl_status status = sli_constraints_check(P->F);
     D.n_pins = D.capacity = 0;
     D.pins = NULL;
     D.uses = NULL;
     SLI_LAYOUT(&b, &P->allocator, status) {
         rows = SLI_TAKE(&b, sl_int, P->n_pins);
     }
-    status = status == SL_OK ? sli_pins_fill(&D, P, rows, stats) : status;
+    status = status == SL_OK ? sli_constraints_fill(&D, P, rows, stats) : status;
     sli_free(&P->allocator, b.base);
     if (status != SL_OK) {
         P->numbers.generation = 0;
     }
-    sli_pins_release(status == SL_OK ? P : &D);
+    sli_constraints_release(status == SL_OK ? P : &D);
     if (status == SL_OK) {
         *P = D;
     }
     return status;
 }
 
-SL_API sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats) {
+SL_API sl_status sl_constraints_refactor(sl_constraints *P, sl_stats *stats) {
     const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
     sl_status status;
     sli_stats_clear_error(stats);
     status = sli_argument(P == NULL ? "P is NULL" : NULL);
-    status = status == SL_OK ? sli_pins_renew(P, stats) : status;
+    status = status == SL_OK ? sli_constraints_renew(P, stats) : status;
     if (status == SL_OK) {
-        sli_pins_report(P, started, stats);
+        sli_constraints_report(P, started, stats);
     }
     return sli_report(stats, status);
 }
