@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 15a17829b22822a1
+ * FNV-1a of the lines after this comment, without the license: cc88e1a4417c39a1
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -109,8 +109,8 @@
  *  a few entries of A changed                     sl_factor_change_entries               change.h
  *  A + V V'                                       sl_factor_rank_update                  change.h
  *  rows that stay fixed, b in the others          sl_fixed_create                        fixed.h
- *  rows held and released one by one              sl_constraints_create constraints.h
- *  a part of A, with zero values around it        sl_factor_submatrix submatrix.h
+ *  rows held and released one by one              sl_constraints_create             constraints.h
+ *  a part of A, with zero values around it        sl_factor_submatrix                 submatrix.h
  *  a mesh that is cut or remeshed in places       sl_symbolic_edit, sl_factor_edit       edit.h
  *  variances, entries of the inverse              sl_inverse_diagonal, sl_inverse_pairs  inverse.h
  *  the inverse on the whole pattern of L          sl_selected_create                     selected.h

@@ -29,9 +29,9 @@ static shared_t shared_make(void) {
     gen_reals(s.B, (size_t)s.n, 7);
     gen_reals(s.G, PINS, 8);
     SL_CHECK(sl_plan_create(&s.plan, s.y.S, near_rows, NEAR, near_rows, NEAR, NULL, NULL));
-    SL_CHECK(sl_constraints_create(&s.constraints, s.y.F, NULL));
+    SL_CHECK(sl_constraints_create(&s.pins, s.y.F, NULL));
     for (int k = 0; k < PINS; k++) {
-        SL_CHECK(pin_row(s.constraints, pinned[k], NULL));
+        SL_CHECK(pin_row(s.pins, pinned[k], NULL));
     }
     for (int k = 0; k < TASKS; k++) {
         s.X[k] = test_reals((size_t)s.n);
