@@ -1,63 +1,63 @@
-/* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: cc88e1a4417c39a1
+/* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
+ * FNV-1a of the lines after this comment, without the license: 2cf58fac2822ff93
  * The comments of the implementation are in src/impl.
  *
  * Contents
  *     65 intro.h      what the library does, a quick start, which call for which question, references
  *    195 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
  *    239 config.h     macros that a user may define before the include, the version, and the integer types
- *    326 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    506 options.h    options of all calls, threads, and the allocator
- *    632 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    876 csc.h        sparse matrices: creation, checks, products, residuals
- *    977 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1053 factor.h     the numerical factorization P A P' = L D L'
- *   1182 solve.h      full solves, and the workspace of all solves
- *   1278 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1354 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1444 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1537 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1576 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1677 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1757 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1843 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1936 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2043 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2085 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2207 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2238 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2420 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2523 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2634 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2675 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2761 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2869 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2903 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2980 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3023 impl/ base: the compiler, status, memory, sorting, threads
- *   4304 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5243 impl/ matrix: sparse matrices of the caller and of the library
- *   5919 impl/ ordering: fill-reducing orderings of a graph
- *  11021 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13260 impl/ factor: the numbers of L and D
- *  16673 impl/ solve: full and local solves
- *  18550 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20547 impl/ pivots: the order of the pivots by the values of a matrix
- *  20955 impl/ float: L and fronts in single precision
- *  21460 impl/ inverse: entries of the inverse, regions
- *  24559 impl/ change: a factor that follows changes of its matrix
- *  30864 impl/ fixed: rows fixed at given values
- *  31505 impl/ fixed: by a factor of all rows
- *  31739 impl/ io: files that are replaced only when they are complete
- *  31957 impl/ files: Matrix Market files, 64-bit indices
- *  32577 impl/ save: factors in files
- *  34590 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35276 impl/ batch: diagonals of many inverses
- *  35416 impl/ complex: complex Hermitian systems over real factors
- *  35978 impl/ complex: entries of the inverse
- *  36038 impl/ packs: the tables through which the core calls packs
- *  36087 impl/ last: undefine every internal macro
- *  36468 impl/ templates: the header includes them from itself, once for each instruction set
+ *    327 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    507 options.h    options of all calls, threads, and the allocator
+ *    633 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    877 csc.h        sparse matrices: creation, checks, products, residuals
+ *    978 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1054 factor.h     the numerical factorization P A P' = L D L'
+ *   1183 solve.h      full solves, and the workspace of all solves
+ *   1279 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1355 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1445 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1538 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1577 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1678 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1758 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1844 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1937 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2044 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2086 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2208 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2239 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2421 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2524 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2635 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2676 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2762 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2870 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2904 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2981 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3024 impl/ base: the compiler, status, memory, sorting, threads
+ *   4305 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5244 impl/ matrix: sparse matrices of the caller and of the library
+ *   5920 impl/ ordering: fill-reducing orderings of a graph
+ *  11022 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13261 impl/ factor: the numbers of L and D
+ *  16674 impl/ solve: full and local solves
+ *  18551 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20548 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20956 impl/ float: L and fronts in single precision
+ *  21461 impl/ inverse: entries of the inverse, regions
+ *  24560 impl/ change: a factor that follows changes of its matrix
+ *  30865 impl/ fixed: rows fixed at given values
+ *  31506 impl/ fixed: by a factor of all rows
+ *  31740 impl/ io: files that are replaced only when they are complete
+ *  31958 impl/ files: Matrix Market files, 64-bit indices
+ *  32578 impl/ save: factors in files
+ *  34591 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35277 impl/ batch: diagonals of many inverses
+ *  35417 impl/ complex: complex Hermitian systems over real factors
+ *  35979 impl/ complex: entries of the inverse
+ *  36039 impl/ packs: the tables through which the core calls packs
+ *  36088 impl/ last: undefine every internal macro
+ *  36469 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -291,6 +291,7 @@
 #define SL_VERSION_MAJOR 1
 #define SL_VERSION_MINOR 0
 #define SL_VERSION_PATCH 0
+#define SL_VERSION_SUFFIX "-dev" /* empty in a release */
 /* the version as one number, to compare: 10203 is 1.2.3 */
 #define SL_VERSION (10000 * SL_VERSION_MAJOR + 100 * SL_VERSION_MINOR + SL_VERSION_PATCH)
 

@@ -23,7 +23,7 @@ include tools/web/web.mk
 
 # ---- release ----
 
-RELEASE = build/release/sparse_local-$(VERSION)
+RELEASE = build/release/sparse_local-$(FULL_VERSION)
 
 # The tarball is what git has of the last commit, and the generated header; owner and times are fixed, so that the same commit gives
 # the same bytes.
@@ -34,7 +34,7 @@ release: check-header docs deps-python npm ## build/release: headers, tarball, m
 	@cp sparse_local.h build/release
 	@$(MAKE) --no-print-directory header-flat && cp build/sparse_local_flat.h build/release
 	@$(MAKE) --no-print-directory header PACKS=core && cp build/sparse_local_core.h build/release
-	@git archive --format=tar --prefix=sparse_local-$(VERSION)/ HEAD | gzip -9n >$(RELEASE).tar.gz
+	@git archive --format=tar --prefix=sparse_local-$(FULL_VERSION)/ HEAD | gzip -9n >$(RELEASE).tar.gz
 	@tar --sort=name --owner=0 --group=0 --mtime="$$(git log -1 --format=@%ct)" -cf - -C build manual | gzip -9n >$(RELEASE)-manual.tar.gz
 	@$(MAKE) --no-print-directory build/python/installed && cp build/python/wheel/*.whl build/npm/*.tgz build/release
 	@tools/docs/release_notes.sh $(VERSION) >build/release/NOTES.md

@@ -275,9 +275,9 @@ fi
 # ---- recipes, versions, the manual page ----
 
 same_versions() {
-    grep "version: '$VERSION'" meson.build
-    grep "\"version\": \"$VERSION\"" tools/packaging/vcpkg/vcpkg.json
-    grep "version = \"$VERSION\"" tools/python/pyproject.toml
+    grep "version: '$FULL_VERSION'" meson.build
+    grep "\"version-semver\": \"$FULL_VERSION\"" tools/packaging/vcpkg/vcpkg.json
+    grep "version = \"$(echo "$FULL_VERSION" | sed 's/-dev/.dev0/')\"" tools/python/pyproject.toml
 }
 
 # The names of the commands are those of main.c.

@@ -7,12 +7,12 @@
 #include <string.h>
 
 void emit(job *j, const char *line, size_t length) {
-    static const char *const names[3] = {"MAJOR", "MINOR", "PATCH"};
+    static const char *const names[4] = {"MAJOR", "MINOR", "PATCH", "SUFFIX"};
     char name[16], value[16];
     append(&j->body, line, length);
     j->lines++;
     if (sscanf(line, "#define SL_VERSION_%15s %15s", name, value) == 2) {
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 4; k++) {
             if (strcmp(name, names[k]) == 0) strcpy(j->version[k], value);
         }
     }
@@ -132,8 +132,10 @@ size_t banner(text *out, const job *j, size_t shift) {
     char line[2 * PATH_SIZE + CONDITION_SIZE + 64];
     uint64_t h = hash(&j->body);
     size_t lines = 0;
-    snprintf(line, sizeof line, "/* %s %s.%s.%s, generated: edit src/, run make header\n", j->name,
-             j->version[0], j->version[1], j->version[2]);
+    const size_t quoted = strlen(j->version[3]);
+    snprintf(line, sizeof line, "/* %s %s.%s.%s%.*s, generated: edit src/, run make header\n",
+             j->name, j->version[0], j->version[1], j->version[2], quoted > 2 ? (int)quoted - 2 : 0,
+             j->version[3] + 1);
     append_string(out, line);
     snprintf(line, sizeof line,
              " * FNV-1a of the lines after this comment, without the license: %08lx%08lx\n",

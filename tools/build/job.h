@@ -34,7 +34,7 @@ typedef struct job {
     char batch[SECTIONS_MAX][PATH_SIZE]; /* those of the next self-inclusion, in this order */
     size_t n_batch;
     int has_self_inclusion, has_check; /* has_check: outside the blocks of packs */
-    char version[3][16];
+    char version[4][16]; /* the numbers, and the suffix with its quotes */
 
     /* Packs. The manifest's blocks of packs do not nest. */
     pack_set known;

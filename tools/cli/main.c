@@ -81,8 +81,8 @@ int main(int argc, char **argv) {
         return 2;
     }
     if (strcmp(argv[1], "--version") == 0) {
-        (void)printf("sparse-local %d.%d.%d\n", SL_VERSION_MAJOR, SL_VERSION_MINOR,
-                     SL_VERSION_PATCH);
+        (void)printf("sparse-local %d.%d.%d%s\n", SL_VERSION_MAJOR, SL_VERSION_MINOR,
+                     SL_VERSION_PATCH, SL_VERSION_SUFFIX);
         return 0;
     }
     const bool wants_help = strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 ||

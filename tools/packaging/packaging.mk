@@ -84,6 +84,8 @@ test-clients: deps deps-eigen sparse_local.h ## what libigl and geometry-central
 # ---- the compiled library ----
 
 VERSION := $(shell sed -n 's/^\#define SL_VERSION_M[A-Z]* //p; s/^\#define SL_VERSION_PATCH //p' src/public/config.h | paste -sd.)
+# What packages call themselves: between releases the version has a suffix, which Python spells as .dev0.
+FULL_VERSION := $(VERSION)$(shell sed -n 's/^\#define SL_VERSION_SUFFIX "\([^"]*\)".*/\1/p' src/public/config.h)
 # Before 1.0 a minor version may change the API, and so the soname has it.
 SOVERSION := $(shell echo $(VERSION) | sed 's/^\(0\.[0-9]*\)\..*/\1/; s/^\([1-9][0-9]*\)\..*/\1/')
 SO = build/lib/libsparse_local.so
@@ -120,7 +122,7 @@ deps-abi: ## abidiff, which compares declarations
 	@tools/build/deps.sh abidiff=abigail-tools
 
 abi: shared deps-abi ## is what the last release declared as it was, and do programs of one run with the library of the other?
-	@CC='$(CC)' VERSION=$(VERSION) tests/abi/check_abi.sh
+	@CC='$(CC)' VERSION=$(FULL_VERSION) tests/abi/check_abi.sh
 
 abi-record: deps $(B)/tests/core/test_saved_releases ## at a release: what it declares goes to tests/abi, factors it saves to the corpus
 	@CC='$(CC)' VERSION=$(VERSION) tests/abi/check_abi.sh record
@@ -140,7 +142,7 @@ uninstall: ## removes what install put there
 	DESTDIR='$(DESTDIR)' tools/packaging/install.sh uninstall
 
 check-install: deps-packaging deps-cxx sparse_local.h ## strangers' projects by pkg-config, CMake and meson, outside the tree
-	@CC='$(CC)' CXX='$(CXX)' VERSION=$(VERSION) tests/adapters/check_install.sh $(INSTALL_PARTS)
+	@CC='$(CC)' CXX='$(CXX)' VERSION=$(VERSION) FULL_VERSION=$(FULL_VERSION) tests/adapters/check_install.sh $(INSTALL_PARTS)
 
 # ---- Python ----
 

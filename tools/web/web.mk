@@ -30,10 +30,10 @@ npm: deps-npm ## build/npm/sparse-local-VERSION.tgz and its folder, build/npm/pa
 	@$(MAKE) --no-print-directory build/web/sparse_local.wasm
 	@rm -rf $(WEB_PACKAGE) && mkdir -p $(WEB_PACKAGE)
 	@cp build/web/sparse_local.wasm LICENSE $(WEB_FILES:%=tools/web/%) $(WEB_PACKAGE)
-	@sed 's/@VERSION@/$(VERSION)/; s/@LICENSE@/$(firstword $(shell head -n 1 LICENSE))/' tools/web/package.json >$(WEB_PACKAGE)/package.json
+	@sed 's/@VERSION@/$(FULL_VERSION)/; s/@LICENSE@/$(firstword $(shell head -n 1 LICENSE))/' tools/web/package.json >$(WEB_PACKAGE)/package.json
 	@tar -cf - -C build/npm --mtime='UTC 1985-10-26' --owner=0 --group=0 --numeric-owner --sort=name package | \
-	gzip -9n >build/npm/sparse-local-$(VERSION).tgz
-	@echo "build/npm/sparse-local-$(VERSION).tgz: $$(wc -c <build/npm/sparse-local-$(VERSION).tgz) bytes"
+	gzip -9n >build/npm/sparse-local-$(FULL_VERSION).tgz
+	@echo "build/npm/sparse-local-$(FULL_VERSION).tgz: $$(wc -c <build/npm/sparse-local-$(FULL_VERSION).tgz) bytes"
 
 live: deps-npm deps-png ## build/sparse-local with the kernel of live pages: sparse-local view --live
 	@$(MAKE) --no-print-directory build/web/sparse_local.wasm
