@@ -7,10 +7,10 @@
 # tests/abi/sparse_local-VERSION.h is a release as a compiler sees it: names, types, values of enums
 # and structs, without comments and bodies. `record` writes the one of this version, at a release.
 # Before 1.0, between releases (-dev) and with no record differences are printed; in a release, or
-# with SL_ABI_STRICT=1, they fail. New calls, new values at the end of an enum, and options and statistics in the place of
-# reserved ones are no differences. client.c uses only what the oldest record has. CC and VERSION
-# come from the Makefile; ABI_OLD is another record to compare with. The last line is `N passed,
-# N failed, N skipped`.
+# with SL_ABI_STRICT=1, they fail. New calls, new values at the end of an enum, and options and
+# statistics in the place of reserved ones are no differences. client.c uses only what the oldest
+# record has. CC and VERSION come from the Makefile; ABI_OLD is another record to compare with.
+# The last line is `N passed, N failed, N skipped`.
 
 cd "$(dirname "$0")/../.." || exit 1
 dir=build/abi
