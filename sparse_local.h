@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: cc88e1a4417c39a1
+ * FNV-1a of the lines after this comment, without the license: afb8e5fea2dce3cf
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40071,12 +40071,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots2)(const SLV_VALUE *l0, const SLV_VAL
   } else { \
     SLV_SUM_ZERO(a##k) \
   }
-#if !defined(SLV_PLAIN) || defined(SLV_ARRAYS)
-#define SLI_SHARED SLI_NOINLINE static
-#else
-#define SLI_SHARED SLI_INLINE
-#endif
-SLV_FUNCTION SLI_SHARED void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inner,
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inner,
     const double *sums, const double *d, double *xs,
     double *buf) {
   double r[SLI_TILE];
@@ -40188,7 +40183,6 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 #undef SLI_ROW_AT
 #undef SLI_ROW_AT_PART
 #undef SLI_TAKE_SUM
-#undef SLI_SHARED
 #undef SLI_FEW_STEPS
 /* end of single_rhs.inl.h */
 #endif
