@@ -125,12 +125,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots2)(const SLV_VALUE *l0, const SLV_VAL
     } else { \
         SLV_SUM_ZERO(a##k) \
     }
-#if !defined(SLV_PLAIN) || defined(SLV_ARRAYS)
-#define SLI_SHARED SLI_NOINLINE static
-#else
-#define SLI_SHARED SLI_INLINE /* in plain C the call is 3 % of a solve */
-#endif
-SLV_FUNCTION SLI_SHARED void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inner,
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inner,
                                                  const double *sums, const double *d, double *xs,
                                                  double *buf) {
     double r[SLI_TILE];
@@ -247,5 +242,4 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 #undef SLI_ROW_AT
 #undef SLI_ROW_AT_PART
 #undef SLI_TAKE_SUM
-#undef SLI_SHARED
 #undef SLI_FEW_STEPS
