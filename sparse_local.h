@@ -1,63 +1,62 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: cc88e1a4417c39a1
+ * FNV-1a of the lines after this comment, without the license: 5ef1fa2045627d03
  * The comments of the implementation are in src/impl.
  *
  * Contents
- *     65 intro.h      what the library does, a quick start, which call for which question, references
- *    195 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    239 config.h     macros that a user may define before the include, the version, and the integer types
- *    326 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    506 options.h    options of all calls, threads, and the allocator
- *    632 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    876 csc.h        sparse matrices: creation, checks, products, residuals
- *    977 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1053 factor.h     the numerical factorization P A P' = L D L'
- *   1182 solve.h      full solves, and the workspace of all solves
- *   1278 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1354 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1444 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1537 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1576 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1677 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1757 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1843 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1936 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2043 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2085 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2207 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2238 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2420 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2523 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2634 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2675 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2761 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2869 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2903 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2980 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3023 impl/ base: the compiler, status, memory, sorting, threads
- *   4304 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5243 impl/ matrix: sparse matrices of the caller and of the library
- *   5919 impl/ ordering: fill-reducing orderings of a graph
- *  11021 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13260 impl/ factor: the numbers of L and D
- *  16673 impl/ solve: full and local solves
- *  18550 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20547 impl/ pivots: the order of the pivots by the values of a matrix
- *  20955 impl/ float: L and fronts in single precision
- *  21460 impl/ inverse: entries of the inverse, regions
- *  24559 impl/ change: a factor that follows changes of its matrix
- *  30864 impl/ fixed: rows fixed at given values
- *  31505 impl/ fixed: by a factor of all rows
- *  31739 impl/ io: files that are replaced only when they are complete
- *  31957 impl/ files: Matrix Market files, 64-bit indices
- *  32577 impl/ save: factors in files
- *  34590 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35276 impl/ batch: diagonals of many inverses
- *  35416 impl/ complex: complex Hermitian systems over real factors
- *  35978 impl/ complex: entries of the inverse
- *  36038 impl/ packs: the tables through which the core calls packs
- *  36087 impl/ last: undefine every internal macro
- *  36468 impl/ templates: the header includes them from itself, once for each instruction set
+ *     64 intro.h      what the library does, a quick start, which call for which question, references
+ *    194 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    238 config.h     macros that a user may define before the include, the version, and the integer types
+ *    325 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    498 options.h    options of all calls, threads, and the allocator
+ *    624 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    862 csc.h        sparse matrices: creation, checks, products, residuals
+ *    963 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1039 factor.h     the numerical factorization P A P' = L D L'
+ *   1168 solve.h      full solves, and the workspace of all solves
+ *   1264 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1340 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1424 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1517 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1556 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1657 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1737 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1823 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1916 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2023 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2065 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2187 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2218 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2400 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2503 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2614 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2655 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2741 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2849 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2883 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2960 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3003 impl/ base: the compiler, status, memory, sorting, threads
+ *   4284 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5223 impl/ matrix: sparse matrices of the caller and of the library
+ *   5899 impl/ ordering: fill-reducing orderings of a graph
+ *  11001 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13240 impl/ factor: the numbers of L and D
+ *  16653 impl/ solve: full and local solves
+ *  18530 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20527 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20935 impl/ float: L and fronts in single precision
+ *  21440 impl/ inverse: entries of the inverse, regions
+ *  24539 impl/ change: a factor that follows changes of its matrix
+ *  30844 impl/ fixed: rows fixed at given values
+ *  31405 impl/ io: files that are replaced only when they are complete
+ *  31623 impl/ files: Matrix Market files, 64-bit indices
+ *  32243 impl/ save: factors in files
+ *  34256 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34942 impl/ batch: diagonals of many inverses
+ *  35082 impl/ complex: complex Hermitian systems over real factors
+ *  35644 impl/ complex: entries of the inverse
+ *  35704 impl/ packs: the tables through which the core calls packs
+ *  35737 impl/ last: undefine every internal macro
+ *  36105 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -486,13 +485,6 @@ typedef enum sl_change_reason {
     SL_CHANGE_REFUSED       /* rank-one changes met a pivot that they refuse */
 } sl_change_reason;
 
-/** How sl_fixed_create fixes rows. */
-typedef enum sl_fixed_method {
-    SL_FIXED_SUBMATRIX = 0, /* a factor of the free rows */
-    SL_FIXED_RESTRICTION,   /* the same, from a factor of all rows (sl_factor_submatrix) */
-    SL_FIXED_PINS           /* pins on a factor of all rows (sl_constraints_create) */
-} sl_fixed_method;
-
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
 typedef struct sl_symbolic sl_symbolic; /* the analysis of one pattern; immutable */
 typedef struct sl_factor sl_factor;     /* L and D over a symbolic analysis */
@@ -808,20 +800,14 @@ typedef struct sl_reuse_info {
 /** A set of pins: sl_constraints_add, _add_equality, _release, _refactor. */
 typedef struct sl_constraints_info {
     sl_int count;   /* pins and equalities */
-    double seconds; /* of the call; where it is about stats.factor.seconds or more,
-                     * sl_fixed_create holds the same rows sooner */
+    double seconds; /* of the call */
 } sl_constraints_info;
 
 /** Rows fixed at given values: sl_fixed_create, sl_fixed_refactor. */
 typedef struct sl_fixed_info {
-    sl_fixed_method method; /* the way in use */
-    sl_int n_free;          /* rows that are not fixed */
-    sl_off couplings;       /* entries of A between free and fixed rows */
-    /* of a choice among ways, as estimated from counts; 0: there was none */
-    double seconds_submatrix;
-    double seconds_restriction; /* the same */
-    double seconds_pins;        /* the same; 0 also where pins are not possible */
-    double seconds;             /* of the call */
+    sl_int n_free;    /* rows that are not fixed */
+    sl_off couplings; /* entries of A between free and fixed rows */
+    double seconds;   /* of the call */
 } sl_fixed_info;
 
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
@@ -1356,42 +1342,39 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int 
 /** Prepares solves of A x = b in the free rows, where x is given in the others: Dirichlet problems,
  *  harmonic maps, interpolation. For definite A, x minimizes x' A x / 2 - b' x under x(rows) = g.
  *
- *  The free rows have a factor of A[free, free] of their own; A may be singular. If a factor F of A
- *  is given, and the pack of changes is on, the cheapest of three ways is taken, by counted cost
- *  (stats.fixed): the same, sl_factor_submatrix, or pins on F.
+ *  The free rows have a factor of A[free, free] of their own; A may be singular. Who has a factor
+ *  of all rows takes sl_factor_submatrix, or holds rows that come and go by sl_constraints_add.
  *
  *  out    [out]  the object.
  *  A      [in]   n x n with values, symmetric, not kept. Entries between fixed rows are not read,
  *                and two triangles not compared.
  *  rows   [in]   count rows of A in 0..n-1 that are fixed, any order, none twice; from none to all.
- *  F      [in]   a factor of A, or NULL. Used only if it was computed from the values of A, and opt
- *                has none of perm, mass, signs, null_vector, regularization, SL_NULL_PIVOT_SKIP.
  *  opt    [in]   allocator, threads, and what sl_symbolic_create and sl_factor_create read, in rows
  *                of A: perm, mass, signs and null_vector have n entries.
- *  stats  [out]  dirichlet, symbolic, factor; errors are in rows of A.
+ *  stats  [out]  fixed, symbolic, factor; errors are in rows of A.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
  *           SL_ERR_PIVOT: A[free, free] is singular, as where no row of a component of a Laplacian
  *           is fixed (error.row); others as sl_symbolic_create and sl_factor_create.
  *  Cost     O(n + nnz), and the analysis and factorization of A[free, free]. Keeps 4 bytes per row,
  *           16 per entry of A[free, free], and 20 per entry between free and fixed rows.
- *  Manual   tools/docs/dirichlet.md: what pins, restrictions and submatrices cost
- *  Example  tests/core/test_dirichlet.c
+ *  Manual   tools/docs/fixed.md
+ *  Example  tests/core/test_fixed.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_fixed_create(sl_fixed **out, const sl_csc *A, const sl_int *rows,
-                                                sl_int count, const sl_factor *F,
-                                                const sl_options *opt, sl_stats *stats);
+                                                sl_int count, const sl_options *opt,
+                                                sl_stats *stats);
 
 /** Releases the object. */
 SL_API void sl_fixed_free(sl_fixed *D);
 
-/** Takes new values of A. An object that uses a factor of A gets one of its own.
+/** Takes new values of A.
  *
  *  A      [in]   the pattern that sl_fixed_create was given, its entries in the same order.
- *  stats  [out]  dirichlet, factor; errors are in rows of A.
+ *  stats  [out]  fixed, factor; errors are in rows of A.
  *  Returns  as sl_fixed_create; SL_ERR_OTHER_PATTERN. After SL_ERR_PIVOT,
  *           _NOT_FINITE, _INACCURATE and _UNSUPPORTED solves are refused until a
  *           refactorization succeeds; after other errors D is as before.
- *  Cost     a refactorization of A[free, free]; nothing is allocated, except for its first factor.
+ *  Cost     a refactorization of A[free, free]; nothing is allocated.
  *  Threads  exclusive use of D.
  */
 SL_API SL_WARN_UNUSED sl_status sl_fixed_refactor(sl_fixed *D, const sl_csc *A, sl_stats *stats);
@@ -1400,19 +1383,16 @@ SL_API SL_WARN_UNUSED sl_status sl_fixed_refactor(sl_fixed *D, const sl_csc *A, 
  *
  *  X     [out]  n x nrhs, leading dimension ldx, rows in the order of A; row-major if ldx is
  *               SL_ROWS(ld). Fixed rows are g. May be B itself (then ldx = ldb). Overwritten also
- *               after SL_ERR_INCONSISTENT, _NOT_FINITE and _INACCURATE; after other errors
- *               untouched.
+ *               after SL_ERR_INCONSISTENT and _NOT_FINITE; after other errors untouched.
  *  B     [in]   n x nrhs, leading dimension ldb, or row-major as X; fixed rows are not used. NULL:
  *               b = 0.
  *  G     [in]   count x nrhs, leading dimension ldg, or row-major as X: the values, in the order of
  *               rows. Must not overlap X. May be NULL if count = 0.
  *  nrhs  [in]   number of right-hand sides, 0 or more.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed refactorization, or the factor whose
- *           pins are used has changed; SL_ERR_NOT_FINITE, SL_ERR_INCONSISTENT: as sl_factor_solve;
- *           SL_ERR_INACCURATE: as sl_constraints_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed refactorization; SL_ERR_NOT_FINITE,
+ *           SL_ERR_INCONSISTENT: as sl_factor_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     for each right-hand side a full solve of the free rows, 2 flops per entry of A between
- *           free and fixed rows, and a pass over X and B. No allocation once W has grown, except
- *           for pins with row-major blocks.
+ *           free and fixed rows, and a pass over X and B. No allocation once W has grown.
  *  Threads  any number at once on one D, each with its own W, whose threads are used.
  */
 SL_API SL_WARN_UNUSED sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx,
@@ -1425,10 +1405,10 @@ typedef struct sl_fixed_arrays {
     sl_int n_free, n_fixed;
     const sl_int *free_rows;     /* n_free: ascending */
     const sl_int *fixed_rows;    /* n_fixed: rows, in the order of the caller */
-    const sl_symbolic *symbolic; /* of A[free, free]; NULL: pins hold the fixed rows */
-    const sl_factor *factor;     /* the same */
-    sl_csc matrix;               /* A[free, free], one triangle; 0 x 0: not kept */
-    const void *reserved[2];     /* NULL; new fields take their place */
+    const sl_symbolic *symbolic; /* of A[free, free] */
+    const sl_factor *factor;
+    sl_csc matrix;           /* A[free, free], one triangle */
+    const void *reserved[2]; /* NULL; new fields take their place */
 } sl_fixed_arrays;
 
 SL_API sl_fixed_arrays sl_fixed_view(const sl_fixed *D);
@@ -2546,7 +2526,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const s
  *           pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
  *  Cost     O(1); with SL_NULL_PIVOT_SKIP 8 bytes per row.
  *  Source   capacitance matrix of a change of low rank, as in [Hager89].
- *  Example  tests/core/test_pins.c
+ *  Example  tests/core/test_constraints.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_constraints_create(sl_constraints **out, const sl_factor *F,
                                                       const sl_options *opt);
@@ -2665,7 +2645,7 @@ SL_API SL_WARN_UNUSED sl_status sl_constraints_solve(const sl_constraints *P, co
  *  Threads  reads F; one thread.
  *  Source   [HA18]
  *  Manual   tools/docs/changes.md
- *  Example  tests/core/test_restrict.c
+ *  Example  tests/core/test_submatrix.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_submatrix(sl_symbolic **S, sl_factor **G,
                                                     const sl_factor *F, const sl_csc *A,
@@ -30863,13 +30843,6 @@ SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_sy
 #if defined(SL_WITH_FIXED)
 /* src/impl/fixed/fixed_rows.h: free and fixed rows, the entries of A between them, and what is copied of A */
 
-typedef struct sli_fixed_ways {
-  sl_status (*take)(sl_fixed *D, const sl_factor *F, const sl_csc *A, sl_stats *stats);
-  sl_status (*solve)(const sl_fixed *D, const sli_rhs *rhs, const double *G, size_t ldg,
-      sl_work *W);
-  void (*release)(sl_fixed *D);
-} sli_fixed_ways;
-
 struct sl_fixed {
   sl_allocator allocator;
   sl_options analysis, factorization;
@@ -30886,8 +30859,6 @@ struct sl_fixed {
   sl_int *from;
   sl_symbolic *S;
   sl_factor *F;
-  const sli_fixed_ways *ways;
-  void *pins;
   int is_stale;
 };
 
@@ -30931,16 +30902,6 @@ static void sli_fixed_copy_values(sl_fixed *D, const sl_csc *A) {
   }
   for (k = 0; D->M != NULL && k < D->M->p[D->n_free]; k++) {
     D->M->x[k] = A->x[D->from[k]];
-  }
-}
-
-static void sli_fixed_number(const sl_fixed *D, sl_int *where) {
-  sl_int k;
-  for (k = 0; k < D->n_free; k++) {
-    where[D->free_rows[k]] = k;
-  }
-  for (k = 0; k < D->n_fixed; k++) {
-    where[D->fixed_rows[k]] = -1 - k;
   }
 }
 
@@ -31027,22 +30988,13 @@ static int sli_fixed_keeps_blocks(const sl_fixed *D, sl_int size) {
 
 /* src/impl/fixed/fixed.h: systems with rows fixed at given values: a factor of the free rows */
 
-static const sli_fixed_ways *sli_fixed_ways_of(void);
-
-static void sli_fixed_clear(sl_fixed *D) {
-  if (D->pins != NULL) {
-    D->ways->release(D);
-  }
-  sl_factor_free(D->F);
-  sl_symbolic_free(D->S);
-  sl_matrix_free(D->M);
-  sli_free(&D->allocator, D->from);
-}
-
 SL_API void sl_fixed_free(sl_fixed *D) {
   if (D != NULL) {
     const sl_allocator a = D->allocator;
-    sli_fixed_clear(D);
+    sl_factor_free(D->F);
+    sl_symbolic_free(D->S);
+    sl_matrix_free(D->M);
+    sli_free(&a, D->from);
     sli_free(&a, D);
   }
 }
@@ -31073,7 +31025,6 @@ SLI_COLD static sl_status sli_fixed_factor(sl_fixed *D, const sl_csc *A,
     status = sl_factor_create(&D->F, D->S, &view, &factorization, stats);
     status = sli_fixed_report(D, status, stats);
   }
-  D->info.method = SL_FIXED_SUBMATRIX;
   return status;
 }
 
@@ -31177,15 +31128,6 @@ static sl_status sli_fixed_new(sl_fixed **out, const sl_csc *A, const sl_int *ro
   return status;
 }
 
-static int sli_fixed_may_reuse(const sl_factor *F, const sl_options *opt) {
-  return F != NULL &&
-       (opt == NULL ||
-        ((opt->perm == NULL || opt->ordering != SL_ORDERING_GIVEN) && opt->mass == NULL &&
-         opt->signs == NULL && opt->null_vector == NULL &&
-         opt->null_pivots == SL_NULL_PIVOT_REFUSE && opt->regularization == 0.0)) &&
-       F->type->storage == (opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
-}
-
 static void sli_fixed_done(sl_fixed *D, double started, sl_stats *stats) {
   D->info.seconds = sli_seconds() - started;
   if (stats != NULL) {
@@ -31193,22 +31135,13 @@ static void sli_fixed_done(sl_fixed *D, double started, sl_stats *stats) {
   }
 }
 
-static sl_status sli_fixed_begin(sl_fixed *D, const sl_csc *A, const sl_factor *F,
-    const sl_options *opt, const sl_int *where, sl_int *scratch,
-    sl_stats *stats) {
+static sl_status sli_fixed_begin(sl_fixed *D, const sl_csc *A, const sl_options *opt,
+    const sl_int *where, sl_int *scratch, sl_stats *stats) {
   const sl_options none = sli_options_with(&D->allocator);
   const sl_options *arrays_of = opt == NULL ? &none : opt;
-  const sli_fixed_ways *ways = sli_fixed_ways_of();
   sli_block b = {NULL, 0};
   sli_fixed_arrays arrays;
   sl_status status = SL_OK;
-  if (ways != NULL && sli_fixed_may_reuse(F, opt)) { /* untested: all packs are there */
-    D->ways = ways;
-    status = ways->take(D, F, A, stats);
-    if (status != SL_OK || D->F != NULL || D->pins != NULL) {
-      return status;
-    }
-  }
   SLI_LAYOUT(&b, &D->allocator, status) {
     sli_fixed_arrays_layout(&arrays, &b, arrays_of, D->n_free);
   }
@@ -31222,7 +31155,7 @@ static sl_status sli_fixed_begin(sl_fixed *D, const sl_csc *A, const sl_factor *
 }
 
 SL_API sl_status sl_fixed_create(sl_fixed **out, const sl_csc *A, const sl_int *rows, sl_int count,
-    const sl_factor *F, const sl_options *opt, sl_stats *stats) {
+    const sl_options *opt, sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
   sli_block b = {NULL, 0};
   sl_fixed draft, *D = NULL;
@@ -31249,7 +31182,7 @@ SL_API sl_status sl_fixed_create(sl_fixed **out, const sl_csc *A, const sl_int *
     return sli_report(stats, status);
   }
   status = sli_fixed_new(&D, A, rows, &draft, where, stats);
-  status = status == SL_OK ? sli_fixed_begin(D, A, F, opt, where, scratch, stats) : status;
+  status = status == SL_OK ? sli_fixed_begin(D, A, opt, where, scratch, stats) : status;
   sli_free(&draft.allocator, b.base);
   if (status == SL_OK) {
     sli_fixed_done(D, started, stats);
@@ -31258,35 +31191,6 @@ SL_API sl_status sl_fixed_create(sl_fixed **out, const sl_csc *A, const sl_int *
     sl_fixed_free(D);
   }
   return sli_report(stats, status);
-}
-
-static sl_status sli_fixed_replace(sl_fixed *D, const sl_csc *A, sl_stats *stats) {
-  const sli_fixed_arrays none = {NULL, NULL, NULL, NULL};
-  sl_fixed own = *D;
-  sli_block b = {NULL, 0};
-  sl_int *where = NULL, *scratch = NULL;
-  sl_status status = SL_OK;
-  own.M = NULL;
-  own.from = NULL;
-  own.S = NULL;
-  own.F = NULL;
-  own.ways = NULL;
-  own.pins = NULL;
-  SLI_LAYOUT(&b, &D->allocator, status) {
-    where = SLI_TAKE(&b, sl_int, D->n);
-    scratch = SLI_TAKE(&b, sl_int, (uint64_t)D->n + 1);
-  }
-  if (status == SL_OK) {
-    sli_fixed_number(D, where);
-    status = sli_fixed_factor(&own, A, &none, where, scratch, stats);
-    sli_free(&D->allocator, b.base);
-  }
-  sli_fixed_clear(status == SL_OK ? D : &own);
-  if (status == SL_OK) {
-    *D = own;
-    sli_fixed_copy_values(D, A);
-  }
-  return status;
 }
 
 SL_API sl_status sl_fixed_refactor(sl_fixed *D, const sl_csc *A, sl_stats *stats) {
@@ -31306,9 +31210,7 @@ SL_API sl_status sl_fixed_refactor(sl_fixed *D, const sl_csc *A, sl_stats *stats
     status = sli_argument(sli_nnz(A) > 0 && A->x == NULL ? "A.x is NULL" : NULL);
   }
   status = status == SL_OK ? sli_fixed_check_values(D, A, stats) : status;
-  if (status == SL_OK && D->M == NULL) {
-    status = sli_fixed_replace(D, A, stats);
-  } else if (status == SL_OK) {
+  if (status == SL_OK) {
     const sl_csc view = sl_matrix_view(D->M);
     sli_fixed_copy_values(D, A);
     status = sl_factor_refactor(D->F, &view, stats);
@@ -31469,14 +31371,12 @@ SL_API sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx, const 
   if (status != SL_OK || nrhs == 0 || D->n == 0) {
     return status;
   }
-  if (D->is_stale ||
-      (D->pins == NULL && !D->F->is_valid)) { /* branches untested: then it is stale, too */
+  if (D->is_stale || !D->F->is_valid) { /* second branch untested: then it is stale, too */
     return sli_refuse(SL_ERR_STALE, "the last sl_fixed_refactor has failed");
   }
   own = sli_work_own(&D->allocator);
   W = W == NULL ? &own : W;
-  status =
-    D->pins != NULL ? D->ways->solve(D, &rhs, G, ldg, W) : sli_fixed_run(D, &rhs, G, ldg, W);
+  status = sli_fixed_run(D, &rhs, G, ldg, W);
   sli_free(&own.allocator, own.block);
   if (status == SL_OK && !sli_fixed_set_fixed(D, &rhs, G, ldg)) {
     status = sli_refuse(SL_ERR_NOT_FINITE, "a value of G is not finite");
@@ -31498,240 +31398,6 @@ SL_API sl_fixed_arrays sl_fixed_view(const sl_fixed *D) {
   }
   return v;
 }
-
-#endif
-/* fixed: by a factor of all rows */
-#if defined(SL_WITH_FIXED) && defined(SL_WITH_CHANGE)
-/* src/impl/fixed/fixed_reuse.h: rows fixed at given values, by a factor of all rows: restriction or pins */
-
-#define SLI_CONSTRAINTS_ENTRY 0.12e-9
-#define SLI_CONSTRAINTS_JOINT 0.26
-#define SLI_CONSTRAINTS_BLOCK 1.05
-#define SLI_CONSTRAINTS_PRODUCT 0.04e-9
-#define SLI_CONSTRAINTS_NUMBER 1e-9
-#define SLI_CONSTRAINTS_PIN 1e-6
-#define SLI_CONSTRAINTS_DENSE 0.13e-9
-
-#define SLI_FIXED_ANALYSIS 280e-9
-#define SLI_FIXED_ROW 120e-9
-#define SLI_FIXED_COPY 1.2e-9
-#define SLI_FIXED_PROBE 2e-9
-#define SLI_FIXED_PINS 3.0
-#define SLI_FIXED_LOST 1000.0
-
-static int sli_fixed_is_factor_of(const sl_factor *F, const sl_csc *A) {
-  sl_factor as;
-  if (sli_factor_fits(F, A) != SL_OK || F->E != NULL) {
-    return 0;
-  }
-  as = *F;
-  as.identity = sli_hash_words(F->S->identity, A->x, sli_nnz(A));
-  sli_factor_identify_numbers(&as);
-  return sli_hash_equals(as.identity, F->identity);
-}
-
-typedef struct sli_fixed_choice {
-  const sl_factor *F;
-  uint64_t *seeds, *scratch;
-  sl_int *uses;
-} sli_fixed_choice;
-
-static void sli_fixed_count(const sli_fixed_choice *c, sl_fixed *D) {
-  const sl_factor *F = c->F;
-  const sl_symbolic *S = F->S;
-  const double flop = sli_costs_of(F->kernels->isa)->flop, whole = sli_choose_refactor(F);
-  const double share = (double)D->n_free / (S->n > 0 ? S->n : 1);
-  const double entries = (double)S->scatter_begin[S->n_supers];
-  const double fixed = D->n_fixed;
-  double computed = 0.0, kept = 0.0;
-  double pins =
-    SLI_CONSTRAINTS_DENSE / 3.0 * (fixed * fixed * fixed) + SLI_CONSTRAINTS_PIN * fixed;
-  sl_int kept_columns = 0, s, k;
-  for (k = 0; k < D->n_fixed; k++) {
-    c->seeds[k] = sli_keyed(S->iperm[D->fixed_rows[k]], 0);
-  }
-  sli_sort(c->seeds, D->n_fixed, c->scratch);
-  SLI_ZERO(c->uses, S->n_supers);
-  for (s = 0, k = 0; s < S->n_supers; s++) {
-    const sl_int up = S->super_parent[s], width = S->steps[s].width;
-    sl_int free_columns = width;
-    double u;
-    for (; k < D->n_fixed && sli_key(c->seeds[k]) < S->super_first[s + 1]; k++) {
-      c->uses[s]++;
-      free_columns--;
-    }
-    if (up != -1) {
-      c->uses[up] += c->uses[s];
-    }
-    u = c->uses[s];
-    if (u > 0.0) {
-      pins += SLI_CONSTRAINTS_ENTRY *
-            fmin(u, SLI_CONSTRAINTS_JOINT * u + SLI_CONSTRAINTS_BLOCK) *
-            (double)sli_panel_size(width, S->steps[s].below) +
-          (SLI_CONSTRAINTS_NUMBER + SLI_CONSTRAINTS_PRODUCT / 2.0 * u) * width * u;
-    }
-    if (c->uses[s] == 0) {
-      kept += SLI_FIXED_COPY * (double)(S->panel_begin[s + 1] - S->panel_begin[s]);
-      kept_columns += width;
-    } else if (free_columns > 0) {
-      computed += (flop * sli_choose_front(S, s) + SLI_CHANGE_FRONT(flop)) * free_columns /
-            (double)width;
-    }
-  }
-  D->info.seconds_submatrix = share * (whole + SLI_FIXED_ANALYSIS * entries);
-  D->info.seconds_restriction =
-    SLI_FIXED_ROW * D->n_free +
-    (kept_columns < 0.4 * D->n_free ? share * whole : kept + computed);
-  pins =
-    SLI_FIXED_PINS * pins + SLI_FIXED_PROBE * ((double)S->panel_begin[S->n_supers] + entries);
-  D->info.seconds_pins = sli_constraints_check(F) == SL_OK && F->null.vectors == 1 ? pins : 0.0;
-}
-
-static sl_status sli_fixed_probe(const sl_fixed *D, const sl_csc *A, const sl_constraints *P,
-    int *is_good) {
-  const size_t n = (size_t)D->n;
-  uint64_t random = 1;
-  sli_block b = {NULL, 0};
-  double *x = NULL, *r = NULL, *sums = NULL, *zeros = NULL, size, error = 0.0;
-  sl_status status = SL_OK;
-  sl_int k;
-  *is_good = 0;
-  SLI_LAYOUT(&b, &D->allocator, status) {
-    x = SLI_TAKE(&b, double, n);
-    r = SLI_TAKE(&b, double, n);
-    sums = SLI_TAKE(&b, double, n);
-    zeros = SLI_TAKE(&b, double, D->n_fixed);
-  }
-  if (status != SL_OK) {
-    return status;
-  }
-  for (k = 0; k < D->n; k++) {
-    r[k] = sli_random(&random);
-  }
-  SLI_ZERO(zeros, D->n_fixed);
-  status = sl_constraints_solve(P, NULL, x, n, r, n, zeros, (size_t)D->n_fixed, 1, NULL);
-  if (status == SL_OK) {
-    size = sli_csc_norm(A, D->triangle, sums) * sli_largest(x, D->n) + 1.0;
-    sli_add_product(A, D->triangle, -1.0, r, n, x, n, 1);
-    for (k = 0; k < D->n_free; k++) {
-      error = fmax(error, fabs(r[D->free_rows[k]]));
-    }
-    *is_good = error <= SLI_FIXED_LOST * P->F->rule.epsilon * size;
-  }
-  sli_free(&D->allocator, b.base);
-  return status;
-}
-
-static sl_status sli_fixed_pin(sl_fixed *D, const sl_factor *F, const sl_csc *A, sl_stats *stats) {
-  const sl_options only_memory = sli_options_with(&D->allocator);
-  sl_constraints *P = NULL;
-  int is_good = 0;
-  sl_status status = sl_constraints_create(&P, F, &only_memory);
-  status = status == SL_OK ? sl_constraints_add(P, D->fixed_rows, D->n_fixed, stats) : status;
-  if (status == SL_OK && P->n_used == F->null.count) {
-    status = sli_fixed_probe(D, A, P, &is_good);
-  }
-  if (is_good) {
-    D->pins = P;
-    D->info.method = SL_FIXED_PINS;
-  } else {
-    sl_constraints_free(P);
-  }
-  return status;
-}
-
-static sl_status sli_fixed_restrict(sl_fixed *D, const sl_factor *F, const sl_csc *A,
-    sl_stats *stats) {
-  const sl_options only_memory = sli_options_with(&D->allocator);
-  D->info.method = SL_FIXED_RESTRICTION;
-  return sl_factor_submatrix(&D->S, &D->F, F, A, D->free_rows, D->n_free, &only_memory, stats);
-}
-
-SLI_INLINE int sli_fixed_is_over(sl_status status) {
-  return status == SL_ERR_MEMORY || status == SL_ERR_TOO_LARGE;
-}
-
-SLI_COLD static sl_status sli_fixed_take(sl_fixed *D, const sl_factor *F, const sl_csc *A,
-    sl_stats *stats) {
-  sli_fixed_choice c;
-  sli_block b = {NULL, 0};
-  sl_status status = SL_OK;
-  if (!sli_fixed_is_factor_of(F, A)) {
-    return SL_OK;
-  }
-  SLI_CLEAR(c);
-  c.F = F;
-  SLI_LAYOUT(&b, &D->allocator, status) {
-    c.seeds = SLI_TAKE(&b, uint64_t, D->n_fixed);
-    c.scratch = SLI_TAKE(&b, uint64_t, D->n_fixed);
-    c.uses = SLI_TAKE(&b, sl_int, F->S->n_supers);
-  }
-  if (status != SL_OK) {
-    return status;
-  }
-  sli_fixed_count(&c, D);
-  sli_free(&D->allocator, b.base);
-  if (D->info.seconds_pins > 0.0 &&
-      D->info.seconds_pins <= fmin(D->info.seconds_restriction, D->info.seconds_submatrix)) {
-    status = sli_fixed_pin(D, F, A, stats);
-  }
-  if (!sli_fixed_is_over(status) && D->pins == NULL &&
-      D->info.seconds_restriction <= D->info.seconds_submatrix) {
-    status = sli_fixed_restrict(D, F, A, stats);
-  }
-  return sli_fixed_is_over(status) ? status : SL_OK;
-}
-
-static void sli_fixed_copy(double *to, sli_dense t, const double *from, sli_dense f, sl_int rows,
-    sl_int columns) {
-  sl_int k, r;
-  for (k = 0; k < rows; k++) {
-    for (r = 0; r < columns; r++) {
-      to[(size_t)k * t.row + (size_t)r * t.column] =
-        from == NULL ? 0.0 : from[(size_t)k * f.row + (size_t)r * f.column];
-    }
-  }
-}
-
-static sl_status sli_fixed_solve_pins(const sl_fixed *D, const sli_rhs *rhs, const double *G,
-    size_t ldg, sl_work *W) {
-  const sl_constraints *P = (const sl_constraints *)D->pins;
-  const size_t n = (size_t)D->n, m = (size_t)D->n_fixed;
-  sli_block b = {NULL, 0};
-  double *X = NULL, *held = NULL;
-  sl_status status = SL_OK;
-  sl_int r, count;
-  if (rhs->B != NULL && ((rhs->ldx | rhs->ldb | ldg) & SL_ROW_MAJOR) == 0) {
-    return sl_constraints_solve(P, NULL, rhs->X, rhs->ldx, rhs->B, rhs->ldb, G, ldg, rhs->nrhs,
-        W);
-  }
-  SLI_LAYOUT(&b, &D->allocator, status) {
-    X = SLI_TAKE(&b, double, 8 * (uint64_t)n);
-    held = SLI_TAKE(&b, double, 8 * (uint64_t)m);
-  }
-  for (r = 0; r < rhs->nrhs && status == SL_OK; r += count) {
-    const sli_dense x = sli_dense_by_columns(n), h = sli_dense_by_columns(m);
-    const sli_dense g = sli_dense_of(ldg);
-    sli_rhs part;
-    count = sli_min(8, rhs->nrhs - r);
-    part = sli_rhs_part(rhs, r, count);
-    sli_fixed_copy(X, x, part.B, sli_dense_of(part.ldb), D->n, count);
-    sli_fixed_copy(held, h, m == 0 ? NULL : G + (size_t)r * g.column, g, D->n_fixed, count);
-    status = sl_constraints_solve(P, NULL, X, n, X, n, held, m, count, W);
-    if (status == SL_OK) {
-      sli_fixed_copy(part.X, sli_dense_of(part.ldx), X, x, D->n, count);
-    }
-  }
-  sli_free(&D->allocator, b.base);
-  return status;
-}
-
-static void sli_fixed_release(sl_fixed *D) {
-  sl_constraints_free((sl_constraints *)D->pins);
-}
-
-static const sli_fixed_ways sli_fixed_reuse = {sli_fixed_take, sli_fixed_solve_pins,
-                         sli_fixed_release};
 
 #endif
 /* io: files that are replaced only when they are complete */
@@ -36067,22 +35733,6 @@ static const char *sli_storage_needs(sl_storage storage) { /* untested: the same
          : "options.storage needs SL_WITH_FLOAT"; /* untested: the same */
 }
 
-#if defined(SL_WITH_FIXED)
-/* src/impl/packs/fixed_ways.h: the ways to fix rows that are compiled in beside a factor of the free rows */
-
-#if defined(SL_WITH_CHANGE)
-#else
-#endif
-
-static const sli_fixed_ways *sli_fixed_ways_of(void) {
-#if defined(SL_WITH_CHANGE)
-  return &sli_fixed_reuse;
-#else
-  return NULL;
-#endif
-}
-
-#endif
 /* last: undefine every internal macro */
 /* src/impl/base/undef.h: undefines every internal macro */
 #undef SLI_SELF_INCLUSION
@@ -36406,29 +36056,16 @@ static const sli_fixed_ways *sli_fixed_ways_of(void) {
 #undef SLI_LATTICE_SHARE
 #undef SLI_NULL_ANCHOR
 #undef SLI_NULL_DEPENDENT
-#undef SLI_CONSTRAINTS_ENTRY
-#undef SLI_CONSTRAINTS_JOINT
-#undef SLI_CONSTRAINTS_BLOCK
-#undef SLI_CONSTRAINTS_PRODUCT
-#undef SLI_CONSTRAINTS_NUMBER
-#undef SLI_CONSTRAINTS_PIN
 #undef SLI_CONSTRAINTS_SINGLY
 #undef SLI_RANK_LARGE
 #undef SLI_RANK_RING
 #undef SLI_RANK_SMALL
 #undef SLI_EDGES_HEAVY
 #undef SLI_LOSS_SMALL
-#undef SLI_CONSTRAINTS_DENSE
 #undef SLI_PAIR_CACHED
 #undef SLI_PAIR_READ
 #undef SLI_PAIR_LARGE
 #undef SLI_SWEEP_FLOPS
-#undef SLI_FIXED_ANALYSIS
-#undef SLI_FIXED_ROW
-#undef SLI_FIXED_COPY
-#undef SLI_FIXED_PROBE
-#undef SLI_FIXED_PINS
-#undef SLI_FIXED_LOST
 #undef SLI_CONSTRAINTS_LOST
 #undef SLI_NULL_VECTORS_MAX
 #undef SLI_READ_VERSION_DOUBLE
