@@ -124,7 +124,7 @@ parts: $(patsubst src/%,build/parts/%.ok,$(filter-out %.inl.h,$(PARTS))) ## does
 PARTS_BELOW = public/% impl/base/% impl/kernels/% impl/matrix/% impl/ordering/% impl/analysis/%
 build/parts/%.ok: src/% $(SRC) | build/deps.ok
 	@mkdir -p $(@D)
-	@printf '#include "$*"\n$(if $(filter $(PARTS_BELOW),$*),,#include "impl/packs/storage_types.h"\n)$(if $(filter impl/fixed/%,$*),#include "impl/packs/fixed_ways.h"\n)typedef int sl_this_part_alone;\n' | \
+	@printf '#include "$*"\n$(if $(filter $(PARTS_BELOW),$*),,#include "impl/packs/storage_types.h"\n)typedef int sl_this_part_alone;\n' | \
 	$(CC) $(C_FLAGS) -Isrc -Wno-unused-function -Wno-unused-variable -fsyntax-only -x c -
 	@touch $@
 
@@ -257,7 +257,7 @@ test-no-metis: deps sparse_local.h ## the header's tests, built without SL_METIS
 	@+$(SUB_MAKE) run-tests B=build/no_metis TEST_PROGRAMS='$(CORE_TESTS:tests/%.c=build/no_metis/tests/%)' METIS= LIBS='$(FILE_LIBS) -lm'
 
 # those of the kernels, and those of ways that are chosen by what kernels cost
-NO_SIMD = test_solve test_plan test_interleaved test_supernodal test_selected test_pins_refused test_pins_trust test_pins_sets \
+NO_SIMD = test_solve test_plan test_interleaved test_supernodal test_selected test_constraints_refused test_constraints_trust test_constraints_sets \
 	test_change_choice test_change_ways
 
 test-no-simd: deps sparse_local.h ## tests of kernels and of choices by their costs, built with -DSL_NO_SIMD

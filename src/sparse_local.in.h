@@ -259,10 +259,6 @@ extern "C" {
 #include "impl/fixed/fixed.h"
 #include "impl/fixed/fixed_solve.h"
 #endif
-/* fixed: by a factor of all rows */
-#if defined(SL_WITH_FIXED) && defined(SL_WITH_CHANGE)
-#include "impl/fixed/fixed_reuse.h"
-#endif
 /* io: files that are replaced only when they are complete */
 #if defined(SL_WITH_FILES) || defined(SL_WITH_SAVE)
 #include "impl/io/output_file.h"
@@ -308,9 +304,6 @@ extern "C" {
 #endif
 /* packs: the tables through which the core calls packs */
 #include "impl/packs/storage_types.h"
-#if defined(SL_WITH_FIXED)
-#include "impl/packs/fixed_ways.h"
-#endif
 /* last: undefine every internal macro */
 #include "impl/base/undef.h"
 #endif

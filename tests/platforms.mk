@@ -74,7 +74,7 @@ deps_musl = musl-gcc=musl-tools
 # All core tests run on i386 and aarch64, where kernels of their own run. Elsewhere a few: the orders, and what depends on the
 # size and order of bytes, as saved factors do; and all replays of the fuzzers.
 PLATFORM_TESTS = $(patsubst %,tests/core/test_%.c,order_hashes result_hashes factor identity csc_write matrix_market matrix_market_file refine \
-	restrict storage storage_use save save_use save_limits save_file save_lies save_damage saved_set saved_set_use saved_set_damage) \
+	submatrix storage storage_use save save_use save_limits save_file save_lies save_damage saved_set saved_set_use saved_set_damage) \
 	tests/tools/test_mesh_ply.c
 full_i386 = $(CORE_TESTS) tests/tools/test_mesh_ply.c
 full_aarch64 = $(CORE_TESTS)
@@ -139,8 +139,8 @@ valgrind: deps ## the tests under valgrind (no AVX-512 there)
 	@+$(SUB_MAKE) run-tests RUN='valgrind -q --leak-check=full --error-exitcode=99'
 
 # The tests of what has the largest frames: null vectors, dissections, edits, regions, files, queries.
-STACK_TESTS = $(patsubst %,$(B)/tests/core/test_%,dirichlet factor factor_edit inverse null_pivots null_vectors ordering pins_rigid pins_sets \
-	pivots plan region restrict rigid_calls rigid_mass_cases save saved_set saved_set_use selected symbolic_edit threads)
+STACK_TESTS = $(patsubst %,$(B)/tests/core/test_%,fixed factor factor_edit inverse null_pivots null_vectors ordering constraints_rigid constraints_sets \
+	pivots plan region submatrix rigid_calls rigid_mass_cases save saved_set saved_set_use selected symbolic_edit threads)
 test-stack: deps sparse_local.h ## some of the tests on a stack of 64 kB; the limits on frames and chains of calls are in make size
 	@+$(SUB_MAKE) run-tests RUN=tests/lib/small_stack.sh REPLAYS= TEST_PROGRAMS='$(STACK_TESTS)'
 

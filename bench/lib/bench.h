@@ -48,7 +48,7 @@ void bench_eigenpairs(bench_run *run);
 #endif
 void bench_change_patch(bench_run *run);
 void bench_storage(bench_run *run);
-void bench_restrict(bench_run *run);
+void bench_submatrix(bench_run *run);
 void bench_edit(bench_run *run);
 void bench_two_threads(bench_run *run);
 #ifdef SL_BENCH_PEERS

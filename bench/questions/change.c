@@ -10,7 +10,7 @@
  * and a backward sweep on about the same path. Each update is undone by a downdate that is not
  * timed, and the other way round. Eight vertices in one place change by one pass of rank 8. Pins
  * are added and released again, one alone and the hundredth in one place. Many pins in one place
- * are added in one call, and the same rows are fixed by sl_fixed_create with the factor. */
+ * are added in one call, and the same rows are fixed by sl_fixed_create. */
 enum { EDGES = 16, RANK = 8, PINS = 100, MANY = 400 };
 
 typedef struct change {
@@ -146,7 +146,7 @@ static void call_many(void *state) {
 static void call_fixed(void *state) {
     change *c = state;
     sl_fixed *D;
-    bench_must(sl_fixed_create(&D, &c->system->A, c->held, MANY, c->F, NULL, NULL), "rows");
+    bench_must(sl_fixed_create(&D, &c->system->A, c->held, MANY, NULL, NULL), "rows");
     sl_fixed_free(D);
 }
 
@@ -257,7 +257,7 @@ static void time_system(bench_run *run, bench_report *report, const bench_system
         const bench_contender many = {.call = call_many, .ready = ready_many};
         ready_hundred(c);
         race(run, report, c, "400 pins", many, one);
-        race(run, report, c, "400 rows, Dirichlet", (bench_contender){.call = call_fixed}, one);
+        race(run, report, c, "400 fixed rows", (bench_contender){.call = call_fixed}, one);
     }
     change_free(c);
 }

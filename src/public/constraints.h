@@ -29,7 +29,7 @@
  *           pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
  *  Cost     O(1); with SL_NULL_PIVOT_SKIP 8 bytes per row.
  *  Source   capacitance matrix of a change of low rank, as in [Hager89].
- *  Example  tests/core/test_pins.c
+ *  Example  tests/core/test_constraints.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_constraints_create(sl_constraints **out, const sl_factor *F,
                                                       const sl_options *opt);

@@ -181,20 +181,14 @@ typedef struct sl_reuse_info {
 /** A set of pins: sl_constraints_add, _add_equality, _release, _refactor. */
 typedef struct sl_constraints_info {
     sl_int count;   /* pins and equalities */
-    double seconds; /* of the call; where it is about stats.factor.seconds or more,
-                     * sl_fixed_create holds the same rows sooner */
+    double seconds; /* of the call */
 } sl_constraints_info;
 
 /** Rows fixed at given values: sl_fixed_create, sl_fixed_refactor. */
 typedef struct sl_fixed_info {
-    sl_fixed_method method; /* the way in use */
-    sl_int n_free;          /* rows that are not fixed */
-    sl_off couplings;       /* entries of A between free and fixed rows */
-    /* of a choice among ways, as estimated from counts; 0: there was none */
-    double seconds_submatrix;
-    double seconds_restriction; /* the same */
-    double seconds_pins;        /* the same; 0 also where pins are not possible */
-    double seconds;             /* of the call */
+    sl_int n_free;    /* rows that are not fixed */
+    sl_off couplings; /* entries of A between free and fixed rows */
+    double seconds;   /* of the call */
 } sl_fixed_info;
 
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves

@@ -37,7 +37,7 @@
  *  Threads  reads F; one thread.
  *  Source   [HA18]
  *  Manual   tools/docs/changes.md
- *  Example  tests/core/test_restrict.c
+ *  Example  tests/core/test_submatrix.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_submatrix(sl_symbolic **S, sl_factor **G,
                                                     const sl_factor *F, const sl_csc *A,

@@ -165,13 +165,6 @@ typedef enum sl_change_reason {
     SL_CHANGE_REFUSED       /* rank-one changes met a pivot that they refuse */
 } sl_change_reason;
 
-/** How sl_fixed_create fixes rows. */
-typedef enum sl_fixed_method {
-    SL_FIXED_SUBMATRIX = 0, /* a factor of the free rows */
-    SL_FIXED_RESTRICTION,   /* the same, from a factor of all rows (sl_factor_submatrix) */
-    SL_FIXED_PINS           /* pins on a factor of all rows (sl_constraints_create) */
-} sl_fixed_method;
-
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
 typedef struct sl_symbolic sl_symbolic; /* the analysis of one pattern; immutable */
 typedef struct sl_factor sl_factor;     /* L and D over a symbolic analysis */

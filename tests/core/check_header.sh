@@ -169,9 +169,9 @@ int main(void) {
                     3, 2);
     failed += sl_factor_submatrix(&T, &G, F, &A, rows, 2, NULL, NULL) != SL_ERR_NOT_FINITE;
     x[5] = x[6] = 0;
-    failed += wrong(sl_fixed_create(&D, &A, fixed, 2, NULL, NULL, &s), SL_ERR_PIVOT, &s,
+    failed += wrong(sl_fixed_create(&D, &A, fixed, 2, NULL, &s), SL_ERR_PIVOT, &s,
                     3, -1);
-    failed += sl_fixed_create(&D, &A, fixed, 2, NULL, NULL, NULL) != SL_ERR_PIVOT;
+    failed += sl_fixed_create(&D, &A, fixed, 2, NULL, NULL) != SL_ERR_PIVOT;
     sl_factor_free(F);
     sl_symbolic_free(S);
     return failed;

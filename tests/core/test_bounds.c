@@ -1,6 +1,6 @@
 /* test_bounds.c: sl_factor_certify, sl_plan_solve_bounded: bounds hold against exact solutions */
 #include "tests/lib/followed.h"
-#include "tests/lib/restricted.h"
+#include "tests/lib/submatrix.h"
 #include "tests/lib/true_bounds.h"
 
 /* All definite kinds of matrices. Their factor in double solves exactly. */
@@ -153,7 +153,7 @@ static void bounds_hold_for_restrictions(void **state) {
     (void)state;
     tally_t tally = {0, 0, HUGE_VAL};
     for (int style = 0; style < GEN_STYLES; style++) {
-        restricted_t t = restricted_make(GEN_GRID2, 150, 1, style, SUBSET_RANDOM, NULL);
+        submatrix_t t = submatrix_make(GEN_GRID2, 150, 1, style, SUBSET_RANDOM, NULL);
         const truth_t truth = {t.G, &t.B.view, NULL, NULL, NULL, NULL};
         sl_csc other = t.B.view;
         SL_CHECK(sl_factor_certify(t.G, &t.B.view, SL_ESTIMATED, NULL, NULL));
@@ -163,7 +163,7 @@ static void bounds_hold_for_restrictions(void **state) {
                   sl_factor_certify(t.G, &t.y.M.view, SL_ESTIMATED, NULL, NULL));
         other.x = NULL;
         SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_certify(t.G, &other, SL_ESTIMATED, NULL, NULL));
-        restricted_free(&t);
+        submatrix_free(&t);
     }
     assert_int_equal(tally.violated, 0);
 }

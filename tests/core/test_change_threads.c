@@ -1,7 +1,7 @@
 /* test_change_threads.c: solves by threads between edits, and edits of several factors at once */
 #include "tests/lib/parallel_for.h"
 #include "tests/lib/factored.h"
-#include "tests/lib/pin_calls.h"
+#include "tests/lib/constraint_calls.h"
 
 enum { TASKS = 8, ROUNDS = 6, PINS = 3, NEAR = 5 };
 

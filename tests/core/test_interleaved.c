@@ -1,6 +1,6 @@
 /* test_interleaved.c: interleaved right-hand sides give the bits of column-major ones */
 #include "tests/lib/factored.h"
-#include "tests/lib/pin_calls.h"
+#include "tests/lib/constraint_calls.h"
 
 enum { MOST = 17, GUARD = 4 };
 

@@ -1,6 +1,6 @@
 /* test_judge.c: random systems of 45 families, each with a random way to an answer: no answer with
  * SL_OK and a backward error above 1e-8 comes without a signal. `make judge` runs more of them */
-#include "tests/lib/judge_pins.h"
+#include "tests/lib/judge_constraints.h"
 #include "tests/lib/judge_bounds.h"
 #include "tests/lib/judge_ways.h"
 
@@ -9,10 +9,10 @@ typedef struct way_t {
     void (*run)(judge_t *t);
 } way_t;
 
-static const way_t ways[] = {{"solve", judge_way_solve},       {"refine", judge_way_refine},
-                             {"local", judge_way_local},       {"change", judge_way_change},
-                             {"restrict", judge_way_restrict}, {"edit", judge_way_edit},
-                             {"pins", judge_way_pins},         {"inverse", judge_way_inverse},
+static const way_t ways[] = {{"solve", judge_way_solve},        {"refine", judge_way_refine},
+                             {"local", judge_way_local},        {"change", judge_way_change},
+                             {"restrict", judge_way_submatrix}, {"edit", judge_way_edit},
+                             {"pins", judge_way_constraints},   {"inverse", judge_way_inverse},
                              {"bounds", judge_way_bounds}};
 
 enum { WAYS = sizeof ways / sizeof *ways };

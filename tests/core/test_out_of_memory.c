@@ -39,7 +39,7 @@ static void every_allocation_may_fail(void **state) {
         {"sl_factor_lower", lower},
         {"sl_factor_submatrix", restrict_half},
         {"sl_factor_submatrix, few rows", restrict_few},
-        {"sl_fixed_*", dirichlet},
+        {"sl_fixed_*", fixed},
         {"sl_symbolic_edit", edit},
         {"sl_factor_edit", edit_factor},
         {"sl_constraints_*", pins_few},

@@ -5,7 +5,7 @@
 #include "tests/lib/local_solve.h"
 #include "tests/lib/saved.h"
 #include "tests/lib/zero_mean.h"
-#include "tests/lib/pin_calls.h"
+#include "tests/lib/constraint_calls.h"
 
 static void solutions_have_no_rigid_motion(void **state) {
     (void)state;

@@ -2,7 +2,7 @@
  * refused */
 #include "tests/lib/random_systems.h"
 #include "tests/lib/subset.h"
-#include "tests/lib/pin_calls.h"
+#include "tests/lib/constraint_calls.h"
 
 typedef struct tally_t {
     int solved, refused, unsupported, grown;

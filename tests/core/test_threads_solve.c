@@ -1,7 +1,7 @@
 /* test_threads_solve.c: full solves by several threads: the same bits, errors and memory */
 #define _POSIX_C_SOURCE 200112L /* nanosleep */
 #include "tests/lib/threads.h"
-#include "tests/lib/dirichlet.h"
+#include "tests/lib/fixed_rows.h"
 #include "tests/lib/reserved.h"
 
 /* Full solves with the threads of the workspace: by subtrees, many right-hand sides by blocks.
@@ -71,15 +71,15 @@ static void fixed_rows_share_the_threads(void **state) {
     for (sl_int k = 0; k < FIXED; k++) {
         rows[k] = 13 * k + 2;
     }
-    SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, FIXED, NULL, NULL, NULL));
+    SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, FIXED, NULL, NULL));
     for (int k = 0; k < 4 * 4; k++) {
-        const dirichlet_t p = {&y.M.view, rows,      FIXED, widths[k / 4], k % 2, k / 2 % 2,
-                               k % 4 < 2, k % 3 > 0, 0};
+        const fixed_t p = {&y.M.view, rows,      FIXED, widths[k / 4], k % 2, k / 2 % 2,
+                           k % 4 < 2, k % 3 > 0, 0};
         int calls = 0;
         const sl_options opt = options_of_workers(3, &calls);
         sl_work *W = NULL;
         SL_CHECK(sl_work_create(&W, &opt));
-        dirichlet_check(D, &p, W);
+        fixed_check(D, &p, W);
         assert_true(calls > 0);
         sl_work_free(W);
     }

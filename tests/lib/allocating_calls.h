@@ -3,7 +3,7 @@
 #define SL_TEST_ALLOCATING_CALLS_H
 
 #include "factored.h"
-#include "pin_calls.h"
+#include "constraint_calls.h"
 
 typedef struct fixture_t {
     factored_t y; /* a grid, allocated by malloc */
@@ -211,12 +211,12 @@ static sl_status solve_without_work(fixture_t *f, const sl_options *opt) {
 }
 
 /* The solution is untouched without memory. */
-static sl_status dirichlet(fixture_t *f, const sl_options *opt) {
+static sl_status fixed(fixture_t *f, const sl_options *opt) {
     sl_fixed *D = GARBAGE(sl_fixed);
     sl_options given = *opt;
     given.ordering = SL_ORDERING_GIVEN;
     given.perm = f->perm;
-    sl_status status = sl_fixed_create(&D, &f->y.M.view, f->bset, 20, NULL, &given, NULL);
+    sl_status status = sl_fixed_create(&D, &f->y.M.view, f->bset, 20, &given, NULL);
     MADE_OR_NULL(status, D);
     if (status == SL_OK) {
         memcpy(f->X, f->before, sizeof f->X);

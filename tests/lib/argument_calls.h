@@ -234,8 +234,7 @@ CREATE(edit_factor, sl_factor, sl_factor_free,
        sl_factor_edit(&out, a->F, a->S, a->A, o->perm, NULL, &a->stats))
 CREATE(factor, sl_factor, sl_factor_free, sl_factor_create(&out, a->S, a->A, NULL, &a->stats))
 CREATE(transpose, sl_matrix, sl_matrix_free, sl_matrix_transpose(&out, a->A, NULL))
-CREATE(dirichlet, sl_fixed, sl_fixed_free,
-       sl_fixed_create(&out, a->A, a->xset, a->nx, NULL, NULL, &a->stats))
+CREATE(fixed, sl_fixed, sl_fixed_free, sl_fixed_create(&out, a->A, a->xset, a->nx, NULL, &a->stats))
 CREATE(submatrix, sl_matrix, sl_matrix_free,
        sl_matrix_submatrix(&out, a->A, a->xset, a->nx, NULL, &a->stats))
 CREATE(sum, sl_matrix, sl_matrix_free, sl_matrix_sum(&out, NULL, a->A, 1, NULL, &a->stats))
@@ -256,7 +255,7 @@ static const struct {
     {"sl_csc_triangle", triangle, A_ | SQUARE_},
     {"sl_csc_write", write_file, A_ | SQUARE_},
     {"sl_matrix_transpose", transpose, A_},
-    {"sl_fixed_create", dirichlet, A_ | SQUARE_ | VALUES_ | LIST_},
+    {"sl_fixed_create", fixed, A_ | SQUARE_ | VALUES_ | LIST_},
     {"sl_matrix_submatrix", submatrix, A_ | SQUARE_ | LIST_},
     {"sl_matrix_sum", sum, A_ | SQUARE_},
     {"sl_symbolic_create", symbolic, A_ | SQUARE_},

@@ -267,7 +267,7 @@ static inline void judge_way_change(judge_t *t) {
 
 /* ---- parts and edits of the matrix ---- */
 
-static inline void judge_way_restrict(judge_t *t) {
+static inline void judge_way_submatrix(judge_t *t) {
     const sl_int n = (sl_int)t->n;
     sl_int *rows = test_ints(t->n), count = 0;
     const sl_int keep = 1 + gen_below(&t->state, 12);

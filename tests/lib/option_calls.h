@@ -79,8 +79,7 @@ OPTION_CALL(option_from_hermitian, sl_matrix,
             sl_matrix_from_hermitian(&out, &option_hermitian, opt, NULL))
 OPTION_CALL(option_transpose, sl_matrix, sl_matrix_transpose(&out, &f->U, opt))
 OPTION_CALL(option_submatrix, sl_matrix, sl_matrix_submatrix(&out, &f->U, f->perm, 2, opt, NULL))
-OPTION_CALL(option_dirichlet, sl_fixed,
-            sl_fixed_create(&out, f->pair.terms, f->perm, 2, f->F, opt, NULL))
+OPTION_CALL(option_fixed, sl_fixed, sl_fixed_create(&out, f->pair.terms, f->perm, 2, opt, NULL))
 OPTION_CALL(option_sum, sl_matrix,
             sl_matrix_sum(&out, f->coefficients, f->pair.terms, TERMS, opt, NULL))
 OPTION_CALL(option_lower, sl_matrix, sl_factor_lower(&out, f->F, opt))
@@ -130,7 +129,7 @@ static inline sl_status option_save(option_fixture_t *f, const sl_options *opt) 
 OPTION_CALL(option_edit, sl_symbolic,
             sl_symbolic_edit(&out, f->pair.S, &f->U, &f->U, f->perm, opt, NULL))
 
-static inline sl_status option_restrict(option_fixture_t *f, const sl_options *opt) {
+static inline sl_status option_factor_submatrix(option_fixture_t *f, const sl_options *opt) {
     sl_symbolic *S = OPTION_GARBAGE(sl_symbolic);
     sl_factor *G = OPTION_GARBAGE(sl_factor);
     double *x = test_reals((size_t)f->U.p[f->U.n_cols]);
@@ -216,9 +215,8 @@ static const struct {
     {"sl_factor_create", option_factor, READS_FACTOR | READS_ISA},
     {"sl_factor_edit", option_edit_factor, READS_FACTOR | READS_ISA},
     {"sl_factor_lower", option_lower, READS_NOTHING},
-    {"sl_factor_submatrix", option_restrict, READS_NOTHING},
-    {"sl_fixed_create", option_dirichlet,
-     READS_ANALYSIS | READS_TRIANGLE | READS_FACTOR | READS_ISA},
+    {"sl_factor_submatrix", option_factor_submatrix, READS_NOTHING},
+    {"sl_fixed_create", option_fixed, READS_ANALYSIS | READS_TRIANGLE | READS_FACTOR | READS_ISA},
     {"sl_work_create", option_work, READS_NOTHING},
     {"sl_plan_create", option_plan, READS_REGION},
     {"sl_selected_create", option_selected, READS_NOTHING},

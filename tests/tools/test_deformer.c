@@ -3,7 +3,7 @@
 
 #include "tools/geometry/deformer.h"
 #include "tools/mesh/surface_generator.h"
-#include "tests/lib/pin_calls.h"
+#include "tests/lib/constraint_calls.h"
 
 static const char *const surfaces[] = {"star:3", "hills:15x12", "torus:18x9"};
 enum { N_SURFACES = sizeof surfaces / sizeof *surfaces, N_HANDLES = 7 };

@@ -196,7 +196,7 @@ test("pins hold rows", () => {
     const held = D.map((row, i) => i === 4 || i === 50 ? row.map((_, j) => i === j ? 1 : 0) : row), right = b.slice();
     right[4] = 2;
     right[50] = -1;
-    const wanted = denseSolve(held, right), P = F.pins([4, 50]);
+    const wanted = denseSolve(held, right), P = F.constraints([4, 50]);
     near(P.solve([2, -1], {b}), wanted, 1e-11);
     const same = b.slice();
     near(P.solve([2, -1], {b: same, x: same}), wanted, 1e-11);
@@ -205,13 +205,13 @@ test("pins hold rows", () => {
     P.add([30]).release([0, 2]);
     check(P.count === 1);
     check(Math.abs(P.solve([7], {b})[50] - 7) < 1e-12);
-    const G = sl.factor(A), Q = G.pins([4, 50]);
+    const G = sl.factor(A), Q = G.constraints([4, 50]);
     G.updateEntries([1], [1], [1]);
     check(thrown(() => Q.solve([2, -1])).status === "STALE");
     Q.refactor();
     check(Math.abs(Q.solve([2, -1])[4] - 2) < 1e-12);
-    check(thrown(() => F.pins([n])).row === n);
-    check(F.pins().count === 0);
+    check(thrown(() => F.constraints([n])).row === n);
+    check(F.constraints().count === 0);
 });
 
 /* ---- memory ---- */
@@ -238,7 +238,7 @@ test("a result in the heap is there although the call made the heap grow", () =>
 });
 
 test("objects are disposed of in any order, once or more", () => {
-    const M = matrixOf(g), S = sl.analyze(M), G = S.factor(M), P = G.plan([1], [2]), Q = G.pins([3]);
+    const M = matrixOf(g), S = sl.analyze(M), G = S.factor(M), P = G.plan([1], [2]), Q = G.constraints([3]);
     const value = P.solve([1]);
     M.dispose();
     S.dispose();
@@ -260,7 +260,7 @@ test("objects are disposed of in any order, once or more", () => {
 test("calls of the same kind leave the heap as large as it was", () => {
     let size = 0;
     for (let k = 0; k < 400; k++) {
-        const G = sl.factor(A), P = G.plan(null, [k % n]), Q = G.pins([1]);
+        const G = sl.factor(A), P = G.plan(null, [k % n]), Q = G.constraints([1]);
         P.solve(b);
         Q.solve([1]);
         for (const object of [G, P, Q]) object.dispose();
@@ -310,7 +310,7 @@ test("arguments that the library would read beyond their ends", () => {
         [() => F.updateEntries([0], [], []), /columns: 1 numbers/],
         [() => F.update({p: [0, 2], i: [0], x: [1, 1]}), /A.i: 2 numbers/],
         [() => F.update({p: [0, 1], i: [0], x: [1]}, []), /sigma: 1 numbers/],
-        [() => F.pins([1]).solve([1, 2], {b}), /b: 126 numbers/],
+        [() => F.constraints([1]).solve([1, 2], {b}), /b: 126 numbers/],
         [() => sl.factor({n: 3, p: [0, 1], i: [0], x: [1]}), /A.p: 4 numbers/],
         [() => sl.factor({n: 1, p: [0, 2], i: [0], x: [1]}), /A.i: 2 numbers/],
         [() => sl.factor({n: 1, p: [0, 1], i: [0]}), /A.x: 1 numbers/],

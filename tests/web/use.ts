@@ -1,5 +1,5 @@
 /* use.ts: a use of each type of the package, compiled and not run */
-import load, {Analysis, Factor, HeapArray, Matrix, Pins, Plan, SparseLocal, SparseLocalError} from "sparse-local";
+import load, {Analysis, Factor, HeapArray, Matrix, Constraints, Plan, SparseLocal, SparseLocalError} from "sparse-local";
 
 async function use(bytes: ArrayBuffer): Promise<number> {
     const sl: SparseLocal = await load(bytes);
@@ -9,7 +9,7 @@ async function use(bytes: ArrayBuffer): Promise<number> {
     const b: HeapArray<Float64Array> = sl.float64(2), rows: HeapArray<Int32Array> = sl.int32(1);
     b.view.set([1, 2]);
     const x: Float64Array = F.solve(b), f: Float32Array = F.solve(b, new Float32Array(2));
-    const P: Plan = F.plan(rows, null), Q: Pins = F.pins([0]);
+    const P: Plan = F.plan(rows, null), Q: Constraints = F.constraints([0]);
     P.solve([1], b, F);
     Q.add([1]).release([0]).refactor();
     F.refactor(A).update({p: [0, 1], i: [0], x: [1]}, null).updateEntries([0], [0], [1]);

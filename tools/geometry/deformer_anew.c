@@ -19,20 +19,13 @@ static sl_int list_fixed(const deformer *d, sl_int *rows) {
 }
 
 /* Rows that are close to null may be regular by rounding: they are skipped where that is needed. */
-static sl_status create(sl_fixed **out, deformer *d, const sl_int *rows, sl_int count,
-                        const sl_factor *F) {
+static sl_status create(sl_fixed **out, deformer *d, const sl_int *rows, sl_int count) {
     const sl_csc K = sl_matrix_view(d->K);
     sl_options opt;
     memset(&opt, 0, sizeof opt);
     opt.null_pivots = SL_NULL_PIVOT_SKIP;
     opt.consistency_tolerance = -1;
-    sl_status status = SL_ERR_PIVOT;
-    if (F != NULL) {
-        status = sl_fixed_create(out, &K, rows, count, F, NULL, &d->stats);
-    }
-    return status == SL_OK || status == SL_ERR_MEMORY
-               ? status
-               : sl_fixed_create(out, &K, rows, count, NULL, &opt, &d->stats);
+    return sl_fixed_create(out, &K, rows, count, &opt, &d->stats);
 }
 
 /* U becomes the displacements. G: 3 n of scratch. */
@@ -56,7 +49,7 @@ sl_status deformer_solve_anew(deformer *d) {
     if (status == SL_OK) {
         const sl_int count = list_fixed(d, rows);
         if (d->fixed == NULL) {
-            status = create(&d->fixed, d, rows, count, d->refused ? NULL : d->F);
+            status = create(&d->fixed, d, rows, count);
         }
         status = status == SL_OK ? solve(d, d->fixed, rows, count, G, d->U) : status;
     }
@@ -75,7 +68,7 @@ sl_status deformer_compare(deformer *d, double *difference, double *seconds) {
     if (status == SL_OK) {
         count = list_fixed(d, rows);
         const clock_t began = clock();
-        status = create(&D, d, rows, count, NULL);
+        status = create(&D, d, rows, count);
         status = status == SL_OK ? solve(d, D, rows, count, G, U) : status;
         *seconds = (double)(clock() - began) / CLOCKS_PER_SEC;
     }

@@ -9,7 +9,7 @@
  *  those in rows of null pivots are at rest.
  *
  *  Returns  SL_OK; SL_ERR_MEMORY; as sl_fixed_create and sl_fixed_solve.
- *  Cost     a restriction or a factorization after handles have changed.
+ *  Cost     a factorization after handles have changed.
  */
 sl_status deformer_solve_anew(deformer *d);
 

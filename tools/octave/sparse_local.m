@@ -38,7 +38,7 @@ classdef sparse_local < handle
 %     F.downdate(V)            A - V * V'
 %     F.change(B, A)           from the factor of A to that of B, in the cheapest way
 %   Rows held at values
-%     P = F.pins(I)            x = P.solve(b, values); see sparse_local_pins
+%     P = F.constraints(I)            x = P.solve(b, values); see sparse_local_constraints
 %   F.close() releases the memory; so does clearing the last variable that refers to F.
 %
 %   I and J are row numbers, logical masks, or ':' for all rows. Rows in messages begin with 1.
@@ -48,7 +48,7 @@ classdef sparse_local < handle
 %     F = sparse_local(A);
 %     x = F.local(17, 1, [17 18]);
 %
-%   See also sparse_local_plan, sparse_local_pins, sparse_local_make.
+%   See also sparse_local_plan, sparse_local_constraints, sparse_local_make.
 
     properties (SetAccess = private)
         n = 0; % rows of the matrix
@@ -167,9 +167,9 @@ classdef sparse_local < handle
             sparse_local_mex('change', this.id, double(B), i(:), j(:), d(:));
         end
 
-        function P = pins(this, list)
-            % P = F.pins(I): rows held at values; see sparse_local_pins.
-            P = sparse_local_pins(this, list);
+        function P = constraints(this, list)
+            % P = F.constraints(I): rows held at values; see sparse_local_constraints.
+            P = sparse_local_constraints(this, list);
         end
 
         function disp(this)

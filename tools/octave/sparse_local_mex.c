@@ -8,7 +8,7 @@
  * object of the library is held; arrays of mxMalloc are released by the interpreter. This is the
  * one file to compile: its commands are in headers beside it. */
 #include "mex_factors.h"
-#include "mex_pins.h"
+#include "mex_constraints.h"
 #include "mex_queries.h"
 
 /* ---- commands of all objects ---- */
@@ -60,11 +60,11 @@ static const struct {
     {"block", block, 3, 1},
     {"update", update, 3, 0},
     {"change", change, 5, 0},
-    {"pins", pins, 1, 1},
-    {"pins_add", pins_add, 2, 0},
-    {"pins_release", pins_release, 2, 0},
-    {"pins_refactor", pins_refactor, 1, 0},
-    {"pins_solve", pins_solve, 6, 1},
+    {"constraints", constraints, 1, 1},
+    {"constraints_add", constraints_add, 2, 0},
+    {"constraints_release", constraints_release, 2, 0},
+    {"constraints_refactor", constraints_refactor, 1, 0},
+    {"constraints_solve", constraints_solve, 6, 1},
     {"free", free_object, 1, 0},
     {"live", live, 0, 1},
 };

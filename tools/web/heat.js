@@ -48,7 +48,7 @@ F.updateEntries([source, source + 1, source + 1], [source, source + 1, source], 
 stop();
 console.log(`now ${near.solve([1])[0]}`);
 
-const P = F.pins([0, n - 1]);
+const P = F.constraints([0, n - 1]);
 stop = clock("a field that is 1 and -1 at two corners");
 const field = P.solve([1, -1]);
 stop();

@@ -98,7 +98,7 @@ export class Factor implements Owned {
     update(V: {p: Numbers, i: Numbers, x: Numbers}, sigma?: Numbers | null): this;
     /** a_ij and a_ji by deltas, each pair given once. */
     updateEntries(rows: Numbers, columns: Numbers, deltas: Numbers): this;
-    pins(rows?: Numbers): Pins;
+    constraints(rows?: Numbers): Constraints;
     dispose(): void;
 }
 
@@ -112,7 +112,7 @@ export class Plan implements Owned {
     dispose(): void;
 }
 
-export class Pins implements Owned {
+export class Constraints implements Owned {
     private constructor();
     readonly factor: Factor;
     readonly count: number;

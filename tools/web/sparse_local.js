@@ -363,9 +363,9 @@ export class Factor extends Owned {
     }
 
     /** Rows whose values solves prescribe; the factor stays as it is. */
-    pins(rows = []) {
+    constraints(rows = []) {
         const {heap} = this;
-        const pins = heap.call(() => heap.exports.web_pins(this.alive), () => new Pins(heap, this));
+        const pins = heap.call(() => heap.exports.web_constraints(this.alive), () => new Constraints(heap, this));
         try {
             return pins.add(rows);
         } catch (error) {
@@ -393,15 +393,15 @@ export class Plan extends Owned {
     }
 }
 
-export class Pins extends Owned {
+export class Constraints extends Owned {
     constructor(heap, factor) {
-        super(heap, "web_pins_free");
+        super(heap, "web_constraints_free");
         this.factor = factor;
         this.count = 0;
     }
     add(rows) {
         const {heap} = this, count = countOf(rows, "rows");
-        heap.call(() => heap.exports.web_pins_add(this.alive, heap.put(rows, Int32Array, count, "rows"),
+        heap.call(() => heap.exports.web_constraints_add(this.alive, heap.put(rows, Int32Array, count, "rows"),
             count));
         this.count += count;
         return this;
@@ -409,14 +409,14 @@ export class Pins extends Owned {
     /** indices: numbers of pins, 0 the first; the others keep their order. */
     release(indices) {
         const {heap} = this, count = countOf(indices, "indices");
-        heap.call(() => heap.exports.web_pins_release(this.alive,
+        heap.call(() => heap.exports.web_constraints_release(this.alive,
             heap.put(indices, Int32Array, count, "indices"), count));
         this.count -= count;
         return this;
     }
     /** After a change of the factor. */
     refactor() {
-        this.heap.call(() => this.heap.exports.web_pins_refactor(this.alive));
+        this.heap.call(() => this.heap.exports.web_constraints_refactor(this.alive));
         return this;
     }
     /** x is `values` at the pins, and A x = b in all other rows; b null: 0. With a plan a local solve
@@ -428,7 +428,7 @@ export class Pins extends Owned {
         return heap.call(() => {
             const from = heap.put(b ?? new Float64Array(nb * nrhs), Float64Array, nb * nrhs, "b");
             const to = placeFor(heap, x, b, from, nx * nrhs);
-            return heap.exports.web_pins_solve(this.alive, plan ? plan.alive : 0, to, nx, from, nb,
+            return heap.exports.web_constraints_solve(this.alive, plan ? plan.alive : 0, to, nx, from, nb,
                 heap.put(values, Float64Array, count * nrhs, "values"), count, nrhs);
         }, () => x);
     }

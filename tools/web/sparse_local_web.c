@@ -239,7 +239,7 @@ sl_status web_update_entries(sl_factor *F, const sl_int *rows, const sl_int *col
 
 /* ---- pins ---- */
 
-WEB_EXPORT(web_pins) sl_status web_pins(const sl_factor *F) {
+WEB_EXPORT(web_constraints) sl_status web_constraints(const sl_factor *F) {
     sl_constraints *P = NULL;
     forget();
     const sl_status status = sl_constraints_create(&P, F, NULL);
@@ -247,31 +247,32 @@ WEB_EXPORT(web_pins) sl_status web_pins(const sl_factor *F) {
     return keep(status);
 }
 
-WEB_EXPORT(web_pins_add)
-sl_status web_pins_add(sl_constraints *P, const sl_int *rows, sl_int count) {
+WEB_EXPORT(web_constraints_add)
+sl_status web_constraints_add(sl_constraints *P, const sl_int *rows, sl_int count) {
     forget();
     return keep(sl_constraints_add(P, rows, count, &stats));
 }
 
-WEB_EXPORT(web_pins_release)
-sl_status web_pins_release(sl_constraints *P, const sl_int *indices, sl_int count) {
+WEB_EXPORT(web_constraints_release)
+sl_status web_constraints_release(sl_constraints *P, const sl_int *indices, sl_int count) {
     forget();
     return keep(sl_constraints_release(P, indices, count, &stats));
 }
 
-WEB_EXPORT(web_pins_refactor) sl_status web_pins_refactor(sl_constraints *P) {
+WEB_EXPORT(web_constraints_refactor) sl_status web_constraints_refactor(sl_constraints *P) {
     forget();
     return keep(sl_constraints_refactor(P, &stats));
 }
 
-WEB_EXPORT(web_pins_solve)
-sl_status web_pins_solve(const sl_constraints *P, const sl_plan *plan, double *X, sl_int ldx,
-                         const double *B, sl_int ldb, const double *G, sl_int ldg, sl_int nrhs) {
+WEB_EXPORT(web_constraints_solve)
+sl_status web_constraints_solve(const sl_constraints *P, const sl_plan *plan, double *X, sl_int ldx,
+                                const double *B, sl_int ldb, const double *G, sl_int ldg,
+                                sl_int nrhs) {
     forget();
     return keep(sl_constraints_solve(P, plan, X, (size_t)ldx, B, (size_t)ldb, G, (size_t)ldg, nrhs,
                                      workspace()));
 }
 
-WEB_EXPORT(web_pins_free) void web_pins_free(sl_constraints *P) {
+WEB_EXPORT(web_constraints_free) void web_constraints_free(sl_constraints *P) {
     sl_constraints_free(P);
 }

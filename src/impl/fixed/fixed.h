@@ -4,29 +4,19 @@
 
 #include "fixed_rows.h"
 
-static const sli_fixed_ways *sli_fixed_ways_of(void); /* of a pack; NULL: none */
-
-/* Releases what a way has made. */
-static void sli_fixed_clear(sl_fixed *D) {
-    if (D->pins != NULL) {
-        D->ways->release(D);
-    }
-    sl_factor_free(D->F);
-    sl_symbolic_free(D->S);
-    sl_matrix_free(D->M);
-    sli_free(&D->allocator, D->from);
-}
-
 SL_API void sl_fixed_free(sl_fixed *D) {
     if (D != NULL) {
         const sl_allocator a = D->allocator;
-        sli_fixed_clear(D);
+        sl_factor_free(D->F);
+        sl_symbolic_free(D->S);
+        sl_matrix_free(D->M);
+        sli_free(&a, D->from);
         sli_free(&a, D);
     }
 }
 
 /* Copies A[free, free], analyzes and factors it. arrays: those of the options. scratch: n + 1
- * elements. On error all are NULL. */
+ * elements. */
 SLI_COLD static sl_status sli_fixed_factor(sl_fixed *D, const sl_csc *A,
                                            const sli_fixed_arrays *arrays, const sl_int *where,
                                            sl_int *scratch, sl_stats *stats) {
@@ -53,7 +43,6 @@ SLI_COLD static sl_status sli_fixed_factor(sl_fixed *D, const sl_csc *A,
         status = sl_factor_create(&D->F, D->S, &view, &factorization, stats);
         status = sli_fixed_report(D, status, stats);
     }
-    D->info.method = SL_FIXED_SUBMATRIX;
     return status;
 }
 
@@ -116,7 +105,8 @@ static void sli_fixed_layout(sl_fixed *D, sli_block *b) {
     D->couplings = SLI_TAKE(b, double, D->n_couplings);
 }
 
-/* Makes the object without a factor. where := as in sli_fixed_number. */
+/* Makes the object without a factor. where := the numbers of the free rows, and -1 minus those of
+ * the fixed ones. */
 static sl_status sli_fixed_new(sl_fixed **out, const sl_csc *A, const sl_int *rows, sl_fixed *draft,
                                sl_int *where, sl_stats *stats) {
     sli_block b = {NULL, 0};
@@ -160,16 +150,6 @@ static sl_status sli_fixed_new(sl_fixed **out, const sl_csc *A, const sl_int *ro
     return status;
 }
 
-/* May a factor of A take the place of one with these options? */
-static int sli_fixed_may_reuse(const sl_factor *F, const sl_options *opt) {
-    return F != NULL &&
-           (opt == NULL ||
-            ((opt->perm == NULL || opt->ordering != SL_ORDERING_GIVEN) && opt->mass == NULL &&
-             opt->signs == NULL && opt->null_vector == NULL &&
-             opt->null_pivots == SL_NULL_PIVOT_REFUSE && opt->regularization == 0.0)) &&
-           F->type->storage == (opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
-}
-
 /* Ends a creation or a refactorization. */
 static void sli_fixed_done(sl_fixed *D, double started, sl_stats *stats) {
     D->info.seconds = sli_seconds() - started;
@@ -178,23 +158,14 @@ static void sli_fixed_done(sl_fixed *D, double started, sl_stats *stats) {
     }
 }
 
-/* Makes the factor of an object: from F, or of its own. scratch: n + 1 elements. */
-static sl_status sli_fixed_begin(sl_fixed *D, const sl_csc *A, const sl_factor *F,
-                                 const sl_options *opt, const sl_int *where, sl_int *scratch,
-                                 sl_stats *stats) {
+/* Makes the factor of the free rows. scratch: n + 1 elements. */
+static sl_status sli_fixed_begin(sl_fixed *D, const sl_csc *A, const sl_options *opt,
+                                 const sl_int *where, sl_int *scratch, sl_stats *stats) {
     const sl_options none = sli_options_with(&D->allocator);
     const sl_options *arrays_of = opt == NULL ? &none : opt;
-    const sli_fixed_ways *ways = sli_fixed_ways_of();
     sli_block b = {NULL, 0};
     sli_fixed_arrays arrays;
     sl_status status = SL_OK;
-    if (ways != NULL && sli_fixed_may_reuse(F, opt)) { /* untested: all packs are there */
-        D->ways = ways;
-        status = ways->take(D, F, A, stats);
-        if (status != SL_OK || D->F != NULL || D->pins != NULL) {
-            return status;
-        }
-    }
     SLI_LAYOUT(&b, &D->allocator, status) {
         sli_fixed_arrays_layout(&arrays, &b, arrays_of, D->n_free);
     }
@@ -208,7 +179,7 @@ static sl_status sli_fixed_begin(sl_fixed *D, const sl_csc *A, const sl_factor *
 }
 
 SL_API sl_status sl_fixed_create(sl_fixed **out, const sl_csc *A, const sl_int *rows, sl_int count,
-                                 const sl_factor *F, const sl_options *opt, sl_stats *stats) {
+                                 const sl_options *opt, sl_stats *stats) {
     const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
     sli_block b = {NULL, 0};
     sl_fixed draft, *D = NULL;
@@ -235,7 +206,7 @@ SL_API sl_status sl_fixed_create(sl_fixed **out, const sl_csc *A, const sl_int *
         return sli_report(stats, status);
     }
     status = sli_fixed_new(&D, A, rows, &draft, where, stats);
-    status = status == SL_OK ? sli_fixed_begin(D, A, F, opt, where, scratch, stats) : status;
+    status = status == SL_OK ? sli_fixed_begin(D, A, opt, where, scratch, stats) : status;
     sli_free(&draft.allocator, b.base);
     if (status == SL_OK) {
         sli_fixed_done(D, started, stats);
@@ -244,36 +215,6 @@ SL_API sl_status sl_fixed_create(sl_fixed **out, const sl_csc *A, const sl_int *
         sl_fixed_free(D);
     }
     return sli_report(stats, status);
-}
-
-/* Replaces what a pack has made by a factor of A[free, free]. On error D is as before. */
-static sl_status sli_fixed_replace(sl_fixed *D, const sl_csc *A, sl_stats *stats) {
-    const sli_fixed_arrays none = {NULL, NULL, NULL, NULL};
-    sl_fixed own = *D;
-    sli_block b = {NULL, 0};
-    sl_int *where = NULL, *scratch = NULL;
-    sl_status status = SL_OK;
-    own.M = NULL;
-    own.from = NULL;
-    own.S = NULL;
-    own.F = NULL;
-    own.ways = NULL;
-    own.pins = NULL;
-    SLI_LAYOUT(&b, &D->allocator, status) {
-        where = SLI_TAKE(&b, sl_int, D->n);
-        scratch = SLI_TAKE(&b, sl_int, (uint64_t)D->n + 1);
-    }
-    if (status == SL_OK) {
-        sli_fixed_number(D, where);
-        status = sli_fixed_factor(&own, A, &none, where, scratch, stats);
-        sli_free(&D->allocator, b.base);
-    }
-    sli_fixed_clear(status == SL_OK ? D : &own);
-    if (status == SL_OK) {
-        *D = own;
-        sli_fixed_copy_values(D, A);
-    }
-    return status;
 }
 
 SL_API sl_status sl_fixed_refactor(sl_fixed *D, const sl_csc *A, sl_stats *stats) {
@@ -293,9 +234,7 @@ SL_API sl_status sl_fixed_refactor(sl_fixed *D, const sl_csc *A, sl_stats *stats
         status = sli_argument(sli_nnz(A) > 0 && A->x == NULL ? "A.x is NULL" : NULL);
     }
     status = status == SL_OK ? sli_fixed_check_values(D, A, stats) : status;
-    if (status == SL_OK && D->M == NULL) {
-        status = sli_fixed_replace(D, A, stats);
-    } else if (status == SL_OK) {
+    if (status == SL_OK) {
         const sl_csc view = sl_matrix_view(D->M);
         sli_fixed_copy_values(D, A);
         status = sl_factor_refactor(D->F, &view, stats);

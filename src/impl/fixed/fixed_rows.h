@@ -8,16 +8,6 @@
 #include "../matrix/submatrix.h"
 #include "../solve/query.h"
 
-/* The ways of a pack, which use a factor of A. */
-typedef struct sli_fixed_ways {
-    /* Takes the cheapest way: sets S and F of D, or pins; leaves all three NULL where a factor of
-     * A[free, free] is cheapest. */
-    sl_status (*take)(sl_fixed *D, const sl_factor *F, const sl_csc *A, sl_stats *stats);
-    sl_status (*solve)(const sl_fixed *D, const sli_rhs *rhs, const double *G, size_t ldg,
-                       sl_work *W);
-    void (*release)(sl_fixed *D); /* of the pins */
-} sli_fixed_ways;
-
 struct sl_fixed {
     sl_allocator allocator;
     sl_options analysis, factorization; /* without arrays */
@@ -32,13 +22,10 @@ struct sl_fixed {
     double *couplings;
     sl_fixed_info info;
 
-    /* A[free, free]; NULL: pins hold the fixed rows, or M is not needed yet */
-    sl_matrix *M;
+    sl_matrix *M; /* A[free, free] */
     sl_int *from; /* the positions of its entries in A */
     sl_symbolic *S;
     sl_factor *F;
-    const sli_fixed_ways *ways; /* that made the factor, or the pins; NULL: none */
-    void *pins;
     int is_stale; /* the last refactorization has refused its values */
 };
 
@@ -88,17 +75,6 @@ static void sli_fixed_copy_values(sl_fixed *D, const sl_csc *A) {
     }
 }
 
-/* where := the numbers of the free rows, and -1 minus those of the fixed ones. */
-static void sli_fixed_number(const sl_fixed *D, sl_int *where) {
-    sl_int k;
-    for (k = 0; k < D->n_free; k++) {
-        where[D->free_rows[k]] = k;
-    }
-    for (k = 0; k < D->n_fixed; k++) {
-        where[D->fixed_rows[k]] = -1 - k;
-    }
-}
-
 /* Reports an error of the system of free rows in rows of A. */
 static sl_status sli_fixed_report(const sl_fixed *D, sl_status status, sl_stats *stats) {
     sl_error found;
@@ -136,7 +112,7 @@ static void sli_fixed_arrays_layout(sli_fixed_arrays *r, sli_block *b, const sl_
         opt->null_vector == NULL ? NULL : SLI_TAKE(b, double, count *(opt->null_vector_count + 1));
 }
 
-/* Fills the arrays. scratch: n elements; where: as in sli_fixed_number. Refuses an order that
+/* Fills the arrays. scratch: n elements; where: as in sli_fixed_new. Refuses an order that
  * is not a permutation of all rows. */
 static sl_status sli_fixed_arrays_fill(const sli_fixed_arrays *r, const sl_fixed *D,
                                        const sl_options *opt, const sl_int *where, sl_int *scratch,

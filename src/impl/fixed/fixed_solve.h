@@ -155,14 +155,12 @@ SL_API sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx, const 
     if (status != SL_OK || nrhs == 0 || D->n == 0) {
         return status;
     }
-    if (D->is_stale ||
-        (D->pins == NULL && !D->F->is_valid)) { /* branches untested: then it is stale, too */
+    if (D->is_stale || !D->F->is_valid) { /* second branch untested: then it is stale, too */
         return sli_refuse(SL_ERR_STALE, "the last sl_fixed_refactor has failed");
     }
     own = sli_work_own(&D->allocator);
     W = W == NULL ? &own : W;
-    status =
-        D->pins != NULL ? D->ways->solve(D, &rhs, G, ldg, W) : sli_fixed_run(D, &rhs, G, ldg, W);
+    status = sli_fixed_run(D, &rhs, G, ldg, W);
     sli_free(&own.allocator, own.block);
     if (status == SL_OK && !sli_fixed_set_fixed(D, &rhs, G, ldg)) {
         status = sli_refuse(SL_ERR_NOT_FINITE, "a value of G is not finite");

@@ -207,7 +207,7 @@ function rows_held()
     n = size(A, 1);
     b = cos(1:n)';
     F = sparse_local(A);
-    P = F.pins([5, 70]);
+    P = F.constraints([5, 70]);
     x = P.solve(b, [1; 2]);
     near(x([5, 70]), [1; 2], 1e-12);
     free = setdiff(1:n, [5, 70]);
@@ -223,7 +223,7 @@ function rows_held()
     near(P.solve([0; 0], 4, Q), 4 * z([71, 70]) / z(70), 1e-12);
     refused('pivot', '(row 70)', @() P.add(70));
     F.refactor(2 * A);
-    refused('stale', 'pins', @() P.solve(b, 3));
+    refused('stale', 'constraints', @() P.solve(b, 3));
     P.refactor();
     y = P.solve(2 * b, 3);
     near(y, x(:, 1), 1e-12);
@@ -324,7 +324,7 @@ function messages()
     refused('argument', 'one length', @() F.entries([1, 2], 1));
     refused('argument', 'one length', @() F.entries(':', 1));
     refused('argument', 'a set of rows', @() F.block(':', 1));
-    refused('argument', 'a set of rows', @() F.pins(':'));
+    refused('argument', 'a set of rows', @() F.constraints(':'));
     G = sparse_local(grid_laplacian(9, 0.1));
     P = G.plan(1, 1);
     refused('state', '', @() sparse_local_mex('plan_solve', F.id, P.id, 1));
@@ -338,8 +338,8 @@ function wrong_arguments()
     % Each command of the mex file with arguments of every wrong kind: an error, and no crash.
     commands = {'create', 2; 'refactor', 2; 'solve', 2; 'refine', 4; 'rcond', 2; 'logdet', 1; ...
                 'parts', 1; 'info', 1; 'local', 4; 'plan', 3; 'plan_solve', 3; 'diagonal', 2; ...
-                'entries', 3; 'block', 3; 'update', 3; 'change', 5; 'pins', 1; 'pins_add', 2; ...
-                'pins_release', 2; 'pins_refactor', 1; 'pins_solve', 6};
+                'entries', 3; 'block', 3; 'update', 3; 'change', 5; 'constraints', 1; 'constraints_add', 2; ...
+                'constraints_release', 2; 'constraints_refactor', 1; 'constraints_solve', 6};
     things = {[], 'x', {}, {1, 2}, struct('a', 1), single(3), true, 1i, sparse(2), -1, NaN, ...
               1e300, uint8(3), @sin, ones(2, 2, 2)};
     A = grid_laplacian(4, 1);
@@ -353,7 +353,7 @@ function wrong_arguments()
                 if wrong > 0, list{wrong} = things{t}; end
                 try
                     id = sparse_local_mex(commands{k, 1}, list{:});
-                    if any(strcmp(commands{k, 1}, {'create', 'plan', 'pins'}))
+                    if any(strcmp(commands{k, 1}, {'create', 'plan', 'constraints'}))
                         sparse_local_mex('free', id);
                     end
                 catch e
@@ -376,7 +376,7 @@ function lifetimes()
     before = sparse_local_mex('live');
     F = sparse_local(A);
     P = F.plan(1, 1);
-    Q = F.pins(3);
+    Q = F.constraints(3);
     assert(sparse_local_mex('live') == before + 3);
     x = P.solve(1);
     G = F;
@@ -442,7 +442,7 @@ function quadratic_energies()
 end
 
 function help_texts()
-    names = {'sparse_local', 'sparse_local_plan', 'sparse_local_pins', 'sparse_local_make', ...
+    names = {'sparse_local', 'sparse_local_plan', 'sparse_local_constraints', 'sparse_local_make', ...
              'min_quad_with_fixed', 'heat'};
     for k = 1:numel(names)
         assert(numel(evalc(['help ', names{k}])) > 200, names{k});

@@ -11,22 +11,22 @@
 sparse_local.h contains the method and the contracts of all calls.
 """
 from ._analysis import Analysis, analyze
-from ._dirichlet import Dirichlet
+from ._fixed import FixedRows
 from ._errors import (ArgumentError, Error, InaccurateError, InconsistentError, NotFiniteError,
                       OutOfMemoryError, PatternError, PivotError, StateError, TooLargeError,
                       UnsupportedError)
 from ._factor import Factor, cholesky
 from ._library import library_path, version
 from ._matrix import CscArrays, from_triplets
-from ._pins import Pins
+from ._constraints import Constraints
 from ._plan import Plan, Region
 from ._saved_set import Selected, load_set, save_set
 from ._several import Sum, diagonals, solve_batch
 from ._stand_in import stand_in
 
 __version__ = version()
-__all__ = ["Factor", "cholesky", "Analysis", "analyze", "Plan", "Region", "Pins", "Dirichlet",
-           "Selected", "Sum", "solve_batch", "diagonals", "stand_in", "save_set", "load_set",
-           "from_triplets", "CscArrays", "Error", "ArgumentError", "PatternError", "PivotError",
-           "NotFiniteError", "InconsistentError", "InaccurateError", "StateError", "TooLargeError",
-           "UnsupportedError", "OutOfMemoryError", "library_path", "version"]
+__all__ = ["Factor", "cholesky", "Analysis", "analyze", "Plan", "Region", "Constraints",
+           "FixedRows", "Selected", "Sum", "solve_batch", "diagonals", "stand_in", "save_set",
+           "load_set", "from_triplets", "CscArrays", "Error", "ArgumentError", "PatternError",
+           "PivotError", "NotFiniteError", "InconsistentError", "InaccurateError", "StateError",
+           "TooLargeError", "UnsupportedError", "OutOfMemoryError", "library_path", "version"]

@@ -8,7 +8,7 @@ import os
 import sys
 
 from ._errors import BY_STATUS, Error, PivotError, StateError
-from ._structs import (ENUM, INT, OFF, PTR, REAL, SIZE, Csc, Csc64, DirichletArrays,
+from ._structs import (ENUM, INT, OFF, PTR, REAL, SIZE, Csc, Csc64, FixedArrays,
                        FactorArrays, Hermitian, Options, PseudoInverse, Request, SavedSet, Stats,
                        SymbolicArrays)
 
@@ -29,9 +29,9 @@ _CALLS = {
     "symbolic_scatter": [PTR, PTR, _CSC, _STATS],
     "symbolic_edit": [_OUT, PTR, _CSC, _CSC, PTR, _OPT, _STATS],
     "factor_edit": [_OUT, PTR, PTR, _CSC, PTR, _OPT, _STATS],
-    "factor_restrict": [_OUT, _OUT, PTR, _CSC, PTR, INT, _OPT, _STATS],
-    "factor_change": [PTR, _CSC, PTR, PTR, PTR, INT, PTR, _STATS],
-    "factor_update": [PTR, _CSC, PTR, PTR, _STATS],
+    "factor_submatrix": [_OUT, _OUT, PTR, _CSC, PTR, INT, _OPT, _STATS],
+    "factor_change_entries": [PTR, _CSC, PTR, PTR, PTR, INT, PTR, _STATS],
+    "factor_rank_update": [PTR, _CSC, PTR, PTR, _STATS],
     "factor_lower": [_OUT, PTR, _OPT],
     "batch_factor": [_OUT, INT, PTR, PTR, ctypes.POINTER(PTR), INT, _OPT, ctypes.POINTER(INT),
                      _STATS],
@@ -40,15 +40,15 @@ _CALLS = {
     "batch_diagonal": [ctypes.POINTER(PTR), INT, PTR, SIZE, PTR, INT, _OPT, PTR,
                        ctypes.POINTER(INT), _STATS],
     "batch_solve": [PTR, ctypes.POINTER(Request), INT, _OPT, PTR, ctypes.POINTER(INT)],
-    "dirichlet_create": [_OUT, _CSC, PTR, INT, PTR, _OPT, _STATS],
-    "dirichlet_refactor": [PTR, _CSC, _STATS],
-    "dirichlet_solve": [PTR, PTR, SIZE, PTR, SIZE, PTR, SIZE, INT, PTR],
-    "pins_create": [_OUT, PTR, _OPT],
-    "pins_add": [PTR, PTR, INT, _STATS],
-    "pins_add_equality": [PTR, PTR, PTR, INT, _STATS],
-    "pins_release": [PTR, PTR, INT, _STATS],
-    "pins_refactor": [PTR, _STATS],
-    "pins_solve": [PTR, PTR, PTR, SIZE, PTR, SIZE, PTR, SIZE, INT, PTR],
+    "fixed_create": [_OUT, _CSC, PTR, INT, _OPT, _STATS],
+    "fixed_refactor": [PTR, _CSC, _STATS],
+    "fixed_solve": [PTR, PTR, SIZE, PTR, SIZE, PTR, SIZE, INT, PTR],
+    "constraints_create": [_OUT, PTR, _OPT],
+    "constraints_add": [PTR, PTR, INT, _STATS],
+    "constraints_add_equality": [PTR, PTR, PTR, INT, _STATS],
+    "constraints_release": [PTR, PTR, INT, _STATS],
+    "constraints_refactor": [PTR, _STATS],
+    "constraints_solve": [PTR, PTR, PTR, SIZE, PTR, SIZE, PTR, SIZE, INT, PTR],
     "factor_defects": [PTR, PTR, SIZE, PTR, SIZE, INT, PTR],
     "factor_create": [_OUT, PTR, _CSC, _OPT, _STATS],
     "factor_refactor": [PTR, _CSC, _STATS],
@@ -87,7 +87,7 @@ _CALLS = {
     "map_file": [_SET, ctypes.c_char_p, ENUM, _OPT],
 }
 _FREES = ("matrix_free", "symbolic_free", "factor_free", "work_free", "plan_free", "region_free",
-          "selected_free", "pins_free", "dirichlet_free", "saved_set_free")
+          "selected_free", "constraints_free", "fixed_free", "saved_set_free")
 
 
 def library_path():
@@ -124,7 +124,7 @@ def _load():
     lib.sl_symbolic_view.argtypes = [PTR]
     lib.sl_symbolic_view.restype = SymbolicArrays
     lib.sl_fixed_view.argtypes = [PTR]
-    lib.sl_fixed_view.restype = DirichletArrays
+    lib.sl_fixed_view.restype = FixedArrays
     lib.sl_factor_view.argtypes = [PTR]
     lib.sl_factor_view.restype = FactorArrays
     for name in ("symbolic_stats", "factor_stats", "plan_stats", "region_stats",

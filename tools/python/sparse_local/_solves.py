@@ -8,7 +8,7 @@ from ._errors import ArgumentError, InconsistentError
 from ._library import Stats, check, lib
 from ._matrix import columns_of, is_sparse
 from ._options import choice
-from ._pins import Pins
+from ._constraints import Constraints
 from ._plan import Plan, Region, part_bits
 
 _CERTAINTIES = {"estimated": 1, "guaranteed": 2}
@@ -88,9 +88,9 @@ class Solves:
         """A part of the matrix in which local solves do not depend on the rest; see Region."""
         return Region(self, rows, bytes)
 
-    def pins(self, rows=()):
-        """Pins: rows that solves hold at given values, on top of this factor; see Pins."""
-        return Pins(self, rows)
+    def constraints(self, rows=()):
+        """Pins: rows that solves hold at given values, on top of this factor; see Constraints."""
+        return Constraints(self, rows)
 
     def solve_part(self, parts, B):
         """X = P' L'^-1 D^-1 L^-1 P B with only the parts that are named, as 'P L' or ['LT', 'PT'].

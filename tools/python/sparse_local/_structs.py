@@ -65,7 +65,7 @@ _ChangeInfo = _struct("_ChangeInfo", [
     ("method", ENUM), ("reason", ENUM), ("ranks", INT), ("padding", INT), ("entries", OFF),
     ("updates", OFF), ("drift", REAL), ("flops_update", REAL), ("flops_changed", REAL),
     ("flops_refactor", REAL), ("seconds", REAL)])
-_RestrictInfo = _struct("_RestrictInfo", [
+_SubmatrixInfo = _struct("_SubmatrixInfo", [
     ("kept", INT), ("computed", INT), ("entries", OFF), ("is_anew", ctypes.c_int),
     ("padding", ctypes.c_int), ("seconds", REAL)])
 _EditInfo = _struct("_EditInfo", [
@@ -74,11 +74,10 @@ _EditInfo = _struct("_EditInfo", [
 _ReuseInfo = _struct("_ReuseInfo", [
     ("kept", INT), ("computed", INT), ("entries", OFF), ("flops", REAL),
     ("flops_anew", REAL), ("is_anew", ctypes.c_int), ("reason", ENUM), ("seconds", REAL)])
-_PinsInfo = _struct("_PinsInfo", [
+_ConstraintsInfo = _struct("_ConstraintsInfo", [
     ("count", INT), ("seconds", REAL)])
-_DirichletInfo = _struct("_DirichletInfo", [
-    ("method", ENUM), ("n_free", INT), ("couplings", OFF), ("seconds_submatrix", REAL),
-    ("seconds_restriction", REAL), ("seconds_pins", REAL), ("seconds", REAL)])
+_FixedInfo = _struct("_FixedInfo", [
+    ("n_free", INT), ("couplings", OFF), ("seconds", REAL)])
 _CertificateInfo = _struct("_CertificateInfo", [
     ("certainty", ENUM), ("solves", INT), ("eta", REAL), ("eigenvalue_min", REAL),
     ("seconds", REAL)])
@@ -90,10 +89,11 @@ class Stats(ctypes.Structure):
     _fields_ = [("error", _Error), ("symbolic", _Symbolic), ("factor", _FactorInfo),
                 ("plan", _PlanInfo), ("inverse", _InverseInfo), ("selected", _SelectedInfo),
                 ("region", _RegionInfo), ("refine", _RefineInfo),
-                ("change", _ChangeInfo), ("restriction", _RestrictInfo),
+                ("change", _ChangeInfo), ("submatrix", _SubmatrixInfo),
                 ("edit", _EditInfo), ("storage", OFF), ("reuse", _ReuseInfo),
-                ("pins", _PinsInfo), ("certificate", _CertificateInfo), ("null_bound", REAL),
-                ("dirichlet", _DirichletInfo), ("threads", OFF), ("reserved", OFF * 40)]
+                ("constraints", _ConstraintsInfo), ("certificate", _CertificateInfo),
+                ("null_bound", REAL), ("fixed", _FixedInfo), ("threads", OFF),
+                ("reserved", OFF * 40)]
 
 
 class SavedSet(ctypes.Structure):
@@ -125,7 +125,7 @@ class FactorArrays(ctypes.Structure):
                 ("reserved", PTR * 2)]
 
 
-class DirichletArrays(ctypes.Structure):
+class FixedArrays(ctypes.Structure):
     """sl_fixed_arrays"""
     _fields_ = [("n_free", INT), ("n_fixed", INT), ("free_rows", PTR), ("fixed_rows", PTR),
                 ("symbolic", PTR), ("factor", PTR), ("matrix", Csc), ("reserved", PTR * 2)]

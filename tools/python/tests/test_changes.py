@@ -1,4 +1,4 @@
-"""Pins, changes of entries, submatrices and edited meshes, against dense algebra."""
+"""Constraints, changes of entries, submatrices and edited meshes, against dense algebra."""
 import pickle
 
 import numpy as np
@@ -21,10 +21,10 @@ def held(A, rows, b, values):
 
 @pytest.mark.parametrize("count", [None, 3])
 @pytest.mark.parametrize("renewed", [False, True])
-def test_pins_hold_rows(A, F, count, renewed):
+def test_constraints_hold_rows(A, F, count, renewed):
     rows = [5, 0, 399]
     b, values = right_hand_sides(400, count), right_hand_sides(3, count)
-    P = F.pins(rows)
+    P = F.constraints(rows)
     if renewed:
         assert P.update() is P
     assert len(P) == 3 and P.stats["count"] == 3
@@ -45,15 +45,15 @@ def test_pins_hold_rows(A, F, count, renewed):
 def test_equalities_and_singular_systems():
     A = grid(8, 0.0)
     F = sl.Factor(A, null_pivots="skip")
-    P = F.pins().add_equality([0, 1, 2], [1.0, 1.0, -1.0]).add([60])
+    P = F.constraints().add_equality([0, 1, 2], [1.0, 1.0, -1.0]).add([60])
     x = P.solve(None, [2.0, 1.0])
     assert x[0] + x[1] - x[2] == pytest.approx(2) and x[60] == pytest.approx(1)
     r = A @ x
     assert np.allclose(np.delete(r, [0, 1, 2, 60]), 0, atol=1e-12) and r[0] == pytest.approx(-r[2])
 
 
-def test_pins_refuse_what_is_wrong(A, F):
-    P = F.pins([3, 4])
+def test_constraints_refuse_what_is_wrong(A, F):
+    P = F.constraints([3, 4])
     with pytest.raises(sl.PivotError):
         P.add([3])
     for rows in ([400], [-1], [[1]]):
@@ -79,7 +79,7 @@ def test_pins_refuse_what_is_wrong(A, F):
     P.update()
     assert P.solve(b, [1.0, 2.0])[3] == pytest.approx(1)
     with pytest.raises(sl.UnsupportedError):
-        sl.Factor(grid(6, -2.9)).pins([1])
+        sl.Factor(grid(6, -2.9)).constraints([1])
 
 
 def stiffer(A, i, j, w):

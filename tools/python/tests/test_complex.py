@@ -80,7 +80,7 @@ def test_objects():
     R = F.region(rows)
     b = vectors(4)
     assert np.allclose(F.plan(rows, rows, region=R).solve(b), inverse[np.ix_(rows, rows)] @ b)
-    P = F.pins([3, 9])
+    P = F.constraints([3, 9])
     x = P.solve(None, [1j, 2.0])
     assert np.allclose(x[[3, 9]], [1j, 2.0])
     assert np.allclose(np.delete(DENSE @ x, [3, 9]), 0, atol=1e-12)

@@ -29,7 +29,7 @@ def test_programs(k, tmp_path, monkeypatch):
 
 def test_names():
     """Every call of a factor, of its objects and of the package that README names."""
-    of = {"F": sparse_local.Factor, "P": sparse_local.Pins, "S": sparse_local.Sum,
+    of = {"F": sparse_local.Factor, "P": sparse_local.Constraints, "S": sparse_local.Sum,
           "Factor": sparse_local.Factor, "plan": sparse_local.Plan}
     found = re.findall(r"\b(F|P|S|Factor|plan)\.([a-z]\w+)", TEXT)
     assert len(found) > 30

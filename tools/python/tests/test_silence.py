@@ -33,7 +33,7 @@ def test_a_refactorization_that_is_not_positive_definite():
     with pytest.raises(sl.PivotError, match="not positive definite"):
         F.refactor(grid(6, -2.9))
     for use in (lambda: F.solve(b), lambda: plan.solve([1.0]), lambda: F.diagonal(), F.logdet,
-                F.to_bytes, F.sample, F.lower, lambda: F.pins([1]), lambda: F.region([1])):
+                F.to_bytes, F.sample, F.lower, lambda: F.constraints([1]), lambda: F.region([1])):
         with pytest.raises(sl.StateError):
             use()
     assert np.allclose(grid(6) @ F.refactor(grid(6)).solve(b), b)
@@ -166,7 +166,7 @@ def test_right_hand_sides_that_are_not_finite(value):
         assert caught.value.row == 9
     sparse = sp.csc_matrix(([value], ([8], [0])), shape=(36, 1))
     for call in (lambda: F.solve(sparse), lambda: F.solve_part("P L", b), lambda: F.refine(A, b, b),
-                 lambda: F.pins([1]).solve(b, [0.0]), lambda: sl.solve_batch([(F, b)])):
+                 lambda: F.constraints([1]).solve(b, [0.0]), lambda: sl.solve_batch([(F, b)])):
         with pytest.raises((sl.NotFiniteError, TypeError)):
             call()
     assert np.isfinite(F.solve(np.full(36, 1e300))).all()  # squares overflow, the numbers do not
@@ -179,7 +179,7 @@ def test_use_after_a_failed_factorization():
     bad = A.copy()
     bad.data[:] = 0.0
     F = sl.Factor(A)
-    plan, R, Z, P = F.plan([3], [4]), F.region([3, 4]), sl.Selected(F), F.pins([3])
+    plan, R, Z, P = F.plan([3], [4]), F.region([3, 4]), sl.Selected(F), F.constraints([3])
     inside = F.plan([3], [4], region=R)
     with pytest.raises(sl.PivotError):
         F.refactor(bad)
@@ -189,7 +189,7 @@ def test_use_after_a_failed_factorization():
             F.lower, F.factors, F.to_bytes, lambda: F.refine(A, b, b), lambda: F.rcond(A),
             lambda: F.certify(A), lambda: F.solve_part("L", b), lambda: F.update(A, [1]),
             lambda: F.restrict(A, [1]), lambda: F.update_entries([1], [1], [1.0]),
-            lambda: F.region([1]), lambda: sl.Selected(F), lambda: F.pins([1]),
+            lambda: F.region([1]), lambda: sl.Selected(F), lambda: F.constraints([1]),
             lambda: F.edit(A, A, np.arange(36)), lambda: sl.solve_batch([(F, b)]),
             lambda: sl.diagonals([F]), lambda: F.bilinear([1], [1.0], [1], [1.0]))
     for use in uses:
@@ -202,7 +202,7 @@ def test_use_after_a_failed_factorization():
 def test_a_closed_object():
     A, b = grid(6), np.ones(36)
     F = sl.Factor(A)
-    plan, R, Z, P = F.plan([3], [4]), F.region([3, 4]), sl.Selected(F), F.pins([3])
+    plan, R, Z, P = F.plan([3], [4]), F.region([3, 4]), sl.Selected(F), F.constraints([3])
     d = Z.diagonal()
     F.close()
     F.close()
@@ -210,7 +210,8 @@ def test_a_closed_object():
             lambda: P.solve(b, [1.0]), lambda: P.add([1]), lambda: P.release([0]), P.update,
             lambda: F.refactor(A), lambda: F.save("never"), lambda: F.plan([1], [2]).solve([1.0]),
             lambda: F.stats, lambda: F.inertia, lambda: repr(F), lambda: F.update(A, [1]),
-            lambda: F.change(A, A), lambda: F.pins([1]), lambda: sl.solve_batch([(plan, [1.0])]))
+            lambda: F.change(A, A), lambda: F.constraints([1]),
+            lambda: sl.solve_batch([(plan, [1.0])]))
     for use in uses:
         with pytest.raises(sl.StateError, match="closed"):
             use()
@@ -260,7 +261,8 @@ def test_indices_that_overflow():
     F = sl.Factor(A)
     for row in (2**31, 2**32 + 3, -2**31 - 1, 2**63 - 1, np.uint64(2**64 - 1)):
         for call in (lambda: F.local([row], [1.0], [3]), lambda: F.plan([1], [row]),
-                     lambda: F.diagonal([row]), lambda: F.pins([row]), lambda: F.pairs([row], [1]),
+                     lambda: F.diagonal([row]), lambda: F.constraints([row]),
+                     lambda: F.pairs([row], [1]),
                      lambda: sl.from_triplets([row], [0], [1.0], 3)):
             with pytest.raises((sl.TooLargeError, sl.ArgumentError)):
                 call()

@@ -36,7 +36,7 @@ F, b = sl.Factor(A), np.cos(k)
 x = F.solve(b)
 assert np.allclose(dense @ x, b) and np.array_equal(F.local(k, b, [3]), x[[3]])
 assert np.allclose(F.diagonal(), np.linalg.inv(dense).diagonal())
-assert np.allclose(F.pins([3]).solve(None, [1.0])[3], 1)
+assert np.allclose(F.constraints([3]).solve(None, [1.0])[3], 1)
 L, D, perm = F.factors()
 assert L.shape == D.shape == (n, n)
 from sparse_local import gradients

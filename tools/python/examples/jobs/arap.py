@@ -16,7 +16,7 @@ target = points[held].copy()
 target[-1] += [0.0, 0.0, 0.5]
 
 F = sl.Factor(L, null_pivots="skip")  # singular until rows are pinned
-pins = F.pins(held)
+pins = F.constraints(held)
 bent = points.copy()
 energies = []
 for step in range(12):

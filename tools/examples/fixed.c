@@ -21,7 +21,7 @@ int main(void) {
         circle[2 * k] = cos(6.283185307179586 * k / count);
         circle[2 * k + 1] = sin(6.283185307179586 * k / count);
     }
-    ok(sl_fixed_create(&D, &A, border, count, NULL, NULL, NULL));
+    ok(sl_fixed_create(&D, &A, border, count, NULL, NULL));
     ok(sl_fixed_solve(D, uv, SL_ROWS(2), NULL, 0, circle, SL_ROWS(2), 2, NULL));
     for (k = 0; k < N; k++) { /* a harmonic function is largest on the border */
         most = fmax(most, hypot(uv[2 * k], uv[2 * k + 1]));

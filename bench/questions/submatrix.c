@@ -1,4 +1,4 @@
-/* restrict.c: is the factor of a patch cheaper from that of the whole mesh than from its matrix? */
+/* submatrix.c: is the factor of a patch cheaper from that of the whole mesh than from A? */
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,7 +24,7 @@ static void release(void *state) {
     c->S = NULL;
 }
 
-static void call_restrict(void *state) {
+static void call_submatrix(void *state) {
     restricted *c = state;
     bench_must(sl_factor_submatrix(&c->S, &c->G, c->system->F, &c->system->A, c->patch.vertices,
                                    c->patch.size, NULL, NULL),
@@ -92,13 +92,13 @@ static void time_set(bench_run *run, bench_report *report, const bench_system *s
     c.patch = patch;
     d = c;
     c.perm = inherited_order(system, &c.patch);
-    if (check(run, &c, call_anew, "anew") && check(run, &c, call_restrict, "restriction")) {
+    if (check(run, &c, call_anew, "anew") && check(run, &c, call_submatrix, "restriction")) {
         const bench_contender contenders[3] = {
             {.call = call_anew, .state = &c, .ready = release},
             {.call = call_anew, .state = &d, .ready = release},
-            {.call = call_restrict, .state = &c, .ready = release}};
+            {.call = call_submatrix, .state = &c, .ready = release}};
         static const char *const methods[3] = {"analyze and factor", "order, analyze and factor",
-                                               "restrict"};
+                                               "submatrix"};
         bench_sample samples[3];
         char what[40];
         snprintf(what, sizeof what, "%s %d", shape, (int)c.patch.size);
@@ -171,12 +171,12 @@ static void time_random(bench_run *run, bench_report *report, const bench_system
     free(vertices);
 }
 
-void bench_restrict(bench_run *run) {
+void bench_submatrix(bench_run *run) {
     static const double wanted[] = {1e4, 1e5, 1e6};
     const bench_system *systems[3];
     const int count = bench_systems(run, wanted, 3, systems);
     bench_report *report =
-        bench_report_open(run, "restrict", "the factor of a patch", "analyze and factor");
+        bench_report_open(run, "submatrix", "the factor of a patch", "analyze and factor");
     for (int k = 0; k < count; k++) {
         time_discs(run, report, systems[k]);
         time_bands(run, report, systems[k]);

@@ -1,6 +1,7 @@
-/* test_pins_rigid.c: pins on elastic bodies with several null vectors each, and on rows of zeros */
+/* test_constraints_rigid.c: pins on elastic bodies with several null vectors each, and on rows of
+ * zeros */
 #include "tests/lib/elasticity.h"
-#include "tests/lib/pin_calls.h"
+#include "tests/lib/constraint_calls.h"
 
 enum { R = 3 };
 

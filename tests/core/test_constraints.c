@@ -1,6 +1,6 @@
-/* test_pins.c: sl_constraints: solutions against dense ones, full and local, added and released
- * pins */
-#include "tests/lib/pinned.h"
+/* test_constraints.c: sl_constraints: full and local solutions against dense ones, of pins that are
+ * added and released */
+#include "tests/lib/constrained.h"
 
 enum { PINS = 12 };
 

@@ -1,6 +1,6 @@
-/* test_pins_nulls.c: pins over singular matrices: null vectors that they know, and others */
+/* test_constraints_nulls.c: pins over singular matrices: null vectors that they know, and others */
 #include "tests/lib/factored.h"
-#include "tests/lib/pin_calls.h"
+#include "tests/lib/constraint_calls.h"
 
 enum { N = 40 };
 

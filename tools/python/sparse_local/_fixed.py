@@ -1,4 +1,4 @@
-"""Dirichlet: systems of which some rows are fixed at given values."""
+"""FixedRows: systems of which some rows are fixed at given values."""
 import ctypes
 
 import numpy as np
@@ -11,17 +11,12 @@ from ._options import Chosen, split
 from ._threads import calls
 from ._works import Works
 
-_METHODS = ("submatrix", "restriction", "pins")
-_PINS = 2  # SL_FIXED_PINS
 
-
-class Dirichlet:
+class FixedRows:
     """A x = b in the free rows, where x is given in the others: harmonic maps, interpolation.
 
     A        n x n, as for Factor; it may be singular as long as A[free, free] is not.
     rows     the fixed rows, each once.
-    factor   a Factor of A, if there is one: the cheapest of three ways is then taken by counted
-             cost, a factor of A[free, free], the same from this factor, or pins on it (method).
     options  of Factor, in rows of A; not pivoted.
 
     Errors   PivotError: A[free, free] is singular, as where no row of a component of a Laplacian is
@@ -31,7 +26,7 @@ class Dirichlet:
     Threads  any number may solve at once; refactor and close need the object for themselves.
     """
 
-    def __init__(self, A, rows, factor=None, **options):
+    def __init__(self, A, rows, **options):
         chosen, numbers = split(options)
         if chosen.pop("pivoted", False):
             raise TypeError("pivoted is no option of Dirichlet problems")
@@ -49,12 +44,8 @@ class Dirichlet:
         pointer, stats = ctypes.c_void_p(), Stats()
         check(self._lib.sl_fixed_create(
             ctypes.byref(pointer), matrix.reference(), address, count,
-            None if factor is None else factor._pointer, ctypes.byref(both.options),
-            ctypes.byref(stats)), stats, self._kind.width)
-        self._method = stats.fixed.method
-        self._factor = factor if self._method == _PINS else None
-        self._dirichlet = Handle("dirichlet", pointer.value,
-                                 *(() if factor is None else (factor._factor, factor._symbolic)))
+            ctypes.byref(both.options), ctypes.byref(stats)), stats, self._kind.width)
+        self._fixed = Handle("fixed rows", pointer.value)
         self._works = Works(options.get("threads"))
         self.n, self.stats = matrix.n, as_dict(stats.fixed)
         self._count = count // self._kind.width
@@ -66,14 +57,9 @@ class Dirichlet:
         return matrix
 
     @property
-    def method(self):
-        """'submatrix', 'restriction' or 'pins'."""
-        return _METHODS[self._method]
-
-    @property
     def free(self):
         """The rows that are not fixed, ascending."""
-        view, width = lib.sl_fixed_view(self._dirichlet.pointer), self._kind.width
+        view, width = lib.sl_fixed_view(self._fixed.pointer), self._kind.width
         if not view.n_free:
             return np.zeros(0, dtype=np.int32)
         rows = np.ctypeslib.as_array(ctypes.cast(view.free_rows, ctypes.POINTER(ctypes.c_int32)),
@@ -92,11 +78,9 @@ class Dirichlet:
         if matrix.kind() is not self._kind:
             raise TypeError("both matrices are real, or both complex")
         stats = Stats()
-        check(self._lib.sl_fixed_refactor(self._dirichlet.pointer, matrix.reference(),
-                                              ctypes.byref(stats)), stats, self._kind.width)
-        self._method, self.stats = stats.fixed.method, as_dict(stats.fixed)
-        if self._method != _PINS:
-            self._factor = None
+        check(self._lib.sl_fixed_refactor(self._fixed.pointer, matrix.reference(),
+                                          ctypes.byref(stats)), stats, self._kind.width)
+        self.stats = as_dict(stats.fixed)
         return self
 
     def solve(self, values, B=None):
@@ -105,11 +89,8 @@ class Dirichlet:
         values  (fixed rows,) or (fixed rows, count), in the order of rows.
         B       (n,) or (n, count), of which fixed rows are not used; None: zeros.
         Returns (n,) or (n, count). Cost: a full solve of the free rows.
-        NotFiniteError: values or B; StateError: a failed refactor, or the factor whose pins are
-        used has changed.
+        NotFiniteError: values or B; StateError: a failed refactor.
         """
-        if self._factor is not None:
-            self._factor._pointer  # refuses a failed or closed factor
         values = arrays.number_array(values, "values")
         if B is not None:
             B = arrays.number_array(B, "right-hand sides")
@@ -125,18 +106,17 @@ class Dirichlet:
             arrays.check_finite(B, "the right-hand side")
             B = np.require(B, held.X.dtype, ["C" if held.is_by_rows() else "F", "A"])
             right = arrays.address(B)
-        check(self._lib.sl_fixed_solve(self._dirichlet.pointer, X, ldx, right, ldb, G, ldg,
-                                           count, self._works.pointer()))
+        check(self._lib.sl_fixed_solve(self._fixed.pointer, X, ldx, right, ldb, G, ldg,
+                                       count, self._works.pointer()))
         return held.X
 
     def close(self):
         """Releases the memory; every later use raises StateError."""
-        self._dirichlet.close()
+        self._fixed.close()
 
     def __len__(self):
         """The number of fixed rows."""
         return self._count
 
     def __repr__(self):
-        return "<sparse_local.Dirichlet of %d rows, %d of them fixed, by %s>" % (
-            self.n, self._count, self.method)
+        return "<sparse_local.FixedRows of %d rows, %d of them fixed>" % (self.n, self._count)

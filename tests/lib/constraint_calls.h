@@ -1,6 +1,6 @@
-/* pin_calls.h: one pin added or released, and how many there are */
-#ifndef SL_TEST_PIN_CALLS_H
-#define SL_TEST_PIN_CALLS_H
+/* constraint_calls.h: one pin added or released, and how many there are */
+#ifndef SL_TEST_CONSTRAINT_CALLS_H
+#define SL_TEST_CONSTRAINT_CALLS_H
 
 #include "sparse_local.h"
 

@@ -1,6 +1,6 @@
-/* mex_pins.h: commands of sparse_local_mex: rows that are held at values */
-#ifndef SL_OCTAVE_MEX_PINS_H
-#define SL_OCTAVE_MEX_PINS_H
+/* mex_constraints.h: commands of sparse_local_mex: rows that are held at values */
+#ifndef SL_OCTAVE_MEX_CONSTRAINTS_H
+#define SL_OCTAVE_MEX_CONSTRAINTS_H
 
 #include "mex_options.h"
 
@@ -13,28 +13,28 @@ static sl_status pins(call *c) {
     return keep(c, p, sl_constraints_create(&p->pins, f->factor, NULL));
 }
 
-/* pins_add(pins, rows) */
-static sl_status pins_add(call *c) {
+/* constraints_add(pins, rows) */
+static sl_status constraints_add(call *c) {
     object *p = find(c->in[0], PINS);
     sl_int count, *rows = rows_of(c->in[1], &count);
     if (rows == NULL) refuse("pins have a set of rows");
     return sl_constraints_add(p->pins, rows, count, NULL);
 }
 
-/* pins_release(pins, numbers) */
-static sl_status pins_release(call *c) {
+/* constraints_release(pins, numbers) */
+static sl_status constraints_release(call *c) {
     object *p = find(c->in[0], PINS);
     sl_int count, *numbers = rows_of(c->in[1], &count);
     return sl_constraints_release(p->pins, numbers, count, NULL);
 }
 
-/* pins_refactor(pins): the present numbers of the factor */
-static sl_status pins_refactor(call *c) {
+/* constraints_refactor(pins): the present numbers of the factor */
+static sl_status constraints_refactor(call *c) {
     return sl_constraints_refactor(find(c->in[0], PINS)->pins, NULL);
 }
 
-/* X = pins_solve(factor, pins, B, G, count, plan): of count pins; plan 0: all rows */
-static sl_status pins_solve(call *c) {
+/* X = constraints_solve(factor, pins, B, G, count, plan): of count pins; plan 0: all rows */
+static sl_status constraints_solve(call *c) {
     object *f = find(c->in[0], FACTOR), *p = find(c->in[1], PINS);
     object *q = id_of(c->in[5]) == 0 ? NULL : find(c->in[5], PLAN);
     object *sides = q == NULL ? p : q;

@@ -1,5 +1,5 @@
-/* test_pins_sets.c: sets of pins that change, of many pins, for new numbers */
-#include "tests/lib/pinned.h"
+/* test_constraints_sets.c: sets of pins that change, of many pins, for new numbers */
+#include "tests/lib/constrained.h"
 
 enum { STEPS = 40 };
 

@@ -1,5 +1,5 @@
-/* test_pins_refused.c: pins that are refused, memory that ends, and factors of other kinds */
-#include "tests/lib/pinned.h"
+/* test_constraints_refused.c: pins that are refused, memory that ends, factors of other kinds */
+#include "tests/lib/constrained.h"
 
 /* Each allocation of sl_constraints_refactor fails once after the factor has changed: solves are
  * refused until it succeeds. */

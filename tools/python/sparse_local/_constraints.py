@@ -12,7 +12,7 @@ class Pins:
     """Rows, or linear combinations of rows, that solves hold at given values. The factor stays.
 
     For a definite A this minimizes x' A x / 2 - b' x under these equalities. A singular Laplacian
-    (null_pivots='skip') becomes regular with one pin in each component. Made by Factor.pins.
+    (null_pivots='skip') becomes regular with one pin in each component. Made by Factor.constraints.
 
     Errors    UnsupportedError: pivots of both signs, 2x2 pivots; StateError: the factor has changed
               since (update); PivotError: a row is held already.
@@ -25,7 +25,7 @@ class Pins:
         pointer = ctypes.c_void_p()
         check(lib.sl_constraints_create(ctypes.byref(pointer), factor._pointer, None))
         self._factor, self._lib = factor, factor._lib
-        self._pins = Handle("pins", pointer.value, factor._factor, factor._symbolic)
+        self._held = Handle("constraints", pointer.value, factor._factor, factor._symbolic)
         self._count = 0
         self.stats = {}
         if len(np.asarray(rows)):
@@ -48,7 +48,7 @@ class Pins:
         stats, width = Stats(), self._factor._kind.width
         self._factor._pointer
         return self._done(self._lib.sl_constraints_add(
-            self._pins.pointer, address, count, ctypes.byref(stats)), stats, self._count + count //
+            self._held.pointer, address, count, ctypes.byref(stats)), stats, self._count + count //
             width)
 
     def add_equality(self, rows, coefficients):
@@ -61,7 +61,7 @@ class Pins:
         values, stats = arrays.vector(coefficients, count, "coefficients"), Stats()
         self._factor._pointer
         return self._done(self._lib.sl_constraints_add_equality(
-            self._pins.pointer, address, arrays.address(values), count, ctypes.byref(stats)),
+            self._held.pointer, address, arrays.address(values), count, ctypes.byref(stats)),
                           stats, self._count + 1)
 
     def release(self, numbers):
@@ -74,7 +74,7 @@ class Pins:
         self._factor._pointer  # refuses a failed or closed factor
         if not count:
             return self
-        return self._done(self._lib.sl_constraints_release(self._pins.pointer, address, count,
+        return self._done(self._lib.sl_constraints_release(self._held.pointer, address, count,
                                                     ctypes.byref(stats)),
                           stats, self._count - count // width)
 
@@ -82,7 +82,7 @@ class Pins:
         """Takes the present numbers of the factor, after it has changed."""
         self._factor._pointer
         stats = Stats()
-        return self._done(self._lib.sl_constraints_refactor(self._pins.pointer,
+        return self._done(self._lib.sl_constraints_refactor(self._held.pointer,
                                                             ctypes.byref(stats)),
                           stats, self._count)
 
@@ -113,7 +113,7 @@ class Pins:
         right = kind.dense(np.asfortranarray(held), self._count, self._count)
         out = np.empty((max(n_x * width, 1), dense.count), order="F")
         check(self._lib.sl_constraints_solve(
-            self._pins.pointer, None if plan is None else plan._plan.pointer, arrays.address(out),
+            self._held.pointer, None if plan is None else plan._plan.pointer, arrays.address(out),
             out.shape[0], arrays.address(dense.B), dense.ldb, arrays.address(right.B), right.ldb,
             dense.count, self._solving()))
         return dense.shaped(out[:n_x * width])

@@ -1,10 +1,10 @@
-/* dirichlet.h: fixed rows of every shape, and what has to hold for a solution */
-#ifndef SL_TEST_DIRICHLET_H
-#define SL_TEST_DIRICHLET_H
+/* fixed_rows.h: fixed rows of every shape, and what has to hold for a solution */
+#ifndef SL_TEST_FIXED_ROWS_H
+#define SL_TEST_FIXED_ROWS_H
 
 #include "subset.h"
 
-enum { DIRICHLET_RHS = 11 };
+enum { FIXED_RHS = 11 };
 
 /* A layout of a block: row-major or in columns, with room between them. */
 typedef struct layout_t {
@@ -27,17 +27,17 @@ static inline size_t layout_room(sl_int rows, sl_int columns) {
 }
 
 /* One problem: b and g are random; b may be NULL, which is 0, or in place. */
-typedef struct dirichlet_t {
+typedef struct fixed_t {
     const sl_csc *A;
     const sl_int *rows;
     sl_int count, nrhs;
     int x_by_rows, b_by_rows, g_by_rows, has_b, is_in_place;
-} dirichlet_t;
+} fixed_t;
 
 /* The largest residual of a free row of one column, relative to |A| |x| + |b|; fixed rows have to
  * be g exactly. */
-static inline double dirichlet_error(const dirichlet_t *p, const double *x, const double *b,
-                                     const double *g) {
+static inline double fixed_error(const fixed_t *p, const double *x, const double *b,
+                                 const double *g) {
     const size_t n = (size_t)p->A->n_cols;
     double *r = test_reals(n), error = 0.0, size = 0.0, most = 0.0;
     char *is_fixed = (char *)test_array(n, 1);
@@ -60,7 +60,7 @@ static inline double dirichlet_error(const dirichlet_t *p, const double *x, cons
 }
 
 /* Solves a problem in its layouts, and checks the solution. */
-static inline void dirichlet_check(const sl_fixed *D, const dirichlet_t *p, sl_work *W) {
+static inline void fixed_check(const sl_fixed *D, const fixed_t *p, sl_work *W) {
     const sl_int n = p->A->n_cols, nrhs = p->nrhs;
     const layout_t lx = layout_of(p->x_by_rows, n, nrhs),
                    lg = layout_of(p->g_by_rows, p->count, nrhs);
@@ -85,7 +85,7 @@ static inline void dirichlet_check(const sl_fixed *D, const dirichlet_t *p, sl_w
         for (sl_int k = 0; k < p->count; k++) {
             g[k] = G[(size_t)k * lg.row + (size_t)r * lg.column];
         }
-        assert_true(dirichlet_error(p, x, b, g) <= pass_figure(n) * 10.0);
+        assert_true(fixed_error(p, x, b, g) <= pass_figure(n) * 10.0);
     }
     free(X);
     free(B);
@@ -95,20 +95,20 @@ static inline void dirichlet_check(const sl_fixed *D, const dirichlet_t *p, sl_w
     free(g);
 }
 
-/* Solves problems with 0 to DIRICHLET_RHS right-hand sides, in all layouts. */
-static inline void dirichlet_check_all(const sl_fixed *D, const sl_csc *A, const sl_int *rows,
-                                       sl_int count) {
-    dirichlet_t p = {A, rows, count, 0, 0, 0, 0, 0, 0};
+/* Solves problems with 0 to FIXED_RHS right-hand sides, in all layouts. */
+static inline void fixed_check_all(const sl_fixed *D, const sl_csc *A, const sl_int *rows,
+                                   sl_int count) {
+    fixed_t p = {A, rows, count, 0, 0, 0, 0, 0, 0};
     sl_work *W = NULL;
     SL_CHECK(sl_work_create(&W, NULL));
     for (int k = 0; k < 20; k++) {
-        p.nrhs = k % 4 == 0 ? 1 : k % 4 == 1 ? 0 : k % 4 == 2 ? 3 : DIRICHLET_RHS;
+        p.nrhs = k % 4 == 0 ? 1 : k % 4 == 1 ? 0 : k % 4 == 2 ? 3 : FIXED_RHS;
         p.x_by_rows = k % 2;
         p.b_by_rows = k / 2 % 2;
         p.g_by_rows = k / 3 % 2;
         p.has_b = k % 5 != 0;
         p.is_in_place = k % 5 == 1;
-        dirichlet_check(D, &p, k % 3 ? W : NULL);
+        fixed_check(D, &p, k % 3 ? W : NULL);
     }
     sl_work_free(W);
 }

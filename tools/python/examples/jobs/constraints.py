@@ -7,7 +7,7 @@ from mesh import laplacian, surface
 L, M = laplacian(*surface())
 F = sl.Factor(L, null_pivots="skip")
 
-pins = F.pins([0, 39, 820])  # two corners and the middle
+pins = F.constraints([0, 39, 820])  # two corners and the middle
 x = pins.solve(None, [0.0, 0.0, 1.0])
 y = pins.solve(None, [0.0, 0.0, 2.0])  # moved: the solution is twice as high
 assert np.allclose(y, 2 * x) and np.allclose(x[[0, 39, 820]], [0, 0, 1])

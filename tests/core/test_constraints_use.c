@@ -1,6 +1,6 @@
-/* test_pins_use.c: what pins refuse, and answers that would lose digits */
+/* test_constraints_use.c: what pins refuse, and answers that would lose digits */
 #include "tests/lib/factored.h"
-#include "tests/lib/pin_calls.h"
+#include "tests/lib/constraint_calls.h"
 
 enum { N = 40 };
 

@@ -21,14 +21,12 @@ def exact(A, rows, values, b):
 
 @pytest.mark.parametrize("count", [None, 1, 3])
 @pytest.mark.parametrize("form", ["csc", "csr", "lower", "upper"])
-@pytest.mark.parametrize("with_factor", [False, True])
-def test_rows_are_fixed(count, form, with_factor):
+def test_rows_are_fixed(count, form):
     A = grid(20, 0.0)  # singular
     stored = {"csc": A, "csr": A.tocsr(), "lower": sp.tril(A, format="csc"),
               "upper": sp.triu(A, format="csr")}[form]
-    F = sl.Factor(stored, null_pivots="skip") if with_factor else None
-    D = sl.Dirichlet(stored, ROWS, F)
-    assert len(D) == 5 and D.n == 400 and D.method in ("submatrix", "restriction", "pins")
+    D = sl.FixedRows(stored, ROWS)
+    assert len(D) == 5 and D.n == 400
     assert np.array_equal(D.free, np.setdiff1d(np.arange(400), ROWS)) and "5 of them" in repr(D)
     values, b = right_hand_sides(5, count), right_hand_sides(400, count)
     for g, c in ((values, b), (np.asfortranarray(values), b), (values, np.asfortranarray(b))):
@@ -42,8 +40,8 @@ def test_rows_are_fixed(count, form, with_factor):
 
 def test_none_and_all():
     A, b = grid(6), np.ones(36)
-    assert np.allclose(A @ sl.Dirichlet(A, []).solve(np.zeros(0), b), b)
-    D = sl.Dirichlet(A, np.arange(36)[::-1])
+    assert np.allclose(A @ sl.FixedRows(A, []).solve(np.zeros(0), b), b)
+    D = sl.FixedRows(A, np.arange(36)[::-1])
     assert np.array_equal(D.solve(np.arange(36.0)), np.arange(36.0)[::-1]) and D.free.size == 0
 
 
@@ -52,7 +50,7 @@ def test_complex_matrices():
     turned = np.where(low.row > low.col, low.data * np.exp(1j * low.row), low.data)
     low = sp.csc_matrix((turned, (low.row, low.col)), shape=low.shape)
     H = (low + sp.tril(low, -1).conj().T).tocsc()
-    D, b = sl.Dirichlet(H, [3, 30], threads=2), right_hand_sides(36, 2) * (1 + 2j)
+    D, b = sl.FixedRows(H, [3, 30], threads=2), right_hand_sides(36, 2) * (1 + 2j)
     values = np.array([[1j, 2.0], [0.5, 1.0]])
     assert np.allclose(D.solve(values, b), exact(H, [3, 30], values, b))
     assert D.free.size == 34
@@ -66,7 +64,7 @@ def test_a_chosen_triangle_stays_chosen():
     half = sp.tril(B)
     whole = (half + sp.tril(B, -1).T).tocsc()
     for first, second in (("tocsc", "tocsr"), ("tocsr", "tocsc")):
-        D = sl.Dirichlet(getattr(A, first)(), [0, 35], triangle="lower")
+        D = sl.FixedRows(getattr(A, first)(), [0, 35], triangle="lower")
         D.refactor(getattr(B, second)())
         assert np.allclose(D.solve(values, b), exact(whole, [0, 35], values, b))
 
@@ -75,23 +73,23 @@ def test_what_is_wrong_gives_a_signal():
     L = grid(6, 0.0)
     A = sp.block_diag([L, L], format="csc")
     with pytest.raises(sl.PivotError) as caught:
-        sl.Dirichlet(A, [3])  # the second component has no fixed row
+        sl.FixedRows(A, [3])  # the second component has no fixed row
     assert 36 <= caught.value.row < 72
     for rows in ([72], [-1], [3, 3], None, [[1, 2]]):
         with pytest.raises(sl.ArgumentError):
-            sl.Dirichlet(A, rows)
+            sl.FixedRows(A, rows)
     with pytest.raises(sl.PivotError):
-        sl.Dirichlet(-grid(6), [1], definite=True)
+        sl.FixedRows(-grid(6), [1], definite=True)
     with pytest.raises(TypeError):
-        sl.Dirichlet(A, [1], pivoted=True)
+        sl.FixedRows(A, [1], pivoted=True)
     damaged = L.tolil()
     damaged[3, 2] *= 2
     with pytest.raises(sl.PatternError):
-        sl.Dirichlet(damaged.tocsc(), [1])
-    D, b = sl.Dirichlet(L, [1, 2]), np.ones(36)
+        sl.FixedRows(damaged.tocsc(), [1])
+    D, b = sl.FixedRows(L, [1, 2]), np.ones(36)
     x = D.solve([1.0, 2.0], b)
     for call in (lambda: D.solve([np.nan, 1.0]), lambda: D.solve([1.0, 2.0], np.full(36, np.inf)),
-                 lambda: sl.Dirichlet(L * np.nan, [1])):
+                 lambda: sl.FixedRows(L * np.nan, [1])):
         with pytest.raises(sl.NotFiniteError):
             call()
     for call in (lambda: D.solve([1.0]), lambda: D.solve([1.0, 2.0], b[:-1]),
@@ -112,22 +110,3 @@ def test_what_is_wrong_gives_a_signal():
     for call in (lambda: D.solve([1.0, 2.0]), lambda: D.refactor(L), lambda: D.free):
         with pytest.raises(sl.StateError, match="closed"):
             call()
-
-
-def test_a_factor_whose_pins_are_used():
-    A = grid(60)
-    F = sl.Factor(A)
-    D = sl.Dirichlet(A, [7], F)
-    values = np.ones(1)
-    x = D.solve(values)
-    assert D.method == "pins" and x[7] == 1
-    F.refactor(2 * A)
-    with pytest.raises(sl.StateError):
-        D.solve(values)
-    D.refactor(2 * A)
-    assert np.allclose(D.solve(values), x) and D.method != "pins"
-    E = sl.Dirichlet(2 * A, [7], F)
-    F.close()
-    if E.method == "pins":
-        with pytest.raises(sl.StateError):
-            E.solve(values)

@@ -1,7 +1,7 @@
-/* test_pins_trust.c: pins say what they cannot answer: lost digits, unknown null vectors, forces
- * out of balance; weights count where no pin holds */
+/* test_constraints_trust.c: pins say what they cannot answer: lost digits, unknown null vectors,
+ * forces out of balance; weights count where no pin holds */
 #include "tests/lib/zero_mean.h"
-#include "tests/lib/pin_calls.h"
+#include "tests/lib/constraint_calls.h"
 
 enum { N = 480, HALF = 240 };
 

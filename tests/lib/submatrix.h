@@ -1,22 +1,22 @@
-/* restricted.h: a factor, its restriction to a set of rows, and what has to hold for it */
-#ifndef SL_TEST_RESTRICTED_H
-#define SL_TEST_RESTRICTED_H
+/* submatrix.h: a factor, its restriction to a set of rows, and what has to hold for it */
+#ifndef SL_TEST_SUBMATRIX_H
+#define SL_TEST_SUBMATRIX_H
 
 #include "local_solve.h"
 #include "subset.h"
 
-typedef struct restricted_t {
+typedef struct submatrix_t {
     factored_t y;
     sl_int count, *rows;
     gen_matrix_t B; /* A[R, R] */
     sl_symbolic *S;
     sl_factor *G;
     sl_stats stats;
-} restricted_t;
+} submatrix_t;
 
-static inline restricted_t restricted_make(gen_kind_t kind, sl_int size, int sign, int style,
-                                           int shape, const sl_options *opt) {
-    restricted_t t;
+static inline submatrix_t submatrix_make(gen_kind_t kind, sl_int size, int sign, int style,
+                                         int shape, const sl_options *opt) {
+    submatrix_t t;
     memset(&t, 0, sizeof t);
     t.y = factored_make(kind, size, sign, style, opt);
     const sl_csc *A = &t.y.M.view;
@@ -27,7 +27,7 @@ static inline restricted_t restricted_make(gen_kind_t kind, sl_int size, int sig
     return t;
 }
 
-static inline void restricted_free(restricted_t *t) {
+static inline void submatrix_free(submatrix_t *t) {
     sl_factor_free(t->G);
     sl_symbolic_free(t->S);
     gen_matrix_free(&t->B);
@@ -36,7 +36,7 @@ static inline void restricted_free(restricted_t *t) {
 }
 
 /* The structure, L D L' = P A[R, R] P' entry by entry, residuals, and local solves bit for bit. */
-static inline void restricted_check(const restricted_t *t) {
+static inline void submatrix_check(const submatrix_t *t) {
     const sl_symbolic_arrays v = sl_symbolic_view(t->S);
     sl_int n = t->count;
     assert_int_equal(v.n, n);

@@ -1,5 +1,5 @@
-/* test_dirichlet.c: rows fixed at given values: solutions, errors, options, new values, views */
-#include "tests/lib/dirichlet.h"
+/* test_fixed.c: rows fixed at given values: solutions, errors, options, new values, views */
+#include "tests/lib/fixed_rows.h"
 #include "tests/lib/parallel_for.h"
 
 static void solutions_hold_in_free_rows(void **state) {
@@ -12,11 +12,10 @@ static void solutions_hold_in_free_rows(void **state) {
             sl_int *rows = test_ints((size_t)n), count = subset_fill(rows, n, shape, y.S);
             sl_fixed *D = NULL;
             sl_stats stats;
-            SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, count, NULL, NULL, &stats));
-            assert_int_equal(stats.fixed.method, SL_FIXED_SUBMATRIX);
+            SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, count, NULL, &stats));
             assert_int_equal(stats.fixed.n_free, n - count);
             assert_int_equal(stats.factor.positive + stats.factor.negative, n - count);
-            dirichlet_check_all(D, &y.M.view, rows, count);
+            fixed_check_all(D, &y.M.view, rows, count);
             sl_fixed_free(D);
             free(rows);
             factored_free(&y);
@@ -34,10 +33,10 @@ static void a_laplacian_with_one_fixed_row(void **state) {
     double x[49];
     sl_fixed *D = NULL;
     sl_stats stats;
-    SL_EXPECT(SL_ERR_PIVOT, sl_fixed_create(&D, &M.view, NULL, 0, NULL, NULL, &stats));
+    SL_EXPECT(SL_ERR_PIVOT, sl_fixed_create(&D, &M.view, NULL, 0, NULL, &stats));
     assert_null(D);
     assert_in_range(stats.error.row, 0, 48);
-    SL_CHECK(sl_fixed_create(&D, &M.view, &row, 1, NULL, NULL, NULL));
+    SL_CHECK(sl_fixed_create(&D, &M.view, &row, 1, NULL, NULL));
     SL_CHECK(sl_fixed_solve(D, x, 49, NULL, 0, &g, 1, 1, NULL));
     for (int k = 0; k < 49; k++) {
         assert_true(fabs(x[k] - 7.0) < 1e-12);
@@ -61,18 +60,18 @@ static void a_singular_free_part_is_named_by_its_row(void **state) {
     sl_options opt = options_none();
     sl_fixed *D = NULL;
     sl_stats stats;
-    SL_EXPECT(SL_ERR_PIVOT, sl_fixed_create(&D, &two_paths, rows, 2, NULL, NULL, &stats));
+    SL_EXPECT(SL_ERR_PIVOT, sl_fixed_create(&D, &two_paths, rows, 2, NULL, &stats));
     assert_in_range(stats.error.row, 3, 5);
     assert_int_equal(stats.error.column, -1);
-    SL_EXPECT(SL_ERR_PIVOT, sl_fixed_create(&D, &two_paths, rows, 2, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_PIVOT, sl_fixed_create(&D, &two_paths, rows, 2, NULL, NULL));
     opt.null_pivots = SL_NULL_PIVOT_SKIP; /* b has to be in balance there */
-    SL_CHECK(sl_fixed_create(&D, &two_paths, rows, 2, NULL, &opt, NULL));
+    SL_CHECK(sl_fixed_create(&D, &two_paths, rows, 2, &opt, NULL));
     SL_EXPECT(SL_ERR_INCONSISTENT, sl_fixed_solve(D, x, 6, b, 6, g, 2, 1, NULL));
     SL_CHECK(sl_fixed_solve(D, x, 6, NULL, 0, g, 2, 1, NULL));
     assert_true(fabs(x[1] - 3.0) < 1e-14 && fabs(x[4] - x[3]) < 1e-14);
     sl_fixed_free(D);
     opt.mass = mass;
-    SL_CHECK(sl_fixed_create(&D, &two_paths, rows, 2, NULL, &opt, NULL));
+    SL_CHECK(sl_fixed_create(&D, &two_paths, rows, 2, &opt, NULL));
     SL_CHECK(sl_fixed_solve(D, x, 6, b, 6, g, 2, 1, NULL));
     mean = x[3] + 2 * x[4] + 3 * x[5];
     assert_true(fabs(mean) < 1e-14 && x[3] > 0.1 && fabs(x[1] - 3.0) < 1e-14);
@@ -89,37 +88,37 @@ static void wrong_arguments_are_named(void **state) {
     sl_fixed *D = NULL;
     sl_stats stats;
     sl_csc A = two_paths;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(NULL, &A, good, 2, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, NULL, good, 2, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, NULL, 2, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, -1, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, twice, 2, NULL, NULL, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(NULL, &A, good, 2, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, NULL, good, 2, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, NULL, 2, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, -1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, twice, 2, NULL, &stats));
     assert_int_equal(stats.error.row, 4);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, beyond, 2, NULL, NULL, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, beyond, 2, NULL, &stats));
     assert_int_equal(stats.error.row, 6);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, below, 2, NULL, NULL, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, below, 2, NULL, &stats));
     assert_int_equal(stats.error.row, -2);
     opt.ordering = SL_ORDERING_GIVEN;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, NULL, &opt, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, &opt, NULL));
     opt.perm = perm;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, NULL, &opt, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, &opt, &stats));
     assert_int_equal(stats.error.row, 5);
     opt = options_none();
     opt.block_size = 4;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, NULL, &opt, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, &opt, NULL));
     opt.block_size = -1;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, NULL, &opt, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, &opt, NULL));
     opt.block_size = 0;
     opt.regularization = -1.0;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, NULL, &opt, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, &opt, NULL));
     A.x = NULL;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, NULL, NULL));
     A = two_paths;
     A.n_rows = 7;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, good, 2, NULL, NULL));
     assert_null(D);
 
-    SL_CHECK(sl_fixed_create(&D, &two_paths, good, 2, NULL, NULL, NULL));
+    SL_CHECK(sl_fixed_create(&D, &two_paths, good, 2, NULL, NULL));
     memset(X, 0x55, sizeof X);
     memcpy(Y, X, sizeof X);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_solve(NULL, X, 6, NULL, 0, g, 2, 1, NULL));
@@ -150,22 +149,22 @@ static void values_that_are_not_finite(void **state) {
         memcpy(x, two_x, sizeof x);
         x[k] = k % 2 ? NAN : INFINITY;
         if (is_row_fixed && is_column_fixed) {
-            SL_CHECK(sl_fixed_create(&D, &A, rows, 3, NULL, NULL, NULL));
+            SL_CHECK(sl_fixed_create(&D, &A, rows, 3, NULL, NULL));
             SL_CHECK(sl_fixed_refactor(D, &A, NULL));
             sl_fixed_free(D);
             continue;
         }
-        SL_EXPECT(SL_ERR_NOT_FINITE, sl_fixed_create(&D, &A, rows, 3, NULL, NULL, &stats));
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_fixed_create(&D, &A, rows, 3, NULL, &stats));
         assert_int_equal(stats.error.row, row);
         assert_int_equal(stats.error.column, column);
-        SL_CHECK(sl_fixed_create(&D, &two_paths, rows, 3, NULL, NULL, NULL));
+        SL_CHECK(sl_fixed_create(&D, &two_paths, rows, 3, NULL, NULL));
         SL_EXPECT(SL_ERR_NOT_FINITE, sl_fixed_refactor(D, &A, &stats));
         assert_int_equal(stats.error.row, row);
         assert_int_equal(stats.error.column, column);
         SL_EXPECT(SL_ERR_STALE, sl_fixed_solve(D, out, 6, NULL, 0, g, 3, 1, NULL));
         sl_fixed_free(D);
     }
-    SL_CHECK(sl_fixed_create(&D, &two_paths, rows, 3, NULL, NULL, NULL));
+    SL_CHECK(sl_fixed_create(&D, &two_paths, rows, 3, NULL, NULL));
     g[0] = NAN; /* has no free neighbor */
     SL_EXPECT(SL_ERR_NOT_FINITE, sl_fixed_solve(D, out, 6, NULL, 0, g, 3, 1, NULL));
     sl_fixed_free(D);
@@ -189,10 +188,9 @@ static void refactoring_equals_creating(void **state) {
             x[k] = 3.0 * y.M.x[k];
         }
         other.x = x;
-        SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, count, NULL, NULL, NULL));
-        SL_CHECK(sl_fixed_create(&E, &other, rows, count, NULL, NULL, NULL));
+        SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, count, NULL, NULL));
+        SL_CHECK(sl_fixed_create(&E, &other, rows, count, NULL, NULL));
         SL_CHECK(sl_fixed_refactor(D, &other, &stats));
-        assert_int_equal(stats.fixed.method, SL_FIXED_SUBMATRIX);
         SL_CHECK(sl_fixed_solve(D, got, 100, b, 100, g, 100, 1, NULL));
         SL_CHECK(sl_fixed_solve(E, want, 100, b, 100, g, 100, 1, NULL));
         assert_memory_equal(got, want, sizeof got);
@@ -224,7 +222,7 @@ static void another_pattern_is_refused(void **state) {
     const sl_int i[10] = {0, 2, 1, 2, 2, 3, 4, 4, 5, 5}, rows[2] = {0, 3};
     sl_csc A = two_paths;
     sl_fixed *D = NULL;
-    SL_CHECK(sl_fixed_create(&D, &A, rows, 2, NULL, NULL, NULL));
+    SL_CHECK(sl_fixed_create(&D, &A, rows, 2, NULL, NULL));
     A.i = i;
     SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_fixed_refactor(D, &A, NULL));
     A.n_rows = 7;
@@ -246,7 +244,7 @@ static void options_are_in_rows_of_the_matrix(void **state) {
     opt.ordering = SL_ORDERING_GIVEN;
     opt.perm = perm;
     opt.relaxation = SL_RELAXATION_NONE;
-    SL_CHECK(sl_fixed_create(&D, &A, fixed, 2, NULL, &opt, NULL));
+    SL_CHECK(sl_fixed_create(&D, &A, fixed, 2, &opt, NULL));
     const sl_fixed_arrays v = sl_fixed_view(D);
     const sl_int *order = sl_symbolic_view(v.symbolic).perm;
     assert_int_equal(v.n_free, 4);
@@ -265,36 +263,36 @@ static void options_are_in_rows_of_the_matrix(void **state) {
     memcpy(x, two_x, sizeof x);
     x[4] = -3.0; /* the diagonal of row 2 */
     A.x = x;
-    SL_CHECK(sl_fixed_create(&D, &A, fixed, 2, NULL, &opt, &stats));
+    SL_CHECK(sl_fixed_create(&D, &A, fixed, 2, &opt, &stats));
     assert_int_equal(stats.factor.regularized, 0);
     assert_int_equal(stats.factor.negative, 1);
     sl_fixed_free(D);
     memcpy(wrong, signs, sizeof wrong);
     wrong[4] = 2;
     opt.signs = wrong;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, fixed, 2, NULL, &opt, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &A, fixed, 2, &opt, &stats));
     assert_int_equal(stats.error.row, 4);
 
     opt = options_none();
     opt.null_pivots = SL_NULL_PIVOT_SKIP;
     opt.null_vector = ones;
     opt.null_vector_count = 2;
-    SL_CHECK(sl_fixed_create(&D, &two_paths, fixed, 1, NULL, &opt, &stats));
+    SL_CHECK(sl_fixed_create(&D, &two_paths, fixed, 1, &opt, &stats));
     assert_int_equal(stats.factor.null, 1);
     sl_fixed_free(D);
     opt.null_vector_count = 0;
-    SL_CHECK(sl_fixed_create(&D, &two_paths, fixed, 1, NULL, &opt, &stats));
+    SL_CHECK(sl_fixed_create(&D, &two_paths, fixed, 1, &opt, &stats));
     sl_fixed_free(D);
 
     opt = options_none();
     for (int k = 0; k < 3; k++) { /* whole blocks; parts of blocks; none are left */
         const sl_int rows[3][6] = {{2, 3}, {1, 3}, {0, 1, 2, 3, 4, 5}};
         opt.block_size = 2;
-        SL_CHECK(sl_fixed_create(&D, &two_paths, rows[k], k < 2 ? 2 : 6, NULL, &opt, NULL));
+        SL_CHECK(sl_fixed_create(&D, &two_paths, rows[k], k < 2 ? 2 : 6, &opt, NULL));
         sl_fixed_free(D);
     }
     const sl_int shifted[2] = {0, 5};
-    SL_CHECK(sl_fixed_create(&D, &two_paths, shifted, 2, NULL, &opt, NULL));
+    SL_CHECK(sl_fixed_create(&D, &two_paths, shifted, 2, &opt, NULL));
     sl_fixed_free(D);
 }
 
@@ -306,7 +304,7 @@ static void a_view_serves_plans(void **state) {
     sl_int rows[144], count = subset_fill(rows, n, SUBSET_STRIPES, y.S);
     double b[144] = {0.0}, g[144] = {0.0}, x[144], local, one = 1.0;
     sl_fixed *D = NULL;
-    SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, count, NULL, NULL, NULL));
+    SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, count, NULL, NULL));
     const sl_fixed_arrays v = sl_fixed_view(D);
     assert_int_equal(v.matrix.n_cols, v.n_free);
     b[v.free_rows[b_row]] = 1.0;
@@ -334,8 +332,8 @@ static void threads_change_no_bit(void **state) {
     sl_work *W = NULL;
     gen_reals(G, (size_t)n, 1);
     SL_CHECK(sl_work_create(&W, &opt));
-    SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, count, NULL, NULL, NULL));
-    SL_CHECK(sl_fixed_create(&E, &y.M.view, rows, count, NULL, &opt, NULL));
+    SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, count, NULL, NULL));
+    SL_CHECK(sl_fixed_create(&E, &y.M.view, rows, count, &opt, NULL));
     SL_CHECK(sl_fixed_solve(D, X, (size_t)n, NULL, 0, G, (size_t)n, 1, NULL));
     SL_CHECK(sl_fixed_solve(E, Y, (size_t)n, NULL, 0, G, (size_t)n, 1, W));
     assert_memory_equal(X, Y, (size_t)n * sizeof *X);
@@ -358,7 +356,7 @@ static void solves_allocate_nothing(void **state) {
     counter_t c = counter_make();
     const sl_options opt = options_counted(&c);
     sl_fixed *D = NULL;
-    SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, 2, NULL, &opt, NULL));
+    SL_CHECK(sl_fixed_create(&D, &y.M.view, rows, 2, &opt, NULL));
     gen_reals(X, 200, 1);
     memcpy(before, X, sizeof X);
     sl_work *W = work_failing(&c, 0);

@@ -1,9 +1,9 @@
-/* pinned.h: a system with pins, and its solutions against dense ones */
-#ifndef SL_TEST_PINNED_H
-#define SL_TEST_PINNED_H
+/* constrained.h: a system with pins, and its solutions against dense ones */
+#ifndef SL_TEST_CONSTRAINED_H
+#define SL_TEST_CONSTRAINED_H
 
 #include "factored.h"
-#include "pin_calls.h"
+#include "constraint_calls.h"
 
 /* A system and its pins, as the tests keep them. */
 typedef struct pinned_t {

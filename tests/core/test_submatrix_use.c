@@ -1,5 +1,5 @@
-/* test_restrict_use.c: sl_factor_submatrix: what is refused, and how null pivots are treated */
-#include "tests/lib/restricted.h"
+/* test_submatrix_use.c: sl_factor_submatrix: what is refused, and how null pivots are treated */
+#include "tests/lib/submatrix.h"
 #include "tests/lib/saved_pair.h"
 
 /* a pointer that is not NULL, to see that a call sets it to NULL */
@@ -10,8 +10,8 @@ static char garbage[1];
 static void numbers_of_a_restriction_stay(void **state) {
     (void)state;
     for (int anew = 0; anew < 2; anew++) {
-        restricted_t t =
-            restricted_make(GEN_GRID2, 100, 1, 0, anew ? SUBSET_RANDOM : SUBSET_HALF, NULL);
+        submatrix_t t =
+            submatrix_make(GEN_GRID2, 100, 1, 0, anew ? SUBSET_RANDOM : SUBSET_HALF, NULL);
         const sl_csc *B = &t.B.view;
         const sl_int row = 0;
         const double one = 1.0;
@@ -38,11 +38,11 @@ static void numbers_of_a_restriction_stay(void **state) {
         assert_int_equal(sl_factor_submatrix(&S, &G, t.G, B, &row, 1, NULL, NULL),
                          SL_ERR_UNSUPPORTED);
         assert_true(S == NULL && G == NULL);
-        restricted_check(&t);
+        submatrix_check(&t);
         free(entries);
         free(x);
         free(b);
-        restricted_free(&t);
+        submatrix_free(&t);
     }
 }
 
@@ -168,7 +168,7 @@ static void null_pivots_may_be_removed(void **state) {
     opt.null_pivots = SL_NULL_PIVOT_SKIP;
     for (int style = 0; style < GEN_STYLES; style++) {
         for (int shape = 0; shape < SUBSET_SHAPES; shape++) {
-            restricted_t t;
+            submatrix_t t;
             memset(&t, 0, sizeof t);
             t.y = factored_make(GEN_SINGULAR, 100, 1, style, &opt);
             sl_int n = t.y.M.view.n_cols;
@@ -179,13 +179,13 @@ static void null_pivots_may_be_removed(void **state) {
                                                    NULL, &t.stats);
             assert_int_equal(status, t.count == n ? SL_ERR_PIVOT : SL_OK);
             if (status == SL_OK) {
-                restricted_check(&t);
+                submatrix_check(&t);
             } else {
                 sl_int null_row, nulls;
                 SL_CHECK(sl_factor_pivot_rows(t.y.F, SL_PIVOT_NULL, &null_row, NULL, 1, &nulls));
                 assert_int_equal(t.stats.error.row, null_row);
             }
-            restricted_free(&t);
+            submatrix_free(&t);
         }
     }
 }
@@ -359,7 +359,7 @@ static void any_storage_and_several_null_vectors_are_restricted(void **state) {
             opt.null_vector_count = 2;
             gen_reals(z, 2 * 225, 4);
         }
-        restricted_t t = restricted_make(GEN_GRID2, 225, 1, 0, SUBSET_HALF, &opt);
+        submatrix_t t = submatrix_make(GEN_GRID2, 225, 1, 0, SUBSET_HALF, &opt);
         const size_t n = (size_t)t.count;
         double *b = test_reals(n), *x = test_reals(n), *r = test_reals(n), error;
         assert_int_equal(t.stats.submatrix.is_anew, 1);
@@ -369,12 +369,12 @@ static void any_storage_and_several_null_vectors_are_restricted(void **state) {
         SL_CHECK(sl_csc_residual(&t.B.view, r, n, &error, x, n, b, n, 1));
         assert_true(error <= (kind < 2 ? 1e-5 : 1e-14));
         if (kind == 2) {
-            restricted_check(&t);
+            submatrix_check(&t);
         }
         free(b);
         free(x);
         free(r);
-        restricted_free(&t);
+        submatrix_free(&t);
     }
     free(z);
 }

@@ -1,7 +1,7 @@
-/* test_restrict.c: sl_factor_submatrix: the factor of A[R, R], what is kept, solves with it */
+/* test_submatrix.c: sl_factor_submatrix: the factor of A[R, R], what is kept, solves with it */
 #include "tests/lib/check_inverse.h"
-#include "tests/lib/restricted.h"
-#include "tests/lib/pin_calls.h"
+#include "tests/lib/submatrix.h"
+#include "tests/lib/constraint_calls.h"
 
 static void restrictions_are_factors_of_the_submatrix(void **state) {
     (void)state;
@@ -14,13 +14,13 @@ static void restrictions_are_factors_of_the_submatrix(void **state) {
                 opt.isa = isas.isa[(k + shape) % isas.count];
                 opt.relaxation = k == 1 ? SL_RELAXATION_NONE : SL_RELAXATION_DEFAULT;
                 opt.method = k == 2 ? SL_METHOD_UP_LOOKING : SL_METHOD_AUTO;
-                restricted_t t = restricted_make((gen_kind_t)kind, k % 2 ? 150 : 60,
-                                                 kind == GEN_KKT || k < 3 ? 1 : -1,
-                                                 (3 * shape + k) % GEN_STYLES, shape, &opt);
-                restricted_check(&t);
+                submatrix_t t = submatrix_make((gen_kind_t)kind, k % 2 ? 150 : 60,
+                                               kind == GEN_KKT || k < 3 ? 1 : -1,
+                                               (3 * shape + k) % GEN_STYLES, shape, &opt);
+                submatrix_check(&t);
                 kept += t.stats.submatrix.kept > 0 && t.stats.submatrix.computed > 0;
                 anew += t.stats.submatrix.is_anew;
-                restricted_free(&t);
+                submatrix_free(&t);
             }
         }
     }
@@ -31,17 +31,17 @@ static void restrictions_are_factors_of_the_submatrix(void **state) {
 static void all_rows_give_the_same_factor(void **state) {
     (void)state;
     for (int kind = 0; kind < GEN_REGULAR; kind++) {
-        restricted_t t = restricted_make((gen_kind_t)kind, 150, 1, 0, SUBSET_ALL, NULL);
+        submatrix_t t = submatrix_make((gen_kind_t)kind, 150, 1, 0, SUBSET_ALL, NULL);
         assert_int_equal(t.stats.submatrix.kept, t.count);
         assert_same_bits(t.y.F, t.G);
-        restricted_free(&t);
+        submatrix_free(&t);
     }
 }
 
 /* Columns without a removed descendant have the same pivots, bit for bit, if they were kept. */
 static void kept_pivots_have_the_same_bits(void **state) {
     (void)state;
-    restricted_t t = restricted_make(GEN_GRID2, 400, 1, 0, SUBSET_HALF, NULL);
+    submatrix_t t = submatrix_make(GEN_GRID2, 400, 1, 0, SUBSET_HALF, NULL);
     sl_symbolic_arrays a = sl_symbolic_view(t.y.S), b = sl_symbolic_view(t.S);
     const double *D = sl_factor_view(t.y.F).D, *E = sl_factor_view(t.G).D;
     char *is_below = (char *)test_array((size_t)a.n, 1); /* removed, or a descendant is */
@@ -63,13 +63,13 @@ static void kept_pivots_have_the_same_bits(void **state) {
     assert_true(t.stats.submatrix.kept > t.count / 2 && t.stats.submatrix.kept < t.count);
     assert_true(t.stats.submatrix.entries > 0);
     free(is_below);
-    restricted_free(&t);
+    submatrix_free(&t);
 }
 
 /* The order of the rows only numbers them. */
 static void rows_may_be_in_any_order(void **state) {
     (void)state;
-    restricted_t t = restricted_make(GEN_GRID3, 216, 1, 2, SUBSET_HALF, NULL);
+    submatrix_t t = submatrix_make(GEN_GRID3, 216, 1, 2, SUBSET_HALF, NULL);
     sl_int n = t.count, *order = test_ints((size_t)n), *rows = test_ints((size_t)n);
     sl_symbolic *S = NULL;
     sl_factor *G = NULL;
@@ -95,7 +95,7 @@ static void rows_may_be_in_any_order(void **state) {
     free(y);
     sl_factor_free(G);
     sl_symbolic_free(S);
-    restricted_free(&t);
+    submatrix_free(&t);
 }
 
 /* A small set is found by hashing: a few rows of many, near each other and far apart. */
@@ -108,12 +108,12 @@ static void few_rows_of_many(void **state) {
         for (sl_int k = 0; k < count; k++) {
             rows[k] = k % 2 == 0 ? n / 2 + k : (k * 130 + 7) % (n / 2);
         }
-        restricted_t t;
+        submatrix_t t;
         memset(&t, 0, sizeof t);
         t.count = count;
         t.B = subset_matrix(&y.M.view, rows, count);
         SL_CHECK(sl_factor_submatrix(&t.S, &t.G, y.F, &y.M.view, rows, count, NULL, &t.stats));
-        restricted_check(&t);
+        submatrix_check(&t);
         sl_factor_free(t.G);
         sl_symbolic_free(t.S);
         gen_matrix_free(&t.B);
@@ -140,7 +140,7 @@ static void few_neighbors_of_many(void **state) {
     int with_kept = 0;
     for (sl_int set = 0; set < SETS; set++) {
         sl_int rows[COUNT + 1];
-        restricted_t t;
+        submatrix_t t;
         memset(&t, 0, sizeof t);
         for (sl_int k = 0; k < COUNT; k++) {
             rows[k] = perm[101 * set + k];
@@ -149,7 +149,7 @@ static void few_neighbors_of_many(void **state) {
         t.count = rows[COUNT] < SIDE * SIDE ? COUNT + 1 : COUNT;
         t.B = subset_matrix(&y.M.view, rows, t.count);
         SL_CHECK(sl_factor_submatrix(&t.S, &t.G, y.F, &y.M.view, rows, t.count, NULL, &t.stats));
-        restricted_check(&t);
+        submatrix_check(&t);
         with_kept += t.stats.submatrix.kept > 0;
         sl_factor_free(t.G);
         sl_symbolic_free(t.S);
@@ -163,7 +163,7 @@ static void few_neighbors_of_many(void **state) {
 static void restrictions_are_independent_and_complete(void **state) {
     (void)state;
     for (int shape = SUBSET_HALF; shape < SUBSET_SHAPES; shape++) {
-        restricted_t t = restricted_make(GEN_GRID2, 225, 1, shape % GEN_STYLES, shape, NULL);
+        submatrix_t t = submatrix_make(GEN_GRID2, 225, 1, shape % GEN_STYLES, shape, NULL);
         sl_int n = t.count;
         sl_factor_free(t.y.F);
         sl_symbolic_free(t.y.S);
@@ -200,7 +200,7 @@ static void restrictions_are_independent_and_complete(void **state) {
         free(diagonal);
         free(b);
         free(x);
-        restricted_free(&t);
+        submatrix_free(&t);
     }
 }
 

@@ -1,23 +1,23 @@
-/* judge_pins.h: judges of pins and of entries of the inverse */
-#ifndef SL_TEST_JUDGE_PINS_H
-#define SL_TEST_JUDGE_PINS_H
+/* judge_constraints.h: judges of pins and of entries of the inverse */
+#ifndef SL_TEST_JUDGE_CONSTRAINTS_H
+#define SL_TEST_JUDGE_CONSTRAINTS_H
 
 #include "judge.h"
-#include "pin_calls.h"
+#include "constraint_calls.h"
 
 enum { JUDGE_EQUALITIES = 3 };
 
 /* Pins, equalities and what they demand. */
-typedef struct judge_pins_t {
+typedef struct judge_constraints_t {
     sl_constraints *P;
     sl_int count;
     sl_int *row;   /* of pin k; -1: equality */
     sl_int *which; /* equality k is column which[k] of C */
     double *C;     /* n x JUDGE_EQUALITIES */
     sl_int equalities;
-} judge_pins_t;
+} judge_constraints_t;
 
-static inline void judge_pins_add(judge_t *t, judge_pins_t *p, unsigned char *held) {
+static inline void judge_constraints_add(judge_t *t, judge_constraints_t *p, unsigned char *held) {
     const sl_int n = (sl_int)t->n, many = 1 + gen_below(&t->state, 1 + n / 3);
     sl_int *rows = test_ints(t->n), count = 0;
     if (gen_below(&t->state, 4) == 0 && p->equalities < JUDGE_EQUALITIES) {
@@ -55,7 +55,8 @@ static inline void judge_pins_add(judge_t *t, judge_pins_t *p, unsigned char *he
     free(rows);
 }
 
-static inline void judge_pins_release(judge_t *t, judge_pins_t *p, unsigned char *held) {
+static inline void judge_constraints_release(judge_t *t, judge_constraints_t *p,
+                                             unsigned char *held) {
     const sl_int at = gen_below(&t->state, p->count);
     if (p->row[at] == -1 || unpin(p->P, at) != SL_OK) {
         return; /* equalities stay: their columns are numbered */
@@ -69,7 +70,8 @@ static inline void judge_pins_release(judge_t *t, judge_pins_t *p, unsigned char
 }
 
 /* Orthonormal columns that span those of C and the unit vectors of held rows; returns how many. */
-static inline sl_int judge_pins_basis(const judge_t *t, const judge_pins_t *p, double *Q) {
+static inline sl_int judge_constraints_basis(const judge_t *t, const judge_constraints_t *p,
+                                             double *Q) {
     const size_t n = t->n;
     sl_int count = 0;
     for (sl_int k = 0; k < p->count; k++) {
@@ -102,8 +104,8 @@ static inline sl_int judge_pins_basis(const judge_t *t, const judge_pins_t *p, d
 }
 
 /* |C' x - g| relative to |C| |x| + |g| with the largest |x| of each component, the largest. */
-static inline double judge_pins_miss(const judge_t *t, const judge_pins_t *p, const double *x,
-                                     const double *g) {
+static inline double judge_constraints_miss(const judge_t *t, const judge_constraints_t *p,
+                                            const double *x, const double *g) {
     double *most = test_reals(t->n), worst = 0.0;
     for (size_t i = 0; i < t->n; i++) {
         most[t->y->of[i]] = fmax(most[t->y->of[i]], fabs(x[i]));
@@ -123,7 +125,7 @@ static inline double judge_pins_miss(const judge_t *t, const judge_pins_t *p, co
 }
 
 /* The components of A that equalities join. */
-static inline sl_int *judge_pins_join(const judge_t *t, const judge_pins_t *p) {
+static inline sl_int *judge_constraints_join(const judge_t *t, const judge_constraints_t *p) {
     sl_int *of = test_ints(t->n);
     memcpy(of, t->y->of, t->n * sizeof *of);
     for (sl_int k = 0; k < p->count; k++) {
@@ -142,7 +144,7 @@ static inline sl_int *judge_pins_join(const judge_t *t, const judge_pins_t *p) {
     return of;
 }
 
-static inline void judge_pins_solve(judge_t *t, const judge_pins_t *p) {
+static inline void judge_constraints_solve(judge_t *t, const judge_constraints_t *p) {
     const size_t n = t->n;
     double *b = test_reals(n), *x = test_reals(n), *g = test_reals(n + JUDGE_EQUALITIES);
     double *Q = test_reals(n * (n + JUDGE_EQUALITIES)), *extra = test_reals(n);
@@ -169,17 +171,17 @@ static inline void judge_pins_solve(judge_t *t, const judge_pins_t *p) {
     const sl_status status =
         sl_constraints_solve(p->P, NULL, x, n, b, n, g, n + JUDGE_EQUALITIES, 1, NULL);
     if (judge_succeeded(t, status, "pins")) {
-        const sl_int rank = judge_pins_basis(t, p, Q);
+        const sl_int rank = judge_constraints_basis(t, p, Q);
         double mean = 0.0;
         if (judge_is_centered(t) && p->equalities == 0) {
             mean = judge_center(t, b, extra, x, is_held);
         }
-        sl_int *of = judge_pins_join(t, p);
+        sl_int *of = judge_constraints_join(t, p);
         const double error = judge_error(&t->y->M.view, of, x, b, extra, Q, rank);
         free(of);
         judge_answer(t, error, judge_limit(&t->stats), judge_is_told(&t->stats), "pins, residual");
-        judge_answer(t, error == -1.0 ? error : judge_pins_miss(t, p, x, g), judge_limit(&t->stats),
-                     judge_is_told(&t->stats), "pins, values");
+        judge_answer(t, error == -1.0 ? error : judge_constraints_miss(t, p, x, g),
+                     judge_limit(&t->stats), judge_is_told(&t->stats), "pins, values");
         judge_answer(t, mean, judge_limit(&t->stats), judge_is_told(&t->stats), "pins, mean");
     }
     free(b);
@@ -190,8 +192,8 @@ static inline void judge_pins_solve(judge_t *t, const judge_pins_t *p) {
     free(is_held);
 }
 
-static inline void judge_way_pins(judge_t *t) {
-    judge_pins_t p;
+static inline void judge_way_constraints(judge_t *t) {
+    judge_constraints_t p;
     unsigned char *held = (unsigned char *)test_array(t->n, 1);
     memset(&p, 0, sizeof p);
     p.row = test_ints(t->n + JUDGE_EQUALITIES);
@@ -200,11 +202,11 @@ static inline void judge_way_pins(judge_t *t) {
     if (judge_succeeded(t, sl_constraints_create(&p.P, t->F, NULL), "pins create")) {
         for (int k = 0; k < 1 + gen_below(&t->state, 6); k++) {
             if (p.count > 0 && gen_below(&t->state, 4) == 0) {
-                judge_pins_release(t, &p, held);
+                judge_constraints_release(t, &p, held);
             } else {
-                judge_pins_add(t, &p, held);
+                judge_constraints_add(t, &p, held);
             }
-            judge_pins_solve(t, &p);
+            judge_constraints_solve(t, &p);
         }
     }
     sl_constraints_free(p.P);
