@@ -124,7 +124,7 @@ parts: $(patsubst src/%,build/parts/%.ok,$(filter-out %.inl.h,$(PARTS))) ## does
 PARTS_BELOW = public/% impl/base/% impl/kernels/% impl/matrix/% impl/ordering/% impl/analysis/%
 build/parts/%.ok: src/% $(SRC) | build/deps.ok
 	@mkdir -p $(@D)
-	@printf '#include "$*"\n$(if $(filter $(PARTS_BELOW),$*),,#include "impl/packs/storage_types.h"\n)typedef int sl_this_part_alone;\n' | \
+	@printf '#include "$*"\n$(if $(filter $(PARTS_BELOW),$*),,#include "impl/packs/storage_types.h"\n#include "impl/packs/singular_table.h"\n)typedef int sl_this_part_alone;\n' | \
 	$(CC) $(C_FLAGS) -Isrc -Wno-unused-function -Wno-unused-variable -fsyntax-only -x c -
 	@touch $@
 

@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 2cf58fac2822ff93
+ * FNV-1a of the lines after this comment, without the license: 5a11c4448c8dabb0
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -7,57 +7,57 @@
  *    195 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
  *    239 config.h     macros that a user may define before the include, the version, and the integer types
  *    327 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    507 options.h    options of all calls, threads, and the allocator
- *    633 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    877 csc.h        sparse matrices: creation, checks, products, residuals
- *    978 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1054 factor.h     the numerical factorization P A P' = L D L'
- *   1183 solve.h      full solves, and the workspace of all solves
- *   1279 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1355 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1445 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1538 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1577 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1678 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1758 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1844 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1937 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2044 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2086 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2208 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2239 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2421 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2524 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2635 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2676 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2762 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2870 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2904 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2981 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3024 impl/ base: the compiler, status, memory, sorting, threads
- *   4305 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5244 impl/ matrix: sparse matrices of the caller and of the library
- *   5920 impl/ ordering: fill-reducing orderings of a graph
- *  11022 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13261 impl/ factor: the numbers of L and D
- *  16674 impl/ solve: full and local solves
- *  18551 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20548 impl/ pivots: the order of the pivots by the values of a matrix
- *  20956 impl/ float: L and fronts in single precision
- *  21461 impl/ inverse: entries of the inverse, regions
- *  24560 impl/ change: a factor that follows changes of its matrix
- *  30865 impl/ fixed: rows fixed at given values
- *  31506 impl/ fixed: by a factor of all rows
- *  31740 impl/ io: files that are replaced only when they are complete
- *  31958 impl/ files: Matrix Market files, 64-bit indices
- *  32578 impl/ save: factors in files
- *  34591 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35277 impl/ batch: diagonals of many inverses
- *  35417 impl/ complex: complex Hermitian systems over real factors
- *  35979 impl/ complex: entries of the inverse
- *  36039 impl/ packs: the tables through which the core calls packs
- *  36088 impl/ last: undefine every internal macro
- *  36469 impl/ templates: the header includes them from itself, once for each instruction set
+ *    500 options.h    options of all calls, threads, and the allocator
+ *    626 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    864 csc.h        sparse matrices: creation, checks, products, residuals
+ *    965 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1041 factor.h     the numerical factorization P A P' = L D L'
+ *   1170 solve.h      full solves, and the workspace of all solves
+ *   1266 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1342 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1426 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1519 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1558 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1659 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1739 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1825 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1918 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2025 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2067 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2189 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2220 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2402 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2505 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2616 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2657 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2743 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2851 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2885 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2962 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3005 impl/ base: the compiler, status, memory, sorting, threads
+ *   4286 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5225 impl/ matrix: sparse matrices of the caller and of the library
+ *   5901 impl/ ordering: fill-reducing orderings of a graph
+ *  11003 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13242 impl/ factor: the numbers of L and D
+ *  15840 impl/ solve: full and local solves
+ *  17388 impl/ singular: null spaces of semidefinite matrices
+ *  18697 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20712 impl/ pivots: the order of the pivots by the values of a matrix
+ *  21120 impl/ float: L and fronts in single precision
+ *  21625 impl/ inverse: entries of the inverse, regions
+ *  24724 impl/ change: a factor that follows changes of its matrix
+ *  31011 impl/ fixed: rows fixed at given values
+ *  31572 impl/ io: files that are replaced only when they are complete
+ *  31790 impl/ files: Matrix Market files, 64-bit indices
+ *  32410 impl/ save: factors in files
+ *  34427 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35113 impl/ batch: diagonals of many inverses
+ *  35253 impl/ complex: complex Hermitian systems over real factors
+ *  35815 impl/ complex: entries of the inverse
+ *  35875 impl/ packs: the tables through which the core calls packs
+ *  35942 impl/ last: undefine every internal macro
+ *  36311 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -487,13 +487,6 @@ typedef enum sl_change_reason {
     SL_CHANGE_REFUSED       /* rank-one changes met a pivot that they refuse */
 } sl_change_reason;
 
-/** How sl_fixed_create fixes rows. */
-typedef enum sl_fixed_method {
-    SL_FIXED_SUBMATRIX = 0, /* a factor of the free rows */
-    SL_FIXED_RESTRICTION,   /* the same, from a factor of all rows (sl_factor_submatrix) */
-    SL_FIXED_PINS           /* pins on a factor of all rows (sl_constraints_create) */
-} sl_fixed_method;
-
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
 typedef struct sl_symbolic sl_symbolic; /* the analysis of one pattern; immutable */
 typedef struct sl_factor sl_factor;     /* L and D over a symbolic analysis */
@@ -809,20 +802,14 @@ typedef struct sl_reuse_info {
 /** A set of pins: sl_constraints_add, _add_equality, _release, _refactor. */
 typedef struct sl_constraints_info {
     sl_int count;   /* pins and equalities */
-    double seconds; /* of the call; where it is about stats.factor.seconds or more,
-                     * sl_fixed_create holds the same rows sooner */
+    double seconds; /* of the call */
 } sl_constraints_info;
 
 /** Rows fixed at given values: sl_fixed_create, sl_fixed_refactor. */
 typedef struct sl_fixed_info {
-    sl_fixed_method method; /* the way in use */
-    sl_int n_free;          /* rows that are not fixed */
-    sl_off couplings;       /* entries of A between free and fixed rows */
-    /* of a choice among ways, as estimated from counts; 0: there was none */
-    double seconds_submatrix;
-    double seconds_restriction; /* the same */
-    double seconds_pins;        /* the same; 0 also where pins are not possible */
-    double seconds;             /* of the call */
+    sl_int n_free;    /* rows that are not fixed */
+    sl_off couplings; /* entries of A between free and fixed rows */
+    double seconds;   /* of the call */
 } sl_fixed_info;
 
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
@@ -1357,42 +1344,39 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int 
 /** Prepares solves of A x = b in the free rows, where x is given in the others: Dirichlet problems,
  *  harmonic maps, interpolation. For definite A, x minimizes x' A x / 2 - b' x under x(rows) = g.
  *
- *  The free rows have a factor of A[free, free] of their own; A may be singular. If a factor F of A
- *  is given, and the pack of changes is on, the cheapest of three ways is taken, by counted cost
- *  (stats.fixed): the same, sl_factor_submatrix, or pins on F.
+ *  The free rows have a factor of A[free, free] of their own; A may be singular. Who has a factor
+ *  of all rows takes sl_factor_submatrix, or holds rows that come and go by sl_constraints_add.
  *
  *  out    [out]  the object.
  *  A      [in]   n x n with values, symmetric, not kept. Entries between fixed rows are not read,
  *                and two triangles not compared.
  *  rows   [in]   count rows of A in 0..n-1 that are fixed, any order, none twice; from none to all.
- *  F      [in]   a factor of A, or NULL. Used only if it was computed from the values of A, and opt
- *                has none of perm, mass, signs, null_vector, regularization, SL_NULL_PIVOT_SKIP.
  *  opt    [in]   allocator, threads, and what sl_symbolic_create and sl_factor_create read, in rows
  *                of A: perm, mass, signs and null_vector have n entries.
- *  stats  [out]  dirichlet, symbolic, factor; errors are in rows of A.
+ *  stats  [out]  fixed, symbolic, factor; errors are in rows of A.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
  *           SL_ERR_PIVOT: A[free, free] is singular, as where no row of a component of a Laplacian
  *           is fixed (error.row); others as sl_symbolic_create and sl_factor_create.
  *  Cost     O(n + nnz), and the analysis and factorization of A[free, free]. Keeps 4 bytes per row,
  *           16 per entry of A[free, free], and 20 per entry between free and fixed rows.
- *  Manual   tools/docs/dirichlet.md: what pins, restrictions and submatrices cost
- *  Example  tests/core/test_dirichlet.c
+ *  Manual   tools/docs/fixed.md
+ *  Example  tests/core/test_fixed.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_fixed_create(sl_fixed **out, const sl_csc *A, const sl_int *rows,
-                                                sl_int count, const sl_factor *F,
-                                                const sl_options *opt, sl_stats *stats);
+                                                sl_int count, const sl_options *opt,
+                                                sl_stats *stats);
 
 /** Releases the object. */
 SL_API void sl_fixed_free(sl_fixed *D);
 
-/** Takes new values of A. An object that uses a factor of A gets one of its own.
+/** Takes new values of A.
  *
  *  A      [in]   the pattern that sl_fixed_create was given, its entries in the same order.
- *  stats  [out]  dirichlet, factor; errors are in rows of A.
+ *  stats  [out]  fixed, factor; errors are in rows of A.
  *  Returns  as sl_fixed_create; SL_ERR_OTHER_PATTERN. After SL_ERR_PIVOT,
  *           _NOT_FINITE, _INACCURATE and _UNSUPPORTED solves are refused until a
  *           refactorization succeeds; after other errors D is as before.
- *  Cost     a refactorization of A[free, free]; nothing is allocated, except for its first factor.
+ *  Cost     a refactorization of A[free, free]; nothing is allocated.
  *  Threads  exclusive use of D.
  */
 SL_API SL_WARN_UNUSED sl_status sl_fixed_refactor(sl_fixed *D, const sl_csc *A, sl_stats *stats);
@@ -1401,19 +1385,16 @@ SL_API SL_WARN_UNUSED sl_status sl_fixed_refactor(sl_fixed *D, const sl_csc *A, 
  *
  *  X     [out]  n x nrhs, leading dimension ldx, rows in the order of A; row-major if ldx is
  *               SL_ROWS(ld). Fixed rows are g. May be B itself (then ldx = ldb). Overwritten also
- *               after SL_ERR_INCONSISTENT, _NOT_FINITE and _INACCURATE; after other errors
- *               untouched.
+ *               after SL_ERR_INCONSISTENT and _NOT_FINITE; after other errors untouched.
  *  B     [in]   n x nrhs, leading dimension ldb, or row-major as X; fixed rows are not used. NULL:
  *               b = 0.
  *  G     [in]   count x nrhs, leading dimension ldg, or row-major as X: the values, in the order of
  *               rows. Must not overlap X. May be NULL if count = 0.
  *  nrhs  [in]   number of right-hand sides, 0 or more.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed refactorization, or the factor whose
- *           pins are used has changed; SL_ERR_NOT_FINITE, SL_ERR_INCONSISTENT: as sl_factor_solve;
- *           SL_ERR_INACCURATE: as sl_constraints_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed refactorization; SL_ERR_NOT_FINITE,
+ *           SL_ERR_INCONSISTENT: as sl_factor_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     for each right-hand side a full solve of the free rows, 2 flops per entry of A between
- *           free and fixed rows, and a pass over X and B. No allocation once W has grown, except
- *           for pins with row-major blocks.
+ *           free and fixed rows, and a pass over X and B. No allocation once W has grown.
  *  Threads  any number at once on one D, each with its own W, whose threads are used.
  */
 SL_API SL_WARN_UNUSED sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx,
@@ -1426,10 +1407,10 @@ typedef struct sl_fixed_arrays {
     sl_int n_free, n_fixed;
     const sl_int *free_rows;     /* n_free: ascending */
     const sl_int *fixed_rows;    /* n_fixed: rows, in the order of the caller */
-    const sl_symbolic *symbolic; /* of A[free, free]; NULL: pins hold the fixed rows */
-    const sl_factor *factor;     /* the same */
-    sl_csc matrix;               /* A[free, free], one triangle; 0 x 0: not kept */
-    const void *reserved[2];     /* NULL; new fields take their place */
+    const sl_symbolic *symbolic; /* of A[free, free] */
+    const sl_factor *factor;
+    sl_csc matrix;           /* A[free, free], one triangle */
+    const void *reserved[2]; /* NULL; new fields take their place */
 } sl_fixed_arrays;
 
 SL_API sl_fixed_arrays sl_fixed_view(const sl_fixed *D);
@@ -2547,7 +2528,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const s
  *           pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
  *  Cost     O(1); with SL_NULL_PIVOT_SKIP 8 bytes per row.
  *  Source   capacitance matrix of a change of low rank, as in [Hager89].
- *  Example  tests/core/test_pins.c
+ *  Example  tests/core/test_constraints.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_constraints_create(sl_constraints **out, const sl_factor *F,
                                                       const sl_options *opt);
@@ -2666,7 +2647,7 @@ SL_API SL_WARN_UNUSED sl_status sl_constraints_solve(const sl_constraints *P, co
  *  Threads  reads F; one thread.
  *  Source   [HA18]
  *  Manual   tools/docs/changes.md
- *  Example  tests/core/test_restrict.c
+ *  Example  tests/core/test_submatrix.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_submatrix(sl_symbolic **S, sl_factor **G,
                                                     const sl_factor *F, const sl_csc *A,
@@ -13258,6 +13239,83 @@ SLI_INLINE int sli_intersection_next(sli_intersection *m) {
 }
 
 /* factor: the numbers of L and D */
+/* src/impl/factor/null_space.h: what a factor knows of its null space, and the calls of impl/singular */
+
+#define SLI_NULL_VECTORS_MAX 32
+#define SLI_NULL_DEPENDENT 1e-11
+
+typedef struct sli_null_row {
+  double z;
+  double product;
+  double size;
+  sl_int entries;
+  sl_int up;
+} sli_null_row;
+
+struct sli_source;
+struct sli_failure;
+struct sli_reach;
+struct sli_query;
+struct sli_rhs;
+struct sli_vectors;
+struct sli_packed;
+struct sli_null_dot;
+
+typedef struct sli_singular {
+  void (*layout)(sl_factor *F, sli_block *b, int has_mass);
+  void (*layout_scratch)(sl_factor *F, sli_block *b);
+  sl_status (*fill)(sl_factor *F, const sl_options *opt, sl_stats *stats);
+  sl_status (*prepare)(sl_factor *F, const struct sli_source *from, struct sli_failure *failure);
+  sl_status (*finish)(sl_factor *F, const struct sli_source *from, struct sli_failure *failure);
+  int (*remain)(const sl_factor *F);
+
+  int (*load)(const sl_factor *F, const struct sli_query *q, const struct sli_vectors *v,
+      const struct sli_rhs *rhs);
+  void (*forward)(const sl_factor *F, const struct sli_reach *R, const struct sli_vectors *v,
+      sl_int nrhs);
+  int (*check)(const sl_factor *F, const struct sli_query *q, const struct sli_rhs *rhs,
+      void *memory);
+  void (*center)(const sl_factor *F, const struct sli_packed *y, const struct sli_packed *x,
+      const sl_int *uses);
+  void (*norms)(const struct sli_packed *b, double *norms);
+  int (*next_dot)(const sl_factor *F, const struct sli_packed *b, sl_int first, sl_int root,
+      struct sli_null_dot *dot);
+} sli_singular;
+
+static const sli_singular *sli_singular_of(int skips_nulls);
+static const char *sli_singular_missing(const sl_options *opt);
+SLI_INLINE sl_status sli_singular_needed(void) {
+  return sli_singular_of(1) == NULL /* branches untested: they are */
+         ? sli_refuse(SL_ERR_UNSUPPORTED, "the call: compiled with SL_NO_SINGULAR")
+         : SL_OK;
+}
+
+typedef struct sli_null_space {
+  const sli_singular *calls;
+  double consistency;
+  int checks;
+  int is_centered;
+  sl_int count;
+  sl_int *pivots;
+  sl_int n_anchors;
+  sl_int *anchors;
+  double *mass;
+  sl_int vectors;
+  double *z;
+  double *g;
+  double *center;
+  double *squares;
+  double *ratios;
+
+  int has_duplicates;
+  sli_null_row *rows;
+  sl_int *last;
+  double *rounding;
+  double *sweep;
+  sl_int *chain, *row_entries;
+  double *products;
+} sli_null_space;
+
 /* src/impl/factor/factor_types.h: the factor object, what it says of itself, and the failures of a factorization */
 
 typedef struct sli_source {
@@ -13275,16 +13333,6 @@ typedef struct sli_failure {
   double value;
   double bound;
 } sli_failure;
-
-#define SLI_NULL_VECTORS_MAX 32
-
-typedef struct sli_null_row {
-  double z;
-  double product;
-  double size;
-  sl_int entries;
-  sl_int up;
-} sli_null_row;
 
 typedef struct sli_extent {
   double entry;
@@ -13310,32 +13358,6 @@ typedef struct sli_copied {
   const sl_int *from;
   void (*copy)(sl_factor *F, sl_int s, sl_int worker);
 } sli_copied;
-
-typedef struct sli_null_space {
-  sl_null_pivots mode;
-  double consistency;
-  int checks;
-  int is_centered;
-  sl_int count;
-  sl_int *pivots;
-  sl_int n_anchors;
-  sl_int *anchors;
-  double *mass;
-  sl_int vectors;
-  double *z;
-  double *g;
-  double *center;
-  double *squares;
-  double *ratios;
-
-  int has_duplicates;
-  sli_null_row *rows;
-  sl_int *last;
-  double *rounding;
-  double *sweep;
-  sl_int *chain, *row_entries;
-  double *products;
-} sli_null_space;
 
 typedef struct sli_history {
   sl_off updates;
@@ -13482,8 +13504,20 @@ SLI_INLINE sl_int sli_center_count(const sl_factor *F) {
   return F->null.vectors > 1 ? 2 * F->null.vectors : 1;
 }
 
+SLI_INLINE int sli_skips_nulls(const sl_factor *F) {
+  return F->null.calls != NULL;
+}
+
 SLI_INLINE int sli_is_skipped(const sl_factor *F, sl_int k) {
-  return F->null.mode == SL_NULL_PIVOT_SKIP && F->D[k] == SLI_NULL_PIVOT;
+  return sli_skips_nulls(F) && F->D[k] == SLI_NULL_PIVOT;
+}
+
+SLI_INLINE sl_int sli_null_column(const sl_factor *F, sl_int k) {
+  sl_int j = 0;
+  while (j < F->null.vectors && F->null.g[(size_t)k + (size_t)j * (size_t)F->S->n] == 0.0) {
+    j++;
+  }
+  return j < F->null.vectors ? j : -1;
 }
 
 SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
@@ -13658,7 +13692,7 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, dou
   if (!F->rule.replaces && sli_is_null(pivot, magnitude, F->rule.null_tolerance)) {
     return sli_check_small(F, s, k, pivot, magnitude, failure);
   }
-  if (F->null.mode == SL_NULL_PIVOT_SKIP && !sli_is_skipped(F, k) &&
+  if (sli_skips_nulls(F) && !sli_is_skipped(F, k) &&
       !(pivot * F->rule.signs[k] > 0.0)) {
     return sli_refuse_pivot(F, s, k, pivot, magnitude, failure);
   }
@@ -13765,7 +13799,7 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
   info.positive = info.negative = info.null = info.weak = 0;
   info.regularized = sli_list_regularized(F, count);
   info.pivot_min = info.pivot_max = 0.0;
-  if (count > 0 && F->E == NULL && F->null.mode != SL_NULL_PIVOT_SKIP) {
+  if (count > 0 && F->E == NULL && !sli_skips_nulls(F)) {
     const sli_spread r = sli_spread_of(F->D, count);
     if (r.least > 0.0) {
       info.positive = r.positive;
@@ -13796,7 +13830,7 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
   F->stats.factor = info;
 }
 
-/* src/impl/factor/null_product.h: A z for a candidate z of the null space of A, and the components of A */
+/* src/impl/factor/components.h: the components of A, and A z for a candidate z of its null space */
 
 typedef struct sli_null_walk {
   sli_null_row *rows;
@@ -13833,47 +13867,6 @@ SLI_INLINE void sli_null_add(sli_null_row *rows, sl_int i, sl_int j, double a) {
   rows[i].product += term;
   rows[i].size += fabs(term);
   rows[i].entries++;
-}
-
-static int sli_null_add_columns(sli_null_row *rows, const sl_csc *A, sl_triangle triangle,
-    double *diagonal) {
-  int has_zero = 0;
-  sl_int j, p;
-  for (j = 0; j < A->n_cols; j++) {
-    double product = 0.0, size = 0.0;
-    sl_int entries = 0;
-    for (p = A->p[j]; p < A->p[j + 1]; p++) {
-      const sl_int i = A->i[p];
-      const double a = A->x[p], term = a * rows[i].z;
-      if (!sli_is_read(triangle, i, j)) {
-        continue;
-      }
-      product += term;
-      size += fabs(term);
-      entries++;
-      if (i != j) {
-        sli_null_add(rows, i, j, a);
-        has_zero |= a == 0.0;
-      } else if (diagonal != NULL) {
-        diagonal[j] = a;
-      }
-    }
-    rows[j].product += product;
-    rows[j].size += size;
-    rows[j].entries += entries;
-  }
-  return has_zero;
-}
-
-static void sli_null_join_columns(const sli_null_walk *w, const sl_csc *A, sl_triangle triangle) {
-  sl_int j, p;
-  for (j = 0; j < A->n_cols; j++) {
-    for (p = A->p[j]; p < A->p[j + 1]; p++) {
-      if (A->x[p] != 0.0 && sli_is_read(triangle, A->i[p], j)) {
-        sli_null_join(w, A->i[p], j);
-      }
-    }
-  }
 }
 
 typedef struct sli_null_map_state {
@@ -13951,14 +13944,15 @@ static int sli_map_has_duplicates(const sl_symbolic *S) {
   return 0;
 }
 
-SLI_HOT static sli_null_walk sli_null_product(const sl_symbolic *S, const sli_source *from,
-    int by_columns, sli_null_row *rows, const double *z,
+SLI_HOT static sli_null_walk sli_null_walk_begin(const sl_symbolic *S, int by_columns,
+    sli_null_row *rows, const double *z,
     double *diagonal) {
   sli_null_walk w;
   sl_int i;
   w.rows = rows;
   w.perm = by_columns ? S->perm : NULL;
   w.iperm = by_columns ? S->iperm : NULL;
+  w.is_joined = 1;
   for (i = 0; i < S->n; i++) {
     rows[i].z = z == NULL ? 1.0 : z[sli_null_walk_pivot(&w, i)];
     rows[i].product = rows[i].size = 0.0;
@@ -13967,14 +13961,6 @@ SLI_HOT static sli_null_walk sli_null_product(const sl_symbolic *S, const sli_so
     if (diagonal != NULL) {
       diagonal[i] = 0.0;
     }
-  }
-  w.is_joined = 1;
-  if (!by_columns) {
-    sli_null_add_map(&w, S, from, diagonal);
-  } else if (sli_null_add_columns(rows, from->A, S->stats.symbolic.triangle, diagonal)) {
-    sli_null_join_columns(&w, from->A, S->stats.symbolic.triangle);
-  } else {
-    w.is_joined = 0;
   }
   return w;
 }
@@ -14003,508 +13989,11 @@ static void sli_null_components(const sli_null_walk *w, const sl_symbolic *S, co
   }
 }
 
-/* src/impl/factor/null_dense.h: dense operations on as many numbers as there are null vectors */
-
-static double sli_null_project(const double *q, sl_int vectors, sl_int count, double *x) {
-  double sum = 0.0;
-  sl_int v, j;
-  int pass;
-  for (pass = 0; pass < 2; pass++) {
-    for (v = 0; v < vectors; v++) {
-      double dot = 0.0;
-      for (j = 0; j < count; j++) {
-        dot += q[v * count + j] * x[j];
-      }
-      for (j = 0; j < count; j++) {
-        x[j] -= dot * q[v * count + j];
-      }
-    }
-  }
-  for (j = 0; j < count; j++) {
-    sum += x[j] * x[j];
-  }
-  return sqrt(sum);
-}
-
-static void sli_null_complement(const double *q, sl_int vectors, sl_int count, double *c) {
-  double all[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX], x[SLI_NULL_VECTORS_MAX];
-  sl_int v, i, j;
-  SLI_COPY(all, q, (size_t)(vectors * count));
-  for (v = vectors; v < count; v++) {
-    double most = -1.0;
-    for (i = 0; i < count; i++) {
-      double norm;
-      memset(x, 0, sizeof x);
-      x[i] = 1.0;
-      norm = sli_null_project(all, v, count, x);
-      if (norm > most) {
-        most = norm;
-        for (j = 0; j < count; j++) {
-          all[v * count + j] = x[j] / norm;
-        }
-      }
-    }
-  }
-  SLI_COPY(c, all + vectors * count, (size_t)((count - vectors) * count));
-}
-
-static void sli_null_invert(double *a, sl_int m) {
-  double b[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX];
-  sl_int i, j, k;
-  memset(b, 0, sizeof b);
-  for (k = 0; k < m; k++) {
-    b[k * m + k] = 1.0;
-  }
-  for (k = 0; k < m; k++) {
-    sl_int at = k;
-    double inverse;
-    for (i = k + 1; i < m; i++) {
-      at = fabs(a[i * m + k]) > fabs(a[at * m + k]) ? i : at;
-    }
-    inverse = 1.0 / a[at * m + k];
-    for (j = 0; j < m; j++) {
-      const double x = a[at * m + j] * inverse, y = b[at * m + j] * inverse;
-      a[at * m + j] = a[k * m + j];
-      b[at * m + j] = b[k * m + j];
-      a[k * m + j] = x;
-      b[k * m + j] = y;
-    }
-    for (i = 0; i < m; i++) {
-      const double c = a[i * m + k];
-      for (j = 0; j < m && i != k; j++) {
-        a[i * m + j] -= c * a[k * m + j];
-        b[i * m + j] -= c * b[k * m + j];
-      }
-    }
-  }
-  SLI_COPY(a, b, (size_t)(m * m));
-}
-
-/* src/impl/factor/null_basis.h: several null vectors in each component: which of them hold, and their anchors */
-
-#define SLI_NULL_DEPENDENT 1e-11
-#define SLI_NULL_ANCHOR 0.3
-enum { SLI_NULL_IS_ANCHOR = -2 };
-
-typedef struct sli_null_part {
-  sl_factor *F;
-  double *z;
-  size_t n;
-  sl_int last, count;
-  sl_int rank;
-} sli_null_part;
-
-SLI_INLINE sli_null_part sli_null_part_of(sl_factor *F, sl_int last) {
-  sli_null_part p;
-  p.F = F;
-  p.z = F->null.g;
-  p.n = (size_t)F->S->n;
-  p.last = last;
-  p.count = p.rank = F->null.vectors;
-  return p;
-}
-
-static void sli_null_chain(sl_factor *F) {
-  sli_null_row *tails = F->null.rows;
-  sl_int k;
-  for (k = 0; k < F->S->n; k++) {
-    tails[k].up = -1;
-  }
-  for (k = 0; k < F->S->n; k++) {
-    F->null.chain[k] = tails[F->null.last[k]].up;
-    tails[F->null.last[k]].up = k;
-  }
-}
-
-SLI_INLINE int sli_null_is_row(const sl_factor *F, sl_int k) {
-  return F->null.last[k] == k && F->null.chain[k] == -1;
-}
-
-SLI_INLINE sl_int sli_null_column(const sl_factor *F, sl_int k) {
-  sl_int j = 0;
-  while (j < F->null.vectors && F->null.g[(size_t)k + (size_t)j * (size_t)F->S->n] == 0.0) {
-    j++;
-  }
-  return j < F->null.vectors ? j : -1;
-}
-
-static double sli_null_largest(const sli_null_part *p, sl_int j) {
-  const double *z = p->z + (size_t)j * p->n;
-  double largest = 0.0;
-  sl_int k;
-  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
-    largest = fabs(z[k]) > largest ? fabs(z[k]) : largest;
-  }
-  return largest;
-}
-
-static void sli_null_scale(const sli_null_part *p, sl_int j) {
-  double *z = p->z + (size_t)j * p->n;
-  int exponent;
-  sl_int k;
-  (void)frexp(sli_null_largest(p, j), &exponent);
-  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
-    z[k] = ldexp(z[k], -exponent);
-  }
-}
-
-static double sli_null_violation(const sli_null_part *p, const double *q, sl_int vectors,
-    double *x) {
-  const double *product = p->F->null.products, *sizes = product + (size_t)p->count * p->n;
-  double most = 0.0, y[SLI_NULL_VECTORS_MAX];
-  sl_int k, j;
-  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
-    double norm, ratio;
-    if (!sli_is_finite(sizes[k])) {
-      return (double)INFINITY;
-    }
-    if (sizes[k] == 0.0) {
-      continue;
-    }
-    for (j = 0; j < p->count; j++) {
-      y[j] = product[(size_t)k + (size_t)j * p->n] / sizes[k];
-    }
-    norm = sli_null_project(q, vectors, p->count, y);
-    ratio = norm / (16.0 * DBL_EPSILON * p->F->null.row_entries[k]);
-    if (ratio > most) {
-      most = ratio;
-      for (j = 0; j < p->count; j++) {
-        x[j] = y[j] / norm;
-      }
-    }
-  }
-  return most;
-}
-
-static void sli_null_combine(const sli_null_part *p, const double *c, sl_int columns) {
-  double x[SLI_NULL_VECTORS_MAX];
-  sl_int k, v, j;
-  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
-    double *z = p->z + k;
-    for (j = 0; j < p->count; j++) {
-      x[j] = z[(size_t)j * p->n];
-    }
-    for (v = 0; v < p->count; v++) {
-      double sum = 0.0;
-      for (j = 0; j < p->count && v < columns; j++) {
-        sum += c[v * p->count + j] * x[j];
-      }
-      z[(size_t)v * p->n] = sum;
-    }
-  }
-}
-
-SLI_COLD static sl_int sli_null_restrict(const sli_null_part *p) {
-  double q[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX];
-  double c[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX];
-  sl_int vectors = 0;
-  memset(q, 0, sizeof q);
-  while (vectors < p->count) {
-    const double ratio = sli_null_violation(p, q, vectors, q + vectors * p->count);
-    if (!sli_is_finite(ratio)) {
-      vectors = p->count;
-    } else if (ratio > 1.0) {
-      vectors++;
-    } else {
-      break;
-    }
-  }
-  if (vectors > 0) {
-    sli_null_complement(q, vectors, p->count, c);
-    sli_null_combine(p, c, p->count - vectors);
-  }
-  return vectors;
-}
-
-static double sli_null_scalar(const sli_null_part *p, const double *a, const double *b) {
-  double sum = 0.0;
-  sl_int k;
-  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
-    sum += a[k] * b[k];
-  }
-  return sum;
-}
-
-static void sli_null_subtract(const sli_null_part *p, double *a, const double *b, double c) {
-  sl_int k;
-  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
-    a[k] -= c * b[k];
-  }
-}
-
-SLI_HOT static void sli_null_orthonormalize(sli_null_part *p) {
-  sl_int v, j, k;
-  for (v = 0; v < p->count; v++) {
-    double *z = p->z + (size_t)v * p->n, most = -1.0;
-    sl_int at = v;
-    int pass;
-    for (j = v; j < p->count; j++) {
-      const double *other = p->z + (size_t)j * p->n;
-      const double square = sli_null_scalar(p, other, other);
-      at = square > most ? j : at;
-      most = square > most ? square : most;
-    }
-    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
-      const double swapped = z[k];
-      z[k] = p->z[(size_t)k + (size_t)at * p->n];
-      p->z[(size_t)k + (size_t)at * p->n] = swapped;
-    }
-    for (pass = 0; pass < 2; pass++) {
-      for (j = 0; j < v && sqrt(most) > SLI_NULL_DEPENDENT; j++) {
-        const double *q = p->z + (size_t)j * p->n;
-        sli_null_subtract(p, z, q, sli_null_scalar(p, z, q));
-      }
-      most = sli_null_scalar(p, z, z);
-    }
-    if (sqrt(most) <= SLI_NULL_DEPENDENT) {
-      break;
-    }
-    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
-      z[k] /= sqrt(most);
-    }
-    for (j = v + 1; j < p->count; j++) {
-      double *other = p->z + (size_t)j * p->n;
-      sli_null_subtract(p, other, z, sli_null_scalar(p, other, z));
-    }
-  }
-  p->rank = v;
-  for (; v < p->count; v++) {
-    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
-      p->z[(size_t)k + (size_t)v * p->n] = 0.0;
-    }
-  }
-}
-
-static double sli_null_distance(const sli_null_part *p, sl_int k, const double *q, sl_int vectors,
-    double *x) {
-  sl_int j;
-  for (j = 0; j < p->rank; j++) {
-    x[j] = p->z[(size_t)k + (size_t)j * p->n];
-  }
-  return sli_null_project(q, vectors, p->rank, x);
-}
-
-SLI_COLD static void sli_null_anchors(const sli_null_part *p, sl_int *anchors) {
-  double q[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX];
-  sl_int v, j, k;
-  for (v = 0; v < p->rank; v++) {
-    double *x = q + v * p->rank, most = 0.0, distance = 0.0;
-    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
-      distance = sli_null_distance(p, k, q, v, x);
-      most = distance > most ? distance : most;
-    }
-    k = p->last;
-    while ((distance = sli_null_distance(p, k, q, v, x)) < SLI_NULL_ANCHOR * most) {
-      k = p->F->null.chain[k];
-    }
-    anchors[v] = k;
-    for (j = 0; j < p->rank; j++) {
-      x[j] /= distance;
-    }
-  }
-}
-
-static void sli_null_normalize(const sli_null_part *p, const sl_int *anchors, sl_int first) {
-  double a[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX], x[SLI_NULL_VECTORS_MAX];
-  sl_int i, j, k;
-  for (i = 0; i < p->rank; i++) {
-    for (j = 0; j < p->rank; j++) {
-      a[i * p->rank + j] = p->z[(size_t)anchors[i] + (size_t)j * p->n];
-    }
-  }
-  sli_null_invert(a, p->rank);
-  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
-    double *z = p->z + k;
-    for (j = 0; j < p->count; j++) {
-      x[j] = z[(size_t)j * p->n];
-      z[(size_t)j * p->n] = 0.0;
-    }
-    for (i = 0; i < p->rank; i++) {
-      for (j = 0; j < p->rank; j++) {
-        z[(size_t)(first + i) * p->n] += x[j] * a[j * p->rank + i];
-      }
-    }
-  }
-  for (i = 0; i < p->rank; i++) {
-    for (j = 0; j < p->rank; j++) {
-      p->z[(size_t)anchors[i] + (size_t)(first + j) * p->n] = i == j ? 1.0 : 0.0;
-    }
-  }
-}
-
-static void sli_null_products(sl_factor *F, const sli_source *from, int by_columns) {
-  const size_t n = (size_t)F->S->n;
-  double *product = F->null.products, *sizes = product + (size_t)F->null.vectors * n;
-  sl_int j, k;
-  memset(sizes, 0, n * sizeof(double));
-  for (j = 0; j < F->null.vectors; j++) {
-    const sli_null_walk w =
-      sli_null_product(F->S, from, by_columns, F->null.rows, F->null.g + (size_t)j * n, NULL);
-    for (k = 0; k < F->S->n; k++) {
-      const sli_null_row *row = &F->null.rows[sli_null_walk_row(&w, k)];
-      product[(size_t)k + (size_t)j * n] = row->product;
-      sizes[k] += row->size;
-      F->null.row_entries[k] = row->entries;
-    }
-  }
-}
-
-static void sli_null_bases_test(sl_factor *F, const sli_source *from, int by_columns) {
-  sl_int k;
-  for (k = 0; k < F->S->n; k++) {
-    sli_null_part p = sli_null_part_of(F, k);
-    for (; F->null.last[k] == k && p.rank > 0; p.rank--) {
-      sli_null_scale(&p, p.rank - 1);
-    }
-  }
-  sli_null_products(F, from, by_columns);
-  for (k = 0; k < F->S->n; k++) {
-    if (F->null.last[k] == k) {
-      const sli_null_part p = sli_null_part_of(F, k);
-      F->null.rounding[k] = sli_null_restrict(&p) < p.count ? 0.0 : (double)INFINITY;
-    }
-  }
-}
-
-static sl_status sli_null_bases(sl_factor *F, const sli_source *from, int by_columns,
-    sli_failure *failure) {
-  const sl_symbolic *S = F->S;
-  sl_int anchors[SLI_NULL_VECTORS_MAX], k, j, rank, used = 0;
-  SLI_COPY(F->null.g, F->null.z, (size_t)S->n * (size_t)F->null.vectors);
-  sli_null_chain(F);
-  sli_null_bases_test(F, from, by_columns);
-  for (k = 0; k < S->n; k++) {
-    if (F->null.last[k] == k) {
-      sli_null_part p = sli_null_part_of(F, k);
-      const int is_single = sli_null_is_row(F, k);
-      if (F->null.rounding[k] == 0.0) {
-        sli_null_orthonormalize(&p);
-      } else {
-        p.rank = 0;
-      }
-      F->null.rounding[k] = p.rank == 0 ? (double)INFINITY : 0.0;
-      if (!is_single && used + p.rank > p.count) {
-        return sli_fail(failure, SL_ERR_UNSUPPORTED, S->super_of[k], k, -1, 0.0);
-      }
-      sli_null_anchors(&p, anchors);
-      rank = p.rank;
-      p.rank = is_single ? 0 : rank;
-      sli_null_normalize(&p, anchors, used);
-      used += p.rank;
-      for (j = 0; j < rank; j++) {
-        F->null.chain[anchors[j]] = SLI_NULL_IS_ANCHOR;
-      }
-    }
-    used = S->parent[k] == -1 ? 0 : used;
-  }
-  return SL_OK;
-}
-
-/* src/impl/factor/null_vectors.h: before a factorization: components of A, and which of them have a null vector */
-
-static void sli_null_kinds_fill(sl_factor *F, const sli_null_walk *w, const double *diagonal) {
-  sl_int k;
-  for (k = 0; k < F->S->n; k++) {
-    const sl_int last = F->null.last[k];
-    F->null.rounding[k] = F->null.rounding[last];
-    F->rule.signs[k] = diagonal[sli_null_walk_row(w, last)] < 0.0 ? -1 : 1;
-    if (!(F->null.rounding[k] <= DBL_MAX)) {
-      F->rule.kinds[k] = SLI_PIVOT_UNKNOWN;
-    } else if (F->null.vectors > 1 ? F->null.chain[k] == SLI_NULL_IS_ANCHOR : k == last) {
-      F->rule.kinds[k] = SLI_PIVOT_NULL;
-    } else if (F->rule.kinds[k] != SLI_PIVOT_WEAK) {
-      F->rule.kinds[k] = SLI_PIVOT_KEPT;
-    }
-  }
-}
-
-static void sli_null_vectors_load(sl_factor *F) {
-  const sl_symbolic *S = F->S;
-  sl_int k, first = 0, only = -1, count = 0;
-  for (k = 0; k < S->n; k++) {
-    const sl_int last = F->null.last[k];
-    if (last != k && last != only && F->rule.kinds[last] == SLI_PIVOT_NULL) {
-      only = last;
-      count++;
-    }
-    if (S->parent[k] == -1) {
-      for (; first <= k; first++) {
-        F->null.g[first] =
-          count == 1 && F->null.last[first] == only ? F->null.z[first] : 0.0;
-      }
-      count = 0;
-      only = -1;
-    }
-  }
-}
-
-SLI_INLINE int sli_signs_agree(double a, double b) {
-  return a != 0.0 && b != 0.0 && !(a < 0.0 && b > 0.0) && !(a > 0.0 && b < 0.0);
-}
+/* src/impl/factor/pivot_suspects.h: pivots that the tolerance may have missed, where null pivots are refused */
 
 static double sli_null_rounding(sl_int n, double epsilon) {
   const double rounding = 16.0 * (64.0 + n / 8) * epsilon;
   return rounding < SLI_NULL_MOST ? rounding : SLI_NULL_MOST;
-}
-
-SLI_COLD static void sli_null_finite_check(const sl_factor *F, const sli_source *from,
-    sli_failure *failure) {
-  const sl_symbolic *S = F->S;
-  sl_off m;
-  sl_int s;
-  for (s = 0; s < S->n_supers; s++) {
-    for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
-      double a;
-      if (from->A != NULL) {
-        a = from->A->x[S->scatter_from[m]];
-      } else {
-        sli_source_sum(from, m, 1, &a);
-      }
-      if (!sli_is_finite(a)) {
-        (void)sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
-        return;
-      }
-    }
-  }
-}
-
-static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
-    sli_failure *failure) {
-  const sl_symbolic *S = F->S;
-  const int is_one = F->null.vectors == 1,
-        by_columns = from->A != NULL && !F->null.has_duplicates;
-  const double rounding = sli_null_rounding(S->n, F->rule.epsilon),
-         *z = is_one ? F->null.z : NULL;
-  double *diagonal =
-    is_one ? F->null.g : F->null.products + ((size_t)F->null.vectors + 1) * (size_t)S->n;
-  const sli_null_walk w = sli_null_product(S, from, by_columns, F->null.rows, z, diagonal);
-  sl_int i, refused = S->n;
-  F->stats.factor.regular = 0;
-  sli_null_components(&w, S, z, F->null.last, F->null.rounding);
-  if (!is_one && sli_null_bases(F, from, by_columns, failure) != SL_OK) {
-    SLI_ZERO(F->D, S->n);
-    return failure->status;
-  }
-  for (i = 0; i < S->n; i++) {
-    const sl_int k = sli_null_walk_pivot(&w, i), last = F->null.last[k];
-    const double of_last = diagonal[sli_null_walk_row(&w, last)];
-    const double here = rounding * fabs(diagonal[i]);
-    if (last != k && !sli_signs_agree(diagonal[i], of_last)) {
-      refused = sli_min(refused, of_last == 0.0 ? last : k);
-    }
-    F->null.rounding[last] = here > F->null.rounding[last] ? here : F->null.rounding[last];
-  }
-  if (refused < S->n) {
-    SLI_ZERO(F->D, S->n);
-    return sli_fail(failure, SL_ERR_PIVOT, S->super_of[refused], refused, -1,
-        diagonal[sli_null_walk_row(&w, refused)]);
-  }
-  F->rule.rounding = F->null.rounding;
-  sli_null_kinds_fill(F, &w, diagonal);
-  if (is_one) {
-    sli_null_vectors_load(F);
-  }
-  return SL_OK;
 }
 
 static int sli_null_is_suspected(sl_factor *F) {
@@ -14568,7 +14057,8 @@ SLI_COLD static sl_int sli_null_suspects_find(sl_factor *F, const sli_source *fr
     (void)sli_judge_not(F, S->n - 1, failure);
     return 0;
   }
-  w = sli_null_product(S, from, 0, rows, NULL, NULL);
+  w = sli_null_walk_begin(S, 0, rows, NULL, NULL);
+  sli_null_add_map(&w, S, from, NULL);
   sli_null_components(&w, S, NULL, last, most);
   for (k = 0; k < S->n; k++) {
     const double size = fabs(F->D[k]) > rows[k].size ? fabs(F->D[k]) : rows[k].size;
@@ -15125,339 +14615,6 @@ static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_fail
   return failure->status;
 }
 
-/* src/impl/factor/null_center.h: constants for centered solves where components have several null vectors */
-
-SLI_HOT static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root,
-    sli_failure *failure) {
-  const size_t n = (size_t)F->S->n;
-  sl_int m = sli_lower_bound(F->null.pivots, F->null.count, first), count = 0, k = root, i, j;
-  const double rounding = 16.0 * F->S->n * DBL_EPSILON;
-  double sign = 1.0;
-  for (; m < F->null.count && F->null.pivots[m] <= root; m++) {
-    k = F->null.pivots[m];
-    if (sli_null_column(F, k) != -1) {
-      F->divisors[k] = 1.0;
-      count++;
-    } else if (F->rule.kinds[k] != SLI_PIVOT_NULL && !sli_null_is_row(F, k)) {
-      return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, 0.0);
-    }
-  }
-  for (j = 0, m = k; j < count; j++) {
-    double *u = F->null.center + (size_t)j * n, *v = u + (size_t)F->null.vectors * n;
-    double size = 0.0, square = 0.0, left = 0.0;
-    for (k = first; k <= root; k++) {
-      size += fabs(F->null.mass[k]) * (u[k] * u[k] + rounding);
-    }
-    for (i = 0; i < 2 * j; i++) {
-      const double *q = F->null.center + (size_t)(i % j) * n, *p = q + (v - u);
-      double dot = 0.0;
-      for (k = first; k <= root; k++) {
-        dot += p[k] * u[k];
-      }
-      for (k = first; k <= root; k++) {
-        u[k] -= dot * q[k];
-      }
-    }
-    for (k = first; k <= root; k++) {
-      square += F->null.mass[k] * u[k] * u[k];
-      left += fabs(F->null.mass[k]) * u[k] * u[k];
-    }
-    sign = j == 0 && square < 0.0 ? -1.0 : sign;
-    if (!(sign * square > fmax(rounding * size + 1e-290, 1e-4 * left))) {
-      return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[m], m, -1, square);
-    }
-    for (k = first; k <= root; k++) {
-      u[k] /= sqrt(sign * square);
-      v[k] = sign * F->null.mass[k] * u[k];
-    }
-  }
-  return SL_OK;
-}
-
-SLI_HOT static void sli_center_multiply(sl_factor *F) {
-  const sl_symbolic *S = F->S;
-  sl_int s, c, r, j;
-  for (s = 0; s < S->n_supers; s++) {
-    const sli_step *step = &S->steps[s];
-    const sl_off below = S->rows_begin[s] - step->width;
-    for (c = 0; c < F->null.vectors; c++) {
-      double *u = F->null.center + (size_t)c * (size_t)S->n;
-      for (r = 1; r < step->width + step->below; r++) {
-        const double x = u[r < step->width ? step->column + r : S->rows[below + r]];
-        for (j = 0; j < sli_min(r, step->width) && x != 0.0; j++) {
-          u[step->column + j] +=
-            x * sli_entry(F, step->panel + sli_panel_at(step->width, r, j));
-        }
-      }
-    }
-  }
-}
-
-SLI_HOT static sl_status sli_center_finish(sl_factor *F, sl_int first, sl_int root,
-    sli_failure *failure) {
-  const size_t n = (size_t)F->S->n, count = (size_t)F->null.vectors;
-  double q[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX] = {0.0}, size = 0.0;
-  size_t i, j;
-  sl_int k;
-  for (k = first; k <= root; k++) {
-    double *v = F->null.center + count * n + k;
-    for (i = 0; i < count; i++) {
-      v[i * n] = sli_is_skipped(F, k) ? 0.0 : v[i * n] / F->D[k];
-      for (j = 0; j <= i; j++) {
-        q[i * count + j] += v[i * n] * F->D[k] * v[j * n];
-        q[j * count + i] = q[i * count + j];
-      }
-    }
-  }
-  for (k = first; k <= root; k++) {
-    double *u = F->null.center + k, *v = u + count * n;
-    for (i = 0; i < count * count; i++) {
-      v[i % count * n] -= u[i / count * n] * q[i] / 2.0;
-      size += fabs(q[i]);
-    }
-  }
-  return sli_is_finite(size)
-         ? SL_OK
-         : sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[root], root, -1, size);
-}
-
-static sl_status sli_center_several(sl_factor *F, sli_failure *failure) {
-  const sl_symbolic *S = F->S;
-  const sli_reach all = sli_reach_all(S);
-  const size_t n = (size_t)S->n, count = (size_t)F->null.vectors;
-  sl_status status = SL_OK;
-  sl_int k, first;
-  size_t j;
-  int pass;
-  memcpy(F->divisors, F->D, n * sizeof(double));
-  memcpy(F->null.center, F->null.g, n * count * sizeof(double));
-  memset(F->null.center + n * count, 0, n * count * sizeof(double));
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    for (j = count; j < 2 * count && pass == 1; j++) {
-      sli_forward_sweep(F, SLI_NRHS_1, &all, F->null.center + n * j, F->null.sweep);
-    }
-    if (pass == 1) {
-      sli_center_multiply(F);
-    }
-    for (k = first = 0; k < S->n && status == SL_OK; k++) {
-      if (S->parent[k] == -1) {
-        status = pass == 0 ? sli_center_weigh(F, first, k, failure)
-                   : sli_center_finish(F, first, k, failure);
-        first = k + 1;
-      }
-    }
-  }
-  return status;
-}
-
-/* src/impl/factor/nullspace.h: after a factorization: the null pivots, and constants for centered solves */
-
-static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats) {
-  const sl_symbolic *S = F->S;
-  sl_int k, first = 0, any = 0;
-  for (k = 0; k < S->n; k++) {
-    const double m = mass[S->perm[k]];
-    if (!sli_is_finite(m)) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[k], -1, m,
-          "options.mass is not finite");
-    }
-    F->null.mass[k] = m;
-    any |= m != 0.0;
-    if (S->parent[k] == -1) {
-      for (; first <= k; first++) {
-        F->null.mass[first] = any ? F->null.mass[first] : 1.0;
-      }
-      any = 0;
-    }
-  }
-  return SL_OK;
-}
-
-SLI_COLD static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
-  const sl_symbolic *S = F->S;
-  double *used = F->divisors;
-  sl_int k, m = 0;
-  F->null.n_anchors = 0;
-  SLI_ZERO(used, S->n);
-  for (k = 0; k < S->n; k++) {
-    if (F->null.last[k] != k || (S->parent[k] == -1 && (k == 0 || S->parent[k - 1] == -1))) {
-      used[k] = used[F->null.last[k]] = 1.0;
-    }
-  }
-  for (k = 0; k < S->n && m < F->null.count; k++) {
-    sl_int anchor = -1;
-    if (S->parent[k] != -1) {
-      continue;
-    }
-    for (; m < F->null.count && F->null.pivots[m] <= k; m++) {
-      const sl_int null = F->null.pivots[m];
-      if (used[null] != 0.0 && anchor != -1) {
-        return sli_fail(failure, SL_ERR_PIVOT, S->super_of[null], null, -1, 0.0);
-      }
-      anchor = used[null] != 0.0 ? null : anchor;
-    }
-    if (anchor != -1) {
-      F->null.anchors[F->null.n_anchors++] = anchor;
-    }
-  }
-  return SL_OK;
-}
-
-static void sli_anchor_weights(const sl_factor *F, double *weights) {
-  sl_int m, k = 0, first;
-  SLI_ZERO(weights, F->S->n);
-  for (m = 0; m < F->null.n_anchors; m++) {
-    const sl_int last = F->null.last[F->null.anchors[m]];
-    int any = 0;
-    for (first = k; k <= last; k++) {
-      weights[k] = F->null.last[k] == last ? F->null.mass[k] : 0.0;
-      any |= weights[k] != 0.0;
-    }
-    for (; first <= last && !any; first++) {
-      weights[first] = F->null.last[first] == last ? 1.0 : 0.0;
-    }
-  }
-}
-
-static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double total, sl_int m,
-    sli_failure *failure) {
-  const sl_int anchor = m < F->null.n_anchors ? F->null.anchors[m] : F->S->n;
-  double *v = F->null.center, a, sum = 0.0, z_m = 0.0, size = 0.0;
-  sl_int k;
-  if (anchor > root) {
-    memset(v + first, 0, ((size_t)(root - first) + 1) * sizeof(double));
-    return SL_OK;
-  }
-  a = v[anchor];
-  if (!sli_is_finite(a) || !(fabs(a) > F->S->n * DBL_EPSILON * total)) {
-    return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[anchor], anchor, -1, a);
-  }
-  F->null.ratios[m] = 1.0;
-  if (F->null.g[anchor] != 0.0) {
-    for (k = first; k <= root; k++) {
-      const double weight = F->divisors[k];
-      const double term = weight != 0.0 ? F->null.z[k] / F->null.z[anchor] * weight : 0.0;
-      z_m += term;
-      size += fabs(term);
-    }
-    if (!(fabs(z_m) > F->S->n * DBL_EPSILON * size)) {
-      return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[anchor], anchor, -1, z_m);
-    }
-    F->null.ratios[m] = a / z_m;
-  }
-  for (k = first; k <= root; k++) {
-    const double w = v[k] / a;
-    v[k] = sli_is_skipped(F, k) ? 0.0 : w / F->D[k];
-    sum += w * v[k];
-  }
-  F->null.squares[m] = sum;
-  if (!sli_is_finite(sum + F->null.ratios[m])) {
-    return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[anchor], anchor, -1, sum);
-  }
-  return SL_OK;
-}
-
-static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
-  const sl_symbolic *S = F->S;
-  const sli_reach all = sli_reach_all(S);
-  double total = 0.0;
-  sl_status status;
-  sl_int k, first = 0, m = 0;
-  if (F->null.vectors > 1) {
-    return sli_center_several(F, failure);
-  }
-  status = sli_anchors_find(F, failure);
-  sli_anchor_weights(F, F->divisors);
-  SLI_COPY(F->null.center, F->divisors, S->n);
-  sli_forward_sweep(F, SLI_NRHS_1, &all, F->null.center, F->null.sweep);
-  for (k = 0; k < S->n && status == SL_OK; k++) {
-    total += fabs(F->divisors[k]);
-    if (S->parent[k] == -1) {
-      status = sli_center_tree(F, first, k, total, m, failure);
-      m += m < F->null.n_anchors && F->null.anchors[m] <= k;
-      total = 0.0;
-      first = k + 1;
-    }
-  }
-  SLI_COPY(F->divisors, F->D, S->n);
-  for (m = 0; m < F->null.n_anchors; m++) {
-    F->divisors[F->null.anchors[m]] = 1.0;
-  }
-  return status;
-}
-
-static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
-    sli_failure *failure) {
-  const sl_symbolic *S = F->S;
-  const sli_reach all = sli_reach_all(S);
-  double *z = F->null.vectors == 1 ? F->null.g : F->null.products;
-  uint64_t random = 1;
-  sli_null_walk w;
-  sl_status status = SL_OK;
-  sl_int k, m, first = -1;
-  for (m = F->null.count - 1; m >= 0; m--) {
-    first = F->rule.kinds[F->null.pivots[m]] == SLI_PIVOT_UNKNOWN ? F->null.pivots[m] : first;
-  }
-  if (first == -1) {
-    return SL_OK;
-  }
-  SLI_ZERO(z, S->n);
-  for (m = 0; m < F->null.count; m++) {
-    k = F->null.pivots[m];
-    if (F->rule.kinds[k] == SLI_PIVOT_UNKNOWN) {
-      z[k] = SLI_NULL_PIVOT * sli_random(&random);
-    }
-  }
-  sli_backward_sweep(F, SLI_NRHS_1, &all, F->D, z, F->null.sweep);
-  w = sli_null_product(S, from, from->A != NULL && !F->null.has_duplicates, F->null.rows, z,
-      NULL);
-  for (k = 0; k < S->n && status == SL_OK; k++) {
-    if (!(fabs(w.rows[k].product) <= 1e-4 * w.rows[k].size)) {
-      status = sli_fail(failure, SL_ERR_PIVOT, S->super_of[first], first, -1, 0.0);
-    }
-  }
-  if (F->null.vectors == 1) {
-    sli_null_vectors_load(F);
-  }
-  return status;
-}
-
-static void sli_anchor_columns_clear(sl_factor *F) {
-  const sl_symbolic *S = F->S;
-  sl_int m, r;
-  for (m = 0; m < F->null.count && F->null.vectors > 1; m++) {
-    const sl_int k = F->null.pivots[m];
-    const sli_step *step = &S->steps[S->super_of[k]];
-    for (r = k - step->column + 1; r < step->width + step->below; r++) {
-      sli_entry_clear(F, step->panel + sli_panel_at(step->width, r, k - step->column));
-    }
-  }
-}
-
-static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failure *failure) {
-  sl_status status;
-  sl_int k, m, regular = 0;
-  F->null.count = 0;
-  for (k = 0; k < F->S->n; k++) {
-    regular += F->null.last[k] == k;
-    if (sli_is_skipped(F, k)) {
-      F->null.pivots[F->null.count++] = k;
-    }
-  }
-  for (m = 0; m < F->null.count;
-      m++) {
-    double *mark = &F->null.rounding[F->null.last[F->null.pivots[m]]];
-    regular -= *mark >= 0.0;
-    *mark = -1.0;
-  }
-  F->stats.factor.regular = regular;
-  F->null.is_centered = F->null.mass != NULL && F->null.count > 0;
-  F->null.checks = F->null.mass == NULL && F->null.count > 0 && F->null.consistency >= 0.0;
-  sli_anchor_columns_clear(F);
-  status = sli_null_pivots_verify(F, from, failure);
-  return status == SL_OK && F->null.is_centered ? sli_center_compute(F, failure) : status;
-}
-
 /* src/impl/factor/growth.h: after a factorization: its pivot growth, and the pivot that causes it */
 
 #define SLI_GROWTH_LIMIT (1.0 / DBL_EPSILON)
@@ -15555,7 +14712,7 @@ static int sli_growth_check(sl_factor *F, sli_failure *failure) {
   return suspects != 0;
 }
 
-/* src/impl/factor/null_judge.h: after a factorization: are its smallest pivots null, or right? */
+/* src/impl/factor/pivot_judge.h: after a factorization: are its smallest pivots null, or right? */
 
 #define SLI_JUDGE_RANDOM 6.0
 #define SLI_JUDGE_BIASED 0.1
@@ -15815,18 +14972,8 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
     F->rule.shifts = SLI_TAKE(b, double, n);
     F->rule.regularized = SLI_TAKE(b, sl_int, n);
   }
-  if (F->null.mode == SL_NULL_PIVOT_SKIP) {
-    F->null.pivots = SLI_TAKE(b, sl_int, n);
-    F->rule.kinds = SLI_TAKE(b, signed char, n);
-    F->null.z = SLI_TAKE(b, double, n *(uint64_t)F->null.vectors);
-    F->null.g = SLI_TAKE(b, double, n *(uint64_t)F->null.vectors);
-  }
-  if (has_mass) {
-    F->null.anchors = SLI_TAKE(b, sl_int, S->stats.symbolic.components);
-    F->null.squares = SLI_TAKE(b, double, S->stats.symbolic.components);
-    F->null.mass = SLI_TAKE(b, double, n);
-    F->null.center = SLI_TAKE(b, double, n *(uint64_t)sli_center_count(F));
-    F->null.ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
+  if (sli_skips_nulls(F)) {
+    F->null.calls->layout(F, b, has_mass);
   }
   F->values =
     sli_take(b, (uint64_t)(S->panel_begin[S->n_supers] >> F->type->half), F->type->value_bytes);
@@ -15852,17 +14999,8 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
   const sl_symbolic *S = F->S;
   const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
   const uint64_t workers = (uint64_t)F->schedule.workers;
-  if (F->null.mode == SL_NULL_PIVOT_SKIP) {
-    F->rule.signs = SLI_TAKE(b, signed char, n);
-    F->null.rows = SLI_TAKE(b, sli_null_row, n);
-    F->null.last = SLI_TAKE(b, sl_int, n);
-    F->null.rounding = SLI_TAKE(b, double, n);
-    F->null.sweep = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
-    if (F->null.vectors > 1) {
-      F->null.chain = SLI_TAKE(b, sl_int, n);
-      F->null.row_entries = SLI_TAKE(b, sl_int, n);
-      F->null.products = SLI_TAKE(b, double, n *((uint64_t)F->null.vectors + 2));
-    }
+  if (sli_skips_nulls(F)) {
+    F->null.calls->layout_scratch(F, b);
   }
   if (F->method == SL_METHOD_SUPERNODAL) {
     const uint64_t rows = SLI_TILE * (uint64_t)sli_tiles(S->tallest);
@@ -15930,7 +15068,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
     if (F->history.marks != NULL) {
       memset(F->history.marks, 0, (size_t)S->n_supers * sizeof(uint64_t));
     }
-    F->null.has_duplicates = F->null.mode == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(S);
+    F->null.has_duplicates = sli_skips_nulls(F) && sli_map_has_duplicates(S);
     if (has_fronts) {
       memcpy(p.first, plan.first, planned);
       p.workers = plan.workers;
@@ -15987,15 +15125,15 @@ SLI_INLINE double sli_limit_option(double limit) {
 static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
   const double null = opt == NULL ? 0.0 : opt->null_tolerance;
   const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
-  F->null.mode = opt == NULL ? SL_NULL_PIVOT_REFUSE : opt->null_pivots;
+  const sl_int vectors = opt == NULL ? 0 : (sl_int)opt->null_vector_count;
+  F->null.calls = sli_singular_of(opt != NULL && opt->null_pivots == SL_NULL_PIVOT_SKIP);
   F->rule.epsilon = F->type->epsilon;
   F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n, F->rule.epsilon) : null;
   F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
-  F->rule.replaces = F->null.mode == SL_NULL_PIVOT_SKIP || F->rule.regularization != 0.0;
-  F->null.vectors =
-    opt == NULL || opt->null_vector_count == 0 ? 1 : (sl_int)opt->null_vector_count;
+  F->rule.replaces = sli_skips_nulls(F) || F->rule.regularization != 0.0;
+  F->null.vectors = sli_skips_nulls(F) ? sli_max(vectors, 1) : 1;
   F->null.consistency = consistency == 0.0 ? 1e-6 : consistency;
-  F->null.is_centered = F->null.mode == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
+  F->null.is_centered = sli_skips_nulls(F) && opt->mass != NULL;
   F->limits.is_definite = opt != NULL && opt->definite != 0;
   F->limits.growth = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
       sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
@@ -16004,7 +15142,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
 
 static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_stats *stats) {
   const sl_symbolic *S = F->S;
-  sl_int i, j;
+  sl_int i;
   if (F->rule.regularization != 0.0 && opt->signs == NULL && S->is_pivoted) {
     memset(F->rule.signs, 0, (size_t)S->n);
   } else if (F->rule.regularization != 0.0 && opt->signs == NULL) {
@@ -16018,22 +15156,7 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
       F->rule.signs[S->iperm[i]] = (signed char)opt->signs[i];
     }
   }
-  if (F->null.mode == SL_NULL_PIVOT_SKIP) {
-    memset(F->rule.kinds, 0, (size_t)S->n);
-    for (j = 0; j < F->null.vectors; j++) {
-      const size_t column = (size_t)j * (size_t)S->n;
-      for (i = 0; i < S->n; i++) {
-        const double z =
-          opt->null_vector == NULL ? 1.0 : opt->null_vector[column + (size_t)i];
-        if (!sli_is_finite(z)) {
-          return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, z,
-              "options.null_vector is not finite");
-        }
-        F->null.z[column + (size_t)S->iperm[i]] = z;
-      }
-    }
-  }
-  return F->null.mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
+  return sli_skips_nulls(F) ? F->null.calls->fill(F, opt, stats) : SL_OK;
 }
 
 static int sli_updates_exceed(const sl_symbolic *S) {
@@ -16124,6 +15247,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     const sli_kernels *kernels, sl_stats *stats) {
   const double started = sli_factor_clock(S);
   const sl_allocator a = sli_allocator(opt);
+  const char *missing;
   sl_factor draft;
   sli_block b = {NULL, 0};
   sl_status status = SL_OK;
@@ -16140,10 +15264,14 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
   if (draft.kernels != NULL && draft.type->sweeps(draft.kernels) == NULL) {
     draft.type = draft.type->in_double;
   }
+  missing = sli_singular_missing(opt);
+  if (missing != NULL) { /* untested: null spaces are there */
+    return sli_refuse(SL_ERR_UNSUPPORTED, missing); /* untested: the same */
+  }
   sli_factor_rules(&draft, opt);
   draft.method = sli_method(S, draft.type, opt);
   status =
-    S->is_pivoted && draft.null.mode == SL_NULL_PIVOT_SKIP
+    S->is_pivoted && sli_skips_nulls(&draft)
       ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_NULL_PIVOT_SKIP with an analysis for 2x2 pivots")
     : draft.type->suits != NULL && !draft.type->suits(&draft)
       ? sli_refuse(SL_ERR_UNSUPPORTED,
@@ -16309,7 +15437,7 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
   if (f->bound < 0.0) {
     return "there was no memory to judge whether the pivot is null";
   }
-  if (F->null.mode == SL_NULL_PIVOT_SKIP) {
+  if (sli_skips_nulls(F)) {
     return f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
                 "SL_NULL_PIVOT_SKIP takes semidefinite matrices"
                 : "A is indefinite, or options.null_vector or options.mass does not "
@@ -16317,6 +15445,10 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
   }
   if (F->S->is_pivoted) {
     return "options.null_tolerance decides; a negative one accepts every pivot but 0";
+  }
+  if (sli_singular_of(1) == NULL) { /* untested: null spaces are there */
+    return "null pivot: if A is singular, options.null_pivots, which SL_NO_SINGULAR leaves "
+         "out; if it is regular, sl_symbolic_create_pivoted"; /* untested: the same */
   }
   return size > F->rule.epsilon * F->extents[f->super].magnitude
          ? "if A is singular: options.null_pivots; if the pivot may be right, a smaller or "
@@ -16383,31 +15515,65 @@ static void sli_factor_identify_numbers(sl_factor *F) {
   F->identity = sli_hash_words(F->identity, F->D, F->S->n);
 }
 
+typedef struct sli_verdict {
+  sl_factor *F;
+  const sli_source *from;
+  sli_failure *failure;
+  int has_pivots;
+} sli_verdict;
+
+SLI_NOINLINE static void sli_verdict_report(const sli_verdict *v) {
+  sli_factor_outcome(v->F, v->from->A, v->failure, v->has_pivots);
+}
+
+static void sli_judge_nulls(sli_verdict *v) {
+  if (sli_skips_nulls(v->F)) {
+    (void)v->F->null.calls->finish(v->F, v->from, v->failure);
+  }
+  v->has_pivots = v->failure->status == SL_OK;
+}
+
+static void sli_judge_growth(sli_verdict *v) {
+  sl_factor *F = v->F;
+  sli_failure *failure = v->failure;
+  F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
+  if ((!v->has_pivots || sli_growth_check(F, failure)) &&
+      sli_nulls_judge(F, v->has_pivots ? -1 : failure->super, failure) != SL_OK) {
+    v->has_pivots = v->has_pivots && failure->status == SL_ERR_INACCURATE;
+  }
+  sli_verdict_report(v);
+}
+
+static void sli_judge_signs(sli_verdict *v) {
+  if (v->failure->status == SL_OK && sli_signs_are_suspected(v->F) &&
+      sli_signs_judge(v->F, v->failure) != SL_OK) {
+    v->has_pivots = 0;
+    sli_verdict_report(v);
+  }
+}
+
+static void sli_judge_definite(sli_verdict *v) {
+  if (v->F->limits.is_definite && v->has_pivots && v->F->stats.factor.negative > 0 &&
+      v->failure->status != SL_ERR_PIVOT) { /* branches untested: without pivots */
+    sli_refuse_negative(v->F, v->failure);
+    sli_verdict_report(v);
+  }
+}
+
+static void (*const sli_judgements[])(sli_verdict *v) = {sli_judge_nulls, sli_judge_growth,
+                             sli_judge_signs, sli_judge_definite};
+
 static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failure *failure,
     double started, sl_stats *stats) {
+  sli_verdict v;
   double ended;
-  int has_pivots, suspects;
-  if (failure->status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
-    (void)sli_nulls_find(F, from, failure);
-  }
-  if (failure->status == SL_ERR_PIVOT && F->null.mode == SL_NULL_PIVOT_SKIP) {
-    sli_null_finite_check(F, from, failure);
-  }
-  F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
-  has_pivots = failure->status == SL_OK;
-  suspects = !has_pivots || sli_growth_check(F, failure);
-  if (suspects && sli_nulls_judge(F, has_pivots ? -1 : failure->super, failure) != SL_OK) {
-    has_pivots = has_pivots && failure->status == SL_ERR_INACCURATE;
-  }
-  sli_factor_outcome(F, from->A, failure, has_pivots);
-  if (failure->status == SL_OK && sli_signs_are_suspected(F) &&
-      sli_signs_judge(F, failure) != SL_OK) {
-    sli_factor_outcome(F, from->A, failure, 0);
-  }
-  if (F->limits.is_definite && has_pivots && F->stats.factor.negative > 0 &&
-      failure->status != SL_ERR_PIVOT) { /* branches untested: without pivots */
-    sli_refuse_negative(F, failure);
-    sli_factor_outcome(F, from->A, failure, 1);
+  size_t m;
+  v.F = F;
+  v.from = from;
+  v.failure = failure;
+  v.has_pivots = 0;
+  for (m = 0; m < sizeof sli_judgements / sizeof *sli_judgements; m++) {
+    sli_judgements[m](&v);
   }
   ended = sli_factor_clock(F->S);
   F->stats.factor.seconds = ended > 0.0 ? ended - started : 0.0;
@@ -16489,8 +15655,8 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
   if (F->type->accepts != NULL && failure.status == SL_OK) {
     F->type->accepts(F->S, from, &failure);
   }
-  if (failure.status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
-    (void)sli_null_vectors_check(F, from, &failure);
+  if (failure.status == SL_OK && sli_skips_nulls(F)) {
+    (void)F->null.calls->prepare(F, from, &failure);
   }
   if (failure.status == SL_OK && sli_factor_eliminate(F, from, &failure) == SL_OK &&
       sli_null_is_suspected(F) && sli_nulls_judge(F, -1, &failure) == SL_OK) {
@@ -16868,8 +16034,7 @@ SLI_INLINE sl_int sli_block_size(sl_int nrhs, sl_int most) {
 #define SLI_BLOCK_MOST 64
 #define SLI_BLOCK_SINGULAR 32
 SLI_INLINE sl_int sli_block_most(const sl_factor *F) {
-  return F->null.checks || F->null.is_centered || F->null.count > 0 ? SLI_BLOCK_SINGULAR
-                                    : SLI_BLOCK_MOST;
+  return F->null.count > 0 ? SLI_BLOCK_SINGULAR : SLI_BLOCK_MOST;
 }
 
 typedef struct sli_vectors {
@@ -17158,21 +16323,7 @@ static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rh
   sli_unpack_part(F, q, rhs, x, 0, q->nx);
 }
 
-/* src/impl/solve/singular.h: solves with null pivots: the consistency check, and centering */
-
-static void sli_chains_norm(double *chains, const double *row, ptrdiff_t count, ptrdiff_t next) {
-  ptrdiff_t f = 0;
-  sl_int q;
-  for (; f + SLI_TILE <= count; f += SLI_TILE, row += next) {
-    SLI_UNROLL
-    for (q = 0; q < SLI_TILE; q++) {
-      chains[q] += fabs(row[q]);
-    }
-  }
-  for (q = 0; f < count; q++, f++) {
-    chains[q] += fabs(row[q]);
-  }
-}
+/* src/impl/solve/packed.h: blocks of vectors over a reach: trees, and sums that are the same in every reach */
 
 SLI_ALWAYS_INLINE void sli_chains_dot(double *chains, const double *v, const double *row,
     ptrdiff_t next, sl_int columns, sl_int lanes) {
@@ -17193,7 +16344,7 @@ SLI_ALWAYS_INLINE void sli_chains_dot(double *chains, const double *v, const dou
   }
 }
 
-static void sli_chains_sum(const double *chains, sl_int lanes, double *sums) {
+SLI_NOINLINE static void sli_chains_sum(const double *chains, sl_int lanes, double *sums) {
   sl_int q;
   for (q = 0; q < lanes; q++) {
     sums[q] = chains[q];
@@ -17214,8 +16365,8 @@ static void sli_chains_sum(const double *chains, sl_int lanes, double *sums) {
     call(8); \
   }
 
-static void sli_chains_add(double *chains, const double *v, const double *row, ptrdiff_t next,
-    sl_int columns, sl_int lanes) {
+SLI_NOINLINE static void sli_chains_add(double *chains, const double *v, const double *row,
+    ptrdiff_t next, sl_int columns, sl_int lanes) {
 #define SLI_CALL(constant) sli_chains_dot(chains, v, row, next, columns, constant)
   SLI_FOR_LANES(lanes, SLI_CALL)
 #undef SLI_CALL
@@ -17239,36 +16390,6 @@ SLI_INLINE double *sli_packed_row(const sli_packed *b, sl_int row) {
   return b->v + (ptrdiff_t)row * b->lanes;
 }
 
-static void sli_chains_add_step(double *chains, const double *v, const sli_packed *b,
-    const sli_step *step, sl_int r) {
-  sli_chains_add(chains, v + step->column, sli_packed_row(b, step->base) + r,
-      sli_max(b->lanes, SLI_TILE), sli_step_columns(step),
-      sli_min(b->lanes, SLI_TILE));
-}
-
-static void sli_chains_sum_all(const double *chains, sl_int lanes, double *sums) {
-  sl_int r;
-  for (r = 0; r < lanes; r += SLI_TILE) {
-    sli_chains_sum(chains + r, sli_min(lanes, SLI_TILE), sums + r);
-  }
-}
-
-static void sli_norms(const sli_packed *b, double *norms) {
-  const sli_reach *R = b->R;
-  const sl_int lanes = b->lanes;
-  double chains[SLI_BLOCK_SINGULAR];
-  sl_int s, r;
-  SLI_ZERO(chains, sli_max(lanes, SLI_TILE));
-  for (s = 0; s < R->count; s++) {
-    for (r = 0; r < lanes; r += SLI_TILE) {
-      sli_chains_norm(chains + r, sli_packed_row(b, R->steps[s].base) + r,
-          (ptrdiff_t)sli_step_columns(&R->steps[s]) * sli_min(lanes, SLI_TILE),
-          sli_max(lanes, SLI_TILE));
-    }
-  }
-  sli_chains_sum_all(chains, lanes, norms);
-}
-
 typedef struct sli_tree_range {
   sl_int first, root;
 } sli_tree_range;
@@ -17288,191 +16409,10 @@ typedef struct sli_null_dot {
   double sums[SLI_BLOCK_SINGULAR];
 } sli_null_dot;
 
-static int sli_null_dot_next(const sl_factor *F, const sli_packed *b, sl_int first, sl_int root,
-    sli_null_dot *dot) {
-  const sl_int last = sli_tree_range_of(F->S, &b->R->steps[root]).root, lanes = b->lanes;
-  double chains[SLI_BLOCK_SINGULAR];
-  const double *z;
-  sl_int column = -1, r;
-  for (; dot->next < F->null.count && F->null.pivots[dot->next] <= last && column == -1;
-      dot->next++) {
-    dot->number = dot->next;
-    dot->null = F->null.pivots[dot->next];
-    column = sli_null_column(F, dot->null);
-  }
-  if (column == -1) {
-    return 0;
-  }
-  z = F->null.g + (size_t)column * (size_t)F->S->n;
-  SLI_ZERO(chains, sli_max(lanes, SLI_TILE));
-  for (; first <= root; first++) {
-    for (r = 0; r < lanes; r += SLI_TILE) {
-      sli_chains_add_step(chains + r, z, b, &b->R->steps[first], r);
-    }
-  }
-  sli_chains_sum_all(chains, lanes, dot->sums);
-  for (r = 0; r < lanes; r++) {
-    dot->sums[r] /= z[dot->null];
-  }
-  return 1;
-}
-
 SLI_INLINE sl_int sli_null_first(const sl_factor *F, const sli_reach *R, sl_int root) {
   return sli_lower_bound(F->null.pivots, F->null.count,
       sli_tree_range_of(F->S, &R->steps[root]).first);
 }
-
-static int sli_null_dots(const sl_factor *F, const sli_packed *b, const double *norms, double *Y,
-    size_t ldy, sl_int nrhs) {
-  const sli_reach *R = b->R;
-  sl_int first = 0, s, r;
-  for (s = 0; s < R->count; s++) {
-    sli_null_dot dot;
-    if (R->steps[s].up != -1) {
-      continue;
-    }
-    dot.next = sli_null_first(F, R, s);
-    while (sli_null_dot_next(F, b, first, s, &dot)) {
-      for (r = 0; r < nrhs; r++) {
-        if (Y != NULL) {
-          Y[(size_t)dot.number + (size_t)r * ldy] = dot.sums[r];
-        } else if (fabs(dot.sums[r]) > F->null.consistency * norms[r]) {
-          return 0;
-        }
-      }
-    }
-    first = s + 1;
-  }
-  return 1;
-}
-
-static int sli_is_consistent(const sl_factor *F, const sli_packed *y, const double *norms) {
-  const sli_reach *R = y->R;
-  const sl_int lanes = y->lanes;
-  sl_int s, m, r;
-  for (s = 0; s < R->count; s++) {
-    sli_tree_range tree;
-    if (R->steps[s].up != -1) {
-      continue;
-    }
-    tree = sli_tree_range_of(F->S, &R->steps[s]);
-    for (m = sli_lower_bound(F->null.pivots, F->null.count, tree.first);
-        m < F->null.count && F->null.pivots[m] <= tree.root; m++) {
-      const int is_judged =
-        F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
-      const sl_int at = is_judged ? -1 : sli_reach_index_of(R, F->null.pivots[m]);
-      for (r = 0; at != -1 && r < lanes; r++) {
-        if (fabs(sli_packed_row(y, at)[r]) > F->null.consistency * norms[r]) {
-          return 0;
-        }
-      }
-    }
-  }
-  return 1;
-}
-
-typedef struct sli_center_terms {
-  sl_int count;
-  double c[2 * SLI_NULL_VECTORS_MAX][SLI_TILE], t[SLI_TILE];
-} sli_center_terms;
-
-static void sli_center_tree_terms(const sl_factor *F, const sli_packed *y, sl_int lane,
-    sl_int first, sl_int root, sl_int m, sli_center_terms *terms) {
-  const sl_int lanes = sli_min(y->lanes, SLI_TILE), count = terms->count;
-  sl_int s, j, r, at;
-  for (j = 0; j < count; j++) {
-    double chains[SLI_TILE] = {0.0};
-    for (s = first; s <= root; s++) {
-      sli_chains_add_step(chains, F->null.center + (size_t)j * (size_t)F->S->n, y,
-          &y->R->steps[s], lane);
-    }
-    sli_chains_sum(chains, lanes, terms->c[(j + count / 2) % count]);
-  }
-  at = count == 1 ? sli_reach_index_of(y->R, F->null.anchors[m]) : -1;
-  for (r = 0; r < lanes && count == 1; r++) {
-    const double c = at != -1 ? sli_packed_row(y, at)[lane + r] * F->null.ratios[m] : 0.0;
-    terms->t[r] = c * F->null.squares[m] - terms->c[0][r];
-    terms->c[0][r] = c;
-  }
-}
-
-SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const double *D,
-    sl_int columns, sl_int width, const double *c,
-    sl_int lanes) {
-  sl_int k, r;
-  for (k = 0; k < columns; k++, row += width) {
-    const double w = v[k] * D[k];
-    SLI_UNROLL
-    for (r = 0; r < lanes; r++) {
-      row[r] -= c[r] * w;
-    }
-  }
-}
-
-static void sli_center_clear(const sl_factor *F, const sli_packed *x, sl_int lane, sl_int m,
-    sl_int root) {
-  for (; m < F->null.count && F->null.pivots[m] <= root; m++) {
-    const sl_int null = F->null.pivots[m], j = sli_reach_index_of(x->R, null);
-    if (j != -1 && F->rule.kinds[null] == SLI_PIVOT_NULL) {
-      SLI_ZERO(sli_packed_row(x, j) + lane, sli_min(x->lanes, SLI_TILE));
-    }
-  }
-}
-
-static void sli_center_step(const sl_factor *F, const sli_packed *x, sl_int lane,
-    const sli_step *step, const sli_center_terms *terms) {
-  double *row = sli_packed_row(x, step->base) + lane;
-  const sl_int columns = sli_step_columns(step), width = x->lanes;
-  sl_int j;
-  for (j = 0; j < terms->count; j++) {
-    const double *v = F->null.center + (size_t)j * (size_t)F->S->n + step->column;
-    const double *D = F->divisors + step->column;
-#define SLI_CALL(constant) sli_center_columns(row, v, D, columns, width, terms->c[j], constant)
-    SLI_FOR_LANES(width, SLI_CALL)
-#undef SLI_CALL
-  }
-}
-
-static void sli_center(const sl_factor *F, const sli_packed *y, const sli_packed *x,
-    const sl_int *uses) {
-  const int is_one = F->null.vectors == 1;
-  const sl_int *list = is_one ? F->null.anchors : F->null.pivots;
-  const sl_int listed = is_one ? F->null.n_anchors : F->null.count;
-  const sli_reach *to = x->R;
-  sli_center_terms terms;
-  sl_int first = 0, at = 0, root, m, j, k, lane;
-  terms.count = F->null.is_centered ? sli_center_count(F) : 0;
-  for (root = 0; root < y->R->count; root++) {
-    sli_tree_range tree;
-    if (y->R->steps[root].up != -1) {
-      continue;
-    }
-    tree = sli_tree_range_of(F->S, &y->R->steps[root]);
-    m = sli_lower_bound(list, listed, tree.first);
-    if (m < listed && list[m] <= tree.root &&
-        (uses == NULL || uses[sli_lower_bound(F->null.pivots, F->null.count, list[m])] == 0)) {
-      j = is_one ? sli_reach_index_of(to, list[m]) : -1;
-      for (lane = 0, k = at; lane < y->lanes; lane += SLI_TILE) {
-        sli_center_tree_terms(F, y, lane, first, root, m, &terms);
-        if (!is_one) {
-          sli_center_clear(F, x, lane, m, tree.root);
-        }
-        for (k = at; k < to->count && to->steps[k].column <= tree.root; k++) {
-          if (to->steps[k].column >= tree.first) {
-            sli_center_step(F, x, lane, &to->steps[k], &terms);
-          }
-        }
-        if (j != -1) {
-          SLI_COPY(sli_packed_row(x, j) + lane, terms.t, sli_min(x->lanes, SLI_TILE));
-        }
-      }
-      at = k;
-    }
-    first = root + 1;
-  }
-}
-
-#undef SLI_FOR_LANES
 
 /* src/impl/solve/backward.h: the backward sweep of one block: 2x2 pivots first, then the kernel */
 
@@ -17770,8 +16710,7 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
   sli_block b = {NULL, 0};
   t->workers = 1;
   t->share = 0;
-  if (most < 2 || q->b_index != S->iperm || q->x_index != S->iperm || F->null.checks ||
-      F->null.count > 0) {
+  if (most < 2 || q->b_index != S->iperm || q->x_index != S->iperm || F->null.count > 0) {
     return;
   }
   t->F = F;
@@ -17958,116 +16897,23 @@ static void sli_sweep_transfer(const sli_query *q, const double *y, double *x, s
   }
 }
 
-static sl_int sli_sweep_dot(const sl_factor *F, const sli_packed *b, sl_int first, sl_int root,
-    sli_null_dot *dot) {
-  dot->next = sli_null_first(F, b->R, root);
-  return sli_null_dot_next(F, b, first, root, dot) ? sli_reach_index_of(b->R, dot->null) : -1;
-}
-
 static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
     sl_int nrhs) {
-  const int kind = sli_lanes_kind(nrhs);
-  const sli_reach *R = &q->forward;
-  sli_packed b;
-  sli_reach tree;
-  sl_int first = 0, s;
-  if (F->null.count == 0 || F->null.vectors > 1) {
-    sli_forward_sweep(F, kind, R, v->y, v->scratch);
-    return;
+  if (F->null.count > 0) {
+    F->null.calls->forward(F, &q->forward, v, nrhs);
+  } else {
+    sli_forward_sweep(F, sli_lanes_kind(nrhs), &q->forward, v->y, v->scratch);
   }
-  b = sli_packed_of(R, v->y, (sl_int)1 << kind);
-  tree = *R;
-  for (s = 0; s < R->count; s++) {
-    sli_null_dot dot;
-    sl_int at;
-    if (R->steps[s].up != -1) {
-      continue;
-    }
-    at = sli_sweep_dot(F, &b, first, s, &dot);
-    tree.steps = R->steps;
-    tree.plain = R->plain;
-    sli_reach_cut(&tree, first, s + 1 - first);
-    sli_forward_sweep(F, kind, &tree, v->y, v->scratch);
-    if (at != -1) {
-      memcpy(v->y + ((ptrdiff_t)at << kind), dot.sums, sizeof(double) << kind);
-    }
-    for (; first <= s; first++) {
-      tree.rows += R->steps[first].below;
-    }
-  }
-}
-
-static int sli_sweep_pack(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-    const sli_rhs *rhs, double *norms) {
-  const sl_int lanes = (sl_int)1 << sli_lanes_kind(rhs->nrhs);
-  const sli_packed b = sli_packed_of(&q->forward, v->y, lanes);
-  sli_pack(F, q, v->y, rhs);
-  sli_norms(&b, norms);
-  return F->null.vectors == 1 || (q->ending != NULL && q->ending->rows > 0) ||
-       sli_null_dots(F, &b, norms, NULL, 0, lanes);
 }
 
 static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vectors *v,
     const sli_rhs *rhs) {
   if (F->null.checks) {
-    const sli_packed y =
-      sli_packed_of(&q->forward, v->y, (sl_int)1 << sli_lanes_kind(rhs->nrhs));
-    double norms[SLI_BLOCK_SINGULAR];
-    if (!sli_sweep_pack(F, q, v, rhs, norms)) {
-      return 0;
-    }
-    sli_sweep_forward(F, q, v, rhs->nrhs);
-    return sli_is_consistent(F, &y, norms);
+    return F->null.calls->load(F, q, v, rhs);
   }
   sli_pack(F, q, v->y, rhs);
   sli_sweep_forward(F, q, v, rhs->nrhs);
   return 1;
-}
-
-static int sli_check_sweeps(const sl_factor *F, const sli_reach *R) {
-  sl_int s, m;
-  for (s = 0; s < R->count; s++) {
-    sl_int known = 0;
-    sli_tree_range tree;
-    if (R->steps[s].up != -1) {
-      continue;
-    }
-    tree = sli_tree_range_of(F->S, &R->steps[s]);
-    m = tree.first == tree.root ? F->null.count : sli_null_first(F, R, s);
-    for (; m < F->null.count && F->null.pivots[m] <= tree.root; m++) {
-      const int is_known = sli_null_column(F, F->null.pivots[m]) != -1;
-      known += is_known;
-      if (!is_known || /* branches untested: one vector has one null pivot in a tree */
-          (known > 1 && F->null.vectors == 1)) { /* branches untested: the same */
-        return 1;
-      }
-    }
-  }
-  return 0;
-}
-
-static int sli_sweep_judge(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-    const sli_rhs *rhs) {
-  const sli_reach *R = &q->forward;
-  const sli_packed b = sli_packed_of(R, v->y, (sl_int)1 << sli_lanes_kind(rhs->nrhs));
-  double norms[SLI_BLOCK_SINGULAR];
-  sl_int first = 0, s;
-  if (!sli_sweep_pack(F, q, v, rhs, norms)) {
-    return 0;
-  }
-  for (s = 0; s < R->count && F->null.vectors == 1; s++) {
-    sli_null_dot dot;
-    sl_int at;
-    if (R->steps[s].up != -1) {
-      continue;
-    }
-    at = sli_sweep_dot(F, &b, first, s, &dot);
-    if (at != -1) {
-      SLI_COPY(v->y + (ptrdiff_t)at * b.lanes, dot.sums, b.lanes);
-    }
-    first = s + 1;
-  }
-  return sli_is_consistent(F, &b, norms);
 }
 
 static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
@@ -18080,10 +16926,10 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
   if (q->ending != NULL) {
     q->ending->calls->apply(F, q, kind, v);
   }
-  if (F->null.is_centered || F->null.vectors > 1) {
+  if (F->null.count > 0) {
     const sli_packed y = sli_packed_of(&q->forward, v->y, lanes);
     const sli_packed x = sli_packed_of(&q->backward, v->x, lanes);
-    sli_center(F, &y, &x, NULL);
+    F->null.calls->center(F, &y, &x, NULL);
   }
   sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }
@@ -18100,16 +16946,7 @@ SLI_COLD static sl_status sli_inconsistent(void) {
 
 static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
     void *memory) {
-  const int sweeps = sli_check_sweeps(F, &q->forward);
-  sl_int r;
-  for (r = 0; r < rhs->nrhs; r += sli_min(8, rhs->nrhs - r)) {
-    const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
-    const sli_vectors v = sli_vectors_of(q, block.nrhs, memory);
-    if (!(sweeps ? sli_sweep_load(F, q, &v, &block) : sli_sweep_judge(F, q, &v, &block))) {
-      return sli_inconsistent();
-    }
-  }
-  return SL_OK;
+  return F->null.checks && !F->null.calls->check(F, q, rhs, memory) ? sli_inconsistent() : SL_OK;
 }
 
 static int sli_sweep_is_finite(const sl_factor *F, const sli_query *q, const double *x,
@@ -18546,6 +17383,1315 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
   return sli_report(stats, status);
 }
 
+/* singular: null spaces of semidefinite matrices */
+#if !defined(SL_NO_SINGULAR)
+/* src/impl/singular/product.h: A z for a candidate z of the null space of A, by columns or along the map */
+
+static int sli_null_add_columns(sli_null_row *rows, const sl_csc *A, sl_triangle triangle,
+    double *diagonal) {
+  int has_zero = 0;
+  sl_int j, p;
+  for (j = 0; j < A->n_cols; j++) {
+    double product = 0.0, size = 0.0;
+    sl_int entries = 0;
+    for (p = A->p[j]; p < A->p[j + 1]; p++) {
+      const sl_int i = A->i[p];
+      const double a = A->x[p], term = a * rows[i].z;
+      if (!sli_is_read(triangle, i, j)) {
+        continue;
+      }
+      product += term;
+      size += fabs(term);
+      entries++;
+      if (i != j) {
+        sli_null_add(rows, i, j, a);
+        has_zero |= a == 0.0;
+      } else if (diagonal != NULL) {
+        diagonal[j] = a;
+      }
+    }
+    rows[j].product += product;
+    rows[j].size += size;
+    rows[j].entries += entries;
+  }
+  return has_zero;
+}
+
+static void sli_null_join_columns(const sli_null_walk *w, const sl_csc *A, sl_triangle triangle) {
+  sl_int j, p;
+  for (j = 0; j < A->n_cols; j++) {
+    for (p = A->p[j]; p < A->p[j + 1]; p++) {
+      if (A->x[p] != 0.0 && sli_is_read(triangle, A->i[p], j)) {
+        sli_null_join(w, A->i[p], j);
+      }
+    }
+  }
+}
+
+SLI_HOT static sli_null_walk sli_null_product(sl_factor *F, const sli_source *from, const double *z,
+    double *diagonal) {
+  const sl_symbolic *S = F->S;
+  const sl_triangle triangle = S->stats.symbolic.triangle;
+  const int by_columns = from->A != NULL && !F->null.has_duplicates;
+  sli_null_walk w = sli_null_walk_begin(S, by_columns, F->null.rows, z, diagonal);
+  if (!by_columns) {
+    sli_null_add_map(&w, S, from, diagonal);
+  } else if (sli_null_add_columns(w.rows, from->A, triangle, diagonal)) {
+    sli_null_join_columns(&w, from->A, triangle);
+  } else {
+    w.is_joined = 0;
+  }
+  return w;
+}
+
+/* src/impl/singular/dense.h: dense operations on as many numbers as there are null vectors */
+
+static double sli_null_project(const double *q, sl_int vectors, sl_int count, double *x) {
+  double sum = 0.0;
+  sl_int v, j;
+  int pass;
+  for (pass = 0; pass < 2; pass++) {
+    for (v = 0; v < vectors; v++) {
+      double dot = 0.0;
+      for (j = 0; j < count; j++) {
+        dot += q[v * count + j] * x[j];
+      }
+      for (j = 0; j < count; j++) {
+        x[j] -= dot * q[v * count + j];
+      }
+    }
+  }
+  for (j = 0; j < count; j++) {
+    sum += x[j] * x[j];
+  }
+  return sqrt(sum);
+}
+
+static void sli_null_complement(const double *q, sl_int vectors, sl_int count, double *c) {
+  double all[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX], x[SLI_NULL_VECTORS_MAX];
+  sl_int v, i, j;
+  SLI_COPY(all, q, (size_t)(vectors * count));
+  for (v = vectors; v < count; v++) {
+    double most = -1.0;
+    for (i = 0; i < count; i++) {
+      double norm;
+      memset(x, 0, sizeof x);
+      x[i] = 1.0;
+      norm = sli_null_project(all, v, count, x);
+      if (norm > most) {
+        most = norm;
+        for (j = 0; j < count; j++) {
+          all[v * count + j] = x[j] / norm;
+        }
+      }
+    }
+  }
+  SLI_COPY(c, all + vectors * count, (size_t)((count - vectors) * count));
+}
+
+static void sli_null_invert(double *a, sl_int m) {
+  double b[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX];
+  sl_int i, j, k;
+  memset(b, 0, sizeof b);
+  for (k = 0; k < m; k++) {
+    b[k * m + k] = 1.0;
+  }
+  for (k = 0; k < m; k++) {
+    sl_int at = k;
+    double inverse;
+    for (i = k + 1; i < m; i++) {
+      at = fabs(a[i * m + k]) > fabs(a[at * m + k]) ? i : at;
+    }
+    inverse = 1.0 / a[at * m + k];
+    for (j = 0; j < m; j++) {
+      const double x = a[at * m + j] * inverse, y = b[at * m + j] * inverse;
+      a[at * m + j] = a[k * m + j];
+      b[at * m + j] = b[k * m + j];
+      a[k * m + j] = x;
+      b[k * m + j] = y;
+    }
+    for (i = 0; i < m; i++) {
+      const double c = a[i * m + k];
+      for (j = 0; j < m && i != k; j++) {
+        a[i * m + j] -= c * a[k * m + j];
+        b[i * m + j] -= c * b[k * m + j];
+      }
+    }
+  }
+  SLI_COPY(a, b, (size_t)(m * m));
+}
+
+/* src/impl/singular/basis.h: several null vectors in each component: which of them hold, and their anchors */
+
+#define SLI_NULL_ANCHOR 0.3
+enum { SLI_NULL_IS_ANCHOR = -2 };
+
+typedef struct sli_null_part {
+  sl_factor *F;
+  double *z;
+  size_t n;
+  sl_int last, count;
+  sl_int rank;
+} sli_null_part;
+
+SLI_INLINE sli_null_part sli_null_part_of(sl_factor *F, sl_int last) {
+  sli_null_part p;
+  p.F = F;
+  p.z = F->null.g;
+  p.n = (size_t)F->S->n;
+  p.last = last;
+  p.count = p.rank = F->null.vectors;
+  return p;
+}
+
+static void sli_null_chain(sl_factor *F) {
+  sli_null_row *tails = F->null.rows;
+  sl_int k;
+  for (k = 0; k < F->S->n; k++) {
+    tails[k].up = -1;
+  }
+  for (k = 0; k < F->S->n; k++) {
+    F->null.chain[k] = tails[F->null.last[k]].up;
+    tails[F->null.last[k]].up = k;
+  }
+}
+
+SLI_INLINE int sli_null_is_row(const sl_factor *F, sl_int k) {
+  return F->null.last[k] == k && F->null.chain[k] == -1;
+}
+
+static double sli_null_largest(const sli_null_part *p, sl_int j) {
+  const double *z = p->z + (size_t)j * p->n;
+  double largest = 0.0;
+  sl_int k;
+  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
+    largest = fabs(z[k]) > largest ? fabs(z[k]) : largest;
+  }
+  return largest;
+}
+
+static void sli_null_scale(const sli_null_part *p, sl_int j) {
+  double *z = p->z + (size_t)j * p->n;
+  int exponent;
+  sl_int k;
+  (void)frexp(sli_null_largest(p, j), &exponent);
+  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
+    z[k] = ldexp(z[k], -exponent);
+  }
+}
+
+static double sli_null_violation(const sli_null_part *p, const double *q, sl_int vectors,
+    double *x) {
+  const double *product = p->F->null.products, *sizes = product + (size_t)p->count * p->n;
+  double most = 0.0, y[SLI_NULL_VECTORS_MAX];
+  sl_int k, j;
+  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
+    double norm, ratio;
+    if (!sli_is_finite(sizes[k])) {
+      return (double)INFINITY;
+    }
+    if (sizes[k] == 0.0) {
+      continue;
+    }
+    for (j = 0; j < p->count; j++) {
+      y[j] = product[(size_t)k + (size_t)j * p->n] / sizes[k];
+    }
+    norm = sli_null_project(q, vectors, p->count, y);
+    ratio = norm / (16.0 * DBL_EPSILON * p->F->null.row_entries[k]);
+    if (ratio > most) {
+      most = ratio;
+      for (j = 0; j < p->count; j++) {
+        x[j] = y[j] / norm;
+      }
+    }
+  }
+  return most;
+}
+
+static void sli_null_combine(const sli_null_part *p, const double *c, sl_int columns) {
+  double x[SLI_NULL_VECTORS_MAX];
+  sl_int k, v, j;
+  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
+    double *z = p->z + k;
+    for (j = 0; j < p->count; j++) {
+      x[j] = z[(size_t)j * p->n];
+    }
+    for (v = 0; v < p->count; v++) {
+      double sum = 0.0;
+      for (j = 0; j < p->count && v < columns; j++) {
+        sum += c[v * p->count + j] * x[j];
+      }
+      z[(size_t)v * p->n] = sum;
+    }
+  }
+}
+
+SLI_COLD static sl_int sli_null_restrict(const sli_null_part *p) {
+  double q[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX];
+  double c[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX];
+  sl_int vectors = 0;
+  memset(q, 0, sizeof q);
+  while (vectors < p->count) {
+    const double ratio = sli_null_violation(p, q, vectors, q + vectors * p->count);
+    if (!sli_is_finite(ratio)) {
+      vectors = p->count;
+    } else if (ratio > 1.0) {
+      vectors++;
+    } else {
+      break;
+    }
+  }
+  if (vectors > 0) {
+    sli_null_complement(q, vectors, p->count, c);
+    sli_null_combine(p, c, p->count - vectors);
+  }
+  return vectors;
+}
+
+static double sli_null_scalar(const sli_null_part *p, const double *a, const double *b) {
+  double sum = 0.0;
+  sl_int k;
+  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
+    sum += a[k] * b[k];
+  }
+  return sum;
+}
+
+static void sli_null_subtract(const sli_null_part *p, double *a, const double *b, double c) {
+  sl_int k;
+  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
+    a[k] -= c * b[k];
+  }
+}
+
+SLI_HOT static void sli_null_orthonormalize(sli_null_part *p) {
+  sl_int v, j, k;
+  for (v = 0; v < p->count; v++) {
+    double *z = p->z + (size_t)v * p->n, most = -1.0;
+    sl_int at = v;
+    int pass;
+    for (j = v; j < p->count; j++) {
+      const double *other = p->z + (size_t)j * p->n;
+      const double square = sli_null_scalar(p, other, other);
+      at = square > most ? j : at;
+      most = square > most ? square : most;
+    }
+    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
+      const double swapped = z[k];
+      z[k] = p->z[(size_t)k + (size_t)at * p->n];
+      p->z[(size_t)k + (size_t)at * p->n] = swapped;
+    }
+    for (pass = 0; pass < 2; pass++) {
+      for (j = 0; j < v && sqrt(most) > SLI_NULL_DEPENDENT; j++) {
+        const double *q = p->z + (size_t)j * p->n;
+        sli_null_subtract(p, z, q, sli_null_scalar(p, z, q));
+      }
+      most = sli_null_scalar(p, z, z);
+    }
+    if (sqrt(most) <= SLI_NULL_DEPENDENT) {
+      break;
+    }
+    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
+      z[k] /= sqrt(most);
+    }
+    for (j = v + 1; j < p->count; j++) {
+      double *other = p->z + (size_t)j * p->n;
+      sli_null_subtract(p, other, z, sli_null_scalar(p, other, z));
+    }
+  }
+  p->rank = v;
+  for (; v < p->count; v++) {
+    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
+      p->z[(size_t)k + (size_t)v * p->n] = 0.0;
+    }
+  }
+}
+
+static double sli_null_distance(const sli_null_part *p, sl_int k, const double *q, sl_int vectors,
+    double *x) {
+  sl_int j;
+  for (j = 0; j < p->rank; j++) {
+    x[j] = p->z[(size_t)k + (size_t)j * p->n];
+  }
+  return sli_null_project(q, vectors, p->rank, x);
+}
+
+SLI_COLD static void sli_null_anchors(const sli_null_part *p, sl_int *anchors) {
+  double q[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX];
+  sl_int v, j, k;
+  for (v = 0; v < p->rank; v++) {
+    double *x = q + v * p->rank, most = 0.0, distance = 0.0;
+    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
+      distance = sli_null_distance(p, k, q, v, x);
+      most = distance > most ? distance : most;
+    }
+    k = p->last;
+    while ((distance = sli_null_distance(p, k, q, v, x)) < SLI_NULL_ANCHOR * most) {
+      k = p->F->null.chain[k];
+    }
+    anchors[v] = k;
+    for (j = 0; j < p->rank; j++) {
+      x[j] /= distance;
+    }
+  }
+}
+
+static void sli_null_normalize(const sli_null_part *p, const sl_int *anchors, sl_int first) {
+  double a[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX], x[SLI_NULL_VECTORS_MAX];
+  sl_int i, j, k;
+  for (i = 0; i < p->rank; i++) {
+    for (j = 0; j < p->rank; j++) {
+      a[i * p->rank + j] = p->z[(size_t)anchors[i] + (size_t)j * p->n];
+    }
+  }
+  sli_null_invert(a, p->rank);
+  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
+    double *z = p->z + k;
+    for (j = 0; j < p->count; j++) {
+      x[j] = z[(size_t)j * p->n];
+      z[(size_t)j * p->n] = 0.0;
+    }
+    for (i = 0; i < p->rank; i++) {
+      for (j = 0; j < p->rank; j++) {
+        z[(size_t)(first + i) * p->n] += x[j] * a[j * p->rank + i];
+      }
+    }
+  }
+  for (i = 0; i < p->rank; i++) {
+    for (j = 0; j < p->rank; j++) {
+      p->z[(size_t)anchors[i] + (size_t)(first + j) * p->n] = i == j ? 1.0 : 0.0;
+    }
+  }
+}
+
+static void sli_null_products(sl_factor *F, const sli_source *from) {
+  const size_t n = (size_t)F->S->n;
+  double *product = F->null.products, *sizes = product + (size_t)F->null.vectors * n;
+  sl_int j, k;
+  memset(sizes, 0, n * sizeof(double));
+  for (j = 0; j < F->null.vectors; j++) {
+    const sli_null_walk w = sli_null_product(F, from, F->null.g + (size_t)j * n, NULL);
+    for (k = 0; k < F->S->n; k++) {
+      const sli_null_row *row = &F->null.rows[sli_null_walk_row(&w, k)];
+      product[(size_t)k + (size_t)j * n] = row->product;
+      sizes[k] += row->size;
+      F->null.row_entries[k] = row->entries;
+    }
+  }
+}
+
+static void sli_null_bases_test(sl_factor *F, const sli_source *from) {
+  sl_int k;
+  for (k = 0; k < F->S->n; k++) {
+    sli_null_part p = sli_null_part_of(F, k);
+    for (; F->null.last[k] == k && p.rank > 0; p.rank--) {
+      sli_null_scale(&p, p.rank - 1);
+    }
+  }
+  sli_null_products(F, from);
+  for (k = 0; k < F->S->n; k++) {
+    if (F->null.last[k] == k) {
+      const sli_null_part p = sli_null_part_of(F, k);
+      F->null.rounding[k] = sli_null_restrict(&p) < p.count ? 0.0 : (double)INFINITY;
+    }
+  }
+}
+
+static sl_status sli_null_bases(sl_factor *F, const sli_source *from, sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  sl_int anchors[SLI_NULL_VECTORS_MAX], k, j, rank, used = 0;
+  SLI_COPY(F->null.g, F->null.z, (size_t)S->n * (size_t)F->null.vectors);
+  sli_null_chain(F);
+  sli_null_bases_test(F, from);
+  for (k = 0; k < S->n; k++) {
+    if (F->null.last[k] == k) {
+      sli_null_part p = sli_null_part_of(F, k);
+      const int is_single = sli_null_is_row(F, k);
+      if (F->null.rounding[k] == 0.0) {
+        sli_null_orthonormalize(&p);
+      } else {
+        p.rank = 0;
+      }
+      F->null.rounding[k] = p.rank == 0 ? (double)INFINITY : 0.0;
+      if (!is_single && used + p.rank > p.count) {
+        return sli_fail(failure, SL_ERR_UNSUPPORTED, S->super_of[k], k, -1, 0.0);
+      }
+      sli_null_anchors(&p, anchors);
+      rank = p.rank;
+      p.rank = is_single ? 0 : rank;
+      sli_null_normalize(&p, anchors, used);
+      used += p.rank;
+      for (j = 0; j < rank; j++) {
+        F->null.chain[anchors[j]] = SLI_NULL_IS_ANCHOR;
+      }
+    }
+    used = S->parent[k] == -1 ? 0 : used;
+  }
+  return SL_OK;
+}
+
+/* src/impl/singular/vectors.h: before a factorization: components of A, and which of them have a null vector */
+
+static void sli_null_kinds_fill(sl_factor *F, const sli_null_walk *w, const double *diagonal) {
+  sl_int k;
+  for (k = 0; k < F->S->n; k++) {
+    const sl_int last = F->null.last[k];
+    F->null.rounding[k] = F->null.rounding[last];
+    F->rule.signs[k] = diagonal[sli_null_walk_row(w, last)] < 0.0 ? -1 : 1;
+    if (!(F->null.rounding[k] <= DBL_MAX)) {
+      F->rule.kinds[k] = SLI_PIVOT_UNKNOWN;
+    } else if (F->null.vectors > 1 ? F->null.chain[k] == SLI_NULL_IS_ANCHOR : k == last) {
+      F->rule.kinds[k] = SLI_PIVOT_NULL;
+    } else if (F->rule.kinds[k] != SLI_PIVOT_WEAK) {
+      F->rule.kinds[k] = SLI_PIVOT_KEPT;
+    }
+  }
+}
+
+static void sli_null_vectors_load(sl_factor *F) {
+  const sl_symbolic *S = F->S;
+  sl_int k, first = 0, only = -1, count = 0;
+  for (k = 0; k < S->n; k++) {
+    const sl_int last = F->null.last[k];
+    if (last != k && last != only && F->rule.kinds[last] == SLI_PIVOT_NULL) {
+      only = last;
+      count++;
+    }
+    if (S->parent[k] == -1) {
+      for (; first <= k; first++) {
+        F->null.g[first] =
+          count == 1 && F->null.last[first] == only ? F->null.z[first] : 0.0;
+      }
+      count = 0;
+      only = -1;
+    }
+  }
+}
+
+SLI_INLINE int sli_signs_agree(double a, double b) {
+  return a != 0.0 && b != 0.0 && !(a < 0.0 && b > 0.0) && !(a > 0.0 && b < 0.0);
+}
+
+static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
+    sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  const int is_one = F->null.vectors == 1;
+  const double rounding = sli_null_rounding(S->n, F->rule.epsilon),
+         *z = is_one ? F->null.z : NULL;
+  double *diagonal =
+    is_one ? F->null.g : F->null.products + ((size_t)F->null.vectors + 1) * (size_t)S->n;
+  const sli_null_walk w = sli_null_product(F, from, z, diagonal);
+  sl_int i, refused = S->n;
+  F->stats.factor.regular = 0;
+  sli_null_components(&w, S, z, F->null.last, F->null.rounding);
+  if (!is_one && sli_null_bases(F, from, failure) != SL_OK) {
+    SLI_ZERO(F->D, S->n);
+    return failure->status;
+  }
+  for (i = 0; i < S->n; i++) {
+    const sl_int k = sli_null_walk_pivot(&w, i), last = F->null.last[k];
+    const double of_last = diagonal[sli_null_walk_row(&w, last)];
+    const double here = rounding * fabs(diagonal[i]);
+    if (last != k && !sli_signs_agree(diagonal[i], of_last)) {
+      refused = sli_min(refused, of_last == 0.0 ? last : k);
+    }
+    F->null.rounding[last] = here > F->null.rounding[last] ? here : F->null.rounding[last];
+  }
+  if (refused < S->n) {
+    SLI_ZERO(F->D, S->n);
+    return sli_fail(failure, SL_ERR_PIVOT, S->super_of[refused], refused, -1,
+        diagonal[sli_null_walk_row(&w, refused)]);
+  }
+  F->rule.rounding = F->null.rounding;
+  sli_null_kinds_fill(F, &w, diagonal);
+  if (is_one) {
+    sli_null_vectors_load(F);
+  }
+  return SL_OK;
+}
+
+/* src/impl/singular/center_several.h: constants for centered solves where components have several null vectors */
+
+SLI_HOT static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root,
+    sli_failure *failure) {
+  const size_t n = (size_t)F->S->n;
+  sl_int m = sli_lower_bound(F->null.pivots, F->null.count, first), count = 0, k = root, i, j;
+  const double rounding = 16.0 * F->S->n * DBL_EPSILON;
+  double sign = 1.0;
+  for (; m < F->null.count && F->null.pivots[m] <= root; m++) {
+    k = F->null.pivots[m];
+    if (sli_null_column(F, k) != -1) {
+      F->divisors[k] = 1.0;
+      count++;
+    } else if (F->rule.kinds[k] != SLI_PIVOT_NULL && !sli_null_is_row(F, k)) {
+      return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, 0.0);
+    }
+  }
+  for (j = 0, m = k; j < count; j++) {
+    double *u = F->null.center + (size_t)j * n, *v = u + (size_t)F->null.vectors * n;
+    double size = 0.0, square = 0.0, left = 0.0;
+    for (k = first; k <= root; k++) {
+      size += fabs(F->null.mass[k]) * (u[k] * u[k] + rounding);
+    }
+    for (i = 0; i < 2 * j; i++) {
+      const double *q = F->null.center + (size_t)(i % j) * n, *p = q + (v - u);
+      double dot = 0.0;
+      for (k = first; k <= root; k++) {
+        dot += p[k] * u[k];
+      }
+      for (k = first; k <= root; k++) {
+        u[k] -= dot * q[k];
+      }
+    }
+    for (k = first; k <= root; k++) {
+      square += F->null.mass[k] * u[k] * u[k];
+      left += fabs(F->null.mass[k]) * u[k] * u[k];
+    }
+    sign = j == 0 && square < 0.0 ? -1.0 : sign;
+    if (!(sign * square > fmax(rounding * size + 1e-290, 1e-4 * left))) {
+      return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[m], m, -1, square);
+    }
+    for (k = first; k <= root; k++) {
+      u[k] /= sqrt(sign * square);
+      v[k] = sign * F->null.mass[k] * u[k];
+    }
+  }
+  return SL_OK;
+}
+
+SLI_HOT static void sli_center_multiply(sl_factor *F) {
+  const sl_symbolic *S = F->S;
+  sl_int s, c, r, j;
+  for (s = 0; s < S->n_supers; s++) {
+    const sli_step *step = &S->steps[s];
+    const sl_off below = S->rows_begin[s] - step->width;
+    for (c = 0; c < F->null.vectors; c++) {
+      double *u = F->null.center + (size_t)c * (size_t)S->n;
+      for (r = 1; r < step->width + step->below; r++) {
+        const double x = u[r < step->width ? step->column + r : S->rows[below + r]];
+        for (j = 0; j < sli_min(r, step->width) && x != 0.0; j++) {
+          u[step->column + j] +=
+            x * sli_entry(F, step->panel + sli_panel_at(step->width, r, j));
+        }
+      }
+    }
+  }
+}
+
+SLI_HOT static sl_status sli_center_finish(sl_factor *F, sl_int first, sl_int root,
+    sli_failure *failure) {
+  const size_t n = (size_t)F->S->n, count = (size_t)F->null.vectors;
+  double q[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX] = {0.0}, size = 0.0;
+  size_t i, j;
+  sl_int k;
+  for (k = first; k <= root; k++) {
+    double *v = F->null.center + count * n + k;
+    for (i = 0; i < count; i++) {
+      v[i * n] = sli_is_skipped(F, k) ? 0.0 : v[i * n] / F->D[k];
+      for (j = 0; j <= i; j++) {
+        q[i * count + j] += v[i * n] * F->D[k] * v[j * n];
+        q[j * count + i] = q[i * count + j];
+      }
+    }
+  }
+  for (k = first; k <= root; k++) {
+    double *u = F->null.center + k, *v = u + count * n;
+    for (i = 0; i < count * count; i++) {
+      v[i % count * n] -= u[i / count * n] * q[i] / 2.0;
+      size += fabs(q[i]);
+    }
+  }
+  return sli_is_finite(size)
+         ? SL_OK
+         : sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[root], root, -1, size);
+}
+
+static sl_status sli_center_several(sl_factor *F, sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  const sli_reach all = sli_reach_all(S);
+  const size_t n = (size_t)S->n, count = (size_t)F->null.vectors;
+  sl_status status = SL_OK;
+  sl_int k, first;
+  size_t j;
+  int pass;
+  memcpy(F->divisors, F->D, n * sizeof(double));
+  memcpy(F->null.center, F->null.g, n * count * sizeof(double));
+  memset(F->null.center + n * count, 0, n * count * sizeof(double));
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    for (j = count; j < 2 * count && pass == 1; j++) {
+      sli_forward_sweep(F, SLI_NRHS_1, &all, F->null.center + n * j, F->null.sweep);
+    }
+    if (pass == 1) {
+      sli_center_multiply(F);
+    }
+    for (k = first = 0; k < S->n && status == SL_OK; k++) {
+      if (S->parent[k] == -1) {
+        status = pass == 0 ? sli_center_weigh(F, first, k, failure)
+                   : sli_center_finish(F, first, k, failure);
+        first = k + 1;
+      }
+    }
+  }
+  return status;
+}
+
+/* src/impl/singular/nullspace.h: after a factorization: the null pivots, and constants for centered solves */
+
+SLI_COLD static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  double *used = F->divisors;
+  sl_int k, m = 0;
+  F->null.n_anchors = 0;
+  SLI_ZERO(used, S->n);
+  for (k = 0; k < S->n; k++) {
+    if (F->null.last[k] != k || (S->parent[k] == -1 && (k == 0 || S->parent[k - 1] == -1))) {
+      used[k] = used[F->null.last[k]] = 1.0;
+    }
+  }
+  for (k = 0; k < S->n && m < F->null.count; k++) {
+    sl_int anchor = -1;
+    if (S->parent[k] != -1) {
+      continue;
+    }
+    for (; m < F->null.count && F->null.pivots[m] <= k; m++) {
+      const sl_int null = F->null.pivots[m];
+      if (used[null] != 0.0 && anchor != -1) {
+        return sli_fail(failure, SL_ERR_PIVOT, S->super_of[null], null, -1, 0.0);
+      }
+      anchor = used[null] != 0.0 ? null : anchor;
+    }
+    if (anchor != -1) {
+      F->null.anchors[F->null.n_anchors++] = anchor;
+    }
+  }
+  return SL_OK;
+}
+
+static void sli_anchor_weights(const sl_factor *F, double *weights) {
+  sl_int m, k = 0, first;
+  SLI_ZERO(weights, F->S->n);
+  for (m = 0; m < F->null.n_anchors; m++) {
+    const sl_int last = F->null.last[F->null.anchors[m]];
+    int any = 0;
+    for (first = k; k <= last; k++) {
+      weights[k] = F->null.last[k] == last ? F->null.mass[k] : 0.0;
+      any |= weights[k] != 0.0;
+    }
+    for (; first <= last && !any; first++) {
+      weights[first] = F->null.last[first] == last ? 1.0 : 0.0;
+    }
+  }
+}
+
+static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double total, sl_int m,
+    sli_failure *failure) {
+  const sl_int anchor = m < F->null.n_anchors ? F->null.anchors[m] : F->S->n;
+  double *v = F->null.center, a, sum = 0.0, z_m = 0.0, size = 0.0;
+  sl_int k;
+  if (anchor > root) {
+    memset(v + first, 0, ((size_t)(root - first) + 1) * sizeof(double));
+    return SL_OK;
+  }
+  a = v[anchor];
+  if (!sli_is_finite(a) || !(fabs(a) > F->S->n * DBL_EPSILON * total)) {
+    return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[anchor], anchor, -1, a);
+  }
+  F->null.ratios[m] = 1.0;
+  if (F->null.g[anchor] != 0.0) {
+    for (k = first; k <= root; k++) {
+      const double weight = F->divisors[k];
+      const double term = weight != 0.0 ? F->null.z[k] / F->null.z[anchor] * weight : 0.0;
+      z_m += term;
+      size += fabs(term);
+    }
+    if (!(fabs(z_m) > F->S->n * DBL_EPSILON * size)) {
+      return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[anchor], anchor, -1, z_m);
+    }
+    F->null.ratios[m] = a / z_m;
+  }
+  for (k = first; k <= root; k++) {
+    const double w = v[k] / a;
+    v[k] = sli_is_skipped(F, k) ? 0.0 : w / F->D[k];
+    sum += w * v[k];
+  }
+  F->null.squares[m] = sum;
+  if (!sli_is_finite(sum + F->null.ratios[m])) {
+    return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[anchor], anchor, -1, sum);
+  }
+  return SL_OK;
+}
+
+static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  const sli_reach all = sli_reach_all(S);
+  double total = 0.0;
+  sl_status status;
+  sl_int k, first = 0, m = 0;
+  if (F->null.vectors > 1) {
+    return sli_center_several(F, failure);
+  }
+  status = sli_anchors_find(F, failure);
+  sli_anchor_weights(F, F->divisors);
+  SLI_COPY(F->null.center, F->divisors, S->n);
+  sli_forward_sweep(F, SLI_NRHS_1, &all, F->null.center, F->null.sweep);
+  for (k = 0; k < S->n && status == SL_OK; k++) {
+    total += fabs(F->divisors[k]);
+    if (S->parent[k] == -1) {
+      status = sli_center_tree(F, first, k, total, m, failure);
+      m += m < F->null.n_anchors && F->null.anchors[m] <= k;
+      total = 0.0;
+      first = k + 1;
+    }
+  }
+  SLI_COPY(F->divisors, F->D, S->n);
+  for (m = 0; m < F->null.n_anchors; m++) {
+    F->divisors[F->null.anchors[m]] = 1.0;
+  }
+  return status;
+}
+
+static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
+    sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  const sli_reach all = sli_reach_all(S);
+  double *z = F->null.vectors == 1 ? F->null.g : F->null.products;
+  uint64_t random = 1;
+  sli_null_walk w;
+  sl_status status = SL_OK;
+  sl_int k, m, first = -1;
+  for (m = F->null.count - 1; m >= 0; m--) {
+    first = F->rule.kinds[F->null.pivots[m]] == SLI_PIVOT_UNKNOWN ? F->null.pivots[m] : first;
+  }
+  if (first == -1) {
+    return SL_OK;
+  }
+  SLI_ZERO(z, S->n);
+  for (m = 0; m < F->null.count; m++) {
+    k = F->null.pivots[m];
+    if (F->rule.kinds[k] == SLI_PIVOT_UNKNOWN) {
+      z[k] = SLI_NULL_PIVOT * sli_random(&random);
+    }
+  }
+  sli_backward_sweep(F, SLI_NRHS_1, &all, F->D, z, F->null.sweep);
+  w = sli_null_product(F, from, z, NULL);
+  for (k = 0; k < S->n && status == SL_OK; k++) {
+    if (!(fabs(w.rows[k].product) <= 1e-4 * w.rows[k].size)) {
+      status = sli_fail(failure, SL_ERR_PIVOT, S->super_of[first], first, -1, 0.0);
+    }
+  }
+  if (F->null.vectors == 1) {
+    sli_null_vectors_load(F);
+  }
+  return status;
+}
+
+static void sli_anchor_columns_clear(sl_factor *F) {
+  const sl_symbolic *S = F->S;
+  sl_int m, r;
+  for (m = 0; m < F->null.count && F->null.vectors > 1; m++) {
+    const sl_int k = F->null.pivots[m];
+    const sli_step *step = &S->steps[S->super_of[k]];
+    for (r = k - step->column + 1; r < step->width + step->below; r++) {
+      sli_entry_clear(F, step->panel + sli_panel_at(step->width, r, k - step->column));
+    }
+  }
+}
+
+static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failure *failure) {
+  sl_status status;
+  sl_int k, m, regular = 0;
+  F->null.count = 0;
+  for (k = 0; k < F->S->n; k++) {
+    regular += F->null.last[k] == k;
+    if (sli_is_skipped(F, k)) {
+      F->null.pivots[F->null.count++] = k;
+    }
+  }
+  for (m = 0; m < F->null.count;
+      m++) {
+    double *mark = &F->null.rounding[F->null.last[F->null.pivots[m]]];
+    regular -= *mark >= 0.0;
+    *mark = -1.0;
+  }
+  F->stats.factor.regular = regular;
+  F->null.is_centered = F->null.mass != NULL && F->null.count > 0;
+  F->null.checks = F->null.mass == NULL && F->null.count > 0 && F->null.consistency >= 0.0;
+  sli_anchor_columns_clear(F);
+  status = sli_null_pivots_verify(F, from, failure);
+  return status == SL_OK && F->null.is_centered ? sli_center_compute(F, failure) : status;
+}
+
+/* src/impl/singular/null_sums.h: sums over right-hand sides of a singular system: |b|, and z' b of null vectors z */
+
+static void sli_chains_norm(double *chains, const double *row, ptrdiff_t count, ptrdiff_t next) {
+  ptrdiff_t f = 0;
+  sl_int q;
+  for (; f + SLI_TILE <= count; f += SLI_TILE, row += next) {
+    SLI_UNROLL
+    for (q = 0; q < SLI_TILE; q++) {
+      chains[q] += fabs(row[q]);
+    }
+  }
+  for (q = 0; f < count; q++, f++) {
+    chains[q] += fabs(row[q]);
+  }
+}
+
+static void sli_chains_add_step(double *chains, const double *v, const sli_packed *b,
+    const sli_step *step, sl_int r) {
+  sli_chains_add(chains, v + step->column, sli_packed_row(b, step->base) + r,
+      sli_max(b->lanes, SLI_TILE), sli_step_columns(step),
+      sli_min(b->lanes, SLI_TILE));
+}
+
+static void sli_chains_sum_all(const double *chains, sl_int lanes, double *sums) {
+  sl_int r;
+  for (r = 0; r < lanes; r += SLI_TILE) {
+    sli_chains_sum(chains + r, sli_min(lanes, SLI_TILE), sums + r);
+  }
+}
+
+static void sli_norms(const sli_packed *b, double *norms) {
+  const sli_reach *R = b->R;
+  const sl_int lanes = b->lanes;
+  double chains[SLI_BLOCK_SINGULAR];
+  sl_int s, r;
+  SLI_ZERO(chains, sli_max(lanes, SLI_TILE));
+  for (s = 0; s < R->count; s++) {
+    for (r = 0; r < lanes; r += SLI_TILE) {
+      sli_chains_norm(chains + r, sli_packed_row(b, R->steps[s].base) + r,
+          (ptrdiff_t)sli_step_columns(&R->steps[s]) * sli_min(lanes, SLI_TILE),
+          sli_max(lanes, SLI_TILE));
+    }
+  }
+  sli_chains_sum_all(chains, lanes, norms);
+}
+
+static int sli_null_dot_next(const sl_factor *F, const sli_packed *b, sl_int first, sl_int root,
+    sli_null_dot *dot) {
+  const sl_int last = sli_tree_range_of(F->S, &b->R->steps[root]).root, lanes = b->lanes;
+  double chains[SLI_BLOCK_SINGULAR];
+  const double *z;
+  sl_int column = -1, r;
+  for (; dot->next < F->null.count && F->null.pivots[dot->next] <= last && column == -1;
+      dot->next++) {
+    dot->number = dot->next;
+    dot->null = F->null.pivots[dot->next];
+    column = sli_null_column(F, dot->null);
+  }
+  if (column == -1) {
+    return 0;
+  }
+  z = F->null.g + (size_t)column * (size_t)F->S->n;
+  SLI_ZERO(chains, sli_max(lanes, SLI_TILE));
+  for (; first <= root; first++) {
+    for (r = 0; r < lanes; r += SLI_TILE) {
+      sli_chains_add_step(chains + r, z, b, &b->R->steps[first], r);
+    }
+  }
+  sli_chains_sum_all(chains, lanes, dot->sums);
+  for (r = 0; r < lanes; r++) {
+    dot->sums[r] /= z[dot->null];
+  }
+  return 1;
+}
+
+/* src/impl/singular/consistency.h: forward sweeps of singular systems, and whether right-hand sides are consistent */
+
+static int sli_null_dots(const sl_factor *F, const sli_packed *b, const double *norms) {
+  const sli_reach *R = b->R;
+  sl_int first = 0, s, r;
+  for (s = 0; s < R->count; s++) {
+    sli_null_dot dot;
+    if (R->steps[s].up != -1) {
+      continue;
+    }
+    dot.next = sli_null_first(F, R, s);
+    while (sli_null_dot_next(F, b, first, s, &dot)) {
+      for (r = 0; r < b->lanes; r++) {
+        if (fabs(dot.sums[r]) > F->null.consistency * norms[r]) {
+          return 0;
+        }
+      }
+    }
+    first = s + 1;
+  }
+  return 1;
+}
+
+static int sli_is_consistent(const sl_factor *F, const sli_packed *y, const double *norms) {
+  const sli_reach *R = y->R;
+  const sl_int lanes = y->lanes;
+  sl_int s, m, r;
+  for (s = 0; s < R->count; s++) {
+    sli_tree_range tree;
+    if (R->steps[s].up != -1) {
+      continue;
+    }
+    tree = sli_tree_range_of(F->S, &R->steps[s]);
+    for (m = sli_lower_bound(F->null.pivots, F->null.count, tree.first);
+        m < F->null.count && F->null.pivots[m] <= tree.root; m++) {
+      const int is_judged =
+        F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
+      const sl_int at = is_judged ? -1 : sli_reach_index_of(R, F->null.pivots[m]);
+      for (r = 0; at != -1 && r < lanes; r++) {
+        if (fabs(sli_packed_row(y, at)[r]) > F->null.consistency * norms[r]) {
+          return 0;
+        }
+      }
+    }
+  }
+  return 1;
+}
+
+static sl_int sli_null_tree_dot(const sl_factor *F, const sli_packed *b, sl_int first, sl_int root,
+    sli_null_dot *dot) {
+  dot->next = sli_null_first(F, b->R, root);
+  return sli_null_dot_next(F, b, first, root, dot) ? sli_reach_index_of(b->R, dot->null) : -1;
+}
+
+static void sli_null_forward(const sl_factor *F, const sli_reach *R, const sli_vectors *v,
+    sl_int nrhs) {
+  const int kind = sli_lanes_kind(nrhs);
+  const sli_packed b = sli_packed_of(R, v->y, (sl_int)1 << kind);
+  sli_reach tree;
+  sl_int first = 0, s;
+  if (F->null.vectors > 1) {
+    sli_forward_sweep(F, kind, R, v->y, v->scratch);
+    return;
+  }
+  tree = *R;
+  for (s = 0; s < R->count; s++) {
+    sli_null_dot dot;
+    sl_int at;
+    if (R->steps[s].up != -1) {
+      continue;
+    }
+    at = sli_null_tree_dot(F, &b, first, s, &dot);
+    tree.steps = R->steps;
+    tree.plain = R->plain;
+    sli_reach_cut(&tree, first, s + 1 - first);
+    sli_forward_sweep(F, kind, &tree, v->y, v->scratch);
+    if (at != -1) {
+      memcpy(v->y + ((ptrdiff_t)at << kind), dot.sums, sizeof(double) << kind);
+    }
+    for (; first <= s; first++) {
+      tree.rows += R->steps[first].below;
+    }
+  }
+}
+
+static int sli_null_pack(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+    const sli_rhs *rhs, double *norms) {
+  const sl_int lanes = (sl_int)1 << sli_lanes_kind(rhs->nrhs);
+  const sli_packed b = sli_packed_of(&q->forward, v->y, lanes);
+  sli_pack(F, q, v->y, rhs);
+  sli_norms(&b, norms);
+  return F->null.vectors == 1 || (q->ending != NULL && q->ending->rows > 0) ||
+       sli_null_dots(F, &b, norms);
+}
+
+static int sli_null_load(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+    const sli_rhs *rhs) {
+  const sli_packed y = sli_packed_of(&q->forward, v->y, (sl_int)1 << sli_lanes_kind(rhs->nrhs));
+  double norms[SLI_BLOCK_SINGULAR];
+  if (!sli_null_pack(F, q, v, rhs, norms)) {
+    return 0;
+  }
+  sli_null_forward(F, &q->forward, v, rhs->nrhs);
+  return sli_is_consistent(F, &y, norms);
+}
+
+static int sli_check_sweeps(const sl_factor *F, const sli_reach *R) {
+  sl_int s, m;
+  for (s = 0; s < R->count; s++) {
+    sl_int known = 0;
+    sli_tree_range tree;
+    if (R->steps[s].up != -1) {
+      continue;
+    }
+    tree = sli_tree_range_of(F->S, &R->steps[s]);
+    m = tree.first == tree.root ? F->null.count : sli_null_first(F, R, s);
+    for (; m < F->null.count && F->null.pivots[m] <= tree.root; m++) {
+      const int is_known = sli_null_column(F, F->null.pivots[m]) != -1;
+      known += is_known;
+      if (!is_known || /* branches untested: one vector has one null pivot in a tree */
+          (known > 1 && F->null.vectors == 1)) { /* branches untested: the same */
+        return 1;
+      }
+    }
+  }
+  return 0;
+}
+
+static int sli_null_judge(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+    const sli_rhs *rhs) {
+  const sli_reach *R = &q->forward;
+  const sli_packed b = sli_packed_of(R, v->y, (sl_int)1 << sli_lanes_kind(rhs->nrhs));
+  double norms[SLI_BLOCK_SINGULAR];
+  sl_int first = 0, s;
+  if (!sli_null_pack(F, q, v, rhs, norms)) {
+    return 0;
+  }
+  for (s = 0; s < R->count && F->null.vectors == 1; s++) {
+    sli_null_dot dot;
+    sl_int at;
+    if (R->steps[s].up != -1) {
+      continue;
+    }
+    at = sli_null_tree_dot(F, &b, first, s, &dot);
+    if (at != -1) {
+      SLI_COPY(v->y + (ptrdiff_t)at * b.lanes, dot.sums, b.lanes);
+    }
+    first = s + 1;
+  }
+  return sli_is_consistent(F, &b, norms);
+}
+
+static int sli_null_check(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
+    void *memory) {
+  const int sweeps = sli_check_sweeps(F, &q->forward);
+  int is_consistent = 1;
+  sl_int r;
+  for (r = 0; r < rhs->nrhs && is_consistent; r += sli_min(8, rhs->nrhs - r)) {
+    const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
+    const sli_vectors v = sli_vectors_of(q, block.nrhs, memory);
+    is_consistent = sweeps ? sli_null_load(F, q, &v, &block) : sli_null_judge(F, q, &v, &block);
+  }
+  return is_consistent;
+}
+
+/* src/impl/singular/centering.h: between the sweeps: the solution that the weights choose */
+
+typedef struct sli_center_terms {
+  sl_int count;
+  double c[2 * SLI_NULL_VECTORS_MAX][SLI_TILE], t[SLI_TILE];
+} sli_center_terms;
+
+static void sli_center_tree_terms(const sl_factor *F, const sli_packed *y, sl_int lane,
+    sl_int first, sl_int root, sl_int m, sli_center_terms *terms) {
+  const sl_int lanes = sli_min(y->lanes, SLI_TILE), count = terms->count;
+  sl_int s, j, r, at;
+  for (j = 0; j < count; j++) {
+    double chains[SLI_TILE] = {0.0};
+    for (s = first; s <= root; s++) {
+      sli_chains_add_step(chains, F->null.center + (size_t)j * (size_t)F->S->n, y,
+          &y->R->steps[s], lane);
+    }
+    sli_chains_sum(chains, lanes, terms->c[(j + count / 2) % count]);
+  }
+  at = count == 1 ? sli_reach_index_of(y->R, F->null.anchors[m]) : -1;
+  for (r = 0; r < lanes && count == 1; r++) {
+    const double c = at != -1 ? sli_packed_row(y, at)[lane + r] * F->null.ratios[m] : 0.0;
+    terms->t[r] = c * F->null.squares[m] - terms->c[0][r];
+    terms->c[0][r] = c;
+  }
+}
+
+SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const double *D,
+    sl_int columns, sl_int width, const double *c,
+    sl_int lanes) {
+  sl_int k, r;
+  for (k = 0; k < columns; k++, row += width) {
+    const double w = v[k] * D[k];
+    SLI_UNROLL
+    for (r = 0; r < lanes; r++) {
+      row[r] -= c[r] * w;
+    }
+  }
+}
+
+static void sli_center_clear(const sl_factor *F, const sli_packed *x, sl_int lane, sl_int m,
+    sl_int root) {
+  for (; m < F->null.count && F->null.pivots[m] <= root; m++) {
+    const sl_int null = F->null.pivots[m], j = sli_reach_index_of(x->R, null);
+    if (j != -1 && F->rule.kinds[null] == SLI_PIVOT_NULL) {
+      SLI_ZERO(sli_packed_row(x, j) + lane, sli_min(x->lanes, SLI_TILE));
+    }
+  }
+}
+
+static void sli_center_step(const sl_factor *F, const sli_packed *x, sl_int lane,
+    const sli_step *step, const sli_center_terms *terms) {
+  double *row = sli_packed_row(x, step->base) + lane;
+  const sl_int columns = sli_step_columns(step), width = x->lanes;
+  sl_int j;
+  for (j = 0; j < terms->count; j++) {
+    const double *v = F->null.center + (size_t)j * (size_t)F->S->n + step->column;
+    const double *D = F->divisors + step->column;
+#define SLI_CALL(constant) sli_center_columns(row, v, D, columns, width, terms->c[j], constant)
+    SLI_FOR_LANES(width, SLI_CALL)
+#undef SLI_CALL
+  }
+}
+
+static void sli_center(const sl_factor *F, const sli_packed *y, const sli_packed *x,
+    const sl_int *uses) {
+  const int is_one = F->null.vectors == 1;
+  const sl_int *list = is_one ? F->null.anchors : F->null.pivots;
+  const sl_int listed = is_one ? F->null.n_anchors : F->null.count;
+  const sli_reach *to = x->R;
+  sli_center_terms terms;
+  sl_int first = 0, at = 0, root, m, j, k, lane;
+  terms.count = F->null.is_centered ? sli_center_count(F) : 0;
+  for (root = 0; root < y->R->count; root++) {
+    sli_tree_range tree;
+    if (y->R->steps[root].up != -1) {
+      continue;
+    }
+    tree = sli_tree_range_of(F->S, &y->R->steps[root]);
+    m = sli_lower_bound(list, listed, tree.first);
+    if (m < listed && list[m] <= tree.root &&
+        (uses == NULL || uses[sli_lower_bound(F->null.pivots, F->null.count, list[m])] == 0)) {
+      j = is_one ? sli_reach_index_of(to, list[m]) : -1;
+      for (lane = 0, k = at; lane < y->lanes; lane += SLI_TILE) {
+        sli_center_tree_terms(F, y, lane, first, root, m, &terms);
+        if (!is_one) {
+          sli_center_clear(F, x, lane, m, tree.root);
+        }
+        for (k = at; k < to->count && to->steps[k].column <= tree.root; k++) {
+          if (to->steps[k].column >= tree.first) {
+            sli_center_step(F, x, lane, &to->steps[k], &terms);
+          }
+        }
+        if (j != -1) {
+          SLI_COPY(sli_packed_row(x, j) + lane, terms.t, sli_min(x->lanes, SLI_TILE));
+        }
+      }
+      at = k;
+    }
+    first = root + 1;
+  }
+}
+
+/* src/impl/singular/singular.h: the calls of factors that skip null pivots, as a table */
+
+static void sli_null_layout(sl_factor *F, sli_block *b, int has_mass) {
+  const uint64_t n = (uint64_t)F->S->n, vectors = (uint64_t)F->null.vectors;
+  const sl_int trees = F->S->stats.symbolic.components;
+  F->null.pivots = SLI_TAKE(b, sl_int, n);
+  F->rule.kinds = SLI_TAKE(b, signed char, n);
+  F->null.z = SLI_TAKE(b, double, n *vectors);
+  F->null.g = SLI_TAKE(b, double, n *vectors);
+  if (has_mass) {
+    F->null.anchors = SLI_TAKE(b, sl_int, trees);
+    F->null.squares = SLI_TAKE(b, double, trees);
+    F->null.mass = SLI_TAKE(b, double, n);
+    F->null.center = SLI_TAKE(b, double, n *(uint64_t)sli_center_count(F));
+    F->null.ratios = SLI_TAKE(b, double, trees);
+  }
+}
+
+static void sli_null_layout_scratch(sl_factor *F, sli_block *b) {
+  const sl_symbolic *S = F->S;
+  const uint64_t n = (uint64_t)S->n;
+  F->rule.signs = SLI_TAKE(b, signed char, n);
+  F->null.rows = SLI_TAKE(b, sli_null_row, n);
+  F->null.last = SLI_TAKE(b, sl_int, n);
+  F->null.rounding = SLI_TAKE(b, double, n);
+  F->null.sweep = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
+  if (F->null.vectors > 1) {
+    F->null.chain = SLI_TAKE(b, sl_int, n);
+    F->null.row_entries = SLI_TAKE(b, sl_int, n);
+    F->null.products = SLI_TAKE(b, double, n *((uint64_t)F->null.vectors + 2));
+  }
+}
+
+static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats) {
+  const sl_symbolic *S = F->S;
+  sl_int k, first = 0, any = 0;
+  for (k = 0; k < S->n; k++) {
+    const double m = mass[S->perm[k]];
+    if (!sli_is_finite(m)) {
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[k], -1, m,
+          "options.mass is not finite");
+    }
+    F->null.mass[k] = m;
+    any |= m != 0.0;
+    if (S->parent[k] == -1) {
+      for (; first <= k; first++) {
+        F->null.mass[first] = any ? F->null.mass[first] : 1.0;
+      }
+      any = 0;
+    }
+  }
+  return SL_OK;
+}
+
+static sl_status sli_null_fill(sl_factor *F, const sl_options *opt, sl_stats *stats) {
+  const sl_symbolic *S = F->S;
+  sl_int i, j;
+  memset(F->rule.kinds, 0, (size_t)S->n);
+  for (j = 0; j < F->null.vectors; j++) {
+    const size_t column = (size_t)j * (size_t)S->n;
+    for (i = 0; i < S->n; i++) {
+      const double z = opt->null_vector == NULL ? 1.0 : opt->null_vector[column + (size_t)i];
+      if (!sli_is_finite(z)) {
+        return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, z,
+            "options.null_vector is not finite");
+      }
+      F->null.z[column + (size_t)S->iperm[i]] = z;
+    }
+  }
+  return F->null.mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
+}
+
+SLI_COLD static void sli_null_finite_check(const sl_factor *F, const sli_source *from,
+    sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  sl_off m;
+  sl_int s;
+  for (s = 0; s < S->n_supers; s++) {
+    for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
+      double a;
+      if (from->A != NULL) {
+        a = from->A->x[S->scatter_from[m]];
+      } else {
+        sli_source_sum(from, m, 1, &a);
+      }
+      if (!sli_is_finite(a)) {
+        (void)sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
+        return;
+      }
+    }
+  }
+}
+
+static sl_status sli_null_finish(sl_factor *F, const sli_source *from, sli_failure *failure) {
+  if (failure->status == SL_OK) {
+    (void)sli_nulls_find(F, from, failure);
+  }
+  if (failure->status == SL_ERR_PIVOT) {
+    sli_null_finite_check(F, from, failure);
+  }
+  return failure->status;
+}
+
+static int sli_nulls_remain(const sl_factor *F) {
+  sl_int m, k;
+  for (k = 0; F->null.vectors > 1 && k < F->S->n; k++) {
+    if (F->rule.kinds[k] == SLI_PIVOT_NULL && !sli_is_skipped(F, k)) {
+      return 0;
+    }
+  }
+  for (m = 0; m < F->null.count; m++) {
+    if (F->rule.kinds[F->null.pivots[m]] >= SLI_PIVOT_KEPT) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+static const sli_singular sli_singular_calls = {
+  sli_null_layout, sli_null_layout_scratch,
+  sli_null_fill, sli_null_vectors_check,
+  sli_null_finish, sli_nulls_remain,
+  sli_null_load, sli_null_forward,
+  sli_null_check, sli_center,
+  sli_norms, sli_null_dot_next,
+};
+
+#endif
 /* accuracy: refinement, condition, defects, half solves, bounds of errors */
 #if defined(SL_WITH_ACCURACY)
 /* src/impl/accuracy/parts.h: half solves: the factors of P A P' = L D L' applied one by one, full and local */
@@ -18927,6 +19073,7 @@ SL_API sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_pseudo_inverse 
         : (P->Q == NULL) != (P->K == NULL) || (P->Q == NULL) != (P->component == NULL)
         ? "P has only some of component, Q and K"
         : NULL);
+  status = status == SL_OK ? sli_singular_needed() : status;
   status = status == SL_OK ? sli_parts_check(F, all) : status;
   if (status == SL_OK && F->E != NULL) {
     status = sli_refuse(SL_ERR_UNSUPPORTED, "the pseudo-inverse with 2x2 pivots");
@@ -19569,6 +19716,24 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
 
 /* src/impl/accuracy/defects.h: sl_factor_defects: by how much right-hand sides are inconsistent */
 
+static void sli_defects_known(const sl_factor *F, const sli_packed *b, const sli_rhs *rhs) {
+  const sli_reach *R = b->R;
+  sl_int first = 0, s, r;
+  for (s = 0; s < R->count && F->null.vectors > 1; s++) {
+    sli_null_dot dot;
+    if (R->steps[s].up != -1) {
+      continue;
+    }
+    dot.next = sli_null_first(F, R, s);
+    while (F->null.calls->next_dot(F, b, first, s, &dot)) {
+      for (r = 0; r < rhs->nrhs; r++) {
+        rhs->X[(size_t)dot.number + (size_t)r * rhs->ldx] = dot.sums[r];
+      }
+    }
+    first = s + 1;
+  }
+}
+
 static void sli_defects(const sl_factor *F, const sli_query *q, const sli_rhs *rhs, void *memory) {
   sl_int c, r, m;
   for (c = 0; c < rhs->nrhs; c += sli_min(8, rhs->nrhs - c)) {
@@ -19577,9 +19742,7 @@ static void sli_defects(const sl_factor *F, const sli_query *q, const sli_rhs *r
     const sli_vectors v = sli_vectors_of(q, block.nrhs, memory);
     const sli_packed b = sli_packed_of(&q->forward, v.y, lanes);
     sli_pack(F, q, v.y, &block);
-    if (F->null.vectors > 1) {
-      (void)sli_null_dots(F, &b, NULL, block.X, block.ldx, block.nrhs);
-    }
+    sli_defects_known(F, &b, &block);
     sli_sweep_forward(F, q, &v, block.nrhs);
     for (m = 0; m < F->null.count; m++) {
       const int is_known = F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
@@ -19599,6 +19762,7 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
   sli_query q;
   sl_status status;
   status = F == NULL ? sli_argument("F is NULL") : sli_factor_has_numbers(F);
+  status = status == SL_OK ? sli_singular_needed() : status;
   status = status == SL_OK ? sli_rhs_check_columns(&rhs, F->null.count, F->S->n) : status;
   if (status == SL_OK && Y == B && Y != NULL) {
     status = sli_argument("Y is B");
@@ -20489,7 +20653,7 @@ static sl_status sli_bounds_run(sli_bounds *p, const sli_rhs *rhs, double *bound
     return status;
   }
   sli_bounds_layout(p, &b, rhs->nrhs, needs);
-  if (p->F->null.checks && sli_sweep_check(p->F, p->q, rhs, p->memory) != SL_OK) {
+  if (sli_sweep_check(p->F, p->q, rhs, p->memory) != SL_OK) {
     return sli_inconsistent();
   }
   if (needs != SLI_NEEDS_NOTHING) {
@@ -21305,7 +21469,7 @@ SLI_INLINE sl_status sli_check_single(const sl_factor *F, const sli_front *f, sl
     sli_failure *failure) {
   const sl_int s = f->super, k = f->column + column;
   const float pivot = f->single.D[column], magnitude = f->single.magnitude[column];
-  const int is_null = F->null.mode == SL_NULL_PIVOT_SKIP && pivot == FLT_MAX;
+  const int is_null = sli_skips_nulls(F) && pivot == FLT_MAX;
   const double d = is_null ? SLI_NULL_PIVOT : (double)pivot, m = (double)magnitude;
   F->D[k] = d;
   if (!(m <= SLI_SINGLE_MOST) || (!is_null && m != 0.0 && m < SLI_SINGLE_LEAST)) {
@@ -24882,21 +25046,6 @@ static sli_kept sli_kept_of(const sl_factor *F, const sl_int *from, const sl_int
 
 /* src/impl/change/reached.h: refactors after local changes: keeps the supernodes that they do not reach */
 
-static int sli_nulls_remain(const sl_factor *F) {
-  sl_int m, k;
-  for (k = 0; F->null.vectors > 1 && k < F->S->n; k++) {
-    if (F->rule.kinds[k] == SLI_PIVOT_NULL && !sli_is_skipped(F, k)) {
-      return 0;
-    }
-  }
-  for (m = 0; F->null.mode == SL_NULL_PIVOT_SKIP && m < F->null.count; m++) {
-    if (F->rule.kinds[F->null.pivots[m]] >= SLI_PIVOT_KEPT) {
-      return 0;
-    }
-  }
-  return 1;
-}
-
 static void sli_reached_mark(const sl_symbolic *S, sl_int *from, sl_int k) {
   sl_int s;
   for (s = S->super_of[k]; s != -1 && from[s] != -1; s = S->super_parent[s]) {
@@ -24908,10 +25057,8 @@ static sl_status sli_reached_numbers(sl_factor *F, const sli_kept *p, const sli_
     double started, sl_stats *stats) {
   sli_failure failure;
   SLI_CLEAR(failure);
-  if (F->null.mode == SL_NULL_PIVOT_SKIP) {
-    (void)sli_null_vectors_check(F, from, &failure);
-  }
-  if (failure.status == SL_OK && !sli_nulls_remain(F)) {
+  if (sli_skips_nulls(F) && F->null.calls->prepare(F, from, &failure) == SL_OK &&
+      !F->null.calls->remain(F)) {
     return sli_factor_numbers(F, from, started, stats);
   }
   if (failure.status == SL_OK) {
@@ -26276,7 +26423,7 @@ static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
   q->stats = stats;
   q->u.sign = info->positive == F->S->n ? 1.0 : info->negative == F->S->n ? -1.0 : 0.0;
   q->u.keeps_signs = q->u.sign != 0.0 || F->rule.regularization != 0.0;
-  q->u.least = F->null.mode == SL_NULL_PIVOT_SKIP ? sli_rank_least(F) : 0.0;
+  q->u.least = sli_skips_nulls(F) ? sli_rank_least(F) : 0.0;
 }
 
 static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) {
@@ -27508,7 +27655,7 @@ static int sli_constraints_defects(const sl_constraints *P, const sli_constraint
       continue;
     }
     dot.next = sli_null_first(F, R, s);
-    while (sli_null_dot_next(F, b, first, s, &dot)) {
+    while (F->null.calls->next_dot(F, b, first, s, &dot)) {
       if (P->uses[dot.number] > 0) {
         SLI_COPY(w->s + (ptrdiff_t)w->place[dot.number] * lanes, dot.sums, lanes);
         continue;
@@ -28014,7 +28161,7 @@ static int sli_constraints_forward(const sli_constraints_solve *w, const sli_vec
     sli_constraints_largest(R, v->y, w->forces, w->lanes);
   }
   if (F->null.count > 0) {
-    sli_norms(&b, norms);
+    F->null.calls->norms(&b, norms);
   }
   if (!sli_constraints_defects(P, &w->nulls, &b, norms)) {
     return 0;
@@ -28057,7 +28204,7 @@ SLI_HOT static sl_status sli_constraints_block(sli_constraints_solve *w) {
   if (F->null.is_centered) {
     const sli_packed y = sli_packed_of(&q->forward, v.y, lanes);
     const sli_packed x = sli_packed_of(&q->backward, v.x, lanes);
-    sli_center(F, &y, &x, P->uses);
+    F->null.calls->center(F, &y, &x, P->uses);
   }
   sli_backward(F, &q->backward, kind, v.x, v.scratch);
   sli_constraints_shift(P, q, &w->nulls, v.x, lanes);
@@ -30611,7 +30758,7 @@ static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *s
 static int sli_reuse_is_suited(const sl_factor *F, const sl_factor *G) {
   const double a = F->rule.null_tolerance, b = G->rule.null_tolerance;
   return F->history.marks != NULL && G->history.marks != NULL && F->E == NULL && G->E == NULL &&
-       G->type->accepts == NULL && F->null.mode == G->null.mode && F->null.vectors == 1 &&
+       G->type->accepts == NULL && F->null.calls == G->null.calls && F->null.vectors == 1 &&
        G->null.vectors == 1 && F->rule.regularization == G->rule.regularization &&
        (a == b || (sli_tolerance_is_default(F) && sli_tolerance_is_default(G)));
 }
@@ -30662,8 +30809,7 @@ static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_
   const sl_off begin = T->steps[s].panel, least = T->scatter_begin[0] + SLI_ENTRIES_AHEAD;
   const double *l = (const double *)F->values + S->steps[there].panel;
   const double d = F->D[S->steps[there].column];
-  const int has_mark = F->schedule.is_plain[there] != SLI_PLAIN_DIRECT ||
-             F->null.mode == SL_NULL_PIVOT_SKIP ||
+  const int has_mark = F->schedule.is_plain[there] != SLI_PLAIN_DIRECT || sli_skips_nulls(F) ||
              sli_is_regularized(F, S->steps[there].column);
   int is_same = has_mark || r->G->schedule.is_plain[s] == SLI_PLAIN_DIRECT;
   uint64_t mark = SLI_MARK_BEGIN, before = SLI_MARK_BEGIN;
@@ -30792,8 +30938,8 @@ static sl_status sli_reuse_numbers(sli_reuse *r, sl_stats *stats) {
   sl_status status;
   SLI_CLEAR(failure);
   sli_factor_begin(r->G);
-  if (is_suited && r->G->null.mode == SL_NULL_PIVOT_SKIP) {
-    is_suited = sli_null_vectors_check(r->G, &from, &failure) == SL_OK;
+  if (is_suited && sli_skips_nulls(r->G)) {
+    is_suited = r->G->null.calls->prepare(r->G, &from, &failure) == SL_OK;
   }
   keeps = is_suited && sli_reuse_find(r);
   status = keeps ? sli_reuse_run(r, &from, &failure) : SL_OK;
@@ -30864,13 +31010,6 @@ SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_sy
 #if defined(SL_WITH_FIXED)
 /* src/impl/fixed/fixed_rows.h: free and fixed rows, the entries of A between them, and what is copied of A */
 
-typedef struct sli_fixed_ways {
-  sl_status (*take)(sl_fixed *D, const sl_factor *F, const sl_csc *A, sl_stats *stats);
-  sl_status (*solve)(const sl_fixed *D, const sli_rhs *rhs, const double *G, size_t ldg,
-      sl_work *W);
-  void (*release)(sl_fixed *D);
-} sli_fixed_ways;
-
 struct sl_fixed {
   sl_allocator allocator;
   sl_options analysis, factorization;
@@ -30887,8 +31026,6 @@ struct sl_fixed {
   sl_int *from;
   sl_symbolic *S;
   sl_factor *F;
-  const sli_fixed_ways *ways;
-  void *pins;
   int is_stale;
 };
 
@@ -30932,16 +31069,6 @@ static void sli_fixed_copy_values(sl_fixed *D, const sl_csc *A) {
   }
   for (k = 0; D->M != NULL && k < D->M->p[D->n_free]; k++) {
     D->M->x[k] = A->x[D->from[k]];
-  }
-}
-
-static void sli_fixed_number(const sl_fixed *D, sl_int *where) {
-  sl_int k;
-  for (k = 0; k < D->n_free; k++) {
-    where[D->free_rows[k]] = k;
-  }
-  for (k = 0; k < D->n_fixed; k++) {
-    where[D->fixed_rows[k]] = -1 - k;
   }
 }
 
@@ -31028,22 +31155,13 @@ static int sli_fixed_keeps_blocks(const sl_fixed *D, sl_int size) {
 
 /* src/impl/fixed/fixed.h: systems with rows fixed at given values: a factor of the free rows */
 
-static const sli_fixed_ways *sli_fixed_ways_of(void);
-
-static void sli_fixed_clear(sl_fixed *D) {
-  if (D->pins != NULL) {
-    D->ways->release(D);
-  }
-  sl_factor_free(D->F);
-  sl_symbolic_free(D->S);
-  sl_matrix_free(D->M);
-  sli_free(&D->allocator, D->from);
-}
-
 SL_API void sl_fixed_free(sl_fixed *D) {
   if (D != NULL) {
     const sl_allocator a = D->allocator;
-    sli_fixed_clear(D);
+    sl_factor_free(D->F);
+    sl_symbolic_free(D->S);
+    sl_matrix_free(D->M);
+    sli_free(&a, D->from);
     sli_free(&a, D);
   }
 }
@@ -31074,7 +31192,6 @@ SLI_COLD static sl_status sli_fixed_factor(sl_fixed *D, const sl_csc *A,
     status = sl_factor_create(&D->F, D->S, &view, &factorization, stats);
     status = sli_fixed_report(D, status, stats);
   }
-  D->info.method = SL_FIXED_SUBMATRIX;
   return status;
 }
 
@@ -31178,15 +31295,6 @@ static sl_status sli_fixed_new(sl_fixed **out, const sl_csc *A, const sl_int *ro
   return status;
 }
 
-static int sli_fixed_may_reuse(const sl_factor *F, const sl_options *opt) {
-  return F != NULL &&
-       (opt == NULL ||
-        ((opt->perm == NULL || opt->ordering != SL_ORDERING_GIVEN) && opt->mass == NULL &&
-         opt->signs == NULL && opt->null_vector == NULL &&
-         opt->null_pivots == SL_NULL_PIVOT_REFUSE && opt->regularization == 0.0)) &&
-       F->type->storage == (opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
-}
-
 static void sli_fixed_done(sl_fixed *D, double started, sl_stats *stats) {
   D->info.seconds = sli_seconds() - started;
   if (stats != NULL) {
@@ -31194,22 +31302,13 @@ static void sli_fixed_done(sl_fixed *D, double started, sl_stats *stats) {
   }
 }
 
-static sl_status sli_fixed_begin(sl_fixed *D, const sl_csc *A, const sl_factor *F,
-    const sl_options *opt, const sl_int *where, sl_int *scratch,
-    sl_stats *stats) {
+static sl_status sli_fixed_begin(sl_fixed *D, const sl_csc *A, const sl_options *opt,
+    const sl_int *where, sl_int *scratch, sl_stats *stats) {
   const sl_options none = sli_options_with(&D->allocator);
   const sl_options *arrays_of = opt == NULL ? &none : opt;
-  const sli_fixed_ways *ways = sli_fixed_ways_of();
   sli_block b = {NULL, 0};
   sli_fixed_arrays arrays;
   sl_status status = SL_OK;
-  if (ways != NULL && sli_fixed_may_reuse(F, opt)) { /* untested: all packs are there */
-    D->ways = ways;
-    status = ways->take(D, F, A, stats);
-    if (status != SL_OK || D->F != NULL || D->pins != NULL) {
-      return status;
-    }
-  }
   SLI_LAYOUT(&b, &D->allocator, status) {
     sli_fixed_arrays_layout(&arrays, &b, arrays_of, D->n_free);
   }
@@ -31223,7 +31322,7 @@ static sl_status sli_fixed_begin(sl_fixed *D, const sl_csc *A, const sl_factor *
 }
 
 SL_API sl_status sl_fixed_create(sl_fixed **out, const sl_csc *A, const sl_int *rows, sl_int count,
-    const sl_factor *F, const sl_options *opt, sl_stats *stats) {
+    const sl_options *opt, sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
   sli_block b = {NULL, 0};
   sl_fixed draft, *D = NULL;
@@ -31250,7 +31349,7 @@ SL_API sl_status sl_fixed_create(sl_fixed **out, const sl_csc *A, const sl_int *
     return sli_report(stats, status);
   }
   status = sli_fixed_new(&D, A, rows, &draft, where, stats);
-  status = status == SL_OK ? sli_fixed_begin(D, A, F, opt, where, scratch, stats) : status;
+  status = status == SL_OK ? sli_fixed_begin(D, A, opt, where, scratch, stats) : status;
   sli_free(&draft.allocator, b.base);
   if (status == SL_OK) {
     sli_fixed_done(D, started, stats);
@@ -31259,35 +31358,6 @@ SL_API sl_status sl_fixed_create(sl_fixed **out, const sl_csc *A, const sl_int *
     sl_fixed_free(D);
   }
   return sli_report(stats, status);
-}
-
-static sl_status sli_fixed_replace(sl_fixed *D, const sl_csc *A, sl_stats *stats) {
-  const sli_fixed_arrays none = {NULL, NULL, NULL, NULL};
-  sl_fixed own = *D;
-  sli_block b = {NULL, 0};
-  sl_int *where = NULL, *scratch = NULL;
-  sl_status status = SL_OK;
-  own.M = NULL;
-  own.from = NULL;
-  own.S = NULL;
-  own.F = NULL;
-  own.ways = NULL;
-  own.pins = NULL;
-  SLI_LAYOUT(&b, &D->allocator, status) {
-    where = SLI_TAKE(&b, sl_int, D->n);
-    scratch = SLI_TAKE(&b, sl_int, (uint64_t)D->n + 1);
-  }
-  if (status == SL_OK) {
-    sli_fixed_number(D, where);
-    status = sli_fixed_factor(&own, A, &none, where, scratch, stats);
-    sli_free(&D->allocator, b.base);
-  }
-  sli_fixed_clear(status == SL_OK ? D : &own);
-  if (status == SL_OK) {
-    *D = own;
-    sli_fixed_copy_values(D, A);
-  }
-  return status;
 }
 
 SL_API sl_status sl_fixed_refactor(sl_fixed *D, const sl_csc *A, sl_stats *stats) {
@@ -31307,9 +31377,7 @@ SL_API sl_status sl_fixed_refactor(sl_fixed *D, const sl_csc *A, sl_stats *stats
     status = sli_argument(sli_nnz(A) > 0 && A->x == NULL ? "A.x is NULL" : NULL);
   }
   status = status == SL_OK ? sli_fixed_check_values(D, A, stats) : status;
-  if (status == SL_OK && D->M == NULL) {
-    status = sli_fixed_replace(D, A, stats);
-  } else if (status == SL_OK) {
+  if (status == SL_OK) {
     const sl_csc view = sl_matrix_view(D->M);
     sli_fixed_copy_values(D, A);
     status = sl_factor_refactor(D->F, &view, stats);
@@ -31470,14 +31538,12 @@ SL_API sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx, const 
   if (status != SL_OK || nrhs == 0 || D->n == 0) {
     return status;
   }
-  if (D->is_stale ||
-      (D->pins == NULL && !D->F->is_valid)) { /* branches untested: then it is stale, too */
+  if (D->is_stale || !D->F->is_valid) { /* second branch untested: then it is stale, too */
     return sli_refuse(SL_ERR_STALE, "the last sl_fixed_refactor has failed");
   }
   own = sli_work_own(&D->allocator);
   W = W == NULL ? &own : W;
-  status =
-    D->pins != NULL ? D->ways->solve(D, &rhs, G, ldg, W) : sli_fixed_run(D, &rhs, G, ldg, W);
+  status = sli_fixed_run(D, &rhs, G, ldg, W);
   sli_free(&own.allocator, own.block);
   if (status == SL_OK && !sli_fixed_set_fixed(D, &rhs, G, ldg)) {
     status = sli_refuse(SL_ERR_NOT_FINITE, "a value of G is not finite");
@@ -31499,240 +31565,6 @@ SL_API sl_fixed_arrays sl_fixed_view(const sl_fixed *D) {
   }
   return v;
 }
-
-#endif
-/* fixed: by a factor of all rows */
-#if defined(SL_WITH_FIXED) && defined(SL_WITH_CHANGE)
-/* src/impl/fixed/fixed_reuse.h: rows fixed at given values, by a factor of all rows: restriction or pins */
-
-#define SLI_CONSTRAINTS_ENTRY 0.12e-9
-#define SLI_CONSTRAINTS_JOINT 0.26
-#define SLI_CONSTRAINTS_BLOCK 1.05
-#define SLI_CONSTRAINTS_PRODUCT 0.04e-9
-#define SLI_CONSTRAINTS_NUMBER 1e-9
-#define SLI_CONSTRAINTS_PIN 1e-6
-#define SLI_CONSTRAINTS_DENSE 0.13e-9
-
-#define SLI_FIXED_ANALYSIS 280e-9
-#define SLI_FIXED_ROW 120e-9
-#define SLI_FIXED_COPY 1.2e-9
-#define SLI_FIXED_PROBE 2e-9
-#define SLI_FIXED_PINS 3.0
-#define SLI_FIXED_LOST 1000.0
-
-static int sli_fixed_is_factor_of(const sl_factor *F, const sl_csc *A) {
-  sl_factor as;
-  if (sli_factor_fits(F, A) != SL_OK || F->E != NULL) {
-    return 0;
-  }
-  as = *F;
-  as.identity = sli_hash_words(F->S->identity, A->x, sli_nnz(A));
-  sli_factor_identify_numbers(&as);
-  return sli_hash_equals(as.identity, F->identity);
-}
-
-typedef struct sli_fixed_choice {
-  const sl_factor *F;
-  uint64_t *seeds, *scratch;
-  sl_int *uses;
-} sli_fixed_choice;
-
-static void sli_fixed_count(const sli_fixed_choice *c, sl_fixed *D) {
-  const sl_factor *F = c->F;
-  const sl_symbolic *S = F->S;
-  const double flop = sli_costs_of(F->kernels->isa)->flop, whole = sli_choose_refactor(F);
-  const double share = (double)D->n_free / (S->n > 0 ? S->n : 1);
-  const double entries = (double)S->scatter_begin[S->n_supers];
-  const double fixed = D->n_fixed;
-  double computed = 0.0, kept = 0.0;
-  double pins =
-    SLI_CONSTRAINTS_DENSE / 3.0 * (fixed * fixed * fixed) + SLI_CONSTRAINTS_PIN * fixed;
-  sl_int kept_columns = 0, s, k;
-  for (k = 0; k < D->n_fixed; k++) {
-    c->seeds[k] = sli_keyed(S->iperm[D->fixed_rows[k]], 0);
-  }
-  sli_sort(c->seeds, D->n_fixed, c->scratch);
-  SLI_ZERO(c->uses, S->n_supers);
-  for (s = 0, k = 0; s < S->n_supers; s++) {
-    const sl_int up = S->super_parent[s], width = S->steps[s].width;
-    sl_int free_columns = width;
-    double u;
-    for (; k < D->n_fixed && sli_key(c->seeds[k]) < S->super_first[s + 1]; k++) {
-      c->uses[s]++;
-      free_columns--;
-    }
-    if (up != -1) {
-      c->uses[up] += c->uses[s];
-    }
-    u = c->uses[s];
-    if (u > 0.0) {
-      pins += SLI_CONSTRAINTS_ENTRY *
-            fmin(u, SLI_CONSTRAINTS_JOINT * u + SLI_CONSTRAINTS_BLOCK) *
-            (double)sli_panel_size(width, S->steps[s].below) +
-          (SLI_CONSTRAINTS_NUMBER + SLI_CONSTRAINTS_PRODUCT / 2.0 * u) * width * u;
-    }
-    if (c->uses[s] == 0) {
-      kept += SLI_FIXED_COPY * (double)(S->panel_begin[s + 1] - S->panel_begin[s]);
-      kept_columns += width;
-    } else if (free_columns > 0) {
-      computed += (flop * sli_choose_front(S, s) + SLI_CHANGE_FRONT(flop)) * free_columns /
-            (double)width;
-    }
-  }
-  D->info.seconds_submatrix = share * (whole + SLI_FIXED_ANALYSIS * entries);
-  D->info.seconds_restriction =
-    SLI_FIXED_ROW * D->n_free +
-    (kept_columns < 0.4 * D->n_free ? share * whole : kept + computed);
-  pins =
-    SLI_FIXED_PINS * pins + SLI_FIXED_PROBE * ((double)S->panel_begin[S->n_supers] + entries);
-  D->info.seconds_pins = sli_constraints_check(F) == SL_OK && F->null.vectors == 1 ? pins : 0.0;
-}
-
-static sl_status sli_fixed_probe(const sl_fixed *D, const sl_csc *A, const sl_constraints *P,
-    int *is_good) {
-  const size_t n = (size_t)D->n;
-  uint64_t random = 1;
-  sli_block b = {NULL, 0};
-  double *x = NULL, *r = NULL, *sums = NULL, *zeros = NULL, size, error = 0.0;
-  sl_status status = SL_OK;
-  sl_int k;
-  *is_good = 0;
-  SLI_LAYOUT(&b, &D->allocator, status) {
-    x = SLI_TAKE(&b, double, n);
-    r = SLI_TAKE(&b, double, n);
-    sums = SLI_TAKE(&b, double, n);
-    zeros = SLI_TAKE(&b, double, D->n_fixed);
-  }
-  if (status != SL_OK) {
-    return status;
-  }
-  for (k = 0; k < D->n; k++) {
-    r[k] = sli_random(&random);
-  }
-  SLI_ZERO(zeros, D->n_fixed);
-  status = sl_constraints_solve(P, NULL, x, n, r, n, zeros, (size_t)D->n_fixed, 1, NULL);
-  if (status == SL_OK) {
-    size = sli_csc_norm(A, D->triangle, sums) * sli_largest(x, D->n) + 1.0;
-    sli_add_product(A, D->triangle, -1.0, r, n, x, n, 1);
-    for (k = 0; k < D->n_free; k++) {
-      error = fmax(error, fabs(r[D->free_rows[k]]));
-    }
-    *is_good = error <= SLI_FIXED_LOST * P->F->rule.epsilon * size;
-  }
-  sli_free(&D->allocator, b.base);
-  return status;
-}
-
-static sl_status sli_fixed_pin(sl_fixed *D, const sl_factor *F, const sl_csc *A, sl_stats *stats) {
-  const sl_options only_memory = sli_options_with(&D->allocator);
-  sl_constraints *P = NULL;
-  int is_good = 0;
-  sl_status status = sl_constraints_create(&P, F, &only_memory);
-  status = status == SL_OK ? sl_constraints_add(P, D->fixed_rows, D->n_fixed, stats) : status;
-  if (status == SL_OK && P->n_used == F->null.count) {
-    status = sli_fixed_probe(D, A, P, &is_good);
-  }
-  if (is_good) {
-    D->pins = P;
-    D->info.method = SL_FIXED_PINS;
-  } else {
-    sl_constraints_free(P);
-  }
-  return status;
-}
-
-static sl_status sli_fixed_restrict(sl_fixed *D, const sl_factor *F, const sl_csc *A,
-    sl_stats *stats) {
-  const sl_options only_memory = sli_options_with(&D->allocator);
-  D->info.method = SL_FIXED_RESTRICTION;
-  return sl_factor_submatrix(&D->S, &D->F, F, A, D->free_rows, D->n_free, &only_memory, stats);
-}
-
-SLI_INLINE int sli_fixed_is_over(sl_status status) {
-  return status == SL_ERR_MEMORY || status == SL_ERR_TOO_LARGE;
-}
-
-SLI_COLD static sl_status sli_fixed_take(sl_fixed *D, const sl_factor *F, const sl_csc *A,
-    sl_stats *stats) {
-  sli_fixed_choice c;
-  sli_block b = {NULL, 0};
-  sl_status status = SL_OK;
-  if (!sli_fixed_is_factor_of(F, A)) {
-    return SL_OK;
-  }
-  SLI_CLEAR(c);
-  c.F = F;
-  SLI_LAYOUT(&b, &D->allocator, status) {
-    c.seeds = SLI_TAKE(&b, uint64_t, D->n_fixed);
-    c.scratch = SLI_TAKE(&b, uint64_t, D->n_fixed);
-    c.uses = SLI_TAKE(&b, sl_int, F->S->n_supers);
-  }
-  if (status != SL_OK) {
-    return status;
-  }
-  sli_fixed_count(&c, D);
-  sli_free(&D->allocator, b.base);
-  if (D->info.seconds_pins > 0.0 &&
-      D->info.seconds_pins <= fmin(D->info.seconds_restriction, D->info.seconds_submatrix)) {
-    status = sli_fixed_pin(D, F, A, stats);
-  }
-  if (!sli_fixed_is_over(status) && D->pins == NULL &&
-      D->info.seconds_restriction <= D->info.seconds_submatrix) {
-    status = sli_fixed_restrict(D, F, A, stats);
-  }
-  return sli_fixed_is_over(status) ? status : SL_OK;
-}
-
-static void sli_fixed_copy(double *to, sli_dense t, const double *from, sli_dense f, sl_int rows,
-    sl_int columns) {
-  sl_int k, r;
-  for (k = 0; k < rows; k++) {
-    for (r = 0; r < columns; r++) {
-      to[(size_t)k * t.row + (size_t)r * t.column] =
-        from == NULL ? 0.0 : from[(size_t)k * f.row + (size_t)r * f.column];
-    }
-  }
-}
-
-static sl_status sli_fixed_solve_pins(const sl_fixed *D, const sli_rhs *rhs, const double *G,
-    size_t ldg, sl_work *W) {
-  const sl_constraints *P = (const sl_constraints *)D->pins;
-  const size_t n = (size_t)D->n, m = (size_t)D->n_fixed;
-  sli_block b = {NULL, 0};
-  double *X = NULL, *held = NULL;
-  sl_status status = SL_OK;
-  sl_int r, count;
-  if (rhs->B != NULL && ((rhs->ldx | rhs->ldb | ldg) & SL_ROW_MAJOR) == 0) {
-    return sl_constraints_solve(P, NULL, rhs->X, rhs->ldx, rhs->B, rhs->ldb, G, ldg, rhs->nrhs,
-        W);
-  }
-  SLI_LAYOUT(&b, &D->allocator, status) {
-    X = SLI_TAKE(&b, double, 8 * (uint64_t)n);
-    held = SLI_TAKE(&b, double, 8 * (uint64_t)m);
-  }
-  for (r = 0; r < rhs->nrhs && status == SL_OK; r += count) {
-    const sli_dense x = sli_dense_by_columns(n), h = sli_dense_by_columns(m);
-    const sli_dense g = sli_dense_of(ldg);
-    sli_rhs part;
-    count = sli_min(8, rhs->nrhs - r);
-    part = sli_rhs_part(rhs, r, count);
-    sli_fixed_copy(X, x, part.B, sli_dense_of(part.ldb), D->n, count);
-    sli_fixed_copy(held, h, m == 0 ? NULL : G + (size_t)r * g.column, g, D->n_fixed, count);
-    status = sl_constraints_solve(P, NULL, X, n, X, n, held, m, count, W);
-    if (status == SL_OK) {
-      sli_fixed_copy(part.X, sli_dense_of(part.ldx), X, x, D->n, count);
-    }
-  }
-  sli_free(&D->allocator, b.base);
-  return status;
-}
-
-static void sli_fixed_release(sl_fixed *D) {
-  sl_constraints_free((sl_constraints *)D->pins);
-}
-
-static const sli_fixed_ways sli_fixed_reuse = {sli_fixed_take, sli_fixed_solve_pins,
-                         sli_fixed_release};
 
 #endif
 /* io: files that are replaced only when they are complete */
@@ -33128,7 +32960,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   if (F->type == NULL) { /* untested: all storages are there */
     return 1; /* untested: the same */
   }
-  F->null.mode = (sl_null_pivots)g->null_pivots;
+  F->null.calls = sli_singular_of(skips);
   F->null.checks = (int)g->checks;
   F->null.is_centered = (int)g->is_centered;
   F->null.count = (sl_int)g->nulls;
@@ -33477,7 +33309,7 @@ SLI_HOT static int sli_check_factor(const sl_factor *F) {
     if (!sli_is_finite(d)) {
       return 0;
     }
-    if (F->null.mode == SL_NULL_PIVOT_SKIP &&
+    if (sli_skips_nulls(F) &&
         (F->rule.kinds[k] < SLI_PIVOT_UNKNOWN || F->rule.kinds[k] > SLI_PIVOT_WEAK ||
         (F->null.vectors == 1 && F->null.g[k] != 0.0 && F->null.g[k] != F->null.z[k]))) {
       return 0;
@@ -33545,7 +33377,7 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
   sli_saved_factor g;
   SLI_CLEAR(g);
   g.method = F->method;
-  g.null_pivots = F->null.mode;
+  g.null_pivots = sli_skips_nulls(F) ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
   g.has_mass = F->null.mass != NULL;
   g.has_signs = F->rule.regularization != 0.0 && F->rule.signs != NULL;
   g.checks = F->null.checks;
@@ -33964,6 +33796,10 @@ static sl_status sli_read_front(sli_reading *r) {
     if (r->F.type == NULL) { /* untested: all storages are there */
       return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
           sli_storage_needs(SL_STORAGE_FLOAT)); /* untested: the same */
+    }
+    if (f->factor.null_pivots == SL_NULL_PIVOT_SKIP && !sli_skips_nulls(&r->F)) {
+      return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: null spaces are there */
+          "a factor with null pivots: compiled with SL_NO_SINGULAR");
     }
   }
   if ((r->F.type->storage != SL_STORAGE_DOUBLE) !=
@@ -34880,7 +34716,7 @@ static sl_status sli_solve_batch_columns(const sli_solve_batch *b, const sl_requ
   const sli_rhs all = sli_rhs_of(r->X, r->ldx, r->B, r->ldb, r->nrhs);
   const sli_rhs part = sli_rhs_part(&all, first, last - first);
   if (b->only_checks) {
-    return F->null.checks ? sli_sweep_check(F, q, &part, memory) : SL_OK;
+    return sli_sweep_check(F, q, &part, memory);
   }
   return sli_sweep_blocks(F, q, &part, memory);
 }
@@ -36068,22 +35904,40 @@ static const char *sli_storage_needs(sl_storage storage) { /* untested: the same
          : "options.storage needs SL_WITH_FLOAT"; /* untested: the same */
 }
 
-#if defined(SL_WITH_FIXED)
-/* src/impl/packs/fixed_ways.h: the ways to fix rows that are compiled in beside a factor of the free rows */
+/* src/impl/packs/singular_table.h: null spaces, if they are compiled in */
 
-#if defined(SL_WITH_CHANGE)
-#else
-#endif
+#if defined(SL_NO_SINGULAR)
 
-static const sli_fixed_ways *sli_fixed_ways_of(void) {
-#if defined(SL_WITH_CHANGE)
-  return &sli_fixed_reuse;
-#else
+static const sli_singular *sli_singular_of(int skips_nulls) {
+  (void)skips_nulls;
   return NULL;
-#endif
+}
+
+static const char *sli_singular_missing(const sl_options *opt) {
+  return opt == NULL ? NULL
+       : opt->null_pivots == SL_NULL_PIVOT_SKIP
+         ? "options.null_pivots = SL_NULL_PIVOT_SKIP: compiled with SL_NO_SINGULAR"
+       : opt->mass != NULL ? "options.mass: compiled with SL_NO_SINGULAR"
+       : opt->null_vector != NULL || opt->null_vector_count != 0
+         ? "options.null_vector: compiled with SL_NO_SINGULAR"
+       : opt->consistency_tolerance != 0.0
+         ? "options.consistency_tolerance: compiled with SL_NO_SINGULAR"
+         : NULL;
+}
+
+#else
+
+static const sli_singular *sli_singular_of(int skips_nulls) {
+  return skips_nulls ? &sli_singular_calls : NULL;
+}
+
+static const char *sli_singular_missing(const sl_options *opt) {
+  (void)opt;
+  return NULL;
 }
 
 #endif
+
 /* last: undefine every internal macro */
 /* src/impl/base/undef.h: undefines every internal macro */
 #undef SLI_SELF_INCLUSION
@@ -36407,31 +36261,19 @@ static const sli_fixed_ways *sli_fixed_ways_of(void) {
 #undef SLI_LATTICE_SHARE
 #undef SLI_NULL_ANCHOR
 #undef SLI_NULL_DEPENDENT
-#undef SLI_CONSTRAINTS_ENTRY
-#undef SLI_CONSTRAINTS_JOINT
-#undef SLI_CONSTRAINTS_BLOCK
-#undef SLI_CONSTRAINTS_PRODUCT
-#undef SLI_CONSTRAINTS_NUMBER
-#undef SLI_CONSTRAINTS_PIN
 #undef SLI_CONSTRAINTS_SINGLY
 #undef SLI_RANK_LARGE
 #undef SLI_RANK_RING
 #undef SLI_RANK_SMALL
 #undef SLI_EDGES_HEAVY
 #undef SLI_LOSS_SMALL
-#undef SLI_CONSTRAINTS_DENSE
 #undef SLI_PAIR_CACHED
 #undef SLI_PAIR_READ
 #undef SLI_PAIR_LARGE
 #undef SLI_SWEEP_FLOPS
-#undef SLI_FIXED_ANALYSIS
-#undef SLI_FIXED_ROW
-#undef SLI_FIXED_COPY
-#undef SLI_FIXED_PROBE
-#undef SLI_FIXED_PINS
-#undef SLI_FIXED_LOST
 #undef SLI_CONSTRAINTS_LOST
 #undef SLI_NULL_VECTORS_MAX
+#undef SLI_FOR_LANES
 #undef SLI_READ_VERSION_DOUBLE
 #undef SLI_RESTRICT_AHEAD
 #undef SLI_RESTRICT_IN_PLACE
@@ -36670,7 +36512,7 @@ SLI_INLINE void sli_plain_take(const sl_factor *F, sl_int c, sl_int worker, doub
 SLI_INLINE int sli_plain_runs(const sl_factor *F, const sli_source *from) {
   return from->A != NULL && F->work.copied == NULL &&
        F->history.marks != NULL && /* branches untested: of a restriction, none is direct */
-       F->null.mode != SL_NULL_PIVOT_SKIP;
+       !sli_skips_nulls(F);
 }
 
 SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl_int s,
@@ -40072,12 +39914,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots2)(const SLV_VALUE *l0, const SLV_VAL
   } else { \
     SLV_SUM_ZERO(a##k) \
   }
-#if !defined(SLV_PLAIN) || defined(SLV_ARRAYS)
-#define SLI_SHARED SLI_NOINLINE static
-#else
-#define SLI_SHARED SLI_INLINE
-#endif
-SLV_FUNCTION SLI_SHARED void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inner,
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inner,
     const double *sums, const double *d, double *xs,
     double *buf) {
   double r[SLI_TILE];
@@ -40189,7 +40026,6 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 #undef SLI_ROW_AT
 #undef SLI_ROW_AT_PART
 #undef SLI_TAKE_SUM
-#undef SLI_SHARED
 #undef SLI_FEW_STEPS
 /* end of single_rhs.inl.h */
 #endif

@@ -141,21 +141,18 @@ extern "C" {
 #include "impl/analysis/same_pattern.h"
 #include "impl/analysis/reach.h"
 /* factor: the numbers of L and D */
+#include "impl/factor/null_space.h"
 #include "impl/factor/factor_types.h"
 #include "impl/factor/storage_type.h"
 #include "impl/factor/panel_load.h"
 #include "impl/factor/pivot_check.h"
-#include "impl/factor/null_product.h"
-#include "impl/factor/null_dense.h"
-#include "impl/factor/null_basis.h"
-#include "impl/factor/null_vectors.h"
+#include "impl/factor/components.h"
+#include "impl/factor/pivot_suspects.h"
 #include "impl/factor/multifrontal.h"
 #include "impl/factor/uplooking.h"
 #include "impl/factor/front_tasks.h"
-#include "impl/factor/null_center.h"
-#include "impl/factor/nullspace.h"
 #include "impl/factor/growth.h"
-#include "impl/factor/null_judge.h"
+#include "impl/factor/pivot_judge.h"
 #include "impl/factor/factor_layout.h"
 #include "impl/factor/factor_setup.h"
 #include "impl/factor/symmetry.h"
@@ -164,13 +161,26 @@ extern "C" {
 /* solve: full and local solves */
 #include "impl/solve/work.h"
 #include "impl/solve/query.h"
-#include "impl/solve/singular.h"
+#include "impl/solve/packed.h"
 #include "impl/solve/backward.h"
 #include "impl/solve/sweep_tasks.h"
 #include "impl/solve/sweep.h"
 #include "impl/solve/compile.h"
 #include "impl/solve/plan.h"
 #include "impl/solve/local.h"
+/* singular: null spaces of semidefinite matrices */
+#if !defined(SL_NO_SINGULAR)
+#include "impl/singular/product.h"
+#include "impl/singular/dense.h"
+#include "impl/singular/basis.h"
+#include "impl/singular/vectors.h"
+#include "impl/singular/center_several.h"
+#include "impl/singular/nullspace.h"
+#include "impl/singular/null_sums.h"
+#include "impl/singular/consistency.h"
+#include "impl/singular/centering.h"
+#include "impl/singular/singular.h"
+#endif
 /* accuracy: refinement, condition, defects, half solves, bounds of errors */
 #if defined(SL_WITH_ACCURACY)
 #include "impl/accuracy/parts.h"
@@ -304,6 +314,7 @@ extern "C" {
 #endif
 /* packs: the tables through which the core calls packs */
 #include "impl/packs/storage_types.h"
+#include "impl/packs/singular_table.h"
 /* last: undefine every internal macro */
 #include "impl/base/undef.h"
 #endif

@@ -16,9 +16,10 @@
  *
  * which is small if b and i meet far up. Terms of higher order are below 4 eta^2 |u(i)| |u(b)|.
  *
- * Centered solves (nullspace.h). x = v + t z, where v is 0 in the row k of the anchor and solves
- * the other rows with b - c m, and t is -w' u(b - c m) for w = u(m / z' m) and the null vector z, 1
- * in row k. Each product of two vectors u has an error of at most eta times their norms, and so
+ * Centered solves (singular/nullspace.h). x = v + t z, where v is 0 in the row k of the anchor and
+ * solves the other rows with b - c m, and t is -w' u(b - c m) for w = u(m / z' m) and the null
+ * vector z, 1 in row k. Each product of two vectors u has an error of at most eta times their
+ * norms, and so
  *
  *    |x(i) - exact| <= eta (|u(i)| + 2 |z(i)| |w|) |u(b - c m)|,
  *
@@ -335,7 +336,7 @@ static sl_status sli_bounds_run(sli_bounds *p, const sli_rhs *rhs, double *bound
         return status;
     }
     sli_bounds_layout(p, &b, rhs->nrhs, needs);
-    if (p->F->null.checks && sli_sweep_check(p->F, p->q, rhs, p->memory) != SL_OK) {
+    if (sli_sweep_check(p->F, p->q, rhs, p->memory) != SL_OK) {
         return sli_inconsistent();
     }
     if (needs != SLI_NEEDS_NOTHING) {

@@ -5,6 +5,25 @@
 #include "../../public/accuracy.h"
 #include "../solve/sweep.h"
 
+/* Y := z' b for the null vectors that are known, where components have several; Y is rhs->X. */
+static void sli_defects_known(const sl_factor *F, const sli_packed *b, const sli_rhs *rhs) {
+    const sli_reach *R = b->R;
+    sl_int first = 0, s, r;
+    for (s = 0; s < R->count && F->null.vectors > 1; s++) {
+        sli_null_dot dot;
+        if (R->steps[s].up != -1) {
+            continue;
+        }
+        dot.next = sli_null_first(F, R, s);
+        while (F->null.calls->next_dot(F, b, first, s, &dot)) {
+            for (r = 0; r < rhs->nrhs; r++) {
+                rhs->X[(size_t)dot.number + (size_t)r * rhs->ldx] = dot.sums[r];
+            }
+        }
+        first = s + 1;
+    }
+}
+
 /* Y := the entries of L^-1 P B at the null pivots, in blocks of right-hand sides; Y is rhs->X. */
 static void sli_defects(const sl_factor *F, const sli_query *q, const sli_rhs *rhs, void *memory) {
     sl_int c, r, m;
@@ -14,9 +33,7 @@ static void sli_defects(const sl_factor *F, const sli_query *q, const sli_rhs *r
         const sli_vectors v = sli_vectors_of(q, block.nrhs, memory);
         const sli_packed b = sli_packed_of(&q->forward, v.y, lanes);
         sli_pack(F, q, v.y, &block);
-        if (F->null.vectors > 1) {
-            (void)sli_null_dots(F, &b, NULL, block.X, block.ldx, block.nrhs);
-        }
+        sli_defects_known(F, &b, &block);
         sli_sweep_forward(F, q, &v, block.nrhs);
         for (m = 0; m < F->null.count; m++) {
             const int is_known = F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
@@ -36,6 +53,7 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
     sli_query q;
     sl_status status;
     status = F == NULL ? sli_argument("F is NULL") : sli_factor_has_numbers(F);
+    status = status == SL_OK ? sli_singular_needed() : status;
     status = status == SL_OK ? sli_rhs_check_columns(&rhs, F->null.count, F->S->n) : status;
     if (status == SL_OK && Y == B && Y != NULL) {
         status = sli_argument("Y is B");

@@ -119,6 +119,7 @@ SL_API sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_pseudo_inverse 
                      : (P->Q == NULL) != (P->K == NULL) || (P->Q == NULL) != (P->component == NULL)
                          ? "P has only some of component, Q and K"
                          : NULL);
+    status = status == SL_OK ? sli_singular_needed() : status;
     status = status == SL_OK ? sli_parts_check(F, all) : status;
     if (status == SL_OK && F->E != NULL) {
         status = sli_refuse(SL_ERR_UNSUPPORTED, "the pseudo-inverse with 2x2 pivots");

@@ -53,7 +53,7 @@ static sl_status sli_solve_batch_columns(const sli_solve_batch *b, const sl_requ
     const sli_rhs all = sli_rhs_of(r->X, r->ldx, r->B, r->ldb, r->nrhs);
     const sli_rhs part = sli_rhs_part(&all, first, last - first);
     if (b->only_checks) {
-        return F->null.checks ? sli_sweep_check(F, q, &part, memory) : SL_OK;
+        return sli_sweep_check(F, q, &part, memory);
     }
     return sli_sweep_blocks(F, q, &part, memory);
 }

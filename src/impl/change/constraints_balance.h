@@ -54,7 +54,7 @@ static int sli_constraints_defects(const sl_constraints *P, const sli_constraint
             continue;
         }
         dot.next = sli_null_first(F, R, s);
-        while (sli_null_dot_next(F, b, first, s, &dot)) {
+        while (F->null.calls->next_dot(F, b, first, s, &dot)) {
             if (P->uses[dot.number] > 0) {
                 SLI_COPY(w->s + (ptrdiff_t)w->place[dot.number] * lanes, dot.sums, lanes);
                 continue;

@@ -3,7 +3,6 @@
 #ifndef SLI_CHANGE_CONSTRAINTS_NULLS_H
 #define SLI_CHANGE_CONSTRAINTS_NULLS_H
 
-#include "../factor/null_basis.h"
 #include "constraints_types.h"
 
 /* The tree of a column. */

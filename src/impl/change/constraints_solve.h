@@ -155,7 +155,7 @@ static int sli_constraints_forward(const sli_constraints_solve *w, const sli_vec
         sli_constraints_largest(R, v->y, w->forces, w->lanes);
     }
     if (F->null.count > 0) {
-        sli_norms(&b, norms);
+        F->null.calls->norms(&b, norms);
     }
     if (!sli_constraints_defects(P, &w->nulls, &b, norms)) {
         return 0;
@@ -199,7 +199,7 @@ SLI_HOT static sl_status sli_constraints_block(sli_constraints_solve *w) {
     if (F->null.is_centered) {
         const sli_packed y = sli_packed_of(&q->forward, v.y, lanes);
         const sli_packed x = sli_packed_of(&q->backward, v.x, lanes);
-        sli_center(F, &y, &x, P->uses);
+        F->null.calls->center(F, &y, &x, P->uses);
     }
     sli_backward(F, &q->backward, kind, v.x, v.scratch);
     sli_constraints_shift(P, q, &w->nulls, v.x, lanes);

@@ -65,7 +65,7 @@ static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *s
 static int sli_reuse_is_suited(const sl_factor *F, const sl_factor *G) {
     const double a = F->rule.null_tolerance, b = G->rule.null_tolerance;
     return F->history.marks != NULL && G->history.marks != NULL && F->E == NULL && G->E == NULL &&
-           G->type->accepts == NULL && F->null.mode == G->null.mode && F->null.vectors == 1 &&
+           G->type->accepts == NULL && F->null.calls == G->null.calls && F->null.vectors == 1 &&
            G->null.vectors == 1 && F->rule.regularization == G->rule.regularization &&
            (a == b || (sli_tolerance_is_default(F) && sli_tolerance_is_default(G)));
 }
@@ -123,8 +123,7 @@ static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_
     const sl_off begin = T->steps[s].panel, least = T->scatter_begin[0] + SLI_ENTRIES_AHEAD;
     const double *l = (const double *)F->values + S->steps[there].panel;
     const double d = F->D[S->steps[there].column];
-    const int has_mark = F->schedule.is_plain[there] != SLI_PLAIN_DIRECT ||
-                         F->null.mode == SL_NULL_PIVOT_SKIP ||
+    const int has_mark = F->schedule.is_plain[there] != SLI_PLAIN_DIRECT || sli_skips_nulls(F) ||
                          sli_is_regularized(F, S->steps[there].column);
     int is_same = has_mark || r->G->schedule.is_plain[s] == SLI_PLAIN_DIRECT;
     uint64_t mark = SLI_MARK_BEGIN, before = SLI_MARK_BEGIN;
@@ -259,8 +258,8 @@ static sl_status sli_reuse_numbers(sli_reuse *r, sl_stats *stats) {
     sl_status status;
     SLI_CLEAR(failure);
     sli_factor_begin(r->G);
-    if (is_suited && r->G->null.mode == SL_NULL_PIVOT_SKIP) {
-        is_suited = sli_null_vectors_check(r->G, &from, &failure) == SL_OK;
+    if (is_suited && sli_skips_nulls(r->G)) {
+        is_suited = r->G->null.calls->prepare(r->G, &from, &failure) == SL_OK;
     }
     keeps = is_suited && sli_reuse_find(r);
     status = keeps ? sli_reuse_run(r, &from, &failure) : SL_OK;

@@ -5,8 +5,8 @@
 #include "../analysis/same_pattern.h"
 #include "factor_setup.h"
 #include "front_tasks.h"
-#include "null_judge.h"
 #include "pivot_check.h"
+#include "pivot_judge.h"
 #include "symmetry.h"
 #include "uplooking.h"
 
@@ -60,7 +60,7 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
     if (f->bound < 0.0) {
         return "there was no memory to judge whether the pivot is null";
     }
-    if (F->null.mode == SL_NULL_PIVOT_SKIP) {
+    if (sli_skips_nulls(F)) {
         return f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
                                 "SL_NULL_PIVOT_SKIP takes semidefinite matrices"
                               : "A is indefinite, or options.null_vector or options.mass does not "
@@ -68,6 +68,10 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
     }
     if (F->S->is_pivoted) {
         return "options.null_tolerance decides; a negative one accepts every pivot but 0";
+    }
+    if (sli_singular_of(1) == NULL) { /* untested: null spaces are there */
+        return "null pivot: if A is singular, options.null_pivots, which SL_NO_SINGULAR leaves "
+               "out; if it is regular, sl_symbolic_create_pivoted"; /* untested: the same */
     }
     return size > F->rule.epsilon * F->extents[f->super].magnitude
                ? "if A is singular: options.null_pivots; if the pivot may be right, a smaller or "
@@ -140,33 +144,72 @@ static void sli_factor_identify_numbers(sl_factor *F) {
     F->identity = sli_hash_words(F->identity, F->D, F->S->n);
 }
 
-/* Ends a factorization: computes what solves with null pivots need, and records the outcome in F
- * and for the caller. */
+/* What is judged of a factorization. */
+typedef struct sli_verdict {
+    sl_factor *F;
+    const sli_source *from;
+    sli_failure *failure;
+    int has_pivots; /* the failure, if there is one, came after all pivots */
+} sli_verdict;
+
+SLI_NOINLINE static void sli_verdict_report(const sli_verdict *v) {
+    sli_factor_outcome(v->F, v->from->A, v->failure, v->has_pivots);
+}
+
+/* Null pivots that are skipped: finds them, and computes what solves need. */
+static void sli_judge_nulls(sli_verdict *v) {
+    if (sli_skips_nulls(v->F)) {
+        (void)v->F->null.calls->finish(v->F, v->from, v->failure);
+    }
+    v->has_pivots = v->failure->status == SL_OK;
+}
+
+/* Growth, and pivots that the tolerance left to a judgement. */
+static void sli_judge_growth(sli_verdict *v) {
+    sl_factor *F = v->F;
+    sli_failure *failure = v->failure;
+    F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
+    if ((!v->has_pivots || sli_growth_check(F, failure)) &&
+        sli_nulls_judge(F, v->has_pivots ? -1 : failure->super, failure) != SL_OK) {
+        v->has_pivots = v->has_pivots && failure->status == SL_ERR_INACCURATE;
+    }
+    sli_verdict_report(v); /* it counts the pivots */
+}
+
+/* Pivots whose sign is rounding error. */
+static void sli_judge_signs(sli_verdict *v) {
+    if (v->failure->status == SL_OK && sli_signs_are_suspected(v->F) &&
+        sli_signs_judge(v->F, v->failure) != SL_OK) {
+        v->has_pivots = 0;
+        sli_verdict_report(v);
+    }
+}
+
+/* Negative pivots, where A must be definite. */
+static void sli_judge_definite(sli_verdict *v) {
+    if (v->F->limits.is_definite && v->has_pivots && v->F->stats.factor.negative > 0 &&
+        v->failure->status != SL_ERR_PIVOT) { /* branches untested: without pivots */
+        sli_refuse_negative(v->F, v->failure);
+        sli_verdict_report(v);
+    }
+}
+
+/* The judgements of a factorization, in order: each sees the failures of those before it. */
+static void (*const sli_judgements[])(sli_verdict *v) = {sli_judge_nulls, sli_judge_growth,
+                                                         sli_judge_signs, sli_judge_definite};
+
+/* Ends a factorization: judges it, and records the outcome in F and for the caller. */
 static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failure *failure,
                                  double started, sl_stats *stats) {
+    sli_verdict v;
     double ended;
-    int has_pivots, suspects;
-    if (failure->status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
-        (void)sli_nulls_find(F, from, failure);
-    }
-    if (failure->status == SL_ERR_PIVOT && F->null.mode == SL_NULL_PIVOT_SKIP) {
-        sli_null_finite_check(F, from, failure);
-    }
-    F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
-    has_pivots = failure->status == SL_OK;
-    suspects = !has_pivots || sli_growth_check(F, failure);
-    if (suspects && sli_nulls_judge(F, has_pivots ? -1 : failure->super, failure) != SL_OK) {
-        has_pivots = has_pivots && failure->status == SL_ERR_INACCURATE;
-    }
-    sli_factor_outcome(F, from->A, failure, has_pivots);
-    if (failure->status == SL_OK && sli_signs_are_suspected(F) &&
-        sli_signs_judge(F, failure) != SL_OK) {
-        sli_factor_outcome(F, from->A, failure, 0);
-    }
-    if (F->limits.is_definite && has_pivots && F->stats.factor.negative > 0 &&
-        failure->status != SL_ERR_PIVOT) { /* branches untested: without pivots */
-        sli_refuse_negative(F, failure);
-        sli_factor_outcome(F, from->A, failure, 1);
+    size_t m;
+    v.F = F;
+    v.from = from;
+    v.failure = failure;
+    v.has_pivots = 0;
+    for (m = 0; m < sizeof sli_judgements / sizeof *sli_judgements; m++) {
+        sli_judgements[m](&v);
     }
     ended = sli_factor_clock(F->S);
     F->stats.factor.seconds = ended > 0.0 ? ended - started : 0.0;
@@ -254,8 +297,8 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
     if (F->type->accepts != NULL && failure.status == SL_OK) {
         F->type->accepts(F->S, from, &failure);
     }
-    if (failure.status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
-        (void)sli_null_vectors_check(F, from, &failure);
+    if (failure.status == SL_OK && sli_skips_nulls(F)) {
+        (void)F->null.calls->prepare(F, from, &failure);
     }
     if (failure.status == SL_OK && sli_factor_eliminate(F, from, &failure) == SL_OK &&
         sli_null_is_suspected(F) && sli_nulls_judge(F, -1, &failure) == SL_OK) {

@@ -5,8 +5,7 @@
 #include "../../public/factor.h"
 #include "../analysis/schedule.h"
 #include "../analysis/symbolic.h"
-#include "factor_types.h"
-#include "nullspace.h"
+#include "components.h"
 
 /* What a factorization leaves and solves read, and the options that the next one needs. has_mass:
  * there are weights. A saved factor has these arrays in this order (save/format.h). */
@@ -26,18 +25,8 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
         F->rule.shifts = SLI_TAKE(b, double, n);
         F->rule.regularized = SLI_TAKE(b, sl_int, n);
     }
-    if (F->null.mode == SL_NULL_PIVOT_SKIP) {
-        F->null.pivots = SLI_TAKE(b, sl_int, n);
-        F->rule.kinds = SLI_TAKE(b, signed char, n);
-        F->null.z = SLI_TAKE(b, double, n *(uint64_t)F->null.vectors);
-        F->null.g = SLI_TAKE(b, double, n *(uint64_t)F->null.vectors);
-    }
-    if (has_mass) {
-        F->null.anchors = SLI_TAKE(b, sl_int, S->stats.symbolic.components);
-        F->null.squares = SLI_TAKE(b, double, S->stats.symbolic.components);
-        F->null.mass = SLI_TAKE(b, double, n);
-        F->null.center = SLI_TAKE(b, double, n *(uint64_t)sli_center_count(F));
-        F->null.ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
+    if (sli_skips_nulls(F)) {
+        F->null.calls->layout(F, b, has_mass);
     }
     F->values =
         sli_take(b, (uint64_t)(S->panel_begin[S->n_supers] >> F->type->half), F->type->value_bytes);
@@ -66,17 +55,8 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
     const sl_symbolic *S = F->S;
     const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
     const uint64_t workers = (uint64_t)F->schedule.workers;
-    if (F->null.mode == SL_NULL_PIVOT_SKIP) {
-        F->rule.signs = SLI_TAKE(b, signed char, n);
-        F->null.rows = SLI_TAKE(b, sli_null_row, n);
-        F->null.last = SLI_TAKE(b, sl_int, n);
-        F->null.rounding = SLI_TAKE(b, double, n);
-        F->null.sweep = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
-        if (F->null.vectors > 1) {
-            F->null.chain = SLI_TAKE(b, sl_int, n);
-            F->null.row_entries = SLI_TAKE(b, sl_int, n);
-            F->null.products = SLI_TAKE(b, double, n *((uint64_t)F->null.vectors + 2));
-        }
+    if (sli_skips_nulls(F)) {
+        F->null.calls->layout_scratch(F, b);
     }
     if (F->method == SL_METHOD_SUPERNODAL) {
         const uint64_t rows = SLI_TILE * (uint64_t)sli_tiles(S->tallest);
@@ -147,7 +127,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
         if (F->history.marks != NULL) {
             memset(F->history.marks, 0, (size_t)S->n_supers * sizeof(uint64_t));
         }
-        F->null.has_duplicates = F->null.mode == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(S);
+        F->null.has_duplicates = sli_skips_nulls(F) && sli_map_has_duplicates(S);
         if (has_fronts) {
             memcpy(p.first, plan.first, planned);
             p.workers = plan.workers;

@@ -55,15 +55,15 @@ SLI_INLINE double sli_limit_option(double limit) {
 static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
     const double null = opt == NULL ? 0.0 : opt->null_tolerance;
     const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
-    F->null.mode = opt == NULL ? SL_NULL_PIVOT_REFUSE : opt->null_pivots;
+    const sl_int vectors = opt == NULL ? 0 : (sl_int)opt->null_vector_count;
+    F->null.calls = sli_singular_of(opt != NULL && opt->null_pivots == SL_NULL_PIVOT_SKIP);
     F->rule.epsilon = F->type->epsilon;
     F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n, F->rule.epsilon) : null;
     F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
-    F->rule.replaces = F->null.mode == SL_NULL_PIVOT_SKIP || F->rule.regularization != 0.0;
-    F->null.vectors =
-        opt == NULL || opt->null_vector_count == 0 ? 1 : (sl_int)opt->null_vector_count;
+    F->rule.replaces = sli_skips_nulls(F) || F->rule.regularization != 0.0;
+    F->null.vectors = sli_skips_nulls(F) ? sli_max(vectors, 1) : 1;
     F->null.consistency = consistency == 0.0 ? 1e-6 : consistency;
-    F->null.is_centered = F->null.mode == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
+    F->null.is_centered = sli_skips_nulls(F) && opt->mass != NULL;
     F->limits.is_definite = opt != NULL && opt->definite != 0;
     F->limits.growth = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
                                  sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
@@ -73,7 +73,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
 /* Copies the arrays that the rules refer to, into pivot order. */
 static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_stats *stats) {
     const sl_symbolic *S = F->S;
-    sl_int i, j;
+    sl_int i;
     if (F->rule.regularization != 0.0 && opt->signs == NULL && S->is_pivoted) {
         memset(F->rule.signs, 0, (size_t)S->n); /* any sign is right */
     } else if (F->rule.regularization != 0.0 && opt->signs == NULL) {
@@ -87,22 +87,7 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
             F->rule.signs[S->iperm[i]] = (signed char)opt->signs[i];
         }
     }
-    if (F->null.mode == SL_NULL_PIVOT_SKIP) {
-        memset(F->rule.kinds, 0, (size_t)S->n);
-        for (j = 0; j < F->null.vectors; j++) {
-            const size_t column = (size_t)j * (size_t)S->n;
-            for (i = 0; i < S->n; i++) {
-                const double z =
-                    opt->null_vector == NULL ? 1.0 : opt->null_vector[column + (size_t)i];
-                if (!sli_is_finite(z)) {
-                    return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, z,
-                                       "options.null_vector is not finite");
-                }
-                F->null.z[column + (size_t)S->iperm[i]] = z;
-            }
-        }
-    }
-    return F->null.mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
+    return sli_skips_nulls(F) ? F->null.calls->fill(F, opt, stats) : SL_OK;
 }
 
 /* Do more than 8 MB of update matrices wait for one parent, and 8 times as much as L has? */
@@ -201,6 +186,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
                                      const sli_kernels *kernels, sl_stats *stats) {
     const double started = sli_factor_clock(S);
     const sl_allocator a = sli_allocator(opt);
+    const char *missing;
     sl_factor draft;
     sli_block b = {NULL, 0};
     sl_status status = SL_OK;
@@ -217,10 +203,14 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     if (draft.kernels != NULL && draft.type->sweeps(draft.kernels) == NULL) {
         draft.type = draft.type->in_double;
     }
+    missing = sli_singular_missing(opt);
+    if (missing != NULL) {                              /* untested: null spaces are there */
+        return sli_refuse(SL_ERR_UNSUPPORTED, missing); /* untested: the same */
+    }
     sli_factor_rules(&draft, opt);
     draft.method = sli_method(S, draft.type, opt);
     status =
-        S->is_pivoted && draft.null.mode == SL_NULL_PIVOT_SKIP
+        S->is_pivoted && sli_skips_nulls(&draft)
             ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_NULL_PIVOT_SKIP with an analysis for 2x2 pivots")
         : draft.type->suits != NULL && !draft.type->suits(&draft)
             ? sli_refuse(SL_ERR_UNSUPPORTED,

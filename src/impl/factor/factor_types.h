@@ -6,6 +6,7 @@
 #include "../analysis/schedule_types.h"
 #include "../kernels/dispatch.h"
 #include "../base/status.h"
+#include "null_space.h"
 
 /* The source of a factorization's entries: a matrix A, or a weighted sum of value arrays in the
  * order of the scatter map. */
@@ -27,23 +28,13 @@ typedef struct sli_failure {
     double bound; /* a pivot up to this size is null; 0: not known */
 } sli_failure;
 
-#define SLI_NULL_VECTORS_MAX 32
-
-/* Row i of A z. A cache line holds two: the product may visit rows at random. */
-typedef struct sli_null_row {
-    double z;
-    double product; /* (A z)(i) */
-    double size;    /* (|A| |z|)(i) */
-    sl_int entries; /* entries of the row */
-    sl_int up;      /* a later pivot's row in the component; i itself: the last one */
-} sli_null_row;
-
 /* What a supernode contributes to pivot growth (growth.h). */
 typedef struct sli_extent {
     double entry;     /* the largest |a| in its columns */
     double magnitude; /* the largest sum of magnitudes that one of its pivots was computed from */
     sl_int pivot;     /* that pivot; -1: all magnitudes are 0 */
-    sl_int suspects; /* 1 + a column in it: the first pivot that may be null (null_judge.h); or 0 */
+    /* 1 + a column in it: the first pivot that may be null (pivot_judge.h); or 0 */
+    sl_int suspects;
 } sli_extent;
 
 typedef struct sli_storage_type sli_storage_type; /* storage_type.h */
@@ -67,42 +58,6 @@ typedef struct sli_copied {
     /* copies a supernode whose descendants are copied, and prepares what it passes up */
     void (*copy)(sl_factor *F, sl_int s, sl_int worker);
 } sli_copied;
-
-/* The null space of a semidefinite matrix: what is known of it, and what solves need. */
-typedef struct sli_null_space {
-    sl_null_pivots mode;
-    double consistency; /* the bound on |z' b| relative to the sum of |b|; negative: no check */
-    int checks;         /* there are null pivots, and solves check that b is consistent */
-    int is_centered;    /* there are null pivots, and solves center x by the weights in mass */
-    sl_int count;
-    sl_int *pivots; /* n: the `count` skipped pivots, ascending */
-    sl_int n_anchors;
-    /* components: null pivots whose null vectors the weights fix, ascending, at most one a tree */
-    sl_int *anchors;
-    double *mass;   /* n: the weights m in pivot order; NULL: none */
-    sl_int vectors; /* columns of z and g */
-    double *z;      /* n x vectors: the assumed null vectors of all components */
-    /* n x vectors: one: z in trees with one component whose null vector is known, else 0;
-     * several: the null vectors that are known, 1 in one anchor each and 0 in the others */
-    double *g;
-    /* n: v = D^+ w, w = L^-1 P m / z' m, D^+ the pseudo-inverse of D (nullspace.h); where there are
-     * several null vectors, n x 2 vectors: U and V (null_center.h) */
-    double *center;
-    double *squares; /* components: w' D^+ w of the tree of each anchor */
-    double *ratios;  /* components: (e' L^-1 P m) / z' m for known z; 0: z is computed from L */
-
-    /* scratch */
-    int has_duplicates; /* of the pattern; known with the scratch arrays */
-    sli_null_row *rows; /* n */
-    sl_int *last;       /* n: the last pivot of each component */
-    double *rounding;   /* n: for the rule */
-    double *sweep;      /* of a kernel */
-    /* where there are several null vectors (null_basis.h): n: the pivot before in the component, -1
-     * at the first one; the entries of each row of A; n x (vectors + 2): A z, |A| |z| and the
-     * diagonal of A */
-    sl_int *chain, *row_entries;
-    double *products;
-} sli_null_space;
 
 /* What has been done to the numbers since the last complete factorization. */
 typedef struct sli_history {
@@ -271,9 +226,24 @@ SLI_INLINE sl_int sli_center_count(const sl_factor *F) {
     return F->null.vectors > 1 ? 2 * F->null.vectors : 1;
 }
 
+/* Are null pivots skipped? */
+SLI_INLINE int sli_skips_nulls(const sl_factor *F) {
+    return F->null.calls != NULL;
+}
+
 /* Was pivot k null and skipped? */
 SLI_INLINE int sli_is_skipped(const sl_factor *F, sl_int k) {
-    return F->null.mode == SL_NULL_PIVOT_SKIP && F->D[k] == SLI_NULL_PIVOT;
+    return sli_skips_nulls(F) && F->D[k] == SLI_NULL_PIVOT;
+}
+
+/* The column of g that holds the null vector of null pivot k; -1: it is not known, or k is a row of
+ * zeros. */
+SLI_INLINE sl_int sli_null_column(const sl_factor *F, sl_int k) {
+    sl_int j = 0;
+    while (j < F->null.vectors && F->null.g[(size_t)k + (size_t)j * (size_t)F->S->n] == 0.0) {
+        j++;
+    }
+    return j < F->null.vectors ? j : -1;
 }
 
 /* Was pivot k changed by regularization? */

@@ -146,7 +146,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     if (F->type == NULL) { /* untested: all storages are there */
         return 1;          /* untested: the same */
     }
-    F->null.mode = (sl_null_pivots)g->null_pivots;
+    F->null.calls = sli_singular_of(skips);
     F->null.checks = (int)g->checks;
     F->null.is_centered = (int)g->is_centered;
     F->null.count = (sl_int)g->nulls;

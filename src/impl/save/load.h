@@ -172,9 +172,13 @@ static sl_status sli_read_front(sli_reading *r) {
         if (status != SL_OK || !sli_decode_factor(&f->factor, &r->S, &r->F)) {
             return status != SL_OK ? status : sli_damaged();
         }
-        if (r->F.type == NULL) { /* untested: all storages are there */
-            return sli_refuse(SL_ERR_UNSUPPORTED,                   /* untested: the same */
+        if (r->F.type == NULL) {                  /* untested: all storages are there */
+            return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
                               sli_storage_needs(SL_STORAGE_FLOAT)); /* untested: the same */
+        }
+        if (f->factor.null_pivots == SL_NULL_PIVOT_SKIP && !sli_skips_nulls(&r->F)) {
+            return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: null spaces are there */
+                              "a factor with null pivots: compiled with SL_NO_SINGULAR");
         }
     }
     if ((r->F.type->storage != SL_STORAGE_DOUBLE) !=

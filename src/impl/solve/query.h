@@ -118,8 +118,7 @@ SLI_INLINE sl_int sli_block_size(sl_int nrhs, sl_int most) {
 #define SLI_BLOCK_MOST 64
 #define SLI_BLOCK_SINGULAR 32
 SLI_INLINE sl_int sli_block_most(const sl_factor *F) {
-    return F->null.checks || F->null.is_centered || F->null.count > 0 ? SLI_BLOCK_SINGULAR
-                                                                      : SLI_BLOCK_MOST;
+    return F->null.count > 0 ? SLI_BLOCK_SINGULAR : SLI_BLOCK_MOST;
 }
 
 /* Vectors and scratch of one block, cut from a workspace. */

@@ -3,8 +3,7 @@
 #define SLI_SOLVE_SWEEP_H
 
 #include "backward.h"
-#include "query.h"
-#include "singular.h"
+#include "packed.h"
 #include "sweep_tasks.h"
 
 /* Copies y to the backward vector in the columns that are in both reaches; the rest of that vector
@@ -18,59 +17,15 @@ static void sli_sweep_transfer(const sli_query *q, const double *y, double *x, s
     }
 }
 
-/* Computes z' b of the tree of steps first .. root, before its sweep, if z is known. Returns the
- * index of the null pivot in the vector, or -1. */
-static sl_int sli_sweep_dot(const sl_factor *F, const sli_packed *b, sl_int first, sl_int root,
-                            sli_null_dot *dot) {
-    dot->next = sli_null_first(F, b->R, root);
-    return sli_null_dot_next(F, b, first, root, dot) ? sli_reach_index_of(b->R, dot->null) : -1;
-}
-
 /* y := L^-1 y in the forward vector, and y(k) := z' b at known null vectors z, tree by tree. Where
  * components have several of them, their y(k) has no meaning. */
 static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
                               sl_int nrhs) {
-    const int kind = sli_lanes_kind(nrhs);
-    const sli_reach *R = &q->forward;
-    sli_packed b;
-    sli_reach tree;
-    sl_int first = 0, s;
-    if (F->null.count == 0 || F->null.vectors > 1) {
-        sli_forward_sweep(F, kind, R, v->y, v->scratch);
-        return;
+    if (F->null.count > 0) {
+        F->null.calls->forward(F, &q->forward, v, nrhs);
+    } else {
+        sli_forward_sweep(F, sli_lanes_kind(nrhs), &q->forward, v->y, v->scratch);
     }
-    b = sli_packed_of(R, v->y, (sl_int)1 << kind);
-    tree = *R;
-    for (s = 0; s < R->count; s++) {
-        sli_null_dot dot;
-        sl_int at;
-        if (R->steps[s].up != -1) {
-            continue;
-        }
-        at = sli_sweep_dot(F, &b, first, s, &dot);
-        tree.steps = R->steps;
-        tree.plain = R->plain;
-        sli_reach_cut(&tree, first, s + 1 - first);
-        sli_forward_sweep(F, kind, &tree, v->y, v->scratch);
-        if (at != -1) {
-            memcpy(v->y + ((ptrdiff_t)at << kind), dot.sums, sizeof(double) << kind);
-        }
-        for (; first <= s; first++) {
-            tree.rows += R->steps[first].below;
-        }
-    }
-}
-
-/* y := P b for a block of right-hand sides, for F that checks consistency. Returns 0 if one is
- * inconsistent, of several known null vectors. */
-static int sli_sweep_pack(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-                          const sli_rhs *rhs, double *norms) {
-    const sl_int lanes = (sl_int)1 << sli_lanes_kind(rhs->nrhs);
-    const sli_packed b = sli_packed_of(&q->forward, v->y, lanes);
-    sli_pack(F, q, v->y, rhs);
-    sli_norms(&b, norms);
-    return F->null.vectors == 1 || (q->ending != NULL && q->ending->rows > 0) ||
-           sli_null_dots(F, &b, norms, NULL, 0, lanes);
 }
 
 /* y := L^-1 P b for a block of right-hand sides. Returns 0 if F checks consistency and one is
@@ -78,67 +33,11 @@ static int sli_sweep_pack(const sl_factor *F, const sli_query *q, const sli_vect
 static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vectors *v,
                           const sli_rhs *rhs) {
     if (F->null.checks) {
-        const sli_packed y =
-            sli_packed_of(&q->forward, v->y, (sl_int)1 << sli_lanes_kind(rhs->nrhs));
-        double norms[SLI_BLOCK_SINGULAR];
-        if (!sli_sweep_pack(F, q, v, rhs, norms)) {
-            return 0;
-        }
-        sli_sweep_forward(F, q, v, rhs->nrhs);
-        return sli_is_consistent(F, &y, norms);
+        return F->null.calls->load(F, q, v, rhs);
     }
     sli_pack(F, q, v->y, rhs);
     sli_sweep_forward(F, q, v, rhs->nrhs);
     return 1;
-}
-
-/* Does the consistency check need the forward sweep? Not for known null vectors z, whose z' b are
- * sums over b, and not where a row is all of its tree, so that y is b there. */
-static int sli_check_sweeps(const sl_factor *F, const sli_reach *R) {
-    sl_int s, m;
-    for (s = 0; s < R->count; s++) {
-        sl_int known = 0;
-        sli_tree_range tree;
-        if (R->steps[s].up != -1) {
-            continue;
-        }
-        tree = sli_tree_range_of(F->S, &R->steps[s]);
-        m = tree.first == tree.root ? F->null.count : sli_null_first(F, R, s);
-        for (; m < F->null.count && F->null.pivots[m] <= tree.root; m++) {
-            const int is_known = sli_null_column(F, F->null.pivots[m]) != -1;
-            known += is_known;
-            if (!is_known || /* branches untested: one vector has one null pivot in a tree */
-                (known > 1 && F->null.vectors == 1)) { /* branches untested: the same */
-                return 1;
-            }
-        }
-    }
-    return 0;
-}
-
-/* Is a block of right-hand sides consistent, where that needs no sweep? As sli_sweep_load finds. */
-static int sli_sweep_judge(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-                           const sli_rhs *rhs) {
-    const sli_reach *R = &q->forward;
-    const sli_packed b = sli_packed_of(R, v->y, (sl_int)1 << sli_lanes_kind(rhs->nrhs));
-    double norms[SLI_BLOCK_SINGULAR];
-    sl_int first = 0, s;
-    if (!sli_sweep_pack(F, q, v, rhs, norms)) {
-        return 0;
-    }
-    for (s = 0; s < R->count && F->null.vectors == 1; s++) {
-        sli_null_dot dot;
-        sl_int at;
-        if (R->steps[s].up != -1) {
-            continue;
-        }
-        at = sli_sweep_dot(F, &b, first, s, &dot);
-        if (at != -1) {
-            SLI_COPY(v->y + (ptrdiff_t)at * b.lanes, dot.sums, b.lanes);
-        }
-        first = s + 1;
-    }
-    return sli_is_consistent(F, &b, norms);
 }
 
 /* P x := L'^-1 D^-1 y in the backward vector. */
@@ -152,10 +51,10 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
     if (q->ending != NULL) {
         q->ending->calls->apply(F, q, kind, v);
     }
-    if (F->null.is_centered || F->null.vectors > 1) {
+    if (F->null.count > 0) {
         const sli_packed y = sli_packed_of(&q->forward, v->y, lanes);
         const sli_packed x = sli_packed_of(&q->backward, v->x, lanes);
-        sli_center(F, &y, &x, NULL);
+        F->null.calls->center(F, &y, &x, NULL);
     }
     sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }
@@ -173,16 +72,7 @@ SLI_COLD static sl_status sli_inconsistent(void) {
 /* Checks that A x = b has a solution for every right-hand side. Writes only to `memory`. */
 static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
                                  void *memory) {
-    const int sweeps = sli_check_sweeps(F, &q->forward);
-    sl_int r;
-    for (r = 0; r < rhs->nrhs; r += sli_min(8, rhs->nrhs - r)) {
-        const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
-        const sli_vectors v = sli_vectors_of(q, block.nrhs, memory);
-        if (!(sweeps ? sli_sweep_load(F, q, &v, &block) : sli_sweep_judge(F, q, &v, &block))) {
-            return sli_inconsistent();
-        }
-    }
-    return SL_OK;
+    return F->null.checks && !F->null.calls->check(F, q, rhs, memory) ? sli_inconsistent() : SL_OK;
 }
 
 /* Is the solution in the backward vector finite, at the roots or at the boundary of an ending? */

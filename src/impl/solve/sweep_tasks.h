@@ -262,8 +262,7 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
     sli_block b = {NULL, 0};
     t->workers = 1;
     t->share = 0;
-    if (most < 2 || q->b_index != S->iperm || q->x_index != S->iperm || F->null.checks ||
-        F->null.count > 0) {
+    if (most < 2 || q->b_index != S->iperm || q->x_index != S->iperm || F->null.count > 0) {
         return;
     }
     t->F = F;

@@ -1,11 +1,9 @@
 /* nullspace.h: after a factorization: the null pivots, and constants for centered solves */
-#ifndef SLI_FACTOR_NULLSPACE_H
-#define SLI_FACTOR_NULLSPACE_H
+#ifndef SLI_SINGULAR_NULLSPACE_H
+#define SLI_SINGULAR_NULLSPACE_H
 
-#include "../analysis/reach.h"
-#include "storage_type.h"
-#include "null_center.h"
-#include "null_vectors.h"
+#include "center_several.h"
+#include "vectors.h"
 
 /* A skipped null pivot k has the null vector z = P' L^-T e_k, which is 1 in the pivot's own row.
  * The forward sweep computes z' b = (L^-1 P b)(k), which shows by how much b is inconsistent.
@@ -27,29 +25,6 @@
  * to the dot product of the full solve, so both give the same bits.
  *
  * The null pivot k that the weights fix in this way is called the anchor of its component. */
-
-/* Copies the weights to pivot order. A component whose weights are all 0, such as a vertex without
- * a face, gets weight 1 in each row. */
-static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats) {
-    const sl_symbolic *S = F->S;
-    sl_int k, first = 0, any = 0;
-    for (k = 0; k < S->n; k++) {
-        const double m = mass[S->perm[k]];
-        if (!sli_is_finite(m)) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[k], -1, m,
-                               "options.mass is not finite");
-        }
-        F->null.mass[k] = m;
-        any |= m != 0.0;
-        if (S->parent[k] == -1) { /* in a postorder a tree ends at its root */
-            for (; first <= k; first++) {
-                F->null.mass[first] = any ? F->null.mass[first] : 1.0;
-            }
-            any = 0;
-        }
-    }
-    return SL_OK;
-}
 
 /* Finds the anchor of each tree. A row of zeros, such as that of a vertex whose faces are all
  * degenerate, is a component by itself, and its x is 0. Apart from such rows a tree may have one
@@ -201,8 +176,7 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
         }
     }
     sli_backward_sweep(F, SLI_NRHS_1, &all, F->D, z, F->null.sweep);
-    w = sli_null_product(S, from, from->A != NULL && !F->null.has_duplicates, F->null.rows, z,
-                         NULL);
+    w = sli_null_product(F, from, z, NULL);
     for (k = 0; k < S->n && status == SL_OK; k++) {
         if (!(fabs(w.rows[k].product) <= 1e-4 * w.rows[k].size)) {
             status = sli_fail(failure, SL_ERR_PIVOT, S->super_of[first], first, -1, 0.0);

@@ -1,6 +1,6 @@
-/* null_product.h: A z for a candidate z of the null space of A, and the components of A */
-#ifndef SLI_FACTOR_NULL_PRODUCT_H
-#define SLI_FACTOR_NULL_PRODUCT_H
+/* components.h: the components of A, and A z for a candidate z of its null space */
+#ifndef SLI_FACTOR_COMPONENTS_H
+#define SLI_FACTOR_COMPONENTS_H
 
 #include "../analysis/structure.h"
 #include "panel_load.h"
@@ -46,49 +46,6 @@ SLI_INLINE void sli_null_add(sli_null_row *rows, sl_int i, sl_int j, double a) {
     rows[i].product += term;
     rows[i].size += fabs(term);
     rows[i].entries++;
-}
-
-/* Adds the matrix A, which has no duplicates. Returns 1 if it has a zero off the diagonal. */
-static int sli_null_add_columns(sli_null_row *rows, const sl_csc *A, sl_triangle triangle,
-                                double *diagonal) {
-    int has_zero = 0;
-    sl_int j, p;
-    for (j = 0; j < A->n_cols; j++) {
-        double product = 0.0, size = 0.0;
-        sl_int entries = 0;
-        for (p = A->p[j]; p < A->p[j + 1]; p++) {
-            const sl_int i = A->i[p];
-            const double a = A->x[p], term = a * rows[i].z;
-            if (!sli_is_read(triangle, i, j)) {
-                continue;
-            }
-            product += term;
-            size += fabs(term);
-            entries++;
-            if (i != j) {
-                sli_null_add(rows, i, j, a);
-                has_zero |= a == 0.0;
-            } else if (diagonal != NULL) {
-                diagonal[j] = a;
-            }
-        }
-        rows[j].product += product;
-        rows[j].size += size;
-        rows[j].entries += entries;
-    }
-    return has_zero;
-}
-
-/* Joins the components of A by columns. */
-static void sli_null_join_columns(const sli_null_walk *w, const sl_csc *A, sl_triangle triangle) {
-    sl_int j, p;
-    for (j = 0; j < A->n_cols; j++) {
-        for (p = A->p[j]; p < A->p[j + 1]; p++) {
-            if (A->x[p] != 0.0 && sli_is_read(triangle, A->i[p], j)) {
-                sli_null_join(w, A->i[p], j);
-            }
-        }
-    }
 }
 
 /* A walk along the map, backward. */
@@ -172,16 +129,17 @@ static int sli_map_has_duplicates(const sl_symbolic *S) {
     return 0;
 }
 
-/* Computes A z, |A| |z|, the components of A and, if not NULL, its diagonal, by rows of the walk.
+/* Begins A z, |A| |z|, the components of A and, if not NULL, its diagonal, by rows of the walk.
  * z: by pivots; NULL: all 1. */
-SLI_HOT static sli_null_walk sli_null_product(const sl_symbolic *S, const sli_source *from,
-                                              int by_columns, sli_null_row *rows, const double *z,
-                                              double *diagonal) {
+SLI_HOT static sli_null_walk sli_null_walk_begin(const sl_symbolic *S, int by_columns,
+                                                 sli_null_row *rows, const double *z,
+                                                 double *diagonal) {
     sli_null_walk w;
     sl_int i;
     w.rows = rows;
     w.perm = by_columns ? S->perm : NULL;
     w.iperm = by_columns ? S->iperm : NULL;
+    w.is_joined = 1;
     for (i = 0; i < S->n; i++) {
         rows[i].z = z == NULL ? 1.0 : z[sli_null_walk_pivot(&w, i)];
         rows[i].product = rows[i].size = 0.0;
@@ -190,14 +148,6 @@ SLI_HOT static sli_null_walk sli_null_product(const sl_symbolic *S, const sli_so
         if (diagonal != NULL) {
             diagonal[i] = 0.0;
         }
-    }
-    w.is_joined = 1;
-    if (!by_columns) {
-        sli_null_add_map(&w, S, from, diagonal);
-    } else if (sli_null_add_columns(rows, from->A, S->stats.symbolic.triangle, diagonal)) {
-        sli_null_join_columns(&w, from->A, S->stats.symbolic.triangle);
-    } else {
-        w.is_joined = 0;
     }
     return w;
 }

@@ -1,9 +1,9 @@
-/* null_judge.h: after a factorization: are its smallest pivots null, or right? */
-#ifndef SLI_FACTOR_NULL_JUDGE_H
-#define SLI_FACTOR_NULL_JUDGE_H
+/* pivot_judge.h: after a factorization: are its smallest pivots null, or right? */
+#ifndef SLI_FACTOR_PIVOT_JUDGE_H
+#define SLI_FACTOR_PIVOT_JUDGE_H
 
+#include "pivot_suspects.h"
 #include "storage_type.h"
-#include "null_vectors.h"
 
 /* The default tolerance grows with the rows that a pivot may have been computed from. A pivot below
  * it is a rounding error of a singular matrix, or it is right: pivots of smoothing,

@@ -1,9 +1,9 @@
-/* null_basis.h: several null vectors in each component: which of them hold, and their anchors */
-#ifndef SLI_FACTOR_NULL_BASIS_H
-#define SLI_FACTOR_NULL_BASIS_H
+/* basis.h: several null vectors in each component: which of them hold, and their anchors */
+#ifndef SLI_SINGULAR_BASIS_H
+#define SLI_SINGULAR_BASIS_H
 
-#include "null_dense.h"
-#include "null_product.h"
+#include "dense.h"
+#include "product.h"
 
 /* Let the columns of Z span the null space of a component, as the rigid motions of an elastic body
  * do. For any rows N with Z(N, :) regular, A without the rows and columns N is regular: x = 0 in N
@@ -26,8 +26,6 @@
  * component has columns of its own, so that a dot product over the columns of the tree is one over
  * the component. */
 
-/* Residuals of dependent columns, which are scaled to a largest entry between 0.5 and 1. */
-#define SLI_NULL_DEPENDENT 1e-11
 #define SLI_NULL_ANCHOR 0.3 /* least distance of an anchor, relative to the largest one */
 enum { SLI_NULL_IS_ANCHOR = -2 /* in the chain, in place of the pivot before */ };
 
@@ -66,16 +64,6 @@ static void sli_null_chain(sl_factor *F) {
 /* Is a pivot that is no anchor the only row of its component? */
 SLI_INLINE int sli_null_is_row(const sl_factor *F, sl_int k) {
     return F->null.last[k] == k && F->null.chain[k] == -1;
-}
-
-/* The column of g that holds the null vector of null pivot k; -1: it is not known, or k is a row of
- * zeros. */
-SLI_INLINE sl_int sli_null_column(const sl_factor *F, sl_int k) {
-    sl_int j = 0;
-    while (j < F->null.vectors && F->null.g[(size_t)k + (size_t)j * (size_t)F->S->n] == 0.0) {
-        j++;
-    }
-    return j < F->null.vectors ? j : -1;
 }
 
 /* The largest entry of column j. */
@@ -295,14 +283,13 @@ static void sli_null_normalize(const sli_null_part *p, const sl_int *anchors, sl
 }
 
 /* Computes A Z for the columns in g, and the sums of the columns of |A| |Z|. */
-static void sli_null_products(sl_factor *F, const sli_source *from, int by_columns) {
+static void sli_null_products(sl_factor *F, const sli_source *from) {
     const size_t n = (size_t)F->S->n;
     double *product = F->null.products, *sizes = product + (size_t)F->null.vectors * n;
     sl_int j, k;
     memset(sizes, 0, n * sizeof(double));
     for (j = 0; j < F->null.vectors; j++) {
-        const sli_null_walk w =
-            sli_null_product(F->S, from, by_columns, F->null.rows, F->null.g + (size_t)j * n, NULL);
+        const sli_null_walk w = sli_null_product(F, from, F->null.g + (size_t)j * n, NULL);
         for (k = 0; k < F->S->n; k++) {
             const sli_null_row *row = &F->null.rows[sli_null_walk_row(&w, k)];
             product[(size_t)k + (size_t)j * n] = row->product;
@@ -314,7 +301,7 @@ static void sli_null_products(sl_factor *F, const sli_source *from, int by_colum
 
 /* rounding(last) := infinity for a component without a null vector among the combinations of the
  * columns, else 0; g := these null vectors. */
-static void sli_null_bases_test(sl_factor *F, const sli_source *from, int by_columns) {
+static void sli_null_bases_test(sl_factor *F, const sli_source *from) {
     sl_int k;
     for (k = 0; k < F->S->n; k++) {
         sli_null_part p = sli_null_part_of(F, k);
@@ -322,7 +309,7 @@ static void sli_null_bases_test(sl_factor *F, const sli_source *from, int by_col
             sli_null_scale(&p, p.rank - 1);
         }
     }
-    sli_null_products(F, from, by_columns);
+    sli_null_products(F, from);
     for (k = 0; k < F->S->n; k++) {
         if (F->null.last[k] == k) {
             const sli_null_part p = sli_null_part_of(F, k);
@@ -333,13 +320,12 @@ static void sli_null_bases_test(sl_factor *F, const sli_source *from, int by_col
 
 /* Finds the null vectors of all components and their anchors, which are marked in the chain. The
  * components of one tree share the columns of g; refused if these do not suffice. */
-static sl_status sli_null_bases(sl_factor *F, const sli_source *from, int by_columns,
-                                sli_failure *failure) {
+static sl_status sli_null_bases(sl_factor *F, const sli_source *from, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sl_int anchors[SLI_NULL_VECTORS_MAX], k, j, rank, used = 0;
     SLI_COPY(F->null.g, F->null.z, (size_t)S->n * (size_t)F->null.vectors);
     sli_null_chain(F);
-    sli_null_bases_test(F, from, by_columns);
+    sli_null_bases_test(F, from);
     for (k = 0; k < S->n; k++) {
         if (F->null.last[k] == k) {
             sli_null_part p = sli_null_part_of(F, k);

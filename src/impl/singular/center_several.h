@@ -1,10 +1,10 @@
-/* null_center.h: constants for centered solves where components have several null vectors */
-#ifndef SLI_FACTOR_NULL_CENTER_H
-#define SLI_FACTOR_NULL_CENTER_H
+/* center_several.h: constants for centered solves where components have several null vectors */
+#ifndef SLI_SINGULAR_CENTER_SEVERAL_H
+#define SLI_SINGULAR_CENTER_SEVERAL_H
 
 #include "../analysis/reach.h"
-#include "storage_type.h"
-#include "null_basis.h"
+#include "../factor/storage_type.h"
+#include "basis.h"
 
 /* Let M be the diagonal of the weights, and let the columns of Z span the null space of a tree,
  * with Z' M Z = s I, where s is 1 or, for negative weights, -1. Wanted is the x with Z' M x = 0

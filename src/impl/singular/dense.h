@@ -1,8 +1,8 @@
-/* null_dense.h: dense operations on as many numbers as there are null vectors */
-#ifndef SLI_FACTOR_NULL_DENSE_H
-#define SLI_FACTOR_NULL_DENSE_H
+/* dense.h: dense operations on as many numbers as there are null vectors */
+#ifndef SLI_SINGULAR_DENSE_H
+#define SLI_SINGULAR_DENSE_H
 
-#include "factor_types.h"
+#include "../factor/factor_types.h"
 
 /* Matrices are row-major: vector v of count numbers begins at v count. */
 
