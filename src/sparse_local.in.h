@@ -52,9 +52,6 @@ extern "C" {
 #if defined(SL_WITH_COMPLEX)
 #include "public/complex.h"
 #endif
-#if defined(SL_WITH_COMPLEX) && defined(SL_WITH_INVERSE)
-#include "public/complex_inverse.h"
-#endif
 #if defined(SL_WITH_FILES)
 #include "public/files.h"
 #endif
@@ -307,10 +304,6 @@ extern "C" {
 #include "impl/complex/complex_storage.h"
 #include "impl/complex/hermitian.h"
 #include "impl/complex/complex_rows.h"
-#endif
-/* complex: entries of the inverse */
-#if defined(SL_WITH_COMPLEX) && defined(SL_WITH_INVERSE)
-#include "impl/complex/complex_inverse.h"
 #endif
 /* packs: the tables through which the core calls packs */
 #include "impl/packs/storage_types.h"

@@ -11,9 +11,11 @@
  *
  * A complex vector in memory, real and imaginary parts in turn, IS the vector of the real system:
  * every call on factors and plans takes complex arrays as they are, with leading dimensions counted
- * in doubles, twice the complex ones. What differs is here: matrices, sets of rows, entries of the
- * inverse, the determinant. Of statistics, n and the counts of pivots (stats.factor.positive, ...)
- * are twice those of H; condition and backward errors are those of the real system.
+ * in doubles, twice the complex ones. What differs is here: matrices, plans, the determinant. Other
+ * calls take the real rows: for row k of H, the rows 2k and 2k + 1. The inverse has the blocks
+ * [a -b; b a], too: its entries (2i, 2j) and (2i + 1, 2j) are the real and the imaginary part of
+ * (H^-1)(i, j). Of statistics, n and the counts of pivots are twice those of H; condition and
+ * backward errors are those of the real system.
  *
  *     sl_matrix_from_hermitian(&M, &H, NULL, NULL);
  *     A = sl_matrix_view(M);
@@ -22,6 +24,8 @@
  *     half.storage = SL_STORAGE_COMPLEX;               half the bytes of L
  *     sl_factor_create(&F, S, &A, &half, NULL);
  *     sl_factor_solve(F, x, 2 * n, b, 2 * n, 1, W);    double x[2 n]
+ *
+ * For other values in the same pattern, make another real matrix and call sl_factor_refactor.
  *
  * L has four times the entries of that of a real matrix with the pattern of H. It has the blocks
  * [a -b; b a] as well, and SL_STORAGE_COMPLEX (EXPERIMENTAL) computes and keeps the first column of
@@ -57,28 +61,6 @@ typedef struct sl_hermitian {
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H,
                                                          const sl_options *opt, sl_stats *stats);
-
-/** Replaces the values of such a matrix by those of another H with the same pattern, for
- *  sl_factor_refactor.
- *
- *  M      [in,out]  of sl_matrix_from_hermitian, with values; on error untouched.
- *  stats  [out]     error.row, error.column, in complex rows.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also a pattern without values; SL_ERR_MALFORMED;
- *           SL_ERR_OTHER_PATTERN: not that of M.
- *  Cost     O(n + nnz).
- *  Threads  exclusive use of M.
- */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_refill_hermitian(sl_matrix *M, const sl_hermitian *H,
-                                                           sl_stats *stats);
-
-/** A set of complex rows as real rows: out[2k] = 2 rows[k], out[2k + 1] = 2 rows[k] + 1. For calls
- *  that have no complex form: pins, regions, requests of a batch.
- *
- *  out    [out]  2 count rows; must not overlap rows.
- *  rows   [in]   count rows in 0..2^30-5.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range.  Cost  O(count).
- */
-SL_API SL_WARN_UNUSED sl_status sl_complex_rows(sl_int *out, const sl_int *rows, sl_int count);
 
 /** sl_plan_create with sets of complex rows.
  *

@@ -63,32 +63,20 @@ static void local_solves_equal_full_ones(void **state) {
 
 static void entries_of_the_inverse(void **state) {
     (void)state;
-    static const sl_int rows[3] = {3, 55, 54}, columns[2] = {54, 3};
+    static const sl_int rows[6] = {6, 7, 110, 111, 108, 109}, columns[2] = {108, 6};
     connection_t *c = connection_make(0.3, 6);
     system_t y = system_make(&c->H);
-    double Z[2 * 4 * 2], pairs[4], b[2 * N], x[2 * N];
-    sl_stats stats;
-    SL_CHECK(sl_complex_inverse_block(y.F, Z, 4, rows, 3, columns, 2, NULL, NULL));
+    double Z[2 * 3 * 2], b[2 * N], x[2 * N];
+    SL_CHECK(sl_inverse_block(y.F, Z, 6, rows, 6, columns, 2, NULL, NULL));
     for (int k = 0; k < 2; k++) {
         memset(b, 0, sizeof b);
-        b[2 * columns[k]] = 1.0;
+        b[columns[k]] = 1.0;
         SL_CHECK(sl_factor_solve(y.F, x, 2 * N, b, 2 * N, 1, NULL));
         for (int r = 0; r < 6; r++) {
-            assert_true(fabs(Z[8 * k + r] - x[2 * rows[r / 2] + r % 2]) < 1e-12);
+            assert_true(fabs(Z[6 * k + r] - x[rows[r]]) < 1e-12);
         }
-        SL_CHECK(sl_complex_inverse_pairs(y.F, pairs, rows + 1, columns + k, 1, NULL, NULL));
-        assert_true(fabs(pairs[0] - x[110]) < 1e-12 && fabs(pairs[1] - x[111]) < 1e-12);
     }
-    assert_true(fabs(Z[8 + 1]) < 1e-13); /* the diagonal of the inverse is real */
-    SL_CHECK(sl_complex_inverse_block(y.F, Z, 0, NULL, 0, NULL, 0, NULL, NULL));
-    SL_CHECK(sl_complex_inverse_pairs(y.F, pairs, NULL, NULL, 0, NULL, NULL));
-    /* the caller's rows are named */
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_inverse_block(y.F, Z, 4, rows, 3, ((const sl_int[1]){N}),
-                                                        1, NULL, &stats));
-    assert_int_equal(stats.error.column, N);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_inverse_pairs(y.F, pairs, ((const sl_int[1]){-3}),
-                                                        columns, 1, NULL, &stats));
-    assert_int_equal(stats.error.row, -3);
+    assert_true(fabs(Z[6 + 1]) < 1e-13); /* the diagonal of the inverse is real */
     system_free(&y);
     free(c);
 }
@@ -143,39 +131,6 @@ static void determinants_and_inertia(void **state) {
     assert_int_equal(signs, 3); /* both signs occurred */
 }
 
-static void new_values_in_the_same_pattern(void **state) {
-    (void)state;
-    connection_t *c = connection_make(0.4, 10), *d = connection_make(0.2, 11);
-    system_t y = system_make(&c->H), z = system_make(&d->H);
-    const sl_off nnz = y.A.p[y.A.n_cols];
-    double *before = test_reals((size_t)nnz);
-    sl_stats stats;
-    memcpy(before, y.A.x, (size_t)nnz * sizeof *before);
-    /* another pattern: refused, and M stays */
-    d->i[4] = d->i[4] + 1;
-    SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_matrix_refill_hermitian(y.M, &d->H, &stats));
-    assert_true(stats.error.column >= 0);
-    d->i[4] = d->i[4] - 1;
-    d->H.n = N - 1;
-    SL_EXPECT(SL_ERR_MALFORMED, sl_matrix_refill_hermitian(y.M, &d->H, NULL));
-    d->H.n = N;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_refill_hermitian(NULL, &d->H, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_refill_hermitian(y.M, NULL, NULL));
-    d->H.x = NULL;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_refill_hermitian(y.M, &d->H, NULL));
-    d->H.x = d->x;
-    assert_memory_equal(before, y.A.x, (size_t)nnz * sizeof *before);
-    SL_CHECK(sl_matrix_refill_hermitian(y.M, &d->H, NULL));
-    assert_memory_equal(z.A.x, y.A.x, (size_t)nnz * sizeof *before);
-    SL_CHECK(sl_factor_refactor(y.F, &y.A, NULL));
-    SAME_VALUES(sl_factor_view(y.F).D, sl_factor_view(z.F).D, 2 * N);
-    free(before);
-    system_free(&z);
-    system_free(&y);
-    free(d);
-    free(c);
-}
-
 static void wrong_arguments(void **state) {
     (void)state;
     connection_t *c = connection_make(0.4, 12);
@@ -183,7 +138,7 @@ static void wrong_arguments(void **state) {
     sl_matrix *M = y.M;
     sl_plan *P = (sl_plan *)(void *)&M;
     sl_stats stats;
-    sl_int out[4], set[2] = {5, N};
+    sl_int set[2] = {5, N};
     double value, sign;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_hermitian(NULL, &c->H, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_hermitian(&M, NULL, NULL, NULL));
@@ -218,15 +173,6 @@ static void wrong_arguments(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_logdet(NULL, &value, &sign));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_logdet(y.F, NULL, &sign));
 
-    SL_CHECK(sl_complex_rows(out, set, 2));
-    assert_true(out[0] == 10 && out[1] == 11 && out[2] == 2 * N && out[3] == 2 * N + 1);
-    SL_CHECK(sl_complex_rows(NULL, NULL, 0));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_rows(out, set, -1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_rows(NULL, set, 1));
-    set[0] = -1;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_rows(out, set, 1));
-    set[0] = INT32_MAX / 2;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_rows(out, set, 1));
     system_free(&y);
     free(c);
 }
@@ -244,8 +190,6 @@ static void odd_systems_are_refused(void **state) {
     SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_plan_create(&P, S, none, 1, none, 1, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_inverse_block(F, out, 1, none, 1, none, 1, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_inverse_pairs(F, out, none, none, 1, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_logdet(F, out, out + 1));
     sl_factor_free(F);
     sl_symbolic_free(S);
@@ -257,27 +201,21 @@ static void failing_allocations(void **state) {
     static const sl_int set[3] = {3, 55, 54};
     connection_t *c = connection_make(0.3, 13);
     system_t y = system_make(&c->H);
-    for (int call = 0; call < 4; call++) {
+    for (int call = 0; call < 2; call++) {
         sl_status status = SL_ERR_MEMORY;
         for (int64_t k = 0; status != SL_OK; k++) {
             counter_t counter = counter_make();
             sl_options opt = options_counted(&counter);
             sl_matrix *M = NULL;
             sl_plan *P = NULL;
-            sl_factor *F = NULL;
-            double Z[18];
-            SL_CHECK(sl_factor_create(&F, y.S, &y.A, &opt, NULL));
-            counter.fail_at = (int64_t)counter.calls + k;
-            status = call == 0   ? sl_matrix_from_hermitian(&M, &c->H, &opt, NULL)
-                     : call == 1 ? sl_complex_plan_create(&P, y.S, set, 3, set, 3, &opt, NULL)
-                     : call == 2 ? sl_complex_inverse_block(F, Z, 3, set, 3, set, 3, NULL, NULL)
-                                 : sl_complex_inverse_pairs(F, Z, set, set, 3, NULL, NULL);
+            counter.fail_at = k;
+            status = call == 0 ? sl_matrix_from_hermitian(&M, &c->H, &opt, NULL)
+                               : sl_complex_plan_create(&P, y.S, set, 3, set, 3, &opt, NULL);
             assert_true(status == SL_OK || status == SL_ERR_MEMORY);
             assert_int_equal(status == SL_OK, counter.calls <= (size_t)counter.fail_at);
             assert_true(k > 0 || status == SL_ERR_MEMORY);
             sl_matrix_free(M);
             sl_plan_free(P);
-            sl_factor_free(F);
             COUNTER_CLEAN(&counter);
         }
     }
@@ -341,7 +279,6 @@ int main(void) {
         cmocka_unit_test(local_solves_equal_full_ones),
         cmocka_unit_test(entries_of_the_inverse),
         cmocka_unit_test(determinants_and_inertia),
-        cmocka_unit_test(new_values_in_the_same_pattern),
         cmocka_unit_test(columns_stay_in_pairs),
         cmocka_unit_test(wrong_arguments),
         cmocka_unit_test(odd_systems_are_refused),

@@ -15,52 +15,6 @@ static void too_many_rows_are_refused(void **state) {
     H.n = MANY / 2 + 1;
     SL_EXPECT(SL_ERR_TOO_LARGE, sl_matrix_from_hermitian(&M, &H, NULL, NULL));
     assert_null(M);
-    sl_int out[2], row = 0;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_rows(out, &row, MANY / 2 + 1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_rows(out, NULL, 1));
-}
-
-/* A pattern with an entry less or more than the real matrix, or of another size, and a matrix
- * without values. The real matrix keeps its values. */
-static void other_patterns_do_not_refill(void **state) {
-    (void)state;
-    static const sl_int less_p[N + 1] = {0, 1, 3, 4}, less_i[4] = {0, 1, 2, 2};
-    static const sl_int last_p[N + 1] = {0, 2, 3, 4}, last_i[4] = {0, 2, 1, 2};
-    static const sl_int more_p[N + 1] = {0, 3, 5, 6}, more_i[6] = {0, 1, 2, 1, 2, 2};
-    static const sl_int small_p[3] = {0, 1, 2}, small_i[2] = {0, 1};
-    static const double x[14] = {9, 0, 9, 0, 9, 0, 9, 0, 9, 0, 9, 0, 9, 0};
-    static const sl_int late_p[N + 1] = {0, 2, 4, 7}, late_i[7] = {0, 1, 1, 2, 2, 1, 0};
-    static const sl_int end_i[6] = {0, 2, 1, 1, 2, 2}; /* the entry more ends its column */
-    const sl_hermitian others[6] = {{N, less_p, less_i, x, NULL},
-                                    {N, more_p, end_i, x, NULL},
-                                    {N, last_p, last_i, x, NULL},
-                                    {N, more_p, more_i, x, NULL},
-                                    {N, late_p, late_i, x, NULL},
-                                    {2, small_p, small_i, x, NULL}};
-    sl_stats stats;
-    sl_matrix *M;
-    SL_CHECK(sl_matrix_from_hermitian(&M, &hermitian, NULL, NULL));
-    const sl_csc A = sl_matrix_view(M);
-    double before[20];
-    assert_true(A.p[2 * N] <= 20);
-    memcpy(before, A.x, (size_t)A.p[2 * N] * sizeof *before);
-    for (int k = 0; k < 6; k++) {
-        SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_matrix_refill_hermitian(M, &others[k], &stats));
-        assert_memory_equal(before, A.x, (size_t)A.p[2 * N] * sizeof *before);
-    }
-    sl_matrix_free(M);
-
-    /* as many columns, and other rows */
-    const sl_int i[1] = {0}, j[1] = {0};
-    SL_CHECK(sl_matrix_from_triplets(&M, 5, 2 * N, 1, i, j, x, NULL, NULL));
-    SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_matrix_refill_hermitian(M, &hermitian, NULL));
-    sl_matrix_free(M);
-
-    sl_hermitian H = hermitian;
-    H.x = NULL;
-    SL_CHECK(sl_matrix_from_hermitian(&M, &H, NULL, NULL)); /* the pattern alone */
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_refill_hermitian(M, &hermitian, NULL));
-    sl_matrix_free(M);
 }
 
 typedef struct system_t {
@@ -89,7 +43,6 @@ static void wrong_sets_are_refused(void **state) {
     const sl_int row = 0;
     system_t y = system_make();
     sl_plan *P = (sl_plan *)(void *)&y;
-    double Z[2] = {7, 7};
     sl_options wrong = options_none();
     wrong.size = 1;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_plan_create(&P, y.S, &row, 1, &row, 1, &wrong, NULL));
@@ -98,19 +51,6 @@ static void wrong_sets_are_refused(void **state) {
               sl_complex_plan_create(&P, y.S, &row, MANY / 2 + 1, &row, 1, NULL, NULL));
     SL_EXPECT(SL_ERR_TOO_LARGE,
               sl_complex_plan_create(&P, y.S, &row, 1, &row, MANY / 2 + 1, NULL, NULL));
-
-    const size_t half = SIZE_MAX / 2;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_inverse_block(NULL, Z, 1, &row, 1, &row, 1, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT,
-              sl_complex_inverse_block(y.F, Z, half + 1, &row, 1, &row, 1, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_inverse_block(y.F, Z, 1, NULL, 1, &row, 1, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_inverse_block(y.F, Z, 1, &row, 1, NULL, 1, NULL, NULL));
-    SL_CHECK(sl_complex_inverse_block(y.F, Z, 1, NULL, 0, NULL, 0, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_inverse_pairs(NULL, Z, &row, &row, 1, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_inverse_pairs(y.F, Z, NULL, &row, 1, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_inverse_pairs(y.F, Z, &row, NULL, 1, NULL, NULL));
-    SL_CHECK(sl_complex_inverse_pairs(y.F, Z, NULL, NULL, 0, NULL, NULL));
-    assert_true(Z[0] == 7 && Z[1] == 7);
     system_free(&y);
 }
 
@@ -137,7 +77,6 @@ static void no_set_is_all_rows(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(too_many_rows_are_refused),
-        cmocka_unit_test(other_patterns_do_not_refill),
         cmocka_unit_test(wrong_sets_are_refused),
         cmocka_unit_test(no_set_is_all_rows),
     };

@@ -230,8 +230,6 @@ static void other_calls_refuse_rows(void **state) {
             SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(A, X, 6, NULL, B, w, B, 6, nrhs));
             SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(A, X, 6, NULL, B, 6, B, w, nrhs));
             SL_EXPECT(SL_ERR_ARGUMENT, sl_inverse_block(F, X, w, set, 6, set, nrhs, NULL, NULL));
-            SL_EXPECT(SL_ERR_ARGUMENT,
-                      sl_complex_inverse_block(F, X, w, set, 3, set, nrhs, NULL, NULL));
         }
         SL_EXPECT(SL_ERR_ARGUMENT,
                   sl_batch_diagonal(&y.F, 1, X, w, set, 6, NULL, NULL, NULL, NULL));

@@ -129,13 +129,6 @@ static void entries_of_null_rows_are_exactly_zero(void **state) {
         SL_CHECK(sl_symbolic_create(&S, &M.view, FOR_ANALYSIS(&opt), NULL));
         SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
         check_zeros(F, S, is_pair ? 6 : 3);
-        if (is_pair) { /* as complex numbers */
-            const sl_int row = GRID;
-            double z[4] = {1.0, 1.0, 1.0, 1.0};
-            SL_CHECK(sl_complex_inverse_pairs(F, z, &row, &row, 1, NULL, NULL));
-            SL_CHECK(sl_complex_inverse_block(F, z + 2, 1, &row, 1, &row, 1, NULL, NULL));
-            assert_true(z[0] == 0.0 && z[1] == 0.0 && z[2] == 0.0 && z[3] == 0.0);
-        }
         sl_factor_free(F);
         sl_symbolic_free(S);
         gen_matrix_t own = M;

@@ -1,4 +1,4 @@
-/* complex_rows.h: calls on a real factor whose sets count complex rows */
+/* complex_rows.h: plans whose sets count complex rows, the determinant */
 #ifndef SLI_COMPLEX_COMPLEX_ROWS_H
 #define SLI_COMPLEX_COMPLEX_ROWS_H
 
@@ -42,31 +42,27 @@ static sl_int sli_complex_expand(const sl_int *rows, sl_int count, sl_int n, sl_
 /* Two sets of complex rows. */
 typedef struct sli_complex_sets {
     sli_complex_set first, second;
-    int is_block; /* the second one has columns */
     unsigned char *memory;
 } sli_complex_sets;
 
 static sli_complex_sets sli_complex_sets_of(const sl_int *first, sl_int n_first,
-                                            const sl_int *second, sl_int n_second, int is_block) {
+                                            const sl_int *second, sl_int n_second) {
     sli_complex_sets c;
     SLI_CLEAR(c);
     c.first.rows = first;
     c.first.count = n_first;
     c.second.rows = second;
     c.second.count = n_second;
-    c.is_block = is_block;
     return c;
 }
 
 /* Checks and expands one of the sets of a system of n complex rows. */
-static sl_status sli_complex_fill(const sli_complex_set *set, sl_int n, int is_columns,
-                                  sl_stats *stats) {
+static sl_status sli_complex_fill(const sli_complex_set *set, sl_int n, sl_stats *stats) {
     const sl_int bad =
         set->rows == NULL ? -1 : sli_complex_expand(set->rows, set->count, n, set->real);
     return bad == -1 ? SL_OK
-                     : sli_fail_at(stats, SL_ERR_ARGUMENT, is_columns ? -1 : set->rows[bad],
-                                   is_columns ? set->rows[bad] : -1, 0.0,
-                                   "a row or column is out of range");
+                     : sli_fail_at(stats, SL_ERR_ARGUMENT, set->rows[bad], -1, 0.0,
+                                   "a row is out of range");
 }
 
 /* Allocates and expands the sets, whose rows are those of a real system of n rows. */
@@ -83,8 +79,8 @@ static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n, const sl
         return status;
     }
     c->memory = b.base;
-    status = sli_complex_fill(&c->first, n / 2, 0, stats);
-    status = status == SL_OK ? sli_complex_fill(&c->second, n / 2, c->is_block, stats) : status;
+    status = sli_complex_fill(&c->first, n / 2, stats);
+    status = status == SL_OK ? sli_complex_fill(&c->second, n / 2, stats) : status;
     if (status != SL_OK) {
         sli_free(a, c->memory);
     }
@@ -94,21 +90,6 @@ static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n, const sl
 /* The expanded set for a call that takes NULL for all rows: an empty set has no array. */
 static const sl_int *sli_complex_real(const sli_complex_set *set) {
     return set->rows == NULL || set->count == 0 ? set->rows : set->real;
-}
-
-SL_API sl_status sl_complex_rows(sl_int *out, const sl_int *rows, sl_int count) {
-    sl_status status = sli_argument(count < 0                   ? "count is below 0"
-                                    : count > SLI_ROWS_MAX / 2  ? "count is above 2^30 - 4"
-                                    : count > 0 && out == NULL  ? "out is NULL"
-                                    : count > 0 && rows == NULL ? "rows is NULL"
-                                                                : NULL);
-    if (status == SL_OK) {
-        const sl_int bad = sli_complex_expand(rows, count, SLI_ROWS_MAX / 2, out);
-        status = bad == -1 ? SL_OK
-                           : sli_fail_at(NULL, SL_ERR_ARGUMENT, rows[bad], -1, 0.0,
-                                         "a row is out of range");
-    }
-    return status;
 }
 
 SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, const sl_int *bset,
@@ -125,7 +106,7 @@ SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, con
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
-    c = sli_complex_sets_of(bset, nb, xset, nx, 0);
+    c = sli_complex_sets_of(bset, nb, xset, nx);
     status = sli_complex_sets_create(&c, S->n, &a, stats);
     if (status == SL_OK) {
         status = sl_plan_create(out, S, sli_complex_real(&c.first), bset == NULL ? 0 : 2 * nb,

@@ -113,34 +113,6 @@ static void sli_hermitian_fill(const sl_hermitian *H, sl_matrix *M) {
     }
 }
 
-/* Has M the pattern of H? Names the first complex row and column where it differs. */
-static sl_status sli_hermitian_compare(const sl_hermitian *H, const sl_matrix *M, sl_stats *stats) {
-    const sli_hermitian_sides sides = sli_hermitian_sides_of(H);
-    sl_int j, p, k, second, at = 0;
-    if (M->n_cols != 2 * H->n || M->n_rows != 2 * H->n) {
-        return sli_refuse(SL_ERR_OTHER_PATTERN, "H has another size than M");
-    }
-    for (j = 0; j < H->n; j++) {
-        for (second = 0; second < 2; second++) {
-            const sl_int end = M->p[2 * j + second + 1];
-            for (p = H->p[j]; p < H->p[j + 1]; p++) {
-                const sli_hermitian_column e = sli_hermitian_entry(H, sides, p, j, second);
-                for (k = 0; k < e.count; k++, at++) {
-                    if (at >= end || M->i[at] != e.row + k) {
-                        return sli_fail_at(stats, SL_ERR_OTHER_PATTERN, H->i[p], j, 0.0,
-                                           "M was not made from the pattern of H");
-                    }
-                }
-            }
-            if (at != end) {
-                return sli_fail_at(stats, SL_ERR_OTHER_PATTERN, -1, j, 0.0,
-                                   "M was not made from the pattern of H");
-            }
-        }
-    }
-    return SL_OK;
-}
-
 SL_API sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H,
                                           const sl_options *opt, sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
@@ -163,21 +135,6 @@ SL_API sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H
     if (status == SL_OK) {
         sli_hermitian_fill(H, M);
         *out = M;
-    }
-    return sli_report(stats, status);
-}
-
-SL_API sl_status sl_matrix_refill_hermitian(sl_matrix *M, const sl_hermitian *H, sl_stats *stats) {
-    sl_status status = sli_hermitian_check(H, stats);
-    if (status == SL_OK) {
-        status = sli_argument(M == NULL      ? "M is NULL"
-                              : M->x == NULL ? "M has no values"
-                              : H->x == NULL ? "H.x is NULL"
-                                             : NULL);
-    }
-    status = status == SL_OK ? sli_hermitian_compare(H, M, stats) : status;
-    if (status == SL_OK) {
-        sli_hermitian_fill(H, M);
     }
     return sli_report(stats, status);
 }
