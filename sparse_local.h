@@ -1,63 +1,61 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 5a11c4448c8dabb0
+ * FNV-1a of the lines after this comment, without the license: 3ade182e82ee7d18
  * The comments of the implementation are in src/impl.
  *
  * Contents
- *     65 intro.h      what the library does, a quick start, which call for which question, references
- *    195 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    239 config.h     macros that a user may define before the include, the version, and the integer types
- *    327 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    500 options.h    options of all calls, threads, and the allocator
- *    626 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    864 csc.h        sparse matrices: creation, checks, products, residuals
- *    965 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1041 factor.h     the numerical factorization P A P' = L D L'
- *   1170 solve.h      full solves, and the workspace of all solves
- *   1266 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1342 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1426 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1519 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1558 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1659 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1739 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1825 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1918 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2025 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2067 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2189 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2220 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2402 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2505 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2616 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2657 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2743 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2851 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2885 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2962 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3005 impl/ base: the compiler, status, memory, sorting, threads
- *   4286 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5225 impl/ matrix: sparse matrices of the caller and of the library
- *   5901 impl/ ordering: fill-reducing orderings of a graph
- *  11003 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13242 impl/ factor: the numbers of L and D
- *  15840 impl/ solve: full and local solves
- *  17388 impl/ singular: null spaces of semidefinite matrices
- *  18697 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20712 impl/ pivots: the order of the pivots by the values of a matrix
- *  21120 impl/ float: L and fronts in single precision
- *  21625 impl/ inverse: entries of the inverse, regions
- *  24724 impl/ change: a factor that follows changes of its matrix
- *  31011 impl/ fixed: rows fixed at given values
- *  31572 impl/ io: files that are replaced only when they are complete
- *  31790 impl/ files: Matrix Market files, 64-bit indices
- *  32410 impl/ save: factors in files
- *  34427 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35113 impl/ batch: diagonals of many inverses
- *  35253 impl/ complex: complex Hermitian systems over real factors
- *  35815 impl/ complex: entries of the inverse
- *  35875 impl/ packs: the tables through which the core calls packs
- *  35942 impl/ last: undefine every internal macro
- *  36311 impl/ templates: the header includes them from itself, once for each instruction set
+ *     63 intro.h      what the library does, a quick start, which call for which question, references
+ *    193 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    237 config.h     macros that a user may define before the include, the version, and the integer types
+ *    325 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    498 options.h    options of all calls, threads, and the allocator
+ *    624 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    862 csc.h        sparse matrices: creation, checks, products, residuals
+ *    963 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1039 factor.h     the numerical factorization P A P' = L D L'
+ *   1168 solve.h      full solves, and the workspace of all solves
+ *   1264 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1340 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1424 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1517 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1556 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1657 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1737 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1823 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1916 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2023 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2065 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2187 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2218 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2400 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2503 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2614 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2655 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2741 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2829 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2906 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2949 impl/ base: the compiler, status, memory, sorting, threads
+ *   4230 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5169 impl/ matrix: sparse matrices of the caller and of the library
+ *   5845 impl/ ordering: fill-reducing orderings of a graph
+ *  10947 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13186 impl/ factor: the numbers of L and D
+ *  15784 impl/ solve: full and local solves
+ *  17332 impl/ singular: null spaces of semidefinite matrices
+ *  18641 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20656 impl/ pivots: the order of the pivots by the values of a matrix
+ *  21064 impl/ float: L and fronts in single precision
+ *  21569 impl/ inverse: entries of the inverse, regions
+ *  24668 impl/ change: a factor that follows changes of its matrix
+ *  30955 impl/ fixed: rows fixed at given values
+ *  31516 impl/ io: files that are replaced only when they are complete
+ *  31734 impl/ files: Matrix Market files, 64-bit indices
+ *  32354 impl/ save: factors in files
+ *  34371 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35057 impl/ batch: diagonals of many inverses
+ *  35197 impl/ complex: complex Hermitian systems over real factors
+ *  35697 impl/ packs: the tables through which the core calls packs
+ *  35764 impl/ last: undefine every internal macro
+ *  36133 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2748,9 +2746,11 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor 
  *
  * A complex vector in memory, real and imaginary parts in turn, IS the vector of the real system:
  * every call on factors and plans takes complex arrays as they are, with leading dimensions counted
- * in doubles, twice the complex ones. What differs is here: matrices, sets of rows, entries of the
- * inverse, the determinant. Of statistics, n and the counts of pivots (stats.factor.positive, ...)
- * are twice those of H; condition and backward errors are those of the real system.
+ * in doubles, twice the complex ones. What differs is here: matrices, plans, the determinant. Other
+ * calls take the real rows: for row k of H, the rows 2k and 2k + 1. The inverse has the blocks
+ * [a -b; b a], too: its entries (2i, 2j) and (2i + 1, 2j) are the real and the imaginary part of
+ * (H^-1)(i, j). Of statistics, n and the counts of pivots are twice those of H; condition and
+ * backward errors are those of the real system.
  *
  *     sl_matrix_from_hermitian(&M, &H, NULL, NULL);
  *     A = sl_matrix_view(M);
@@ -2759,6 +2759,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor 
  *     half.storage = SL_STORAGE_COMPLEX;               half the bytes of L
  *     sl_factor_create(&F, S, &A, &half, NULL);
  *     sl_factor_solve(F, x, 2 * n, b, 2 * n, 1, W);    double x[2 n]
+ *
+ * For other values in the same pattern, make another real matrix and call sl_factor_refactor.
  *
  * L has four times the entries of that of a real matrix with the pattern of H. It has the blocks
  * [a -b; b a] as well, and SL_STORAGE_COMPLEX (EXPERIMENTAL) computes and keeps the first column of
@@ -2795,28 +2797,6 @@ typedef struct sl_hermitian {
 SL_API SL_WARN_UNUSED sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H,
                                                          const sl_options *opt, sl_stats *stats);
 
-/** Replaces the values of such a matrix by those of another H with the same pattern, for
- *  sl_factor_refactor.
- *
- *  M      [in,out]  of sl_matrix_from_hermitian, with values; on error untouched.
- *  stats  [out]     error.row, error.column, in complex rows.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also a pattern without values; SL_ERR_MALFORMED;
- *           SL_ERR_OTHER_PATTERN: not that of M.
- *  Cost     O(n + nnz).
- *  Threads  exclusive use of M.
- */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_refill_hermitian(sl_matrix *M, const sl_hermitian *H,
-                                                           sl_stats *stats);
-
-/** A set of complex rows as real rows: out[2k] = 2 rows[k], out[2k + 1] = 2 rows[k] + 1. For calls
- *  that have no complex form: pins, regions, requests of a batch.
- *
- *  out    [out]  2 count rows; must not overlap rows.
- *  rows   [in]   count rows in 0..2^30-5.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range.  Cost  O(count).
- */
-SL_API SL_WARN_UNUSED sl_status sl_complex_rows(sl_int *out, const sl_int *rows, sl_int count);
-
 /** sl_plan_create with sets of complex rows.
  *
  *  S      [in]   analysis of the real matrix, 2n columns; kept by the plan.
@@ -2842,44 +2822,8 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *lo
 
 #else
 #define sl_matrix_from_hermitian(...) sl_matrix_from_hermitian_needs_SL_WITH_COMPLEX
-#define sl_matrix_refill_hermitian(...) sl_matrix_refill_hermitian_needs_SL_WITH_COMPLEX
-#define sl_complex_rows(...) sl_complex_rows_needs_SL_WITH_COMPLEX
 #define sl_complex_plan_create(...) sl_complex_plan_create_needs_SL_WITH_COMPLEX
 #define sl_complex_logdet(...) sl_complex_logdet_needs_SL_WITH_COMPLEX
-#endif
-#if defined(SL_WITH_COMPLEX) && defined(SL_WITH_INVERSE)
-/* src/public/complex_inverse.h: entries of the inverse of complex matrices */
-
-/** A dense block of the complex inverse: Z(i, j) = (H^-1)(rows[i], columns[j]).
- *
- *  Z        [out]  n_rows x n_columns complex numbers, real and imaginary parts in turn,
- *                  column-major, leading dimension ldz >= n_rows complex numbers.
- *  rows, columns  [in]  n_rows and n_columns complex rows, any order, repetitions allowed.
- *  W, stats  as in sl_inverse_block; error.row and error.column are complex rows.
- *  Returns  as sl_inverse_block; SL_ERR_ARGUMENT also if F has an odd number of rows.
- *  Cost     sl_inverse_block of 2 n_rows x n_columns entries; allocates the sets.
- *  Threads  as sl_inverse_block.
- *  Example  tests/core/test_complex.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t ldz,
-                                                         const sl_int *rows, sl_int n_rows,
-                                                         const sl_int *columns, sl_int n_columns,
-                                                         sl_work *W, sl_stats *stats);
-
-/** Entries of the complex inverse: out[2k] and out[2k + 1] are the real and the imaginary part of
- *  (H^-1)(rows[k], columns[k]).
- *
- *  rows, columns  [in]  count complex rows each, any order, repetitions allowed.
- *  Cost     sl_inverse_pairs of 2 count entries; allocates the sets.
- *  W, stats, Returns, Threads  as sl_complex_inverse_block.
- */
-SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out,
-                                                         const sl_int *rows, const sl_int *columns,
-                                                         sl_int count, sl_work *W, sl_stats *stats);
-
-#else
-#define sl_complex_inverse_block(...) sl_complex_inverse_block_needs_SL_WITH_COMPLEX_and_SL_WITH_INVERSE
-#define sl_complex_inverse_pairs(...) sl_complex_inverse_pairs_needs_SL_WITH_COMPLEX_and_SL_WITH_INVERSE
 #endif
 #if defined(SL_WITH_FILES)
 /* src/public/files.h: matrices in Matrix Market files, and with 64-bit indices */
@@ -35606,33 +35550,6 @@ static void sli_hermitian_fill(const sl_hermitian *H, sl_matrix *M) {
   }
 }
 
-static sl_status sli_hermitian_compare(const sl_hermitian *H, const sl_matrix *M, sl_stats *stats) {
-  const sli_hermitian_sides sides = sli_hermitian_sides_of(H);
-  sl_int j, p, k, second, at = 0;
-  if (M->n_cols != 2 * H->n || M->n_rows != 2 * H->n) {
-    return sli_refuse(SL_ERR_OTHER_PATTERN, "H has another size than M");
-  }
-  for (j = 0; j < H->n; j++) {
-    for (second = 0; second < 2; second++) {
-      const sl_int end = M->p[2 * j + second + 1];
-      for (p = H->p[j]; p < H->p[j + 1]; p++) {
-        const sli_hermitian_column e = sli_hermitian_entry(H, sides, p, j, second);
-        for (k = 0; k < e.count; k++, at++) {
-          if (at >= end || M->i[at] != e.row + k) {
-            return sli_fail_at(stats, SL_ERR_OTHER_PATTERN, H->i[p], j, 0.0,
-                "M was not made from the pattern of H");
-          }
-        }
-      }
-      if (at != end) {
-        return sli_fail_at(stats, SL_ERR_OTHER_PATTERN, -1, j, 0.0,
-            "M was not made from the pattern of H");
-      }
-    }
-  }
-  return SL_OK;
-}
-
 SL_API sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H,
     const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
@@ -35659,22 +35576,7 @@ SL_API sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H
   return sli_report(stats, status);
 }
 
-SL_API sl_status sl_matrix_refill_hermitian(sl_matrix *M, const sl_hermitian *H, sl_stats *stats) {
-  sl_status status = sli_hermitian_check(H, stats);
-  if (status == SL_OK) {
-    status = sli_argument(M == NULL ? "M is NULL"
-        : M->x == NULL ? "M has no values"
-        : H->x == NULL ? "H.x is NULL"
-        : NULL);
-  }
-  status = status == SL_OK ? sli_hermitian_compare(H, M, stats) : status;
-  if (status == SL_OK) {
-    sli_hermitian_fill(H, M);
-  }
-  return sli_report(stats, status);
-}
-
-/* src/impl/complex/complex_rows.h: calls on a real factor whose sets count complex rows */
+/* src/impl/complex/complex_rows.h: plans whose sets count complex rows, the determinant */
 
 typedef struct sli_complex_set {
   const sl_int *rows;
@@ -35708,30 +35610,26 @@ static sl_int sli_complex_expand(const sl_int *rows, sl_int count, sl_int n, sl_
 
 typedef struct sli_complex_sets {
   sli_complex_set first, second;
-  int is_block;
   unsigned char *memory;
 } sli_complex_sets;
 
 static sli_complex_sets sli_complex_sets_of(const sl_int *first, sl_int n_first,
-    const sl_int *second, sl_int n_second, int is_block) {
+    const sl_int *second, sl_int n_second) {
   sli_complex_sets c;
   SLI_CLEAR(c);
   c.first.rows = first;
   c.first.count = n_first;
   c.second.rows = second;
   c.second.count = n_second;
-  c.is_block = is_block;
   return c;
 }
 
-static sl_status sli_complex_fill(const sli_complex_set *set, sl_int n, int is_columns,
-    sl_stats *stats) {
+static sl_status sli_complex_fill(const sli_complex_set *set, sl_int n, sl_stats *stats) {
   const sl_int bad =
     set->rows == NULL ? -1 : sli_complex_expand(set->rows, set->count, n, set->real);
   return bad == -1 ? SL_OK
-           : sli_fail_at(stats, SL_ERR_ARGUMENT, is_columns ? -1 : set->rows[bad],
-               is_columns ? set->rows[bad] : -1, 0.0,
-               "a row or column is out of range");
+           : sli_fail_at(stats, SL_ERR_ARGUMENT, set->rows[bad], -1, 0.0,
+               "a row is out of range");
 }
 
 static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n, const sl_allocator *a,
@@ -35747,8 +35645,8 @@ static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n, const sl
     return status;
   }
   c->memory = b.base;
-  status = sli_complex_fill(&c->first, n / 2, 0, stats);
-  status = status == SL_OK ? sli_complex_fill(&c->second, n / 2, c->is_block, stats) : status;
+  status = sli_complex_fill(&c->first, n / 2, stats);
+  status = status == SL_OK ? sli_complex_fill(&c->second, n / 2, stats) : status;
   if (status != SL_OK) {
     sli_free(a, c->memory);
   }
@@ -35757,21 +35655,6 @@ static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n, const sl
 
 static const sl_int *sli_complex_real(const sli_complex_set *set) {
   return set->rows == NULL || set->count == 0 ? set->rows : set->real;
-}
-
-SL_API sl_status sl_complex_rows(sl_int *out, const sl_int *rows, sl_int count) {
-  sl_status status = sli_argument(count < 0 ? "count is below 0"
-      : count > SLI_ROWS_MAX / 2 ? "count is above 2^30 - 4"
-      : count > 0 && out == NULL ? "out is NULL"
-      : count > 0 && rows == NULL ? "rows is NULL"
-      : NULL);
-  if (status == SL_OK) {
-    const sl_int bad = sli_complex_expand(rows, count, SLI_ROWS_MAX / 2, out);
-    status = bad == -1 ? SL_OK
-               : sli_fail_at(NULL, SL_ERR_ARGUMENT, rows[bad], -1, 0.0,
-                   "a row is out of range");
-  }
-  return status;
 }
 
 SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, const sl_int *bset,
@@ -35788,7 +35671,7 @@ SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, con
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
-  c = sli_complex_sets_of(bset, nb, xset, nx, 0);
+  c = sli_complex_sets_of(bset, nb, xset, nx);
   status = sli_complex_sets_create(&c, S->n, &a, stats);
   if (status == SL_OK) {
     status = sl_plan_create(out, S, sli_complex_real(&c.first), bset == NULL ? 0 : 2 * nb,
@@ -35807,67 +35690,6 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
     *sign = F->stats.factor.negative / 2 % 2 == 0 ? 1.0 : -1.0;
   }
   return status;
-}
-
-#endif
-/* complex: entries of the inverse */
-#if defined(SL_WITH_COMPLEX) && defined(SL_WITH_INVERSE)
-/* src/impl/complex/complex_inverse.h: entries of the inverse of complex matrices */
-
-SL_API sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t ldz,
-    const sl_int *rows, sl_int n_rows, const sl_int *columns,
-    sl_int n_columns, sl_work *W, sl_stats *stats) {
-  sli_complex_sets c;
-  sl_status status;
-  sl_int k;
-  sli_stats_clear_error(stats);
-  status = sli_argument(F == NULL ? "F is NULL"
-      : ldz > SIZE_MAX / 2 ? "ldz is too large"
-      : rows == NULL && n_rows != 0 ? "rows is NULL"
-      : columns == NULL && n_columns != 0 ? "columns is NULL"
-      : NULL);
-  if (status != SL_OK) {
-    return sli_report(stats, status);
-  }
-  c = sli_complex_sets_of(rows, n_rows, columns, n_columns, 1);
-  status = sli_complex_sets_create(&c, F->S->n, &F->allocator, stats);
-  if (status == SL_OK) {
-    for (k = 0; k < n_columns;
-        k++) {
-      c.second.real[k] = 2 * columns[k];
-    }
-    status = sl_inverse_block(F, Z, 2 * ldz, c.first.real, 2 * n_rows, c.second.real, n_columns,
-        W, stats);
-    sli_free(&F->allocator, c.memory);
-  }
-  return sli_report(stats, status);
-}
-
-SL_API sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
-    const sl_int *columns, sl_int count, sl_work *W,
-    sl_stats *stats) {
-  sli_complex_sets c;
-  sl_status status;
-  sl_int k;
-  sli_stats_clear_error(stats);
-  status = sli_argument(F == NULL ? "F is NULL"
-      : rows == NULL && count != 0 ? "rows is NULL"
-      : columns == NULL && count != 0 ? "columns is NULL"
-      : NULL);
-  if (status != SL_OK) {
-    return sli_report(stats, status);
-  }
-  c = sli_complex_sets_of(rows, count, columns, count, 1);
-  status = sli_complex_sets_create(&c, F->S->n, &F->allocator, stats);
-  if (status == SL_OK) {
-    for (k = 0; k < count;
-        k++) {
-      c.second.real[2 * (size_t)k + 1] = c.second.real[2 * (size_t)k];
-    }
-    status = sl_inverse_pairs(F, out, c.first.real, c.second.real, 2 * count, W, stats);
-    sli_free(&F->allocator, c.memory);
-  }
-  return sli_report(stats, status);
 }
 
 #endif

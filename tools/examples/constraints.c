@@ -1,4 +1,4 @@
-/* pins.c: a membrane held at a few vertices, which are grabbed, moved and released */
+/* constraints.c: a membrane held at a few vertices, which are grabbed, moved and released */
 #define SL_WITH_CHANGE
 #include "example.h"
 
