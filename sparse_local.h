@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 5ef1fa2045627d03
+ * FNV-1a of the lines after this comment, without the license: 353b83fd53de2179
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -28,35 +28,35 @@
  *   2218 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
  *   2400 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
  *   2503 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2614 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2655 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2741 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2849 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2883 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2960 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3003 impl/ base: the compiler, status, memory, sorting, threads
- *   4284 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5223 impl/ matrix: sparse matrices of the caller and of the library
- *   5899 impl/ ordering: fill-reducing orderings of a graph
- *  11001 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13240 impl/ factor: the numbers of L and D
- *  16653 impl/ solve: full and local solves
- *  18530 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20527 impl/ pivots: the order of the pivots by the values of a matrix
- *  20935 impl/ float: L and fronts in single precision
- *  21440 impl/ inverse: entries of the inverse, regions
- *  24539 impl/ change: a factor that follows changes of its matrix
- *  30844 impl/ fixed: rows fixed at given values
- *  31405 impl/ io: files that are replaced only when they are complete
- *  31623 impl/ files: Matrix Market files, 64-bit indices
- *  32243 impl/ save: factors in files
- *  34256 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34942 impl/ batch: diagonals of many inverses
- *  35082 impl/ complex: complex Hermitian systems over real factors
- *  35644 impl/ complex: entries of the inverse
- *  35704 impl/ packs: the tables through which the core calls packs
- *  35737 impl/ last: undefine every internal macro
- *  36105 impl/ templates: the header includes them from itself, once for each instruction set
+ *   2607 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2648 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2733 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2841 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2875 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2952 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2995 impl/ base: the compiler, status, memory, sorting, threads
+ *   4276 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5215 impl/ matrix: sparse matrices of the caller and of the library
+ *   5891 impl/ ordering: fill-reducing orderings of a graph
+ *  10993 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13232 impl/ factor: the numbers of L and D
+ *  16645 impl/ solve: full and local solves
+ *  18522 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20519 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20927 impl/ float: L and fronts in single precision
+ *  21432 impl/ inverse: entries of the inverse, regions
+ *  24531 impl/ change: a factor that follows changes of its matrix
+ *  30822 impl/ fixed: rows fixed at given values
+ *  31383 impl/ io: files that are replaced only when they are complete
+ *  31601 impl/ files: Matrix Market files, 64-bit indices
+ *  32221 impl/ save: factors in files
+ *  34234 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34920 impl/ batch: diagonals of many inverses
+ *  35060 impl/ complex: complex Hermitian systems over real factors
+ *  35622 impl/ complex: entries of the inverse
+ *  35682 impl/ packs: the tables through which the core calls packs
+ *  35715 impl/ last: undefine every internal macro
+ *  36083 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -797,7 +797,7 @@ typedef struct sl_reuse_info {
     double seconds;
 } sl_reuse_info;
 
-/** A set of pins: sl_constraints_add, _add_equality, _release, _refactor. */
+/** Rows that are held: sl_constraints_add, _release, _refactor. */
 typedef struct sl_constraints_info {
     sl_int count;   /* pins and equalities */
     double seconds; /* of the call */
@@ -2505,7 +2505,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const s
 /** Creates an empty set of pins: rows, or linear combinations of rows, that solves hold at given
  *  values. For definite A this minimizes x' A x / 2 - b' x under these equalities. The factor does
  *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep. For
- *  hundreds of rows that are held together, sl_fixed_create is the faster call.
+ *  hundreds of rows that are held together, sl_factor_submatrix or sl_fixed_create is faster.
  *
  *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
  *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
@@ -2534,38 +2534,31 @@ SL_API SL_WARN_UNUSED sl_status sl_constraints_create(sl_constraints **out, cons
 /** Releases a set of pins. */
 SL_API void sl_constraints_free(sl_constraints *P);
 
-/** Adds pins, all or none: x is held at values in rows of A. They become the last ones of P, in the
- *  order of rows.
+/** Adds pins, all or none: x is held in each of these rows of A. They become the last ones of P, in
+ *  the order of rows. With values, adds one equality: the sum of values[k] x(rows[k]) is held.
  *
- *  rows   [in]   count >= 0 rows in 0..n-1.
- *  stats  [out]  pins; error.row.
+ *  rows    [in]   count >= 0 rows in 0..n-1.
+ *  values  [in]   NULL: pins. Else count >= 1 weights of an equality, copied as its rows are; a row
+ *                 given twice counts with the sum.
+ *  stats   [out]  constraints; error.row.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: a row is held already, by its pin or by a
  *           combination of the others, up to rounding; SL_ERR_STALE: F has changed;
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
- *           (error.row); SL_ERR_NOT_FINITE: numbers of F overflow in the solution of a row;
- *           SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
+ *           (error.row); SL_ERR_NOT_FINITE: a value (error.row), or numbers of F overflow in the
+ *           solution of a row; SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     for each pin, a forward sweep, which up to 8 nearby rows share, k products over shared
  *           columns and O(k^2), with k pins before it; keeps 16 bytes per column of the path, and 4
  *           per row below its supernodes. 100 pins together take half as long as one by one.
  *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_constraints_add(sl_constraints *P, const sl_int *rows,
-                                                   sl_int count, sl_stats *stats);
-
-/** Adds an equality: the sum of values[k] x(rows[k]) is held. A pin is the case of one row and the
- *  value 1.
- *
- *  rows, values  [in]  count >= 1 entries, copied; a row given twice counts with the sum.
- *  Returns, Cost, Threads  as in sl_constraints_add; SL_ERR_NOT_FINITE: also a value (error.row).
- */
-SL_API SL_WARN_UNUSED sl_status sl_constraints_add_equality(sl_constraints *P, const sl_int *rows,
-                                                            const double *values, sl_int count,
-                                                            sl_stats *stats);
+                                                   const double *values, sl_int count,
+                                                   sl_stats *stats);
 
 /** Releases pins, all or none. The others move together and keep their order.
  *
  *  indices  [in]   count >= 0 different numbers of pins, 0-based, in any order.
- *  stats    [out]  pins, of which count is the number that is left.
+ *  stats    [out]  constraints, of which count is the number that is left.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     O(k^2) for each.
  *  Threads  exclusive use of P; F is read.
@@ -2575,7 +2568,7 @@ SL_API SL_WARN_UNUSED sl_status sl_constraints_release(sl_constraints *P, const 
 
 /** Takes the present numbers of the factor, after it has changed.
  *
- *  stats  [out]  pins; error.row.
+ *  stats  [out]  constraints; error.row.
  *  Returns  as sl_constraints_add; SL_ERR_STALE: failed factor. On error solves are refused until a
  *           later call succeeds.
  *  Cost     that of sl_constraints_add for all pins.
@@ -2633,7 +2626,7 @@ SL_API SL_WARN_UNUSED sl_status sl_constraints_solve(const sl_constraints *P, co
  *                computed again; neither its pattern nor its two triangles are compared.
  *  rows   [in]   count rows of A in 0..n-1, any order, no duplicates.
  *  opt    [in]   allocator.
- *  stats  [out]  restriction, factor; errors are in rows of A.
+ *  stats  [out]  submatrix, factor; errors are in rows of A.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
  *           SL_ERR_OTHER_PATTERN: A differs in size, entries or triangle from the analyzed matrix;
  *           SL_ERR_MALFORMED: error.column of it is malformed; SL_ERR_PIVOT, _NOT_FINITE,
@@ -2729,7 +2722,6 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor 
 #define sl_constraints_create(...) sl_constraints_create_needs_SL_WITH_CHANGE
 #define sl_constraints_free(...) sl_constraints_free_needs_SL_WITH_CHANGE
 #define sl_constraints_add(...) sl_constraints_add_needs_SL_WITH_CHANGE
-#define sl_constraints_add_equality(...) sl_constraints_add_equality_needs_SL_WITH_CHANGE
 #define sl_constraints_release(...) sl_constraints_release_needs_SL_WITH_CHANGE
 #define sl_constraints_refactor(...) sl_constraints_refactor_needs_SL_WITH_CHANGE
 #define sl_constraints_solve(...) sl_constraints_solve_needs_SL_WITH_CHANGE
@@ -27694,43 +27686,12 @@ static void sli_constraints_drop(sl_constraints *P, sl_int index) {
   sli_constraints_remove(P, index);
 }
 
-SL_API sl_status sl_constraints_add_equality(sl_constraints *P, const sl_int *rows,
+static sl_status sli_constraints_check_rows(const sl_constraints *P, const sl_int *rows,
     const double *values, sl_int count, sl_stats *stats) {
-  const double started = stats == NULL ? 0.0 : sli_seconds();
-  const sli_equality e = sli_equality_of(rows, values, count);
-  sl_status status;
   sl_int k;
-  sli_stats_clear_error(stats);
-  status = sli_argument(P == NULL ? "P is NULL"
-      : count < 1 ? "count is below 1"
-      : rows == NULL ? "rows is NULL"
-      : values == NULL ? "values is NULL"
-      : NULL);
-  status = status == SL_OK ? sli_constraints_are_current(P) : status;
-  if (status != SL_OK) {
-    return sli_report(stats, status);
-  }
-  for (k = 0; k < count; k++) {
-    if (!sli_is_finite(values[k])) {
-      return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k],
-          "a value of the equality is not finite");
-    }
-  }
-  status = sli_constraints_push(P, &e, stats);
-  if (status == SL_OK) {
-    sli_constraints_report(P, started, stats);
-  }
-  return sli_report(stats, status);
-}
-
-SL_API sl_status sl_constraints_add(sl_constraints *P, const sl_int *rows, sl_int count,
-    sl_stats *stats) {
-  const double started = stats == NULL ? 0.0 : sli_seconds();
-  sl_status status;
-  sl_int k;
-  sli_stats_clear_error(stats);
-  status = sli_argument(P == NULL ? "P is NULL"
+  sl_status status = sli_argument(P == NULL ? "P is NULL"
       : count < 0 ? "count is below 0"
+      : count == 0 && values != NULL ? "an equality has no rows"
       : count > 0 && rows == NULL ? "rows is NULL"
       : NULL);
   status = status == SL_OK ? sli_constraints_are_current(P) : status;
@@ -27741,8 +27702,25 @@ SL_API sl_status sl_constraints_add(sl_constraints *P, const sl_int *rows, sl_in
     if (rows[k] < 0 || rows[k] >= P->F->S->n) {
       return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0, "a row is out of range");
     }
+    if (values != NULL && !sli_is_finite(values[k])) {
+      return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k],
+          "a value of the equality is not finite");
+    }
   }
-  status = status == SL_OK ? sli_constraints_push_rows(P, rows, count, stats) : status;
+  return status;
+}
+
+SL_API sl_status sl_constraints_add(sl_constraints *P, const sl_int *rows, const double *values,
+    sl_int count, sl_stats *stats) {
+  const double started = stats == NULL ? 0.0 : sli_seconds();
+  const sli_equality e = sli_equality_of(rows, values, count);
+  sl_status status;
+  sli_stats_clear_error(stats);
+  status = sli_constraints_check_rows(P, rows, values, count, stats);
+  if (status == SL_OK) {
+    status = values == NULL ? sli_constraints_push_rows(P, rows, count, stats)
+                : sli_constraints_push(P, &e, stats);
+  }
   if (status == SL_OK) {
     sli_constraints_report(P, started, stats);
   }

@@ -1,4 +1,4 @@
-/* dirichlet.c: a harmonic map: the border of a mesh is laid on a circle, the rest follows */
+/* fixed.c: a harmonic map: the border of a mesh is laid on a circle, the rest follows */
 #define SL_WITH_FIXED
 #include "example.h"
 
