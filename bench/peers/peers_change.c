@@ -87,7 +87,7 @@ static double our_pinned(const changes *c, int at) {
     const double one = 1, zero = 0;
     const sl_int first = 0;
     double x;
-    bench_must(sl_constraints_add(c->pins, &c->near[at][1], 1, NULL), "pin");
+    bench_must(sl_constraints_add(c->pins, &c->near[at][1], NULL, 1, NULL), "pin");
     bench_must(sl_constraints_solve(c->pins, c->plan[at], &x, 1, &one, 1, &zero, 1, 1, c->cmp->W),
                "solve with a pin");
     bench_must(sl_constraints_release(c->pins, &first, 1, NULL), "release");

@@ -110,7 +110,7 @@ static void call_pin(void *state) {
     const sl_int count = c->n_pins;
     const double b = 1.0;
     double x;
-    bench_must(sl_constraints_add(c->pins, &c->held[count], 1, NULL), "pin");
+    bench_must(sl_constraints_add(c->pins, &c->held[count], NULL, 1, NULL), "pin");
     bench_must(
         sl_constraints_solve(c->pins, c->plan[c->next], &x, 1, &b, 1, c->values, PINS, 1, c->W),
         "solve with pins");
@@ -121,7 +121,7 @@ static void call_pin(void *state) {
 static void call_hundred(void *state) {
     change *c = state;
     for (; c->n_pins < PINS; c->n_pins++) {
-        bench_must(sl_constraints_add(c->pins, &c->held[c->n_pins], 1, NULL), "pin");
+        bench_must(sl_constraints_add(c->pins, &c->held[c->n_pins], NULL, 1, NULL), "pin");
     }
 }
 
@@ -139,7 +139,7 @@ static void ready_hundred(void *state) {
 
 static void call_many(void *state) {
     change *c = state;
-    bench_must(sl_constraints_add(c->pins, c->held, MANY, &c->stats), "pins");
+    bench_must(sl_constraints_add(c->pins, c->held, NULL, MANY, &c->stats), "pins");
     c->n_pins = MANY;
 }
 

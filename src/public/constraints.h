@@ -8,7 +8,7 @@
 /** Creates an empty set of pins: rows, or linear combinations of rows, that solves hold at given
  *  values. For definite A this minimizes x' A x / 2 - b' x under these equalities. The factor does
  *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep. For
- *  hundreds of rows that are held together, sl_fixed_create is the faster call.
+ *  hundreds of rows that are held together, sl_factor_submatrix or sl_fixed_create is faster.
  *
  *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
  *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
@@ -37,38 +37,31 @@ SL_API SL_WARN_UNUSED sl_status sl_constraints_create(sl_constraints **out, cons
 /** Releases a set of pins. */
 SL_API void sl_constraints_free(sl_constraints *P);
 
-/** Adds pins, all or none: x is held at values in rows of A. They become the last ones of P, in the
- *  order of rows.
+/** Adds pins, all or none: x is held in each of these rows of A. They become the last ones of P, in
+ *  the order of rows. With values, adds one equality: the sum of values[k] x(rows[k]) is held.
  *
- *  rows   [in]   count >= 0 rows in 0..n-1.
- *  stats  [out]  pins; error.row.
+ *  rows    [in]   count >= 0 rows in 0..n-1.
+ *  values  [in]   NULL: pins. Else count >= 1 weights of an equality, copied as its rows are; a row
+ *                 given twice counts with the sum.
+ *  stats   [out]  constraints; error.row.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: a row is held already, by its pin or by a
  *           combination of the others, up to rounding; SL_ERR_STALE: F has changed;
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
- *           (error.row); SL_ERR_NOT_FINITE: numbers of F overflow in the solution of a row;
- *           SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
+ *           (error.row); SL_ERR_NOT_FINITE: a value (error.row), or numbers of F overflow in the
+ *           solution of a row; SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     for each pin, a forward sweep, which up to 8 nearby rows share, k products over shared
  *           columns and O(k^2), with k pins before it; keeps 16 bytes per column of the path, and 4
  *           per row below its supernodes. 100 pins together take half as long as one by one.
  *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_constraints_add(sl_constraints *P, const sl_int *rows,
-                                                   sl_int count, sl_stats *stats);
-
-/** Adds an equality: the sum of values[k] x(rows[k]) is held. A pin is the case of one row and the
- *  value 1.
- *
- *  rows, values  [in]  count >= 1 entries, copied; a row given twice counts with the sum.
- *  Returns, Cost, Threads  as in sl_constraints_add; SL_ERR_NOT_FINITE: also a value (error.row).
- */
-SL_API SL_WARN_UNUSED sl_status sl_constraints_add_equality(sl_constraints *P, const sl_int *rows,
-                                                            const double *values, sl_int count,
-                                                            sl_stats *stats);
+                                                   const double *values, sl_int count,
+                                                   sl_stats *stats);
 
 /** Releases pins, all or none. The others move together and keep their order.
  *
  *  indices  [in]   count >= 0 different numbers of pins, 0-based, in any order.
- *  stats    [out]  pins, of which count is the number that is left.
+ *  stats    [out]  constraints, of which count is the number that is left.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     O(k^2) for each.
  *  Threads  exclusive use of P; F is read.
@@ -78,7 +71,7 @@ SL_API SL_WARN_UNUSED sl_status sl_constraints_release(sl_constraints *P, const 
 
 /** Takes the present numbers of the factor, after it has changed.
  *
- *  stats  [out]  pins; error.row.
+ *  stats  [out]  constraints; error.row.
  *  Returns  as sl_constraints_add; SL_ERR_STALE: failed factor. On error solves are refused until a
  *           later call succeeds.
  *  Cost     that of sl_constraints_add for all pins.

@@ -178,7 +178,7 @@ typedef struct sl_reuse_info {
     double seconds;
 } sl_reuse_info;
 
-/** A set of pins: sl_constraints_add, _add_equality, _release, _refactor. */
+/** Rows that are held: sl_constraints_add, _release, _refactor. */
 typedef struct sl_constraints_info {
     sl_int count;   /* pins and equalities */
     double seconds; /* of the call */

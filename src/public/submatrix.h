@@ -25,7 +25,7 @@
  *                computed again; neither its pattern nor its two triangles are compared.
  *  rows   [in]   count rows of A in 0..n-1, any order, no duplicates.
  *  opt    [in]   allocator.
- *  stats  [out]  restriction, factor; errors are in rows of A.
+ *  stats  [out]  submatrix, factor; errors are in rows of A.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
  *           SL_ERR_OTHER_PATTERN: A differs in size, entries or triangle from the analyzed matrix;
  *           SL_ERR_MALFORMED: error.column of it is malformed; SL_ERR_PIVOT, _NOT_FINITE,

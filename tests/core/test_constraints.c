@@ -58,14 +58,14 @@ static void rows_are_pinned_together(void **state) {
         pin(&p, rows[count]);
         pin_rows(&p, rows, count, NULL);
         assert_pinned(&p, gen_bits(&seed));
-        SL_EXPECT(SL_ERR_PIVOT, sl_constraints_add(p.P, rows + count, 2, &stats));
+        SL_EXPECT(SL_ERR_PIVOT, sl_constraints_add(p.P, rows + count, NULL, 2, &stats));
         assert_int_equal(stats.error.row, rows[count]);
         for (sl_int m = 0; m <= count; m++) {
             release(&p, p.count - 1);
         }
         const sl_int other = rows[count - 2];
         rows[count - 2] = rows[1];
-        SL_EXPECT(SL_ERR_PIVOT, sl_constraints_add(p.P, rows, count, &stats));
+        SL_EXPECT(SL_ERR_PIVOT, sl_constraints_add(p.P, rows, NULL, count, &stats));
         assert_int_equal(stats.error.row, rows[1]);
         assert_int_equal(pins_count(p.P), 0);
         rows[count - 2] = other;
@@ -81,7 +81,7 @@ static void equalities_hold(void **state) {
     pinned_t p = pinned_make(GEN_GRID2, 100, 1, NULL);
     const sl_int rows[5] = {3, 40, 41, 3, 70};
     const double values[5] = {1.0, -2.0, 0.5, 1.0, 3.0};
-    SL_CHECK(sl_constraints_add_equality(p.P, rows, values, 5, NULL));
+    SL_CHECK(sl_constraints_add(p.P, rows, values, 5, NULL));
     for (int k = 0; k < 5; k++) {
         p.C[rows[k]] += values[k];
     }
@@ -183,7 +183,7 @@ static void pins_of_several_components(void **state) {
     assert_pinned(&p, 7);
     const sl_int both[2] = {2, 30};
     const double ones[2] = {1.0, 1.0};
-    SL_CHECK(sl_constraints_add_equality(p.P, both, ones, 2, NULL));
+    SL_CHECK(sl_constraints_add(p.P, both, ones, 2, NULL));
     p.C[(size_t)p.count * 50 + 2] = p.C[(size_t)p.count * 50 + 30] = 1.0;
     p.count++;
     assert_pinned(&p, 8);
@@ -230,10 +230,9 @@ static void invalid_arguments_are_refused(void **state) {
     assert_int_equal(stats.error.row, -1);
     SL_EXPECT(SL_ERR_ARGUMENT, pin_row(p.P, p.n, &stats));
     assert_int_equal(stats.error.row, p.n);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add_equality(p.P, &row, &one, 0, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add_equality(p.P, NULL, &one, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add_equality(p.P, &row, NULL, 1, NULL));
-    SL_EXPECT(SL_ERR_NOT_FINITE, sl_constraints_add_equality(p.P, &row, &nan, 1, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add(p.P, &row, &one, 0, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add(p.P, NULL, &one, 1, NULL));
+    SL_EXPECT(SL_ERR_NOT_FINITE, sl_constraints_add(p.P, &row, &nan, 1, &stats));
     assert_int_equal(stats.error.row, 3);
     SL_EXPECT(SL_ERR_ARGUMENT, unpin(p.P, 0));
     pin(&p, 3);

@@ -122,7 +122,7 @@ static void a_difference_leaves_the_constant_free(void **state) {
     sl_constraints *P;
     SL_CHECK(sl_factor_pivot_rows(y.F, SL_PIVOT_NULL, &null, NULL, 1, &count));
     SL_CHECK(sl_constraints_create(&P, y.F, NULL));
-    SL_CHECK(sl_constraints_add_equality(P, rows, values, 2, NULL));
+    SL_CHECK(sl_constraints_add(P, rows, values, 2, NULL));
     SL_CHECK(sl_constraints_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
     assert_true(x[null] == 0.0);
     for (sl_int k = 0; k + 1 < N; k++) { /* linear between the two rows, constant outside */
@@ -177,7 +177,7 @@ static void failing_allocations_leave_the_set(void **state) {
             assert_true((P != NULL) == (status == SL_OK));
             if (step == 1) {
                 counter.fail_at = (int64_t)counter.calls + k;
-                status = sl_constraints_add_equality(P, rows, values, 2, NULL);
+                status = sl_constraints_add(P, rows, values, 2, NULL);
                 assert_int_equal(pins_count(P), status == SL_OK);
             }
             assert_true(status == SL_ERR_MEMORY || (status == SL_OK && k > step));
@@ -250,7 +250,7 @@ static void an_underflow_is_refused(void **state) {
     double b[N] = {0.0}, x[N] = {0.0}, g = 1.0;
     sl_constraints *P;
     SL_CHECK(sl_constraints_create(&P, y.F, NULL));
-    SL_CHECK(sl_constraints_add_equality(P, rows, values, 3, NULL));
+    SL_CHECK(sl_constraints_add(P, rows, values, 3, NULL));
     SL_EXPECT(SL_ERR_INACCURATE, sl_constraints_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
     assert_true(x[0] == 0.0);
     sl_constraints_free(P);

@@ -62,8 +62,8 @@ static void a_null_vector_may_be_lost(void **state) {
     SL_CHECK(sl_symbolic_create(&S, &A.view, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &A.view, &opt, NULL));
     SL_CHECK(sl_constraints_create(&P, F, NULL));
-    SL_CHECK(sl_constraints_add_equality(P, ends, values, 2, NULL));
-    SL_CHECK(sl_constraints_add(P, rows, 240, &stats));
+    SL_CHECK(sl_constraints_add(P, ends, values, 2, NULL));
+    SL_CHECK(sl_constraints_add(P, rows, NULL, 240, &stats));
     SL_CHECK(sl_factor_refactor(F, &B.view, NULL));
     SL_EXPECT(SL_ERR_UNSUPPORTED, sl_constraints_refactor(P, &stats));
     SL_CHECK(sl_factor_refactor(F, &A.view, NULL));
@@ -150,7 +150,7 @@ static void a_row_twice_among_many_is_refused(void **state) {
     for (sl_int k = 0; k < 20; k++) {
         rows[k] = 2 * (k % 19);
     }
-    SL_EXPECT(SL_ERR_PIVOT, sl_constraints_add(p.P, rows, 20, &stats));
+    SL_EXPECT(SL_ERR_PIVOT, sl_constraints_add(p.P, rows, NULL, 20, &stats));
     assert_int_equal(stats.error.row, 0);
     assert_int_equal(pins_count(p.P), 1);
     assert_pinned(&p, 3);

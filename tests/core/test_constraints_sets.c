@@ -65,7 +65,7 @@ static void add_equality(pinned_t *p, uint64_t *seed) {
         is_dependent &= uses(p, rows[k]) >= 1000;
         is_free |= uses(p, rows[k]) == 0;
     }
-    const sl_status status = sl_constraints_add_equality(p->P, rows, values, 3, NULL);
+    const sl_status status = sl_constraints_add(p->P, rows, values, 3, NULL);
     if (is_free) {
         SL_CHECK(status);
     } else if (is_dependent || status != SL_OK) {
@@ -148,8 +148,8 @@ static void failing_allocations_leave_the_pins(void **state) {
         sl_status status = SL_ERR_MEMORY;
         for (int m = 0; status != SL_OK; m++) {
             counter.fail_at = (int64_t)counter.calls + m;
-            status = step == 1   ? sl_constraints_add(p.P, rows, 47, &stats)
-                     : step == 2 ? sl_constraints_add(p.P, rows + 47, 2, &stats)
+            status = step == 1   ? sl_constraints_add(p.P, rows, NULL, 47, &stats)
+                     : step == 2 ? sl_constraints_add(p.P, rows + 47, NULL, 2, &stats)
                      : step == 3 ? pin_row(p.P, rows[49], &stats)
                      : step == 4 ? sl_constraints_release(p.P, some, 10, &stats)
                                  : unpin(p.P, 0);
@@ -197,8 +197,8 @@ static void new_numbers_are_taken(void **state) {
     pin_rows(&p, rows + 20, 28, &stats);
     const sl_int one_row = 97;
     const double one = 1.0, two = 2.0;
-    SL_CHECK(sl_constraints_add_equality(p.P, &one_row, &two, 1, NULL));
-    SL_EXPECT(SL_ERR_PIVOT, sl_constraints_add_equality(p.P, &one_row, &one, 1, NULL));
+    SL_CHECK(sl_constraints_add(p.P, &one_row, &two, 1, NULL));
+    SL_EXPECT(SL_ERR_PIVOT, sl_constraints_add(p.P, &one_row, &one, 1, NULL));
     p.C[n * (size_t)p.count++ + (size_t)one_row] = two;
     SL_EXPECT(SL_ERR_PIVOT, pin_row(p.P, 4, &stats));
     assert_int_equal(stats.error.row, 4);
@@ -222,20 +222,20 @@ static void new_numbers_are_taken(void **state) {
     release_rows(&p, 0, 3, &(uint64_t){7}, &stats);
     assert_pinned(&p, 6);
     const sl_int twice[2] = {3, 3}, outside[2] = {3, p.n};
-    SL_EXPECT(SL_ERR_PIVOT, sl_constraints_add(p.P, twice, 2, &stats));
+    SL_EXPECT(SL_ERR_PIVOT, sl_constraints_add(p.P, twice, NULL, 2, &stats));
     assert_int_equal(stats.error.row, 3);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add(p.P, outside, 2, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add(p.P, outside, NULL, 2, &stats));
     assert_int_equal(stats.error.row, p.n);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add(p.P, NULL, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add(p.P, twice, -1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add(NULL, twice, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add(p.P, NULL, NULL, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add(p.P, twice, NULL, -1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_add(NULL, twice, NULL, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_release(p.P, twice, 2, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_release(p.P, outside, 2, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_release(NULL, twice, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_constraints_release(p.P, NULL, 1, NULL));
-    SL_EXPECT(SL_ERR_TOO_LARGE, sl_constraints_add(p.P, twice, INT32_MAX, NULL));
+    SL_EXPECT(SL_ERR_TOO_LARGE, sl_constraints_add(p.P, twice, NULL, INT32_MAX, NULL));
     assert_pinned(&p, 7);
-    SL_CHECK(sl_constraints_add(p.P, NULL, 0, NULL));
+    SL_CHECK(sl_constraints_add(p.P, NULL, NULL, 0, NULL));
     A->x = x; /* zeros */
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(p.y.F, A, NULL));
     SL_EXPECT(SL_ERR_STALE, sl_constraints_refactor(p.P, &stats));
@@ -271,7 +271,7 @@ static void many_pins_with_long_paths_hold(void **state) {
     SL_CHECK(sl_factor_create(&y.F, y.S, &M.view, NULL, NULL));
     sl_constraints *P = NULL;
     SL_CHECK(sl_constraints_create(&P, y.F, NULL));
-    SL_CHECK(sl_constraints_add(P, rows, PINS, NULL));
+    SL_CHECK(sl_constraints_add(P, rows, NULL, PINS, NULL));
     SL_CHECK(sl_constraints_solve(P, NULL, x, N, b, N, g, PINS, 1, NULL));
     SL_CHECK(sl_csc_residual(&M.view, r, N, NULL, x, N, b, N, 1));
     for (sl_int k = 0; k < N; k++) {
@@ -307,7 +307,7 @@ static void large_fronts_have_room(void **state) {
     gen_reals(G, n * MOST, 1);
     gen_reals(b, SET * MOST, 2);
     SL_CHECK(sl_constraints_create(&P, y.F, &opt));
-    SL_CHECK(sl_constraints_add(P, rows, count, NULL));
+    SL_CHECK(sl_constraints_add(P, rows, NULL, count, NULL));
     SL_CHECK(sl_plan_create(&plan, y.S, set, SET, set, SET, NULL, NULL));
     for (sl_int nrhs = 1; nrhs <= MOST; nrhs++) {
         for (size_t k = 0; k < SET * (size_t)nrhs; k++) {

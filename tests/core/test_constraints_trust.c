@@ -86,7 +86,7 @@ static void forces_of_pins_alone_are_judged(void **state) {
         double whole[N], all[N] = {0.0}, x[2] = {7.0, 7.0};
         sl_plan *plan = NULL;
         SL_CHECK(sl_plan_create(&plan, y.S, bset, 1, pins, 2, NULL, NULL));
-        SL_CHECK(sl_constraints_add(y.P, pins, 2, NULL));
+        SL_CHECK(sl_constraints_add(y.P, pins, NULL, 2, NULL));
         all[bset[0]] = b;
         const sl_status status = sl_constraints_solve(y.P, plan, x, 2, &b, 1, g, 2, 1, NULL);
         SL_EXPECT(status, sl_constraints_solve(y.P, NULL, whole, N, all, N, g, 2, 1, NULL));
@@ -136,7 +136,7 @@ static void a_second_tree_may_have_an_unknown_null_vector(void **state) {
         const double values[2] = {1.0, 1.0};
         paths_t y = paths_make(M, &opt);
         sl_stats stats;
-        SL_EXPECT(SL_ERR_UNSUPPORTED, sl_constraints_add_equality(y.P, rows, values, 2, &stats));
+        SL_EXPECT(SL_ERR_UNSUPPORTED, sl_constraints_add(y.P, rows, values, 2, &stats));
         assert_int_equal(stats.error.row, HALF + 3);
         assert_int_equal(pins_count(y.P), 0);
         SL_CHECK(pin_row(y.P, 3, NULL));
@@ -171,7 +171,7 @@ static void components_without_pins_are_as_without_a_set(void **state) {
         for (sl_int k = 0; k < HALF / 3; k++) {
             rows[k] = 3 * k;
         }
-        SL_CHECK(sl_constraints_add(y.P, rows, is_many ? HALF / 3 : 1, NULL));
+        SL_CHECK(sl_constraints_add(y.P, rows, NULL, is_many ? HALF / 3 : 1, NULL));
         gen_reals(b, N, 3);
         b[HALF] += 1.0;
         expect_solves(&y, way == 0 ? SL_ERR_INCONSISTENT : SL_OK, x, b, g);
@@ -219,7 +219,7 @@ static void motions_that_pins_leave_need_balance(void **state) {
         opt.null_pivots = SL_NULL_PIVOT_SKIP;
         opt.mass = weighted ? m : NULL;
         paths_t y = paths_make(two_paths(0.0, 0.0, 1.0), &opt);
-        SL_CHECK(sl_constraints_add_equality(y.P, rows, values, 2, NULL));
+        SL_CHECK(sl_constraints_add(y.P, rows, values, 2, NULL));
         b[10] = 1.0;
         expect_solves(&y, SL_ERR_INCONSISTENT, x, b, g);
         b[20] = -1.0;
@@ -258,7 +258,7 @@ static void a_weak_bridge_holds_what_pins_leave(void **state) {
             rows[k] = first + k;
         }
         b[rest + 7] = 1.0;
-        const sl_status status = sl_constraints_add(y.P, rows, HALF, NULL);
+        const sl_status status = sl_constraints_add(y.P, rows, NULL, HALF, NULL);
         assert_true(status == SL_OK || status == SL_ERR_PIVOT);
         if (status == SL_OK) {
             SL_CHECK(sl_constraints_solve(y.P, NULL, x, N, b, N, g, N, 1, NULL));
@@ -288,7 +288,7 @@ static void failing_allocations_change_nothing(void **state) {
     sl_status status = SL_ERR_MEMORY;
     for (int64_t k = 0; status == SL_ERR_MEMORY; k++) {
         counter.fail_at = (int64_t)counter.calls + k;
-        status = sl_constraints_add_equality(P, rows, values, 2, NULL);
+        status = sl_constraints_add(P, rows, values, 2, NULL);
         assert_int_equal(pins_count(P), status == SL_OK);
     }
     SL_CHECK(status);

@@ -19,12 +19,12 @@ static void failed_factors_are_refused(void **state) {
     assert_null(Q);
     const sl_int row = 4;
     SL_EXPECT(SL_ERR_STALE, pin_row(P, row, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_constraints_add_equality(P, &row, &g, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_constraints_add(P, &row, &g, 1, NULL));
     SL_EXPECT(SL_ERR_STALE, sl_constraints_refactor(P, NULL));
     SL_EXPECT(SL_ERR_STALE, sl_constraints_solve(P, NULL, x, n, x, n, &g, 1, 1, NULL));
     SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
     SL_EXPECT(SL_ERR_STALE, pin_row(P, row, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_constraints_add_equality(P, &row, &g, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_constraints_add(P, &row, &g, 1, NULL));
     SL_CHECK(sl_constraints_refactor(P, NULL));
     SL_CHECK(sl_constraints_solve(P, NULL, x, n, x, n, &g, 1, 1, NULL));
     assert_true(fabs(x[3] - g) <= 1e-14);
@@ -81,7 +81,7 @@ static void an_overflow_is_refused(void **state) {
     sl_constraints *P;
     SL_CHECK(sl_constraints_create(&P, y.F, NULL));
     SL_CHECK(pin_row(P, 3, NULL));
-    SL_EXPECT(SL_ERR_NOT_FINITE, sl_constraints_add_equality(P, &row, &large, 1, &stats));
+    SL_EXPECT(SL_ERR_NOT_FINITE, sl_constraints_add(P, &row, &large, 1, &stats));
     assert_int_equal(stats.error.row, row);
     assert_int_equal(pins_count(P), 1);
     SL_CHECK(sl_constraints_solve(P, NULL, x, n, x, n, &g, 1, 1, NULL));
@@ -134,7 +134,7 @@ static void zeros_between_pins_are_accurate(void **state) {
         rows[count] = k;
         count += k != FREE;
     }
-    SL_CHECK(sl_constraints_add(P, rows, count, NULL));
+    SL_CHECK(sl_constraints_add(P, rows, NULL, count, NULL));
     for (sl_int k = 0; k < count; k++) {
         sl_plan *plan = NULL;
         SL_CHECK(sl_plan_create(&plan, y.S, &at, 1, rows + k, 1, NULL, NULL));

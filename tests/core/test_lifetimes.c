@@ -26,7 +26,7 @@ static objects_t objects_make(const sl_csc *A, const sl_options *opt) {
     in_region.region = o.R;
     SL_CHECK(sl_plan_create(&o.P, o.S, set, 4, set, 4, &in_region, NULL));
     SL_CHECK(sl_constraints_create(&o.pins, o.F, opt));
-    SL_CHECK(sl_constraints_add(o.pins, set, 1, NULL));
+    SL_CHECK(sl_constraints_add(o.pins, set, NULL, 1, NULL));
     return o;
 }
 

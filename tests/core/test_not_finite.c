@@ -70,7 +70,7 @@ static void regions_pins_and_batches(void **state) {
     opt.region = R;
     SL_CHECK(sl_plan_create(&P, y.S, set, 60, set, 60, &opt, NULL));
     SL_CHECK(sl_constraints_create(&pins, y.F, NULL));
-    SL_CHECK(sl_constraints_add(pins, set, 1, NULL));
+    SL_CHECK(sl_constraints_add(pins, set, NULL, 1, NULL));
     gen_reals(b, 60, 1);
     gen_reals(B, 400, 1);
     SL_CHECK(sl_plan_solve(P, y.F, x, 60, b, 60, 1, NULL));

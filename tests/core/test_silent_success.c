@@ -261,7 +261,7 @@ static void nothing_is_derived_from_a_failed_factor(void **state) {
         same[i] = i;
     }
     SL_CHECK(sl_constraints_create(&P, y.F, NULL));
-    SL_CHECK(sl_constraints_add(P, rows, 1, NULL));
+    SL_CHECK(sl_constraints_add(P, rows, NULL, 1, NULL));
     A.x = zeros;
     assert_refused(sl_factor_refactor(y.F, &A, &stats), SL_ERR_PIVOT, &stats);
     A.x = y.M.view.x;
@@ -271,7 +271,7 @@ static void nothing_is_derived_from_a_failed_factor(void **state) {
     assert_true(S == NULL && G == NULL);
     assert_refused(sl_constraints_create(&Q, y.F, NULL), SL_ERR_STALE, NULL);
     assert_refused(sl_constraints_solve(P, NULL, x, N, b, N, &one, 1, 1, NULL), SL_ERR_STALE, NULL);
-    assert_refused(sl_constraints_add(P, rows + 1, 1, &stats), SL_ERR_STALE, &stats);
+    assert_refused(sl_constraints_add(P, rows + 1, NULL, 1, &stats), SL_ERR_STALE, &stats);
     assert_refused(sl_constraints_refactor(P, &stats), SL_ERR_STALE, &stats);
     assert_refused(sl_batch_solve(NULL, &request, 1, NULL, NULL, &failed), SL_ERR_STALE, NULL);
     assert_int_equal(failed, 0);

@@ -107,7 +107,7 @@ static void pin_and_judge(const random_system_t *y, const sl_factor *F, uint64_t
     } else {
         gen_set(rows, y->n, y->n, gen_bits(seed));
         gen_reals(g, n, gen_bits(seed));
-        status = sl_constraints_add(P, rows, most, &stats);
+        status = sl_constraints_add(P, rows, NULL, most, &stats);
         count = pins_count(P);
         assert_int_equal(count, status == SL_OK ? most : 0);
         t->refused += status != SL_OK;

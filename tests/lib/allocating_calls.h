@@ -312,7 +312,7 @@ static sl_status pins(fixture_t *f, const sl_int *rows, sl_int count, const sl_o
     sl_status status = sl_constraints_create(&P, f->y.F, opt);
     MADE_OR_NULL(status, P);
     if (status == SL_OK) {
-        status = sl_constraints_add(P, rows, count, NULL);
+        status = sl_constraints_add(P, rows, NULL, count, NULL);
         assert_int_equal(pins_count(P), status == SL_OK ? count : 0);
     }
     if (status == SL_OK) {

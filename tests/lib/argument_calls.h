@@ -189,7 +189,7 @@ static sl_constraints *pins_make(sl_int count) {
     sl_constraints *pins = NULL;
     SL_CHECK(sl_constraints_create(&pins, o->good.F, NULL));
     for (sl_int row = 0; row < count; row++) {
-        SL_CHECK(sl_constraints_add(pins, &row, 1, NULL));
+        SL_CHECK(sl_constraints_add(pins, &row, NULL, 1, NULL));
     }
     return pins;
 }
@@ -218,8 +218,8 @@ CALL(selected_entries, sl_selected_entries(a->Z, a->X, a->xset, a->xset == NULL 
                                            a->nx, &a->stats))
 CALL(region_refactor, sl_region_refactor(a->R, a->F, NULL, NULL))
 CALL(reserve, sl_work_reserve(a->W, 64))
-ON_PINS(pins_add, 1, sl_constraints_add(pins, a->xset, a->nx, &a->stats))
-ON_PINS(pins_equality, 1, sl_constraints_add_equality(pins, a->xset, a->B, a->nx, &a->stats))
+ON_PINS(pins_add, 1, sl_constraints_add(pins, a->xset, NULL, a->nx, &a->stats))
+ON_PINS(pins_equality, 1, sl_constraints_add(pins, a->xset, a->B, a->nx, &a->stats))
 ON_PINS(pins_release, N, sl_constraints_release(pins, a->xset, a->nx, &a->stats))
 ON_PINS(pins_refactor, 1, sl_constraints_refactor(pins, &a->stats))
 ON_PINS(pins_solve, 1,
@@ -293,7 +293,7 @@ static const struct {
     {"sl_region_refactor", region_refactor, F_ | FAILED_ | OTHER_ | R_},
     {"sl_constraints_create", pins, F_ | FAILED_},
     {"sl_constraints_add", pins_add, PINS_ | LIST_},
-    {"sl_constraints_add_equality", pins_equality, PINS_ | LIST_ | B_},
+    {"sl_constraints_add, an equality", pins_equality, PINS_ | LIST_},
     {"sl_constraints_release", pins_release, PINS_ | LIST_},
     {"sl_constraints_refactor", pins_refactor, PINS_},
     {"sl_constraints_solve", pins_solve, PINS_ | X_ | LDX_ | B_ | LDB_ | NRHS_},

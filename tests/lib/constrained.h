@@ -36,7 +36,7 @@ static inline void pin(pinned_t *p, sl_int row) {
 }
 
 static inline void pin_rows(pinned_t *p, const sl_int *rows, sl_int count, sl_stats *stats) {
-    SL_CHECK(sl_constraints_add(p->P, rows, count, stats));
+    SL_CHECK(sl_constraints_add(p->P, rows, NULL, count, stats));
     for (sl_int k = 0; k < count; k++) {
         p->C[(size_t)p->n * (size_t)p->count++ + (size_t)rows[k]] = 1.0;
     }

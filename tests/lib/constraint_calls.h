@@ -5,7 +5,7 @@
 #include "sparse_local.h"
 
 static inline sl_status pin_row(sl_constraints *P, sl_int row, sl_stats *stats) {
-    return sl_constraints_add(P, &row, 1, stats);
+    return sl_constraints_add(P, &row, NULL, 1, stats);
 }
 
 static inline sl_status unpin(sl_constraints *P, sl_int index) {

@@ -25,7 +25,7 @@ static inline void judge_constraints_add(judge_t *t, judge_constraints_t *p, uns
         double *c = p->C + (size_t)p->equalities * t->n, values[6];
         gen_permutation(rows, n, gen_bits(&t->state));
         gen_reals(values, 6, gen_bits(&t->state));
-        const sl_status status = sl_constraints_add_equality(p->P, rows, values, size, NULL);
+        const sl_status status = sl_constraints_add(p->P, rows, values, size, NULL);
         if (status == SL_OK) {
             memset(c, 0, t->n * sizeof *c);
             for (sl_int k = 0; k < size; k++) {
@@ -42,7 +42,7 @@ static inline void judge_constraints_add(judge_t *t, judge_constraints_t *p, uns
                 rows[count++] = row;
             }
         }
-        const sl_status status = sl_constraints_add(p->P, rows, count, NULL);
+        const sl_status status = sl_constraints_add(p->P, rows, NULL, count, NULL);
         for (sl_int k = 0; k < count; k++) {
             if (status == SL_OK) {
                 p->row[p->count] = rows[k];

@@ -241,8 +241,8 @@ WRONG(pinned_twice) {
     const sl_int row = 5;
     sl_constraints *P = NULL;
     SL_CHECK(sl_constraints_create(&P, w.y.F, NULL));
-    SL_CHECK(sl_constraints_add(P, &row, 1, NULL));
-    const sl_status status = sl_constraints_add(P, &row, 1, stats);
+    SL_CHECK(sl_constraints_add(P, &row, NULL, 1, NULL));
+    const sl_status status = sl_constraints_add(P, &row, NULL, 1, stats);
     sl_constraints_free(P);
     return status;
 }
@@ -252,8 +252,8 @@ WRONG(depends_on_pins) {
     const double ones[] = {1, 1};
     sl_constraints *P = NULL;
     SL_CHECK(sl_constraints_create(&P, w.y.F, NULL));
-    SL_CHECK(sl_constraints_add(P, rows, 2, NULL));
-    const sl_status status = sl_constraints_add_equality(P, rows, ones, 2, stats);
+    SL_CHECK(sl_constraints_add(P, rows, NULL, 2, NULL));
+    const sl_status status = sl_constraints_add(P, rows, ones, 2, stats);
     sl_constraints_free(P);
     return status;
 }
@@ -264,7 +264,7 @@ WRONG(old_pins) {
     sl_constraints *P = NULL;
     (void)stats;
     SL_CHECK(sl_constraints_create(&P, w.y.F, NULL));
-    SL_CHECK(sl_constraints_add(P, &row, 1, NULL));
+    SL_CHECK(sl_constraints_add(P, &row, NULL, 1, NULL));
     SL_CHECK(sl_factor_refactor(w.y.F, &w.y.M.view, NULL));
     const sl_status status = sl_constraints_solve(P, NULL, w.x, N, w.b, N, &g, 1, 1, NULL);
     sl_constraints_free(P);

@@ -17,7 +17,7 @@ int main(void) {
     ok(sl_symbolic_create(&S, &A, NULL, NULL));
     ok(sl_factor_create(&F, S, &A, &options, NULL));
     ok(sl_constraints_create(&P, F, NULL));
-    ok(sl_constraints_add(P, handles, 4, NULL)); /* a forward sweep each; F stays as it is */
+    ok(sl_constraints_add(P, handles, NULL, 4, NULL)); /* a forward sweep each; F stays as it is */
     ok(sl_constraints_solve(P, NULL, x, N, b, N, heights, 4, 1, NULL));
     printf("three corners at 0, the middle at %g: the fourth corner at %.4f\n", x[handles[3]],
            x[N - 1]);

@@ -202,7 +202,8 @@ sl_status deformer_hold(deformer *d, const sl_int *vertices, sl_int count) {
     }
     forget_fixed(d);
     d->anew = d->anew || d->n_pins + n_added > MANY_PINS;
-    sl_status status = d->anew ? SL_OK : sl_constraints_add(d->pins, added, n_added, &d->stats);
+    sl_status status =
+        d->anew ? SL_OK : sl_constraints_add(d->pins, added, NULL, n_added, &d->stats);
     status = is_refused(d, status) ? SL_OK : status;
     d->n_pins += status == SL_OK ? n_added : 0;
     for (sl_int k = 0; k < count; k++) {

@@ -18,7 +18,7 @@ static sl_status constraints_add(call *c) {
     object *p = find(c->in[0], PINS);
     sl_int count, *rows = rows_of(c->in[1], &count);
     if (rows == NULL) refuse("pins have a set of rows");
-    return sl_constraints_add(p->pins, rows, count, NULL);
+    return sl_constraints_add(p->pins, rows, NULL, count, NULL);
 }
 
 /* constraints_release(pins, numbers) */

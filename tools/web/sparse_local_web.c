@@ -250,7 +250,7 @@ WEB_EXPORT(web_constraints) sl_status web_constraints(const sl_factor *F) {
 WEB_EXPORT(web_constraints_add)
 sl_status web_constraints_add(sl_constraints *P, const sl_int *rows, sl_int count) {
     forget();
-    return keep(sl_constraints_add(P, rows, count, &stats));
+    return keep(sl_constraints_add(P, rows, NULL, count, &stats));
 }
 
 WEB_EXPORT(web_constraints_release)

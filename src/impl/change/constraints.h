@@ -101,45 +101,15 @@ static void sli_constraints_drop(sl_constraints *P, sl_int index) {
     sli_constraints_remove(P, index);
 }
 
-SL_API sl_status sl_constraints_add_equality(sl_constraints *P, const sl_int *rows,
-                                             const double *values, sl_int count, sl_stats *stats) {
-    const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
-    const sli_equality e = sli_equality_of(rows, values, count);
-    sl_status status;
+/* Checks rows that are held, and the values of an equality. */
+static sl_status sli_constraints_check_rows(const sl_constraints *P, const sl_int *rows,
+                                            const double *values, sl_int count, sl_stats *stats) {
     sl_int k;
-    sli_stats_clear_error(stats);
-    status = sli_argument(P == NULL        ? "P is NULL"
-                          : count < 1      ? "count is below 1"
-                          : rows == NULL   ? "rows is NULL"
-                          : values == NULL ? "values is NULL"
-                                           : NULL);
-    status = status == SL_OK ? sli_constraints_are_current(P) : status;
-    if (status != SL_OK) {
-        return sli_report(stats, status);
-    }
-    for (k = 0; k < count; k++) {
-        if (!sli_is_finite(values[k])) {
-            return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k],
-                               "a value of the equality is not finite");
-        }
-    }
-    status = sli_constraints_push(P, &e, stats);
-    if (status == SL_OK) {
-        sli_constraints_report(P, started, stats);
-    }
-    return sli_report(stats, status);
-}
-
-SL_API sl_status sl_constraints_add(sl_constraints *P, const sl_int *rows, sl_int count,
-                                    sl_stats *stats) {
-    const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
-    sl_status status;
-    sl_int k;
-    sli_stats_clear_error(stats);
-    status = sli_argument(P == NULL                   ? "P is NULL"
-                          : count < 0                 ? "count is below 0"
-                          : count > 0 && rows == NULL ? "rows is NULL"
-                                                      : NULL);
+    sl_status status = sli_argument(P == NULL                      ? "P is NULL"
+                                    : count < 0                    ? "count is below 0"
+                                    : count == 0 && values != NULL ? "an equality has no rows"
+                                    : count > 0 && rows == NULL    ? "rows is NULL"
+                                                                   : NULL);
     status = status == SL_OK ? sli_constraints_are_current(P) : status;
     if (status == SL_OK && count > INT32_MAX - P->n_pins) {
         status = sli_refuse(SL_ERR_TOO_LARGE, "more than 2^31 - 1 pins");
@@ -148,8 +118,25 @@ SL_API sl_status sl_constraints_add(sl_constraints *P, const sl_int *rows, sl_in
         if (rows[k] < 0 || rows[k] >= P->F->S->n) {
             return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0, "a row is out of range");
         }
+        if (values != NULL && !sli_is_finite(values[k])) {
+            return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k],
+                               "a value of the equality is not finite");
+        }
     }
-    status = status == SL_OK ? sli_constraints_push_rows(P, rows, count, stats) : status;
+    return status;
+}
+
+SL_API sl_status sl_constraints_add(sl_constraints *P, const sl_int *rows, const double *values,
+                                    sl_int count, sl_stats *stats) {
+    const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
+    const sli_equality e = sli_equality_of(rows, values, count);
+    sl_status status;
+    sli_stats_clear_error(stats);
+    status = sli_constraints_check_rows(P, rows, values, count, stats);
+    if (status == SL_OK) {
+        status = values == NULL ? sli_constraints_push_rows(P, rows, count, stats)
+                                : sli_constraints_push(P, &e, stats);
+    }
     if (status == SL_OK) {
         sli_constraints_report(P, started, stats);
     }

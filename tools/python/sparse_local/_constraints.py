@@ -48,8 +48,8 @@ class Pins:
         stats, width = Stats(), self._factor._kind.width
         self._factor._pointer
         return self._done(self._lib.sl_constraints_add(
-            self._held.pointer, address, count, ctypes.byref(stats)), stats, self._count + count //
-            width)
+            self._held.pointer, address, None, count, ctypes.byref(stats)), stats,
+                          self._count + count // width)
 
     def add_equality(self, rows, coefficients):
         """Adds an equality: the sum of coefficients[k] x[rows[k]] is held. Of real matrices."""
@@ -60,7 +60,7 @@ class Pins:
             raise ArgumentError("an equality needs rows")
         values, stats = arrays.vector(coefficients, count, "coefficients"), Stats()
         self._factor._pointer
-        return self._done(self._lib.sl_constraints_add_equality(
+        return self._done(self._lib.sl_constraints_add(
             self._held.pointer, address, arrays.address(values), count, ctypes.byref(stats)),
                           stats, self._count + 1)
 
