@@ -1,64 +1,64 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 12b80fb8a59ac2a8
+ * FNV-1a of the lines after this comment, without the license: f601b6993971f707
  * The comments of the implementation are in src/impl.
  *
  * Contents
  *     66 intro.h      what the library does, a quick start, which call for which question, references
  *    196 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
  *    240 config.h     macros that a user may define before the include, the version, and the integer types
- *    327 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    507 options.h    options of all calls, threads, and the allocator
- *    633 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    877 csc.h        sparse matrices: creation, checks, products, residuals
- *    978 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1054 factor.h     the numerical factorization P A P' = L D L'
- *   1183 solve.h      full solves, and the workspace of all solves
- *   1279 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1355 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1445 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1538 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1577 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1678 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1758 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1844 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1937 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2044 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2086 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2208 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2239 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2421 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2524 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2635 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2676 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2762 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2870 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2904 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2981 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3024 impl/ base: the compiler, status, memory, sorting, threads
- *   4305 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5244 impl/ matrix: sparse matrices of the caller and of the library
- *   5920 impl/ ordering: fill-reducing orderings of a graph
- *  11022 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13261 impl/ factor: the numbers of L and D
+ *    328 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    508 options.h    options of all calls, threads, and the allocator
+ *    634 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    878 csc.h        sparse matrices: creation, checks, products, residuals
+ *    979 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1055 factor.h     the numerical factorization P A P' = L D L'
+ *   1184 solve.h      full solves, and the workspace of all solves
+ *   1280 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1356 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1446 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1539 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1578 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1679 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1759 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1845 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1938 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2045 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2087 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2209 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2240 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2422 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2525 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2636 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2677 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2763 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2871 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2905 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2982 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3025 impl/ base: the compiler, status, memory, sorting, threads
+ *   4306 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5245 impl/ matrix: sparse matrices of the caller and of the library
+ *   5921 impl/ ordering: fill-reducing orderings of a graph
+ *  11023 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13262 impl/ factor: the numbers of L and D
  *  15859 impl/ solve: full and local solves
- *  17407 impl/ singular: null spaces of semidefinite matrices
- *  18716 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20731 impl/ pivots: the order of the pivots by the values of a matrix
- *  21139 impl/ float: L and fronts in single precision
- *  21644 impl/ inverse: entries of the inverse, regions
- *  24743 impl/ change: a factor that follows changes of its matrix
- *  31030 impl/ fixed: rows fixed at given values
- *  31671 impl/ fixed: by a factor of all rows
- *  31905 impl/ io: files that are replaced only when they are complete
- *  32123 impl/ files: Matrix Market files, 64-bit indices
- *  32743 impl/ save: factors in files
- *  34760 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35446 impl/ batch: diagonals of many inverses
- *  35586 impl/ complex: complex Hermitian systems over real factors
- *  36148 impl/ complex: entries of the inverse
- *  36208 impl/ packs: the tables through which the core calls packs
- *  36291 impl/ last: undefine every internal macro
- *  36673 impl/ templates: the header includes them from itself, once for each instruction set
+ *  17405 impl/ singular: null spaces of semidefinite matrices
+ *  18676 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20691 impl/ pivots: the order of the pivots by the values of a matrix
+ *  21099 impl/ float: L and fronts in single precision
+ *  21604 impl/ inverse: entries of the inverse, regions
+ *  24703 impl/ change: a factor that follows changes of its matrix
+ *  31003 impl/ fixed: rows fixed at given values
+ *  31644 impl/ fixed: by a factor of all rows
+ *  31878 impl/ io: files that are replaced only when they are complete
+ *  32096 impl/ files: Matrix Market files, 64-bit indices
+ *  32716 impl/ save: factors in files
+ *  34733 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35419 impl/ batch: diagonals of many inverses
+ *  35559 impl/ complex: complex Hermitian systems over real factors
+ *  36121 impl/ complex: entries of the inverse
+ *  36181 impl/ packs: the tables through which the core calls packs
+ *  36264 impl/ last: undefine every internal macro
+ *  36646 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -252,6 +252,7 @@
  *  SL_NO_SIMD                    compiles only the kernels in plain C: smallest object, fastest
  *                                compilation, easiest to debug.
  *  SL_NO_AVX512                  leaves out the AVX-512 kernels: AVX2 is then the best on x86.
+ *  SL_NO_SINGULAR                leaves out null spaces, 26 kB: SL_NULL_PIVOT_SKIP is refused.
  *  SL_PTHREADS                   threads of POSIX where options.threads.run is NULL; compile and
  *                                link with -pthread.
  *  SL_NO_CLOCK                   makes all times in the statistics 0, for systems without clock();
@@ -13212,7 +13213,7 @@ static sl_int sli_reach_step_of(const sli_reach *R, sl_int column) {
          : -1;
 }
 
-static sl_int sli_reach_index_of(const sli_reach *R, sl_int column) {
+SLI_NOINLINE static sl_int sli_reach_index_of(const sli_reach *R, sl_int column) {
   const sl_int s = sli_reach_step_of(R, column);
   return s == -1 ? -1 : R->steps[s].base + column - R->steps[s].column;
 }
@@ -13286,7 +13287,6 @@ typedef struct sli_singular {
   sl_status (*fill)(sl_factor *F, const sl_options *opt, sl_stats *stats);
   sl_status (*prepare)(sl_factor *F, const struct sli_source *from, struct sli_failure *failure);
   sl_status (*finish)(sl_factor *F, const struct sli_source *from, struct sli_failure *failure);
-  int (*remain)(const sl_factor *F);
 
   int (*load)(const sl_factor *F, const struct sli_query *q, const struct sli_vectors *v,
       const struct sli_rhs *rhs);
@@ -13294,8 +13294,8 @@ typedef struct sli_singular {
       sl_int nrhs);
   int (*check)(const sl_factor *F, const struct sli_query *q, const struct sli_rhs *rhs,
       void *memory);
-  void (*center)(const sl_factor *F, const struct sli_packed *y, const struct sli_packed *x,
-      const sl_int *uses);
+  void (*center)(const sl_factor *F, const struct sli_query *q, const struct sli_vectors *v,
+      sl_int lanes, const sl_int *uses);
   void (*norms)(const struct sli_packed *b, double *norms);
   int (*next_dot)(const sl_factor *F, const struct sli_packed *b, sl_int first, sl_int root,
       struct sli_null_dot *dot);
@@ -16916,7 +16916,7 @@ static void sli_sweep_transfer(const sli_query *q, const double *y, double *x, s
   }
 }
 
-static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+SLI_INLINE void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
     sl_int nrhs) {
   if (F->null.count > 0) {
     F->null.calls->forward(F, &q->forward, v, nrhs);
@@ -16927,11 +16927,11 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
 
 static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vectors *v,
     const sli_rhs *rhs) {
-  if (F->null.checks) {
+  if (F->null.count > 0) {
     return F->null.calls->load(F, q, v, rhs);
   }
   sli_pack(F, q, v->y, rhs);
-  sli_sweep_forward(F, q, v, rhs->nrhs);
+  sli_forward_sweep(F, sli_lanes_kind(rhs->nrhs), &q->forward, v->y, v->scratch);
   return 1;
 }
 
@@ -16946,9 +16946,7 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
     q->ending->calls->apply(F, q, kind, v);
   }
   if (F->null.count > 0) {
-    const sli_packed y = sli_packed_of(&q->forward, v->y, lanes);
-    const sli_packed x = sli_packed_of(&q->backward, v->x, lanes);
-    F->null.calls->center(F, &y, &x, NULL);
+    F->null.calls->center(F, q, v, lanes, NULL);
   }
   sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }
@@ -18363,64 +18361,6 @@ static int sli_is_consistent(const sl_factor *F, const sli_packed *y, const doub
   return 1;
 }
 
-static sl_int sli_null_tree_dot(const sl_factor *F, const sli_packed *b, sl_int first, sl_int root,
-    sli_null_dot *dot) {
-  dot->next = sli_null_first(F, b->R, root);
-  return sli_null_dot_next(F, b, first, root, dot) ? sli_reach_index_of(b->R, dot->null) : -1;
-}
-
-static void sli_null_forward(const sl_factor *F, const sli_reach *R, const sli_vectors *v,
-    sl_int nrhs) {
-  const int kind = sli_lanes_kind(nrhs);
-  const sli_packed b = sli_packed_of(R, v->y, (sl_int)1 << kind);
-  sli_reach tree;
-  sl_int first = 0, s;
-  if (F->null.vectors > 1) {
-    sli_forward_sweep(F, kind, R, v->y, v->scratch);
-    return;
-  }
-  tree = *R;
-  for (s = 0; s < R->count; s++) {
-    sli_null_dot dot;
-    sl_int at;
-    if (R->steps[s].up != -1) {
-      continue;
-    }
-    at = sli_null_tree_dot(F, &b, first, s, &dot);
-    tree.steps = R->steps;
-    tree.plain = R->plain;
-    sli_reach_cut(&tree, first, s + 1 - first);
-    sli_forward_sweep(F, kind, &tree, v->y, v->scratch);
-    if (at != -1) {
-      memcpy(v->y + ((ptrdiff_t)at << kind), dot.sums, sizeof(double) << kind);
-    }
-    for (; first <= s; first++) {
-      tree.rows += R->steps[first].below;
-    }
-  }
-}
-
-static int sli_null_pack(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-    const sli_rhs *rhs, double *norms) {
-  const sl_int lanes = (sl_int)1 << sli_lanes_kind(rhs->nrhs);
-  const sli_packed b = sli_packed_of(&q->forward, v->y, lanes);
-  sli_pack(F, q, v->y, rhs);
-  sli_norms(&b, norms);
-  return F->null.vectors == 1 || (q->ending != NULL && q->ending->rows > 0) ||
-       sli_null_dots(F, &b, norms);
-}
-
-static int sli_null_load(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-    const sli_rhs *rhs) {
-  const sli_packed y = sli_packed_of(&q->forward, v->y, (sl_int)1 << sli_lanes_kind(rhs->nrhs));
-  double norms[SLI_BLOCK_SINGULAR];
-  if (!sli_null_pack(F, q, v, rhs, norms)) {
-    return 0;
-  }
-  sli_null_forward(F, &q->forward, v, rhs->nrhs);
-  return sli_is_consistent(F, &y, norms);
-}
-
 static int sli_check_sweeps(const sl_factor *F, const sli_reach *R) {
   sl_int s, m;
   for (s = 0; s < R->count; s++) {
@@ -18443,14 +18383,13 @@ static int sli_check_sweeps(const sl_factor *F, const sli_reach *R) {
   return 0;
 }
 
-static int sli_null_judge(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-    const sli_rhs *rhs) {
-  const sli_reach *R = &q->forward;
-  const sli_packed b = sli_packed_of(R, v->y, (sl_int)1 << sli_lanes_kind(rhs->nrhs));
-  double norms[SLI_BLOCK_SINGULAR];
+static void sli_null_trees(const sl_factor *F, const sli_reach *R, const sli_vectors *v, int kind,
+    int sweeps) {
+  const sli_packed b = sli_packed_of(R, v->y, (sl_int)1 << kind);
+  sli_reach tree = *R;
   sl_int first = 0, s;
-  if (!sli_null_pack(F, q, v, rhs, norms)) {
-    return 0;
+  if (F->null.vectors > 1 && sweeps) {
+    sli_forward_sweep(F, kind, R, v->y, v->scratch);
   }
   for (s = 0; s < R->count && F->null.vectors == 1; s++) {
     sli_null_dot dot;
@@ -18458,13 +18397,47 @@ static int sli_null_judge(const sl_factor *F, const sli_query *q, const sli_vect
     if (R->steps[s].up != -1) {
       continue;
     }
-    at = sli_null_tree_dot(F, &b, first, s, &dot);
-    if (at != -1) {
-      SLI_COPY(v->y + (ptrdiff_t)at * b.lanes, dot.sums, b.lanes);
+    dot.next = sli_null_first(F, R, s);
+    at = sli_null_dot_next(F, &b, first, s, &dot) ? sli_reach_index_of(R, dot.null) : -1;
+    if (sweeps) {
+      tree.steps = R->steps;
+      tree.plain = R->plain;
+      sli_reach_cut(&tree, first, s + 1 - first);
+      sli_forward_sweep(F, kind, &tree, v->y, v->scratch);
     }
-    first = s + 1;
+    if (at != -1) {
+      memcpy(sli_packed_row(&b, at), dot.sums, sizeof(double) << kind);
+    }
+    for (; first <= s; first++) {
+      tree.rows += R->steps[first].below;
+    }
   }
-  return sli_is_consistent(F, &b, norms);
+}
+
+static void sli_null_forward(const sl_factor *F, const sli_reach *R, const sli_vectors *v,
+    sl_int nrhs) {
+  sli_null_trees(F, R, v, sli_lanes_kind(nrhs), 1);
+}
+
+static int sli_null_judge(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+    const sli_rhs *rhs, int sweeps) {
+  const int kind = sli_lanes_kind(rhs->nrhs), ends = q->ending != NULL && q->ending->rows > 0;
+  const sli_packed b = sli_packed_of(&q->forward, v->y, (sl_int)1 << kind);
+  double norms[SLI_BLOCK_SINGULAR];
+  sli_pack(F, q, v->y, rhs);
+  if (F->null.checks) {
+    sli_norms(&b, norms);
+    if (F->null.vectors > 1 && !ends && !sli_null_dots(F, &b, norms)) {
+      return 0;
+    }
+  }
+  sli_null_trees(F, &q->forward, v, kind, sweeps);
+  return !F->null.checks || sli_is_consistent(F, &b, norms);
+}
+
+static int sli_null_load(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+    const sli_rhs *rhs) {
+  return sli_null_judge(F, q, v, rhs, 1);
 }
 
 static int sli_null_check(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
@@ -18475,7 +18448,7 @@ static int sli_null_check(const sl_factor *F, const sli_query *q, const sli_rhs 
   for (r = 0; r < rhs->nrhs && is_consistent; r += sli_min(8, rhs->nrhs - r)) {
     const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
     const sli_vectors v = sli_vectors_of(q, block.nrhs, memory);
-    is_consistent = sweeps ? sli_null_load(F, q, &v, &block) : sli_null_judge(F, q, &v, &block);
+    is_consistent = sli_null_judge(F, q, &v, &block, sweeps);
   }
   return is_consistent;
 }
@@ -18544,37 +18517,39 @@ static void sli_center_step(const sl_factor *F, const sli_packed *x, sl_int lane
   }
 }
 
-static void sli_center(const sl_factor *F, const sli_packed *y, const sli_packed *x,
+static void sli_center(const sl_factor *F, const sli_query *q, const sli_vectors *v, sl_int lanes,
     const sl_int *uses) {
+  const sli_packed y = sli_packed_of(&q->forward, v->y, lanes);
+  const sli_packed x = sli_packed_of(&q->backward, v->x, lanes);
   const int is_one = F->null.vectors == 1;
   const sl_int *list = is_one ? F->null.anchors : F->null.pivots;
   const sl_int listed = is_one ? F->null.n_anchors : F->null.count;
-  const sli_reach *to = x->R;
+  const sli_reach *to = x.R;
   sli_center_terms terms;
   sl_int first = 0, at = 0, root, m, j, k, lane;
   terms.count = F->null.is_centered ? sli_center_count(F) : 0;
-  for (root = 0; root < y->R->count; root++) {
+  for (root = 0; root < y.R->count && listed > 0; root++) {
     sli_tree_range tree;
-    if (y->R->steps[root].up != -1) {
+    if (y.R->steps[root].up != -1) {
       continue;
     }
-    tree = sli_tree_range_of(F->S, &y->R->steps[root]);
+    tree = sli_tree_range_of(F->S, &y.R->steps[root]);
     m = sli_lower_bound(list, listed, tree.first);
     if (m < listed && list[m] <= tree.root &&
         (uses == NULL || uses[sli_lower_bound(F->null.pivots, F->null.count, list[m])] == 0)) {
       j = is_one ? sli_reach_index_of(to, list[m]) : -1;
-      for (lane = 0, k = at; lane < y->lanes; lane += SLI_TILE) {
-        sli_center_tree_terms(F, y, lane, first, root, m, &terms);
+      for (lane = 0, k = at; lane < y.lanes; lane += SLI_TILE) {
+        sli_center_tree_terms(F, &y, lane, first, root, m, &terms);
         if (!is_one) {
-          sli_center_clear(F, x, lane, m, tree.root);
+          sli_center_clear(F, &x, lane, m, tree.root);
         }
         for (k = at; k < to->count && to->steps[k].column <= tree.root; k++) {
           if (to->steps[k].column >= tree.first) {
-            sli_center_step(F, x, lane, &to->steps[k], &terms);
+            sli_center_step(F, &x, lane, &to->steps[k], &terms);
           }
         }
         if (j != -1) {
-          SLI_COPY(sli_packed_row(x, j) + lane, terms.t, sli_min(x->lanes, SLI_TILE));
+          SLI_COPY(sli_packed_row(&x, j) + lane, terms.t, sli_min(x.lanes, SLI_TILE));
         }
       }
       at = k;
@@ -18686,28 +18661,13 @@ static sl_status sli_null_finish(sl_factor *F, const sli_source *from, sli_failu
   return failure->status;
 }
 
-static int sli_nulls_remain(const sl_factor *F) {
-  sl_int m, k;
-  for (k = 0; F->null.vectors > 1 && k < F->S->n; k++) {
-    if (F->rule.kinds[k] == SLI_PIVOT_NULL && !sli_is_skipped(F, k)) {
-      return 0;
-    }
-  }
-  for (m = 0; m < F->null.count; m++) {
-    if (F->rule.kinds[F->null.pivots[m]] >= SLI_PIVOT_KEPT) {
-      return 0;
-    }
-  }
-  return 1;
-}
-
 static const sli_singular sli_singular_calls = {
   sli_null_layout, sli_null_layout_scratch,
   sli_null_fill, sli_null_vectors_check,
-  sli_null_finish, sli_nulls_remain,
-  sli_null_load, sli_null_forward,
-  sli_null_check, sli_center,
-  sli_norms, sli_null_dot_next,
+  sli_null_finish, sli_null_load,
+  sli_null_forward, sli_null_check,
+  sli_center, sli_norms,
+  sli_null_dot_next,
 };
 
 #endif
@@ -25065,6 +25025,21 @@ static sli_kept sli_kept_of(const sl_factor *F, const sl_int *from, const sl_int
 
 /* src/impl/change/reached.h: refactors after local changes: keeps the supernodes that they do not reach */
 
+static int sli_nulls_remain(const sl_factor *F) {
+  sl_int m, k;
+  for (k = 0; F->null.vectors > 1 && k < F->S->n; k++) {
+    if (F->rule.kinds[k] == SLI_PIVOT_NULL && !sli_is_skipped(F, k)) {
+      return 0;
+    }
+  }
+  for (m = 0; m < F->null.count; m++) {
+    if (F->rule.kinds[F->null.pivots[m]] >= SLI_PIVOT_KEPT) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
 static void sli_reached_mark(const sl_symbolic *S, sl_int *from, sl_int k) {
   sl_int s;
   for (s = S->super_of[k]; s != -1 && from[s] != -1; s = S->super_parent[s]) {
@@ -25077,7 +25052,7 @@ static sl_status sli_reached_numbers(sl_factor *F, const sli_kept *p, const sli_
   sli_failure failure;
   SLI_CLEAR(failure);
   if (sli_skips_nulls(F) && F->null.calls->prepare(F, from, &failure) == SL_OK &&
-      !F->null.calls->remain(F)) {
+      !sli_nulls_remain(F)) {
     return sli_factor_numbers(F, from, started, stats);
   }
   if (failure.status == SL_OK) {
@@ -28221,9 +28196,7 @@ SLI_HOT static sl_status sli_constraints_block(sli_constraints_solve *w) {
     sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
   }
   if (F->null.is_centered) {
-    const sli_packed y = sli_packed_of(&q->forward, v.y, lanes);
-    const sli_packed x = sli_packed_of(&q->backward, v.x, lanes);
-    F->null.calls->center(F, &y, &x, P->uses);
+    F->null.calls->center(F, q, &v, lanes, P->uses);
   }
   sli_backward(F, &q->backward, kind, v.x, v.scratch);
   sli_constraints_shift(P, q, &w->nulls, v.x, lanes);
