@@ -75,7 +75,7 @@ REPLAYS = $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/tests/replay_%)
 .DELETE_ON_ERROR:
 .SECONDARY:
 .PHONY: all help header check-header layers map style parts check-promises deps deps-png deps-cxx deps-clang always programs \
-	build-tests run-tests test test-clang test-cxx test-no-metis test-no-simd test-openmp test-pthreads sanitize run-bench bench format tidy clean
+	build-tests run-tests test test-clang test-cxx test-no-metis test-no-simd test-no-singular test-openmp test-pthreads sanitize run-bench bench format tidy clean
 
 all: check-header layers style parts test programs ## the checks, the tests, and the programs of tools/
 
@@ -263,6 +263,15 @@ NO_SIMD = test_solve test_plan test_interleaved test_supernodal test_selected te
 test-no-simd: deps sparse_local.h ## tests of kernels and of choices by their costs, built with -DSL_NO_SIMD
 	@+$(SUB_MAKE) run-tests B=build/no_simd CFLAGS='-DSL_NO_SIMD $(CFLAGS)' REPLAYS= \
 	TEST_PROGRAMS='$(NO_SIMD:%=build/no_simd/tests/core/%)'
+
+# those of regular systems
+NO_SINGULAR = test_no_singular test_factor_overflow test_solve test_plan test_supernodal test_small test_growth test_null_judge \
+	test_result_hashes test_threads test_change_several test_pins_use test_restrict test_inverse_use test_region_use \
+	test_selected_use test_complex_use test_save_use test_batch test_parts_use test_refine_local
+
+test-no-singular: deps sparse_local.h ## tests of regular systems, built with -DSL_NO_SINGULAR
+	@+$(SUB_MAKE) run-tests B=build/no_singular CFLAGS='-DSL_NO_SINGULAR $(CFLAGS)' REPLAYS= \
+	TEST_PROGRAMS='$(NO_SINGULAR:%=build/no_singular/tests/core/%)'
 
 THREADED = test_threads test_threads_least test_threads_solve test_ordering_threads test_batch test_batch_factor test_batch_inverse test_inverse_threads test_change_threads
 

@@ -3,8 +3,9 @@
 #
 #     tests/core/check_pack_builds.sh core|all|PACK
 #
-# The bodies compile without a warning, as C99 by gcc and clang and as C++11; each call that is
-# declared has a body; and the header of this pack alone, as make header PACKS= writes it, compiles
+# The bodies compile without a warning, as C99 by gcc and clang and as C++11, and with
+# SL_NO_SINGULAR; each call that is declared has a body, and the other way round; and the header
+# of this pack alone, as make header PACKS= writes it, compiles
 # and solves a system. For core: each call of a pack is an error that names its macro, and the calls
 # of all packs are those of the core and those that it names so.
 # CC  the C compiler, default cc; CXX  the C++ compiler, default g++
@@ -113,6 +114,8 @@ if command -v clang >/dev/null 2>&1; then
 else
     check "$cc: C99 without a warning, all kernels" "$cc $c99 $flag -c $dir/bodies.c -o $dir/simd.o"
 fi
+check 'without null spaces: C99 without a warning, plain C kernels' \
+    "$cc $c99 $flag $light -DSL_NO_SINGULAR -c $dir/bodies.c -o $dir/no_singular.o"
 case $pack in
 core | all)
     check "$cc: C99 without a warning, all kernels" "$cc $c99 $flag -c $dir/bodies.c -o $dir/simd.o"

@@ -292,7 +292,7 @@ static sl_int sli_reach_step_of(const sli_reach *R, sl_int column) {
 }
 
 /* The index of any column in the compact vector, or -1 if it is not in the reach. */
-static sl_int sli_reach_index_of(const sli_reach *R, sl_int column) {
+SLI_NOINLINE static sl_int sli_reach_index_of(const sli_reach *R, sl_int column) {
     const sl_int s = sli_reach_step_of(R, column);
     return s == -1 ? -1 : R->steps[s].base + column - R->steps[s].column;
 }

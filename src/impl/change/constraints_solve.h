@@ -197,9 +197,7 @@ SLI_HOT static sl_status sli_constraints_block(sli_constraints_solve *w) {
         sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
     }
     if (F->null.is_centered) {
-        const sli_packed y = sli_packed_of(&q->forward, v.y, lanes);
-        const sli_packed x = sli_packed_of(&q->backward, v.x, lanes);
-        F->null.calls->center(F, &y, &x, P->uses);
+        F->null.calls->center(F, q, &v, lanes, P->uses);
     }
     sli_backward(F, &q->backward, kind, v.x, v.scratch);
     sli_constraints_shift(P, q, &w->nulls, v.x, lanes);

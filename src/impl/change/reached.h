@@ -6,6 +6,23 @@
 #include "../factor/factor.h"
 #include "kept.h"
 
+/* Are all pivots that were skipped before still null, or judged by the tolerance? New null pivots
+ * are in the reach of the changes, unless they are anchors. */
+static int sli_nulls_remain(const sl_factor *F) {
+    sl_int m, k;
+    for (k = 0; F->null.vectors > 1 && k < F->S->n; k++) {
+        if (F->rule.kinds[k] == SLI_PIVOT_NULL && !sli_is_skipped(F, k)) {
+            return 0;
+        }
+    }
+    for (m = 0; m < F->null.count; m++) {
+        if (F->rule.kinds[F->null.pivots[m]] >= SLI_PIVOT_KEPT) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 /* Column k of L is reached, and all columns on its path to the root. */
 static void sli_reached_mark(const sl_symbolic *S, sl_int *from, sl_int k) {
     sl_int s;
@@ -21,7 +38,7 @@ static sl_status sli_reached_numbers(sl_factor *F, const sli_kept *p, const sli_
     sli_failure failure;
     SLI_CLEAR(failure);
     if (sli_skips_nulls(F) && F->null.calls->prepare(F, from, &failure) == SL_OK &&
-        !F->null.calls->remain(F)) {
+        !sli_nulls_remain(F)) {
         return sli_factor_numbers(F, from, started, stats);
     }
     if (failure.status == SL_OK) {

@@ -40,8 +40,6 @@ typedef struct sli_singular {
      * the null pivots and prepares solves, or looks for the cause of a refusal. */
     sl_status (*prepare)(sl_factor *F, const struct sli_source *from, struct sli_failure *failure);
     sl_status (*finish)(sl_factor *F, const struct sli_source *from, struct sli_failure *failure);
-    /* Are all null pivots of before still null, as far as `prepare` knows? */
-    int (*remain)(const sl_factor *F);
 
     /* The calls of solves, where there are null pivots. y := P b and L^-1 y for a block of
      * right-hand sides; 0: one is inconsistent. */
@@ -54,8 +52,8 @@ typedef struct sli_singular {
     int (*check)(const sl_factor *F, const struct sli_query *q, const struct sli_rhs *rhs,
                  void *memory);
     /* Between the sweeps: chooses the solution, but not where pins hold (uses, or NULL). */
-    void (*center)(const sl_factor *F, const struct sli_packed *y, const struct sli_packed *x,
-                   const sl_int *uses);
+    void (*center)(const sl_factor *F, const struct sli_query *q, const struct sli_vectors *v,
+                   sl_int lanes, const sl_int *uses);
     /* The sums of |b|, and z' b of one null pivot after the other. */
     void (*norms)(const struct sli_packed *b, double *norms);
     int (*next_dot)(const sl_factor *F, const struct sli_packed *b, sl_int first, sl_int root,

@@ -78,37 +78,39 @@ static void sli_center_step(const sl_factor *F, const sli_packed *x, sl_int lane
  * each null pivot, which is then left alone; NULL: none. Where components have several null
  * vectors, x is 0 at their null pivots before, also if there are no weights: the columns of L are 0
  * there, and a local solve may reach some of them with b only, or with x. */
-static void sli_center(const sl_factor *F, const sli_packed *y, const sli_packed *x,
+static void sli_center(const sl_factor *F, const sli_query *q, const sli_vectors *v, sl_int lanes,
                        const sl_int *uses) {
+    const sli_packed y = sli_packed_of(&q->forward, v->y, lanes);
+    const sli_packed x = sli_packed_of(&q->backward, v->x, lanes);
     const int is_one = F->null.vectors == 1;
     const sl_int *list = is_one ? F->null.anchors : F->null.pivots;
     const sl_int listed = is_one ? F->null.n_anchors : F->null.count;
-    const sli_reach *to = x->R;
+    const sli_reach *to = x.R;
     sli_center_terms terms;
     sl_int first = 0, at = 0, root, m, j, k, lane;
     terms.count = F->null.is_centered ? sli_center_count(F) : 0;
-    for (root = 0; root < y->R->count; root++) {
+    for (root = 0; root < y.R->count && listed > 0; root++) {
         sli_tree_range tree;
-        if (y->R->steps[root].up != -1) {
+        if (y.R->steps[root].up != -1) {
             continue;
         }
-        tree = sli_tree_range_of(F->S, &y->R->steps[root]);
+        tree = sli_tree_range_of(F->S, &y.R->steps[root]);
         m = sli_lower_bound(list, listed, tree.first);
         if (m < listed && list[m] <= tree.root &&
             (uses == NULL || uses[sli_lower_bound(F->null.pivots, F->null.count, list[m])] == 0)) {
             j = is_one ? sli_reach_index_of(to, list[m]) : -1;
-            for (lane = 0, k = at; lane < y->lanes; lane += SLI_TILE) {
-                sli_center_tree_terms(F, y, lane, first, root, m, &terms);
+            for (lane = 0, k = at; lane < y.lanes; lane += SLI_TILE) {
+                sli_center_tree_terms(F, &y, lane, first, root, m, &terms);
                 if (!is_one) {
-                    sli_center_clear(F, x, lane, m, tree.root);
+                    sli_center_clear(F, &x, lane, m, tree.root);
                 }
                 for (k = at; k < to->count && to->steps[k].column <= tree.root; k++) {
                     if (to->steps[k].column >= tree.first) {
-                        sli_center_step(F, x, lane, &to->steps[k], &terms);
+                        sli_center_step(F, &x, lane, &to->steps[k], &terms);
                     }
                 }
                 if (j != -1) { /* the backward sweep divides by 1 there */
-                    SLI_COPY(sli_packed_row(x, j) + lane, terms.t, sli_min(x->lanes, SLI_TILE));
+                    SLI_COPY(sli_packed_row(&x, j) + lane, terms.t, sli_min(x.lanes, SLI_TILE));
                 }
             }
             at = k;

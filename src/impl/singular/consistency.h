@@ -55,71 +55,6 @@ static int sli_is_consistent(const sl_factor *F, const sli_packed *y, const doub
     return 1;
 }
 
-/* Computes z' b of the tree of steps first .. root, before its sweep, if z is known. Returns the
- * index of the null pivot in the vector, or -1. */
-static sl_int sli_null_tree_dot(const sl_factor *F, const sli_packed *b, sl_int first, sl_int root,
-                                sli_null_dot *dot) {
-    dot->next = sli_null_first(F, b->R, root);
-    return sli_null_dot_next(F, b, first, root, dot) ? sli_reach_index_of(b->R, dot->null) : -1;
-}
-
-/* y := L^-1 y in the forward vector, and y(k) := z' b at known null vectors z, tree by tree. Where
- * components have several of them, their y(k) has no meaning. */
-static void sli_null_forward(const sl_factor *F, const sli_reach *R, const sli_vectors *v,
-                             sl_int nrhs) {
-    const int kind = sli_lanes_kind(nrhs);
-    const sli_packed b = sli_packed_of(R, v->y, (sl_int)1 << kind);
-    sli_reach tree;
-    sl_int first = 0, s;
-    if (F->null.vectors > 1) {
-        sli_forward_sweep(F, kind, R, v->y, v->scratch);
-        return;
-    }
-    tree = *R;
-    for (s = 0; s < R->count; s++) {
-        sli_null_dot dot;
-        sl_int at;
-        if (R->steps[s].up != -1) {
-            continue;
-        }
-        at = sli_null_tree_dot(F, &b, first, s, &dot);
-        tree.steps = R->steps;
-        tree.plain = R->plain;
-        sli_reach_cut(&tree, first, s + 1 - first);
-        sli_forward_sweep(F, kind, &tree, v->y, v->scratch);
-        if (at != -1) {
-            memcpy(v->y + ((ptrdiff_t)at << kind), dot.sums, sizeof(double) << kind);
-        }
-        for (; first <= s; first++) {
-            tree.rows += R->steps[first].below;
-        }
-    }
-}
-
-/* y := P b for a block of right-hand sides, for F that checks consistency. Returns 0 if one is
- * inconsistent, of several known null vectors. */
-static int sli_null_pack(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-                         const sli_rhs *rhs, double *norms) {
-    const sl_int lanes = (sl_int)1 << sli_lanes_kind(rhs->nrhs);
-    const sli_packed b = sli_packed_of(&q->forward, v->y, lanes);
-    sli_pack(F, q, v->y, rhs);
-    sli_norms(&b, norms);
-    return F->null.vectors == 1 || (q->ending != NULL && q->ending->rows > 0) ||
-           sli_null_dots(F, &b, norms);
-}
-
-/* y := L^-1 P b for a block of right-hand sides. Returns 0 if one is inconsistent. */
-static int sli_null_load(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-                         const sli_rhs *rhs) {
-    const sli_packed y = sli_packed_of(&q->forward, v->y, (sl_int)1 << sli_lanes_kind(rhs->nrhs));
-    double norms[SLI_BLOCK_SINGULAR];
-    if (!sli_null_pack(F, q, v, rhs, norms)) {
-        return 0;
-    }
-    sli_null_forward(F, &q->forward, v, rhs->nrhs);
-    return sli_is_consistent(F, &y, norms);
-}
-
 /* Does the consistency check need the forward sweep? Not for known null vectors z, whose z' b are
  * sums over b, and not where a row is all of its tree, so that y is b there. */
 static int sli_check_sweeps(const sl_factor *F, const sli_reach *R) {
@@ -144,15 +79,15 @@ static int sli_check_sweeps(const sl_factor *F, const sli_reach *R) {
     return 0;
 }
 
-/* Is a block of right-hand sides consistent, where that needs no sweep? As sli_null_load finds. */
-static int sli_null_judge(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-                          const sli_rhs *rhs) {
-    const sli_reach *R = &q->forward;
-    const sli_packed b = sli_packed_of(R, v->y, (sl_int)1 << sli_lanes_kind(rhs->nrhs));
-    double norms[SLI_BLOCK_SINGULAR];
+/* y := L^-1 y in the forward vector, and y(k) := z' b at known null vectors z, tree by tree. Where
+ * components have several of them, their y(k) has no meaning. sweeps: 0: the latter only. */
+static void sli_null_trees(const sl_factor *F, const sli_reach *R, const sli_vectors *v, int kind,
+                           int sweeps) {
+    const sli_packed b = sli_packed_of(R, v->y, (sl_int)1 << kind);
+    sli_reach tree = *R;
     sl_int first = 0, s;
-    if (!sli_null_pack(F, q, v, rhs, norms)) {
-        return 0;
+    if (F->null.vectors > 1 && sweeps) {
+        sli_forward_sweep(F, kind, R, v->y, v->scratch);
     }
     for (s = 0; s < R->count && F->null.vectors == 1; s++) {
         sli_null_dot dot;
@@ -160,13 +95,49 @@ static int sli_null_judge(const sl_factor *F, const sli_query *q, const sli_vect
         if (R->steps[s].up != -1) {
             continue;
         }
-        at = sli_null_tree_dot(F, &b, first, s, &dot);
-        if (at != -1) {
-            SLI_COPY(v->y + (ptrdiff_t)at * b.lanes, dot.sums, b.lanes);
+        dot.next = sli_null_first(F, R, s);
+        at = sli_null_dot_next(F, &b, first, s, &dot) ? sli_reach_index_of(R, dot.null) : -1;
+        if (sweeps) {
+            tree.steps = R->steps;
+            tree.plain = R->plain;
+            sli_reach_cut(&tree, first, s + 1 - first);
+            sli_forward_sweep(F, kind, &tree, v->y, v->scratch);
         }
-        first = s + 1;
+        if (at != -1) {
+            memcpy(sli_packed_row(&b, at), dot.sums, sizeof(double) << kind);
+        }
+        for (; first <= s; first++) {
+            tree.rows += R->steps[first].below;
+        }
     }
-    return sli_is_consistent(F, &b, norms);
+}
+
+static void sli_null_forward(const sl_factor *F, const sli_reach *R, const sli_vectors *v,
+                             sl_int nrhs) {
+    sli_null_trees(F, R, v, sli_lanes_kind(nrhs), 1);
+}
+
+/* y := P b for a block of right-hand sides and, if it sweeps, L^-1 y. Returns 0 if F checks
+ * consistency and one is inconsistent. */
+static int sli_null_judge(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+                          const sli_rhs *rhs, int sweeps) {
+    const int kind = sli_lanes_kind(rhs->nrhs), ends = q->ending != NULL && q->ending->rows > 0;
+    const sli_packed b = sli_packed_of(&q->forward, v->y, (sl_int)1 << kind);
+    double norms[SLI_BLOCK_SINGULAR];
+    sli_pack(F, q, v->y, rhs);
+    if (F->null.checks) {
+        sli_norms(&b, norms);
+        if (F->null.vectors > 1 && !ends && !sli_null_dots(F, &b, norms)) {
+            return 0;
+        }
+    }
+    sli_null_trees(F, &q->forward, v, kind, sweeps);
+    return !F->null.checks || sli_is_consistent(F, &b, norms);
+}
+
+static int sli_null_load(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+                         const sli_rhs *rhs) {
+    return sli_null_judge(F, q, v, rhs, 1);
 }
 
 /* Are all right-hand sides consistent? Writes only to `memory`. */
@@ -178,7 +149,7 @@ static int sli_null_check(const sl_factor *F, const sli_query *q, const sli_rhs 
     for (r = 0; r < rhs->nrhs && is_consistent; r += sli_min(8, rhs->nrhs - r)) {
         const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
         const sli_vectors v = sli_vectors_of(q, block.nrhs, memory);
-        is_consistent = sweeps ? sli_null_load(F, q, &v, &block) : sli_null_judge(F, q, &v, &block);
+        is_consistent = sli_null_judge(F, q, &v, &block, sweeps);
     }
     return is_consistent;
 }

@@ -113,30 +113,13 @@ static sl_status sli_null_finish(sl_factor *F, const sli_source *from, sli_failu
     return failure->status;
 }
 
-/* Are all pivots that were skipped before still null, or judged by the tolerance? New null pivots
- * are in the reach of the changes, unless they are anchors. */
-static int sli_nulls_remain(const sl_factor *F) {
-    sl_int m, k;
-    for (k = 0; F->null.vectors > 1 && k < F->S->n; k++) {
-        if (F->rule.kinds[k] == SLI_PIVOT_NULL && !sli_is_skipped(F, k)) {
-            return 0;
-        }
-    }
-    for (m = 0; m < F->null.count; m++) {
-        if (F->rule.kinds[F->null.pivots[m]] >= SLI_PIVOT_KEPT) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
 static const sli_singular sli_singular_calls = {
-    sli_null_layout, sli_null_layout_scratch,
-    sli_null_fill,   sli_null_vectors_check,
-    sli_null_finish, sli_nulls_remain,
-    sli_null_load,   sli_null_forward,
-    sli_null_check,  sli_center,
-    sli_norms,       sli_null_dot_next,
+    sli_null_layout,   sli_null_layout_scratch,
+    sli_null_fill,     sli_null_vectors_check,
+    sli_null_finish,   sli_null_load,
+    sli_null_forward,  sli_null_check,
+    sli_center,        sli_norms,
+    sli_null_dot_next,
 };
 
 #endif

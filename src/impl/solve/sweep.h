@@ -19,8 +19,8 @@ static void sli_sweep_transfer(const sli_query *q, const double *y, double *x, s
 
 /* y := L^-1 y in the forward vector, and y(k) := z' b at known null vectors z, tree by tree. Where
  * components have several of them, their y(k) has no meaning. */
-static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-                              sl_int nrhs) {
+SLI_INLINE void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+                                  sl_int nrhs) {
     if (F->null.count > 0) {
         F->null.calls->forward(F, &q->forward, v, nrhs);
     } else {
@@ -32,11 +32,11 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
  * inconsistent. */
 static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vectors *v,
                           const sli_rhs *rhs) {
-    if (F->null.checks) {
+    if (F->null.count > 0) {
         return F->null.calls->load(F, q, v, rhs);
     }
     sli_pack(F, q, v->y, rhs);
-    sli_sweep_forward(F, q, v, rhs->nrhs);
+    sli_forward_sweep(F, sli_lanes_kind(rhs->nrhs), &q->forward, v->y, v->scratch);
     return 1;
 }
 
@@ -52,9 +52,7 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
         q->ending->calls->apply(F, q, kind, v);
     }
     if (F->null.count > 0) {
-        const sli_packed y = sli_packed_of(&q->forward, v->y, lanes);
-        const sli_packed x = sli_packed_of(&q->backward, v->x, lanes);
-        F->null.calls->center(F, &y, &x, NULL);
+        F->null.calls->center(F, q, v, lanes, NULL);
     }
     sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }
