@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: cc88e1a4417c39a1
+ * FNV-1a of the lines after this comment, without the license: 8684227ca74d56c3
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,26 +38,26 @@
  *   4304 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5243 impl/ matrix: sparse matrices of the caller and of the library
  *   5919 impl/ ordering: fill-reducing orderings of a graph
- *  11021 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13260 impl/ factor: the numbers of L and D
- *  16673 impl/ solve: full and local solves
- *  18550 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20547 impl/ pivots: the order of the pivots by the values of a matrix
- *  20955 impl/ float: L and fronts in single precision
- *  21460 impl/ inverse: entries of the inverse, regions
- *  24559 impl/ change: a factor that follows changes of its matrix
- *  30864 impl/ fixed: rows fixed at given values
- *  31505 impl/ fixed: by a factor of all rows
- *  31739 impl/ io: files that are replaced only when they are complete
- *  31957 impl/ files: Matrix Market files, 64-bit indices
- *  32577 impl/ save: factors in files
- *  34590 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35276 impl/ batch: diagonals of many inverses
- *  35416 impl/ complex: complex Hermitian systems over real factors
- *  35978 impl/ complex: entries of the inverse
- *  36038 impl/ packs: the tables through which the core calls packs
- *  36087 impl/ last: undefine every internal macro
- *  36468 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10555 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12793 impl/ factor: the numbers of L and D
+ *  16206 impl/ solve: full and local solves
+ *  18083 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20080 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20488 impl/ float: L and fronts in single precision
+ *  20993 impl/ inverse: entries of the inverse, regions
+ *  24092 impl/ change: a factor that follows changes of its matrix
+ *  30397 impl/ fixed: rows fixed at given values
+ *  31038 impl/ fixed: by a factor of all rows
+ *  31272 impl/ io: files that are replaced only when they are complete
+ *  31490 impl/ files: Matrix Market files, 64-bit indices
+ *  32110 impl/ save: factors in files
+ *  34123 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34809 impl/ batch: diagonals of many inverses
+ *  34949 impl/ complex: complex Hermitian systems over real factors
+ *  35511 impl/ complex: entries of the inverse
+ *  35571 impl/ packs: the tables through which the core calls packs
+ *  35620 impl/ last: undefine every internal macro
+ *  35987 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -6101,7 +6101,6 @@ typedef struct sli_order_job {
   const sl_options *opt;
   sl_int *perm;
   sl_int *scratch;
-  uint64_t *bits;
   sli_septree *septree;
   sli_order_choice *choice;
   sli_team *team;
@@ -8128,6 +8127,10 @@ SLI_TARGET("avx2,popcnt") static void sli_mindeg_run_avx2(sli_mindeg *m, sl_int 
 }
 #endif
 
+static int sli_mindeg_has_avx2(sl_int n) {
+  return n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
+}
+
 static sl_int sli_mindeg_number(const sli_level *g, const sl_int *vertices, sl_int count,
     sl_int *local, sl_int *bit, sl_int *halo) {
   sl_int k, bits = count;
@@ -8204,181 +8207,6 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
   SLI_COPY(vertices, order, count);
 }
 
-/* src/impl/ordering/small.h: minimum degree order of a small matrix from its pattern as bits, without a graph */
-
-#define SLI_SMALL_ROWS 256
-#define SLI_SMALL_WORDS (SLI_SMALL_ROWS / 64)
-#define SLI_SMALL_ROWS_ONE_FACTOR 64
-
-#define SLI_SMALL_DEGREE 3
-
-typedef struct sli_small {
-  sl_int n;
-  sl_int floor;
-  uint64_t *rows;
-  uint32_t key[SLI_SMALL_ROWS];
-} sli_small;
-
-SLI_INLINE uint32_t sli_small_key(const sli_small *m, sl_int degree, uint32_t height, sl_int v) {
-  return (uint32_t)sli_max(degree, m->floor) << 16 | height << 8 | (uint32_t)v;
-}
-
-SLI_INLINE uint32_t sli_small_height(const sli_small *m, sl_int v) {
-  return m->key[v] >> 8 & 255u;
-}
-
-SLI_ALWAYS_INLINE sl_int sli_small_count(const uint64_t *row, size_t words) {
-  uint32_t count = 0;
-  size_t k;
-  for (k = 0; k < words; k++) {
-    count += sli_popcount(row[k]);
-  }
-  return (sl_int)count;
-}
-
-SLI_ALWAYS_INLINE int sli_small_fill(sli_small *m, const sli_order_job *job, size_t words) {
-  const sl_csc *A = job->A;
-  const sl_int nnz = sli_nnz(A);
-  sl_int p, v, few = 0, edges = 0;
-  memset(m->rows, 0, (size_t)m->n * words * sizeof(uint64_t));
-  for (p = 0; p < nnz; p++) {
-    const sl_int i = A->i[p], j = job->column[p];
-    if (sli_is_read(job->triangle, i, j)) {
-      m->rows[(size_t)i * words + (size_t)j / 64] |= (uint64_t)1 << (j % 64);
-      m->rows[(size_t)j * words + (size_t)i / 64] |= (uint64_t)1 << (i % 64);
-    }
-  }
-  for (v = 0; v < m->n; v++) {
-    uint64_t *row = m->rows + (size_t)v * words;
-    const sl_int degree = sli_small_count(row, words);
-    const sl_int has_diagonal = (sl_int)(row[v / 64] >> (v % 64) & 1);
-    if (!has_diagonal && degree >= 8 &&
-        degree * degree >= m->n) { /* branches untested: n is 3 .. 64 in a copy */
-      return 0;
-    }
-    row[v / 64] |= (uint64_t)1 << (v % 64);
-    m->key[v] = sli_small_key(m, degree - has_diagonal, 0, v);
-    few += degree - has_diagonal <= 2;
-    edges += degree - has_diagonal;
-  }
-  if ((m->n > 64 && few > m->n / 2) || /* branches untested: n is 3 .. 64, or more, in copies */
-      (job->is_hurried && edges < 2 * m->n)) {
-    return 0;
-  }
-  for (; v == 0 || v % 8 != 0; v++) { /* branches untested: the same */
-    m->key[v] = SLI_MINDEG_ELIMINATED;
-  }
-  return 1;
-}
-
-SLI_ALWAYS_INLINE sl_int sli_small_eliminate(sli_small *m, sl_int v, size_t words, sl_int *order,
-    sl_int at) {
-  uint64_t *row = m->rows + (size_t)v * words, left[SLI_SMALL_WORDS], gone[SLI_SMALL_WORDS];
-  const sl_int degree = sli_small_count(row, words) - 1, first = at;
-  uint32_t height = sli_small_height(m, v) + 1;
-  size_t k, w;
-  m->key[v] = SLI_MINDEG_ELIMINATED;
-  order[at++] = v;
-  row[v / 64] &= ~((uint64_t)1 << (v % 64));
-  memset(gone, 0, sizeof gone);
-  memcpy(left, row, words * sizeof(uint64_t));
-  for (k = 0; k < words; k++) {
-    for (; left[k] != 0; left[k] &= left[k] - 1) {
-      const sl_int u = (sl_int)(64 * k) + sli_lowest_bit(left[k]);
-      uint64_t *other = m->rows + (size_t)u * words;
-      sl_int count = 0;
-      other[v / 64] &= ~((uint64_t)1 << (v % 64));
-      for (w = 0; w < words; w++) {
-        other[w] |= row[w];
-        count += (sl_int)sli_popcount(other[w]);
-      }
-      if (count == degree && degree > m->floor - 1) {
-        gone[k] |= (uint64_t)1 << (u % 64);
-        order[at++] = u;
-        m->key[u] = SLI_MINDEG_ELIMINATED;
-      } else {
-        const uint32_t before = sli_small_height(m, u);
-        m->key[u] = sli_small_key(m, count - 1, before > height ? before : height, u);
-      }
-    }
-  }
-  height += (uint32_t)(at - first - 1);
-  for (k = 0; k < words && at > first + 1; k++) {
-    for (left[k] = row[k] & ~gone[k]; left[k] != 0; left[k] &= left[k] - 1) {
-      const sl_int u = (sl_int)(64 * k) + sli_lowest_bit(left[k]);
-      const uint32_t before = sli_small_height(m, u);
-      uint64_t *other = m->rows + (size_t)u * words;
-      for (w = 0; w < words; w++) {
-        other[w] &= ~gone[w];
-      }
-      m->key[u] = sli_small_key(m, sli_small_count(other, words) - 1,
-          before > height ? before : height, u);
-    }
-  }
-  return at;
-}
-
-SLI_ALWAYS_INLINE sl_int sli_small_best(const sli_small *m) {
-  uint32_t least[8];
-  sl_int v, k;
-  if (m->n <= 32) {
-    uint32_t first = m->key[0];
-    for (v = 1; v < m->n; v++) { /* branches untested: the same */
-      first = m->key[v] < first ? m->key[v] : first;
-    }
-    return (sl_int)(first & 255u);
-  }
-  memcpy(least, m->key, sizeof least);
-  for (v = 8; v < m->n; v += 8) {
-    for (k = 0; k < 8; k++) {
-      least[k] = m->key[v + k] < least[k] ? m->key[v + k] : least[k];
-    }
-  }
-  for (k = 4; k > 0; k /= 2) {
-    for (v = 0; v < k; v++) {
-      least[v] = least[v + k] < least[v] ? least[v + k] : least[v];
-    }
-  }
-  return (sl_int)(least[0] & 255u);
-}
-
-SLI_ALWAYS_INLINE int sli_small_run_body(sli_small *m, const sli_order_job *job, size_t words) {
-  sl_int at = 0;
-  if (!sli_small_fill(m, job, words)) {
-    return 0;
-  }
-  while (at < m->n) {
-    at = sli_small_eliminate(m, sli_small_best(m), words,
-        job->perm, at); /* branches untested: the same */
-  }
-  return 1;
-}
-
-static int sli_small_run(sli_small *m, const sli_order_job *job) {
-  return sli_small_run_body(m, job, ((size_t)m->n + 63) / 64);
-}
-
-#if defined(SLI_X86) && defined(SLI_GNU)
-SLI_TARGET("avx2,popcnt")
-static int sli_small_run_avx2(sli_small *m, const sli_order_job *job) {
-  return m->n <= 64 ? sli_small_run_body(m, job, 1)
-            : sli_small_run_body(m, job, SLI_SMALL_WORDS);
-}
-#endif
-
-static int sli_order_small(const sli_order_job *job) {
-  sli_small m;
-  m.n = job->A->n_cols;
-  m.floor = job->is_hurried ? 1 : SLI_SMALL_DEGREE;
-  m.rows = job->bits;
-#if defined(SLI_X86) && defined(SLI_GNU)
-  if (m.n > 2 && sli_cpu_best() != SL_ISA_SCALAR) { /* untested: without AVX2 */
-    return sli_small_run_avx2(&m, job);
-  }
-#endif
-  return sli_small_run(&m, job);
-}
-
 /* src/impl/ordering/dissection.h: the state of a dissection, and loops over vertices, leaves and borders */
 
 #define SLI_DISSECT_TASKS 8
@@ -8400,7 +8228,6 @@ typedef struct sli_dissection {
   sl_int leaf_size;
   sl_int first;
   int is_volume, may_be_seven_point;
-  int has_labels;
   int is_levelset;
   sli_label_tree tree, other_tree;
   sli_border_pool pool;
@@ -8988,277 +8815,6 @@ static sl_status sli_dissect_graph(sli_dissection *d) {
   return SL_OK;
 }
 
-/* src/impl/ordering/thin.h: nested dissection of strips, tubes and bars along the levels of a breadth-first search */
-
-#define SLI_THIN_NARROW 22
-#define SLI_THIN_WIDTH 64
-#define SLI_THIN_LONG 7
-#define SLI_THIN_DEGREE 4
-#define SLI_THIN_EVEN 3
-#define SLI_THIN_ASPECT 8
-#define SLI_THIN_LEAF_MIN 64
-#define SLI_THIN_LEAF_MAX 250
-
-#define SLI_LATTICE_SHARE 75
-#define SLI_LATTICE_DEGREES 32
-
-static int sli_is_lattice(const sli_level *g) {
-  sl_int count[SLI_LATTICE_DEGREES] = {0}, v, most = 0;
-  for (v = 0; v < g->n; v++) {
-    const sl_off degree = g->begin[v + 1] - g->begin[v];
-    if (degree >= SLI_THIN_DEGREE && degree < SLI_LATTICE_DEGREES) {
-      count[degree]++;
-      most = sli_max(most, count[degree]);
-    }
-  }
-  return 100 * (int64_t)most >= SLI_LATTICE_SHARE * (int64_t)g->n;
-}
-
-typedef struct sli_thin_part {
-  sl_int first, end, levels;
-  sl_int above;
-} sli_thin_part;
-
-typedef struct sli_thin {
-  const sli_level *g;
-  sl_int *queue;
-  sl_int *mark;
-  sl_int *begin;
-  sl_int *ahead;
-  sl_int *spare, *kept;
-  sl_int *up;
-  sl_int marks, leaf, parts;
-  int is_narrow;
-  sli_thin_part *part;
-} sli_thin;
-
-static sl_int sli_thin_level(sli_thin *t, sl_int level, sl_int first, sl_int last) {
-  const sli_level *g = t->g;
-  const sl_int mark = ++t->marks;
-  sl_int k, at = first, ahead = 0, tail = last;
-  sl_off e;
-  for (k = first; k < last; k++) {
-    const sl_int v = t->queue[k];
-    int is_ahead = 0;
-    for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-      const sl_int u = g->to[e];
-      if (t->mark[u] == -1) {
-        t->mark[u] = mark;
-        t->queue[tail++] = u;
-      }
-      is_ahead |= t->mark[u] == mark;
-    }
-    if (is_ahead) {
-      t->spare[ahead++] = v;
-    } else {
-      t->queue[at++] = v;
-    }
-  }
-  SLI_COPY(t->queue + at, t->spare, ahead);
-  t->ahead[level] = ahead;
-  t->begin[level] = first;
-  return tail;
-}
-
-static void sli_thin_push(sli_thin *t, sl_int first, sl_int end, sl_int levels, sl_int above) {
-  if (first < end) {
-    sli_thin_part *p = &t->part[t->parts++];
-    p->first = first;
-    p->end = end;
-    p->levels = levels;
-    p->above = above;
-  }
-}
-
-static int sli_thin_search(sli_thin *t, sl_int root) {
-  const int64_t n = t->g->n;
-  int64_t squares = 0, ends = 0, even = 0;
-  sl_int first = 0, last = 1, levels = 0;
-  memset(t->mark, -1, (size_t)n * sizeof(sl_int));
-  t->queue[0] = root;
-  t->mark[root] = 0;
-  while (first < last) {
-    const sl_int tail = sli_thin_level(t, levels++, first, last);
-    const int64_t size = last - first;
-    squares += size * size;
-    t->is_narrow = squares <= SLI_THIN_NARROW * (last + n / 16);
-    ends = t->is_narrow ? 0 : squares / last * (squares / last) / 3;
-    even = last + SLI_THIN_EVEN * n / 100 + ends;
-    if (size > 4 * SLI_THIN_WIDTH || squares > SLI_THIN_WIDTH * (last + n / 16) ||
-        squares > even * even / levels) {
-      return 0;
-    }
-    first = last;
-    last = tail;
-  }
-  t->leaf = sli_min((sl_int)(SLI_THIN_ASPECT * squares / n), SLI_THIN_LEAF_MAX);
-  t->leaf = sli_max(t->leaf, SLI_THIN_LEAF_MIN);
-  sli_thin_push(t, 0, (sl_int)n, levels, -1);
-  even = n + n / 200 + ends;
-  return t->is_narrow ||
-       (squares <= even * even / levels && 2 * (int64_t)levels >= squares / n * SLI_THIN_LONG &&
-        sli_is_lattice(t->g));
-}
-
-static sl_int sli_thin_cut(const sli_thin *t, const sli_thin_part *p, int64_t *least) {
-  const sl_int n = p->end - p->first;
-  sl_int s, best = -1;
-  *least = INT64_MAX;
-  for (s = p->first; s < p->first + p->levels - 1; s++) {
-    const sl_int next = t->begin[s + 1];
-    const int64_t side = sli_max(next - t->ahead[s] - p->first, p->end - next);
-    const int64_t cost = 100 * side <= SLI_LEVELSET_BALANCE * (int64_t)n ? side * t->ahead[s]
-                                       : INT64_MAX / 2 + side;
-    if (cost < *least) {
-      best = s;
-      *least = cost;
-    }
-  }
-  return best;
-}
-
-static void sli_thin_split(sli_thin *t, const sli_thin_part *p, sl_int cut, sl_int end,
-    sl_int above, sl_int above_next) {
-  const sl_int next = t->begin[cut + 1], before = cut - p->first + (end > t->begin[cut]);
-  const sl_int behind = p->first + p->levels - 1 - cut;
-  sli_thin_push(t, p->first, end, before, above);
-  sli_thin_push(t, next, p->end, behind, above_next);
-  memmove(t->begin + next, t->begin + cut + 1, (size_t)behind * sizeof(sl_int));
-  memmove(t->ahead + next, t->ahead + cut + 1, (size_t)behind * sizeof(sl_int));
-}
-
-static sl_int sli_thin_dissect(sli_thin *t, sli_dissect_worker *w, const sl_int *row, sl_int *perm,
-    sl_int end, sl_int *node_of) {
-  int64_t least;
-  sl_int k, node;
-  for (node = 0; t->parts > 0; node++) {
-    const sli_thin_part p = t->part[--t->parts];
-    const sl_int size = p.end - p.first;
-    const sl_int cut = size <= t->leaf ? -1 : sli_thin_cut(t, &p, &least);
-    const sl_int count = cut == -1 ? size : t->ahead[cut];
-    const sl_int from = cut == -1 ? p.first : t->begin[cut + 1] - count;
-    if (cut == -1) {
-      sli_mindeg_order(&w->mindeg, t->g, t->queue + from, count, w->subgraph.local, t->spare,
-          w->subgraph.to);
-    } else {
-      sli_thin_split(t, &p, cut, from, node, node);
-    }
-    end -= count;
-    for (k = 0; k < count; k++) {
-      perm[end + k] = row[t->queue[from + k]];
-      node_of[perm[end + k]] = node;
-    }
-    t->up[node] = p.above;
-  }
-  return node;
-}
-
-static int sli_thin_renew(sli_thin *t, sli_thin_part *p, sl_int root) {
-  sl_int k, first = p->first, last = first + 1, level = first;
-  for (k = 0; k < p->end - p->first; k++) {
-    t->mark[t->kept[k]] = -1;
-  }
-  t->queue[first] = root;
-  t->mark[root] = 0;
-  while (first < last) {
-    const sl_int tail = sli_thin_level(t, level++, first, last);
-    first = last;
-    last = tail;
-  }
-  p->levels = level - p->first;
-  return last == p->end;
-}
-
-static sl_int sli_thin_turn(sli_thin *t, sli_thin_part *p, sl_int cut, int64_t least,
-    sl_int *scratch) {
-  const sli_thin_part before = *p;
-  const size_t size = (size_t)(p->end - p->first), levels = (size_t)p->levels;
-  int64_t cost;
-  sl_int k;
-  memcpy(t->kept, t->queue + p->first, size * sizeof(sl_int));
-  memcpy(scratch, t->begin + p->first, levels * sizeof(sl_int));
-  memcpy(scratch + size, t->ahead + p->first, levels * sizeof(sl_int));
-  if (sli_thin_renew(t, p, t->queue[p->first]) && /* branches untested: it is connected */
-      sli_thin_renew(t, p, t->queue[p->end - 1])) {
-    const sl_int turned = sli_thin_cut(t, p, &cost);
-    if (cost <= least / 10 * 9) {
-      return turned;
-    }
-  }
-  *p = before;
-  for (k = 0; k < p->end - p->first; k++) {
-    t->mark[t->kept[k]] = 0;
-  }
-  memcpy(t->queue + p->first, t->kept, size * sizeof(sl_int));
-  memcpy(t->begin + p->first, scratch, levels * sizeof(sl_int));
-  memcpy(t->ahead + p->first, scratch + size, levels * sizeof(sl_int));
-  return cut;
-}
-
-static void sli_thin_label(sli_thin *t, sli_dissection *d) {
-  sli_label_tree *tree = &d->tree;
-  int64_t least;
-  sl_int k;
-  d->level = 0;
-  sli_dissect_start(d);
-  t->part[0].above = tree->root;
-  while (t->parts > 0) {
-    sli_thin_part p = t->part[--t->parts];
-    const sl_int size = p.end - p.first, node = p.above;
-    const int may_cut = size > t->leaf &&
-              tree->count < tree->room - 1; /* branches untested: tiny leaves */
-    sl_int cut = may_cut ? sli_thin_cut(t, &p, &least) : -1;
-    if (cut != -1 && (int64_t)p.levels * p.levels < 2 * (int64_t)size &&
-        t->marks < INT32_MAX - 2 * size) { /* branches untested: 2^31 marks */
-      cut = sli_thin_turn(t, &p, cut, least, (sl_int *)(void *)d->workers[0].next);
-    }
-    tree->weight[node] = size;
-    for (k = cut == -1 ? p.first : p.end; k < p.end; k++) {
-      d->label[t->queue[k]] = node;
-    }
-    if (cut != -1) {
-      sli_label_tree_split(tree, node);
-      sli_thin_split(t, &p, cut, t->begin[cut + 1], tree->left[node], tree->right[node]);
-    }
-  }
-  sli_label_tree_number(tree, t->g->n, d->label);
-  d->has_labels = 1;
-}
-
-static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl_int at,
-    sli_septree *septree) {
-  const sl_int n = d->levels[0].n;
-  sl_int k, nodes, last, *scratch = d->workers[0].subgraph.scratch;
-  sli_thin t;
-  SLI_CLEAR(t);
-  t.g = &d->levels[0];
-  t.queue = scratch;
-  t.mark = scratch + n;
-  t.ahead = scratch + 2 * (size_t)n;
-  t.up = scratch + 3 * (size_t)n;
-  t.part = (sli_thin_part *)(void *)(scratch + 4 * (size_t)n);
-  t.begin = d->begin;
-  t.spare = d->order;
-  t.kept = d->other;
-  if (!sli_thin_search(&t, n - 1)) {
-    return 0;
-  }
-  if (!t.is_narrow) {
-    sli_thin_label(&t, d);
-    return 0;
-  }
-  nodes = sli_thin_dissect(&t, &d->workers[0], row, perm, at + n, septree->node_of);
-  last = septree->count + nodes - 1;
-  for (k = 0; k < nodes; k++) {
-    septree->parent[last - k] = t.up[k] == -1 ? -1 : last - t.up[k];
-  }
-  for (k = at; k < at + n; k++) {
-    septree->node_of[perm[k]] = last - septree->node_of[perm[k]];
-  }
-  septree->count += nodes;
-  return 1;
-}
-
 /* src/impl/ordering/nd.h: nested dissection of any graph: component by component, dense rows last */
 
 #define SLI_ND_RESPLITS 12
@@ -9420,13 +8976,6 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
   }
 }
 
-static sl_status sli_nd_label(sli_nd *w) {
-  sli_dissection *d = &w->d;
-  d->is_volume = d->may_be_seven_point = 0;
-  d->is_levelset = 0;
-  return d->has_labels ? SL_OK : sli_dissect_graph(d);
-}
-
 static int sli_nd_is_thin(const sli_dissection *d) {
   sl_int v, count = 0;
   for (v = 0; v < d->levels[0].n; v++) {
@@ -9444,7 +8993,9 @@ static sl_status sli_nd_dissect(sli_nd *w) {
     sli_dissect_start(d);
     return SL_OK;
   }
-  status = sli_nd_label(w);
+  d->is_volume = d->may_be_seven_point = 0;
+  d->is_levelset = 0;
+  status = sli_dissect_graph(d);
   if (status == SL_OK) {
     do {
       sli_dissect_visit(d, sli_dissect_separate);
@@ -9492,12 +9043,6 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
         continue;
       }
       sli_nd_graph(w, count);
-      w->d.has_labels = 0;
-      if (w->weight == NULL && count > w->d.leaf_size &&
-          sli_order_thin(&w->d, w->row, perm, at, septree)) {
-        at += count;
-        continue;
-      }
       status = sli_nd_dissect(w);
       if (status == SL_OK) {
         sli_septree_append(&w->d, w->row, perm, at, septree);
@@ -9533,8 +9078,7 @@ static sl_status sli_order_nd(const sli_order_job *job) {
     sli_nd_layout(&w, &b);
   }
   if (status == SL_OK) {
-    const int has_avx2 =
-      w.G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
+    const int has_avx2 = sli_mindeg_has_avx2(w.G->n);
     for (k = 0; k < job->team->workers; k++) {
       w.d.workers[k].mindeg.has_avx2 = has_avx2;
     }
@@ -10381,7 +9925,6 @@ enum {
   SLI_WANTS_MANY_SOLVES = 1 << 3,
   SLI_IS_IRREGULAR = 1 << 4,
   SLI_IS_BIPARTITE = 1 << 5,
-  SLI_IS_THIN = 1 << 6,
   SLI_IS_EXPANDING = 1 << 7,
   SLI_TRIED_LEVELS = 1 << 8,
   SLI_IS_NARROW = 1 << 9,
@@ -10420,7 +9963,7 @@ static const struct sli_order_rule {
   {SLI_WANTS_ONE_FACTOR, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
   {SLI_WANTS_ONE_FACTOR | SLI_IS_CHEAP, 0, SLI_BY_MINDEG},
   {SLI_WANTS_ONE_FACTOR | SLI_IS_IRREGULAR, 0, SLI_BY_MINDEG},
-  {SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_IS_THIN | SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
+  {SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
   {SLI_WANTS_MANY_SOLVES | SLI_IS_BIPARTITE, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
   {SLI_WANTS_MANY_SOLVES | SLI_IS_EXPANDING, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
   {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_CORE, 0, SLI_BY_MINDEG},
@@ -10448,8 +9991,7 @@ static int sli_graph_is_irregular(const sli_graph *G, int is_peeled) {
     squares += degree < 1024 ? degree * degree : 1024 * 1024;
   }
   mean = 16 * (uint64_t)G->begin[G->n] / (uint64_t)G->n;
-  return mean > 0 &&
-       10 * 256 * squares >= (is_peeled ? 11u : 12u) * mean * mean * (uint64_t)G->n;
+  return mean > 0 && 10 * 256 * squares >= (is_peeled ? 11u : 12u) * mean * mean * (uint64_t)G->n;
 }
 
 static int sli_graph_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *side) {
@@ -10483,7 +10025,7 @@ static int sli_graph_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *sid
   return 1;
 }
 
-static int sli_graph_shape(const sli_order_job *job) {
+static int sli_graph_is_expanding(const sli_order_job *job) {
   const int64_t n = job->G->n, most = n * n / 8;
   sli_levels l = sli_levels_of(job);
   sl_int v, tail = 0;
@@ -10492,9 +10034,7 @@ static int sli_graph_shape(const sli_order_job *job) {
       tail = sli_levels_search(&l, v, tail, 1, most);
     }
   }
-  return l.entries > most ? SLI_IS_EXPANDING
-       : l.entries <= 32 * n && l.entries <= n * n / 32 ? SLI_IS_THIN
-                              : 0;
+  return l.entries > most;
 }
 
 static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
@@ -10514,10 +10054,9 @@ static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
   }
   f.bits |= sli_graph_is_irregular(G, job->is_peeled || is_for_one) ? SLI_IS_IRREGULAR : 0;
   if (!is_for_one && (job->is_peeled || mean * mean > n || (f.bits & SLI_IS_IRREGULAR) != 0)) {
-    f.bits |= sli_graph_shape(job);
+    f.bits |= sli_graph_is_expanding(job) ? SLI_IS_EXPANDING : 0;
   }
-  if (!is_for_one && job->is_peeled && (f.bits & SLI_IS_THIN) == 0 &&
-      sli_graph_is_bipartite(G, job->perm, job->scratch)) {
+  if (!is_for_one && job->is_peeled && sli_graph_is_bipartite(G, job->perm, job->scratch)) {
     f.bits |= SLI_IS_BIPARTITE;
   }
   return f;
@@ -11003,11 +10542,6 @@ static sl_status sli_order(sli_order_job *job) {
   case SL_ORDERING_MINDEG:
     if (job->block == 1 && job->is_hurried && sli_order_forest(job)) {
       job->choice->has_tree = 1;
-      return SL_OK;
-    }
-    if (job->block == 1 && job->ordering == SL_ORDERING_ND &&
-        job->A->n_cols <= (job->is_hurried ? SLI_SMALL_ROWS_ONE_FACTOR : SLI_SMALL_ROWS) &&
-        sli_order_small(job)) {
       return SL_OK;
     }
     return sli_order_by_graph(job);
@@ -12731,7 +12265,6 @@ static sl_status sli_symbolic_order(sli_symbolic_job *j, sli_team *team) {
   order.opt = j->opt;
   order.perm = w->perm;
   order.scratch = w->scratch;
-  order.bits = w->list;
   order.septree = &w->septree;
   order.choice = &w->choice;
   order.team = team;
@@ -36296,14 +35829,6 @@ static const sli_fixed_ways *sli_fixed_ways_of(void) {
 #undef SLI_HERE
 #undef SLI_FOLLOW
 #undef SLI_TOKEN_MAX
-#undef SLI_THIN_WIDTH
-#undef SLI_THIN_LONG
-#undef SLI_THIN_NARROW
-#undef SLI_THIN_DEGREE
-#undef SLI_THIN_EVEN
-#undef SLI_THIN_ASPECT
-#undef SLI_THIN_LEAF_MIN
-#undef SLI_THIN_LEAF_MAX
 #undef SLI_LINE_MAX
 #undef SLI_ENTRIES_FIRST
 #undef SLI_POINT_MAX
@@ -36320,10 +35845,6 @@ static const sli_fixed_ways *sli_fixed_ways_of(void) {
 #undef SLI_MINDEG_MAX
 #undef SLI_MINDEG_ELIMINATED
 #undef SLI_CLOCK_ENTRIES
-#undef SLI_SMALL_ROWS
-#undef SLI_SMALL_WORDS
-#undef SLI_SMALL_ROWS_ONE_FACTOR
-#undef SLI_SMALL_DEGREE
 #undef SLI_DISSECT_LEAF
 #undef SLI_DISSECT_SMALL
 #undef SLI_DISSECT_BISECT_MIN
@@ -36402,8 +35923,6 @@ static const sli_fixed_ways *sli_fixed_ways_of(void) {
 #undef SLI_CHANGE_VISIT
 #undef SLI_CHANGE_INPUT
 #undef SLI_CHANGE_DRIFT
-#undef SLI_LATTICE_DEGREES
-#undef SLI_LATTICE_SHARE
 #undef SLI_NULL_ANCHOR
 #undef SLI_NULL_DEPENDENT
 #undef SLI_CONSTRAINTS_ENTRY
