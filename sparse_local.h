@@ -1,63 +1,62 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 8684227ca74d56c3
+ * FNV-1a of the lines after this comment, without the license: 9aa9c8e11614401e
  * The comments of the implementation are in src/impl.
  *
  * Contents
- *     65 intro.h      what the library does, a quick start, which call for which question, references
- *    195 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    239 config.h     macros that a user may define before the include, the version, and the integer types
- *    326 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    506 options.h    options of all calls, threads, and the allocator
- *    632 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    876 csc.h        sparse matrices: creation, checks, products, residuals
- *    977 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1053 factor.h     the numerical factorization P A P' = L D L'
- *   1182 solve.h      full solves, and the workspace of all solves
- *   1278 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1354 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1444 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1537 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1576 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1677 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1757 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1843 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1936 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2043 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2085 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2207 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2238 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2420 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2523 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2634 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2675 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2761 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2869 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2903 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2980 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3023 impl/ base: the compiler, status, memory, sorting, threads
- *   4304 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5243 impl/ matrix: sparse matrices of the caller and of the library
- *   5919 impl/ ordering: fill-reducing orderings of a graph
- *  10555 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12793 impl/ factor: the numbers of L and D
- *  16206 impl/ solve: full and local solves
- *  18083 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20080 impl/ pivots: the order of the pivots by the values of a matrix
- *  20488 impl/ float: L and fronts in single precision
- *  20993 impl/ inverse: entries of the inverse, regions
- *  24092 impl/ change: a factor that follows changes of its matrix
- *  30397 impl/ fixed: rows fixed at given values
- *  31038 impl/ fixed: by a factor of all rows
- *  31272 impl/ io: files that are replaced only when they are complete
- *  31490 impl/ files: Matrix Market files, 64-bit indices
- *  32110 impl/ save: factors in files
- *  34123 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34809 impl/ batch: diagonals of many inverses
- *  34949 impl/ complex: complex Hermitian systems over real factors
- *  35511 impl/ complex: entries of the inverse
- *  35571 impl/ packs: the tables through which the core calls packs
- *  35620 impl/ last: undefine every internal macro
- *  35987 impl/ templates: the header includes them from itself, once for each instruction set
+ *     64 intro.h      what the library does, a quick start, which call for which question, references
+ *    194 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    238 config.h     macros that a user may define before the include, the version, and the integer types
+ *    325 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    505 options.h    options of all calls, threads, and the allocator
+ *    631 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    875 csc.h        sparse matrices: creation, checks, products, residuals
+ *    976 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1052 factor.h     the numerical factorization P A P' = L D L'
+ *   1181 solve.h      full solves, and the workspace of all solves
+ *   1277 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1353 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1443 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1536 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1575 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1676 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1756 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1842 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1935 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2042 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2084 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2206 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2237 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2419 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2522 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2633 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2674 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2760 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2868 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2902 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2979 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3022 impl/ base: the compiler, status, memory, sorting, threads
+ *   4303 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5242 impl/ matrix: sparse matrices of the caller and of the library
+ *   5918 impl/ ordering: fill-reducing orderings of a graph
+ *  10554 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12792 impl/ factor: the numbers of L and D
+ *  16205 impl/ solve: full and local solves
+ *  18082 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20079 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20487 impl/ float: L and fronts in single precision
+ *  20992 impl/ inverse: entries of the inverse, regions
+ *  24091 impl/ change: a factor that follows changes of its matrix
+ *  30396 impl/ fixed: rows fixed at given values
+ *  31037 impl/ fixed: by a factor of all rows
+ *  31271 impl/ io: files that are replaced only when they are complete
+ *  31489 impl/ files: Matrix Market files, 64-bit indices
+ *  32109 impl/ save: factors in files
+ *  34122 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34808 impl/ batch: diagonals of many inverses
+ *  34948 impl/ complex: complex Hermitian systems over real factors
+ *  35510 impl/ complex: entries of the inverse
+ *  35570 impl/ packs: the tables through which the core calls packs
+ *  35985 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -35616,73 +35615,44 @@ static const sli_fixed_ways *sli_fixed_ways_of(void) {
 }
 
 #endif
-/* last: undefine every internal macro */
-/* src/impl/base/undef.h: undefines every internal macro */
-#undef SLI_SELF_INCLUSION
+/* last: internal macros are undefined */
 #undef SLI_METIS
 #undef SLI_GNU
-#undef SLI_WINDOWS
-#undef SLI_THREAD_LOCAL
-#undef SLI_FNMA1
-#undef SLI_PIN
-#undef SLI_PIN_ANY
 #undef SLI_X86
-#undef SLI_OSXSAVE
 #undef SLI_ARM
-#undef SLI_AVX512
+#undef SLI_BIG_ENDIAN
+#undef SLI_HUGE_PAGES
+#undef SLI_POPULATE
+#undef SLI_FSYNC
+#undef SLI_USLEEP
+#undef SLI_THREAD_LOCAL
+#undef SLI_POSIX
+#undef SLI_MMAP
+#undef SLI_WINDOWS
+#undef SLI_MAP_VIEW
 #undef SLI_INLINE
 #undef SLI_ALWAYS_INLINE
 #undef SLI_NOINLINE
 #undef SLI_COLD
 #undef SLI_HOT
 #undef SLI_TARGET
-#undef SLI_UNROLL
-#undef SLI_KEEP_CALL
 #undef SLI_ALIGNED
 #undef SLI_AT_LINE
 #undef SLI_PREFETCH
+#undef SLI_KEEP_CALL
+#undef SLI_UNROLL
+#undef SLI_FNMA1
+#undef SLI_PIN
+#undef SLI_PIN_ANY
 #undef SLI_SPIN
 #undef SLI_ATOMIC
-#undef SLI_USLEEP
-#undef SLI_WORKER_FLOPS
-#undef SLI_SMALL_TASKS
-#undef SLI_SPAWNED_MAX
-#undef SLI_TEAM_MAX
-#undef SLI_SHARES
-#undef SLI_SHARES_MAX
-#undef SLI_SHARES_FROM
-#undef SLI_BORDERS_FIRST
-#undef SLI_BORDERS_RANGE
-#undef SLI_BORDERS_CHUNKS
-#undef SLI_DISSECT_TASKS
-#undef SLI_SEPTREE_NODES
-#undef SLI_SOLVE_ENTRIES
-#undef SLI_SOLVE_GAIN
-#undef SLI_SOLVE_ROWS
-#undef SLI_SOLVE_SHARE
-#undef SLI_SOLVE_SLOT
-#undef SLI_SOLVE_TASKS
-#undef SLI_ASYMMETRY_MOST
+#undef SLI_CLEAR
+#undef SLI_ZERO
+#undef SLI_COPY
 #undef SLI_ASSERT
-#undef SLI_HASH_STRIPE
-#undef SLI_HASH_1
-#undef SLI_HASH_2
-#undef SLI_HASH_3
-#undef SLI_HASH_4
 #undef SLI_ROWS_MAX
+#undef SLI_CLOCK_ENTRIES
 #undef SLI_ALIGN
-#undef SLI_HUGE_PAGES
-#undef SLI_POPULATE
-#undef SLI_POSIX
-#undef SLI_BIG_ENDIAN
-#undef SLI_MMAP
-#undef SLI_MAP_VIEW
-#undef SLI_FSYNC
-#undef SLI_READ_VERSION
-#undef SLI_WRITE_VERSION
-#undef SLI_ORDER_MARK
-#undef SLI_ORDER_MARK_SWAPPED
-#undef SLI_SECTIONS_MAX
 #undef SLI_HUGE_BLOCK
 #undef SLI_PAGE
 #undef SLI_SMALL_PAGE
@@ -35691,33 +35661,55 @@ static const sli_fixed_ways *sli_fixed_ways_of(void) {
 #undef SLI_TAKE
 #undef SLI_TAKE_INLINE
 #undef SLI_CUT
-#undef SLI_CLEAR
-#undef SLI_ZERO
-#undef SLI_COPY
+#undef SLI_HASH_STRIPE
+#undef SLI_HASH_1
+#undef SLI_HASH_2
+#undef SLI_HASH_3
+#undef SLI_HASH_4
 #undef SLI_SORT_SMALL
+#undef SLI_SMALL_TASKS
+#undef SLI_WORKER_FLOPS
+#undef SLI_SPAWNED_MAX
+#undef SLI_TEAM_MAX
 #undef SLI_TILE
-#undef SLI_CASE
-#undef SLI_CASES
 #undef SLI_PREFETCH_DISTANCE
 #undef SLI_STEPS_AHEAD
 #undef SLI_ROWS_FETCHED
 #undef SLI_FETCHED_BYTES
-#undef SLI_ROUND_PLAIN
+#undef SLI_NULL_PIVOT
+#undef SLI_NULL_MOST
+#undef SLI_GROUP_TILES
+#undef SLI_CHUNK_COLUMNS
+#undef SLI_ASSEMBLE_DISTANCE
+#undef SLI_FRONT_RECIPROCALS
 #undef SLI_EACH4
 #undef SLI_EACH8
-#undef SLI_IS_IN
 #undef SLI_EACH4_AGAIN
 #undef SLI_EACH8_AGAIN
-#undef SLI_EACH_ARRAY
-#undef SLI_EACH_ARRAY_AGAIN
 #undef SLI_HIGH4
 #undef SLI_HIGH8
 #undef SLI_LOW4
 #undef SLI_LOW8
+#undef SLI_IS_IN
+#undef SLI_CASE
+#undef SLI_CASES
+#undef SLI_EXPAND_PLAIN
+#undef SLI_EXPAND_ADD_PLAIN
+#undef SLI_LOOP
+#undef SLI_EACH_ARRAY
+#undef SLI_EACH_ARRAY_AGAIN
 #undef SLI_PASTE
 #undef SLI_BY_TYPE
 #undef SLI_VALUE_0
 #undef SLI_VALUE_1
+#undef SLI_SWEEP_0
+#undef SLI_SWEEP_1
+#undef SLI_FRONT_0
+#undef SLI_FRONT_1
+#undef SLI_WIDE_0
+#undef SLI_WIDE_1
+#undef SLI_WIDEN_0
+#undef SLI_WIDEN_1
 #undef SLI_OF_0
 #undef SLI_OF_1
 #undef SLI_LEAST_0
@@ -35728,125 +35720,64 @@ static const sli_fixed_ways *sli_fixed_ways_of(void) {
 #undef SLI_PIVOT_1
 #undef SLI_PACK_PAIRS_0
 #undef SLI_PACK_PAIRS_1
-#undef SLI_SWEEP_0
-#undef SLI_SWEEP_1
-#undef SLI_FRONT_0
-#undef SLI_FRONT_1
-#undef SLI_WIDE_0
-#undef SLI_WIDE_1
-#undef SLI_WIDEN_0
-#undef SLI_WIDEN_1
-#undef SLI_LOOP
-#undef SLI_ISAS
-#undef SLI_TABLES
-#undef SLI_ISA_TABLES
-#undef SLI_STORAGE_TABLES
-#undef SLI_SIMD
-#undef SLV_PARTS
-#undef SLV_FRONT
-#undef SLV_FRONT_PIVOTS
 #undef SLV_VALUE
 #undef SLV_OF
 #undef SLV_LEAST
 #undef SLV_MOST
 #undef SLV_PIVOT
 #undef SLV_PACK_PAIRS
+#undef SLV_PARTS
+#undef SLV_FRONT
+#undef SLV_FRONT_PIVOTS
 #undef SLV_SWEEP
-#undef SLV_SWEEP_2
 #undef SLV_SWEEP_SMALL
+#undef SLV_SWEEP_2
 #undef SLW_SWEEP
 #undef SLW_SWEEP_HALF
 #undef SLV_READ
 #undef SLV_PREFETCH
 #undef SLV_WIDE
 #undef SLV_WIDEN
-#undef SLI_EXPAND_PLAIN
-#undef SLI_EXPAND_ADD_PLAIN
-#undef SLI_GROUP_TILES
-#undef SLI_ASSEMBLE_DISTANCE
-#undef SLI_CHUNK_COLUMNS
-#undef SLI_FRONT_RECIPROCALS
-#undef SLI_PIVOT_THRESHOLD
-#undef SLI_ORDER_ND_FLOPS
-#undef SLI_ORDER_ND_SAVES
-#undef SLI_ANALYSIS_FLOPS
-#undef SLI_ANALYSIS_ROOM
+#undef SLI_SELF_INCLUSION
+#undef SLI_AVX512
+#undef SLI_OSXSAVE
+#undef SLI_ISAS
+#undef SLI_TABLES
+#undef SLI_ISA_TABLES
+#undef SLI_SIMD
+#undef SLI_STORAGE_TABLES
+#undef SLI_PRODUCT_COLUMNS
 #undef SLI_ENTRY
-#undef SLI_GROWTH_LIMIT
-#undef SLI_GROWTH_LIMIT_FLOAT
-#undef SLI_ENTRIES_AHEAD
-#undef SLI_SINGLE_MOST
-#undef SLI_SINGLE_LEAST
-#undef SLI_ROUNDING_ERROR
-#undef SLI_NULL_PIVOT
-#undef SLI_JUDGE_RANDOM
-#undef SLI_JUDGE_BIASED
-#undef SLI_JUDGE_ALIKE
-#undef SLI_JUDGE_FEW
-#undef SLI_JUDGE_READS
-#undef SLI_NULL_MOST
-#undef SLI_SUSPECT_ROW
-#undef SLI_INVERSE_GROUP
-#undef SLI_INVERSE_ROW
-#undef SLI_INVERSE_COLUMNS
-#undef SLI_INVERSE_PHASES
-#undef SLI_PANEL_AHEAD
-#undef SLI_TASKS_PER_WORKER
-#undef SLI_SHARED_FLOPS
-#undef SLI_FRONT_COST
-#undef SLI_BUNDLE_FLOPS
-#undef SLI_WORTHWHILE
-#undef SLI_SUM_ENTRIES
-#undef SLI_ROWS_AHEAD
-#undef SLI_EDIT_AHEAD
-#undef SLI_EDIT_MOST_ACTIVE
-#undef SLI_EDIT_LAST
-#undef SLI_EDIT_LAYERS
-#undef SLI_EDIT_LEAST
-#undef SLI_EDIT_SHARE
-#undef SLI_EDIT_DUE
-#undef SLI_REUSE_FLOP
-#undef SLI_REUSE_FRONT
-#undef SLI_REUSE_SUPER
-#undef SLI_REUSE_SAMPLE
-#undef SLI_REUSE_SAMPLED
-#undef SLI_REUSE_MOST
-#undef SLI_REUSE_MOST_OF_SAMPLE
-#undef SLI_REUSE_UNKNOWN
-#undef SLI_REUSE_ENTRY
-#undef SLI_REUSE_SHARE
-#undef SLI_MARK_BEGIN
-#undef SLI_NEIGHBORHOOD_PAIRS
-#undef SLI_WIDE_DEGREE
-#undef SLI_BLOCK_MOST
-#undef SLI_BLOCK_SINGULAR
-#undef SLI_PACK_CHUNK
-#undef SLI_STREAMED
-#undef SLI_TEMPORARY_NAMES
-#undef SLI_TEMPORARY_SUFFIX
-#undef SLI_UNNAMED_FILES
-#undef SLI_FILE_NAME_MAX
-#undef SLI_HERE
-#undef SLI_FOLLOW
-#undef SLI_TOKEN_MAX
-#undef SLI_LINE_MAX
-#undef SLI_ENTRIES_FIRST
-#undef SLI_POINT_MAX
-#undef SLI_COARSEN_STALL
+#undef SLI_PEEL_SHARE
+#undef SLI_PEEL_SEARCH
+#undef SLI_PEEL_LEAVES
+#undef SLI_PEEL_ENDS
 #undef SLI_LEVELS_MAX
-#undef SLI_LEVELS_MOST
-#undef SLI_MERGED
-#undef SLI_MERGE_MOST
-#undef SLI_LEVELS_TRY
+#undef SLI_HUB_TIMES
+#undef SLI_HUB_LEAST
+#undef SLI_HUB_SHARE
+#undef SLI_HUB_EDGES
+#undef SLI_SHARES
+#undef SLI_SHARES_FROM
+#undef SLI_SHARES_MAX
+#undef SLI_CONTRACT_BITS
+#undef SLI_COARSEN_STALL
+#undef SLI_WIDE_DEGREE
+#undef SLI_NEIGHBORHOOD_PAIRS
+#undef SLI_BALL_PAIRS
+#undef SLI_PATCH_WEIGHT
+#undef SLI_PATCH_DEGREE
+#undef SLI_PATCH_EVEN
+#undef SLI_BORDERS_FIRST
+#undef SLI_BORDERS_RANGE
+#undef SLI_BORDERS_CHUNKS
 #undef SLI_BAND_SHARE
 #undef SLI_BISECT_BALANCE
 #undef SLI_FLOW_VISITS
-#undef SLI_MARKS_BEGIN
 #undef SLI_MINDEG_MAX
 #undef SLI_MINDEG_ELIMINATED
-#undef SLI_CLOCK_ENTRIES
+#undef SLI_DISSECT_TASKS
 #undef SLI_DISSECT_LEAF
-#undef SLI_DISSECT_SMALL
 #undef SLI_DISSECT_BISECT_MIN
 #undef SLI_DISSECT_BISECT_MIN_VOLUME
 #undef SLI_DISSECT_SHRINK
@@ -35856,122 +35787,189 @@ static const sli_fixed_ways *sli_fixed_ways_of(void) {
 #undef SLI_DISSECT_FIRST
 #undef SLI_DISSECT_TRIES_FIRST
 #undef SLI_DISSECT_TRIES
-#undef SLI_BALL_PAIRS
-#undef SLI_PATCH_DEGREE
-#undef SLI_PATCH_EVEN
-#undef SLI_PATCH_WEIGHT
-#undef SLI_CONTRACT_BITS
+#undef SLI_DISSECT_SMALL
 #undef SLI_DISSECT_LAYERS
 #undef SLI_DISSECT_BAND_FROM
 #undef SLI_SEPARATOR_BALANCE
-#undef SLI_HUB_EDGES
-#undef SLI_HUB_LEAST
-#undef SLI_HUB_SHARE
-#undef SLI_HUB_TIMES
+#undef SLI_LEVELSET_BALANCE
 #undef SLI_ND_RESPLITS
 #undef SLI_ND_THIN
 #undef SLI_ND_THIN_LEAF
-#undef SLI_PEEL_SHARE
-#undef SLI_PEEL_SEARCH
-#undef SLI_PEEL_LEAVES
-#undef SLI_PEEL_ENDS
+#undef SLI_SEPTREE_NODES
 #undef SLI_COMPRESS_SHARE
+#undef SLI_COMPRESS_SAMPLE
+#undef SLI_LEVELS_MOST
+#undef SLI_LEVELS_TRY
+#undef SLI_MARKS_BEGIN
+#undef SLI_QUOTIENT_LONG
 #undef SLI_CUTS_FILL
+#undef SLI_ORDER_ND_FLOPS
+#undef SLI_ORDER_ND_SAVES
 #undef SLI_CUTS_LEAF
 #undef SLI_CUTS_SIDE
-#undef SLI_QUOTIENT_LONG
-#undef SLI_COMPRESS_SAMPLE
-#undef SLI_LEVELSET_BALANCE
-#undef SLI_REACH_WALK
-#undef SLI_LANES_MAX
-#undef SLI_BLOCK_REQUESTS_MAX
-#undef SLI_BLOCK_KEPT
-#undef SLI_LOSS_LIMIT
-#undef SLI_LOSS_REFUSED
-#undef SLI_REGION_COLUMNS
-#undef SLI_REGION_PASSES
-#undef SLI_REGION_DETOUR
-#undef SLI_SORTED_CHILDREN
-#undef SLI_SORTED_LEAF
-#undef SLI_SORTED_ROWS
+#undef SLI_MERGED
+#undef SLI_MERGE_MOST
 #undef SLI_ZEROS_MOST
-#undef SLI_ZEROS_MOST_LARGE
-#undef SLI_ZEROS_MOST_COLUMN
 #undef SLI_LARGE_ENTRIES
 #undef SLI_LARGE_COLUMN
-#undef SLI_COST_PLAIN
-#undef SLI_COST_PLAIN_ROW
-#undef SLI_COST_TURN
+#undef SLI_ZEROS_MOST_LARGE
+#undef SLI_ZEROS_MOST_COLUMN
 #undef SLI_COST_ROW
 #undef SLI_COST_SUPER
 #undef SLI_COST_WIDE
 #undef SLI_COST_SUPER_ONE_FACTOR
 #undef SLI_COST_WIDE_ONE_FACTOR
-#undef SLI_UPDATE_COLUMNS
-#undef SLI_RANK_LOGGED
-#undef SLI_PATH_CACHED
+#undef SLI_COST_PLAIN
+#undef SLI_COST_PLAIN_ROW
+#undef SLI_COST_TURN
+#undef SLI_SORTED_CHILDREN
+#undef SLI_SORTED_ROWS
+#undef SLI_SORTED_LEAF
+#undef SLI_ANALYSIS_ROOM
+#undef SLI_SHARED_FLOPS
+#undef SLI_BUNDLE_FLOPS
+#undef SLI_WORTHWHILE
+#undef SLI_TASKS_PER_WORKER
+#undef SLI_FRONT_COST
+#undef SLI_ANALYSIS_FLOPS
+#undef SLI_REACH_WALK
+#undef SLI_NULL_VECTORS_MAX
+#undef SLI_CHANGE_DRIFT
+#undef SLI_ENTRIES_AHEAD
+#undef SLI_MARK_BEGIN
+#undef SLI_SUM_ENTRIES
+#undef SLI_NULL_DEPENDENT
+#undef SLI_NULL_ANCHOR
+#undef SLI_SUSPECT_ROW
+#undef SLI_DOUBLE_FRONTS
+#undef SLI_GROWTH_LIMIT
+#undef SLI_GROWTH_LIMIT_FLOAT
+#undef SLI_JUDGE_RANDOM
+#undef SLI_JUDGE_BIASED
+#undef SLI_JUDGE_ALIKE
+#undef SLI_JUDGE_FEW
+#undef SLI_JUDGE_READS
+#undef SLI_ASYMMETRY_MOST
+#undef SLI_BLOCK_MOST
+#undef SLI_BLOCK_SINGULAR
+#undef SLI_ROWS_AHEAD
+#undef SLI_PACK_CHUNK
+#undef SLI_STREAMED
+#undef SLI_SOLVE_ENTRIES
+#undef SLI_SOLVE_GAIN
+#undef SLI_SOLVE_SLOT
+#undef SLI_SOLVE_TASKS
+#undef SLI_SOLVE_ROWS
+#undef SLI_SOLVE_SHARE
+#undef SLI_ROUNDING_ERROR
+#undef SLI_POWER_STEPS
+#undef SLI_INVERSE_STEPS
+#undef SLI_OTHER_ROUNDINGS
+#undef SLI_PROBES
+#undef SLI_PROBE_TURNS
+#undef SLI_PROBE_SAFETY
+#undef SLI_ETA_MOST
+#undef SLI_JOINT_NULL
+#undef SLI_JOINT_CENTERED
+#undef SLI_NORM_FLOOR
+#undef SLI_SQUARE_LEAST
+#undef SLI_PIVOT_THRESHOLD
+#undef SLI_ROUND_PLAIN
+#undef SLI_SINGLE_MOST
+#undef SLI_SINGLE_LEAST
+#undef SLI_INVERSE_GROUP
+#undef SLI_INVERSE_COLUMNS
+#undef SLI_INVERSE_ROW
+#undef SLI_INVERSE_PHASES
+#undef SLI_PANEL_AHEAD
+#undef SLI_PAIR_CACHED
+#undef SLI_PAIR_READ
+#undef SLI_PAIR_LARGE
 #undef SLI_CHANGE_ENTRY
+#undef SLI_CHANGE_HIDDEN
+#undef SLI_CHANGE_PIVOT
+#undef SLI_CHANGE_FRONT
+#undef SLI_CHANGE_VISIT
+#undef SLI_CHANGE_INPUT
 #undef SLI_CHANGE_PATH
 #undef SLI_CHANGE_PASS
 #undef SLI_CHANGE_SPLIT
 #undef SLI_CHANGE_GAINS
 #undef SLI_CHANGE_LOG
 #undef SLI_CHANGE_TRIAL
-#undef SLI_CHANGE_HIDDEN
-#undef SLI_CHANGE_PIVOT
-#undef SLI_CHANGE_FRONT
-#undef SLI_CHANGE_VISIT
-#undef SLI_CHANGE_INPUT
-#undef SLI_CHANGE_DRIFT
-#undef SLI_NULL_ANCHOR
-#undef SLI_NULL_DEPENDENT
+#undef SLI_REUSE_FLOP
+#undef SLI_REUSE_FRONT
+#undef SLI_REUSE_SUPER
+#undef SLI_REUSE_ENTRY
+#undef SLI_LANES_MAX
+#undef SLI_BLOCK_REQUESTS_MAX
+#undef SLI_LOSS_LIMIT
+#undef SLI_LOSS_REFUSED
+#undef SLI_SWEEP_FLOPS
+#undef SLI_BLOCK_KEPT
+#undef SLI_REGION_COLUMNS
+#undef SLI_REGION_PASSES
+#undef SLI_REGION_DETOUR
+#undef SLI_LOSS_SMALL
+#undef SLI_UPDATE_COLUMNS
+#undef SLI_PATH_CACHED
+#undef SLI_RANK_LOGGED
+#undef SLI_RANK_LARGE
+#undef SLI_RANK_SMALL
+#undef SLI_RANK_RING
+#undef SLI_EDGES_HEAVY
+#undef SLI_CONSTRAINTS_SINGLY
+#undef SLI_CONSTRAINTS_LOST
+#undef SLI_SUBSET_BITS
+#undef SLI_SUBSET_WORDS
+#undef SLI_SUBSET_AHEAD
+#undef SLI_RESTRICT_KEPT
+#undef SLI_RESTRICT_AHEAD
+#undef SLI_RESTRICT_MANY
+#undef SLI_RESTRICT_IN_PLACE
+#undef SLI_EDIT_LAYERS
+#undef SLI_EDIT_AHEAD
+#undef SLI_EDIT_LAST
+#undef SLI_EDIT_SHARE
+#undef SLI_EDIT_LEAST
+#undef SLI_EDIT_MOST_ACTIVE
+#undef SLI_EDIT_DUE
+#undef SLI_REUSE_SHARE
+#undef SLI_REUSE_SAMPLE
+#undef SLI_REUSE_SAMPLED
+#undef SLI_REUSE_MOST_OF_SAMPLE
+#undef SLI_REUSE_MOST
+#undef SLI_REUSE_UNKNOWN
 #undef SLI_CONSTRAINTS_ENTRY
 #undef SLI_CONSTRAINTS_JOINT
 #undef SLI_CONSTRAINTS_BLOCK
 #undef SLI_CONSTRAINTS_PRODUCT
 #undef SLI_CONSTRAINTS_NUMBER
 #undef SLI_CONSTRAINTS_PIN
-#undef SLI_CONSTRAINTS_SINGLY
-#undef SLI_RANK_LARGE
-#undef SLI_RANK_RING
-#undef SLI_RANK_SMALL
-#undef SLI_EDGES_HEAVY
-#undef SLI_LOSS_SMALL
 #undef SLI_CONSTRAINTS_DENSE
-#undef SLI_PAIR_CACHED
-#undef SLI_PAIR_READ
-#undef SLI_PAIR_LARGE
-#undef SLI_SWEEP_FLOPS
 #undef SLI_FIXED_ANALYSIS
 #undef SLI_FIXED_ROW
 #undef SLI_FIXED_COPY
 #undef SLI_FIXED_PROBE
 #undef SLI_FIXED_PINS
 #undef SLI_FIXED_LOST
-#undef SLI_CONSTRAINTS_LOST
-#undef SLI_NULL_VECTORS_MAX
+#undef SLI_TEMPORARY_NAMES
+#undef SLI_TEMPORARY_SUFFIX
+#undef SLI_UNNAMED_FILES
+#undef SLI_FILE_NAME_MAX
+#undef SLI_HERE
+#undef SLI_FOLLOW
+#undef SLI_TOKEN_MAX
+#undef SLI_POINT_MAX
+#undef SLI_LINE_MAX
+#undef SLI_ENTRIES_FIRST
+#undef SLI_READ_VERSION
 #undef SLI_READ_VERSION_DOUBLE
-#undef SLI_RESTRICT_AHEAD
-#undef SLI_RESTRICT_IN_PLACE
-#undef SLI_RESTRICT_KEPT
-#undef SLI_RESTRICT_MANY
-#undef SLI_SUBSET_BITS
-#undef SLI_SUBSET_WORDS
-#undef SLI_SUBSET_AHEAD
-#undef SLI_PROBES
-#undef SLI_PROBE_TURNS
-#undef SLI_PROBE_SAFETY
-#undef SLI_ETA_MOST
-#undef SLI_POWER_STEPS
-#undef SLI_INVERSE_STEPS
-#undef SLI_OTHER_ROUNDINGS
-#undef SLI_JOINT_NULL
-#undef SLI_JOINT_CENTERED
-#undef SLI_NORM_FLOOR
-#undef SLI_DOUBLE_FRONTS
-#undef SLI_SQUARE_LEAST
+#undef SLI_WRITE_VERSION
 #undef SLI_WRITE_VERSION_PLAIN
-#undef SLI_PRODUCT_COLUMNS
+#undef SLI_ORDER_MARK
+#undef SLI_ORDER_MARK_SWAPPED
+#undef SLI_SECTIONS_MAX
 #endif
 
 /* templates: the header includes them from itself, once for each instruction set */

@@ -309,6 +309,5 @@ extern "C" {
 #if defined(SL_WITH_FIXED)
 #include "impl/packs/fixed_ways.h"
 #endif
-/* last: undefine every internal macro */
-#include "impl/base/undef.h"
+/* last: amalgamate writes an #undef of each internal macro here */
 #endif
