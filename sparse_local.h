@@ -1,11 +1,11 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 3ade182e82ee7d18
+ * FNV-1a of the lines after this comment, without the license: 45d8aa322757103e
  * The comments of the implementation are in src/impl.
  *
  * Contents
- *     63 intro.h      what the library does, a quick start, which call for which question, references
- *    193 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    237 config.h     macros that a user may define before the include, the version, and the integer types
+ *     62 intro.h      what the library does, a quick start, which call for which question, references
+ *    192 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    236 config.h     macros that a user may define before the include, the version, and the integer types
  *    325 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    498 options.h    options of all calls, threads, and the allocator
  *    624 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
@@ -28,34 +28,33 @@
  *   2218 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
  *   2400 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
  *   2503 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2614 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2655 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2741 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2829 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2906 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2949 impl/ base: the compiler, status, memory, sorting, threads
- *   4230 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5169 impl/ matrix: sparse matrices of the caller and of the library
- *   5845 impl/ ordering: fill-reducing orderings of a graph
- *  10947 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13186 impl/ factor: the numbers of L and D
- *  15784 impl/ solve: full and local solves
- *  17332 impl/ singular: null spaces of semidefinite matrices
- *  18641 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20656 impl/ pivots: the order of the pivots by the values of a matrix
- *  21064 impl/ float: L and fronts in single precision
- *  21569 impl/ inverse: entries of the inverse, regions
- *  24668 impl/ change: a factor that follows changes of its matrix
- *  30955 impl/ fixed: rows fixed at given values
- *  31516 impl/ io: files that are replaced only when they are complete
- *  31734 impl/ files: Matrix Market files, 64-bit indices
- *  32354 impl/ save: factors in files
- *  34371 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35057 impl/ batch: diagonals of many inverses
- *  35197 impl/ complex: complex Hermitian systems over real factors
- *  35697 impl/ packs: the tables through which the core calls packs
- *  35764 impl/ last: undefine every internal macro
- *  36133 impl/ templates: the header includes them from itself, once for each instruction set
+ *   2607 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2648 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2733 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2821 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2898 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2941 impl/ base: the compiler, status, memory, sorting, threads
+ *   4222 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5161 impl/ matrix: sparse matrices of the caller and of the library
+ *   5837 impl/ ordering: fill-reducing orderings of a graph
+ *  10473 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12711 impl/ factor: the numbers of L and D
+ *  15308 impl/ solve: full and local solves
+ *  16854 impl/ singular: null spaces of semidefinite matrices
+ *  18125 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20140 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20548 impl/ float: L and fronts in single precision
+ *  21053 impl/ inverse: entries of the inverse, regions
+ *  24152 impl/ change: a factor that follows changes of its matrix
+ *  30438 impl/ fixed: rows fixed at given values
+ *  30999 impl/ io: files that are replaced only when they are complete
+ *  31217 impl/ files: Matrix Market files, 64-bit indices
+ *  31837 impl/ save: factors in files
+ *  33854 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34540 impl/ batch: diagonals of many inverses
+ *  34680 impl/ complex: complex Hermitian systems over real factors
+ *  35180 impl/ packs: the tables through which the core calls packs
+ *  35601 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -249,6 +248,7 @@
  *  SL_NO_SIMD                    compiles only the kernels in plain C: smallest object, fastest
  *                                compilation, easiest to debug.
  *  SL_NO_AVX512                  leaves out the AVX-512 kernels: AVX2 is then the best on x86.
+ *  SL_NO_SINGULAR                leaves out null spaces, 26 kB: SL_NULL_PIVOT_SKIP is refused.
  *  SL_PTHREADS                   threads of POSIX where options.threads.run is NULL; compile and
  *                                link with -pthread.
  *  SL_NO_CLOCK                   makes all times in the statistics 0, for systems without clock();
@@ -797,7 +797,7 @@ typedef struct sl_reuse_info {
     double seconds;
 } sl_reuse_info;
 
-/** A set of pins: sl_constraints_add, _add_equality, _release, _refactor. */
+/** Rows that are held: sl_constraints_add, _release, _refactor. */
 typedef struct sl_constraints_info {
     sl_int count;   /* pins and equalities */
     double seconds; /* of the call */
@@ -2505,7 +2505,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const s
 /** Creates an empty set of pins: rows, or linear combinations of rows, that solves hold at given
  *  values. For definite A this minimizes x' A x / 2 - b' x under these equalities. The factor does
  *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep. For
- *  hundreds of rows that are held together, sl_fixed_create is the faster call.
+ *  hundreds of rows that are held together, sl_factor_submatrix or sl_fixed_create is faster.
  *
  *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
  *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
@@ -2534,38 +2534,31 @@ SL_API SL_WARN_UNUSED sl_status sl_constraints_create(sl_constraints **out, cons
 /** Releases a set of pins. */
 SL_API void sl_constraints_free(sl_constraints *P);
 
-/** Adds pins, all or none: x is held at values in rows of A. They become the last ones of P, in the
- *  order of rows.
+/** Adds pins, all or none: x is held in each of these rows of A. They become the last ones of P, in
+ *  the order of rows. With values, adds one equality: the sum of values[k] x(rows[k]) is held.
  *
- *  rows   [in]   count >= 0 rows in 0..n-1.
- *  stats  [out]  pins; error.row.
+ *  rows    [in]   count >= 0 rows in 0..n-1.
+ *  values  [in]   NULL: pins. Else count >= 1 weights of an equality, copied as its rows are; a row
+ *                 given twice counts with the sum.
+ *  stats   [out]  constraints; error.row.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: a row is held already, by its pin or by a
  *           combination of the others, up to rounding; SL_ERR_STALE: F has changed;
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
- *           (error.row); SL_ERR_NOT_FINITE: numbers of F overflow in the solution of a row;
- *           SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
+ *           (error.row); SL_ERR_NOT_FINITE: a value (error.row), or numbers of F overflow in the
+ *           solution of a row; SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     for each pin, a forward sweep, which up to 8 nearby rows share, k products over shared
  *           columns and O(k^2), with k pins before it; keeps 16 bytes per column of the path, and 4
  *           per row below its supernodes. 100 pins together take half as long as one by one.
  *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_constraints_add(sl_constraints *P, const sl_int *rows,
-                                                   sl_int count, sl_stats *stats);
-
-/** Adds an equality: the sum of values[k] x(rows[k]) is held. A pin is the case of one row and the
- *  value 1.
- *
- *  rows, values  [in]  count >= 1 entries, copied; a row given twice counts with the sum.
- *  Returns, Cost, Threads  as in sl_constraints_add; SL_ERR_NOT_FINITE: also a value (error.row).
- */
-SL_API SL_WARN_UNUSED sl_status sl_constraints_add_equality(sl_constraints *P, const sl_int *rows,
-                                                            const double *values, sl_int count,
-                                                            sl_stats *stats);
+                                                   const double *values, sl_int count,
+                                                   sl_stats *stats);
 
 /** Releases pins, all or none. The others move together and keep their order.
  *
  *  indices  [in]   count >= 0 different numbers of pins, 0-based, in any order.
- *  stats    [out]  pins, of which count is the number that is left.
+ *  stats    [out]  constraints, of which count is the number that is left.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     O(k^2) for each.
  *  Threads  exclusive use of P; F is read.
@@ -2575,7 +2568,7 @@ SL_API SL_WARN_UNUSED sl_status sl_constraints_release(sl_constraints *P, const 
 
 /** Takes the present numbers of the factor, after it has changed.
  *
- *  stats  [out]  pins; error.row.
+ *  stats  [out]  constraints; error.row.
  *  Returns  as sl_constraints_add; SL_ERR_STALE: failed factor. On error solves are refused until a
  *           later call succeeds.
  *  Cost     that of sl_constraints_add for all pins.
@@ -2633,7 +2626,7 @@ SL_API SL_WARN_UNUSED sl_status sl_constraints_solve(const sl_constraints *P, co
  *                computed again; neither its pattern nor its two triangles are compared.
  *  rows   [in]   count rows of A in 0..n-1, any order, no duplicates.
  *  opt    [in]   allocator.
- *  stats  [out]  restriction, factor; errors are in rows of A.
+ *  stats  [out]  submatrix, factor; errors are in rows of A.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
  *           SL_ERR_OTHER_PATTERN: A differs in size, entries or triangle from the analyzed matrix;
  *           SL_ERR_MALFORMED: error.column of it is malformed; SL_ERR_PIVOT, _NOT_FINITE,
@@ -2729,7 +2722,6 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor 
 #define sl_constraints_create(...) sl_constraints_create_needs_SL_WITH_CHANGE
 #define sl_constraints_free(...) sl_constraints_free_needs_SL_WITH_CHANGE
 #define sl_constraints_add(...) sl_constraints_add_needs_SL_WITH_CHANGE
-#define sl_constraints_add_equality(...) sl_constraints_add_equality_needs_SL_WITH_CHANGE
 #define sl_constraints_release(...) sl_constraints_release_needs_SL_WITH_CHANGE
 #define sl_constraints_refactor(...) sl_constraints_refactor_needs_SL_WITH_CHANGE
 #define sl_constraints_solve(...) sl_constraints_solve_needs_SL_WITH_CHANGE
@@ -6027,7 +6019,6 @@ typedef struct sli_order_job {
   const sl_options *opt;
   sl_int *perm;
   sl_int *scratch;
-  uint64_t *bits;
   sli_septree *septree;
   sli_order_choice *choice;
   sli_team *team;
@@ -8054,6 +8045,10 @@ SLI_TARGET("avx2,popcnt") static void sli_mindeg_run_avx2(sli_mindeg *m, sl_int 
 }
 #endif
 
+static int sli_mindeg_has_avx2(sl_int n) {
+  return n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
+}
+
 static sl_int sli_mindeg_number(const sli_level *g, const sl_int *vertices, sl_int count,
     sl_int *local, sl_int *bit, sl_int *halo) {
   sl_int k, bits = count;
@@ -8130,181 +8125,6 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
   SLI_COPY(vertices, order, count);
 }
 
-/* src/impl/ordering/small.h: minimum degree order of a small matrix from its pattern as bits, without a graph */
-
-#define SLI_SMALL_ROWS 256
-#define SLI_SMALL_WORDS (SLI_SMALL_ROWS / 64)
-#define SLI_SMALL_ROWS_ONE_FACTOR 64
-
-#define SLI_SMALL_DEGREE 3
-
-typedef struct sli_small {
-  sl_int n;
-  sl_int floor;
-  uint64_t *rows;
-  uint32_t key[SLI_SMALL_ROWS];
-} sli_small;
-
-SLI_INLINE uint32_t sli_small_key(const sli_small *m, sl_int degree, uint32_t height, sl_int v) {
-  return (uint32_t)sli_max(degree, m->floor) << 16 | height << 8 | (uint32_t)v;
-}
-
-SLI_INLINE uint32_t sli_small_height(const sli_small *m, sl_int v) {
-  return m->key[v] >> 8 & 255u;
-}
-
-SLI_ALWAYS_INLINE sl_int sli_small_count(const uint64_t *row, size_t words) {
-  uint32_t count = 0;
-  size_t k;
-  for (k = 0; k < words; k++) {
-    count += sli_popcount(row[k]);
-  }
-  return (sl_int)count;
-}
-
-SLI_ALWAYS_INLINE int sli_small_fill(sli_small *m, const sli_order_job *job, size_t words) {
-  const sl_csc *A = job->A;
-  const sl_int nnz = sli_nnz(A);
-  sl_int p, v, few = 0, edges = 0;
-  memset(m->rows, 0, (size_t)m->n * words * sizeof(uint64_t));
-  for (p = 0; p < nnz; p++) {
-    const sl_int i = A->i[p], j = job->column[p];
-    if (sli_is_read(job->triangle, i, j)) {
-      m->rows[(size_t)i * words + (size_t)j / 64] |= (uint64_t)1 << (j % 64);
-      m->rows[(size_t)j * words + (size_t)i / 64] |= (uint64_t)1 << (i % 64);
-    }
-  }
-  for (v = 0; v < m->n; v++) {
-    uint64_t *row = m->rows + (size_t)v * words;
-    const sl_int degree = sli_small_count(row, words);
-    const sl_int has_diagonal = (sl_int)(row[v / 64] >> (v % 64) & 1);
-    if (!has_diagonal && degree >= 8 &&
-        degree * degree >= m->n) { /* branches untested: n is 3 .. 64 in a copy */
-      return 0;
-    }
-    row[v / 64] |= (uint64_t)1 << (v % 64);
-    m->key[v] = sli_small_key(m, degree - has_diagonal, 0, v);
-    few += degree - has_diagonal <= 2;
-    edges += degree - has_diagonal;
-  }
-  if ((m->n > 64 && few > m->n / 2) || /* branches untested: n is 3 .. 64, or more, in copies */
-      (job->is_hurried && edges < 2 * m->n)) {
-    return 0;
-  }
-  for (; v == 0 || v % 8 != 0; v++) { /* branches untested: the same */
-    m->key[v] = SLI_MINDEG_ELIMINATED;
-  }
-  return 1;
-}
-
-SLI_ALWAYS_INLINE sl_int sli_small_eliminate(sli_small *m, sl_int v, size_t words, sl_int *order,
-    sl_int at) {
-  uint64_t *row = m->rows + (size_t)v * words, left[SLI_SMALL_WORDS], gone[SLI_SMALL_WORDS];
-  const sl_int degree = sli_small_count(row, words) - 1, first = at;
-  uint32_t height = sli_small_height(m, v) + 1;
-  size_t k, w;
-  m->key[v] = SLI_MINDEG_ELIMINATED;
-  order[at++] = v;
-  row[v / 64] &= ~((uint64_t)1 << (v % 64));
-  memset(gone, 0, sizeof gone);
-  memcpy(left, row, words * sizeof(uint64_t));
-  for (k = 0; k < words; k++) {
-    for (; left[k] != 0; left[k] &= left[k] - 1) {
-      const sl_int u = (sl_int)(64 * k) + sli_lowest_bit(left[k]);
-      uint64_t *other = m->rows + (size_t)u * words;
-      sl_int count = 0;
-      other[v / 64] &= ~((uint64_t)1 << (v % 64));
-      for (w = 0; w < words; w++) {
-        other[w] |= row[w];
-        count += (sl_int)sli_popcount(other[w]);
-      }
-      if (count == degree && degree > m->floor - 1) {
-        gone[k] |= (uint64_t)1 << (u % 64);
-        order[at++] = u;
-        m->key[u] = SLI_MINDEG_ELIMINATED;
-      } else {
-        const uint32_t before = sli_small_height(m, u);
-        m->key[u] = sli_small_key(m, count - 1, before > height ? before : height, u);
-      }
-    }
-  }
-  height += (uint32_t)(at - first - 1);
-  for (k = 0; k < words && at > first + 1; k++) {
-    for (left[k] = row[k] & ~gone[k]; left[k] != 0; left[k] &= left[k] - 1) {
-      const sl_int u = (sl_int)(64 * k) + sli_lowest_bit(left[k]);
-      const uint32_t before = sli_small_height(m, u);
-      uint64_t *other = m->rows + (size_t)u * words;
-      for (w = 0; w < words; w++) {
-        other[w] &= ~gone[w];
-      }
-      m->key[u] = sli_small_key(m, sli_small_count(other, words) - 1,
-          before > height ? before : height, u);
-    }
-  }
-  return at;
-}
-
-SLI_ALWAYS_INLINE sl_int sli_small_best(const sli_small *m) {
-  uint32_t least[8];
-  sl_int v, k;
-  if (m->n <= 32) {
-    uint32_t first = m->key[0];
-    for (v = 1; v < m->n; v++) { /* branches untested: the same */
-      first = m->key[v] < first ? m->key[v] : first;
-    }
-    return (sl_int)(first & 255u);
-  }
-  memcpy(least, m->key, sizeof least);
-  for (v = 8; v < m->n; v += 8) {
-    for (k = 0; k < 8; k++) {
-      least[k] = m->key[v + k] < least[k] ? m->key[v + k] : least[k];
-    }
-  }
-  for (k = 4; k > 0; k /= 2) {
-    for (v = 0; v < k; v++) {
-      least[v] = least[v + k] < least[v] ? least[v + k] : least[v];
-    }
-  }
-  return (sl_int)(least[0] & 255u);
-}
-
-SLI_ALWAYS_INLINE int sli_small_run_body(sli_small *m, const sli_order_job *job, size_t words) {
-  sl_int at = 0;
-  if (!sli_small_fill(m, job, words)) {
-    return 0;
-  }
-  while (at < m->n) {
-    at = sli_small_eliminate(m, sli_small_best(m), words,
-        job->perm, at); /* branches untested: the same */
-  }
-  return 1;
-}
-
-static int sli_small_run(sli_small *m, const sli_order_job *job) {
-  return sli_small_run_body(m, job, ((size_t)m->n + 63) / 64);
-}
-
-#if defined(SLI_X86) && defined(SLI_GNU)
-SLI_TARGET("avx2,popcnt")
-static int sli_small_run_avx2(sli_small *m, const sli_order_job *job) {
-  return m->n <= 64 ? sli_small_run_body(m, job, 1)
-            : sli_small_run_body(m, job, SLI_SMALL_WORDS);
-}
-#endif
-
-static int sli_order_small(const sli_order_job *job) {
-  sli_small m;
-  m.n = job->A->n_cols;
-  m.floor = job->is_hurried ? 1 : SLI_SMALL_DEGREE;
-  m.rows = job->bits;
-#if defined(SLI_X86) && defined(SLI_GNU)
-  if (m.n > 2 && sli_cpu_best() != SL_ISA_SCALAR) { /* untested: without AVX2 */
-    return sli_small_run_avx2(&m, job);
-  }
-#endif
-  return sli_small_run(&m, job);
-}
-
 /* src/impl/ordering/dissection.h: the state of a dissection, and loops over vertices, leaves and borders */
 
 #define SLI_DISSECT_TASKS 8
@@ -8326,7 +8146,6 @@ typedef struct sli_dissection {
   sl_int leaf_size;
   sl_int first;
   int is_volume, may_be_seven_point;
-  int has_labels;
   int is_levelset;
   sli_label_tree tree, other_tree;
   sli_border_pool pool;
@@ -8914,277 +8733,6 @@ static sl_status sli_dissect_graph(sli_dissection *d) {
   return SL_OK;
 }
 
-/* src/impl/ordering/thin.h: nested dissection of strips, tubes and bars along the levels of a breadth-first search */
-
-#define SLI_THIN_NARROW 22
-#define SLI_THIN_WIDTH 64
-#define SLI_THIN_LONG 7
-#define SLI_THIN_DEGREE 4
-#define SLI_THIN_EVEN 3
-#define SLI_THIN_ASPECT 8
-#define SLI_THIN_LEAF_MIN 64
-#define SLI_THIN_LEAF_MAX 250
-
-#define SLI_LATTICE_SHARE 75
-#define SLI_LATTICE_DEGREES 32
-
-static int sli_is_lattice(const sli_level *g) {
-  sl_int count[SLI_LATTICE_DEGREES] = {0}, v, most = 0;
-  for (v = 0; v < g->n; v++) {
-    const sl_off degree = g->begin[v + 1] - g->begin[v];
-    if (degree >= SLI_THIN_DEGREE && degree < SLI_LATTICE_DEGREES) {
-      count[degree]++;
-      most = sli_max(most, count[degree]);
-    }
-  }
-  return 100 * (int64_t)most >= SLI_LATTICE_SHARE * (int64_t)g->n;
-}
-
-typedef struct sli_thin_part {
-  sl_int first, end, levels;
-  sl_int above;
-} sli_thin_part;
-
-typedef struct sli_thin {
-  const sli_level *g;
-  sl_int *queue;
-  sl_int *mark;
-  sl_int *begin;
-  sl_int *ahead;
-  sl_int *spare, *kept;
-  sl_int *up;
-  sl_int marks, leaf, parts;
-  int is_narrow;
-  sli_thin_part *part;
-} sli_thin;
-
-static sl_int sli_thin_level(sli_thin *t, sl_int level, sl_int first, sl_int last) {
-  const sli_level *g = t->g;
-  const sl_int mark = ++t->marks;
-  sl_int k, at = first, ahead = 0, tail = last;
-  sl_off e;
-  for (k = first; k < last; k++) {
-    const sl_int v = t->queue[k];
-    int is_ahead = 0;
-    for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-      const sl_int u = g->to[e];
-      if (t->mark[u] == -1) {
-        t->mark[u] = mark;
-        t->queue[tail++] = u;
-      }
-      is_ahead |= t->mark[u] == mark;
-    }
-    if (is_ahead) {
-      t->spare[ahead++] = v;
-    } else {
-      t->queue[at++] = v;
-    }
-  }
-  SLI_COPY(t->queue + at, t->spare, ahead);
-  t->ahead[level] = ahead;
-  t->begin[level] = first;
-  return tail;
-}
-
-static void sli_thin_push(sli_thin *t, sl_int first, sl_int end, sl_int levels, sl_int above) {
-  if (first < end) {
-    sli_thin_part *p = &t->part[t->parts++];
-    p->first = first;
-    p->end = end;
-    p->levels = levels;
-    p->above = above;
-  }
-}
-
-static int sli_thin_search(sli_thin *t, sl_int root) {
-  const int64_t n = t->g->n;
-  int64_t squares = 0, ends = 0, even = 0;
-  sl_int first = 0, last = 1, levels = 0;
-  memset(t->mark, -1, (size_t)n * sizeof(sl_int));
-  t->queue[0] = root;
-  t->mark[root] = 0;
-  while (first < last) {
-    const sl_int tail = sli_thin_level(t, levels++, first, last);
-    const int64_t size = last - first;
-    squares += size * size;
-    t->is_narrow = squares <= SLI_THIN_NARROW * (last + n / 16);
-    ends = t->is_narrow ? 0 : squares / last * (squares / last) / 3;
-    even = last + SLI_THIN_EVEN * n / 100 + ends;
-    if (size > 4 * SLI_THIN_WIDTH || squares > SLI_THIN_WIDTH * (last + n / 16) ||
-        squares > even * even / levels) {
-      return 0;
-    }
-    first = last;
-    last = tail;
-  }
-  t->leaf = sli_min((sl_int)(SLI_THIN_ASPECT * squares / n), SLI_THIN_LEAF_MAX);
-  t->leaf = sli_max(t->leaf, SLI_THIN_LEAF_MIN);
-  sli_thin_push(t, 0, (sl_int)n, levels, -1);
-  even = n + n / 200 + ends;
-  return t->is_narrow ||
-       (squares <= even * even / levels && 2 * (int64_t)levels >= squares / n * SLI_THIN_LONG &&
-        sli_is_lattice(t->g));
-}
-
-static sl_int sli_thin_cut(const sli_thin *t, const sli_thin_part *p, int64_t *least) {
-  const sl_int n = p->end - p->first;
-  sl_int s, best = -1;
-  *least = INT64_MAX;
-  for (s = p->first; s < p->first + p->levels - 1; s++) {
-    const sl_int next = t->begin[s + 1];
-    const int64_t side = sli_max(next - t->ahead[s] - p->first, p->end - next);
-    const int64_t cost = 100 * side <= SLI_LEVELSET_BALANCE * (int64_t)n ? side * t->ahead[s]
-                                       : INT64_MAX / 2 + side;
-    if (cost < *least) {
-      best = s;
-      *least = cost;
-    }
-  }
-  return best;
-}
-
-static void sli_thin_split(sli_thin *t, const sli_thin_part *p, sl_int cut, sl_int end,
-    sl_int above, sl_int above_next) {
-  const sl_int next = t->begin[cut + 1], before = cut - p->first + (end > t->begin[cut]);
-  const sl_int behind = p->first + p->levels - 1 - cut;
-  sli_thin_push(t, p->first, end, before, above);
-  sli_thin_push(t, next, p->end, behind, above_next);
-  memmove(t->begin + next, t->begin + cut + 1, (size_t)behind * sizeof(sl_int));
-  memmove(t->ahead + next, t->ahead + cut + 1, (size_t)behind * sizeof(sl_int));
-}
-
-static sl_int sli_thin_dissect(sli_thin *t, sli_dissect_worker *w, const sl_int *row, sl_int *perm,
-    sl_int end, sl_int *node_of) {
-  int64_t least;
-  sl_int k, node;
-  for (node = 0; t->parts > 0; node++) {
-    const sli_thin_part p = t->part[--t->parts];
-    const sl_int size = p.end - p.first;
-    const sl_int cut = size <= t->leaf ? -1 : sli_thin_cut(t, &p, &least);
-    const sl_int count = cut == -1 ? size : t->ahead[cut];
-    const sl_int from = cut == -1 ? p.first : t->begin[cut + 1] - count;
-    if (cut == -1) {
-      sli_mindeg_order(&w->mindeg, t->g, t->queue + from, count, w->subgraph.local, t->spare,
-          w->subgraph.to);
-    } else {
-      sli_thin_split(t, &p, cut, from, node, node);
-    }
-    end -= count;
-    for (k = 0; k < count; k++) {
-      perm[end + k] = row[t->queue[from + k]];
-      node_of[perm[end + k]] = node;
-    }
-    t->up[node] = p.above;
-  }
-  return node;
-}
-
-static int sli_thin_renew(sli_thin *t, sli_thin_part *p, sl_int root) {
-  sl_int k, first = p->first, last = first + 1, level = first;
-  for (k = 0; k < p->end - p->first; k++) {
-    t->mark[t->kept[k]] = -1;
-  }
-  t->queue[first] = root;
-  t->mark[root] = 0;
-  while (first < last) {
-    const sl_int tail = sli_thin_level(t, level++, first, last);
-    first = last;
-    last = tail;
-  }
-  p->levels = level - p->first;
-  return last == p->end;
-}
-
-static sl_int sli_thin_turn(sli_thin *t, sli_thin_part *p, sl_int cut, int64_t least,
-    sl_int *scratch) {
-  const sli_thin_part before = *p;
-  const size_t size = (size_t)(p->end - p->first), levels = (size_t)p->levels;
-  int64_t cost;
-  sl_int k;
-  memcpy(t->kept, t->queue + p->first, size * sizeof(sl_int));
-  memcpy(scratch, t->begin + p->first, levels * sizeof(sl_int));
-  memcpy(scratch + size, t->ahead + p->first, levels * sizeof(sl_int));
-  if (sli_thin_renew(t, p, t->queue[p->first]) && /* branches untested: it is connected */
-      sli_thin_renew(t, p, t->queue[p->end - 1])) {
-    const sl_int turned = sli_thin_cut(t, p, &cost);
-    if (cost <= least / 10 * 9) {
-      return turned;
-    }
-  }
-  *p = before;
-  for (k = 0; k < p->end - p->first; k++) {
-    t->mark[t->kept[k]] = 0;
-  }
-  memcpy(t->queue + p->first, t->kept, size * sizeof(sl_int));
-  memcpy(t->begin + p->first, scratch, levels * sizeof(sl_int));
-  memcpy(t->ahead + p->first, scratch + size, levels * sizeof(sl_int));
-  return cut;
-}
-
-static void sli_thin_label(sli_thin *t, sli_dissection *d) {
-  sli_label_tree *tree = &d->tree;
-  int64_t least;
-  sl_int k;
-  d->level = 0;
-  sli_dissect_start(d);
-  t->part[0].above = tree->root;
-  while (t->parts > 0) {
-    sli_thin_part p = t->part[--t->parts];
-    const sl_int size = p.end - p.first, node = p.above;
-    const int may_cut = size > t->leaf &&
-              tree->count < tree->room - 1; /* branches untested: tiny leaves */
-    sl_int cut = may_cut ? sli_thin_cut(t, &p, &least) : -1;
-    if (cut != -1 && (int64_t)p.levels * p.levels < 2 * (int64_t)size &&
-        t->marks < INT32_MAX - 2 * size) { /* branches untested: 2^31 marks */
-      cut = sli_thin_turn(t, &p, cut, least, (sl_int *)(void *)d->workers[0].next);
-    }
-    tree->weight[node] = size;
-    for (k = cut == -1 ? p.first : p.end; k < p.end; k++) {
-      d->label[t->queue[k]] = node;
-    }
-    if (cut != -1) {
-      sli_label_tree_split(tree, node);
-      sli_thin_split(t, &p, cut, t->begin[cut + 1], tree->left[node], tree->right[node]);
-    }
-  }
-  sli_label_tree_number(tree, t->g->n, d->label);
-  d->has_labels = 1;
-}
-
-static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl_int at,
-    sli_septree *septree) {
-  const sl_int n = d->levels[0].n;
-  sl_int k, nodes, last, *scratch = d->workers[0].subgraph.scratch;
-  sli_thin t;
-  SLI_CLEAR(t);
-  t.g = &d->levels[0];
-  t.queue = scratch;
-  t.mark = scratch + n;
-  t.ahead = scratch + 2 * (size_t)n;
-  t.up = scratch + 3 * (size_t)n;
-  t.part = (sli_thin_part *)(void *)(scratch + 4 * (size_t)n);
-  t.begin = d->begin;
-  t.spare = d->order;
-  t.kept = d->other;
-  if (!sli_thin_search(&t, n - 1)) {
-    return 0;
-  }
-  if (!t.is_narrow) {
-    sli_thin_label(&t, d);
-    return 0;
-  }
-  nodes = sli_thin_dissect(&t, &d->workers[0], row, perm, at + n, septree->node_of);
-  last = septree->count + nodes - 1;
-  for (k = 0; k < nodes; k++) {
-    septree->parent[last - k] = t.up[k] == -1 ? -1 : last - t.up[k];
-  }
-  for (k = at; k < at + n; k++) {
-    septree->node_of[perm[k]] = last - septree->node_of[perm[k]];
-  }
-  septree->count += nodes;
-  return 1;
-}
-
 /* src/impl/ordering/nd.h: nested dissection of any graph: component by component, dense rows last */
 
 #define SLI_ND_RESPLITS 12
@@ -9346,13 +8894,6 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
   }
 }
 
-static sl_status sli_nd_label(sli_nd *w) {
-  sli_dissection *d = &w->d;
-  d->is_volume = d->may_be_seven_point = 0;
-  d->is_levelset = 0;
-  return d->has_labels ? SL_OK : sli_dissect_graph(d);
-}
-
 static int sli_nd_is_thin(const sli_dissection *d) {
   sl_int v, count = 0;
   for (v = 0; v < d->levels[0].n; v++) {
@@ -9370,7 +8911,9 @@ static sl_status sli_nd_dissect(sli_nd *w) {
     sli_dissect_start(d);
     return SL_OK;
   }
-  status = sli_nd_label(w);
+  d->is_volume = d->may_be_seven_point = 0;
+  d->is_levelset = 0;
+  status = sli_dissect_graph(d);
   if (status == SL_OK) {
     do {
       sli_dissect_visit(d, sli_dissect_separate);
@@ -9418,12 +8961,6 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
         continue;
       }
       sli_nd_graph(w, count);
-      w->d.has_labels = 0;
-      if (w->weight == NULL && count > w->d.leaf_size &&
-          sli_order_thin(&w->d, w->row, perm, at, septree)) {
-        at += count;
-        continue;
-      }
       status = sli_nd_dissect(w);
       if (status == SL_OK) {
         sli_septree_append(&w->d, w->row, perm, at, septree);
@@ -9459,8 +8996,7 @@ static sl_status sli_order_nd(const sli_order_job *job) {
     sli_nd_layout(&w, &b);
   }
   if (status == SL_OK) {
-    const int has_avx2 =
-      w.G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
+    const int has_avx2 = sli_mindeg_has_avx2(w.G->n);
     for (k = 0; k < job->team->workers; k++) {
       w.d.workers[k].mindeg.has_avx2 = has_avx2;
     }
@@ -10307,7 +9843,6 @@ enum {
   SLI_WANTS_MANY_SOLVES = 1 << 3,
   SLI_IS_IRREGULAR = 1 << 4,
   SLI_IS_BIPARTITE = 1 << 5,
-  SLI_IS_THIN = 1 << 6,
   SLI_IS_EXPANDING = 1 << 7,
   SLI_TRIED_LEVELS = 1 << 8,
   SLI_IS_NARROW = 1 << 9,
@@ -10346,7 +9881,7 @@ static const struct sli_order_rule {
   {SLI_WANTS_ONE_FACTOR, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
   {SLI_WANTS_ONE_FACTOR | SLI_IS_CHEAP, 0, SLI_BY_MINDEG},
   {SLI_WANTS_ONE_FACTOR | SLI_IS_IRREGULAR, 0, SLI_BY_MINDEG},
-  {SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_IS_THIN | SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
+  {SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
   {SLI_WANTS_MANY_SOLVES | SLI_IS_BIPARTITE, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
   {SLI_WANTS_MANY_SOLVES | SLI_IS_EXPANDING, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
   {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_CORE, 0, SLI_BY_MINDEG},
@@ -10374,8 +9909,7 @@ static int sli_graph_is_irregular(const sli_graph *G, int is_peeled) {
     squares += degree < 1024 ? degree * degree : 1024 * 1024;
   }
   mean = 16 * (uint64_t)G->begin[G->n] / (uint64_t)G->n;
-  return mean > 0 &&
-       10 * 256 * squares >= (is_peeled ? 11u : 12u) * mean * mean * (uint64_t)G->n;
+  return mean > 0 && 10 * 256 * squares >= (is_peeled ? 11u : 12u) * mean * mean * (uint64_t)G->n;
 }
 
 static int sli_graph_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *side) {
@@ -10409,7 +9943,7 @@ static int sli_graph_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *sid
   return 1;
 }
 
-static int sli_graph_shape(const sli_order_job *job) {
+static int sli_graph_is_expanding(const sli_order_job *job) {
   const int64_t n = job->G->n, most = n * n / 8;
   sli_levels l = sli_levels_of(job);
   sl_int v, tail = 0;
@@ -10418,9 +9952,7 @@ static int sli_graph_shape(const sli_order_job *job) {
       tail = sli_levels_search(&l, v, tail, 1, most);
     }
   }
-  return l.entries > most ? SLI_IS_EXPANDING
-       : l.entries <= 32 * n && l.entries <= n * n / 32 ? SLI_IS_THIN
-                              : 0;
+  return l.entries > most;
 }
 
 static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
@@ -10440,10 +9972,9 @@ static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
   }
   f.bits |= sli_graph_is_irregular(G, job->is_peeled || is_for_one) ? SLI_IS_IRREGULAR : 0;
   if (!is_for_one && (job->is_peeled || mean * mean > n || (f.bits & SLI_IS_IRREGULAR) != 0)) {
-    f.bits |= sli_graph_shape(job);
+    f.bits |= sli_graph_is_expanding(job) ? SLI_IS_EXPANDING : 0;
   }
-  if (!is_for_one && job->is_peeled && (f.bits & SLI_IS_THIN) == 0 &&
-      sli_graph_is_bipartite(G, job->perm, job->scratch)) {
+  if (!is_for_one && job->is_peeled && sli_graph_is_bipartite(G, job->perm, job->scratch)) {
     f.bits |= SLI_IS_BIPARTITE;
   }
   return f;
@@ -10929,11 +10460,6 @@ static sl_status sli_order(sli_order_job *job) {
   case SL_ORDERING_MINDEG:
     if (job->block == 1 && job->is_hurried && sli_order_forest(job)) {
       job->choice->has_tree = 1;
-      return SL_OK;
-    }
-    if (job->block == 1 && job->ordering == SL_ORDERING_ND &&
-        job->A->n_cols <= (job->is_hurried ? SLI_SMALL_ROWS_ONE_FACTOR : SLI_SMALL_ROWS) &&
-        sli_order_small(job)) {
       return SL_OK;
     }
     return sli_order_by_graph(job);
@@ -12657,7 +12183,6 @@ static sl_status sli_symbolic_order(sli_symbolic_job *j, sli_team *team) {
   order.opt = j->opt;
   order.perm = w->perm;
   order.scratch = w->scratch;
-  order.bits = w->list;
   order.septree = &w->septree;
   order.choice = &w->choice;
   order.team = team;
@@ -13137,7 +12662,7 @@ static sl_int sli_reach_step_of(const sli_reach *R, sl_int column) {
          : -1;
 }
 
-static sl_int sli_reach_index_of(const sli_reach *R, sl_int column) {
+SLI_NOINLINE static sl_int sli_reach_index_of(const sli_reach *R, sl_int column) {
   const sl_int s = sli_reach_step_of(R, column);
   return s == -1 ? -1 : R->steps[s].base + column - R->steps[s].column;
 }
@@ -13211,7 +12736,6 @@ typedef struct sli_singular {
   sl_status (*fill)(sl_factor *F, const sl_options *opt, sl_stats *stats);
   sl_status (*prepare)(sl_factor *F, const struct sli_source *from, struct sli_failure *failure);
   sl_status (*finish)(sl_factor *F, const struct sli_source *from, struct sli_failure *failure);
-  int (*remain)(const sl_factor *F);
 
   int (*load)(const sl_factor *F, const struct sli_query *q, const struct sli_vectors *v,
       const struct sli_rhs *rhs);
@@ -13219,8 +12743,8 @@ typedef struct sli_singular {
       sl_int nrhs);
   int (*check)(const sl_factor *F, const struct sli_query *q, const struct sli_rhs *rhs,
       void *memory);
-  void (*center)(const sl_factor *F, const struct sli_packed *y, const struct sli_packed *x,
-      const sl_int *uses);
+  void (*center)(const sl_factor *F, const struct sli_query *q, const struct sli_vectors *v,
+      sl_int lanes, const sl_int *uses);
   void (*norms)(const struct sli_packed *b, double *norms);
   int (*next_dot)(const sl_factor *F, const struct sli_packed *b, sl_int first, sl_int root,
       struct sli_null_dot *dot);
@@ -16841,7 +16365,7 @@ static void sli_sweep_transfer(const sli_query *q, const double *y, double *x, s
   }
 }
 
-static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+SLI_INLINE void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
     sl_int nrhs) {
   if (F->null.count > 0) {
     F->null.calls->forward(F, &q->forward, v, nrhs);
@@ -16852,11 +16376,11 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
 
 static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vectors *v,
     const sli_rhs *rhs) {
-  if (F->null.checks) {
+  if (F->null.count > 0) {
     return F->null.calls->load(F, q, v, rhs);
   }
   sli_pack(F, q, v->y, rhs);
-  sli_sweep_forward(F, q, v, rhs->nrhs);
+  sli_forward_sweep(F, sli_lanes_kind(rhs->nrhs), &q->forward, v->y, v->scratch);
   return 1;
 }
 
@@ -16871,9 +16395,7 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
     q->ending->calls->apply(F, q, kind, v);
   }
   if (F->null.count > 0) {
-    const sli_packed y = sli_packed_of(&q->forward, v->y, lanes);
-    const sli_packed x = sli_packed_of(&q->backward, v->x, lanes);
-    F->null.calls->center(F, &y, &x, NULL);
+    F->null.calls->center(F, q, v, lanes, NULL);
   }
   sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }
@@ -18288,64 +17810,6 @@ static int sli_is_consistent(const sl_factor *F, const sli_packed *y, const doub
   return 1;
 }
 
-static sl_int sli_null_tree_dot(const sl_factor *F, const sli_packed *b, sl_int first, sl_int root,
-    sli_null_dot *dot) {
-  dot->next = sli_null_first(F, b->R, root);
-  return sli_null_dot_next(F, b, first, root, dot) ? sli_reach_index_of(b->R, dot->null) : -1;
-}
-
-static void sli_null_forward(const sl_factor *F, const sli_reach *R, const sli_vectors *v,
-    sl_int nrhs) {
-  const int kind = sli_lanes_kind(nrhs);
-  const sli_packed b = sli_packed_of(R, v->y, (sl_int)1 << kind);
-  sli_reach tree;
-  sl_int first = 0, s;
-  if (F->null.vectors > 1) {
-    sli_forward_sweep(F, kind, R, v->y, v->scratch);
-    return;
-  }
-  tree = *R;
-  for (s = 0; s < R->count; s++) {
-    sli_null_dot dot;
-    sl_int at;
-    if (R->steps[s].up != -1) {
-      continue;
-    }
-    at = sli_null_tree_dot(F, &b, first, s, &dot);
-    tree.steps = R->steps;
-    tree.plain = R->plain;
-    sli_reach_cut(&tree, first, s + 1 - first);
-    sli_forward_sweep(F, kind, &tree, v->y, v->scratch);
-    if (at != -1) {
-      memcpy(v->y + ((ptrdiff_t)at << kind), dot.sums, sizeof(double) << kind);
-    }
-    for (; first <= s; first++) {
-      tree.rows += R->steps[first].below;
-    }
-  }
-}
-
-static int sli_null_pack(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-    const sli_rhs *rhs, double *norms) {
-  const sl_int lanes = (sl_int)1 << sli_lanes_kind(rhs->nrhs);
-  const sli_packed b = sli_packed_of(&q->forward, v->y, lanes);
-  sli_pack(F, q, v->y, rhs);
-  sli_norms(&b, norms);
-  return F->null.vectors == 1 || (q->ending != NULL && q->ending->rows > 0) ||
-       sli_null_dots(F, &b, norms);
-}
-
-static int sli_null_load(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-    const sli_rhs *rhs) {
-  const sli_packed y = sli_packed_of(&q->forward, v->y, (sl_int)1 << sli_lanes_kind(rhs->nrhs));
-  double norms[SLI_BLOCK_SINGULAR];
-  if (!sli_null_pack(F, q, v, rhs, norms)) {
-    return 0;
-  }
-  sli_null_forward(F, &q->forward, v, rhs->nrhs);
-  return sli_is_consistent(F, &y, norms);
-}
-
 static int sli_check_sweeps(const sl_factor *F, const sli_reach *R) {
   sl_int s, m;
   for (s = 0; s < R->count; s++) {
@@ -18368,14 +17832,13 @@ static int sli_check_sweeps(const sl_factor *F, const sli_reach *R) {
   return 0;
 }
 
-static int sli_null_judge(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-    const sli_rhs *rhs) {
-  const sli_reach *R = &q->forward;
-  const sli_packed b = sli_packed_of(R, v->y, (sl_int)1 << sli_lanes_kind(rhs->nrhs));
-  double norms[SLI_BLOCK_SINGULAR];
+static void sli_null_trees(const sl_factor *F, const sli_reach *R, const sli_vectors *v, int kind,
+    int sweeps) {
+  const sli_packed b = sli_packed_of(R, v->y, (sl_int)1 << kind);
+  sli_reach tree = *R;
   sl_int first = 0, s;
-  if (!sli_null_pack(F, q, v, rhs, norms)) {
-    return 0;
+  if (F->null.vectors > 1 && sweeps) {
+    sli_forward_sweep(F, kind, R, v->y, v->scratch);
   }
   for (s = 0; s < R->count && F->null.vectors == 1; s++) {
     sli_null_dot dot;
@@ -18383,13 +17846,47 @@ static int sli_null_judge(const sl_factor *F, const sli_query *q, const sli_vect
     if (R->steps[s].up != -1) {
       continue;
     }
-    at = sli_null_tree_dot(F, &b, first, s, &dot);
-    if (at != -1) {
-      SLI_COPY(v->y + (ptrdiff_t)at * b.lanes, dot.sums, b.lanes);
+    dot.next = sli_null_first(F, R, s);
+    at = sli_null_dot_next(F, &b, first, s, &dot) ? sli_reach_index_of(R, dot.null) : -1;
+    if (sweeps) {
+      tree.steps = R->steps;
+      tree.plain = R->plain;
+      sli_reach_cut(&tree, first, s + 1 - first);
+      sli_forward_sweep(F, kind, &tree, v->y, v->scratch);
     }
-    first = s + 1;
+    if (at != -1) {
+      memcpy(sli_packed_row(&b, at), dot.sums, sizeof(double) << kind);
+    }
+    for (; first <= s; first++) {
+      tree.rows += R->steps[first].below;
+    }
   }
-  return sli_is_consistent(F, &b, norms);
+}
+
+static void sli_null_forward(const sl_factor *F, const sli_reach *R, const sli_vectors *v,
+    sl_int nrhs) {
+  sli_null_trees(F, R, v, sli_lanes_kind(nrhs), 1);
+}
+
+static int sli_null_judge(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+    const sli_rhs *rhs, int sweeps) {
+  const int kind = sli_lanes_kind(rhs->nrhs), ends = q->ending != NULL && q->ending->rows > 0;
+  const sli_packed b = sli_packed_of(&q->forward, v->y, (sl_int)1 << kind);
+  double norms[SLI_BLOCK_SINGULAR];
+  sli_pack(F, q, v->y, rhs);
+  if (F->null.checks) {
+    sli_norms(&b, norms);
+    if (F->null.vectors > 1 && !ends && !sli_null_dots(F, &b, norms)) {
+      return 0;
+    }
+  }
+  sli_null_trees(F, &q->forward, v, kind, sweeps);
+  return !F->null.checks || sli_is_consistent(F, &b, norms);
+}
+
+static int sli_null_load(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+    const sli_rhs *rhs) {
+  return sli_null_judge(F, q, v, rhs, 1);
 }
 
 static int sli_null_check(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
@@ -18400,7 +17897,7 @@ static int sli_null_check(const sl_factor *F, const sli_query *q, const sli_rhs 
   for (r = 0; r < rhs->nrhs && is_consistent; r += sli_min(8, rhs->nrhs - r)) {
     const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
     const sli_vectors v = sli_vectors_of(q, block.nrhs, memory);
-    is_consistent = sweeps ? sli_null_load(F, q, &v, &block) : sli_null_judge(F, q, &v, &block);
+    is_consistent = sli_null_judge(F, q, &v, &block, sweeps);
   }
   return is_consistent;
 }
@@ -18469,37 +17966,39 @@ static void sli_center_step(const sl_factor *F, const sli_packed *x, sl_int lane
   }
 }
 
-static void sli_center(const sl_factor *F, const sli_packed *y, const sli_packed *x,
+static void sli_center(const sl_factor *F, const sli_query *q, const sli_vectors *v, sl_int lanes,
     const sl_int *uses) {
+  const sli_packed y = sli_packed_of(&q->forward, v->y, lanes);
+  const sli_packed x = sli_packed_of(&q->backward, v->x, lanes);
   const int is_one = F->null.vectors == 1;
   const sl_int *list = is_one ? F->null.anchors : F->null.pivots;
   const sl_int listed = is_one ? F->null.n_anchors : F->null.count;
-  const sli_reach *to = x->R;
+  const sli_reach *to = x.R;
   sli_center_terms terms;
   sl_int first = 0, at = 0, root, m, j, k, lane;
   terms.count = F->null.is_centered ? sli_center_count(F) : 0;
-  for (root = 0; root < y->R->count; root++) {
+  for (root = 0; root < y.R->count && listed > 0; root++) {
     sli_tree_range tree;
-    if (y->R->steps[root].up != -1) {
+    if (y.R->steps[root].up != -1) {
       continue;
     }
-    tree = sli_tree_range_of(F->S, &y->R->steps[root]);
+    tree = sli_tree_range_of(F->S, &y.R->steps[root]);
     m = sli_lower_bound(list, listed, tree.first);
     if (m < listed && list[m] <= tree.root &&
         (uses == NULL || uses[sli_lower_bound(F->null.pivots, F->null.count, list[m])] == 0)) {
       j = is_one ? sli_reach_index_of(to, list[m]) : -1;
-      for (lane = 0, k = at; lane < y->lanes; lane += SLI_TILE) {
-        sli_center_tree_terms(F, y, lane, first, root, m, &terms);
+      for (lane = 0, k = at; lane < y.lanes; lane += SLI_TILE) {
+        sli_center_tree_terms(F, &y, lane, first, root, m, &terms);
         if (!is_one) {
-          sli_center_clear(F, x, lane, m, tree.root);
+          sli_center_clear(F, &x, lane, m, tree.root);
         }
         for (k = at; k < to->count && to->steps[k].column <= tree.root; k++) {
           if (to->steps[k].column >= tree.first) {
-            sli_center_step(F, x, lane, &to->steps[k], &terms);
+            sli_center_step(F, &x, lane, &to->steps[k], &terms);
           }
         }
         if (j != -1) {
-          SLI_COPY(sli_packed_row(x, j) + lane, terms.t, sli_min(x->lanes, SLI_TILE));
+          SLI_COPY(sli_packed_row(&x, j) + lane, terms.t, sli_min(x.lanes, SLI_TILE));
         }
       }
       at = k;
@@ -18611,28 +18110,13 @@ static sl_status sli_null_finish(sl_factor *F, const sli_source *from, sli_failu
   return failure->status;
 }
 
-static int sli_nulls_remain(const sl_factor *F) {
-  sl_int m, k;
-  for (k = 0; F->null.vectors > 1 && k < F->S->n; k++) {
-    if (F->rule.kinds[k] == SLI_PIVOT_NULL && !sli_is_skipped(F, k)) {
-      return 0;
-    }
-  }
-  for (m = 0; m < F->null.count; m++) {
-    if (F->rule.kinds[F->null.pivots[m]] >= SLI_PIVOT_KEPT) {
-      return 0;
-    }
-  }
-  return 1;
-}
-
 static const sli_singular sli_singular_calls = {
   sli_null_layout, sli_null_layout_scratch,
   sli_null_fill, sli_null_vectors_check,
-  sli_null_finish, sli_nulls_remain,
-  sli_null_load, sli_null_forward,
-  sli_null_check, sli_center,
-  sli_norms, sli_null_dot_next,
+  sli_null_finish, sli_null_load,
+  sli_null_forward, sli_null_check,
+  sli_center, sli_norms,
+  sli_null_dot_next,
 };
 
 #endif
@@ -24990,6 +24474,21 @@ static sli_kept sli_kept_of(const sl_factor *F, const sl_int *from, const sl_int
 
 /* src/impl/change/reached.h: refactors after local changes: keeps the supernodes that they do not reach */
 
+static int sli_nulls_remain(const sl_factor *F) {
+  sl_int m, k;
+  for (k = 0; F->null.vectors > 1 && k < F->S->n; k++) {
+    if (F->rule.kinds[k] == SLI_PIVOT_NULL && !sli_is_skipped(F, k)) {
+      return 0;
+    }
+  }
+  for (m = 0; m < F->null.count; m++) {
+    if (F->rule.kinds[F->null.pivots[m]] >= SLI_PIVOT_KEPT) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
 static void sli_reached_mark(const sl_symbolic *S, sl_int *from, sl_int k) {
   sl_int s;
   for (s = S->super_of[k]; s != -1 && from[s] != -1; s = S->super_parent[s]) {
@@ -25002,7 +24501,7 @@ static sl_status sli_reached_numbers(sl_factor *F, const sli_kept *p, const sli_
   sli_failure failure;
   SLI_CLEAR(failure);
   if (sli_skips_nulls(F) && F->null.calls->prepare(F, from, &failure) == SL_OK &&
-      !F->null.calls->remain(F)) {
+      !sli_nulls_remain(F)) {
     return sli_factor_numbers(F, from, started, stats);
   }
   if (failure.status == SL_OK) {
@@ -27806,43 +27305,12 @@ static void sli_constraints_drop(sl_constraints *P, sl_int index) {
   sli_constraints_remove(P, index);
 }
 
-SL_API sl_status sl_constraints_add_equality(sl_constraints *P, const sl_int *rows,
+static sl_status sli_constraints_check_rows(const sl_constraints *P, const sl_int *rows,
     const double *values, sl_int count, sl_stats *stats) {
-  const double started = stats == NULL ? 0.0 : sli_seconds();
-  const sli_equality e = sli_equality_of(rows, values, count);
-  sl_status status;
   sl_int k;
-  sli_stats_clear_error(stats);
-  status = sli_argument(P == NULL ? "P is NULL"
-      : count < 1 ? "count is below 1"
-      : rows == NULL ? "rows is NULL"
-      : values == NULL ? "values is NULL"
-      : NULL);
-  status = status == SL_OK ? sli_constraints_are_current(P) : status;
-  if (status != SL_OK) {
-    return sli_report(stats, status);
-  }
-  for (k = 0; k < count; k++) {
-    if (!sli_is_finite(values[k])) {
-      return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k],
-          "a value of the equality is not finite");
-    }
-  }
-  status = sli_constraints_push(P, &e, stats);
-  if (status == SL_OK) {
-    sli_constraints_report(P, started, stats);
-  }
-  return sli_report(stats, status);
-}
-
-SL_API sl_status sl_constraints_add(sl_constraints *P, const sl_int *rows, sl_int count,
-    sl_stats *stats) {
-  const double started = stats == NULL ? 0.0 : sli_seconds();
-  sl_status status;
-  sl_int k;
-  sli_stats_clear_error(stats);
-  status = sli_argument(P == NULL ? "P is NULL"
+  sl_status status = sli_argument(P == NULL ? "P is NULL"
       : count < 0 ? "count is below 0"
+      : count == 0 && values != NULL ? "an equality has no rows"
       : count > 0 && rows == NULL ? "rows is NULL"
       : NULL);
   status = status == SL_OK ? sli_constraints_are_current(P) : status;
@@ -27853,8 +27321,25 @@ SL_API sl_status sl_constraints_add(sl_constraints *P, const sl_int *rows, sl_in
     if (rows[k] < 0 || rows[k] >= P->F->S->n) {
       return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0, "a row is out of range");
     }
+    if (values != NULL && !sli_is_finite(values[k])) {
+      return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k],
+          "a value of the equality is not finite");
+    }
   }
-  status = status == SL_OK ? sli_constraints_push_rows(P, rows, count, stats) : status;
+  return status;
+}
+
+SL_API sl_status sl_constraints_add(sl_constraints *P, const sl_int *rows, const double *values,
+    sl_int count, sl_stats *stats) {
+  const double started = stats == NULL ? 0.0 : sli_seconds();
+  const sli_equality e = sli_equality_of(rows, values, count);
+  sl_status status;
+  sli_stats_clear_error(stats);
+  status = sli_constraints_check_rows(P, rows, values, count, stats);
+  if (status == SL_OK) {
+    status = values == NULL ? sli_constraints_push_rows(P, rows, count, stats)
+                : sli_constraints_push(P, &e, stats);
+  }
   if (status == SL_OK) {
     sli_constraints_report(P, started, stats);
   }
@@ -28146,9 +27631,7 @@ SLI_HOT static sl_status sli_constraints_block(sli_constraints_solve *w) {
     sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
   }
   if (F->null.is_centered) {
-    const sli_packed y = sli_packed_of(&q->forward, v.y, lanes);
-    const sli_packed x = sli_packed_of(&q->backward, v.x, lanes);
-    F->null.calls->center(F, &y, &x, P->uses);
+    F->null.calls->center(F, q, &v, lanes, P->uses);
   }
   sli_backward(F, &q->backward, kind, v.x, v.scratch);
   sli_constraints_shift(P, q, &w->nulls, v.x, lanes);
@@ -35760,73 +35243,44 @@ static const char *sli_singular_missing(const sl_options *opt) {
 
 #endif
 
-/* last: undefine every internal macro */
-/* src/impl/base/undef.h: undefines every internal macro */
-#undef SLI_SELF_INCLUSION
+/* last: internal macros are undefined */
 #undef SLI_METIS
 #undef SLI_GNU
-#undef SLI_WINDOWS
-#undef SLI_THREAD_LOCAL
-#undef SLI_FNMA1
-#undef SLI_PIN
-#undef SLI_PIN_ANY
 #undef SLI_X86
-#undef SLI_OSXSAVE
 #undef SLI_ARM
-#undef SLI_AVX512
+#undef SLI_BIG_ENDIAN
+#undef SLI_HUGE_PAGES
+#undef SLI_POPULATE
+#undef SLI_FSYNC
+#undef SLI_USLEEP
+#undef SLI_THREAD_LOCAL
+#undef SLI_POSIX
+#undef SLI_MMAP
+#undef SLI_WINDOWS
+#undef SLI_MAP_VIEW
 #undef SLI_INLINE
 #undef SLI_ALWAYS_INLINE
 #undef SLI_NOINLINE
 #undef SLI_COLD
 #undef SLI_HOT
 #undef SLI_TARGET
-#undef SLI_UNROLL
-#undef SLI_KEEP_CALL
 #undef SLI_ALIGNED
 #undef SLI_AT_LINE
 #undef SLI_PREFETCH
+#undef SLI_KEEP_CALL
+#undef SLI_UNROLL
+#undef SLI_FNMA1
+#undef SLI_PIN
+#undef SLI_PIN_ANY
 #undef SLI_SPIN
 #undef SLI_ATOMIC
-#undef SLI_USLEEP
-#undef SLI_WORKER_FLOPS
-#undef SLI_SMALL_TASKS
-#undef SLI_SPAWNED_MAX
-#undef SLI_TEAM_MAX
-#undef SLI_SHARES
-#undef SLI_SHARES_MAX
-#undef SLI_SHARES_FROM
-#undef SLI_BORDERS_FIRST
-#undef SLI_BORDERS_RANGE
-#undef SLI_BORDERS_CHUNKS
-#undef SLI_DISSECT_TASKS
-#undef SLI_SEPTREE_NODES
-#undef SLI_SOLVE_ENTRIES
-#undef SLI_SOLVE_GAIN
-#undef SLI_SOLVE_ROWS
-#undef SLI_SOLVE_SHARE
-#undef SLI_SOLVE_SLOT
-#undef SLI_SOLVE_TASKS
-#undef SLI_ASYMMETRY_MOST
+#undef SLI_CLEAR
+#undef SLI_ZERO
+#undef SLI_COPY
 #undef SLI_ASSERT
-#undef SLI_HASH_STRIPE
-#undef SLI_HASH_1
-#undef SLI_HASH_2
-#undef SLI_HASH_3
-#undef SLI_HASH_4
 #undef SLI_ROWS_MAX
+#undef SLI_CLOCK_ENTRIES
 #undef SLI_ALIGN
-#undef SLI_HUGE_PAGES
-#undef SLI_POPULATE
-#undef SLI_POSIX
-#undef SLI_BIG_ENDIAN
-#undef SLI_MMAP
-#undef SLI_MAP_VIEW
-#undef SLI_FSYNC
-#undef SLI_READ_VERSION
-#undef SLI_WRITE_VERSION
-#undef SLI_ORDER_MARK
-#undef SLI_ORDER_MARK_SWAPPED
-#undef SLI_SECTIONS_MAX
 #undef SLI_HUGE_BLOCK
 #undef SLI_PAGE
 #undef SLI_SMALL_PAGE
@@ -35835,33 +35289,55 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_TAKE
 #undef SLI_TAKE_INLINE
 #undef SLI_CUT
-#undef SLI_CLEAR
-#undef SLI_ZERO
-#undef SLI_COPY
+#undef SLI_HASH_STRIPE
+#undef SLI_HASH_1
+#undef SLI_HASH_2
+#undef SLI_HASH_3
+#undef SLI_HASH_4
 #undef SLI_SORT_SMALL
+#undef SLI_SMALL_TASKS
+#undef SLI_WORKER_FLOPS
+#undef SLI_SPAWNED_MAX
+#undef SLI_TEAM_MAX
 #undef SLI_TILE
-#undef SLI_CASE
-#undef SLI_CASES
 #undef SLI_PREFETCH_DISTANCE
 #undef SLI_STEPS_AHEAD
 #undef SLI_ROWS_FETCHED
 #undef SLI_FETCHED_BYTES
-#undef SLI_ROUND_PLAIN
+#undef SLI_NULL_PIVOT
+#undef SLI_NULL_MOST
+#undef SLI_GROUP_TILES
+#undef SLI_CHUNK_COLUMNS
+#undef SLI_ASSEMBLE_DISTANCE
+#undef SLI_FRONT_RECIPROCALS
 #undef SLI_EACH4
 #undef SLI_EACH8
-#undef SLI_IS_IN
 #undef SLI_EACH4_AGAIN
 #undef SLI_EACH8_AGAIN
-#undef SLI_EACH_ARRAY
-#undef SLI_EACH_ARRAY_AGAIN
 #undef SLI_HIGH4
 #undef SLI_HIGH8
 #undef SLI_LOW4
 #undef SLI_LOW8
+#undef SLI_IS_IN
+#undef SLI_CASE
+#undef SLI_CASES
+#undef SLI_EXPAND_PLAIN
+#undef SLI_EXPAND_ADD_PLAIN
+#undef SLI_LOOP
+#undef SLI_EACH_ARRAY
+#undef SLI_EACH_ARRAY_AGAIN
 #undef SLI_PASTE
 #undef SLI_BY_TYPE
 #undef SLI_VALUE_0
 #undef SLI_VALUE_1
+#undef SLI_SWEEP_0
+#undef SLI_SWEEP_1
+#undef SLI_FRONT_0
+#undef SLI_FRONT_1
+#undef SLI_WIDE_0
+#undef SLI_WIDE_1
+#undef SLI_WIDEN_0
+#undef SLI_WIDEN_1
 #undef SLI_OF_0
 #undef SLI_OF_1
 #undef SLI_LEAST_0
@@ -35872,137 +35348,64 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_PIVOT_1
 #undef SLI_PACK_PAIRS_0
 #undef SLI_PACK_PAIRS_1
-#undef SLI_SWEEP_0
-#undef SLI_SWEEP_1
-#undef SLI_FRONT_0
-#undef SLI_FRONT_1
-#undef SLI_WIDE_0
-#undef SLI_WIDE_1
-#undef SLI_WIDEN_0
-#undef SLI_WIDEN_1
-#undef SLI_LOOP
-#undef SLI_ISAS
-#undef SLI_TABLES
-#undef SLI_ISA_TABLES
-#undef SLI_STORAGE_TABLES
-#undef SLI_SIMD
-#undef SLV_PARTS
-#undef SLV_FRONT
-#undef SLV_FRONT_PIVOTS
 #undef SLV_VALUE
 #undef SLV_OF
 #undef SLV_LEAST
 #undef SLV_MOST
 #undef SLV_PIVOT
 #undef SLV_PACK_PAIRS
+#undef SLV_PARTS
+#undef SLV_FRONT
+#undef SLV_FRONT_PIVOTS
 #undef SLV_SWEEP
-#undef SLV_SWEEP_2
 #undef SLV_SWEEP_SMALL
+#undef SLV_SWEEP_2
 #undef SLW_SWEEP
 #undef SLW_SWEEP_HALF
 #undef SLV_READ
 #undef SLV_PREFETCH
 #undef SLV_WIDE
 #undef SLV_WIDEN
-#undef SLI_EXPAND_PLAIN
-#undef SLI_EXPAND_ADD_PLAIN
-#undef SLI_GROUP_TILES
-#undef SLI_ASSEMBLE_DISTANCE
-#undef SLI_CHUNK_COLUMNS
-#undef SLI_FRONT_RECIPROCALS
-#undef SLI_PIVOT_THRESHOLD
-#undef SLI_ORDER_ND_FLOPS
-#undef SLI_ORDER_ND_SAVES
-#undef SLI_ANALYSIS_FLOPS
-#undef SLI_ANALYSIS_ROOM
+#undef SLI_SELF_INCLUSION
+#undef SLI_AVX512
+#undef SLI_OSXSAVE
+#undef SLI_ISAS
+#undef SLI_TABLES
+#undef SLI_ISA_TABLES
+#undef SLI_SIMD
+#undef SLI_STORAGE_TABLES
+#undef SLI_PRODUCT_COLUMNS
 #undef SLI_ENTRY
-#undef SLI_GROWTH_LIMIT
-#undef SLI_GROWTH_LIMIT_FLOAT
-#undef SLI_ENTRIES_AHEAD
-#undef SLI_SINGLE_MOST
-#undef SLI_SINGLE_LEAST
-#undef SLI_ROUNDING_ERROR
-#undef SLI_NULL_PIVOT
-#undef SLI_JUDGE_RANDOM
-#undef SLI_JUDGE_BIASED
-#undef SLI_JUDGE_ALIKE
-#undef SLI_JUDGE_FEW
-#undef SLI_JUDGE_READS
-#undef SLI_NULL_MOST
-#undef SLI_SUSPECT_ROW
-#undef SLI_INVERSE_GROUP
-#undef SLI_INVERSE_ROW
-#undef SLI_INVERSE_COLUMNS
-#undef SLI_INVERSE_PHASES
-#undef SLI_PANEL_AHEAD
-#undef SLI_TASKS_PER_WORKER
-#undef SLI_SHARED_FLOPS
-#undef SLI_FRONT_COST
-#undef SLI_BUNDLE_FLOPS
-#undef SLI_WORTHWHILE
-#undef SLI_SUM_ENTRIES
-#undef SLI_ROWS_AHEAD
-#undef SLI_EDIT_AHEAD
-#undef SLI_EDIT_MOST_ACTIVE
-#undef SLI_EDIT_LAST
-#undef SLI_EDIT_LAYERS
-#undef SLI_EDIT_LEAST
-#undef SLI_EDIT_SHARE
-#undef SLI_EDIT_DUE
-#undef SLI_REUSE_FLOP
-#undef SLI_REUSE_FRONT
-#undef SLI_REUSE_SUPER
-#undef SLI_REUSE_SAMPLE
-#undef SLI_REUSE_SAMPLED
-#undef SLI_REUSE_MOST
-#undef SLI_REUSE_MOST_OF_SAMPLE
-#undef SLI_REUSE_UNKNOWN
-#undef SLI_REUSE_ENTRY
-#undef SLI_REUSE_SHARE
-#undef SLI_MARK_BEGIN
-#undef SLI_NEIGHBORHOOD_PAIRS
-#undef SLI_WIDE_DEGREE
-#undef SLI_BLOCK_MOST
-#undef SLI_BLOCK_SINGULAR
-#undef SLI_PACK_CHUNK
-#undef SLI_STREAMED
-#undef SLI_TEMPORARY_NAMES
-#undef SLI_TEMPORARY_SUFFIX
-#undef SLI_UNNAMED_FILES
-#undef SLI_FILE_NAME_MAX
-#undef SLI_HERE
-#undef SLI_FOLLOW
-#undef SLI_TOKEN_MAX
-#undef SLI_THIN_WIDTH
-#undef SLI_THIN_LONG
-#undef SLI_THIN_NARROW
-#undef SLI_THIN_DEGREE
-#undef SLI_THIN_EVEN
-#undef SLI_THIN_ASPECT
-#undef SLI_THIN_LEAF_MIN
-#undef SLI_THIN_LEAF_MAX
-#undef SLI_LINE_MAX
-#undef SLI_ENTRIES_FIRST
-#undef SLI_POINT_MAX
-#undef SLI_COARSEN_STALL
+#undef SLI_PEEL_SHARE
+#undef SLI_PEEL_SEARCH
+#undef SLI_PEEL_LEAVES
+#undef SLI_PEEL_ENDS
 #undef SLI_LEVELS_MAX
-#undef SLI_LEVELS_MOST
-#undef SLI_MERGED
-#undef SLI_MERGE_MOST
-#undef SLI_LEVELS_TRY
+#undef SLI_HUB_TIMES
+#undef SLI_HUB_LEAST
+#undef SLI_HUB_SHARE
+#undef SLI_HUB_EDGES
+#undef SLI_SHARES
+#undef SLI_SHARES_FROM
+#undef SLI_SHARES_MAX
+#undef SLI_CONTRACT_BITS
+#undef SLI_COARSEN_STALL
+#undef SLI_WIDE_DEGREE
+#undef SLI_NEIGHBORHOOD_PAIRS
+#undef SLI_BALL_PAIRS
+#undef SLI_PATCH_WEIGHT
+#undef SLI_PATCH_DEGREE
+#undef SLI_PATCH_EVEN
+#undef SLI_BORDERS_FIRST
+#undef SLI_BORDERS_RANGE
+#undef SLI_BORDERS_CHUNKS
 #undef SLI_BAND_SHARE
 #undef SLI_BISECT_BALANCE
 #undef SLI_FLOW_VISITS
-#undef SLI_MARKS_BEGIN
 #undef SLI_MINDEG_MAX
 #undef SLI_MINDEG_ELIMINATED
-#undef SLI_CLOCK_ENTRIES
-#undef SLI_SMALL_ROWS
-#undef SLI_SMALL_WORDS
-#undef SLI_SMALL_ROWS_ONE_FACTOR
-#undef SLI_SMALL_DEGREE
+#undef SLI_DISSECT_TASKS
 #undef SLI_DISSECT_LEAF
-#undef SLI_DISSECT_SMALL
 #undef SLI_DISSECT_BISECT_MIN
 #undef SLI_DISSECT_BISECT_MIN_VOLUME
 #undef SLI_DISSECT_SHRINK
@@ -36012,112 +35415,177 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_DISSECT_FIRST
 #undef SLI_DISSECT_TRIES_FIRST
 #undef SLI_DISSECT_TRIES
-#undef SLI_BALL_PAIRS
-#undef SLI_PATCH_DEGREE
-#undef SLI_PATCH_EVEN
-#undef SLI_PATCH_WEIGHT
-#undef SLI_CONTRACT_BITS
+#undef SLI_DISSECT_SMALL
 #undef SLI_DISSECT_LAYERS
 #undef SLI_DISSECT_BAND_FROM
 #undef SLI_SEPARATOR_BALANCE
-#undef SLI_HUB_EDGES
-#undef SLI_HUB_LEAST
-#undef SLI_HUB_SHARE
-#undef SLI_HUB_TIMES
+#undef SLI_LEVELSET_BALANCE
 #undef SLI_ND_RESPLITS
 #undef SLI_ND_THIN
 #undef SLI_ND_THIN_LEAF
-#undef SLI_PEEL_SHARE
-#undef SLI_PEEL_SEARCH
-#undef SLI_PEEL_LEAVES
-#undef SLI_PEEL_ENDS
+#undef SLI_SEPTREE_NODES
 #undef SLI_COMPRESS_SHARE
+#undef SLI_COMPRESS_SAMPLE
+#undef SLI_LEVELS_MOST
+#undef SLI_LEVELS_TRY
+#undef SLI_MARKS_BEGIN
+#undef SLI_QUOTIENT_LONG
 #undef SLI_CUTS_FILL
+#undef SLI_ORDER_ND_FLOPS
+#undef SLI_ORDER_ND_SAVES
 #undef SLI_CUTS_LEAF
 #undef SLI_CUTS_SIDE
-#undef SLI_QUOTIENT_LONG
-#undef SLI_COMPRESS_SAMPLE
-#undef SLI_LEVELSET_BALANCE
-#undef SLI_REACH_WALK
-#undef SLI_LANES_MAX
-#undef SLI_BLOCK_REQUESTS_MAX
-#undef SLI_BLOCK_KEPT
-#undef SLI_LOSS_LIMIT
-#undef SLI_LOSS_REFUSED
-#undef SLI_REGION_COLUMNS
-#undef SLI_REGION_PASSES
-#undef SLI_REGION_DETOUR
-#undef SLI_SORTED_CHILDREN
-#undef SLI_SORTED_LEAF
-#undef SLI_SORTED_ROWS
+#undef SLI_MERGED
+#undef SLI_MERGE_MOST
 #undef SLI_ZEROS_MOST
-#undef SLI_ZEROS_MOST_LARGE
-#undef SLI_ZEROS_MOST_COLUMN
 #undef SLI_LARGE_ENTRIES
 #undef SLI_LARGE_COLUMN
-#undef SLI_COST_PLAIN
-#undef SLI_COST_PLAIN_ROW
-#undef SLI_COST_TURN
+#undef SLI_ZEROS_MOST_LARGE
+#undef SLI_ZEROS_MOST_COLUMN
 #undef SLI_COST_ROW
 #undef SLI_COST_SUPER
 #undef SLI_COST_WIDE
 #undef SLI_COST_SUPER_ONE_FACTOR
 #undef SLI_COST_WIDE_ONE_FACTOR
-#undef SLI_UPDATE_COLUMNS
-#undef SLI_RANK_LOGGED
-#undef SLI_PATH_CACHED
+#undef SLI_COST_PLAIN
+#undef SLI_COST_PLAIN_ROW
+#undef SLI_COST_TURN
+#undef SLI_SORTED_CHILDREN
+#undef SLI_SORTED_ROWS
+#undef SLI_SORTED_LEAF
+#undef SLI_ANALYSIS_ROOM
+#undef SLI_SHARED_FLOPS
+#undef SLI_BUNDLE_FLOPS
+#undef SLI_WORTHWHILE
+#undef SLI_TASKS_PER_WORKER
+#undef SLI_FRONT_COST
+#undef SLI_ANALYSIS_FLOPS
+#undef SLI_REACH_WALK
+#undef SLI_NULL_VECTORS_MAX
+#undef SLI_NULL_DEPENDENT
+#undef SLI_CHANGE_DRIFT
+#undef SLI_ENTRIES_AHEAD
+#undef SLI_MARK_BEGIN
+#undef SLI_SUM_ENTRIES
+#undef SLI_SUSPECT_ROW
+#undef SLI_DOUBLE_FRONTS
+#undef SLI_GROWTH_LIMIT
+#undef SLI_GROWTH_LIMIT_FLOAT
+#undef SLI_JUDGE_RANDOM
+#undef SLI_JUDGE_BIASED
+#undef SLI_JUDGE_ALIKE
+#undef SLI_JUDGE_FEW
+#undef SLI_JUDGE_READS
+#undef SLI_ASYMMETRY_MOST
+#undef SLI_BLOCK_MOST
+#undef SLI_BLOCK_SINGULAR
+#undef SLI_ROWS_AHEAD
+#undef SLI_PACK_CHUNK
+#undef SLI_STREAMED
+#undef SLI_FOR_LANES
+#undef SLI_SOLVE_ENTRIES
+#undef SLI_SOLVE_GAIN
+#undef SLI_SOLVE_SLOT
+#undef SLI_SOLVE_TASKS
+#undef SLI_SOLVE_ROWS
+#undef SLI_SOLVE_SHARE
+#undef SLI_NULL_ANCHOR
+#undef SLI_ROUNDING_ERROR
+#undef SLI_POWER_STEPS
+#undef SLI_INVERSE_STEPS
+#undef SLI_OTHER_ROUNDINGS
+#undef SLI_PROBES
+#undef SLI_PROBE_TURNS
+#undef SLI_PROBE_SAFETY
+#undef SLI_ETA_MOST
+#undef SLI_JOINT_NULL
+#undef SLI_JOINT_CENTERED
+#undef SLI_NORM_FLOOR
+#undef SLI_SQUARE_LEAST
+#undef SLI_PIVOT_THRESHOLD
+#undef SLI_ROUND_PLAIN
+#undef SLI_SINGLE_MOST
+#undef SLI_SINGLE_LEAST
+#undef SLI_INVERSE_GROUP
+#undef SLI_INVERSE_COLUMNS
+#undef SLI_INVERSE_ROW
+#undef SLI_INVERSE_PHASES
+#undef SLI_PANEL_AHEAD
+#undef SLI_PAIR_CACHED
+#undef SLI_PAIR_READ
+#undef SLI_PAIR_LARGE
 #undef SLI_CHANGE_ENTRY
+#undef SLI_CHANGE_HIDDEN
+#undef SLI_CHANGE_PIVOT
+#undef SLI_CHANGE_FRONT
+#undef SLI_CHANGE_VISIT
+#undef SLI_CHANGE_INPUT
 #undef SLI_CHANGE_PATH
 #undef SLI_CHANGE_PASS
 #undef SLI_CHANGE_SPLIT
 #undef SLI_CHANGE_GAINS
 #undef SLI_CHANGE_LOG
 #undef SLI_CHANGE_TRIAL
-#undef SLI_CHANGE_HIDDEN
-#undef SLI_CHANGE_PIVOT
-#undef SLI_CHANGE_FRONT
-#undef SLI_CHANGE_VISIT
-#undef SLI_CHANGE_INPUT
-#undef SLI_CHANGE_DRIFT
-#undef SLI_LATTICE_DEGREES
-#undef SLI_LATTICE_SHARE
-#undef SLI_NULL_ANCHOR
-#undef SLI_NULL_DEPENDENT
-#undef SLI_CONSTRAINTS_SINGLY
-#undef SLI_RANK_LARGE
-#undef SLI_RANK_RING
-#undef SLI_RANK_SMALL
-#undef SLI_EDGES_HEAVY
-#undef SLI_LOSS_SMALL
-#undef SLI_PAIR_CACHED
-#undef SLI_PAIR_READ
-#undef SLI_PAIR_LARGE
+#undef SLI_REUSE_FLOP
+#undef SLI_REUSE_FRONT
+#undef SLI_REUSE_SUPER
+#undef SLI_REUSE_ENTRY
+#undef SLI_LANES_MAX
+#undef SLI_BLOCK_REQUESTS_MAX
+#undef SLI_LOSS_LIMIT
+#undef SLI_LOSS_REFUSED
 #undef SLI_SWEEP_FLOPS
+#undef SLI_BLOCK_KEPT
+#undef SLI_REGION_COLUMNS
+#undef SLI_REGION_PASSES
+#undef SLI_REGION_DETOUR
+#undef SLI_LOSS_SMALL
+#undef SLI_UPDATE_COLUMNS
+#undef SLI_PATH_CACHED
+#undef SLI_RANK_LOGGED
+#undef SLI_RANK_LARGE
+#undef SLI_RANK_SMALL
+#undef SLI_RANK_RING
+#undef SLI_EDGES_HEAVY
+#undef SLI_CONSTRAINTS_SINGLY
 #undef SLI_CONSTRAINTS_LOST
-#undef SLI_NULL_VECTORS_MAX
-#undef SLI_FOR_LANES
-#undef SLI_READ_VERSION_DOUBLE
-#undef SLI_RESTRICT_AHEAD
-#undef SLI_RESTRICT_IN_PLACE
-#undef SLI_RESTRICT_KEPT
-#undef SLI_RESTRICT_MANY
 #undef SLI_SUBSET_BITS
 #undef SLI_SUBSET_WORDS
 #undef SLI_SUBSET_AHEAD
-#undef SLI_PROBES
-#undef SLI_PROBE_TURNS
-#undef SLI_PROBE_SAFETY
-#undef SLI_ETA_MOST
-#undef SLI_POWER_STEPS
-#undef SLI_INVERSE_STEPS
-#undef SLI_OTHER_ROUNDINGS
-#undef SLI_JOINT_NULL
-#undef SLI_JOINT_CENTERED
-#undef SLI_NORM_FLOOR
-#undef SLI_DOUBLE_FRONTS
-#undef SLI_SQUARE_LEAST
+#undef SLI_RESTRICT_KEPT
+#undef SLI_RESTRICT_AHEAD
+#undef SLI_RESTRICT_MANY
+#undef SLI_RESTRICT_IN_PLACE
+#undef SLI_EDIT_LAYERS
+#undef SLI_EDIT_AHEAD
+#undef SLI_EDIT_LAST
+#undef SLI_EDIT_SHARE
+#undef SLI_EDIT_LEAST
+#undef SLI_EDIT_MOST_ACTIVE
+#undef SLI_EDIT_DUE
+#undef SLI_REUSE_SHARE
+#undef SLI_REUSE_SAMPLE
+#undef SLI_REUSE_SAMPLED
+#undef SLI_REUSE_MOST_OF_SAMPLE
+#undef SLI_REUSE_MOST
+#undef SLI_REUSE_UNKNOWN
+#undef SLI_TEMPORARY_NAMES
+#undef SLI_TEMPORARY_SUFFIX
+#undef SLI_UNNAMED_FILES
+#undef SLI_FILE_NAME_MAX
+#undef SLI_HERE
+#undef SLI_FOLLOW
+#undef SLI_TOKEN_MAX
+#undef SLI_POINT_MAX
+#undef SLI_LINE_MAX
+#undef SLI_ENTRIES_FIRST
+#undef SLI_READ_VERSION
+#undef SLI_READ_VERSION_DOUBLE
+#undef SLI_WRITE_VERSION
 #undef SLI_WRITE_VERSION_PLAIN
-#undef SLI_PRODUCT_COLUMNS
+#undef SLI_ORDER_MARK
+#undef SLI_ORDER_MARK_SWAPPED
+#undef SLI_SECTIONS_MAX
 #endif
 
 /* templates: the header includes them from itself, once for each instruction set */

@@ -109,11 +109,9 @@ extern "C" {
 #include "impl/ordering/bisect.h"
 #include "impl/ordering/separator.h"
 #include "impl/ordering/mindeg.h"
-#include "impl/ordering/small.h"
 #include "impl/ordering/dissection.h"
 #include "impl/ordering/dissect.h"
 #include "impl/ordering/levelset.h"
-#include "impl/ordering/thin.h"
 #include "impl/ordering/nd.h"
 #include "impl/ordering/compress.h"
 #include "impl/ordering/metis.h"
@@ -308,6 +306,5 @@ extern "C" {
 /* packs: the tables through which the core calls packs */
 #include "impl/packs/storage_types.h"
 #include "impl/packs/singular_table.h"
-/* last: undefine every internal macro */
-#include "impl/base/undef.h"
+/* last: amalgamate writes an #undef of each internal macro here */
 #endif

@@ -1,6 +1,5 @@
-/* test_ordering_rare.c: what only other processors and sizes beyond memory reach, by direct calls:
- * small orders without AVX2, hubs of many edges, hierarchies that end, rows of equal keys; bands of
- * random graphs */
+/* test_ordering_rare.c: what only sizes beyond memory reach, by direct calls: hubs of many edges,
+ * hierarchies that end, rows of equal keys; bands of random graphs */
 #define SPARSE_LOCAL_IMPLEMENTATION
 #include "tests/lib/check_factor.h"
 
@@ -100,20 +99,6 @@ static void bands_of_random_graphs_end(void **state) {
     }
 }
 
-/* What is before a cut that takes the first level as a whole is no part. */
-static void parts_without_rows_are_none(void **state) {
-    (void)state;
-    sli_thin_part part[2];
-    sli_thin t;
-    memset(&t, 0, sizeof t);
-    t.part = part;
-    sli_thin_push(&t, 7, 7, 0, 5);
-    assert_int_equal(t.parts, 0);
-    sli_thin_push(&t, 7, 8, 1, 5);
-    assert_int_equal(t.parts, 1);
-    assert_int_equal(part[0].above, 5);
-}
-
 /* The cost of columns by themselves is that of their rows, unless the sum would overflow. */
 static void columns_of_too_many_rows_are_merged(void **state) {
     (void)state;
@@ -135,103 +120,14 @@ static void the_null_tolerance_has_a_limit(void **state) {
     assert_true(sli_null_tolerance(INT32_MAX, FLT_EPSILON) == 0.03125);
 }
 
-#if defined(__x86_64__) && !defined(SL_NO_SIMD) && !defined(_WIN32)
-
-/* The first row has no diagonal, and 9 neighbors more if it is `few`. */
-static gen_matrix_t without_diagonal(gen_kind_t kind, sl_int n, int is_few) {
-    gen_list_t t = gen_make(kind, n, 1, 3);
-    size_t kept = 0;
-    for (sl_int row = 2; row < 11 && is_few; row++) {
-        gen_add(&t, row, 0, 1.0);
-    }
-    for (size_t k = 0; k < t.count; k++) {
-        if (t.row[k] > 0) {
-            t.row[kept] = t.row[k];
-            t.col[kept] = t.col[k];
-            t.x[kept++] = t.x[k];
-        }
-    }
-    t.count = kept;
-    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
-    gen_list_free(&t);
-    return M;
-}
-
-/* The order of a small matrix, if it has one, by the instructions that every processor has, and by
- * AVX2 and popcnt. Returns whether there is one. */
-static int small_orders(const sl_csc *A, int is_hurried) {
-    enum { MOST = sizeof((sli_small *)0)->key / sizeof(uint32_t) };
-    static uint64_t rows[MOST * MOST / 64];
-    static sl_int column[MOST * MOST], perm[2][MOST];
-    sli_order_job job;
-    sli_small m;
-    memset(&job, 0, sizeof job);
-    job.A = A;
-    job.column = column;
-    job.triangle = SL_TRIANGLE_LOWER;
-    job.is_hurried = is_hurried;
-    m.n = A->n_cols;
-    m.floor = is_hurried ? 1 : 3;
-    m.rows = rows;
-    for (sl_int j = 0; j < m.n; j++) {
-        for (sl_int p = A->p[j]; p < A->p[j + 1]; p++) {
-            column[p] = j;
-        }
-    }
-    memset(perm, -1, sizeof perm);
-    job.perm = perm[0];
-    const int has = sli_small_run(&m, &job);
-    job.perm = perm[1];
-    assert_int_equal(has, sli_small_run_avx2(&m, &job));
-    assert_memory_equal(perm[0], perm[1], sizeof perm[0]);
-    assert_int_equal(perm[0][m.n - 1] != -1, has);
-    return has;
-}
-
-static void small_orders_on_any_processor(void **state) {
-    (void)state;
-    static const sl_int sizes[6] = {9, 30, 64, 65, 100, 256};
-    static const gen_kind_t kinds[4] = {GEN_PATH, GEN_GRID2, GEN_DENSE, GEN_STAR};
-    int found[2] = {0, 0};
-    for (int turn = 0; turn < 6 * 4 * 6 && isas_present().count > 1; turn++) {
-        const sl_int n = sizes[turn % 6];
-        const gen_kind_t kind = kinds[turn / 6 % 4];
-        const int which = turn / 24 % 3;
-        gen_matrix_t M =
-            which == 0 ? gen_matrix(kind, n, 1, 3) : without_diagonal(kind, n, which - 1);
-        found[small_orders(&M.view, turn / 72)]++;
-        gen_matrix_free(&M);
-    }
-    assert_int_equal(found[0] > 0, found[1] > 0);
-    /* a row in two has three neighbors, the others none: peeled if the first factor is hurried */
-    gen_list_t t = gen_list(100);
-    for (sl_int k = 0; k < 100; k++) {
-        for (sl_int j = k < 52 ? k / 4 * 4 : k; j <= k; j++) {
-            gen_add(&t, k, j, 1.0);
-        }
-    }
-    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
-    for (int is_hurried = 0; is_hurried < 2 && isas_present().count > 1; is_hurried++) {
-        assert_int_equal(small_orders(&M.view, is_hurried), !is_hurried);
-    }
-    gen_matrix_free(&M);
-    gen_list_free(&t);
-}
-
-#endif
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hubs_are_few_and_of_few_edges),
         cmocka_unit_test(a_hierarchy_that_does_not_shrink_ends),
         cmocka_unit_test(rows_of_equal_keys_may_differ),
         cmocka_unit_test(bands_of_random_graphs_end),
-        cmocka_unit_test(parts_without_rows_are_none),
         cmocka_unit_test(columns_of_too_many_rows_are_merged),
         cmocka_unit_test(the_null_tolerance_has_a_limit),
-#if defined(__x86_64__) && !defined(SL_NO_SIMD) && !defined(_WIN32)
-        cmocka_unit_test(small_orders_on_any_processor),
-#endif
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

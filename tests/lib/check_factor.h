@@ -224,20 +224,29 @@ static inline double *check_expand(const sl_factor *F, const char **wrong) {
  * the division. */
 static inline const char *check_product(sl_int n, const double *C, const double *L,
                                         const double *D) {
-    for (sl_int j = 0; j < n; j++) {
+    double *sum = test_reals((size_t)n), *size = test_reals((size_t)n);
+    const char *wrong = NULL;
+    for (sl_int j = 0; j < n && !wrong; j++) { /* column j of L D L' */
         for (sl_int i = j; i < n; i++) {
-            double sum = 0.0, size = 0.0;
-            for (sl_int k = 0; k <= j; k++) {
-                double term = AT(L, i, k) * D[k] * AT(L, j, k);
-                sum += term;
-                size += fabs(term);
+            sum[i] = size[i] = 0.0;
+        }
+        for (sl_int k = 0; k <= j; k++) {
+            const double factor = D[k] * AT(L, j, k);
+            for (sl_int i = j; i < n && AT(L, j, k) != 0.0; i++) {
+                const double term = AT(L, i, k) * factor;
+                sum[i] += term;
+                size[i] += fabs(term);
             }
-            if (!(fabs(AT(C, i, j) - sum) <= 4.0 * (double)n * DBL_EPSILON * size)) {
-                return "L D L' is not P A P'";
+        }
+        for (sl_int i = j; i < n; i++) {
+            if (!(fabs(AT(C, i, j) - sum[i]) <= 4.0 * (double)n * DBL_EPSILON * size[i])) {
+                wrong = "L D L' is not P A P'";
             }
         }
     }
-    return NULL;
+    free(sum);
+    free(size);
+    return wrong;
 }
 
 static inline const char *check_factor(const sl_factor *F, const sl_csc *A) {

@@ -35,6 +35,10 @@
  * and all other lines are copied as they are: no renaming, no dates. The same input gives the same
  * bytes.
  *
+ * Where the manifest has a comment that begins with "last: ", OUT undefines each macro named SLI_,
+ * SLV_, SLW_ or SLF_ that it defines and nowhere undefines, templates included: a first pass finds
+ * them. So an implementation leaves no internal macro behind.
+ *
  * A pack is what blocks of the manifest select whose condition is defined(SL_WITH_X), or several of
  * these with && and || between them. Where such a block is off, a macro for each public function
  * that it would declare turns a call into an identifier that nobody declares and that says what
@@ -105,9 +109,16 @@ static void find_packs(job *j, const char *manifest, const char *list) {
     free(implied.bytes);
 }
 
+/* Makes the body of the header. */
+static void make_body(job *j, const char *manifest, const char *undefinitions) {
+    j->undefinitions = undefinitions;
+    expand(j, manifest, 0);
+    emit_sections(j);
+}
+
 int main(int argc, char **argv) {
-    static job j;
-    text out = {NULL, 0, 0}, there = {NULL, 0, 0};
+    static job j, first;
+    text out = {NULL, 0, 0}, there = {NULL, 0, 0}, undefined = {NULL, 0, 0};
     int only_check = 0, n_args = argc - 1;
     char **args = argv + 1;
     const char *packs = NULL;
@@ -132,10 +143,13 @@ int main(int argc, char **argv) {
     slash = strrchr(args[1], '/');
     j.name = slash ? slash + 1 : args[1];
     find_packs(&j, args[0], packs);
-    expand(&j, manifest, 0);
+    first = j;
+    make_body(&first, manifest, "");
+    append_string(&undefined, "");
+    find_undefined(&undefined, &first);
+    make_body(&j, manifest, undefined.bytes);
     if (!*j.version[0] || !*j.version[1] || !*j.version[2])
         fail(args[0], 0, "no part defines SL_VERSION_*", NULL);
-    emit_sections(&j);
 
     size_t shift = banner(&out, &j, 0);
     out.length = 0;
@@ -152,6 +166,8 @@ int main(int argc, char **argv) {
         write_file(&out, args[1]);
     free(out.bytes);
     free(there.bytes);
+    free(undefined.bytes);
+    free(first.body.bytes);
     free(j.body.bytes);
     return status;
 }

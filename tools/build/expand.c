@@ -202,6 +202,12 @@ static const char *begin_part(job *j, const char *path, const char *bytes) {
 /* Emits a line that is neither an include nor left out. */
 static void emit_other(job *j, const source *s, const char *line, size_t length) {
     const int is_heading = s->depth == 0 && strncmp(line, "/*", 2) == 0;
+    if (is_heading && strncmp(line, "/* last: ", 9) == 0) {
+        enter(j, "", line);
+        emit_lines(j, "/* last: internal macros are undefined */\n");
+        emit_lines(j, j->undefinitions);
+        return;
+    }
     if (is_heading && j->is_selection) {
         j->heading.length = 0;
         append(&j->heading, line, length);

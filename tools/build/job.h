@@ -44,6 +44,8 @@ typedef struct job {
     int is_left_out;                /* the block that is open */
     text calls;                     /* public functions that it declares, one a line */
     text heading;                   /* of a selection: emitted if anything follows it */
+
+    const char *undefinitions; /* emitted where the manifest says so; empty in a first pass */
 } job;
 
 void emit(job *j, const char *line, size_t length);
@@ -82,6 +84,9 @@ void add_to_batch(job *j, const char *path);
 /* Emits the templates, each in a section of its own. Before them the header that includes itself,
  * SLI_SELF_INCLUSION, checks that SL_HEADER is not another version of it. */
 void emit_sections(job *j);
+
+/* Appends an #undef of each internal macro that the body defines and nowhere undefines. */
+void find_undefined(text *undefined, const job *j);
 
 /* Emits a file line by line. Depth 0 is the manifest, whose first line the banner replaces. */
 void expand(job *j, const char *path, int depth);

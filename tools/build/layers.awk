@@ -15,8 +15,6 @@
 #     bench/X      of tools/ and bench/lib
 # All of them include sparse_local.h, but nothing of src/.
 #
-# Each macro that impl/ defines has an #undef in src/.
-#
 # Packs: blocks of the manifest whose condition is defined(SL_WITH_X), with && and || between
 # several. SL_WITH_ is in the manifest, public/packs.h and impl/packs/ only. The core, which is
 # outside these blocks, includes no part of a pack; a part under a condition includes parts of the
@@ -92,14 +90,6 @@ part ~ /^(public|impl)\// {
         macro = $0
         sub(/^[ \t]*#[ \t]*define[ \t]+/, "", macro)
         check_name(identifier(macro))
-        if (part ~ /^impl\// && !(identifier(macro) in defined_at)) {
-            defined_at[identifier(macro)] = FNR
-            defined_in[identifier(macro)] = file
-        }
-    } else if ($0 ~ /^[ \t]*#[ \t]*undef/) {
-        macro = $0
-        sub(/^[ \t]*#[ \t]*undef[ \t]+/, "", macro)
-        undefined[identifier(macro)] = 1
     } else if (!inside_comment && !continued && $0 ~ /^[A-Za-z_}]/) {
         check_declaration($0)
     }
@@ -111,18 +101,9 @@ END {
     check_order()
     check_listed()
     check_packs()
-    check_macros()
     if (failures) print failures " violation(s)"
     else print "layers: " n_checked " files, " n_includes " includes, all in order"
     exit failures > 0
-}
-
-# Macros of the implementation do not stay behind in the user's file.
-function check_macros(name) {
-    for (name in defined_at)
-        if (name !~ /_H$/ && !(name in undefined))
-            violation_at(defined_in[name], defined_at[name], name " is never undefined", \
-                         "#undef " name " in impl/base/undef.h")
 }
 
 # ---- messages and paths ----
@@ -188,11 +169,10 @@ function include_in_src(target) {
 }
 
 # The number of a folder's layer, in the order in which the manifest names the folders.
-# impl/base has two pieces: undef.h, which is last, undefines the internal macros.
 function layer_in_manifest(dir) {
     if (dir == last_dir) return n_layers
     last_dir = dir
-    if (dir in is_layer && dir != "impl/base/")
+    if (dir in is_layer)
         violation("the manifest lists layer " dir " in two places", \
                   "list its parts one after another")
     is_layer[dir] = 1

@@ -27,7 +27,6 @@ static sl_status sli_symbolic_order(sli_symbolic_job *j, sli_team *team) {
     order.opt = j->opt;
     order.perm = w->perm;
     order.scratch = w->scratch;
-    order.bits = w->list;
     order.septree = &w->septree;
     order.choice = &w->choice;
     order.team = team;

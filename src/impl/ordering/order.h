@@ -8,7 +8,6 @@
 #include "metis.h"
 #include "nd.h"
 #include "reduce.h"
-#include "small.h"
 #include "../matrix/submatrix.h"
 #include "../base/status.h"
 
@@ -247,11 +246,6 @@ static sl_status sli_order(sli_order_job *job) {
     case SL_ORDERING_MINDEG:
         if (job->block == 1 && job->is_hurried && sli_order_forest(job)) {
             job->choice->has_tree = 1;
-            return SL_OK;
-        }
-        if (job->block == 1 && job->ordering == SL_ORDERING_ND &&
-            job->A->n_cols <= (job->is_hurried ? SLI_SMALL_ROWS_ONE_FACTOR : SLI_SMALL_ROWS) &&
-            sli_order_small(job)) {
             return SL_OK;
         }
         return sli_order_by_graph(job);
