@@ -264,7 +264,7 @@ test-no-simd: deps sparse_local.h ## tests of kernels and of choices by their co
 	@+$(SUB_MAKE) run-tests B=build/no_simd CFLAGS='-DSL_NO_SIMD $(CFLAGS)' REPLAYS= \
 	TEST_PROGRAMS='$(NO_SIMD:%=build/no_simd/tests/core/%)'
 
-THREADED = test_threads test_threads_least test_threads_solve test_ordering_threads test_batch test_batch_factor test_batch_inverse test_inverse_threads test_change_threads
+THREADED = test_threads test_threads_least test_threads_solve test_ordering_threads test_batch test_batch_factor test_inverse_threads test_change_threads
 
 test-openmp: deps sparse_local.h ## the tests of threads, with OpenMP compiled in
 	@+$(SUB_MAKE) run-tests B=build/openmp OPT='-O2 -fopenmp' REPLAYS= \

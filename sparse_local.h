@@ -1,61 +1,59 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: b1ebe4dade1c0bb9
+ * FNV-1a of the lines after this comment, without the license: 11a8d6cd5a7faf82
  * The comments of the implementation are in src/impl.
  *
  * Contents
- *     63 intro.h      what the library does, a quick start, which call for which question, references
- *    193 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    237 config.h     macros that a user may define before the include, the version, and the integer types
- *    324 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    504 options.h    options of all calls, threads, and the allocator
- *    630 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    874 csc.h        sparse matrices: creation, checks, products, residuals
- *    975 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1051 factor.h     the numerical factorization P A P' = L D L'
- *   1180 solve.h      full solves, and the workspace of all solves
- *   1276 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1352 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1442 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1535 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1574 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1675 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1755 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1841 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1934 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2041 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2083 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2205 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2236 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2418 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2521 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2632 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2673 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2759 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2847 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2924 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2967 impl/ base: the compiler, status, memory, sorting, threads
- *   4248 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5187 impl/ matrix: sparse matrices of the caller and of the library
- *   5863 impl/ ordering: fill-reducing orderings of a graph
- *  10965 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13204 impl/ factor: the numbers of L and D
- *  16617 impl/ solve: full and local solves
- *  18494 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20491 impl/ pivots: the order of the pivots by the values of a matrix
- *  20899 impl/ float: L and fronts in single precision
- *  21404 impl/ inverse: entries of the inverse, regions
- *  24503 impl/ change: a factor that follows changes of its matrix
- *  30808 impl/ fixed: rows fixed at given values
- *  31449 impl/ fixed: by a factor of all rows
- *  31683 impl/ io: files that are replaced only when they are complete
- *  31901 impl/ files: Matrix Market files, 64-bit indices
- *  32521 impl/ save: factors in files
- *  34534 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35220 impl/ batch: diagonals of many inverses
- *  35360 impl/ complex: complex Hermitian systems over real factors
- *  35860 impl/ packs: the tables through which the core calls packs
- *  35909 impl/ last: undefine every internal macro
- *  36290 impl/ templates: the header includes them from itself, once for each instruction set
+ *     61 intro.h      what the library does, a quick start, which call for which question, references
+ *    191 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    235 config.h     macros that a user may define before the include, the version, and the integer types
+ *    322 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    502 options.h    options of all calls, threads, and the allocator
+ *    628 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    872 csc.h        sparse matrices: creation, checks, products, residuals
+ *    965 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1041 factor.h     the numerical factorization P A P' = L D L'
+ *   1170 solve.h      full solves, and the workspace of all solves
+ *   1266 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1342 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1432 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1525 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1564 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1665 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1745 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1815 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1908 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2014 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2056 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2178 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2360 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2463 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2574 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2615 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2701 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2789 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2866 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2909 impl/ base: the compiler, status, memory, sorting, threads
+ *   4190 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5129 impl/ matrix: sparse matrices of the caller and of the library
+ *   5791 impl/ ordering: fill-reducing orderings of a graph
+ *  10893 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13132 impl/ factor: the numbers of L and D
+ *  16545 impl/ solve: full and local solves
+ *  18422 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20419 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20827 impl/ float: L and fronts in single precision
+ *  21332 impl/ inverse: entries of the inverse, regions
+ *  24291 impl/ change: a factor that follows changes of its matrix
+ *  30596 impl/ fixed: rows fixed at given values
+ *  31237 impl/ fixed: by a factor of all rows
+ *  31471 impl/ io: files that are replaced only when they are complete
+ *  31689 impl/ files: Matrix Market files, 64-bit indices
+ *  32309 impl/ save: factors in files
+ *  34322 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35008 impl/ complex: complex Hermitian systems over real factors
+ *  35508 impl/ packs: the tables through which the core calls packs
+ *  35557 impl/ last: undefine every internal macro
+ *  35938 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -196,7 +194,7 @@
  * many right-hand sides, for regular and for singular matrices. Define the macro of a pack before
  * every include of this header to add to it, or SL_WITH_ALL for all packs:
  *
- *  SL_WITH_INVERSE    entries of the inverse, bilinear forms, selected inversion, regions
+ *  SL_WITH_INVERSE    entries of the inverse, selected inversion, regions
  *  SL_WITH_CHANGE     changes of a factor in place, pins, factors of submatrices, edits
  *  SL_WITH_FIXED      rows fixed at given values: harmonic maps, interpolation
  *  SL_WITH_SAVE       factors, selected inverses and regions in files and in mapped memory
@@ -703,7 +701,7 @@ typedef struct sl_plan_info {
     size_t bytes;
 } sl_plan_info;
 
-/** Entries of the inverse: sl_inverse_diagonal, _pairs, _block, _bilinear. */
+/** Entries of the inverse: sl_inverse_diagonal, _pairs, _block. */
 typedef struct sl_inverse_info {
     sl_inverse_method method;
     /* SL_INVERSE_FORWARD: of the largest reach swept; SL_INVERSE_SELECTED: of the inverted part */
@@ -891,14 +889,6 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int 
                                                         const sl_int *i, const sl_int *j,
                                                         const double *x, const sl_options *opt,
                                                         sl_stats *stats);
-
-/** The transpose of a general matrix (as SL_AS_STORED). Rows are ascending; duplicates stay.
- *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MALFORMED; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(n_rows + n_cols + nnz).
- */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A,
-                                                    const sl_options *opt);
 
 /** The principal submatrix C = A[rows, rows] of a square matrix: C(k, l) = A(rows[k], rows[l]).
  *  With all rows it is a symmetric permutation P A P'.
@@ -1233,8 +1223,8 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  | sl_plan_solve_regularized         | the same, and the number of regularized rows           |
  *  | sl_selected_refactor              | the selected inverse and options.storage of F          |
  *  | sl_region_refactor                | the region, the instruction set of F, and Z            |
- *  | sl_local_solve, sl_inverse_*,     | the rows of the call, too. Fewer rows can need more:   |
- *  |  sl_batch_diagonal                | try each set of rows                                   |
+ *  | sl_local_solve, sl_inverse_*      | the rows of the call, too. Fewer rows can need more:   |
+ *  |                                   | try each set of rows                                   |
  *
  *  Each workspace of a batch needs what its largest request does. The values of A, B and X, and
  *  leading dimensions, make no difference, but for entries of the inverse of A with pivots of both
@@ -1752,7 +1742,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
 #define sl_plan_solve_bounded(...) sl_plan_solve_bounded_needs_SL_WITH_ACCURACY
 #endif
 #if defined(SL_WITH_INVERSE)
-/* src/public/inverse.h: entries, blocks and bilinear forms of the inverse, without a backward sweep */
+/* src/public/inverse.h: entries and blocks of the inverse, without a backward sweep */
 
 /* Entries come from forward sweeps, or from selected inversion where that is cheaper, as it is for
  * the whole diagonal (stats.inverse.method). Results equal those of full solves up to rounding; the
@@ -1821,22 +1811,6 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_block(const sl_factor *F, double *Z, 
                                                  const sl_int *rows, sl_int n_rows,
                                                  const sl_int *columns, sl_int n_columns,
                                                  sl_work *W, sl_stats *stats);
-
-/** A bilinear form of the inverse: out = c' A^-1 b for sparse b and c.
- *
- *  out   [out]  one value.
- *  bset  [in]   nb rows of A in 0..n-1, any order; values of a row given twice add up; b is 0 in
- *               the other rows. NULL (nb is ignored): all n.
- *  b     [in]   nb values.
- *  cset  [in]   nc rows of A, likewise.
- *  c     [in]   nc values. If sets and values of b and c are the same arrays, b' A^-1 b takes half
- *               the operations. An index out of range is error.row for cset and error.column for
- *               bset.
- */
-SL_API SL_WARN_UNUSED sl_status sl_inverse_bilinear(const sl_factor *F, double *out,
-                                                    const sl_int *bset, const double *b, sl_int nb,
-                                                    const sl_int *cset, const double *c, sl_int nc,
-                                                    sl_work *W, sl_stats *stats);
 
 /* src/public/selected.h: the selected inverse: entries of A^-1 on the pattern of L */
 
@@ -2024,7 +1998,6 @@ SL_API sl_region_arrays sl_region_view(const sl_region *R);
 #define sl_inverse_diagonal(...) sl_inverse_diagonal_needs_SL_WITH_INVERSE
 #define sl_inverse_pairs(...) sl_inverse_pairs_needs_SL_WITH_INVERSE
 #define sl_inverse_block(...) sl_inverse_block_needs_SL_WITH_INVERSE
-#define sl_inverse_bilinear(...) sl_inverse_bilinear_needs_SL_WITH_INVERSE
 #define sl_selected_create(...) sl_selected_create_needs_SL_WITH_INVERSE
 #define sl_selected_refactor(...) sl_selected_refactor_needs_SL_WITH_INVERSE
 #define sl_selected_free(...) sl_selected_free_needs_SL_WITH_INVERSE
@@ -2094,7 +2067,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
  *     const double *v[2] = {m, k};
  *     for i < count: c[2 i] = 1, c[2 i + 1] = t[i];
  *     sl_factor_create_sums(F, count, S, c, v, 2, &opt, NULL, NULL);   F[i]: the factor of M + t[i]
- *     K sl_batch_diagonal(F, count, h, n_rows, rows, n_rows, &opt, NULL, NULL, NULL);
+ *     for i < count: sl_inverse_diagonal(F[i], h + i * n_rows, rows, n_rows, W, NULL);
  *
  * A plan belongs to the analysis. It serves all of these factors, one by one or in a batch whose
  * requests name their factors.
@@ -2200,37 +2173,6 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_sums(sl_factor *const *factor
 #define sl_symbolic_scatter(...) sl_symbolic_scatter_needs_SL_WITH_BATCH
 #define sl_factor_create_sums(...) sl_factor_create_sums_needs_SL_WITH_BATCH
 #define sl_factor_refactor_sums(...) sl_factor_refactor_sums_needs_SL_WITH_BATCH
-#endif
-#if defined(SL_WITH_BATCH) && defined(SL_WITH_INVERSE)
-/* src/public/batch_diagonal.h: diagonals of the inverses of many factors by one call */
-
-/** Diagonals of several inverses: out(i, k) = (A_k^-1)(rows[i], rows[i]); the bits of
- *  sl_inverse_diagonal.
- *
- *  factors  [in]      count factors of one analysis, repetitions allowed.
- *  out      [out]     n_rows x count, leading dimension ldo >= n_rows. On error untouched.
- *  rows     [in]      n_rows rows of A, any order, repetitions allowed; NULL (n_rows is ignored):
- *                     all n.
- *  opt      [in]      threads; NULL: the calling thread only. Each thread takes whole factors.
- *  works    [in,out]  one workspace per thread, as in sl_batch_solve, or NULL: allocated for this
- *                     call.
- *  failed   [out]     the factor that caused the error, or -1; may be NULL.
- *  stats    [out]     error.row: an index out of range.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range; SL_ERR_STALE: a failed factor;
- *           SL_ERR_MISMATCH: factors of several analyses; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     that of sl_inverse_diagonal for each factor, distributed.
- *  Threads  as sl_inverse_diagonal.
- *  Source   [HDA17] 5.
- *  Example  tests/core/test_batch_inverse.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(sl_factor *const *factors, sl_int count,
-                                                  double *out, size_t ldo, const sl_int *rows,
-                                                  sl_int n_rows, const sl_options *opt,
-                                                  sl_work *const *works, sl_int *failed,
-                                                  sl_stats *stats);
-
-#else
-#define sl_batch_diagonal(...) sl_batch_diagonal_needs_SL_WITH_BATCH_and_SL_WITH_INVERSE
 #endif
 #if defined(SL_WITH_SAVE)
 /* src/public/save.h: a factor and what belongs to it in a file or in memory: saved, loaded, mapped */
@@ -5341,7 +5283,7 @@ SL_API sl_csc sl_matrix_view(const sl_matrix *M) {
   return A;
 }
 
-/* src/impl/matrix/csc_build.h: builds matrices from triplets and transposes, both by counting sorts */
+/* src/impl/matrix/csc_build.h: matrices from triplets, and transposes of patterns, both by counting sorts */
 
 static void sli_count_starts(sl_int *start, sl_int n, const sl_int *keys, sl_int count) {
   sl_int k, total = 0;
@@ -5458,29 +5400,17 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
   return sli_report(stats, sli_from_triplets(out, &t, &a));
 }
 
-SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_options *opt) {
-  const sl_allocator a = sli_allocator(opt);
-  sl_status status;
+static sl_status sli_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_allocator *a) {
   sl_int j, p;
   sl_matrix *T;
-  status = sli_begin(out);
-  status = status == SL_OK ? sli_argument(sli_options_wrong(opt, SLI_READS_NOTHING)) : status;
-  status = status == SL_OK ? sl_csc_check(A, NULL) : status;
-  if (status != SL_OK) {
-    return status;
-  }
-  status = sli_matrix_new(&T, A->n_cols, A->n_rows, sli_nnz(A), A->x != NULL, &a);
+  const sl_status status = sli_matrix_new(&T, A->n_cols, A->n_rows, sli_nnz(A), 0, a);
   if (status != SL_OK) {
     return status;
   }
   sli_count_starts(T->p, A->n_rows, A->i, sli_nnz(A));
   for (j = 0; j < A->n_cols; j++) {
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
-      const sl_int to = T->p[A->i[p]]++;
-      T->i[to] = j;
-      if (A->x != NULL) {
-        T->x[to] = A->x[p];
-      }
+      T->i[T->p[A->i[p]]++] = j;
     }
   }
   memmove(T->p + 1, T->p, (size_t)A->n_rows * sizeof(sl_int));
@@ -5513,7 +5443,7 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle found, sl_triangl
     const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
   const sl_triangle wanted = opt == NULL ? SL_TRIANGLE_NONE : opt->triangle;
-  sl_csc pattern = *A, T;
+  sl_csc T;
   sl_matrix *transpose;
   sl_int *mark;
   sl_status status = SL_OK;
@@ -5525,9 +5455,7 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle found, sl_triangl
     return SL_OK;
   }
   if (found == SL_TRIANGLE_BOTH) {
-    const sl_options only_memory = sli_options_with(&a);
-    pattern.x = NULL;
-    status = sl_matrix_transpose(&transpose, &pattern, &only_memory);
+    status = sli_matrix_transpose(&transpose, A, &a);
     if (status != SL_OK) {
       return status;
     }
@@ -22325,7 +22253,7 @@ static void sli_forward_unit_vectors(sli_forward *f, const sl_factor *F, const s
   sli_forward_run(f, F, stats);
 }
 
-/* src/impl/inverse/bilinear.h: bilinear forms c' A^-1 b: a forward sweep, then a sum over columns weighted by 1/D */
+/* src/impl/inverse/pair_sums.h: entries of the inverse from a forward sweep: sums over columns, weighted by 1/D */
 
 SLI_ALWAYS_INLINE void sli_divide_lanes(double *z, const double *y, double d, sl_int lanes) {
   const double inverse = 1.0 / d, size = fabs(inverse);
@@ -22364,146 +22292,6 @@ static void sli_inverse_clear_stats(sl_stats *stats) {
   if (stats != NULL) {
     SLI_CLEAR(stats->inverse);
   }
-}
-
-typedef struct sli_bilinear {
-  const sl_factor *F;
-  const sl_int *set[2];
-  const double *values[2];
-  sl_int count[2];
-  sl_int vectors;
-  uint64_t *seeds, *scratch;
-  sli_forward forward;
-} sli_bilinear;
-
-SLI_INLINE int sli_bilinear_is_dense(const sli_bilinear *q) {
-  return q->set[0] == NULL || q->set[1] == NULL;
-}
-
-static void sli_bilinear_layout_seeds(void *form, sli_block *b) {
-  sli_bilinear *q = (sli_bilinear *)form;
-  const uint64_t count =
-    sli_bilinear_is_dense(q) ? 0 : (uint64_t)q->count[0] + (uint64_t)q->count[1];
-  q->seeds = SLI_TAKE(b, uint64_t, count);
-  q->scratch = SLI_TAKE(b, uint64_t, count);
-}
-
-static void sli_bilinear_measure(void *form) {
-  sli_bilinear *q = (sli_bilinear *)form;
-  const sl_symbolic *S = q->F->S;
-  const sl_int nc = q->count[0], total = nc + (q->vectors == 2 ? q->count[1] : 0);
-  sl_int k;
-  if (sli_bilinear_is_dense(q)) {
-    q->forward.reach = sli_reach_all(S);
-    return;
-  }
-  for (k = 0; k < total; k++) {
-    q->seeds[k] = sli_keyed(S->iperm[k < nc ? q->set[0][k] : q->set[1][k - nc]], k);
-  }
-  sli_sort(q->seeds, total, q->scratch);
-  sli_reach_measure(S, q->seeds, total, &q->forward.reach);
-}
-
-static void sli_bilinear_layout_sweep(void *form, sli_block *b) {
-  sli_bilinear *q = (sli_bilinear *)form;
-  sli_capacity capacity = {0, 0, 0, 0};
-  sli_capacity_add(&capacity, &q->forward.reach, q->vectors);
-  if (sli_bilinear_is_dense(q)) {
-    capacity.steps = capacity.rows = 0;
-  }
-  sli_forward_layout(&q->forward, b, &capacity);
-  sli_forward_layout_run(&q->forward, b, &capacity);
-}
-
-SLI_INLINE void sli_bilinear_add(const sli_bilinear *q, sl_int column, sl_int row, sl_int lane,
-    double b) {
-  if (!sli_is_skipped(q->F, column)) {
-    q->forward.y[(ptrdiff_t)row * q->forward.lanes + lane] += b;
-  }
-}
-
-static void sli_bilinear_pack(sli_bilinear *q) {
-  const sl_symbolic *S = q->F->S;
-  sli_forward *f = &q->forward;
-  const sl_int nc = q->count[0], total = nc + (q->vectors == 2 ? q->count[1] : 0);
-  sl_int k, lane, at = 0;
-  if (!sli_bilinear_is_dense(q)) {
-    sli_reach_fill(S, q->seeds, total, f->steps, f->rows, &f->reach);
-    sli_forward_clear(f, q->vectors);
-    for (k = 0; k < total; k++) {
-      const sl_int row = sli_reach_index(&f->reach, &at, sli_key(q->seeds[k]));
-      const sl_int from = sli_value(q->seeds[k]);
-      lane = from >= nc;
-      sli_bilinear_add(q, sli_key(q->seeds[k]), row, lane, q->values[lane][from - lane * nc]);
-    }
-    return;
-  }
-  f->reach = sli_reach_all(S);
-  sli_forward_clear(f, q->vectors);
-  for (lane = 0; lane < q->vectors; lane++) {
-    for (k = 0; k < q->count[lane]; k++) {
-      const sl_int column = S->iperm[q->set[lane] == NULL ? k : q->set[lane][k]];
-      sli_bilinear_add(q, column, column, lane, q->values[lane][k]);
-    }
-  }
-}
-
-static const sli_stage sli_bilinear_stages[2] = {{sli_bilinear_layout_seeds, sli_bilinear_measure},
-                         {sli_bilinear_layout_sweep, NULL}};
-
-static sl_status sli_bilinear_run(sli_bilinear *q, double *out, sl_work *W, sl_stats *stats) {
-  const sl_int first = 0, second = q->vectors - 1;
-  const sl_status status = sli_work_stages(W, sli_bilinear_stages, 2, q);
-  if (status == SL_OK) {
-    sli_bilinear_pack(q);
-    sli_forward_run(&q->forward, q->F, stats);
-    sli_pair_sums(q->F, &q->forward, 1, &first, &second, out);
-  }
-  return status;
-}
-
-SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_int *bset,
-    const double *b, sl_int nb, const sl_int *cset,
-    const double *c, sl_int nc, sl_work *W, sl_stats *stats) {
-  sl_work own;
-  sli_bilinear q;
-  sl_status status;
-  sli_stats_clear_error(stats);
-  status = sli_argument(F == NULL ? "F is NULL" : out == NULL ? "out is NULL" : NULL);
-  if (status == SL_OK) {
-    nc = cset == NULL ? F->S->n : nc;
-    nb = bset == NULL ? F->S->n : nb;
-    status = sli_argument(nc < 0 ? "nc is below 0"
-        : nb < 0 ? "nb is below 0"
-        : nc > 0 && c == NULL ? "c is NULL"
-        : nb > 0 && b == NULL ? "b is NULL"
-        : NULL);
-  }
-  if (status == SL_OK && cset != NULL && bset != NULL && nc > INT32_MAX - nb) {
-    status = sli_refuse(SL_ERR_TOO_LARGE, "nb + nc exceeds 2^31 - 1");
-  }
-  status = status == SL_OK ? sli_check_entries(F, cset, nc, bset, nb, stats) : status;
-  if (status != SL_OK) {
-    return sli_report(stats, status);
-  }
-  sli_inverse_clear_stats(stats);
-  if (nc == 0 || nb == 0) {
-    *out = 0.0;
-    return SL_OK;
-  }
-  SLI_CLEAR(q);
-  q.F = F;
-  q.set[0] = cset;
-  q.set[1] = bset;
-  q.values[0] = c;
-  q.values[1] = b;
-  q.count[0] = nc;
-  q.count[1] = nb;
-  q.vectors = cset == bset && c == b && nc == nb ? 1 : 2;
-  own = sli_work_own(&F->allocator);
-  status = sli_bilinear_run(&q, out, W == NULL ? &own : W, stats);
-  sli_free(&own.allocator, own.block);
-  return sli_report(stats, status);
 }
 
 /* src/impl/inverse/loss.h: a bound on what entries of the inverse lose when they are computed from other entries */
@@ -35211,146 +34999,6 @@ SL_API sl_status sl_factor_refactor_sums(sl_factor *const *factors, sl_int count
   if (failed != NULL) {
     *failed = at;
   }
-  return sli_report(stats, status);
-}
-
-#endif
-/* batch: diagonals of many inverses */
-#if defined(SL_WITH_BATCH) && defined(SL_WITH_INVERSE)
-/* src/impl/batch/batch_diagonal.h: diagonals of the inverses of several factors; a worker takes whole factors */
-
-typedef struct sli_diagonal_batch {
-  sl_factor *const *factors;
-  sl_int count, workers;
-  double *out;
-  size_t ldo;
-  const sl_int *rows;
-  sl_int n_rows;
-  sl_work *const *works;
-} sli_diagonal_batch;
-
-static sli_entries sli_diagonal_batch_entries(const sli_diagonal_batch *d, sl_int k) {
-  sli_entries q =
-    sli_entries_of(d->factors[k], d->out + (size_t)k * d->ldo, d->rows, d->rows, d->n_rows);
-  q.threads = d->workers > 1 ? sli_threads_of(NULL) : q.threads;
-  return q;
-}
-
-SLI_HOT static void sli_diagonal_batch_worker(void *data, sl_int w) {
-  const sli_diagonal_batch *d = (const sli_diagonal_batch *)data;
-  sl_int k;
-  for (k = w; k < d->count; k += d->workers) {
-    sli_entries q = sli_diagonal_batch_entries(d, k);
-    const sl_status status = sli_entries_run(&q, d->works[w], NULL);
-    SLI_ASSERT(status == SL_OK);
-    (void)status;
-  }
-}
-
-static sl_status sli_diagonal_batch_check(const sli_diagonal_batch *d, sl_int *at,
-    sl_stats *stats) {
-  for (*at = 0; *at < d->count; ++*at) {
-    const sl_factor *F = d->factors[*at];
-    const sl_status status =
-      F == NULL ? sli_argument("a factor is NULL") : sli_inverse_check(F);
-    if (status != SL_OK) {
-      return status;
-    }
-    if (F->S != d->factors[0]->S) {
-      return sli_refuse(SL_ERR_MISMATCH, "factors are of different analyses");
-    }
-  }
-  *at = -1;
-  return d->count == 0 ? SL_OK : sli_check_rows(d->factors[0]->S, d->rows, d->n_rows, 0, stats);
-}
-
-static sl_status sli_diagonal_batch_reserve(const sli_diagonal_batch *d) {
-  sl_status status = SL_OK;
-  sl_int k;
-  for (k = 0; k < d->count && status == SL_OK; k++) {
-    if (k == 0 || d->factors[k]->kernels != d->factors[k - 1]->kernels || d->workers == 1 ||
-        sli_has_both_signs(d->factors[k])) {
-      sli_entries q = sli_diagonal_batch_entries(d, k);
-      status = sli_entries_prepare(&q, d->works[0]);
-    }
-  }
-  for (k = 1; k < d->workers && status == SL_OK; k++) {
-    status = sli_work_grow(d->works[k], d->works[0]->size);
-  }
-  return status;
-}
-
-static sl_status sli_diagonal_batch_run(sli_diagonal_batch *d, const sl_threads *threads) {
-  const sl_allocator *a = &d->factors[0]->allocator;
-  sl_work *own = NULL, **works = NULL;
-  sli_block b = {NULL, 0};
-  sl_status status = SL_OK;
-  sl_int w;
-  if (d->works == NULL) {
-    SLI_LAYOUT(&b, a, status) {
-      own = SLI_TAKE(&b, sl_work, d->workers);
-      works = SLI_TAKE(&b, sl_work *, d->workers);
-    }
-    if (status != SL_OK) {
-      return status;
-    }
-    for (w = 0; w < d->workers; w++) {
-      own[w] = sli_work_own(&d->factors[0]->allocator);
-      works[w] = &own[w];
-    }
-    d->works = works;
-  }
-  status = sli_diagonal_batch_reserve(d);
-  if (status == SL_OK) {
-    sli_parallel(threads, d->workers, sli_diagonal_batch_worker, d);
-  }
-  for (w = 0; w < d->workers && own != NULL; w++) {
-    sli_free(a, own[w].block);
-  }
-  sli_free(a, b.base);
-  return status;
-}
-
-SL_API sl_status sl_batch_diagonal(sl_factor *const *factors, sl_int count, double *out, size_t ldo,
-    const sl_int *rows, sl_int n_rows, const sl_options *opt,
-    sl_work *const *works, sl_int *failed, sl_stats *stats) {
-  const sl_threads *threads = sli_threads_of(opt);
-  sli_diagonal_batch d;
-  sl_status status;
-  sl_int at = -1;
-  sli_stats_clear_error(stats);
-  if (failed != NULL) {
-    *failed = -1;
-  }
-  status =
-    sli_argument(count < 0 ? "count is below 0"
-        : count > 0 && factors == NULL ? "factors is NULL"
-        : sli_options_wrong(opt, SLI_READS_NOTHING));
-  if (status != SL_OK) {
-    return sli_report(stats, status);
-  }
-  d.factors = factors;
-  d.count = count;
-  d.workers = sli_min(sli_workers(threads), count);
-  d.out = out;
-  d.ldo = ldo;
-  d.rows = rows;
-  d.n_rows = n_rows;
-  d.works = works;
-  status = sli_diagonal_batch_check(&d, &at, stats);
-  if (failed != NULL) {
-    *failed = at;
-  }
-  if (status != SL_OK || count == 0) {
-    return sli_report(stats, status);
-  }
-  n_rows = d.n_rows = rows == NULL ? factors[0]->S->n : n_rows;
-  status = sli_argument(n_rows < 0 ? "n_rows is below 0"
-      : n_rows > 0 && out == NULL ? "out is NULL"
-      : n_rows > 0 && !sli_is_ld(ldo, n_rows) ? "ldo is below n_rows"
-      : NULL);
-  status = status == SL_OK && works != NULL ? sli_check_works(works, d.workers) : status;
-  status = status == SL_OK && n_rows > 0 ? sli_diagonal_batch_run(&d, threads) : status;
   return sli_report(stats, status);
 }
 

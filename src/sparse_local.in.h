@@ -37,9 +37,6 @@ extern "C" {
 #include "public/batch.h"
 #include "public/several.h"
 #endif
-#if defined(SL_WITH_BATCH) && defined(SL_WITH_INVERSE)
-#include "public/batch_diagonal.h"
-#endif
 #if defined(SL_WITH_SAVE)
 #include "public/save.h"
 #endif
@@ -203,7 +200,7 @@ extern "C" {
 #include "impl/inverse/row_sets.h"
 #include "impl/inverse/costs.h"
 #include "impl/inverse/unit_vectors.h"
-#include "impl/inverse/bilinear.h"
+#include "impl/inverse/pair_sums.h"
 #include "impl/inverse/loss.h"
 #include "impl/inverse/entries.h"
 #include "impl/inverse/column.h"
@@ -287,10 +284,6 @@ extern "C" {
 #include "impl/batch/scatter.h"
 #include "impl/batch/batch_solve.h"
 #include "impl/batch/batch_factor.h"
-#endif
-/* batch: diagonals of many inverses */
-#if defined(SL_WITH_BATCH) && defined(SL_WITH_INVERSE)
-#include "impl/batch/batch_diagonal.h"
 #endif
 /* complex: complex Hermitian systems over real factors */
 #if defined(SL_WITH_COMPLEX)

@@ -6,7 +6,7 @@
  * many right-hand sides, for regular and for singular matrices. Define the macro of a pack before
  * every include of this header to add to it, or SL_WITH_ALL for all packs:
  *
- *  SL_WITH_INVERSE    entries of the inverse, bilinear forms, selected inversion, regions
+ *  SL_WITH_INVERSE    entries of the inverse, selected inversion, regions
  *  SL_WITH_CHANGE     changes of a factor in place, pins, factors of submatrices, edits
  *  SL_WITH_FIXED      rows fixed at given values: harmonic maps, interpolation
  *  SL_WITH_SAVE       factors, selected inverses and regions in files and in mapped memory

@@ -59,8 +59,8 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  | sl_plan_solve_regularized         | the same, and the number of regularized rows           |
  *  | sl_selected_refactor              | the selected inverse and options.storage of F          |
  *  | sl_region_refactor                | the region, the instruction set of F, and Z            |
- *  | sl_local_solve, sl_inverse_*,     | the rows of the call, too. Fewer rows can need more:   |
- *  |  sl_batch_diagonal                | try each set of rows                                   |
+ *  | sl_local_solve, sl_inverse_*      | the rows of the call, too. Fewer rows can need more:   |
+ *  |                                   | try each set of rows                                   |
  *
  *  Each workspace of a batch needs what its largest request does. The values of A, B and X, and
  *  leading dimensions, make no difference, but for entries of the inverse of A with pivots of both

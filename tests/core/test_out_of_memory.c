@@ -26,7 +26,6 @@ static void every_allocation_may_fail(void **state) {
         scenario_t scenario;
     } all[] = {
         {"sl_matrix_from_triplets", from_triplets},
-        {"sl_matrix_transpose", transpose},
         {"sl_matrix_submatrix", submatrix},
         {"sl_csc_triangle", triangle},
         {"sl_symbolic_create, default", symbolic_default},

@@ -189,7 +189,7 @@ static void exact_solves(const exact_t *e) {
     free(Y);
 }
 
-/* The diagonal of the inverse, a block, bilinear forms, the selected inverse, batches. */
+/* The diagonal of the inverse, a block, the selected inverse, batches. */
 static void exact_inverses(const exact_t *e) {
     const size_t n = (size_t)e->n;
     double *X = test_reals(n * (n + 1)), *Y = test_reals(n * (n + 1));

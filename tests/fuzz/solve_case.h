@@ -24,7 +24,6 @@ typedef enum part_t {
     CONDITION,
     DEFECTS,
     CONVERT,
-    TRANSPOSE,
     EDIT,
     PARTS
 } part_t;

@@ -86,12 +86,6 @@ static sl_status triangle(arguments_t *a) {
     return sl_csc_triangle(a->A, &t, NULL, &a->stats);
 }
 
-static sl_status bilinear(arguments_t *a) {
-    double z;
-    return sl_inverse_bilinear(a->F, &z, a->bset, a->B, a->nb, a->xset, a->B, a->nx, NULL,
-                               &a->stats);
-}
-
 static sl_status rcond(arguments_t *a) {
     double r;
     return sl_factor_rcond(a->F, a->A, &r, NULL);
@@ -148,10 +142,6 @@ static sl_status save_memory(arguments_t *a) {
 static sl_status save_file(arguments_t *a) {
     const sl_saved_set set = saved_set(a);
     return sl_save_file(NOWHERE, &set, NULL);
-}
-
-static sl_status batch_diagonal(arguments_t *a) {
-    return sl_batch_diagonal(&a->F, 1, a->X, a->ldx, a->xset, a->nx, NULL, NULL, NULL, &a->stats);
 }
 
 static sl_status batch_solve(arguments_t *a) {
@@ -233,7 +223,6 @@ CREATE(edit_before, sl_symbolic, sl_symbolic_free,
 CREATE(edit_factor, sl_factor, sl_factor_free,
        sl_factor_edit(&out, a->F, a->S, a->A, o->perm, NULL, &a->stats))
 CREATE(factor, sl_factor, sl_factor_free, sl_factor_create(&out, a->S, a->A, NULL, &a->stats))
-CREATE(transpose, sl_matrix, sl_matrix_free, sl_matrix_transpose(&out, a->A, NULL))
 CREATE(dirichlet, sl_fixed, sl_fixed_free,
        sl_fixed_create(&out, a->A, a->xset, a->nx, NULL, NULL, &a->stats))
 CREATE(submatrix, sl_matrix, sl_matrix_free,
@@ -255,7 +244,6 @@ static const struct {
     {"sl_csc_check", check, A_},
     {"sl_csc_triangle", triangle, A_ | SQUARE_},
     {"sl_csc_write", write_file, A_ | SQUARE_},
-    {"sl_matrix_transpose", transpose, A_},
     {"sl_fixed_create", dirichlet, A_ | SQUARE_ | VALUES_ | LIST_},
     {"sl_matrix_submatrix", submatrix, A_ | SQUARE_ | LIST_},
     {"sl_matrix_sum", sum, A_ | SQUARE_},
@@ -285,7 +273,6 @@ static const struct {
     {"sl_inverse_diagonal", diagonal, F_ | FAILED_ | X_ | XSET_},
     {"sl_inverse_pairs", pairs, F_ | FAILED_ | X_ | LIST_},
     {"sl_inverse_block", block, F_ | FAILED_ | X_ | LDX_ | LIST_},
-    {"sl_inverse_bilinear", bilinear, F_ | FAILED_ | B_ | BSET_ | XSET_},
     {"sl_selected_create", selected, F_ | FAILED_ | XSET_},
     {"sl_selected_refactor", selected_refactor, F_ | FAILED_ | OTHER_ | Z_},
     {"sl_selected_entries, diagonal", selected_diagonal, Z_ | X_ | XSET_},
@@ -301,7 +288,6 @@ static const struct {
     {"sl_save_memory", save_memory, S_ | FAILED_ | OTHER_},
     {"sl_save_file", save_file, S_ | FAILED_ | OTHER_},
     {"sl_batch_solve", batch_solve, SOLVE_},
-    {"sl_batch_diagonal", batch_diagonal, F_ | FAILED_ | X_ | LDX_ | XSET_},
     {"sl_work_reserve", reserve, W_},
 };
 
