@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 11a8d6cd5a7faf82
+ * FNV-1a of the lines after this comment, without the license: 0b409d66f922846e
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -16,44 +16,44 @@
  *   1266 plan.h       local solves: b is known in a few rows, x is wanted in a few others
  *   1342 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
  *   1432 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1525 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1564 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1665 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1745 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1815 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1908 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2014 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2056 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2178 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2360 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2463 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2574 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2615 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2701 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2789 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2866 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2909 impl/ base: the compiler, status, memory, sorting, threads
- *   4190 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5129 impl/ matrix: sparse matrices of the caller and of the library
- *   5791 impl/ ordering: fill-reducing orderings of a graph
- *  10893 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13132 impl/ factor: the numbers of L and D
- *  16545 impl/ solve: full and local solves
- *  18422 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20419 impl/ pivots: the order of the pivots by the values of a matrix
- *  20827 impl/ float: L and fronts in single precision
- *  21332 impl/ inverse: entries of the inverse, regions
- *  24291 impl/ change: a factor that follows changes of its matrix
- *  30596 impl/ fixed: rows fixed at given values
- *  31237 impl/ fixed: by a factor of all rows
- *  31471 impl/ io: files that are replaced only when they are complete
- *  31689 impl/ files: Matrix Market files, 64-bit indices
- *  32309 impl/ save: factors in files
- *  34322 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35008 impl/ complex: complex Hermitian systems over real factors
- *  35508 impl/ packs: the tables through which the core calls packs
- *  35557 impl/ last: undefine every internal macro
- *  35938 impl/ templates: the header includes them from itself, once for each instruction set
+ *   1513 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1552 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1653 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1732 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1802 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1895 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2001 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2043 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2165 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2347 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2450 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2561 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2602 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2688 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2776 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2839 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2882 impl/ base: the compiler, status, memory, sorting, threads
+ *   4163 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5102 impl/ matrix: sparse matrices of the caller and of the library
+ *   5764 impl/ ordering: fill-reducing orderings of a graph
+ *  10866 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13105 impl/ factor: the numbers of L and D
+ *  16518 impl/ solve: full and local solves
+ *  18395 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20391 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20799 impl/ float: L and fronts in single precision
+ *  21304 impl/ inverse: entries of the inverse, regions
+ *  24263 impl/ change: a factor that follows changes of its matrix
+ *  30568 impl/ fixed: rows fixed at given values
+ *  31209 impl/ fixed: by a factor of all rows
+ *  31443 impl/ io: files that are replaced only when they are complete
+ *  31661 impl/ files: Matrix Market files, 64-bit indices
+ *  32207 impl/ save: factors in files
+ *  34220 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34906 impl/ complex: complex Hermitian systems over real factors
+ *  35406 impl/ packs: the tables through which the core calls packs
+ *  35455 impl/ last: undefine every internal macro
+ *  35836 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1218,7 +1218,7 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  |  _refine, _rcond                  | but they may with threads: try each number             |
  *  | sl_factor_pseudo_inverse          | the analysis and the number of columns                 |
  *  | sl_fixed_solve                    | the object, nrhs, and the threads of W                 |
- *  | sl_plan_solve, _solve_part        | the plan, nrhs, whether F has null pivots; fewer       |
+ *  | sl_plan_solve, parts of a plan    | the plan, nrhs, whether F has null pivots; fewer       |
  *  |                                   | right-hand sides need no more                          |
  *  | sl_plan_solve_regularized         | the same, and the number of regularized rows           |
  *  | sl_selected_refactor              | the selected inverse and options.storage of F          |
@@ -1458,58 +1458,46 @@ typedef enum sl_part {
  *  of sl_factor_solve. With several null vectors a component (options.null_vector_count), null
  *  pivots are not the last ones, and P' L D L' P differs from A in their rows and columns.
  *
+ *  With a plan it is one half of a local solve. Forward: SL_PART_P, SL_PART_L and perhaps one of
+ *  SL_PART_D and SL_PART_SQRT_D. B has the rows of the b-set; X has the b_columns rows that the
+ *  sweep reaches (sl_plan_columns), and all others are 0. Backward: SL_PART_LT, SL_PART_PT and
+ *  perhaps one of the two. B has the x_columns rows that the x-set depends on; X has those of the
+ *  x-set. The results are the rows of the full call, bit for bit.
+ *
  *  F      [in]   factor of A, n x n.
- *  parts  [in]   any of sl_part, but not both SL_PART_D and SL_PART_SQRT_D; 0 copies B.
+ *  plan   [in]   over the analysis of F, without a region; NULL: all rows.
+ *  parts  [in]   any of sl_part, but not both SL_PART_D and SL_PART_SQRT_D; 0 copies B. With a plan
+ *                those above.
  *  X      [out]  n x nrhs, leading dimension ldx, or by SL_ROWS; in the order of A with SL_PART_PT,
  *                else of the pivots. May be B itself (then ldx = ldb). On error untouched.
  *  B      [in]   n x nrhs, leading dimension ldb, or by SL_ROWS; in the order of A with SL_PART_P,
  *                else of the pivots.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_PIVOT: SL_PART_SQRT_D with a negative
- *           pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
- *  Cost     2 nnz_panels flops per right-hand side for each of L and L'; O(n) for the others.
+ *           pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots, or a plan in a region;
+ *           SL_ERR_MISMATCH: a plan of another analysis; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     2 nnz_panels flops per right-hand side for each of L and L'; O(n) for the others. On a
+ *           plan 2 b_entries or 2 x_entries flops; nothing O(n).
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/core/test_parts.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_solve_part(const sl_factor *F, unsigned parts, double *X,
-                                                     size_t ldx, const double *B, size_t ldb,
-                                                     sl_int nrhs, sl_work *W);
+SL_API SL_WARN_UNUSED sl_status sl_factor_solve_part(const sl_factor *F, const sl_plan *plan,
+                                                     unsigned parts, double *X, size_t ldx,
+                                                     const double *B, size_t ldb, sl_int nrhs,
+                                                     sl_work *W);
 
 /** X = P' L D L' P B with only those factors that are given; the others count as I.
  *
  *  L + PT undoes P + L of sl_factor_solve_part, and LT undoes LT. L + SQRT_D + PT makes samples of
  *  covariance A. All parts together give A B, or (A + E) B if regularization changed pivots.
  *
- *  Arguments, Returns, Threads  as sl_factor_solve_part.
+ *  Arguments, Returns, Threads  as sl_factor_solve_part without a plan.
  *  Cost     2 nnz_panels flops per right-hand side for each of L and L', in plain C: 13 to 27 times
  *           as long as the solve.
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_multiply_part(const sl_factor *F, unsigned parts,
                                                         double *X, size_t ldx, const double *B,
                                                         size_t ldb, sl_int nrhs, sl_work *W);
-
-/** Half of a local solve: the forward half from the b-set, or the backward half to the x-set.
- *
- *  Forward: SL_PART_P, SL_PART_L and perhaps one of SL_PART_D and SL_PART_SQRT_D. B has the rows of
- *  the b-set; X has the b_columns rows that the sweep reaches (stats.plan), and all others are 0.
- *  The rows are those of sl_plan_columns. Backward: SL_PART_LT, SL_PART_PT and perhaps one of the
- *  two. B has the x_columns rows that the x-set depends on; X has the rows of the x-set.
- *
- *  With standard normal B, SL_PART_SQRT_D + LT + PT samples x on the x-set alone, with the
- *  covariance A^-1 has there. The results are the rows of sl_factor_solve_part, bit for bit.
- *
- *  P, F   [in]   a plan without a region, and a factor over its analysis.
- *  X, B, ldx, ldb, nrhs, W  as in sl_plan_solve, but for their rows.
- *  Returns  as sl_factor_solve_part; SL_ERR_ARGUMENT: other parts; SL_ERR_MISMATCH: a factor of
- *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region.
- *  Cost     2 b_entries or 2 x_entries flops per right-hand side; nothing O(n).
- *  Threads  any number at once on one P and one F, each with its own W.
- */
-SL_API SL_WARN_UNUSED sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F,
-                                                   unsigned parts, double *X, size_t ldx,
-                                                   const double *B, size_t ldb, sl_int nrhs,
-                                                   sl_work *W);
 
 /** The columns of L that one sweep of a plan visits, ascending: the rows of half solves.
  *
@@ -1731,7 +1719,6 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
 #else
 #define sl_factor_solve_part(...) sl_factor_solve_part_needs_SL_WITH_ACCURACY
 #define sl_factor_multiply_part(...) sl_factor_multiply_part_needs_SL_WITH_ACCURACY
-#define sl_plan_solve_part(...) sl_plan_solve_part_needs_SL_WITH_ACCURACY
 #define sl_plan_columns(...) sl_plan_columns_needs_SL_WITH_ACCURACY
 #define sl_factor_pseudo_inverse(...) sl_factor_pseudo_inverse_needs_SL_WITH_ACCURACY
 #define sl_factor_refine(...) sl_factor_refine_needs_SL_WITH_ACCURACY
@@ -2815,19 +2802,6 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_read(sl_matrix **out, const char *path
 SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
                                                 const sl_options *opt, sl_stats *stats);
 
-/** Writes a Matrix Market file that reads back to the same bits (%.17g).
- *
- *  An existing file is replaced only once the new one is complete: on error it is as it was. A
- *  device, a pipe or a symbolic link is written in place. Nothing waits for the disk.
- *
- *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of
- *                 one triangle.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MALFORMED: malformed, or not symmetric with
- *           SL_AS_SYMMETRIC; SL_ERR_IO; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
- *  Manual   tools/docs/files.md: temporary names, permissions, systems without POSIX
- */
-SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path);
-
 /** View of a sparse matrix with 64-bit indices, otherwise as sl_csc: the arrays of MATLAB, Julia,
  *  SuiteSparse's long interface and SciPy's int64. */
 typedef struct sl_csc64 {
@@ -2859,7 +2833,6 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_c
 #else
 #define sl_matrix_read(...) sl_matrix_read_needs_SL_WITH_FILES
 #define sl_matrix_parse(...) sl_matrix_parse_needs_SL_WITH_FILES
-#define sl_csc_write(...) sl_csc_write_needs_SL_WITH_FILES
 #define sl_matrix_from_csc64(...) sl_matrix_from_csc64_needs_SL_WITH_FILES
 #endif
 #if defined(SL_WITH_PIVOTS)
@@ -18623,28 +18596,13 @@ static sl_status sli_factor_part(const sl_factor *F, unsigned parts, int is_prod
   return sli_parts_run(&p, rhs, W);
 }
 
-SL_API sl_status sl_factor_solve_part(const sl_factor *F, unsigned parts, double *X, size_t ldx,
-    const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
-  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
-  return sli_factor_part(F, parts, 0, &rhs, W);
-}
-
-SL_API sl_status sl_factor_multiply_part(const sl_factor *F, unsigned parts, double *X, size_t ldx,
-    const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
-  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
-  return sli_factor_part(F, parts, 1, &rhs, W);
-}
-
-SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsigned parts, double *X,
-    size_t ldx, const double *B, size_t ldb, sl_int nrhs,
-    sl_work *W) {
+static sl_status sli_plan_part(const sl_plan *P, const sl_factor *F, unsigned parts,
+    const sli_rhs *rhs, sl_work *W) {
   const unsigned ends = parts & ~(unsigned)(SL_PART_D | SL_PART_SQRT_D);
   const int is_forward = ends == (SL_PART_P | SL_PART_L);
-  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sli_parts p;
   sl_status status =
-    sli_argument(P == NULL ? "P is NULL"
-        : F == NULL ? "F is NULL"
+    sli_argument(F == NULL ? "F is NULL"
         : !is_forward && ends != (SL_PART_LT | SL_PART_PT)
         ? "parts of a plan are P and L, or L' and P', each with or without D"
         : NULL);
@@ -18662,7 +18620,21 @@ SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsign
   p.parts = parts;
   p.q = sli_parts_query(&P->query, is_forward ? &P->query.forward : &P->query.backward,
       is_forward, !is_forward);
-  return sli_parts_run(&p, &rhs, W);
+  return sli_parts_run(&p, rhs, W);
+}
+
+SL_API sl_status sl_factor_solve_part(const sl_factor *F, const sl_plan *plan, unsigned parts,
+    double *X, size_t ldx, const double *B, size_t ldb,
+    sl_int nrhs, sl_work *W) {
+  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
+  return plan == NULL ? sli_factor_part(F, parts, 0, &rhs, W)
+            : sli_plan_part(plan, F, parts, &rhs, W);
+}
+
+SL_API sl_status sl_factor_multiply_part(const sl_factor *F, unsigned parts, double *X, size_t ldx,
+    const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
+  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
+  return sli_factor_part(F, parts, 1, &rhs, W);
 }
 
 SL_API sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns, sl_int capacity,
@@ -31467,7 +31439,7 @@ static const sli_fixed_ways sli_fixed_reuse = {sli_fixed_take, sli_fixed_solve_p
 
 #endif
 /* io: files that are replaced only when they are complete */
-#if defined(SL_WITH_FILES) || defined(SL_WITH_SAVE)
+#if defined(SL_WITH_SAVE)
 /* src/impl/io/output_file.h: a file that takes the place of an old one only once it is complete */
 
 #define SLI_TEMPORARY_NAMES 100
@@ -31954,7 +31926,7 @@ static int sli_line_ends(const char *s, const char *e) {
   return s == e;
 }
 
-/* src/impl/files/matrix_market.h: reads and writes coordinate Matrix Market files, in any locale */
+/* src/impl/files/matrix_market.h: reads coordinate Matrix Market files, in any locale */
 
 #define SLI_ENTRIES_FIRST 65536
 
@@ -32227,80 +32199,6 @@ SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_opti
   fclose(file);
   errno = saved;
   return sli_report(stats, status);
-}
-
-static void sli_set_point(char *number) {
-  const char *from = number;
-  char *to = number;
-  while (*from != '\0') {
-    if (sli_is_numeric(*from)) {
-      *to++ = *from++;
-      continue;
-    }
-    *to++ = '.';
-    while (*from != '\0' && !sli_is_numeric(*from)) { /* untested: a digit follows */
-      from++;
-    }
-  }
-  *to = '\0';
-}
-
-static int sli_write_entry(FILE *file, sl_int row, sl_int column, const double *value) {
-  char number[40];
-  if (value == NULL) {
-    return fprintf(file, "%ld %ld\n", (long)row + 1, (long)column + 1) > 0;
-  }
-  snprintf(number, sizeof number, "%.17g", *value);
-  sli_set_point(number);
-  return fprintf(file, "%ld %ld %s\n", (long)row + 1, (long)column + 1, number) > 0;
-}
-
-static int sli_write(FILE *file, const sl_csc *A, sl_reading reading, sl_triangle triangle) {
-  sl_int j, p;
-  sl_off count = 0;
-  int ok;
-  for (j = 0; j < A->n_cols; j++) {
-    for (p = A->p[j]; p < A->p[j + 1]; p++) {
-      count += sli_is_read(triangle, A->i[p], j);
-    }
-  }
-  ok = fprintf(file, "%%%%MatrixMarket matrix coordinate %s %s\n%ld %ld %ld\n",
-      A->x != NULL ? "real" : "pattern",
-      reading == SL_AS_SYMMETRIC ? "symmetric" : "general", (long)A->n_rows,
-      (long)A->n_cols, (long)count) > 0;
-  for (j = 0; j < A->n_cols && ok; j++) {
-    for (p = A->p[j]; p < A->p[j + 1] && ok; p++) {
-      const sl_int i = A->i[p];
-      if (sli_is_read(triangle, i, j)) {
-        const int flip = reading == SL_AS_SYMMETRIC && i < j;
-        ok = sli_write_entry(file, flip ? j : i, flip ? i : j,
-            A->x != NULL ? A->x + p : NULL);
-      }
-    }
-  }
-  return ok;
-}
-
-SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path) {
-  const int saved = errno;
-  sl_triangle triangle = SL_TRIANGLE_NONE;
-  sl_status status = reading == SL_AS_SYMMETRIC ? sl_csc_triangle(A, &triangle, NULL, NULL)
-                          : sl_csc_check(A, NULL);
-  const sl_allocator a = sli_allocator(NULL);
-  sli_output output;
-  if (status == SL_OK) {
-    status = sli_argument(path == NULL ? "path is NULL"
-        : reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED
-        ? "reading is not a value of sl_reading"
-        : NULL);
-  }
-  status = status == SL_OK ? sli_output_open(&output, path, &a) : status;
-  if (status == SL_OK) {
-    const int complete = sli_write(output.file, A, reading, triangle);
-    status = sli_output_close(&output, complete, &a);
-  }
-  errno = saved;
-  return status;
 }
 
 #endif

@@ -258,7 +258,7 @@ extern "C" {
 #include "impl/fixed/fixed_reuse.h"
 #endif
 /* io: files that are replaced only when they are complete */
-#if defined(SL_WITH_FILES) || defined(SL_WITH_SAVE)
+#if defined(SL_WITH_SAVE)
 #include "impl/io/output_file.h"
 #endif
 /* files: Matrix Market files, 64-bit indices */

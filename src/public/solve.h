@@ -54,7 +54,7 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  |  _refine, _rcond                  | but they may with threads: try each number             |
  *  | sl_factor_pseudo_inverse          | the analysis and the number of columns                 |
  *  | sl_fixed_solve                    | the object, nrhs, and the threads of W                 |
- *  | sl_plan_solve, _solve_part        | the plan, nrhs, whether F has null pivots; fewer       |
+ *  | sl_plan_solve, parts of a plan    | the plan, nrhs, whether F has null pivots; fewer       |
  *  |                                   | right-hand sides need no more                          |
  *  | sl_plan_solve_regularized         | the same, and the number of regularized rows           |
  *  | sl_selected_refactor              | the selected inverse and options.storage of F          |

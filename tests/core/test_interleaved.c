@@ -166,10 +166,11 @@ static void every_solve_takes_any_layout(void **state) {
                     call == 0   ? sl_local_solve(y.F, bset, NB, xset, NX, Xt, ldx, Bt, ldb, nrhs,
                                                  NULL, NULL)
                     : call == 1 ? sl_factor_solve(y.F, Xt, ldx, Bt, ldb, nrhs, NULL)
-                    : call == 2 ? sl_factor_solve_part(y.F, forward, Xt, ldx, Bt, ldb, nrhs, NULL)
+                    : call == 2
+                        ? sl_factor_solve_part(y.F, NULL, forward, Xt, ldx, Bt, ldb, nrhs, NULL)
                     : call == 3
                         ? sl_factor_multiply_part(y.F, SL_PART_LT, Xt, ldx, Bt, ldb, nrhs, NULL)
-                        : sl_plan_solve_part(P, y.F, forward, Xt, ldx, Bt, ldb, nrhs, NULL));
+                        : sl_factor_solve_part(y.F, P, forward, Xt, ldx, Bt, ldb, nrhs, NULL));
                 if (layout == 0) {
                     memcpy(X, Xt, nx * cols * sizeof *X);
                 } else if (layout & 2) {

@@ -108,8 +108,7 @@ static void every_allocation_of_the_reader_may_fail(void **state) {
     free(f);
 }
 
-/* Objects made before an allocator fails are released properly. (sl_csc_write takes no options, so
- * no allocation of it can be made to fail.) */
+/* Objects made before an allocator fails are released properly. */
 static void objects_outlive_a_failing_allocator(void **state) {
     (void)state;
     counter_t counter = counter_make();

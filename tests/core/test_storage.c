@@ -176,8 +176,8 @@ static void exact_solves(const exact_t *e) {
         SL_CHECK(sl_factor_solve(e->F[1], Y, n, B, n, nrhs, NULL));
         SAME_VALUES(X, Y, count);
         for (int p = 0; p < 5; p++) {
-            SL_CHECK(sl_factor_solve_part(e->F[0], parts[p], X, n, B, n, nrhs, NULL));
-            SL_CHECK(sl_factor_solve_part(e->F[1], parts[p], Y, n, B, n, nrhs, NULL));
+            SL_CHECK(sl_factor_solve_part(e->F[0], NULL, parts[p], X, n, B, n, nrhs, NULL));
+            SL_CHECK(sl_factor_solve_part(e->F[1], NULL, parts[p], Y, n, B, n, nrhs, NULL));
             SAME_VALUES(X, Y, count);
             SL_CHECK(sl_factor_multiply_part(e->F[0], parts[p], X, n, B, n, nrhs, NULL));
             SL_CHECK(sl_factor_multiply_part(e->F[1], parts[p], Y, n, B, n, nrhs, NULL));

@@ -191,7 +191,6 @@ CALL(refine,
      sl_factor_refine(a->F, a->A, a->X, a->ldx, a->B, a->ldb, a->nrhs, a->steps, NULL, &a->stats))
 CALL(certify, sl_factor_certify(a->F, a->A, SL_ESTIMATED, NULL, &a->stats))
 CALL(scatter, sl_symbolic_scatter(a->S, o->entries, a->A, &a->stats))
-CALL(write_file, sl_csc_write(a->A, SL_AS_SYMMETRIC, NOWHERE))
 CALL(solve, sl_factor_solve(a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs, NULL))
 CALL(plan_solve, sl_plan_solve(a->P, a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs, NULL))
 CALL(plan_refined, sl_plan_solve_regularized(a->P, a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs,
@@ -243,7 +242,6 @@ static const struct {
 } calls[] = {
     {"sl_csc_check", check, A_},
     {"sl_csc_triangle", triangle, A_ | SQUARE_},
-    {"sl_csc_write", write_file, A_ | SQUARE_},
     {"sl_fixed_create", dirichlet, A_ | SQUARE_ | VALUES_ | LIST_},
     {"sl_matrix_submatrix", submatrix, A_ | SQUARE_ | LIST_},
     {"sl_matrix_sum", sum, A_ | SQUARE_},
