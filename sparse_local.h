@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 0b409d66f922846e
+ * FNV-1a of the lines after this comment, without the license: 2dc26bb2fbf58de5
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -7,53 +7,53 @@
  *    191 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
  *    235 config.h     macros that a user may define before the include, the version, and the integer types
  *    322 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    502 options.h    options of all calls, threads, and the allocator
- *    628 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    872 csc.h        sparse matrices: creation, checks, products, residuals
- *    965 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1041 factor.h     the numerical factorization P A P' = L D L'
- *   1170 solve.h      full solves, and the workspace of all solves
- *   1266 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1342 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1432 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1513 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1552 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1653 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1732 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1802 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1895 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2001 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2043 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2165 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2347 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2450 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2561 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2602 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2688 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2776 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2839 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2882 impl/ base: the compiler, status, memory, sorting, threads
- *   4163 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5102 impl/ matrix: sparse matrices of the caller and of the library
- *   5764 impl/ ordering: fill-reducing orderings of a graph
- *  10866 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13105 impl/ factor: the numbers of L and D
- *  16518 impl/ solve: full and local solves
- *  18395 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20391 impl/ pivots: the order of the pivots by the values of a matrix
- *  20799 impl/ float: L and fronts in single precision
- *  21304 impl/ inverse: entries of the inverse, regions
- *  24263 impl/ change: a factor that follows changes of its matrix
- *  30568 impl/ fixed: rows fixed at given values
- *  31209 impl/ fixed: by a factor of all rows
- *  31443 impl/ io: files that are replaced only when they are complete
- *  31661 impl/ files: Matrix Market files, 64-bit indices
- *  32207 impl/ save: factors in files
- *  34220 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34906 impl/ complex: complex Hermitian systems over real factors
- *  35406 impl/ packs: the tables through which the core calls packs
- *  35455 impl/ last: undefine every internal macro
- *  35836 impl/ templates: the header includes them from itself, once for each instruction set
+ *    501 options.h    options of all calls, threads, and the allocator
+ *    627 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    871 csc.h        sparse matrices: creation, checks, products, residuals
+ *    964 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1040 factor.h     the numerical factorization P A P' = L D L'
+ *   1169 solve.h      full solves, and the workspace of all solves
+ *   1265 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1341 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1431 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1512 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1551 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1652 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1731 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1801 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1894 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2000 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2042 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2164 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2346 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2449 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2560 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2601 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2687 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2775 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2838 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2881 impl/ base: the compiler, status, memory, sorting, threads
+ *   4162 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5071 impl/ matrix: sparse matrices of the caller and of the library
+ *   5733 impl/ ordering: fill-reducing orderings of a graph
+ *  10835 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13074 impl/ factor: the numbers of L and D
+ *  16473 impl/ solve: full and local solves
+ *  18350 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20347 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20755 impl/ float: L in single precision
+ *  20985 impl/ inverse: entries of the inverse, regions
+ *  23944 impl/ change: a factor that follows changes of its matrix
+ *  30249 impl/ fixed: rows fixed at given values
+ *  30890 impl/ fixed: by a factor of all rows
+ *  31124 impl/ io: files that are replaced only when they are complete
+ *  31342 impl/ files: Matrix Market files, 64-bit indices
+ *  31888 impl/ save: factors in files
+ *  33900 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34586 impl/ complex: complex Hermitian systems over real factors
+ *  35089 impl/ packs: the tables through which the core calls packs
+ *  35136 impl/ last: undefine every internal macro
+ *  35500 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -200,7 +200,7 @@
  *  SL_WITH_SAVE       factors, selected inverses and regions in files and in mapped memory
  *  SL_WITH_BATCH      many factors or solves by one call, weighted sums of matrices
  *  SL_WITH_COMPLEX    complex Hermitian systems, SL_STORAGE_COMPLEX
- *  SL_WITH_FLOAT      L in single precision: SL_STORAGE_FLOAT, SL_STORAGE_FLOAT_FRONTS
+ *  SL_WITH_FLOAT      L in single precision: SL_STORAGE_FLOAT
  *  SL_WITH_ACCURACY   refinement, bounds of errors, condition numbers, defects, half solves
  *  SL_WITH_FILES      Matrix Market files, matrices with 64-bit indices
  *  SL_WITH_PIVOTS     2x2 pivots for indefinite matrices
@@ -440,10 +440,9 @@ typedef enum sl_method {
  *  AVX2) has no kernels but those of double: L is then in double, as stats.storage says. */
 typedef enum sl_storage {
     SL_STORAGE_DOUBLE = 0,
-    SL_STORAGE_FLOAT,        /* half the bytes of L, its accuracy until refined */
-    SL_STORAGE_FLOAT_FRONTS, /* fronts are computed in float, too: half the time, less accuracy */
-    SL_STORAGE_COMPLEX       /* EXPERIMENTAL: half the bytes of L in full accuracy, of complex
-                                Hermitian matrices only, complex.h */
+    SL_STORAGE_FLOAT,  /* half the bytes of L, its accuracy until refined */
+    SL_STORAGE_COMPLEX /* EXPERIMENTAL: half the bytes of L in full accuracy, of complex Hermitian
+                          matrices only, complex.h */
 } sl_storage;
 
 /** What to do with a null pivot. */
@@ -4337,12 +4336,8 @@ typedef struct sli_pivot_rule {
 
 #define SLI_NULL_PIVOT DBL_MAX
 
-#define SLI_NULL_MOST 0.03125
-
 static double sli_null_tolerance(sl_int n, double epsilon) {
-  const double tolerance = (64.0 + n / 8) * epsilon;
-  return tolerance < SLI_NULL_MOST ? tolerance
-                   : SLI_NULL_MOST;
+  return (64.0 + n / 8) * epsilon;
 }
 
 SLI_NOINLINE static double sli_rule_tolerance(const sli_pivot_rule *rule, sl_int k) {
@@ -4361,10 +4356,6 @@ SLI_INLINE int sli_is_null_by_rule(const sli_pivot_rule *rule, sl_int k, double 
     double magnitude) {
   return sli_is_null(pivot, magnitude, rule->null_tolerance) &&
        sli_is_null(pivot, magnitude, sli_rule_tolerance(rule, k));
-}
-
-SLI_NOINLINE static float sli_to_float(double d) {
-  return d > (double)FLT_MAX ? FLT_MAX : d < -(double)FLT_MAX ? -FLT_MAX : (float)d;
 }
 
 SLI_INLINE double sli_pivot_skipped(const sli_pivot_rule *rule, sl_int k, double d,
@@ -4433,10 +4424,6 @@ SLI_INLINE sl_int sli_front_groups(sl_int width) {
   return (sli_tiles(width) + SLI_GROUP_TILES - 1) / SLI_GROUP_TILES;
 }
 
-typedef struct sli_front_single {
-  float *panel, *update, *D, *magnitude, *reciprocals;
-} sli_front_single;
-
 typedef struct sli_front {
   double *panel;
   sl_int width, below;
@@ -4446,7 +4433,6 @@ typedef struct sli_front {
   const unsigned char *pairs;
   double *E;
   double *reciprocals;
-  sli_front_single single;
   int is_small;
   const sli_pivot_rule *rule;
   sl_int super, column;
@@ -4776,26 +4762,9 @@ typedef struct sli_kernels {
       SLV_WIDEN_ROWS(v + SLI_TILE * c_, (l) + SLI_TILE * c_, rows) \
     } \
   }
-#define SLI_OF_0(f, array) (f)->array
-#define SLI_OF_1(f, array) (f)->single.array
-#define SLI_LEAST_0 1e-290
-#define SLI_LEAST_1 1e-30
-#define SLI_MOST_0 1e290
-#define SLI_MOST_1 1e30
-#define SLI_PIVOT_0(d) (d)
-#define SLI_PIVOT_1(d) sli_to_float(d)
-#define SLI_PACK_PAIRS_0(l, E, j, length, B) \
-  if (E != NULL) { \
-    sli_pair_pack(l, E + (j), length, B); \
-  }
-#define SLI_PACK_PAIRS_1(l, E, j, length, B) (void)E;
 #define SLV_VALUE SLI_BY_TYPE(SLI_VALUE_, SLV_SINGLE)
-#define SLV_OF(f, array) SLI_BY_TYPE(SLI_OF_, SLV_SINGLE)(f, array)
-#define SLV_LEAST SLI_BY_TYPE(SLI_LEAST_, SLV_SINGLE)
-#define SLV_MOST SLI_BY_TYPE(SLI_MOST_, SLV_SINGLE)
-#define SLV_PIVOT(d) SLI_BY_TYPE(SLI_PIVOT_, SLV_SINGLE)(d)
-#define SLV_PACK_PAIRS(l, E, j, length, B) \
-  SLI_BY_TYPE(SLI_PACK_PAIRS_, SLV_SINGLE)(l, E, j, length, B)
+#define SLV_LEAST 1e-290
+#define SLV_MOST 1e290
 #define SLV_PARTS (1 + SLV_COMPLEX)
 #define SLV_FRONT(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME, f)
 #define SLV_FRONT_PIVOTS(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME_PIVOTS, f)
@@ -13341,9 +13310,7 @@ SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
 struct sli_storage_type {
   sl_storage storage;
   size_t value_bytes;
-  size_t front_bytes;
   int half;
-  double epsilon;
   const sli_sweeps *(*sweeps)(const sli_kernels *kernels);
   const sli_front_kernels *(*front)(const sli_kernels *kernels);
 
@@ -13372,12 +13339,8 @@ SLI_INLINE int sli_is_float(const sl_factor *F) {
   return F->type->value_bytes == sizeof(float);
 }
 
-SLI_INLINE int sli_is_single(const sl_factor *F) {
-  return F->type->front_bytes == sizeof(float);
-}
-
 SLI_INLINE int sli_panel_is_copied(const sl_factor *F, sl_int s) {
-  return F->S->steps[s].width == 1 || (sli_is_float(F) && !sli_is_single(F));
+  return F->S->steps[s].width == 1 || sli_is_float(F);
 }
 
 SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) {
@@ -14287,8 +14250,7 @@ SLI_INLINE int sli_signs_agree(double a, double b) {
 }
 
 static double sli_null_rounding(sl_int n, double epsilon) {
-  const double rounding = 16.0 * (64.0 + n / 8) * epsilon;
-  return rounding < SLI_NULL_MOST ? rounding : SLI_NULL_MOST;
+  return 16.0 * (64.0 + n / 8) * epsilon;
 }
 
 SLI_COLD static void sli_null_finite_check(const sl_factor *F, const sli_source *from,
@@ -14508,7 +14470,6 @@ static void sli_front_update(const sli_front_kernels *kernels, const sli_front *
 static sli_front sli_front_in_double(const sl_factor *F, sl_int s, sl_int worker) {
   const sli_step *step = &F->S->steps[s];
   sli_front f;
-  memset(&f.single, 0, sizeof f.single);
   f.update = NULL;
   f.super = s;
   f.is_small = 0;
@@ -14526,10 +14487,7 @@ static sli_front sli_front_in_double(const sl_factor *F, sl_int s, sl_int worker
 }
 
 #define SLF_NAME(f) sli_double_##f
-#define SLF_VALUE double
-#define SLF_SINGLE 0
 #define SLF_HALF 0
-#define SLF_OF(f, array) (f)->array
 #define SLF_BEGIN sli_front_in_double
 #define SLI_INL_FRONTS
 #define SLI_INL_FRONTS_UNDEF
@@ -14556,24 +14514,26 @@ static const sli_front_kernels *sli_double_front(const sli_kernels *kernels) {
   return &kernels->front;
 }
 
-#define SLI_DOUBLE_FRONTS \
-  sli_double_front, sli_double_factor, sli_double_shared, sli_double_front_clear, \
-    sli_double_front_load, sli_double_front_assemble, sli_double_front_finish
-
-static const sli_storage_type sli_storage_double = {SL_STORAGE_DOUBLE,
-                          sizeof(double),
-                          sizeof(double),
-                          0,
-                          DBL_EPSILON,
-                          sli_double_sweeps,
-                          SLI_DOUBLE_FRONTS,
-                          NULL,
-                          NULL,
-                          NULL,
-                          NULL,
-                          NULL,
-                          NULL,
-                          NULL};
+static const sli_storage_type sli_storage_double = {
+  SL_STORAGE_DOUBLE,
+  sizeof(double),
+  0,
+  sli_double_sweeps,
+  sli_double_front,
+  sli_double_factor,
+  sli_double_shared,
+  sli_double_front_clear,
+  sli_double_front_load,
+  sli_double_front_assemble,
+  sli_double_front_finish,
+  NULL,
+  NULL,
+  NULL,
+  NULL,
+  NULL,
+  NULL,
+  NULL
+};
 
 /* src/impl/factor/uplooking.h: up-looking factorization: row by row, each a sparse triangular solve */
 
@@ -15749,18 +15709,13 @@ static sl_status sli_factor_prepare(sl_factor *F) {
       sli_schedule_work_layout(&w, &t, S->n_supers, plan.workers);
     }
     if (status == SL_OK) {
-      sli_schedule_fill(&plan, S,
-          sli_is_single(F) ? SLI_PLAIN_NOT
-          : sli_is_float(F) ? SLI_PLAIN_PASSED
-          : SLI_PLAIN,
-          &w);
+      sli_schedule_fill(&plan, S, sli_is_float(F) ? SLI_PLAIN_PASSED : SLI_PLAIN, &w);
     }
   }
   SLI_LAYOUT(&b, &F->allocator, status) {
     sli_factor_layout_scratch(F, &b);
     if (has_fronts) {
-      F->work.stack =
-        sli_take(&b, (uint64_t)(plan.stack >> F->type->half), F->type->front_bytes);
+      F->work.stack = sli_take(&b, (uint64_t)(plan.stack >> F->type->half), sizeof(double));
       sli_schedule_layout_tops(&plan, S, &b);
       p = plan;
       p.workers = F->schedule.workers;
@@ -15832,7 +15787,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
   const double null = opt == NULL ? 0.0 : opt->null_tolerance;
   const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
   F->null.mode = opt == NULL ? SL_NULL_PIVOT_REFUSE : opt->null_pivots;
-  F->rule.epsilon = F->type->epsilon;
+  F->rule.epsilon = DBL_EPSILON;
   F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n, F->rule.epsilon) : null;
   F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
   F->rule.replaces = F->null.mode == SL_NULL_PIVOT_SKIP || F->rule.regularization != 0.0;
@@ -18794,7 +18749,8 @@ SL_API sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_pseudo_inverse 
       P->Q[(size_t)t.null[c] + (size_t)c * n] = 1.0;
     }
   }
-  status = sl_factor_solve_part(F, SL_PART_LT | SL_PART_PT, P->Q, n, P->Q, n, P->columns, W);
+  status =
+    sl_factor_solve_part(F, NULL, SL_PART_LT | SL_PART_PT, P->Q, n, P->Q, n, P->columns, W);
   for (s = 0; s < F->S->n_supers && status == SL_OK; s++) {
     if (F->S->super_parent[s] == -1) {
       const sli_pseudo_tree t = sli_pseudo_tree_of(F, s);
@@ -18803,7 +18759,7 @@ SL_API sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_pseudo_inverse 
     }
   }
   if (status == SL_OK) {
-    status = sl_factor_solve_part(F, all, P->K, n, P->Q, n, P->columns, W);
+    status = sl_factor_solve_part(F, NULL, all, P->K, n, P->Q, n, P->columns, W);
   }
   for (s = 0; s < F->S->n_supers && status == SL_OK; s++) {
     if (F->S->super_parent[s] == -1) {
@@ -20794,210 +20750,14 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
 }
 
 #endif
-/* float: L and fronts in single precision */
+/* float: L in single precision */
 #if defined(SL_WITH_FLOAT)
-/* src/impl/float/simd_scalar_single.h: the kernels of fronts in float in plain C: a vector is an array */
-
-#if !defined(SLI_SIMD)
-
-#define SLV_SINGLE 1
-#define SLV_COMPLEX 0
-#define SLV_NAME(f) sli_single_##f##_scalar
-#define SLV_FUNCTION
-#define SLV_DECLARE(a) float a[SLI_TILE];
-#define SLV_ZERO(a) SLI_LOOP(SLI_TILE, a[i_] = 0.0F)
-#define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
-#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
-#define SLV_STORE(p, a) memcpy((p), a, sizeof a);
-#define SLV_BROADCAST(b, p) SLI_LOOP(SLI_TILE, b[i_] = *(p))
-#define SLV_LANE(b, a, k) SLI_LOOP(SLI_TILE, b[i_] = a[k])
-#define SLV_ADD(a, b) SLI_LOOP(SLI_TILE, a[i_] += b[i_])
-#define SLV_FNMA(a, b, c) SLI_LOOP(SLI_TILE, a[i_] -= b[i_] * c[i_])
-#define SLV_MULTIPLY(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] * c[i_])
-#define SLV_DIVIDE(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] / c[i_])
-#define SLV_BELOW(a, k) SLI_LOOP((k) + 1, a[i_] = 0.0F)
-#define SLV_TILES 1
-#define SLV_COLUMNS 4
-#define SLV_EACH_COLUMN SLI_EACH4
-#define SLV_EXPAND SLI_EXPAND_PLAIN
-#define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
-#define SLV_VECTOR_TILES 1
-#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
-#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
-#define SLV_NAME_PIVOTS SLV_NAME
-#define SLV_OWN_PIVOTS
-#define SLI_INL_FRONT
-#define SLI_INL_WORDS_UNDEF
-#include SL_HEADER
-#endif
-
-/* src/impl/float/simd_avx2_single.h: the kernels of fronts in float in AVX2: a vector of 8 is one register */
-
-#if defined(SLI_X86)
-
-#define SLV_SINGLE 1
-#define SLV_COMPLEX 0
-#define SLV_NAME(f) sli_single_##f##_avx2
-#define SLV_FUNCTION SLI_TARGET("avx2,fma")
-
-SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
-  int at[SLI_TILE], k, from = 0;
-  for (k = 0; k < SLI_TILE; k++) {
-    const int is_set = (int)(mask >> k & 1u);
-    at[k] = is_set ? from : -1;
-    from += is_set;
-  }
-  return _mm256_loadu_si256((const __m256i *)(const void *)at);
-}
-
-#define SLV_DECLARE(a) __m256 a;
-#define SLV_ZERO(a) a = _mm256_setzero_ps();
-#define SLV_LOAD(a, p) a = _mm256_load_ps(p);
-#define SLV_STORE(p, a) _mm256_store_ps((p), a);
-#define SLV_LOAD_PINNED(a, p) \
-  a = _mm256_load_ps(p); \
-  SLI_PIN(a);
-#define SLV_BROADCAST(b, p) b = _mm256_broadcast_ss(p);
-#define SLV_LANE(b, a, k) b = _mm256_permutevar8x32_ps(a, _mm256_set1_epi32(k));
-#define SLV_ADD(a, b) a = _mm256_add_ps(a, b);
-#define SLV_FNMA(a, b, c) a = _mm256_fnmadd_ps(b, c, a);
-#define SLV_MULTIPLY(a, b, c) a = _mm256_mul_ps(b, c);
-#define SLV_DIVIDE(a, b, c) a = _mm256_div_ps(b, c);
-#define SLV_BELOW(a, k) \
-  a = _mm256_and_ps(a, _mm256_castsi256_ps(_mm256_cmpgt_epi32( \
-      _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32(k))));
-#define SLV_AHEAD 1
-#define SLV_TILES 2
-#define SLV_COLUMNS 4
-#define SLV_EACH_COLUMN SLI_EACH4
-#define SLV_EXPAND(mask, lanes, count) \
-  const __m256i order_ = sli_single_expand_index(mask); \
-  const __m256 keep_ = _mm256_castsi256_ps(_mm256_cmpgt_epi32(order_, _mm256_set1_epi32(-1))); \
-  (void)(lanes);
-#define SLV_EXPAND_ADD(to, from) \
-  _mm256_store_ps( \
-      (to), _mm256_add_ps( \
-      _mm256_load_ps(to), \
-      _mm256_and_ps(_mm256_permutevar8x32_ps(_mm256_loadu_ps(from), order_), keep_)));
-#define SLV_VECTOR_TILES 1
-#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
-#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
-#define SLV_NAME_PIVOTS SLV_NAME
-#define SLV_OWN_PIVOTS
-#define SLI_INL_FRONT
-#define SLI_INL_WORDS_UNDEF
-#include SL_HEADER
-#endif
-
-/* src/impl/float/simd_avx512_single.h: the kernels of fronts in float in AVX-512F: a register has 16 lanes */
-
-#if defined(SLI_X86) && !defined(SL_NO_AVX512)
-
-#define SLV_SINGLE 1
-#define SLV_COMPLEX 0
-#define SLV_NAME(f) sli_single_##f##_avx512
-#define SLV_NAME_PIVOTS(f) sli_single_##f##_avx2
-#define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
-
-#define SLV_HALF(p) _mm256_castps_pd(_mm256_load_ps(p))
-#define SLV_HALF_OF(a, k) \
-  _mm256_castpd_ps(_mm512_maskz_extractf64x4_pd(0xf, _mm512_castps_pd(a), k))
-
-#define SLV_DECLARE(a) __m512 a;
-#define SLV_ZERO(a) a = _mm512_setzero_ps();
-#define SLV_LOAD(a, p) a = _mm512_castpd_ps(_mm512_maskz_broadcast_f64x4(0xff, SLV_HALF(p)));
-#define SLV_STORE(p, a) _mm256_store_ps((p), SLV_HALF_OF(a, 0));
-#define SLV_VECTOR_TILES 2
-#define SLV_LOAD_TILES(a, p, q) \
-  a = _mm512_castpd_ps( \
-      _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(SLV_HALF(p)), SLV_HALF(q), 1));
-#define SLV_STORE_TILES(p, q, a) \
-  SLV_STORE(p, a) \
-  _mm256_store_ps((q), SLV_HALF_OF(a, 1));
-#define SLV_BROADCAST(b, p) b = _mm512_set1_ps(*(p));
-#define SLV_LANE(b, a, k) b = _mm512_maskz_permutexvar_ps(0xffff, _mm512_set1_epi32(k), a);
-#define SLV_ADD(a, b) a = _mm512_add_ps(a, b);
-#define SLV_FNMA(a, b, c) a = _mm512_fnmadd_ps(b, c, a);
-#define SLV_MULTIPLY(a, b, c) a = _mm512_mul_ps(b, c);
-#define SLV_DIVIDE(a, b, c) a = _mm512_div_ps(b, c);
-#define SLV_BELOW(a, k) a = _mm512_maskz_mov_ps((__mmask16)((0xfe << (k)&0xff) * 0x101), a);
-#define SLV_AHEAD 4
-#define SLV_TILES 4
-#define SLV_COLUMNS 8
-#define SLV_EACH_COLUMN SLI_EACH8
-#define SLV_EXPAND(mask, lanes, count) \
-  const __mmask16 expand_ = (__mmask16)(mask); \
-  const __m512i order_ = _mm512_maskz_expand_epi32( \
-      expand_, _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0)); \
-  (void)(lanes);
-#define SLV_EXPAND_ADD(to, from) \
-  _mm256_store_ps( \
-      (to), _mm256_add_ps( \
-      _mm256_load_ps(to), \
-      SLV_HALF_OF(_mm512_maskz_permutexvar_ps( \
-      expand_, order_, _mm512_castps256_ps512(_mm256_loadu_ps(from))), \
-      0)));
-#define SLI_INL_FRONT
-#define SLI_INL_WORDS_UNDEF
-#include SL_HEADER
-#undef SLV_HALF
-#undef SLV_HALF_OF
-
-#endif
-
-/* src/impl/float/simd_neon_single.h: the kernels of fronts in float in NEON: a vector of 8 is two registers */
-
-#if defined(SLI_ARM)
-
-#define SLV_SINGLE 1
-#define SLV_COMPLEX 0
-#define SLV_NAME(f) sli_single_##f##_neon
-#define SLV_FUNCTION
-#define SLV_DECLARE(a) float32x4_t a##_0, a##_1;
-#define SLV_ZERO(a) a##_0 = a##_1 = vdupq_n_f32(0.0F);
-#define SLV_LOAD(a, p) a##_0 = vld1q_f32(p), a##_1 = vld1q_f32((p) + 4);
-#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
-#define SLV_STORE(p, a) vst1q_f32((p), a##_0), vst1q_f32((p) + 4, a##_1);
-#define SLV_BROADCAST(b, p) b##_0 = b##_1 = vld1q_dup_f32(p);
-#define SLV_LANE(b, a, k) \
-  b##_0 = b##_1 = vdupq_n_f32(vgetq_lane_f32((k) < 4 ? a##_0 : a##_1, (k) % 4));
-#define SLV_ADD(a, b) a##_0 = vaddq_f32(a##_0, b##_0), a##_1 = vaddq_f32(a##_1, b##_1);
-#define SLV_FNMA(a, b, c) \
-  a##_0 = vfmsq_f32(a##_0, b##_0, c##_0), a##_1 = vfmsq_f32(a##_1, b##_1, c##_1);
-#define SLV_MULTIPLY(a, b, c) a##_0 = vmulq_f32(b##_0, c##_0), a##_1 = vmulq_f32(b##_1, c##_1);
-#define SLV_DIVIDE(a, b, c) a##_0 = vdivq_f32(b##_0, c##_0), a##_1 = vdivq_f32(b##_1, c##_1);
-#define SLV_BELOW(a, k) \
-  { \
-    static const int32_t lanes_[SLI_TILE] = {0, 1, 2, 3, 4, 5, 6, 7}; \
-    const int32x4_t k_ = vdupq_n_s32(k); \
-    a##_0 = vreinterpretq_f32_u32( \
-        vandq_u32(vreinterpretq_u32_f32(a##_0), vcgtq_s32(vld1q_s32(lanes_), k_))); \
-    a##_1 = vreinterpretq_f32_u32( \
-        vandq_u32(vreinterpretq_u32_f32(a##_1), vcgtq_s32(vld1q_s32(lanes_ + 4), k_))); \
-  }
-#define SLV_AHEAD 1
-#define SLV_TILES 2
-#define SLV_COLUMNS 4
-#define SLV_EACH_COLUMN SLI_EACH4
-#define SLV_EXPAND SLI_EXPAND_PLAIN
-#define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
-#define SLV_VECTOR_TILES 1
-#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
-#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
-#define SLV_NAME_PIVOTS SLV_NAME
-#define SLV_OWN_PIVOTS
-#define SLI_INL_FRONT
-#define SLI_INL_WORDS_UNDEF
-#include SL_HEADER
-#endif
-
-/* src/impl/float/float_kernels.h: the kernels of L and of fronts in float, for every instruction set */
+/* src/impl/float/float_kernels.h: the kernels of L in float, for every instruction set */
 
 typedef int (*sli_round_kernel)(float *to, const double *from, ptrdiff_t count);
 
 typedef struct sli_float_kernels {
   sli_sweeps sweeps;
-  sli_front_kernels front;
   sli_round_kernel round;
 } sli_float_kernels;
 
@@ -21134,32 +20894,7 @@ SLI_INLINE const sli_float_kernels *sli_float_kernels_of(sl_isa isa) {
   return tables[sli_isa_row(isa)];
 }
 
-/* src/impl/float/float_storage.h: L in float: panels that are rounded, and fronts that are computed in float */
-
-#define SLI_SINGLE_MOST (0.25 * (double)FLT_MAX)
-#define SLI_SINGLE_LEAST 7.888609052210118e-31
-
-SLI_INLINE float sli_single(double a) {
-  const float x = (float)a;
-  return x != 0.0F || a == 0.0 ? x : a < 0.0 ? -FLT_MIN : FLT_MIN;
-}
-
-SLI_INLINE sl_status sli_check_single(const sl_factor *F, const sli_front *f, sl_int column,
-    sli_failure *failure) {
-  const sl_int s = f->super, k = f->column + column;
-  const float pivot = f->single.D[column], magnitude = f->single.magnitude[column];
-  const int is_null = F->null.mode == SL_NULL_PIVOT_SKIP && pivot == FLT_MAX;
-  const double d = is_null ? SLI_NULL_PIVOT : (double)pivot, m = (double)magnitude;
-  F->D[k] = d;
-  if (!(m <= SLI_SINGLE_MOST) || (!is_null && m != 0.0 && m < SLI_SINGLE_LEAST)) {
-    return sli_fail(failure, SL_ERR_INACCURATE, s, k, -1, d);
-  }
-  if (!is_null && F->rule.kinds != NULL && F->rule.kinds[k] == SLI_PIVOT_WEAK) {
-    sli_record_magnitude(F, s, k, m);
-    return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, d);
-  }
-  return sli_check_pivot(F, s, k, d, m, failure);
-}
+/* src/impl/float/float_storage.h: L in float: panels that are rounded when their fronts are done */
 
 SLI_INLINE int sli_rounding_harms(const sl_factor *F, const sli_front *f, sl_int r, sl_int j,
     double l) {
@@ -21218,85 +20953,31 @@ static void sli_float_entry_clear(void *values, sl_off at) {
   ((float *)values)[at] = 0.0F;
 }
 
-SLI_INLINE sli_front sli_single_begin(const sl_factor *F, sl_int s, sl_int worker) {
-  const sli_step *step = &F->S->steps[s];
-  const sl_int rows = SLI_TILE * sli_tiles(F->S->tallest);
-  sli_front f = sli_front_in_double(F, s, worker);
-  f.single.panel = step->width == 1 ? (float *)(void *)f.panel : (float *)F->values + step->panel;
-  f.single.magnitude = (float *)(void *)f.magnitude;
-  f.single.D = f.single.magnitude + rows;
-  f.single.reciprocals = (float *)(void *)f.reciprocals;
-  f.panel = f.D = f.magnitude = f.E = f.reciprocals = NULL;
-  return f;
-}
-
-#define SLF_NAME(f) sli_single_##f
-#define SLF_VALUE float
-#define SLF_SINGLE 1
-#define SLF_HALF 0
-#define SLF_OF(f, array) (f)->single.array
-#define SLF_BEGIN sli_single_begin
-#define SLI_INL_FRONTS
-#define SLI_INL_FRONTS_UNDEF
-#include SL_HEADER
-static sli_front sli_single_shared(const sl_factor *F, sl_int s, sl_int group) {
-  const sli_step *step = &F->S->steps[s];
-  sli_front f = sli_single_front_of(F, s, 0);
-  f.single.magnitude = f.single.update + sli_update_size(step);
-  f.single.D = f.single.magnitude + SLI_TILE * (ptrdiff_t)sli_front_tiles(&f);
-  f.single.reciprocals = f.single.D + SLI_TILE * (ptrdiff_t)sli_tiles(step->width) +
-               SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
-  return f;
-}
-
 static const sli_sweeps *sli_float_sweeps(const sli_kernels *kernels) {
   const sli_float_kernels *own = sli_float_kernels_of(kernels->isa);
   return own == NULL ? NULL : &own->sweeps;
 }
 
-static const sli_front_kernels *sli_single_front(const sli_kernels *kernels) {
-  return &sli_float_kernels_of(kernels->isa)->front;
-}
-
-static int sli_single_suits(const sl_factor *F) {
-  return F->S->n_pairs == 0;
-}
-
-static const sli_storage_type sli_storage_float = {SL_STORAGE_FLOAT,
-                           sizeof(float),
-                           sizeof(double),
-                           0,
-                           DBL_EPSILON,
-                           sli_float_sweeps,
-                           SLI_DOUBLE_FRONTS,
-                           sli_panel_round,
-                           sli_float_entry,
-                           sli_float_entry_clear,
-                           NULL,
-                           NULL,
-                           NULL,
-                           &sli_storage_double};
-
-static const sli_storage_type sli_storage_single = {SL_STORAGE_FLOAT_FRONTS,
-                          sizeof(float),
-                          sizeof(float),
-                          0,
-                          (double)FLT_EPSILON,
-                          sli_float_sweeps,
-                          sli_single_front,
-                          sli_single_factor,
-                          sli_single_shared,
-                          sli_single_front_clear,
-                          sli_single_front_load,
-                          sli_single_front_assemble,
-                          sli_single_front_finish,
-                          NULL,
-                          sli_float_entry,
-                          sli_float_entry_clear,
-                          sli_single_suits,
-                          NULL,
-                          NULL,
-                          &sli_storage_double};
+static const sli_storage_type sli_storage_float = {
+  SL_STORAGE_FLOAT,
+  sizeof(float),
+  0,
+  sli_float_sweeps,
+  sli_double_front,
+  sli_double_factor,
+  sli_double_shared,
+  sli_double_front_clear,
+  sli_double_front_load,
+  sli_double_front_assemble,
+  sli_double_front_finish,
+  sli_panel_round,
+  sli_float_entry,
+  sli_float_entry_clear,
+  NULL,
+  NULL,
+  NULL,
+  &sli_storage_double
+};
 
 #endif
 /* inverse: entries of the inverse, regions */
@@ -32744,8 +32425,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
       !sli_count_is_valid(g->positive, n) || !sli_count_is_valid(g->negative, n) ||
       !sli_count_is_valid(g->weak, n) || !sli_count_is_valid(g->regular, n) ||
       !sli_count_is_valid(g->null_vectors, skips ? SLI_NULL_VECTORS_MAX : 1) ||
-      !sli_count_is_valid(g->storage,
-      g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT_FRONTS : 0) ||
+      !sli_count_is_valid(g->storage, g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT : 0) ||
       !sli_count_is_valid(g->certainty, SL_GUARANTEED) || !(g->eta >= 0.0) || g->eta > 1.0 ||
       !(g->drift >= 0.0) || g->null_tolerance != g->null_tolerance ||
       g->consistency != g->consistency) {
@@ -32766,7 +32446,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   F->null.consistency = g->consistency;
   F->limits.growth = g->growth_limit;
   F->limits.error = g->error_limit;
-  F->rule.epsilon = F->type->epsilon;
+  F->rule.epsilon = DBL_EPSILON;
   F->rule.null_tolerance = g->null_tolerance;
   F->rule.regularization = g->regularization;
   F->rule.replaces = skips || g->regularization != 0.0;
@@ -35097,10 +34777,7 @@ static void sli_complex_accepts(const sl_symbolic *S, const sli_source *from,
 }
 
 #define SLF_NAME(f) sli_complex_##f
-#define SLF_VALUE double
-#define SLF_SINGLE 0
 #define SLF_HALF 1
-#define SLF_OF(f, array) (f)->array
 #define SLF_BEGIN sli_front_in_double
 #define SLI_INL_FRONTS
 #define SLI_INL_FRONTS_UNDEF
@@ -35120,41 +34797,47 @@ static const sli_front_kernels *sli_complex_front(const sli_kernels *kernels) {
   return &sli_complex_kernels_of(kernels->isa)->front;
 }
 
-static const sli_storage_type sli_storage_complex_in_double = {SL_STORAGE_DOUBLE,
-                                 sizeof(double),
-                                 sizeof(double),
-                                 0,
-                                 DBL_EPSILON,
-                                 sli_double_sweeps,
-                                 SLI_DOUBLE_FRONTS,
-                                 NULL,
-                                 NULL,
-                                 NULL,
-                                 sli_complex_suits,
-                                 sli_complex_accepts,
-                                 sli_complex_keeps,
-                                 NULL};
+static const sli_storage_type sli_storage_complex_in_double = {
+  SL_STORAGE_DOUBLE,
+  sizeof(double),
+  0,
+  sli_double_sweeps,
+  sli_double_front,
+  sli_double_factor,
+  sli_double_shared,
+  sli_double_front_clear,
+  sli_double_front_load,
+  sli_double_front_assemble,
+  sli_double_front_finish,
+  NULL,
+  NULL,
+  NULL,
+  sli_complex_suits,
+  sli_complex_accepts,
+  sli_complex_keeps,
+  NULL
+};
 
-static const sli_storage_type sli_storage_complex = {SL_STORAGE_COMPLEX,
-                           sizeof(double),
-                           sizeof(double),
-                           1,
-                           DBL_EPSILON,
-                           sli_complex_sweeps,
-                           sli_complex_front,
-                           sli_complex_factor,
-                           sli_complex_shared,
-                           sli_complex_front_clear,
-                           sli_complex_front_load,
-                           sli_complex_front_assemble,
-                           sli_complex_front_finish,
-                           NULL,
-                           sli_complex_entry,
-                           NULL,
-                           sli_complex_suits,
-                           sli_complex_accepts,
-                           sli_complex_keeps,
-                           &sli_storage_complex_in_double};
+static const sli_storage_type sli_storage_complex = {
+  SL_STORAGE_COMPLEX,
+  sizeof(double),
+  1,
+  sli_complex_sweeps,
+  sli_complex_front,
+  sli_complex_factor,
+  sli_complex_shared,
+  sli_complex_front_clear,
+  sli_complex_front_load,
+  sli_complex_front_assemble,
+  sli_complex_front_finish,
+  NULL,
+  sli_complex_entry,
+  NULL,
+  sli_complex_suits,
+  sli_complex_accepts,
+  sli_complex_keeps,
+  &sli_storage_complex_in_double
+};
 
 /* src/impl/complex/hermitian.h: complex Hermitian matrices as real symmetric ones of twice the size */
 
@@ -35417,8 +35100,6 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
 #if defined(SL_WITH_FLOAT)
   case SL_STORAGE_FLOAT:
     return &sli_storage_float;
-  case SL_STORAGE_FLOAT_FRONTS:
-    return &sli_storage_single;
 #endif
 #if defined(SL_WITH_COMPLEX)
   case SL_STORAGE_COMPLEX:
@@ -35553,16 +35234,6 @@ static const sli_fixed_ways *sli_fixed_ways_of(void) {
 #undef SLI_BY_TYPE
 #undef SLI_VALUE_0
 #undef SLI_VALUE_1
-#undef SLI_OF_0
-#undef SLI_OF_1
-#undef SLI_LEAST_0
-#undef SLI_LEAST_1
-#undef SLI_MOST_0
-#undef SLI_MOST_1
-#undef SLI_PIVOT_0
-#undef SLI_PIVOT_1
-#undef SLI_PACK_PAIRS_0
-#undef SLI_PACK_PAIRS_1
 #undef SLI_SWEEP_0
 #undef SLI_SWEEP_1
 #undef SLI_FRONT_0
@@ -35581,11 +35252,8 @@ static const sli_fixed_ways *sli_fixed_ways_of(void) {
 #undef SLV_FRONT
 #undef SLV_FRONT_PIVOTS
 #undef SLV_VALUE
-#undef SLV_OF
 #undef SLV_LEAST
 #undef SLV_MOST
-#undef SLV_PIVOT
-#undef SLV_PACK_PAIRS
 #undef SLV_SWEEP
 #undef SLV_SWEEP_2
 #undef SLV_SWEEP_SMALL
@@ -35610,8 +35278,6 @@ static const sli_fixed_ways *sli_fixed_ways_of(void) {
 #undef SLI_GROWTH_LIMIT
 #undef SLI_GROWTH_LIMIT_FLOAT
 #undef SLI_ENTRIES_AHEAD
-#undef SLI_SINGLE_MOST
-#undef SLI_SINGLE_LEAST
 #undef SLI_ROUNDING_ERROR
 #undef SLI_NULL_PIVOT
 #undef SLI_JUDGE_RANDOM
@@ -35619,7 +35285,6 @@ static const sli_fixed_ways *sli_fixed_ways_of(void) {
 #undef SLI_JUDGE_ALIKE
 #undef SLI_JUDGE_FEW
 #undef SLI_JUDGE_READS
-#undef SLI_NULL_MOST
 #undef SLI_SUSPECT_ROW
 #undef SLI_INVERSE_GROUP
 #undef SLI_INVERSE_ROW
@@ -35817,7 +35482,6 @@ static const sli_fixed_ways *sli_fixed_ways_of(void) {
 #undef SLI_JOINT_NULL
 #undef SLI_JOINT_CENTERED
 #undef SLI_NORM_FLOOR
-#undef SLI_DOUBLE_FRONTS
 #undef SLI_SQUARE_LEAST
 #undef SLI_WRITE_VERSION_PLAIN
 #undef SLI_PRODUCT_COLUMNS
@@ -35833,19 +35497,19 @@ static const sli_fixed_ways *sli_fixed_ways_of(void) {
 
 #ifdef SLI_INL_FRONTS
 #undef SLI_INL_FRONTS
-/* src/impl/factor/fronts.inl.h: the fronts of the supernodal factorization, for one type of numbers */
+/* src/impl/factor/fronts.inl.h: the fronts of the supernodal factorization, of real or of complex matrices */
 
 /* src/impl/factor/front_load.inl.h: where a front is, and the entries of A that it begins with */
 
-SLI_INLINE SLF_VALUE *SLF_NAME(update_matrix)(const sl_factor *F, sl_int s, sl_int worker) {
+SLI_INLINE double *SLF_NAME(update_matrix)(const sl_factor *F, sl_int s, sl_int worker) {
   const sl_off begin = F->schedule.stack_begin[s], own = F->schedule.own;
   const sl_off at = begin < own ? begin + worker * own : begin;
-  return (SLF_VALUE *)F->work.stack + (at >> SLF_HALF);
+  return (double *)F->work.stack + (at >> SLF_HALF);
 }
 
 SLI_INLINE sli_front SLF_NAME(front_of)(const sl_factor *F, sl_int s, sl_int worker) {
   sli_front f = SLF_BEGIN(F, s, worker);
-  SLF_OF(&f, update) = SLF_NAME(update_matrix)(F, s, worker);
+  f.update = SLF_NAME(update_matrix)(F, s, worker);
   return f;
 }
 
@@ -35853,15 +35517,13 @@ static void SLF_NAME(front_clear)(const sli_front *f, sl_int t0, sl_int t1) {
   const sl_int w = f->width, whole = w / SLI_TILE, u0 = sli_max(t0 - whole, 0);
   const sl_off from = sli_tile_offset(w, t0), size = sli_tile_offset(w, t1) - from;
   const sl_off at = sli_triangle_offset(u0), end = sli_triangle_offset(t1 - whole);
-  memset(SLF_OF(f, panel) + (from >> SLF_HALF), 0,
-      (size_t)(size >> SLF_HALF) * sizeof(SLF_VALUE));
+  memset(f->panel + (from >> SLF_HALF), 0, (size_t)(size >> SLF_HALF) * sizeof(double));
   if (f->below > 0 && t1 > whole) {
-    memset(SLF_OF(f, update) + (at >> SLF_HALF), 0,
-        (size_t)((end - at) >> SLF_HALF) * sizeof(SLF_VALUE));
+    memset(f->update + (at >> SLF_HALF), 0, (size_t)((end - at) >> SLF_HALF) * sizeof(double));
   }
 }
 
-SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SLF_VALUE *panel,
+SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, double *panel,
     const sli_loading *e, uint64_t *marks,
     sli_failure *failure) {
   const sl_off *to = F->S->scatter_to, begin = F->S->steps[s].panel;
@@ -35878,13 +35540,6 @@ SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SL
     const double a =
       scatter_from != NULL ? x[scatter_from[m]] : x[m - e->first]; /* untested: constant */
     const double size = fabs(a);
-#if SLF_SINGLE
-    if (!(size <= SLI_SINGLE_MOST)) {
-      return sli_fail(failure, sli_is_finite(a) ? SL_ERR_INACCURATE : SL_ERR_NOT_FINITE, s,
-          -1, m, a);
-    }
-    panel[to[m] - begin] += sli_single(a);
-#else
     if (!(size <= DBL_MAX)) { /* branches untested: the same */
       return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
     }
@@ -35898,7 +35553,6 @@ SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SL
     if (marks != NULL) { /* untested: constant where entries are summed */
       mark += sli_mark_entry(a, to[m] - begin);
     }
-#endif
     largest = size > largest ? size : largest; /* branches untested: the same */
   }
   F->extents[s].entry = largest;
@@ -35909,7 +35563,7 @@ SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SL
 }
 
 static sl_status SLF_NAME(panel_load)(const sl_factor *F, const sli_source *from, sl_int s,
-    SLF_VALUE *panel, sli_failure *failure) {
+    double *panel, sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const sl_off end = S->scatter_begin[s + 1];
   sli_loading e;
@@ -35920,7 +35574,7 @@ static sl_status SLF_NAME(panel_load)(const sl_factor *F, const sli_source *from
     e.x = from->A->x;
     e.scatter_from = S->scatter_from;
     e.last = end;
-    return SLF_NAME(panel_add)(F, s, panel, &e, SLF_SINGLE ? NULL : F->history.marks, failure);
+    return SLF_NAME(panel_add)(F, s, panel, &e, F->history.marks, failure);
   }
   e.scatter_from = NULL;
   for (; e.first < end && status == SL_OK; e.first = e.last) {
@@ -35935,7 +35589,7 @@ static sl_status SLF_NAME(panel_load)(const sl_factor *F, const sli_source *from
 
 static sl_status SLF_NAME(front_load)(sl_factor *F, const sli_source *from, const sli_front *f,
     sli_failure *failure) {
-  SLF_VALUE *panel = SLF_OF(f, panel), *magnitude = SLF_OF(f, magnitude);
+  double *panel = f->panel, *magnitude = f->magnitude;
   const sl_status status = SLF_NAME(panel_load)(F, from, f->super, panel, failure);
   const sl_int w = f->width, rows = SLI_TILE * sli_front_tiles(f);
   sl_int k;
@@ -35948,18 +35602,18 @@ static sl_status SLF_NAME(front_load)(sl_factor *F, const sli_source *from, cons
   }
 #else
   for (k = 0; k < w; k += SLI_TILE) {
-    const SLF_VALUE *tile = panel + sli_panel_at(w, k, k);
+    const double *tile = panel + sli_panel_at(w, k, k);
     const sl_int columns = sli_min(SLI_TILE, w - k);
     sl_int r;
     for (r = 0; r < columns; r++) {
-      magnitude[k + r] = (SLF_VALUE)fabs(tile[(SLI_TILE + 1) * r]);
+      magnitude[k + r] = fabs(tile[(SLI_TILE + 1) * r]);
     }
   }
 #endif
   return status;
 }
 /* end of front_load.inl.h */
-#if !SLF_SINGLE && !SLF_HALF
+#if !SLF_HALF
 /* src/impl/factor/plain_columns.inl.h: plain columns, in double: their pivots and L, and what they pass up */
 
 SLI_INLINE void sli_plain_assemble(const sli_front *f, const double *l, double d,
@@ -36138,7 +35792,7 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
   const sl_int tiles = sli_front_tiles(f);
   sl_int c, k;
   for (c = f->super - 1;; c = S->first_descendant[c] - 1) {
-#if !SLF_SINGLE && !SLF_HALF
+#if !SLF_HALF
     c = sli_plain_children(F, f, c, worker, SLI_TILE * t0, SLI_TILE * t1);
 #endif
     if (c < S->first_descendant[f->super]) {
@@ -36151,20 +35805,20 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
       t1 == tiles ? child->below : sli_lower_bound(relative, child->below, SLI_TILE * t1);
     const sl_off magnitudes = child->width % SLI_TILE +
                   sli_triangle_offset(sli_update_tiles(child->width, child->below));
-    const SLF_VALUE *from = SLF_NAME(update_matrix)(F, c, worker);
-    const SLF_VALUE *magnitude = from + (magnitudes >> SLF_HALF);
+    const double *from = SLF_NAME(update_matrix)(F, c, worker);
+    const double *magnitude = from + (magnitudes >> SLF_HALF);
     F->own.front->assemble(f, from, child->width % SLI_TILE, relative, child->below, first,
         last);
     for (k = first; k < last; k += 1 + SLF_HALF) {
-      SLF_OF(f, magnitude)[relative[k]] += magnitude[k >> SLF_HALF];
+      f->magnitude[relative[k]] += magnitude[k >> SLF_HALF];
     }
   }
 }
 
 static void SLF_NAME(front_hand_over)(const sli_front *f) {
   const sl_int tiles = sli_update_tiles(f->width, f->below), rows = SLI_TILE * tiles;
-  const SLF_VALUE *from = SLF_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)(f->width / SLI_TILE);
-  SLF_VALUE *to = SLF_OF(f, update) + (sli_triangle_offset(tiles) >> SLF_HALF);
+  const double *from = f->magnitude + SLI_TILE * (ptrdiff_t)(f->width / SLI_TILE);
+  double *to = f->update + (sli_triangle_offset(tiles) >> SLF_HALF);
   sl_int k;
   for (k = 0; k < rows; k += 1 + SLF_HALF) {
 #if SLF_HALF
@@ -36178,17 +35832,8 @@ static void SLF_NAME(front_hand_over)(const sli_front *f) {
 static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
     sli_failure *failure) {
   sl_status status = SL_OK;
-  sl_int k;
-#if SLF_SINGLE
-  for (k = 0; k < f->width && status == SL_OK; k++) {
-    status = sli_check_single(F, f, k, failure);
-  }
-  if (f->width == 1) {
-    memcpy((SLF_VALUE *)F->values + F->S->steps[f->super].panel, f->single.panel,
-        (size_t)(1 + f->below) * sizeof(SLF_VALUE));
-  }
-#else
   const sl_int count = sli_front_is_regular(F, f, f->super) ? 0 : f->width;
+  sl_int k;
   for (k = 0; k < count && status == SL_OK; k++) {
     status =
       f->pairs != NULL && f->pairs[k] != SLI_PAIR_NONE
@@ -36200,7 +35845,6 @@ static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
   } else if (f->width == 1 && F->type->store == NULL) { /* branches untested: see above */
     SLI_COPY((double *)F->values + F->S->steps[f->super].panel, f->panel, 1 + f->below);
   }
-#endif
   return status;
 }
 
@@ -36210,7 +35854,7 @@ static sl_status SLF_NAME(front_finish)(const sl_factor *F, const sli_front *f,
   return SLF_NAME(front_check)(F, f, failure);
 }
 
-#if !SLF_SINGLE && !SLF_HALF
+#if !SLF_HALF
 typedef struct sli_short {
   double *l, *tile, *magnitude;
 } sli_short;
@@ -36296,12 +35940,9 @@ static sl_status SLF_NAME(front_factor)(sl_factor *F, const sli_source *from, sl
   double *scratch = F->work.buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
   sl_status status;
   f.is_small = tiles == 1 && f.pairs == NULL && !SLF_HALF;
-#if !SLF_SINGLE
   if (f.is_small) {
     sli_front_clear_small(&f);
-  } else
-#endif
-  {
+  } else {
     SLF_NAME(front_clear)(&f, 0, tiles);
   }
   status = SLF_NAME(front_load)(F, from, &f, failure);
@@ -36320,7 +35961,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   sl_status status = SL_OK;
   sl_int s;
   for (s = first; s <= last && status == SL_OK; s++) {
-#if !SLF_SINGLE && !SLF_HALF
+#if !SLF_HALF
     if (F->schedule.is_plain[s] == SLI_PLAIN_DIRECT && sli_plain_runs(F, from)) {
       s = sli_plain_run(F, from->A->x, s, last);
       if (s > last) {
@@ -36330,7 +35971,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #endif
     if (sli_is_copied(F, s)) {
       F->work.copied->copy(F, s, worker);
-#if !SLF_SINGLE && !SLF_HALF
+#if !SLF_HALF
     } else if (F->schedule.is_plain[s]) {
       status = sli_plain_factor(F, from, s, worker, failure);
     } else if (sli_is_short(F, s)) {
@@ -36349,10 +35990,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 /* src/impl/factor/fronts_undef.inl.h: undefines the parameters of fronts.inl.h */
 
 #undef SLF_NAME
-#undef SLF_VALUE
-#undef SLF_SINGLE
 #undef SLF_HALF
-#undef SLF_OF
 #undef SLF_BEGIN
 #endif
 
@@ -37893,12 +37531,7 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
 #define SLI_WORD(word, v) SLI_PASTE(SLI_WORD_, v)(word)
 
 #define SLI_DECLARE(k, v) SLI_WORD(DECLARE, v)(c##v##k)
-#if SLV_SINGLE
-#define SLI_LOAD(k, v) SLI_WORD(ZERO, v)(c##v##k)
-#define SLI_SUM(k, v) \
-  SLV_LOAD_TILES(b, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
-  SLV_ADD(c##v##k, b)
-#elif SLV_COMPLEX
+#if SLV_COMPLEX
 #define SLI_LOAD(k, v) \
   if ((k) % 2 == 0 && (k) < columns) { \
     SLI_WORD(LOAD, v)(c##v##k, Cp##v + SLI_TILE / 2 * (k)) \
@@ -37918,11 +37551,9 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
   } else { \
     SLI_WORD(ZERO, v)(c##v##k) \
   }
-#define SLI_SUM(k, v)
 #endif
 #define SLI_STORE(k, v) \
   if (SLI_IS_IN(k, columns)) { \
-    SLI_SUM(k, v) \
     SLI_WORD(STORE_TILES, v)(Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k), c##v##k) \
   }
 #if !SLV_COMPLEX
@@ -37939,7 +37570,7 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
   SLI_STORE_PAIR(2, 3, v)
 #endif
 #define SLI_FETCH(k, v) \
-  SLI_PREFETCH(Cp##v, sizeof(SLV_VALUE) * SLI_TILE / SLV_PARTS * (SLV_COLUMNS + (k)));
+  SLI_PREFETCH(Cp##v, sizeof(double) * SLI_TILE / SLV_PARTS * (SLV_COLUMNS + (k)));
 #define SLI_UPDATE(k, unused) \
   SLV_BROADCAST(b, B + (k)) \
   SLV_FNMA(c0##k, a0, b)
@@ -37947,9 +37578,9 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
   SLI_UPDATE(k, unused) \
   SLI_WORD(FNMA, 1)(c1##k, a1, b)
 
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows1)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
-    const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
-    SLV_VALUE *Cq0, sl_int columns) {
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows1)(const double *Ap0, const double *Aq0,
+    const double *B, sl_int length, double *Cp0,
+    double *Cq0, sl_int columns) {
   sl_int j;
   SLV_DECLARE(a0)
   SLV_DECLARE(b)
@@ -37965,11 +37596,11 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows1)(const SLV_VALUE *Ap0, const SLV_VA
 }
 
 #if SLV_TILES > SLV_VECTOR_TILES
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
-    const SLV_VALUE *Ap1, const SLV_VALUE *Aq1,
-    const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
-    SLV_VALUE *Cq0, SLV_VALUE *Cp1, SLV_VALUE *Cq1,
-    sl_int columns, const SLV_VALUE *ahead) {
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const double *Ap0, const double *Aq0,
+    const double *Ap1, const double *Aq1,
+    const double *B, sl_int length, double *Cp0,
+    double *Cq0, double *Cp1, double *Cq1,
+    sl_int columns, const double *ahead) {
   sl_int j;
   SLV_DECLARE(a0)
   SLI_WORD(DECLARE, 1)(a1)
@@ -37997,7 +37628,6 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VA
 
 #undef SLI_DECLARE
 #undef SLI_LOAD
-#undef SLI_SUM
 #undef SLI_STORE
 #undef SLI_STORE_PAIR
 #undef SLI_STORE_BLOCK
@@ -38011,21 +37641,21 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VA
 #undef SLI_WORD_1
 
 #if SLV_TILES > SLV_VECTOR_TILES
-SLV_FUNCTION SLI_INLINE const SLV_VALUE *SLV_FRONT(ahead)(const SLV_VALUE *const *A, sl_int length,
+SLV_FUNCTION SLI_INLINE const double *SLV_FRONT(ahead)(const double *const *A, sl_int length,
     sl_int part) {
   const sl_int parts = SLI_TILE / SLV_AHEAD, at = sli_min(part, SLV_TILES * parts - 1);
   return A[at / parts] + at % parts * SLV_AHEAD * (ptrdiff_t)length;
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(whole)(const SLV_VALUE *const *A, const SLV_VALUE *B,
-    sl_int length, SLV_VALUE *const *C, ptrdiff_t to,
-    sl_int columns, const SLV_VALUE *const *next,
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(whole)(const double *const *A, const double *B,
+    sl_int length, double *const *C, ptrdiff_t to,
+    sl_int columns, const double *const *next,
     sl_int k) {
 #if defined(SLV_HAS_HALF)
   sl_int m;
   for (m = 0; m < 2; m++) {
-    const SLV_VALUE *Am = A[2 * m], *Ah = A[1] + SLI_TILE / 2 * m;
-    SLV_VALUE *Cm = C[2 * m] + to, *Ch = C[1] + SLI_TILE / 2 * m + to;
+    const double *Am = A[2 * m], *Ah = A[1] + SLI_TILE / 2 * m;
+    double *Cm = C[2 * m] + to, *Ch = C[1] + SLI_TILE / 2 * m + to;
     SLV_FRONT(rows2)
     (Am, Am, Ah, Ah, B, length, Cm, Cm, Ch, Ch, columns,
      SLV_FRONT(ahead)(next, length, 2 * (k / SLV_COLUMNS) + m));
@@ -38039,8 +37669,8 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(whole)(const SLV_VALUE *const *A, const S
 }
 #endif
 
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(pack)(const SLV_VALUE *l, const SLV_VALUE *d, sl_int length,
-    SLV_VALUE *B) {
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(pack)(const double *l, const double *d, sl_int length,
+    double *B) {
   sl_int j;
   SLV_DECLARE(a)
   SLV_DECLARE(b)
@@ -38052,28 +37682,30 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(pack)(const SLV_VALUE *l, const SLV_VALUE
   }
 }
 
-SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, const SLV_VALUE *D,
+SLV_FUNCTION static void SLV_FRONT(product)(const double *panel, sl_int w, const double *D,
     const double *E, sl_int t0, sl_int t1, sl_int c0,
-    sl_int c1, sl_int j0, sl_int j1, SLV_VALUE *target,
+    sl_int c1, sl_int j0, sl_int j1, double *target,
     sl_int target_width, sl_int target_first,
-    SLV_VALUE *B) {
+    double *B) {
   const sl_int step = SLV_TILES, parts = SLV_PARTS, tile_size = SLI_TILE * SLI_TILE;
   sl_int j, t, c, k, r, m;
   for (j = j0 / parts; j < j1 / parts; j += SLI_CHUNK_COLUMNS) {
     const sl_int length = sli_min(SLI_CHUNK_COLUMNS, j1 / parts - j);
     for (c = c0; c < c1; c++) {
-      const SLV_VALUE *l = panel + sli_tile_offset(w, c) / parts + SLI_TILE * (ptrdiff_t)j;
-      SLV_VALUE *to = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
+      const double *l = panel + sli_tile_offset(w, c) / parts + SLI_TILE * (ptrdiff_t)j;
+      double *to = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
       SLV_FRONT(pack)(l, D + parts * j, length, to);
-      SLV_PACK_PAIRS(l, E, j, length, to)
+      if (E != NULL) {
+        sli_pair_pack(l, E + j, length, to);
+      }
     }
     for (t = t0; t < t1; t += step) {
       const sl_int end = sli_min(t + step, t1);
-      const SLV_VALUE *A[SLV_TILES];
+      const double *A[SLV_TILES];
 #if SLV_TILES > SLV_VECTOR_TILES
-      const SLV_VALUE *next[SLV_TILES];
+      const double *next[SLV_TILES];
 #endif
-      SLV_VALUE *C[SLV_TILES];
+      double *C[SLV_TILES];
       for (m = 0; m < step; m++) {
         r = sli_min(t + m, end - 1);
         A[m] = panel + sli_tile_offset(w, r) / parts + SLI_TILE * (ptrdiff_t)j;
@@ -38085,7 +37717,7 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
       }
       for (c = c0; c < c1 && c < end; c++) {
         const ptrdiff_t at = (ptrdiff_t)tile_size / parts * (c - target_first);
-        const SLV_VALUE *b = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
+        const double *b = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
         const sl_int columns = target_width - SLI_TILE * (c - target_first);
         for (k = 0; k < SLI_TILE && k < columns; k += SLV_COLUMNS) {
           const ptrdiff_t to = at + SLI_TILE / parts * k;
@@ -38175,7 +37807,7 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
   }
 #define SLI_BY_RULE(k) \
   if (rule != NULL) { \
-    d = SLV_PIVOT(sli_pivot_by_rule(rule, column + (k), d, sums[k])); \
+    d = sli_pivot_by_rule(rule, column + (k), d, sums[k]); \
     SLV_BROADCAST(b, &d) \
   }
 #define SLI_TAKE_PIVOT(k, d) \
@@ -38184,7 +37816,7 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
 #endif
 #define SLI_PIVOT(k, p) \
   if (SLI_IS_IN(k, columns)) { \
-    SLV_VALUE d; \
+    double d; \
     SLV_STORE(x + SLI_TILE * (k), a##k) \
     SLV_STORE(sums, m) \
     SLV_LANE(b, a##k, (k)*SLV_PARTS) \
@@ -38192,8 +37824,8 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
     SLI_BY_RULE(k) \
     SLV_DIVIDE(l, a##k, b) \
     SLI_TAKE_PIVOT(k, d) \
-    minus_sign[k] = (SLV_VALUE)(d < 0 ? 1 : -1); \
-    reciprocal[k] = (SLV_VALUE)1 / d; \
+    minus_sign[k] = (double)(d < 0 ? 1 : -1); \
+    reciprocal[k] = (double)1 / d; \
     safe &= fabs(d) > SLV_LEAST && fabs(d) < SLV_MOST; \
     SLI_GAIN(l, a##k, k) \
     SLV_BELOW(l, (k)*SLV_PARTS + SLV_PARTS - 1) \
@@ -38239,20 +37871,20 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
 
 #if defined(SLV_OWN_PIVOTS)
 SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
-    SLV_VALUE *reciprocals) {
+    double *reciprocals) {
   const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first) / SLV_PARTS;
   const sl_int all = columns + (f->is_small ? f->below : 0);
 #if !SLV_COMPLEX
   const sl_int column = f->column + first;
   const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
 #endif
-  SLV_VALUE *p = SLV_OF(f, panel) + sli_tile_offset(f->width, c) / SLV_PARTS +
+  double *p = f->panel + sli_tile_offset(f->width, c) / SLV_PARTS +
            SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
-  SLV_VALUE *update = SLV_OF(f, update);
-  SLV_VALUE *D = SLV_OF(f, D) + first, *magnitude = SLV_OF(f, magnitude) + first;
-  SLV_VALUE *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
-  SLI_ALIGNED(SLV_VALUE x[SLI_TILE * SLI_TILE + SLI_TILE]);
-  SLV_VALUE *sums = x + SLI_TILE * SLI_TILE;
+  double *update = f->update;
+  double *D = f->D + first, *magnitude = f->magnitude + first;
+  double *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
+  SLI_ALIGNED(double x[SLI_TILE * SLI_TILE + SLI_TILE]);
+  double *sums = x + SLI_TILE * SLI_TILE;
   int safe = 1;
   sl_int t;
   SLV_DECLARE(b)
@@ -38275,22 +37907,22 @@ SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
 #endif
 
 SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
-    const SLV_VALUE *reciprocals) {
+    const double *reciprocals) {
   const sl_int w = f->width, first = SLI_TILE * c;
   const sl_int columns = sli_min(SLI_TILE, w - first) / SLV_PARTS;
-  SLV_VALUE *panel = SLV_OF(f, panel) + SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
-  const SLV_VALUE *pivots = panel + sli_tile_offset(w, c) / SLV_PARTS;
+  double *panel = f->panel + SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
+  const double *pivots = panel + sli_tile_offset(w, c) / SLV_PARTS;
   const int has_pairs = !SLV_COMPLEX && sli_tile_has_pairs(f, c);
-  const SLV_VALUE *D = has_pairs ? reciprocals + 2 * SLI_TILE : SLV_OF(f, D) + first;
-  const SLV_VALUE *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
+  const double *D = has_pairs ? reciprocals + 2 * SLI_TILE : f->D + first;
+  const double *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
   const int by_reciprocal = reciprocal[0] != 0;
   sl_int t;
   for (t = t0; t < t1; t += SLV_VECTOR_TILES) {
     const sl_int second = sli_min(t + SLV_VECTOR_TILES, t1) - 1;
-    SLV_VALUE *p = panel + sli_tile_offset(w, t) / SLV_PARTS;
-    SLV_VALUE *q = panel + sli_tile_offset(w, second) / SLV_PARTS;
-    SLV_VALUE *sums = SLV_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)t;
-    SLV_VALUE *second_sums = SLV_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)second;
+    double *p = panel + sli_tile_offset(w, t) / SLV_PARTS;
+    double *q = panel + sli_tile_offset(w, second) / SLV_PARTS;
+    double *sums = f->magnitude + SLI_TILE * (ptrdiff_t)t;
+    double *second_sums = f->magnitude + SLI_TILE * (ptrdiff_t)second;
     SLV_DECLARE(b)
     SLV_DECLARE(l)
     SLV_DECLARE(m)
@@ -38329,21 +37961,21 @@ SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_i
 #undef SLI_DECLARE_ALL
 
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(catch_up)(const sli_front *f, sl_int first, sl_int c0,
-    sl_int c1, sl_int t0, sl_int t1, SLV_VALUE *B) {
+    sl_int c1, sl_int t0, sl_int t1, double *B) {
   if (c0 > first) {
     SLV_FRONT(product)
-    (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, t0, t1, c0, c1, SLI_TILE * first,
-     SLI_TILE * c0, SLV_OF(f, panel), f->width, 0, B);
+    (f->panel, f->width, f->D, f->E, t0, t1, c0, c1, SLI_TILE * first,
+     SLI_TILE * c0, f->panel, f->width, 0, B);
   }
 }
 
 SLV_FUNCTION static void SLV_FRONT(pivots)(const sli_front *f, sl_int c0, void *scratch) {
-  SLV_VALUE *B = (SLV_VALUE *)scratch;
+  double *B = (double *)scratch;
   const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
   sl_int c;
   SLV_FRONT(catch_up)(f, 0, c0, c1, c0, c1, B);
   for (c = c0; c < c1; c++) {
-    SLV_VALUE *reciprocals = SLV_OF(f, reciprocals) + 3 * SLI_TILE * (ptrdiff_t)(c - c0);
+    double *reciprocals = f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0);
     SLV_FRONT(catch_up)(f, c0, c, c + 1, c, c1, B);
     if (!SLV_COMPLEX && sli_tile_has_pairs(f, c)) {
       sli_pair_tile(f, c, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
@@ -38358,26 +37990,26 @@ SLV_FUNCTION static void SLV_FRONT(pivots)(const sli_front *f, sl_int c0, void *
 
 SLV_FUNCTION static void SLV_FRONT(rows)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
     void *scratch) {
-  SLV_VALUE *B = (SLV_VALUE *)scratch;
+  double *B = (double *)scratch;
   const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
   sl_int c;
   SLV_FRONT(catch_up)(f, 0, c0, c1, t0, t1, B);
   for (c = c0; c < c1; c++) {
     SLV_FRONT(catch_up)(f, c0, c, c + 1, t0, t1, B);
     SLV_FRONT(tile_rows)
-    (f, c, t0, t1, SLV_OF(f, reciprocals) + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
+    (f, c, t0, t1, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
   }
 }
 
 SLV_FUNCTION static void SLV_FRONT(update)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0,
     sl_int t1, void *scratch) {
-  SLV_VALUE *B = (SLV_VALUE *)scratch;
+  double *B = (double *)scratch;
   const sl_int w = f->width, last = sli_min(c1, t1);
   sl_int c;
   for (c = c0; c < last; c += SLI_GROUP_TILES) {
     SLV_FRONT(product)
-    (SLV_OF(f, panel), w, SLV_OF(f, D), f->E, sli_max(t0, c), t1, c,
-     sli_min(c + SLI_GROUP_TILES, last), 0, w, SLV_OF(f, update), SLI_TILE * (t1 - c0), c0, B);
+    (f->panel, w, f->D, f->E, sli_max(t0, c), t1, c,
+     sli_min(c + SLI_GROUP_TILES, last), 0, w, f->update, SLI_TILE * (t1 - c0), c0, B);
   }
 }
 
@@ -38388,12 +38020,12 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
   sl_int row, end, i;
   for (row = first; row < last; row = end) {
     const sl_int lane = (skipped + row) % SLI_TILE, tile = relative[row] / SLI_TILE;
-    const SLV_VALUE *source =
-      (const SLV_VALUE *)from +
+    const double *source =
+      (const double *)from +
       (sli_triangle_offset((skipped + row) / SLI_TILE) + SLI_TILE * (ptrdiff_t)skipped) /
         SLV_PARTS +
       lane;
-    SLV_VALUE *const to[2] = {SLV_OF(f, panel), SLV_OF(f, update)};
+    double *const to[2] = {f->panel, f->update};
     const ptrdiff_t at[2] = {(ptrdiff_t)sli_tile_offset(w, tile) / SLV_PARTS,
                  ((ptrdiff_t)sli_triangle_offset(tile - whole) -
                   SLI_TILE * SLI_TILE * (ptrdiff_t)whole) /
@@ -38411,7 +38043,7 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
           i < columns;
           i += SLV_PARTS) {
         const int is_below = relative[i] >= w;
-        SLV_VALUE *target =
+        double *target =
           to[is_below] + (at[is_below] + SLI_TILE / SLV_PARTS * (ptrdiff_t)relative[i]);
         SLI_PREFETCH(target, SLI_ASSEMBLE_DISTANCE);
         SLI_PREFETCH(source + SLI_TILE / SLV_PARTS * (ptrdiff_t)i, SLI_ASSEMBLE_DISTANCE);
@@ -40274,8 +39906,6 @@ static const sli_float_kernels SLV_NAME(float_kernels) = {
    {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
     SLV_NAME(single_backward8), SLV_NAME(single_backward16), SLV_NAME(single_backward32),
     SLV_NAME(single_backward64)}},
-  {SLV_NAME(single_pivots), SLV_NAME(single_rows), SLV_NAME(single_update),
-   SLV_NAME(single_assemble)},
   SLV_NAME_PIVOTS(single_round)};
 #endif
 

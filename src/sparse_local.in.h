@@ -182,12 +182,8 @@ extern "C" {
 #include "impl/pivots/pivot_search.h"
 #include "impl/pivots/pivoted.h"
 #endif
-/* float: L and fronts in single precision */
+/* float: L in single precision */
 #if defined(SL_WITH_FLOAT)
-#include "impl/float/simd_scalar_single.h"
-#include "impl/float/simd_avx2_single.h"
-#include "impl/float/simd_avx512_single.h"
-#include "impl/float/simd_neon_single.h"
 #include "impl/float/float_kernels.h"
 #include "impl/float/float_storage.h"
 #endif

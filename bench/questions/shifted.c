@@ -156,7 +156,7 @@ static void workload_free(workload *q) {
 /* Checks that batches equal single calls bit for bit, and that the signatures equal local
  * solves, with relative error 1e-9. */
 static int check_answers(bench_run *run, workload *q, sl_int patch) {
-    const size_t size = (size_t)patch * SHIFTED_COUNT, all = (size_t)VERTICES * SHIFTED_COUNT;
+    const size_t size = (size_t)patch * SHIFTED_COUNT;
     const char *name = q->f.system->name;
     int passed = 1;
     call_plan_each(q);

@@ -34,7 +34,6 @@ static void every_allocation_may_fail(void **state) {
         {"sl_symbolic_create, given", symbolic_given},
         {"sl_factor_create", factor},
         {"sl_factor_create, L in float", factor_float},
-        {"sl_factor_create, fronts in float", factor_float_fronts},
         {"sl_factor_lower", lower},
         {"sl_factor_submatrix", restrict_half},
         {"sl_factor_submatrix, few rows", restrict_few},

@@ -103,12 +103,6 @@ static sl_status factor_float(fixture_t *f, const sl_options *opt) {
     return factor(f, &single);
 }
 
-static sl_status factor_float_fronts(fixture_t *f, const sl_options *opt) {
-    sl_options single = *opt;
-    single.storage = SL_STORAGE_FLOAT_FRONTS;
-    return factor(f, &single);
-}
-
 static sl_status lower(fixture_t *f, const sl_options *opt) {
     sl_matrix *M = GARBAGE(sl_matrix);
     return end_matrix(sl_factor_lower(&M, f->y.F, opt), &M);

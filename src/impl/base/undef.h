@@ -99,16 +99,6 @@
 #undef SLI_BY_TYPE
 #undef SLI_VALUE_0
 #undef SLI_VALUE_1
-#undef SLI_OF_0
-#undef SLI_OF_1
-#undef SLI_LEAST_0
-#undef SLI_LEAST_1
-#undef SLI_MOST_0
-#undef SLI_MOST_1
-#undef SLI_PIVOT_0
-#undef SLI_PIVOT_1
-#undef SLI_PACK_PAIRS_0
-#undef SLI_PACK_PAIRS_1
 #undef SLI_SWEEP_0
 #undef SLI_SWEEP_1
 #undef SLI_FRONT_0
@@ -127,11 +117,8 @@
 #undef SLV_FRONT
 #undef SLV_FRONT_PIVOTS
 #undef SLV_VALUE
-#undef SLV_OF
 #undef SLV_LEAST
 #undef SLV_MOST
-#undef SLV_PIVOT
-#undef SLV_PACK_PAIRS
 #undef SLV_SWEEP
 #undef SLV_SWEEP_2
 #undef SLV_SWEEP_SMALL
@@ -156,8 +143,6 @@
 #undef SLI_GROWTH_LIMIT
 #undef SLI_GROWTH_LIMIT_FLOAT
 #undef SLI_ENTRIES_AHEAD
-#undef SLI_SINGLE_MOST
-#undef SLI_SINGLE_LEAST
 #undef SLI_ROUNDING_ERROR
 #undef SLI_NULL_PIVOT
 #undef SLI_JUDGE_RANDOM
@@ -165,7 +150,6 @@
 #undef SLI_JUDGE_ALIKE
 #undef SLI_JUDGE_FEW
 #undef SLI_JUDGE_READS
-#undef SLI_NULL_MOST
 #undef SLI_SUSPECT_ROW
 #undef SLI_INVERSE_GROUP
 #undef SLI_INVERSE_ROW
@@ -363,7 +347,6 @@
 #undef SLI_JOINT_NULL
 #undef SLI_JOINT_CENTERED
 #undef SLI_NORM_FLOOR
-#undef SLI_DOUBLE_FRONTS
 #undef SLI_SQUARE_LEAST
 #undef SLI_WRITE_VERSION_PLAIN
 #undef SLI_PRODUCT_COLUMNS

@@ -56,7 +56,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
     const double null = opt == NULL ? 0.0 : opt->null_tolerance;
     const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
     F->null.mode = opt == NULL ? SL_NULL_PIVOT_REFUSE : opt->null_pivots;
-    F->rule.epsilon = F->type->epsilon;
+    F->rule.epsilon = DBL_EPSILON;
     F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n, F->rule.epsilon) : null;
     F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
     F->rule.replaces = F->null.mode == SL_NULL_PIVOT_SKIP || F->rule.regularization != 0.0;

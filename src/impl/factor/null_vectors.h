@@ -70,8 +70,7 @@ SLI_INLINE int sli_signs_agree(double a, double b) {
  * diagonal entries. Over 80,000 meshes with weak bridges and slivers, pivots of the wrong sign
  * stayed below (128 + n/4) epsilon. The factor 16 leaves a margin. */
 static double sli_null_rounding(sl_int n, double epsilon) {
-    const double rounding = 16.0 * (64.0 + n / 8) * epsilon;
-    return rounding < SLI_NULL_MOST ? rounding : SLI_NULL_MOST;
+    return 16.0 * (64.0 + n / 8) * epsilon;
 }
 
 /* After a pivot was refused: reports the first entry that is not finite instead, if there is one.
