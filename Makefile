@@ -273,7 +273,7 @@ test-no-singular: deps sparse_local.h ## tests of regular systems, built with -D
 	@+$(SUB_MAKE) run-tests B=build/no_singular CFLAGS='-DSL_NO_SINGULAR $(CFLAGS)' REPLAYS= \
 	TEST_PROGRAMS='$(NO_SINGULAR:%=build/no_singular/tests/core/%)'
 
-THREADED = test_threads test_threads_least test_threads_solve test_ordering_threads test_batch test_batch_factor test_batch_inverse test_inverse_threads test_change_threads
+THREADED = test_threads test_threads_least test_threads_solve test_ordering_threads test_batch test_batch_factor test_inverse_threads test_change_threads
 
 test-openmp: deps sparse_local.h ## the tests of threads, with OpenMP compiled in
 	@+$(SUB_MAKE) run-tests B=build/openmp OPT='-O2 -fopenmp' REPLAYS= \

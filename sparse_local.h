@@ -1,60 +1,58 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 45d8aa322757103e
+ * FNV-1a of the lines after this comment, without the license: f15c3cbf1c8768c2
  * The comments of the implementation are in src/impl.
  *
  * Contents
- *     62 intro.h      what the library does, a quick start, which call for which question, references
- *    192 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    236 config.h     macros that a user may define before the include, the version, and the integer types
- *    325 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    498 options.h    options of all calls, threads, and the allocator
- *    624 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    862 csc.h        sparse matrices: creation, checks, products, residuals
- *    963 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1039 factor.h     the numerical factorization P A P' = L D L'
- *   1168 solve.h      full solves, and the workspace of all solves
- *   1264 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1340 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1424 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1517 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1556 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1657 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1737 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1823 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1916 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2023 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2065 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2187 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2218 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2400 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2503 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2607 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2648 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2733 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2821 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2898 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2941 impl/ base: the compiler, status, memory, sorting, threads
- *   4222 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5161 impl/ matrix: sparse matrices of the caller and of the library
- *   5837 impl/ ordering: fill-reducing orderings of a graph
- *  10473 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12711 impl/ factor: the numbers of L and D
- *  15308 impl/ solve: full and local solves
- *  16854 impl/ singular: null spaces of semidefinite matrices
- *  18125 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20140 impl/ pivots: the order of the pivots by the values of a matrix
- *  20548 impl/ float: L and fronts in single precision
- *  21053 impl/ inverse: entries of the inverse, regions
- *  24152 impl/ change: a factor that follows changes of its matrix
- *  30438 impl/ fixed: rows fixed at given values
- *  30999 impl/ io: files that are replaced only when they are complete
- *  31217 impl/ files: Matrix Market files, 64-bit indices
- *  31837 impl/ save: factors in files
- *  33854 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34540 impl/ batch: diagonals of many inverses
- *  34680 impl/ complex: complex Hermitian systems over real factors
- *  35180 impl/ packs: the tables through which the core calls packs
- *  35601 impl/ templates: the header includes them from itself, once for each instruction set
+ *     60 intro.h      what the library does, a quick start, which call for which question, references
+ *    190 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    234 config.h     macros that a user may define before the include, the version, and the integer types
+ *    323 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    495 options.h    options of all calls, threads, and the allocator
+ *    621 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    859 csc.h        sparse matrices: creation, checks, products, residuals
+ *    952 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1028 factor.h     the numerical factorization P A P' = L D L'
+ *   1157 solve.h      full solves, and the workspace of all solves
+ *   1253 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1329 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1413 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1494 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1533 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1634 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1713 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1783 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1876 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1982 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2024 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2146 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2328 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2431 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2535 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2576 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2661 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2749 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2812 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2855 impl/ base: the compiler, status, memory, sorting, threads
+ *   4136 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5045 impl/ matrix: sparse matrices of the caller and of the library
+ *   5707 impl/ ordering: fill-reducing orderings of a graph
+ *  10343 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12581 impl/ factor: the numbers of L and D
+ *  15164 impl/ solve: full and local solves
+ *  16710 impl/ singular: null spaces of semidefinite matrices
+ *  17981 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19996 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20404 impl/ float: L in single precision
+ *  20634 impl/ inverse: entries of the inverse, regions
+ *  23593 impl/ change: a factor that follows changes of its matrix
+ *  29879 impl/ fixed: rows fixed at given values
+ *  30440 impl/ io: files that are replaced only when they are complete
+ *  30658 impl/ files: Matrix Market files, 64-bit indices
+ *  31204 impl/ save: factors in files
+ *  33220 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33906 impl/ complex: complex Hermitian systems over real factors
+ *  34409 impl/ packs: the tables through which the core calls packs
+ *  34811 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -195,13 +193,13 @@
  * many right-hand sides, for regular and for singular matrices. Define the macro of a pack before
  * every include of this header to add to it, or SL_WITH_ALL for all packs:
  *
- *  SL_WITH_INVERSE    entries of the inverse, bilinear forms, selected inversion, regions
+ *  SL_WITH_INVERSE    entries of the inverse, selected inversion, regions
  *  SL_WITH_CHANGE     changes of a factor in place, pins, factors of submatrices, edits
  *  SL_WITH_FIXED      rows fixed at given values: harmonic maps, interpolation
  *  SL_WITH_SAVE       factors, selected inverses and regions in files and in mapped memory
  *  SL_WITH_BATCH      many factors or solves by one call, weighted sums of matrices
  *  SL_WITH_COMPLEX    complex Hermitian systems, SL_STORAGE_COMPLEX
- *  SL_WITH_FLOAT      L in single precision: SL_STORAGE_FLOAT, SL_STORAGE_FLOAT_FRONTS
+ *  SL_WITH_FLOAT      L in single precision: SL_STORAGE_FLOAT
  *  SL_WITH_ACCURACY   refinement, bounds of errors, condition numbers, defects, half solves
  *  SL_WITH_FILES      Matrix Market files, matrices with 64-bit indices
  *  SL_WITH_PIVOTS     2x2 pivots for indefinite matrices
@@ -443,10 +441,9 @@ typedef enum sl_method {
  *  AVX2) has no kernels but those of double: L is then in double, as stats.storage says. */
 typedef enum sl_storage {
     SL_STORAGE_DOUBLE = 0,
-    SL_STORAGE_FLOAT,        /* half the bytes of L, its accuracy until refined */
-    SL_STORAGE_FLOAT_FRONTS, /* fronts are computed in float, too: half the time, less accuracy */
-    SL_STORAGE_COMPLEX       /* EXPERIMENTAL: half the bytes of L in full accuracy, of complex
-                                Hermitian matrices only, complex.h */
+    SL_STORAGE_FLOAT,  /* half the bytes of L, its accuracy until refined */
+    SL_STORAGE_COMPLEX /* EXPERIMENTAL: half the bytes of L in full accuracy, of complex Hermitian
+                          matrices only, complex.h */
 } sl_storage;
 
 /** What to do with a null pivot. */
@@ -697,7 +694,7 @@ typedef struct sl_plan_info {
     size_t bytes;
 } sl_plan_info;
 
-/** Entries of the inverse: sl_inverse_diagonal, _pairs, _block, _bilinear. */
+/** Entries of the inverse: sl_inverse_diagonal, _pairs, _block. */
 typedef struct sl_inverse_info {
     sl_inverse_method method;
     /* SL_INVERSE_FORWARD: of the largest reach swept; SL_INVERSE_SELECTED: of the inverted part */
@@ -879,14 +876,6 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int 
                                                         const sl_int *i, const sl_int *j,
                                                         const double *x, const sl_options *opt,
                                                         sl_stats *stats);
-
-/** The transpose of a general matrix (as SL_AS_STORED). Rows are ascending; duplicates stay.
- *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MALFORMED; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(n_rows + n_cols + nnz).
- */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A,
-                                                    const sl_options *opt);
 
 /** The principal submatrix C = A[rows, rows] of a square matrix: C(k, l) = A(rows[k], rows[l]).
  *  With all rows it is a symmetric permutation P A P'.
@@ -1216,13 +1205,13 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  |  _refine, _rcond                  | but they may with threads: try each number             |
  *  | sl_factor_pseudo_inverse          | the analysis and the number of columns                 |
  *  | sl_fixed_solve                    | the object, nrhs, and the threads of W                 |
- *  | sl_plan_solve, _solve_part        | the plan, nrhs, whether F has null pivots; fewer       |
+ *  | sl_plan_solve, parts of a plan    | the plan, nrhs, whether F has null pivots; fewer       |
  *  |                                   | right-hand sides need no more                          |
  *  | sl_plan_solve_regularized         | the same, and the number of regularized rows           |
  *  | sl_selected_refactor              | the selected inverse and options.storage of F          |
  *  | sl_region_refactor                | the region, the instruction set of F, and Z            |
- *  | sl_local_solve, sl_inverse_*,     | the rows of the call, too. Fewer rows can need more:   |
- *  |  sl_batch_diagonal                | try each set of rows                                   |
+ *  | sl_local_solve, sl_inverse_*      | the rows of the call, too. Fewer rows can need more:   |
+ *  |                                   | try each set of rows                                   |
  *
  *  Each workspace of a batch needs what its largest request does. The values of A, B and X, and
  *  leading dimensions, make no difference, but for entries of the inverse of A with pivots of both
@@ -1450,58 +1439,46 @@ typedef enum sl_part {
  *  of sl_factor_solve. With several null vectors a component (options.null_vector_count), null
  *  pivots are not the last ones, and P' L D L' P differs from A in their rows and columns.
  *
+ *  With a plan it is one half of a local solve. Forward: SL_PART_P, SL_PART_L and perhaps one of
+ *  SL_PART_D and SL_PART_SQRT_D. B has the rows of the b-set; X has the b_columns rows that the
+ *  sweep reaches (sl_plan_columns), and all others are 0. Backward: SL_PART_LT, SL_PART_PT and
+ *  perhaps one of the two. B has the x_columns rows that the x-set depends on; X has those of the
+ *  x-set. The results are the rows of the full call, bit for bit.
+ *
  *  F      [in]   factor of A, n x n.
- *  parts  [in]   any of sl_part, but not both SL_PART_D and SL_PART_SQRT_D; 0 copies B.
+ *  plan   [in]   over the analysis of F, without a region; NULL: all rows.
+ *  parts  [in]   any of sl_part, but not both SL_PART_D and SL_PART_SQRT_D; 0 copies B. With a plan
+ *                those above.
  *  X      [out]  n x nrhs, leading dimension ldx, or by SL_ROWS; in the order of A with SL_PART_PT,
  *                else of the pivots. May be B itself (then ldx = ldb). On error untouched.
  *  B      [in]   n x nrhs, leading dimension ldb, or by SL_ROWS; in the order of A with SL_PART_P,
  *                else of the pivots.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_PIVOT: SL_PART_SQRT_D with a negative
- *           pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
- *  Cost     2 nnz_panels flops per right-hand side for each of L and L'; O(n) for the others.
+ *           pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots, or a plan in a region;
+ *           SL_ERR_MISMATCH: a plan of another analysis; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     2 nnz_panels flops per right-hand side for each of L and L'; O(n) for the others. On a
+ *           plan 2 b_entries or 2 x_entries flops; nothing O(n).
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/core/test_parts.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_solve_part(const sl_factor *F, unsigned parts, double *X,
-                                                     size_t ldx, const double *B, size_t ldb,
-                                                     sl_int nrhs, sl_work *W);
+SL_API SL_WARN_UNUSED sl_status sl_factor_solve_part(const sl_factor *F, const sl_plan *plan,
+                                                     unsigned parts, double *X, size_t ldx,
+                                                     const double *B, size_t ldb, sl_int nrhs,
+                                                     sl_work *W);
 
 /** X = P' L D L' P B with only those factors that are given; the others count as I.
  *
  *  L + PT undoes P + L of sl_factor_solve_part, and LT undoes LT. L + SQRT_D + PT makes samples of
  *  covariance A. All parts together give A B, or (A + E) B if regularization changed pivots.
  *
- *  Arguments, Returns, Threads  as sl_factor_solve_part.
+ *  Arguments, Returns, Threads  as sl_factor_solve_part without a plan.
  *  Cost     2 nnz_panels flops per right-hand side for each of L and L', in plain C: 13 to 27 times
  *           as long as the solve.
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_multiply_part(const sl_factor *F, unsigned parts,
                                                         double *X, size_t ldx, const double *B,
                                                         size_t ldb, sl_int nrhs, sl_work *W);
-
-/** Half of a local solve: the forward half from the b-set, or the backward half to the x-set.
- *
- *  Forward: SL_PART_P, SL_PART_L and perhaps one of SL_PART_D and SL_PART_SQRT_D. B has the rows of
- *  the b-set; X has the b_columns rows that the sweep reaches (stats.plan), and all others are 0.
- *  The rows are those of sl_plan_columns. Backward: SL_PART_LT, SL_PART_PT and perhaps one of the
- *  two. B has the x_columns rows that the x-set depends on; X has the rows of the x-set.
- *
- *  With standard normal B, SL_PART_SQRT_D + LT + PT samples x on the x-set alone, with the
- *  covariance A^-1 has there. The results are the rows of sl_factor_solve_part, bit for bit.
- *
- *  P, F   [in]   a plan without a region, and a factor over its analysis.
- *  X, B, ldx, ldb, nrhs, W  as in sl_plan_solve, but for their rows.
- *  Returns  as sl_factor_solve_part; SL_ERR_ARGUMENT: other parts; SL_ERR_MISMATCH: a factor of
- *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region.
- *  Cost     2 b_entries or 2 x_entries flops per right-hand side; nothing O(n).
- *  Threads  any number at once on one P and one F, each with its own W.
- */
-SL_API SL_WARN_UNUSED sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F,
-                                                   unsigned parts, double *X, size_t ldx,
-                                                   const double *B, size_t ldb, sl_int nrhs,
-                                                   sl_work *W);
 
 /** The columns of L that one sweep of a plan visits, ascending: the rows of half solves.
  *
@@ -1723,7 +1700,6 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
 #else
 #define sl_factor_solve_part(...) sl_factor_solve_part_needs_SL_WITH_ACCURACY
 #define sl_factor_multiply_part(...) sl_factor_multiply_part_needs_SL_WITH_ACCURACY
-#define sl_plan_solve_part(...) sl_plan_solve_part_needs_SL_WITH_ACCURACY
 #define sl_plan_columns(...) sl_plan_columns_needs_SL_WITH_ACCURACY
 #define sl_factor_pseudo_inverse(...) sl_factor_pseudo_inverse_needs_SL_WITH_ACCURACY
 #define sl_factor_refine(...) sl_factor_refine_needs_SL_WITH_ACCURACY
@@ -1734,7 +1710,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
 #define sl_plan_solve_bounded(...) sl_plan_solve_bounded_needs_SL_WITH_ACCURACY
 #endif
 #if defined(SL_WITH_INVERSE)
-/* src/public/inverse.h: entries, blocks and bilinear forms of the inverse, without a backward sweep */
+/* src/public/inverse.h: entries and blocks of the inverse, without a backward sweep */
 
 /* Entries come from forward sweeps, or from selected inversion where that is cheaper, as it is for
  * the whole diagonal (stats.inverse.method). Results equal those of full solves up to rounding; the
@@ -1803,22 +1779,6 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_block(const sl_factor *F, double *Z, 
                                                  const sl_int *rows, sl_int n_rows,
                                                  const sl_int *columns, sl_int n_columns,
                                                  sl_work *W, sl_stats *stats);
-
-/** A bilinear form of the inverse: out = c' A^-1 b for sparse b and c.
- *
- *  out   [out]  one value.
- *  bset  [in]   nb rows of A in 0..n-1, any order; values of a row given twice add up; b is 0 in
- *               the other rows. NULL (nb is ignored): all n.
- *  b     [in]   nb values.
- *  cset  [in]   nc rows of A, likewise.
- *  c     [in]   nc values. If sets and values of b and c are the same arrays, b' A^-1 b takes half
- *               the operations. An index out of range is error.row for cset and error.column for
- *               bset.
- */
-SL_API SL_WARN_UNUSED sl_status sl_inverse_bilinear(const sl_factor *F, double *out,
-                                                    const sl_int *bset, const double *b, sl_int nb,
-                                                    const sl_int *cset, const double *c, sl_int nc,
-                                                    sl_work *W, sl_stats *stats);
 
 /* src/public/selected.h: the selected inverse: entries of A^-1 on the pattern of L */
 
@@ -2006,7 +1966,6 @@ SL_API sl_region_arrays sl_region_view(const sl_region *R);
 #define sl_inverse_diagonal(...) sl_inverse_diagonal_needs_SL_WITH_INVERSE
 #define sl_inverse_pairs(...) sl_inverse_pairs_needs_SL_WITH_INVERSE
 #define sl_inverse_block(...) sl_inverse_block_needs_SL_WITH_INVERSE
-#define sl_inverse_bilinear(...) sl_inverse_bilinear_needs_SL_WITH_INVERSE
 #define sl_selected_create(...) sl_selected_create_needs_SL_WITH_INVERSE
 #define sl_selected_refactor(...) sl_selected_refactor_needs_SL_WITH_INVERSE
 #define sl_selected_free(...) sl_selected_free_needs_SL_WITH_INVERSE
@@ -2076,7 +2035,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
  *     const double *v[2] = {m, k};
  *     for i < count: c[2 i] = 1, c[2 i + 1] = t[i];
  *     sl_factor_create_sums(F, count, S, c, v, 2, &opt, NULL, NULL);   F[i]: the factor of M + t[i]
- *     K sl_batch_diagonal(F, count, h, n_rows, rows, n_rows, &opt, NULL, NULL, NULL);
+ *     for i < count: sl_inverse_diagonal(F[i], h + i * n_rows, rows, n_rows, W, NULL);
  *
  * A plan belongs to the analysis. It serves all of these factors, one by one or in a batch whose
  * requests name their factors.
@@ -2182,37 +2141,6 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_sums(sl_factor *const *factor
 #define sl_symbolic_scatter(...) sl_symbolic_scatter_needs_SL_WITH_BATCH
 #define sl_factor_create_sums(...) sl_factor_create_sums_needs_SL_WITH_BATCH
 #define sl_factor_refactor_sums(...) sl_factor_refactor_sums_needs_SL_WITH_BATCH
-#endif
-#if defined(SL_WITH_BATCH) && defined(SL_WITH_INVERSE)
-/* src/public/batch_diagonal.h: diagonals of the inverses of many factors by one call */
-
-/** Diagonals of several inverses: out(i, k) = (A_k^-1)(rows[i], rows[i]); the bits of
- *  sl_inverse_diagonal.
- *
- *  factors  [in]      count factors of one analysis, repetitions allowed.
- *  out      [out]     n_rows x count, leading dimension ldo >= n_rows. On error untouched.
- *  rows     [in]      n_rows rows of A, any order, repetitions allowed; NULL (n_rows is ignored):
- *                     all n.
- *  opt      [in]      threads; NULL: the calling thread only. Each thread takes whole factors.
- *  works    [in,out]  one workspace per thread, as in sl_batch_solve, or NULL: allocated for this
- *                     call.
- *  failed   [out]     the factor that caused the error, or -1; may be NULL.
- *  stats    [out]     error.row: an index out of range.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range; SL_ERR_STALE: a failed factor;
- *           SL_ERR_MISMATCH: factors of several analyses; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     that of sl_inverse_diagonal for each factor, distributed.
- *  Threads  as sl_inverse_diagonal.
- *  Source   [HDA17] 5.
- *  Example  tests/core/test_batch_inverse.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(sl_factor *const *factors, sl_int count,
-                                                  double *out, size_t ldo, const sl_int *rows,
-                                                  sl_int n_rows, const sl_options *opt,
-                                                  sl_work *const *works, sl_int *failed,
-                                                  sl_stats *stats);
-
-#else
-#define sl_batch_diagonal(...) sl_batch_diagonal_needs_SL_WITH_BATCH_and_SL_WITH_INVERSE
 #endif
 #if defined(SL_WITH_SAVE)
 /* src/public/save.h: a factor and what belongs to it in a file or in memory: saved, loaded, mapped */
@@ -2847,19 +2775,6 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_read(sl_matrix **out, const char *path
 SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
                                                 const sl_options *opt, sl_stats *stats);
 
-/** Writes a Matrix Market file that reads back to the same bits (%.17g).
- *
- *  An existing file is replaced only once the new one is complete: on error it is as it was. A
- *  device, a pipe or a symbolic link is written in place. Nothing waits for the disk.
- *
- *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of
- *                 one triangle.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MALFORMED: malformed, or not symmetric with
- *           SL_AS_SYMMETRIC; SL_ERR_IO; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
- *  Manual   tools/docs/files.md: temporary names, permissions, systems without POSIX
- */
-SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path);
-
 /** View of a sparse matrix with 64-bit indices, otherwise as sl_csc: the arrays of MATLAB, Julia,
  *  SuiteSparse's long interface and SciPy's int64. */
 typedef struct sl_csc64 {
@@ -2891,7 +2806,6 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_c
 #else
 #define sl_matrix_read(...) sl_matrix_read_needs_SL_WITH_FILES
 #define sl_matrix_parse(...) sl_matrix_parse_needs_SL_WITH_FILES
-#define sl_csc_write(...) sl_csc_write_needs_SL_WITH_FILES
 #define sl_matrix_from_csc64(...) sl_matrix_from_csc64_needs_SL_WITH_FILES
 #endif
 #if defined(SL_WITH_PIVOTS)
@@ -4396,12 +4310,8 @@ typedef struct sli_pivot_rule {
 
 #define SLI_NULL_PIVOT DBL_MAX
 
-#define SLI_NULL_MOST 0.03125
-
 static double sli_null_tolerance(sl_int n, double epsilon) {
-  const double tolerance = (64.0 + n / 8) * epsilon;
-  return tolerance < SLI_NULL_MOST ? tolerance
-                   : SLI_NULL_MOST;
+  return (64.0 + n / 8) * epsilon;
 }
 
 SLI_NOINLINE static double sli_rule_tolerance(const sli_pivot_rule *rule, sl_int k) {
@@ -4420,10 +4330,6 @@ SLI_INLINE int sli_is_null_by_rule(const sli_pivot_rule *rule, sl_int k, double 
     double magnitude) {
   return sli_is_null(pivot, magnitude, rule->null_tolerance) &&
        sli_is_null(pivot, magnitude, sli_rule_tolerance(rule, k));
-}
-
-SLI_NOINLINE static float sli_to_float(double d) {
-  return d > (double)FLT_MAX ? FLT_MAX : d < -(double)FLT_MAX ? -FLT_MAX : (float)d;
 }
 
 SLI_INLINE double sli_pivot_skipped(const sli_pivot_rule *rule, sl_int k, double d,
@@ -4492,10 +4398,6 @@ SLI_INLINE sl_int sli_front_groups(sl_int width) {
   return (sli_tiles(width) + SLI_GROUP_TILES - 1) / SLI_GROUP_TILES;
 }
 
-typedef struct sli_front_single {
-  float *panel, *update, *D, *magnitude, *reciprocals;
-} sli_front_single;
-
 typedef struct sli_front {
   double *panel;
   sl_int width, below;
@@ -4505,7 +4407,6 @@ typedef struct sli_front {
   const unsigned char *pairs;
   double *E;
   double *reciprocals;
-  sli_front_single single;
   int is_small;
   const sli_pivot_rule *rule;
   sl_int super, column;
@@ -4835,26 +4736,9 @@ typedef struct sli_kernels {
       SLV_WIDEN_ROWS(v + SLI_TILE * c_, (l) + SLI_TILE * c_, rows) \
     } \
   }
-#define SLI_OF_0(f, array) (f)->array
-#define SLI_OF_1(f, array) (f)->single.array
-#define SLI_LEAST_0 1e-290
-#define SLI_LEAST_1 1e-30
-#define SLI_MOST_0 1e290
-#define SLI_MOST_1 1e30
-#define SLI_PIVOT_0(d) (d)
-#define SLI_PIVOT_1(d) sli_to_float(d)
-#define SLI_PACK_PAIRS_0(l, E, j, length, B) \
-  if (E != NULL) { \
-    sli_pair_pack(l, E + (j), length, B); \
-  }
-#define SLI_PACK_PAIRS_1(l, E, j, length, B) (void)E;
 #define SLV_VALUE SLI_BY_TYPE(SLI_VALUE_, SLV_SINGLE)
-#define SLV_OF(f, array) SLI_BY_TYPE(SLI_OF_, SLV_SINGLE)(f, array)
-#define SLV_LEAST SLI_BY_TYPE(SLI_LEAST_, SLV_SINGLE)
-#define SLV_MOST SLI_BY_TYPE(SLI_MOST_, SLV_SINGLE)
-#define SLV_PIVOT(d) SLI_BY_TYPE(SLI_PIVOT_, SLV_SINGLE)(d)
-#define SLV_PACK_PAIRS(l, E, j, length, B) \
-  SLI_BY_TYPE(SLI_PACK_PAIRS_, SLV_SINGLE)(l, E, j, length, B)
+#define SLV_LEAST 1e-290
+#define SLV_MOST 1e290
 #define SLV_PARTS (1 + SLV_COMPLEX)
 #define SLV_FRONT(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME, f)
 #define SLV_FRONT_PIVOTS(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME_PIVOTS, f)
@@ -5315,7 +5199,7 @@ SL_API sl_csc sl_matrix_view(const sl_matrix *M) {
   return A;
 }
 
-/* src/impl/matrix/csc_build.h: builds matrices from triplets and transposes, both by counting sorts */
+/* src/impl/matrix/csc_build.h: matrices from triplets, and transposes of patterns, both by counting sorts */
 
 static void sli_count_starts(sl_int *start, sl_int n, const sl_int *keys, sl_int count) {
   sl_int k, total = 0;
@@ -5432,29 +5316,17 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
   return sli_report(stats, sli_from_triplets(out, &t, &a));
 }
 
-SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_options *opt) {
-  const sl_allocator a = sli_allocator(opt);
-  sl_status status;
+static sl_status sli_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_allocator *a) {
   sl_int j, p;
   sl_matrix *T;
-  status = sli_begin(out);
-  status = status == SL_OK ? sli_argument(sli_options_wrong(opt, SLI_READS_NOTHING)) : status;
-  status = status == SL_OK ? sl_csc_check(A, NULL) : status;
-  if (status != SL_OK) {
-    return status;
-  }
-  status = sli_matrix_new(&T, A->n_cols, A->n_rows, sli_nnz(A), A->x != NULL, &a);
+  const sl_status status = sli_matrix_new(&T, A->n_cols, A->n_rows, sli_nnz(A), 0, a);
   if (status != SL_OK) {
     return status;
   }
   sli_count_starts(T->p, A->n_rows, A->i, sli_nnz(A));
   for (j = 0; j < A->n_cols; j++) {
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
-      const sl_int to = T->p[A->i[p]]++;
-      T->i[to] = j;
-      if (A->x != NULL) {
-        T->x[to] = A->x[p];
-      }
+      T->i[T->p[A->i[p]]++] = j;
     }
   }
   memmove(T->p + 1, T->p, (size_t)A->n_rows * sizeof(sl_int));
@@ -5487,7 +5359,7 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle found, sl_triangl
     const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
   const sl_triangle wanted = opt == NULL ? SL_TRIANGLE_NONE : opt->triangle;
-  sl_csc pattern = *A, T;
+  sl_csc T;
   sl_matrix *transpose;
   sl_int *mark;
   sl_status status = SL_OK;
@@ -5499,9 +5371,7 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle found, sl_triangl
     return SL_OK;
   }
   if (found == SL_TRIANGLE_BOTH) {
-    const sl_options only_memory = sli_options_with(&a);
-    pattern.x = NULL;
-    status = sl_matrix_transpose(&transpose, &pattern, &only_memory);
+    status = sli_matrix_transpose(&transpose, A, &a);
     if (status != SL_OK) {
       return status;
     }
@@ -12999,9 +12869,7 @@ SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
 struct sli_storage_type {
   sl_storage storage;
   size_t value_bytes;
-  size_t front_bytes;
   int half;
-  double epsilon;
   const sli_sweeps *(*sweeps)(const sli_kernels *kernels);
   const sli_front_kernels *(*front)(const sli_kernels *kernels);
 
@@ -13030,12 +12898,8 @@ SLI_INLINE int sli_is_float(const sl_factor *F) {
   return F->type->value_bytes == sizeof(float);
 }
 
-SLI_INLINE int sli_is_single(const sl_factor *F) {
-  return F->type->front_bytes == sizeof(float);
-}
-
 SLI_INLINE int sli_panel_is_copied(const sl_factor *F, sl_int s) {
-  return F->S->steps[s].width == 1 || (sli_is_float(F) && !sli_is_single(F));
+  return F->S->steps[s].width == 1 || sli_is_float(F);
 }
 
 SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) {
@@ -13460,8 +13324,7 @@ static void sli_null_components(const sli_null_walk *w, const sl_symbolic *S, co
 /* src/impl/factor/pivot_suspects.h: pivots that the tolerance may have missed, where null pivots are refused */
 
 static double sli_null_rounding(sl_int n, double epsilon) {
-  const double rounding = 16.0 * (64.0 + n / 8) * epsilon;
-  return rounding < SLI_NULL_MOST ? rounding : SLI_NULL_MOST;
+  return 16.0 * (64.0 + n / 8) * epsilon;
 }
 
 static int sli_null_is_suspected(sl_factor *F) {
@@ -13622,7 +13485,6 @@ static void sli_front_update(const sli_front_kernels *kernels, const sli_front *
 static sli_front sli_front_in_double(const sl_factor *F, sl_int s, sl_int worker) {
   const sli_step *step = &F->S->steps[s];
   sli_front f;
-  memset(&f.single, 0, sizeof f.single);
   f.update = NULL;
   f.super = s;
   f.is_small = 0;
@@ -13640,10 +13502,7 @@ static sli_front sli_front_in_double(const sl_factor *F, sl_int s, sl_int worker
 }
 
 #define SLF_NAME(f) sli_double_##f
-#define SLF_VALUE double
-#define SLF_SINGLE 0
 #define SLF_HALF 0
-#define SLF_OF(f, array) (f)->array
 #define SLF_BEGIN sli_front_in_double
 #define SLI_INL_FRONTS
 #define SLI_INL_FRONTS_UNDEF
@@ -13670,24 +13529,26 @@ static const sli_front_kernels *sli_double_front(const sli_kernels *kernels) {
   return &kernels->front;
 }
 
-#define SLI_DOUBLE_FRONTS \
-  sli_double_front, sli_double_factor, sli_double_shared, sli_double_front_clear, \
-    sli_double_front_load, sli_double_front_assemble, sli_double_front_finish
-
-static const sli_storage_type sli_storage_double = {SL_STORAGE_DOUBLE,
-                          sizeof(double),
-                          sizeof(double),
-                          0,
-                          DBL_EPSILON,
-                          sli_double_sweeps,
-                          SLI_DOUBLE_FRONTS,
-                          NULL,
-                          NULL,
-                          NULL,
-                          NULL,
-                          NULL,
-                          NULL,
-                          NULL};
+static const sli_storage_type sli_storage_double = {
+  SL_STORAGE_DOUBLE,
+  sizeof(double),
+  0,
+  sli_double_sweeps,
+  sli_double_front,
+  sli_double_factor,
+  sli_double_shared,
+  sli_double_front_clear,
+  sli_double_front_load,
+  sli_double_front_assemble,
+  sli_double_front_finish,
+  NULL,
+  NULL,
+  NULL,
+  NULL,
+  NULL,
+  NULL,
+  NULL
+};
 
 /* src/impl/factor/uplooking.h: up-looking factorization: row by row, each a sparse triangular solve */
 
@@ -14511,18 +14372,13 @@ static sl_status sli_factor_prepare(sl_factor *F) {
       sli_schedule_work_layout(&w, &t, S->n_supers, plan.workers);
     }
     if (status == SL_OK) {
-      sli_schedule_fill(&plan, S,
-          sli_is_single(F) ? SLI_PLAIN_NOT
-          : sli_is_float(F) ? SLI_PLAIN_PASSED
-          : SLI_PLAIN,
-          &w);
+      sli_schedule_fill(&plan, S, sli_is_float(F) ? SLI_PLAIN_PASSED : SLI_PLAIN, &w);
     }
   }
   SLI_LAYOUT(&b, &F->allocator, status) {
     sli_factor_layout_scratch(F, &b);
     if (has_fronts) {
-      F->work.stack =
-        sli_take(&b, (uint64_t)(plan.stack >> F->type->half), F->type->front_bytes);
+      F->work.stack = sli_take(&b, (uint64_t)(plan.stack >> F->type->half), sizeof(double));
       sli_schedule_layout_tops(&plan, S, &b);
       p = plan;
       p.workers = F->schedule.workers;
@@ -14595,7 +14451,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
   const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
   const sl_int vectors = opt == NULL ? 0 : (sl_int)opt->null_vector_count;
   F->null.calls = sli_singular_of(opt != NULL && opt->null_pivots == SL_NULL_PIVOT_SKIP);
-  F->rule.epsilon = F->type->epsilon;
+  F->rule.epsilon = DBL_EPSILON;
   F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n, F->rule.epsilon) : null;
   F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
   F->rule.replaces = sli_skips_nulls(F) || F->rule.regularization != 0.0;
@@ -18326,28 +18182,13 @@ static sl_status sli_factor_part(const sl_factor *F, unsigned parts, int is_prod
   return sli_parts_run(&p, rhs, W);
 }
 
-SL_API sl_status sl_factor_solve_part(const sl_factor *F, unsigned parts, double *X, size_t ldx,
-    const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
-  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
-  return sli_factor_part(F, parts, 0, &rhs, W);
-}
-
-SL_API sl_status sl_factor_multiply_part(const sl_factor *F, unsigned parts, double *X, size_t ldx,
-    const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
-  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
-  return sli_factor_part(F, parts, 1, &rhs, W);
-}
-
-SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsigned parts, double *X,
-    size_t ldx, const double *B, size_t ldb, sl_int nrhs,
-    sl_work *W) {
+static sl_status sli_plan_part(const sl_plan *P, const sl_factor *F, unsigned parts,
+    const sli_rhs *rhs, sl_work *W) {
   const unsigned ends = parts & ~(unsigned)(SL_PART_D | SL_PART_SQRT_D);
   const int is_forward = ends == (SL_PART_P | SL_PART_L);
-  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sli_parts p;
   sl_status status =
-    sli_argument(P == NULL ? "P is NULL"
-        : F == NULL ? "F is NULL"
+    sli_argument(F == NULL ? "F is NULL"
         : !is_forward && ends != (SL_PART_LT | SL_PART_PT)
         ? "parts of a plan are P and L, or L' and P', each with or without D"
         : NULL);
@@ -18365,7 +18206,21 @@ SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsign
   p.parts = parts;
   p.q = sli_parts_query(&P->query, is_forward ? &P->query.forward : &P->query.backward,
       is_forward, !is_forward);
-  return sli_parts_run(&p, &rhs, W);
+  return sli_parts_run(&p, rhs, W);
+}
+
+SL_API sl_status sl_factor_solve_part(const sl_factor *F, const sl_plan *plan, unsigned parts,
+    double *X, size_t ldx, const double *B, size_t ldb,
+    sl_int nrhs, sl_work *W) {
+  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
+  return plan == NULL ? sli_factor_part(F, parts, 0, &rhs, W)
+            : sli_plan_part(plan, F, parts, &rhs, W);
+}
+
+SL_API sl_status sl_factor_multiply_part(const sl_factor *F, unsigned parts, double *X, size_t ldx,
+    const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
+  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
+  return sli_factor_part(F, parts, 1, &rhs, W);
 }
 
 SL_API sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns, sl_int capacity,
@@ -18526,7 +18381,8 @@ SL_API sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_pseudo_inverse 
       P->Q[(size_t)t.null[c] + (size_t)c * n] = 1.0;
     }
   }
-  status = sl_factor_solve_part(F, SL_PART_LT | SL_PART_PT, P->Q, n, P->Q, n, P->columns, W);
+  status =
+    sl_factor_solve_part(F, NULL, SL_PART_LT | SL_PART_PT, P->Q, n, P->Q, n, P->columns, W);
   for (s = 0; s < F->S->n_supers && status == SL_OK; s++) {
     if (F->S->super_parent[s] == -1) {
       const sli_pseudo_tree t = sli_pseudo_tree_of(F, s);
@@ -18535,7 +18391,7 @@ SL_API sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_pseudo_inverse 
     }
   }
   if (status == SL_OK) {
-    status = sl_factor_solve_part(F, all, P->K, n, P->Q, n, P->columns, W);
+    status = sl_factor_solve_part(F, NULL, all, P->K, n, P->Q, n, P->columns, W);
   }
   for (s = 0; s < F->S->n_supers && status == SL_OK; s++) {
     if (F->S->super_parent[s] == -1) {
@@ -20543,210 +20399,14 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
 }
 
 #endif
-/* float: L and fronts in single precision */
+/* float: L in single precision */
 #if defined(SL_WITH_FLOAT)
-/* src/impl/float/simd_scalar_single.h: the kernels of fronts in float in plain C: a vector is an array */
-
-#if !defined(SLI_SIMD)
-
-#define SLV_SINGLE 1
-#define SLV_COMPLEX 0
-#define SLV_NAME(f) sli_single_##f##_scalar
-#define SLV_FUNCTION
-#define SLV_DECLARE(a) float a[SLI_TILE];
-#define SLV_ZERO(a) SLI_LOOP(SLI_TILE, a[i_] = 0.0F)
-#define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
-#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
-#define SLV_STORE(p, a) memcpy((p), a, sizeof a);
-#define SLV_BROADCAST(b, p) SLI_LOOP(SLI_TILE, b[i_] = *(p))
-#define SLV_LANE(b, a, k) SLI_LOOP(SLI_TILE, b[i_] = a[k])
-#define SLV_ADD(a, b) SLI_LOOP(SLI_TILE, a[i_] += b[i_])
-#define SLV_FNMA(a, b, c) SLI_LOOP(SLI_TILE, a[i_] -= b[i_] * c[i_])
-#define SLV_MULTIPLY(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] * c[i_])
-#define SLV_DIVIDE(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] / c[i_])
-#define SLV_BELOW(a, k) SLI_LOOP((k) + 1, a[i_] = 0.0F)
-#define SLV_TILES 1
-#define SLV_COLUMNS 4
-#define SLV_EACH_COLUMN SLI_EACH4
-#define SLV_EXPAND SLI_EXPAND_PLAIN
-#define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
-#define SLV_VECTOR_TILES 1
-#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
-#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
-#define SLV_NAME_PIVOTS SLV_NAME
-#define SLV_OWN_PIVOTS
-#define SLI_INL_FRONT
-#define SLI_INL_WORDS_UNDEF
-#include SL_HEADER
-#endif
-
-/* src/impl/float/simd_avx2_single.h: the kernels of fronts in float in AVX2: a vector of 8 is one register */
-
-#if defined(SLI_X86)
-
-#define SLV_SINGLE 1
-#define SLV_COMPLEX 0
-#define SLV_NAME(f) sli_single_##f##_avx2
-#define SLV_FUNCTION SLI_TARGET("avx2,fma")
-
-SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
-  int at[SLI_TILE], k, from = 0;
-  for (k = 0; k < SLI_TILE; k++) {
-    const int is_set = (int)(mask >> k & 1u);
-    at[k] = is_set ? from : -1;
-    from += is_set;
-  }
-  return _mm256_loadu_si256((const __m256i *)(const void *)at);
-}
-
-#define SLV_DECLARE(a) __m256 a;
-#define SLV_ZERO(a) a = _mm256_setzero_ps();
-#define SLV_LOAD(a, p) a = _mm256_load_ps(p);
-#define SLV_STORE(p, a) _mm256_store_ps((p), a);
-#define SLV_LOAD_PINNED(a, p) \
-  a = _mm256_load_ps(p); \
-  SLI_PIN(a);
-#define SLV_BROADCAST(b, p) b = _mm256_broadcast_ss(p);
-#define SLV_LANE(b, a, k) b = _mm256_permutevar8x32_ps(a, _mm256_set1_epi32(k));
-#define SLV_ADD(a, b) a = _mm256_add_ps(a, b);
-#define SLV_FNMA(a, b, c) a = _mm256_fnmadd_ps(b, c, a);
-#define SLV_MULTIPLY(a, b, c) a = _mm256_mul_ps(b, c);
-#define SLV_DIVIDE(a, b, c) a = _mm256_div_ps(b, c);
-#define SLV_BELOW(a, k) \
-  a = _mm256_and_ps(a, _mm256_castsi256_ps(_mm256_cmpgt_epi32( \
-      _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32(k))));
-#define SLV_AHEAD 1
-#define SLV_TILES 2
-#define SLV_COLUMNS 4
-#define SLV_EACH_COLUMN SLI_EACH4
-#define SLV_EXPAND(mask, lanes, count) \
-  const __m256i order_ = sli_single_expand_index(mask); \
-  const __m256 keep_ = _mm256_castsi256_ps(_mm256_cmpgt_epi32(order_, _mm256_set1_epi32(-1))); \
-  (void)(lanes);
-#define SLV_EXPAND_ADD(to, from) \
-  _mm256_store_ps( \
-      (to), _mm256_add_ps( \
-      _mm256_load_ps(to), \
-      _mm256_and_ps(_mm256_permutevar8x32_ps(_mm256_loadu_ps(from), order_), keep_)));
-#define SLV_VECTOR_TILES 1
-#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
-#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
-#define SLV_NAME_PIVOTS SLV_NAME
-#define SLV_OWN_PIVOTS
-#define SLI_INL_FRONT
-#define SLI_INL_WORDS_UNDEF
-#include SL_HEADER
-#endif
-
-/* src/impl/float/simd_avx512_single.h: the kernels of fronts in float in AVX-512F: a register has 16 lanes */
-
-#if defined(SLI_X86) && !defined(SL_NO_AVX512)
-
-#define SLV_SINGLE 1
-#define SLV_COMPLEX 0
-#define SLV_NAME(f) sli_single_##f##_avx512
-#define SLV_NAME_PIVOTS(f) sli_single_##f##_avx2
-#define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
-
-#define SLV_HALF(p) _mm256_castps_pd(_mm256_load_ps(p))
-#define SLV_HALF_OF(a, k) \
-  _mm256_castpd_ps(_mm512_maskz_extractf64x4_pd(0xf, _mm512_castps_pd(a), k))
-
-#define SLV_DECLARE(a) __m512 a;
-#define SLV_ZERO(a) a = _mm512_setzero_ps();
-#define SLV_LOAD(a, p) a = _mm512_castpd_ps(_mm512_maskz_broadcast_f64x4(0xff, SLV_HALF(p)));
-#define SLV_STORE(p, a) _mm256_store_ps((p), SLV_HALF_OF(a, 0));
-#define SLV_VECTOR_TILES 2
-#define SLV_LOAD_TILES(a, p, q) \
-  a = _mm512_castpd_ps( \
-      _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(SLV_HALF(p)), SLV_HALF(q), 1));
-#define SLV_STORE_TILES(p, q, a) \
-  SLV_STORE(p, a) \
-  _mm256_store_ps((q), SLV_HALF_OF(a, 1));
-#define SLV_BROADCAST(b, p) b = _mm512_set1_ps(*(p));
-#define SLV_LANE(b, a, k) b = _mm512_maskz_permutexvar_ps(0xffff, _mm512_set1_epi32(k), a);
-#define SLV_ADD(a, b) a = _mm512_add_ps(a, b);
-#define SLV_FNMA(a, b, c) a = _mm512_fnmadd_ps(b, c, a);
-#define SLV_MULTIPLY(a, b, c) a = _mm512_mul_ps(b, c);
-#define SLV_DIVIDE(a, b, c) a = _mm512_div_ps(b, c);
-#define SLV_BELOW(a, k) a = _mm512_maskz_mov_ps((__mmask16)((0xfe << (k)&0xff) * 0x101), a);
-#define SLV_AHEAD 4
-#define SLV_TILES 4
-#define SLV_COLUMNS 8
-#define SLV_EACH_COLUMN SLI_EACH8
-#define SLV_EXPAND(mask, lanes, count) \
-  const __mmask16 expand_ = (__mmask16)(mask); \
-  const __m512i order_ = _mm512_maskz_expand_epi32( \
-      expand_, _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0)); \
-  (void)(lanes);
-#define SLV_EXPAND_ADD(to, from) \
-  _mm256_store_ps( \
-      (to), _mm256_add_ps( \
-      _mm256_load_ps(to), \
-      SLV_HALF_OF(_mm512_maskz_permutexvar_ps( \
-      expand_, order_, _mm512_castps256_ps512(_mm256_loadu_ps(from))), \
-      0)));
-#define SLI_INL_FRONT
-#define SLI_INL_WORDS_UNDEF
-#include SL_HEADER
-#undef SLV_HALF
-#undef SLV_HALF_OF
-
-#endif
-
-/* src/impl/float/simd_neon_single.h: the kernels of fronts in float in NEON: a vector of 8 is two registers */
-
-#if defined(SLI_ARM)
-
-#define SLV_SINGLE 1
-#define SLV_COMPLEX 0
-#define SLV_NAME(f) sli_single_##f##_neon
-#define SLV_FUNCTION
-#define SLV_DECLARE(a) float32x4_t a##_0, a##_1;
-#define SLV_ZERO(a) a##_0 = a##_1 = vdupq_n_f32(0.0F);
-#define SLV_LOAD(a, p) a##_0 = vld1q_f32(p), a##_1 = vld1q_f32((p) + 4);
-#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
-#define SLV_STORE(p, a) vst1q_f32((p), a##_0), vst1q_f32((p) + 4, a##_1);
-#define SLV_BROADCAST(b, p) b##_0 = b##_1 = vld1q_dup_f32(p);
-#define SLV_LANE(b, a, k) \
-  b##_0 = b##_1 = vdupq_n_f32(vgetq_lane_f32((k) < 4 ? a##_0 : a##_1, (k) % 4));
-#define SLV_ADD(a, b) a##_0 = vaddq_f32(a##_0, b##_0), a##_1 = vaddq_f32(a##_1, b##_1);
-#define SLV_FNMA(a, b, c) \
-  a##_0 = vfmsq_f32(a##_0, b##_0, c##_0), a##_1 = vfmsq_f32(a##_1, b##_1, c##_1);
-#define SLV_MULTIPLY(a, b, c) a##_0 = vmulq_f32(b##_0, c##_0), a##_1 = vmulq_f32(b##_1, c##_1);
-#define SLV_DIVIDE(a, b, c) a##_0 = vdivq_f32(b##_0, c##_0), a##_1 = vdivq_f32(b##_1, c##_1);
-#define SLV_BELOW(a, k) \
-  { \
-    static const int32_t lanes_[SLI_TILE] = {0, 1, 2, 3, 4, 5, 6, 7}; \
-    const int32x4_t k_ = vdupq_n_s32(k); \
-    a##_0 = vreinterpretq_f32_u32( \
-        vandq_u32(vreinterpretq_u32_f32(a##_0), vcgtq_s32(vld1q_s32(lanes_), k_))); \
-    a##_1 = vreinterpretq_f32_u32( \
-        vandq_u32(vreinterpretq_u32_f32(a##_1), vcgtq_s32(vld1q_s32(lanes_ + 4), k_))); \
-  }
-#define SLV_AHEAD 1
-#define SLV_TILES 2
-#define SLV_COLUMNS 4
-#define SLV_EACH_COLUMN SLI_EACH4
-#define SLV_EXPAND SLI_EXPAND_PLAIN
-#define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
-#define SLV_VECTOR_TILES 1
-#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
-#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
-#define SLV_NAME_PIVOTS SLV_NAME
-#define SLV_OWN_PIVOTS
-#define SLI_INL_FRONT
-#define SLI_INL_WORDS_UNDEF
-#include SL_HEADER
-#endif
-
-/* src/impl/float/float_kernels.h: the kernels of L and of fronts in float, for every instruction set */
+/* src/impl/float/float_kernels.h: the kernels of L in float, for every instruction set */
 
 typedef int (*sli_round_kernel)(float *to, const double *from, ptrdiff_t count);
 
 typedef struct sli_float_kernels {
   sli_sweeps sweeps;
-  sli_front_kernels front;
   sli_round_kernel round;
 } sli_float_kernels;
 
@@ -20883,32 +20543,7 @@ SLI_INLINE const sli_float_kernels *sli_float_kernels_of(sl_isa isa) {
   return tables[sli_isa_row(isa)];
 }
 
-/* src/impl/float/float_storage.h: L in float: panels that are rounded, and fronts that are computed in float */
-
-#define SLI_SINGLE_MOST (0.25 * (double)FLT_MAX)
-#define SLI_SINGLE_LEAST 7.888609052210118e-31
-
-SLI_INLINE float sli_single(double a) {
-  const float x = (float)a;
-  return x != 0.0F || a == 0.0 ? x : a < 0.0 ? -FLT_MIN : FLT_MIN;
-}
-
-SLI_INLINE sl_status sli_check_single(const sl_factor *F, const sli_front *f, sl_int column,
-    sli_failure *failure) {
-  const sl_int s = f->super, k = f->column + column;
-  const float pivot = f->single.D[column], magnitude = f->single.magnitude[column];
-  const int is_null = sli_skips_nulls(F) && pivot == FLT_MAX;
-  const double d = is_null ? SLI_NULL_PIVOT : (double)pivot, m = (double)magnitude;
-  F->D[k] = d;
-  if (!(m <= SLI_SINGLE_MOST) || (!is_null && m != 0.0 && m < SLI_SINGLE_LEAST)) {
-    return sli_fail(failure, SL_ERR_INACCURATE, s, k, -1, d);
-  }
-  if (!is_null && F->rule.kinds != NULL && F->rule.kinds[k] == SLI_PIVOT_WEAK) {
-    sli_record_magnitude(F, s, k, m);
-    return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, d);
-  }
-  return sli_check_pivot(F, s, k, d, m, failure);
-}
+/* src/impl/float/float_storage.h: L in float: panels that are rounded when their fronts are done */
 
 SLI_INLINE int sli_rounding_harms(const sl_factor *F, const sli_front *f, sl_int r, sl_int j,
     double l) {
@@ -20967,85 +20602,31 @@ static void sli_float_entry_clear(void *values, sl_off at) {
   ((float *)values)[at] = 0.0F;
 }
 
-SLI_INLINE sli_front sli_single_begin(const sl_factor *F, sl_int s, sl_int worker) {
-  const sli_step *step = &F->S->steps[s];
-  const sl_int rows = SLI_TILE * sli_tiles(F->S->tallest);
-  sli_front f = sli_front_in_double(F, s, worker);
-  f.single.panel = step->width == 1 ? (float *)(void *)f.panel : (float *)F->values + step->panel;
-  f.single.magnitude = (float *)(void *)f.magnitude;
-  f.single.D = f.single.magnitude + rows;
-  f.single.reciprocals = (float *)(void *)f.reciprocals;
-  f.panel = f.D = f.magnitude = f.E = f.reciprocals = NULL;
-  return f;
-}
-
-#define SLF_NAME(f) sli_single_##f
-#define SLF_VALUE float
-#define SLF_SINGLE 1
-#define SLF_HALF 0
-#define SLF_OF(f, array) (f)->single.array
-#define SLF_BEGIN sli_single_begin
-#define SLI_INL_FRONTS
-#define SLI_INL_FRONTS_UNDEF
-#include SL_HEADER
-static sli_front sli_single_shared(const sl_factor *F, sl_int s, sl_int group) {
-  const sli_step *step = &F->S->steps[s];
-  sli_front f = sli_single_front_of(F, s, 0);
-  f.single.magnitude = f.single.update + sli_update_size(step);
-  f.single.D = f.single.magnitude + SLI_TILE * (ptrdiff_t)sli_front_tiles(&f);
-  f.single.reciprocals = f.single.D + SLI_TILE * (ptrdiff_t)sli_tiles(step->width) +
-               SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
-  return f;
-}
-
 static const sli_sweeps *sli_float_sweeps(const sli_kernels *kernels) {
   const sli_float_kernels *own = sli_float_kernels_of(kernels->isa);
   return own == NULL ? NULL : &own->sweeps;
 }
 
-static const sli_front_kernels *sli_single_front(const sli_kernels *kernels) {
-  return &sli_float_kernels_of(kernels->isa)->front;
-}
-
-static int sli_single_suits(const sl_factor *F) {
-  return F->S->n_pairs == 0;
-}
-
-static const sli_storage_type sli_storage_float = {SL_STORAGE_FLOAT,
-                           sizeof(float),
-                           sizeof(double),
-                           0,
-                           DBL_EPSILON,
-                           sli_float_sweeps,
-                           SLI_DOUBLE_FRONTS,
-                           sli_panel_round,
-                           sli_float_entry,
-                           sli_float_entry_clear,
-                           NULL,
-                           NULL,
-                           NULL,
-                           &sli_storage_double};
-
-static const sli_storage_type sli_storage_single = {SL_STORAGE_FLOAT_FRONTS,
-                          sizeof(float),
-                          sizeof(float),
-                          0,
-                          (double)FLT_EPSILON,
-                          sli_float_sweeps,
-                          sli_single_front,
-                          sli_single_factor,
-                          sli_single_shared,
-                          sli_single_front_clear,
-                          sli_single_front_load,
-                          sli_single_front_assemble,
-                          sli_single_front_finish,
-                          NULL,
-                          sli_float_entry,
-                          sli_float_entry_clear,
-                          sli_single_suits,
-                          NULL,
-                          NULL,
-                          &sli_storage_double};
+static const sli_storage_type sli_storage_float = {
+  SL_STORAGE_FLOAT,
+  sizeof(float),
+  0,
+  sli_float_sweeps,
+  sli_double_front,
+  sli_double_factor,
+  sli_double_shared,
+  sli_double_front_clear,
+  sli_double_front_load,
+  sli_double_front_assemble,
+  sli_double_front_finish,
+  sli_panel_round,
+  sli_float_entry,
+  sli_float_entry_clear,
+  NULL,
+  NULL,
+  NULL,
+  &sli_storage_double
+};
 
 #endif
 /* inverse: entries of the inverse, regions */
@@ -21974,7 +21555,7 @@ static void sli_forward_unit_vectors(sli_forward *f, const sl_factor *F, const s
   sli_forward_run(f, F, stats);
 }
 
-/* src/impl/inverse/bilinear.h: bilinear forms c' A^-1 b: a forward sweep, then a sum over columns weighted by 1/D */
+/* src/impl/inverse/pair_sums.h: entries of the inverse from a forward sweep: sums over columns, weighted by 1/D */
 
 SLI_ALWAYS_INLINE void sli_divide_lanes(double *z, const double *y, double d, sl_int lanes) {
   const double inverse = 1.0 / d, size = fabs(inverse);
@@ -22013,146 +21594,6 @@ static void sli_inverse_clear_stats(sl_stats *stats) {
   if (stats != NULL) {
     SLI_CLEAR(stats->inverse);
   }
-}
-
-typedef struct sli_bilinear {
-  const sl_factor *F;
-  const sl_int *set[2];
-  const double *values[2];
-  sl_int count[2];
-  sl_int vectors;
-  uint64_t *seeds, *scratch;
-  sli_forward forward;
-} sli_bilinear;
-
-SLI_INLINE int sli_bilinear_is_dense(const sli_bilinear *q) {
-  return q->set[0] == NULL || q->set[1] == NULL;
-}
-
-static void sli_bilinear_layout_seeds(void *form, sli_block *b) {
-  sli_bilinear *q = (sli_bilinear *)form;
-  const uint64_t count =
-    sli_bilinear_is_dense(q) ? 0 : (uint64_t)q->count[0] + (uint64_t)q->count[1];
-  q->seeds = SLI_TAKE(b, uint64_t, count);
-  q->scratch = SLI_TAKE(b, uint64_t, count);
-}
-
-static void sli_bilinear_measure(void *form) {
-  sli_bilinear *q = (sli_bilinear *)form;
-  const sl_symbolic *S = q->F->S;
-  const sl_int nc = q->count[0], total = nc + (q->vectors == 2 ? q->count[1] : 0);
-  sl_int k;
-  if (sli_bilinear_is_dense(q)) {
-    q->forward.reach = sli_reach_all(S);
-    return;
-  }
-  for (k = 0; k < total; k++) {
-    q->seeds[k] = sli_keyed(S->iperm[k < nc ? q->set[0][k] : q->set[1][k - nc]], k);
-  }
-  sli_sort(q->seeds, total, q->scratch);
-  sli_reach_measure(S, q->seeds, total, &q->forward.reach);
-}
-
-static void sli_bilinear_layout_sweep(void *form, sli_block *b) {
-  sli_bilinear *q = (sli_bilinear *)form;
-  sli_capacity capacity = {0, 0, 0, 0};
-  sli_capacity_add(&capacity, &q->forward.reach, q->vectors);
-  if (sli_bilinear_is_dense(q)) {
-    capacity.steps = capacity.rows = 0;
-  }
-  sli_forward_layout(&q->forward, b, &capacity);
-  sli_forward_layout_run(&q->forward, b, &capacity);
-}
-
-SLI_INLINE void sli_bilinear_add(const sli_bilinear *q, sl_int column, sl_int row, sl_int lane,
-    double b) {
-  if (!sli_is_skipped(q->F, column)) {
-    q->forward.y[(ptrdiff_t)row * q->forward.lanes + lane] += b;
-  }
-}
-
-static void sli_bilinear_pack(sli_bilinear *q) {
-  const sl_symbolic *S = q->F->S;
-  sli_forward *f = &q->forward;
-  const sl_int nc = q->count[0], total = nc + (q->vectors == 2 ? q->count[1] : 0);
-  sl_int k, lane, at = 0;
-  if (!sli_bilinear_is_dense(q)) {
-    sli_reach_fill(S, q->seeds, total, f->steps, f->rows, &f->reach);
-    sli_forward_clear(f, q->vectors);
-    for (k = 0; k < total; k++) {
-      const sl_int row = sli_reach_index(&f->reach, &at, sli_key(q->seeds[k]));
-      const sl_int from = sli_value(q->seeds[k]);
-      lane = from >= nc;
-      sli_bilinear_add(q, sli_key(q->seeds[k]), row, lane, q->values[lane][from - lane * nc]);
-    }
-    return;
-  }
-  f->reach = sli_reach_all(S);
-  sli_forward_clear(f, q->vectors);
-  for (lane = 0; lane < q->vectors; lane++) {
-    for (k = 0; k < q->count[lane]; k++) {
-      const sl_int column = S->iperm[q->set[lane] == NULL ? k : q->set[lane][k]];
-      sli_bilinear_add(q, column, column, lane, q->values[lane][k]);
-    }
-  }
-}
-
-static const sli_stage sli_bilinear_stages[2] = {{sli_bilinear_layout_seeds, sli_bilinear_measure},
-                         {sli_bilinear_layout_sweep, NULL}};
-
-static sl_status sli_bilinear_run(sli_bilinear *q, double *out, sl_work *W, sl_stats *stats) {
-  const sl_int first = 0, second = q->vectors - 1;
-  const sl_status status = sli_work_stages(W, sli_bilinear_stages, 2, q);
-  if (status == SL_OK) {
-    sli_bilinear_pack(q);
-    sli_forward_run(&q->forward, q->F, stats);
-    sli_pair_sums(q->F, &q->forward, 1, &first, &second, out);
-  }
-  return status;
-}
-
-SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_int *bset,
-    const double *b, sl_int nb, const sl_int *cset,
-    const double *c, sl_int nc, sl_work *W, sl_stats *stats) {
-  sl_work own;
-  sli_bilinear q;
-  sl_status status;
-  sli_stats_clear_error(stats);
-  status = sli_argument(F == NULL ? "F is NULL" : out == NULL ? "out is NULL" : NULL);
-  if (status == SL_OK) {
-    nc = cset == NULL ? F->S->n : nc;
-    nb = bset == NULL ? F->S->n : nb;
-    status = sli_argument(nc < 0 ? "nc is below 0"
-        : nb < 0 ? "nb is below 0"
-        : nc > 0 && c == NULL ? "c is NULL"
-        : nb > 0 && b == NULL ? "b is NULL"
-        : NULL);
-  }
-  if (status == SL_OK && cset != NULL && bset != NULL && nc > INT32_MAX - nb) {
-    status = sli_refuse(SL_ERR_TOO_LARGE, "nb + nc exceeds 2^31 - 1");
-  }
-  status = status == SL_OK ? sli_check_entries(F, cset, nc, bset, nb, stats) : status;
-  if (status != SL_OK) {
-    return sli_report(stats, status);
-  }
-  sli_inverse_clear_stats(stats);
-  if (nc == 0 || nb == 0) {
-    *out = 0.0;
-    return SL_OK;
-  }
-  SLI_CLEAR(q);
-  q.F = F;
-  q.set[0] = cset;
-  q.set[1] = bset;
-  q.values[0] = c;
-  q.values[1] = b;
-  q.count[0] = nc;
-  q.count[1] = nb;
-  q.vectors = cset == bset && c == b && nc == nb ? 1 : 2;
-  own = sli_work_own(&F->allocator);
-  status = sli_bilinear_run(&q, out, W == NULL ? &own : W, stats);
-  sli_free(&own.allocator, own.block);
-  return sli_report(stats, status);
 }
 
 /* src/impl/inverse/loss.h: a bound on what entries of the inverse lose when they are computed from other entries */
@@ -30995,7 +30436,7 @@ SL_API sl_fixed_arrays sl_fixed_view(const sl_fixed *D) {
 
 #endif
 /* io: files that are replaced only when they are complete */
-#if defined(SL_WITH_FILES) || defined(SL_WITH_SAVE)
+#if defined(SL_WITH_SAVE)
 /* src/impl/io/output_file.h: a file that takes the place of an old one only once it is complete */
 
 #define SLI_TEMPORARY_NAMES 100
@@ -31482,7 +30923,7 @@ static int sli_line_ends(const char *s, const char *e) {
   return s == e;
 }
 
-/* src/impl/files/matrix_market.h: reads and writes coordinate Matrix Market files, in any locale */
+/* src/impl/files/matrix_market.h: reads coordinate Matrix Market files, in any locale */
 
 #define SLI_ENTRIES_FIRST 65536
 
@@ -31755,80 +31196,6 @@ SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_opti
   fclose(file);
   errno = saved;
   return sli_report(stats, status);
-}
-
-static void sli_set_point(char *number) {
-  const char *from = number;
-  char *to = number;
-  while (*from != '\0') {
-    if (sli_is_numeric(*from)) {
-      *to++ = *from++;
-      continue;
-    }
-    *to++ = '.';
-    while (*from != '\0' && !sli_is_numeric(*from)) { /* untested: a digit follows */
-      from++;
-    }
-  }
-  *to = '\0';
-}
-
-static int sli_write_entry(FILE *file, sl_int row, sl_int column, const double *value) {
-  char number[40];
-  if (value == NULL) {
-    return fprintf(file, "%ld %ld\n", (long)row + 1, (long)column + 1) > 0;
-  }
-  snprintf(number, sizeof number, "%.17g", *value);
-  sli_set_point(number);
-  return fprintf(file, "%ld %ld %s\n", (long)row + 1, (long)column + 1, number) > 0;
-}
-
-static int sli_write(FILE *file, const sl_csc *A, sl_reading reading, sl_triangle triangle) {
-  sl_int j, p;
-  sl_off count = 0;
-  int ok;
-  for (j = 0; j < A->n_cols; j++) {
-    for (p = A->p[j]; p < A->p[j + 1]; p++) {
-      count += sli_is_read(triangle, A->i[p], j);
-    }
-  }
-  ok = fprintf(file, "%%%%MatrixMarket matrix coordinate %s %s\n%ld %ld %ld\n",
-      A->x != NULL ? "real" : "pattern",
-      reading == SL_AS_SYMMETRIC ? "symmetric" : "general", (long)A->n_rows,
-      (long)A->n_cols, (long)count) > 0;
-  for (j = 0; j < A->n_cols && ok; j++) {
-    for (p = A->p[j]; p < A->p[j + 1] && ok; p++) {
-      const sl_int i = A->i[p];
-      if (sli_is_read(triangle, i, j)) {
-        const int flip = reading == SL_AS_SYMMETRIC && i < j;
-        ok = sli_write_entry(file, flip ? j : i, flip ? i : j,
-            A->x != NULL ? A->x + p : NULL);
-      }
-    }
-  }
-  return ok;
-}
-
-SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path) {
-  const int saved = errno;
-  sl_triangle triangle = SL_TRIANGLE_NONE;
-  sl_status status = reading == SL_AS_SYMMETRIC ? sl_csc_triangle(A, &triangle, NULL, NULL)
-                          : sl_csc_check(A, NULL);
-  const sl_allocator a = sli_allocator(NULL);
-  sli_output output;
-  if (status == SL_OK) {
-    status = sli_argument(path == NULL ? "path is NULL"
-        : reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED
-        ? "reading is not a value of sl_reading"
-        : NULL);
-  }
-  status = status == SL_OK ? sli_output_open(&output, path, &a) : status;
-  if (status == SL_OK) {
-    const int complete = sli_write(output.file, A, reading, triangle);
-    status = sli_output_close(&output, complete, &a);
-  }
-  errno = saved;
-  return status;
 }
 
 #endif
@@ -32374,8 +31741,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
       !sli_count_is_valid(g->positive, n) || !sli_count_is_valid(g->negative, n) ||
       !sli_count_is_valid(g->weak, n) || !sli_count_is_valid(g->regular, n) ||
       !sli_count_is_valid(g->null_vectors, skips ? SLI_NULL_VECTORS_MAX : 1) ||
-      !sli_count_is_valid(g->storage,
-      g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT_FRONTS : 0) ||
+      !sli_count_is_valid(g->storage, g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT : 0) ||
       !sli_count_is_valid(g->certainty, SL_GUARANTEED) || !(g->eta >= 0.0) || g->eta > 1.0 ||
       !(g->drift >= 0.0) || g->null_tolerance != g->null_tolerance ||
       g->consistency != g->consistency) {
@@ -32396,7 +31762,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   F->null.consistency = g->consistency;
   F->limits.growth = g->growth_limit;
   F->limits.error = g->error_limit;
-  F->rule.epsilon = F->type->epsilon;
+  F->rule.epsilon = DBL_EPSILON;
   F->rule.null_tolerance = g->null_tolerance;
   F->rule.regularization = g->regularization;
   F->rule.replaces = skips || g->regularization != 0.0;
@@ -34535,146 +33901,6 @@ SL_API sl_status sl_factor_refactor_sums(sl_factor *const *factors, sl_int count
 }
 
 #endif
-/* batch: diagonals of many inverses */
-#if defined(SL_WITH_BATCH) && defined(SL_WITH_INVERSE)
-/* src/impl/batch/batch_diagonal.h: diagonals of the inverses of several factors; a worker takes whole factors */
-
-typedef struct sli_diagonal_batch {
-  sl_factor *const *factors;
-  sl_int count, workers;
-  double *out;
-  size_t ldo;
-  const sl_int *rows;
-  sl_int n_rows;
-  sl_work *const *works;
-} sli_diagonal_batch;
-
-static sli_entries sli_diagonal_batch_entries(const sli_diagonal_batch *d, sl_int k) {
-  sli_entries q =
-    sli_entries_of(d->factors[k], d->out + (size_t)k * d->ldo, d->rows, d->rows, d->n_rows);
-  q.threads = d->workers > 1 ? sli_threads_of(NULL) : q.threads;
-  return q;
-}
-
-SLI_HOT static void sli_diagonal_batch_worker(void *data, sl_int w) {
-  const sli_diagonal_batch *d = (const sli_diagonal_batch *)data;
-  sl_int k;
-  for (k = w; k < d->count; k += d->workers) {
-    sli_entries q = sli_diagonal_batch_entries(d, k);
-    const sl_status status = sli_entries_run(&q, d->works[w], NULL);
-    SLI_ASSERT(status == SL_OK);
-    (void)status;
-  }
-}
-
-static sl_status sli_diagonal_batch_check(const sli_diagonal_batch *d, sl_int *at,
-    sl_stats *stats) {
-  for (*at = 0; *at < d->count; ++*at) {
-    const sl_factor *F = d->factors[*at];
-    const sl_status status =
-      F == NULL ? sli_argument("a factor is NULL") : sli_inverse_check(F);
-    if (status != SL_OK) {
-      return status;
-    }
-    if (F->S != d->factors[0]->S) {
-      return sli_refuse(SL_ERR_MISMATCH, "factors are of different analyses");
-    }
-  }
-  *at = -1;
-  return d->count == 0 ? SL_OK : sli_check_rows(d->factors[0]->S, d->rows, d->n_rows, 0, stats);
-}
-
-static sl_status sli_diagonal_batch_reserve(const sli_diagonal_batch *d) {
-  sl_status status = SL_OK;
-  sl_int k;
-  for (k = 0; k < d->count && status == SL_OK; k++) {
-    if (k == 0 || d->factors[k]->kernels != d->factors[k - 1]->kernels || d->workers == 1 ||
-        sli_has_both_signs(d->factors[k])) {
-      sli_entries q = sli_diagonal_batch_entries(d, k);
-      status = sli_entries_prepare(&q, d->works[0]);
-    }
-  }
-  for (k = 1; k < d->workers && status == SL_OK; k++) {
-    status = sli_work_grow(d->works[k], d->works[0]->size);
-  }
-  return status;
-}
-
-static sl_status sli_diagonal_batch_run(sli_diagonal_batch *d, const sl_threads *threads) {
-  const sl_allocator *a = &d->factors[0]->allocator;
-  sl_work *own = NULL, **works = NULL;
-  sli_block b = {NULL, 0};
-  sl_status status = SL_OK;
-  sl_int w;
-  if (d->works == NULL) {
-    SLI_LAYOUT(&b, a, status) {
-      own = SLI_TAKE(&b, sl_work, d->workers);
-      works = SLI_TAKE(&b, sl_work *, d->workers);
-    }
-    if (status != SL_OK) {
-      return status;
-    }
-    for (w = 0; w < d->workers; w++) {
-      own[w] = sli_work_own(&d->factors[0]->allocator);
-      works[w] = &own[w];
-    }
-    d->works = works;
-  }
-  status = sli_diagonal_batch_reserve(d);
-  if (status == SL_OK) {
-    sli_parallel(threads, d->workers, sli_diagonal_batch_worker, d);
-  }
-  for (w = 0; w < d->workers && own != NULL; w++) {
-    sli_free(a, own[w].block);
-  }
-  sli_free(a, b.base);
-  return status;
-}
-
-SL_API sl_status sl_batch_diagonal(sl_factor *const *factors, sl_int count, double *out, size_t ldo,
-    const sl_int *rows, sl_int n_rows, const sl_options *opt,
-    sl_work *const *works, sl_int *failed, sl_stats *stats) {
-  const sl_threads *threads = sli_threads_of(opt);
-  sli_diagonal_batch d;
-  sl_status status;
-  sl_int at = -1;
-  sli_stats_clear_error(stats);
-  if (failed != NULL) {
-    *failed = -1;
-  }
-  status =
-    sli_argument(count < 0 ? "count is below 0"
-        : count > 0 && factors == NULL ? "factors is NULL"
-        : sli_options_wrong(opt, SLI_READS_NOTHING));
-  if (status != SL_OK) {
-    return sli_report(stats, status);
-  }
-  d.factors = factors;
-  d.count = count;
-  d.workers = sli_min(sli_workers(threads), count);
-  d.out = out;
-  d.ldo = ldo;
-  d.rows = rows;
-  d.n_rows = n_rows;
-  d.works = works;
-  status = sli_diagonal_batch_check(&d, &at, stats);
-  if (failed != NULL) {
-    *failed = at;
-  }
-  if (status != SL_OK || count == 0) {
-    return sli_report(stats, status);
-  }
-  n_rows = d.n_rows = rows == NULL ? factors[0]->S->n : n_rows;
-  status = sli_argument(n_rows < 0 ? "n_rows is below 0"
-      : n_rows > 0 && out == NULL ? "out is NULL"
-      : n_rows > 0 && !sli_is_ld(ldo, n_rows) ? "ldo is below n_rows"
-      : NULL);
-  status = status == SL_OK && works != NULL ? sli_check_works(works, d.workers) : status;
-  status = status == SL_OK && n_rows > 0 ? sli_diagonal_batch_run(&d, threads) : status;
-  return sli_report(stats, status);
-}
-
-#endif
 /* complex: complex Hermitian systems over real factors */
 #if defined(SL_WITH_COMPLEX)
 /* src/impl/complex/complex_kernels.h: the kernels of complex matrices, for every instruction set */
@@ -34871,10 +34097,7 @@ static void sli_complex_accepts(const sl_symbolic *S, const sli_source *from,
 }
 
 #define SLF_NAME(f) sli_complex_##f
-#define SLF_VALUE double
-#define SLF_SINGLE 0
 #define SLF_HALF 1
-#define SLF_OF(f, array) (f)->array
 #define SLF_BEGIN sli_front_in_double
 #define SLI_INL_FRONTS
 #define SLI_INL_FRONTS_UNDEF
@@ -34894,41 +34117,47 @@ static const sli_front_kernels *sli_complex_front(const sli_kernels *kernels) {
   return &sli_complex_kernels_of(kernels->isa)->front;
 }
 
-static const sli_storage_type sli_storage_complex_in_double = {SL_STORAGE_DOUBLE,
-                                 sizeof(double),
-                                 sizeof(double),
-                                 0,
-                                 DBL_EPSILON,
-                                 sli_double_sweeps,
-                                 SLI_DOUBLE_FRONTS,
-                                 NULL,
-                                 NULL,
-                                 NULL,
-                                 sli_complex_suits,
-                                 sli_complex_accepts,
-                                 sli_complex_keeps,
-                                 NULL};
+static const sli_storage_type sli_storage_complex_in_double = {
+  SL_STORAGE_DOUBLE,
+  sizeof(double),
+  0,
+  sli_double_sweeps,
+  sli_double_front,
+  sli_double_factor,
+  sli_double_shared,
+  sli_double_front_clear,
+  sli_double_front_load,
+  sli_double_front_assemble,
+  sli_double_front_finish,
+  NULL,
+  NULL,
+  NULL,
+  sli_complex_suits,
+  sli_complex_accepts,
+  sli_complex_keeps,
+  NULL
+};
 
-static const sli_storage_type sli_storage_complex = {SL_STORAGE_COMPLEX,
-                           sizeof(double),
-                           sizeof(double),
-                           1,
-                           DBL_EPSILON,
-                           sli_complex_sweeps,
-                           sli_complex_front,
-                           sli_complex_factor,
-                           sli_complex_shared,
-                           sli_complex_front_clear,
-                           sli_complex_front_load,
-                           sli_complex_front_assemble,
-                           sli_complex_front_finish,
-                           NULL,
-                           sli_complex_entry,
-                           NULL,
-                           sli_complex_suits,
-                           sli_complex_accepts,
-                           sli_complex_keeps,
-                           &sli_storage_complex_in_double};
+static const sli_storage_type sli_storage_complex = {
+  SL_STORAGE_COMPLEX,
+  sizeof(double),
+  1,
+  sli_complex_sweeps,
+  sli_complex_front,
+  sli_complex_factor,
+  sli_complex_shared,
+  sli_complex_front_clear,
+  sli_complex_front_load,
+  sli_complex_front_assemble,
+  sli_complex_front_finish,
+  NULL,
+  sli_complex_entry,
+  NULL,
+  sli_complex_suits,
+  sli_complex_accepts,
+  sli_complex_keeps,
+  &sli_storage_complex_in_double
+};
 
 /* src/impl/complex/hermitian.h: complex Hermitian matrices as real symmetric ones of twice the size */
 
@@ -35191,8 +34420,6 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
 #if defined(SL_WITH_FLOAT)
   case SL_STORAGE_FLOAT:
     return &sli_storage_float;
-  case SL_STORAGE_FLOAT_FRONTS:
-    return &sli_storage_single;
 #endif
 #if defined(SL_WITH_COMPLEX)
   case SL_STORAGE_COMPLEX:
@@ -35305,7 +34532,6 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_ROWS_FETCHED
 #undef SLI_FETCHED_BYTES
 #undef SLI_NULL_PIVOT
-#undef SLI_NULL_MOST
 #undef SLI_GROUP_TILES
 #undef SLI_CHUNK_COLUMNS
 #undef SLI_ASSEMBLE_DISTANCE
@@ -35338,22 +34564,9 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_WIDE_1
 #undef SLI_WIDEN_0
 #undef SLI_WIDEN_1
-#undef SLI_OF_0
-#undef SLI_OF_1
-#undef SLI_LEAST_0
-#undef SLI_LEAST_1
-#undef SLI_MOST_0
-#undef SLI_MOST_1
-#undef SLI_PIVOT_0
-#undef SLI_PIVOT_1
-#undef SLI_PACK_PAIRS_0
-#undef SLI_PACK_PAIRS_1
 #undef SLV_VALUE
-#undef SLV_OF
 #undef SLV_LEAST
 #undef SLV_MOST
-#undef SLV_PIVOT
-#undef SLV_PACK_PAIRS
 #undef SLV_PARTS
 #undef SLV_FRONT
 #undef SLV_FRONT_PIVOTS
@@ -35468,7 +34681,6 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_MARK_BEGIN
 #undef SLI_SUM_ENTRIES
 #undef SLI_SUSPECT_ROW
-#undef SLI_DOUBLE_FRONTS
 #undef SLI_GROWTH_LIMIT
 #undef SLI_GROWTH_LIMIT_FLOAT
 #undef SLI_JUDGE_RANDOM
@@ -35504,8 +34716,6 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_SQUARE_LEAST
 #undef SLI_PIVOT_THRESHOLD
 #undef SLI_ROUND_PLAIN
-#undef SLI_SINGLE_MOST
-#undef SLI_SINGLE_LEAST
 #undef SLI_INVERSE_GROUP
 #undef SLI_INVERSE_COLUMNS
 #undef SLI_INVERSE_ROW
@@ -35598,19 +34808,19 @@ static const char *sli_singular_missing(const sl_options *opt) {
 
 #ifdef SLI_INL_FRONTS
 #undef SLI_INL_FRONTS
-/* src/impl/factor/fronts.inl.h: the fronts of the supernodal factorization, for one type of numbers */
+/* src/impl/factor/fronts.inl.h: the fronts of the supernodal factorization, of real or of complex matrices */
 
 /* src/impl/factor/front_load.inl.h: where a front is, and the entries of A that it begins with */
 
-SLI_INLINE SLF_VALUE *SLF_NAME(update_matrix)(const sl_factor *F, sl_int s, sl_int worker) {
+SLI_INLINE double *SLF_NAME(update_matrix)(const sl_factor *F, sl_int s, sl_int worker) {
   const sl_off begin = F->schedule.stack_begin[s], own = F->schedule.own;
   const sl_off at = begin < own ? begin + worker * own : begin;
-  return (SLF_VALUE *)F->work.stack + (at >> SLF_HALF);
+  return (double *)F->work.stack + (at >> SLF_HALF);
 }
 
 SLI_INLINE sli_front SLF_NAME(front_of)(const sl_factor *F, sl_int s, sl_int worker) {
   sli_front f = SLF_BEGIN(F, s, worker);
-  SLF_OF(&f, update) = SLF_NAME(update_matrix)(F, s, worker);
+  f.update = SLF_NAME(update_matrix)(F, s, worker);
   return f;
 }
 
@@ -35618,15 +34828,13 @@ static void SLF_NAME(front_clear)(const sli_front *f, sl_int t0, sl_int t1) {
   const sl_int w = f->width, whole = w / SLI_TILE, u0 = sli_max(t0 - whole, 0);
   const sl_off from = sli_tile_offset(w, t0), size = sli_tile_offset(w, t1) - from;
   const sl_off at = sli_triangle_offset(u0), end = sli_triangle_offset(t1 - whole);
-  memset(SLF_OF(f, panel) + (from >> SLF_HALF), 0,
-      (size_t)(size >> SLF_HALF) * sizeof(SLF_VALUE));
+  memset(f->panel + (from >> SLF_HALF), 0, (size_t)(size >> SLF_HALF) * sizeof(double));
   if (f->below > 0 && t1 > whole) {
-    memset(SLF_OF(f, update) + (at >> SLF_HALF), 0,
-        (size_t)((end - at) >> SLF_HALF) * sizeof(SLF_VALUE));
+    memset(f->update + (at >> SLF_HALF), 0, (size_t)((end - at) >> SLF_HALF) * sizeof(double));
   }
 }
 
-SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SLF_VALUE *panel,
+SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, double *panel,
     const sli_loading *e, uint64_t *marks,
     sli_failure *failure) {
   const sl_off *to = F->S->scatter_to, begin = F->S->steps[s].panel;
@@ -35643,13 +34851,6 @@ SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SL
     const double a =
       scatter_from != NULL ? x[scatter_from[m]] : x[m - e->first]; /* untested: constant */
     const double size = fabs(a);
-#if SLF_SINGLE
-    if (!(size <= SLI_SINGLE_MOST)) {
-      return sli_fail(failure, sli_is_finite(a) ? SL_ERR_INACCURATE : SL_ERR_NOT_FINITE, s,
-          -1, m, a);
-    }
-    panel[to[m] - begin] += sli_single(a);
-#else
     if (!(size <= DBL_MAX)) { /* branches untested: the same */
       return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
     }
@@ -35663,7 +34864,6 @@ SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SL
     if (marks != NULL) { /* untested: constant where entries are summed */
       mark += sli_mark_entry(a, to[m] - begin);
     }
-#endif
     largest = size > largest ? size : largest; /* branches untested: the same */
   }
   F->extents[s].entry = largest;
@@ -35674,7 +34874,7 @@ SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SL
 }
 
 static sl_status SLF_NAME(panel_load)(const sl_factor *F, const sli_source *from, sl_int s,
-    SLF_VALUE *panel, sli_failure *failure) {
+    double *panel, sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const sl_off end = S->scatter_begin[s + 1];
   sli_loading e;
@@ -35685,7 +34885,7 @@ static sl_status SLF_NAME(panel_load)(const sl_factor *F, const sli_source *from
     e.x = from->A->x;
     e.scatter_from = S->scatter_from;
     e.last = end;
-    return SLF_NAME(panel_add)(F, s, panel, &e, SLF_SINGLE ? NULL : F->history.marks, failure);
+    return SLF_NAME(panel_add)(F, s, panel, &e, F->history.marks, failure);
   }
   e.scatter_from = NULL;
   for (; e.first < end && status == SL_OK; e.first = e.last) {
@@ -35700,7 +34900,7 @@ static sl_status SLF_NAME(panel_load)(const sl_factor *F, const sli_source *from
 
 static sl_status SLF_NAME(front_load)(sl_factor *F, const sli_source *from, const sli_front *f,
     sli_failure *failure) {
-  SLF_VALUE *panel = SLF_OF(f, panel), *magnitude = SLF_OF(f, magnitude);
+  double *panel = f->panel, *magnitude = f->magnitude;
   const sl_status status = SLF_NAME(panel_load)(F, from, f->super, panel, failure);
   const sl_int w = f->width, rows = SLI_TILE * sli_front_tiles(f);
   sl_int k;
@@ -35713,18 +34913,18 @@ static sl_status SLF_NAME(front_load)(sl_factor *F, const sli_source *from, cons
   }
 #else
   for (k = 0; k < w; k += SLI_TILE) {
-    const SLF_VALUE *tile = panel + sli_panel_at(w, k, k);
+    const double *tile = panel + sli_panel_at(w, k, k);
     const sl_int columns = sli_min(SLI_TILE, w - k);
     sl_int r;
     for (r = 0; r < columns; r++) {
-      magnitude[k + r] = (SLF_VALUE)fabs(tile[(SLI_TILE + 1) * r]);
+      magnitude[k + r] = fabs(tile[(SLI_TILE + 1) * r]);
     }
   }
 #endif
   return status;
 }
 /* end of front_load.inl.h */
-#if !SLF_SINGLE && !SLF_HALF
+#if !SLF_HALF
 /* src/impl/factor/plain_columns.inl.h: plain columns, in double: their pivots and L, and what they pass up */
 
 SLI_INLINE void sli_plain_assemble(const sli_front *f, const double *l, double d,
@@ -35903,7 +35103,7 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
   const sl_int tiles = sli_front_tiles(f);
   sl_int c, k;
   for (c = f->super - 1;; c = S->first_descendant[c] - 1) {
-#if !SLF_SINGLE && !SLF_HALF
+#if !SLF_HALF
     c = sli_plain_children(F, f, c, worker, SLI_TILE * t0, SLI_TILE * t1);
 #endif
     if (c < S->first_descendant[f->super]) {
@@ -35916,20 +35116,20 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
       t1 == tiles ? child->below : sli_lower_bound(relative, child->below, SLI_TILE * t1);
     const sl_off magnitudes = child->width % SLI_TILE +
                   sli_triangle_offset(sli_update_tiles(child->width, child->below));
-    const SLF_VALUE *from = SLF_NAME(update_matrix)(F, c, worker);
-    const SLF_VALUE *magnitude = from + (magnitudes >> SLF_HALF);
+    const double *from = SLF_NAME(update_matrix)(F, c, worker);
+    const double *magnitude = from + (magnitudes >> SLF_HALF);
     F->own.front->assemble(f, from, child->width % SLI_TILE, relative, child->below, first,
         last);
     for (k = first; k < last; k += 1 + SLF_HALF) {
-      SLF_OF(f, magnitude)[relative[k]] += magnitude[k >> SLF_HALF];
+      f->magnitude[relative[k]] += magnitude[k >> SLF_HALF];
     }
   }
 }
 
 static void SLF_NAME(front_hand_over)(const sli_front *f) {
   const sl_int tiles = sli_update_tiles(f->width, f->below), rows = SLI_TILE * tiles;
-  const SLF_VALUE *from = SLF_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)(f->width / SLI_TILE);
-  SLF_VALUE *to = SLF_OF(f, update) + (sli_triangle_offset(tiles) >> SLF_HALF);
+  const double *from = f->magnitude + SLI_TILE * (ptrdiff_t)(f->width / SLI_TILE);
+  double *to = f->update + (sli_triangle_offset(tiles) >> SLF_HALF);
   sl_int k;
   for (k = 0; k < rows; k += 1 + SLF_HALF) {
 #if SLF_HALF
@@ -35943,17 +35143,8 @@ static void SLF_NAME(front_hand_over)(const sli_front *f) {
 static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
     sli_failure *failure) {
   sl_status status = SL_OK;
-  sl_int k;
-#if SLF_SINGLE
-  for (k = 0; k < f->width && status == SL_OK; k++) {
-    status = sli_check_single(F, f, k, failure);
-  }
-  if (f->width == 1) {
-    memcpy((SLF_VALUE *)F->values + F->S->steps[f->super].panel, f->single.panel,
-        (size_t)(1 + f->below) * sizeof(SLF_VALUE));
-  }
-#else
   const sl_int count = sli_front_is_regular(F, f, f->super) ? 0 : f->width;
+  sl_int k;
   for (k = 0; k < count && status == SL_OK; k++) {
     status =
       f->pairs != NULL && f->pairs[k] != SLI_PAIR_NONE
@@ -35965,7 +35156,6 @@ static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
   } else if (f->width == 1 && F->type->store == NULL) { /* branches untested: see above */
     SLI_COPY((double *)F->values + F->S->steps[f->super].panel, f->panel, 1 + f->below);
   }
-#endif
   return status;
 }
 
@@ -35975,7 +35165,7 @@ static sl_status SLF_NAME(front_finish)(const sl_factor *F, const sli_front *f,
   return SLF_NAME(front_check)(F, f, failure);
 }
 
-#if !SLF_SINGLE && !SLF_HALF
+#if !SLF_HALF
 typedef struct sli_short {
   double *l, *tile, *magnitude;
 } sli_short;
@@ -36061,12 +35251,9 @@ static sl_status SLF_NAME(front_factor)(sl_factor *F, const sli_source *from, sl
   double *scratch = F->work.buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
   sl_status status;
   f.is_small = tiles == 1 && f.pairs == NULL && !SLF_HALF;
-#if !SLF_SINGLE
   if (f.is_small) {
     sli_front_clear_small(&f);
-  } else
-#endif
-  {
+  } else {
     SLF_NAME(front_clear)(&f, 0, tiles);
   }
   status = SLF_NAME(front_load)(F, from, &f, failure);
@@ -36085,7 +35272,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   sl_status status = SL_OK;
   sl_int s;
   for (s = first; s <= last && status == SL_OK; s++) {
-#if !SLF_SINGLE && !SLF_HALF
+#if !SLF_HALF
     if (F->schedule.is_plain[s] == SLI_PLAIN_DIRECT && sli_plain_runs(F, from)) {
       s = sli_plain_run(F, from->A->x, s, last);
       if (s > last) {
@@ -36095,7 +35282,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #endif
     if (sli_is_copied(F, s)) {
       F->work.copied->copy(F, s, worker);
-#if !SLF_SINGLE && !SLF_HALF
+#if !SLF_HALF
     } else if (F->schedule.is_plain[s]) {
       status = sli_plain_factor(F, from, s, worker, failure);
     } else if (sli_is_short(F, s)) {
@@ -36114,10 +35301,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 /* src/impl/factor/fronts_undef.inl.h: undefines the parameters of fronts.inl.h */
 
 #undef SLF_NAME
-#undef SLF_VALUE
-#undef SLF_SINGLE
 #undef SLF_HALF
-#undef SLF_OF
 #undef SLF_BEGIN
 #endif
 
@@ -37658,12 +36842,7 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
 #define SLI_WORD(word, v) SLI_PASTE(SLI_WORD_, v)(word)
 
 #define SLI_DECLARE(k, v) SLI_WORD(DECLARE, v)(c##v##k)
-#if SLV_SINGLE
-#define SLI_LOAD(k, v) SLI_WORD(ZERO, v)(c##v##k)
-#define SLI_SUM(k, v) \
-  SLV_LOAD_TILES(b, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
-  SLV_ADD(c##v##k, b)
-#elif SLV_COMPLEX
+#if SLV_COMPLEX
 #define SLI_LOAD(k, v) \
   if ((k) % 2 == 0 && (k) < columns) { \
     SLI_WORD(LOAD, v)(c##v##k, Cp##v + SLI_TILE / 2 * (k)) \
@@ -37683,11 +36862,9 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
   } else { \
     SLI_WORD(ZERO, v)(c##v##k) \
   }
-#define SLI_SUM(k, v)
 #endif
 #define SLI_STORE(k, v) \
   if (SLI_IS_IN(k, columns)) { \
-    SLI_SUM(k, v) \
     SLI_WORD(STORE_TILES, v)(Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k), c##v##k) \
   }
 #if !SLV_COMPLEX
@@ -37704,7 +36881,7 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
   SLI_STORE_PAIR(2, 3, v)
 #endif
 #define SLI_FETCH(k, v) \
-  SLI_PREFETCH(Cp##v, sizeof(SLV_VALUE) * SLI_TILE / SLV_PARTS * (SLV_COLUMNS + (k)));
+  SLI_PREFETCH(Cp##v, sizeof(double) * SLI_TILE / SLV_PARTS * (SLV_COLUMNS + (k)));
 #define SLI_UPDATE(k, unused) \
   SLV_BROADCAST(b, B + (k)) \
   SLV_FNMA(c0##k, a0, b)
@@ -37712,9 +36889,9 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
   SLI_UPDATE(k, unused) \
   SLI_WORD(FNMA, 1)(c1##k, a1, b)
 
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows1)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
-    const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
-    SLV_VALUE *Cq0, sl_int columns) {
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows1)(const double *Ap0, const double *Aq0,
+    const double *B, sl_int length, double *Cp0,
+    double *Cq0, sl_int columns) {
   sl_int j;
   SLV_DECLARE(a0)
   SLV_DECLARE(b)
@@ -37730,11 +36907,11 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows1)(const SLV_VALUE *Ap0, const SLV_VA
 }
 
 #if SLV_TILES > SLV_VECTOR_TILES
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
-    const SLV_VALUE *Ap1, const SLV_VALUE *Aq1,
-    const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
-    SLV_VALUE *Cq0, SLV_VALUE *Cp1, SLV_VALUE *Cq1,
-    sl_int columns, const SLV_VALUE *ahead) {
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const double *Ap0, const double *Aq0,
+    const double *Ap1, const double *Aq1,
+    const double *B, sl_int length, double *Cp0,
+    double *Cq0, double *Cp1, double *Cq1,
+    sl_int columns, const double *ahead) {
   sl_int j;
   SLV_DECLARE(a0)
   SLI_WORD(DECLARE, 1)(a1)
@@ -37762,7 +36939,6 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VA
 
 #undef SLI_DECLARE
 #undef SLI_LOAD
-#undef SLI_SUM
 #undef SLI_STORE
 #undef SLI_STORE_PAIR
 #undef SLI_STORE_BLOCK
@@ -37776,21 +36952,21 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VA
 #undef SLI_WORD_1
 
 #if SLV_TILES > SLV_VECTOR_TILES
-SLV_FUNCTION SLI_INLINE const SLV_VALUE *SLV_FRONT(ahead)(const SLV_VALUE *const *A, sl_int length,
+SLV_FUNCTION SLI_INLINE const double *SLV_FRONT(ahead)(const double *const *A, sl_int length,
     sl_int part) {
   const sl_int parts = SLI_TILE / SLV_AHEAD, at = sli_min(part, SLV_TILES * parts - 1);
   return A[at / parts] + at % parts * SLV_AHEAD * (ptrdiff_t)length;
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(whole)(const SLV_VALUE *const *A, const SLV_VALUE *B,
-    sl_int length, SLV_VALUE *const *C, ptrdiff_t to,
-    sl_int columns, const SLV_VALUE *const *next,
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(whole)(const double *const *A, const double *B,
+    sl_int length, double *const *C, ptrdiff_t to,
+    sl_int columns, const double *const *next,
     sl_int k) {
 #if defined(SLV_HAS_HALF)
   sl_int m;
   for (m = 0; m < 2; m++) {
-    const SLV_VALUE *Am = A[2 * m], *Ah = A[1] + SLI_TILE / 2 * m;
-    SLV_VALUE *Cm = C[2 * m] + to, *Ch = C[1] + SLI_TILE / 2 * m + to;
+    const double *Am = A[2 * m], *Ah = A[1] + SLI_TILE / 2 * m;
+    double *Cm = C[2 * m] + to, *Ch = C[1] + SLI_TILE / 2 * m + to;
     SLV_FRONT(rows2)
     (Am, Am, Ah, Ah, B, length, Cm, Cm, Ch, Ch, columns,
      SLV_FRONT(ahead)(next, length, 2 * (k / SLV_COLUMNS) + m));
@@ -37804,8 +36980,8 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(whole)(const SLV_VALUE *const *A, const S
 }
 #endif
 
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(pack)(const SLV_VALUE *l, const SLV_VALUE *d, sl_int length,
-    SLV_VALUE *B) {
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(pack)(const double *l, const double *d, sl_int length,
+    double *B) {
   sl_int j;
   SLV_DECLARE(a)
   SLV_DECLARE(b)
@@ -37817,28 +36993,30 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(pack)(const SLV_VALUE *l, const SLV_VALUE
   }
 }
 
-SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, const SLV_VALUE *D,
+SLV_FUNCTION static void SLV_FRONT(product)(const double *panel, sl_int w, const double *D,
     const double *E, sl_int t0, sl_int t1, sl_int c0,
-    sl_int c1, sl_int j0, sl_int j1, SLV_VALUE *target,
+    sl_int c1, sl_int j0, sl_int j1, double *target,
     sl_int target_width, sl_int target_first,
-    SLV_VALUE *B) {
+    double *B) {
   const sl_int step = SLV_TILES, parts = SLV_PARTS, tile_size = SLI_TILE * SLI_TILE;
   sl_int j, t, c, k, r, m;
   for (j = j0 / parts; j < j1 / parts; j += SLI_CHUNK_COLUMNS) {
     const sl_int length = sli_min(SLI_CHUNK_COLUMNS, j1 / parts - j);
     for (c = c0; c < c1; c++) {
-      const SLV_VALUE *l = panel + sli_tile_offset(w, c) / parts + SLI_TILE * (ptrdiff_t)j;
-      SLV_VALUE *to = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
+      const double *l = panel + sli_tile_offset(w, c) / parts + SLI_TILE * (ptrdiff_t)j;
+      double *to = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
       SLV_FRONT(pack)(l, D + parts * j, length, to);
-      SLV_PACK_PAIRS(l, E, j, length, to)
+      if (E != NULL) {
+        sli_pair_pack(l, E + j, length, to);
+      }
     }
     for (t = t0; t < t1; t += step) {
       const sl_int end = sli_min(t + step, t1);
-      const SLV_VALUE *A[SLV_TILES];
+      const double *A[SLV_TILES];
 #if SLV_TILES > SLV_VECTOR_TILES
-      const SLV_VALUE *next[SLV_TILES];
+      const double *next[SLV_TILES];
 #endif
-      SLV_VALUE *C[SLV_TILES];
+      double *C[SLV_TILES];
       for (m = 0; m < step; m++) {
         r = sli_min(t + m, end - 1);
         A[m] = panel + sli_tile_offset(w, r) / parts + SLI_TILE * (ptrdiff_t)j;
@@ -37850,7 +37028,7 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
       }
       for (c = c0; c < c1 && c < end; c++) {
         const ptrdiff_t at = (ptrdiff_t)tile_size / parts * (c - target_first);
-        const SLV_VALUE *b = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
+        const double *b = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
         const sl_int columns = target_width - SLI_TILE * (c - target_first);
         for (k = 0; k < SLI_TILE && k < columns; k += SLV_COLUMNS) {
           const ptrdiff_t to = at + SLI_TILE / parts * k;
@@ -37940,7 +37118,7 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
   }
 #define SLI_BY_RULE(k) \
   if (rule != NULL) { \
-    d = SLV_PIVOT(sli_pivot_by_rule(rule, column + (k), d, sums[k])); \
+    d = sli_pivot_by_rule(rule, column + (k), d, sums[k]); \
     SLV_BROADCAST(b, &d) \
   }
 #define SLI_TAKE_PIVOT(k, d) \
@@ -37949,7 +37127,7 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
 #endif
 #define SLI_PIVOT(k, p) \
   if (SLI_IS_IN(k, columns)) { \
-    SLV_VALUE d; \
+    double d; \
     SLV_STORE(x + SLI_TILE * (k), a##k) \
     SLV_STORE(sums, m) \
     SLV_LANE(b, a##k, (k)*SLV_PARTS) \
@@ -37957,8 +37135,8 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
     SLI_BY_RULE(k) \
     SLV_DIVIDE(l, a##k, b) \
     SLI_TAKE_PIVOT(k, d) \
-    minus_sign[k] = (SLV_VALUE)(d < 0 ? 1 : -1); \
-    reciprocal[k] = (SLV_VALUE)1 / d; \
+    minus_sign[k] = (double)(d < 0 ? 1 : -1); \
+    reciprocal[k] = (double)1 / d; \
     safe &= fabs(d) > SLV_LEAST && fabs(d) < SLV_MOST; \
     SLI_GAIN(l, a##k, k) \
     SLV_BELOW(l, (k)*SLV_PARTS + SLV_PARTS - 1) \
@@ -38004,20 +37182,20 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
 
 #if defined(SLV_OWN_PIVOTS)
 SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
-    SLV_VALUE *reciprocals) {
+    double *reciprocals) {
   const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first) / SLV_PARTS;
   const sl_int all = columns + (f->is_small ? f->below : 0);
 #if !SLV_COMPLEX
   const sl_int column = f->column + first;
   const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
 #endif
-  SLV_VALUE *p = SLV_OF(f, panel) + sli_tile_offset(f->width, c) / SLV_PARTS +
+  double *p = f->panel + sli_tile_offset(f->width, c) / SLV_PARTS +
            SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
-  SLV_VALUE *update = SLV_OF(f, update);
-  SLV_VALUE *D = SLV_OF(f, D) + first, *magnitude = SLV_OF(f, magnitude) + first;
-  SLV_VALUE *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
-  SLI_ALIGNED(SLV_VALUE x[SLI_TILE * SLI_TILE + SLI_TILE]);
-  SLV_VALUE *sums = x + SLI_TILE * SLI_TILE;
+  double *update = f->update;
+  double *D = f->D + first, *magnitude = f->magnitude + first;
+  double *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
+  SLI_ALIGNED(double x[SLI_TILE * SLI_TILE + SLI_TILE]);
+  double *sums = x + SLI_TILE * SLI_TILE;
   int safe = 1;
   sl_int t;
   SLV_DECLARE(b)
@@ -38040,22 +37218,22 @@ SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
 #endif
 
 SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
-    const SLV_VALUE *reciprocals) {
+    const double *reciprocals) {
   const sl_int w = f->width, first = SLI_TILE * c;
   const sl_int columns = sli_min(SLI_TILE, w - first) / SLV_PARTS;
-  SLV_VALUE *panel = SLV_OF(f, panel) + SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
-  const SLV_VALUE *pivots = panel + sli_tile_offset(w, c) / SLV_PARTS;
+  double *panel = f->panel + SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
+  const double *pivots = panel + sli_tile_offset(w, c) / SLV_PARTS;
   const int has_pairs = !SLV_COMPLEX && sli_tile_has_pairs(f, c);
-  const SLV_VALUE *D = has_pairs ? reciprocals + 2 * SLI_TILE : SLV_OF(f, D) + first;
-  const SLV_VALUE *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
+  const double *D = has_pairs ? reciprocals + 2 * SLI_TILE : f->D + first;
+  const double *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
   const int by_reciprocal = reciprocal[0] != 0;
   sl_int t;
   for (t = t0; t < t1; t += SLV_VECTOR_TILES) {
     const sl_int second = sli_min(t + SLV_VECTOR_TILES, t1) - 1;
-    SLV_VALUE *p = panel + sli_tile_offset(w, t) / SLV_PARTS;
-    SLV_VALUE *q = panel + sli_tile_offset(w, second) / SLV_PARTS;
-    SLV_VALUE *sums = SLV_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)t;
-    SLV_VALUE *second_sums = SLV_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)second;
+    double *p = panel + sli_tile_offset(w, t) / SLV_PARTS;
+    double *q = panel + sli_tile_offset(w, second) / SLV_PARTS;
+    double *sums = f->magnitude + SLI_TILE * (ptrdiff_t)t;
+    double *second_sums = f->magnitude + SLI_TILE * (ptrdiff_t)second;
     SLV_DECLARE(b)
     SLV_DECLARE(l)
     SLV_DECLARE(m)
@@ -38094,21 +37272,21 @@ SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_i
 #undef SLI_DECLARE_ALL
 
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(catch_up)(const sli_front *f, sl_int first, sl_int c0,
-    sl_int c1, sl_int t0, sl_int t1, SLV_VALUE *B) {
+    sl_int c1, sl_int t0, sl_int t1, double *B) {
   if (c0 > first) {
     SLV_FRONT(product)
-    (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, t0, t1, c0, c1, SLI_TILE * first,
-     SLI_TILE * c0, SLV_OF(f, panel), f->width, 0, B);
+    (f->panel, f->width, f->D, f->E, t0, t1, c0, c1, SLI_TILE * first,
+     SLI_TILE * c0, f->panel, f->width, 0, B);
   }
 }
 
 SLV_FUNCTION static void SLV_FRONT(pivots)(const sli_front *f, sl_int c0, void *scratch) {
-  SLV_VALUE *B = (SLV_VALUE *)scratch;
+  double *B = (double *)scratch;
   const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
   sl_int c;
   SLV_FRONT(catch_up)(f, 0, c0, c1, c0, c1, B);
   for (c = c0; c < c1; c++) {
-    SLV_VALUE *reciprocals = SLV_OF(f, reciprocals) + 3 * SLI_TILE * (ptrdiff_t)(c - c0);
+    double *reciprocals = f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0);
     SLV_FRONT(catch_up)(f, c0, c, c + 1, c, c1, B);
     if (!SLV_COMPLEX && sli_tile_has_pairs(f, c)) {
       sli_pair_tile(f, c, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
@@ -38123,26 +37301,26 @@ SLV_FUNCTION static void SLV_FRONT(pivots)(const sli_front *f, sl_int c0, void *
 
 SLV_FUNCTION static void SLV_FRONT(rows)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
     void *scratch) {
-  SLV_VALUE *B = (SLV_VALUE *)scratch;
+  double *B = (double *)scratch;
   const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
   sl_int c;
   SLV_FRONT(catch_up)(f, 0, c0, c1, t0, t1, B);
   for (c = c0; c < c1; c++) {
     SLV_FRONT(catch_up)(f, c0, c, c + 1, t0, t1, B);
     SLV_FRONT(tile_rows)
-    (f, c, t0, t1, SLV_OF(f, reciprocals) + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
+    (f, c, t0, t1, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
   }
 }
 
 SLV_FUNCTION static void SLV_FRONT(update)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0,
     sl_int t1, void *scratch) {
-  SLV_VALUE *B = (SLV_VALUE *)scratch;
+  double *B = (double *)scratch;
   const sl_int w = f->width, last = sli_min(c1, t1);
   sl_int c;
   for (c = c0; c < last; c += SLI_GROUP_TILES) {
     SLV_FRONT(product)
-    (SLV_OF(f, panel), w, SLV_OF(f, D), f->E, sli_max(t0, c), t1, c,
-     sli_min(c + SLI_GROUP_TILES, last), 0, w, SLV_OF(f, update), SLI_TILE * (t1 - c0), c0, B);
+    (f->panel, w, f->D, f->E, sli_max(t0, c), t1, c,
+     sli_min(c + SLI_GROUP_TILES, last), 0, w, f->update, SLI_TILE * (t1 - c0), c0, B);
   }
 }
 
@@ -38153,12 +37331,12 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
   sl_int row, end, i;
   for (row = first; row < last; row = end) {
     const sl_int lane = (skipped + row) % SLI_TILE, tile = relative[row] / SLI_TILE;
-    const SLV_VALUE *source =
-      (const SLV_VALUE *)from +
+    const double *source =
+      (const double *)from +
       (sli_triangle_offset((skipped + row) / SLI_TILE) + SLI_TILE * (ptrdiff_t)skipped) /
         SLV_PARTS +
       lane;
-    SLV_VALUE *const to[2] = {SLV_OF(f, panel), SLV_OF(f, update)};
+    double *const to[2] = {f->panel, f->update};
     const ptrdiff_t at[2] = {(ptrdiff_t)sli_tile_offset(w, tile) / SLV_PARTS,
                  ((ptrdiff_t)sli_triangle_offset(tile - whole) -
                   SLI_TILE * SLI_TILE * (ptrdiff_t)whole) /
@@ -38176,7 +37354,7 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
           i < columns;
           i += SLV_PARTS) {
         const int is_below = relative[i] >= w;
-        SLV_VALUE *target =
+        double *target =
           to[is_below] + (at[is_below] + SLI_TILE / SLV_PARTS * (ptrdiff_t)relative[i]);
         SLI_PREFETCH(target, SLI_ASSEMBLE_DISTANCE);
         SLI_PREFETCH(source + SLI_TILE / SLV_PARTS * (ptrdiff_t)i, SLI_ASSEMBLE_DISTANCE);
@@ -40033,8 +39211,6 @@ static const sli_float_kernels SLV_NAME(float_kernels) = {
    {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
     SLV_NAME(single_backward8), SLV_NAME(single_backward16), SLV_NAME(single_backward32),
     SLV_NAME(single_backward64)}},
-  {SLV_NAME(single_pivots), SLV_NAME(single_rows), SLV_NAME(single_update),
-   SLV_NAME(single_assemble)},
   SLV_NAME_PIVOTS(single_round)};
 #endif
 

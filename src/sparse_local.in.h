@@ -37,9 +37,6 @@ extern "C" {
 #include "public/batch.h"
 #include "public/several.h"
 #endif
-#if defined(SL_WITH_BATCH) && defined(SL_WITH_INVERSE)
-#include "public/batch_diagonal.h"
-#endif
 #if defined(SL_WITH_SAVE)
 #include "public/save.h"
 #endif
@@ -193,12 +190,8 @@ extern "C" {
 #include "impl/pivots/pivot_search.h"
 #include "impl/pivots/pivoted.h"
 #endif
-/* float: L and fronts in single precision */
+/* float: L in single precision */
 #if defined(SL_WITH_FLOAT)
-#include "impl/float/simd_scalar_single.h"
-#include "impl/float/simd_avx2_single.h"
-#include "impl/float/simd_avx512_single.h"
-#include "impl/float/simd_neon_single.h"
 #include "impl/float/float_kernels.h"
 #include "impl/float/float_storage.h"
 #endif
@@ -211,7 +204,7 @@ extern "C" {
 #include "impl/inverse/row_sets.h"
 #include "impl/inverse/costs.h"
 #include "impl/inverse/unit_vectors.h"
-#include "impl/inverse/bilinear.h"
+#include "impl/inverse/pair_sums.h"
 #include "impl/inverse/loss.h"
 #include "impl/inverse/entries.h"
 #include "impl/inverse/column.h"
@@ -265,7 +258,7 @@ extern "C" {
 #include "impl/fixed/fixed_solve.h"
 #endif
 /* io: files that are replaced only when they are complete */
-#if defined(SL_WITH_FILES) || defined(SL_WITH_SAVE)
+#if defined(SL_WITH_SAVE)
 #include "impl/io/output_file.h"
 #endif
 /* files: Matrix Market files, 64-bit indices */
@@ -291,10 +284,6 @@ extern "C" {
 #include "impl/batch/scatter.h"
 #include "impl/batch/batch_solve.h"
 #include "impl/batch/batch_factor.h"
-#endif
-/* batch: diagonals of many inverses */
-#if defined(SL_WITH_BATCH) && defined(SL_WITH_INVERSE)
-#include "impl/batch/batch_diagonal.h"
 #endif
 /* complex: complex Hermitian systems over real factors */
 #if defined(SL_WITH_COMPLEX)

@@ -10,15 +10,22 @@ enum { MAX_ROWS = 10 };
 
 static const double max_flops_eigen = 5e10, min_panels_brief = 5e7;
 
-/* P A P' with ascending rows, which Eigen needs: transposes have them. */
+/* P A P' with ascending rows, which Eigen needs: those of triplets are. */
 static sl_matrix *permute_sorted(const sl_csc *A, const sl_int *perm) {
-    sl_matrix *permuted = NULL, *transposed = NULL, *sorted = NULL;
+    sl_matrix *permuted = NULL, *sorted = NULL;
     bench_must(sl_matrix_submatrix(&permuted, A, perm, A->n_cols, NULL, NULL), "permuting");
-    sl_csc view = sl_matrix_view(permuted);
-    bench_must(sl_matrix_transpose(&transposed, &view, NULL), "transposing");
-    view = sl_matrix_view(transposed);
-    bench_must(sl_matrix_transpose(&sorted, &view, NULL), "transposing");
-    sl_matrix_free(transposed);
+    const sl_csc view = sl_matrix_view(permuted);
+    const sl_int count = view.p[view.n_cols];
+    sl_int *columns = bench_alloc((size_t)count, sizeof *columns);
+    for (sl_int j = 0; j < view.n_cols; j++) {
+        for (sl_int p = view.p[j]; p < view.p[j + 1]; p++) {
+            columns[p] = j;
+        }
+    }
+    bench_must(sl_matrix_from_triplets(&sorted, view.n_cols, view.n_cols, count, view.i, columns,
+                                       view.x, NULL, NULL),
+               "sorting");
+    free(columns);
     sl_matrix_free(permuted);
     return sorted;
 }

@@ -5,26 +5,22 @@
 
 #include "bench/lib/bench.h"
 
-/* Three factors of each system: in double, in double with L in float, and in float; the baseline is
- * double. Solves are those with L in double and in float. The accuracy is that of k-harmonic
- * systems for a known x: the componentwise backward error, and the largest error relative to the
- * largest x, after 0 to 3 steps of refinement. */
+/* Two factors of each system: in double, and with L in float; the baseline is double. The accuracy
+ * is that of k-harmonic systems for a known x: the componentwise backward error, and the largest
+ * error relative to the largest x, after 0 to 3 steps of refinement. */
 enum { QUERIES = 64, PATCHES = 16, PATCH = 1000, MAX_SYSTEMS = 4, STEPS = 3, ORDERS = 3 };
-enum { TYPES = SL_STORAGE_FLOAT_FRONTS + 1 };
+enum { TYPES = 2 };
 
-static const char *const names[TYPES] = {"double", "float", "float fronts"};
+static const char *const names[TYPES] = {"double", "float"};
 
-/* The system with its factor in float in place of that in double. Release the factor, which is NULL
- * if float cannot tell a pivot from rounding. */
-static bench_system in_float(const bench_system *system, sl_storage storage, sl_stats *stats) {
+/* The system with L in float in place of that in double. Release the factor. */
+static bench_system in_float(const bench_system *system, sl_stats *stats) {
     bench_system copy = *system;
     sl_options options;
     memset(&options, 0, sizeof options);
-    options.storage = storage;
+    options.storage = SL_STORAGE_FLOAT;
     copy.F = NULL;
-    const sl_status status = sl_factor_create(&copy.F, system->S, &system->A, &options, stats);
-    bench_must(storage == SL_STORAGE_FLOAT_FRONTS && status == SL_ERR_PIVOT ? SL_OK : status,
-               "factor");
+    bench_must(sl_factor_create(&copy.F, system->S, &system->A, &options, stats), "factor");
     return copy;
 }
 
@@ -112,24 +108,22 @@ static void time_full(bench_run *run, bench_report *report, bench_system *system
     for (int k = 0; k < TYPES; k++) {
         contenders[k] = (bench_contender){call_refactor, &systems[k], 1, NULL};
     }
-    race(run, report, &systems[0], contenders, systems[TYPES - 1].F == NULL ? 2 : TYPES, row);
+    race(run, report, &systems[0], contenders, TYPES, row);
 }
 
 static void time_system(bench_run *run, bench_report *report, const bench_system *system) {
-    sl_stats full, single, fronts;
-    bench_system systems[TYPES] = {*system, in_float(system, SL_STORAGE_FLOAT, &single),
-                                   in_float(system, SL_STORAGE_FLOAT_FRONTS, &fronts)};
+    sl_stats full, single;
+    bench_system systems[TYPES] = {*system, in_float(system, &single)};
     sl_factor_stats(system->F, &full);
     time_vertices(run, report, systems);
     time_patches(run, report, systems);
     time_full(run, report, systems);
     const double entries = (double)system->stats.symbolic.nnz_panels;
     bench_report_note(report,
-                      "%-14s   L: %.1f MB, in float %.1f MB; whole factor: %.1f, %.1f, %.1f MB", "",
+                      "%-14s   L: %.1f MB, in float %.1f MB; whole factor: %.1f, %.1f MB", "",
                       8e-6 * entries, 4e-6 * entries, 1e-6 * (double)full.factor.bytes,
-                      1e-6 * (double)single.factor.bytes, 1e-6 * (double)fronts.factor.bytes);
+                      1e-6 * (double)single.factor.bytes);
     sl_factor_free(systems[1].F);
-    sl_factor_free(systems[2].F);
 }
 
 static double largest_error(const double *x, const double *exact, size_t n) {
@@ -164,8 +158,7 @@ static double note_errors(bench_report *report, const bench_system *system, cons
 
 static void accuracy(bench_run *run, bench_report *report, const bench_system *system) {
     const size_t n = (size_t)system->n;
-    const bench_system single = in_float(system, SL_STORAGE_FLOAT, NULL);
-    const bench_system fronts = in_float(system, SL_STORAGE_FLOAT_FRONTS, NULL);
+    const bench_system single = in_float(system, NULL);
     double *exact = bench_alloc(n, sizeof *exact), *b = bench_alloc(n, sizeof *b);
     double *x = bench_alloc(n, sizeof *x), rcond;
     uint64_t rng = 5;
@@ -177,13 +170,7 @@ static void accuracy(bench_run *run, bench_report *report, const bench_system *s
     const double error = note_errors(report, &single, names[1], exact, b, x);
     bench_expect(run, error <= 1e-10 || rcond < 1e-12, "%s: refined backward error %.1e",
                  system->name, error);
-    if (fronts.F == NULL) {
-        bench_report_note(report, "%-14s   %-12s  refused", system->name, names[2]);
-    } else {
-        (void)note_errors(report, &fronts, names[2], exact, b, x);
-    }
     sl_factor_free(single.F);
-    sl_factor_free(fronts.F);
     free(exact);
     free(b);
     free(x);

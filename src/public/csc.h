@@ -24,14 +24,6 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int 
                                                         const double *x, const sl_options *opt,
                                                         sl_stats *stats);
 
-/** The transpose of a general matrix (as SL_AS_STORED). Rows are ascending; duplicates stay.
- *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MALFORMED; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(n_rows + n_cols + nnz).
- */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A,
-                                                    const sl_options *opt);
-
 /** The principal submatrix C = A[rows, rows] of a square matrix: C(k, l) = A(rows[k], rows[l]).
  *  With all rows it is a symmetric permutation P A P'.
  *

@@ -31,19 +31,6 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_read(sl_matrix **out, const char *path
 SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
                                                 const sl_options *opt, sl_stats *stats);
 
-/** Writes a Matrix Market file that reads back to the same bits (%.17g).
- *
- *  An existing file is replaced only once the new one is complete: on error it is as it was. A
- *  device, a pipe or a symbolic link is written in place. Nothing waits for the disk.
- *
- *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of
- *                 one triangle.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MALFORMED: malformed, or not symmetric with
- *           SL_AS_SYMMETRIC; SL_ERR_IO; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
- *  Manual   tools/docs/files.md: temporary names, permissions, systems without POSIX
- */
-SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path);
-
 /** View of a sparse matrix with 64-bit indices, otherwise as sl_csc: the arrays of MATLAB, Julia,
  *  SuiteSparse's long interface and SciPy's int64. */
 typedef struct sl_csc64 {

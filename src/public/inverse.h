@@ -1,4 +1,4 @@
-/* inverse.h: entries, blocks and bilinear forms of the inverse, without a backward sweep */
+/* inverse.h: entries and blocks of the inverse, without a backward sweep */
 #ifndef SL_PUBLIC_INVERSE_H
 #define SL_PUBLIC_INVERSE_H
 
@@ -72,21 +72,5 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_block(const sl_factor *F, double *Z, 
                                                  const sl_int *rows, sl_int n_rows,
                                                  const sl_int *columns, sl_int n_columns,
                                                  sl_work *W, sl_stats *stats);
-
-/** A bilinear form of the inverse: out = c' A^-1 b for sparse b and c.
- *
- *  out   [out]  one value.
- *  bset  [in]   nb rows of A in 0..n-1, any order; values of a row given twice add up; b is 0 in
- *               the other rows. NULL (nb is ignored): all n.
- *  b     [in]   nb values.
- *  cset  [in]   nc rows of A, likewise.
- *  c     [in]   nc values. If sets and values of b and c are the same arrays, b' A^-1 b takes half
- *               the operations. An index out of range is error.row for cset and error.column for
- *               bset.
- */
-SL_API SL_WARN_UNUSED sl_status sl_inverse_bilinear(const sl_factor *F, double *out,
-                                                    const sl_int *bset, const double *b, sl_int nb,
-                                                    const sl_int *cset, const double *c, sl_int nc,
-                                                    sl_work *W, sl_stats *stats);
 
 #endif

@@ -6,13 +6,13 @@
  * many right-hand sides, for regular and for singular matrices. Define the macro of a pack before
  * every include of this header to add to it, or SL_WITH_ALL for all packs:
  *
- *  SL_WITH_INVERSE    entries of the inverse, bilinear forms, selected inversion, regions
+ *  SL_WITH_INVERSE    entries of the inverse, selected inversion, regions
  *  SL_WITH_CHANGE     changes of a factor in place, pins, factors of submatrices, edits
  *  SL_WITH_FIXED      rows fixed at given values: harmonic maps, interpolation
  *  SL_WITH_SAVE       factors, selected inverses and regions in files and in mapped memory
  *  SL_WITH_BATCH      many factors or solves by one call, weighted sums of matrices
  *  SL_WITH_COMPLEX    complex Hermitian systems, SL_STORAGE_COMPLEX
- *  SL_WITH_FLOAT      L in single precision: SL_STORAGE_FLOAT, SL_STORAGE_FLOAT_FRONTS
+ *  SL_WITH_FLOAT      L in single precision: SL_STORAGE_FLOAT
  *  SL_WITH_ACCURACY   refinement, bounds of errors, condition numbers, defects, half solves
  *  SL_WITH_FILES      Matrix Market files, matrices with 64-bit indices
  *  SL_WITH_PIVOTS     2x2 pivots for indefinite matrices

@@ -32,58 +32,46 @@ typedef enum sl_part {
  *  of sl_factor_solve. With several null vectors a component (options.null_vector_count), null
  *  pivots are not the last ones, and P' L D L' P differs from A in their rows and columns.
  *
+ *  With a plan it is one half of a local solve. Forward: SL_PART_P, SL_PART_L and perhaps one of
+ *  SL_PART_D and SL_PART_SQRT_D. B has the rows of the b-set; X has the b_columns rows that the
+ *  sweep reaches (sl_plan_columns), and all others are 0. Backward: SL_PART_LT, SL_PART_PT and
+ *  perhaps one of the two. B has the x_columns rows that the x-set depends on; X has those of the
+ *  x-set. The results are the rows of the full call, bit for bit.
+ *
  *  F      [in]   factor of A, n x n.
- *  parts  [in]   any of sl_part, but not both SL_PART_D and SL_PART_SQRT_D; 0 copies B.
+ *  plan   [in]   over the analysis of F, without a region; NULL: all rows.
+ *  parts  [in]   any of sl_part, but not both SL_PART_D and SL_PART_SQRT_D; 0 copies B. With a plan
+ *                those above.
  *  X      [out]  n x nrhs, leading dimension ldx, or by SL_ROWS; in the order of A with SL_PART_PT,
  *                else of the pivots. May be B itself (then ldx = ldb). On error untouched.
  *  B      [in]   n x nrhs, leading dimension ldb, or by SL_ROWS; in the order of A with SL_PART_P,
  *                else of the pivots.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_PIVOT: SL_PART_SQRT_D with a negative
- *           pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
- *  Cost     2 nnz_panels flops per right-hand side for each of L and L'; O(n) for the others.
+ *           pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots, or a plan in a region;
+ *           SL_ERR_MISMATCH: a plan of another analysis; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     2 nnz_panels flops per right-hand side for each of L and L'; O(n) for the others. On a
+ *           plan 2 b_entries or 2 x_entries flops; nothing O(n).
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/core/test_parts.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_solve_part(const sl_factor *F, unsigned parts, double *X,
-                                                     size_t ldx, const double *B, size_t ldb,
-                                                     sl_int nrhs, sl_work *W);
+SL_API SL_WARN_UNUSED sl_status sl_factor_solve_part(const sl_factor *F, const sl_plan *plan,
+                                                     unsigned parts, double *X, size_t ldx,
+                                                     const double *B, size_t ldb, sl_int nrhs,
+                                                     sl_work *W);
 
 /** X = P' L D L' P B with only those factors that are given; the others count as I.
  *
  *  L + PT undoes P + L of sl_factor_solve_part, and LT undoes LT. L + SQRT_D + PT makes samples of
  *  covariance A. All parts together give A B, or (A + E) B if regularization changed pivots.
  *
- *  Arguments, Returns, Threads  as sl_factor_solve_part.
+ *  Arguments, Returns, Threads  as sl_factor_solve_part without a plan.
  *  Cost     2 nnz_panels flops per right-hand side for each of L and L', in plain C: 13 to 27 times
  *           as long as the solve.
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_multiply_part(const sl_factor *F, unsigned parts,
                                                         double *X, size_t ldx, const double *B,
                                                         size_t ldb, sl_int nrhs, sl_work *W);
-
-/** Half of a local solve: the forward half from the b-set, or the backward half to the x-set.
- *
- *  Forward: SL_PART_P, SL_PART_L and perhaps one of SL_PART_D and SL_PART_SQRT_D. B has the rows of
- *  the b-set; X has the b_columns rows that the sweep reaches (stats.plan), and all others are 0.
- *  The rows are those of sl_plan_columns. Backward: SL_PART_LT, SL_PART_PT and perhaps one of the
- *  two. B has the x_columns rows that the x-set depends on; X has the rows of the x-set.
- *
- *  With standard normal B, SL_PART_SQRT_D + LT + PT samples x on the x-set alone, with the
- *  covariance A^-1 has there. The results are the rows of sl_factor_solve_part, bit for bit.
- *
- *  P, F   [in]   a plan without a region, and a factor over its analysis.
- *  X, B, ldx, ldb, nrhs, W  as in sl_plan_solve, but for their rows.
- *  Returns  as sl_factor_solve_part; SL_ERR_ARGUMENT: other parts; SL_ERR_MISMATCH: a factor of
- *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region.
- *  Cost     2 b_entries or 2 x_entries flops per right-hand side; nothing O(n).
- *  Threads  any number at once on one P and one F, each with its own W.
- */
-SL_API SL_WARN_UNUSED sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F,
-                                                   unsigned parts, double *X, size_t ldx,
-                                                   const double *B, size_t ldb, sl_int nrhs,
-                                                   sl_work *W);
 
 /** The columns of L that one sweep of a plan visits, ascending: the rows of half solves.
  *

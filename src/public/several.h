@@ -17,7 +17,7 @@
  *     const double *v[2] = {m, k};
  *     for i < count: c[2 i] = 1, c[2 i + 1] = t[i];
  *     sl_factor_create_sums(F, count, S, c, v, 2, &opt, NULL, NULL);   F[i]: the factor of M + t[i]
- *     K sl_batch_diagonal(F, count, h, n_rows, rows, n_rows, &opt, NULL, NULL, NULL);
+ *     for i < count: sl_inverse_diagonal(F[i], h + i * n_rows, rows, n_rows, W, NULL);
  *
  * A plan belongs to the analysis. It serves all of these factors, one by one or in a batch whose
  * requests name their factors.

@@ -54,13 +54,13 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  |  _refine, _rcond                  | but they may with threads: try each number             |
  *  | sl_factor_pseudo_inverse          | the analysis and the number of columns                 |
  *  | sl_fixed_solve                    | the object, nrhs, and the threads of W                 |
- *  | sl_plan_solve, _solve_part        | the plan, nrhs, whether F has null pivots; fewer       |
+ *  | sl_plan_solve, parts of a plan    | the plan, nrhs, whether F has null pivots; fewer       |
  *  |                                   | right-hand sides need no more                          |
  *  | sl_plan_solve_regularized         | the same, and the number of regularized rows           |
  *  | sl_selected_refactor              | the selected inverse and options.storage of F          |
  *  | sl_region_refactor                | the region, the instruction set of F, and Z            |
- *  | sl_local_solve, sl_inverse_*,     | the rows of the call, too. Fewer rows can need more:   |
- *  |  sl_batch_diagonal                | try each set of rows                                   |
+ *  | sl_local_solve, sl_inverse_*      | the rows of the call, too. Fewer rows can need more:   |
+ *  |                                   | try each set of rows                                   |
  *
  *  Each workspace of a batch needs what its largest request does. The values of A, B and X, and
  *  leading dimensions, make no difference, but for entries of the inverse of A with pivots of both

@@ -78,7 +78,7 @@ typedef struct sl_plan_info {
     size_t bytes;
 } sl_plan_info;
 
-/** Entries of the inverse: sl_inverse_diagonal, _pairs, _block, _bilinear. */
+/** Entries of the inverse: sl_inverse_diagonal, _pairs, _block. */
 typedef struct sl_inverse_info {
     sl_inverse_method method;
     /* SL_INVERSE_FORWARD: of the largest reach swept; SL_INVERSE_SELECTED: of the inverted part */

@@ -123,10 +123,9 @@ typedef enum sl_method {
  *  AVX2) has no kernels but those of double: L is then in double, as stats.storage says. */
 typedef enum sl_storage {
     SL_STORAGE_DOUBLE = 0,
-    SL_STORAGE_FLOAT,        /* half the bytes of L, its accuracy until refined */
-    SL_STORAGE_FLOAT_FRONTS, /* fronts are computed in float, too: half the time, less accuracy */
-    SL_STORAGE_COMPLEX       /* EXPERIMENTAL: half the bytes of L in full accuracy, of complex
-                                Hermitian matrices only, complex.h */
+    SL_STORAGE_FLOAT,  /* half the bytes of L, its accuracy until refined */
+    SL_STORAGE_COMPLEX /* EXPERIMENTAL: half the bytes of L in full accuracy, of complex Hermitian
+                          matrices only, complex.h */
 } sl_storage;
 
 /** What to do with a null pivot. */

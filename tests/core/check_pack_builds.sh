@@ -62,8 +62,6 @@ int main(void) {
     options.storage = SL_STORAGE_FLOAT;
     if (sl_factor_create(&F, S, &A, &options, &stats) != SL_ERR_UNSUPPORTED) return 2;
     if (strcmp(stats.error.what, "options.storage needs SL_WITH_FLOAT") != 0) return 2;
-    options.storage = SL_STORAGE_FLOAT_FRONTS;
-    if (sl_factor_create(&F, S, &A, &options, NULL) != SL_ERR_UNSUPPORTED) return 3;
 #endif
 #ifndef SL_WITH_COMPLEX
     options.storage = SL_STORAGE_COMPLEX;

@@ -66,32 +66,6 @@ static void a_combination_of_many_terms_has_the_same_bits(void **state) {
     matrix_pair_free(&y);
 }
 
-/* Fronts in float have the bits of those of the sum, and refuse what float cannot hold. */
-static void a_combination_in_float(void **state) {
-    (void)state;
-    const double c[TERMS] = {1, 0.5};
-    matrix_pair_t y = matrix_pair_make(GEN_DENSE, 60, 0, 0, NULL);
-    sl_options opt = options_none();
-    sl_factor *F = NULL;
-    opt.storage = SL_STORAGE_FLOAT_FRONTS;
-    SL_CHECK(sl_factor_create_sums(&F, 1, y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL, NULL));
-    sl_factor *plain = matrix_pair_factor(&y, c, &opt);
-    const size_t size = (size_t)panel_doubles(F);
-    assert_memory_equal(sl_factor_view(F).L_float, sl_factor_view(plain).L_float,
-                        size * sizeof(float));
-    SAME_VALUES(sl_factor_view(F).D, sl_factor_view(plain).D, 60);
-    static const double bad[2] = {1e100, NAN};
-    for (int k = 0; k < 2; k++) {
-        y.values[0][0] = bad[k];
-        SL_EXPECT(
-            k == 0 ? SL_ERR_INACCURATE : SL_ERR_NOT_FINITE,
-            sl_factor_refactor_sums(&F, 1, c, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
-    }
-    sl_factor_free(F);
-    sl_factor_free(plain);
-    matrix_pair_free(&y);
-}
-
 static void a_combination_of_no_terms_is_the_zero_matrix(void **state) {
     (void)state;
     matrix_pair_t y = matrix_pair_make(GEN_GRID2, 36, 0, 0, NULL);
@@ -321,7 +295,6 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_combination_has_the_bits_of_the_factored_sum),
         cmocka_unit_test(a_combination_of_many_terms_has_the_same_bits),
-        cmocka_unit_test(a_combination_in_float),
         cmocka_unit_test(a_combination_of_no_terms_is_the_zero_matrix),
         cmocka_unit_test(values_that_are_not_finite_are_refused),
         cmocka_unit_test(the_entry_that_is_not_finite_is_reported),

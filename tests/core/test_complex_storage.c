@@ -176,8 +176,8 @@ static void check_other_calls(const pair_t *y, sl_isa isa) {
         sl_selected *Z = NULL;
         X[k] = test_reals(6 * n);
         diagonal[k] = test_reals(n);
-        SL_CHECK(sl_factor_solve_part(y->F[k], SL_PART_L, X[k], n, B, n, 2, NULL));
-        SL_CHECK(sl_factor_solve_part(y->F[k], SL_PART_LT, X[k] + 2 * n, n, B, n, 2, NULL));
+        SL_CHECK(sl_factor_solve_part(y->F[k], NULL, SL_PART_L, X[k], n, B, n, 2, NULL));
+        SL_CHECK(sl_factor_solve_part(y->F[k], NULL, SL_PART_LT, X[k] + 2 * n, n, B, n, 2, NULL));
         SL_CHECK(sl_factor_multiply_part(y->F[k], SL_PART_L | SL_PART_LT, X[k] + 4 * n, n, B, n, 2,
                                          NULL));
         SL_CHECK(sl_complex_logdet(y->F[k], &logdet[k], &sign[k]));

@@ -160,46 +160,7 @@ static void triangle_detection_agrees_with_dense_patterns(void **state) {
     assert_true(symmetric > 20); /* symmetric patterns did occur */
 }
 
-/* ---- transpose and permute ---- */
-
-static void transpose_keeps_every_entry(void **state) {
-    (void)state;
-    /* 4 x 3, unsorted, a duplicate at (3,0) */
-    const sl_int p[4] = {0, 4, 4, 6}, i[6] = {3, 0, 3, 1, 2, 0};
-    const double x[6] = {1, 2, 3, 4, 5, 6};
-    sl_csc A = {4, 3, p, i, x};
-    sl_matrix *T = NULL, *back = NULL;
-    SL_CHECK(sl_matrix_transpose(&T, &A, NULL));
-    sl_csc C = sl_matrix_view(T);
-    SL_CHECK(sl_csc_check(&C, NULL));
-    assert_int_equal(C.n_rows, 3);
-    assert_int_equal(C.n_cols, 4);
-    const sl_int Cp[5] = {0, 2, 3, 4, 6}, Ci[6] = {0, 2, 0, 2, 0, 0};
-    const double Cx[6] = {2, 6, 4, 5, 1, 3};
-    assert_memory_equal(C.p, Cp, sizeof Cp);
-    assert_memory_equal(C.i, Ci, sizeof Ci);
-    SAME_VALUES(C.x, Cx, 6); /* duplicates keep their order */
-    SL_CHECK(sl_matrix_transpose(&back, &C, NULL));
-    C = sl_matrix_view(back);
-    const sl_int sorted[6] = {0, 1, 3, 3, 0, 2};
-    assert_memory_equal(C.p, p, sizeof p);
-    assert_memory_equal(C.i, sorted, sizeof sorted);
-    sl_matrix_free(T);
-    sl_matrix_free(back);
-
-    A.x = NULL;
-    SL_CHECK(sl_matrix_transpose(&T, &A, NULL));
-    assert_null(sl_matrix_view(T).x);
-    sl_matrix_free(T);
-    A.i = NULL;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_transpose(&T, &A, NULL));
-    assert_null(T);
-    const sl_int bad[6] = {3, 0, 4, 1, 2, 0};
-    A.i = bad;
-    SL_EXPECT(SL_ERR_MALFORMED, sl_matrix_transpose(&T, &A, NULL));
-    assert_null(T);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_transpose(NULL, &A, NULL));
-}
+/* ---- submatrices ---- */
 
 static void all_rows_make_a_symmetric_permutation(void **state) {
     (void)state;
@@ -298,7 +259,6 @@ int main(void) {
         cmocka_unit_test(the_triangle_of_every_style_is_detected),
         cmocka_unit_test(an_entry_without_mirror_image_is_reported),
         cmocka_unit_test(triangle_detection_agrees_with_dense_patterns),
-        cmocka_unit_test(transpose_keeps_every_entry),
         cmocka_unit_test(all_rows_make_a_symmetric_permutation),
         cmocka_unit_test(a_submatrix_has_the_chosen_rows),
         cmocka_unit_test(invalid_arguments_of_submatrix_are_refused),

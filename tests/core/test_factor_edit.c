@@ -201,9 +201,7 @@ static void other_factors_are_made_anew(void **state) {
         sl_options opt = options_none();
         sl_factor *F = NULL, *G = NULL, *H = NULL;
         sl_stats stats;
-        opt.storage = k == 0   ? SL_STORAGE_FLOAT
-                      : k == 1 ? SL_STORAGE_FLOAT_FRONTS
-                               : SL_STORAGE_DOUBLE;
+        opt.storage = k <= 1 ? SL_STORAGE_FLOAT : SL_STORAGE_DOUBLE;
         opt.method = k == 2 ? SL_METHOD_UP_LOOKING : SL_METHOD_AUTO;
         opt.null_pivots = k == 3 ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
         opt.regularization = k == 4 ? 1e-10 : 0.0;

@@ -62,7 +62,6 @@ static void assert_close(const double *X, const double *z, const sl_int *rows,
  * for, column by column. */
 static void check_all_ways(const factored_t *y, const double *X, double allowed, int is_lossy) {
     requests_t r = requests_make(&y->M);
-    sl_factor *const F[2] = {y->F, y->F};
     const sl_int count = r.count;
     sl_selected *Z = NULL;
     sl_stats stats;
@@ -73,16 +72,6 @@ static void check_all_ways(const factored_t *y, const double *X, double allowed,
     assert_close(X, r.z, r.all, r.all, n, allowed);
     SL_CHECK(sl_inverse_pairs(y->F, r.z, r.rows, r.columns, count, NULL, NULL));
     assert_close(X, r.z, r.rows, r.columns, count, allowed);
-    for (sl_int threads = 1; threads <= 3; threads += 2) {
-        sl_options opt = options_none();
-        int calls = 0;
-        opt.threads.count = threads;
-        opt.threads.run = run_backwards;
-        opt.threads.context = &calls;
-        SL_CHECK(sl_batch_diagonal(F, 2, r.z, (size_t)n, NULL, 0, &opt, NULL, NULL, NULL));
-        assert_close(X, r.z, r.all, r.all, n, allowed);
-        assert_close(X, r.z + n, r.all, r.all, n, allowed);
-    }
     for (sl_int set = 0; set < n; set += 40) {
         SL_CHECK(sl_selected_create(&Z, y->F, &set, set == 0 ? 0 : 1, NULL, NULL));
         sl_selected_free(Z);
@@ -277,43 +266,12 @@ static void every_allocation_may_fail(void **state) {
     }
 }
 
-/* One factor needs sweeps, the other one does not: each workspace suffices for both. */
-static void a_batch_has_factors_of_both_kinds(void **state) {
-    (void)state;
-    sl_stats stats;
-    factored_t good = grid_factored(1.0, SHIFT_DIAGONAL, options_none(), &stats);
-    gen_matrix_t M = grid_constraints(1e-8, SHIFT_DIAGONAL);
-    sl_factor *bad = NULL;
-    SL_CHECK(sl_factor_create(&bad, good.S, &M.view, NULL, NULL));
-    sl_factor *const F[3] = {good.F, bad, good.F};
-    double *z = test_reals((size_t)(3 * n)), *alone = test_reals((size_t)n);
-    for (sl_int threads = 0; threads <= 2; threads++) {
-        sl_options opt = options_none();
-        int calls = 0;
-        opt.threads.count = threads;
-        opt.threads.run = run_threads;
-        opt.threads.context = &calls;
-        memset(z, 0, (size_t)(3 * n) * sizeof *z);
-        SL_CHECK(sl_batch_diagonal(F, 3, z, (size_t)n, NULL, 0, &opt, NULL, NULL, NULL));
-        for (int k = 0; k < 3; k++) {
-            SL_CHECK(sl_inverse_diagonal(F[k], alone, NULL, 0, NULL, NULL));
-            SAME_VALUES(alone, z + k * n, (size_t)n);
-        }
-    }
-    free(z);
-    free(alone);
-    sl_factor_free(bad);
-    gen_matrix_free(&M);
-    factored_free(&good);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_way_to_an_entry_equals_full_solves),
         cmocka_unit_test(solves_in_regions_are_right_or_refused),
         cmocka_unit_test(a_refused_region_takes_other_numbers_later),
         cmocka_unit_test(every_allocation_may_fail),
-        cmocka_unit_test(a_batch_has_factors_of_both_kinds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

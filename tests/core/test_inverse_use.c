@@ -1,4 +1,4 @@
-/* test_inverse_use.c: entries, blocks and forms of the inverse: memory, range, invalid arguments */
+/* test_inverse_use.c: entries and blocks of the inverse: memory, range, invalid arguments */
 #include "tests/lib/check_inverse.h"
 
 /* ---- memory ---- */
@@ -6,10 +6,10 @@
 typedef struct call_t {
     const sl_factor *F;
     sl_int rows[40], columns[40];
-    double values[40], out[40 * 40];
+    double out[40 * 40];
 } call_t;
 
-enum { CALLS = 5 };
+enum { CALLS = 4 };
 
 static sl_status run_call(call_t *q, int which, sl_int count, sl_work *W) {
     switch (which) {
@@ -19,11 +19,8 @@ static sl_status run_call(call_t *q, int which, sl_int count, sl_work *W) {
         return sl_inverse_pairs(q->F, q->out, q->rows, q->columns, count, W, NULL);
     case 2:
         return sl_inverse_block(q->F, q->out, 40, q->rows, count, q->columns, count, W, NULL);
-    case 3:
-        return sl_inverse_block(q->F, q->out, 40, q->rows, count, q->rows, count, W, NULL);
     default:
-        return sl_inverse_bilinear(q->F, q->out, q->columns, q->values, count, q->rows, q->values,
-                                   count, W, NULL);
+        return sl_inverse_block(q->F, q->out, 40, q->rows, count, q->rows, count, W, NULL);
     }
 }
 
@@ -33,7 +30,6 @@ static call_t *call_make(const sl_factor *F, sl_int n) {
     q->F = F;
     random_rows(q->rows, 40, n, &seed);
     random_rows(q->columns, 40, n, &seed);
-    gen_reals(q->values, 40, 9);
     return q;
 }
 
@@ -204,8 +200,7 @@ static void bytes_of_a_patch(sl_int side, double bytes[CALLS], sl_int *reach) {
         q->rows[k] = 10 + k % 7 + side * (10 + k / 7);
         q->columns[count++] = 12 + k % 8 + side * (10 + k / 8);
     }
-    SL_CHECK(sl_inverse_bilinear(F, q->out, q->columns, q->values, 40, q->rows, q->values, 40, NULL,
-                                 &stats));
+    SL_CHECK(sl_inverse_block(F, q->out, 40, q->rows, 40, q->columns, 40, NULL, &stats));
     *reach = stats.inverse.columns;
     for (int which = 0; which < CALLS; which++) {
         counter_t counter = counter_make();
@@ -249,7 +244,7 @@ static void invalid_arguments_are_refused(void **state) {
     (void)state;
     factored_t y = factored_make(GEN_GRID2, 25, 1, 0, NULL);
     const sl_int good[3] = {3, 24, 0}, low[3] = {3, -1, 0}, high[3] = {3, 0, 25};
-    double out[9], one[3] = {1, 1, 1};
+    double out[9];
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
     for (int k = 0; k < 9; k++) {
@@ -286,19 +281,6 @@ static void invalid_arguments_are_refused(void **state) {
     REFUSED(sl_inverse_block(y.F, out, 3, low, 3, good, 3, NULL, NULL));
     REFUSED(sl_inverse_block(y.F, out, 3, good, 3, high, 3, NULL, &stats));
     assert_int_equal(stats.error.column, 25);
-    REFUSED(sl_inverse_bilinear(NULL, out, good, one, 3, good, one, 3, NULL, NULL));
-    REFUSED(sl_inverse_bilinear(y.F, NULL, good, one, 3, good, one, 3, NULL, NULL));
-    REFUSED(sl_inverse_bilinear(y.F, out, good, one, 3, good, NULL, 3, NULL, NULL));
-    REFUSED(sl_inverse_bilinear(y.F, out, good, NULL, 3, good, one, 3, NULL, NULL));
-    REFUSED(sl_inverse_bilinear(y.F, out, good, one, 3, good, one, -3, NULL, NULL));
-    REFUSED(sl_inverse_bilinear(y.F, out, good, one, -3, good, one, 3, NULL, NULL));
-    REFUSED(sl_inverse_bilinear(y.F, out, good, one, 3, high, one, 3, NULL, &stats));
-    assert_int_equal(stats.error.row, 25);
-    REFUSED(sl_inverse_bilinear(y.F, out, high, one, 3, good, one, 3, NULL, &stats));
-    assert_int_equal(stats.error.column, 25);
-    /* more rows than can be numbered: refused before anything is read */
-    SL_EXPECT(SL_ERR_TOO_LARGE,
-              sl_inverse_bilinear(y.F, out, good, one, 1, good, one, INT32_MAX, NULL, NULL));
     for (int k = 0; k < 9; k++) {
         assert_true(out[k] == 4321.5);
     }
@@ -307,9 +289,6 @@ static void invalid_arguments_are_refused(void **state) {
     SL_CHECK(sl_inverse_pairs(y.F, NULL, NULL, NULL, 0, NULL, NULL));
     SL_CHECK(sl_inverse_block(y.F, NULL, 0, NULL, 0, good, 3, NULL, NULL));
     SL_CHECK(sl_inverse_block(y.F, NULL, 0, good, 3, NULL, 0, NULL, NULL));
-    SL_CHECK(sl_inverse_bilinear(y.F, out, good, one, 3, good, NULL, 0, NULL, &stats));
-    assert_true(out[0] == 0 && stats.inverse.entries == 0);
-    assert_int_equal(stats.inverse.method, SL_INVERSE_NONE);
     /* a failed factor */
     y.M.x[0] = NAN;
     SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(y.F, &y.M.view, NULL));
@@ -317,7 +296,6 @@ static void invalid_arguments_are_refused(void **state) {
     SL_EXPECT(SL_ERR_STALE, sl_inverse_diagonal(y.F, out, good, 3, NULL, NULL));
     SL_EXPECT(SL_ERR_STALE, sl_inverse_pairs(y.F, out, good, good, 3, NULL, NULL));
     SL_EXPECT(SL_ERR_STALE, sl_inverse_block(y.F, out, 3, good, 3, good, 3, NULL, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_inverse_bilinear(y.F, out, good, one, 3, good, one, 3, NULL, NULL));
     assert_true(out[0] == 4321.5);
 #undef REFUSED
     factored_free(&y);
@@ -327,14 +305,12 @@ static void an_empty_matrix_has_an_empty_inverse(void **state) {
     (void)state;
     factored_t y = factored_make(GEN_NONE, 0, 1, 0, NULL);
     const sl_int row = 0;
-    double out = 4321.5, one = 1;
+    double out = 4321.5;
     SL_CHECK(sl_inverse_diagonal(y.F, NULL, NULL, 0, NULL, NULL));
     SL_CHECK(sl_inverse_pairs(y.F, NULL, NULL, NULL, 0, NULL, NULL));
     SL_CHECK(sl_inverse_block(y.F, NULL, 0, NULL, 0, NULL, 0, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_inverse_diagonal(y.F, &out, &row, 1, NULL, NULL));
     assert_true(out == 4321.5);
-    SL_CHECK(sl_inverse_bilinear(y.F, &out, NULL, &one, 5, NULL, &one, 5, NULL, NULL));
-    assert_true(out == 0);
     factored_free(&y);
 }
 

@@ -34,7 +34,7 @@ static void choose_options(judge_t *t, const variant_list_t *variants) {
     opt->regularization = y->regularization;
     opt->signs = y->signs;
     if (gen_below(&t->state, 4) == 0) {
-        opt->storage = gen_below(&t->state, 2) ? SL_STORAGE_FLOAT : SL_STORAGE_FLOAT_FRONTS;
+        opt->storage = SL_STORAGE_FLOAT;
         opt->method = SL_METHOD_AUTO;
     }
     if (y->is_complex && gen_below(&t->state, 2)) {

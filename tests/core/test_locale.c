@@ -1,10 +1,7 @@
-/* test_locale.c: Matrix Market files have the same bytes and bits in every locale */
-#define _POSIX_C_SOURCE 200809L /* mkstemp */
-
+/* test_locale.c: Matrix Market files have the same numbers in every locale */
 #include "tests/lib/check_factor.h"
 
 #include <locale.h>
-#include <unistd.h>
 
 /* Decimal commas, and decimal points of two bytes; any that is not installed is left out. */
 static const char *const locales[] = {
@@ -84,69 +81,10 @@ static void points_of_the_locale_are_refused(void **state) {
     in_each_locale_or_skip(refuses);
 }
 
-static char *file_bytes(const char *name, size_t *size) {
-    FILE *file = fopen(name, "rb");
-    assert_non_null(file);
-    char *bytes = (char *)test_array(1 << 16, 1);
-    *size = fread(bytes, 1, 1 << 16, file);
-    assert_true(*size > 0 && *size < 1 << 16);
-    assert_int_equal(fclose(file), 0);
-    return bytes;
-}
-
-static char name[512];
-static gen_matrix_t matrix;
-static char *expected;
-static size_t expected_size;
-
-/* The bytes that the C locale gives; read again, the same bits. */
-static void writes(const char *point) {
-    size_t size;
-    sl_matrix *M = NULL;
-    (void)point;
-    SL_CHECK(sl_csc_write(&matrix.view, SL_AS_STORED, name));
-    char *bytes = file_bytes(name, &size);
-    assert_int_equal(size, expected_size);
-    assert_memory_equal(bytes, expected, size);
-    SL_CHECK(sl_matrix_read(&M, name, NULL, NULL));
-    const sl_csc A = sl_matrix_view(M);
-    assert_int_equal(A.p[A.n_cols], matrix.view.p[A.n_cols]);
-    SAME_VALUES(A.x, matrix.view.x, (size_t)A.p[A.n_cols]);
-    sl_matrix_free(M);
-    free(bytes);
-}
-
-static void files_have_the_same_bytes(void **state) {
-    (void)state;
-    const char *folder = getenv("TMPDIR");
-    static const double odd[6] = {1e-300, -0.1, 1e300, 5e-324, 123456.789, -7.0};
-    gen_list_t t = gen_make(GEN_GRID2, 100, 1, 6);
-    (void)snprintf(name, sizeof name, "%s/sparse_local_XXXXXX", folder && *folder ? folder : ".");
-    const int handle = mkstemp(name);
-    assert_true(handle >= 0);
-    close(handle);
-    matrix = gen_store(&t, gen_style(0), 1);
-    for (int k = 0; k < 6; k++) {
-        matrix.x[k] = odd[k];
-    }
-    SL_CHECK(sl_csc_write(&matrix.view, SL_AS_STORED, name));
-    expected = file_bytes(name, &expected_size);
-    assert_null(memchr(expected, ',', expected_size));
-    const int used = in_each_locale(writes);
-    free(expected);
-    gen_matrix_free(&matrix);
-    gen_list_free(&t);
-    assert_int_equal(remove(name), 0);
-    if (used == 0) {
-        TEST_SKIP("no locale with a decimal comma is installed");
-    }
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_are_read),
         cmocka_unit_test(points_of_the_locale_are_refused),
-        cmocka_unit_test(files_have_the_same_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -155,7 +155,7 @@ static void the_inertia_of_definite_matrices_has_no_negative_pivot(void **state)
         }
         gen_matrix_t A = beside(M, N, N);
         opt.isa = isas.isa[turn % isas.count];
-        opt.storage = turn % 4 == 0 ? SL_STORAGE_DOUBLE : SL_STORAGE_FLOAT_FRONTS;
+        opt.storage = turn % 4 == 0 ? SL_STORAGE_DOUBLE : SL_STORAGE_FLOAT;
         const sl_status status = factor_and_solve(&A, &opt, &stats);
         if (status == SL_OK) {
             assert_int_equal(stats.factor.negative, 0);

@@ -26,7 +26,6 @@ static void every_allocation_may_fail(void **state) {
         scenario_t scenario;
     } all[] = {
         {"sl_matrix_from_triplets", from_triplets},
-        {"sl_matrix_transpose", transpose},
         {"sl_matrix_submatrix", submatrix},
         {"sl_csc_triangle", triangle},
         {"sl_symbolic_create, default", symbolic_default},
@@ -35,7 +34,6 @@ static void every_allocation_may_fail(void **state) {
         {"sl_symbolic_create, given", symbolic_given},
         {"sl_factor_create", factor},
         {"sl_factor_create, L in float", factor_float},
-        {"sl_factor_create, fronts in float", factor_float_fronts},
         {"sl_factor_lower", lower},
         {"sl_factor_submatrix", restrict_half},
         {"sl_factor_submatrix, few rows", restrict_few},
@@ -109,8 +107,7 @@ static void every_allocation_of_the_reader_may_fail(void **state) {
     free(f);
 }
 
-/* Objects made before an allocator fails are released properly. (sl_csc_write takes no options, so
- * no allocation of it can be made to fail.) */
+/* Objects made before an allocator fails are released properly. */
 static void objects_outlive_a_failing_allocator(void **state) {
     (void)state;
     counter_t counter = counter_make();

@@ -54,7 +54,7 @@ static void check_one_part(const factored_t *y, unsigned part) {
         }
         /* back, in place; the residual of a triangular solve is small against |M| |x| */
         double *Z = test_reals(ld * MOST);
-        SL_CHECK(sl_factor_solve_part(y->F, back, Z, ld, X, ld, nrhs, NULL));
+        SL_CHECK(sl_factor_solve_part(y->F, NULL, back, Z, ld, X, ld, nrhs, NULL));
         for (sl_int r = 0; r < nrhs; r++) {
             for (sl_int i = 0; i < n; i++) {
                 double sum = 0.0, size = fabs(AT(X, i, r));
@@ -65,7 +65,7 @@ static void check_one_part(const factored_t *y, unsigned part) {
                 assert_true(fabs(AT(X, i, r) - sum) <= allowed * DBL_EPSILON * size);
             }
         }
-        SL_CHECK(sl_factor_solve_part(y->F, back, X, ld, X, ld, nrhs, NULL));
+        SL_CHECK(sl_factor_solve_part(y->F, NULL, back, X, ld, X, ld, nrhs, NULL));
         SAME_VALUES(X, Z, (size_t)n * (size_t)nrhs);
         free(Z);
     }
@@ -111,13 +111,13 @@ static void check_composition(const factored_t *y) {
         for (size_t w = 0; w < sizeof ways / sizeof ways[0]; w++) {
             memcpy(Y, B, ld * MOST * sizeof *B);
             for (size_t k = 0; k < 6 && ways[w][k] != 0; k++) {
-                SL_CHECK(sl_factor_solve_part(y->F, ways[w][k], Y, ld, Y, ld, nrhs, NULL));
+                SL_CHECK(sl_factor_solve_part(y->F, NULL, ways[w][k], Y, ld, Y, ld, nrhs, NULL));
             }
             SAME_VALUES(Y, X, (size_t)n * (size_t)nrhs);
             SAME_VALUES(Y + (size_t)n * (size_t)nrhs, B + (size_t)n * (size_t)nrhs,
                         (size_t)n * (size_t)(MOST - nrhs));
         }
-        SL_CHECK(sl_factor_solve_part(y->F, 0, Y, ld, B, ld, nrhs, NULL));
+        SL_CHECK(sl_factor_solve_part(y->F, NULL, 0, Y, ld, B, ld, nrhs, NULL));
         SAME_VALUES(Y, B, (size_t)n * (size_t)nrhs);
     }
     /* all parts of the product: A B */
@@ -176,10 +176,10 @@ static void check_local_halves(const factored_t *y, unsigned scale, sl_int nrhs)
             AT(B, bset[k], r) += local[k + NB * r];
         }
     }
-    SL_CHECK(sl_factor_solve_part(y->F, P | L | scale, full, ld, B, ld, nrhs, NULL));
+    SL_CHECK(sl_factor_solve_part(y->F, NULL, P | L | scale, full, ld, B, ld, nrhs, NULL));
     SL_CHECK(sl_plan_columns(plan, SL_PART_L, columns, n, &count));
     assert_int_equal(count, stats.plan.b_columns);
-    SL_CHECK(sl_plan_solve_part(plan, y->F, P | L | scale, X, ld, local, NB, nrhs, NULL));
+    SL_CHECK(sl_factor_solve_part(y->F, plan, P | L | scale, X, ld, local, NB, nrhs, NULL));
     for (sl_int r = 0; r < nrhs; r++) {
         sl_int k = 0;
         for (sl_int i = 0; i < n; i++) {
@@ -195,7 +195,7 @@ static void check_local_halves(const factored_t *y, unsigned scale, sl_int nrhs)
     free(local);
 
     gen_reals(B, ld * MOST, 4);
-    SL_CHECK(sl_factor_solve_part(y->F, scale | LT | PT, full, ld, B, ld, nrhs, NULL));
+    SL_CHECK(sl_factor_solve_part(y->F, NULL, scale | LT | PT, full, ld, B, ld, nrhs, NULL));
     SL_CHECK(sl_plan_columns(plan, SL_PART_LT, columns, n, &count));
     assert_int_equal(count, stats.plan.x_columns);
     local = test_reals((size_t)count * MOST);
@@ -204,7 +204,7 @@ static void check_local_halves(const factored_t *y, unsigned scale, sl_int nrhs)
             local[k + count * r] = AT(B, columns[k], r);
         }
     }
-    SL_CHECK(sl_plan_solve_part(plan, y->F, scale | LT | PT, X, NX, local, (size_t)count, nrhs,
+    SL_CHECK(sl_factor_solve_part(y->F, plan, scale | LT | PT, X, NX, local, (size_t)count, nrhs,
                                 NULL));
     for (sl_int r = 0; r < nrhs; r++) {
         for (sl_int k = 0; k < NX; k++) {
@@ -252,7 +252,7 @@ static void samples_have_the_covariance_of_the_inverse(void **state) {
     for (sl_int k = 0; k < n; k++) {
         AT(I, k, k) = 1.0;
     }
-    SL_CHECK(sl_factor_solve_part(y.F, ROOT | LT | PT, X, ld, I, ld, n, NULL));
+    SL_CHECK(sl_factor_solve_part(y.F, NULL, ROOT | LT | PT, X, ld, I, ld, n, NULL));
     SL_CHECK(sl_factor_multiply_part(y.F, ROOT | L | PT, Y, ld, I, ld, n, NULL));
     for (sl_int i = 0; i < n; i++) {
         for (sl_int j = 0; j < n; j++) {
@@ -285,7 +285,7 @@ static void null_pivots_give_zeros(void **state) {
     sl_int nulls = 0;
     static const unsigned both[] = {D, ROOT};
     for (int q = 0; q < 2; q++) {
-        SL_CHECK(sl_factor_solve_part(y.F, both[q], X, (size_t)n, B, (size_t)n, 1, NULL));
+        SL_CHECK(sl_factor_solve_part(y.F, NULL, both[q], X, (size_t)n, B, (size_t)n, 1, NULL));
         SL_CHECK(sl_factor_multiply_part(y.F, both[q], Y, (size_t)n, B, (size_t)n, 1, NULL));
         for (sl_int k = 0; k < n; k++) {
             const int is_null = sl_factor_view(y.F).D[k] == DBL_MAX;
@@ -297,7 +297,7 @@ static void null_pivots_give_zeros(void **state) {
     assert_true(nulls > 0);
     /* a consistent right-hand side: all parts give a solution */
     SL_CHECK(sl_csc_multiply(&y.M.view, SL_AS_SYMMETRIC, Y, (size_t)n, B, (size_t)n, 1));
-    SL_CHECK(sl_factor_solve_part(y.F, ALL, X, (size_t)n, Y, (size_t)n, 1, NULL));
+    SL_CHECK(sl_factor_solve_part(y.F, NULL, ALL, X, (size_t)n, Y, (size_t)n, 1, NULL));
     BACKWARD_PASSES(&y.M.view, X, (size_t)n, Y, (size_t)n, 1);
     free(B);
     free(X);

@@ -13,28 +13,27 @@ static void wrong_arguments_are_refused(void **state) {
     sl_int rows[2] = {3, 4}, columns[25], count = -1;
     SL_CHECK(sl_plan_create(&plan, y.S, rows, 2, rows, 2, NULL, NULL));
     X[0] = 77.0;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_part(NULL, L, X, 25, B, 25, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_part(y.F, 64, X, 25, B, 25, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_part(y.F, D | ROOT, X, 25, B, 25, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_part(y.F, L, X, 24, B, 25, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_part(y.F, L, X, 25, NULL, 25, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_part(y.F, L, X, 25, B, 25, -1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_part(NULL, NULL, L, X, 25, B, 25, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_part(y.F, NULL, 64, X, 25, B, 25, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_part(y.F, NULL, D | ROOT, X, 25, B, 25, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_part(y.F, NULL, L, X, 24, B, 25, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_part(y.F, NULL, L, X, 25, NULL, 25, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_part(y.F, NULL, L, X, 25, B, 25, -1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_multiply_part(y.F, ALL | 64, X, 25, B, 25, 1, NULL));
-    SL_EXPECT(SL_ERR_PIVOT, sl_factor_solve_part(k.F, ROOT | LT, X, 40, B, 40, 1, NULL));
-    SL_EXPECT(SL_ERR_PIVOT, sl_factor_solve_part(h.F, ROOT, X, 40, B, 40, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_part(NULL, y.F, P | L, X, 25, B, 2, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_part(plan, y.F, L, X, 25, B, 2, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_part(plan, y.F, ALL, X, 25, B, 2, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_part(plan, y.F, P | L, X, 1, B, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_solve_part(k.F, NULL, ROOT | LT, X, 40, B, 40, 1, NULL));
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_solve_part(h.F, NULL, ROOT, X, 40, B, 40, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_part(y.F, plan, L, X, 25, B, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_part(y.F, plan, ALL, X, 25, B, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_part(y.F, plan, P | L, X, 1, B, 2, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT,
-              sl_plan_solve_part(plan, y.F, P | L | D | ROOT, X, 25, B, 2, 1, NULL));
-    SL_EXPECT(SL_ERR_MISMATCH, sl_plan_solve_part(plan, k.F, P | L, X, 40, B, 2, 1, NULL));
+              sl_factor_solve_part(y.F, plan, P | L | D | ROOT, X, 25, B, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_MISMATCH, sl_factor_solve_part(k.F, plan, P | L, X, 40, B, 2, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_columns(plan, SL_PART_D, columns, 25, &count));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_columns(plan, SL_PART_L, NULL, 25, &count));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_columns(plan, SL_PART_L, columns, 25, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_columns(NULL, SL_PART_L, columns, 25, &count));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_columns(plan, SL_PART_L, columns, -1, &count));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_part(plan, NULL, P | L, X, 25, B, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_part(NULL, plan, P | L, X, 25, B, 2, 1, NULL));
     assert_true(X[0] == 77.0);
     columns[1] = -7; /* not written beyond the capacity */
     SL_CHECK(sl_plan_columns(plan, SL_PART_L, columns, 1, &count));
@@ -46,15 +45,15 @@ static void wrong_arguments_are_refused(void **state) {
     sl_options opt = options_none();
     opt.region = region;
     SL_CHECK(sl_plan_create(&inside, y.S, rows, 2, rows, 2, &opt, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_plan_solve_part(inside, y.F, P | L, X, 25, B, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_solve_part(y.F, inside, P | L, X, 25, B, 2, 1, NULL));
     SL_EXPECT(SL_ERR_UNSUPPORTED, sl_plan_columns(inside, SL_PART_L, columns, 25, &count));
     sl_plan_free(inside);
     sl_region_free(region);
 
     y.M.x[0] = NAN; /* a failed factor */
     SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(y.F, &y.M.view, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_factor_solve_part(y.F, L, X, 25, B, 25, 1, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_plan_solve_part(plan, y.F, P | L, X, 25, B, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_factor_solve_part(y.F, NULL, L, X, 25, B, 25, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_factor_solve_part(y.F, plan, P | L, X, 25, B, 2, 1, NULL));
     sl_plan_free(plan);
     factored_free(&y);
     factored_free(&k);
@@ -76,9 +75,9 @@ static void roots_of_pairs_are_unsupported(void **state) {
     x[0] = x[2] = 2.0;
     SL_CHECK(sl_factor_create(&F, S, &A, NULL, &stats));
     assert_int_equal(stats.factor.negative, 0);
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_solve_part(F, ROOT, X, 2, B, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_solve_part(F, NULL, ROOT, X, 2, B, 2, 1, NULL));
     assert_true(X[0] == 7.0 && X[1] == 7.0);
-    SL_CHECK(sl_factor_solve_part(F, ALL, X, 2, B, 2, 1, NULL));
+    SL_CHECK(sl_factor_solve_part(F, NULL, ALL, X, 2, B, 2, 1, NULL));
     assert_true(fabs(X[0] - 1.0 / 3.0) <= 1e-15 && fabs(X[1] - 1.0 / 3.0) <= 1e-15);
     sl_factor_free(F);
     sl_symbolic_free(S);
@@ -102,19 +101,21 @@ static void reserved_workspaces_do_not_grow(void **state) {
                 SL_CHECK(sl_work_create(&W, &opt));
                 if (local) {
                     RESERVE_FOR(W, NULL,
-                                sl_plan_solve_part(plan, y.F, P | L, X, ld, B, ld, most, trial));
-                    RESERVE_FOR(W, NULL,
-                                sl_plan_solve_part(plan, y.F, LT | PT, X, ld, B, ld, most, trial));
+                                sl_factor_solve_part(y.F, plan, P | L, X, ld, B, ld, most, trial));
+                    RESERVE_FOR(
+                        W, NULL,
+                        sl_factor_solve_part(y.F, plan, LT | PT, X, ld, B, ld, most, trial));
                 } else {
-                    RESERVE_FOR(W, NULL, sl_factor_solve_part(y.F, ALL, X, ld, B, ld, most, trial));
+                    RESERVE_FOR(W, NULL,
+                                sl_factor_solve_part(y.F, NULL, ALL, X, ld, B, ld, most, trial));
                 }
                 const size_t calls = counter.calls;
                 for (sl_int nrhs = 0; nrhs <= most; nrhs++) {
                     if (local) {
-                        SL_CHECK(sl_plan_solve_part(plan, y.F, P | L, X, ld, B, ld, nrhs, W));
-                        SL_CHECK(sl_plan_solve_part(plan, y.F, LT | PT, X, ld, B, ld, nrhs, W));
+                        SL_CHECK(sl_factor_solve_part(y.F, plan, P | L, X, ld, B, ld, nrhs, W));
+                        SL_CHECK(sl_factor_solve_part(y.F, plan, LT | PT, X, ld, B, ld, nrhs, W));
                     } else {
-                        SL_CHECK(sl_factor_solve_part(y.F, ALL, X, ld, B, ld, nrhs, W));
+                        SL_CHECK(sl_factor_solve_part(y.F, NULL, ALL, X, ld, B, ld, nrhs, W));
                         SL_CHECK(sl_factor_multiply_part(y.F, LT, X, ld, B, ld, nrhs, W));
                     }
                 }
@@ -139,12 +140,12 @@ static void failing_allocations_leave_x_untouched(void **state) {
     double X[49] = {5.0}, B[49] = {1.0};
     SL_CHECK(sl_work_create(&W, &opt));
     counter.fail_at = (int64_t)counter.calls;
-    SL_EXPECT(SL_ERR_MEMORY, sl_factor_solve_part(y.F, L, X, 49, B, 49, 1, W));
+    SL_EXPECT(SL_ERR_MEMORY, sl_factor_solve_part(y.F, NULL, L, X, 49, B, 49, 1, W));
     counter.fail_at = (int64_t)counter.calls;
     SL_EXPECT(SL_ERR_MEMORY, sl_factor_multiply_part(y.F, L, X, 49, B, 49, 1, NULL));
     assert_true(X[0] == 5.0);
     counter.fail_at = -1;
-    SL_CHECK(sl_factor_solve_part(y.F, L, X, 49, B, 49, 1, W));
+    SL_CHECK(sl_factor_solve_part(y.F, NULL, L, X, 49, B, 49, 1, W));
     sl_work_free(W);
     factored_free(&y);
     COUNTER_CLEAN(&counter);

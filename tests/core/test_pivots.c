@@ -262,12 +262,6 @@ static void other_calls_work_or_are_refused(void **state) {
     SL_EXPECT(SL_ERR_UNSUPPORTED, sl_inverse_diagonal(F, out, rows, 2, NULL, NULL));
     SL_EXPECT(SL_ERR_UNSUPPORTED, sl_inverse_pairs(F, out, rows, rows, 2, NULL, NULL));
     SL_EXPECT(SL_ERR_UNSUPPORTED, sl_inverse_block(F, out, 2, rows, 2, rows, 2, NULL, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_inverse_bilinear(F, out, rows, b, 2, rows, b, 2, NULL, NULL));
-    sl_factor *const one[1] = {F};
-    sl_int failed = -1;
-    SL_EXPECT(SL_ERR_UNSUPPORTED,
-              sl_batch_diagonal(one, 1, out, 2, rows, 2, NULL, NULL, &failed, NULL));
-    assert_int_equal(failed, 0);
     assert_null(Z);
     assert_null(R);
     opt.null_pivots = SL_NULL_PIVOT_SKIP;

@@ -148,7 +148,7 @@ static void samples_and_determinant_are_those_of_the_pseudo_inverse(void **state
             for (sl_int i = 0; i < n; i++) {
                 AT(I, i, i) = 1.0;
             }
-            SL_CHECK(sl_factor_solve_part(t.F, SL_PART_SQRT_D | SL_PART_LT | SL_PART_PT, I,
+            SL_CHECK(sl_factor_solve_part(t.F, NULL, SL_PART_SQRT_D | SL_PART_LT | SL_PART_PT, I,
                                           (size_t)n, I, (size_t)n, n, NULL));
             for (sl_int j = 0; j < n; j++) {
                 for (sl_int i = 0; i < n; i++) {

@@ -192,34 +192,6 @@ static void zero_pivots_get_the_shift_and_bad_options_are_refused(void **state) 
     sl_symbolic_free(S);
 }
 
-/* With fronts in float a shift is at most the largest float, of either sign. */
-static void shifts_in_float_are_limited(void **state) {
-    (void)state;
-    static const sl_int p[3] = {0, 1, 2}, i[2] = {0, 1}, signs[2] = {1, -1};
-    static const double zeros[2] = {0.0, 0.0}, b[2] = {1.0, 1.0};
-    const sl_csc A = {2, 2, p, i, zeros};
-    variant_list_t variants = variants_present();
-    for (int k = 0; k < variants.count; k++) {
-        const double shift = isa_keeps_storage(variants.variant[k].isa) ? (double)FLT_MAX : 1e39;
-        sl_options opt = options_none();
-        sl_symbolic *S;
-        sl_factor *F;
-        double x[2];
-        SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
-        options_set_variant(&opt, &variants, k);
-        opt.method = SL_METHOD_SUPERNODAL;
-        opt.storage = SL_STORAGE_FLOAT_FRONTS;
-        opt.regularization = 1e39;
-        opt.signs = signs;
-        opt.growth_limit = opt.error_limit = -1.0;
-        SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
-        SL_CHECK(sl_factor_solve(F, x, 2, b, 2, 1, NULL));
-        assert_true(x[0] == 1.0 / shift && x[1] == -1.0 / shift);
-        sl_factor_free(F);
-        sl_symbolic_free(S);
-    }
-}
-
 /* Regularization relative to the row of a null pivot may underflow: the pivot stays 0, is of
  * neither sign, and no solution is finite. */
 static void regularization_may_underflow(void **state) {
@@ -249,7 +221,6 @@ int main(void) {
         cmocka_unit_test(only_pivots_of_the_wrong_sign_change),
         cmocka_unit_test(without_signs_all_pivots_become_positive),
         cmocka_unit_test(zero_pivots_get_the_shift_and_bad_options_are_refused),
-        cmocka_unit_test(shifts_in_float_are_limited),
         cmocka_unit_test(regularization_may_underflow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

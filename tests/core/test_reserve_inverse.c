@@ -89,17 +89,11 @@ static sl_int smaller(sl_int a, sl_int b) {
 
 /* All calls for entries of the set in `rows` and in the pairs of it with `columns`. */
 static void entries_of(const factored_t *y, const sl_int *rows, const sl_int *columns, sl_int count,
-                       const double *values, double *out, sl_work *W) {
-    const sl_int nb = count / 2;
+                       double *out, sl_work *W) {
     SL_CHECK(sl_inverse_diagonal(y->F, out, rows, count, W, NULL));
     SL_CHECK(sl_inverse_pairs(y->F, out, rows, columns, count, W, NULL));
-    SL_CHECK(
-        sl_inverse_bilinear(y->F, out, rows, values, nb, columns, values, count - nb, W, NULL));
     if (count == y->M.view.n_cols) {
         SL_CHECK(sl_inverse_diagonal(y->F, out, NULL, 0, W, NULL));
-        SL_CHECK(sl_inverse_bilinear(y->F, out, NULL, values, 0, rows, values, 0, W, NULL));
-        /* the same array twice is one set */
-        SL_CHECK(sl_inverse_bilinear(y->F, out, NULL, values, 0, NULL, values, 0, W, NULL));
     }
 }
 
@@ -107,10 +101,9 @@ static void entries(const factored_t *y, int threads, counter_t *counter) {
     static const sl_int counts[] = {1, 2, 3, 7, 40, 300, INT32_MAX};
     const sl_int n = y->M.view.n_cols;
     sl_int *rows = test_ints((size_t)n), *columns = test_ints((size_t)n);
-    double *out = test_reals((size_t)n), *values = test_reals((size_t)n);
+    double *out = test_reals((size_t)n);
     uint64_t seed = 5;
     (void)threads;
-    gen_reals(values, (size_t)n, 3);
     for (size_t c = 0; c < sizeof counts / sizeof counts[0] && n > 0; c++) {
         const sl_int count = smaller(counts[c], n);
         for (int set = 0; set < 2 * SETS; set++) {
@@ -121,11 +114,11 @@ static void entries(const factored_t *y, int threads, counter_t *counter) {
             } else {
                 random_rows(columns, count, n, &seed);
             }
-            entries_of(y, rows, columns, count, values, out, trial);
+            entries_of(y, rows, columns, count, out, trial);
             SL_CHECK(sl_work_reserve(W, sl_work_bytes(trial)));
             const size_t calls = counter->calls;
-            entries_of(y, rows, columns, count, values, out, W);
-            entries_of(y, rows, columns, count, values, out, trial);
+            entries_of(y, rows, columns, count, out, W);
+            entries_of(y, rows, columns, count, out, trial);
             assert_int_equal(counter->calls, calls);
             sl_work_free(W);
             sl_work_free(trial);
@@ -134,7 +127,6 @@ static void entries(const factored_t *y, int threads, counter_t *counter) {
     free(rows);
     free(columns);
     free(out);
-    free(values);
 }
 
 static void inverse_calls_allocate_nothing(void **state) {
@@ -175,43 +167,6 @@ static void blocks(const factored_t *y, int threads, counter_t *counter) {
 static void blocks_allocate_nothing(void **state) {
     (void)state;
     for_each_subject(blocks);
-}
-
-/* sl_batch_diagonal with a reserved workspace for each thread. */
-static void batches(const factored_t *y, int threads, counter_t *counter) {
-    const sl_int n = y->M.view.n_cols, count = smaller(n, 60);
-    sl_factor *factors[3] = {y->F, y->F, y->F};
-    sl_work *works[2] = {make_work(counter), make_work(counter)};
-    sl_int *rows = test_ints(60);
-    double *out = test_reals(3 * 60);
-    uint64_t seed = 7;
-    int runs = 0;
-    const sl_threads two = {2, run_backwards, &runs};
-    (void)threads;
-    for (int set = 0; set < SETS && n > 0; set++) {
-        make_rows(rows, count, n, set, &seed);
-        for (int k = 0; k < 2; k++) { /* the threads of the batch, and those of the factor */
-            RESERVE_FOR(
-                works[k], NULL,
-                sl_batch_diagonal(factors, 3, out, 60, rows, count, NULL, &trial, NULL, NULL));
-            RESERVE_FOR(works[k], NULL, sl_inverse_diagonal(y->F, out, rows, count, trial, NULL));
-        }
-        const size_t calls = counter->calls;
-        SL_CHECK(
-            sl_batch_diagonal(factors, 3, out, 60, rows, count, THREADS(two), works, NULL, NULL));
-        SL_CHECK(sl_batch_diagonal(factors, 3, out, 60, rows, count, NULL, works, NULL, NULL));
-        assert_int_equal(counter->calls, calls);
-    }
-    for (int k = 0; k < 2; k++) {
-        sl_work_free(works[k]);
-    }
-    free(rows);
-    free(out);
-}
-
-static void batches_allocate_nothing(void **state) {
-    (void)state;
-    for_each_subject(batches);
 }
 
 static void selected(const factored_t *y, int threads, counter_t *counter) {
@@ -278,7 +233,6 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(inverse_calls_allocate_nothing),
         cmocka_unit_test(blocks_allocate_nothing),
-        cmocka_unit_test(batches_allocate_nothing),
         cmocka_unit_test(selected_inverses_allocate_nothing),
         cmocka_unit_test(regions_allocate_nothing),
     };

@@ -271,9 +271,9 @@ static void regions_give_the_same_solutions(void **state) {
 static void check_parts(bodies_t *f, const sl_options *opt) {
     double *X = test_reals(f->n * R);
     (void)opt;
-    SL_CHECK(sl_factor_solve_part(f->F, SL_PART_P | SL_PART_L, X, f->n, f->B, f->n, R, NULL));
-    SL_CHECK(sl_factor_solve_part(f->F, SL_PART_D, X, f->n, X, f->n, R, NULL));
-    SL_CHECK(sl_factor_solve_part(f->F, SL_PART_LT | SL_PART_PT, X, f->n, X, f->n, R, NULL));
+    SL_CHECK(sl_factor_solve_part(f->F, NULL, SL_PART_P | SL_PART_L, X, f->n, f->B, f->n, R, NULL));
+    SL_CHECK(sl_factor_solve_part(f->F, NULL, SL_PART_D, X, f->n, X, f->n, R, NULL));
+    SL_CHECK(sl_factor_solve_part(f->F, NULL, SL_PART_LT | SL_PART_PT, X, f->n, X, f->n, R, NULL));
     SAME_VALUES(X, f->X, f->n * R);
     free(X);
 }

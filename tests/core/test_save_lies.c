@@ -123,26 +123,6 @@ static void pairs_must_be_in_a_tile_of_a_supernodal_factor(void **state) {
     saved_case_free(&c);
 }
 
-/* L may be in float, but no front with 2x2 pivots is computed in float. */
-static void fronts_in_float_must_have_no_pairs(void **state) {
-    (void)state;
-    enum { STORAGE = 26 };
-    saved_case_t c = saved_case_make(SAVED_PIVOTED, GEN_GRID2, 25, 0, NULL);
-    sl_options opt = options_none();
-    sl_factor *F = NULL;
-    opt.storage = SL_STORAGE_FLOAT;
-    opt.error_limit = -1.0;
-    SL_CHECK(sl_factor_create(&F, c.y.S, &c.y.M.view, &opt, NULL));
-    saved_t m = saved_make(c.y.S, F), k = copy_of(&m);
-    assert_true(sl_symbolic_view(c.y.S).pairs != NULL);
-    assert_status(SL_OK, &m);
-    saved_put64((unsigned char *)array(&k, 2) + 8 * STORAGE, SL_STORAGE_FLOAT_FRONTS);
-    refuse(&k);
-    saved_free(&m);
-    sl_factor_free(F);
-    saved_case_free(&c);
-}
-
 /* The separator tree: a row of no node, a separator that is not above its parts, another level. */
 static void separators_must_be_a_tree(void **state) {
     (void)state;
@@ -359,7 +339,6 @@ int main(void) {
         cmocka_unit_test(subtrees_must_be_those_of_the_tree),
         cmocka_unit_test(rows_must_begin_in_the_parent),
         cmocka_unit_test(pairs_must_be_in_a_tile_of_a_supernodal_factor),
-        cmocka_unit_test(fronts_in_float_must_have_no_pairs),
         cmocka_unit_test(separators_must_be_a_tree),
         cmocka_unit_test(sizes_must_not_overflow),
         cmocka_unit_test(a_tree_must_have_one_anchor),

@@ -71,8 +71,7 @@ static void check_inverses(const sl_saved_set *set, const factored_t *today) {
 /* The backward error that a factor allows. Wrong signs make one of another matrix. */
 static double allowed_error(int way) {
     switch (way) {
-    case SAVED_FLOAT:
-    case SAVED_FLOAT_FRONTS: return 1e-5;
+    case SAVED_FLOAT: return 1e-5;
     case SAVED_REGULARIZED:
     case SAVED_PIVOTED_REGULARIZED: return 1e-7;
     case SAVED_SIGNED: return 1;

@@ -41,7 +41,8 @@ static void every_use_is_refused(const sl_factor *F, const sl_symbolic *S) {
     sl_selected *Z = NULL;
     sl_region *R = NULL;
     SL_EXPECT(SL_ERR_STALE, sl_factor_solve(F, x, N, b, N, 1, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_factor_solve_part(F, SL_PART_P | SL_PART_L, x, N, b, N, 1, NULL));
+    SL_EXPECT(SL_ERR_STALE,
+              sl_factor_solve_part(F, NULL, SL_PART_P | SL_PART_L, x, N, b, N, 1, NULL));
     SL_EXPECT(SL_ERR_STALE, sl_factor_logdet(F, &log_abs, &sign));
     SL_EXPECT(SL_ERR_STALE, sl_factor_lower(&L, F, NULL));
     SL_EXPECT(SL_ERR_STALE, sl_inverse_diagonal(F, x, set, 2, NULL, NULL));
@@ -93,8 +94,8 @@ static void an_indefinite_matrix_is_not_taken_for_definite(void **state) {
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_change_entries(y.F, NULL, &row, &row, &less, 1, NULL, NULL));
     SL_CHECK(sl_factor_refactor(y.F, &A, &stats));
     assert_int_equal(stats.factor.negative, 1);
-    SL_EXPECT(SL_ERR_PIVOT, sl_factor_solve_part(y.F, SL_PART_P | SL_PART_L | SL_PART_SQRT_D, x, N,
-                                                 b, N, 1, NULL));
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_solve_part(y.F, NULL, SL_PART_P | SL_PART_L | SL_PART_SQRT_D,
+                                                 x, N, b, N, 1, NULL));
     free(values);
     factored_free(&y);
 }

@@ -45,10 +45,11 @@ static void plain_c_keeps_double_beside_simd(void **state) {
         for (int k = 0; k < 2; k++) {
             sl_options opt = options_of(SL_STORAGE_DOUBLE, SL_ISA_SCALAR);
             factored_t y = factored_make((gen_kind_t)kind, 200, 1, kind % GEN_STYLES, &opt);
-            const sl_storage kept = isa_keeps_storage(SL_ISA_SCALAR) ? floats[k] : opt.storage;
+            const sl_storage kept =
+                isa_keeps_storage(SL_ISA_SCALAR) ? SL_STORAGE_FLOAT : opt.storage;
             sl_factor *G = NULL;
             sl_stats stats;
-            opt.storage = floats[k];
+            opt.storage = SL_STORAGE_FLOAT;
             SL_CHECK(sl_factor_create(&G, y.S, &y.M.view, &opt, &stats));
             assert_int_equal(stats.storage, kept);
             sl_factor_stats(G, &stats);
@@ -176,8 +177,8 @@ static void exact_solves(const exact_t *e) {
         SL_CHECK(sl_factor_solve(e->F[1], Y, n, B, n, nrhs, NULL));
         SAME_VALUES(X, Y, count);
         for (int p = 0; p < 5; p++) {
-            SL_CHECK(sl_factor_solve_part(e->F[0], parts[p], X, n, B, n, nrhs, NULL));
-            SL_CHECK(sl_factor_solve_part(e->F[1], parts[p], Y, n, B, n, nrhs, NULL));
+            SL_CHECK(sl_factor_solve_part(e->F[0], NULL, parts[p], X, n, B, n, nrhs, NULL));
+            SL_CHECK(sl_factor_solve_part(e->F[1], NULL, parts[p], Y, n, B, n, nrhs, NULL));
             SAME_VALUES(X, Y, count);
             SL_CHECK(sl_factor_multiply_part(e->F[0], parts[p], X, n, B, n, nrhs, NULL));
             SL_CHECK(sl_factor_multiply_part(e->F[1], parts[p], Y, n, B, n, nrhs, NULL));
@@ -189,7 +190,7 @@ static void exact_solves(const exact_t *e) {
     free(Y);
 }
 
-/* The diagonal of the inverse, a block, bilinear forms, the selected inverse, batches. */
+/* The diagonal of the inverse, a block, the selected inverse, batches. */
 static void exact_inverses(const exact_t *e) {
     const size_t n = (size_t)e->n;
     double *X = test_reals(n * (n + 1)), *Y = test_reals(n * (n + 1));
@@ -233,7 +234,7 @@ static void an_exact_factor_gives_the_same_bits(void **state) {
         for (sl_int dense = 0; dense <= 40; dense += 9) {
             const sl_int n = sizes[k % 6];
             exact_t e = exact_make(n, exact_random(n, dense), SL_RELAXATION_DEFAULT,
-                                   floats[k / 6 % 2], isas.isa[k / 12]);
+                                   SL_STORAGE_FLOAT, isas.isa[k / 12]);
             exact_solves(&e);
             exact_inverses(&e);
             exact_free(&e);
@@ -249,7 +250,7 @@ static void sweeps_of_each_width_give_the_same_bits(void **state) {
     for (int k = 0; k < isas.count; k++) {
         sl_int n, widths[CLIQUE_ROOT + 1] = {0};
         double *L = exact_cliques(&n);
-        exact_t e = exact_make(n, L, SL_RELAXATION_NONE, floats[k % 2], isas.isa[k]);
+        exact_t e = exact_make(n, L, SL_RELAXATION_NONE, SL_STORAGE_FLOAT, isas.isa[k]);
         const sl_symbolic_arrays S = sl_symbolic_view(e.S);
         double *B = test_reals(9 * (size_t)n), *X = test_reals(9 * (size_t)n);
         for (sl_int s = 0; s < S.n_supers; s++) {
@@ -283,7 +284,7 @@ static void local_solves_equal_full_ones(void **state) {
     const isa_list_t isas = isas_present();
     for (int kind = GEN_ONE; kind < GEN_REGULAR; kind++) {
         for (int k = 0; k < 2 * isas.count; k++) {
-            const sl_options opt = options_of(floats[k % 2], isas.isa[k / 2]);
+            const sl_options opt = options_of(SL_STORAGE_FLOAT, isas.isa[k / 2]);
             factored_t y = factored_make((gen_kind_t)kind, 120, 1, 0, &opt);
             const sl_int n = y.M.view.n_cols;
             for (sl_int nrhs = 1; nrhs <= 9; nrhs++) {
@@ -303,7 +304,7 @@ static void refinement_brings_the_accuracy_of_double(void **state) {
     (void)state;
     const isa_list_t isas = isas_present();
     for (int k = 2 * GEN_ONE; k < 2 * GEN_REGULAR; k++) {
-        const sl_options opt = options_of(floats[k % 2], isas.isa[k / 2 % isas.count]);
+        const sl_options opt = options_of(SL_STORAGE_FLOAT, isas.isa[k / 2 % isas.count]);
         factored_t y = factored_make((gen_kind_t)(k / 2), 300, 1, 0, &opt);
         const size_t n = (size_t)y.M.view.n_cols;
         double *B = test_reals(3 * n), *X = test_reals(3 * n);
@@ -395,7 +396,7 @@ static void singular_systems_are_solved(void **state) {
         }
         for (int way = 0; way < 4; way++) {
             const int weighted = way / 2;
-            sl_options opt = options_of(floats[way % 2], SL_ISA_AUTO);
+            sl_options opt = options_of(SL_STORAGE_FLOAT, SL_ISA_AUTO);
             sl_factor *F = NULL;
             sl_stats stats;
             memset(&stats, 0, sizeof stats);

@@ -348,7 +348,7 @@ static void pairs_are_unsupported(void **state) {
 /* The storage is inherited, and all columns are computed: also if F skips several null pivots. */
 static void any_storage_and_several_null_vectors_are_restricted(void **state) {
     (void)state;
-    const sl_storage storages[] = {SL_STORAGE_FLOAT, SL_STORAGE_FLOAT_FRONTS, SL_STORAGE_DOUBLE};
+    const sl_storage storages[] = {SL_STORAGE_FLOAT, SL_STORAGE_DOUBLE, SL_STORAGE_DOUBLE};
     double *z = test_reals(2 * 225);
     for (int kind = 0; kind < 3; kind++) {
         sl_options opt = options_none();

@@ -34,9 +34,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         create_analysis, create_factor, create_factor, combine, refactor,    refactor_changed,
         create_plan,     create_plan,   solve,         solve,   solve,       create_selected,
         create_region,   invert,        query,         reserve, solve_batch, release_one};
-    static void (*const more[])(input_t * in) = {solve_rows, multiply,       build_matrices,
-                                                 look_into,  batch_diagonal, select_pairs,
-                                                 copy,       reserve_others, copy_set};
+    static void (*const more[])(input_t * in) = {solve_rows,   multiply, build_matrices, look_into,
+                                                 select_pairs, copy,     reserve_others, copy_set};
     enum { CALLS = (int)(sizeof calls / sizeof calls[0]) };
     enum { MORE = (int)(sizeof more / sizeof more[0]) };
     if (size == 0) {

@@ -215,7 +215,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     case_t *c = &only;
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
-    sl_matrix *T = NULL;
     if (size == 0) {
         return 0;
     }
@@ -227,9 +226,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     take_options(c, &in);
     c->for_factor.storage = storage_of(data[size - 1]);
     const sl_status good = sl_csc_check(&c->A, NULL);
-    if (c->part == TRANSPOSE) {
-        PROMISE((sl_matrix_transpose(&T, &c->A, NULL) == SL_OK) == (good == SL_OK));
-    }
     const sl_status status = sl_symbolic_create(&S, &c->A, &c->for_analysis, NULL);
     PROMISE((S != NULL) == (status == SL_OK));
     if (S) {
@@ -245,7 +241,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
             refactor(c, S, F, &in);
         }
     }
-    sl_matrix_free(T);
     sl_factor_free(F);
     sl_symbolic_free(S);
     return 0;

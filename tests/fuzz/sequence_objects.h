@@ -81,7 +81,7 @@ static void add_dense(const sl_matrix *M, double *a) {
 /* The transpose, a sum, a permutation and the triplets of a matrix have the dense entries. */
 static void build_matrices(input_t *in) {
     const factor_t *f = &factors[take(in) % FACTORS];
-    const int form = take(in) % 4;
+    const int form = take(in) % 3;
     sl_matrix *M = NULL;
     sl_int perm[MOST], columns[ENTRIES];
     double a[ENTRIES] = {0.0};
@@ -99,11 +99,9 @@ static void build_matrices(input_t *in) {
         }
     }
     if (form == 0) {
-        status = sl_matrix_transpose(&M, &A, &opt);
-    } else if (form == 1) {
         static const double halves[2] = {0.25, 0.75};
         status = sl_matrix_sum(&M, halves, terms, 2, &opt, NULL);
-    } else if (form == 2) {
+    } else if (form == 1) {
         status = sl_matrix_submatrix(&M, &A, perm, A.n_cols, &opt, NULL);
     } else {
         status = sl_matrix_from_triplets(&M, n, n, A.p[n], A.i, columns, A.x, &opt, NULL);
@@ -115,7 +113,7 @@ static void build_matrices(input_t *in) {
         for (sl_int i = 0; i < n; i++) {
             for (sl_int j = 0; j < n; j++) {
                 const double entry =
-                    form == 2 ? f->v.a[perm[i] + MOST * perm[j]] : f->v.a[i + MOST * j];
+                    form == 1 ? f->v.a[perm[i] + MOST * perm[j]] : f->v.a[i + MOST * j];
                 const double found = a[i + MOST * j] != 0.0 ? a[i + MOST * j] : a[j + MOST * i];
                 check_close(found, entry, fabs(entry));
             }
@@ -165,40 +163,6 @@ static void look_into(input_t *in) {
         }
     }
     sl_matrix_free(M);
-}
-
-/* Diagonals of several inverses: the bits of sl_inverse_diagonal. */
-static void batch_diagonal(input_t *in) {
-    const int first = take(in) % FACTORS, second = take(in) % FACTORS, form = take(in);
-    sl_factor *both[2] = {factors[first].F, factors[second].F};
-    double out[SET * 2], alone[SET];
-    sl_int failed = -2;
-    set_t set;
-    if (!both[0] || !both[1]) {
-        return;
-    }
-    take_set(in, order_of(&factors[first]), &set);
-    const int is_all = set.is_all;
-    const sl_options opt = threaded(form % 4);
-    const sl_status status = sl_batch_diagonal(both, 2, out, SET, is_all ? NULL : set.rows,
-                                               set.count, &opt, NULL, &failed, NULL);
-    if (no_memory(status)) {
-        return;
-    }
-    if (!factors[first].is_valid || !factors[second].is_valid ||
-        factors[first].analysis != factors[second].analysis) {
-        PROMISE(is_apart(status));
-        return;
-    }
-    PROMISE(status == SL_OK && failed == -1);
-    left = -1;
-    for (int k = 0; k < 2; k++) {
-        PROMISE(sl_inverse_diagonal(both[k], alone, is_all ? NULL : set.rows, set.count, work,
-                                    NULL) == SL_OK);
-        for (sl_int i = 0; i < set.count; i++) {
-            check_same(out[i + SET * k], alone[i]);
-        }
-    }
 }
 
 /* Entries of a selected inverse on the pattern of a column, above and below the diagonal. */

@@ -24,7 +24,6 @@ typedef enum part_t {
     CONDITION,
     DEFECTS,
     CONVERT,
-    TRANSPOSE,
     EDIT,
     PARTS
 } part_t;
@@ -135,10 +134,9 @@ static void take_null_pivots(case_t *c, input_t *in, int which) {
 
 /* How L is kept, which the last byte says: mostly in double. */
 static sl_storage storage_of(int last) {
-    static const sl_storage storages[7] = {
-        SL_STORAGE_DOUBLE,       SL_STORAGE_FLOAT,  SL_STORAGE_FLOAT_FRONTS, SL_STORAGE_COMPLEX,
-        SL_STORAGE_FLOAT_FRONTS, SL_STORAGE_DOUBLE, SL_STORAGE_DOUBLE};
-    return storages[last / ((int)STAGES * (int)PARTS) % 7];
+    static const sl_storage storages[4] = {SL_STORAGE_DOUBLE, SL_STORAGE_FLOAT, SL_STORAGE_COMPLEX,
+                                           SL_STORAGE_DOUBLE};
+    return storages[last / ((int)STAGES * (int)PARTS) % 4];
 }
 
 static void take_options(case_t *c, input_t *in) {

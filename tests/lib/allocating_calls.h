@@ -48,11 +48,6 @@ static sl_status read_file(fixture_t *f, const sl_options *opt) {
     return end_matrix(sl_matrix_read(&M, f->text, opt, NULL), &M);
 }
 
-static sl_status transpose(fixture_t *f, const sl_options *opt) {
-    sl_matrix *M = GARBAGE(sl_matrix);
-    return end_matrix(sl_matrix_transpose(&M, &f->y.M.view, opt), &M);
-}
-
 static sl_status submatrix(fixture_t *f, const sl_options *opt) {
     sl_matrix *M = GARBAGE(sl_matrix);
     return end_matrix(sl_matrix_submatrix(&M, &f->y.M.view, f->perm, 100, opt, NULL), &M);
@@ -105,12 +100,6 @@ static sl_status factor(fixture_t *f, const sl_options *opt) {
 static sl_status factor_float(fixture_t *f, const sl_options *opt) {
     sl_options single = *opt;
     single.storage = SL_STORAGE_FLOAT;
-    return factor(f, &single);
-}
-
-static sl_status factor_float_fronts(fixture_t *f, const sl_options *opt) {
-    sl_options single = *opt;
-    single.storage = SL_STORAGE_FLOAT_FRONTS;
     return factor(f, &single);
 }
 

@@ -86,12 +86,6 @@ static sl_status triangle(arguments_t *a) {
     return sl_csc_triangle(a->A, &t, NULL, &a->stats);
 }
 
-static sl_status bilinear(arguments_t *a) {
-    double z;
-    return sl_inverse_bilinear(a->F, &z, a->bset, a->B, a->nb, a->xset, a->B, a->nx, NULL,
-                               &a->stats);
-}
-
 static sl_status rcond(arguments_t *a) {
     double r;
     return sl_factor_rcond(a->F, a->A, &r, NULL);
@@ -150,10 +144,6 @@ static sl_status save_file(arguments_t *a) {
     return sl_save_file(NOWHERE, &set, NULL);
 }
 
-static sl_status batch_diagonal(arguments_t *a) {
-    return sl_batch_diagonal(&a->F, 1, a->X, a->ldx, a->xset, a->nx, NULL, NULL, NULL, &a->stats);
-}
-
 static sl_status batch_solve(arguments_t *a) {
     sl_request request;
     memset(&request, 0, sizeof request);
@@ -201,7 +191,6 @@ CALL(refine,
      sl_factor_refine(a->F, a->A, a->X, a->ldx, a->B, a->ldb, a->nrhs, a->steps, NULL, &a->stats))
 CALL(certify, sl_factor_certify(a->F, a->A, SL_ESTIMATED, NULL, &a->stats))
 CALL(scatter, sl_symbolic_scatter(a->S, o->entries, a->A, &a->stats))
-CALL(write_file, sl_csc_write(a->A, SL_AS_SYMMETRIC, NOWHERE))
 CALL(solve, sl_factor_solve(a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs, NULL))
 CALL(plan_solve, sl_plan_solve(a->P, a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs, NULL))
 CALL(plan_refined, sl_plan_solve_regularized(a->P, a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs,
@@ -233,7 +222,6 @@ CREATE(edit_before, sl_symbolic, sl_symbolic_free,
 CREATE(edit_factor, sl_factor, sl_factor_free,
        sl_factor_edit(&out, a->F, a->S, a->A, o->perm, NULL, &a->stats))
 CREATE(factor, sl_factor, sl_factor_free, sl_factor_create(&out, a->S, a->A, NULL, &a->stats))
-CREATE(transpose, sl_matrix, sl_matrix_free, sl_matrix_transpose(&out, a->A, NULL))
 CREATE(fixed, sl_fixed, sl_fixed_free, sl_fixed_create(&out, a->A, a->xset, a->nx, NULL, &a->stats))
 CREATE(submatrix, sl_matrix, sl_matrix_free,
        sl_matrix_submatrix(&out, a->A, a->xset, a->nx, NULL, &a->stats))
@@ -253,8 +241,6 @@ static const struct {
 } calls[] = {
     {"sl_csc_check", check, A_},
     {"sl_csc_triangle", triangle, A_ | SQUARE_},
-    {"sl_csc_write", write_file, A_ | SQUARE_},
-    {"sl_matrix_transpose", transpose, A_},
     {"sl_fixed_create", fixed, A_ | SQUARE_ | VALUES_ | LIST_},
     {"sl_matrix_submatrix", submatrix, A_ | SQUARE_ | LIST_},
     {"sl_matrix_sum", sum, A_ | SQUARE_},
@@ -284,7 +270,6 @@ static const struct {
     {"sl_inverse_diagonal", diagonal, F_ | FAILED_ | X_ | XSET_},
     {"sl_inverse_pairs", pairs, F_ | FAILED_ | X_ | LIST_},
     {"sl_inverse_block", block, F_ | FAILED_ | X_ | LDX_ | LIST_},
-    {"sl_inverse_bilinear", bilinear, F_ | FAILED_ | B_ | BSET_ | XSET_},
     {"sl_selected_create", selected, F_ | FAILED_ | XSET_},
     {"sl_selected_refactor", selected_refactor, F_ | FAILED_ | OTHER_ | Z_},
     {"sl_selected_entries, diagonal", selected_diagonal, Z_ | X_ | XSET_},
@@ -300,7 +285,6 @@ static const struct {
     {"sl_save_memory", save_memory, S_ | FAILED_ | OTHER_},
     {"sl_save_file", save_file, S_ | FAILED_ | OTHER_},
     {"sl_batch_solve", batch_solve, SOLVE_},
-    {"sl_batch_diagonal", batch_diagonal, F_ | FAILED_ | X_ | LDX_ | XSET_},
     {"sl_work_reserve", reserve, W_},
 };
 

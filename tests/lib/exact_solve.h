@@ -56,7 +56,7 @@ static inline void exact_solve(const sl_factor *F, const sl_csc *A, const double
         for (sl_int i = 0; i < n; i++) {
             d[i] = hold && hold[i] ? 0.0 : r[i].high;
         }
-        SL_CHECK(sl_factor_solve_part(F, all, d, (size_t)n, d, (size_t)n, 1, NULL));
+        SL_CHECK(sl_factor_solve_part(F, NULL, all, d, (size_t)n, d, (size_t)n, 1, NULL));
         change = 0.0;
         for (sl_int i = 0; i < n; i++) {
             if (!(hold && hold[i]) && d[i] != 0.0) {

@@ -4,9 +4,6 @@
 
 #include "test.h"
 
-/* Both ways to have L in float: rounded, and computed. */
-static const sl_storage floats[2] = {SL_STORAGE_FLOAT, SL_STORAGE_FLOAT_FRONTS};
-
 static inline sl_options options_of(sl_storage storage, sl_isa isa) {
     sl_options opt = options_none();
     opt.isa = isa;

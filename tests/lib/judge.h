@@ -82,9 +82,8 @@ static inline int judge_is_told(const sl_stats *stats) {
 
 /* The backward error that L alone allows: 1e-8, or that of float. */
 static inline double judge_limit(const sl_stats *stats) {
-    return stats->storage == SL_STORAGE_FLOAT || stats->storage == SL_STORAGE_FLOAT_FRONTS
-               ? 1e-4 * fmax(stats->factor.growth, 1.0)
-               : JUDGE_LIMIT;
+    return stats->storage == SL_STORAGE_FLOAT ? 1e-4 * fmax(stats->factor.growth, 1.0)
+                                              : JUDGE_LIMIT;
 }
 
 /* A residual: of b - A x + C f for the best f, where C has `count` orthonormal columns, by

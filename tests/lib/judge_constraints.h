@@ -245,7 +245,7 @@ static inline double judge_all_ways(judge_t *t, const double *B, double most) {
             columns[k] = j;
         }
     }
-    for (int way = 0; way < 6; way++) {
+    for (int way = 0; way < 5; way++) {
         const sl_int *r = way < 2 ? rows : all, *s = way < 2 ? columns : all;
         set = way < 2 ? count : n;
         if (way == 0) {
@@ -257,8 +257,6 @@ static inline double judge_all_ways(judge_t *t, const double *B, double most) {
         } else if (way == 2) {
             SL_CHECK(sl_inverse_diagonal(F, z, NULL, 0, NULL, NULL));
         } else if (way == 3) {
-            SL_CHECK(sl_batch_diagonal(&t->F, 1, z, t->n, all, n, NULL, NULL, NULL, NULL));
-        } else if (way == 4) {
             SL_CHECK(sl_inverse_diagonal(F, z, all, n, NULL, NULL));
         } else {
             set = 1;
@@ -281,7 +279,7 @@ static inline double judge_all_ways(judge_t *t, const double *B, double most) {
 static inline void judge_way_inverse(judge_t *t) {
     const size_t n = t->n;
     double *B = test_reals(n * n), *e = test_reals(n), *x = test_reals(n);
-    double most = 0.0, spread = 0.0, worst = 0.0, form = 0.0;
+    double most = 0.0, spread = 0.0, worst = 0.0, entry = 0.0;
     sl_int *rows = test_ints(n);
     for (size_t i = 0; i < n; i++) {
         rows[i] = (sl_int)i;
@@ -290,7 +288,6 @@ static inline void judge_way_inverse(judge_t *t) {
                         sl_inverse_block(t->F, B, n, rows, (sl_int)n, rows, (sl_int)n, NULL, NULL),
                         "inverse")) {
         const size_t c = (size_t)gen_below(&t->state, (sl_int)n);
-        const double one = 1.0;
         for (size_t k = 0; k < n * n; k++) {
             most = fmax(most, fabs(B[k]));
         }
@@ -308,9 +305,9 @@ static inline void judge_way_inverse(judge_t *t) {
             e[j] = 0.0;
         }
         const sl_int row = (sl_int)c, other = gen_below(&t->state, (sl_int)n);
-        SL_CHECK(sl_inverse_bilinear(t->F, &form, &row, &one, 1, &other, &one, 1, NULL, NULL));
+        SL_CHECK(sl_inverse_pairs(t->F, &entry, &row, &other, 1, NULL, NULL));
         if (most <= 1e300) {
-            worst = judge_entries(t, B, &other, &row, &form, 1, most);
+            worst = judge_entries(t, B, &other, &row, &entry, 1, most);
             worst = fmax(worst, judge_all_ways(t, B, most));
             judge_grown(t, worst, spread);
         }

@@ -16,6 +16,24 @@ static inline sl_status parse(sl_matrix **M, const char *text, sl_stats *stats) 
     return status;
 }
 
+/* Writes a general file of all entries, which reads back to the same bits. */
+static inline void matrix_write(const sl_csc *A, const char *path) {
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fprintf(file, "%%%%MatrixMarket matrix coordinate %s general\n%ld %ld %ld\n",
+            A->x ? "real" : "pattern", (long)A->n_rows, (long)A->n_cols, (long)A->p[A->n_cols]);
+    for (sl_int j = 0; j < A->n_cols; j++) {
+        for (sl_int q = A->p[j]; q < A->p[j + 1]; q++) {
+            fprintf(file, "%ld %ld", (long)A->i[q] + 1, (long)j + 1);
+            if (A->x) {
+                fprintf(file, " %.17g", A->x[q]);
+            }
+            fputc('\n', file);
+        }
+    }
+    assert_int_equal(fclose(file), 0);
+}
+
 #define BANNER(kind) "%%MatrixMarket matrix coordinate " kind "\n"
 
 #endif

@@ -77,7 +77,6 @@ static const sl_hermitian option_hermitian = {1, option_hermitian_p, option_herm
                                               NULL};
 OPTION_CALL(option_from_hermitian, sl_matrix,
             sl_matrix_from_hermitian(&out, &option_hermitian, opt, NULL))
-OPTION_CALL(option_transpose, sl_matrix, sl_matrix_transpose(&out, &f->U, opt))
 OPTION_CALL(option_submatrix, sl_matrix, sl_matrix_submatrix(&out, &f->U, f->perm, 2, opt, NULL))
 OPTION_CALL(option_fixed, sl_fixed, sl_fixed_create(&out, f->pair.terms, f->perm, 2, opt, NULL))
 OPTION_CALL(option_sum, sl_matrix,
@@ -188,13 +187,6 @@ static inline sl_status option_batch_refactor(option_fixture_t *f, const sl_opti
                                    opt, NULL, NULL);
 }
 
-static inline sl_status option_batch_diagonal(option_fixture_t *f, const sl_options *opt) {
-    double x = 4321.5;
-    const sl_status status = sl_batch_diagonal(&f->F, 1, &x, 1, f->perm, 1, opt, NULL, NULL, NULL);
-    assert_true((x == 4321.5) == (status != SL_OK));
-    return status;
-}
-
 static const struct {
     const char *name;
     option_call_t call;
@@ -205,7 +197,6 @@ static const struct {
     {"sl_matrix_from_hermitian", option_from_hermitian, READS_NOTHING},
     {"sl_matrix_parse", option_parse, READS_NOTHING},
     {"sl_matrix_read", option_read, READS_NOTHING},
-    {"sl_matrix_transpose", option_transpose, READS_NOTHING},
     {"sl_matrix_submatrix", option_submatrix, READS_NOTHING},
     {"sl_csc_triangle", option_triangle, READS_TRIANGLE},
     {"sl_matrix_sum", option_sum, READS_TRIANGLE},
@@ -227,7 +218,6 @@ static const struct {
     {"sl_batch_solve", option_batch_solve, READS_NOTHING},
     {"sl_batch_solve by rows", option_batch_by_rows, READS_NOTHING},
     {"sl_factor_refactor_sums", option_batch_refactor, READS_NOTHING},
-    {"sl_batch_diagonal", option_batch_diagonal, READS_NOTHING},
 };
 
 enum { OPTION_CALLS = sizeof option_calls / sizeof option_calls[0] };

@@ -49,7 +49,6 @@ enum {
     SAVED_PIVOTED_REGULARIZED,
     SAVED_VECTORS, /* skipped, and several null vectors are given */
     SAVED_FLOAT,   /* L in float */
-    SAVED_FLOAT_FRONTS,
     SAVED_WAYS
 };
 
@@ -104,9 +103,7 @@ static inline saved_case_t saved_case_make(int way, gen_kind_t kind, sl_int size
         c.opt.null_vector_count = way == SAVED_VECTORS ? 3 : 0;
         c.opt.consistency_tolerance = -1;
     } else if (way == SAVED_PIVOTED || way >= SAVED_FLOAT) {
-        c.opt.storage = way == SAVED_FLOAT          ? SL_STORAGE_FLOAT
-                        : way == SAVED_FLOAT_FRONTS ? SL_STORAGE_FLOAT_FRONTS
-                                                    : SL_STORAGE_DOUBLE;
+        c.opt.storage = way == SAVED_FLOAT ? SL_STORAGE_FLOAT : SL_STORAGE_DOUBLE;
         c.opt.growth_limit = 1e15;
         c.opt.error_limit = -1.0;
     } else if (way != SAVED_DEFINITE) {

@@ -3,6 +3,7 @@
 #define SL_TEST_WRONG_CALLS_H
 
 #include "factored.h"
+#include "transposed.h"
 
 enum { N = 100 };
 
@@ -24,7 +25,7 @@ static inline void wrong_set_up(void) {
     natural.ordering = SL_ORDERING_NATURAL;
     w.y = factored_make(GEN_GRID2, N, 1, 0, NULL);
     w.other = factored_make(GEN_GRID2, N, 1, 0, &natural);
-    SL_CHECK(sl_matrix_transpose(&w.upper, &w.y.M.view, NULL));
+    w.upper = transposed(&w.y.M.view);
     SL_CHECK(sl_factor_create(&w.failed, w.y.S, &w.y.M.view, NULL, NULL));
     zeros = test_reals((size_t)w.y.M.p[N]);
     bad = w.y.M.view;

@@ -7,6 +7,7 @@
 #include "tools/matrix/sparse_product.h"
 #include "tools/matrix/triplets.h"
 #include "tests/lib/dense_reference.h"
+#include "tests/lib/transposed.h"
 
 /* The entries as stored: n_rows x n_cols, column-major. */
 static double *dense_as_stored(const sl_csc *A) {
@@ -80,7 +81,7 @@ static void symmetrizing_recovers_the_triangle(void **state) {
     sl_matrix *lower = NULL, *upper = NULL, *both = NULL, *again = NULL;
     assert_true(grid_laplacian_3d(&lower, 3, 4, 5, 0.5));
     sl_csc A = sl_matrix_view(lower);
-    SL_CHECK(sl_matrix_transpose(&upper, &A, NULL));
+    upper = transposed(&A);
     for (int k = 0; k < 3; k++) {
         const sl_csc from = sl_matrix_view(k == 0 ? lower : k == 1 ? upper : both);
         sl_matrix *full = NULL;

@@ -394,7 +394,11 @@ public:
     /** A half or another part of a solve: parts is a sum of SL_PART_..., b has n * nrhs numbers. */
     SL_RESULT solve_part(std::vector<double> &x, unsigned parts, const std::vector<double> &b,
                          sl_int nrhs = 1, Work *work = nullptr) const {
-        return part(sl_factor_solve_part, x, parts, b, nrhs, work);
+        const auto whole = [](const sl_factor *F, unsigned bits, double *X, std::size_t ldx,
+                              const double *B, std::size_t ldb, sl_int count, sl_work *W) {
+            return sl_factor_solve_part(F, nullptr, bits, X, ldx, B, ldb, count, W);
+        };
+        return part(whole, x, parts, b, nrhs, work);
     }
     /** The product with the same parts. */
     SL_RESULT multiply_part(std::vector<double> &x, unsigned parts, const std::vector<double> &b,
@@ -571,7 +575,7 @@ public:
         std::size_t nx = std::size_t(is_forward ? info().b_columns : nx_);
         if (nrhs < 0 || b.size() != nb * std::size_t(nrhs)) return finish(wrong_size());
         std::vector<double> result(nx * std::size_t(nrhs));
-        sl_status status = sl_plan_solve_part(get(), F.get(), parts, data_of(result), nx,
+        sl_status status = sl_factor_solve_part(F.get(), get(), parts, data_of(result), nx,
                                               data_of(b), nb, nrhs, work_of(work));
         if (status == SL_OK) x.swap(result);
         return finish(status);

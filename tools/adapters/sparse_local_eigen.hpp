@@ -657,7 +657,11 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
      *  matrixU().solve(b) solvePart(SL_PART_LT, b). The L of SimplicialLLT: SL_PART_L + SQRT_D.
      *  Quicker than the views, and with 2x2 pivots the only way to apply D. */
     template <class Rhs> Dense solvePart(unsigned parts, const Eigen::MatrixBase<Rhs> &B) const {
-        return part(sl_factor_solve_part, parts, B.template cast<Wide>());
+        const auto whole = [](const sl_factor *F, unsigned bits, double *X, std::size_t ldx,
+                              const double *from, std::size_t ldb, sl_int count, sl_work *W) {
+            return sl_factor_solve_part(F, nullptr, bits, X, ldx, from, ldb, count, W);
+        };
+        return part(whole, parts, B.template cast<Wide>());
     }
     /** The product with the same parts: matrixL() b is multiplyPart(SL_PART_L, b). */
     template <class Rhs> Dense multiplyPart(unsigned parts, const Eigen::MatrixBase<Rhs> &B) const {

@@ -59,16 +59,16 @@ static void compute(double *values, heat_system *h, const double *times, sl_int 
                     const sl_int *vertices, sl_int count, bool all, const sl_threads *threads) {
     sl_stats stats = h->stats;
     sl_int block = block_size(h, n_times, threads->count);
-    sl_options options = {.threads = *threads};
     sl_factor **factors = app_alloc((size_t)block, sizeof *factors);
     for (sl_int first = 0; first < n_times; first += block) {
         sl_int width = n_times - first < block ? n_times - first : block;
         app_progress("signatures", (double)first / n_times);
         heat_system_factors(h, factors, times + first, width, threads);
-        app_must(sl_batch_diagonal(factors, width, values + (size_t)first * (size_t)count,
-                                   (size_t)count, all ? NULL : vertices, count, &options, NULL,
-                                   NULL, &stats),
-                 "auto-diffusion", &stats);
+        for (sl_int k = 0; k < width; k++) {
+            app_must(sl_inverse_diagonal(factors[k], values + (size_t)(first + k) * (size_t)count,
+                                         all ? NULL : vertices, count, NULL, &stats),
+                     "auto-diffusion", &stats);
+        }
     }
     app_progress_end();
     /* the longest time has the largest condition */

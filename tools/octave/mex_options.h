@@ -69,7 +69,7 @@ static int set_option(sl_options *o, int *pivoted, const char *name, const mxArr
     } else if (strcmp(name, "block_size") == 0) {
         o->block_size = whole_in(name, value);
     } else if (strcmp(name, "storage") == 0) {
-        o->storage = (sl_storage)word_in(name, value, "double|float|float fronts");
+        o->storage = (sl_storage)word_in(name, value, "double|float");
     } else if (strcmp(name, "null_pivots") == 0) {
         o->null_pivots = (sl_null_pivots)word_in(name, value, "refuse|skip");
     } else if (strcmp(name, "null_tolerance") == 0) {

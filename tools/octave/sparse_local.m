@@ -15,7 +15,7 @@ classdef sparse_local < handle
 %     'ordering', 'mindeg'     'nd' (default), 'mindeg', 'natural'; or 'perm', p
 %     'purpose', 'one factor'  the first factor as early as possible
 %     'block_size', 3          rows 3k+1 .. 3k+3 stay together in the order
-%     'storage', 'float'       L in half the bytes; 'float fronts'
+%     'storage', 'float'       L in half the bytes
 %     'threads', 4             of factorizations and full solves
 %
 %   Solves

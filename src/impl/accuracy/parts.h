@@ -220,28 +220,13 @@ static sl_status sli_factor_part(const sl_factor *F, unsigned parts, int is_prod
     return sli_parts_run(&p, rhs, W);
 }
 
-SL_API sl_status sl_factor_solve_part(const sl_factor *F, unsigned parts, double *X, size_t ldx,
-                                      const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
-    const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
-    return sli_factor_part(F, parts, 0, &rhs, W);
-}
-
-SL_API sl_status sl_factor_multiply_part(const sl_factor *F, unsigned parts, double *X, size_t ldx,
-                                         const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
-    const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
-    return sli_factor_part(F, parts, 1, &rhs, W);
-}
-
-SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsigned parts, double *X,
-                                    size_t ldx, const double *B, size_t ldb, sl_int nrhs,
-                                    sl_work *W) {
+static sl_status sli_plan_part(const sl_plan *P, const sl_factor *F, unsigned parts,
+                               const sli_rhs *rhs, sl_work *W) {
     const unsigned ends = parts & ~(unsigned)(SL_PART_D | SL_PART_SQRT_D);
     const int is_forward = ends == (SL_PART_P | SL_PART_L);
-    const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
     sli_parts p;
     sl_status status =
-        sli_argument(P == NULL   ? "P is NULL"
-                     : F == NULL ? "F is NULL"
+        sli_argument(F == NULL ? "F is NULL"
                      : !is_forward && ends != (SL_PART_LT | SL_PART_PT)
                          ? "parts of a plan are P and L, or L' and P', each with or without D"
                          : NULL);
@@ -259,7 +244,21 @@ SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsign
     p.parts = parts;
     p.q = sli_parts_query(&P->query, is_forward ? &P->query.forward : &P->query.backward,
                           is_forward, !is_forward);
-    return sli_parts_run(&p, &rhs, W);
+    return sli_parts_run(&p, rhs, W);
+}
+
+SL_API sl_status sl_factor_solve_part(const sl_factor *F, const sl_plan *plan, unsigned parts,
+                                      double *X, size_t ldx, const double *B, size_t ldb,
+                                      sl_int nrhs, sl_work *W) {
+    const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
+    return plan == NULL ? sli_factor_part(F, parts, 0, &rhs, W)
+                        : sli_plan_part(plan, F, parts, &rhs, W);
+}
+
+SL_API sl_status sl_factor_multiply_part(const sl_factor *F, unsigned parts, double *X, size_t ldx,
+                                         const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
+    const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
+    return sli_factor_part(F, parts, 1, &rhs, W);
 }
 
 SL_API sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns, sl_int capacity,

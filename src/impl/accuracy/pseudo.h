@@ -144,7 +144,8 @@ SL_API sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_pseudo_inverse 
             P->Q[(size_t)t.null[c] + (size_t)c * n] = 1.0;
         }
     }
-    status = sl_factor_solve_part(F, SL_PART_LT | SL_PART_PT, P->Q, n, P->Q, n, P->columns, W);
+    status =
+        sl_factor_solve_part(F, NULL, SL_PART_LT | SL_PART_PT, P->Q, n, P->Q, n, P->columns, W);
     for (s = 0; s < F->S->n_supers && status == SL_OK; s++) {
         if (F->S->super_parent[s] == -1) {
             const sli_pseudo_tree t = sli_pseudo_tree_of(F, s);
@@ -153,7 +154,7 @@ SL_API sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_pseudo_inverse 
         }
     }
     if (status == SL_OK) {
-        status = sl_factor_solve_part(F, all, P->K, n, P->Q, n, P->columns, W);
+        status = sl_factor_solve_part(F, NULL, all, P->K, n, P->Q, n, P->columns, W);
     }
     for (s = 0; s < F->S->n_supers && status == SL_OK; s++) {
         if (F->S->super_parent[s] == -1) {

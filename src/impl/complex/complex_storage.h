@@ -99,10 +99,7 @@ static void sli_complex_accepts(const sl_symbolic *S, const sli_source *from,
 }
 
 #define SLF_NAME(f) sli_complex_##f
-#define SLF_VALUE double
-#define SLF_SINGLE 0
 #define SLF_HALF 1
-#define SLF_OF(f, array) (f)->array
 #define SLF_BEGIN sli_front_in_double
 #include "../factor/fronts.inl.h"
 #include "../factor/fronts_undef.inl.h"
@@ -123,40 +120,46 @@ static const sli_front_kernels *sli_complex_front(const sli_kernels *kernels) {
 }
 
 /* The same in double: of the same matrices. */
-static const sli_storage_type sli_storage_complex_in_double = {SL_STORAGE_DOUBLE,
-                                                               sizeof(double),
-                                                               sizeof(double),
-                                                               0,
-                                                               DBL_EPSILON,
-                                                               sli_double_sweeps,
-                                                               SLI_DOUBLE_FRONTS,
-                                                               NULL,
-                                                               NULL,
-                                                               NULL,
-                                                               sli_complex_suits,
-                                                               sli_complex_accepts,
-                                                               sli_complex_keeps,
-                                                               NULL};
+static const sli_storage_type sli_storage_complex_in_double = {
+    SL_STORAGE_DOUBLE, /* storage */
+    sizeof(double), /* value_bytes */
+    0, /* half */
+    sli_double_sweeps, /* sweeps */
+    sli_double_front, /* front */
+    sli_double_factor, /* factor */
+    sli_double_shared, /* shared */
+    sli_double_front_clear, /* clear */
+    sli_double_front_load, /* load */
+    sli_double_front_assemble, /* assemble */
+    sli_double_front_finish, /* finish */
+    NULL, /* store */
+    NULL, /* entry */
+    NULL, /* entry_clear */
+    sli_complex_suits, /* suits */
+    sli_complex_accepts, /* accepts */
+    sli_complex_keeps, /* keeps */
+    NULL /* in_double */
+};
 
-static const sli_storage_type sli_storage_complex = {SL_STORAGE_COMPLEX,
-                                                     sizeof(double),
-                                                     sizeof(double),
-                                                     1,
-                                                     DBL_EPSILON,
-                                                     sli_complex_sweeps,
-                                                     sli_complex_front,
-                                                     sli_complex_factor,
-                                                     sli_complex_shared,
-                                                     sli_complex_front_clear,
-                                                     sli_complex_front_load,
-                                                     sli_complex_front_assemble,
-                                                     sli_complex_front_finish,
-                                                     NULL,
-                                                     sli_complex_entry,
-                                                     NULL,
-                                                     sli_complex_suits,
-                                                     sli_complex_accepts,
-                                                     sli_complex_keeps,
-                                                     &sli_storage_complex_in_double};
+static const sli_storage_type sli_storage_complex = {
+    SL_STORAGE_COMPLEX, /* storage */
+    sizeof(double), /* value_bytes */
+    1, /* half */
+    sli_complex_sweeps, /* sweeps */
+    sli_complex_front, /* front */
+    sli_complex_factor, /* factor */
+    sli_complex_shared, /* shared */
+    sli_complex_front_clear, /* clear */
+    sli_complex_front_load, /* load */
+    sli_complex_front_assemble, /* assemble */
+    sli_complex_front_finish, /* finish */
+    NULL, /* store */
+    sli_complex_entry, /* entry */
+    NULL, /* entry_clear */
+    sli_complex_suits, /* suits */
+    sli_complex_accepts, /* accepts */
+    sli_complex_keeps, /* keeps */
+    &sli_storage_complex_in_double /* in_double */
+};
 
 #endif

@@ -102,18 +102,13 @@ static sl_status sli_factor_prepare(sl_factor *F) {
             sli_schedule_work_layout(&w, &t, S->n_supers, plan.workers);
         }
         if (status == SL_OK) {
-            sli_schedule_fill(&plan, S,
-                              sli_is_single(F)  ? SLI_PLAIN_NOT
-                              : sli_is_float(F) ? SLI_PLAIN_PASSED
-                                                : SLI_PLAIN,
-                              &w);
+            sli_schedule_fill(&plan, S, sli_is_float(F) ? SLI_PLAIN_PASSED : SLI_PLAIN, &w);
         }
     }
     SLI_LAYOUT(&b, &F->allocator, status) {
         sli_factor_layout_scratch(F, &b);
         if (has_fronts) {
-            F->work.stack =
-                sli_take(&b, (uint64_t)(plan.stack >> F->type->half), F->type->front_bytes);
+            F->work.stack = sli_take(&b, (uint64_t)(plan.stack >> F->type->half), sizeof(double));
             sli_schedule_layout_tops(&plan, S, &b);
             p = plan;
             p.workers = F->schedule.workers; /* those that have room */

@@ -57,7 +57,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
     const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
     const sl_int vectors = opt == NULL ? 0 : (sl_int)opt->null_vector_count;
     F->null.calls = sli_singular_of(opt != NULL && opt->null_pivots == SL_NULL_PIVOT_SKIP);
-    F->rule.epsilon = F->type->epsilon;
+    F->rule.epsilon = DBL_EPSILON;
     F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n, F->rule.epsilon) : null;
     F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
     F->rule.replaces = sli_skips_nulls(F) || F->rule.regularization != 0.0;

@@ -1,16 +1,16 @@
 /* front_load.inl.h: where a front is, and the entries of A that it begins with */
 
 /* The update matrix of supernode s, which this worker factors if it is within a task. */
-SLI_INLINE SLF_VALUE *SLF_NAME(update_matrix)(const sl_factor *F, sl_int s, sl_int worker) {
+SLI_INLINE double *SLF_NAME(update_matrix)(const sl_factor *F, sl_int s, sl_int worker) {
     const sl_off begin = F->schedule.stack_begin[s], own = F->schedule.own;
     const sl_off at = begin < own ? begin + worker * own : begin;
-    return (SLF_VALUE *)F->work.stack + (at >> SLF_HALF);
+    return (double *)F->work.stack + (at >> SLF_HALF);
 }
 
 /* The front of supernode s, which this worker factors. */
 SLI_INLINE sli_front SLF_NAME(front_of)(const sl_factor *F, sl_int s, sl_int worker) {
     sli_front f = SLF_BEGIN(F, s, worker);
-    SLF_OF(&f, update) = SLF_NAME(update_matrix)(F, s, worker);
+    f.update = SLF_NAME(update_matrix)(F, s, worker);
     return f;
 }
 
@@ -19,17 +19,15 @@ static void SLF_NAME(front_clear)(const sli_front *f, sl_int t0, sl_int t1) {
     const sl_int w = f->width, whole = w / SLI_TILE, u0 = sli_max(t0 - whole, 0);
     const sl_off from = sli_tile_offset(w, t0), size = sli_tile_offset(w, t1) - from;
     const sl_off at = sli_triangle_offset(u0), end = sli_triangle_offset(t1 - whole);
-    memset(SLF_OF(f, panel) + (from >> SLF_HALF), 0,
-           (size_t)(size >> SLF_HALF) * sizeof(SLF_VALUE));
+    memset(f->panel + (from >> SLF_HALF), 0, (size_t)(size >> SLF_HALF) * sizeof(double));
     if (f->below > 0 && t1 > whole) {
-        memset(SLF_OF(f, update) + (at >> SLF_HALF), 0,
-               (size_t)((end - at) >> SLF_HALF) * sizeof(SLF_VALUE));
+        memset(f->update + (at >> SLF_HALF), 0, (size_t)((end - at) >> SLF_HALF) * sizeof(double));
     }
 }
 
 /* Adds entries of the scatter map to the panel of supernode s, and records the largest magnitude.
  * marks: gets the mark of what is added, or NULL. */
-SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SLF_VALUE *panel,
+SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, double *panel,
                                                 const sli_loading *e, uint64_t *marks,
                                                 sli_failure *failure) {
     const sl_off *to = F->S->scatter_to, begin = F->S->steps[s].panel;
@@ -46,13 +44,6 @@ SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SL
         const double a =
             scatter_from != NULL ? x[scatter_from[m]] : x[m - e->first]; /* untested: constant */
         const double size = fabs(a);
-#if SLF_SINGLE
-        if (!(size <= SLI_SINGLE_MOST)) {
-            return sli_fail(failure, sli_is_finite(a) ? SL_ERR_INACCURATE : SL_ERR_NOT_FINITE, s,
-                            -1, m, a);
-        }
-        panel[to[m] - begin] += sli_single(a);
-#else
         if (!(size <= DBL_MAX)) { /* branches untested: the same */
             return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
         }
@@ -66,7 +57,6 @@ SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SL
         if (marks != NULL) { /* untested: constant where entries are summed */
             mark += sli_mark_entry(a, to[m] - begin);
         }
-#endif
         largest = size > largest ? size : largest; /* branches untested: the same */
     }
     F->extents[s].entry = largest;
@@ -78,7 +68,7 @@ SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SL
 
 /* Adds the matrix's entries to the cleared panel of supernode s. */
 static sl_status SLF_NAME(panel_load)(const sl_factor *F, const sli_source *from, sl_int s,
-                                      SLF_VALUE *panel, sli_failure *failure) {
+                                      double *panel, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const sl_off end = S->scatter_begin[s + 1];
     sli_loading e;
@@ -89,7 +79,7 @@ static sl_status SLF_NAME(panel_load)(const sl_factor *F, const sli_source *from
         e.x = from->A->x;
         e.scatter_from = S->scatter_from;
         e.last = end;
-        return SLF_NAME(panel_add)(F, s, panel, &e, SLF_SINGLE ? NULL : F->history.marks, failure);
+        return SLF_NAME(panel_add)(F, s, panel, &e, F->history.marks, failure);
     }
     e.scatter_from = NULL;
     for (; e.first < end && status == SL_OK; e.first = e.last) {
@@ -106,7 +96,7 @@ static sl_status SLF_NAME(panel_load)(const sl_factor *F, const sli_source *from
  * them. */
 static sl_status SLF_NAME(front_load)(sl_factor *F, const sli_source *from, const sli_front *f,
                                       sli_failure *failure) {
-    SLF_VALUE *panel = SLF_OF(f, panel), *magnitude = SLF_OF(f, magnitude);
+    double *panel = f->panel, *magnitude = f->magnitude;
     const sl_status status = SLF_NAME(panel_load)(F, from, f->super, panel, failure);
     const sl_int w = f->width, rows = SLI_TILE * sli_front_tiles(f);
     sl_int k;
@@ -119,11 +109,11 @@ static sl_status SLF_NAME(front_load)(sl_factor *F, const sli_source *from, cons
     }
 #else
     for (k = 0; k < w; k += SLI_TILE) {
-        const SLF_VALUE *tile = panel + sli_panel_at(w, k, k);
+        const double *tile = panel + sli_panel_at(w, k, k);
         const sl_int columns = sli_min(SLI_TILE, w - k);
         sl_int r;
         for (r = 0; r < columns; r++) {
-            magnitude[k + r] = (SLF_VALUE)fabs(tile[(SLI_TILE + 1) * r]);
+            magnitude[k + r] = fabs(tile[(SLI_TILE + 1) * r]);
         }
     }
 #endif

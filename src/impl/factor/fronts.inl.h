@@ -1,19 +1,16 @@
-/* fronts.inl.h: the fronts of the supernodal factorization, for one type of numbers */
+/* fronts.inl.h: the fronts of the supernodal factorization, of real or of complex matrices */
 
 /* Whoever includes this has defined
  *
- *  SLF_NAME(f)            the name of function f for this type
- *  SLF_VALUE              the type of the numbers of a front
- *  SLF_SINGLE             1: floats, and no 2x2 pivots; 0: doubles
+ *  SLF_NAME(f)            the name of function f
  *  SLF_HALF               1: a front holds the first columns of pairs only; 0: all columns
- *  SLF_OF(f, array)       an array of front f
  *  SLF_BEGIN(F, s, w)     the front of supernode s, which worker w factors, without its update
  *                         matrix
  *
  * fronts_undef.inl.h undefines them. [DR83], [Liu92] */
 
 #include "front_load.inl.h"
-#if !SLF_SINGLE && !SLF_HALF
+#if !SLF_HALF
 #include "plain_columns.inl.h"
 #endif
 
@@ -25,7 +22,7 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
     const sl_int tiles = sli_front_tiles(f);
     sl_int c, k;
     for (c = f->super - 1;; c = S->first_descendant[c] - 1) {
-#if !SLF_SINGLE && !SLF_HALF
+#if !SLF_HALF
         c = sli_plain_children(F, f, c, worker, SLI_TILE * t0, SLI_TILE * t1);
 #endif
         if (c < S->first_descendant[f->super]) {
@@ -38,12 +35,12 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
             t1 == tiles ? child->below : sli_lower_bound(relative, child->below, SLI_TILE * t1);
         const sl_off magnitudes = child->width % SLI_TILE +
                                   sli_triangle_offset(sli_update_tiles(child->width, child->below));
-        const SLF_VALUE *from = SLF_NAME(update_matrix)(F, c, worker);
-        const SLF_VALUE *magnitude = from + (magnitudes >> SLF_HALF);
+        const double *from = SLF_NAME(update_matrix)(F, c, worker);
+        const double *magnitude = from + (magnitudes >> SLF_HALF);
         F->own.front->assemble(f, from, child->width % SLI_TILE, relative, child->below, first,
                                last);
         for (k = first; k < last; k += 1 + SLF_HALF) {
-            SLF_OF(f, magnitude)[relative[k]] += magnitude[k >> SLF_HALF];
+            f->magnitude[relative[k]] += magnitude[k >> SLF_HALF];
         }
     }
 }
@@ -52,8 +49,8 @@ static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_
  * parent. */
 static void SLF_NAME(front_hand_over)(const sli_front *f) {
     const sl_int tiles = sli_update_tiles(f->width, f->below), rows = SLI_TILE * tiles;
-    const SLF_VALUE *from = SLF_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)(f->width / SLI_TILE);
-    SLF_VALUE *to = SLF_OF(f, update) + (sli_triangle_offset(tiles) >> SLF_HALF);
+    const double *from = f->magnitude + SLI_TILE * (ptrdiff_t)(f->width / SLI_TILE);
+    double *to = f->update + (sli_triangle_offset(tiles) >> SLF_HALF);
     sl_int k;
     for (k = 0; k < rows; k += 1 + SLF_HALF) {
 #if SLF_HALF
@@ -69,17 +66,8 @@ static void SLF_NAME(front_hand_over)(const sli_front *f) {
 static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
                                        sli_failure *failure) {
     sl_status status = SL_OK;
-    sl_int k;
-#if SLF_SINGLE
-    for (k = 0; k < f->width && status == SL_OK; k++) {
-        status = sli_check_single(F, f, k, failure);
-    }
-    if (f->width == 1) {
-        memcpy((SLF_VALUE *)F->values + F->S->steps[f->super].panel, f->single.panel,
-               (size_t)(1 + f->below) * sizeof(SLF_VALUE));
-    }
-#else
     const sl_int count = sli_front_is_regular(F, f, f->super) ? 0 : f->width;
+    sl_int k;
     for (k = 0; k < count && status == SL_OK; k++) {
         status =
             f->pairs != NULL && f->pairs[k] != SLI_PAIR_NONE
@@ -91,7 +79,6 @@ static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
     } else if (f->width == 1 && F->type->store == NULL) { /* branches untested: see above */
         SLI_COPY((double *)F->values + F->S->steps[f->super].panel, f->panel, 1 + f->below);
     }
-#endif
     return status;
 }
 
@@ -102,7 +89,7 @@ static sl_status SLF_NAME(front_finish)(const sl_factor *F, const sli_front *f,
     return SLF_NAME(front_check)(F, f, failure);
 }
 
-#if !SLF_SINGLE && !SLF_HALF
+#if !SLF_HALF
 /* The front of a column with up to 7 rows below: l is the column, the tile its update matrix, with
  * row r of the front in row and column r. */
 typedef struct sli_short {
@@ -194,12 +181,9 @@ static sl_status SLF_NAME(front_factor)(sl_factor *F, const sli_source *from, sl
     double *scratch = F->work.buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
     sl_status status;
     f.is_small = tiles == 1 && f.pairs == NULL && !SLF_HALF;
-#if !SLF_SINGLE
     if (f.is_small) {
         sli_front_clear_small(&f);
-    } else
-#endif
-    {
+    } else {
         SLF_NAME(front_clear)(&f, 0, tiles);
     }
     status = SLF_NAME(front_load)(F, from, &f, failure);
@@ -219,7 +203,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
     sl_status status = SL_OK;
     sl_int s;
     for (s = first; s <= last && status == SL_OK; s++) {
-#if !SLF_SINGLE && !SLF_HALF
+#if !SLF_HALF
         if (F->schedule.is_plain[s] == SLI_PLAIN_DIRECT && sli_plain_runs(F, from)) {
             s = sli_plain_run(F, from->A->x, s, last);
             if (s > last) {
@@ -229,7 +213,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #endif
         if (sli_is_copied(F, s)) {
             F->work.copied->copy(F, s, worker);
-#if !SLF_SINGLE && !SLF_HALF
+#if !SLF_HALF
         } else if (F->schedule.is_plain[s]) {
             status = sli_plain_factor(F, from, s, worker, failure);
         } else if (sli_is_short(F, s)) {

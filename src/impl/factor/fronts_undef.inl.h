@@ -1,8 +1,5 @@
 /* fronts_undef.inl.h: undefines the parameters of fronts.inl.h */
 
 #undef SLF_NAME
-#undef SLF_VALUE
-#undef SLF_SINGLE
 #undef SLF_HALF
-#undef SLF_OF
 #undef SLF_BEGIN

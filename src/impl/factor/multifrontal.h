@@ -83,7 +83,6 @@ static void sli_front_update(const sli_front_kernels *kernels, const sli_front *
 static sli_front sli_front_in_double(const sl_factor *F, sl_int s, sl_int worker) {
     const sli_step *step = &F->S->steps[s];
     sli_front f;
-    memset(&f.single, 0, sizeof f.single);
     f.update = NULL;
     f.super = s;
     f.is_small = 0;
@@ -101,10 +100,7 @@ static sli_front sli_front_in_double(const sl_factor *F, sl_int s, sl_int worker
 }
 
 #define SLF_NAME(f) sli_double_##f
-#define SLF_VALUE double
-#define SLF_SINGLE 0
 #define SLF_HALF 0
-#define SLF_OF(f, array) (f)->array
 #define SLF_BEGIN sli_front_in_double
 #include "fronts.inl.h"
 #include "fronts_undef.inl.h"
@@ -132,24 +128,25 @@ static const sli_front_kernels *sli_double_front(const sli_kernels *kernels) {
     return &kernels->front;
 }
 
-/* The members of a storage type whose fronts are in double, from `front` to `finish`. */
-#define SLI_DOUBLE_FRONTS \
-    sli_double_front, sli_double_factor, sli_double_shared, sli_double_front_clear, \
-        sli_double_front_load, sli_double_front_assemble, sli_double_front_finish
-
-static const sli_storage_type sli_storage_double = {SL_STORAGE_DOUBLE,
-                                                    sizeof(double),
-                                                    sizeof(double),
-                                                    0,
-                                                    DBL_EPSILON,
-                                                    sli_double_sweeps,
-                                                    SLI_DOUBLE_FRONTS,
-                                                    NULL,
-                                                    NULL,
-                                                    NULL,
-                                                    NULL,
-                                                    NULL,
-                                                    NULL,
-                                                    NULL};
+static const sli_storage_type sli_storage_double = {
+    SL_STORAGE_DOUBLE, /* storage */
+    sizeof(double), /* value_bytes */
+    0, /* half */
+    sli_double_sweeps, /* sweeps */
+    sli_double_front, /* front */
+    sli_double_factor, /* factor */
+    sli_double_shared, /* shared */
+    sli_double_front_clear, /* clear */
+    sli_double_front_load, /* load */
+    sli_double_front_assemble, /* assemble */
+    sli_double_front_finish, /* finish */
+    NULL, /* store */
+    NULL, /* entry */
+    NULL, /* entry_clear */
+    NULL, /* suits */
+    NULL, /* accepts */
+    NULL, /* keeps */
+    NULL /* in_double */
+};
 
 #endif

@@ -9,8 +9,7 @@
  * diagonal entries. Over 80,000 meshes with weak bridges and slivers, pivots of the wrong sign
  * stayed below (128 + n/4) epsilon. The factor 16 leaves a margin. */
 static double sli_null_rounding(sl_int n, double epsilon) {
-    const double rounding = 16.0 * (64.0 + n / 8) * epsilon;
-    return rounding < SLI_NULL_MOST ? rounding : SLI_NULL_MOST;
+    return 16.0 * (64.0 + n / 8) * epsilon;
 }
 
 /* Where null pivots are refused: may a root of the elimination forest be a null pivot that the

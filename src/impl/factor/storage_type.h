@@ -10,9 +10,7 @@
 struct sli_storage_type {
     sl_storage storage;
     size_t value_bytes; /* of an entry of L */
-    size_t front_bytes; /* of a number of a front and of its update matrix */
     int half;           /* 1: panels and fronts hold the first columns of pairs only; else 0 */
-    double epsilon;     /* the rounding unit of fronts */
     /* NULL: the instruction set of the kernels does not serve this storage */
     const sli_sweeps *(*sweeps)(const sli_kernels *kernels);
     const sli_front_kernels *(*front)(const sli_kernels *kernels);
@@ -56,15 +54,10 @@ SLI_INLINE int sli_is_float(const sl_factor *F) {
     return F->type->value_bytes == sizeof(float);
 }
 
-/* Are fronts computed in float? */
-SLI_INLINE int sli_is_single(const sl_factor *F) {
-    return F->type->front_bytes == sizeof(float);
-}
-
 /* Is the panel of supernode s copied when its front is done, as its numbers are rounded, or as it
  * has no padding? */
 SLI_INLINE int sli_panel_is_copied(const sl_factor *F, sl_int s) {
-    return F->S->steps[s].width == 1 || (sli_is_float(F) && !sli_is_single(F));
+    return F->S->steps[s].width == 1 || sli_is_float(F);
 }
 
 /* The panel of supernode s in double, while a worker factors it. */

@@ -1,11 +1,10 @@
-/* matrix_market.h: reads and writes coordinate Matrix Market files, in any locale */
+/* matrix_market.h: reads coordinate Matrix Market files, in any locale */
 #ifndef SLI_FILES_MATRIX_MARKET_H
 #define SLI_FILES_MATRIX_MARKET_H
 
 #include "../../public/files.h"
 #include "../base/sort.h"
 #include "../matrix/csc_triangle.h"
-#include "../io/output_file.h"
 #include "text_reader.h"
 
 #define SLI_ENTRIES_FIRST 65536 /* entries of a file for which memory is allocated at first */
@@ -295,83 +294,6 @@ SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_opti
     fclose(file);
     errno = saved;
     return sli_report(stats, status);
-}
-
-/* Replaces the decimal point that the locale printed, of any number of bytes, by a point. */
-static void sli_set_point(char *number) {
-    const char *from = number;
-    char *to = number;
-    while (*from != '\0') {
-        if (sli_is_numeric(*from)) {
-            *to++ = *from++;
-            continue;
-        }
-        *to++ = '.';
-        while (*from != '\0' && !sli_is_numeric(*from)) { /* untested: a digit follows */
-            from++;
-        }
-    }
-    *to = '\0';
-}
-
-/* Writes one entry, 1-based; value NULL: of a pattern. */
-static int sli_write_entry(FILE *file, sl_int row, sl_int column, const double *value) {
-    char number[40];
-    if (value == NULL) {
-        return fprintf(file, "%ld %ld\n", (long)row + 1, (long)column + 1) > 0;
-    }
-    snprintf(number, sizeof number, "%.17g", *value);
-    sli_set_point(number);
-    return fprintf(file, "%ld %ld %s\n", (long)row + 1, (long)column + 1, number) > 0;
-}
-
-/* Writes a checked matrix; returns 0 if the file system fails. */
-static int sli_write(FILE *file, const sl_csc *A, sl_reading reading, sl_triangle triangle) {
-    sl_int j, p;
-    sl_off count = 0;
-    int ok;
-    for (j = 0; j < A->n_cols; j++) {
-        for (p = A->p[j]; p < A->p[j + 1]; p++) {
-            count += sli_is_read(triangle, A->i[p], j);
-        }
-    }
-    ok = fprintf(file, "%%%%MatrixMarket matrix coordinate %s %s\n%ld %ld %ld\n",
-                 A->x != NULL ? "real" : "pattern",
-                 reading == SL_AS_SYMMETRIC ? "symmetric" : "general", (long)A->n_rows,
-                 (long)A->n_cols, (long)count) > 0;
-    for (j = 0; j < A->n_cols && ok; j++) {
-        for (p = A->p[j]; p < A->p[j + 1] && ok; p++) {
-            const sl_int i = A->i[p];
-            if (sli_is_read(triangle, i, j)) {
-                const int flip = reading == SL_AS_SYMMETRIC && i < j;
-                ok = sli_write_entry(file, flip ? j : i, flip ? i : j,
-                                     A->x != NULL ? A->x + p : NULL);
-            }
-        }
-    }
-    return ok;
-}
-
-SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path) {
-    const int saved = errno;
-    sl_triangle triangle = SL_TRIANGLE_NONE;
-    sl_status status = reading == SL_AS_SYMMETRIC ? sl_csc_triangle(A, &triangle, NULL, NULL)
-                                                  : sl_csc_check(A, NULL);
-    const sl_allocator a = sli_allocator(NULL);
-    sli_output output;
-    if (status == SL_OK) {
-        status = sli_argument(path == NULL ? "path is NULL"
-                              : reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED
-                                  ? "reading is not a value of sl_reading"
-                                  : NULL);
-    }
-    status = status == SL_OK ? sli_output_open(&output, path, &a) : status;
-    if (status == SL_OK) {
-        const int complete = sli_write(output.file, A, reading, triangle);
-        status = sli_output_close(&output, complete, &a);
-    }
-    errno = saved;
-    return status;
 }
 
 #endif

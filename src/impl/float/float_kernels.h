@@ -1,10 +1,7 @@
-/* float_kernels.h: the kernels of L and of fronts in float, for every instruction set */
+/* float_kernels.h: the kernels of L in float, for every instruction set */
 #ifndef SLI_FLOAT_FLOAT_KERNELS_H
 #define SLI_FLOAT_FLOAT_KERNELS_H
 
-#include "simd_scalar_single.h"
-#include "simd_avx512_single.h"
-#include "simd_neon_single.h"
 #include "../kernels/dispatch.h"
 
 /* to := from, `count` numbers, a multiple of 8. Returns whether one of them is beyond the normal
@@ -13,7 +10,6 @@ typedef int (*sli_round_kernel)(float *to, const double *from, ptrdiff_t count);
 
 typedef struct sli_float_kernels {
     sli_sweeps sweeps;
-    sli_front_kernels front;
     sli_round_kernel round;
 } sli_float_kernels;
 

@@ -7,6 +7,4 @@ static const sli_float_kernels SLV_NAME(float_kernels) = {
      {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
       SLV_NAME(single_backward8), SLV_NAME(single_backward16), SLV_NAME(single_backward32),
       SLV_NAME(single_backward64)}},
-    {SLV_NAME(single_pivots), SLV_NAME(single_rows), SLV_NAME(single_update),
-     SLV_NAME(single_assemble)},
     SLV_NAME_PIVOTS(single_round)};

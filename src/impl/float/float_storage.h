@@ -1,4 +1,4 @@
-/* float_storage.h: L in float: panels that are rounded, and fronts that are computed in float */
+/* float_storage.h: L in float: panels that are rounded when their fronts are done */
 #ifndef SLI_FLOAT_FLOAT_STORAGE_H
 #define SLI_FLOAT_FLOAT_STORAGE_H
 
@@ -14,37 +14,6 @@
  * and H = D^(1/2) G' C^-1, A + E = C' (I + H)' (I + H) C. Refinement multiplies the error, in the
  * energy norm, by about 2 ||H||, which is of the order of u sqrt(cond A), not u cond A: the pivots,
  * which hold the smallest eigenvalues, are not rounded. */
-
-/* The largest entry of A and sum of magnitudes, and the smallest sum, of fronts in float. Products
- * of pivots and entries of L then neither overflow nor lose more by underflow than by rounding. */
-#define SLI_SINGLE_MOST (0.25 * (double)FLT_MAX)
-#define SLI_SINGLE_LEAST 7.888609052210118e-31 /* 2^-100 */
-
-/* An entry of A in float. None becomes 0, which would hide that its row is too small. */
-SLI_INLINE float sli_single(double a) {
-    const float x = (float)a;
-    return x != 0.0F || a == 0.0 ? x : a < 0.0 ? -FLT_MIN : FLT_MIN;
-}
-
-/* Checks pivot number `column` of a front in float as sli_check_pivot does, and stores it.
- * Refuses what float cannot tell from rounding: a kept pivot of a semidefinite matrix, too, is
- * regular in double but not here. */
-SLI_INLINE sl_status sli_check_single(const sl_factor *F, const sli_front *f, sl_int column,
-                                      sli_failure *failure) {
-    const sl_int s = f->super, k = f->column + column;
-    const float pivot = f->single.D[column], magnitude = f->single.magnitude[column];
-    const int is_null = sli_skips_nulls(F) && pivot == FLT_MAX;
-    const double d = is_null ? SLI_NULL_PIVOT : (double)pivot, m = (double)magnitude;
-    F->D[k] = d;
-    if (!(m <= SLI_SINGLE_MOST) || (!is_null && m != 0.0 && m < SLI_SINGLE_LEAST)) {
-        return sli_fail(failure, SL_ERR_INACCURATE, s, k, -1, d);
-    }
-    if (!is_null && F->rule.kinds != NULL && F->rule.kinds[k] == SLI_PIVOT_WEAK) {
-        sli_record_magnitude(F, s, k, m);
-        return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, d);
-    }
-    return sli_check_pivot(F, s, k, d, m, failure);
-}
 
 /* Does rounding harm the entry l of column j in local row r? An entry that underflows loses more
  * than the share u of itself. This changes A by up to 2^-150 |d_j l_kj| in that row and row k, and
@@ -110,88 +79,30 @@ static void sli_float_entry_clear(void *values, sl_off at) {
     ((float *)values)[at] = 0.0F;
 }
 
-/* The front of supernode s in float, without its update matrix. The scratch is that of doubles:
- * there is room for D as well. */
-SLI_INLINE sli_front sli_single_begin(const sl_factor *F, sl_int s, sl_int worker) {
-    const sli_step *step = &F->S->steps[s];
-    const sl_int rows = SLI_TILE * sli_tiles(F->S->tallest);
-    sli_front f = sli_front_in_double(F, s, worker);
-    f.single.panel = step->width == 1 ? (float *)(void *)f.panel : (float *)F->values + step->panel;
-    f.single.magnitude = (float *)(void *)f.magnitude;
-    f.single.D = f.single.magnitude + rows;
-    f.single.reciprocals = (float *)(void *)f.reciprocals;
-    f.panel = f.D = f.magnitude = f.E = f.reciprocals = NULL;
-    return f;
-}
-
-#define SLF_NAME(f) sli_single_##f
-#define SLF_VALUE float
-#define SLF_SINGLE 1
-#define SLF_HALF 0
-#define SLF_OF(f, array) (f)->single.array
-#define SLF_BEGIN sli_single_begin
-#include "../factor/fronts.inl.h"
-#include "../factor/fronts_undef.inl.h"
-
-/* A front that workers share: its magnitudes, D and reciprocals follow its update matrix. */
-static sli_front sli_single_shared(const sl_factor *F, sl_int s, sl_int group) {
-    const sli_step *step = &F->S->steps[s];
-    sli_front f = sli_single_front_of(F, s, 0);
-    f.single.magnitude = f.single.update + sli_update_size(step);
-    f.single.D = f.single.magnitude + SLI_TILE * (ptrdiff_t)sli_front_tiles(&f);
-    f.single.reciprocals = f.single.D + SLI_TILE * (ptrdiff_t)sli_tiles(step->width) +
-                           SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
-    return f;
-}
-
 static const sli_sweeps *sli_float_sweeps(const sli_kernels *kernels) {
     const sli_float_kernels *own = sli_float_kernels_of(kernels->isa);
     return own == NULL ? NULL : &own->sweeps;
 }
 
-static const sli_front_kernels *sli_single_front(const sli_kernels *kernels) {
-    return &sli_float_kernels_of(kernels->isa)->front;
-}
-
-/* Fronts in float have no 2x2 pivots. */
-static int sli_single_suits(const sl_factor *F) {
-    return F->S->n_pairs == 0;
-}
-
-static const sli_storage_type sli_storage_float = {SL_STORAGE_FLOAT,
-                                                   sizeof(float),
-                                                   sizeof(double),
-                                                   0,
-                                                   DBL_EPSILON,
-                                                   sli_float_sweeps,
-                                                   SLI_DOUBLE_FRONTS,
-                                                   sli_panel_round,
-                                                   sli_float_entry,
-                                                   sli_float_entry_clear,
-                                                   NULL,
-                                                   NULL,
-                                                   NULL,
-                                                   &sli_storage_double};
-
-static const sli_storage_type sli_storage_single = {SL_STORAGE_FLOAT_FRONTS,
-                                                    sizeof(float),
-                                                    sizeof(float),
-                                                    0,
-                                                    (double)FLT_EPSILON,
-                                                    sli_float_sweeps,
-                                                    sli_single_front,
-                                                    sli_single_factor,
-                                                    sli_single_shared,
-                                                    sli_single_front_clear,
-                                                    sli_single_front_load,
-                                                    sli_single_front_assemble,
-                                                    sli_single_front_finish,
-                                                    NULL,
-                                                    sli_float_entry,
-                                                    sli_float_entry_clear,
-                                                    sli_single_suits,
-                                                    NULL,
-                                                    NULL,
-                                                    &sli_storage_double};
+static const sli_storage_type sli_storage_float = {
+    SL_STORAGE_FLOAT, /* storage */
+    sizeof(float), /* value_bytes */
+    0, /* half */
+    sli_float_sweeps, /* sweeps */
+    sli_double_front, /* front */
+    sli_double_factor, /* factor */
+    sli_double_shared, /* shared */
+    sli_double_front_clear, /* clear */
+    sli_double_front_load, /* load */
+    sli_double_front_assemble, /* assemble */
+    sli_double_front_finish, /* finish */
+    sli_panel_round, /* store */
+    sli_float_entry, /* entry */
+    sli_float_entry_clear, /* entry_clear */
+    NULL, /* suits */
+    NULL, /* accepts */
+    NULL, /* keeps */
+    &sli_storage_double /* in_double */
+};
 
 #endif

@@ -3,7 +3,7 @@
 #define SLI_INVERSE_BLOCK_H
 
 #include "inverse_kernels.h"
-#include "bilinear.h"
+#include "pair_sums.h"
 #include "column.h"
 
 /* Sweeps of one side that are kept while those of the other side are computed one by one: 128

@@ -3,7 +3,7 @@
 #define SLI_INVERSE_ENTRIES_H
 
 #include "traversal_run.h"
-#include "bilinear.h"
+#include "pair_sums.h"
 #include "loss.h"
 
 /* One call for entries. A traversal is possible if every entry is in the pattern of L: the front of

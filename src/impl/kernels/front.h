@@ -42,11 +42,6 @@ SLI_INLINE sl_int sli_front_groups(sl_int width) {
     return (sli_tiles(width) + SLI_GROUP_TILES - 1) / SLI_GROUP_TILES;
 }
 
-/* The same arrays of a front that is computed in float; it has no 2x2 pivots. */
-typedef struct sli_front_single {
-    float *panel, *update, *D, *magnitude, *reciprocals;
-} sli_front_single;
-
 typedef struct sli_front {
     double *panel;
     sl_int width, below;
@@ -58,7 +53,6 @@ typedef struct sli_front {
     /* 24 for each column tile of a group: 8 values 1/d, 8 values -sign(d) and, in a tile with 2x2
      * pivots, 8 divisors. The first 1/d is 0 if any of them is out of range. */
     double *reciprocals;
-    sli_front_single single; /* of a front in float, which has no arrays in double */
     int is_small; /* one row tile: its pivots are eliminated from the update matrix at once */
     const sli_pivot_rule *rule;
     sl_int super, column; /* the supernode and its first column */
@@ -84,7 +78,7 @@ typedef void (*sli_rows_kernel)(const sli_front *f, sl_int c0, sl_int t0, sl_int
 
 /* Row tiles t0 .. t1-1 and column tiles c0 .. c1-1 of the update matrix, or of a triangle that is a
  * part of it. update points to the triangle that begins at tile c0. No tile is before the last tile
- * of pivots. scratch: sli_front_scratch entries of the front's type. */
+ * of pivots. scratch: sli_front_scratch entries. */
 typedef void (*sli_update_kernel)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0, sl_int t1,
                                   void *scratch);
 
@@ -92,7 +86,7 @@ typedef void (*sli_update_kernel)(const sli_front *f, sl_int c0, sl_int c1, sl_i
  * columns 0 .. min(i, columns-1). The first `skipped` rows and columns of the matrix are not used;
  * row 0 is the first after them. relative: the relative indices, ascending: the local row in the
  * front of each row. Two calls for the same front must not run at the same time on rows of the same
- * tile of the front. from: of the front's type. */
+ * tile of the front. from: doubles. */
 typedef void (*sli_assemble_kernel)(const sli_front *f, const void *from, sl_int skipped,
                                     const sl_int *relative, sl_int columns, sl_int first,
                                     sl_int last);

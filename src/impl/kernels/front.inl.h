@@ -78,7 +78,7 @@
     }
 #define SLI_BY_RULE(k) \
     if (rule != NULL) { \
-        d = SLV_PIVOT(sli_pivot_by_rule(rule, column + (k), d, sums[k])); \
+        d = sli_pivot_by_rule(rule, column + (k), d, sums[k]); \
         SLV_BROADCAST(b, &d) \
     }
 #define SLI_TAKE_PIVOT(k, d) \
@@ -87,7 +87,7 @@
 #endif
 #define SLI_PIVOT(k, p) \
     if (SLI_IS_IN(k, columns)) { \
-        SLV_VALUE d; \
+        double d; \
         SLV_STORE(x + SLI_TILE * (k), a##k) \
         SLV_STORE(sums, m) \
         SLV_LANE(b, a##k, (k)*SLV_PARTS) \
@@ -95,8 +95,8 @@
         SLI_BY_RULE(k) \
         SLV_DIVIDE(l, a##k, b) \
         SLI_TAKE_PIVOT(k, d) \
-        minus_sign[k] = (SLV_VALUE)(d < 0 ? 1 : -1); \
-        reciprocal[k] = (SLV_VALUE)1 / d; \
+        minus_sign[k] = (double)(d < 0 ? 1 : -1); \
+        reciprocal[k] = (double)1 / d; \
         safe &= fabs(d) > SLV_LEAST && fabs(d) < SLV_MOST; \
         SLI_GAIN(l, a##k, k) \
         SLV_BELOW(l, (k)*SLV_PARTS + SLV_PARTS - 1) \
@@ -147,20 +147,20 @@
 /* The pivots of column tile c, 8 or fewer, and the update matrix of a small front. The columns
  * before it are already applied. */
 SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
-                                                SLV_VALUE *reciprocals) {
+                                                double *reciprocals) {
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first) / SLV_PARTS;
     const sl_int all = columns + (f->is_small ? f->below : 0);
 #if !SLV_COMPLEX
     const sl_int column = f->column + first;
     const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
 #endif
-    SLV_VALUE *p = SLV_OF(f, panel) + sli_tile_offset(f->width, c) / SLV_PARTS +
+    double *p = f->panel + sli_tile_offset(f->width, c) / SLV_PARTS +
                    SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
-    SLV_VALUE *update = SLV_OF(f, update);
-    SLV_VALUE *D = SLV_OF(f, D) + first, *magnitude = SLV_OF(f, magnitude) + first;
-    SLV_VALUE *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
-    SLI_ALIGNED(SLV_VALUE x[SLI_TILE * SLI_TILE + SLI_TILE]);
-    SLV_VALUE *sums = x + SLI_TILE * SLI_TILE;
+    double *update = f->update;
+    double *D = f->D + first, *magnitude = f->magnitude + first;
+    double *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
+    SLI_ALIGNED(double x[SLI_TILE * SLI_TILE + SLI_TILE]);
+    double *sums = x + SLI_TILE * SLI_TILE;
     int safe = 1;
     sl_int t;
     SLV_DECLARE(b)
@@ -185,22 +185,22 @@ SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
 
 /* L in column tile c of row tiles t0 .. t1-1, all below its pivots. */
 SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
-                                              const SLV_VALUE *reciprocals) {
+                                              const double *reciprocals) {
     const sl_int w = f->width, first = SLI_TILE * c;
     const sl_int columns = sli_min(SLI_TILE, w - first) / SLV_PARTS;
-    SLV_VALUE *panel = SLV_OF(f, panel) + SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
-    const SLV_VALUE *pivots = panel + sli_tile_offset(w, c) / SLV_PARTS;
+    double *panel = f->panel + SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
+    const double *pivots = panel + sli_tile_offset(w, c) / SLV_PARTS;
     const int has_pairs = !SLV_COMPLEX && sli_tile_has_pairs(f, c);
-    const SLV_VALUE *D = has_pairs ? reciprocals + 2 * SLI_TILE : SLV_OF(f, D) + first;
-    const SLV_VALUE *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
+    const double *D = has_pairs ? reciprocals + 2 * SLI_TILE : f->D + first;
+    const double *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
     const int by_reciprocal = reciprocal[0] != 0;
     sl_int t;
     for (t = t0; t < t1; t += SLV_VECTOR_TILES) {
         const sl_int second = sli_min(t + SLV_VECTOR_TILES, t1) - 1;
-        SLV_VALUE *p = panel + sli_tile_offset(w, t) / SLV_PARTS;
-        SLV_VALUE *q = panel + sli_tile_offset(w, second) / SLV_PARTS;
-        SLV_VALUE *sums = SLV_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)t;
-        SLV_VALUE *second_sums = SLV_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)second;
+        double *p = panel + sli_tile_offset(w, t) / SLV_PARTS;
+        double *q = panel + sli_tile_offset(w, second) / SLV_PARTS;
+        double *sums = f->magnitude + SLI_TILE * (ptrdiff_t)t;
+        double *second_sums = f->magnitude + SLI_TILE * (ptrdiff_t)second;
         SLV_DECLARE(b)
         SLV_DECLARE(l)
         SLV_DECLARE(m)
@@ -240,21 +240,21 @@ SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_i
 
 /* Applies column tiles first .. c0-1 to column tiles c0 .. c1-1 of row tiles t0 .. t1-1. */
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(catch_up)(const sli_front *f, sl_int first, sl_int c0,
-                                                 sl_int c1, sl_int t0, sl_int t1, SLV_VALUE *B) {
+                                                 sl_int c1, sl_int t0, sl_int t1, double *B) {
     if (c0 > first) {
         SLV_FRONT(product)
-        (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, t0, t1, c0, c1, SLI_TILE * first,
-         SLI_TILE * c0, SLV_OF(f, panel), f->width, 0, B);
+        (f->panel, f->width, f->D, f->E, t0, t1, c0, c1, SLI_TILE * first,
+         SLI_TILE * c0, f->panel, f->width, 0, B);
     }
 }
 
 SLV_FUNCTION static void SLV_FRONT(pivots)(const sli_front *f, sl_int c0, void *scratch) {
-    SLV_VALUE *B = (SLV_VALUE *)scratch;
+    double *B = (double *)scratch;
     const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
     sl_int c;
     SLV_FRONT(catch_up)(f, 0, c0, c1, c0, c1, B);
     for (c = c0; c < c1; c++) {
-        SLV_VALUE *reciprocals = SLV_OF(f, reciprocals) + 3 * SLI_TILE * (ptrdiff_t)(c - c0);
+        double *reciprocals = f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0);
         SLV_FRONT(catch_up)(f, c0, c, c + 1, c, c1, B);
         if (!SLV_COMPLEX && sli_tile_has_pairs(f, c)) {
             sli_pair_tile(f, c, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
@@ -269,26 +269,26 @@ SLV_FUNCTION static void SLV_FRONT(pivots)(const sli_front *f, sl_int c0, void *
 
 SLV_FUNCTION static void SLV_FRONT(rows)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
                                          void *scratch) {
-    SLV_VALUE *B = (SLV_VALUE *)scratch;
+    double *B = (double *)scratch;
     const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
     sl_int c;
     SLV_FRONT(catch_up)(f, 0, c0, c1, t0, t1, B);
     for (c = c0; c < c1; c++) {
         SLV_FRONT(catch_up)(f, c0, c, c + 1, t0, t1, B);
         SLV_FRONT(tile_rows)
-        (f, c, t0, t1, SLV_OF(f, reciprocals) + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
+        (f, c, t0, t1, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
     }
 }
 
 SLV_FUNCTION static void SLV_FRONT(update)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0,
                                            sl_int t1, void *scratch) {
-    SLV_VALUE *B = (SLV_VALUE *)scratch;
+    double *B = (double *)scratch;
     const sl_int w = f->width, last = sli_min(c1, t1);
     sl_int c;
     for (c = c0; c < last; c += SLI_GROUP_TILES) {
         SLV_FRONT(product)
-        (SLV_OF(f, panel), w, SLV_OF(f, D), f->E, sli_max(t0, c), t1, c,
-         sli_min(c + SLI_GROUP_TILES, last), 0, w, SLV_OF(f, update), SLI_TILE * (t1 - c0), c0, B);
+        (f->panel, w, f->D, f->E, sli_max(t0, c), t1, c,
+         sli_min(c + SLI_GROUP_TILES, last), 0, w, f->update, SLI_TILE * (t1 - c0), c0, B);
     }
 }
 
@@ -302,12 +302,12 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
     sl_int row, end, i;
     for (row = first; row < last; row = end) {
         const sl_int lane = (skipped + row) % SLI_TILE, tile = relative[row] / SLI_TILE;
-        const SLV_VALUE *source =
-            (const SLV_VALUE *)from +
+        const double *source =
+            (const double *)from +
             (sli_triangle_offset((skipped + row) / SLI_TILE) + SLI_TILE * (ptrdiff_t)skipped) /
                 SLV_PARTS +
             lane;
-        SLV_VALUE *const to[2] = {SLV_OF(f, panel), SLV_OF(f, update)};
+        double *const to[2] = {f->panel, f->update};
         const ptrdiff_t at[2] = {(ptrdiff_t)sli_tile_offset(w, tile) / SLV_PARTS,
                                  ((ptrdiff_t)sli_triangle_offset(tile - whole) -
                                   SLI_TILE * SLI_TILE * (ptrdiff_t)whole) /
@@ -325,7 +325,7 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
                         i < columns;
                  i += SLV_PARTS) {
                 const int is_below = relative[i] >= w; /* selects the target without a branch */
-                SLV_VALUE *target =
+                double *target =
                     to[is_below] + (at[is_below] + SLI_TILE / SLV_PARTS * (ptrdiff_t)relative[i]);
                 SLI_PREFETCH(target, SLI_ASSEMBLE_DISTANCE);
                 SLI_PREFETCH(source + SLI_TILE / SLV_PARTS * (ptrdiff_t)i, SLI_ASSEMBLE_DISTANCE);

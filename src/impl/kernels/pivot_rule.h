@@ -33,17 +33,11 @@ typedef struct sli_pivot_rule {
  * and finite, so that 0 times it is 0. */
 #define SLI_NULL_PIVOT DBL_MAX
 
-/* The largest tolerance for null pivots, which only fronts in float reach: pivots of a regular
- * Laplacian of a large 2D mesh are 0.1 of what they were computed from. */
-#define SLI_NULL_MOST 0.03125
-
 /* The last pivot of a singular Laplacian is rounding error. Over meshes, grids and paths of n = 1e2
- * to 1e6 rows it stayed below 60 + n/16 units of rounding, in fronts in float below 240 + n/20
- * units. Smaller pivots may be right as well (factor/null_judge.h). */
+ * to 1e6 rows it stayed below 60 + n/16 units of rounding. Smaller pivots may be right as well
+ * (factor/null_judge.h). */
 static double sli_null_tolerance(sl_int n, double epsilon) {
-    const double tolerance = (64.0 + n / 8) * epsilon;
-    return tolerance < SLI_NULL_MOST ? tolerance
-                                     : SLI_NULL_MOST; /* fmin, a call, takes registers */
+    return (64.0 + n / 8) * epsilon;
 }
 
 /* The tolerance for pivot k. */
@@ -67,11 +61,6 @@ SLI_INLINE int sli_is_null_by_rule(const sli_pivot_rule *rule, sl_int k, double 
                                    double magnitude) {
     return sli_is_null(pivot, magnitude, rule->null_tolerance) &&
            sli_is_null(pivot, magnitude, sli_rule_tolerance(rule, k));
-}
-
-/* d in float. SLI_NULL_PIVOT becomes FLT_MAX. */
-SLI_NOINLINE static float sli_to_float(double d) {
-    return d > (double)FLT_MAX ? FLT_MAX : d < -(double)FLT_MAX ? -FLT_MAX : (float)d;
 }
 
 /* The pivot of column k where null pivots are skipped. A kept pivot is not null in exact

@@ -25,12 +25,7 @@
 #define SLI_WORD(word, v) SLI_PASTE(SLI_WORD_, v)(word)
 
 #define SLI_DECLARE(k, v) SLI_WORD(DECLARE, v)(c##v##k)
-#if SLV_SINGLE /* updates are summed first: many are below half a unit in the last place of C */
-#define SLI_LOAD(k, v) SLI_WORD(ZERO, v)(c##v##k)
-#define SLI_SUM(k, v) \
-    SLV_LOAD_TILES(b, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
-    SLV_ADD(c##v##k, b)
-#elif SLV_COMPLEX
+#if SLV_COMPLEX
 #define SLI_LOAD(k, v) \
     if ((k) % 2 == 0 && (k) < columns) { \
         SLI_WORD(LOAD, v)(c##v##k, Cp##v + SLI_TILE / 2 * (k)) \
@@ -50,11 +45,9 @@
     } else { \
         SLI_WORD(ZERO, v)(c##v##k) \
     }
-#define SLI_SUM(k, v)
 #endif
 #define SLI_STORE(k, v) \
     if (SLI_IS_IN(k, columns)) { \
-        SLI_SUM(k, v) \
         SLI_WORD(STORE_TILES, v)(Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k), c##v##k) \
     }
 #if !SLV_COMPLEX
@@ -71,7 +64,7 @@
     SLI_STORE_PAIR(2, 3, v)
 #endif
 #define SLI_FETCH(k, v) /* C of the next columns */ \
-    SLI_PREFETCH(Cp##v, sizeof(SLV_VALUE) * SLI_TILE / SLV_PARTS * (SLV_COLUMNS + (k)));
+    SLI_PREFETCH(Cp##v, sizeof(double) * SLI_TILE / SLV_PARTS * (SLV_COLUMNS + (k)));
 #define SLI_UPDATE(k, unused) /* C(rows, k) -= A(rows, j) B(k, j) */ \
     SLV_BROADCAST(b, B + (k)) \
     SLV_FNMA(c0##k, a0, b)
@@ -81,9 +74,9 @@
 
 /* One vector. A: [length][8], for each row tile; B: [length][8], from the first column of the block
  * on; C: [columns][8], for each row tile. */
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows1)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
-                                              const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
-                                              SLV_VALUE *Cq0, sl_int columns) {
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows1)(const double *Ap0, const double *Aq0,
+                                              const double *B, sl_int length, double *Cp0,
+                                              double *Cq0, sl_int columns) {
     sl_int j;
     SLV_DECLARE(a0)
     SLV_DECLARE(b)
@@ -101,11 +94,11 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows1)(const SLV_VALUE *Ap0, const SLV_VA
 #if SLV_TILES > SLV_VECTOR_TILES
 /* Two vectors, or with SLV_HAS_HALF one and a half. Prefetches what comes next: C of later columns,
  * and SLV_AHEAD entries from `ahead` on for each column j. */
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
-                                              const SLV_VALUE *Ap1, const SLV_VALUE *Aq1,
-                                              const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
-                                              SLV_VALUE *Cq0, SLV_VALUE *Cp1, SLV_VALUE *Cq1,
-                                              sl_int columns, const SLV_VALUE *ahead) {
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const double *Ap0, const double *Aq0,
+                                              const double *Ap1, const double *Aq1,
+                                              const double *B, sl_int length, double *Cp0,
+                                              double *Cq0, double *Cp1, double *Cq1,
+                                              sl_int columns, const double *ahead) {
     sl_int j;
     SLV_DECLARE(a0)
     SLI_WORD(DECLARE, 1)(a1)
@@ -133,7 +126,6 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VA
 
 #undef SLI_DECLARE
 #undef SLI_LOAD
-#undef SLI_SUM
 #undef SLI_STORE
 #undef SLI_STORE_PAIR
 #undef SLI_STORE_BLOCK
@@ -149,7 +141,7 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VA
 #if SLV_TILES > SLV_VECTOR_TILES
 /* The rows at A that a part of the work on a group of column tiles prefetches for the row tiles
  * after it: `length` times SLV_AHEAD entries of one of them. */
-SLV_FUNCTION SLI_INLINE const SLV_VALUE *SLV_FRONT(ahead)(const SLV_VALUE *const *A, sl_int length,
+SLV_FUNCTION SLI_INLINE const double *SLV_FRONT(ahead)(const double *const *A, sl_int length,
                                                           sl_int part) {
     const sl_int parts = SLI_TILE / SLV_AHEAD, at = sli_min(part, SLV_TILES * parts - 1);
     return A[at / parts] + at % parts * SLV_AHEAD * (ptrdiff_t)length;
@@ -157,15 +149,15 @@ SLV_FUNCTION SLI_INLINE const SLV_VALUE *SLV_FRONT(ahead)(const SLV_VALUE *const
 
 /* SLV_TILES row tiles and SLV_COLUMNS columns. A, C, next: of each row tile and of those that come
  * after it; C at position `to`. k: the first of the columns in the group. */
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(whole)(const SLV_VALUE *const *A, const SLV_VALUE *B,
-                                              sl_int length, SLV_VALUE *const *C, ptrdiff_t to,
-                                              sl_int columns, const SLV_VALUE *const *next,
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(whole)(const double *const *A, const double *B,
+                                              sl_int length, double *const *C, ptrdiff_t to,
+                                              sl_int columns, const double *const *next,
                                               sl_int k) {
 #if defined(SLV_HAS_HALF)
     sl_int m;
     for (m = 0; m < 2; m++) { /* the first tile and half of the second one, then the rest */
-        const SLV_VALUE *Am = A[2 * m], *Ah = A[1] + SLI_TILE / 2 * m;
-        SLV_VALUE *Cm = C[2 * m] + to, *Ch = C[1] + SLI_TILE / 2 * m + to;
+        const double *Am = A[2 * m], *Ah = A[1] + SLI_TILE / 2 * m;
+        double *Cm = C[2 * m] + to, *Ch = C[1] + SLI_TILE / 2 * m + to;
         SLV_FRONT(rows2)
         (Am, Am, Ah, Ah, B, length, Cm, Cm, Ch, Ch, columns,
          SLV_FRONT(ahead)(next, length, 2 * (k / SLV_COLUMNS) + m));
@@ -180,8 +172,8 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(whole)(const SLV_VALUE *const *A, const S
 #endif
 
 /* B(k, j) = L(k, j) d(j) for the 8 rows k of a tile and `length` columns that are kept. */
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(pack)(const SLV_VALUE *l, const SLV_VALUE *d, sl_int length,
-                                             SLV_VALUE *B) {
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(pack)(const double *l, const double *d, sl_int length,
+                                             double *B) {
     sl_int j;
     SLV_DECLARE(a)
     SLV_DECLARE(b)
@@ -200,28 +192,30 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(pack)(const SLV_VALUE *l, const SLV_VALUE
  * tiles in the second. Row tiles are taken as many at a time as a block has; where these cross the
  * diagonal, and at the end, one vector at a time. E: D(j+1, j), or NULL if D is diagonal. B:
  * scratch, sli_front_scratch entries. */
-SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, const SLV_VALUE *D,
+SLV_FUNCTION static void SLV_FRONT(product)(const double *panel, sl_int w, const double *D,
                                             const double *E, sl_int t0, sl_int t1, sl_int c0,
-                                            sl_int c1, sl_int j0, sl_int j1, SLV_VALUE *target,
+                                            sl_int c1, sl_int j0, sl_int j1, double *target,
                                             sl_int target_width, sl_int target_first,
-                                            SLV_VALUE *B) {
+                                            double *B) {
     const sl_int step = SLV_TILES, parts = SLV_PARTS, tile_size = SLI_TILE * SLI_TILE;
     sl_int j, t, c, k, r, m;
     for (j = j0 / parts; j < j1 / parts; j += SLI_CHUNK_COLUMNS) {
         const sl_int length = sli_min(SLI_CHUNK_COLUMNS, j1 / parts - j);
         for (c = c0; c < c1; c++) {
-            const SLV_VALUE *l = panel + sli_tile_offset(w, c) / parts + SLI_TILE * (ptrdiff_t)j;
-            SLV_VALUE *to = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
+            const double *l = panel + sli_tile_offset(w, c) / parts + SLI_TILE * (ptrdiff_t)j;
+            double *to = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
             SLV_FRONT(pack)(l, D + parts * j, length, to);
-            SLV_PACK_PAIRS(l, E, j, length, to)
+            if (E != NULL) {
+                sli_pair_pack(l, E + j, length, to);
+            }
         }
         for (t = t0; t < t1; t += step) {
             const sl_int end = sli_min(t + step, t1);
-            const SLV_VALUE *A[SLV_TILES];
+            const double *A[SLV_TILES];
 #if SLV_TILES > SLV_VECTOR_TILES
-            const SLV_VALUE *next[SLV_TILES];
+            const double *next[SLV_TILES];
 #endif
-            SLV_VALUE *C[SLV_TILES];
+            double *C[SLV_TILES];
             for (m = 0; m < step; m++) {
                 r = sli_min(t + m, end - 1);
                 A[m] = panel + sli_tile_offset(w, r) / parts + SLI_TILE * (ptrdiff_t)j;
@@ -233,7 +227,7 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
             }
             for (c = c0; c < c1 && c < end; c++) {
                 const ptrdiff_t at = (ptrdiff_t)tile_size / parts * (c - target_first);
-                const SLV_VALUE *b = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
+                const double *b = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
                 const sl_int columns = target_width - SLI_TILE * (c - target_first);
                 for (k = 0; k < SLI_TILE && k < columns; k += SLV_COLUMNS) {
                     const ptrdiff_t to = at + SLI_TILE / parts * k;

@@ -9,16 +9,14 @@
  * words_undef.inl.h and lanes_undef.inl.h undefine them, with the parameters. Who includes
  * templates defines the parameters before the words:
  *
- *  SLV_SINGLE             1: L is in float, and so are fronts in float; 0: double. In sweeps all
- *                         else is double
+ *  SLV_SINGLE             1: L is in float; 0: double. All else is double
  *  SLV_COMPLEX            1: a column of a front is the first one of a pair of real columns; else 0
  *  SLW_NRHS               the number of right-hand sides of the lanes
  *  SLW_GROUPS             defined: sweeps take several groups of SLW_NRHS right-hand sides, up to
  *                         SLW_GROUPS in all: the largest SLW_NRHS of an instruction set, and those
  *                         of complex matrices
  *
- * SLV_: a, b, c are vectors of 8 doubles, the lanes: one column of a row tile. In
- * float/simd_*_single.h they are vectors of floats.
+ * SLV_: a, b, c are vectors of 8 doubles, the lanes: one column of a row tile.
  *
  *  SLV_NAME(f)            name of function f in this instruction set
  *  SLV_NAME_4(f)          name of sweep f for 4 right-hand sides
@@ -58,11 +56,8 @@
  *
  *  What depends on the type of L:
  *
- *  SLV_VALUE              the type of an entry of L, and of a front
- *  SLV_OF(f, array)       an array of front f in that type
+ *  SLV_VALUE              the type of an entry of L
  *  SLV_LEAST, SLV_MOST    the reciprocal of a number between them neither overflows nor underflows
- *  SLV_PIVOT(d)           a pivot in double in the type of the front
- *  SLV_PACK_PAIRS(l, E, j, length, B)  B += L E from column j on; only in double
  *  SLV_SWEEP(f)           SLV_NAME of a function that reads L. SLV_SWEEP_2(f): SLV_NAME_2,
  *                         SLW_SWEEP(f): SLW_NAME of one
  *  SLV_READ(l)            what SLV_AXPY, SLV_DOT, SLV_SUM_DOT and SLV_REPEAT_ROWS load, as doubles;
@@ -194,26 +189,9 @@
             SLV_WIDEN_ROWS(v + SLI_TILE * c_, (l) + SLI_TILE * c_, rows) \
         } \
     }
-#define SLI_OF_0(f, array) (f)->array
-#define SLI_OF_1(f, array) (f)->single.array
-#define SLI_LEAST_0 1e-290
-#define SLI_LEAST_1 1e-30
-#define SLI_MOST_0 1e290
-#define SLI_MOST_1 1e30
-#define SLI_PIVOT_0(d) (d)
-#define SLI_PIVOT_1(d) sli_to_float(d)
-#define SLI_PACK_PAIRS_0(l, E, j, length, B) \
-    if (E != NULL) { \
-        sli_pair_pack(l, E + (j), length, B); \
-    }
-#define SLI_PACK_PAIRS_1(l, E, j, length, B) (void)E;
 #define SLV_VALUE SLI_BY_TYPE(SLI_VALUE_, SLV_SINGLE)
-#define SLV_OF(f, array) SLI_BY_TYPE(SLI_OF_, SLV_SINGLE)(f, array)
-#define SLV_LEAST SLI_BY_TYPE(SLI_LEAST_, SLV_SINGLE)
-#define SLV_MOST SLI_BY_TYPE(SLI_MOST_, SLV_SINGLE)
-#define SLV_PIVOT(d) SLI_BY_TYPE(SLI_PIVOT_, SLV_SINGLE)(d)
-#define SLV_PACK_PAIRS(l, E, j, length, B) \
-    SLI_BY_TYPE(SLI_PACK_PAIRS_, SLV_SINGLE)(l, E, j, length, B)
+#define SLV_LEAST 1e-290
+#define SLV_MOST 1e290
 #define SLV_PARTS (1 + SLV_COMPLEX)
 #define SLV_FRONT(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME, f)
 #define SLV_FRONT_PIVOTS(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME_PIVOTS, f)

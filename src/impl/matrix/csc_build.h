@@ -1,4 +1,4 @@
-/* csc_build.h: builds matrices from triplets and transposes, both by counting sorts */
+/* csc_build.h: matrices from triplets, and transposes of patterns, both by counting sorts */
 #ifndef SLI_MATRIX_CSC_BUILD_H
 #define SLI_MATRIX_CSC_BUILD_H
 
@@ -125,29 +125,18 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
     return sli_report(stats, sli_from_triplets(out, &t, &a));
 }
 
-SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_options *opt) {
-    const sl_allocator a = sli_allocator(opt);
-    sl_status status;
+/* The transpose of the pattern of A, which has been checked. Rows ascend; duplicates stay. */
+static sl_status sli_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_allocator *a) {
     sl_int j, p;
     sl_matrix *T;
-    status = sli_begin(out);
-    status = status == SL_OK ? sli_argument(sli_options_wrong(opt, SLI_READS_NOTHING)) : status;
-    status = status == SL_OK ? sl_csc_check(A, NULL) : status;
-    if (status != SL_OK) {
-        return status;
-    }
-    status = sli_matrix_new(&T, A->n_cols, A->n_rows, sli_nnz(A), A->x != NULL, &a);
+    const sl_status status = sli_matrix_new(&T, A->n_cols, A->n_rows, sli_nnz(A), 0, a);
     if (status != SL_OK) {
         return status;
     }
     sli_count_starts(T->p, A->n_rows, A->i, sli_nnz(A));
     for (j = 0; j < A->n_cols; j++) {
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
-            const sl_int to = T->p[A->i[p]]++;
-            T->i[to] = j;
-            if (A->x != NULL) {
-                T->x[to] = A->x[p];
-            }
+            T->i[T->p[A->i[p]]++] = j;
         }
     }
     /* each start has moved to the end of its column */

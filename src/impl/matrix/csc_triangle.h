@@ -31,7 +31,7 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle found, sl_triangl
                                   const sl_options *opt, sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     const sl_triangle wanted = opt == NULL ? SL_TRIANGLE_NONE : opt->triangle;
-    sl_csc pattern = *A, T;
+    sl_csc T;
     sl_matrix *transpose;
     sl_int *mark;
     sl_status status = SL_OK;
@@ -43,9 +43,7 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle found, sl_triangl
         return SL_OK;
     }
     if (found == SL_TRIANGLE_BOTH) {
-        const sl_options only_memory = sli_options_with(&a);
-        pattern.x = NULL;
-        status = sl_matrix_transpose(&transpose, &pattern, &only_memory);
+        status = sli_matrix_transpose(&transpose, A, &a);
         if (status != SL_OK) {
             return status;
         }

@@ -17,8 +17,6 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
 #if defined(SL_WITH_FLOAT)
     case SL_STORAGE_FLOAT:
         return &sli_storage_float;
-    case SL_STORAGE_FLOAT_FRONTS:
-        return &sli_storage_single;
 #endif
 #if defined(SL_WITH_COMPLEX)
     case SL_STORAGE_COMPLEX:

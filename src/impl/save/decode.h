@@ -133,8 +133,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
         !sli_count_is_valid(g->positive, n) || !sli_count_is_valid(g->negative, n) ||
         !sli_count_is_valid(g->weak, n) || !sli_count_is_valid(g->regular, n) ||
         !sli_count_is_valid(g->null_vectors, skips ? SLI_NULL_VECTORS_MAX : 1) ||
-        !sli_count_is_valid(g->storage,
-                            g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT_FRONTS : 0) ||
+        !sli_count_is_valid(g->storage, g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT : 0) ||
         !sli_count_is_valid(g->certainty, SL_GUARANTEED) || !(g->eta >= 0.0) || g->eta > 1.0 ||
         !(g->drift >= 0.0) || g->null_tolerance != g->null_tolerance ||
         g->consistency != g->consistency) {
@@ -155,7 +154,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     F->null.consistency = g->consistency;
     F->limits.growth = g->growth_limit;
     F->limits.error = g->error_limit;
-    F->rule.epsilon = F->type->epsilon;
+    F->rule.epsilon = DBL_EPSILON;
     F->rule.null_tolerance = g->null_tolerance;
     F->rule.regularization = g->regularization;
     F->rule.replaces = skips || g->regularization != 0.0;

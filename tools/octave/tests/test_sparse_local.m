@@ -286,7 +286,6 @@ function options()
         near(sparse_local(A, sets{k}{:}) \ b, x, 1e-12);
     end
     near(sparse_local(A, 'storage', 'float') \ b, x, 1e-4);
-    near(sparse_local(A, 'storage', 'float fronts') \ b, x, 1e-4);
     upper = sparse_local(triu(A) + 2 * tril(A, -1), 'triangle', 'upper');
     near(upper \ b, x, 1e-12);
     refused('pivot', 'row', @() sparse_local(-A, 'definite', true));

@@ -21,12 +21,12 @@ from ._matrix import CscArrays, from_triplets
 from ._constraints import Constraints
 from ._plan import Plan, Region
 from ._saved_set import Selected, load_set, save_set
-from ._several import Sum, diagonals, solve_batch
+from ._several import Sum, solve_batch
 from ._stand_in import stand_in
 
 __version__ = version()
 __all__ = ["Factor", "cholesky", "Analysis", "analyze", "Plan", "Region", "Constraints",
-           "FixedRows", "Selected", "Sum", "solve_batch", "diagonals", "stand_in", "save_set",
+           "FixedRows", "Selected", "Sum", "solve_batch", "stand_in", "save_set",
            "load_set", "from_triplets", "CscArrays", "Error", "ArgumentError", "PatternError",
            "PivotError", "NotFiniteError", "InconsistentError", "InaccurateError", "StateError",
            "TooLargeError", "UnsupportedError", "OutOfMemoryError", "library_path", "version"]

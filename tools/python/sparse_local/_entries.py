@@ -80,22 +80,14 @@ class Entries:
     def bilinear(self, cset, c, bset, b):
         """c' A^-1 b, for real vectors that are 0 outside the rows cset and bset; None: all rows.
 
-        Cost: two forward sweeps and no backward sweep; one, if both are the same arrays.
+        Cost: a local solve.
         """
         if self._kind is arrays.COMPLEX:
             raise ArgumentError("bilinear forms are those of real matrices")
-        keep_b, b_rows, nb = arrays.rows(bset)
-        keep_c, c_rows, nc = (keep_b, b_rows, nb) if cset is bset else arrays.rows(cset)
-        values_b = arrays.vector(b, self.n if bset is None else nb, "b")
-        values_c = values_b if c is b else arrays.vector(c, self.n if cset is None else nc, "c")
-        for values, what, rows in ((values_b, "b", keep_b), (values_c, "c", keep_c)):
-            arrays.check_finite(values, what, rows)
-        out, stats = ctypes.c_double(), Stats()
-        check(self._lib.sl_inverse_bilinear(self._pointer, ctypes.byref(out), b_rows,
-                                            arrays.address(values_b), nb, c_rows,
-                                            arrays.address(values_c), nc, self._work(),
-                                            ctypes.byref(stats)), stats)
-        return out.value
+        keep, _, count = arrays.rows(cset)
+        values = arrays.vector(c, self.n if cset is None else count, "c")
+        arrays.check_finite(values, "c", keep)
+        return float(values @ self.local(bset, b, cset))
 
     def logdet(self, *, pseudo=True):
         """(sign, log |det A|), as numpy.linalg.slogdet; for a singular A of the pseudo-determinant,

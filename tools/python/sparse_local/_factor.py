@@ -51,8 +51,7 @@ class Factor(Solves, Entries, Changes, Files):
     regularization  see sparse_local.h; 1e-8 suits refinement. signs: n signs of the pivots.
     growth_limit, error_limit  see sparse_local.h; 0: the defaults.
     storage         'double', 'float': half the bytes for L; solutions have the accuracy of float
-                    until refine; 'float fronts': computed in float too; 'complex': half of L of a
-                    complex matrix.
+                    until refine; 'complex': half of L of a complex matrix.
 
     Complex     values of A that are complex make a Hermitian system: rows, n, right-hand sides and
                 entries of the inverse are complex; counts in stats are those of the real system of

@@ -9,7 +9,7 @@ from ._threads import set_threads
 ORDERINGS = {"nd": 0, "metis": 1, "given": 3, "natural": 4, "mindeg": 5}
 _PURPOSES = {"many solves": 0, "one factor": 1}
 _NULL_PIVOTS = {"refuse": 0, "skip": 1}
-_STORAGES = {"double": 0, "float": 1, "float fronts": 2, "complex": 3}
+_STORAGES = {"double": 0, "float": 1, "complex": 2}
 
 ANALYSIS = ("triangle", "ordering", "perm", "block_size", "purpose", "threads", "pivoted")
 NUMBERS = ("null_pivots", "null_tolerance", "mass", "null_vector", "consistency_tolerance",

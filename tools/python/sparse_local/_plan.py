@@ -151,7 +151,7 @@ class Plan:
         width = factor._kind.width
         dense = factor._kind.dense(B, self.nb if is_forward else info["x_columns"] // width,
                                    info["b_columns"] // width if is_forward else self.nx)
-        check(lib.sl_plan_solve_part(self._plan.pointer, factor._pointer, bits,
+        check(lib.sl_factor_solve_part(factor._pointer, self._plan.pointer, bits,
                                      *dense.arguments(), factor._work()))
         return dense.X
 

@@ -176,29 +176,3 @@ def solve_batch(requests, *, threads=None):
                                  ctypes.byref(failed))
     _named(lambda: check(status), failed.value)
     return [dense.X for dense in blocks]
-
-
-def diagonals(factors, rows=None, *, threads=None):
-    """Diagonals of several inverses, (rows, factors): [i, k] is (A_k^-1)[rows[i], rows[i]].
-
-    factors  real factors of one analysis, as those of Sum; rows None: all n.
-    """
-    factors, options = list(factors), new_options()
-    set_threads(options, threads)
-    if any(F._kind is arrays.COMPLEX for F in factors):
-        raise ArgumentError("diagonals of real factors only; use Factor.diagonal")
-    keep, address, count = arrays.rows(rows)
-    n = count if rows is not None else (factors[0].n if factors else 0)
-    out, failed, stats = np.empty((n, len(factors)), order="F"), ctypes.c_int32(), Stats()
-    handles = (ctypes.c_void_p * max(len(factors), 1))(*(F._pointer for F in factors))
-    ours = calls(threads)
-    status = ours.sl_batch_diagonal(handles, len(factors), arrays.address(out), max(n, 1), address,
-                                    count, ctypes.byref(options), None, ctypes.byref(failed),
-                                    ctypes.byref(stats))
-    _checked(status, stats, failed.value)
-    for k, F in enumerate(factors):
-        nulls = F._null_space()
-        if nulls is not None:
-            chosen = slice(None) if rows is None else keep
-            nulls.pairs(out[:, k], chosen, chosen)
-    return out

@@ -100,15 +100,15 @@ class Solves:
                 without PT.
         PivotError: sqrtD with a negative pivot.
         """
-        return self._part(self._lib.sl_factor_solve_part, parts, B)
+        return self._part(self._lib.sl_factor_solve_part, parts, B, None)
 
     def multiply_part(self, parts, B):
         """X = P' L D L' P B with only the parts that are named; see solve_part."""
         return self._part(self._lib.sl_factor_multiply_part, parts, B)
 
-    def _part(self, call, parts, B):
+    def _part(self, call, parts, B, *plan):
         dense = self._kind.dense(B, self.n, self.n)
-        check(call(self._pointer, part_bits(parts), *dense.arguments(), self._work()))
+        check(call(self._pointer, *plan, part_bits(parts), *dense.arguments(), self._work()))
         return dense.X
 
     def sample(self, count=None, rng=None, *, pseudo=True):

@@ -191,7 +191,7 @@ def test_use_after_a_failed_factorization():
             lambda: F.restrict(A, [1]), lambda: F.update_entries([1], [1], [1.0]),
             lambda: F.region([1]), lambda: sl.Selected(F), lambda: F.constraints([1]),
             lambda: F.edit(A, A, np.arange(36)), lambda: sl.solve_batch([(F, b)]),
-            lambda: sl.diagonals([F]), lambda: F.bilinear([1], [1.0], [1], [1.0]))
+            lambda: F.bilinear([1], [1.0], [1], [1.0]))
     for use in uses:
         with pytest.raises(sl.StateError):
             use()
@@ -225,8 +225,7 @@ def test_a_closed_object():
 def test_objects_of_other_matrices():
     F, G = sl.Factor(grid(6)), sl.Factor(grid(7))
     R = G.region([3, 4])
-    for call in (lambda: F.plan([3], [4], region=R), lambda: G.plan([3], [4]).on(F),
-                 lambda: sl.diagonals([F, G])):
+    for call in (lambda: F.plan([3], [4], region=R), lambda: G.plan([3], [4]).on(F)):
         with pytest.raises(sl.StateError):
             call()
 

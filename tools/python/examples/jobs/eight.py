@@ -9,7 +9,7 @@ times = np.geomspace(1e-4, 1e-1, 8)
 
 steps = sl.Sum([M, L], definite=True, threads=2)
 factors = steps.factor([[1.0, t] for t in times])  # M + t L for each t
-signature = sl.diagonals(factors, threads=2)  # (vertices, times)
+signature = np.stack([F.diagonal() for F in factors], axis=1)  # (vertices, times)
 
 plan = factors[0].plan([820], [100, 101])  # one plan, on each of the factors
 heat = sl.solve_batch([(plan.on(F), [1.0]) for F in factors], threads=2)

@@ -1,4 +1,4 @@
-/* test_csc_write.c: sl_csc_write replaces a file as a whole or not at all; devices and links */
+/* test_save_replace.c: sl_save_file replaces a file as a whole or not at all; devices and links */
 #define _XOPEN_SOURCE 700
 #include "tests/lib/temporary_files.h"
 
@@ -12,17 +12,23 @@ static const char old_text[] = "the old content\n";
 
 static sl_status write_grid(sl_int n, const char *path) {
     gen_matrix_t M = gen_matrix(GEN_GRID2, n, 1, 1);
+    sl_saved_set set;
+    memset(&set, 0, sizeof set);
+    SL_CHECK(sl_symbolic_create(&set.symbolic, &M.view, NULL, NULL));
+    SL_CHECK(sl_factor_create(&set.factor, set.symbolic, &M.view, NULL, NULL));
     errno = 77;
-    sl_status status = sl_csc_write(&M.view, SL_AS_SYMMETRIC, path);
+    const sl_status status = sl_save_file(path, &set, NULL);
     assert_int_equal(errno, 77);
+    sl_saved_set_free(&set);
     gen_matrix_free(&M);
     return status;
 }
 
-static void assert_is_matrix(const char *path) {
-    sl_matrix *back = NULL;
-    SL_CHECK(sl_matrix_read(&back, path, NULL, NULL));
-    sl_matrix_free(back);
+static void assert_is_saved(const char *path) {
+    sl_saved_set back;
+    memset(&back, 0, sizeof back);
+    SL_CHECK(sl_load_file(&back, path, SL_LOAD_CHECKED, NULL));
+    sl_saved_set_free(&back);
 }
 
 static void assert_has_old_text(const char *path) {
@@ -50,12 +56,12 @@ static void an_existing_file_is_replaced_with_its_permissions(void **state) {
     const mode_t modes[] = {0600, 0640, 0666, 0755};
     struct stat s;
     for (size_t k = 0; k < sizeof modes / sizeof *modes; k++) {
-        const char *path = files_put_text("a.mtx", old_text);
+        const char *path = files_put_text("a.slf", old_text);
         assert_int_equal(chmod(path, modes[k]), 0);
         SL_CHECK(write_grid(5, path));
         assert_int_equal(stat(path, &s), 0);
         assert_int_equal(s.st_mode & 0777, modes[k]);
-        assert_is_matrix(path);
+        assert_is_saved(path);
         assert_int_equal(temporary_files(), 0);
     }
 }
@@ -70,12 +76,12 @@ static void without_space_the_old_file_is_left(void **state) {
     void (*old_action)(int) = signal(SIGXFSZ, SIG_IGN);
     const sl_int sizes[] = {30, 3000}; /* fails when the file is closed; while lines are written */
     for (size_t k = 0; k < 2; k++) {
-        const char *path = files_put_text("a.mtx", old_text);
+        const char *path = files_put_text("a.slf", old_text);
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
         SL_EXPECT(SL_ERR_IO, write_grid(sizes[k], path));
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
         assert_has_old_text(path);
-        path = files_path("new.mtx");
+        path = files_path("new.slf");
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
         SL_EXPECT(SL_ERR_IO, write_grid(sizes[k], path));
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
@@ -90,18 +96,18 @@ static void taken_names_are_left_alone(void **state) {
     (void)state;
     char name[40];
     for (int k = 0; k < 100; k++) {
-        (void)files_put_text("a.mtx", old_text);
-        SL_CHECK(write_grid(5, files_path("a.mtx")));
-        assert_is_matrix(files_path("a.mtx"));
-        (void)snprintf(name, sizeof name, "a.mtx.tmp%02d", k);
+        (void)files_put_text("a.slf", old_text);
+        SL_CHECK(write_grid(5, files_path("a.slf")));
+        assert_is_saved(files_path("a.slf"));
+        (void)snprintf(name, sizeof name, "a.slf.tmp%02d", k);
         (void)files_put_text(name, old_text);
         assert_int_equal(temporary_files(), k + 1);
     }
-    (void)files_put_text("a.mtx", old_text);
-    SL_EXPECT(SL_ERR_IO, write_grid(5, files_path("a.mtx")));
-    assert_has_old_text(files_path("a.mtx"));
+    (void)files_put_text("a.slf", old_text);
+    SL_EXPECT(SL_ERR_IO, write_grid(5, files_path("a.slf")));
+    assert_has_old_text(files_path("a.slf"));
     for (int k = 0; k < 100; k++) {
-        (void)snprintf(name, sizeof name, "a.mtx.tmp%02d", k);
+        (void)snprintf(name, sizeof name, "a.slf.tmp%02d", k);
         assert_has_old_text(files_path(name));
         assert_int_equal(remove(files_path(name)), 0);
     }
@@ -112,21 +118,21 @@ static void taken_names_are_left_alone(void **state) {
 static void links_pipes_and_devices_remain(void **state) {
     (void)state;
     struct stat s;
-    (void)files_put_text("a.mtx", old_text);
-    assert_int_equal(symlink("a.mtx", files_path("link.mtx")), 0);
-    SL_CHECK(write_grid(5, files_path("link.mtx")));
-    assert_int_equal(lstat(files_path("link.mtx"), &s), 0);
+    (void)files_put_text("a.slf", old_text);
+    assert_int_equal(symlink("a.slf", files_path("link.slf")), 0);
+    SL_CHECK(write_grid(5, files_path("link.slf")));
+    assert_int_equal(lstat(files_path("link.slf"), &s), 0);
     assert_true(S_ISLNK(s.st_mode));
-    assert_is_matrix(files_path("a.mtx"));
+    assert_is_saved(files_path("a.slf"));
 
     char bytes[4];
-    const char *pipe_path = files_path("pipe.mtx");
+    const char *pipe_path = files_path("pipe.slf");
     assert_int_equal(mkfifo(pipe_path, 0600), 0);
     int reader = open(pipe_path, O_RDONLY | O_NONBLOCK);
     assert_true(reader >= 0);
     SL_CHECK(write_grid(2, pipe_path));
     assert_int_equal(read(reader, bytes, 4), 4);
-    assert_memory_equal(bytes, "%%Ma", 4);
+    assert_memory_equal(bytes, "\x89SLF", 4);
     assert_int_equal(close(reader), 0);
     assert_int_equal(stat(pipe_path, &s), 0);
     assert_true(S_ISFIFO(s.st_mode));
@@ -136,12 +142,12 @@ static void links_pipes_and_devices_remain(void **state) {
     assert_int_equal(stat("/dev/null", &s), 0);
     assert_true(S_ISCHR(s.st_mode));
     if (access("/dev/full", W_OK) == 0) {
-        assert_int_equal(symlink("/dev/full", files_path("full.mtx")), 0);
-        SL_EXPECT(SL_ERR_IO, write_grid(5, files_path("full.mtx")));
+        assert_int_equal(symlink("/dev/full", files_path("full.slf")), 0);
+        SL_EXPECT(SL_ERR_IO, write_grid(5, files_path("full.slf")));
         SL_EXPECT(SL_ERR_IO, write_grid(5, "/dev/full"));
         assert_int_equal(stat("/dev/full", &s), 0);
         assert_true(S_ISCHR(s.st_mode));
-        assert_int_equal(remove(files_path("full.mtx")), 0);
+        assert_int_equal(remove(files_path("full.slf")), 0);
     }
     SL_EXPECT(SL_ERR_IO, write_grid(5, files_folder));
     assert_int_equal(temporary_files(), 0);
@@ -156,31 +162,31 @@ static void permissions_are_respected(void **state) {
     struct stat s;
     (void)snprintf(locked, sizeof locked, "%s", files_path("locked"));
     assert_int_equal(mkdir(locked, 0777), 0);
-    (void)snprintf(in_locked, sizeof in_locked, "%s", files_put_text("locked/a.mtx", old_text));
+    (void)snprintf(in_locked, sizeof in_locked, "%s", files_put_text("locked/a.slf", old_text));
     assert_int_equal(chmod(in_locked, 0666), 0);
-    assert_int_equal(chmod(files_put_text("others.mtx", old_text), 0666), 0);
-    assert_int_equal(chmod(files_put_text("shut.mtx", old_text), 0444), 0);
+    assert_int_equal(chmod(files_put_text("others.slf", old_text), 0666), 0);
+    assert_int_equal(chmod(files_put_text("shut.slf", old_text), 0444), 0);
     assert_int_equal(chmod(locked, 0555), 0);
     if (is_root) {
         assert_int_equal(chown(files_folder, other, (gid_t)-1), 0);
         assert_int_equal(seteuid(other), 0);
     }
-    FILE *reached = fopen(files_path("others.mtx"), "rb");
+    FILE *reached = fopen(files_path("others.slf"), "rb");
     if (reached != NULL) {
         (void)fclose(reached);
-        SL_EXPECT(SL_ERR_IO, write_grid(5, files_path("locked/new.mtx")));
+        SL_EXPECT(SL_ERR_IO, write_grid(5, files_path("locked/new.slf")));
         SL_CHECK(write_grid(5, in_locked));
-        assert_is_matrix(in_locked);
-        SL_EXPECT(SL_ERR_IO, write_grid(5, files_path("shut.mtx")));
-        assert_has_old_text(files_path("shut.mtx"));
-        SL_CHECK(write_grid(5, files_path("others.mtx")));
-        assert_is_matrix(files_path("others.mtx"));
+        assert_is_saved(in_locked);
+        SL_EXPECT(SL_ERR_IO, write_grid(5, files_path("shut.slf")));
+        assert_has_old_text(files_path("shut.slf"));
+        SL_CHECK(write_grid(5, files_path("others.slf")));
+        assert_is_saved(files_path("others.slf"));
         assert_int_equal(temporary_files(), 0);
     }
     if (is_root) {
         assert_int_equal(seteuid(0), 0);
         assert_int_equal(chown(files_folder, 0, (gid_t)-1), 0);
-        assert_int_equal(stat(files_path("others.mtx"), &s), 0);
+        assert_int_equal(stat(files_path("others.slf"), &s), 0);
         assert_int_equal(s.st_uid, 0);
     }
     assert_int_equal(chmod(locked, 0755), 0);
