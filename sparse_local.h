@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: cc88e1a4417c39a1
+ * FNV-1a of the lines after this comment, without the license: e7e6a163fa4dc714
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -7,57 +7,57 @@
  *    195 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
  *    239 config.h     macros that a user may define before the include, the version, and the integer types
  *    326 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    506 options.h    options of all calls, threads, and the allocator
- *    632 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    876 csc.h        sparse matrices: creation, checks, products, residuals
- *    977 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1053 factor.h     the numerical factorization P A P' = L D L'
- *   1182 solve.h      full solves, and the workspace of all solves
- *   1278 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1354 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1444 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1537 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1576 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1677 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1757 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1843 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1936 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2043 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2085 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2207 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2238 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2420 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2523 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2634 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2675 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2761 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2869 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2903 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2980 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3023 impl/ base: the compiler, status, memory, sorting, threads
- *   4304 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5243 impl/ matrix: sparse matrices of the caller and of the library
- *   5919 impl/ ordering: fill-reducing orderings of a graph
- *  11021 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13260 impl/ factor: the numbers of L and D
- *  16673 impl/ solve: full and local solves
- *  18550 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20547 impl/ pivots: the order of the pivots by the values of a matrix
- *  20955 impl/ float: L and fronts in single precision
- *  21460 impl/ inverse: entries of the inverse, regions
- *  24559 impl/ change: a factor that follows changes of its matrix
- *  30864 impl/ fixed: rows fixed at given values
- *  31505 impl/ fixed: by a factor of all rows
- *  31739 impl/ io: files that are replaced only when they are complete
- *  31957 impl/ files: Matrix Market files, 64-bit indices
- *  32577 impl/ save: factors in files
- *  34590 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35276 impl/ batch: diagonals of many inverses
- *  35416 impl/ complex: complex Hermitian systems over real factors
- *  35978 impl/ complex: entries of the inverse
- *  36038 impl/ packs: the tables through which the core calls packs
- *  36087 impl/ last: undefine every internal macro
- *  36468 impl/ templates: the header includes them from itself, once for each instruction set
+ *    508 options.h    options of all calls, threads, and the allocator
+ *    625 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    869 csc.h        sparse matrices: creation, checks, products, residuals
+ *    970 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1046 factor.h     the numerical factorization P A P' = L D L'
+ *   1175 solve.h      full solves, and the workspace of all solves
+ *   1271 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1347 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1437 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1530 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1569 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1670 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1750 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1836 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1929 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2036 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2078 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2200 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2231 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2413 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2516 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2627 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2668 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2754 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2862 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2896 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2973 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3016 impl/ base: the compiler, status, memory, sorting, threads
+ *   4296 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5235 impl/ matrix: sparse matrices of the caller and of the library
+ *   5911 impl/ ordering: fill-reducing orderings of a graph
+ *  10977 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13216 impl/ factor: the numbers of L and D
+ *  16623 impl/ solve: full and local solves
+ *  18500 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20497 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20905 impl/ float: L and fronts in single precision
+ *  21410 impl/ inverse: entries of the inverse, regions
+ *  24509 impl/ change: a factor that follows changes of its matrix
+ *  30815 impl/ fixed: rows fixed at given values
+ *  31453 impl/ fixed: by a factor of all rows
+ *  31687 impl/ io: files that are replaced only when they are complete
+ *  31905 impl/ files: Matrix Market files, 64-bit indices
+ *  32525 impl/ save: factors in files
+ *  34537 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35223 impl/ batch: diagonals of many inverses
+ *  35363 impl/ complex: complex Hermitian systems over real factors
+ *  35925 impl/ complex: entries of the inverse
+ *  35985 impl/ packs: the tables through which the core calls packs
+ *  36034 impl/ last: undefine every internal macro
+ *  36415 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -97,7 +97,7 @@
  *  x in a few rows for b in a few rows, often     sl_plan_create, sl_plan_solve          plan.h
  *  the same once                                  sl_local_solve                         plan.h
  *  a part of a matrix                             sl_matrix_submatrix                    csc.h
- *  a singular Laplacian, an elastic body          options.null_pivots, mass, null_vector options.h
+ *  a singular Laplacian, an elastic body          options.pivots, mass, null_vector      options.h
  *  several processors                             options.threads                        options.h
  *  what failed, and where; counts and times       sl_stats                               stats.h
  *
@@ -450,11 +450,13 @@ typedef enum sl_storage {
                                 Hermitian matrices only, complex.h */
 } sl_storage;
 
-/** What to do with a null pivot. */
-typedef enum sl_null_pivots {
-    SL_NULL_PIVOT_REFUSE = 0, /* fail with SL_ERR_PIVOT; D may have any sign */
-    SL_NULL_PIVOT_SKIP        /* skip and count it: semidefinite matrices, singular Laplacians */
-} sl_null_pivots;
+/** Which pivots are accepted. All others are refused with SL_ERR_PIVOT and their row. */
+typedef enum sl_pivots {
+    SL_PIVOTS_NONZERO = 0, /* all that are not null: D may have any sign */
+    SL_PIVOTS_POSITIVE,    /* A is positive definite */
+    SL_PIVOTS_SKIP_NULL    /* A is semidefinite, such as a singular Laplacian: null pivots are
+                              skipped and counted */
+} sl_pivots;
 
 /** How entries of the inverse were computed. */
 typedef enum sl_inverse_method {
@@ -550,9 +552,6 @@ typedef struct sl_options {
     sl_triangle triangle;
     /* n: perm[k] = row of A that is pivot k; read with SL_ORDERING_GIVEN only */
     const sl_int *perm;
-    /* 40 entries as in METIS's options array, -1 = METIS's default; NULL: all default. The
-     * numbering and debug level are ignored */
-    const sl_int *metis_options;
     /* rows k block_size .. (k+1) block_size - 1 stay together in the order, such as x, y, z of a
      * vertex; divides n; 0 or 1: no blocks */
     sl_int block_size;
@@ -565,40 +564,37 @@ typedef struct sl_options {
 
     sl_isa isa;
     sl_method method;
-    sl_null_pivots null_pivots;
+    sl_storage storage;
+    /* SL_PIVOTS_POSITIVE refuses a negative pivot, for example where the sign of t is wrong in M +
+     * t L, and stats.factor counts the others. It is not saved in files */
+    sl_pivots pivots;
     /* a pivot d is null if |d| <= null_tolerance * (sum of the magnitudes it was computed from);
      * not read where a known null vector decides (tools/docs/singular.md); 0: if it is within the
      * rounding error that L shows; where null pivots are skipped or replaced, (64 + k/8) epsilon
      * with the k rows of its subtree; negative: only an exact zero is null */
     double null_tolerance;
-    /* with SL_NULL_PIVOT_SKIP: n weights m, copied. In each component with a null pivot the
+    /* with SL_PIVOTS_SKIP_NULL: n x null_vector_count numbers, copied. One column: a vector that is
+     * a null vector of each connected component that has one; 0 in all rows of a component: its
+     * null vectors are unknown; NULL: all 1 */
+    const double *null_vector;
+    /* the columns of null_vector, at most 32: the null vectors of each component are combinations
+     * of them (tools/docs/singular.md). Column-major, leading dimension n; 0: 1 */
+    sl_int null_vector_count;
+    /* with SL_PIVOTS_SKIP_NULL: n weights m, copied. In each component with a null pivot the
      * solution has sum m x = 0, and b is made consistent by a multiple of m; with several null
      * vectors z it has sum m z x = 0 for each of them; NULL: x is 0 in the null rows */
     const double *mass;
-    /* with SL_NULL_PIVOT_SKIP and no mass: a solve refuses b if |z' b| > consistency_tolerance *
+    /* with SL_PIVOTS_SKIP_NULL and no mass: a solve refuses b if |z' b| > consistency_tolerance *
      * sum |b| for a null vector z scaled to 1 in its null row; 0: 1e-6, which accepts
      * single-precision errors; negative: nothing is refused */
     double consistency_tolerance;
-    /* with SL_NULL_PIVOT_REFUSE: a null pivot, or one of the wrong sign, becomes sign * max(|d|,
+    /* with SL_PIVOTS_NONZERO only: a null pivot, or one of the wrong sign, becomes sign * max(|d|,
      * regularization * (sum of the magnitudes it was computed from, 1 if that is 0)); 1e-8 suits
      * refinement; 0: no regularization */
     double regularization;
     /* n, copied: the sign that each row's pivot should have, 1 or -1, or 0 for either; NULL: all 1
      */
     const sl_int *signs;
-
-    /* ---- local solves ---- */
-
-    /* where the sweeps of a plan may end; kept by the plan; NULL: at the roots only */
-    const sl_region *region;
-    /* upper bound on the bytes of a region that has a boundary; 0: no bound */
-    size_t region_bytes;
-
-    /* with SL_NULL_PIVOT_SKIP: n x null_vector_count numbers, copied. One column: a vector that is
-     * a null vector of each connected component that has one; 0 in all rows of a component: its
-     * null vectors are unknown; NULL: all 1 */
-    const double *null_vector;
-
     /* a factorization whose stats.factor.growth is larger is refused with SL_ERR_INACCURATE; 0:
      * 1 / epsilon = 4.5e15, or 8.4e6 if L is in float, beyond which L D L' may agree with A in
      * no digit; negative: no limit */
@@ -607,15 +603,12 @@ typedef struct sl_options {
      * this backward error; 0: 1e-8; negative: never */
     double error_limit;
 
-    /* the columns of null_vector, at most 32: the null vectors of each component are combinations
-     * of them (tools/docs/singular.md). Column-major, leading dimension n; 0: 1 */
-    size_t null_vector_count;
-    sl_storage storage;
+    /* ---- local solves ---- */
 
-    /* 1: A is positive definite. A negative pivot is refused with SL_ERR_PIVOT and its row, for
-     * example where the sign of t is wrong in M + t L; stats.factor counts the others. Not allowed
-     * with regularization or SL_NULL_PIVOT_SKIP, which has its own check. Not saved in files */
-    size_t definite;
+    /* where the sweeps of a plan may end; kept by the plan; NULL: at the roots only */
+    const sl_region *region;
+    /* upper bound on the bytes of a region that has a boundary; 0: no bound */
+    size_t region_bytes;
 
     /* must be 0; new options take their place, so that the size of the struct never changes. An
      * older library, for which they are reserved, refuses them */
@@ -671,10 +664,10 @@ typedef struct sl_factor_info {
     sl_int negative;    /* the same */
     sl_int null;        /* null pivots: the skipped ones, or the one that was refused */
     sl_int regularized; /* pivots that regularization changed; they count by their new sign */
-    /* with SL_NULL_PIVOT_SKIP: kept pivots within rounding of 0. A component with a known null
+    /* with SL_PIVOTS_SKIP_NULL: kept pivots within rounding of 0. A component with a known null
      * vector has them where its parts are joined weakly, or if it has a second null vector */
     sl_int weak;
-    /* with SL_NULL_PIVOT_SKIP: connected components without a null pivot. Their solutions are
+    /* with SL_PIVOTS_SKIP_NULL: connected components without a null pivot. Their solutions are
      * unique, and options.mass does not apply to them */
     sl_int regular;
     sl_isa isa;
@@ -985,8 +978,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
  *
  *  out    [out]  the analysis.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
- *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, metis_options,
- *                block_size, purpose. block_size is used by all but SL_ORDERING_GIVEN and
+ *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, block_size,
+ *                purpose. block_size is used by all but SL_ORDERING_GIVEN and
  *                SL_ORDERING_NATURAL; every ordering refuses an invalid one.
  *  stats  [out]  symbolic.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first
@@ -1056,16 +1049,16 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  or with the 2x2 blocks of sl_symbolic_create_pivoted.
  *
  *  Definite and quasi-definite matrices can be factored in any order, other indefinite ones if no
- *  pivot is null, semidefinite ones with SL_NULL_PIVOT_SKIP. Solves have a backward error of at
+ *  pivot is null, semidefinite ones with SL_PIVOTS_SKIP_NULL. Solves have a backward error of at
  *  most about epsilon * stats.factor.growth. If that is not small enough, or if pivots were
  *  regularized, call sl_factor_refine, and trust X if it returns SL_OK.
  *
  *  out    [out]  the factor.
  *  S      [in]   analysis of A's pattern; kept by the factor.
  *  A      [in]   n x n with values; the analyzed pattern with its entries in the same order.
- *  opt    [in]   allocator, threads, isa, method, null_pivots, null_tolerance, mass,
- *                consistency_tolerance, regularization, signs, null_vector, null_vector_count,
- *                growth_limit, error_limit, storage, definite.
+ *  opt    [in]   allocator, threads, isa, method, storage, pivots, null_tolerance,
+ *                null_vector, null_vector_count, mass, consistency_tolerance, regularization,
+ *                signs, growth_limit, error_limit.
  *  stats  [out]  factor.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, or at error.row a
  *           weight, sign or null vector that is not allowed; SL_ERR_OTHER_PATTERN: not the analyzed
@@ -1123,7 +1116,7 @@ SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
 
 /** Pivots that a factorization did not take as they came. */
 typedef enum sl_pivot_kind {
-    SL_PIVOT_NULL = 0,   /* null ones that were skipped: SL_NULL_PIVOT_SKIP */
+    SL_PIVOT_NULL = 0,   /* null ones that were skipped: SL_PIVOTS_SKIP_NULL */
     SL_PIVOT_REGULARIZED /* those that options.regularization changed */
 } sl_pivot_kind;
 
@@ -1261,8 +1254,8 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *                13 to 16, with the bits of blocks of 8, then of up to 8. 8 take as long as two to
  *                three single solves, 32 as long as six to eight.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_INCONSISTENT: a column of B has no
- *           solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: a number of B is not, or
- *           X overflows: X is written; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           solution (SL_PIVOTS_SKIP_NULL without mass); SL_ERR_NOT_FINITE: a number of B is not,
+ *           or X overflows: X is written; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
  *           min(nrhs, 64)). If consistency is checked, right-hand sides beyond the eighth are
  *           read twice, and take an additional forward sweep where null vectors are not known.
@@ -1365,7 +1358,7 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int 
  *                and two triangles not compared.
  *  rows   [in]   count rows of A in 0..n-1 that are fixed, any order, none twice; from none to all.
  *  F      [in]   a factor of A, or NULL. Used only if it was computed from the values of A, and opt
- *                has none of perm, mass, signs, null_vector, regularization, SL_NULL_PIVOT_SKIP.
+ *                has none of perm, mass, signs, null_vector, regularization, SL_PIVOTS_SKIP_NULL.
  *  opt    [in]   allocator, threads, and what sl_symbolic_create and sl_factor_create read, in rows
  *                of A: perm, mass, signs and null_vector have n entries.
  *  stats  [out]  dirichlet, symbolic, factor; errors are in rows of A.
@@ -1662,7 +1655,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rcond(const sl_factor *F, const sl_csc
  *  After Y(k, r) is subtracted from B in that row, the system has a solution. For a
  *  Laplacian, Y contains the sums of B over the components.
  *
- *  F      [in]   a factor made with SL_NULL_PIVOT_SKIP; without null pivots Y has no rows.
+ *  F      [in]   a factor made with SL_PIVOTS_SKIP_NULL; without null pivots Y has no rows.
  *  Y      [out]  null rows x nrhs, leading dimension ldy; must not overlap B.
  *  B      [in]   n x nrhs, leading dimension ldb.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
@@ -2527,7 +2520,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const s
  *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep. For
  *  hundreds of rows that are held together, sl_fixed_create is the faster call.
  *
- *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
+ *  Singular matrices: with SL_PIVOTS_SKIP_NULL and known null vectors (sl_factor_create), one pin
  *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
  *  pins that leave none of its 6 motions. Components without pins are solved as by sl_factor_solve:
  *  with the weights of options.mass, or with x = 0 in null rows and b in balance. If the pins of a
@@ -2544,7 +2537,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const s
  *  opt  [in]   allocator.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_UNSUPPORTED: pivots of both signs, or 2x2
  *           pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
- *  Cost     O(1); with SL_NULL_PIVOT_SKIP 8 bytes per row.
+ *  Cost     O(1); with SL_PIVOTS_SKIP_NULL 8 bytes per row.
  *  Source   capacitance matrix of a change of low rank, as in [Hager89].
  *  Example  tests/core/test_pins.c
  */
@@ -2983,9 +2976,9 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_c
  *
  *  For matrices without a stable factorization in the order of the pattern, such as KKT systems
  *  with zeros on the diagonal. With these values no entry of L exceeds 100. Factors of other values
- *  keep the pivots: check stats.factor.growth, and analyze again if it is large. SL_NULL_PIVOT_SKIP
- *  gives SL_ERR_UNSUPPORTED. Factors with 2x2 pivots are supernodal; entries of the inverse,
- *  selected inverses and regions refuse them with SL_ERR_UNSUPPORTED.
+ *  keep the pivots: check stats.factor.growth, and analyze again if it is large.
+ *  SL_PIVOTS_SKIP_NULL gives SL_ERR_UNSUPPORTED. Factors with 2x2 pivots are supernodal; entries of
+ *  the inverse, selected inverses and regions refuse them with SL_ERR_UNSUPPORTED.
  *
  *  out    [out]  the analysis. It has no separator tree.
  *  A      [in]   n x n, symmetric, with values; not kept.
@@ -3590,13 +3583,12 @@ SL_API void sl_options_init(sl_options *opt, size_t size) {
 #if defined(SL_VERIFY)
 static int sli_options_set(const sl_options *opt) {
   const int analysis = opt->ordering != 0 || opt->relaxation != 0 || opt->perm != NULL ||
-             opt->metis_options != NULL || opt->block_size != 0 || opt->purpose != 0;
-  const int factor = opt->method != 0 || opt->null_pivots != 0 || opt->null_tolerance != 0.0 ||
+             opt->block_size != 0 || opt->purpose != 0;
+  const int factor = opt->method != 0 || opt->pivots != 0 || opt->null_tolerance != 0.0 ||
              opt->mass != NULL || opt->consistency_tolerance != 0.0 ||
              opt->regularization != 0.0 || opt->signs != NULL ||
              opt->null_vector != NULL || opt->growth_limit != 0.0 ||
-             opt->error_limit != 0.0 || opt->null_vector_count != 0 ||
-             opt->storage != 0 || opt->definite != 0;
+             opt->error_limit != 0.0 || opt->null_vector_count != 0 || opt->storage != 0;
   return (opt->isa != 0 ? SLI_READS_ISA : 0) | (opt->triangle != 0 ? SLI_READS_TRIANGLE : 0) |
        (analysis ? SLI_READS_ANALYSIS : 0) | (factor ? SLI_READS_FACTOR : 0) |
        (opt->region != NULL ? SLI_READS_REGION : 0) |
@@ -9715,31 +9707,6 @@ static sl_status sli_compress(const sli_order_job *job, sli_order_job *inner, sl
 
 #include <metis.h>
 
-static int sli_metis_options_are_valid(const sl_int *options) {
-  static const struct {
-    int option, low, high;
-  } sli_ranges[] = {
-    {METIS_OPTION_OBJTYPE, METIS_OBJTYPE_NODE, METIS_OBJTYPE_NODE},
-    {METIS_OPTION_CTYPE, METIS_CTYPE_RM, METIS_CTYPE_SHEM},
-    {METIS_OPTION_IPTYPE, METIS_IPTYPE_EDGE, METIS_IPTYPE_NODE},
-    {METIS_OPTION_RTYPE, METIS_RTYPE_SEP2SIDED, METIS_RTYPE_SEP1SIDED},
-    {METIS_OPTION_NITER, 1, INT32_MAX},
-    {METIS_OPTION_COMPRESS, 0, 1},
-    {METIS_OPTION_CCORDER, 0, 1},
-    {METIS_OPTION_PFACTOR, 0, INT32_MAX},
-    {METIS_OPTION_NSEPS, 1, INT32_MAX},
-    {METIS_OPTION_UFACTOR, 1, 999},
-  };
-  size_t k;
-  for (k = 0; options != NULL && k < sizeof sli_ranges / sizeof *sli_ranges; k++) {
-    const sl_int value = options[sli_ranges[k].option];
-    if (value != -1 && (value < sli_ranges[k].low || value > sli_ranges[k].high)) {
-      return 0;
-    }
-  }
-  return 1;
-}
-
 static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count,
     const sl_int *local, idx_t *xadj, idx_t *adjncy) {
   sl_int k;
@@ -9757,9 +9724,7 @@ static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int c
 
 static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_int count) {
   const sli_graph *G = job->G;
-  const sl_int *metis_options = job->opt->metis_options;
-  idx_t options[METIS_NOPTIONS], nv = (idx_t)count, *xadj = NULL, *adjncy = NULL, *perm = NULL,
-                   *iperm = NULL;
+  idx_t nv = (idx_t)count, *xadj = NULL, *adjncy = NULL, *perm = NULL, *iperm = NULL;
   sli_block b = {NULL, 0};
   sl_off edges = 0;
   sl_status status = SL_OK;
@@ -9782,13 +9747,7 @@ static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_
     return status;
   }
   sli_metis_graph(G, vertices, count, job->scratch, xadj, adjncy);
-  METIS_SetDefaultOptions(options);
-  for (k = 0; metis_options != NULL && k < METIS_NOPTIONS; k++) {
-    options[k] = metis_options[k];
-  }
-  options[METIS_OPTION_NUMBERING] = 0;
-  options[METIS_OPTION_DBGLVL] = 0;
-  result = METIS_NodeND(&nv, xadj, adjncy, NULL, options, perm, iperm);
+  result = METIS_NodeND(&nv, xadj, adjncy, NULL, NULL, perm, iperm);
   if (result == METIS_OK) {
     for (k = 0; k < count; k++) {
       xadj[k] = vertices[k];
@@ -10992,10 +10951,7 @@ static sl_status sli_order(sli_order_job *job) {
     return SL_OK;
   case SL_ORDERING_METIS:
 #if defined(SLI_METIS)
-    return sli_metis_options_are_valid(opt->metis_options)
-           ? sli_order_by_graph(job)
-           : sli_order_refuse(job, SL_ERR_ARGUMENT,
-               "an entry of options.metis_options is not known");
+    return sli_order_by_graph(job);
 #else
     return sli_order_refuse(job, SL_ERR_UNSUPPORTED, "options.ordering needs SL_METIS");
 #endif
@@ -13300,7 +13256,6 @@ typedef struct sli_own_kernels {
 } sli_own_kernels;
 
 typedef struct sli_limits {
-  int is_definite;
   double growth;
   double error;
 } sli_limits;
@@ -13311,7 +13266,7 @@ typedef struct sli_copied {
 } sli_copied;
 
 typedef struct sli_null_space {
-  sl_null_pivots mode;
+  sl_pivots mode;
   double consistency;
   int checks;
   int is_centered;
@@ -13482,7 +13437,7 @@ SLI_INLINE sl_int sli_center_count(const sl_factor *F) {
 }
 
 SLI_INLINE int sli_is_skipped(const sl_factor *F, sl_int k) {
-  return F->null.mode == SL_NULL_PIVOT_SKIP && F->D[k] == SLI_NULL_PIVOT;
+  return F->null.mode == SL_PIVOTS_SKIP_NULL && F->D[k] == SLI_NULL_PIVOT;
 }
 
 SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
@@ -13657,7 +13612,7 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, dou
   if (!F->rule.replaces && sli_is_null(pivot, magnitude, F->rule.null_tolerance)) {
     return sli_check_small(F, s, k, pivot, magnitude, failure);
   }
-  if (F->null.mode == SL_NULL_PIVOT_SKIP && !sli_is_skipped(F, k) &&
+  if (F->null.mode == SL_PIVOTS_SKIP_NULL && !sli_is_skipped(F, k) &&
       !(pivot * F->rule.signs[k] > 0.0)) {
     return sli_refuse_pivot(F, s, k, pivot, magnitude, failure);
   }
@@ -13764,7 +13719,7 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
   info.positive = info.negative = info.null = info.weak = 0;
   info.regularized = sli_list_regularized(F, count);
   info.pivot_min = info.pivot_max = 0.0;
-  if (count > 0 && F->E == NULL && F->null.mode != SL_NULL_PIVOT_SKIP) {
+  if (count > 0 && F->E == NULL && F->null.mode != SL_PIVOTS_SKIP_NULL) {
     const sli_spread r = sli_spread_of(F->D, count);
     if (r.least > 0.0) {
       info.positive = r.positive;
@@ -15814,7 +15769,7 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
     F->rule.shifts = SLI_TAKE(b, double, n);
     F->rule.regularized = SLI_TAKE(b, sl_int, n);
   }
-  if (F->null.mode == SL_NULL_PIVOT_SKIP) {
+  if (F->null.mode == SL_PIVOTS_SKIP_NULL) {
     F->null.pivots = SLI_TAKE(b, sl_int, n);
     F->rule.kinds = SLI_TAKE(b, signed char, n);
     F->null.z = SLI_TAKE(b, double, n *(uint64_t)F->null.vectors);
@@ -15851,7 +15806,7 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
   const sl_symbolic *S = F->S;
   const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
   const uint64_t workers = (uint64_t)F->schedule.workers;
-  if (F->null.mode == SL_NULL_PIVOT_SKIP) {
+  if (F->null.mode == SL_PIVOTS_SKIP_NULL) {
     F->rule.signs = SLI_TAKE(b, signed char, n);
     F->null.rows = SLI_TAKE(b, sli_null_row, n);
     F->null.last = SLI_TAKE(b, sl_int, n);
@@ -15929,7 +15884,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
     if (F->history.marks != NULL) {
       memset(F->history.marks, 0, (size_t)S->n_supers * sizeof(uint64_t));
     }
-    F->null.has_duplicates = F->null.mode == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(S);
+    F->null.has_duplicates = F->null.mode == SL_PIVOTS_SKIP_NULL && sli_map_has_duplicates(S);
     if (has_fronts) {
       memcpy(p.first, plan.first, planned);
       p.workers = plan.workers;
@@ -15950,8 +15905,8 @@ static const char *sli_factor_choices_wrong(const sl_options *opt) {
          ? "options.method is not a value of sl_method"
        : (unsigned)opt->storage > (unsigned)SL_STORAGE_COMPLEX
          ? "options.storage is not a value of sl_storage"
-       : (unsigned)opt->null_pivots > (unsigned)SL_NULL_PIVOT_SKIP
-         ? "options.null_pivots is not a value of sl_null_pivots"
+       : (unsigned)opt->pivots > (unsigned)SL_PIVOTS_SKIP_NULL
+         ? "options.pivots is not a value of sl_pivots"
        : opt->null_tolerance != opt->null_tolerance ? "options.null_tolerance is NaN"
        : opt->consistency_tolerance != opt->consistency_tolerance
          ? "options.consistency_tolerance is NaN"
@@ -15959,13 +15914,10 @@ static const char *sli_factor_choices_wrong(const sl_options *opt) {
        : opt->error_limit != opt->error_limit ? "options.error_limit is NaN"
        : !(opt->regularization >= 0.0) || !sli_is_finite(opt->regularization)
          ? "options.regularization is below 0 or not finite"
-       : opt->regularization != 0.0 && opt->null_pivots == SL_NULL_PIVOT_SKIP
-         ? "options.regularization excludes null_pivots = SL_NULL_PIVOT_SKIP"
-       : opt->definite != 0 && opt->definite != 1 ? "options.definite is neither 0 nor 1"
-       : opt->definite != 0 &&
-           (opt->regularization != 0.0 || opt->null_pivots == SL_NULL_PIVOT_SKIP)
-         ? "options.definite excludes regularization and SL_NULL_PIVOT_SKIP"
-       : opt->null_vector_count > SLI_NULL_VECTORS_MAX ? "options.null_vector_count is above 32"
+       : opt->regularization != 0.0 && opt->pivots != SL_PIVOTS_NONZERO
+         ? "options.regularization needs options.pivots = SL_PIVOTS_NONZERO"
+       : opt->null_vector_count < 0 || opt->null_vector_count > SLI_NULL_VECTORS_MAX
+         ? "options.null_vector_count is below 0 or above 32"
        : opt->null_vector_count > 1 && opt->null_vector == NULL ? "options.null_vector is NULL"
                                   : NULL;
 }
@@ -15986,16 +15938,14 @@ SLI_INLINE double sli_limit_option(double limit) {
 static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
   const double null = opt == NULL ? 0.0 : opt->null_tolerance;
   const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
-  F->null.mode = opt == NULL ? SL_NULL_PIVOT_REFUSE : opt->null_pivots;
+  F->null.mode = opt == NULL ? SL_PIVOTS_NONZERO : opt->pivots;
   F->rule.epsilon = F->type->epsilon;
   F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n, F->rule.epsilon) : null;
   F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
-  F->rule.replaces = F->null.mode == SL_NULL_PIVOT_SKIP || F->rule.regularization != 0.0;
-  F->null.vectors =
-    opt == NULL || opt->null_vector_count == 0 ? 1 : (sl_int)opt->null_vector_count;
+  F->rule.replaces = F->null.mode == SL_PIVOTS_SKIP_NULL || F->rule.regularization != 0.0;
+  F->null.vectors = opt == NULL || opt->null_vector_count == 0 ? 1 : opt->null_vector_count;
   F->null.consistency = consistency == 0.0 ? 1e-6 : consistency;
-  F->null.is_centered = F->null.mode == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
-  F->limits.is_definite = opt != NULL && opt->definite != 0;
+  F->null.is_centered = F->null.mode == SL_PIVOTS_SKIP_NULL && opt->mass != NULL;
   F->limits.growth = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
       sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
   F->limits.error = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
@@ -16017,7 +15967,7 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
       F->rule.signs[S->iperm[i]] = (signed char)opt->signs[i];
     }
   }
-  if (F->null.mode == SL_NULL_PIVOT_SKIP) {
+  if (F->null.mode == SL_PIVOTS_SKIP_NULL) {
     memset(F->rule.kinds, 0, (size_t)S->n);
     for (j = 0; j < F->null.vectors; j++) {
       const size_t column = (size_t)j * (size_t)S->n;
@@ -16142,8 +16092,8 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
   sli_factor_rules(&draft, opt);
   draft.method = sli_method(S, draft.type, opt);
   status =
-    S->is_pivoted && draft.null.mode == SL_NULL_PIVOT_SKIP
-      ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_NULL_PIVOT_SKIP with an analysis for 2x2 pivots")
+    S->is_pivoted && draft.null.mode == SL_PIVOTS_SKIP_NULL
+      ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_PIVOTS_SKIP_NULL with an analysis for 2x2 pivots")
     : draft.type->suits != NULL && !draft.type->suits(&draft)
       ? sli_refuse(SL_ERR_UNSUPPORTED,
           "options.storage does not suit the analysis or options")
@@ -16302,15 +16252,15 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
            "options.null_vector_count"
            : "float cannot hold L: options.storage";
   }
-  if (F->limits.is_definite && f->bound >= 0.0) {
-    return "options.definite: the pivot is not positive, and A not positive definite";
+  if (F->null.mode == SL_PIVOTS_POSITIVE && f->bound >= 0.0) {
+    return "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite";
   }
   if (f->bound < 0.0) {
     return "there was no memory to judge whether the pivot is null";
   }
-  if (F->null.mode == SL_NULL_PIVOT_SKIP) {
+  if (F->null.mode == SL_PIVOTS_SKIP_NULL) {
     return f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
-                "SL_NULL_PIVOT_SKIP takes semidefinite matrices"
+                "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
                 : "A is indefinite, or options.null_vector or options.mass does not "
                 "suit its null vectors";
   }
@@ -16318,11 +16268,11 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
     return "options.null_tolerance decides; a negative one accepts every pivot but 0";
   }
   return size > F->rule.epsilon * F->extents[f->super].magnitude
-         ? "if A is singular: options.null_pivots; if the pivot may be right, a smaller or "
+         ? "if A is singular: options.pivots; if the pivot may be right, a smaller or "
          "negative options.null_tolerance accepts it, and sl_symbolic_create_pivoted "
          "avoids small pivots"
          : "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
-         "options.null_pivots";
+         "options.pivots";
 }
 
 SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f,
@@ -16386,10 +16336,10 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
     double started, sl_stats *stats) {
   double ended;
   int has_pivots, suspects;
-  if (failure->status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
+  if (failure->status == SL_OK && F->null.mode == SL_PIVOTS_SKIP_NULL) {
     (void)sli_nulls_find(F, from, failure);
   }
-  if (failure->status == SL_ERR_PIVOT && F->null.mode == SL_NULL_PIVOT_SKIP) {
+  if (failure->status == SL_ERR_PIVOT && F->null.mode == SL_PIVOTS_SKIP_NULL) {
     sli_null_finite_check(F, from, failure);
   }
   F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
@@ -16403,7 +16353,7 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
       sli_signs_judge(F, failure) != SL_OK) {
     sli_factor_outcome(F, from->A, failure, 0);
   }
-  if (F->limits.is_definite && has_pivots && F->stats.factor.negative > 0 &&
+  if (F->null.mode == SL_PIVOTS_POSITIVE && has_pivots && F->stats.factor.negative > 0 &&
       failure->status != SL_ERR_PIVOT) { /* branches untested: without pivots */
     sli_refuse_negative(F, failure);
     sli_factor_outcome(F, from->A, failure, 1);
@@ -16488,7 +16438,7 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
   if (F->type->accepts != NULL && failure.status == SL_OK) {
     F->type->accepts(F->S, from, &failure);
   }
-  if (failure.status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
+  if (failure.status == SL_OK && F->null.mode == SL_PIVOTS_SKIP_NULL) {
     (void)sli_null_vectors_check(F, from, &failure);
   }
   if (failure.status == SL_OK && sli_factor_eliminate(F, from, &failure) == SL_OK &&
@@ -21304,7 +21254,7 @@ SLI_INLINE sl_status sli_check_single(const sl_factor *F, const sli_front *f, sl
     sli_failure *failure) {
   const sl_int s = f->super, k = f->column + column;
   const float pivot = f->single.D[column], magnitude = f->single.magnitude[column];
-  const int is_null = F->null.mode == SL_NULL_PIVOT_SKIP && pivot == FLT_MAX;
+  const int is_null = F->null.mode == SL_PIVOTS_SKIP_NULL && pivot == FLT_MAX;
   const double d = is_null ? SLI_NULL_PIVOT : (double)pivot, m = (double)magnitude;
   F->D[k] = d;
   if (!(m <= SLI_SINGLE_MOST) || (!is_null && m != 0.0 && m < SLI_SINGLE_LEAST)) {
@@ -24888,7 +24838,7 @@ static int sli_nulls_remain(const sl_factor *F) {
       return 0;
     }
   }
-  for (m = 0; F->null.mode == SL_NULL_PIVOT_SKIP && m < F->null.count; m++) {
+  for (m = 0; F->null.mode == SL_PIVOTS_SKIP_NULL && m < F->null.count; m++) {
     if (F->rule.kinds[F->null.pivots[m]] >= SLI_PIVOT_KEPT) {
       return 0;
     }
@@ -24907,7 +24857,7 @@ static sl_status sli_reached_numbers(sl_factor *F, const sli_kept *p, const sli_
     double started, sl_stats *stats) {
   sli_failure failure;
   SLI_CLEAR(failure);
-  if (F->null.mode == SL_NULL_PIVOT_SKIP) {
+  if (F->null.mode == SL_PIVOTS_SKIP_NULL) {
     (void)sli_null_vectors_check(F, from, &failure);
   }
   if (failure.status == SL_OK && !sli_nulls_remain(F)) {
@@ -26275,7 +26225,7 @@ static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
   q->stats = stats;
   q->u.sign = info->positive == F->S->n ? 1.0 : info->negative == F->S->n ? -1.0 : 0.0;
   q->u.keeps_signs = q->u.sign != 0.0 || F->rule.regularization != 0.0;
-  q->u.least = F->null.mode == SL_NULL_PIVOT_SKIP ? sli_rank_least(F) : 0.0;
+  q->u.least = F->null.mode == SL_PIVOTS_SKIP_NULL ? sli_rank_least(F) : 0.0;
 }
 
 static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) {
@@ -29012,7 +28962,7 @@ static sl_options sli_submatrix_options(const sl_factor *F, const sli_restrictio
   sl_int k;
   opt.null_tolerance = sli_tolerance_option(F);
   opt.regularization = F->rule.regularization;
-  opt.definite = (size_t)F->limits.is_definite;
+  opt.pivots = F->null.mode == SL_PIVOTS_POSITIVE ? SL_PIVOTS_POSITIVE : SL_PIVOTS_NONZERO;
   opt.growth_limit = sli_limit_option(F->limits.growth);
   opt.error_limit = sli_limit_option(F->limits.error);
   if (opt.regularization != 0.0 && F->rule.signs != NULL) {
@@ -30610,8 +30560,9 @@ static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *s
 static int sli_reuse_is_suited(const sl_factor *F, const sl_factor *G) {
   const double a = F->rule.null_tolerance, b = G->rule.null_tolerance;
   return F->history.marks != NULL && G->history.marks != NULL && F->E == NULL && G->E == NULL &&
-       G->type->accepts == NULL && F->null.mode == G->null.mode && F->null.vectors == 1 &&
-       G->null.vectors == 1 && F->rule.regularization == G->rule.regularization &&
+       G->type->accepts == NULL && F->null.vectors == 1 && G->null.vectors == 1 &&
+       (F->null.mode == SL_PIVOTS_SKIP_NULL) == (G->null.mode == SL_PIVOTS_SKIP_NULL) &&
+       F->rule.regularization == G->rule.regularization &&
        (a == b || (sli_tolerance_is_default(F) && sli_tolerance_is_default(G)));
 }
 
@@ -30662,7 +30613,7 @@ static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_
   const double *l = (const double *)F->values + S->steps[there].panel;
   const double d = F->D[S->steps[there].column];
   const int has_mark = F->schedule.is_plain[there] != SLI_PLAIN_DIRECT ||
-             F->null.mode == SL_NULL_PIVOT_SKIP ||
+             F->null.mode == SL_PIVOTS_SKIP_NULL ||
              sli_is_regularized(F, S->steps[there].column);
   int is_same = has_mark || r->G->schedule.is_plain[s] == SLI_PLAIN_DIRECT;
   uint64_t mark = SLI_MARK_BEGIN, before = SLI_MARK_BEGIN;
@@ -30791,7 +30742,7 @@ static sl_status sli_reuse_numbers(sli_reuse *r, sl_stats *stats) {
   sl_status status;
   SLI_CLEAR(failure);
   sli_factor_begin(r->G);
-  if (is_suited && r->G->null.mode == SL_NULL_PIVOT_SKIP) {
+  if (is_suited && r->G->null.mode == SL_PIVOTS_SKIP_NULL) {
     is_suited = sli_null_vectors_check(r->G, &from, &failure) == SL_OK;
   }
   keeps = is_suited && sli_reuse_find(r);
@@ -30950,9 +30901,9 @@ static sl_status sli_fixed_report(const sl_fixed *D, sl_status status, sl_stats 
     return status;
   }
   found = sli_found(stats, status);
-  if (status == SL_ERR_PIVOT && D->factorization.definite == 0) {
+  if (status == SL_ERR_PIVOT && D->factorization.pivots != SL_PIVOTS_POSITIVE) {
     found.what = "the free rows are singular: fix a row of this component, or see "
-           "options.null_pivots and sl_symbolic_create_pivoted";
+           "options.pivots and sl_symbolic_create_pivoted";
   }
   if (found.row >= 0) {
     found.row = D->free_rows[found.row];
@@ -30975,15 +30926,16 @@ static void sli_fixed_arrays_layout(sli_fixed_arrays *r, sli_block *b, const sl_
     opt->ordering != SL_ORDERING_GIVEN || opt->perm == NULL ? NULL : SLI_TAKE(b, sl_int, count);
   r->signs = opt->signs == NULL ? NULL : SLI_TAKE(b, sl_int, count);
   r->mass = opt->mass == NULL ? NULL : SLI_TAKE(b, double, count);
-  r->null_vector =
-    opt->null_vector == NULL ? NULL : SLI_TAKE(b, double, count *(opt->null_vector_count + 1));
+  r->null_vector = opt->null_vector == NULL
+             ? NULL
+             : SLI_TAKE(b, double, count *(uint64_t)sli_max(opt->null_vector_count, 1));
 }
 
 static sl_status sli_fixed_arrays_fill(const sli_fixed_arrays *r, const sl_fixed *D,
     const sl_options *opt, const sl_int *where, sl_int *scratch,
     sl_stats *stats) {
   const sl_int m = D->n_free;
-  const size_t vectors = opt->null_vector_count == 0 ? 1 : opt->null_vector_count;
+  const size_t vectors = (size_t)sli_max(opt->null_vector_count, 1);
   sl_int k, at = 0;
   size_t v;
   if (r->perm != NULL) {
@@ -31087,12 +31039,11 @@ static void sli_fixed_options(sl_fixed *D, const sl_options *opt) {
   s->threads = f->threads = opt->threads;
   s->ordering = opt->ordering;
   s->relaxation = opt->relaxation;
-  s->metis_options = opt->metis_options;
   s->block_size = opt->block_size;
   s->purpose = opt->purpose;
   f->isa = opt->isa;
   f->method = opt->method;
-  f->null_pivots = opt->null_pivots;
+  f->pivots = opt->pivots;
   f->null_tolerance = opt->null_tolerance;
   f->consistency_tolerance = opt->consistency_tolerance;
   f->regularization = opt->regularization;
@@ -31100,7 +31051,6 @@ static void sli_fixed_options(sl_fixed *D, const sl_options *opt) {
   f->error_limit = opt->error_limit;
   f->null_vector_count = opt->null_vector_count;
   f->storage = opt->storage;
-  f->definite = opt->definite;
 }
 
 static sl_status sli_fixed_check(const sl_csc *A, const sl_int *rows, sl_int count,
@@ -31179,10 +31129,9 @@ static sl_status sli_fixed_new(sl_fixed **out, const sl_csc *A, const sl_int *ro
 
 static int sli_fixed_may_reuse(const sl_factor *F, const sl_options *opt) {
   return F != NULL &&
-       (opt == NULL ||
-        ((opt->perm == NULL || opt->ordering != SL_ORDERING_GIVEN) && opt->mass == NULL &&
-         opt->signs == NULL && opt->null_vector == NULL &&
-         opt->null_pivots == SL_NULL_PIVOT_REFUSE && opt->regularization == 0.0)) &&
+       (opt == NULL || ((opt->perm == NULL || opt->ordering != SL_ORDERING_GIVEN) &&
+           opt->mass == NULL && opt->signs == NULL && opt->null_vector == NULL &&
+           opt->pivots != SL_PIVOTS_SKIP_NULL && opt->regularization == 0.0)) &&
        F->type->storage == (opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
 }
 
@@ -31217,7 +31166,6 @@ static sl_status sli_fixed_begin(sl_fixed *D, const sl_csc *A, const sl_factor *
     status = status == SL_OK ? sli_fixed_factor(D, A, &arrays, where, scratch, stats) : status;
     sli_free(&D->allocator, b.base);
   }
-  D->analysis.metis_options = NULL;
   return status;
 }
 
@@ -32732,7 +32680,7 @@ typedef struct sli_saved_analysis {
 } sli_saved_analysis;
 
 typedef struct sli_saved_factor {
-  int64_t method, null_pivots, has_mass, has_signs, checks, is_centered, nulls, anchors;
+  int64_t method, skips_null, has_mass, has_signs, checks, is_centered, nulls, anchors;
   int64_t positive, negative, null, regularized, weak, regular;
   double pivot_min, pivot_max, entry_max, growth;
   double null_tolerance, regularization, consistency, growth_limit, error_limit;
@@ -32823,7 +32771,7 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
   const sli_saved_factor *g = &f->factor;
   const uint64_t n = has_factor ? (uint64_t)f->analysis.n : 0;
   const uint64_t regularized = g->regularization != 0.0 ? n : 0;
-  const uint64_t skipped = g->null_pivots == SL_NULL_PIVOT_SKIP ? n : 0;
+  const uint64_t skipped = g->skips_null ? n : 0;
   const uint64_t vectors = g->null_vectors > 1 ? skipped * (uint64_t)g->null_vectors : skipped;
   const uint64_t weighted = g->has_mass ? n : 0;
   const uint64_t centers = weighted * (g->null_vectors > 1 ? 2 * (uint64_t)g->null_vectors : 1);
@@ -33096,14 +33044,13 @@ static int sli_decode_analysis(const sli_saved_analysis *a, sl_symbolic *S) {
 }
 
 static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl_factor *F) {
-  const int skips = g->null_pivots == SL_NULL_PIVOT_SKIP;
+  const int skips = g->skips_null != 0;
   const int64_t n = S->n;
   sl_factor_info *info = &F->stats.factor;
   if ((g->method != SL_METHOD_UP_LOOKING && g->method != SL_METHOD_SUPERNODAL) ||
-      !sli_count_is_valid(g->null_pivots, SL_NULL_PIVOT_SKIP) ||
-      !sli_count_is_valid(g->has_mass, skips) || !sli_count_is_valid(g->checks, skips) ||
-      !sli_count_is_valid(g->nulls, skips ? n : 0) || g->null != g->nulls ||
-      !sli_count_is_valid(g->is_centered, g->nulls > 0 && g->has_mass) ||
+      !sli_count_is_valid(g->skips_null, 1) || !sli_count_is_valid(g->has_mass, skips) ||
+      !sli_count_is_valid(g->checks, skips) || !sli_count_is_valid(g->nulls, skips ? n : 0) ||
+      g->null != g->nulls || !sli_count_is_valid(g->is_centered, g->nulls > 0 && g->has_mass) ||
       !sli_count_is_valid(g->anchors, g->is_centered ? S->stats.symbolic.components : 0) ||
       !(g->regularization >= 0.0) || !sli_is_finite(g->regularization) ||
       (skips && (g->regularization != 0.0 || S->is_pivoted)) ||
@@ -33127,7 +33074,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   if (F->type == NULL) { /* untested: all storages are there */
     return 1; /* untested: the same */
   }
-  F->null.mode = (sl_null_pivots)g->null_pivots;
+  F->null.mode = g->skips_null ? SL_PIVOTS_SKIP_NULL : SL_PIVOTS_NONZERO;
   F->null.checks = (int)g->checks;
   F->null.is_centered = (int)g->is_centered;
   F->null.count = (sl_int)g->nulls;
@@ -33476,7 +33423,7 @@ SLI_HOT static int sli_check_factor(const sl_factor *F) {
     if (!sli_is_finite(d)) {
       return 0;
     }
-    if (F->null.mode == SL_NULL_PIVOT_SKIP &&
+    if (F->null.mode == SL_PIVOTS_SKIP_NULL &&
         (F->rule.kinds[k] < SLI_PIVOT_UNKNOWN || F->rule.kinds[k] > SLI_PIVOT_WEAK ||
         (F->null.vectors == 1 && F->null.g[k] != 0.0 && F->null.g[k] != F->null.z[k]))) {
       return 0;
@@ -33544,7 +33491,7 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
   sli_saved_factor g;
   SLI_CLEAR(g);
   g.method = F->method;
-  g.null_pivots = F->null.mode;
+  g.skips_null = F->null.mode == SL_PIVOTS_SKIP_NULL;
   g.has_mass = F->null.mass != NULL;
   g.has_signs = F->rule.regularization != 0.0 && F->rule.signs != NULL;
   g.checks = F->null.checks;
@@ -36669,7 +36616,7 @@ SLI_INLINE void sli_plain_take(const sl_factor *F, sl_int c, sl_int worker, doub
 SLI_INLINE int sli_plain_runs(const sl_factor *F, const sli_source *from) {
   return from->A != NULL && F->work.copied == NULL &&
        F->history.marks != NULL && /* branches untested: of a restriction, none is direct */
-       F->null.mode != SL_NULL_PIVOT_SKIP;
+       F->null.mode != SL_PIVOTS_SKIP_NULL;
 }
 
 SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl_int s,

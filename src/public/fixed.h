@@ -16,7 +16,7 @@
  *                and two triangles not compared.
  *  rows   [in]   count rows of A in 0..n-1 that are fixed, any order, none twice; from none to all.
  *  F      [in]   a factor of A, or NULL. Used only if it was computed from the values of A, and opt
- *                has none of perm, mass, signs, null_vector, regularization, SL_NULL_PIVOT_SKIP.
+ *                has none of perm, mass, signs, null_vector, regularization, SL_PIVOTS_SKIP_NULL.
  *  opt    [in]   allocator, threads, and what sl_symbolic_create and sl_factor_create read, in rows
  *                of A: perm, mass, signs and null_vector have n entries.
  *  stats  [out]  dirichlet, symbolic, factor; errors are in rows of A.

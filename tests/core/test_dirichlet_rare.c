@@ -19,12 +19,12 @@ static void a_negative_pivot_is_named_by_its_row(void **state) {
     sl_options opt = options_none();
     sl_fixed *D = NULL;
     sl_stats stats;
-    opt.definite = 1;
+    opt.pivots = SL_PIVOTS_POSITIVE;
     SL_EXPECT(SL_ERR_PIVOT, sl_fixed_create(&D, &A, fixed, 1, NULL, &opt, &stats));
     assert_null(D);
     assert_int_equal(stats.error.row, 2);
     assert_null(strstr(stats.error.what, "singular"));
-    opt.definite = 0;
+    opt.pivots = SL_PIVOTS_NONZERO;
     SL_CHECK(sl_fixed_create(&D, &A, fixed, 1, NULL, &opt, &stats));
     assert_int_equal(stats.factor.negative, 1);
     sl_fixed_free(D);
@@ -160,9 +160,9 @@ static void factors_that_do_not_suit_are_not_used(void **state) {
     sl_fixed_free(D);
     sl_factor_free(F);
     sl_symbolic_free(S);
-    for (size_t vectors = 1; vectors <= 2; vectors++) {
+    for (sl_int vectors = 1; vectors <= 2; vectors++) {
         sl_options opt = options_none();
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         opt.null_vector = vectors == 1 ? NULL : ones;
         opt.null_vector_count = vectors;
         SL_CHECK(sl_symbolic_create(&S, &two_paths, NULL, NULL));

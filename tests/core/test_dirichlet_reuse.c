@@ -75,7 +75,7 @@ static void an_unsuited_factor_is_not_used(void **state) {
     assert_int_equal(taken(&other, y.F, &row, 1, NULL), SL_FIXED_SUBMATRIX);
     for (int k = 0; k < 7; k++) {
         sl_options opt = options_none();
-        opt.null_pivots = k == 1 || k == 2 || k == 6 ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
+        opt.pivots = k == 1 || k == 2 || k == 6 ? SL_PIVOTS_SKIP_NULL : SL_PIVOTS_NONZERO;
         opt.mass = k == 1 ? ones : NULL;
         opt.null_vector = k == 2 ? ones : NULL;
         opt.regularization = k == 3 || k == 4 ? 1e-8 : 0.0;
@@ -124,7 +124,7 @@ static void a_singular_factor_needs_a_row_of_each_component(void **state) {
     sl_factor *F = NULL;
     sl_fixed *D = NULL;
     sl_stats stats;
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
     assert_int_equal(taken(&M.view, F, rows, 2, NULL), SL_FIXED_PINS);

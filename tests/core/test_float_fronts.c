@@ -147,7 +147,7 @@ static void weak_pivots_are_refused(void **state) {
         gen_matrix_t M = gen_store(&t, gen_style(0), 1);
         sl_options opt = options_float(SL_ISA_AUTO);
         sl_stats stats;
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         SL_EXPECT(k == 0 ? SL_OK : SL_ERR_PIVOT, factor_natural(&M.view, opt, &stats));
         assert_true(k == 0 ? stats.factor.null == 1 : stats.error.row == n / 2 - 1);
         opt.storage = SL_STORAGE_DOUBLE;

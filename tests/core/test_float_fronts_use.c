@@ -56,7 +56,7 @@ static void a_null_vector_is_given(void **state) {
             sl_factor *F = NULL;
             sl_stats stats;
             memset(&stats, 0, sizeof stats);
-            opt.null_pivots = SL_NULL_PIVOT_SKIP;
+            opt.pivots = SL_PIVOTS_SKIP_NULL;
             opt.null_vector = z;
             SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, &stats));
             assert_int_equal(stats.factor.null, components);
@@ -84,9 +84,9 @@ static void several_null_vectors_are_given(void **state) {
         sl_factor *F = NULL;
         sl_stats stats;
         memset(&stats, 0, sizeof stats);
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         opt.null_vector = y.Z;
-        opt.null_vector_count = (size_t)y.rigid;
+        opt.null_vector_count = y.rigid;
         SL_CHECK(sl_symbolic_create(&S, &y.A, NULL, NULL));
         SL_CHECK(sl_factor_create(&F, S, &y.A, &opt, &stats));
         assert_int_equal(stats.factor.null, y.null);
@@ -114,7 +114,7 @@ static void a_pivot_that_overflows_is_refused(void **state) {
         sl_options opt = options_float(isas.isa[k]);
         sl_factor *F = NULL;
         sl_stats stats;
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         SL_EXPECT(SL_ERR_INACCURATE, sl_factor_create(&F, S, &A, &opt, &stats));
         assert_int_equal(stats.error.row, 1);
     }
@@ -140,12 +140,12 @@ static void small_pivots_of_many_rows_are_kept(void **state) {
         x[at + 2] = 1.0 + e;
     }
     sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
-    for (int mode = 0; mode < 2; mode++) {
+    for (int mode = SL_PIVOTS_NONZERO; mode <= SL_PIVOTS_SKIP_NULL; mode++) {
         sl_options opt = options_float(SL_ISA_AUTO);
         sl_factor *F = NULL;
         sl_stats stats;
         memset(&stats, 0, sizeof stats);
-        opt.null_pivots = (sl_null_pivots)mode;
+        opt.pivots = (sl_pivots)mode;
         x[ROWS / 2 * 3 - 1] = 1.0 + e;
         SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
         assert_int_equal(stats.factor.null, 0);
@@ -153,10 +153,10 @@ static void small_pivots_of_many_rows_are_kept(void **state) {
             assert_true(sl_factor_view(F).D[k] == (k % 2 == 0 ? 1.0 : e));
         }
         x[ROWS / 2 * 3 - 1] = 1.0;
-        SL_EXPECT(mode == SL_NULL_PIVOT_SKIP ? SL_OK : SL_ERR_PIVOT,
+        SL_EXPECT(mode == SL_PIVOTS_SKIP_NULL ? SL_OK : SL_ERR_PIVOT,
                   sl_factor_refactor(F, &A, &stats));
-        assert_int_equal(mode == SL_NULL_PIVOT_SKIP ? stats.factor.null : stats.error.row,
-                         mode == SL_NULL_PIVOT_SKIP ? 1 : ROWS - 1);
+        assert_int_equal(mode == SL_PIVOTS_SKIP_NULL ? stats.factor.null : stats.error.row,
+                         mode == SL_PIVOTS_SKIP_NULL ? 1 : ROWS - 1);
         sl_factor_free(F);
     }
     sl_symbolic_free(S);

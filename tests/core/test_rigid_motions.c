@@ -263,7 +263,7 @@ static void components_of_one_tree_share_the_columns(void **state) {
             sl_factor *F = NULL;
             sl_stats stats;
             opt.null_vector = Z;
-            opt.null_vector_count = (size_t)dim;
+            opt.null_vector_count = dim;
             SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
             assert_int_equal(stats.factor.null, dim);
             assert_solves(&M.view, F, 3);

@@ -192,7 +192,7 @@ static inline elastic_t elastic_make(int dim, sl_int size, double decades, doubl
 static inline sl_options options_rigid(const elastic_t *y, const variant_list_t *variants, int k) {
     sl_options opt = options_skip_null(variants, k);
     opt.null_vector = y->Z;
-    opt.null_vector_count = (size_t)y->rigid;
+    opt.null_vector_count = y->rigid;
     return opt;
 }
 

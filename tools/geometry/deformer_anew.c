@@ -24,7 +24,7 @@ static sl_status create(sl_fixed **out, deformer *d, const sl_int *rows, sl_int 
     const sl_csc K = sl_matrix_view(d->K);
     sl_options opt;
     memset(&opt, 0, sizeof opt);
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     opt.consistency_tolerance = -1;
     sl_status status = SL_ERR_PIVOT;
     if (F != NULL) {

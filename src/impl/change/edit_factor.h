@@ -65,8 +65,9 @@ static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *s
 static int sli_reuse_is_suited(const sl_factor *F, const sl_factor *G) {
     const double a = F->rule.null_tolerance, b = G->rule.null_tolerance;
     return F->history.marks != NULL && G->history.marks != NULL && F->E == NULL && G->E == NULL &&
-           G->type->accepts == NULL && F->null.mode == G->null.mode && F->null.vectors == 1 &&
-           G->null.vectors == 1 && F->rule.regularization == G->rule.regularization &&
+           G->type->accepts == NULL && F->null.vectors == 1 && G->null.vectors == 1 &&
+           (F->null.mode == SL_PIVOTS_SKIP_NULL) == (G->null.mode == SL_PIVOTS_SKIP_NULL) &&
+           F->rule.regularization == G->rule.regularization &&
            (a == b || (sli_tolerance_is_default(F) && sli_tolerance_is_default(G)));
 }
 
@@ -124,7 +125,7 @@ static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_
     const double *l = (const double *)F->values + S->steps[there].panel;
     const double d = F->D[S->steps[there].column];
     const int has_mark = F->schedule.is_plain[there] != SLI_PLAIN_DIRECT ||
-                         F->null.mode == SL_NULL_PIVOT_SKIP ||
+                         F->null.mode == SL_PIVOTS_SKIP_NULL ||
                          sli_is_regularized(F, S->steps[there].column);
     int is_same = has_mark || r->G->schedule.is_plain[s] == SLI_PLAIN_DIRECT;
     uint64_t mark = SLI_MARK_BEGIN, before = SLI_MARK_BEGIN;
@@ -259,7 +260,7 @@ static sl_status sli_reuse_numbers(sli_reuse *r, sl_stats *stats) {
     sl_status status;
     SLI_CLEAR(failure);
     sli_factor_begin(r->G);
-    if (is_suited && r->G->null.mode == SL_NULL_PIVOT_SKIP) {
+    if (is_suited && r->G->null.mode == SL_PIVOTS_SKIP_NULL) {
         is_suited = sli_null_vectors_check(r->G, &from, &failure) == SL_OK;
     }
     keeps = is_suited && sli_reuse_find(r);

@@ -265,7 +265,7 @@ static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
     q->stats = stats;
     q->u.sign = info->positive == F->S->n ? 1.0 : info->negative == F->S->n ? -1.0 : 0.0;
     q->u.keeps_signs = q->u.sign != 0.0 || F->rule.regularization != 0.0;
-    q->u.least = F->null.mode == SL_NULL_PIVOT_SKIP ? sli_rank_least(F) : 0.0;
+    q->u.least = F->null.mode == SL_PIVOTS_SKIP_NULL ? sli_rank_least(F) : 0.0;
 }
 
 /* Reports a change. */

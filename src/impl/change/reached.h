@@ -15,7 +15,7 @@ static int sli_nulls_remain(const sl_factor *F) {
             return 0;
         }
     }
-    for (m = 0; F->null.mode == SL_NULL_PIVOT_SKIP && m < F->null.count; m++) {
+    for (m = 0; F->null.mode == SL_PIVOTS_SKIP_NULL && m < F->null.count; m++) {
         if (F->rule.kinds[F->null.pivots[m]] >= SLI_PIVOT_KEPT) {
             return 0;
         }
@@ -37,7 +37,7 @@ static sl_status sli_reached_numbers(sl_factor *F, const sli_kept *p, const sli_
                                      double started, sl_stats *stats) {
     sli_failure failure;
     SLI_CLEAR(failure);
-    if (F->null.mode == SL_NULL_PIVOT_SKIP) {
+    if (F->null.mode == SL_PIVOTS_SKIP_NULL) {
         (void)sli_null_vectors_check(F, from, &failure);
     }
     if (failure.status == SL_OK && !sli_nulls_remain(F)) {

@@ -54,15 +54,15 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
                      "options.null_vector_count"
                    : "float cannot hold L: options.storage";
     }
-    if (F->limits.is_definite && f->bound >= 0.0) {
-        return "options.definite: the pivot is not positive, and A not positive definite";
+    if (F->null.mode == SL_PIVOTS_POSITIVE && f->bound >= 0.0) {
+        return "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite";
     }
     if (f->bound < 0.0) {
         return "there was no memory to judge whether the pivot is null";
     }
-    if (F->null.mode == SL_NULL_PIVOT_SKIP) {
+    if (F->null.mode == SL_PIVOTS_SKIP_NULL) {
         return f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
-                                "SL_NULL_PIVOT_SKIP takes semidefinite matrices"
+                                "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
                               : "A is indefinite, or options.null_vector or options.mass does not "
                                 "suit its null vectors";
     }
@@ -70,11 +70,11 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
         return "options.null_tolerance decides; a negative one accepts every pivot but 0";
     }
     return size > F->rule.epsilon * F->extents[f->super].magnitude
-               ? "if A is singular: options.null_pivots; if the pivot may be right, a smaller or "
+               ? "if A is singular: options.pivots; if the pivot may be right, a smaller or "
                  "negative options.null_tolerance accepts it, and sl_symbolic_create_pivoted "
                  "avoids small pivots"
                : "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
-                 "options.null_pivots";
+                 "options.pivots";
 }
 
 /* Fills F's stats: the pivot counts and, after a failure, the caller's row and column. has_pivots:
@@ -146,10 +146,10 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
                                  double started, sl_stats *stats) {
     double ended;
     int has_pivots, suspects;
-    if (failure->status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
+    if (failure->status == SL_OK && F->null.mode == SL_PIVOTS_SKIP_NULL) {
         (void)sli_nulls_find(F, from, failure);
     }
-    if (failure->status == SL_ERR_PIVOT && F->null.mode == SL_NULL_PIVOT_SKIP) {
+    if (failure->status == SL_ERR_PIVOT && F->null.mode == SL_PIVOTS_SKIP_NULL) {
         sli_null_finite_check(F, from, failure);
     }
     F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
@@ -163,7 +163,7 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
         sli_signs_judge(F, failure) != SL_OK) {
         sli_factor_outcome(F, from->A, failure, 0);
     }
-    if (F->limits.is_definite && has_pivots && F->stats.factor.negative > 0 &&
+    if (F->null.mode == SL_PIVOTS_POSITIVE && has_pivots && F->stats.factor.negative > 0 &&
         failure->status != SL_ERR_PIVOT) { /* branches untested: without pivots */
         sli_refuse_negative(F, failure);
         sli_factor_outcome(F, from->A, failure, 1);
@@ -254,7 +254,7 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
     if (F->type->accepts != NULL && failure.status == SL_OK) {
         F->type->accepts(F->S, from, &failure);
     }
-    if (failure.status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
+    if (failure.status == SL_OK && F->null.mode == SL_PIVOTS_SKIP_NULL) {
         (void)sli_null_vectors_check(F, from, &failure);
     }
     if (failure.status == SL_OK && sli_factor_eliminate(F, from, &failure) == SL_OK &&

@@ -26,7 +26,7 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
         F->rule.shifts = SLI_TAKE(b, double, n);
         F->rule.regularized = SLI_TAKE(b, sl_int, n);
     }
-    if (F->null.mode == SL_NULL_PIVOT_SKIP) {
+    if (F->null.mode == SL_PIVOTS_SKIP_NULL) {
         F->null.pivots = SLI_TAKE(b, sl_int, n);
         F->rule.kinds = SLI_TAKE(b, signed char, n);
         F->null.z = SLI_TAKE(b, double, n *(uint64_t)F->null.vectors);
@@ -66,7 +66,7 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
     const sl_symbolic *S = F->S;
     const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
     const uint64_t workers = (uint64_t)F->schedule.workers;
-    if (F->null.mode == SL_NULL_PIVOT_SKIP) {
+    if (F->null.mode == SL_PIVOTS_SKIP_NULL) {
         F->rule.signs = SLI_TAKE(b, signed char, n);
         F->null.rows = SLI_TAKE(b, sli_null_row, n);
         F->null.last = SLI_TAKE(b, sl_int, n);
@@ -147,7 +147,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
         if (F->history.marks != NULL) {
             memset(F->history.marks, 0, (size_t)S->n_supers * sizeof(uint64_t));
         }
-        F->null.has_duplicates = F->null.mode == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(S);
+        F->null.has_duplicates = F->null.mode == SL_PIVOTS_SKIP_NULL && sli_map_has_duplicates(S);
         if (has_fronts) {
             memcpy(p.first, plan.first, planned);
             p.workers = plan.workers;

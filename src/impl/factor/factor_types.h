@@ -56,9 +56,8 @@ typedef struct sli_own_kernels {
 
 /* What a user has asked to refuse or to report. */
 typedef struct sli_limits {
-    int is_definite; /* negative pivots are refused */
-    double growth;   /* a larger growth is refused */
-    double error;    /* a refinement that ends above it is reported */
+    double growth; /* a larger growth is refused */
+    double error;  /* a refinement that ends above it is reported */
 } sli_limits;
 
 /* Supernodes whose numbers are copied in a factorization: a pack's struct begins with this. */
@@ -70,7 +69,7 @@ typedef struct sli_copied {
 
 /* The null space of a semidefinite matrix: what is known of it, and what solves need. */
 typedef struct sli_null_space {
-    sl_null_pivots mode;
+    sl_pivots mode;
     double consistency; /* the bound on |z' b| relative to the sum of |b|; negative: no check */
     int checks;         /* there are null pivots, and solves check that b is consistent */
     int is_centered;    /* there are null pivots, and solves center x by the weights in mass */
@@ -273,7 +272,7 @@ SLI_INLINE sl_int sli_center_count(const sl_factor *F) {
 
 /* Was pivot k null and skipped? */
 SLI_INLINE int sli_is_skipped(const sl_factor *F, sl_int k) {
-    return F->null.mode == SL_NULL_PIVOT_SKIP && F->D[k] == SLI_NULL_PIVOT;
+    return F->null.mode == SL_PIVOTS_SKIP_NULL && F->D[k] == SLI_NULL_PIVOT;
 }
 
 /* Was pivot k changed by regularization? */

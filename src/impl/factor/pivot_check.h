@@ -65,7 +65,7 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, dou
     if (!F->rule.replaces && sli_is_null(pivot, magnitude, F->rule.null_tolerance)) {
         return sli_check_small(F, s, k, pivot, magnitude, failure);
     }
-    if (F->null.mode == SL_NULL_PIVOT_SKIP && !sli_is_skipped(F, k) &&
+    if (F->null.mode == SL_PIVOTS_SKIP_NULL && !sli_is_skipped(F, k) &&
         !(pivot * F->rule.signs[k] > 0.0)) { /* indefinite */
         return sli_refuse_pivot(F, s, k, pivot, magnitude, failure);
     }
@@ -183,7 +183,7 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
     info.positive = info.negative = info.null = info.weak = 0;
     info.regularized = sli_list_regularized(F, count);
     info.pivot_min = info.pivot_max = 0.0;
-    if (count > 0 && F->E == NULL && F->null.mode != SL_NULL_PIVOT_SKIP) {
+    if (count > 0 && F->E == NULL && F->null.mode != SL_PIVOTS_SKIP_NULL) {
         const sli_spread r = sli_spread_of(F->D, count);
         if (r.least > 0.0) { /* regularization may underflow */
             info.positive = r.positive;

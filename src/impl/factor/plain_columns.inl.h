@@ -82,7 +82,7 @@ SLI_INLINE void sli_plain_take(const sl_factor *F, sl_int c, sl_int worker, doub
 SLI_INLINE int sli_plain_runs(const sl_factor *F, const sli_source *from) {
     return from->A != NULL && F->work.copied == NULL &&
            F->history.marks != NULL && /* branches untested: of a restriction, none is direct */
-           F->null.mode != SL_NULL_PIVOT_SKIP;
+           F->null.mode != SL_PIVOTS_SKIP_NULL;
 }
 
 /* Computes plain columns from supernode s up to `last` while each is regular: direct, and there is

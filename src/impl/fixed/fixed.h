@@ -68,12 +68,11 @@ static void sli_fixed_options(sl_fixed *D, const sl_options *opt) {
     s->threads = f->threads = opt->threads;
     s->ordering = opt->ordering;
     s->relaxation = opt->relaxation;
-    s->metis_options = opt->metis_options;
     s->block_size = opt->block_size;
     s->purpose = opt->purpose;
     f->isa = opt->isa;
     f->method = opt->method;
-    f->null_pivots = opt->null_pivots;
+    f->pivots = opt->pivots;
     f->null_tolerance = opt->null_tolerance;
     f->consistency_tolerance = opt->consistency_tolerance;
     f->regularization = opt->regularization;
@@ -81,7 +80,6 @@ static void sli_fixed_options(sl_fixed *D, const sl_options *opt) {
     f->error_limit = opt->error_limit;
     f->null_vector_count = opt->null_vector_count;
     f->storage = opt->storage;
-    f->definite = opt->definite;
 }
 
 /* Checks the arguments of a creation. */
@@ -163,10 +161,9 @@ static sl_status sli_fixed_new(sl_fixed **out, const sl_csc *A, const sl_int *ro
 /* May a factor of A take the place of one with these options? */
 static int sli_fixed_may_reuse(const sl_factor *F, const sl_options *opt) {
     return F != NULL &&
-           (opt == NULL ||
-            ((opt->perm == NULL || opt->ordering != SL_ORDERING_GIVEN) && opt->mass == NULL &&
-             opt->signs == NULL && opt->null_vector == NULL &&
-             opt->null_pivots == SL_NULL_PIVOT_REFUSE && opt->regularization == 0.0)) &&
+           (opt == NULL || ((opt->perm == NULL || opt->ordering != SL_ORDERING_GIVEN) &&
+                            opt->mass == NULL && opt->signs == NULL && opt->null_vector == NULL &&
+                            opt->pivots != SL_PIVOTS_SKIP_NULL && opt->regularization == 0.0)) &&
            F->type->storage == (opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
 }
 
@@ -203,7 +200,6 @@ static sl_status sli_fixed_begin(sl_fixed *D, const sl_csc *A, const sl_factor *
         status = status == SL_OK ? sli_fixed_factor(D, A, &arrays, where, scratch, stats) : status;
         sli_free(&D->allocator, b.base);
     }
-    D->analysis.metis_options = NULL;
     return status;
 }
 

@@ -33,7 +33,7 @@ SLI_INLINE sl_status sli_check_single(const sl_factor *F, const sli_front *f, sl
                                       sli_failure *failure) {
     const sl_int s = f->super, k = f->column + column;
     const float pivot = f->single.D[column], magnitude = f->single.magnitude[column];
-    const int is_null = F->null.mode == SL_NULL_PIVOT_SKIP && pivot == FLT_MAX;
+    const int is_null = F->null.mode == SL_PIVOTS_SKIP_NULL && pivot == FLT_MAX;
     const double d = is_null ? SLI_NULL_PIVOT : (double)pivot, m = (double)magnitude;
     F->D[k] = d;
     if (!(m <= SLI_SINGLE_MOST) || (!is_null && m != 0.0 && m < SLI_SINGLE_LEAST)) {

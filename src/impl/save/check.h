@@ -344,7 +344,7 @@ SLI_HOT static int sli_check_factor(const sl_factor *F) {
         if (!sli_is_finite(d)) {
             return 0;
         }
-        if (F->null.mode == SL_NULL_PIVOT_SKIP &&
+        if (F->null.mode == SL_PIVOTS_SKIP_NULL &&
             (F->rule.kinds[k] < SLI_PIVOT_UNKNOWN || F->rule.kinds[k] > SLI_PIVOT_WEAK ||
              (F->null.vectors == 1 && F->null.g[k] != 0.0 && F->null.g[k] != F->null.z[k]))) {
             return 0;

@@ -40,7 +40,7 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
     sli_saved_factor g;
     SLI_CLEAR(g);
     g.method = F->method;
-    g.null_pivots = F->null.mode;
+    g.skips_null = F->null.mode == SL_PIVOTS_SKIP_NULL;
     g.has_mass = F->null.mass != NULL;
     g.has_signs = F->rule.regularization != 0.0 && F->rule.signs != NULL;
     g.checks = F->null.checks;
