@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f15c3cbf1c8768c2
+ * FNV-1a of the lines after this comment, without the license: 4e78f72ed06a0215
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -7,52 +7,52 @@
  *    190 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
  *    234 config.h     macros that a user may define before the include, the version, and the integer types
  *    323 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    495 options.h    options of all calls, threads, and the allocator
- *    621 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    859 csc.h        sparse matrices: creation, checks, products, residuals
- *    952 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1028 factor.h     the numerical factorization P A P' = L D L'
- *   1157 solve.h      full solves, and the workspace of all solves
- *   1253 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1329 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1413 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1494 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1533 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1634 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1713 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1783 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1876 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1982 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2024 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2146 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2328 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2431 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2535 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2576 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2661 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2749 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2812 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2855 impl/ base: the compiler, status, memory, sorting, threads
- *   4136 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5045 impl/ matrix: sparse matrices of the caller and of the library
- *   5707 impl/ ordering: fill-reducing orderings of a graph
- *  10343 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12581 impl/ factor: the numbers of L and D
- *  15164 impl/ solve: full and local solves
- *  16710 impl/ singular: null spaces of semidefinite matrices
- *  17981 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19996 impl/ pivots: the order of the pivots by the values of a matrix
- *  20404 impl/ float: L in single precision
- *  20634 impl/ inverse: entries of the inverse, regions
- *  23593 impl/ change: a factor that follows changes of its matrix
- *  29879 impl/ fixed: rows fixed at given values
- *  30440 impl/ io: files that are replaced only when they are complete
- *  30658 impl/ files: Matrix Market files, 64-bit indices
- *  31204 impl/ save: factors in files
- *  33220 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33906 impl/ complex: complex Hermitian systems over real factors
- *  34409 impl/ packs: the tables through which the core calls packs
- *  34811 impl/ templates: the header includes them from itself, once for each instruction set
+ *    497 options.h    options of all calls, threads, and the allocator
+ *    614 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    852 csc.h        sparse matrices: creation, checks, products, residuals
+ *    945 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1021 factor.h     the numerical factorization P A P' = L D L'
+ *   1150 solve.h      full solves, and the workspace of all solves
+ *   1246 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1322 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1406 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1487 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1526 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1627 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1706 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1776 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1869 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1975 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2017 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2139 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2321 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2424 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2528 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2569 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2654 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2742 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2805 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2848 impl/ base: the compiler, status, memory, sorting, threads
+ *   4128 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5037 impl/ matrix: sparse matrices of the caller and of the library
+ *   5699 impl/ ordering: fill-reducing orderings of a graph
+ *  10299 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12537 impl/ factor: the numbers of L and D
+ *  15117 impl/ solve: full and local solves
+ *  16663 impl/ singular: null spaces of semidefinite matrices
+ *  17934 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19949 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20357 impl/ float: L in single precision
+ *  20587 impl/ inverse: entries of the inverse, regions
+ *  23546 impl/ change: a factor that follows changes of its matrix
+ *  29832 impl/ fixed: rows fixed at given values
+ *  30391 impl/ io: files that are replaced only when they are complete
+ *  30609 impl/ files: Matrix Market files, 64-bit indices
+ *  31155 impl/ save: factors in files
+ *  33170 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33856 impl/ complex: complex Hermitian systems over real factors
+ *  34359 impl/ packs: the tables through which the core calls packs
+ *  34761 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -92,7 +92,7 @@
  *  x in a few rows for b in a few rows, often     sl_plan_create, sl_plan_solve          plan.h
  *  the same once                                  sl_local_solve                         plan.h
  *  a part of a matrix                             sl_matrix_submatrix                    csc.h
- *  a singular Laplacian, an elastic body          options.null_pivots, mass, null_vector options.h
+ *  a singular Laplacian, an elastic body          options.pivots, mass, null_vector      options.h
  *  several processors                             options.threads                        options.h
  *  what failed, and where; counts and times       sl_stats                               stats.h
  *
@@ -246,7 +246,7 @@
  *  SL_NO_SIMD                    compiles only the kernels in plain C: smallest object, fastest
  *                                compilation, easiest to debug.
  *  SL_NO_AVX512                  leaves out the AVX-512 kernels: AVX2 is then the best on x86.
- *  SL_NO_SINGULAR                leaves out null spaces, 26 kB: SL_NULL_PIVOT_SKIP is refused.
+ *  SL_NO_SINGULAR                leaves out null spaces, 26 kB: SL_PIVOTS_SKIP_NULL is refused.
  *  SL_PTHREADS                   threads of POSIX where options.threads.run is NULL; compile and
  *                                link with -pthread.
  *  SL_NO_CLOCK                   makes all times in the statistics 0, for systems without clock();
@@ -446,11 +446,13 @@ typedef enum sl_storage {
                           matrices only, complex.h */
 } sl_storage;
 
-/** What to do with a null pivot. */
-typedef enum sl_null_pivots {
-    SL_NULL_PIVOT_REFUSE = 0, /* fail with SL_ERR_PIVOT; D may have any sign */
-    SL_NULL_PIVOT_SKIP        /* skip and count it: semidefinite matrices, singular Laplacians */
-} sl_null_pivots;
+/** Which pivots are accepted. All others are refused with SL_ERR_PIVOT and their row. */
+typedef enum sl_pivots {
+    SL_PIVOTS_NONZERO = 0, /* all that are not null: D may have any sign */
+    SL_PIVOTS_POSITIVE,    /* A is positive definite */
+    SL_PIVOTS_SKIP_NULL    /* A is semidefinite, such as a singular Laplacian: null pivots are
+                              skipped and counted */
+} sl_pivots;
 
 /** How entries of the inverse were computed. */
 typedef enum sl_inverse_method {
@@ -539,9 +541,6 @@ typedef struct sl_options {
     sl_triangle triangle;
     /* n: perm[k] = row of A that is pivot k; read with SL_ORDERING_GIVEN only */
     const sl_int *perm;
-    /* 40 entries as in METIS's options array, -1 = METIS's default; NULL: all default. The
-     * numbering and debug level are ignored */
-    const sl_int *metis_options;
     /* rows k block_size .. (k+1) block_size - 1 stay together in the order, such as x, y, z of a
      * vertex; divides n; 0 or 1: no blocks */
     sl_int block_size;
@@ -554,40 +553,37 @@ typedef struct sl_options {
 
     sl_isa isa;
     sl_method method;
-    sl_null_pivots null_pivots;
+    sl_storage storage;
+    /* SL_PIVOTS_POSITIVE refuses a negative pivot, for example where the sign of t is wrong in M +
+     * t L, and stats.factor counts the others. It is not saved in files */
+    sl_pivots pivots;
     /* a pivot d is null if |d| <= null_tolerance * (sum of the magnitudes it was computed from);
      * not read where a known null vector decides (tools/docs/singular.md); 0: if it is within the
      * rounding error that L shows; where null pivots are skipped or replaced, (64 + k/8) epsilon
      * with the k rows of its subtree; negative: only an exact zero is null */
     double null_tolerance;
-    /* with SL_NULL_PIVOT_SKIP: n weights m, copied. In each component with a null pivot the
+    /* with SL_PIVOTS_SKIP_NULL: n x null_vector_count numbers, copied. One column: a vector that is
+     * a null vector of each connected component that has one; 0 in all rows of a component: its
+     * null vectors are unknown; NULL: all 1 */
+    const double *null_vector;
+    /* the columns of null_vector, at most 32: the null vectors of each component are combinations
+     * of them (tools/docs/singular.md). Column-major, leading dimension n; 0: 1 */
+    sl_int null_vector_count;
+    /* with SL_PIVOTS_SKIP_NULL: n weights m, copied. In each component with a null pivot the
      * solution has sum m x = 0, and b is made consistent by a multiple of m; with several null
      * vectors z it has sum m z x = 0 for each of them; NULL: x is 0 in the null rows */
     const double *mass;
-    /* with SL_NULL_PIVOT_SKIP and no mass: a solve refuses b if |z' b| > consistency_tolerance *
+    /* with SL_PIVOTS_SKIP_NULL and no mass: a solve refuses b if |z' b| > consistency_tolerance *
      * sum |b| for a null vector z scaled to 1 in its null row; 0: 1e-6, which accepts
      * single-precision errors; negative: nothing is refused */
     double consistency_tolerance;
-    /* with SL_NULL_PIVOT_REFUSE: a null pivot, or one of the wrong sign, becomes sign * max(|d|,
+    /* with SL_PIVOTS_NONZERO only: a null pivot, or one of the wrong sign, becomes sign * max(|d|,
      * regularization * (sum of the magnitudes it was computed from, 1 if that is 0)); 1e-8 suits
      * refinement; 0: no regularization */
     double regularization;
     /* n, copied: the sign that each row's pivot should have, 1 or -1, or 0 for either; NULL: all 1
      */
     const sl_int *signs;
-
-    /* ---- local solves ---- */
-
-    /* where the sweeps of a plan may end; kept by the plan; NULL: at the roots only */
-    const sl_region *region;
-    /* upper bound on the bytes of a region that has a boundary; 0: no bound */
-    size_t region_bytes;
-
-    /* with SL_NULL_PIVOT_SKIP: n x null_vector_count numbers, copied. One column: a vector that is
-     * a null vector of each connected component that has one; 0 in all rows of a component: its
-     * null vectors are unknown; NULL: all 1 */
-    const double *null_vector;
-
     /* a factorization whose stats.factor.growth is larger is refused with SL_ERR_INACCURATE; 0:
      * 1 / epsilon = 4.5e15, or 8.4e6 if L is in float, beyond which L D L' may agree with A in
      * no digit; negative: no limit */
@@ -596,15 +592,12 @@ typedef struct sl_options {
      * this backward error; 0: 1e-8; negative: never */
     double error_limit;
 
-    /* the columns of null_vector, at most 32: the null vectors of each component are combinations
-     * of them (tools/docs/singular.md). Column-major, leading dimension n; 0: 1 */
-    size_t null_vector_count;
-    sl_storage storage;
+    /* ---- local solves ---- */
 
-    /* 1: A is positive definite. A negative pivot is refused with SL_ERR_PIVOT and its row, for
-     * example where the sign of t is wrong in M + t L; stats.factor counts the others. Not allowed
-     * with regularization or SL_NULL_PIVOT_SKIP, which has its own check. Not saved in files */
-    size_t definite;
+    /* where the sweeps of a plan may end; kept by the plan; NULL: at the roots only */
+    const sl_region *region;
+    /* upper bound on the bytes of a region that has a boundary; 0: no bound */
+    size_t region_bytes;
 
     /* must be 0; new options take their place, so that the size of the struct never changes. An
      * older library, for which they are reserved, refuses them */
@@ -660,10 +653,10 @@ typedef struct sl_factor_info {
     sl_int negative;    /* the same */
     sl_int null;        /* null pivots: the skipped ones, or the one that was refused */
     sl_int regularized; /* pivots that regularization changed; they count by their new sign */
-    /* with SL_NULL_PIVOT_SKIP: kept pivots within rounding of 0. A component with a known null
+    /* with SL_PIVOTS_SKIP_NULL: kept pivots within rounding of 0. A component with a known null
      * vector has them where its parts are joined weakly, or if it has a second null vector */
     sl_int weak;
-    /* with SL_NULL_PIVOT_SKIP: connected components without a null pivot. Their solutions are
+    /* with SL_PIVOTS_SKIP_NULL: connected components without a null pivot. Their solutions are
      * unique, and options.mass does not apply to them */
     sl_int regular;
     sl_isa isa;
@@ -960,8 +953,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
  *
  *  out    [out]  the analysis.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
- *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, metis_options,
- *                block_size, purpose. block_size is used by all but SL_ORDERING_GIVEN and
+ *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, block_size,
+ *                purpose. block_size is used by all but SL_ORDERING_GIVEN and
  *                SL_ORDERING_NATURAL; every ordering refuses an invalid one.
  *  stats  [out]  symbolic.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first
@@ -1031,16 +1024,16 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  or with the 2x2 blocks of sl_symbolic_create_pivoted.
  *
  *  Definite and quasi-definite matrices can be factored in any order, other indefinite ones if no
- *  pivot is null, semidefinite ones with SL_NULL_PIVOT_SKIP. Solves have a backward error of at
+ *  pivot is null, semidefinite ones with SL_PIVOTS_SKIP_NULL. Solves have a backward error of at
  *  most about epsilon * stats.factor.growth. If that is not small enough, or if pivots were
  *  regularized, call sl_factor_refine, and trust X if it returns SL_OK.
  *
  *  out    [out]  the factor.
  *  S      [in]   analysis of A's pattern; kept by the factor.
  *  A      [in]   n x n with values; the analyzed pattern with its entries in the same order.
- *  opt    [in]   allocator, threads, isa, method, null_pivots, null_tolerance, mass,
- *                consistency_tolerance, regularization, signs, null_vector, null_vector_count,
- *                growth_limit, error_limit, storage, definite.
+ *  opt    [in]   allocator, threads, isa, method, storage, pivots, null_tolerance,
+ *                null_vector, null_vector_count, mass, consistency_tolerance, regularization,
+ *                signs, growth_limit, error_limit.
  *  stats  [out]  factor.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, or at error.row a
  *           weight, sign or null vector that is not allowed; SL_ERR_OTHER_PATTERN: not the analyzed
@@ -1098,7 +1091,7 @@ SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
 
 /** Pivots that a factorization did not take as they came. */
 typedef enum sl_pivot_kind {
-    SL_PIVOT_NULL = 0,   /* null ones that were skipped: SL_NULL_PIVOT_SKIP */
+    SL_PIVOT_NULL = 0,   /* null ones that were skipped: SL_PIVOTS_SKIP_NULL */
     SL_PIVOT_REGULARIZED /* those that options.regularization changed */
 } sl_pivot_kind;
 
@@ -1236,8 +1229,8 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *                13 to 16, with the bits of blocks of 8, then of up to 8. 8 take as long as two to
  *                three single solves, 32 as long as six to eight.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_INCONSISTENT: a column of B has no
- *           solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: a number of B is not, or
- *           X overflows: X is written; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           solution (SL_PIVOTS_SKIP_NULL without mass); SL_ERR_NOT_FINITE: a number of B is not,
+ *           or X overflows: X is written; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
  *           min(nrhs, 64)). If consistency is checked, right-hand sides beyond the eighth are
  *           read twice, and take an additional forward sweep where null vectors are not known.
@@ -1619,7 +1612,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rcond(const sl_factor *F, const sl_csc
  *  After Y(k, r) is subtracted from B in that row, the system has a solution. For a
  *  Laplacian, Y contains the sums of B over the components.
  *
- *  F      [in]   a factor made with SL_NULL_PIVOT_SKIP; without null pivots Y has no rows.
+ *  F      [in]   a factor made with SL_PIVOTS_SKIP_NULL; without null pivots Y has no rows.
  *  Y      [out]  null rows x nrhs, leading dimension ldy; must not overlap B.
  *  B      [in]   n x nrhs, leading dimension ldb.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
@@ -2435,7 +2428,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const s
  *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep. For
  *  hundreds of rows that are held together, sl_factor_submatrix or sl_fixed_create is faster.
  *
- *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
+ *  Singular matrices: with SL_PIVOTS_SKIP_NULL and known null vectors (sl_factor_create), one pin
  *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
  *  pins that leave none of its 6 motions. Components without pins are solved as by sl_factor_solve:
  *  with the weights of options.mass, or with x = 0 in null rows and b in balance. If the pins of a
@@ -2452,7 +2445,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const s
  *  opt  [in]   allocator.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_UNSUPPORTED: pivots of both signs, or 2x2
  *           pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
- *  Cost     O(1); with SL_NULL_PIVOT_SKIP 8 bytes per row.
+ *  Cost     O(1); with SL_PIVOTS_SKIP_NULL 8 bytes per row.
  *  Source   capacitance matrix of a change of low rank, as in [Hager89].
  *  Example  tests/core/test_constraints.c
  */
@@ -2815,9 +2808,9 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_c
  *
  *  For matrices without a stable factorization in the order of the pattern, such as KKT systems
  *  with zeros on the diagonal. With these values no entry of L exceeds 100. Factors of other values
- *  keep the pivots: check stats.factor.growth, and analyze again if it is large. SL_NULL_PIVOT_SKIP
- *  gives SL_ERR_UNSUPPORTED. Factors with 2x2 pivots are supernodal; entries of the inverse,
- *  selected inverses and regions refuse them with SL_ERR_UNSUPPORTED.
+ *  keep the pivots: check stats.factor.growth, and analyze again if it is large.
+ *  SL_PIVOTS_SKIP_NULL gives SL_ERR_UNSUPPORTED. Factors with 2x2 pivots are supernodal; entries of
+ *  the inverse, selected inverses and regions refuse them with SL_ERR_UNSUPPORTED.
  *
  *  out    [out]  the analysis. It has no separator tree.
  *  A      [in]   n x n, symmetric, with values; not kept.
@@ -3422,13 +3415,12 @@ SL_API void sl_options_init(sl_options *opt, size_t size) {
 #if defined(SL_VERIFY)
 static int sli_options_set(const sl_options *opt) {
   const int analysis = opt->ordering != 0 || opt->relaxation != 0 || opt->perm != NULL ||
-             opt->metis_options != NULL || opt->block_size != 0 || opt->purpose != 0;
-  const int factor = opt->method != 0 || opt->null_pivots != 0 || opt->null_tolerance != 0.0 ||
+             opt->block_size != 0 || opt->purpose != 0;
+  const int factor = opt->method != 0 || opt->pivots != 0 || opt->null_tolerance != 0.0 ||
              opt->mass != NULL || opt->consistency_tolerance != 0.0 ||
              opt->regularization != 0.0 || opt->signs != NULL ||
              opt->null_vector != NULL || opt->growth_limit != 0.0 ||
-             opt->error_limit != 0.0 || opt->null_vector_count != 0 ||
-             opt->storage != 0 || opt->definite != 0;
+             opt->error_limit != 0.0 || opt->null_vector_count != 0 || opt->storage != 0;
   return (opt->isa != 0 ? SLI_READS_ISA : 0) | (opt->triangle != 0 ? SLI_READS_TRIANGLE : 0) |
        (analysis ? SLI_READS_ANALYSIS : 0) | (factor ? SLI_READS_FACTOR : 0) |
        (opt->region != NULL ? SLI_READS_REGION : 0) |
@@ -9047,31 +9039,6 @@ static sl_status sli_compress(const sli_order_job *job, sli_order_job *inner, sl
 
 #include <metis.h>
 
-static int sli_metis_options_are_valid(const sl_int *options) {
-  static const struct {
-    int option, low, high;
-  } sli_ranges[] = {
-    {METIS_OPTION_OBJTYPE, METIS_OBJTYPE_NODE, METIS_OBJTYPE_NODE},
-    {METIS_OPTION_CTYPE, METIS_CTYPE_RM, METIS_CTYPE_SHEM},
-    {METIS_OPTION_IPTYPE, METIS_IPTYPE_EDGE, METIS_IPTYPE_NODE},
-    {METIS_OPTION_RTYPE, METIS_RTYPE_SEP2SIDED, METIS_RTYPE_SEP1SIDED},
-    {METIS_OPTION_NITER, 1, INT32_MAX},
-    {METIS_OPTION_COMPRESS, 0, 1},
-    {METIS_OPTION_CCORDER, 0, 1},
-    {METIS_OPTION_PFACTOR, 0, INT32_MAX},
-    {METIS_OPTION_NSEPS, 1, INT32_MAX},
-    {METIS_OPTION_UFACTOR, 1, 999},
-  };
-  size_t k;
-  for (k = 0; options != NULL && k < sizeof sli_ranges / sizeof *sli_ranges; k++) {
-    const sl_int value = options[sli_ranges[k].option];
-    if (value != -1 && (value < sli_ranges[k].low || value > sli_ranges[k].high)) {
-      return 0;
-    }
-  }
-  return 1;
-}
-
 static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count,
     const sl_int *local, idx_t *xadj, idx_t *adjncy) {
   sl_int k;
@@ -9089,9 +9056,7 @@ static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int c
 
 static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_int count) {
   const sli_graph *G = job->G;
-  const sl_int *metis_options = job->opt->metis_options;
-  idx_t options[METIS_NOPTIONS], nv = (idx_t)count, *xadj = NULL, *adjncy = NULL, *perm = NULL,
-                   *iperm = NULL;
+  idx_t nv = (idx_t)count, *xadj = NULL, *adjncy = NULL, *perm = NULL, *iperm = NULL;
   sli_block b = {NULL, 0};
   sl_off edges = 0;
   sl_status status = SL_OK;
@@ -9114,13 +9079,7 @@ static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_
     return status;
   }
   sli_metis_graph(G, vertices, count, job->scratch, xadj, adjncy);
-  METIS_SetDefaultOptions(options);
-  for (k = 0; metis_options != NULL && k < METIS_NOPTIONS; k++) {
-    options[k] = metis_options[k];
-  }
-  options[METIS_OPTION_NUMBERING] = 0;
-  options[METIS_OPTION_DBGLVL] = 0;
-  result = METIS_NodeND(&nv, xadj, adjncy, NULL, options, perm, iperm);
+  result = METIS_NodeND(&nv, xadj, adjncy, NULL, NULL, perm, iperm);
   if (result == METIS_OK) {
     for (k = 0; k < count; k++) {
       xadj[k] = vertices[k];
@@ -10319,10 +10278,7 @@ static sl_status sli_order(sli_order_job *job) {
     return SL_OK;
   case SL_ORDERING_METIS:
 #if defined(SLI_METIS)
-    return sli_metis_options_are_valid(opt->metis_options)
-           ? sli_order_by_graph(job)
-           : sli_order_refuse(job, SL_ERR_ARGUMENT,
-               "an entry of options.metis_options is not known");
+    return sli_order_by_graph(job);
 #else
     return sli_order_refuse(job, SL_ERR_UNSUPPORTED, "options.ordering needs SL_METIS");
 #endif
@@ -14413,8 +14369,8 @@ static const char *sli_factor_choices_wrong(const sl_options *opt) {
          ? "options.method is not a value of sl_method"
        : (unsigned)opt->storage > (unsigned)SL_STORAGE_COMPLEX
          ? "options.storage is not a value of sl_storage"
-       : (unsigned)opt->null_pivots > (unsigned)SL_NULL_PIVOT_SKIP
-         ? "options.null_pivots is not a value of sl_null_pivots"
+       : (unsigned)opt->pivots > (unsigned)SL_PIVOTS_SKIP_NULL
+         ? "options.pivots is not a value of sl_pivots"
        : opt->null_tolerance != opt->null_tolerance ? "options.null_tolerance is NaN"
        : opt->consistency_tolerance != opt->consistency_tolerance
          ? "options.consistency_tolerance is NaN"
@@ -14422,13 +14378,10 @@ static const char *sli_factor_choices_wrong(const sl_options *opt) {
        : opt->error_limit != opt->error_limit ? "options.error_limit is NaN"
        : !(opt->regularization >= 0.0) || !sli_is_finite(opt->regularization)
          ? "options.regularization is below 0 or not finite"
-       : opt->regularization != 0.0 && opt->null_pivots == SL_NULL_PIVOT_SKIP
-         ? "options.regularization excludes null_pivots = SL_NULL_PIVOT_SKIP"
-       : opt->definite != 0 && opt->definite != 1 ? "options.definite is neither 0 nor 1"
-       : opt->definite != 0 &&
-           (opt->regularization != 0.0 || opt->null_pivots == SL_NULL_PIVOT_SKIP)
-         ? "options.definite excludes regularization and SL_NULL_PIVOT_SKIP"
-       : opt->null_vector_count > SLI_NULL_VECTORS_MAX ? "options.null_vector_count is above 32"
+       : opt->regularization != 0.0 && opt->pivots != SL_PIVOTS_NONZERO
+         ? "options.regularization needs options.pivots = SL_PIVOTS_NONZERO"
+       : opt->null_vector_count < 0 || opt->null_vector_count > SLI_NULL_VECTORS_MAX
+         ? "options.null_vector_count is below 0 or above 32"
        : opt->null_vector_count > 1 && opt->null_vector == NULL ? "options.null_vector is NULL"
                                   : NULL;
 }
@@ -14450,7 +14403,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
   const double null = opt == NULL ? 0.0 : opt->null_tolerance;
   const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
   const sl_int vectors = opt == NULL ? 0 : (sl_int)opt->null_vector_count;
-  F->null.calls = sli_singular_of(opt != NULL && opt->null_pivots == SL_NULL_PIVOT_SKIP);
+  F->null.calls = sli_singular_of(opt != NULL && opt->pivots == SL_PIVOTS_SKIP_NULL);
   F->rule.epsilon = DBL_EPSILON;
   F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n, F->rule.epsilon) : null;
   F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
@@ -14458,7 +14411,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
   F->null.vectors = sli_skips_nulls(F) ? sli_max(vectors, 1) : 1;
   F->null.consistency = consistency == 0.0 ? 1e-6 : consistency;
   F->null.is_centered = sli_skips_nulls(F) && opt->mass != NULL;
-  F->limits.is_definite = opt != NULL && opt->definite != 0;
+  F->limits.is_definite = opt != NULL && opt->pivots == SL_PIVOTS_POSITIVE;
   F->limits.growth = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
       sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
   F->limits.error = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
@@ -14596,7 +14549,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
   draft.method = sli_method(S, draft.type, opt);
   status =
     S->is_pivoted && sli_skips_nulls(&draft)
-      ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_NULL_PIVOT_SKIP with an analysis for 2x2 pivots")
+      ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_PIVOTS_SKIP_NULL with an analysis for 2x2 pivots")
     : draft.type->suits != NULL && !draft.type->suits(&draft)
       ? sli_refuse(SL_ERR_UNSUPPORTED,
           "options.storage does not suit the analysis or options")
@@ -14756,14 +14709,14 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
            : "float cannot hold L: options.storage";
   }
   if (F->limits.is_definite && f->bound >= 0.0) {
-    return "options.definite: the pivot is not positive, and A not positive definite";
+    return "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite";
   }
   if (f->bound < 0.0) {
     return "there was no memory to judge whether the pivot is null";
   }
   if (sli_skips_nulls(F)) {
     return f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
-                "SL_NULL_PIVOT_SKIP takes semidefinite matrices"
+                "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
                 : "A is indefinite, or options.null_vector or options.mass does not "
                 "suit its null vectors";
   }
@@ -14771,15 +14724,15 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
     return "options.null_tolerance decides; a negative one accepts every pivot but 0";
   }
   if (sli_singular_of(1) == NULL) { /* untested: null spaces are there */
-    return "null pivot: if A is singular, options.null_pivots, which SL_NO_SINGULAR leaves "
+    return "null pivot: if A is singular, options.pivots, which SL_NO_SINGULAR leaves "
          "out; if it is regular, sl_symbolic_create_pivoted"; /* untested: the same */
   }
   return size > F->rule.epsilon * F->extents[f->super].magnitude
-         ? "if A is singular: options.null_pivots; if the pivot may be right, a smaller or "
+         ? "if A is singular: options.pivots; if the pivot may be right, a smaller or "
          "negative options.null_tolerance accepts it, and sl_symbolic_create_pivoted "
          "avoids small pivots"
          : "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
-         "options.null_pivots";
+         "options.pivots";
 }
 
 SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f,
@@ -28028,7 +27981,7 @@ static sl_options sli_submatrix_options(const sl_factor *F, const sli_restrictio
   sl_int k;
   opt.null_tolerance = sli_tolerance_option(F);
   opt.regularization = F->rule.regularization;
-  opt.definite = (size_t)F->limits.is_definite;
+  opt.pivots = F->limits.is_definite ? SL_PIVOTS_POSITIVE : SL_PIVOTS_NONZERO;
   opt.growth_limit = sli_limit_option(F->limits.growth);
   opt.error_limit = sli_limit_option(F->limits.error);
   if (opt.regularization != 0.0 && F->rule.signs != NULL) {
@@ -29946,9 +29899,9 @@ static sl_status sli_fixed_report(const sl_fixed *D, sl_status status, sl_stats 
     return status;
   }
   found = sli_found(stats, status);
-  if (status == SL_ERR_PIVOT && D->factorization.definite == 0) {
+  if (status == SL_ERR_PIVOT && D->factorization.pivots != SL_PIVOTS_POSITIVE) {
     found.what = "the free rows are singular: fix a row of this component, or see "
-           "options.null_pivots and sl_symbolic_create_pivoted";
+           "options.pivots and sl_symbolic_create_pivoted";
   }
   if (found.row >= 0) {
     found.row = D->free_rows[found.row];
@@ -29971,15 +29924,16 @@ static void sli_fixed_arrays_layout(sli_fixed_arrays *r, sli_block *b, const sl_
     opt->ordering != SL_ORDERING_GIVEN || opt->perm == NULL ? NULL : SLI_TAKE(b, sl_int, count);
   r->signs = opt->signs == NULL ? NULL : SLI_TAKE(b, sl_int, count);
   r->mass = opt->mass == NULL ? NULL : SLI_TAKE(b, double, count);
-  r->null_vector =
-    opt->null_vector == NULL ? NULL : SLI_TAKE(b, double, count *(opt->null_vector_count + 1));
+  r->null_vector = opt->null_vector == NULL
+             ? NULL
+             : SLI_TAKE(b, double, count *(uint64_t)sli_max(opt->null_vector_count, 1));
 }
 
 static sl_status sli_fixed_arrays_fill(const sli_fixed_arrays *r, const sl_fixed *D,
     const sl_options *opt, const sl_int *where, sl_int *scratch,
     sl_stats *stats) {
   const sl_int m = D->n_free;
-  const size_t vectors = opt->null_vector_count == 0 ? 1 : opt->null_vector_count;
+  const size_t vectors = (size_t)sli_max(opt->null_vector_count, 1);
   sl_int k, at = 0;
   size_t v;
   if (r->perm != NULL) {
@@ -30073,12 +30027,11 @@ static void sli_fixed_options(sl_fixed *D, const sl_options *opt) {
   s->threads = f->threads = opt->threads;
   s->ordering = opt->ordering;
   s->relaxation = opt->relaxation;
-  s->metis_options = opt->metis_options;
   s->block_size = opt->block_size;
   s->purpose = opt->purpose;
   f->isa = opt->isa;
   f->method = opt->method;
-  f->null_pivots = opt->null_pivots;
+  f->pivots = opt->pivots;
   f->null_tolerance = opt->null_tolerance;
   f->consistency_tolerance = opt->consistency_tolerance;
   f->regularization = opt->regularization;
@@ -30086,7 +30039,6 @@ static void sli_fixed_options(sl_fixed *D, const sl_options *opt) {
   f->error_limit = opt->error_limit;
   f->null_vector_count = opt->null_vector_count;
   f->storage = opt->storage;
-  f->definite = opt->definite;
 }
 
 static sl_status sli_fixed_check(const sl_csc *A, const sl_int *rows, sl_int count,
@@ -30185,7 +30137,6 @@ static sl_status sli_fixed_begin(sl_fixed *D, const sl_csc *A, const sl_options 
     status = status == SL_OK ? sli_fixed_factor(D, A, &arrays, where, scratch, stats) : status;
     sli_free(&D->allocator, b.base);
   }
-  D->analysis.metis_options = NULL;
   return status;
 }
 
@@ -31359,7 +31310,7 @@ typedef struct sli_saved_analysis {
 } sli_saved_analysis;
 
 typedef struct sli_saved_factor {
-  int64_t method, null_pivots, has_mass, has_signs, checks, is_centered, nulls, anchors;
+  int64_t method, skips_null, has_mass, has_signs, checks, is_centered, nulls, anchors;
   int64_t positive, negative, null, regularized, weak, regular;
   double pivot_min, pivot_max, entry_max, growth;
   double null_tolerance, regularization, consistency, growth_limit, error_limit;
@@ -31450,7 +31401,7 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
   const sli_saved_factor *g = &f->factor;
   const uint64_t n = has_factor ? (uint64_t)f->analysis.n : 0;
   const uint64_t regularized = g->regularization != 0.0 ? n : 0;
-  const uint64_t skipped = g->null_pivots == SL_NULL_PIVOT_SKIP ? n : 0;
+  const uint64_t skipped = g->skips_null ? n : 0;
   const uint64_t vectors = g->null_vectors > 1 ? skipped * (uint64_t)g->null_vectors : skipped;
   const uint64_t weighted = g->has_mass ? n : 0;
   const uint64_t centers = weighted * (g->null_vectors > 1 ? 2 * (uint64_t)g->null_vectors : 1);
@@ -31723,14 +31674,13 @@ static int sli_decode_analysis(const sli_saved_analysis *a, sl_symbolic *S) {
 }
 
 static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl_factor *F) {
-  const int skips = g->null_pivots == SL_NULL_PIVOT_SKIP;
+  const int skips = g->skips_null != 0;
   const int64_t n = S->n;
   sl_factor_info *info = &F->stats.factor;
   if ((g->method != SL_METHOD_UP_LOOKING && g->method != SL_METHOD_SUPERNODAL) ||
-      !sli_count_is_valid(g->null_pivots, SL_NULL_PIVOT_SKIP) ||
-      !sli_count_is_valid(g->has_mass, skips) || !sli_count_is_valid(g->checks, skips) ||
-      !sli_count_is_valid(g->nulls, skips ? n : 0) || g->null != g->nulls ||
-      !sli_count_is_valid(g->is_centered, g->nulls > 0 && g->has_mass) ||
+      !sli_count_is_valid(g->skips_null, 1) || !sli_count_is_valid(g->has_mass, skips) ||
+      !sli_count_is_valid(g->checks, skips) || !sli_count_is_valid(g->nulls, skips ? n : 0) ||
+      g->null != g->nulls || !sli_count_is_valid(g->is_centered, g->nulls > 0 && g->has_mass) ||
       !sli_count_is_valid(g->anchors, g->is_centered ? S->stats.symbolic.components : 0) ||
       !(g->regularization >= 0.0) || !sli_is_finite(g->regularization) ||
       (skips && (g->regularization != 0.0 || S->is_pivoted)) ||
@@ -32170,7 +32120,7 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
   sli_saved_factor g;
   SLI_CLEAR(g);
   g.method = F->method;
-  g.null_pivots = sli_skips_nulls(F) ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
+  g.skips_null = sli_skips_nulls(F);
   g.has_mass = F->null.mass != NULL;
   g.has_signs = F->rule.regularization != 0.0 && F->rule.signs != NULL;
   g.checks = F->null.checks;
@@ -32590,7 +32540,7 @@ static sl_status sli_read_front(sli_reading *r) {
       return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
           sli_storage_needs(SL_STORAGE_FLOAT)); /* untested: the same */
     }
-    if (f->factor.null_pivots == SL_NULL_PIVOT_SKIP && !sli_skips_nulls(&r->F)) {
+    if (f->factor.skips_null && !sli_skips_nulls(&r->F)) {
       return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: null spaces are there */
           "a factor with null pivots: compiled with SL_NO_SINGULAR");
     }
@@ -34447,8 +34397,8 @@ static const sli_singular *sli_singular_of(int skips_nulls) {
 
 static const char *sli_singular_missing(const sl_options *opt) {
   return opt == NULL ? NULL
-       : opt->null_pivots == SL_NULL_PIVOT_SKIP
-         ? "options.null_pivots = SL_NULL_PIVOT_SKIP: compiled with SL_NO_SINGULAR"
+       : opt->pivots == SL_PIVOTS_SKIP_NULL
+         ? "options.pivots = SL_PIVOTS_SKIP_NULL: compiled with SL_NO_SINGULAR"
        : opt->mass != NULL ? "options.mass: compiled with SL_NO_SINGULAR"
        : opt->null_vector != NULL || opt->null_vector_count != 0
          ? "options.null_vector: compiled with SL_NO_SINGULAR"

@@ -134,7 +134,7 @@ static void variant_create(variant *w, const bench_system *system, int k, const 
                            const double *mass, bench_patch *patches, sl_plan **plans) {
     sl_options options;
     memset(&options, 0, sizeof options);
-    options.null_pivots = k > 0 ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
+    options.pivots = k > 0 ? SL_PIVOTS_SKIP_NULL : SL_PIVOTS_NONZERO;
     options.mass = k == 1 ? mass : NULL;
     options.consistency_tolerance = k == 3 ? -1 : 0;
     memset(w, 0, sizeof *w);

@@ -7,14 +7,11 @@
 #include "tools/mesh/grid.h"
 #include "bench/lib/bench.h"
 
-#include <metis.h>
-
-/* METIS's numbers are means over some of its seeds, because one seed alone scatters by several
- * percent. Times are the processor seconds that the library reports for the ordering, with its
+/* Times are the processor seconds that the library reports for the ordering, with its
  * graph, the minimum of the repetitions; those of METIS include the same graph. Shuffled systems
  * have their rows in random order.
  * "order to factor" is ordering, analysis and first factorization together. */
-enum { SEEDS = 3, MAX_REPEATS = 5, BIG = 300000 };
+enum { MAX_REPEATS = 5, BIG = 300000 };
 
 typedef struct quality {
     double seconds, nnz, flops, path_mean, path_largest;
@@ -53,30 +50,11 @@ static int is_short(const bench_run *run, const sl_csc *A) {
     return run->size != BENCH_FULL && A->n_cols > BIG;
 }
 
-/* Means over seeds, and the minimum time. */
-static quality metis_quality(const bench_run *run, const sl_csc *A) {
-    const int seeds = run->size == BENCH_QUICK || is_short(run, A) ? 1 : SEEDS;
-    quality sum = {1e30, 0, 0, 0, 0};
-    idx_t metis[METIS_NOPTIONS];
-    sl_int metis_options[METIS_NOPTIONS];
-    for (int seed = 0; seed < seeds; seed++) {
-        sl_options opt;
-        memset(&opt, 0, sizeof opt);
-        METIS_SetDefaultOptions(metis);
-        metis[METIS_OPTION_SEED] = seed == 0 ? -1 : seed;
-        for (int k = 0; k < METIS_NOPTIONS; k++) {
-            metis_options[k] = (sl_int)metis[k];
-        }
-        opt.ordering = SL_ORDERING_METIS;
-        opt.metis_options = metis_options;
-        const quality y = quality_of(A, &opt);
-        sum.seconds = y.seconds < sum.seconds ? y.seconds : sum.seconds;
-        sum.nnz += y.nnz / seeds;
-        sum.flops += y.flops / seeds;
-        sum.path_mean += y.path_mean / seeds;
-        sum.path_largest += y.path_largest / seeds;
-    }
-    return sum;
+static quality metis_quality(const sl_csc *A) {
+    sl_options opt;
+    memset(&opt, 0, sizeof opt);
+    opt.ordering = SL_ORDERING_METIS;
+    return quality_of(A, &opt);
 }
 
 static void add_row(bench_report *report, const bench_system *system, const char *what,
@@ -91,7 +69,7 @@ static void add_row(bench_report *report, const bench_system *system, const char
 /* Runs every ordering on one matrix. */
 static void one_matrix(bench_run *run, bench_report *report, const bench_system *system,
                        const sl_csc *A, const char *what, sums *all) {
-    const quality metis = metis_quality(run, A);
+    const quality metis = metis_quality(A);
     add_row(report, system, what, "METIS_NodeND", &metis, metis.seconds);
     for (int k = 0; k < VARIANTS; k++) {
         sl_options opt;

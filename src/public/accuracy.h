@@ -92,7 +92,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rcond(const sl_factor *F, const sl_csc
  *  After Y(k, r) is subtracted from B in that row, the system has a solution. For a
  *  Laplacian, Y contains the sums of B over the components.
  *
- *  F      [in]   a factor made with SL_NULL_PIVOT_SKIP; without null pivots Y has no rows.
+ *  F      [in]   a factor made with SL_PIVOTS_SKIP_NULL; without null pivots Y has no rows.
  *  Y      [out]  null rows x nrhs, leading dimension ldy; must not overlap B.
  *  B      [in]   n x nrhs, leading dimension ldb.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.

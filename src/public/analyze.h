@@ -14,8 +14,8 @@
  *
  *  out    [out]  the analysis.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
- *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, metis_options,
- *                block_size, purpose. block_size is used by all but SL_ORDERING_GIVEN and
+ *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, block_size,
+ *                purpose. block_size is used by all but SL_ORDERING_GIVEN and
  *                SL_ORDERING_NATURAL; every ordering refuses an invalid one.
  *  stats  [out]  symbolic.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first

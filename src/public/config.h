@@ -15,7 +15,7 @@
  *  SL_NO_SIMD                    compiles only the kernels in plain C: smallest object, fastest
  *                                compilation, easiest to debug.
  *  SL_NO_AVX512                  leaves out the AVX-512 kernels: AVX2 is then the best on x86.
- *  SL_NO_SINGULAR                leaves out null spaces, 26 kB: SL_NULL_PIVOT_SKIP is refused.
+ *  SL_NO_SINGULAR                leaves out null spaces, 26 kB: SL_PIVOTS_SKIP_NULL is refused.
  *  SL_PTHREADS                   threads of POSIX where options.threads.run is NULL; compile and
  *                                link with -pthread.
  *  SL_NO_CLOCK                   makes all times in the statistics 0, for systems without clock();

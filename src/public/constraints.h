@@ -10,7 +10,7 @@
  *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep. For
  *  hundreds of rows that are held together, sl_factor_submatrix or sl_fixed_create is faster.
  *
- *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
+ *  Singular matrices: with SL_PIVOTS_SKIP_NULL and known null vectors (sl_factor_create), one pin
  *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
  *  pins that leave none of its 6 motions. Components without pins are solved as by sl_factor_solve:
  *  with the weights of options.mass, or with x = 0 in null rows and b in balance. If the pins of a
@@ -27,7 +27,7 @@
  *  opt  [in]   allocator.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_UNSUPPORTED: pivots of both signs, or 2x2
  *           pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
- *  Cost     O(1); with SL_NULL_PIVOT_SKIP 8 bytes per row.
+ *  Cost     O(1); with SL_PIVOTS_SKIP_NULL 8 bytes per row.
  *  Source   capacitance matrix of a change of low rank, as in [Hager89].
  *  Example  tests/core/test_constraints.c
  */

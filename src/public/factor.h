@@ -9,16 +9,16 @@
  *  or with the 2x2 blocks of sl_symbolic_create_pivoted.
  *
  *  Definite and quasi-definite matrices can be factored in any order, other indefinite ones if no
- *  pivot is null, semidefinite ones with SL_NULL_PIVOT_SKIP. Solves have a backward error of at
+ *  pivot is null, semidefinite ones with SL_PIVOTS_SKIP_NULL. Solves have a backward error of at
  *  most about epsilon * stats.factor.growth. If that is not small enough, or if pivots were
  *  regularized, call sl_factor_refine, and trust X if it returns SL_OK.
  *
  *  out    [out]  the factor.
  *  S      [in]   analysis of A's pattern; kept by the factor.
  *  A      [in]   n x n with values; the analyzed pattern with its entries in the same order.
- *  opt    [in]   allocator, threads, isa, method, null_pivots, null_tolerance, mass,
- *                consistency_tolerance, regularization, signs, null_vector, null_vector_count,
- *                growth_limit, error_limit, storage, definite.
+ *  opt    [in]   allocator, threads, isa, method, storage, pivots, null_tolerance,
+ *                null_vector, null_vector_count, mass, consistency_tolerance, regularization,
+ *                signs, growth_limit, error_limit.
  *  stats  [out]  factor.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, or at error.row a
  *           weight, sign or null vector that is not allowed; SL_ERR_OTHER_PATTERN: not the analyzed
@@ -76,7 +76,7 @@ SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
 
 /** Pivots that a factorization did not take as they came. */
 typedef enum sl_pivot_kind {
-    SL_PIVOT_NULL = 0,   /* null ones that were skipped: SL_NULL_PIVOT_SKIP */
+    SL_PIVOT_NULL = 0,   /* null ones that were skipped: SL_PIVOTS_SKIP_NULL */
     SL_PIVOT_REGULARIZED /* those that options.regularization changed */
 } sl_pivot_kind;
 

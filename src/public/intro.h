@@ -35,7 +35,7 @@
  *  x in a few rows for b in a few rows, often     sl_plan_create, sl_plan_solve          plan.h
  *  the same once                                  sl_local_solve                         plan.h
  *  a part of a matrix                             sl_matrix_submatrix                    csc.h
- *  a singular Laplacian, an elastic body          options.null_pivots, mass, null_vector options.h
+ *  a singular Laplacian, an elastic body          options.pivots, mass, null_vector      options.h
  *  several processors                             options.threads                        options.h
  *  what failed, and where; counts and times       sl_stats                               stats.h
  *

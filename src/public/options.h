@@ -49,9 +49,6 @@ typedef struct sl_options {
     sl_triangle triangle;
     /* n: perm[k] = row of A that is pivot k; read with SL_ORDERING_GIVEN only */
     const sl_int *perm;
-    /* 40 entries as in METIS's options array, -1 = METIS's default; NULL: all default. The
-     * numbering and debug level are ignored */
-    const sl_int *metis_options;
     /* rows k block_size .. (k+1) block_size - 1 stay together in the order, such as x, y, z of a
      * vertex; divides n; 0 or 1: no blocks */
     sl_int block_size;
@@ -64,40 +61,37 @@ typedef struct sl_options {
 
     sl_isa isa;
     sl_method method;
-    sl_null_pivots null_pivots;
+    sl_storage storage;
+    /* SL_PIVOTS_POSITIVE refuses a negative pivot, for example where the sign of t is wrong in M +
+     * t L, and stats.factor counts the others. It is not saved in files */
+    sl_pivots pivots;
     /* a pivot d is null if |d| <= null_tolerance * (sum of the magnitudes it was computed from);
      * not read where a known null vector decides (tools/docs/singular.md); 0: if it is within the
      * rounding error that L shows; where null pivots are skipped or replaced, (64 + k/8) epsilon
      * with the k rows of its subtree; negative: only an exact zero is null */
     double null_tolerance;
-    /* with SL_NULL_PIVOT_SKIP: n weights m, copied. In each component with a null pivot the
+    /* with SL_PIVOTS_SKIP_NULL: n x null_vector_count numbers, copied. One column: a vector that is
+     * a null vector of each connected component that has one; 0 in all rows of a component: its
+     * null vectors are unknown; NULL: all 1 */
+    const double *null_vector;
+    /* the columns of null_vector, at most 32: the null vectors of each component are combinations
+     * of them (tools/docs/singular.md). Column-major, leading dimension n; 0: 1 */
+    sl_int null_vector_count;
+    /* with SL_PIVOTS_SKIP_NULL: n weights m, copied. In each component with a null pivot the
      * solution has sum m x = 0, and b is made consistent by a multiple of m; with several null
      * vectors z it has sum m z x = 0 for each of them; NULL: x is 0 in the null rows */
     const double *mass;
-    /* with SL_NULL_PIVOT_SKIP and no mass: a solve refuses b if |z' b| > consistency_tolerance *
+    /* with SL_PIVOTS_SKIP_NULL and no mass: a solve refuses b if |z' b| > consistency_tolerance *
      * sum |b| for a null vector z scaled to 1 in its null row; 0: 1e-6, which accepts
      * single-precision errors; negative: nothing is refused */
     double consistency_tolerance;
-    /* with SL_NULL_PIVOT_REFUSE: a null pivot, or one of the wrong sign, becomes sign * max(|d|,
+    /* with SL_PIVOTS_NONZERO only: a null pivot, or one of the wrong sign, becomes sign * max(|d|,
      * regularization * (sum of the magnitudes it was computed from, 1 if that is 0)); 1e-8 suits
      * refinement; 0: no regularization */
     double regularization;
     /* n, copied: the sign that each row's pivot should have, 1 or -1, or 0 for either; NULL: all 1
      */
     const sl_int *signs;
-
-    /* ---- local solves ---- */
-
-    /* where the sweeps of a plan may end; kept by the plan; NULL: at the roots only */
-    const sl_region *region;
-    /* upper bound on the bytes of a region that has a boundary; 0: no bound */
-    size_t region_bytes;
-
-    /* with SL_NULL_PIVOT_SKIP: n x null_vector_count numbers, copied. One column: a vector that is
-     * a null vector of each connected component that has one; 0 in all rows of a component: its
-     * null vectors are unknown; NULL: all 1 */
-    const double *null_vector;
-
     /* a factorization whose stats.factor.growth is larger is refused with SL_ERR_INACCURATE; 0:
      * 1 / epsilon = 4.5e15, or 8.4e6 if L is in float, beyond which L D L' may agree with A in
      * no digit; negative: no limit */
@@ -106,15 +100,12 @@ typedef struct sl_options {
      * this backward error; 0: 1e-8; negative: never */
     double error_limit;
 
-    /* the columns of null_vector, at most 32: the null vectors of each component are combinations
-     * of them (tools/docs/singular.md). Column-major, leading dimension n; 0: 1 */
-    size_t null_vector_count;
-    sl_storage storage;
+    /* ---- local solves ---- */
 
-    /* 1: A is positive definite. A negative pivot is refused with SL_ERR_PIVOT and its row, for
-     * example where the sign of t is wrong in M + t L; stats.factor counts the others. Not allowed
-     * with regularization or SL_NULL_PIVOT_SKIP, which has its own check. Not saved in files */
-    size_t definite;
+    /* where the sweeps of a plan may end; kept by the plan; NULL: at the roots only */
+    const sl_region *region;
+    /* upper bound on the bytes of a region that has a boundary; 0: no bound */
+    size_t region_bytes;
 
     /* must be 0; new options take their place, so that the size of the struct never changes. An
      * older library, for which they are reserved, refuses them */

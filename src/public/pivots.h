@@ -8,9 +8,9 @@
  *
  *  For matrices without a stable factorization in the order of the pattern, such as KKT systems
  *  with zeros on the diagonal. With these values no entry of L exceeds 100. Factors of other values
- *  keep the pivots: check stats.factor.growth, and analyze again if it is large. SL_NULL_PIVOT_SKIP
- *  gives SL_ERR_UNSUPPORTED. Factors with 2x2 pivots are supernodal; entries of the inverse,
- *  selected inverses and regions refuse them with SL_ERR_UNSUPPORTED.
+ *  keep the pivots: check stats.factor.growth, and analyze again if it is large.
+ *  SL_PIVOTS_SKIP_NULL gives SL_ERR_UNSUPPORTED. Factors with 2x2 pivots are supernodal; entries of
+ *  the inverse, selected inverses and regions refuse them with SL_ERR_UNSUPPORTED.
  *
  *  out    [out]  the analysis. It has no separator tree.
  *  A      [in]   n x n, symmetric, with values; not kept.

@@ -85,8 +85,8 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *                13 to 16, with the bits of blocks of 8, then of up to 8. 8 take as long as two to
  *                three single solves, 32 as long as six to eight.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_INCONSISTENT: a column of B has no
- *           solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_NOT_FINITE: a number of B is not, or
- *           X overflows: X is written; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           solution (SL_PIVOTS_SKIP_NULL without mass); SL_ERR_NOT_FINITE: a number of B is not,
+ *           or X overflows: X is written; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
  *           min(nrhs, 64)). If consistency is checked, right-hand sides beyond the eighth are
  *           read twice, and take an additional forward sweep where null vectors are not known.

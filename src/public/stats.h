@@ -44,10 +44,10 @@ typedef struct sl_factor_info {
     sl_int negative;    /* the same */
     sl_int null;        /* null pivots: the skipped ones, or the one that was refused */
     sl_int regularized; /* pivots that regularization changed; they count by their new sign */
-    /* with SL_NULL_PIVOT_SKIP: kept pivots within rounding of 0. A component with a known null
+    /* with SL_PIVOTS_SKIP_NULL: kept pivots within rounding of 0. A component with a known null
      * vector has them where its parts are joined weakly, or if it has a second null vector */
     sl_int weak;
-    /* with SL_NULL_PIVOT_SKIP: connected components without a null pivot. Their solutions are
+    /* with SL_PIVOTS_SKIP_NULL: connected components without a null pivot. Their solutions are
      * unique, and options.mass does not apply to them */
     sl_int regular;
     sl_isa isa;

@@ -128,11 +128,13 @@ typedef enum sl_storage {
                           matrices only, complex.h */
 } sl_storage;
 
-/** What to do with a null pivot. */
-typedef enum sl_null_pivots {
-    SL_NULL_PIVOT_REFUSE = 0, /* fail with SL_ERR_PIVOT; D may have any sign */
-    SL_NULL_PIVOT_SKIP        /* skip and count it: semidefinite matrices, singular Laplacians */
-} sl_null_pivots;
+/** Which pivots are accepted. All others are refused with SL_ERR_PIVOT and their row. */
+typedef enum sl_pivots {
+    SL_PIVOTS_NONZERO = 0, /* all that are not null: D may have any sign */
+    SL_PIVOTS_POSITIVE,    /* A is positive definite */
+    SL_PIVOTS_SKIP_NULL    /* A is semidefinite, such as a singular Laplacian: null pivots are
+                              skipped and counted */
+} sl_pivots;
 
 /** How entries of the inverse were computed. */
 typedef enum sl_inverse_method {

@@ -123,10 +123,10 @@ if command -v abidiff >/dev/null 2>&1; then
     differs "an argument of another type" 's/\(sl_factor_logdet.*\)double \*log/\1float *log/'
     differs "a value of an enum" 's/SL_ERR_PIVOT,/SL_ERR_PIVOT = 17,/'
     differs "a field that moved" 's/^ *sl_int n_cols;/    sl_int n_more, n_cols;/'
-    differs "a field of another type" 's/^ *size_t definite;/    double definite;/'
+    differs "a field of another type" 's/^ *double growth_limit;/    float growth_limit;/'
     differs "a struct that is longer" 's/^ *sl_off reserved\[/    sl_off more; &/'
     differs "an option before others" \
-        's/^ *size_t definite;/    sl_off more; &/; s/reserved\[16\]/reserved[15]/'
+        's/^ *double growth_limit;/    sl_off more; &/; s/reserved\[16\]/reserved[15]/'
     differs "a macro of another value" 's/#define SL_ROW_MAJOR.*/#define SL_ROW_MAJOR 1/'
     differs "a call that is gone" 's/sl_factor_logdet/sl_factor_log_det/'
     sed 's/ SL_ERR_READ_ONLY/&, SL_ERR_NEW/; s/^extern int sl_version.*/& extern int sl_new(int x);/

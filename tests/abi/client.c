@@ -122,7 +122,7 @@ int main(void) {
     sl_options_init(&options, sizeof options);
     options.purpose = SL_PURPOSE_ONE_FACTOR;
     options.ordering = SL_ORDERING_MINDEG;
-    options.definite = 1;
+    options.pivots = SL_PIVOTS_POSITIVE;
     options.growth_limit = 10;
     HOLDS(sl_symbolic_create(&S, &A, &options, &stats) == SL_OK);
     HOLDS(stats.symbolic.n == N && stats.symbolic.triangle == SL_TRIANGLE_LOWER);

@@ -255,7 +255,7 @@ void heat_distances() {
     /* the singular Poisson problem as it is, with a zero mean */
     const auto ours = [](const Sparse &L, const Vector &areas, const Vector &b, Vector &d) {
         Ours solver;
-        solver.options().null_pivots = SL_NULL_PIVOT_SKIP;
+        solver.options().pivots = SL_PIVOTS_SKIP_NULL;
         solver.options().mass = areas.data();
         d = solver.compute(L).solve(b);
         return solver.info() == Eigen::Success && std::fabs(areas.dot(d)) < 1e-12;

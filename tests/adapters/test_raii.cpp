@@ -275,7 +275,7 @@ void wrong_matrices() {
     CHECK(status.code() == SL_ERR_PIVOT && status.row() >= 0 && status.row() < 16 && !F);
     CHECK(status.message().find("row") != std::string::npos);
     sl::Options skip;
-    skip.null_pivots = SL_NULL_PIVOT_SKIP;
+    skip.pivots = SL_PIVOTS_SKIP_NULL;
     CHECK(F.create(S, A, &skip).ok() && F.info().null == 1);
     grid.x[0] = NAN;
     CHECK(fails(SL_ERR_NOT_FINITE, 0, [&] { return F.refactor(A); }));

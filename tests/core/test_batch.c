@@ -236,7 +236,7 @@ static void failures_of_several_workers(void **state) {
     enum { N = 100, COUNT = 4 };
     factored_t y = factored_make(GEN_GRID2, N, 1, 0, NULL);
     sl_options opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     factored_t z = factored_make(GEN_SINGULAR, N, 1, 0, &opt);
     double B[COUNT][N], X[COUNT][N], expected[COUNT][N];
     sl_request r[COUNT];

@@ -322,7 +322,7 @@ static void batches_of_no_terms_are_zero_matrices(void **state) {
     sl_int failed = -2, count = -1;
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_create_sums(F, 2, y.S, NULL, NULL, 0, &opt, &failed, NULL));
     assert_true(F[0] == NULL && F[1] == NULL && failed == 0);
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     SL_CHECK(sl_factor_create_sums(F, 2, y.S, NULL, NULL, 0, &opt, &failed, NULL));
     SL_CHECK(sl_factor_refactor_sums(F, 2, NULL, NULL, 0, NULL, &failed, NULL));
     for (int k = 0; k < 2; k++) {

@@ -103,7 +103,7 @@ static void one_tree_of_two_is_centered(void **state) {
         for (int k = 0; k < 7; k++) {
             mass[k] = ldexp(1.0, tiny ? -1040 : 0);
         }
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         opt.mass = mass;
         sl_factor *F = factor_of(&A, &S, &opt);
         SL_CHECK(sl_work_create(&W, NULL));
@@ -142,7 +142,7 @@ static void unknown_null_vectors_below_a_root(void **state) {
         sl_options opt = options_none();
         sl_symbolic *S = NULL;
         sl_stats stats;
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         opt.mass = mass;
         opt.null_vector = knows ? NULL : zeros;
         sl_factor *F = factor_of(&A, &S, &opt);

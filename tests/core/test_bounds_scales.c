@@ -109,7 +109,7 @@ static void scales_know_their_weights(void **state) {
         sl_factor *F = NULL, *G = NULL;
         sl_symbolic *T = NULL;
         sl_plan *Q = NULL;
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         opt.mass = mass;
         SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
         SL_CHECK(sl_factor_certify(F, &M.view, SL_ESTIMATED, NULL, NULL));

@@ -83,7 +83,7 @@ static void what_has_no_bound_is_refused(void **state) {
         sl_stats stats;
         sl_symbolic *S = NULL;
         sl_factor *F = NULL;
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         opt.mass = mass;
         opt.null_vector = Z;
         opt.null_vector_count = m == 0 ? 1 : 2;
@@ -147,7 +147,7 @@ static void weak_pivots_have_no_bounds(void **state) {
     sl_factor *F = NULL;
     sl_stats stats;
     natural.ordering = SL_ORDERING_NATURAL;
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     SL_CHECK(sl_symbolic_create(&S, &A, &natural, NULL));
     SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
     assert_int_equal(stats.factor.weak, 1);
@@ -224,7 +224,7 @@ static void inconsistent_right_hand_sides(void **state) {
     sl_plan *P = NULL;
     double x[2] = {5.0, 5.0}, bounds[2];
     static const double good[2] = {1.0, -1.0}, bad[2] = {1.0, 1.0};
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
     SL_CHECK(sl_factor_certify(F, &M.view, SL_ESTIMATED, NULL, NULL));

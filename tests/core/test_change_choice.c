@@ -218,7 +218,7 @@ static void refused_updates_are_refactored(void **state) {
 static void singular_laplacians_are_recomputed(void **state) {
     (void)state;
     sl_options opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     grid_t g = grid_make(20, 0, &opt);
     list_t *l = (list_t *)test_array(1, sizeof *l);
     sl_stats stats;

@@ -199,7 +199,7 @@ static void a_laplacian_may_become_singular(void **state) {
         sl_factor *F = NULL;
         sl_stats stats;
         sl_options opt = options_none();
-        opt.null_pivots = k % 3 > 0 ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
+        opt.pivots = k % 3 > 0 ? SL_PIVOTS_SKIP_NULL : SL_PIVOTS_NONZERO;
         for (sl_int i = 0; i < N; i++) {
             parent[i] = gen_below(&random, i > 0 ? i : 1);
             w[i] = exp(4.0 * gen_real(&random));

@@ -174,7 +174,7 @@ static void invalid_changes_are_refused(void **state) {
 static void null_pivots_are_unsupported(void **state) {
     (void)state;
     sl_options opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     gen_list_t t = gen_list(25);
     uint64_t seed = 7;
     gen_edges_grid(&t, 5, 5, 1, &seed);

@@ -71,7 +71,7 @@ static void up_looking_factors_are_updated_or_refactored(void **state) {
 static void upper_triangles_are_recomputed(void **state) {
     (void)state;
     sl_options opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP; /* and a null pivot, so that updates are unsuited */
+    opt.pivots = SL_PIVOTS_SKIP_NULL; /* and a null pivot, so that updates are unsuited */
     gen_list_t t = gen_list(SIDE * SIDE);
     uint64_t seed = 4;
     gen_edges_grid(&t, SIDE, SIDE, 1, &seed);

@@ -83,7 +83,7 @@ static void a_combination_of_no_terms_is_the_zero_matrix(void **state) {
                   sl_factor_create_sums(&F, 1, y.S, NULL, NULL, 0, &opt, NULL, &stats));
         assert_null(F);
         assert_int_equal(stats.error.row, sl_symbolic_view(y.S).perm[0]);
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         SL_CHECK(sl_factor_create_sums(&F, 1, y.S, NULL, NULL, 0, &opt, NULL, &stats));
         assert_int_equal(stats.factor.null, y.n);
         sl_factor_free(F);

@@ -62,7 +62,7 @@ static void what_is_not_complex_is_refused(void **state) {
     assert_int_equal(sl_factor_solve(y.F[1], x, (size_t)y.n, x, (size_t)y.n, 1, NULL),
                      SL_ERR_STALE);
     SL_CHECK(sl_factor_refactor(y.F[1], &y.A, NULL));
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     assert_int_equal(create(y.S, &y.A, opt), SL_ERR_UNSUPPORTED);
     opt = options_none();
     opt.regularization = 1e-3;

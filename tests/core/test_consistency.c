@@ -341,7 +341,7 @@ static void defects_report_a_failed_allocation(void **state) {
     sl_factor *F = NULL;
     double B[ROWS] = {1.0}, y = 7.0;
     SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
     counter.fail_at = (int64_t)counter.calls;
     SL_EXPECT(SL_ERR_MEMORY, sl_factor_defects(F, &y, 1, B, ROWS, 1, NULL));

@@ -49,7 +49,7 @@ static void rows_are_pinned_together(void **state) {
         const int kind = k % 6;
         sl_options opt = options_none();
         opt.isa = isas.isa[k / 6];
-        opt.null_pivots = kind == 5 ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
+        opt.pivots = kind == 5 ? SL_PIVOTS_SKIP_NULL : SL_PIVOTS_NONZERO;
         pinned_t p = pinned_make(kinds[kind], sizes[kind], k % 2 ? 1 : -1, &opt);
         sl_int count = counts[kind], *rows = test_ints((size_t)p.n);
         sl_stats stats;
@@ -122,7 +122,7 @@ static void a_pinned_row_takes_no_load(void **state) {
 static void a_pin_makes_a_laplacian_regular(void **state) {
     (void)state;
     sl_options opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     for (int weights = 0; weights < 2; weights++) {
         double mass[64];
         for (int k = 0; k < 64; k++) {
@@ -158,7 +158,7 @@ static void a_pin_makes_a_laplacian_regular(void **state) {
 static void pins_of_several_components(void **state) {
     (void)state;
     sl_options opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     gen_list_t t = gen_list(50);
     for (sl_int k = 0; k + 1 < 50; k++) {
         if (k != 19) {

@@ -12,7 +12,7 @@ static factored_t path(double sign, sl_int cut, double shift) {
     sl_options opt = options_none();
     gen_list_t t = gen_list(N);
     double diagonal[N] = {0.0};
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     for (sl_int k = 0; k + 1 < N; k++) {
         if (k + 1 != cut) {
             gen_add(&t, k + 1, k, sign);
@@ -62,7 +62,7 @@ static void null_vectors_must_be_known(void **state) {
     double z[2 * N], b[N] = {0.0}, x[N];
     const double g[2] = {2.0, -1.0};
     sl_options opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     opt.null_vector = z;
     opt.null_vector_count = 2; /* one of them holds */
     for (sl_int k = 0; k < N; k++) {
@@ -204,7 +204,7 @@ static void rows_of_zeros_can_be_pinned(void **state) {
         double b[N] = {0.0}, x[N];
         const double g[2] = {2.0, -7.0};
         sl_constraints *P;
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         for (sl_int k = 0; k + 2 < N; k++) { /* row N - 1 is 0 */
             const double weight = way == 2 && k == 19 ? 0.0 : 1.0;
             gen_add(&t, k + 1, k, -weight);

@@ -35,7 +35,7 @@ static void failing_allocations_refuse_solves(void **state) {
 static void a_null_vector_may_be_lost(void **state) {
     (void)state;
     sl_options opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     gen_list_t t = gen_list(500), u = gen_list(500);
     for (sl_int k = 0; k + 1 < 500; k++) { /* two paths */
         const double sign = k < 250 ? -1.0 : 1.0;
@@ -109,7 +109,7 @@ static void factors_of_other_kinds_hold(void **state) {
     sl_symbolic *S;
     SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
     opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     opt.null_vector = vectors;
     opt.null_vector_count = 2; /* one of them holds */
     for (int k = 0; k < 100; k++) {

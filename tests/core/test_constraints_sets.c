@@ -117,8 +117,7 @@ static void sets_that_change_hold(void **state) {
             sl_options opt = options_none();
             opt.isa = variants.variant[k / 6].isa;
             opt.method = variants.variant[k / 6].method;
-            opt.null_pivots =
-                kinds[k % 6] == GEN_SINGULAR ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
+            opt.pivots = kinds[k % 6] == GEN_SINGULAR ? SL_PIVOTS_SKIP_NULL : SL_PIVOTS_NONZERO;
             pinned_t p = pinned_make(kinds[k % 6], 90, sign, &opt);
             const sl_int least = kinds[k % 6] == GEN_SINGULAR;
             if (least > 0) {

@@ -124,7 +124,7 @@ static void expect_solves(const paths_t *y, sl_status status, double *x, const d
 static void a_second_tree_may_have_an_unknown_null_vector(void **state) {
     (void)state;
     sl_options opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     gen_matrix_t M = two_paths(0.0, 0.0, 1.0);
     for (sl_int k = HALF + 1; k < N; k++) {
         for (sl_int p = M.p[k - 1]; p < M.p[k]; p++) {
@@ -163,7 +163,7 @@ static void components_without_pins_are_as_without_a_set(void **state) {
         const int is_many = kind % 2, way = kind / 2; /* way 0: checked, 1: not, 2: with weights */
         double b[N], x[N];
         sl_options opt = options_none();
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         opt.mass = way == 2 ? m : NULL;
         opt.consistency_tolerance = way == 1 ? -1.0 : 0.0;
         paths_t y = paths_make(two_paths(0.0, 0.0, 1.0), &opt);
@@ -216,7 +216,7 @@ static void motions_that_pins_leave_need_balance(void **state) {
     for (int weighted = 0; weighted < 2; weighted++) {
         double b[N] = {0.0}, x[N], r[N];
         sl_options opt = options_none();
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         opt.mass = weighted ? m : NULL;
         paths_t y = paths_make(two_paths(0.0, 0.0, 1.0), &opt);
         SL_CHECK(sl_constraints_add(y.P, rows, values, 2, NULL));
@@ -251,7 +251,7 @@ static void a_weak_bridge_holds_what_pins_leave(void **state) {
         double b[N] = {0.0};
         sl_int rows[HALF];
         sl_options opt = options_none();
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         opt.mass = kind % 2 ? m : NULL;
         paths_t y = paths_make(bridged_paths(0.0, 0.0, 1.0, bridge), &opt);
         for (sl_int k = 0; k < HALF; k++) {
@@ -279,7 +279,7 @@ static void failing_allocations_change_nothing(void **state) {
     const double values[2] = {1.0, 2.0}, g = 3.0;
     double b[N] = {0.0}, x[N];
     sl_options opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     paths_t y = paths_make(two_paths(0.0, 0.0, 1.0), &opt);
     counter_t counter = counter_make();
     sl_options counted = options_counted(&counter);

@@ -172,7 +172,7 @@ static void check_mesh(const neumann_t *y, sl_isa isa, sl_work *W, errors_t *wor
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
     opt.isa = isa;
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     check_consistency(y, &L, &opt);
     opt.mass = y->mass;
     SL_CHECK(sl_factor_create(&F, y->S, &L, &opt, &stats));

@@ -134,7 +134,7 @@ static void nothing_is_consistent(void **state) {
     sl_factor *F = NULL;
     sl_plan *P = NULL;
     double X[2 * 9];
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     opt.consistency_tolerance = 1e-10;
     SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));

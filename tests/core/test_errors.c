@@ -50,7 +50,7 @@ static const struct {
     {no_ordering, SL_ERR_ARGUMENT,
      "invalid argument: options.ordering is not a value of sl_ordering"},
     {regularized_and_skipped, SL_ERR_ARGUMENT,
-     "invalid argument: options.regularization excludes null_pivots = SL_NULL_PIVOT_SKIP"},
+     "invalid argument: options.regularization needs options.pivots = SL_PIVOTS_NONZERO"},
     {wrong_sign, SL_ERR_ARGUMENT,
      "invalid argument: options.signs has a value other than -1, 0 and 1 (row 3, value 7)"},
     {infinite_weight, SL_ERR_ARGUMENT,

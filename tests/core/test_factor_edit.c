@@ -203,7 +203,7 @@ static void other_factors_are_made_anew(void **state) {
         sl_stats stats;
         opt.storage = k <= 1 ? SL_STORAGE_FLOAT : SL_STORAGE_DOUBLE;
         opt.method = k == 2 ? SL_METHOD_UP_LOOKING : SL_METHOD_AUTO;
-        opt.null_pivots = k == 3 ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
+        opt.pivots = k == 3 ? SL_PIVOTS_SKIP_NULL : SL_PIVOTS_NONZERO;
         opt.regularization = k == 4 ? 1e-10 : 0.0;
         opt.null_tolerance = k == 5 ? 1e-9 : 0.0;
         SL_CHECK(sl_factor_create(&F, y.S, &y.A.view, &opt, NULL));
@@ -257,7 +257,7 @@ static void singular_laplacians_follow(void **state) {
             mass[i] = 1.0;
             b[i] = i % 2 ? 1.0 : -1.0;
         }
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         opt.mass = mass;
         opt.method = SL_METHOD_SUPERNODAL;
         SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));

@@ -105,7 +105,7 @@ static void another_kind_of_a_pivot_is_noticed(void **state) {
     gen_matrix_t B = gen_store(&both, gen_style(0), 1);
     gen_add(&both, 2 * W * W - 1, 2 * W * W - 1, 0.5);
     gen_matrix_t A = gen_store(&both, gen_style(0), 1);
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     opt.method = SL_METHOD_SUPERNODAL;
     SL_CHECK(sl_symbolic_create(&S, &A.view, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &A.view, &opt, NULL));

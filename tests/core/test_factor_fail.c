@@ -198,7 +198,7 @@ static void invalid_arguments_are_refused(void **state) {
     factored_free(&y);
 }
 
-/* With options.definite a wrong sign is refused with its row: here that of M - t L. */
+/* With SL_PIVOTS_POSITIVE a wrong sign is refused with its row: here that of M - t L. */
 static void an_indefinite_matrix_is_refused_where_a_definite_one_is_meant(void **state) {
     (void)state;
     factored_t y = factored_make(GEN_GRID2, 100, 1, 0, NULL);
@@ -207,7 +207,7 @@ static void an_indefinite_matrix_is_refused_where_a_definite_one_is_meant(void *
     sl_options opt = options_none();
     sl_factor *F = NULL;
     sl_stats stats;
-    opt.definite = 1;
+    opt.pivots = SL_PIVOTS_POSITIVE;
     SL_CHECK(sl_factor_create(&F, y.S, &A, &opt, &stats));
     assert_int_equal(stats.factor.positive, 100);
     assert_same_bits(F, y.F);
@@ -232,13 +232,10 @@ static void an_indefinite_matrix_is_refused_where_a_definite_one_is_meant(void *
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, y.S, &A, &opt, NULL));
     SL_EXPECT(SL_ERR_INACCURATE, sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
     opt.growth_limit = 0.0;
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
-    opt.null_pivots = SL_NULL_PIVOT_REFUSE;
     opt.regularization = 1e-8;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
     opt.regularization = 0.0;
-    opt.definite = 2;
+    opt.pivots = (sl_pivots)(SL_PIVOTS_SKIP_NULL + 1);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
     free(x);
     factored_free(&y);

@@ -64,7 +64,7 @@ static void a_singular_free_part_is_named_by_its_row(void **state) {
     assert_in_range(stats.error.row, 3, 5);
     assert_int_equal(stats.error.column, -1);
     SL_EXPECT(SL_ERR_PIVOT, sl_fixed_create(&D, &two_paths, rows, 2, NULL, NULL));
-    opt.null_pivots = SL_NULL_PIVOT_SKIP; /* b has to be in balance there */
+    opt.pivots = SL_PIVOTS_SKIP_NULL; /* b has to be in balance there */
     SL_CHECK(sl_fixed_create(&D, &two_paths, rows, 2, &opt, NULL));
     SL_EXPECT(SL_ERR_INCONSISTENT, sl_fixed_solve(D, x, 6, b, 6, g, 2, 1, NULL));
     SL_CHECK(sl_fixed_solve(D, x, 6, NULL, 0, g, 2, 1, NULL));
@@ -274,7 +274,7 @@ static void options_are_in_rows_of_the_matrix(void **state) {
     assert_int_equal(stats.error.row, 4);
 
     opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     opt.null_vector = ones;
     opt.null_vector_count = 2;
     SL_CHECK(sl_fixed_create(&D, &two_paths, fixed, 1, &opt, &stats));

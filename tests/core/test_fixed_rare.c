@@ -19,12 +19,12 @@ static void a_negative_pivot_is_named_by_its_row(void **state) {
     sl_options opt = options_none();
     sl_fixed *D = NULL;
     sl_stats stats;
-    opt.definite = 1;
+    opt.pivots = SL_PIVOTS_POSITIVE;
     SL_EXPECT(SL_ERR_PIVOT, sl_fixed_create(&D, &A, fixed, 1, &opt, &stats));
     assert_null(D);
     assert_int_equal(stats.error.row, 2);
     assert_null(strstr(stats.error.what, "singular"));
-    opt.definite = 0;
+    opt.pivots = SL_PIVOTS_NONZERO;
     SL_CHECK(sl_fixed_create(&D, &A, fixed, 1, &opt, &stats));
     assert_int_equal(stats.factor.negative, 1);
     sl_fixed_free(D);

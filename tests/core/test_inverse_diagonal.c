@@ -293,7 +293,7 @@ static void null_rows_are_zero(void **state) {
         sl_int null_row = -1, count = 0, *rows = test_ints((size_t)n);
         double *some = test_reals((size_t)n), *all = test_reals((size_t)n);
         options_set_variant(&opt, &variants, k);
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         SL_CHECK(sl_symbolic_create(&y.S, &M.view, FOR_ANALYSIS(&opt), NULL));
         SL_CHECK(sl_factor_create(&y.F, y.S, &M.view, FOR_FACTOR(&opt), NULL));
         SL_CHECK(sl_factor_pivot_rows(y.F, SL_PIVOT_NULL, &null_row, NULL, 1, &count));

@@ -113,7 +113,7 @@ static void entries_of_null_rows_are_exactly_zero(void **state) {
         opt.block_size = is_pair ? 2 : 0;
         opt.isa = isas.isa[k / 3];
         opt.storage = storages[k % 3];
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         opt.signs = signs;
         SL_CHECK(sl_symbolic_create(&S, &M.view, FOR_ANALYSIS(&opt), NULL));
         SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));

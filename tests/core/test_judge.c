@@ -27,10 +27,10 @@ static void choose_options(judge_t *t, const variant_list_t *variants) {
     const judge_system_t *y = t->y;
     sl_options *opt = &t->opt;
     options_set_variant(opt, variants, (int)gen_below(&t->state, variants->count));
-    opt->null_pivots = y->skips ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
+    opt->pivots = y->skips ? SL_PIVOTS_SKIP_NULL : SL_PIVOTS_NONZERO;
     opt->mass = y->mass;
     opt->null_vector = y->Z;
-    opt->null_vector_count = (size_t)y->vectors;
+    opt->null_vector_count = y->vectors;
     opt->regularization = y->regularization;
     opt->signs = y->signs;
     if (gen_below(&t->state, 4) == 0) {

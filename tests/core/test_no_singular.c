@@ -43,9 +43,9 @@ static void options_are_refused_by_name(void **state) {
     const double ones[ROWS] = {1, 1, 1, 1, 1};
     sl_options opt = options_none();
     (void)state;
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
-    is_refused(&opt, "options.null_pivots");
-    opt.null_pivots = SL_NULL_PIVOT_REFUSE;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
+    is_refused(&opt, "options.pivots");
+    opt.pivots = SL_PIVOTS_NONZERO;
     opt.mass = ones;
     is_refused(&opt, "options.mass");
     opt.mass = NULL;
@@ -65,7 +65,7 @@ static void a_null_pivot_names_the_macro(void **state) {
     SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
     assert_int_equal(sl_factor_create(&F, S, &A, NULL, &stats), SL_ERR_PIVOT);
     assert_non_null(strstr(stats.error.what, "SL_NO_SINGULAR"));
-    assert_non_null(strstr(stats.error.what, "options.null_pivots"));
+    assert_non_null(strstr(stats.error.what, "options.pivots"));
     sl_symbolic_free(S);
 }
 

@@ -107,7 +107,7 @@ static void several_null_vectors(void **state) {
         z[k] = 1.0;
         z[49 + k] = k % 7;
     }
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     opt.null_vector = z;
     opt.null_vector_count = 2;
     opt.consistency_tolerance = -1.0;

@@ -30,10 +30,10 @@ static void rows_that_nothing_joins_do_not_decide(void **state) {
         assert_int_equal(stats.factor.positive, is_definite ? N : N - 1);
         assert_int_equal(stats.factor.negative, !is_definite);
         if (is_definite) { /* where null pivots are replaced, these are not */
-            opt.null_pivots = SL_NULL_PIVOT_SKIP;
+            opt.pivots = SL_PIVOTS_SKIP_NULL;
             SL_CHECK(factor_and_solve(&A, &opt, &stats));
             assert_int_equal(stats.factor.null, 0);
-            opt.null_pivots = SL_NULL_PIVOT_REFUSE;
+            opt.pivots = SL_PIVOTS_NONZERO;
             opt.regularization = 1e-8;
             SL_CHECK(factor_and_solve(&A, &opt, &stats));
             assert_int_equal(stats.factor.regularized, 0);

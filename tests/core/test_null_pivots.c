@@ -75,7 +75,7 @@ static void each_component_has_one_null_pivot(void **state) {
                 assert_solves(&M.view, F, components);
                 sl_factor_free(F);
                 /* Without the option the matrix is refused. */
-                opt.null_pivots = SL_NULL_PIVOT_REFUSE;
+                opt.pivots = SL_PIVOTS_NONZERO;
                 SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
                 assert_int_equal(stats.factor.null, 1);
             }
@@ -210,7 +210,7 @@ static void definite_matrices_keep_their_bits_and_nan_fails(void **state) {
         SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(F, &y.M.view, NULL));
         SL_EXPECT(SL_ERR_STALE, sl_factor_pivot_rows(F, SL_PIVOT_NULL, one, NULL, 1, &count));
         sl_factor_free(F);
-        opt.null_pivots = (sl_null_pivots)2;
+        opt.pivots = (sl_pivots)(SL_PIVOTS_SKIP_NULL + 1);
         SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, y.S, &y.M.view, FOR_FACTOR(&opt), NULL));
         factored_free(&y);
     }

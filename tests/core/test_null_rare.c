@@ -18,7 +18,7 @@ static gen_matrix_t matrix_of(gen_list_t *t, int style) {
 
 static sl_options skipping(void) {
     sl_options opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     return opt;
 }
 

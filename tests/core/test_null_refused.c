@@ -111,7 +111,7 @@ static void judgements_end(void **state) {
     opt.ordering = SL_ORDERING_NATURAL;
     SL_EXPECT(SL_ERR_PIVOT, factor_and_solve(&A, &opt, &stats));
     /* what helps if A is singular, and if it is not */
-    assert_true(strstr(stats.error.what, "options.null_pivots") != NULL);
+    assert_true(strstr(stats.error.what, "options.pivots") != NULL);
     assert_true(strstr(stats.error.what, "null_tolerance") != NULL);
     opt.null_tolerance = -1.0;
     SL_CHECK(factor_and_solve(&A, &opt, &stats));
@@ -180,7 +180,7 @@ static void a_refusal_says_what_helps(void **state) {
     assert_true(stats.null_bound > 1e-6 && stats.null_bound < 3e-6);
     /* a pivot that is negative beyond rounding in a matrix that should be semidefinite */
     opt.null_tolerance = 0.0;
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     SL_EXPECT(SL_ERR_PIVOT, factor_and_solve(&C, &opt, &stats));
     assert_true(strstr(stats.error.what, "wrong sign") != NULL);
     assert_true(stats.error.value < 0.0 && stats.null_bound > 0.0 && stats.null_bound < 1e-12);
@@ -230,9 +230,9 @@ static void an_entry_that_is_not_finite_is_named_where_pivots_are_skipped(void *
             Z[n + i] = i;
         }
         options_set_variant(&opt, &variants, turn % variants.count);
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         opt.null_vector = Z;
-        opt.null_vector_count = 1 + (size_t)(turn / 4 % 2);
+        opt.null_vector_count = 1 + turn / 4 % 2;
         SL_EXPECT(SL_ERR_NOT_FINITE, factor_and_solve(&A, &opt, &stats));
         assert_true(!(fabs(stats.error.value) <= DBL_MAX));
         if (stats.error.column >= 0) {
@@ -256,7 +256,7 @@ static void an_entry_of_a_sum_that_is_not_finite_is_named(void **state) {
     sl_factor *F = NULL;
     sl_options opt = options_none();
     sl_stats stats;
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     A.x[2] = 0.0;
     values[0] = v;
     SL_CHECK(sl_symbolic_create(&S, &A.view, NULL, NULL));

@@ -1,5 +1,5 @@
 /* test_null_signs.c: a pivot whose sign is rounding error is refused, and what else is reported of
- * small pivots: with options.definite, beside growth, of null pivots */
+ * small pivots: with SL_PIVOTS_POSITIVE, beside growth, of null pivots */
 #include "tests/lib/parallel_for.h"
 #include "tests/lib/small_pivots.h"
 
@@ -22,7 +22,7 @@ static void a_sign_within_its_error_is_refused(void **state) {
         sl_stats stats;
         options_set_variant(&opt, &variants, k / 2);
         opt.ordering = SL_ORDERING_NATURAL;
-        opt.definite = (size_t)(k % 2);
+        opt.pivots = k % 2 ? SL_PIVOTS_POSITIVE : SL_PIVOTS_NONZERO;
         gen_matrix_t A = path_of_pivots(-4.0);
         SL_EXPECT(SL_ERR_PIVOT, factor_and_solve(&A, &opt, &stats));
         assert_int_equal(stats.error.row, 2);
@@ -48,7 +48,7 @@ static void a_null_pivot_of_a_definite_matrix_is_null(void **state) {
         sl_options opt = options_none();
         sl_stats stats;
         opt.method = methods[m];
-        opt.definite = 1;
+        opt.pivots = SL_PIVOTS_POSITIVE;
         SL_EXPECT(SL_ERR_PIVOT, factor_and_solve(&A, &opt, &stats));
         assert_true(stats.error.value == 0.0);
     }
@@ -70,7 +70,7 @@ static void without_memory_definite_matrices_are_not_blamed(void **state) {
         sl_stats stats;
         int failed = 0, has_failed = 1;
         opt.ordering = SL_ORDERING_NATURAL;
-        opt.definite = 1;
+        opt.pivots = SL_PIVOTS_POSITIVE;
         SL_CHECK(sl_symbolic_create(&S, &A.view, FOR_ANALYSIS(&opt), NULL));
         SL_CHECK(sl_factor_create(&F, S, &A.view, FOR_FACTOR(&opt), NULL));
         for (int64_t k = 0; has_failed; k++, failed += has_failed) {
@@ -169,7 +169,7 @@ static void null_pivots_have_no_shift(void **state) {
     sl_options opt = options_none();
     sl_int row = -1, count = 0;
     double shift = 5.0;
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
     SL_CHECK(sl_symbolic_create(&S, &A.view, FOR_ANALYSIS(&opt), NULL));

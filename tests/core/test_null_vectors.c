@@ -101,7 +101,7 @@ static void laplacians_are_refused_by_default(void **state) {
         sl_factor *F = NULL;
         sl_stats stats;
         sl_options opt = options_skip_null(&variants, mesh % variants.count);
-        opt.null_pivots = SL_NULL_PIVOT_REFUSE;
+        opt.pivots = SL_PIVOTS_NONZERO;
         SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
         SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
         assert_null(F);
@@ -136,7 +136,7 @@ static void definite_laplacians_are_accepted_by_default(void **state) {
         sl_factor *F = NULL;
         sl_stats stats;
         sl_options opt = options_skip_null(&variants, mesh % variants.count);
-        opt.null_pivots = SL_NULL_PIVOT_REFUSE;
+        opt.pivots = SL_PIVOTS_NONZERO;
         gen_reals(rhs, (size_t)n, seed);
         SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
         SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));

@@ -142,7 +142,7 @@ static void unknown_enum_values_are_refused(void **state) {
         SL_EXPECT(SL_ERR_ARGUMENT, option_factor(f, &opt));
         SL_EXPECT(SL_ERR_ARGUMENT, option_batch_factor(f, &opt));
         opt = options_none();
-        opt.null_pivots = (sl_null_pivots)unknown(k, SL_NULL_PIVOT_SKIP);
+        opt.pivots = (sl_pivots)unknown(k, SL_PIVOTS_SKIP_NULL);
         SL_EXPECT(SL_ERR_ARGUMENT, option_factor(f, &opt));
         SL_EXPECT(SL_ERR_ARGUMENT, option_batch_factor(f, &opt));
         opt = options_none();

@@ -204,8 +204,8 @@ static void check_local_halves(const factored_t *y, unsigned scale, sl_int nrhs)
             local[k + count * r] = AT(B, columns[k], r);
         }
     }
-    SL_CHECK(sl_factor_solve_part(y->F, plan, scale | LT | PT, X, NX, local, (size_t)count, nrhs,
-                                NULL));
+    SL_CHECK(
+        sl_factor_solve_part(y->F, plan, scale | LT | PT, X, NX, local, (size_t)count, nrhs, NULL));
     for (sl_int r = 0; r < nrhs; r++) {
         for (sl_int k = 0; k < NX; k++) {
             assert_true(X[k + NX * r] == AT(full, xset[k], r));
@@ -277,7 +277,7 @@ static void samples_have_the_covariance_of_the_inverse(void **state) {
 static void null_pivots_give_zeros(void **state) {
     (void)state;
     sl_options opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     factored_t y = factored_make(GEN_SINGULAR, 90, 1, 0, &opt);
     const sl_int n = y.M.view.n_cols;
     double *B = test_reals((size_t)n), *X = test_reals((size_t)n), *Y = test_reals((size_t)n);

@@ -264,7 +264,7 @@ static void other_calls_work_or_are_refused(void **state) {
     SL_EXPECT(SL_ERR_UNSUPPORTED, sl_inverse_block(F, out, 2, rows, 2, rows, 2, NULL, NULL));
     assert_null(Z);
     assert_null(R);
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_create(&G, S, &M.view, &opt, NULL));
     assert_null(G);
     SL_CHECK(sl_factor_lower(&L, F, NULL));

@@ -44,7 +44,7 @@ static void pairs_that_overflow_are_refused(void **state) {
     sl_symbolic_free(t.S);
 }
 
-/* With options.definite a pivot with a negative eigenvalue is refused, here -5. */
+/* With SL_PIVOTS_POSITIVE a pivot with a negative eigenvalue is refused, here -5. */
 static void a_pair_is_not_definite(void **state) {
     (void)state;
     three_t t;
@@ -52,7 +52,7 @@ static void a_pair_is_not_definite(void **state) {
     sl_options opt = options_none();
     sl_stats stats;
     three_make(&t);
-    opt.definite = 1;
+    opt.pivots = SL_PIVOTS_POSITIVE;
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, t.S, &t.A, &opt, &stats));
     assert_in_range(stats.error.row, 1, 2);
     assert_true(fabs(stats.error.value + 5.0) < 1e-14);

@@ -32,10 +32,10 @@ static pseudo_t pseudo_make(int own, uint64_t seed, const variant_list_t *varian
     sl_options blocks = options_none();
     sl_int *all = test_ints((size_t)n);
     options_set_variant(&t.opt, variants, (int)(seed % (uint64_t)variants->count));
-    t.opt.null_pivots = t.y.skips ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
+    t.opt.pivots = t.y.skips ? SL_PIVOTS_SKIP_NULL : SL_PIVOTS_NONZERO;
     t.opt.mass = seed % 2 ? t.y.mass : NULL;
     t.opt.null_vector = t.y.Z;
-    t.opt.null_vector_count = (size_t)t.y.vectors;
+    t.opt.null_vector_count = t.y.vectors;
     blocks.block_size = t.y.is_complex ? 2 : 0;
     SL_CHECK(sl_symbolic_create(&t.S, &t.y.M.view, &blocks, NULL));
     if (sl_factor_create(&t.F, t.S, &t.y.M.view, &t.opt, &t.stats) == SL_OK) {
@@ -247,7 +247,7 @@ static void every_allocation_may_fail(void **state) {
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
     const sl_options for_analysis = opt;
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     SL_CHECK(sl_symbolic_create(&S, &y.M.view, &for_analysis, NULL));
     SL_CHECK(sl_factor_create(&F, S, &y.M.view, &opt, NULL));
     for (int own = 0; own < 2; own++) {

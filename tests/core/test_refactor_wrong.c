@@ -210,7 +210,7 @@ static void weights_that_fit_no_more(void **state) {
         double x[2];
         memset(&stats, 0, sizeof stats);
         options_set_variant(&opt, &variants, k);
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         opt.mass = m;
         A.x = first;
         SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));

@@ -46,7 +46,7 @@ static void unknown_weights_and_shifts_are_refused(void **state) {
     (void)state;
     enum { SIZE = 200 };
     sl_options opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     factored_t y = factored_make(GEN_SINGULAR, SIZE, 1, 0, &opt);
     sl_int n = y.M.view.n_cols, row = n / 2;
     double *mass = test_reals((size_t)n), b = 1.0, x = 7.0;
@@ -91,7 +91,7 @@ static void null_pivots_match_the_full_solve(void **state) {
     for (int which = 0; which < isas.count; which++) {
         sl_options opt = options_none();
         opt.isa = isas.isa[which];
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         factored_t y = factored_make(GEN_SINGULAR, 400, 1, 0, &opt);
         sl_int n = y.M.view.n_cols, null = -1, nulls = 0;
         double *full = test_reals((size_t)n);

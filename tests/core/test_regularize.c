@@ -179,9 +179,9 @@ static void zero_pivots_get_the_shift_and_bad_options_are_refused(void **state) 
             SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, S, &A, &opt, &stats));
         }
         opt.regularization = 1e-8;
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, S, &A, &opt, &stats));
-        opt.null_pivots = SL_NULL_PIVOT_REFUSE;
+        opt.pivots = SL_PIVOTS_NONZERO;
         signs[1] = 2;
         SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, S, &A, &opt, &stats));
         assert_int_equal(stats.error.row, 1);

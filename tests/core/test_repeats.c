@@ -217,7 +217,7 @@ static void regions(void **state) {
 static void consistency(void **state) {
     (void)state;
     sl_options opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     factored_t y = factored_make(GEN_SINGULAR, N, 1, 0, &opt);
     const sl_int bset[4] = {5, 300, 5, 5}, once[2] = {5, 300}, xset[3] = {17, 5, 17};
     const double good[4] = {1e3, 2, -1e3, -2}, wrong[4] = {1e3, 2, -1e3, 2}, sums[2] = {-2, 2};

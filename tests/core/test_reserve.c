@@ -43,7 +43,7 @@ static void refine_rcond_defects(void **state) {
     }
     for (sl_int most = 0; most <= R; most++) {
         sl_options opt = options_none();
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         factored_t y = factored_make(GEN_SINGULAR, N, 1, 0, &opt);
         sl_int n = y.M.view.n_cols;
         double *B = test_reals((size_t)n * R), Y[R];

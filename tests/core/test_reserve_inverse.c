@@ -47,7 +47,7 @@ static factored_t make_problem(int which, int threads, sl_isa isa, counter_t *co
     sl_options opt = options_counted(counter);
     SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, &opt, NULL));
     opt.isa = isa;
-    opt.null_pivots = problems[which].kind == GEN_KKT ? SL_NULL_PIVOT_REFUSE : SL_NULL_PIVOT_SKIP;
+    opt.pivots = problems[which].kind == GEN_KKT ? SL_PIVOTS_NONZERO : SL_PIVOTS_SKIP_NULL;
     opt.threads.count = threads;
     opt.threads.run = run_backwards;
     opt.threads.context = calls;

@@ -168,7 +168,7 @@ static void small_trees_are_centered_or_refused(void **state) {
         sl_symbolic *S = NULL;
         sl_factor *F = NULL;
         double y[N];
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         opt.null_vector = Z;
         opt.null_vector_count = 2;
         opt.mass = m;

@@ -82,8 +82,8 @@ static void assert_unchecked(const elastic_t *y, const sl_symbolic *S, const sl_
     assert_true(largest > 0.0);
     BACKWARD_PASSES(&y->A, x, n, b, n, 1);
     for (int k = 0; k < 4; k++) {
-        local_solve_t q = local_solve_random(F, y->n, k < 3 ? 1 + k : -1, 5, 1 + 3 * k,
-                                             seed + (uint64_t)k);
+        local_solve_t q =
+            local_solve_random(F, y->n, k < 3 ? 1 + k : -1, 5, 1 + 3 * k, seed + (uint64_t)k);
         local_solve_check(S, F, &q, NULL);
         local_solve_free(&q);
     }
@@ -263,7 +263,7 @@ static void components_of_one_tree_share_the_columns(void **state) {
             sl_factor *F = NULL;
             sl_stats stats;
             opt.null_vector = Z;
-            opt.null_vector_count = (size_t)dim;
+            opt.null_vector_count = dim;
             SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
             assert_int_equal(stats.factor.null, dim);
             assert_solves(&M.view, F, 3);

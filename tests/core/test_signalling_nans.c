@@ -162,12 +162,12 @@ static void nothing_unset_is_computed_with(void **state) {
             gen_matrix_t M = gen_matrix((gen_kind_t)kind, sizes[size], 1, 4);
             for (int k = 0; k < variants.count; k++) {
                 sl_options opt = options_skip_null(&variants, k);
-                opt.null_pivots = SL_NULL_PIVOT_REFUSE;
+                opt.pivots = SL_PIVOTS_NONZERO;
                 run(&M, &opt);
                 opt.regularization = 1e-8;
                 run(&M, &opt);
                 opt.regularization = 0.0;
-                opt.null_pivots = SL_NULL_PIVOT_SKIP;
+                opt.pivots = SL_PIVOTS_SKIP_NULL;
                 if (kind != GEN_KKT) { /* regular components */
                     run(&M, &opt);
                 }

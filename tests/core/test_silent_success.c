@@ -152,13 +152,13 @@ static void an_order_has_to_be_a_permutation(void **state) {
     factored_free(&y);
 }
 
-/* Pins, restrictions, edits and batches of a matrix that is not definite: by options.definite they
- * are refused, without it the pivot is counted. */
+/* Pins, restrictions, edits and batches of a matrix that is not definite: by SL_PIVOTS_POSITIVE
+ * they are refused, without it the pivot is counted. */
 static void derived_factors_count_or_refuse_negative_pivots(void **state) {
     (void)state;
     for (int is_definite = 0; is_definite < 2; is_definite++) {
         sl_options opt = options_none();
-        opt.definite = (size_t)is_definite;
+        opt.pivots = is_definite ? SL_PIVOTS_POSITIVE : SL_PIVOTS_NONZERO;
         factored_t y = factored_make(GEN_GRID2, N, 1, 0, &opt);
         double *values = test_reals((size_t)y.M.view.p[N]), *scattered = NULL, one = 1.0;
         const sl_csc A = indefinite_of(&y, values);

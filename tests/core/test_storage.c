@@ -400,7 +400,7 @@ static void singular_systems_are_solved(void **state) {
             sl_factor *F = NULL;
             sl_stats stats;
             memset(&stats, 0, sizeof stats);
-            opt.null_pivots = SL_NULL_PIVOT_SKIP;
+            opt.pivots = SL_PIVOTS_SKIP_NULL;
             opt.mass = weighted ? mass : NULL;
             SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, &stats));
             assert_int_equal(stats.factor.null, components);

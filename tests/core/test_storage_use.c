@@ -37,7 +37,7 @@ static void entries_beyond_float_are_refused_beside_null_vectors(void **state) {
     sl_factor *F = NULL;
     sl_stats stats;
     sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     opt.null_vector = Z;
     opt.null_vector_count = 2;
     SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));

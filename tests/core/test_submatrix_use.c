@@ -165,7 +165,7 @@ static void failures_name_rows_of_the_whole_matrix(void **state) {
 static void null_pivots_may_be_removed(void **state) {
     (void)state;
     sl_options opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     for (int style = 0; style < GEN_STYLES; style++) {
         for (int shape = 0; shape < SUBSET_SHAPES; shape++) {
             submatrix_t t;
@@ -354,7 +354,7 @@ static void any_storage_and_several_null_vectors_are_restricted(void **state) {
         sl_options opt = options_none();
         opt.storage = storages[kind];
         if (kind == 2) {
-            opt.null_pivots = SL_NULL_PIVOT_SKIP;
+            opt.pivots = SL_PIVOTS_SKIP_NULL;
             opt.null_vector = z;
             opt.null_vector_count = 2;
             gen_reals(z, 2 * 225, 4);

@@ -217,7 +217,7 @@ static void some_systems_are_left_to_one_worker(void **state) {
         gen_list_free(&t);
         SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, &opt, NULL));
         opt = options_none();
-        opt.null_pivots = k == 0 ? SL_NULL_PIVOT_REFUSE : SL_NULL_PIVOT_SKIP;
+        opt.pivots = k == 0 ? SL_PIVOTS_NONZERO : SL_PIVOTS_SKIP_NULL;
         opt.consistency_tolerance = k == 1 ? -1.0 : 0.0;
         SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, &opt, NULL));
         SL_CHECK(sl_work_create(&W, &many));

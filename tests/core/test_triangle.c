@@ -368,7 +368,7 @@ static void null_vectors_belong_to_the_triangle_that_is_read(void **state) {
         opt.triangle = k ? SL_TRIANGLE_UPPER : SL_TRIANGLE_LOWER;
         SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
         opt = options_none();
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
         assert_int_equal(stats.factor.null, 1);
         SL_CHECK(sl_factor_solve(F, x, 3, b, 3, 1, NULL));

@@ -15,13 +15,12 @@ static const option_t options[] = {
     {"ordering", READS_ANALYSIS},
     {"relaxation", READS_ANALYSIS},
     {"perm", READS_ANALYSIS},
-    {"metis_options", READS_ANALYSIS},
     {"block_size", READS_ANALYSIS},
     {"purpose", READS_ANALYSIS},
     {"triangle", READS_TRIANGLE},
     {"isa", READS_ISA},
     {"method", READS_FACTOR},
-    {"null_pivots", READS_FACTOR},
+    {"pivots", READS_FACTOR},
     {"null_tolerance", READS_FACTOR},
     {"mass", READS_FACTOR},
     {"consistency_tolerance", READS_FACTOR},
@@ -32,7 +31,6 @@ static const option_t options[] = {
     {"null_vector", READS_FACTOR},
     {"null_vector_count", READS_FACTOR},
     {"storage", READS_FACTOR},
-    {"definite", READS_FACTOR},
     {"region", READS_REGION},
     {"region_bytes", READS_REGION_BYTES},
 };
@@ -42,14 +40,11 @@ enum { OPTIONS = sizeof options / sizeof options[0], N = 25 };
 /* Sets option k to a value that is valid where it is read. */
 static sl_options with_option(const option_fixture_t *f, int k) {
     static double mass[N];
-    static sl_int signs[N], metis_options[40];
+    static sl_int signs[N];
     sl_options opt = options_none();
     for (int q = 0; q < N; q++) {
         mass[q] = 1;
         signs[q] = 1;
-    }
-    for (int q = 0; q < 40; q++) {
-        metis_options[q] = -1;
     }
     switch (k) {
     case 0:
@@ -62,60 +57,54 @@ static sl_options with_option(const option_fixture_t *f, int k) {
         opt.perm = f->perm;
         break;
     case 3:
-        opt.metis_options = metis_options;
-        break;
-    case 4:
         opt.block_size = 5;
         break;
-    case 5:
+    case 4:
         opt.purpose = SL_PURPOSE_ONE_FACTOR;
         break;
-    case 6:
+    case 5:
         opt.triangle = SL_TRIANGLE_LOWER;
         break;
-    case 7:
+    case 6:
         opt.isa = SL_ISA_SCALAR;
         break;
-    case 8:
+    case 7:
         opt.method = SL_METHOD_SUPERNODAL;
         break;
-    case 9:
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    case 8:
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         break;
-    case 10:
+    case 9:
         opt.null_tolerance = 1e-12;
         break;
-    case 11:
+    case 10:
         opt.mass = mass;
         break;
-    case 12:
+    case 11:
         opt.consistency_tolerance = 1e-5;
         break;
-    case 13:
+    case 12:
         opt.regularization = 1e-8;
         break;
-    case 14:
+    case 13:
         opt.signs = signs;
         break;
-    case 15:
+    case 14:
         opt.growth_limit = 1e12;
         break;
-    case 16:
+    case 15:
         opt.error_limit = 1e-6;
         break;
-    case 17:
+    case 16:
         opt.null_vector = mass;
         break;
-    case 18:
+    case 17:
         opt.null_vector_count = 1;
         break;
-    case 19:
+    case 18:
         opt.storage = SL_STORAGE_FLOAT;
         break;
-    case 20:
-        opt.definite = 1;
-        break;
-    case 21:
+    case 19:
         opt.region = f->region;
         break;
     default:

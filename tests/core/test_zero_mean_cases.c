@@ -77,8 +77,8 @@ static void invalid_weights_are_refused(void **state) {
         SL_CHECK(sl_factor_solve(F, x, 6, b, 6, 1, NULL));
         assert_zero_mean(&M.view, of, ones, x, b);
         sl_factor_free(F);
-        /* read with SL_NULL_PIVOT_SKIP only */
-        opt.null_pivots = SL_NULL_PIVOT_REFUSE;
+        /* read with SL_PIVOTS_SKIP_NULL only */
+        opt.pivots = SL_PIVOTS_NONZERO;
         opt.mass = m;
         SL_CHECK(sl_factor_create(&F, S, &firm.view, FOR_FACTOR(&opt), &stats));
         sl_factor_free(F);
@@ -275,7 +275,7 @@ static void every_allocation_may_fail(void **state) {
             sl_work *W = NULL;
             opt.isa = wanted.isa;
             opt.method = wanted.method;
-            opt.null_pivots = wanted.null_pivots;
+            opt.pivots = wanted.pivots;
             opt.mass = m;
             counter.fail_at = fails;
             sl_status status = sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL);

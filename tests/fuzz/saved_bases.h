@@ -156,9 +156,9 @@ static base_t base_make(int base, int flags) {
         mass[k] = 1 + k;
         signs[k] = k % 4 == 3 ? -1 : 1;
     }
-    opt.null_pivots = way == SKIPPED || way == WEIGHTED ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
+    opt.pivots = way == SKIPPED || way == WEIGHTED ? SL_PIVOTS_SKIP_NULL : SL_PIVOTS_NONZERO;
     opt.mass = way == WEIGHTED ? mass : NULL;
-    if (flags & HAS_SEVERAL && opt.null_pivots == SL_NULL_PIVOT_SKIP) {
+    if (flags & HAS_SEVERAL && opt.pivots == SL_PIVOTS_SKIP_NULL) {
         fill_null_vectors(z, A.n, base >= WAYS);
         opt.null_vector = z;
         opt.null_vector_count = COLUMNS;

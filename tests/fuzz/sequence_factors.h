@@ -67,7 +67,7 @@ static sl_options factor_options(input_t *in, factor_t *f, kind_t kind) {
     opt.storage = f->is_float ? SL_STORAGE_FLOAT : SL_STORAGE_DOUBLE;
     f->has_mass = f->has_columns = 0;
     if (kind == LAPLACIAN) {
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.pivots = SL_PIVOTS_SKIP_NULL;
         f->has_columns = choices / 128 % 2;
         f->has_mass = choices / 32 % 2;
         opt.mass = f->has_mass ? f->mass : NULL;

@@ -109,7 +109,7 @@ static void run_backwards(void *context, sl_int count, void (*body)(void *data, 
 static void take_null_pivots(case_t *c, input_t *in, int which) {
     const int more = which > 0 ? take(in) : 0;
     if (which == 1) {
-        c->for_factor.null_pivots = SL_NULL_PIVOT_SKIP;
+        c->for_factor.pivots = SL_PIVOTS_SKIP_NULL;
         c->for_factor.mass = more & 1 ? c->mass : NULL;
         c->for_factor.consistency_tolerance = more & 2 ? -1.0 : more & 4 ? more / 64.0 : 0.0;
         for (sl_int k = 0; more & 1 && k < c->A.n_cols; k++) {
@@ -117,7 +117,7 @@ static void take_null_pivots(case_t *c, input_t *in, int which) {
         }
         if (more & 8) { /* one null vector or two */
             c->for_factor.null_vector = c->vectors;
-            c->for_factor.null_vector_count = (size_t)(more / 16 % 3);
+            c->for_factor.null_vector_count = more / 16 % 3;
             for (sl_int k = 0; k < 2 * c->A.n_cols; k++) {
                 c->vectors[k] = k < c->A.n_cols ? 1.0 : take_value(in);
             }

@@ -149,8 +149,9 @@ static inline void elastic_rigid(const elastic_t *y, double *Z, const double *ce
         Z[i + c * y->n] = 1.0;
         for (int r = 0; r < y->rigid - y->dim; r++) { /* about an axis: from direction a to b */
             const int a = r == 2 ? 1 : 0, b = r == 0 ? 1 : 2;
-            Z[i + (y->dim + r) * y->n] =
-                c == a ? -(p[b] - center[b]) : c == b ? p[a] - center[a] : 0.0;
+            Z[i + (y->dim + r) * y->n] = c == a   ? -(p[b] - center[b])
+                                         : c == b ? p[a] - center[a]
+                                                  : 0.0;
         }
     }
 }
@@ -182,8 +183,8 @@ static inline elastic_t elastic_make(int dim, sl_int size, double decades, doubl
     elastic_rigid(&y, y.Z, origin);
     gen_list_t t = gen_list(y.n);
     elastic_cells(&t, &y, decades, seed);
-    SL_CHECK(sl_matrix_from_triplets(&y.M, y.n, y.n, (sl_off)t.count, t.row, t.col, t.x, NULL,
-                                     NULL));
+    SL_CHECK(
+        sl_matrix_from_triplets(&y.M, y.n, y.n, (sl_off)t.count, t.row, t.col, t.x, NULL, NULL));
     y.A = sl_matrix_view(y.M);
     gen_list_free(&t);
     return y;
@@ -192,7 +193,7 @@ static inline elastic_t elastic_make(int dim, sl_int size, double decades, doubl
 static inline sl_options options_rigid(const elastic_t *y, const variant_list_t *variants, int k) {
     sl_options opt = options_skip_null(variants, k);
     opt.null_vector = y->Z;
-    opt.null_vector_count = (size_t)y->rigid;
+    opt.null_vector_count = y->rigid;
     return opt;
 }
 

@@ -61,7 +61,7 @@ static inline gen_matrix_t laplacian(gen_kind_t kind, sl_int size, int style, sl
 static inline sl_options options_skip_null(const variant_list_t *variants, int k) {
     sl_options opt = options_none();
     options_set_variant(&opt, variants, k);
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     return opt;
 }
 

@@ -14,7 +14,7 @@ typedef struct judge_system_t {
     gen_matrix_t M;
     sl_int n;
     sl_int *of;   /* n: the first row of each row's component, by nonzero entries */
-    int skips;    /* semidefinite: SL_NULL_PIVOT_SKIP */
+    int skips;    /* semidefinite: SL_PIVOTS_SKIP_NULL */
     int constant; /* the null vectors are constants */
     int is_complex;
     double *mass;   /* n weights, or NULL */

@@ -97,7 +97,7 @@ static inline saved_case_t saved_case_make(int way, gen_kind_t kind, sl_int size
         c.signs[k] = k % 5 == 0 ? -1 : k % 3 == 0 ? 0 : 1;
     }
     if (skips) {
-        c.opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        c.opt.pivots = SL_PIVOTS_SKIP_NULL;
         c.opt.mass = way == SAVED_WEIGHTED ? c.mass : NULL;
         c.opt.null_vector = way == SAVED_VECTORS ? c.vectors : NULL;
         c.opt.null_vector_count = way == SAVED_VECTORS ? 3 : 0;

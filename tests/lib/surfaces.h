@@ -80,7 +80,7 @@ static inline void mesh_factor_make(mesh_factor_t *w, mesh m) {
     sl_options opt = options_none();
     memset(w, 0, sizeof *w);
     w->m = m;
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     opt.consistency_tolerance = PATCH_SOLVER_CONSISTENCY;
     assert_true(incidence_create(&w->inc, &w->m));
     assert_true(laplacian_cotangent(&w->L, &w->m));

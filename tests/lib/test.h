@@ -32,12 +32,12 @@ static inline void test_status(sl_status got, sl_status wanted, const char *call
 #define SL_EXPECT(status, call) test_status((call), (status), #call, __FILE__, __LINE__)
 
 /* Skips the test. run.sh prints the reason. */
-#define TEST_SKIP(...)              \
-    do {                            \
+#define TEST_SKIP(...) \
+    do { \
         print_message("skipped: "); \
         print_message(__VA_ARGS__); \
-        print_message("\n");        \
-        skip();                     \
+        print_message("\n"); \
+        skip(); \
     } while (0)
 
 /* A file that may be written at any time. */
@@ -174,13 +174,12 @@ static inline sl_options options_for_analysis(const sl_options *from) {
         opt = *from;
         opt.isa = SL_ISA_AUTO;
         opt.method = SL_METHOD_AUTO;
-        opt.null_pivots = SL_NULL_PIVOT_REFUSE;
+        opt.pivots = SL_PIVOTS_NONZERO;
         opt.null_tolerance = opt.consistency_tolerance = opt.regularization = 0;
         opt.growth_limit = opt.error_limit = 0;
         opt.mass = opt.null_vector = NULL;
         opt.null_vector_count = 0;
         opt.storage = SL_STORAGE_DOUBLE;
-        opt.definite = 0;
         opt.signs = NULL;
     }
     return opt;
@@ -194,7 +193,7 @@ static inline sl_options options_for_factor(const sl_options *from) {
         opt.ordering = SL_ORDERING_ND;
         opt.relaxation = SL_RELAXATION_DEFAULT;
         opt.triangle = SL_TRIANGLE_NONE;
-        opt.perm = opt.metis_options = NULL;
+        opt.perm = NULL;
         opt.block_size = 0;
         opt.purpose = SL_PURPOSE_MANY_SOLVES;
     }

@@ -159,7 +159,7 @@ WRONG(no_ordering) {
 
 WRONG(regularized_and_skipped) {
     sl_options opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     opt.regularization = 1e-8;
     return factor(&opt, stats);
 }
@@ -178,7 +178,7 @@ WRONG(infinite_weight) {
         w.x[k] = 1;
     }
     w.x[4] = (double)INFINITY;
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     opt.mass = w.x;
     return factor(&opt, stats);
 }

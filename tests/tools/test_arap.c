@@ -40,7 +40,7 @@ static double iterate(const mesh_factor_t *w, const disk_patch *d, double *X, in
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
     sl_options opt = options_none();
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     SL_CHECK(patch_solver_create(&s, w->S, w->F, &d->p));
     assert_true(arap_create(&a, &d->p));
     const sl_csc N = sl_matrix_view(s.N);

@@ -979,8 +979,7 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
     bool is_analyzed_as_wanted() const {
         const sl_options &a = analyzed_with_, &b = options_;
         return a.ordering == b.ordering && a.relaxation == b.relaxation && a.perm == b.perm &&
-               a.metis_options == b.metis_options && a.block_size == b.block_size &&
-               a.purpose == b.purpose;
+               a.block_size == b.block_size && a.purpose == b.purpose;
     }
 
     // ---- the factorization ----
@@ -1000,7 +999,7 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
             if (status == SL_OK) status = factor_numbers(view);
         }
         if (is_refused(status) && !has_pivots_ && pivoting_ == pivoted_if_needed && !is_llt_ &&
-            !is_zero_mean_ && options_.null_pivots == SL_NULL_PIVOT_REFUSE &&
+            !is_zero_mean_ && options_.pivots == SL_PIVOTS_NONZERO &&
             options_.regularization == 0) {
             status = factor_pivoted(A, view, status);
         }
@@ -1032,8 +1031,8 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
         sl_options options = options_;
         std::vector<double> ones;
         if (is_zero_mean_) use_zero_mean(options, ones, std::size_t(view.n_cols));
-        if (is_llt_ && options.null_pivots == SL_NULL_PIVOT_REFUSE && options.regularization == 0) {
-            options.definite = 1;
+        if (is_llt_ && options.pivots == SL_PIVOTS_NONZERO && options.regularization == 0) {
+            options.pivots = SL_PIVOTS_POSITIVE;
         }
         status = sl_factor_create(&made, symbolic_.get(), &view, &options, &stats_);
         /* it takes neither 2x2 nor null pivots, nor a NaN, of which the double one names the row */
@@ -1053,7 +1052,7 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
     /* A complex null vector z is two real ones, z and i z. */
     static void use_zero_mean(sl_options &options, std::vector<double> &ones, std::size_t n) {
         ones.assign(n * (unit == 2 ? 3 : 1), 1.0);
-        options.null_pivots = SL_NULL_PIVOT_SKIP;
+        options.pivots = SL_PIVOTS_SKIP_NULL;
         if (!options.mass) options.mass = ones.data();
         if (unit == 1 || options.null_vector) return;
         for (std::size_t k = 0; k < 2 * n; k++)

@@ -86,7 +86,7 @@ static void factor_mesh(layout_command *job) {
     sl_options opt;
     sl_stats stats;
     memset(&opt, 0, sizeof opt);
-    opt.null_pivots = SL_NULL_PIVOT_SKIP; /* the constants are the null space of L */
+    opt.pivots = SL_PIVOTS_SKIP_NULL; /* the constants are the null space of L */
     opt.consistency_tolerance = PATCH_SOLVER_CONSISTENCY;
     if (!laplacian_cotangent(&job->L, &job->m)) {
         app_die("out of memory");

@@ -13,7 +13,7 @@ int main(void) {
     sl_factor *F = NULL;
     sl_constraints *P = NULL;
     sl_options_init(&options, sizeof options);
-    options.null_pivots = SL_NULL_PIVOT_SKIP; /* without pins the Laplacian is singular */
+    options.pivots = SL_PIVOTS_SKIP_NULL; /* without pins the Laplacian is singular */
     ok(sl_symbolic_create(&S, &A, NULL, NULL));
     ok(sl_factor_create(&F, S, &A, &options, NULL));
     ok(sl_constraints_create(&P, F, NULL));

@@ -57,7 +57,7 @@ int main(void) {
     A = sl_matrix_view(M);
     ok(sl_symbolic_create(&S, &A, NULL, NULL));
     sl_options_init(&opt, sizeof opt);
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     opt.null_vector = rigid;
     opt.null_vector_count = 3;
     ok(sl_factor_create(&F, S, &A, &opt, &stats));

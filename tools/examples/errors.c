@@ -16,7 +16,7 @@ int main(void) {
     sl_error_text(text, sizeof text, status, &stats);
     printf("%s\n", text);
     sl_options_init(&options, sizeof options);
-    options.null_pivots = SL_NULL_PIVOT_SKIP; /* A is semidefinite */
+    options.pivots = SL_PIVOTS_SKIP_NULL; /* A is semidefinite */
     ok(sl_factor_create(&F, S, &A, &options, &stats));
     printf("%d null pivot was skipped\n", (int)stats.factor.null);
     sl_factor_free(F);

@@ -15,7 +15,7 @@ int main(void) {
     }
     b[0] = 1.0; /* need not be consistent: a multiple of mass makes it so */
     sl_options_init(&opt, sizeof opt);
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     opt.mass = mass;
     ok(sl_symbolic_create(&S, &A, NULL, NULL));
     ok(sl_factor_create(&F, S, &A, &opt, NULL));

@@ -74,7 +74,7 @@ sl_status arap_global_step(arap *a, double *X, patch_solver *s, int solves);
  */
 double arap_shorten_step(const arap *a, double *X, const double *from);
 
-/** The global step, exactly, on a factor of N itself (made with SL_NULL_PIVOT_SKIP).
+/** The global step, exactly, on a factor of N itself (made with SL_PIVOTS_SKIP_NULL).
  *
  *  X  [out]  n x 2, column-major.
  *  W  [in]   workspace; may be NULL.

@@ -115,7 +115,7 @@ static sl_status factor(deformer *d) {
     const sl_csc K = sl_matrix_view(d->K);
     sl_options opt;
     memset(&opt, 0, sizeof opt);
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     /* forces are in balance to rounding, which is all that their sums are */
     opt.consistency_tolerance = -1;
     sl_status status = sl_symbolic_create(&d->S, &K, NULL, &d->stats);

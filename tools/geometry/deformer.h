@@ -10,7 +10,7 @@ typedef enum deform_method {
 } deform_method;
 
 /* The matrix K, L or L M^-1 L, is singular by a constant on each component. It is factored once,
- * with SL_NULL_PIVOT_SKIP. Vertices that are held are pins (sl_constraints), which change nothing
+ * with SL_PIVOTS_SKIP_NULL. Vertices that are held are pins (sl_constraints), which change nothing
  * in the factor; hundreds are fixed by sl_fixed instead. A component without held vertices keeps
  * its mean position (ARAP) or is at rest.
  *

@@ -23,7 +23,7 @@ static sl_status create(sl_fixed **out, deformer *d, const sl_int *rows, sl_int 
     const sl_csc K = sl_matrix_view(d->K);
     sl_options opt;
     memset(&opt, 0, sizeof opt);
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     opt.consistency_tolerance = -1;
     return sl_fixed_create(out, &K, rows, count, &opt, &d->stats);
 }

@@ -114,7 +114,7 @@ sl_status factor_and_solve(double *X, const sl_csc *N, const double *B, sl_int n
     sl_options opt;
     size_t n = (size_t)N->n_cols;
     memset(&opt, 0, sizeof opt);
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     sl_status status = sl_symbolic_create(&S, N, NULL, NULL);
     if (status == SL_OK) {
         status = sl_factor_create(&F, S, N, &opt, NULL);

@@ -20,8 +20,8 @@ void heat_solver_free(heat_solver *s) {
     memset(s, 0, sizeof *s);
 }
 
-static sl_status factor(sl_factor **out, sl_symbolic **S, const sl_matrix *A,
-                        sl_null_pivots null_pivots, const sl_options *opt) {
+static sl_status factor(sl_factor **out, sl_symbolic **S, const sl_matrix *A, sl_pivots null_pivots,
+                        const sl_options *opt) {
     const sl_csc view = sl_matrix_view(A);
     sl_options own;
     memset(&own, 0, sizeof own);
@@ -29,7 +29,7 @@ static sl_status factor(sl_factor **out, sl_symbolic **S, const sl_matrix *A,
         own.allocator = opt->allocator;
     }
     sl_status status = *S == NULL ? sl_symbolic_create(S, &view, &own, NULL) : SL_OK;
-    own.null_pivots = null_pivots;
+    own.pivots = null_pivots;
     own.consistency_tolerance = PATCH_SOLVER_CONSISTENCY;
     return status == SL_OK ? sl_factor_create(out, *S, &view, &own, NULL) : status;
 }
@@ -59,11 +59,11 @@ static sl_status create(heat_solver *out, const mesh *m, const double *lengths, 
         status = SL_ERR_MEMORY;
     }
     if (status == SL_OK) {
-        status = factor(&out->heat, &out->S, A, SL_NULL_PIVOT_REFUSE, opt);
+        status = factor(&out->heat, &out->S, A, SL_PIVOTS_NONZERO, opt);
     }
     if (status == SL_OK) {
         out->poisson_S = out->S;
-        status = factor(&out->poisson, &out->S, L, SL_NULL_PIVOT_SKIP, opt);
+        status = factor(&out->poisson, &out->S, L, SL_PIVOTS_SKIP_NULL, opt);
     }
     sl_matrix_free(A);
     sl_matrix_free(L);

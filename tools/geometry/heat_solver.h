@@ -32,7 +32,7 @@ typedef struct heat_solver {
     sl_symbolic *S;         /* of heat */
     sl_symbolic *poisson_S; /* of poisson: S, unless the factors are of two files */
     sl_factor *heat;        /* of M + t L */
-    sl_factor *poisson;     /* of L, with SL_NULL_PIVOT_SKIP */
+    sl_factor *poisson;     /* of L, with SL_PIVOTS_SKIP_NULL */
     sl_work *work;
 } heat_solver;
 

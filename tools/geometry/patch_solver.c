@@ -238,7 +238,7 @@ sl_status patch_solver_factor_patch(patch_solver *s) {
     const sl_csc N = sl_matrix_view(s->N);
     sl_options opt;
     memset(&opt, 0, sizeof opt);
-    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
     opt.consistency_tolerance = PATCH_SOLVER_CONSISTENCY;
     if (s->own_F != NULL) {
         return SL_OK;

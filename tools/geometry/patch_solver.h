@@ -32,7 +32,7 @@
 
 /** Plans for a patch, its own Laplacian, and scratch. */
 typedef struct patch_solver {
-    const sl_factor *F;      /* of L, made with SL_NULL_PIVOT_SKIP; borrowed */
+    const sl_factor *F;      /* of L, made with SL_PIVOTS_SKIP_NULL; borrowed */
     const submesh *p;        /* the patch; borrowed */
     sl_matrix *N;            /* lower triangle */
     sl_plan *patch_plan;     /* b and x on the patch */
@@ -56,7 +56,7 @@ enum { PATCH_SOLVER_MAX_RHS = 4 }; /* right-hand sides per call */
  *
  *  out  [out]  release with patch_solver_free; all zero on error.
  *  S    [in]   analysis of the whole mesh's Laplacian; borrowed.
- *  F    [in]   its factor, made with SL_NULL_PIVOT_SKIP and PATCH_SOLVER_CONSISTENCY; borrowed.
+ *  F    [in]   its factor, made with SL_PIVOTS_SKIP_NULL and PATCH_SOLVER_CONSISTENCY; borrowed.
  *  p    [in]   the patch; borrowed.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: a vertex of the patch is not in S, or is given twice;
  *           SL_ERR_MEMORY.

@@ -44,6 +44,14 @@ static sl_int *signs_in(const mxArray *value, sl_int n) {
     return signs;
 }
 
+/* Two options are one of the library's: they exclude each other. */
+static void set_pivots(sl_options *o, sl_pivots pivots) {
+    if (o->pivots != SL_PIVOTS_NONZERO && o->pivots != pivots) {
+        refuse("definite excludes null_pivots = 'skip'");
+    }
+    o->pivots = pivots;
+}
+
 /* Sets one option; those of arrays have n rows. Returns 0 if there is no such option. */
 static int set_option(sl_options *o, int *pivoted, const char *name, const mxArray *value,
                       sl_int n) {
@@ -53,7 +61,7 @@ static int set_option(sl_options *o, int *pivoted, const char *name, const mxArr
     if (strcmp(name, "pivoted") == 0) {
         *pivoted = number_in(name, value) != 0;
     } else if (strcmp(name, "definite") == 0) {
-        o->definite = number_in(name, value) != 0;
+        if (number_in(name, value) != 0) set_pivots(o, SL_PIVOTS_POSITIVE);
     } else if (strcmp(name, "threads") == 0) {
         o->threads.count = whole_in(name, value);
     } else if (strcmp(name, "triangle") == 0) {
@@ -71,7 +79,7 @@ static int set_option(sl_options *o, int *pivoted, const char *name, const mxArr
     } else if (strcmp(name, "storage") == 0) {
         o->storage = (sl_storage)word_in(name, value, "double|float");
     } else if (strcmp(name, "null_pivots") == 0) {
-        o->null_pivots = (sl_null_pivots)word_in(name, value, "refuse|skip");
+        if (word_in(name, value, "refuse|skip") == 1) set_pivots(o, SL_PIVOTS_SKIP_NULL);
     } else if (strcmp(name, "null_tolerance") == 0) {
         o->null_tolerance = number_in(name, value);
     } else if (strcmp(name, "consistency_tolerance") == 0) {
@@ -80,7 +88,7 @@ static int set_option(sl_options *o, int *pivoted, const char *name, const mxArr
         o->mass = dense(value, name, n, &count);
     } else if (strcmp(name, "null_vector") == 0) {
         o->null_vector = dense(value, name, n, &count);
-        o->null_vector_count = (size_t)count;
+        o->null_vector_count = count;
     } else if (strcmp(name, "regularization") == 0) {
         o->regularization = number_in(name, value);
     } else if (strcmp(name, "signs") == 0) {

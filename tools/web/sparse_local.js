@@ -232,12 +232,13 @@ function setOptions(heap, options, n) {
     for (const key of Object.keys(options)) {
         if (!known.includes(key)) throw new RangeError(`options: ${key} is none of ${known.join(", ")}`);
     }
+    const skips = choice(nullPivots, options.nullPivots, "nullPivots") === 1;
+    if (skips && options.definite) throw new RangeError('options: definite excludes nullPivots "skip"');
     const given = options.perm !== undefined && options.ordering === undefined ? "given" : options.ordering;
     heap.exports.web_options(choice(triangles, options.triangle, "triangle"),
         choice(orderings, given, "ordering"), heap.put(options.perm, Int32Array, n, "perm"),
         options.blockSize ?? 0, choice(purposes, options.purpose, "purpose"),
-        choice(nullPivots, options.nullPivots, "nullPivots"),
-        heap.put(options.mass, Float64Array, n, "mass"), options.definite ? 1 : 0);
+        skips ? 2 : options.definite ? 1 : 0, heap.put(options.mass, Float64Array, n, "mass"));
 }
 
 /* ---- objects ---- */

@@ -85,16 +85,15 @@ WEB_EXPORT(web_error_value) double web_error_value(void) {
 /** The options of the next analysis and factorization; perm and mass: n numbers or NULL. */
 WEB_EXPORT(web_options)
 void web_options(int triangle, int ordering, const sl_int *perm, sl_int block_size, int purpose,
-                 int null_pivots, const double *mass, int definite) {
+                 int pivots, const double *mass) {
     memset(&options, 0, sizeof options);
     options.triangle = (sl_triangle)triangle;
     options.ordering = (sl_ordering)ordering;
     options.perm = perm;
     options.block_size = block_size;
     options.purpose = (sl_purpose)purpose;
-    options.null_pivots = (sl_null_pivots)null_pivots;
+    options.pivots = (sl_pivots)pivots;
     options.mass = mass;
-    options.definite = (size_t)definite;
 }
 
 /* ---- matrices ---- */

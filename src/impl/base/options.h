@@ -27,13 +27,12 @@ SL_API void sl_options_init(sl_options *opt, size_t size) {
 /* The groups in which an option differs from its default. */
 static int sli_options_set(const sl_options *opt) {
     const int analysis = opt->ordering != 0 || opt->relaxation != 0 || opt->perm != NULL ||
-                         opt->metis_options != NULL || opt->block_size != 0 || opt->purpose != 0;
-    const int factor = opt->method != 0 || opt->null_pivots != 0 || opt->null_tolerance != 0.0 ||
+                         opt->block_size != 0 || opt->purpose != 0;
+    const int factor = opt->method != 0 || opt->pivots != 0 || opt->null_tolerance != 0.0 ||
                        opt->mass != NULL || opt->consistency_tolerance != 0.0 ||
                        opt->regularization != 0.0 || opt->signs != NULL ||
                        opt->null_vector != NULL || opt->growth_limit != 0.0 ||
-                       opt->error_limit != 0.0 || opt->null_vector_count != 0 ||
-                       opt->storage != 0 || opt->definite != 0;
+                       opt->error_limit != 0.0 || opt->null_vector_count != 0 || opt->storage != 0;
     return (opt->isa != 0 ? SLI_READS_ISA : 0) | (opt->triangle != 0 ? SLI_READS_TRIANGLE : 0) |
            (analysis ? SLI_READS_ANALYSIS : 0) | (factor ? SLI_READS_FACTOR : 0) |
            (opt->region != NULL ? SLI_READS_REGION : 0) |

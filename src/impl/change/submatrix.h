@@ -85,7 +85,7 @@ static sl_options sli_submatrix_options(const sl_factor *F, const sli_restrictio
     sl_int k;
     opt.null_tolerance = sli_tolerance_option(F);
     opt.regularization = F->rule.regularization;
-    opt.definite = (size_t)F->limits.is_definite;
+    opt.pivots = F->limits.is_definite ? SL_PIVOTS_POSITIVE : SL_PIVOTS_NONZERO;
     opt.growth_limit = sli_limit_option(F->limits.growth);
     opt.error_limit = sli_limit_option(F->limits.error);
     if (opt.regularization != 0.0 && F->rule.signs != NULL) {

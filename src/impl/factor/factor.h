@@ -55,14 +55,14 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
                    : "float cannot hold L: options.storage";
     }
     if (F->limits.is_definite && f->bound >= 0.0) {
-        return "options.definite: the pivot is not positive, and A not positive definite";
+        return "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite";
     }
     if (f->bound < 0.0) {
         return "there was no memory to judge whether the pivot is null";
     }
     if (sli_skips_nulls(F)) {
         return f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
-                                "SL_NULL_PIVOT_SKIP takes semidefinite matrices"
+                                "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
                               : "A is indefinite, or options.null_vector or options.mass does not "
                                 "suit its null vectors";
     }
@@ -70,15 +70,15 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
         return "options.null_tolerance decides; a negative one accepts every pivot but 0";
     }
     if (sli_singular_of(1) == NULL) { /* untested: null spaces are there */
-        return "null pivot: if A is singular, options.null_pivots, which SL_NO_SINGULAR leaves "
+        return "null pivot: if A is singular, options.pivots, which SL_NO_SINGULAR leaves "
                "out; if it is regular, sl_symbolic_create_pivoted"; /* untested: the same */
     }
     return size > F->rule.epsilon * F->extents[f->super].magnitude
-               ? "if A is singular: options.null_pivots; if the pivot may be right, a smaller or "
+               ? "if A is singular: options.pivots; if the pivot may be right, a smaller or "
                  "negative options.null_tolerance accepts it, and sl_symbolic_create_pivoted "
                  "avoids small pivots"
                : "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
-                 "options.null_pivots";
+                 "options.pivots";
 }
 
 /* Fills F's stats: the pivot counts and, after a failure, the caller's row and column. has_pivots:

@@ -7,15 +7,15 @@
 #include "factor_layout.h"
 #include "growth.h"
 
-/* What is wrong with the options of a factorization, which are not NULL, or NULL. Null pivots are
- * either skipped or regularized, so the two options exclude each other. */
+/* What is wrong with the options of a factorization, which are not NULL, or NULL. Only
+ * SL_PIVOTS_NONZERO goes with regularization, which replaces what the others refuse or skip. */
 static const char *sli_factor_choices_wrong(const sl_options *opt) {
     return (unsigned)opt->method > (unsigned)SL_METHOD_SUPERNODAL
                ? "options.method is not a value of sl_method"
            : (unsigned)opt->storage > (unsigned)SL_STORAGE_COMPLEX
                ? "options.storage is not a value of sl_storage"
-           : (unsigned)opt->null_pivots > (unsigned)SL_NULL_PIVOT_SKIP
-               ? "options.null_pivots is not a value of sl_null_pivots"
+           : (unsigned)opt->pivots > (unsigned)SL_PIVOTS_SKIP_NULL
+               ? "options.pivots is not a value of sl_pivots"
            : opt->null_tolerance != opt->null_tolerance ? "options.null_tolerance is NaN"
            : opt->consistency_tolerance != opt->consistency_tolerance
                ? "options.consistency_tolerance is NaN"
@@ -23,13 +23,10 @@ static const char *sli_factor_choices_wrong(const sl_options *opt) {
            : opt->error_limit != opt->error_limit   ? "options.error_limit is NaN"
            : !(opt->regularization >= 0.0) || !sli_is_finite(opt->regularization)
                ? "options.regularization is below 0 or not finite"
-           : opt->regularization != 0.0 && opt->null_pivots == SL_NULL_PIVOT_SKIP
-               ? "options.regularization excludes null_pivots = SL_NULL_PIVOT_SKIP"
-           : opt->definite != 0 && opt->definite != 1 ? "options.definite is neither 0 nor 1"
-           : opt->definite != 0 &&
-                   (opt->regularization != 0.0 || opt->null_pivots == SL_NULL_PIVOT_SKIP)
-               ? "options.definite excludes regularization and SL_NULL_PIVOT_SKIP"
-           : opt->null_vector_count > SLI_NULL_VECTORS_MAX ? "options.null_vector_count is above 32"
+           : opt->regularization != 0.0 && opt->pivots != SL_PIVOTS_NONZERO
+               ? "options.regularization needs options.pivots = SL_PIVOTS_NONZERO"
+           : opt->null_vector_count < 0 || opt->null_vector_count > SLI_NULL_VECTORS_MAX
+               ? "options.null_vector_count is below 0 or above 32"
            : opt->null_vector_count > 1 && opt->null_vector == NULL ? "options.null_vector is NULL"
                                                                     : NULL;
 }
@@ -56,7 +53,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
     const double null = opt == NULL ? 0.0 : opt->null_tolerance;
     const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
     const sl_int vectors = opt == NULL ? 0 : (sl_int)opt->null_vector_count;
-    F->null.calls = sli_singular_of(opt != NULL && opt->null_pivots == SL_NULL_PIVOT_SKIP);
+    F->null.calls = sli_singular_of(opt != NULL && opt->pivots == SL_PIVOTS_SKIP_NULL);
     F->rule.epsilon = DBL_EPSILON;
     F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n, F->rule.epsilon) : null;
     F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
@@ -64,7 +61,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
     F->null.vectors = sli_skips_nulls(F) ? sli_max(vectors, 1) : 1;
     F->null.consistency = consistency == 0.0 ? 1e-6 : consistency;
     F->null.is_centered = sli_skips_nulls(F) && opt->mass != NULL;
-    F->limits.is_definite = opt != NULL && opt->definite != 0;
+    F->limits.is_definite = opt != NULL && opt->pivots == SL_PIVOTS_POSITIVE;
     F->limits.growth = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
                                  sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
     F->limits.error = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
@@ -211,7 +208,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     draft.method = sli_method(S, draft.type, opt);
     status =
         S->is_pivoted && sli_skips_nulls(&draft)
-            ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_NULL_PIVOT_SKIP with an analysis for 2x2 pivots")
+            ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_PIVOTS_SKIP_NULL with an analysis for 2x2 pivots")
         : draft.type->suits != NULL && !draft.type->suits(&draft)
             ? sli_refuse(SL_ERR_UNSUPPORTED,
                          "options.storage does not suit the analysis or options")

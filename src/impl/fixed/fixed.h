@@ -57,12 +57,11 @@ static void sli_fixed_options(sl_fixed *D, const sl_options *opt) {
     s->threads = f->threads = opt->threads;
     s->ordering = opt->ordering;
     s->relaxation = opt->relaxation;
-    s->metis_options = opt->metis_options;
     s->block_size = opt->block_size;
     s->purpose = opt->purpose;
     f->isa = opt->isa;
     f->method = opt->method;
-    f->null_pivots = opt->null_pivots;
+    f->pivots = opt->pivots;
     f->null_tolerance = opt->null_tolerance;
     f->consistency_tolerance = opt->consistency_tolerance;
     f->regularization = opt->regularization;
@@ -70,7 +69,6 @@ static void sli_fixed_options(sl_fixed *D, const sl_options *opt) {
     f->error_limit = opt->error_limit;
     f->null_vector_count = opt->null_vector_count;
     f->storage = opt->storage;
-    f->definite = opt->definite;
 }
 
 /* Checks the arguments of a creation. */
@@ -174,7 +172,6 @@ static sl_status sli_fixed_begin(sl_fixed *D, const sl_csc *A, const sl_options 
         status = status == SL_OK ? sli_fixed_factor(D, A, &arrays, where, scratch, stats) : status;
         sli_free(&D->allocator, b.base);
     }
-    D->analysis.metis_options = NULL;
     return status;
 }
 

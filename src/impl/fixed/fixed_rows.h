@@ -82,9 +82,9 @@ static sl_status sli_fixed_report(const sl_fixed *D, sl_status status, sl_stats 
         return status;
     }
     found = sli_found(stats, status);
-    if (status == SL_ERR_PIVOT && D->factorization.definite == 0) {
+    if (status == SL_ERR_PIVOT && D->factorization.pivots != SL_PIVOTS_POSITIVE) {
         found.what = "the free rows are singular: fix a row of this component, or see "
-                     "options.null_pivots and sl_symbolic_create_pivoted";
+                     "options.pivots and sl_symbolic_create_pivoted";
     }
     if (found.row >= 0) {
         found.row = D->free_rows[found.row];
@@ -108,8 +108,9 @@ static void sli_fixed_arrays_layout(sli_fixed_arrays *r, sli_block *b, const sl_
         opt->ordering != SL_ORDERING_GIVEN || opt->perm == NULL ? NULL : SLI_TAKE(b, sl_int, count);
     r->signs = opt->signs == NULL ? NULL : SLI_TAKE(b, sl_int, count);
     r->mass = opt->mass == NULL ? NULL : SLI_TAKE(b, double, count);
-    r->null_vector =
-        opt->null_vector == NULL ? NULL : SLI_TAKE(b, double, count *(opt->null_vector_count + 1));
+    r->null_vector = opt->null_vector == NULL
+                         ? NULL
+                         : SLI_TAKE(b, double, count *(uint64_t)sli_max(opt->null_vector_count, 1));
 }
 
 /* Fills the arrays. scratch: n elements; where: as in sli_fixed_new. Refuses an order that
@@ -118,7 +119,7 @@ static sl_status sli_fixed_arrays_fill(const sli_fixed_arrays *r, const sl_fixed
                                        const sl_options *opt, const sl_int *where, sl_int *scratch,
                                        sl_stats *stats) {
     const sl_int m = D->n_free;
-    const size_t vectors = opt->null_vector_count == 0 ? 1 : opt->null_vector_count;
+    const size_t vectors = (size_t)sli_max(opt->null_vector_count, 1);
     sl_int k, at = 0;
     size_t v;
     if (r->perm != NULL) {

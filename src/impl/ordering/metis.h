@@ -8,33 +8,6 @@
 
 #include <metis.h>
 
-/* Returns whether METIS can run with these options. With others it prints a message or never ends.
- * Options that METIS_NodeND does not read may have any value; -1 is METIS's default. */
-static int sli_metis_options_are_valid(const sl_int *options) {
-    static const struct {
-        int option, low, high;
-    } sli_ranges[] = {
-        {METIS_OPTION_OBJTYPE, METIS_OBJTYPE_NODE, METIS_OBJTYPE_NODE},
-        {METIS_OPTION_CTYPE, METIS_CTYPE_RM, METIS_CTYPE_SHEM},
-        {METIS_OPTION_IPTYPE, METIS_IPTYPE_EDGE, METIS_IPTYPE_NODE},
-        {METIS_OPTION_RTYPE, METIS_RTYPE_SEP2SIDED, METIS_RTYPE_SEP1SIDED},
-        {METIS_OPTION_NITER, 1, INT32_MAX},
-        {METIS_OPTION_COMPRESS, 0, 1},
-        {METIS_OPTION_CCORDER, 0, 1},
-        {METIS_OPTION_PFACTOR, 0, INT32_MAX},
-        {METIS_OPTION_NSEPS, 1, INT32_MAX},
-        {METIS_OPTION_UFACTOR, 1, 999}, /* from 1000 on, bisections may leave a side empty */
-    };
-    size_t k;
-    for (k = 0; options != NULL && k < sizeof sli_ranges / sizeof *sli_ranges; k++) {
-        const sl_int value = options[sli_ranges[k].option];
-        if (value != -1 && (value < sli_ranges[k].low || value > sli_ranges[k].high)) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
 /* Builds the component's graph in METIS's format, numbered by component. */
 static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count,
                             const sl_int *local, idx_t *xadj, idx_t *adjncy) {
@@ -55,9 +28,7 @@ static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int c
  * in the scratch of the job on entry. */
 static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_int count) {
     const sli_graph *G = job->G;
-    const sl_int *metis_options = job->opt->metis_options;
-    idx_t options[METIS_NOPTIONS], nv = (idx_t)count, *xadj = NULL, *adjncy = NULL, *perm = NULL,
-                                   *iperm = NULL;
+    idx_t nv = (idx_t)count, *xadj = NULL, *adjncy = NULL, *perm = NULL, *iperm = NULL;
     sli_block b = {NULL, 0};
     sl_off edges = 0;
     sl_status status = SL_OK;
@@ -80,13 +51,7 @@ static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_
         return status;
     }
     sli_metis_graph(G, vertices, count, job->scratch, xadj, adjncy);
-    METIS_SetDefaultOptions(options);
-    for (k = 0; metis_options != NULL && k < METIS_NOPTIONS; k++) {
-        options[k] = metis_options[k];
-    }
-    options[METIS_OPTION_NUMBERING] = 0;
-    options[METIS_OPTION_DBGLVL] = 0; /* any other level prints */
-    result = METIS_NodeND(&nv, xadj, adjncy, NULL, options, perm, iperm);
+    result = METIS_NodeND(&nv, xadj, adjncy, NULL, NULL, perm, iperm);
     if (result == METIS_OK) {
         for (k = 0; k < count; k++) { /* xadj is free now: it keeps the old order */
             xadj[k] = vertices[k];

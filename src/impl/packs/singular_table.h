@@ -13,8 +13,8 @@ static const sli_singular *sli_singular_of(int skips_nulls) {
 
 static const char *sli_singular_missing(const sl_options *opt) {
     return opt == NULL ? NULL
-           : opt->null_pivots == SL_NULL_PIVOT_SKIP
-               ? "options.null_pivots = SL_NULL_PIVOT_SKIP: compiled with SL_NO_SINGULAR"
+           : opt->pivots == SL_PIVOTS_SKIP_NULL
+               ? "options.pivots = SL_PIVOTS_SKIP_NULL: compiled with SL_NO_SINGULAR"
            : opt->mass != NULL ? "options.mass: compiled with SL_NO_SINGULAR"
            : opt->null_vector != NULL || opt->null_vector_count != 0
                ? "options.null_vector: compiled with SL_NO_SINGULAR"

@@ -115,14 +115,13 @@ static int sli_decode_analysis(const sli_saved_analysis *a, sl_symbolic *S) {
 }
 
 static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl_factor *F) {
-    const int skips = g->null_pivots == SL_NULL_PIVOT_SKIP;
+    const int skips = g->skips_null != 0;
     const int64_t n = S->n;
     sl_factor_info *info = &F->stats.factor;
     if ((g->method != SL_METHOD_UP_LOOKING && g->method != SL_METHOD_SUPERNODAL) ||
-        !sli_count_is_valid(g->null_pivots, SL_NULL_PIVOT_SKIP) ||
-        !sli_count_is_valid(g->has_mass, skips) || !sli_count_is_valid(g->checks, skips) ||
-        !sli_count_is_valid(g->nulls, skips ? n : 0) || g->null != g->nulls ||
-        !sli_count_is_valid(g->is_centered, g->nulls > 0 && g->has_mass) ||
+        !sli_count_is_valid(g->skips_null, 1) || !sli_count_is_valid(g->has_mass, skips) ||
+        !sli_count_is_valid(g->checks, skips) || !sli_count_is_valid(g->nulls, skips ? n : 0) ||
+        g->null != g->nulls || !sli_count_is_valid(g->is_centered, g->nulls > 0 && g->has_mass) ||
         !sli_count_is_valid(g->anchors, g->is_centered ? S->stats.symbolic.components : 0) ||
         !(g->regularization >= 0.0) || !sli_is_finite(g->regularization) ||
         (skips && (g->regularization != 0.0 || S->is_pivoted)) ||

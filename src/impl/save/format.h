@@ -66,7 +66,7 @@ typedef struct sli_saved_analysis {
 } sli_saved_analysis;
 
 typedef struct sli_saved_factor {
-    int64_t method, null_pivots, has_mass, has_signs, checks, is_centered, nulls, anchors;
+    int64_t method, skips_null, has_mass, has_signs, checks, is_centered, nulls, anchors;
     int64_t positive, negative, null, regularized, weak, regular;
     double pivot_min, pivot_max, entry_max, growth;
     double null_tolerance, regularization, consistency, growth_limit, error_limit;
@@ -163,7 +163,7 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
     const sli_saved_factor *g = &f->factor;
     const uint64_t n = has_factor ? (uint64_t)f->analysis.n : 0;
     const uint64_t regularized = g->regularization != 0.0 ? n : 0;
-    const uint64_t skipped = g->null_pivots == SL_NULL_PIVOT_SKIP ? n : 0;
+    const uint64_t skipped = g->skips_null ? n : 0;
     const uint64_t vectors = g->null_vectors > 1 ? skipped * (uint64_t)g->null_vectors : skipped;
     const uint64_t weighted = g->has_mass ? n : 0;
     const uint64_t centers = weighted * (g->null_vectors > 1 ? 2 * (uint64_t)g->null_vectors : 1);

@@ -40,7 +40,7 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
     sli_saved_factor g;
     SLI_CLEAR(g);
     g.method = F->method;
-    g.null_pivots = sli_skips_nulls(F) ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
+    g.skips_null = sli_skips_nulls(F);
     g.has_mass = F->null.mass != NULL;
     g.has_signs = F->rule.regularization != 0.0 && F->rule.signs != NULL;
     g.checks = F->null.checks;

@@ -11,7 +11,7 @@ from ._errors import PivotError, StateError
 from ._files import Files
 from ._library import Handle, Stats, as_dict, check, lib
 from ._matrix import Matrix
-from ._options import Chosen, choice, split
+from ._options import POSITIVE, Chosen, choice, split
 from ._pseudo import NullSpace
 from ._solves import Solves
 from ._threads import calls
@@ -85,8 +85,8 @@ class Factor(Solves, Entries, Changes, Files):
         definite = numbers.pop("definite", False)
         chosen = Chosen(analysis.n, analysis._kind is arrays.COMPLEX).numbers(**numbers)
         # the library's own refusal comes earlier, but does not go with these
-        if definite and not (chosen.options.regularization or chosen.options.null_pivots):
-            chosen.options.definite = 1
+        if definite and not (chosen.options.regularization or chosen.options.pivots):
+            chosen.options.pivots = POSITIVE
         stats, factor = Stats(), ctypes.c_void_p()
         self._lib = calls(numbers.get("threads"))
         check(self._lib.sl_factor_create(ctypes.byref(factor), analysis._symbolic.pointer,

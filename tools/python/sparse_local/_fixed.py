@@ -7,7 +7,7 @@ from . import _arrays as arrays
 from ._errors import ArgumentError
 from ._library import Handle, Stats, as_dict, check, lib
 from ._matrix import Matrix
-from ._options import Chosen, split
+from ._options import POSITIVE, Chosen, split
 from ._threads import calls
 from ._works import Works
 
@@ -39,7 +39,9 @@ class FixedRows:
         definite = numbers.pop("definite", False)
         both = Chosen(matrix.n, matrix.is_complex).analysis(**chosen).numbers(**numbers)
         both.options.triangle = matrix.triangle(self._triangle)
-        both.options.definite = 1 if definite else 0
+        if definite and both.options.pivots:
+            raise ArgumentError("definite excludes null_pivots='skip'")
+        both.options.pivots = POSITIVE if definite else both.options.pivots
         self._lib = calls(options.get("threads"))
         pointer, stats = ctypes.c_void_p(), Stats()
         check(self._lib.sl_fixed_create(

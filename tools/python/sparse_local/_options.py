@@ -8,7 +8,8 @@ from ._threads import set_threads
 
 ORDERINGS = {"nd": 0, "metis": 1, "given": 3, "natural": 4, "mindeg": 5}
 _PURPOSES = {"many solves": 0, "one factor": 1}
-_NULL_PIVOTS = {"refuse": 0, "skip": 1}
+_NULL_PIVOTS = {"refuse": 0, "skip": 2}
+POSITIVE = 1
 _STORAGES = {"double": 0, "float": 1, "complex": 2}
 
 ANALYSIS = ("triangle", "ordering", "perm", "block_size", "purpose", "threads", "pivoted")
@@ -55,7 +56,7 @@ class Chosen:
                 error_limit=0.0, storage="double", threads=None):
         """Sets what the factorization reads."""
         options = self.options
-        options.null_pivots = choice(_NULL_PIVOTS, null_pivots, "null_pivots")
+        options.pivots = choice(_NULL_PIVOTS, null_pivots, "null_pivots")
         options.storage = choice(_STORAGES, storage, "storage")
         options.null_tolerance = null_tolerance
         options.consistency_tolerance = consistency_tolerance

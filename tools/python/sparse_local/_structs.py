@@ -22,12 +22,11 @@ class Options(ctypes.Structure):
         ("size", SIZE), ("allocate", PTR), ("release", PTR), ("allocator_context", PTR),
         ("thread_count", INT), ("thread_run", PTR), ("thread_context", PTR),
         ("ordering", ENUM), ("relaxation", ENUM), ("triangle", ENUM), ("perm", PTR),
-        ("metis_options", PTR), ("block_size", INT), ("purpose", ENUM), ("isa", ENUM),
-        ("method", ENUM), ("null_pivots", ENUM),
-        ("null_tolerance", REAL), ("mass", PTR), ("consistency_tolerance", REAL),
-        ("regularization", REAL), ("signs", PTR), ("region", PTR), ("region_bytes", SIZE),
-        ("null_vector", PTR), ("growth_limit", REAL), ("error_limit", REAL),
-        ("null_vector_count", SIZE), ("storage", ENUM), ("definite", SIZE),
+        ("block_size", INT), ("purpose", ENUM), ("isa", ENUM), ("method", ENUM),
+        ("storage", ENUM), ("pivots", ENUM), ("null_tolerance", REAL), ("null_vector", PTR),
+        ("null_vector_count", INT), ("mass", PTR), ("consistency_tolerance", REAL),
+        ("regularization", REAL), ("signs", PTR), ("growth_limit", REAL), ("error_limit", REAL),
+        ("region", PTR), ("region_bytes", SIZE),
         ("reserved", OFF * 16)]
 
 
