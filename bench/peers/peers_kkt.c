@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kkt_programs.h"
+#include "bench/lib/kkt_programs.h"
 #include "peers_ldl.h"
 #include "peers_steps.h"
 

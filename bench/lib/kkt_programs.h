@@ -1,8 +1,8 @@
 /* kkt_programs.h: KKT systems of quadratic programs: OSQP's seven classes, sparse QPs, MPC, PDEs */
-#ifndef BENCH_PEERS_KKT_PROGRAMS_H
-#define BENCH_PEERS_KKT_PROGRAMS_H
+#ifndef BENCH_KKT_PROGRAMS_H
+#define BENCH_KKT_PROGRAMS_H
 
-#include "bench/lib/bench.h"
+#include "bench.h"
 
 /* K = [P + s I, A'; A, -1/r I], as operator splitting (OSQP) factors it once for each r and then
  * solves with it in every iteration; 1e3 r for equations. */
