@@ -1,12 +1,20 @@
 # release.mk: sizes and counts, the flat header, packages, the manual, a release (a part of the Makefile)
 
-.PHONY: header-flat size test-figures test-page release check-release
+.PHONY: header-flat size marginal test-figures test-page release check-release
 
 header-flat: build/amalgamate ## writes build/sparse_local_flat.h: the header without self-inclusion, for pasting
 	build/amalgamate --flat src/sparse_local.in.h build/sparse_local_flat.h LICENSE
 
 size: sparse_local.h build/amalgamate build/deps.ok ## sizes and compile times of the core and of all; with SIZE=full of each pack; fails above the limits
 	@tools/build/size.sh
+
+build/marginal/bodies.o: sparse_local.h
+	@mkdir -p $(@D)
+	$(call say,CC  )
+	$(Q)gcc -std=c99 -O2 $(PACK_FLAGS) -DSPARSE_LOCAL_IMPLEMENTATION -ffunction-sections -fdata-sections -x c -c -o $@ $<
+
+marginal: build/marginal/bodies.o ## kB of object that nothing but a public call, or a specialization, reaches
+	@LC_ALL=C readelf -SsrW $< | awk -f tools/build/marginal.awk tools/build/specializations.txt -
 
 test-figures: ## counts of tests and fuzzed inputs, as in tests/README.md
 	@echo '$(words $(CORE_TESTS)) programs of $(shell cat $(CORE_TESTS) | grep -c 'cmocka_unit_test') core tests'

@@ -30,18 +30,17 @@ static sl_csc csc(const last_matrix *A) {
 }
 
 static sl_isa isa_of(last_isa isa) {
-    return isa == LAST_ISA_SCALAR ? SL_ISA_SCALAR
-         : isa == LAST_ISA_AVX2   ? SL_ISA_AVX2
-         : isa == LAST_ISA_AVX512 ? SL_ISA_AVX512
-                                  : SL_ISA_AUTO;
+    return isa == LAST_ISA_SCALAR   ? SL_ISA_SCALAR
+           : isa == LAST_ISA_AVX2   ? SL_ISA_AVX2
+           : isa == LAST_ISA_AVX512 ? SL_ISA_AVX512
+                                    : SL_ISA_AUTO;
 }
 
 static sl_options options_of(last_isa isa, last_purpose purpose) {
     sl_options options;
     memset(&options, 0, sizeof options);
     options.isa = isa_of(isa);
-    options.purpose =
-        purpose == LAST_ONE_FACTOR ? SL_PURPOSE_ONE_FACTOR : SL_PURPOSE_MANY_SOLVES;
+    options.purpose = purpose == LAST_ONE_FACTOR ? SL_PURPOSE_ONE_FACTOR : SL_PURPOSE_MANY_SOLVES;
     return options;
 }
 
@@ -108,8 +107,8 @@ static void plan_free(void *plan) {
 static int plan_solve(const void *given, const void *plan, const last_query *q, double *X,
                       const double *B, int nrhs) {
     const state *s = (const state *)given;
-    return (int)sl_plan_solve((const sl_plan *)plan, s->F, X, (size_t)q->nx, B, (size_t)q->nb,
-                              nrhs, s->W);
+    return (int)sl_plan_solve((const sl_plan *)plan, s->F, X, (size_t)q->nx, B, (size_t)q->nb, nrhs,
+                              s->W);
 }
 
 static int one_shot(const void *given, const last_query *q, double *X, const double *B, int nrhs) {
@@ -158,7 +157,6 @@ static int cold(const void *given, last_purpose purpose, double *X, const double
 }
 
 extern const last_header LAST_TABLE;
-const last_header LAST_TABLE = {LAST_NAME,   SL_VERSION, order_of, open_state,
-                                close_state, entries,    plan_create, plan_free,
-                                plan_solve,  one_shot,   full,     refactor,
-                                factor,      cold};
+const last_header LAST_TABLE = {LAST_NAME, SL_VERSION,  order_of,  open_state, close_state,
+                                entries,   plan_create, plan_free, plan_solve, one_shot,
+                                full,      refactor,    factor,    cold};

@@ -1,11 +1,11 @@
-/* subjects.c: what is asked of each version: sets of vertices, plans, calls, and checks of results */
+/* subjects.c: what is asked of each version: sets of vertices, plans, calls, checks of results */
 #include "subjects.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-const char *const row_names[ROW_KINDS] = {"vertex",   "pair",   "patch", "one shot", "full",
+const char *const row_names[ROW_KINDS] = {"vertex",   "pair",   "patch", "one shot",        "full",
                                           "refactor", "factor", "cold",  "cold, one factor"};
 
 int row_is_solve(row_kind kind) {
@@ -34,8 +34,8 @@ static void choose_patch(last_case *c, const sl_csc *A) {
     uint64_t random = 77;
     sl_int found = 0;
     for (int attempt = 0; attempt < 20 && found < wanted; attempt++) {
-        found = adjacency_bfs(c->patch_vertices, wanted, &graph, bench_random_below(&random, n),
-                              seen);
+        found =
+            adjacency_bfs(c->patch_vertices, wanted, &graph, bench_random_below(&random, n), seen);
     }
     const last_query q = {c->patch_vertices, c->patch_vertices, found, found};
     c->patch.count = 1;
@@ -130,11 +130,16 @@ static int run_once(const timed *t) {
     const last_case *c = t->s->on;
     int error = 0;
     switch (t->kind) {
-    case ROW_FULL: return h->full(t->s->state, c->X, c->B, t->nrhs);
-    case ROW_REFACTOR: return h->refactor(t->s->state);
-    case ROW_FACTOR: return h->factor(t->s->state);
-    case ROW_COLD: return h->cold(t->s->state, LAST_MANY_SOLVES, c->X, c->B);
-    case ROW_COLD_ONE: return h->cold(t->s->state, LAST_ONE_FACTOR, c->X, c->B);
+    case ROW_FULL:
+        return h->full(t->s->state, c->X, c->B, t->nrhs);
+    case ROW_REFACTOR:
+        return h->refactor(t->s->state);
+    case ROW_FACTOR:
+        return h->factor(t->s->state);
+    case ROW_COLD:
+        return h->cold(t->s->state, LAST_MANY_SOLVES, c->X, c->B);
+    case ROW_COLD_ONE:
+        return h->cold(t->s->state, LAST_ONE_FACTOR, c->X, c->B);
     default:
         for (int k = 0; k < t->queries && !error; k++) {
             error = local_solve(t->s, t->kind, k, c->X, t->nrhs);
@@ -171,6 +176,7 @@ int subjects_race(double *least, const subject *subjects, int count, row_kind ki
                   int extra, double seconds) {
     timed all[RACE_MOST];
     race_call calls[RACE_MOST];
+    memset(calls, 0, sizeof calls);
     for (int k = 0; k < count; k++) {
         const timed t = {&subjects[k], kind, nrhs, 1, k == 0 ? 1 + extra : 1};
         all[k] = t;
@@ -225,8 +231,7 @@ static int check_local(const subject *subjects, int count, row_kind kind, int nr
     }
     wrong += subjects[0].header->full(subjects[0].state, c->reference, B, nrhs) != 0;
     for (int k = 0; k < count; k++) {
-        if (local_solve(&subjects[k], kind, 0, c->X, nrhs) ||
-            !is_close(c, q->xset, q->nx, nrhs)) {
+        if (local_solve(&subjects[k], kind, 0, c->X, nrhs) || !is_close(c, q->xset, q->nx, nrhs)) {
             printf("%s: %s of %s, %d right-hand sides: wrong\n", c->name, row_names[kind],
                    subjects[k].header->name, nrhs);
             wrong++;
@@ -255,8 +260,7 @@ static int check_full(const subject *subjects, int count, int nrhs) {
             const int sides = kind == ROW_FULL ? nrhs : 1;
             if ((kind == ROW_FULL || nrhs == 1) &&
                 (run_once(&t) || !is_close(c, NULL, c->A.n, sides))) {
-                printf("%s: %s of %s: wrong\n", c->name, row_names[kind],
-                       subjects[k].header->name);
+                printf("%s: %s of %s: wrong\n", c->name, row_names[kind], subjects[k].header->name);
                 wrong++;
             }
         }

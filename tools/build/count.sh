@@ -10,13 +10,14 @@
 cd "$(dirname "$0")/../.." || exit 1
 export LC_ALL=C
 
-# A tuning constant is a macro SLI_NAME of src/impl whose value is a number other than 0 and 1, which
-# are switches, and not a negative integer, which marks something. Two values of one name, as with
-# and without SL_VERIFY, are one constant. Numbers in tables are not counted. No tuning constants:
+# A tuning constant is a macro SLI_NAME of src/impl whose value is a number other than 0 and 1,
+# which are switches, and not a negative integer, which marks something. Two values of one name, as
+# with and without SL_VERIFY, are one constant. Numbers in tables are not counted. These are no
+# tuning constants:
 #   READ_VERSION WRITE_VERSION SECTIONS_MAX   the format of saved files
 #   TILE LANES_MAX CHAINS SUBSET_BITS _WORDS  shapes of registers and machine words
 #   HUGE_PAGES POPULATE OSXSAVE               numbers of the operating system and the processor
-#   ISAS PARTS                                how many instruction sets and parts of a number there are
+#   ISAS PARTS                                counts of instruction sets and of parts of a number
 constants() {
     awk '
         !/^#define SLI_[A-Z0-9_]+ +[^ ]/ { next }
@@ -51,7 +52,11 @@ echo options "$fields"
 echo constants "$(constants | wc -l)"
 functions | awk '
     { functions++; long += $3 > 60; wide += $4 > 6 }
-    END { print "functions", functions; print "long_functions", long + 0; print "wide_functions", wide + 0 }'
+    END {
+        print "functions", functions
+        print "long_functions", long + 0
+        print "wide_functions", wide + 0
+    }'
 for folder in src/impl/*/; do
     find "$folder" -type f | wc -l
 done | sort -n | awk 'END { print "folder", $1 }'

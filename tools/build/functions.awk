@@ -14,7 +14,11 @@ continued || /^[ \t]*#/ { continued = /\\$/; next }
 comment { comment = !/\*\//; next }
 !inside && !head && /^\/\*/ { comment = !/\*\//; next }
 
-!inside && !head && /^[A-Za-z_]/ && !/^(typedef|enum|extern "C")/ { first = FNR; head = 1; text = "" }
+!inside && !head && /^[A-Za-z_]/ && !/^(typedef|enum|extern "C")/ {
+    first = FNR
+    head = 1
+    text = ""
+}
 head {
     line = $0
     gsub(/\/\*[^*]*\*\//, "", line)
