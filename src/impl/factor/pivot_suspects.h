@@ -4,6 +4,7 @@
 
 #include "components.h"
 #include "pivot_check.h"
+#include "storage_type.h"
 
 /* The rounding error that the heaviest rows of a matrix may cause in a pivot, relative to their
  * diagonal entries. Over 80,000 meshes with weak bridges and slivers, pivots of the wrong sign

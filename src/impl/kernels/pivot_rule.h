@@ -35,7 +35,7 @@ typedef struct sli_pivot_rule {
 
 /* The last pivot of a singular Laplacian is rounding error. Over meshes, grids and paths of n = 1e2
  * to 1e6 rows it stayed below 60 + n/16 units of rounding. Smaller pivots may be right as well
- * (factor/null_judge.h). */
+ * (factor/pivot_judge.h). */
 static double sli_null_tolerance(sl_int n, double epsilon) {
     return (64.0 + n / 8) * epsilon;
 }
