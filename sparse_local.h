@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 9aa9c8e11614401e
+ * FNV-1a of the lines after this comment, without the license: cde36730b3b3b214
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -37,26 +37,26 @@
  *   3022 impl/ base: the compiler, status, memory, sorting, threads
  *   4303 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5242 impl/ matrix: sparse matrices of the caller and of the library
- *   5918 impl/ ordering: fill-reducing orderings of a graph
- *  10554 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12792 impl/ factor: the numbers of L and D
- *  16205 impl/ solve: full and local solves
- *  18082 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20079 impl/ pivots: the order of the pivots by the values of a matrix
- *  20487 impl/ float: L and fronts in single precision
- *  20992 impl/ inverse: entries of the inverse, regions
- *  24091 impl/ change: a factor that follows changes of its matrix
- *  30396 impl/ fixed: rows fixed at given values
- *  31037 impl/ fixed: by a factor of all rows
- *  31271 impl/ io: files that are replaced only when they are complete
- *  31489 impl/ files: Matrix Market files, 64-bit indices
- *  32109 impl/ save: factors in files
- *  34122 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34808 impl/ batch: diagonals of many inverses
- *  34948 impl/ complex: complex Hermitian systems over real factors
- *  35510 impl/ complex: entries of the inverse
- *  35570 impl/ packs: the tables through which the core calls packs
- *  35985 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5935 impl/ ordering: fill-reducing orderings of a graph
+ *  10571 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12819 impl/ factor: the numbers of L and D
+ *  16232 impl/ solve: full and local solves
+ *  18109 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20106 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20514 impl/ float: L and fronts in single precision
+ *  21019 impl/ inverse: entries of the inverse, regions
+ *  24118 impl/ change: a factor that follows changes of its matrix
+ *  30423 impl/ fixed: rows fixed at given values
+ *  31064 impl/ fixed: by a factor of all rows
+ *  31298 impl/ io: files that are replaced only when they are complete
+ *  31516 impl/ files: Matrix Market files, 64-bit indices
+ *  32136 impl/ save: factors in files
+ *  34149 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34835 impl/ batch: diagonals of many inverses
+ *  34975 impl/ complex: complex Hermitian systems over real factors
+ *  35537 impl/ complex: entries of the inverse
+ *  35597 impl/ packs: the tables through which the core calls packs
+ *  36012 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5239,7 +5239,7 @@ SLI_INLINE int sli_isa_row(sl_isa isa) {
 #endif
 
 /* matrix: sparse matrices of the caller and of the library */
-/* src/impl/matrix/csc.h: matrices in compressed columns: check, stored triangle, matrices of the library */
+/* src/impl/matrix/csc.h: matrices in compressed columns: check, hash of the pattern, matrices of the library */
 
 struct sl_matrix {
   sl_allocator allocator;
@@ -5394,6 +5394,23 @@ SL_API sl_csc sl_matrix_view(const sl_matrix *M) {
     A.x = M->x;
   }
   return A;
+}
+
+static int sli_pattern_hash(const sl_csc *A, sli_hash *out) {
+  const sl_int n = A->n_cols, nnz = sli_nnz(A);
+  uint32_t descends = n > 0 ? (uint32_t)A->p[0] : 0;
+  sl_int j;
+  for (j = 0; j < n; j++) {
+    const uint32_t next = (uint32_t)A->p[j + 1];
+    descends |= next | (next - (uint32_t)A->p[j]);
+  }
+  out->a = (uint64_t)A->n_rows;
+  out->b = (uint64_t)n;
+  if (n > 0 && (A->p[0] != 0 || descends >> 31 != 0)) {
+    return 0;
+  }
+  *out = sli_hash_ints(*out, A->p, n > 0 ? (sl_off)n + 1 : 0);
+  return sli_hash_indices(out, A->i, nnz, A->n_rows);
 }
 
 /* src/impl/matrix/csc_build.h: builds matrices from triplets and transposes, both by counting sorts */
@@ -5915,7 +5932,7 @@ SL_API sl_status sl_matrix_submatrix(sl_matrix **out, const sl_csc *A, const sl_
 }
 
 /* ordering: fill-reducing orderings of a graph */
-/* src/impl/ordering/graph.h: adjacency graphs, permuted triangles and hash of a symmetric pattern; postorder */
+/* src/impl/ordering/graph.h: adjacency graphs and permuted triangles of a symmetric pattern; postorder */
 
 typedef struct sli_pattern {
   sl_int *begin;
@@ -6063,23 +6080,6 @@ static void sli_pattern_starts(sli_pattern *h, sl_int n, sl_int *at, sl_int rang
   h->begin[n] = total;
 }
 
-static int sli_pattern_hash(const sl_csc *A, sli_hash *out) {
-  const sl_int n = A->n_cols, nnz = sli_nnz(A);
-  uint32_t descends = n > 0 ? (uint32_t)A->p[0] : 0;
-  sl_int j;
-  for (j = 0; j < n; j++) {
-    const uint32_t next = (uint32_t)A->p[j + 1];
-    descends |= next | (next - (uint32_t)A->p[j]);
-  }
-  out->a = (uint64_t)A->n_rows;
-  out->b = (uint64_t)n;
-  if (n > 0 && (A->p[0] != 0 || descends >> 31 != 0)) {
-    return 0;
-  }
-  *out = sli_hash_ints(*out, A->p, n > 0 ? (sl_off)n + 1 : 0);
-  return sli_hash_indices(out, A->i, nnz, A->n_rows);
-}
-
 /* src/impl/ordering/job.h: what an ordering is given, and what it finds */
 
 typedef struct sli_septree {
@@ -6112,6 +6112,7 @@ typedef struct sli_order_job {
   const sli_graph *G;
   int is_small;
   int is_peeled;
+  int may_compress;
   const sl_int *weight;
 } sli_order_job;
 
@@ -8017,6 +8018,9 @@ typedef struct sli_mindeg {
   size_t room;
   uint64_t alive[SLI_MINDEG_MAX / 64];
   int has_avx2;
+  sl_int *local;
+  sl_int *order;
+  sl_int *bit;
 } sli_mindeg;
 
 SLI_ALWAYS_INLINE uint32_t sli_popcount(uint64_t w) {
@@ -8130,9 +8134,9 @@ static int sli_mindeg_has_avx2(sl_int n) {
   return n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
 }
 
-static sl_int sli_mindeg_number(const sli_level *g, const sl_int *vertices, sl_int count,
-    sl_int *local, sl_int *bit, sl_int *halo) {
-  sl_int k, bits = count;
+static sl_int sli_mindeg_number(const sli_mindeg *m, const sli_level *g, const sl_int *vertices,
+    sl_int count) {
+  sl_int k, bits = count, *local = m->local, *bit = m->bit, *halo = m->order;
   sl_off e;
   for (k = 0; k < count; k++) {
     local[vertices[k]] = k;
@@ -8149,9 +8153,9 @@ static sl_int sli_mindeg_number(const sli_level *g, const sl_int *vertices, sl_i
   return bits;
 }
 
-static int sli_mindeg_fill(sli_mindeg *m, const sli_level *g, const sl_int *vertices, sl_int count,
-    sl_int *local, sl_int *bit, sl_int *halo) {
-  const sl_int bits = sli_mindeg_number(g, vertices, count, local, bit, halo);
+static int sli_mindeg_fill(sli_mindeg *m, const sli_level *g, const sl_int *vertices,
+    sl_int count) {
+  const sl_int bits = sli_mindeg_number(m, g, vertices, count), *bit = m->bit;
   sl_int k;
   sl_off e;
   int fits;
@@ -8178,18 +8182,17 @@ static int sli_mindeg_fill(sli_mindeg *m, const sli_level *g, const sl_int *vert
     m->alive[k / 64] |= (uint64_t)1 << (k % 64);
   }
   for (k = 0; k < count; k++) {
-    local[vertices[k]] = -1;
+    m->local[vertices[k]] = -1;
   }
   for (k = 0; k < bits - count; k++) {
-    local[halo[k]] = -1;
+    m->local[m->order[k]] = -1;
   }
   return fits;
 }
 
-static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices, sl_int count,
-    sl_int *local, sl_int *order, sl_int *bit) {
-  sl_int k;
-  if (!sli_mindeg_fill(m, g, vertices, count, local, bit, order)) {
+static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices, sl_int count) {
+  sl_int k, *order = m->order;
+  if (!sli_mindeg_fill(m, g, vertices, count)) {
     return;
   }
 #if defined(SLI_X86) && defined(SLI_GNU)
@@ -8263,6 +8266,9 @@ static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_
     sli_dissect_worker counted, *w = d->workers == NULL ? &counted : &d->workers[k];
     sli_subgraph_layout(&w->subgraph, b, n, edges);
     w->next = next == NULL ? NULL : next + (size_t)k * (size_t)n;
+    w->mindeg.local = w->subgraph.local;
+    w->mindeg.order = w->subgraph.scratch;
+    w->mindeg.bit = w->subgraph.to;
     w->mindeg.key = SLI_TAKE(b, uint32_t, SLI_MINDEG_MAX);
     w->mindeg.room = (size_t)SLI_MINDEG_MAX * SLI_MINDEG_MAX / 32;
     w->mindeg.rows = SLI_TAKE(b, uint64_t, w->mindeg.room);
@@ -8858,8 +8864,7 @@ static void sli_septree_item(void *data, sl_int item, sl_int worker) {
     if (!sli_label_tree_is_leaf(&d->tree, node)) {
       sli_septree_sort_separator(d, w, node, mine, count);
     } else if (count > 1) {
-      sli_mindeg_order(&w->mindeg, &d->levels[0], mine, count, w->subgraph.local,
-          w->subgraph.scratch, w->subgraph.to);
+      sli_mindeg_order(&w->mindeg, &d->levels[0], mine, count);
     }
   }
 }
@@ -9228,6 +9233,7 @@ static sl_status sli_compress(const sli_order_job *job, sli_order_job *inner, sl
   const sli_graph *G = job->G;
   sl_status status = SL_OK;
   *inner = *job;
+  inner->may_compress = 0;
   c->G.n = !sli_compress_is_likely(G)
          ? G->n
          : sli_compress_find(G, job->scratch, (uint32_t *)(void *)job->perm, job->team);
@@ -9918,21 +9924,19 @@ static sl_status sli_order_mindeg(const sli_order_job *job, sl_int *sizes, sli_o
 /* src/impl/ordering/choice.h: what is known of a graph, and the order that it gets by one table */
 
 enum {
-  SLI_WANTS_METIS = 1 << 0,
-  SLI_WANTS_MINDEG = 1 << 1,
-  SLI_WANTS_ONE_FACTOR = 1 << 2,
-  SLI_WANTS_MANY_SOLVES = 1 << 3,
-  SLI_IS_IRREGULAR = 1 << 4,
-  SLI_IS_BIPARTITE = 1 << 5,
-  SLI_IS_EXPANDING = 1 << 7,
-  SLI_TRIED_LEVELS = 1 << 8,
-  SLI_IS_NARROW = 1 << 9,
-  SLI_TRIED_MINDEG = 1 << 10,
-  SLI_IS_CHEAP = 1 << 11,
-  SLI_HAS_CORE = 1 << 12,
-  SLI_HAS_NO_FILL = 1 << 13,
-  SLI_HAS_SHORT_PATHS = 1 << 14,
-  SLI_HAS_LITTLE_FILL = 1 << 15
+  SLI_WANTS_ONE_FACTOR = 1 << 0,
+  SLI_WANTS_MANY_SOLVES = 1 << 1,
+  SLI_IS_IRREGULAR = 1 << 2,
+  SLI_IS_BIPARTITE = 1 << 3,
+  SLI_IS_EXPANDING = 1 << 4,
+  SLI_TRIED_LEVELS = 1 << 5,
+  SLI_IS_NARROW = 1 << 6,
+  SLI_TRIED_MINDEG = 1 << 7,
+  SLI_IS_CHEAP = 1 << 8,
+  SLI_HAS_CORE = 1 << 9,
+  SLI_HAS_NO_FILL = 1 << 10,
+  SLI_HAS_SHORT_PATHS = 1 << 11,
+  SLI_HAS_LITTLE_FILL = 1 << 12
 };
 
 typedef struct sli_graph_facts {
@@ -9944,7 +9948,6 @@ typedef struct sli_graph_facts {
 typedef enum sli_order_way {
   SLI_TRY_LEVELS,
   SLI_TRY_MINDEG,
-  SLI_BY_METIS,
   SLI_BY_LEVELS,
   SLI_BY_MINDEG,
   SLI_BY_CUTS,
@@ -9955,8 +9958,6 @@ static const struct sli_order_rule {
   int all, none;
   sli_order_way way;
 } sli_order_rules[] = {
-  {SLI_WANTS_METIS, 0, SLI_BY_METIS},
-  {SLI_WANTS_MINDEG, 0, SLI_BY_MINDEG},
   {SLI_WANTS_ONE_FACTOR, SLI_TRIED_LEVELS, SLI_TRY_LEVELS},
   {SLI_WANTS_ONE_FACTOR | SLI_IS_NARROW, 0, SLI_BY_LEVELS},
   {SLI_WANTS_ONE_FACTOR, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
@@ -10039,16 +10040,12 @@ static int sli_graph_is_expanding(const sli_order_job *job) {
 static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
   const sli_graph *G = job->G;
   const sl_off n = G->n, mean = n > 0 ? G->begin[n] / n : 0;
-  const int is_for_one = job->is_hurried && job->ordering == SL_ORDERING_ND;
+  const int is_for_one = job->is_hurried;
   sli_graph_facts f;
   SLI_CLEAR(f);
   f.edges = G->begin[n];
-  f.bits = job->ordering == SL_ORDERING_METIS ? SLI_WANTS_METIS
-       : job->ordering == SL_ORDERING_MINDEG ? SLI_WANTS_MINDEG
-       : is_for_one ? SLI_WANTS_ONE_FACTOR
-       : job->block == 1 ? SLI_WANTS_MANY_SOLVES
-                           : 0;
-  if ((f.bits & (SLI_WANTS_ONE_FACTOR | SLI_WANTS_MANY_SOLVES)) == 0) {
+  f.bits = is_for_one ? SLI_WANTS_ONE_FACTOR : job->block == 1 ? SLI_WANTS_MANY_SOLVES : 0;
+  if (f.bits == 0) {
     return f;
   }
   f.bits |= sli_graph_is_irregular(G, job->is_peeled || is_for_one) ? SLI_IS_IRREGULAR : 0;
@@ -10348,6 +10345,11 @@ static sl_status sli_order_given(const sli_order_job *job) {
   return SL_OK;
 }
 
+static sl_status sli_order_quickly(const sli_order_job *job) {
+  sli_order_cost cost;
+  return sli_order_mindeg(job, job->scratch, &cost);
+}
+
 static sl_status sli_order_by_mindeg(const sli_order_job *job, sli_graph_facts *f) {
   const sl_status status = sli_order_mindeg(job, job->scratch, &f->cost);
   sli_graph_describe_mindeg(job, f);
@@ -10360,7 +10362,7 @@ static sl_status sli_order_compressed(const sli_order_job *job,
   sli_compressed c;
   sli_block b = {NULL, 0};
   sl_status status;
-  if (job->weight != NULL) {
+  if (!job->may_compress) {
     return order(job);
   }
   SLI_CLEAR(c);
@@ -10375,7 +10377,7 @@ static sl_status sli_order_compressed(const sli_order_job *job,
   return status;
 }
 
-static sl_status sli_order_reduced(const sli_order_job *job) {
+static sl_status sli_order_chosen(const sli_order_job *job) {
   sli_graph_facts f = sli_graph_describe(job);
   sl_status status = SL_OK;
   while (status == SL_OK) {
@@ -10387,14 +10389,10 @@ static sl_status sli_order_reduced(const sli_order_job *job) {
     case SLI_TRY_MINDEG:
       status = sli_order_by_mindeg(job, &f);
       break;
-    case SLI_BY_METIS:
-#if defined(SLI_METIS)
-      return sli_order_metis(job);
-#endif
     case SLI_BY_LEVELS:
       return SL_OK;
     case SLI_BY_MINDEG:
-      return (f.bits & SLI_TRIED_MINDEG) != 0 ? SL_OK : sli_order_by_mindeg(job, &f);
+      return (f.bits & SLI_TRIED_MINDEG) != 0 ? SL_OK : sli_order_quickly(job);
     case SLI_BY_CUTS:
       return sli_order_cuts(job, job->scratch, f.cost.pivots, (sl_off)f.cost.lists);
     case SLI_BY_DISSECTION:
@@ -10404,12 +10402,31 @@ static sl_status sli_order_reduced(const sli_order_job *job) {
   return status;
 }
 
-static sl_status sli_order_any(const sli_order_job *job) {
+static const struct sli_graph_ordering {
+  sl_ordering ordering;
+  int reduces;
+  sl_status (*order)(const sli_order_job *);
+} sli_graph_orderings[] = {{SL_ORDERING_ND, 1, sli_order_chosen},
+#if defined(SLI_METIS)
+               {SL_ORDERING_METIS, 0, sli_order_metis},
+#endif
+               {SL_ORDERING_MINDEG, 1, sli_order_quickly}};
+
+static const struct sli_graph_ordering *sli_graph_ordering_of(sl_ordering ordering) {
+  const size_t count = sizeof sli_graph_orderings / sizeof *sli_graph_orderings;
+  size_t k = 0;
+  while (k < count && sli_graph_orderings[k].ordering != ordering) {
+    k++;
+  }
+  return k < count ? &sli_graph_orderings[k] : NULL;
+}
+
+static sl_status sli_order_rest(const sli_order_job *job) {
+  const struct sli_graph_ordering *chosen = sli_graph_ordering_of(job->ordering);
   const sl_off n = job->G->n, mean = n > 0 ? job->G->begin[n] / n : 0;
-  return job->ordering != SL_ORDERING_METIS && mean * mean <= n &&
-           sli_graph_is_irregular(job->G, job->is_peeled)
-         ? sli_order_compressed(job, sli_order_reduced)
-         : sli_order_reduced(job);
+  return chosen->reduces && mean * mean <= n && sli_graph_is_irregular(job->G, job->is_peeled)
+         ? sli_order_compressed(job, chosen->order)
+         : chosen->order(job);
 }
 
 static sl_status sli_order_peeled(const sli_order_job *job) {
@@ -10430,7 +10447,7 @@ static sl_status sli_order_peeled(const sli_order_job *job) {
   rest.is_peeled = 1;
   status = sli_graph_make_canonical(&p.rest, job->a);
   if (status == SL_OK) {
-    status = sli_order_any(&rest);
+    status = sli_order_rest(&rest);
   }
   if (status == SL_OK) {
     sli_peel_expand(&p, job->perm);
@@ -10454,7 +10471,7 @@ static void sli_order_expand(const sli_order_job *job) {
 }
 
 static sl_status sli_order_by_graph(sli_order_job *job) {
-  const int may_peel = job->ordering != SL_ORDERING_METIS;
+  const int may_peel = sli_graph_ordering_of(job->ordering)->reduces;
   sli_graph G;
   sli_block b = {NULL, 0};
   sl_status status = SL_OK;
@@ -10472,7 +10489,7 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
   job->G = &G;
   if (status == SL_OK) {
     status =
-      may_peel && sli_peel_is_worthwhile(&G) ? sli_order_peeled(job) : sli_order_any(job);
+      may_peel && sli_peel_is_worthwhile(&G) ? sli_order_peeled(job) : sli_order_rest(job);
   }
   if (status == SL_OK && job->block > 1) {
     sli_order_expand(job);
@@ -10521,6 +10538,7 @@ static sl_status sli_order(sli_order_job *job) {
   job->block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
   job->is_small = job->A->n_cols / job->block < SLI_DISSECT_SMALL;
   job->is_peeled = 0;
+  job->may_compress = 1;
   job->weight = NULL;
   switch (job->ordering) {
   case SL_ORDERING_GIVEN:
@@ -10537,16 +10555,15 @@ static sl_status sli_order(sli_order_job *job) {
 #else
     return sli_order_refuse(job, SL_ERR_UNSUPPORTED, "options.ordering needs SL_METIS");
 #endif
-  case SL_ORDERING_ND:
-  case SL_ORDERING_MINDEG:
+  default:
     if (job->block == 1 && job->is_hurried && sli_order_forest(job)) {
       job->choice->has_tree = 1;
       return SL_OK;
     }
-    return sli_order_by_graph(job);
-  default:
-    return sli_order_refuse(job, SL_ERR_ARGUMENT,
-        "options.ordering is not a value of sl_ordering");
+    return sli_graph_ordering_of(job->ordering) != NULL
+           ? sli_order_by_graph(job)
+           : sli_order_refuse(job, SL_ERR_ARGUMENT,
+               "options.ordering is not a value of sl_ordering");
   }
 }
 
@@ -11276,8 +11293,9 @@ typedef struct sli_analysis {
   sl_int *old_of, *new_of;
   sl_int *parent, *counts, *super_of;
   sl_int *scratch;
-  uint64_t *list;
   sl_int *room;
+  uint64_t *list;
+  struct sli_structure_super *supers;
   const unsigned char *pairs;
   unsigned char *is_first;
   sl_int *earlier;
@@ -11470,7 +11488,7 @@ static void sli_fill_panels(const sli_analysis *w, sl_symbolic *S) {
 }
 
 static void sli_fill_structure(const sli_analysis *w, const sl_symbolic *S) {
-  sli_structure_super *all = (sli_structure_super *)(void *)w->list;
+  sli_structure_super *all = w->supers;
   sli_structure_count(w, S);
   sli_structure_sort(w, w->spare, w->scratch);
   sli_structure_start(w, S, all);
@@ -11940,8 +11958,14 @@ static void sli_schedule_work_layout(sli_schedule_work *w, sli_block *b, sl_int 
 
 /* src/impl/analysis/symbolic_build.h: from an order of the rows to the analysis: tree, supernodes, all arrays */
 
+SLI_INLINE void sli_next_phase(sli_block *b, size_t begin, size_t *end) {
+  *end = b->used > *end ? b->used : *end;
+  b->used = begin;
+}
+
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
   const uint64_t n = (uint64_t)rows;
+  size_t begin, end;
   w->n = rows;
   w->column = SLI_CUT(b, sl_int, nnz);
   w->perm = SLI_CUT(b, sl_int, rows);
@@ -11961,14 +11985,17 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   w->amalgamation.parent = SLI_CUT(b, sl_int, rows);
   w->amalgamation.width = SLI_CUT(b, sl_int, rows);
   w->amalgamation.below = SLI_CUT(b, sl_int, rows);
-  w->list = SLI_CUT(b, uint64_t, 5 * (n + 16) * (uint64_t)(w->workers / 8 + 1));
-  if (w->list != NULL) {
-    w->room = (sl_int *)(void *)w->list;
-    w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
-    w->amalgamation.cost = w->amalgamation.zeros + n;
-    w->amalgamation.merged_into = (sl_int *)(void *)(w->amalgamation.cost + n);
-    w->amalgamation.apart = w->amalgamation.merged_into + n;
-  }
+  begin = end = b->used;
+  w->room = SLI_CUT(b, sl_int, SLI_ANALYSIS_ROOM(n) * (uint64_t)sli_max(w->workers, 1));
+  sli_next_phase(b, begin, &end);
+  w->list = SLI_CUT(b, uint64_t, 2 * n);
+  w->amalgamation.zeros = SLI_CUT(b, sl_off, rows);
+  w->amalgamation.cost = SLI_CUT(b, sl_off, rows);
+  w->amalgamation.merged_into = SLI_CUT(b, sl_int, rows);
+  w->amalgamation.apart = SLI_CUT(b, sl_int, rows);
+  sli_next_phase(b, begin, &end);
+  w->supers = SLI_CUT(b, sli_structure_super, rows);
+  b->used = b->used > end ? b->used : end;
   if (w->pairs != NULL) {
     w->amalgamation.is_tied = SLI_TAKE(b, unsigned char, n);
     w->is_first = SLI_TAKE(b, unsigned char, n);
