@@ -128,6 +128,9 @@ static void minimum_degree_on_any_processor(void **state) {
     g.to = M.i;
     m.key = key;
     m.rows = rows;
+    m.local = local;
+    m.order = scratch;
+    m.bit = bit;
     for (sl_int v = 0; v <= g.n; v++) {
         begin[v] = M.p[v];
     }
@@ -141,7 +144,7 @@ static void minimum_degree_on_any_processor(void **state) {
         }
         m.room = turn < 2 ? LEAF * 3 : LEAF;
         m.has_avx2 = turn == 1 && isas_present().count > 1;
-        sli_mindeg_order(&m, &g, vertices, LEAF, local, scratch, bit);
+        sli_mindeg_order(&m, &g, vertices, LEAF);
         for (sl_int k = 0; k < LEAF; k++) {
             first[k] = turn == 0 ? vertices[k] : first[k];
             assert_int_equal(vertices[k], turn < 2 ? first[k] : (k * 37) % LEAF);
@@ -166,11 +169,13 @@ static void large_leaves_keep_their_order(void **state) {
     g.n = LEAF;
     g.begin = begin;
     m.room = LEAF * LEAF;
+    m.local = local;
+    m.order = scratch;
     for (sl_int v = 0; v < LEAF; v++) {
         local[v] = -1;
         vertices[v] = (v * 37) % LEAF;
     }
-    sli_mindeg_order(&m, &g, vertices, LEAF, local, scratch, NULL);
+    sli_mindeg_order(&m, &g, vertices, LEAF);
     for (sl_int v = 0; v < LEAF; v++) {
         assert_int_equal(vertices[v], (v * 37) % LEAF);
         assert_int_equal(local[v], -1);

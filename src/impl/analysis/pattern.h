@@ -23,8 +23,9 @@ typedef struct sli_analysis {
     sl_int *old_of, *new_of;            /* n: from the last numbering to the one before, and back */
     sl_int *parent, *counts, *super_of; /* n each */
     sl_int *scratch;                    /* 5n */
-    uint64_t *list;                     /* 5n + 80, also the memory of the next one */
-    sl_int *room;                       /* SLI_ANALYSIS_ROOM for each worker */
+    sl_int *room;   /* SLI_ANALYSIS_ROOM for each worker; the memory of the next two, too */
+    uint64_t *list; /* 2n: tree and supernodes, with four arrays of these */
+    struct sli_structure_super *supers; /* n: the rows of the supernodes */
     /* n: is the row in this position of perm the first of a 2x2 pivot? NULL: there are none */
     const unsigned char *pairs;
     unsigned char *is_first; /* n: the same, by column */

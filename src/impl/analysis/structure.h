@@ -138,7 +138,7 @@ static void sli_fill_panels(const sli_analysis *w, sl_symbolic *S) {
 }
 
 static void sli_fill_structure(const sli_analysis *w, const sl_symbolic *S) {
-    sli_structure_super *all = (sli_structure_super *)(void *)w->list;
+    sli_structure_super *all = w->supers;
     sli_structure_count(w, S);
     sli_structure_sort(w, w->spare, w->scratch);
     sli_structure_start(w, S, all);

@@ -5,10 +5,17 @@
 #include "structure.h"
 #include "supernode_order.h"
 
+/* Arrays of the next phase are taken from `begin` on. end: where the largest one ends. */
+SLI_INLINE void sli_next_phase(sli_block *b, size_t begin, size_t *end) {
+    *end = b->used > *end ? b->used : *end;
+    b->used = begin;
+}
+
 /* What the ordering fills comes first. Then follows memory that the ordering may use until it is
  * done: a graph and a quotient graph need some 64 n + 18 nnz bytes. */
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
     const uint64_t n = (uint64_t)rows; /* 5 n may exceed 2^32 */
+    size_t begin, end;
     w->n = rows;
     w->column = SLI_CUT(b, sl_int, nnz);
     w->perm = SLI_CUT(b, sl_int, rows);
@@ -28,14 +35,17 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->amalgamation.parent = SLI_CUT(b, sl_int, rows);
     w->amalgamation.width = SLI_CUT(b, sl_int, rows);
     w->amalgamation.below = SLI_CUT(b, sl_int, rows);
-    w->list = SLI_CUT(b, uint64_t, 5 * (n + 16) * (uint64_t)(w->workers / 8 + 1));
-    if (w->list != NULL) { /* none of these is used together with the room of the workers */
-        w->room = (sl_int *)(void *)w->list;
-        w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
-        w->amalgamation.cost = w->amalgamation.zeros + n;
-        w->amalgamation.merged_into = (sl_int *)(void *)(w->amalgamation.cost + n);
-        w->amalgamation.apart = w->amalgamation.merged_into + n;
-    }
+    begin = end = b->used; /* three phases use the same memory, one after the other */
+    w->room = SLI_CUT(b, sl_int, SLI_ANALYSIS_ROOM(n) * (uint64_t)sli_max(w->workers, 1));
+    sli_next_phase(b, begin, &end);
+    w->list = SLI_CUT(b, uint64_t, 2 * n);
+    w->amalgamation.zeros = SLI_CUT(b, sl_off, rows);
+    w->amalgamation.cost = SLI_CUT(b, sl_off, rows);
+    w->amalgamation.merged_into = SLI_CUT(b, sl_int, rows);
+    w->amalgamation.apart = SLI_CUT(b, sl_int, rows);
+    sli_next_phase(b, begin, &end);
+    w->supers = SLI_CUT(b, sli_structure_super, rows);
+    b->used = b->used > end ? b->used : end;
     if (w->pairs != NULL) {
         w->amalgamation.is_tied = SLI_TAKE(b, unsigned char, n);
         w->is_first = SLI_TAKE(b, unsigned char, n);

@@ -1,9 +1,10 @@
-/* csc.h: matrices in compressed columns: check, stored triangle, matrices of the library */
+/* csc.h: matrices in compressed columns: check, hash of the pattern, matrices of the library */
 #ifndef SLI_MATRIX_CSC_H
 #define SLI_MATRIX_CSC_H
 
 #include "../../public/csc.h"
 #include "../base/alloc.h"
+#include "../base/hash.h"
 #include "../base/status.h"
 
 struct sl_matrix {
@@ -169,6 +170,25 @@ SL_API sl_csc sl_matrix_view(const sl_matrix *M) {
         A.x = M->x;
     }
     return A;
+}
+
+/* Hashes the pattern of A. Returns whether it is a pattern at all: positions ascending from 0 and
+ * rows in range. Every refactorization calls this, and reads no index of A otherwise. */
+static int sli_pattern_hash(const sl_csc *A, sli_hash *out) {
+    const sl_int n = A->n_cols, nnz = sli_nnz(A);
+    uint32_t descends = n > 0 ? (uint32_t)A->p[0] : 0;
+    sl_int j;
+    for (j = 0; j < n; j++) { /* positions that are not negative descend by a negative difference */
+        const uint32_t next = (uint32_t)A->p[j + 1];
+        descends |= next | (next - (uint32_t)A->p[j]);
+    }
+    out->a = (uint64_t)A->n_rows;
+    out->b = (uint64_t)n;
+    if (n > 0 && (A->p[0] != 0 || descends >> 31 != 0)) {
+        return 0;
+    }
+    *out = sli_hash_ints(*out, A->p, n > 0 ? (sl_off)n + 1 : 0);
+    return sli_hash_indices(out, A->i, nnz, A->n_rows);
 }
 
 #endif

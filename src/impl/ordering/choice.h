@@ -7,24 +7,22 @@
 
 /* What rules ask for: bits of the facts. */
 enum {
-    /* the order that is wanted; none of them: by dissection, of blocks of rows */
-    SLI_WANTS_METIS = 1 << 0,
-    SLI_WANTS_MINDEG = 1 << 1,
-    SLI_WANTS_ONE_FACTOR = 1 << 2,
-    SLI_WANTS_MANY_SOLVES = 1 << 3,
+    /* what is wanted; none of them: by dissection, of blocks of rows */
+    SLI_WANTS_ONE_FACTOR = 1 << 0,
+    SLI_WANTS_MANY_SOLVES = 1 << 1,
     /* counted in the graph */
-    SLI_IS_IRREGULAR = 1 << 4, /* degrees vary */
-    SLI_IS_BIPARTITE = 1 << 5,
-    SLI_IS_EXPANDING = 1 << 7, /* a mean level has an eighth of all rows */
+    SLI_IS_IRREGULAR = 1 << 2, /* degrees vary */
+    SLI_IS_BIPARTITE = 1 << 3,
+    SLI_IS_EXPANDING = 1 << 4, /* a mean level has an eighth of all rows */
     /* counted in an order that was tried */
-    SLI_TRIED_LEVELS = 1 << 8,
-    SLI_IS_NARROW = 1 << 9, /* by levels, L has few entries */
-    SLI_TRIED_MINDEG = 1 << 10,
-    SLI_IS_CHEAP = 1 << 11, /* dissection takes longer than it could save once */
-    SLI_HAS_CORE = 1 << 12, /* most operations are in one front */
-    SLI_HAS_NO_FILL = 1 << 13,
-    SLI_HAS_SHORT_PATHS = 1 << 14,
-    SLI_HAS_LITTLE_FILL = 1 << 15
+    SLI_TRIED_LEVELS = 1 << 5,
+    SLI_IS_NARROW = 1 << 6, /* by levels, L has few entries */
+    SLI_TRIED_MINDEG = 1 << 7,
+    SLI_IS_CHEAP = 1 << 8, /* dissection takes longer than it could save once */
+    SLI_HAS_CORE = 1 << 9, /* most operations are in one front */
+    SLI_HAS_NO_FILL = 1 << 10,
+    SLI_HAS_SHORT_PATHS = 1 << 11,
+    SLI_HAS_LITTLE_FILL = 1 << 12
 };
 
 /* What is counted of a graph. */
@@ -37,7 +35,6 @@ typedef struct sli_graph_facts {
 typedef enum sli_order_way {
     SLI_TRY_LEVELS, /* count what an order by levels costs, and choose again */
     SLI_TRY_MINDEG, /* the same of minimum degree */
-    SLI_BY_METIS,
     SLI_BY_LEVELS,
     SLI_BY_MINDEG,
     SLI_BY_CUTS, /* of minimum degree, which was tried */
@@ -51,8 +48,6 @@ static const struct sli_order_rule {
     int all, none;
     sli_order_way way;
 } sli_order_rules[] = {
-    {SLI_WANTS_METIS, 0, SLI_BY_METIS},
-    {SLI_WANTS_MINDEG, 0, SLI_BY_MINDEG},
     /* K strips and tube, one factor: 1.5 to 1.6 */
     {SLI_WANTS_ONE_FACTOR, SLI_TRIED_LEVELS, SLI_TRY_LEVELS},
     {SLI_WANTS_ONE_FACTOR | SLI_IS_NARROW, 0, SLI_BY_LEVELS},
@@ -155,16 +150,12 @@ static int sli_graph_is_expanding(const sli_order_job *job) {
 static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
     const sli_graph *G = job->G;
     const sl_off n = G->n, mean = n > 0 ? G->begin[n] / n : 0;
-    const int is_for_one = job->is_hurried && job->ordering == SL_ORDERING_ND;
+    const int is_for_one = job->is_hurried;
     sli_graph_facts f;
     SLI_CLEAR(f);
     f.edges = G->begin[n];
-    f.bits = job->ordering == SL_ORDERING_METIS    ? SLI_WANTS_METIS
-             : job->ordering == SL_ORDERING_MINDEG ? SLI_WANTS_MINDEG
-             : is_for_one                          ? SLI_WANTS_ONE_FACTOR
-             : job->block == 1                     ? SLI_WANTS_MANY_SOLVES
-                                                   : 0;
-    if ((f.bits & (SLI_WANTS_ONE_FACTOR | SLI_WANTS_MANY_SOLVES)) == 0) {
+    f.bits = is_for_one ? SLI_WANTS_ONE_FACTOR : job->block == 1 ? SLI_WANTS_MANY_SOLVES : 0;
+    if (f.bits == 0) {
         return f;
     }
     f.bits |= sli_graph_is_irregular(G, job->is_peeled || is_for_one) ? SLI_IS_IRREGULAR : 0;

@@ -157,6 +157,7 @@ static sl_status sli_compress(const sli_order_job *job, sli_order_job *inner, sl
     const sli_graph *G = job->G;
     sl_status status = SL_OK;
     *inner = *job;
+    inner->may_compress = 0;
     c->G.n = !sli_compress_is_likely(G)
                  ? G->n
                  : sli_compress_find(G, job->scratch, (uint32_t *)(void *)job->perm, job->team);

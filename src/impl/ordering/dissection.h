@@ -68,6 +68,9 @@ static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_
         sli_dissect_worker counted, *w = d->workers == NULL ? &counted : &d->workers[k];
         sli_subgraph_layout(&w->subgraph, b, n, edges);
         w->next = next == NULL ? NULL : next + (size_t)k * (size_t)n;
+        w->mindeg.local = w->subgraph.local;
+        w->mindeg.order = w->subgraph.scratch;
+        w->mindeg.bit = w->subgraph.to;
         w->mindeg.key = SLI_TAKE(b, uint32_t, SLI_MINDEG_MAX);
         w->mindeg.room = (size_t)SLI_MINDEG_MAX * SLI_MINDEG_MAX / 32;
         w->mindeg.rows = SLI_TAKE(b, uint64_t, w->mindeg.room);

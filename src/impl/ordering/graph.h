@@ -1,9 +1,8 @@
-/* graph.h: adjacency graphs, permuted triangles and hash of a symmetric pattern; postorder */
+/* graph.h: adjacency graphs and permuted triangles of a symmetric pattern; postorder */
 #ifndef SLI_ORDERING_GRAPH_H
 #define SLI_ORDERING_GRAPH_H
 
 #include "../base/alloc.h"
-#include "../base/hash.h"
 #include "../base/sort.h"
 #include "../matrix/csc.h"
 
@@ -171,25 +170,6 @@ static void sli_pattern_starts(sli_pattern *h, sl_int n, sl_int *at, sl_int rang
         h->begin[k] = begin;
     }
     h->begin[n] = total;
-}
-
-/* Hashes the pattern of A. Returns whether it is a pattern at all: positions ascending from 0 and
- * rows in range. Every refactorization calls this, and reads no index of A otherwise. */
-static int sli_pattern_hash(const sl_csc *A, sli_hash *out) {
-    const sl_int n = A->n_cols, nnz = sli_nnz(A);
-    uint32_t descends = n > 0 ? (uint32_t)A->p[0] : 0;
-    sl_int j;
-    for (j = 0; j < n; j++) { /* positions that are not negative descend by a negative difference */
-        const uint32_t next = (uint32_t)A->p[j + 1];
-        descends |= next | (next - (uint32_t)A->p[j]);
-    }
-    out->a = (uint64_t)A->n_rows;
-    out->b = (uint64_t)n;
-    if (n > 0 && (A->p[0] != 0 || descends >> 31 != 0)) {
-        return 0;
-    }
-    *out = sli_hash_ints(*out, A->p, n > 0 ? (sl_off)n + 1 : 0);
-    return sli_hash_indices(out, A->i, nnz, A->n_rows);
 }
 
 #endif

@@ -39,6 +39,7 @@ typedef struct sli_order_job {
     const sli_graph *G;   /* the graph that is left */
     int is_small;         /* there are few rows or blocks: see SLI_DISSECT_SMALL */
     int is_peeled;        /* rows with few neighbors are gone from it */
+    int may_compress;     /* the graph may have indistinguishable rows: nobody has looked yet */
     const sl_int *weight; /* G->n: rows of each vertex; NULL: 1 each */
 } sli_order_job;
 

@@ -19,6 +19,9 @@ typedef struct sli_mindeg {
     size_t room;    /* words available in rows */
     uint64_t alive[SLI_MINDEG_MAX / 64]; /* vertices of the leaf not yet eliminated */
     int has_avx2;                        /* and with it an instruction that counts bits */
+    sl_int *local; /* of each vertex of the graph: -1, but for those that have numbers */
+    sl_int *order; /* scratch for all vertices of the graph */
+    sl_int *bit;   /* scratch for all edges of a leaf: its neighbors, by their numbers */
 } sli_mindeg;
 
 /* The number of bits set: one instruction where the function that inlines this is compiled for it,
@@ -142,12 +145,12 @@ static int sli_mindeg_has_avx2(sl_int n) {
     return n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
 }
 
-/* Numbers the vertices of a leaf, and after them those of its halo. bit := the numbers of all
- * neighbors, one vertex after the other; halo := the vertices of the halo. local: -1 for each
- * vertex of g. Returns how many vertices have numbers. */
-static sl_int sli_mindeg_number(const sli_level *g, const sl_int *vertices, sl_int count,
-                                sl_int *local, sl_int *bit, sl_int *halo) {
-    sl_int k, bits = count;
+/* Numbers the vertices of a leaf, and after them those of its halo. m->bit := the numbers of all
+ * neighbors, one vertex after the other; m->order := the vertices of the halo. Returns how many
+ * vertices have numbers. */
+static sl_int sli_mindeg_number(const sli_mindeg *m, const sli_level *g, const sl_int *vertices,
+                                sl_int count) {
+    sl_int k, bits = count, *local = m->local, *bit = m->bit, *halo = m->order;
     sl_off e;
     for (k = 0; k < count; k++) {
         local[vertices[k]] = k;
@@ -164,11 +167,10 @@ static sl_int sli_mindeg_number(const sli_level *g, const sl_int *vertices, sl_i
     return bits;
 }
 
-/* Fills the bit matrix of a leaf. Returns whether it fits. local: -1 for each vertex of g, on entry
- * and on return; bit: of scratch for all edges of the leaf, halo: for all vertices of g. */
-static int sli_mindeg_fill(sli_mindeg *m, const sli_level *g, const sl_int *vertices, sl_int count,
-                           sl_int *local, sl_int *bit, sl_int *halo) {
-    const sl_int bits = sli_mindeg_number(g, vertices, count, local, bit, halo);
+/* Fills the bit matrix of a leaf. Returns whether it fits. */
+static int sli_mindeg_fill(sli_mindeg *m, const sli_level *g, const sl_int *vertices,
+                           sl_int count) {
+    const sl_int bits = sli_mindeg_number(m, g, vertices, count), *bit = m->bit;
     sl_int k;
     sl_off e;
     int fits;
@@ -195,20 +197,18 @@ static int sli_mindeg_fill(sli_mindeg *m, const sli_level *g, const sl_int *vert
         m->alive[k / 64] |= (uint64_t)1 << (k % 64);
     }
     for (k = 0; k < count; k++) {
-        local[vertices[k]] = -1;
+        m->local[vertices[k]] = -1;
     }
     for (k = 0; k < bits - count; k++) {
-        local[halo[k]] = -1;
+        m->local[m->order[k]] = -1;
     }
     return fits;
 }
 
-/* Reorders the vertices of a leaf in place by minimum degree. order: scratch for all vertices of g,
- * bit: for all edges of the leaf. */
-static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices, sl_int count,
-                             sl_int *local, sl_int *order, sl_int *bit) {
-    sl_int k;
-    if (!sli_mindeg_fill(m, g, vertices, count, local, bit, order)) {
+/* Reorders the vertices of a leaf in place by minimum degree. */
+static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices, sl_int count) {
+    sl_int k, *order = m->order;
+    if (!sli_mindeg_fill(m, g, vertices, count)) {
         return;
     }
 #if defined(SLI_X86) && defined(SLI_GNU)

@@ -57,8 +57,7 @@ static void sli_septree_item(void *data, sl_int item, sl_int worker) {
         if (!sli_label_tree_is_leaf(&d->tree, node)) {
             sli_septree_sort_separator(d, w, node, mine, count);
         } else if (count > 1) {
-            sli_mindeg_order(&w->mindeg, &d->levels[0], mine, count, w->subgraph.local,
-                             w->subgraph.scratch, w->subgraph.to);
+            sli_mindeg_order(&w->mindeg, &d->levels[0], mine, count);
         }
     }
 }

@@ -37,6 +37,12 @@ static sl_status sli_order_given(const sli_order_job *job) {
     return SL_OK;
 }
 
+/* Orders the graph of a job by minimum degree. */
+static sl_status sli_order_quickly(const sli_order_job *job) {
+    sli_order_cost cost;
+    return sli_order_mindeg(job, job->scratch, &cost);
+}
+
 /* Orders the graph of a job by minimum degree, and adds to the facts what that costs. The scratch
  * then has the vertices of each pivot. */
 static sl_status sli_order_by_mindeg(const sli_order_job *job, sli_graph_facts *f) {
@@ -45,14 +51,15 @@ static sl_status sli_order_by_mindeg(const sli_order_job *job, sli_graph_facts *
     return status;
 }
 
-/* Orders the graph of a job, with indistinguishable rows as one vertex if that is worthwhile. */
+/* Orders the graph of a job, with indistinguishable rows as one vertex if that is worthwhile.
+ * Nobody looks for them in a graph twice. */
 static sl_status sli_order_compressed(const sli_order_job *job,
                                       sl_status (*order)(const sli_order_job *)) {
     sli_order_job inner;
     sli_compressed c;
     sli_block b = {NULL, 0};
     sl_status status;
-    if (job->weight != NULL) {
+    if (!job->may_compress) {
         return order(job);
     }
     SLI_CLEAR(c);
@@ -68,7 +75,7 @@ static sl_status sli_order_compressed(const sli_order_job *job,
 }
 
 /* Describes what is left of the graph, chooses, and orders it. */
-static sl_status sli_order_reduced(const sli_order_job *job) {
+static sl_status sli_order_chosen(const sli_order_job *job) {
     sli_graph_facts f = sli_graph_describe(job);
     sl_status status = SL_OK;
     while (status == SL_OK) {
@@ -80,14 +87,10 @@ static sl_status sli_order_reduced(const sli_order_job *job) {
         case SLI_TRY_MINDEG:
             status = sli_order_by_mindeg(job, &f);
             break;
-        case SLI_BY_METIS:
-#if defined(SLI_METIS)
-            return sli_order_metis(job);
-#endif
         case SLI_BY_LEVELS: /* perm has it already */
             return SL_OK;
         case SLI_BY_MINDEG:
-            return (f.bits & SLI_TRIED_MINDEG) != 0 ? SL_OK : sli_order_by_mindeg(job, &f);
+            return (f.bits & SLI_TRIED_MINDEG) != 0 ? SL_OK : sli_order_quickly(job);
         case SLI_BY_CUTS:
             return sli_order_cuts(job, job->scratch, f.cost.pivots, (sl_off)f.cost.lists);
         case SLI_BY_DISSECTION:
@@ -97,14 +100,37 @@ static sl_status sli_order_reduced(const sli_order_job *job) {
     return status;
 }
 
-/* The same. Minimum degree finds indistinguishable rows as it goes, but once more in the list of
- * each of their neighbors: where some of these are long, rows are compressed first. */
-static sl_status sli_order_any(const sli_order_job *job) {
+/* The orderings of a graph that the user chooses, each with what it does with the graph that is
+ * left. */
+static const struct sli_graph_ordering {
+    sl_ordering ordering;
+    int reduces; /* rows with few neighbors and indistinguishable rows are dealt with before */
+    sl_status (*order)(const sli_order_job *);
+} sli_graph_orderings[] = {{SL_ORDERING_ND, 1, sli_order_chosen},
+#if defined(SLI_METIS)
+                           {SL_ORDERING_METIS, 0, sli_order_metis},
+#endif
+                           {SL_ORDERING_MINDEG, 1, sli_order_quickly}};
+
+/* The one that the options name, or NULL. */
+static const struct sli_graph_ordering *sli_graph_ordering_of(sl_ordering ordering) {
+    const size_t count = sizeof sli_graph_orderings / sizeof *sli_graph_orderings;
+    size_t k = 0;
+    while (k < count && sli_graph_orderings[k].ordering != ordering) {
+        k++;
+    }
+    return k < count ? &sli_graph_orderings[k] : NULL;
+}
+
+/* Orders what is left of the graph. Minimum degree finds indistinguishable rows as it goes, but
+ * once more in the list of each of their neighbors: where some of these are long, rows are
+ * compressed first. */
+static sl_status sli_order_rest(const sli_order_job *job) {
+    const struct sli_graph_ordering *chosen = sli_graph_ordering_of(job->ordering);
     const sl_off n = job->G->n, mean = n > 0 ? job->G->begin[n] / n : 0;
-    return job->ordering != SL_ORDERING_METIS && mean * mean <= n &&
-                   sli_graph_is_irregular(job->G, job->is_peeled)
-               ? sli_order_compressed(job, sli_order_reduced)
-               : sli_order_reduced(job);
+    return chosen->reduces && mean * mean <= n && sli_graph_is_irregular(job->G, job->is_peeled)
+               ? sli_order_compressed(job, chosen->order)
+               : chosen->order(job);
 }
 
 /* The same, after rows with at most two neighbors have been eliminated. */
@@ -126,7 +152,7 @@ static sl_status sli_order_peeled(const sli_order_job *job) {
     rest.is_peeled = 1;
     status = sli_graph_make_canonical(&p.rest, job->a);
     if (status == SL_OK) {
-        status = sli_order_any(&rest);
+        status = sli_order_rest(&rest);
     }
     if (status == SL_OK) {
         sli_peel_expand(&p, job->perm);
@@ -152,7 +178,7 @@ static void sli_order_expand(const sli_order_job *job) {
 
 /* Orders the rows by the graph of A, with blocks of rows as vertices. */
 static sl_status sli_order_by_graph(sli_order_job *job) {
-    const int may_peel = job->ordering != SL_ORDERING_METIS;
+    const int may_peel = sli_graph_ordering_of(job->ordering)->reduces;
     sli_graph G;
     sli_block b = {NULL, 0};
     sl_status status = SL_OK;
@@ -170,7 +196,7 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
     job->G = &G;
     if (status == SL_OK) {
         status =
-            may_peel && sli_peel_is_worthwhile(&G) ? sli_order_peeled(job) : sli_order_any(job);
+            may_peel && sli_peel_is_worthwhile(&G) ? sli_order_peeled(job) : sli_order_rest(job);
     }
     if (status == SL_OK && job->block > 1) {
         sli_order_expand(job);
@@ -226,6 +252,7 @@ static sl_status sli_order(sli_order_job *job) {
     job->block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
     job->is_small = job->A->n_cols / job->block < SLI_DISSECT_SMALL;
     job->is_peeled = 0;
+    job->may_compress = 1;
     job->weight = NULL;
     switch (job->ordering) {
     case SL_ORDERING_GIVEN:
@@ -239,16 +266,15 @@ static sl_status sli_order(sli_order_job *job) {
 #else
         return sli_order_refuse(job, SL_ERR_UNSUPPORTED, "options.ordering needs SL_METIS");
 #endif
-    case SL_ORDERING_ND:
-    case SL_ORDERING_MINDEG:
+    default:
         if (job->block == 1 && job->is_hurried && sli_order_forest(job)) {
             job->choice->has_tree = 1;
             return SL_OK;
         }
-        return sli_order_by_graph(job);
-    default:
-        return sli_order_refuse(job, SL_ERR_ARGUMENT,
-                                "options.ordering is not a value of sl_ordering");
+        return sli_graph_ordering_of(job->ordering) != NULL
+                   ? sli_order_by_graph(job)
+                   : sli_order_refuse(job, SL_ERR_ARGUMENT,
+                                      "options.ordering is not a value of sl_ordering");
     }
 }
 
