@@ -1,63 +1,63 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e7e6a163fa4dc714
+ * FNV-1a of the lines after this comment, without the license: f5c20fe9dbf5a78e
  * The comments of the implementation are in src/impl.
  *
  * Contents
  *     65 intro.h      what the library does, a quick start, which call for which question, references
- *    195 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    239 config.h     macros that a user may define before the include, the version, and the integer types
- *    326 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    508 options.h    options of all calls, threads, and the allocator
- *    625 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    869 csc.h        sparse matrices: creation, checks, products, residuals
- *    970 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1046 factor.h     the numerical factorization P A P' = L D L'
- *   1175 solve.h      full solves, and the workspace of all solves
- *   1271 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1347 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1437 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1530 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1569 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1670 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1750 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1836 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1929 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2036 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2078 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2200 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2231 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2413 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2516 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2627 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2668 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2754 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2862 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2896 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2973 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   3016 impl/ base: the compiler, status, memory, sorting, threads
- *   4296 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5235 impl/ matrix: sparse matrices of the caller and of the library
- *   5911 impl/ ordering: fill-reducing orderings of a graph
- *  10977 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13216 impl/ factor: the numbers of L and D
- *  16623 impl/ solve: full and local solves
- *  18500 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20497 impl/ pivots: the order of the pivots by the values of a matrix
- *  20905 impl/ float: L and fronts in single precision
- *  21410 impl/ inverse: entries of the inverse, regions
- *  24509 impl/ change: a factor that follows changes of its matrix
- *  30815 impl/ fixed: rows fixed at given values
- *  31453 impl/ fixed: by a factor of all rows
- *  31687 impl/ io: files that are replaced only when they are complete
- *  31905 impl/ files: Matrix Market files, 64-bit indices
- *  32525 impl/ save: factors in files
- *  34537 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35223 impl/ batch: diagonals of many inverses
- *  35363 impl/ complex: complex Hermitian systems over real factors
- *  35925 impl/ complex: entries of the inverse
- *  35985 impl/ packs: the tables through which the core calls packs
- *  36034 impl/ last: undefine every internal macro
- *  36415 impl/ templates: the header includes them from itself, once for each instruction set
+ *    197 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    241 config.h     macros that a user may define before the include, the version, and the integer types
+ *    328 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    513 options.h    options of all calls, threads, and the allocator
+ *    630 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    874 csc.h        sparse matrices: creation, checks, products, residuals
+ *    975 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1051 factor.h     the numerical factorization P A P' = L D L'
+ *   1180 solve.h      full solves, and the workspace of all solves
+ *   1276 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1351 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1441 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1534 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1573 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1674 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1754 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1840 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1933 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2040 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2082 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2204 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2235 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2380 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2483 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2594 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2635 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2721 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2829 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2863 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2940 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2983 impl/ base: the compiler, status, memory, sorting, threads
+ *   4279 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5218 impl/ matrix: sparse matrices of the caller and of the library
+ *   5894 impl/ ordering: fill-reducing orderings of a graph
+ *  10960 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13199 impl/ factor: the numbers of L and D
+ *  16606 impl/ solve: full and local solves
+ *  18479 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20476 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20884 impl/ float: L and fronts in single precision
+ *  21389 impl/ inverse: entries of the inverse, regions
+ *  24486 impl/ change: a factor that follows changes of its matrix
+ *  30792 impl/ fixed: rows fixed at given values
+ *  31430 impl/ fixed: by a factor of all rows
+ *  31664 impl/ io: files that are replaced only when they are complete
+ *  31882 impl/ files: Matrix Market files, 64-bit indices
+ *  32502 impl/ save: factors in files
+ *  34472 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35158 impl/ batch: diagonals of many inverses
+ *  35298 impl/ complex: complex Hermitian systems over real factors
+ *  35862 impl/ complex: entries of the inverse
+ *  35922 impl/ packs: the tables through which the core calls packs
+ *  35971 impl/ last: undefine every internal macro
+ *  36352 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -119,7 +119,7 @@
  *  the pseudo-inverse of a singular A             sl_factor_pseudo_inverse               pseudo.h
  *  many solves by one call                        sl_batch_solve                         batch.h
  *  M + t K for many t                             sl_factor_create_sums                  several.h
- *  a factor in a file, mapped without a copy      sl_map_file                            save.h
+ *  a factor in a file, mapped without a copy      sl_save, sl_load                       save.h
  *  a complex Hermitian system                     sl_matrix_from_hermitian               complex.h
  *  a matrix from a file                           sl_matrix_read                         files.h
  */
@@ -134,11 +134,13 @@
  *              that releases it, such as sl_factor_free, which accepts NULL. Dense arguments are
  *              column-major with a leading dimension in elements; solves take row-major ones, too
  *              (SL_ROWS). Row numbers are the caller's, also in errors. A b-set comes before an
- *              x-set, and a length follows its array; a set is empty if its length is 0 and its
- *              pointer is not NULL. The library never prints or aborts. Threads share no mutable
- *              globals: each keeps its last error, and with SL_NO_THREAD_LOCAL nothing. For METIS,
- *              an option, see sl_symbolic_create. What is marked EXPERIMENTAL may change in any
- *              version; all else keeps its promises from 1.0 on.
+ *              x-set, and a length follows its array. A set that is NULL with the length SL_ALL or
+ *              n is all n rows; with 0 a set is empty. Any other length of NULL is refused, and so
+ *              is SL_ALL with a pointer that is not NULL. The library never prints or aborts.
+ *              Threads share no mutable globals: each keeps its last error, and with
+ *              SL_NO_THREAD_LOCAL nothing. For METIS, an option, see sl_symbolic_create. What is
+ *              marked EXPERIMENTAL may change in any version; all else keeps its promises from 1.0
+ *              on.
  * Lifetimes    An object keeps what it was made from: a factor, a plan, a region and a selected
  *              inverse their analysis, a plan its region, pins their factor. So all of them may be
  *              freed in any order, and on any threads with gcc, clang and MSVC; other compilers
@@ -256,8 +258,8 @@
  *  SL_NO_CLOCK                   makes all times in the statistics 0, for systems without clock();
  *                                set automatically for WASI.
  *  SL_NO_THREAD_LOCAL            does not keep the last error of each thread (sl_error_text).
- *  SL_NO_MMAP                    leaves out sl_map_file, and with it the headers of the system that
- *                                map files.
+ *  SL_NO_MMAP                    leaves out mapped files (SL_LOAD_MAPPED), and with them the
+ *                                headers of the system that map files.
  *  SL_API                        linkage of the public functions. By default, with gcc and clang on
  *                                ELF systems, they are hidden in the program or shared library that
  *                                has their bodies: copies in one process do not call each other.
@@ -369,6 +371,9 @@ typedef enum sl_status {
 /** A short description of a status; static storage. Any value is accepted. sl_error_text (stats.h)
  *  says more. */
 SL_API const char *sl_status_string(sl_status status);
+
+/** The count of a list of rows that is NULL: all n rows. */
+#define SL_ALL (-1)
 
 /** View of a sparse matrix in compressed columns: column j has rows i[p[j]] .. i[p[j+1]-1].
  *
@@ -1099,7 +1104,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *  stats  [out]     factor.
  *  Returns  as sl_factor_create; SL_ERR_READ_ONLY: a mapped factor, or one that
  *           is loaded in part (save.h). SL_ERR_MEMORY and
- *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load_file),
+ *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load),
  *           which allocates its fronts; SL_ERR_UNSUPPORTED only with SL_STORAGE_COMPLEX, or with
  *           null_vector_count where A has more null vectors than columns are given.
  *  Cost     as sl_factor_create, without its memory.
@@ -1279,10 +1284,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, s
  *  out    [out]  the plan.
  *  S      [in]   analysis of A, n columns; kept by the plan.
  *  bset   [in]   nb rows of A in 0..n-1, any order; b is 0 in the others, and values of a row given
- *                twice add up. NULL (nb is ignored): all n.
- *  xset   [in]   nx rows of A in 0..n-1, any order; a row given twice is answered twice. NULL (nx
- *                is ignored): all n. For an empty set pass a pointer that is not NULL, and nb or nx
- *                = 0; it is not dereferenced.
+ *                twice add up. NULL: nb is SL_ALL or n, all rows, or 0.
+ *  xset   [in]   nx rows of A in 0..n-1, any order; a row given twice is answered twice. NULL: nx
+ *                is SL_ALL or n, all rows, or 0.
  *  opt    [in]   allocator, region. If both sets are inside the region, the sweeps end at its
  *                boundary. If they are not, or if one is NULL, the region is not used.
  *  stats  [out]  plan; error.row: an index out of range.
@@ -1781,8 +1785,8 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
 /** Diagonal entries of the inverse: out[k] = (A^-1)(rows[k], rows[k]).
  *
  *  out    [out]  count values.
- *  rows   [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                ignored): all n.
+ *  rows   [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: count is
+ *                SL_ALL or n, all rows, or 0.
  *  Source   [HDA17] 5; [ET75], [SelInv].
  *  Example  tests/core/test_inverse_diagonal.c
  */
@@ -1847,8 +1851,8 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_bilinear(const sl_factor *F, double *
  *  out    [out]  the selected inverse. It does not change if F is refactored or released, until
  *                sl_selected_refactor.
  *  F      [in]   the factor; its analysis is kept by the object.
- *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                ignored): all n.
+ *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: count is
+ *                SL_ALL or n, all rows, or 0.
  *  opt    [in]   allocator, threads. The object keeps the threads; without, those of F. The
  *                instruction set is that of F.
  *  stats  [out]  selected; error.row: a row out of range.
@@ -1890,8 +1894,8 @@ SL_API void sl_selected_free(sl_selected *Z);
  *
  *  out      [out]  count entries: out[k] is the entry of rows[k] and columns[k]. On error
  *                  untouched.
- *  rows     [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                  ignored): all n, which needs columns = NULL.
+ *  rows     [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: count is
+ *                  SL_ALL or n, all rows, or 0; columns is NULL then.
  *  columns  [in]   count columns of A in 0..n-1; NULL: columns = rows, the diagonal.
  *  stats    [out]  error.row, and error.column if columns are given.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or an index out of range; SL_ERR_OTHER_PATTERN: an entry
@@ -1955,8 +1959,8 @@ SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats);
  *  out    [out]  the region. For options.region of sl_plan_create.
  *  F      [in]   the factor, whose analysis the object keeps. When F is refactored, or a
  *                refactorization fails, plans in the region are refused until sl_region_refactor.
- *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                ignored): all n.
+ *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: count is
+ *                SL_ALL or n, all rows, or 0.
  *  Z      [in]   a selected inverse of the present numbers of F, or NULL. It is used if it contains
  *                all entries needed, for example those of a single row or of the subtree of one
  *                supernode; such a region is then preferred if it costs a solve at most twice as
@@ -2235,8 +2239,8 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(sl_factor *const *factors, sl_
  *
  *     sl_saved_set set = {0}, got = {0};
  *     set.symbolic = S;  set.factor = F;
- *     sl_save_file(path, &set, NULL);
- *     sl_map_file(&got, path, SL_LOAD_CHECKED, NULL);       here or in any other process
+ *     sl_save(path, NULL, NULL, &set, NULL);
+ *     sl_load(&got, path, NULL, 0, SL_LOAD_MAPPED, NULL);   here or in any other process
  *     sl_factor_solve(got.factor, x, n, b, n, 1, NULL);     the bits that F gives
  *     sl_saved_set_free(&got);
  *
@@ -2273,123 +2277,90 @@ typedef struct sl_saved_set {
     void *reserved[6];       /* must be NULL; new fields take their place */
 } sl_saved_set;
 
-/** How a saved factor is checked before it is used. The header and the table of sections are always
- *  checked, with their checksums. */
-typedef enum sl_load_checks {
+/** How sl_load reads, to be combined by |. The header and the table of sections are always checked,
+ *  with their checksums. */
+typedef enum sl_load_flag {
     /* every index is in range and every structure consistent: with any bytes whatsoever, later
      * calls stay inside the memory of the objects and terminate. Numbers may be wrong */
     SL_LOAD_CHECKED = 0,
     /* no more than loading itself needs: for files that nobody else can write. A forged or damaged
      * file may crash the call or later ones */
-    SL_LOAD_TRUSTED,
+    SL_LOAD_TRUSTED = 1,
     /* as SL_LOAD_CHECKED, and the checksums of everything that is loaded: no byte of it has changed
-     * by accident */
-    SL_LOAD_VERIFIED
-} sl_load_checks;
+     * by accident. Not with SL_LOAD_TRUSTED */
+    SL_LOAD_VERIFIED = 2,
+    /* the arrays of the objects are those in the file or in memory, without a copy */
+    SL_LOAD_MAPPED = 4
+} sl_load_flag;
 
-/** Saves a set in the caller's memory, or only counts its bytes.
+/** Saves a set in a file or in the caller's memory, or counts its bytes.
  *
- *  memory  [out]     of any alignment; sl_map_memory needs 64 bytes. Not written on error, nor
- *                    beyond what the set takes. NULL: nothing is saved, only *bytes is set.
- *  bytes   [in,out]  in: the size of memory; not read if that is NULL. Out: what the set takes, a
- *                    multiple of 64, also if memory is too small; as before on any other error.
- *  set     [in]      an analysis and what belongs to it. A selected inverse may be saved without a
- *                    factor; regions may not. The same region may be given more than once.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: memory is too small, bytes, set or an object of it is NULL,
- *           n_regions is below 0, a reserved field is set, or regions without a factor;
- *           SL_ERR_STALE: a failed factor, or a selected inverse or region that is not of its
- *           present numbers; SL_ERR_MISMATCH: objects of different analyses, or from a file that a
- *           newer version has written and this one reads in part; SL_ERR_UNSUPPORTED:
- *           SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds.
- *  Cost     reads the objects twice; O(1 + n_regions) without memory.
- *  Threads  reads the objects.
- *  Example  tests/core/test_save.c, test_saved_set.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_save_memory(void *memory, size_t *bytes,
-                                               const sl_saved_set *set);
-
-/** Saves a set in a file.
- *
- *  The file gets its name only when it is complete and, on Linux, macOS and Windows, on its device.
+ *  A file gets its name only when it is complete and, on Linux, macOS and Windows, on its device.
  *  An error, a full disk or a crash leaves the old file as it was, and processes that have mapped
  *  the old file keep it. On Linux, a process that is killed leaves no temporary file on most file
  *  systems. A device or a symbolic link is written in place.
  *
- *  path  [in]  the name of the file.
- *  set   [in]  as in sl_save_memory.
- *  opt   [in]  allocator; may be NULL.
- *  Returns  as sl_save_memory; SL_ERR_IO; SL_ERR_MEMORY.
- *  Cost     reads the objects twice; waits until the file is on its device.
+ *  path    [in]      the name of the file, or NULL.
+ *  memory  [out]     of any alignment; SL_LOAD_MAPPED needs 64 bytes. Not written on error, nor
+ *                    beyond what the set takes. NULL: to path or, without one, only *bytes is set.
+ *  bytes   [in,out]  in: the size of memory, if that is not NULL. Out: what the set takes, a
+ *                    multiple of 64, also if memory is too small; as before on any other error. May
+ *                    be NULL with a path.
+ *  set     [in]      an analysis and what belongs to it. A selected inverse may be saved without a
+ *                    factor; regions may not. The same region may be given more than once.
+ *  opt     [in]      allocator; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: path and memory are both given, memory is too small, bytes, set
+ *           or an object of it is NULL, n_regions is below 0, a reserved field is set, or regions
+ *           without a factor; SL_ERR_STALE: a failed factor, or a selected inverse or region that
+ *           is not of its present numbers; SL_ERR_MISMATCH: objects of different analyses, or from
+ *           a file that a newer version has written and this one reads in part;
+ *           SL_ERR_UNSUPPORTED: SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds;
+ *           SL_ERR_IO; SL_ERR_MEMORY: of a file.
+ *  Cost     reads the objects twice, and waits until a file is on its device; O(1 + n_regions) to
+ *           count.
  *  Threads  reads the objects.
- *  Example  tests/core/test_save_file.c
+ *  Example  tests/core/test_save.c, test_saved_set.c, test_save_file.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_save_file(const char *path, const sl_saved_set *set,
-                                             const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_save(const char *path, void *memory, size_t *bytes,
+                                        const sl_saved_set *set, const sl_options *opt);
 
-/** Creates the objects that memory holds, as copies.
+/** Creates the objects that a file or memory holds, as copies or, by SL_LOAD_MAPPED, in place.
+ *
+ *  Mapped memory must outlive the objects and not change. A mapped file is read-only and shared
+ *  with other processes; it is unmapped when the last object is released, and its pages are read
+ *  when they are first needed. Replace it by sl_save or a rename: the system stops a process that
+ *  reads a part of a mapped file that was cut off, and changes show in the factor. Of copies the
+ *  file is closed when the call returns.
  *
  *  A selected inverse that was saved without a factor answers queries and can be refactored;
  *  sl_region_create refuses it.
  *
  *  set     [in,out]  in: `wanted` and `reserved`. Out: the objects, or NULL and 0 on error and for
  *                    what was not saved or is not wanted. Release with sl_saved_set_free.
- *  memory  [in]      what sl_save_memory or sl_save_file wrote, of any alignment.
- *  bytes   [in]      the size that was saved, exactly.
- *  checks  [in]      see sl_load_checks.
- *  opt     [in]      allocator, threads, isa; may be NULL. threads are those of refactorizations.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_UNSUPPORTED: not a saved factor, one that this version
- *           cannot read, the isa, or L in float where isa keeps it in double (sl_storage);
- *           SL_ERR_IO: incomplete, damaged or inconsistent; SL_ERR_TOO_LARGE: sizes do not fit
+ *  path    [in]      the file, or NULL.
+ *  memory  [in]      NULL, or what sl_save wrote, of any alignment; aligned to 64 bytes if mapped.
+ *  bytes   [in]      the size that was saved in memory, exactly; not read with a path.
+ *  flags   [in]      any of sl_load_flag, but not both SL_LOAD_TRUSTED and SL_LOAD_VERIFIED.
+ *  opt     [in]      allocator, threads, isa; may be NULL. threads are those of refactorizations;
+ *                    of mapped objects those of the inverse.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also if path and memory are both given or both NULL;
+ *           SL_ERR_UNSUPPORTED: not a saved factor, one that this version cannot read, the isa, or
+ *           L in float where isa keeps it in double (sl_storage); mapped: also the other byte
+ *           order and, of a file, SL_NO_MMAP and systems other than POSIX and Windows; SL_ERR_IO:
+ *           unreadable, incomplete, damaged or inconsistent; SL_ERR_TOO_LARGE: sizes do not fit
  *           size_t; SL_ERR_MEMORY.
  *  Cost     the copy, and checks in O(n + rows of the supernodes + entries of A), O(supernodes) for
  *           a selected inverse and O(roots and rows of the boundary, log n each, and rows below the
  *           roots) for regions. Never allocates more than `bytes` and the size of analysis and
- *           factor, or 8 times `bytes` with regions, whatever the memory contains.
+ *           factor, or 8 times `bytes` with regions, whatever the memory contains. Mapped: the
+ *           checks; with SL_LOAD_TRUSTED O(1) and O(rows of the boundary) for each region. Keeps
+ *           less than 4 KB, and for each region less than 500 bytes and 16 for each row of the
+ *           boundary and each subtree.
  *  Threads  any number of calls at once.
- *  Example  tests/core/test_save.c, test_saved_set.c
+ *  Example  tests/core/test_save.c, test_saved_set.c, test_save_file.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_load_memory(sl_saved_set *set, const void *memory, size_t bytes,
-                                               sl_load_checks checks, const sl_options *opt);
-
-/** sl_load_memory from a file, which is closed when the call returns.
- *
- *  path  [in]  the file.
- *  Arguments, status, cost and threads otherwise as in sl_load_memory; SL_ERR_IO: also if the file
- *  cannot be read.
- *  Example  tests/core/test_save_file.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_load_file(sl_saved_set *set, const char *path,
-                                             sl_load_checks checks, const sl_options *opt);
-
-/** Creates objects whose arrays are those in memory, without a copy.
- *
- *  memory  [in]  as in sl_load_memory, aligned to 64 bytes; borrowed, must outlive the objects and
- *                not change.
- *  set, bytes, checks, opt  as in sl_load_memory; isa only, threads are those of the inverse.
- *  Returns  as sl_load_memory; SL_ERR_ARGUMENT: also if memory is not aligned; SL_ERR_UNSUPPORTED:
- *           also if the byte order is not that of this processor.
- *  Cost     the checks; with SL_LOAD_TRUSTED O(1) and O(rows of the boundary) for each region.
- *           Keeps less than 4 KB, and for each region less than 500 bytes and 16 for each row of
- *           the boundary and each subtree.
- *  Threads  any number of calls at once.
- *  Example  tests/core/test_save.c, test_saved_set.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_map_memory(sl_saved_set *set, const void *memory, size_t bytes,
-                                              sl_load_checks checks, const sl_options *opt);
-
-/** sl_map_memory of a file that is mapped into memory, read-only and shared with other processes.
- *
- *  The file is unmapped when the last object is released. Replace it by sl_save_file or a rename:
- *  the system stops a process that reads a part of a mapped file that was cut off, and changes show
- *  in the factor. Pages are read when they are first needed.
- *
- *  path  [in]  the file.
- *  Arguments, status, cost and threads otherwise as in sl_map_memory; SL_ERR_IO: the file cannot be
- *  read; SL_ERR_UNSUPPORTED: also with SL_NO_MMAP, and on systems other than POSIX and Windows.
- *  Example  tests/core/test_save_file.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_map_file(sl_saved_set *set, const char *path,
-                                            sl_load_checks checks, const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_load(sl_saved_set *set, const char *path, const void *memory,
+                                        size_t bytes, unsigned flags, const sl_options *opt);
 
 /** Releases what a load put into a set, then sets it to all zero: regions and their array, selected
  *  inverse, factor, and the analysis at last.
@@ -2401,12 +2372,8 @@ SL_API SL_WARN_UNUSED sl_status sl_map_file(sl_saved_set *set, const char *path,
 SL_API void sl_saved_set_free(sl_saved_set *set);
 
 #else
-#define sl_save_memory(...) sl_save_memory_needs_SL_WITH_SAVE
-#define sl_save_file(...) sl_save_file_needs_SL_WITH_SAVE
-#define sl_load_memory(...) sl_load_memory_needs_SL_WITH_SAVE
-#define sl_load_file(...) sl_load_file_needs_SL_WITH_SAVE
-#define sl_map_memory(...) sl_map_memory_needs_SL_WITH_SAVE
-#define sl_map_file(...) sl_map_file_needs_SL_WITH_SAVE
+#define sl_save(...) sl_save_needs_SL_WITH_SAVE
+#define sl_load(...) sl_load_needs_SL_WITH_SAVE
 #define sl_saved_set_free(...) sl_saved_set_free_needs_SL_WITH_SAVE
 #endif
 #if defined(SL_WITH_CHANGE)
@@ -3465,6 +3432,22 @@ SLI_COLD static sl_status sli_no_memory(void) {
 
 SLI_NOINLINE static sl_status sli_argument(const char *wrong) {
   return wrong == NULL ? SL_OK : sli_refuse(SL_ERR_ARGUMENT, wrong);
+}
+
+SLI_NOINLINE static sl_status sli_list(const sl_int **rows, sl_int *count, sl_int n) {
+  static const sl_int sli_empty = 0;
+  if (*rows != NULL) {
+    return sli_argument(*count < 0 ? "the count of a list is below 0; SL_ALL goes with NULL"
+        : NULL);
+  }
+  if (*count == 0) {
+    *rows = &sli_empty;
+  } else if (*count == SL_ALL || *count == n) {
+    *count = n;
+  } else {
+    return sli_argument("the list is NULL: its count must be SL_ALL, n, or 0");
+  }
+  return SL_OK;
 }
 
 SLI_NOINLINE static sl_status sli_begin(void *out) {
@@ -13407,7 +13390,7 @@ SLI_INLINE sl_status sli_inverse_check(const sl_factor *F) {
 }
 
 SLI_COLD static sl_status sli_refuse_mapped(void) {
-  return sli_refuse(SL_ERR_READ_ONLY, "it is mapped (sl_load_file copies it), of "
+  return sli_refuse(SL_ERR_READ_ONLY, "it is mapped (sl_load copies without SL_LOAD_MAPPED), of "
       "sl_factor_submatrix, or saved by a newer version");
 }
 
@@ -18291,12 +18274,6 @@ static void sli_query_stats(const sli_query *q, sl_stats *stats) {
   stats->plan.region_entries = q->used.entries;
 }
 
-static sl_status sli_check_sets(const sl_int *bset, sl_int nb, const sl_int *xset, sl_int nx) {
-  return bset != NULL && nb < 0 ? sli_argument("nb is below 0")
-       : xset != NULL && nx < 0 ? sli_argument("nx is below 0")
-                  : SL_OK;
-}
-
 /* src/impl/solve/plan.h: plan objects: queries compiled once and kept, and solves on them */
 
 struct sl_plan {
@@ -18346,7 +18323,8 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
   status = status == SL_OK
          ? sli_argument(S == NULL ? "S is NULL" : sli_options_wrong(opt, SLI_READS_REGION))
          : status;
-  status = status == SL_OK ? sli_check_sets(bset, nb, xset, nx) : status;
+  status = status == SL_OK ? sli_list(&bset, &nb, S->n) : status;
+  status = status == SL_OK ? sli_list(&xset, &nx, S->n) : status;
   if (status == SL_OK && ending != NULL && !ending->calls->belongs(ending, S)) {
     status = sli_refuse(SL_ERR_MISMATCH, "options.region is a region of another analysis");
   }
@@ -18464,7 +18442,8 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
   sli_local l;
   sl_status status;
   sli_stats_clear_error(stats);
-  status = F == NULL ? sli_argument("F is NULL") : sli_check_sets(bset, nb, xset, nx);
+  status = F == NULL ? sli_argument("F is NULL") : sli_list(&bset, &nb, F->S->n);
+  status = status == SL_OK ? sli_list(&xset, &nx, F->S->n) : status;
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
@@ -23069,12 +23048,14 @@ static sl_status sli_inverse_entries(sli_entries *q, sl_work *W, sl_stats *stats
 
 SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_int *rows,
     sl_int count, sl_work *W, sl_stats *stats) {
+  sl_status status;
   sli_entries q;
   sli_stats_clear_error(stats);
-  if (F == NULL) {
-    return sli_report(stats, sli_argument("F is NULL"));
+  status = F == NULL ? sli_argument("F is NULL") : sli_list(&rows, &count, F->S->n);
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
-  q = sli_entries_of(F, out, rows, rows, rows == NULL ? F->S->n : count);
+  q = sli_entries_of(F, out, rows, rows, count);
   return sli_inverse_entries(&q, W, stats);
 }
 
@@ -23612,11 +23593,9 @@ SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const
   sli_stats_clear_error(stats);
   status = sli_begin(out);
   if (status == SL_OK) {
-    status =
-      sli_argument(F == NULL ? "F is NULL"
-          : set != NULL && count < 0 ? "count is below 0"
-          : sli_options_wrong(opt, SLI_READS_NOTHING));
+    status = sli_argument(F == NULL ? "F is NULL" : sli_options_wrong(opt, SLI_READS_NOTHING));
   }
+  status = status == SL_OK ? sli_list(&set, &count, F->S->n) : status;
   status = status == SL_OK ? sli_inverse_check(F) : status;
   if (status != SL_OK) {
     return sli_report(stats, status);
@@ -23720,10 +23699,9 @@ SL_API sl_status sl_selected_entries(const sl_selected *Z, double *out, const sl
   sli_stats_clear_error(stats);
   status = sli_argument(Z == NULL ? "Z is NULL"
       : rows == NULL && columns != NULL ? "rows is NULL, but columns is not"
-      : rows != NULL && count < 0 ? "count is below 0"
       : NULL);
+  status = status == SL_OK ? sli_list(&rows, &count, Z->traversal.S->n) : status;
   if (status == SL_OK) {
-    count = rows == NULL ? Z->traversal.S->n : count;
     status = sli_argument(count > 0 && out == NULL ? "out is NULL" : NULL);
   }
   if (status != SL_OK) {
@@ -24421,17 +24399,16 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
   sli_stats_clear_error(stats);
   status = sli_begin(out);
   if (status == SL_OK) {
-    status = sli_argument(F == NULL ? "F is NULL"
-        : set != NULL && count < 0
-        ? "count is below 0"
-        : sli_options_wrong(opt, SLI_READS_REGION_BYTES));
+    status =
+      sli_argument(F == NULL ? "F is NULL" : sli_options_wrong(opt, SLI_READS_REGION_BYTES));
   }
+  status = status == SL_OK ? sli_list(&set, &count, F->S->n) : status;
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
   SLI_CLEAR(start);
   start.S = F->S;
-  start.count = set == NULL ? F->S->n : count;
+  start.count = count;
   start.may_copy = Z != NULL;
   start.bytes_max = opt == NULL ? 0 : opt->region_bytes;
   status = sli_region_check_factor(F, Z);
@@ -32588,7 +32565,8 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
   }
 #else
   (void)path;
-  status = sli_refuse(SL_ERR_UNSUPPORTED, "files cannot be mapped here: sl_load_file");
+  status =
+    sli_refuse(SL_ERR_UNSUPPORTED, "files cannot be mapped here: load without SL_LOAD_MAPPED");
 #endif
   return status;
 }
@@ -33706,14 +33684,41 @@ SLI_COLD static void sli_save_write(sli_saved *f, sli_sink *to) {
   }
 }
 
-SL_API sl_status sl_save_memory(void *memory, size_t *bytes, const sl_saved_set *set) {
+SLI_COLD static sl_status sli_save_to_file(sli_saved *f, const char *path, const sl_allocator *a) {
+  const int saved = errno;
+  sli_output output;
+  sli_sink to;
+  sl_status status = sli_output_open(&output, path, a);
+  if (status == SL_OK) {
+    int complete;
+    to.memory = NULL;
+    to.file = output.file;
+    to.has_failed = 0;
+    sli_save_write(f, &to);
+    complete = !to.has_failed && sli_flush(output.file);
+    status = sli_output_close(&output, complete, a);
+  }
+  errno = saved;
+  return status;
+}
+
+SL_API sl_status sl_save(const char *path, void *memory, size_t *bytes, const sl_saved_set *set,
+    const sl_options *opt) {
+  const sl_allocator a = sli_allocator(opt);
   sli_saved f;
   sli_sink to;
   sl_status status;
-  status = sli_argument(bytes == NULL ? "bytes is NULL" : set == NULL ? "set is NULL" : NULL);
+  int is_short = 0;
+  status = sli_argument(path != NULL && memory != NULL ? "path and memory are both given"
+      : path == NULL && bytes == NULL ? "path and bytes are NULL"
+      : set == NULL ? "set is NULL"
+      : sli_options_wrong(opt, SLI_READS_NOTHING));
   status = status == SL_OK ? sli_save_prepare(&f, set) : status;
-  if (status == SL_OK) {
-    const int is_short = memory != NULL && *bytes < f.header.bytes;
+  if (status == SL_OK && path != NULL) {
+    status = sli_save_to_file(&f, path, &a);
+  }
+  if (status == SL_OK && bytes != NULL) {
+    is_short = memory != NULL && *bytes < f.header.bytes;
     *bytes = (size_t)f.header.bytes;
     status = sli_argument(is_short ? "memory is smaller than the set" : NULL);
   }
@@ -33726,31 +33731,6 @@ SL_API sl_status sl_save_memory(void *memory, size_t *bytes, const sl_saved_set 
   return status;
 }
 
-SL_API sl_status sl_save_file(const char *path, const sl_saved_set *set, const sl_options *opt) {
-  const int saved = errno;
-  const sl_allocator a = sli_allocator(opt);
-  sli_output output;
-  sli_saved f;
-  sli_sink to;
-  sl_status status;
-  status = sli_argument(path == NULL ? "path is NULL"
-      : set == NULL ? "set is NULL"
-      : sli_options_wrong(opt, SLI_READS_NOTHING));
-  status = status == SL_OK ? sli_save_prepare(&f, set) : status;
-  status = status == SL_OK ? sli_output_open(&output, path, &a) : status;
-  if (status == SL_OK) {
-    int complete;
-    to.memory = NULL;
-    to.file = output.file;
-    to.has_failed = 0;
-    sli_save_write(&f, &to);
-    complete = !to.has_failed && sli_flush(output.file);
-    status = sli_output_close(&output, complete, &a);
-  }
-  errno = saved;
-  return status;
-}
-
 /* src/impl/save/load.h: reads the table, an analysis and a factor from saved bytes, as copies or in place */
 
 typedef struct sli_reading {
@@ -33759,7 +33739,7 @@ typedef struct sli_reading {
   uint64_t size, at;
   int is_mapped;
   int swapped;
-  sl_load_checks checks;
+  unsigned flags;
   const sl_options *opt;
   sl_allocator allocator;
   sli_saved saved;
@@ -33870,7 +33850,7 @@ static int sli_table_is_expected(const sli_saved *f, const sli_saved *expected,
 
 static int sli_section_accept(const sli_reading *r, sl_int k, void *data, int always) {
   const sli_section *section = &r->saved.table[k];
-  if (always || r->checks == SL_LOAD_VERIFIED) {
+  if (always || (r->flags & SL_LOAD_VERIFIED) != 0) {
     sli_checksum sum = sli_checksum_begin();
     sli_checksum_add(&sum, data, (size_t)sli_round_up(section->bytes));
     if (sli_checksum_end(&sum) != section->checksum) {
@@ -33988,7 +33968,7 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
   S->is_partial = r->saved.header.write_version > SLI_WRITE_VERSION;
   if (S->rows_begin[S->n_supers] != a->rows || S->panel_begin[S->n_supers] != a->panels ||
       S->scatter_begin[S->n_supers] != a->entries ||
-      (r->checks != SL_LOAD_TRUSTED && !sli_check_analysis(S, a))) {
+      ((r->flags & SL_LOAD_TRUSTED) == 0 && !sli_check_analysis(S, a))) {
     sli_free(&r->allocator, m.block);
     return sli_damaged();
   }
@@ -34028,7 +34008,7 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
   sli_factor_layout(F, &b, (int)g->has_mass);
   F->rule.signs = g->has_signs ? F->rule.signs : NULL;
   F->stats.factor.bytes = m.head + m.bytes;
-  if (r->checks != SL_LOAD_TRUSTED && !sli_check_factor(F)) {
+  if ((r->flags & SL_LOAD_TRUSTED) == 0 && !sli_check_factor(F)) {
     sli_free(&r->allocator, m.block);
     return sli_damaged();
   }
@@ -34132,7 +34112,7 @@ SLI_COLD static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected *
   }
   ends = (const sl_off *)begin;
   if (bytes % sizeof(double) != 0 || (uint64_t)ends[count] != bytes / sizeof(double) ||
-      ((r->checks != SL_LOAD_TRUSTED || !r->is_mapped) &&
+      (((r->flags & SL_LOAD_TRUSTED) == 0 || !r->is_mapped) &&
       !sli_check_selected(draft->traversal.S, (const sl_int *)supers, ends, count))) {
     return sli_damaged();
   }
@@ -34252,7 +34232,7 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
   draft.is_immutable = r->is_mapped || F->S->is_partial;
   if (!sli_check_columns(roots, draft.extent.n_roots, F->S->n_supers) ||
       !sli_check_columns(rows, draft.extent.n_rows, F->S->n) ||
-      (r->checks != SL_LOAD_TRUSTED && !sli_check_extent(F->S, &draft.extent))) {
+      ((r->flags & SL_LOAD_TRUSTED) == 0 && !sli_check_extent(F->S, &draft.extent))) {
     return sli_damaged();
   }
   SLI_LAYOUT(&b, &r->allocator, status) {
@@ -34272,7 +34252,7 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
 static sl_status sli_read_regions_numbers(sli_reading *r, const sl_saved_set *set) {
   const uint32_t k = r->first_region + SLI_REGION_SECTIONS - 1;
   const sli_section *section = &r->saved.table[k];
-  const int verifies = r->checks == SL_LOAD_VERIFIED;
+  const int verifies = (r->flags & SL_LOAD_VERIFIED) != 0;
   sli_checksum sum = sli_checksum_begin();
   sl_int m;
   for (m = 0; m < set->n_regions; m++) {
@@ -34386,7 +34366,7 @@ SLI_COLD static sl_status sli_read(sli_reading *r, sl_saved_set *set) {
   sl_status status = sli_read_front(r);
   if (status == SL_OK && r->is_mapped && r->swapped) {
     return sli_refuse(SL_ERR_UNSUPPORTED, "the byte order is not that of this processor: "
-        "sl_load_file");
+        "load without SL_LOAD_MAPPED");
   }
   status = status == SL_OK ? sli_read_analysis(r, &set->symbolic) : status;
   if (status == SL_OK && wanted != SL_SAVED_ANALYSIS && r->has_factor) {
@@ -34404,13 +34384,6 @@ SLI_COLD static sl_status sli_read(sli_reading *r, sl_saved_set *set) {
   }
   return status;
 }
-
-typedef struct sli_origin {
-  const void *memory;
-  size_t bytes;
-  const char *path;
-  int is_mapped;
-} sli_origin;
 
 static sl_status sli_read_path(sli_reading *r, const char *path, sl_saved_set *set) {
   sl_status status;
@@ -34447,10 +34420,21 @@ static sl_status sli_map_path(sli_reading *r, const char *path, sl_saved_set *se
   return status;
 }
 
-static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load_checks checks,
-    const sl_options *opt) {
+static const char *sli_load_wrong(const char *path, const void *memory, unsigned flags) {
+  const unsigned both = SL_LOAD_TRUSTED | SL_LOAD_VERIFIED;
+  return (flags & ~(both | SL_LOAD_MAPPED)) != 0 ? "flags has a bit that is not of sl_load_flag"
+       : (flags & both) == both ? "SL_LOAD_TRUSTED excludes SL_LOAD_VERIFIED"
+       : path == NULL && memory == NULL ? "path and memory are both NULL"
+       : path != NULL && memory != NULL ? "path and memory are both given"
+       : path == NULL && (flags & SL_LOAD_MAPPED) != 0 && (uintptr_t)memory % SLI_ALIGN != 0
+         ? "memory is not aligned to 64 bytes"
+         : NULL;
+}
+
+SL_API sl_status sl_load(sl_saved_set *set, const char *path, const void *memory, size_t bytes,
+    unsigned flags, const sl_options *opt) {
   const int saved = errno;
-  const int is_file = from->path != NULL;
+  const char *wrong;
   sl_saved_content wanted;
   int has_more;
   sli_reading r;
@@ -34463,72 +34447,23 @@ static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load
   has_more = sli_set_has_more(set);
   memset(set, 0, sizeof *set);
   set->wanted = wanted;
-  status = sli_argument(
-      has_more ? sli_set_reserved
+  wrong = has_more ? sli_set_reserved
       : (unsigned)wanted > (unsigned)SL_SAVED_ANALYSIS
-      ? "set.wanted is not a value of sl_saved_content: is the set initialized?"
-      : (unsigned)checks > (unsigned)SL_LOAD_VERIFIED ? "checks is not a value of sl_load_checks"
-      : !is_file && from->memory == NULL ? "path or memory is NULL"
-      : !is_file && from->is_mapped && (uintptr_t)from->memory % SLI_ALIGN != 0
-      ? "memory is not aligned to 64 bytes"
-      : sli_options_wrong(opt, SLI_READS_ISA));
-  if (status != SL_OK) {
-    errno = saved;
-    return status;
-  }
-  SLI_CLEAR(r);
-  r.checks = checks;
-  r.opt = opt;
-  r.allocator = sli_allocator(opt);
-  r.is_mapped = from->is_mapped;
-  if (!is_file) {
-    status = sli_read_memory(&r, from->memory, from->bytes, set);
-  } else if (from->is_mapped) {
-    status = sli_map_path(&r, from->path, set);
-  } else {
-    status = sli_read_path(&r, from->path, set);
+        ? "set.wanted is not a value of sl_saved_content: is the set initialized?"
+        : sli_load_wrong(path, memory, flags);
+  status = sli_argument(wrong != NULL ? wrong : sli_options_wrong(opt, SLI_READS_ISA));
+  if (status == SL_OK) {
+    SLI_CLEAR(r);
+    r.flags = flags;
+    r.opt = opt;
+    r.allocator = sli_allocator(opt);
+    r.is_mapped = (flags & SL_LOAD_MAPPED) != 0;
+    status = path == NULL ? sli_read_memory(&r, memory, bytes, set)
+         : r.is_mapped ? sli_map_path(&r, path, set)
+                 : sli_read_path(&r, path, set);
   }
   errno = saved;
   return status;
-}
-
-static sli_origin sli_origin_in_memory(const void *memory, size_t bytes, int is_mapped) {
-  sli_origin from;
-  from.memory = memory;
-  from.bytes = bytes;
-  from.path = NULL;
-  from.is_mapped = is_mapped;
-  return from;
-}
-
-static sli_origin sli_origin_in_file(const char *path, int is_mapped) {
-  sli_origin from = sli_origin_in_memory(NULL, 0, is_mapped);
-  from.path = path;
-  return from;
-}
-
-SL_API sl_status sl_load_memory(sl_saved_set *set, const void *memory, size_t bytes,
-    sl_load_checks checks, const sl_options *opt) {
-  const sli_origin from = sli_origin_in_memory(memory, bytes, 0);
-  return sli_read_set(&from, set, checks, opt);
-}
-
-SL_API sl_status sl_map_memory(sl_saved_set *set, const void *memory, size_t bytes,
-    sl_load_checks checks, const sl_options *opt) {
-  const sli_origin from = sli_origin_in_memory(memory, bytes, 1);
-  return sli_read_set(&from, set, checks, opt);
-}
-
-SL_API sl_status sl_load_file(sl_saved_set *set, const char *path, sl_load_checks checks,
-    const sl_options *opt) {
-  const sli_origin from = sli_origin_in_file(path, 0);
-  return sli_read_set(&from, set, checks, opt);
-}
-
-SL_API sl_status sl_map_file(sl_saved_set *set, const char *path, sl_load_checks checks,
-    const sl_options *opt) {
-  const sli_origin from = sli_origin_in_file(path, 1);
-  return sli_read_set(&from, set, checks, opt);
 }
 
 #endif
@@ -35895,14 +35830,16 @@ SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, con
   status = status == SL_OK
          ? sli_argument(S == NULL ? "S is NULL" : sli_options_wrong(opt, SLI_READS_REGION))
          : status;
+  status = status == SL_OK ? sli_list(&bset, &nb, S->n / 2) : status;
+  status = status == SL_OK ? sli_list(&xset, &nx, S->n / 2) : status;
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
   c = sli_complex_sets_of(bset, nb, xset, nx, 0);
   status = sli_complex_sets_create(&c, S->n, &a, stats);
   if (status == SL_OK) {
-    status = sl_plan_create(out, S, sli_complex_real(&c.first), bset == NULL ? 0 : 2 * nb,
-        sli_complex_real(&c.second), xset == NULL ? 0 : 2 * nx, opt, stats);
+    status = sl_plan_create(out, S, sli_complex_real(&c.first), 2 * nb,
+        sli_complex_real(&c.second), 2 * nx, opt, stats);
     sli_free(&a, c.memory);
   }
   return sli_report(stats, status);

@@ -43,7 +43,8 @@ static void diagonals_equal_those_of_single_calls(void **state) {
                                                NULL, NULL));
                     assert_int_equal(calls, threads > 1);
                     for (size_t k = 0; k < MOST; k++) {
-                        SL_CHECK(sl_inverse_diagonal(F[k], one, all ? NULL : rows, 50, NULL, NULL));
+                        SL_CHECK(sl_inverse_diagonal(F[k], one, all ? NULL : rows,
+                                                     all ? SL_ALL : 50, NULL, NULL));
                         SAME_VALUES(out + k * ld, one, count);
                         for (size_t i = count; i < ld; i++) {
                             assert_true(out[i + k * ld] == 4321.5);
@@ -176,7 +177,7 @@ static void factors_of_several_instruction_sets_share_a_call(void **state) {
     SL_CHECK(sl_batch_diagonal(F, isas.count, out, (size_t)y.n, NULL, 0, THREADS(threads), NULL,
                                NULL, NULL));
     for (int k = 0; k < isas.count; k++) {
-        SL_CHECK(sl_inverse_diagonal(F[k], one, NULL, 0, NULL, NULL));
+        SL_CHECK(sl_inverse_diagonal(F[k], one, NULL, SL_ALL, NULL, NULL));
         SAME_VALUES(out + (size_t)k * (size_t)y.n, one, (size_t)y.n);
     }
     free_all(F, 4);

@@ -31,12 +31,9 @@ static void other_patterns_do_not_refill(void **state) {
     static const double x[14] = {9, 0, 9, 0, 9, 0, 9, 0, 9, 0, 9, 0, 9, 0};
     static const sl_int late_p[N + 1] = {0, 2, 4, 7}, late_i[7] = {0, 1, 1, 2, 2, 1, 0};
     static const sl_int end_i[6] = {0, 2, 1, 1, 2, 2}; /* the entry more ends its column */
-    const sl_hermitian others[6] = {{N, less_p, less_i, x, NULL},
-                                    {N, more_p, end_i, x, NULL},
-                                    {N, last_p, last_i, x, NULL},
-                                    {N, more_p, more_i, x, NULL},
-                                    {N, late_p, late_i, x, NULL},
-                                    {2, small_p, small_i, x, NULL}};
+    const sl_hermitian others[6] = {{N, less_p, less_i, x, NULL}, {N, more_p, end_i, x, NULL},
+                                    {N, last_p, last_i, x, NULL}, {N, more_p, more_i, x, NULL},
+                                    {N, late_p, late_i, x, NULL}, {2, small_p, small_i, x, NULL}};
     sl_stats stats;
     sl_matrix *M;
     SL_CHECK(sl_matrix_from_hermitian(&M, &hermitian, NULL, NULL));
@@ -122,11 +119,11 @@ static void no_set_is_all_rows(void **state) {
     double b[2 * N] = {1, 2, 0, 0, 3, 4}, part[4] = {3, 4, 1, 2}, full[2 * N], x[2 * N];
     sl_plan *P;
     SL_CHECK(sl_factor_solve(y.F, full, 2 * N, b, 2 * N, 1, NULL));
-    SL_CHECK(sl_complex_plan_create(&P, y.S, rows, 2, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_complex_plan_create(&P, y.S, rows, 2, NULL, SL_ALL, NULL, NULL));
     SL_CHECK(sl_plan_solve(P, y.F, x, 2 * N, part, 4, 1, NULL));
     assert_memory_equal(x, full, sizeof x);
     sl_plan_free(P);
-    SL_CHECK(sl_complex_plan_create(&P, y.S, NULL, 0, rows, 2, NULL, NULL));
+    SL_CHECK(sl_complex_plan_create(&P, y.S, NULL, SL_ALL, rows, 2, NULL, NULL));
     SL_CHECK(sl_plan_solve(P, y.F, x, 4, b, 2 * N, 1, NULL));
     assert_memory_equal(x, full + 4, 2 * sizeof *x);
     assert_memory_equal(x + 2, full, 2 * sizeof *x);

@@ -258,7 +258,7 @@ static void invalid_arguments_are_refused(void **state) {
 #define REFUSED(call) SL_EXPECT(SL_ERR_ARGUMENT, call)
     REFUSED(sl_inverse_diagonal(NULL, out, good, 3, NULL, NULL));
     REFUSED(sl_inverse_diagonal(y.F, NULL, good, 3, NULL, NULL));
-    REFUSED(sl_inverse_diagonal(y.F, NULL, NULL, 0, NULL, NULL));
+    REFUSED(sl_inverse_diagonal(y.F, NULL, NULL, SL_ALL, NULL, NULL));
     REFUSED(sl_inverse_diagonal(y.F, out, good, -1, NULL, NULL));
     REFUSED(sl_inverse_diagonal(y.F, out, low, 3, NULL, &stats));
     assert_int_equal(stats.error.row, -1);
@@ -328,7 +328,7 @@ static void an_empty_matrix_has_an_empty_inverse(void **state) {
     factored_t y = factored_make(GEN_NONE, 0, 1, 0, NULL);
     const sl_int row = 0;
     double out = 4321.5, one = 1;
-    SL_CHECK(sl_inverse_diagonal(y.F, NULL, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_inverse_diagonal(y.F, NULL, NULL, SL_ALL, NULL, NULL));
     SL_CHECK(sl_inverse_pairs(y.F, NULL, NULL, NULL, 0, NULL, NULL));
     SL_CHECK(sl_inverse_block(y.F, NULL, 0, NULL, 0, NULL, 0, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_inverse_diagonal(y.F, &out, &row, 1, NULL, NULL));

@@ -96,7 +96,7 @@ static void entries_of(const factored_t *y, const sl_int *rows, const sl_int *co
     SL_CHECK(
         sl_inverse_bilinear(y->F, out, rows, values, nb, columns, values, count - nb, W, NULL));
     if (count == y->M.view.n_cols) {
-        SL_CHECK(sl_inverse_diagonal(y->F, out, NULL, 0, W, NULL));
+        SL_CHECK(sl_inverse_diagonal(y->F, out, NULL, SL_ALL, W, NULL));
         SL_CHECK(sl_inverse_bilinear(y->F, out, NULL, values, 0, rows, values, 0, W, NULL));
         /* the same array twice is one set */
         SL_CHECK(sl_inverse_bilinear(y->F, out, NULL, values, 0, NULL, values, 0, W, NULL));
@@ -226,7 +226,8 @@ static void selected(const factored_t *y, int threads, counter_t *counter) {
         if (set >= 0) {
             make_rows(rows, count, n, set, &seed);
         }
-        SL_CHECK(sl_selected_create(&Z, y->F, set < 0 ? NULL : rows, count, &opt, NULL));
+        SL_CHECK(sl_selected_create(&Z, y->F, set < 0 ? NULL : rows, set < 0 ? SL_ALL : count, &opt,
+                                    NULL));
         RESERVE_FOR(W, NULL, sl_selected_refactor(Z, y->F, trial));
         const size_t calls = counter->calls;
         SL_CHECK(sl_selected_refactor(Z, y->F, W));
@@ -249,7 +250,7 @@ static void regions(const factored_t *y, int threads, counter_t *counter) {
     sl_selected *Z = NULL;
     uint64_t seed = 9;
     (void)threads;
-    SL_CHECK(sl_selected_create(&Z, y->F, NULL, 0, &opt, NULL));
+    SL_CHECK(sl_selected_create(&Z, y->F, NULL, SL_ALL, &opt, NULL));
     for (int set = 0; set < SETS && n > 0; set++) {
         for (int copies = 0; copies < 2; copies++) {
             sl_region *R = NULL;

@@ -210,9 +210,9 @@ static void wrong_arguments_are_refused(void **state) {
     assert_null(F)
         REFUSED(SL_ERR_ARGUMENT, calls[k](&S, &F, NULL, m.size, SL_LOAD_CHECKED, NULL));
         assert_null(S);
-        REFUSED(SL_ERR_ARGUMENT, calls[k](&S, &F, m.bytes, m.size, (sl_load_checks)3, NULL));
+        REFUSED(SL_ERR_ARGUMENT, calls[k](&S, &F, m.bytes, m.size, (unsigned)3, NULL));
         assert_null(S);
-        REFUSED(SL_ERR_ARGUMENT, calls[k](&S, &F, m.bytes, m.size, (sl_load_checks)-1, NULL));
+        REFUSED(SL_ERR_ARGUMENT, calls[k](&S, &F, m.bytes, m.size, (unsigned)-1, NULL));
         opt = options_none();
         opt.size = 1;
         REFUSED(SL_ERR_ARGUMENT, calls[k](&S, &F, m.bytes, m.size, SL_LOAD_CHECKED, &opt));

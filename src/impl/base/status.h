@@ -104,6 +104,25 @@ SLI_NOINLINE static sl_status sli_argument(const char *wrong) {
     return wrong == NULL ? SL_OK : sli_refuse(SL_ERR_ARGUMENT, wrong);
 }
 
+/* The list of rows of a call on n rows: NULL with SL_ALL or n is all rows, and stays NULL with the
+ * count n; NULL with 0 is the empty list, and becomes a pointer. Every public call whose list may
+ * be NULL begins with this. */
+SLI_NOINLINE static sl_status sli_list(const sl_int **rows, sl_int *count, sl_int n) {
+    static const sl_int sli_empty = 0;
+    if (*rows != NULL) {
+        return sli_argument(*count < 0 ? "the count of a list is below 0; SL_ALL goes with NULL"
+                                       : NULL);
+    }
+    if (*count == 0) {
+        *rows = &sli_empty;
+    } else if (*count == SL_ALL || *count == n) {
+        *count = n;
+    } else {
+        return sli_argument("the list is NULL: its count must be SL_ALL, n, or 0");
+    }
+    return SL_OK;
+}
+
 /* Sets *out of a call that creates an object to NULL; refuses out if it is NULL itself. */
 SLI_NOINLINE static sl_status sli_begin(void *out) {
     static const void *const none = NULL;
