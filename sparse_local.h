@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f5c20fe9dbf5a78e
+ * FNV-1a of the lines after this comment, without the license: 64ba9de2c50d8d94
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,29 +35,29 @@
  *   2863 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   2940 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   2983 impl/ base: the compiler, status, memory, sorting, threads
- *   4279 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5218 impl/ matrix: sparse matrices of the caller and of the library
- *   5894 impl/ ordering: fill-reducing orderings of a graph
- *  10960 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13199 impl/ factor: the numbers of L and D
- *  16606 impl/ solve: full and local solves
- *  18479 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20476 impl/ pivots: the order of the pivots by the values of a matrix
- *  20884 impl/ float: L and fronts in single precision
- *  21389 impl/ inverse: entries of the inverse, regions
- *  24486 impl/ change: a factor that follows changes of its matrix
- *  30792 impl/ fixed: rows fixed at given values
- *  31430 impl/ fixed: by a factor of all rows
- *  31664 impl/ io: files that are replaced only when they are complete
- *  31882 impl/ files: Matrix Market files, 64-bit indices
- *  32502 impl/ save: factors in files
- *  34472 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35158 impl/ batch: diagonals of many inverses
- *  35298 impl/ complex: complex Hermitian systems over real factors
- *  35862 impl/ complex: entries of the inverse
- *  35922 impl/ packs: the tables through which the core calls packs
- *  35971 impl/ last: undefine every internal macro
- *  36352 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4285 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5224 impl/ matrix: sparse matrices of the caller and of the library
+ *   5900 impl/ ordering: fill-reducing orderings of a graph
+ *  10966 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13205 impl/ factor: the numbers of L and D
+ *  16612 impl/ solve: full and local solves
+ *  18485 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20482 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20890 impl/ float: L and fronts in single precision
+ *  21395 impl/ inverse: entries of the inverse, regions
+ *  24492 impl/ change: a factor that follows changes of its matrix
+ *  30798 impl/ fixed: rows fixed at given values
+ *  31436 impl/ fixed: by a factor of all rows
+ *  31670 impl/ io: files that are replaced only when they are complete
+ *  31888 impl/ files: Matrix Market files, 64-bit indices
+ *  32508 impl/ save: factors in files
+ *  34478 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35164 impl/ batch: diagonals of many inverses
+ *  35304 impl/ complex: complex Hermitian systems over real factors
+ *  35868 impl/ complex: entries of the inverse
+ *  35928 impl/ packs: the tables through which the core calls packs
+ *  35977 impl/ last: undefine every internal macro
+ *  36358 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -521,8 +521,8 @@ typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *
 /** Threads, opt-in: all zero means none. Results do not depend on the number of threads. */
 typedef struct sl_threads {
     sl_int count; /* 0 or 1: the calling thread only */
-    /* the caller's thread pool; NULL: SL_PTHREADS or OpenMP if compiled with it, else serial
-     * execution: stats.threads is 1 */
+    /* the caller's thread pool; NULL: SL_PTHREADS or OpenMP; compiled with neither, a count above 1
+     * is SL_ERR_UNSUPPORTED */
     sl_parallel_for run;
     void *context; /* passed to run */
 } sl_threads;
@@ -3430,8 +3430,14 @@ SLI_COLD static sl_status sli_no_memory(void) {
   return sli_refuse(SL_ERR_MEMORY, "the allocator returned NULL");
 }
 
+static const char sli_needs_threads[] =
+  "threads.count is above 1: compile with SL_PTHREADS or OpenMP, or set threads.run";
+
 SLI_NOINLINE static sl_status sli_argument(const char *wrong) {
-  return wrong == NULL ? SL_OK : sli_refuse(SL_ERR_ARGUMENT, wrong);
+  return wrong == NULL
+         ? SL_OK
+         : sli_refuse(wrong == sli_needs_threads ? SL_ERR_UNSUPPORTED : SL_ERR_ARGUMENT,
+             wrong);
 }
 
 SLI_NOINLINE static sl_status sli_list(const sl_int **rows, sl_int *count, sl_int n) {
@@ -3602,10 +3608,15 @@ SLI_NOINLINE static const char *sli_options_wrong(const sl_options *opt, int rea
 #else
   (void)reads;
 #endif
-  return opt->threads.count < 0 ? "options.threads.count is below 0"
-       : (opt->allocator.allocate == NULL) != (opt->allocator.release == NULL)
-         ? "options.allocator has only one of its two functions"
-         : NULL;
+  if ((opt->allocator.allocate == NULL) != (opt->allocator.release == NULL)) {
+    return "options.allocator has only one of its two functions";
+  }
+#if !defined(SL_PTHREADS) && !defined(_OPENMP)
+  if (opt->threads.count > 1 && opt->threads.run == NULL) {
+    return sli_needs_threads;
+  }
+#endif
+  return opt->threads.count < 0 ? "options.threads.count is below 0" : NULL;
 }
 
 SLI_INLINE const sl_threads *sli_threads_of(const sl_options *opt) {
@@ -4043,11 +4054,6 @@ SLI_INLINE void sli_starts_restore(sl_off *begin, sl_int n) {
 /* src/impl/base/parallel.h: runs work items on the caller's threads; a team of workers that share loops */
 
 SLI_INLINE sl_int sli_workers(const sl_threads *t) {
-#if !defined(SL_PTHREADS) && !defined(_OPENMP)
-  if (t->run == NULL) {
-    return 1;
-  }
-#endif
   return sli_max(t->count, 1);
 }
 

@@ -144,10 +144,12 @@ static void extreme_numbers_of_threads_are_handled(void **state) {
     SL_CHECK(sl_selected_create(&one, y.F, NULL, SL_ALL, NULL, NULL));
     assert_same_panels(Z, one);
     sl_selected_free(Z);
-    opt.threads.count = 2; /* no callback: OpenMP or serial */
+    opt.threads.count = 2;
     opt.threads.run = NULL;
-    SL_CHECK(sl_selected_create(&Z, y.F, NULL, SL_ALL, FOR_OTHERS(&opt), NULL));
-    assert_same_panels(Z, one);
+    SL_EXPECT(WITHOUT_POOL, sl_selected_create(&Z, y.F, NULL, SL_ALL, FOR_OTHERS(&opt), NULL));
+    if (Z != NULL) {
+        assert_same_panels(Z, one);
+    }
     sl_selected_free(Z);
     sl_selected_free(one);
     factored_free(&y);

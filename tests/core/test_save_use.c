@@ -1,4 +1,5 @@
 /* test_save_use.c: what may be done with loaded and mapped factors, and what is refused */
+#include "tests/lib/parallel_for.h"
 #include "tests/lib/saved.h"
 
 /* ---- the analysis alone, and what fits what ---- */
@@ -72,7 +73,10 @@ static void a_loaded_factor_can_be_refactored(void **state) {
             sl_options from = options_none(), opt = options_none();
             options_set_variant(&from, &variants, k);
             opt.isa = from.isa;
+            int runs = 0;
             opt.threads.count = 2;
+            opt.threads.run = run_backwards;
+            opt.threads.context = &runs;
             saved_case_t c = saved_case_make(way, GEN_GRID2, 400, 0, &from);
             saved_t m = saved_make(c.y.S, c.y.F);
             sl_symbolic *S = NULL;

@@ -2,6 +2,7 @@
 #define _XOPEN_SOURCE 700
 #include "tests/lib/temporary_files.h"
 
+#include "tests/lib/parallel_for.h"
 #include "tests/lib/saved_format.h"
 #include "tests/lib/saved_set.h"
 
@@ -92,10 +93,13 @@ static void a_set_answers_with_the_same_bits(void **state) {
     for (int v = 0; v < variants.count; v++) {
         for (int way = 0; way < SAVED_WAYS; way++) {
             for (gen_kind_t kind = GEN_NONE; kind < GEN_REGULAR; kind = (gen_kind_t)(kind + 1)) {
+                int runs = 0;
                 sl_options from = options_none(), opt = options_none();
                 options_set_variant(&from, &variants, v);
                 opt.isa = from.isa;
                 opt.threads.count = (int)kind % 3;
+                opt.threads.run = run_backwards;
+                opt.threads.context = &runs;
                 set_case_t q = set_case_make(way, kind, 100, 0, (int)kind % 2, &from);
                 saved_t m = set_save(set_of(&q));
                 for (sl_int k = 0; k < q.set.n_regions; k++) {

@@ -1,4 +1,5 @@
 /* test_saved_set_use.c: sets of saved objects: what is refused, sizes of memory, failing loads */
+#include "tests/lib/parallel_for.h"
 #include "tests/lib/saved_format.h"
 #include "tests/lib/saved_set.h"
 
@@ -166,13 +167,15 @@ static void every_allocation_of_a_load_may_fail(void **state) {
         set_case_t q = set_case_make(SAVED_DEFINITE, GEN_GRID2, 144, 0, is_whole, &from);
         saved_t m = set_save(set_of(&q));
         for (int call = 0; call < 2; call++) {
-            int done = 0;
+            int done = 0, runs = 0;
             for (int64_t at = 0; !done; at++) {
                 counter_t counter = counter_make();
                 sl_options opt = options_counted(&counter);
                 sl_saved_set got = {0};
                 counter.fail_at = at;
                 opt.threads.count = 2;
+                opt.threads.run = run_backwards;
+                opt.threads.context = &runs;
                 const sl_status status =
                     set_calls[call](&got, m.bytes, m.size, SL_LOAD_CHECKED, &opt);
                 done = status == SL_OK;

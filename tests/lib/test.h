@@ -32,12 +32,12 @@ static inline void test_status(sl_status got, sl_status wanted, const char *call
 #define SL_EXPECT(status, call) test_status((call), (status), #call, __FILE__, __LINE__)
 
 /* Skips the test. run.sh prints the reason. */
-#define TEST_SKIP(...)              \
-    do {                            \
+#define TEST_SKIP(...) \
+    do { \
         print_message("skipped: "); \
         print_message(__VA_ARGS__); \
-        print_message("\n");        \
-        skip();                     \
+        print_message("\n"); \
+        skip(); \
     } while (0)
 
 /* A file that may be written at any time. */
@@ -164,6 +164,13 @@ static inline double *test_reals(size_t count) {
 static inline sl_int *test_ints(size_t count) {
     return (sl_int *)test_array(count, sizeof(sl_int));
 }
+
+/* What a call with several threads and no pool gives. */
+#if defined(SL_PTHREADS) || defined(_OPENMP)
+#define WITHOUT_POOL SL_OK
+#else
+#define WITHOUT_POOL SL_ERR_UNSUPPORTED
+#endif
 
 /* ---- the options that a call reads: under SL_VERIFY it refuses all others ---- */
 

@@ -99,9 +99,16 @@ SLI_COLD static sl_status sli_no_memory(void) {
     return sli_refuse(SL_ERR_MEMORY, "the allocator returned NULL");
 }
 
-/* Refuses arguments. wrong: what is wrong with them; NULL: nothing, which gives SL_OK. */
+static const char sli_needs_threads[] =
+    "threads.count is above 1: compile with SL_PTHREADS or OpenMP, or set threads.run";
+
+/* Refuses arguments. wrong: what is wrong with them; NULL: nothing, which gives SL_OK. Threads that
+ * are not compiled in are right, but unsupported. */
 SLI_NOINLINE static sl_status sli_argument(const char *wrong) {
-    return wrong == NULL ? SL_OK : sli_refuse(SL_ERR_ARGUMENT, wrong);
+    return wrong == NULL
+               ? SL_OK
+               : sli_refuse(wrong == sli_needs_threads ? SL_ERR_UNSUPPORTED : SL_ERR_ARGUMENT,
+                            wrong);
 }
 
 /* The list of rows of a call on n rows: NULL with SL_ALL or n is all rows, and stays NULL with the
