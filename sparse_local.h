@@ -1,58 +1,58 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4e78f72ed06a0215
+ * FNV-1a of the lines after this comment, without the license: 5d3549fa3d59e9d9
  * The comments of the implementation are in src/impl.
  *
  * Contents
  *     60 intro.h      what the library does, a quick start, which call for which question, references
- *    190 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    234 config.h     macros that a user may define before the include, the version, and the integer types
- *    323 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    497 options.h    options of all calls, threads, and the allocator
- *    614 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    852 csc.h        sparse matrices: creation, checks, products, residuals
- *    945 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1021 factor.h     the numerical factorization P A P' = L D L'
- *   1150 solve.h      full solves, and the workspace of all solves
- *   1246 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1322 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1406 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1487 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1526 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1627 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1706 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1776 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1869 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1975 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2017 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2139 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2321 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2424 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2528 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2569 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2654 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2742 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2805 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2848 impl/ base: the compiler, status, memory, sorting, threads
- *   4128 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5037 impl/ matrix: sparse matrices of the caller and of the library
- *   5699 impl/ ordering: fill-reducing orderings of a graph
- *  10299 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12537 impl/ factor: the numbers of L and D
- *  15117 impl/ solve: full and local solves
- *  16663 impl/ singular: null spaces of semidefinite matrices
- *  17934 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19949 impl/ pivots: the order of the pivots by the values of a matrix
- *  20357 impl/ float: L in single precision
- *  20587 impl/ inverse: entries of the inverse, regions
- *  23546 impl/ change: a factor that follows changes of its matrix
- *  29832 impl/ fixed: rows fixed at given values
- *  30391 impl/ io: files that are replaced only when they are complete
- *  30609 impl/ files: Matrix Market files, 64-bit indices
- *  31155 impl/ save: factors in files
- *  33170 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33856 impl/ complex: complex Hermitian systems over real factors
- *  34359 impl/ packs: the tables through which the core calls packs
- *  34761 impl/ templates: the header includes them from itself, once for each instruction set
+ *    192 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    236 config.h     macros that a user may define before the include, the version, and the integer types
+ *    325 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    502 options.h    options of all calls, threads, and the allocator
+ *    619 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    857 csc.h        sparse matrices: creation, checks, products, residuals
+ *    950 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1026 factor.h     the numerical factorization P A P' = L D L'
+ *   1155 solve.h      full solves, and the workspace of all solves
+ *   1251 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1326 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1410 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1491 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1530 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1631 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1710 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1780 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1873 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1979 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2021 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2143 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2288 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2391 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2495 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2536 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2621 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2709 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2772 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2815 impl/ base: the compiler, status, memory, sorting, threads
+ *   4117 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5026 impl/ matrix: sparse matrices of the caller and of the library
+ *   5705 impl/ ordering: fill-reducing orderings of a graph
+ *  10305 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12553 impl/ factor: the numbers of L and D
+ *  15133 impl/ solve: full and local solves
+ *  16675 impl/ singular: null spaces of semidefinite matrices
+ *  17946 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19961 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20369 impl/ float: L in single precision
+ *  20599 impl/ inverse: entries of the inverse, regions
+ *  23556 impl/ change: a factor that follows changes of its matrix
+ *  29842 impl/ fixed: rows fixed at given values
+ *  30401 impl/ io: files that are replaced only when they are complete
+ *  30619 impl/ files: Matrix Market files, 64-bit indices
+ *  31165 impl/ save: factors in files
+ *  33138 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33824 impl/ complex: complex Hermitian systems over real factors
+ *  34329 impl/ packs: the tables through which the core calls packs
+ *  34731 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -114,7 +114,7 @@
  *  the pseudo-inverse of a singular A             sl_factor_pseudo_inverse               pseudo.h
  *  many solves by one call                        sl_batch_solve                         batch.h
  *  M + t K for many t                             sl_factor_create_sums                  several.h
- *  a factor in a file, mapped without a copy      sl_map_file                            save.h
+ *  a factor in a file, mapped without a copy      sl_save, sl_load                       save.h
  *  a complex Hermitian system                     sl_matrix_from_hermitian               complex.h
  *  a matrix from a file                           sl_matrix_read                         files.h
  */
@@ -129,11 +129,13 @@
  *              that releases it, such as sl_factor_free, which accepts NULL. Dense arguments are
  *              column-major with a leading dimension in elements; solves take row-major ones, too
  *              (SL_ROWS). Row numbers are the caller's, also in errors. A b-set comes before an
- *              x-set, and a length follows its array; a set is empty if its length is 0 and its
- *              pointer is not NULL. The library never prints or aborts. Threads share no mutable
- *              globals: each keeps its last error, and with SL_NO_THREAD_LOCAL nothing. For METIS,
- *              an option, see sl_symbolic_create. What is marked EXPERIMENTAL may change in any
- *              version; all else keeps its promises from 1.0 on.
+ *              x-set, and a length follows its array. A set that is NULL with the length SL_ALL or
+ *              n is all n rows; with 0 a set is empty. Any other length of NULL is refused, and so
+ *              is SL_ALL with a pointer that is not NULL. The library never prints or aborts.
+ *              Threads share no mutable globals: each keeps its last error, and with
+ *              SL_NO_THREAD_LOCAL nothing. For METIS, an option, see sl_symbolic_create. What is
+ *              marked EXPERIMENTAL may change in any version; all else keeps its promises from 1.0
+ *              on.
  * Lifetimes    An object keeps what it was made from: a factor, a plan, a region and a selected
  *              inverse their analysis, a plan its region, pins their factor. So all of them may be
  *              freed in any order, and on any threads with gcc, clang and MSVC; other compilers
@@ -252,8 +254,8 @@
  *  SL_NO_CLOCK                   makes all times in the statistics 0, for systems without clock();
  *                                set automatically for WASI.
  *  SL_NO_THREAD_LOCAL            does not keep the last error of each thread (sl_error_text).
- *  SL_NO_MMAP                    leaves out sl_map_file, and with it the headers of the system that
- *                                map files.
+ *  SL_NO_MMAP                    leaves out mapped files (SL_LOAD_MAPPED), and with them the
+ *                                headers of the system that map files.
  *  SL_API                        linkage of the public functions. By default, with gcc and clang on
  *                                ELF systems, they are hidden in the program or shared library that
  *                                has their bodies: copies in one process do not call each other.
@@ -366,6 +368,9 @@ typedef enum sl_status {
 /** A short description of a status; static storage. Any value is accepted. sl_error_text (stats.h)
  *  says more. */
 SL_API const char *sl_status_string(sl_status status);
+
+/** The count of a list of rows that is NULL: all n rows. */
+#define SL_ALL (-1)
 
 /** View of a sparse matrix in compressed columns: column j has rows i[p[j]] .. i[p[j+1]-1].
  *
@@ -505,8 +510,8 @@ typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *
 /** Threads, opt-in: all zero means none. Results do not depend on the number of threads. */
 typedef struct sl_threads {
     sl_int count; /* 0 or 1: the calling thread only */
-    /* the caller's thread pool; NULL: SL_PTHREADS or OpenMP if compiled with it, else serial
-     * execution: stats.threads is 1 */
+    /* the caller's thread pool; NULL: SL_PTHREADS or OpenMP; compiled with neither, a count above 1
+     * is SL_ERR_UNSUPPORTED */
     sl_parallel_for run;
     void *context; /* passed to run */
 } sl_threads;
@@ -1074,7 +1079,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *  stats  [out]     factor.
  *  Returns  as sl_factor_create; SL_ERR_READ_ONLY: a mapped factor, or one that
  *           is loaded in part (save.h). SL_ERR_MEMORY and
- *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load_file),
+ *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load),
  *           which allocates its fronts; SL_ERR_UNSUPPORTED only with SL_STORAGE_COMPLEX, or with
  *           null_vector_count where A has more null vectors than columns are given.
  *  Cost     as sl_factor_create, without its memory.
@@ -1254,10 +1259,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, s
  *  out    [out]  the plan.
  *  S      [in]   analysis of A, n columns; kept by the plan.
  *  bset   [in]   nb rows of A in 0..n-1, any order; b is 0 in the others, and values of a row given
- *                twice add up. NULL (nb is ignored): all n.
- *  xset   [in]   nx rows of A in 0..n-1, any order; a row given twice is answered twice. NULL (nx
- *                is ignored): all n. For an empty set pass a pointer that is not NULL, and nb or nx
- *                = 0; it is not dereferenced.
+ *                twice add up. NULL: nb is SL_ALL or n, all rows, or 0.
+ *  xset   [in]   nx rows of A in 0..n-1, any order; a row given twice is answered twice. NULL: nx
+ *                is SL_ALL or n, all rows, or 0.
  *  opt    [in]   allocator, region. If both sets are inside the region, the sweeps end at its
  *                boundary. If they are not, or if one is NULL, the region is not used.
  *  stats  [out]  plan; error.row: an index out of range.
@@ -1737,8 +1741,8 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
 /** Diagonal entries of the inverse: out[k] = (A^-1)(rows[k], rows[k]).
  *
  *  out    [out]  count values.
- *  rows   [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                ignored): all n.
+ *  rows   [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: count is
+ *                SL_ALL or n, all rows, or 0.
  *  Source   [HDA17] 5; [ET75], [SelInv].
  *  Example  tests/core/test_inverse_diagonal.c
  */
@@ -1787,8 +1791,8 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_block(const sl_factor *F, double *Z, 
  *  out    [out]  the selected inverse. It does not change if F is refactored or released, until
  *                sl_selected_refactor.
  *  F      [in]   the factor; its analysis is kept by the object.
- *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                ignored): all n.
+ *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: count is
+ *                SL_ALL or n, all rows, or 0.
  *  opt    [in]   allocator, threads. The object keeps the threads; without, those of F. The
  *                instruction set is that of F.
  *  stats  [out]  selected; error.row: a row out of range.
@@ -1830,8 +1834,8 @@ SL_API void sl_selected_free(sl_selected *Z);
  *
  *  out      [out]  count entries: out[k] is the entry of rows[k] and columns[k]. On error
  *                  untouched.
- *  rows     [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                  ignored): all n, which needs columns = NULL.
+ *  rows     [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: count is
+ *                  SL_ALL or n, all rows, or 0; columns is NULL then.
  *  columns  [in]   count columns of A in 0..n-1; NULL: columns = rows, the diagonal.
  *  stats    [out]  error.row, and error.column if columns are given.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or an index out of range; SL_ERR_OTHER_PATTERN: an entry
@@ -1895,8 +1899,8 @@ SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats);
  *  out    [out]  the region. For options.region of sl_plan_create.
  *  F      [in]   the factor, whose analysis the object keeps. When F is refactored, or a
  *                refactorization fails, plans in the region are refused until sl_region_refactor.
- *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                ignored): all n.
+ *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: count is
+ *                SL_ALL or n, all rows, or 0.
  *  Z      [in]   a selected inverse of the present numbers of F, or NULL. It is used if it contains
  *                all entries needed, for example those of a single row or of the subtree of one
  *                supernode; such a region is then preferred if it costs a solve at most twice as
@@ -2143,8 +2147,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_sums(sl_factor *const *factor
  *
  *     sl_saved_set set = {0}, got = {0};
  *     set.symbolic = S;  set.factor = F;
- *     sl_save_file(path, &set, NULL);
- *     sl_map_file(&got, path, SL_LOAD_CHECKED, NULL);       here or in any other process
+ *     sl_save(path, NULL, NULL, &set, NULL);
+ *     sl_load(&got, path, NULL, 0, SL_LOAD_MAPPED, NULL);   here or in any other process
  *     sl_factor_solve(got.factor, x, n, b, n, 1, NULL);     the bits that F gives
  *     sl_saved_set_free(&got);
  *
@@ -2181,123 +2185,90 @@ typedef struct sl_saved_set {
     void *reserved[6];       /* must be NULL; new fields take their place */
 } sl_saved_set;
 
-/** How a saved factor is checked before it is used. The header and the table of sections are always
- *  checked, with their checksums. */
-typedef enum sl_load_checks {
+/** How sl_load reads, to be combined by |. The header and the table of sections are always checked,
+ *  with their checksums. */
+typedef enum sl_load_flag {
     /* every index is in range and every structure consistent: with any bytes whatsoever, later
      * calls stay inside the memory of the objects and terminate. Numbers may be wrong */
     SL_LOAD_CHECKED = 0,
     /* no more than loading itself needs: for files that nobody else can write. A forged or damaged
      * file may crash the call or later ones */
-    SL_LOAD_TRUSTED,
+    SL_LOAD_TRUSTED = 1,
     /* as SL_LOAD_CHECKED, and the checksums of everything that is loaded: no byte of it has changed
-     * by accident */
-    SL_LOAD_VERIFIED
-} sl_load_checks;
+     * by accident. Not with SL_LOAD_TRUSTED */
+    SL_LOAD_VERIFIED = 2,
+    /* the arrays of the objects are those in the file or in memory, without a copy */
+    SL_LOAD_MAPPED = 4
+} sl_load_flag;
 
-/** Saves a set in the caller's memory, or only counts its bytes.
+/** Saves a set in a file or in the caller's memory, or counts its bytes.
  *
- *  memory  [out]     of any alignment; sl_map_memory needs 64 bytes. Not written on error, nor
- *                    beyond what the set takes. NULL: nothing is saved, only *bytes is set.
- *  bytes   [in,out]  in: the size of memory; not read if that is NULL. Out: what the set takes, a
- *                    multiple of 64, also if memory is too small; as before on any other error.
- *  set     [in]      an analysis and what belongs to it. A selected inverse may be saved without a
- *                    factor; regions may not. The same region may be given more than once.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: memory is too small, bytes, set or an object of it is NULL,
- *           n_regions is below 0, a reserved field is set, or regions without a factor;
- *           SL_ERR_STALE: a failed factor, or a selected inverse or region that is not of its
- *           present numbers; SL_ERR_MISMATCH: objects of different analyses, or from a file that a
- *           newer version has written and this one reads in part; SL_ERR_UNSUPPORTED:
- *           SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds.
- *  Cost     reads the objects twice; O(1 + n_regions) without memory.
- *  Threads  reads the objects.
- *  Example  tests/core/test_save.c, test_saved_set.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_save_memory(void *memory, size_t *bytes,
-                                               const sl_saved_set *set);
-
-/** Saves a set in a file.
- *
- *  The file gets its name only when it is complete and, on Linux, macOS and Windows, on its device.
+ *  A file gets its name only when it is complete and, on Linux, macOS and Windows, on its device.
  *  An error, a full disk or a crash leaves the old file as it was, and processes that have mapped
  *  the old file keep it. On Linux, a process that is killed leaves no temporary file on most file
  *  systems. A device or a symbolic link is written in place.
  *
- *  path  [in]  the name of the file.
- *  set   [in]  as in sl_save_memory.
- *  opt   [in]  allocator; may be NULL.
- *  Returns  as sl_save_memory; SL_ERR_IO; SL_ERR_MEMORY.
- *  Cost     reads the objects twice; waits until the file is on its device.
+ *  path    [in]      the name of the file, or NULL.
+ *  memory  [out]     of any alignment; SL_LOAD_MAPPED needs 64 bytes. Not written on error, nor
+ *                    beyond what the set takes. NULL: to path or, without one, only *bytes is set.
+ *  bytes   [in,out]  in: the size of memory, if that is not NULL. Out: what the set takes, a
+ *                    multiple of 64, also if memory is too small; as before on any other error. May
+ *                    be NULL with a path.
+ *  set     [in]      an analysis and what belongs to it. A selected inverse may be saved without a
+ *                    factor; regions may not. The same region may be given more than once.
+ *  opt     [in]      allocator; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: path and memory are both given, memory is too small, bytes, set
+ *           or an object of it is NULL, n_regions is below 0, a reserved field is set, or regions
+ *           without a factor; SL_ERR_STALE: a failed factor, or a selected inverse or region that
+ *           is not of its present numbers; SL_ERR_MISMATCH: objects of different analyses, or from
+ *           a file that a newer version has written and this one reads in part;
+ *           SL_ERR_UNSUPPORTED: SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds;
+ *           SL_ERR_IO; SL_ERR_MEMORY: of a file.
+ *  Cost     reads the objects twice, and waits until a file is on its device; O(1 + n_regions) to
+ *           count.
  *  Threads  reads the objects.
- *  Example  tests/core/test_save_file.c
+ *  Example  tests/core/test_save.c, test_saved_set.c, test_save_file.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_save_file(const char *path, const sl_saved_set *set,
-                                             const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_save(const char *path, void *memory, size_t *bytes,
+                                        const sl_saved_set *set, const sl_options *opt);
 
-/** Creates the objects that memory holds, as copies.
+/** Creates the objects that a file or memory holds, as copies or, by SL_LOAD_MAPPED, in place.
+ *
+ *  Mapped memory must outlive the objects and not change. A mapped file is read-only and shared
+ *  with other processes; it is unmapped when the last object is released, and its pages are read
+ *  when they are first needed. Replace it by sl_save or a rename: the system stops a process that
+ *  reads a part of a mapped file that was cut off, and changes show in the factor. Of copies the
+ *  file is closed when the call returns.
  *
  *  A selected inverse that was saved without a factor answers queries and can be refactored;
  *  sl_region_create refuses it.
  *
  *  set     [in,out]  in: `wanted` and `reserved`. Out: the objects, or NULL and 0 on error and for
  *                    what was not saved or is not wanted. Release with sl_saved_set_free.
- *  memory  [in]      what sl_save_memory or sl_save_file wrote, of any alignment.
- *  bytes   [in]      the size that was saved, exactly.
- *  checks  [in]      see sl_load_checks.
- *  opt     [in]      allocator, threads, isa; may be NULL. threads are those of refactorizations.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_UNSUPPORTED: not a saved factor, one that this version
- *           cannot read, the isa, or L in float where isa keeps it in double (sl_storage);
- *           SL_ERR_IO: incomplete, damaged or inconsistent; SL_ERR_TOO_LARGE: sizes do not fit
+ *  path    [in]      the file, or NULL.
+ *  memory  [in]      NULL, or what sl_save wrote, of any alignment; aligned to 64 bytes if mapped.
+ *  bytes   [in]      the size that was saved in memory, exactly; not read with a path.
+ *  flags   [in]      any of sl_load_flag, but not both SL_LOAD_TRUSTED and SL_LOAD_VERIFIED.
+ *  opt     [in]      allocator, threads, isa; may be NULL. threads are those of refactorizations;
+ *                    of mapped objects those of the inverse.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also if path and memory are both given or both NULL;
+ *           SL_ERR_UNSUPPORTED: not a saved factor, one that this version cannot read, the isa, or
+ *           L in float where isa keeps it in double (sl_storage); mapped: also the other byte
+ *           order and, of a file, SL_NO_MMAP and systems other than POSIX and Windows; SL_ERR_IO:
+ *           unreadable, incomplete, damaged or inconsistent; SL_ERR_TOO_LARGE: sizes do not fit
  *           size_t; SL_ERR_MEMORY.
  *  Cost     the copy, and checks in O(n + rows of the supernodes + entries of A), O(supernodes) for
  *           a selected inverse and O(roots and rows of the boundary, log n each, and rows below the
  *           roots) for regions. Never allocates more than `bytes` and the size of analysis and
- *           factor, or 8 times `bytes` with regions, whatever the memory contains.
+ *           factor, or 8 times `bytes` with regions, whatever the memory contains. Mapped: the
+ *           checks; with SL_LOAD_TRUSTED O(1) and O(rows of the boundary) for each region. Keeps
+ *           less than 4 KB, and for each region less than 500 bytes and 16 for each row of the
+ *           boundary and each subtree.
  *  Threads  any number of calls at once.
- *  Example  tests/core/test_save.c, test_saved_set.c
+ *  Example  tests/core/test_save.c, test_saved_set.c, test_save_file.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_load_memory(sl_saved_set *set, const void *memory, size_t bytes,
-                                               sl_load_checks checks, const sl_options *opt);
-
-/** sl_load_memory from a file, which is closed when the call returns.
- *
- *  path  [in]  the file.
- *  Arguments, status, cost and threads otherwise as in sl_load_memory; SL_ERR_IO: also if the file
- *  cannot be read.
- *  Example  tests/core/test_save_file.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_load_file(sl_saved_set *set, const char *path,
-                                             sl_load_checks checks, const sl_options *opt);
-
-/** Creates objects whose arrays are those in memory, without a copy.
- *
- *  memory  [in]  as in sl_load_memory, aligned to 64 bytes; borrowed, must outlive the objects and
- *                not change.
- *  set, bytes, checks, opt  as in sl_load_memory; isa only, threads are those of the inverse.
- *  Returns  as sl_load_memory; SL_ERR_ARGUMENT: also if memory is not aligned; SL_ERR_UNSUPPORTED:
- *           also if the byte order is not that of this processor.
- *  Cost     the checks; with SL_LOAD_TRUSTED O(1) and O(rows of the boundary) for each region.
- *           Keeps less than 4 KB, and for each region less than 500 bytes and 16 for each row of
- *           the boundary and each subtree.
- *  Threads  any number of calls at once.
- *  Example  tests/core/test_save.c, test_saved_set.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_map_memory(sl_saved_set *set, const void *memory, size_t bytes,
-                                              sl_load_checks checks, const sl_options *opt);
-
-/** sl_map_memory of a file that is mapped into memory, read-only and shared with other processes.
- *
- *  The file is unmapped when the last object is released. Replace it by sl_save_file or a rename:
- *  the system stops a process that reads a part of a mapped file that was cut off, and changes show
- *  in the factor. Pages are read when they are first needed.
- *
- *  path  [in]  the file.
- *  Arguments, status, cost and threads otherwise as in sl_map_memory; SL_ERR_IO: the file cannot be
- *  read; SL_ERR_UNSUPPORTED: also with SL_NO_MMAP, and on systems other than POSIX and Windows.
- *  Example  tests/core/test_save_file.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_map_file(sl_saved_set *set, const char *path,
-                                            sl_load_checks checks, const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_load(sl_saved_set *set, const char *path, const void *memory,
+                                        size_t bytes, unsigned flags, const sl_options *opt);
 
 /** Releases what a load put into a set, then sets it to all zero: regions and their array, selected
  *  inverse, factor, and the analysis at last.
@@ -2309,12 +2280,8 @@ SL_API SL_WARN_UNUSED sl_status sl_map_file(sl_saved_set *set, const char *path,
 SL_API void sl_saved_set_free(sl_saved_set *set);
 
 #else
-#define sl_save_memory(...) sl_save_memory_needs_SL_WITH_SAVE
-#define sl_save_file(...) sl_save_file_needs_SL_WITH_SAVE
-#define sl_load_memory(...) sl_load_memory_needs_SL_WITH_SAVE
-#define sl_load_file(...) sl_load_file_needs_SL_WITH_SAVE
-#define sl_map_memory(...) sl_map_memory_needs_SL_WITH_SAVE
-#define sl_map_file(...) sl_map_file_needs_SL_WITH_SAVE
+#define sl_save(...) sl_save_needs_SL_WITH_SAVE
+#define sl_load(...) sl_load_needs_SL_WITH_SAVE
 #define sl_saved_set_free(...) sl_saved_set_free_needs_SL_WITH_SAVE
 #endif
 #if defined(SL_WITH_CHANGE)
@@ -3295,8 +3262,30 @@ SLI_COLD static sl_status sli_no_memory(void) {
   return sli_refuse(SL_ERR_MEMORY, "the allocator returned NULL");
 }
 
+static const char sli_needs_threads[] =
+  "threads.count is above 1: compile with SL_PTHREADS or OpenMP, or set threads.run";
+
 SLI_NOINLINE static sl_status sli_argument(const char *wrong) {
-  return wrong == NULL ? SL_OK : sli_refuse(SL_ERR_ARGUMENT, wrong);
+  return wrong == NULL
+         ? SL_OK
+         : sli_refuse(wrong == sli_needs_threads ? SL_ERR_UNSUPPORTED : SL_ERR_ARGUMENT,
+             wrong);
+}
+
+SLI_NOINLINE static sl_status sli_list(const sl_int **rows, sl_int *count, sl_int n) {
+  static const sl_int sli_empty = 0;
+  if (*rows != NULL) {
+    return sli_argument(*count < 0 ? "the count of a list is below 0; SL_ALL goes with NULL"
+        : NULL);
+  }
+  if (*count == 0) {
+    *rows = &sli_empty;
+  } else if (*count == SL_ALL || *count == n) {
+    *count = n;
+  } else {
+    return sli_argument("the list is NULL: its count must be SL_ALL, n, or 0");
+  }
+  return SL_OK;
 }
 
 SLI_NOINLINE static sl_status sli_begin(void *out) {
@@ -3451,10 +3440,15 @@ SLI_NOINLINE static const char *sli_options_wrong(const sl_options *opt, int rea
 #else
   (void)reads;
 #endif
-  return opt->threads.count < 0 ? "options.threads.count is below 0"
-       : (opt->allocator.allocate == NULL) != (opt->allocator.release == NULL)
-         ? "options.allocator has only one of its two functions"
-         : NULL;
+  if ((opt->allocator.allocate == NULL) != (opt->allocator.release == NULL)) {
+    return "options.allocator has only one of its two functions";
+  }
+#if !defined(SL_PTHREADS) && !defined(_OPENMP)
+  if (opt->threads.count > 1 && opt->threads.run == NULL) {
+    return sli_needs_threads;
+  }
+#endif
+  return opt->threads.count < 0 ? "options.threads.count is below 0" : NULL;
 }
 
 SLI_INLINE const sl_threads *sli_threads_of(const sl_options *opt) {
@@ -3892,11 +3886,6 @@ SLI_INLINE void sli_starts_restore(sl_off *begin, sl_int n) {
 /* src/impl/base/parallel.h: runs work items on the caller's threads; a team of workers that share loops */
 
 SLI_INLINE sl_int sli_workers(const sl_threads *t) {
-#if !defined(SL_PTHREADS) && !defined(_OPENMP)
-  if (t->run == NULL) {
-    return 1;
-  }
-#endif
   return sli_max(t->count, 1);
 }
 
@@ -5034,7 +5023,7 @@ SLI_INLINE int sli_isa_row(sl_isa isa) {
 #endif
 
 /* matrix: sparse matrices of the caller and of the library */
-/* src/impl/matrix/csc.h: matrices in compressed columns: check, stored triangle, matrices of the library */
+/* src/impl/matrix/csc.h: matrices in compressed columns: check, hash of the pattern, matrices of the library */
 
 struct sl_matrix {
   sl_allocator allocator;
@@ -5189,6 +5178,23 @@ SL_API sl_csc sl_matrix_view(const sl_matrix *M) {
     A.x = M->x;
   }
   return A;
+}
+
+static int sli_pattern_hash(const sl_csc *A, sli_hash *out) {
+  const sl_int n = A->n_cols, nnz = sli_nnz(A);
+  uint32_t descends = n > 0 ? (uint32_t)A->p[0] : 0;
+  sl_int j;
+  for (j = 0; j < n; j++) {
+    const uint32_t next = (uint32_t)A->p[j + 1];
+    descends |= next | (next - (uint32_t)A->p[j]);
+  }
+  out->a = (uint64_t)A->n_rows;
+  out->b = (uint64_t)n;
+  if (n > 0 && (A->p[0] != 0 || descends >> 31 != 0)) {
+    return 0;
+  }
+  *out = sli_hash_ints(*out, A->p, n > 0 ? (sl_off)n + 1 : 0);
+  return sli_hash_indices(out, A->i, nnz, A->n_rows);
 }
 
 /* src/impl/matrix/csc_build.h: matrices from triplets, and transposes of patterns, both by counting sorts */
@@ -5696,7 +5702,7 @@ SL_API sl_status sl_matrix_submatrix(sl_matrix **out, const sl_csc *A, const sl_
 }
 
 /* ordering: fill-reducing orderings of a graph */
-/* src/impl/ordering/graph.h: adjacency graphs, permuted triangles and hash of a symmetric pattern; postorder */
+/* src/impl/ordering/graph.h: adjacency graphs and permuted triangles of a symmetric pattern; postorder */
 
 typedef struct sli_pattern {
   sl_int *begin;
@@ -5844,23 +5850,6 @@ static void sli_pattern_starts(sli_pattern *h, sl_int n, sl_int *at, sl_int rang
   h->begin[n] = total;
 }
 
-static int sli_pattern_hash(const sl_csc *A, sli_hash *out) {
-  const sl_int n = A->n_cols, nnz = sli_nnz(A);
-  uint32_t descends = n > 0 ? (uint32_t)A->p[0] : 0;
-  sl_int j;
-  for (j = 0; j < n; j++) {
-    const uint32_t next = (uint32_t)A->p[j + 1];
-    descends |= next | (next - (uint32_t)A->p[j]);
-  }
-  out->a = (uint64_t)A->n_rows;
-  out->b = (uint64_t)n;
-  if (n > 0 && (A->p[0] != 0 || descends >> 31 != 0)) {
-    return 0;
-  }
-  *out = sli_hash_ints(*out, A->p, n > 0 ? (sl_off)n + 1 : 0);
-  return sli_hash_indices(out, A->i, nnz, A->n_rows);
-}
-
 /* src/impl/ordering/job.h: what an ordering is given, and what it finds */
 
 typedef struct sli_septree {
@@ -5893,6 +5882,7 @@ typedef struct sli_order_job {
   const sli_graph *G;
   int is_small;
   int is_peeled;
+  int may_compress;
   const sl_int *weight;
 } sli_order_job;
 
@@ -7798,6 +7788,9 @@ typedef struct sli_mindeg {
   size_t room;
   uint64_t alive[SLI_MINDEG_MAX / 64];
   int has_avx2;
+  sl_int *local;
+  sl_int *order;
+  sl_int *bit;
 } sli_mindeg;
 
 SLI_ALWAYS_INLINE uint32_t sli_popcount(uint64_t w) {
@@ -7911,9 +7904,9 @@ static int sli_mindeg_has_avx2(sl_int n) {
   return n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
 }
 
-static sl_int sli_mindeg_number(const sli_level *g, const sl_int *vertices, sl_int count,
-    sl_int *local, sl_int *bit, sl_int *halo) {
-  sl_int k, bits = count;
+static sl_int sli_mindeg_number(const sli_mindeg *m, const sli_level *g, const sl_int *vertices,
+    sl_int count) {
+  sl_int k, bits = count, *local = m->local, *bit = m->bit, *halo = m->order;
   sl_off e;
   for (k = 0; k < count; k++) {
     local[vertices[k]] = k;
@@ -7930,9 +7923,9 @@ static sl_int sli_mindeg_number(const sli_level *g, const sl_int *vertices, sl_i
   return bits;
 }
 
-static int sli_mindeg_fill(sli_mindeg *m, const sli_level *g, const sl_int *vertices, sl_int count,
-    sl_int *local, sl_int *bit, sl_int *halo) {
-  const sl_int bits = sli_mindeg_number(g, vertices, count, local, bit, halo);
+static int sli_mindeg_fill(sli_mindeg *m, const sli_level *g, const sl_int *vertices,
+    sl_int count) {
+  const sl_int bits = sli_mindeg_number(m, g, vertices, count), *bit = m->bit;
   sl_int k;
   sl_off e;
   int fits;
@@ -7959,18 +7952,17 @@ static int sli_mindeg_fill(sli_mindeg *m, const sli_level *g, const sl_int *vert
     m->alive[k / 64] |= (uint64_t)1 << (k % 64);
   }
   for (k = 0; k < count; k++) {
-    local[vertices[k]] = -1;
+    m->local[vertices[k]] = -1;
   }
   for (k = 0; k < bits - count; k++) {
-    local[halo[k]] = -1;
+    m->local[m->order[k]] = -1;
   }
   return fits;
 }
 
-static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices, sl_int count,
-    sl_int *local, sl_int *order, sl_int *bit) {
-  sl_int k;
-  if (!sli_mindeg_fill(m, g, vertices, count, local, bit, order)) {
+static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices, sl_int count) {
+  sl_int k, *order = m->order;
+  if (!sli_mindeg_fill(m, g, vertices, count)) {
     return;
   }
 #if defined(SLI_X86) && defined(SLI_GNU)
@@ -8044,6 +8036,9 @@ static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_
     sli_dissect_worker counted, *w = d->workers == NULL ? &counted : &d->workers[k];
     sli_subgraph_layout(&w->subgraph, b, n, edges);
     w->next = next == NULL ? NULL : next + (size_t)k * (size_t)n;
+    w->mindeg.local = w->subgraph.local;
+    w->mindeg.order = w->subgraph.scratch;
+    w->mindeg.bit = w->subgraph.to;
     w->mindeg.key = SLI_TAKE(b, uint32_t, SLI_MINDEG_MAX);
     w->mindeg.room = (size_t)SLI_MINDEG_MAX * SLI_MINDEG_MAX / 32;
     w->mindeg.rows = SLI_TAKE(b, uint64_t, w->mindeg.room);
@@ -8639,8 +8634,7 @@ static void sli_septree_item(void *data, sl_int item, sl_int worker) {
     if (!sli_label_tree_is_leaf(&d->tree, node)) {
       sli_septree_sort_separator(d, w, node, mine, count);
     } else if (count > 1) {
-      sli_mindeg_order(&w->mindeg, &d->levels[0], mine, count, w->subgraph.local,
-          w->subgraph.scratch, w->subgraph.to);
+      sli_mindeg_order(&w->mindeg, &d->levels[0], mine, count);
     }
   }
 }
@@ -9009,6 +9003,7 @@ static sl_status sli_compress(const sli_order_job *job, sli_order_job *inner, sl
   const sli_graph *G = job->G;
   sl_status status = SL_OK;
   *inner = *job;
+  inner->may_compress = 0;
   c->G.n = !sli_compress_is_likely(G)
          ? G->n
          : sli_compress_find(G, job->scratch, (uint32_t *)(void *)job->perm, job->team);
@@ -9666,21 +9661,19 @@ static sl_status sli_order_mindeg(const sli_order_job *job, sl_int *sizes, sli_o
 /* src/impl/ordering/choice.h: what is known of a graph, and the order that it gets by one table */
 
 enum {
-  SLI_WANTS_METIS = 1 << 0,
-  SLI_WANTS_MINDEG = 1 << 1,
-  SLI_WANTS_ONE_FACTOR = 1 << 2,
-  SLI_WANTS_MANY_SOLVES = 1 << 3,
-  SLI_IS_IRREGULAR = 1 << 4,
-  SLI_IS_BIPARTITE = 1 << 5,
-  SLI_IS_EXPANDING = 1 << 7,
-  SLI_TRIED_LEVELS = 1 << 8,
-  SLI_IS_NARROW = 1 << 9,
-  SLI_TRIED_MINDEG = 1 << 10,
-  SLI_IS_CHEAP = 1 << 11,
-  SLI_HAS_CORE = 1 << 12,
-  SLI_HAS_NO_FILL = 1 << 13,
-  SLI_HAS_SHORT_PATHS = 1 << 14,
-  SLI_HAS_LITTLE_FILL = 1 << 15
+  SLI_WANTS_ONE_FACTOR = 1 << 0,
+  SLI_WANTS_MANY_SOLVES = 1 << 1,
+  SLI_IS_IRREGULAR = 1 << 2,
+  SLI_IS_BIPARTITE = 1 << 3,
+  SLI_IS_EXPANDING = 1 << 4,
+  SLI_TRIED_LEVELS = 1 << 5,
+  SLI_IS_NARROW = 1 << 6,
+  SLI_TRIED_MINDEG = 1 << 7,
+  SLI_IS_CHEAP = 1 << 8,
+  SLI_HAS_CORE = 1 << 9,
+  SLI_HAS_NO_FILL = 1 << 10,
+  SLI_HAS_SHORT_PATHS = 1 << 11,
+  SLI_HAS_LITTLE_FILL = 1 << 12
 };
 
 typedef struct sli_graph_facts {
@@ -9692,7 +9685,6 @@ typedef struct sli_graph_facts {
 typedef enum sli_order_way {
   SLI_TRY_LEVELS,
   SLI_TRY_MINDEG,
-  SLI_BY_METIS,
   SLI_BY_LEVELS,
   SLI_BY_MINDEG,
   SLI_BY_CUTS,
@@ -9703,8 +9695,6 @@ static const struct sli_order_rule {
   int all, none;
   sli_order_way way;
 } sli_order_rules[] = {
-  {SLI_WANTS_METIS, 0, SLI_BY_METIS},
-  {SLI_WANTS_MINDEG, 0, SLI_BY_MINDEG},
   {SLI_WANTS_ONE_FACTOR, SLI_TRIED_LEVELS, SLI_TRY_LEVELS},
   {SLI_WANTS_ONE_FACTOR | SLI_IS_NARROW, 0, SLI_BY_LEVELS},
   {SLI_WANTS_ONE_FACTOR, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
@@ -9787,16 +9777,12 @@ static int sli_graph_is_expanding(const sli_order_job *job) {
 static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
   const sli_graph *G = job->G;
   const sl_off n = G->n, mean = n > 0 ? G->begin[n] / n : 0;
-  const int is_for_one = job->is_hurried && job->ordering == SL_ORDERING_ND;
+  const int is_for_one = job->is_hurried;
   sli_graph_facts f;
   SLI_CLEAR(f);
   f.edges = G->begin[n];
-  f.bits = job->ordering == SL_ORDERING_METIS ? SLI_WANTS_METIS
-       : job->ordering == SL_ORDERING_MINDEG ? SLI_WANTS_MINDEG
-       : is_for_one ? SLI_WANTS_ONE_FACTOR
-       : job->block == 1 ? SLI_WANTS_MANY_SOLVES
-                           : 0;
-  if ((f.bits & (SLI_WANTS_ONE_FACTOR | SLI_WANTS_MANY_SOLVES)) == 0) {
+  f.bits = is_for_one ? SLI_WANTS_ONE_FACTOR : job->block == 1 ? SLI_WANTS_MANY_SOLVES : 0;
+  if (f.bits == 0) {
     return f;
   }
   f.bits |= sli_graph_is_irregular(G, job->is_peeled || is_for_one) ? SLI_IS_IRREGULAR : 0;
@@ -10096,6 +10082,11 @@ static sl_status sli_order_given(const sli_order_job *job) {
   return SL_OK;
 }
 
+static sl_status sli_order_quickly(const sli_order_job *job) {
+  sli_order_cost cost;
+  return sli_order_mindeg(job, job->scratch, &cost);
+}
+
 static sl_status sli_order_by_mindeg(const sli_order_job *job, sli_graph_facts *f) {
   const sl_status status = sli_order_mindeg(job, job->scratch, &f->cost);
   sli_graph_describe_mindeg(job, f);
@@ -10108,7 +10099,7 @@ static sl_status sli_order_compressed(const sli_order_job *job,
   sli_compressed c;
   sli_block b = {NULL, 0};
   sl_status status;
-  if (job->weight != NULL) {
+  if (!job->may_compress) {
     return order(job);
   }
   SLI_CLEAR(c);
@@ -10123,7 +10114,7 @@ static sl_status sli_order_compressed(const sli_order_job *job,
   return status;
 }
 
-static sl_status sli_order_reduced(const sli_order_job *job) {
+static sl_status sli_order_chosen(const sli_order_job *job) {
   sli_graph_facts f = sli_graph_describe(job);
   sl_status status = SL_OK;
   while (status == SL_OK) {
@@ -10135,14 +10126,10 @@ static sl_status sli_order_reduced(const sli_order_job *job) {
     case SLI_TRY_MINDEG:
       status = sli_order_by_mindeg(job, &f);
       break;
-    case SLI_BY_METIS:
-#if defined(SLI_METIS)
-      return sli_order_metis(job);
-#endif
     case SLI_BY_LEVELS:
       return SL_OK;
     case SLI_BY_MINDEG:
-      return (f.bits & SLI_TRIED_MINDEG) != 0 ? SL_OK : sli_order_by_mindeg(job, &f);
+      return (f.bits & SLI_TRIED_MINDEG) != 0 ? SL_OK : sli_order_quickly(job);
     case SLI_BY_CUTS:
       return sli_order_cuts(job, job->scratch, f.cost.pivots, (sl_off)f.cost.lists);
     case SLI_BY_DISSECTION:
@@ -10152,12 +10139,31 @@ static sl_status sli_order_reduced(const sli_order_job *job) {
   return status;
 }
 
-static sl_status sli_order_any(const sli_order_job *job) {
+static const struct sli_graph_ordering {
+  sl_ordering ordering;
+  int reduces;
+  sl_status (*order)(const sli_order_job *);
+} sli_graph_orderings[] = {{SL_ORDERING_ND, 1, sli_order_chosen},
+#if defined(SLI_METIS)
+               {SL_ORDERING_METIS, 0, sli_order_metis},
+#endif
+               {SL_ORDERING_MINDEG, 1, sli_order_quickly}};
+
+static const struct sli_graph_ordering *sli_graph_ordering_of(sl_ordering ordering) {
+  const size_t count = sizeof sli_graph_orderings / sizeof *sli_graph_orderings;
+  size_t k = 0;
+  while (k < count && sli_graph_orderings[k].ordering != ordering) {
+    k++;
+  }
+  return k < count ? &sli_graph_orderings[k] : NULL;
+}
+
+static sl_status sli_order_rest(const sli_order_job *job) {
+  const struct sli_graph_ordering *chosen = sli_graph_ordering_of(job->ordering);
   const sl_off n = job->G->n, mean = n > 0 ? job->G->begin[n] / n : 0;
-  return job->ordering != SL_ORDERING_METIS && mean * mean <= n &&
-           sli_graph_is_irregular(job->G, job->is_peeled)
-         ? sli_order_compressed(job, sli_order_reduced)
-         : sli_order_reduced(job);
+  return chosen->reduces && mean * mean <= n && sli_graph_is_irregular(job->G, job->is_peeled)
+         ? sli_order_compressed(job, chosen->order)
+         : chosen->order(job);
 }
 
 static sl_status sli_order_peeled(const sli_order_job *job) {
@@ -10178,7 +10184,7 @@ static sl_status sli_order_peeled(const sli_order_job *job) {
   rest.is_peeled = 1;
   status = sli_graph_make_canonical(&p.rest, job->a);
   if (status == SL_OK) {
-    status = sli_order_any(&rest);
+    status = sli_order_rest(&rest);
   }
   if (status == SL_OK) {
     sli_peel_expand(&p, job->perm);
@@ -10202,7 +10208,7 @@ static void sli_order_expand(const sli_order_job *job) {
 }
 
 static sl_status sli_order_by_graph(sli_order_job *job) {
-  const int may_peel = job->ordering != SL_ORDERING_METIS;
+  const int may_peel = sli_graph_ordering_of(job->ordering)->reduces;
   sli_graph G;
   sli_block b = {NULL, 0};
   sl_status status = SL_OK;
@@ -10220,7 +10226,7 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
   job->G = &G;
   if (status == SL_OK) {
     status =
-      may_peel && sli_peel_is_worthwhile(&G) ? sli_order_peeled(job) : sli_order_any(job);
+      may_peel && sli_peel_is_worthwhile(&G) ? sli_order_peeled(job) : sli_order_rest(job);
   }
   if (status == SL_OK && job->block > 1) {
     sli_order_expand(job);
@@ -10269,6 +10275,7 @@ static sl_status sli_order(sli_order_job *job) {
   job->block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
   job->is_small = job->A->n_cols / job->block < SLI_DISSECT_SMALL;
   job->is_peeled = 0;
+  job->may_compress = 1;
   job->weight = NULL;
   switch (job->ordering) {
   case SL_ORDERING_GIVEN:
@@ -10282,16 +10289,15 @@ static sl_status sli_order(sli_order_job *job) {
 #else
     return sli_order_refuse(job, SL_ERR_UNSUPPORTED, "options.ordering needs SL_METIS");
 #endif
-  case SL_ORDERING_ND:
-  case SL_ORDERING_MINDEG:
+  default:
     if (job->block == 1 && job->is_hurried && sli_order_forest(job)) {
       job->choice->has_tree = 1;
       return SL_OK;
     }
-    return sli_order_by_graph(job);
-  default:
-    return sli_order_refuse(job, SL_ERR_ARGUMENT,
-        "options.ordering is not a value of sl_ordering");
+    return sli_graph_ordering_of(job->ordering) != NULL
+           ? sli_order_by_graph(job)
+           : sli_order_refuse(job, SL_ERR_ARGUMENT,
+               "options.ordering is not a value of sl_ordering");
   }
 }
 
@@ -11021,8 +11027,9 @@ typedef struct sli_analysis {
   sl_int *old_of, *new_of;
   sl_int *parent, *counts, *super_of;
   sl_int *scratch;
-  uint64_t *list;
   sl_int *room;
+  uint64_t *list;
+  struct sli_structure_super *supers;
   const unsigned char *pairs;
   unsigned char *is_first;
   sl_int *earlier;
@@ -11215,7 +11222,7 @@ static void sli_fill_panels(const sli_analysis *w, sl_symbolic *S) {
 }
 
 static void sli_fill_structure(const sli_analysis *w, const sl_symbolic *S) {
-  sli_structure_super *all = (sli_structure_super *)(void *)w->list;
+  sli_structure_super *all = w->supers;
   sli_structure_count(w, S);
   sli_structure_sort(w, w->spare, w->scratch);
   sli_structure_start(w, S, all);
@@ -11685,8 +11692,14 @@ static void sli_schedule_work_layout(sli_schedule_work *w, sli_block *b, sl_int 
 
 /* src/impl/analysis/symbolic_build.h: from an order of the rows to the analysis: tree, supernodes, all arrays */
 
+SLI_INLINE void sli_next_phase(sli_block *b, size_t begin, size_t *end) {
+  *end = b->used > *end ? b->used : *end;
+  b->used = begin;
+}
+
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
   const uint64_t n = (uint64_t)rows;
+  size_t begin, end;
   w->n = rows;
   w->column = SLI_CUT(b, sl_int, nnz);
   w->perm = SLI_CUT(b, sl_int, rows);
@@ -11706,14 +11719,17 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   w->amalgamation.parent = SLI_CUT(b, sl_int, rows);
   w->amalgamation.width = SLI_CUT(b, sl_int, rows);
   w->amalgamation.below = SLI_CUT(b, sl_int, rows);
-  w->list = SLI_CUT(b, uint64_t, 5 * (n + 16) * (uint64_t)(w->workers / 8 + 1));
-  if (w->list != NULL) {
-    w->room = (sl_int *)(void *)w->list;
-    w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
-    w->amalgamation.cost = w->amalgamation.zeros + n;
-    w->amalgamation.merged_into = (sl_int *)(void *)(w->amalgamation.cost + n);
-    w->amalgamation.apart = w->amalgamation.merged_into + n;
-  }
+  begin = end = b->used;
+  w->room = SLI_CUT(b, sl_int, SLI_ANALYSIS_ROOM(n) * (uint64_t)sli_max(w->workers, 1));
+  sli_next_phase(b, begin, &end);
+  w->list = SLI_CUT(b, uint64_t, 2 * n);
+  w->amalgamation.zeros = SLI_CUT(b, sl_off, rows);
+  w->amalgamation.cost = SLI_CUT(b, sl_off, rows);
+  w->amalgamation.merged_into = SLI_CUT(b, sl_int, rows);
+  w->amalgamation.apart = SLI_CUT(b, sl_int, rows);
+  sli_next_phase(b, begin, &end);
+  w->supers = SLI_CUT(b, sli_structure_super, rows);
+  b->used = b->used > end ? b->used : end;
   if (w->pairs != NULL) {
     w->amalgamation.is_tied = SLI_TAKE(b, unsigned char, n);
     w->is_first = SLI_TAKE(b, unsigned char, n);
@@ -12769,7 +12785,7 @@ SLI_INLINE sl_status sli_inverse_check(const sl_factor *F) {
 }
 
 SLI_COLD static sl_status sli_refuse_mapped(void) {
-  return sli_refuse(SL_ERR_READ_ONLY, "it is mapped (sl_load_file copies it), of "
+  return sli_refuse(SL_ERR_READ_ONLY, "it is mapped (sl_load copies without SL_LOAD_MAPPED), of "
       "sl_factor_submatrix, or saved by a newer version");
 }
 
@@ -16454,12 +16470,6 @@ static void sli_query_stats(const sli_query *q, sl_stats *stats) {
   stats->plan.region_entries = q->used.entries;
 }
 
-static sl_status sli_check_sets(const sl_int *bset, sl_int nb, const sl_int *xset, sl_int nx) {
-  return bset != NULL && nb < 0 ? sli_argument("nb is below 0")
-       : xset != NULL && nx < 0 ? sli_argument("nx is below 0")
-                  : SL_OK;
-}
-
 /* src/impl/solve/plan.h: plan objects: queries compiled once and kept, and solves on them */
 
 struct sl_plan {
@@ -16509,7 +16519,8 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
   status = status == SL_OK
          ? sli_argument(S == NULL ? "S is NULL" : sli_options_wrong(opt, SLI_READS_REGION))
          : status;
-  status = status == SL_OK ? sli_check_sets(bset, nb, xset, nx) : status;
+  status = status == SL_OK ? sli_list(&bset, &nb, S->n) : status;
+  status = status == SL_OK ? sli_list(&xset, &nx, S->n) : status;
   if (status == SL_OK && ending != NULL && !ending->calls->belongs(ending, S)) {
     status = sli_refuse(SL_ERR_MISMATCH, "options.region is a region of another analysis");
   }
@@ -16627,7 +16638,8 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
   sli_local l;
   sl_status status;
   sli_stats_clear_error(stats);
-  status = F == NULL ? sli_argument("F is NULL") : sli_check_sets(bset, nb, xset, nx);
+  status = F == NULL ? sli_argument("F is NULL") : sli_list(&bset, &nb, F->S->n);
+  status = status == SL_OK ? sli_list(&xset, &nx, F->S->n) : status;
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
@@ -22106,12 +22118,14 @@ static sl_status sli_inverse_entries(sli_entries *q, sl_work *W, sl_stats *stats
 
 SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_int *rows,
     sl_int count, sl_work *W, sl_stats *stats) {
+  sl_status status;
   sli_entries q;
   sli_stats_clear_error(stats);
-  if (F == NULL) {
-    return sli_report(stats, sli_argument("F is NULL"));
+  status = F == NULL ? sli_argument("F is NULL") : sli_list(&rows, &count, F->S->n);
+  if (status != SL_OK) {
+    return sli_report(stats, status);
   }
-  q = sli_entries_of(F, out, rows, rows, rows == NULL ? F->S->n : count);
+  q = sli_entries_of(F, out, rows, rows, count);
   return sli_inverse_entries(&q, W, stats);
 }
 
@@ -22649,11 +22663,9 @@ SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const
   sli_stats_clear_error(stats);
   status = sli_begin(out);
   if (status == SL_OK) {
-    status =
-      sli_argument(F == NULL ? "F is NULL"
-          : set != NULL && count < 0 ? "count is below 0"
-          : sli_options_wrong(opt, SLI_READS_NOTHING));
+    status = sli_argument(F == NULL ? "F is NULL" : sli_options_wrong(opt, SLI_READS_NOTHING));
   }
+  status = status == SL_OK ? sli_list(&set, &count, F->S->n) : status;
   status = status == SL_OK ? sli_inverse_check(F) : status;
   if (status != SL_OK) {
     return sli_report(stats, status);
@@ -22757,10 +22769,9 @@ SL_API sl_status sl_selected_entries(const sl_selected *Z, double *out, const sl
   sli_stats_clear_error(stats);
   status = sli_argument(Z == NULL ? "Z is NULL"
       : rows == NULL && columns != NULL ? "rows is NULL, but columns is not"
-      : rows != NULL && count < 0 ? "count is below 0"
       : NULL);
+  status = status == SL_OK ? sli_list(&rows, &count, Z->traversal.S->n) : status;
   if (status == SL_OK) {
-    count = rows == NULL ? Z->traversal.S->n : count;
     status = sli_argument(count > 0 && out == NULL ? "out is NULL" : NULL);
   }
   if (status != SL_OK) {
@@ -23458,17 +23469,16 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
   sli_stats_clear_error(stats);
   status = sli_begin(out);
   if (status == SL_OK) {
-    status = sli_argument(F == NULL ? "F is NULL"
-        : set != NULL && count < 0
-        ? "count is below 0"
-        : sli_options_wrong(opt, SLI_READS_REGION_BYTES));
+    status =
+      sli_argument(F == NULL ? "F is NULL" : sli_options_wrong(opt, SLI_READS_REGION_BYTES));
   }
+  status = status == SL_OK ? sli_list(&set, &count, F->S->n) : status;
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
   SLI_CLEAR(start);
   start.S = F->S;
-  start.count = set == NULL ? F->S->n : count;
+  start.count = count;
   start.may_copy = Z != NULL;
   start.bytes_max = opt == NULL ? 0 : opt->region_bytes;
   status = sli_region_check_factor(F, Z);
@@ -31218,7 +31228,8 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
   }
 #else
   (void)path;
-  status = sli_refuse(SL_ERR_UNSUPPORTED, "files cannot be mapped here: sl_load_file");
+  status =
+    sli_refuse(SL_ERR_UNSUPPORTED, "files cannot be mapped here: load without SL_LOAD_MAPPED");
 #endif
   return status;
 }
@@ -32335,14 +32346,41 @@ SLI_COLD static void sli_save_write(sli_saved *f, sli_sink *to) {
   }
 }
 
-SL_API sl_status sl_save_memory(void *memory, size_t *bytes, const sl_saved_set *set) {
+SLI_COLD static sl_status sli_save_to_file(sli_saved *f, const char *path, const sl_allocator *a) {
+  const int saved = errno;
+  sli_output output;
+  sli_sink to;
+  sl_status status = sli_output_open(&output, path, a);
+  if (status == SL_OK) {
+    int complete;
+    to.memory = NULL;
+    to.file = output.file;
+    to.has_failed = 0;
+    sli_save_write(f, &to);
+    complete = !to.has_failed && sli_flush(output.file);
+    status = sli_output_close(&output, complete, a);
+  }
+  errno = saved;
+  return status;
+}
+
+SL_API sl_status sl_save(const char *path, void *memory, size_t *bytes, const sl_saved_set *set,
+    const sl_options *opt) {
+  const sl_allocator a = sli_allocator(opt);
   sli_saved f;
   sli_sink to;
   sl_status status;
-  status = sli_argument(bytes == NULL ? "bytes is NULL" : set == NULL ? "set is NULL" : NULL);
+  int is_short = 0;
+  status = sli_argument(path != NULL && memory != NULL ? "path and memory are both given"
+      : path == NULL && bytes == NULL ? "path and bytes are NULL"
+      : set == NULL ? "set is NULL"
+      : sli_options_wrong(opt, SLI_READS_NOTHING));
   status = status == SL_OK ? sli_save_prepare(&f, set) : status;
-  if (status == SL_OK) {
-    const int is_short = memory != NULL && *bytes < f.header.bytes;
+  if (status == SL_OK && path != NULL) {
+    status = sli_save_to_file(&f, path, &a);
+  }
+  if (status == SL_OK && bytes != NULL) {
+    is_short = memory != NULL && *bytes < f.header.bytes;
     *bytes = (size_t)f.header.bytes;
     status = sli_argument(is_short ? "memory is smaller than the set" : NULL);
   }
@@ -32355,31 +32393,6 @@ SL_API sl_status sl_save_memory(void *memory, size_t *bytes, const sl_saved_set 
   return status;
 }
 
-SL_API sl_status sl_save_file(const char *path, const sl_saved_set *set, const sl_options *opt) {
-  const int saved = errno;
-  const sl_allocator a = sli_allocator(opt);
-  sli_output output;
-  sli_saved f;
-  sli_sink to;
-  sl_status status;
-  status = sli_argument(path == NULL ? "path is NULL"
-      : set == NULL ? "set is NULL"
-      : sli_options_wrong(opt, SLI_READS_NOTHING));
-  status = status == SL_OK ? sli_save_prepare(&f, set) : status;
-  status = status == SL_OK ? sli_output_open(&output, path, &a) : status;
-  if (status == SL_OK) {
-    int complete;
-    to.memory = NULL;
-    to.file = output.file;
-    to.has_failed = 0;
-    sli_save_write(&f, &to);
-    complete = !to.has_failed && sli_flush(output.file);
-    status = sli_output_close(&output, complete, &a);
-  }
-  errno = saved;
-  return status;
-}
-
 /* src/impl/save/load.h: reads the table, an analysis and a factor from saved bytes, as copies or in place */
 
 typedef struct sli_reading {
@@ -32388,7 +32401,7 @@ typedef struct sli_reading {
   uint64_t size, at;
   int is_mapped;
   int swapped;
-  sl_load_checks checks;
+  unsigned flags;
   const sl_options *opt;
   sl_allocator allocator;
   sli_saved saved;
@@ -32499,7 +32512,7 @@ static int sli_table_is_expected(const sli_saved *f, const sli_saved *expected,
 
 static int sli_section_accept(const sli_reading *r, sl_int k, void *data, int always) {
   const sli_section *section = &r->saved.table[k];
-  if (always || r->checks == SL_LOAD_VERIFIED) {
+  if (always || (r->flags & SL_LOAD_VERIFIED) != 0) {
     sli_checksum sum = sli_checksum_begin();
     sli_checksum_add(&sum, data, (size_t)sli_round_up(section->bytes));
     if (sli_checksum_end(&sum) != section->checksum) {
@@ -32621,7 +32634,7 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
   S->is_partial = r->saved.header.write_version > SLI_WRITE_VERSION;
   if (S->rows_begin[S->n_supers] != a->rows || S->panel_begin[S->n_supers] != a->panels ||
       S->scatter_begin[S->n_supers] != a->entries ||
-      (r->checks != SL_LOAD_TRUSTED && !sli_check_analysis(S, a))) {
+      ((r->flags & SL_LOAD_TRUSTED) == 0 && !sli_check_analysis(S, a))) {
     sli_free(&r->allocator, m.block);
     return sli_damaged();
   }
@@ -32661,7 +32674,7 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
   sli_factor_layout(F, &b, (int)g->has_mass);
   F->rule.signs = g->has_signs ? F->rule.signs : NULL;
   F->stats.factor.bytes = m.head + m.bytes;
-  if (r->checks != SL_LOAD_TRUSTED && !sli_check_factor(F)) {
+  if ((r->flags & SL_LOAD_TRUSTED) == 0 && !sli_check_factor(F)) {
     sli_free(&r->allocator, m.block);
     return sli_damaged();
   }
@@ -32765,7 +32778,7 @@ SLI_COLD static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected *
   }
   ends = (const sl_off *)begin;
   if (bytes % sizeof(double) != 0 || (uint64_t)ends[count] != bytes / sizeof(double) ||
-      ((r->checks != SL_LOAD_TRUSTED || !r->is_mapped) &&
+      (((r->flags & SL_LOAD_TRUSTED) == 0 || !r->is_mapped) &&
       !sli_check_selected(draft->traversal.S, (const sl_int *)supers, ends, count))) {
     return sli_damaged();
   }
@@ -32885,7 +32898,7 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
   draft.is_immutable = r->is_mapped || F->S->is_partial;
   if (!sli_check_columns(roots, draft.extent.n_roots, F->S->n_supers) ||
       !sli_check_columns(rows, draft.extent.n_rows, F->S->n) ||
-      (r->checks != SL_LOAD_TRUSTED && !sli_check_extent(F->S, &draft.extent))) {
+      ((r->flags & SL_LOAD_TRUSTED) == 0 && !sli_check_extent(F->S, &draft.extent))) {
     return sli_damaged();
   }
   SLI_LAYOUT(&b, &r->allocator, status) {
@@ -32905,7 +32918,7 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
 static sl_status sli_read_regions_numbers(sli_reading *r, const sl_saved_set *set) {
   const uint32_t k = r->first_region + SLI_REGION_SECTIONS - 1;
   const sli_section *section = &r->saved.table[k];
-  const int verifies = r->checks == SL_LOAD_VERIFIED;
+  const int verifies = (r->flags & SL_LOAD_VERIFIED) != 0;
   sli_checksum sum = sli_checksum_begin();
   sl_int m;
   for (m = 0; m < set->n_regions; m++) {
@@ -33019,7 +33032,7 @@ SLI_COLD static sl_status sli_read(sli_reading *r, sl_saved_set *set) {
   sl_status status = sli_read_front(r);
   if (status == SL_OK && r->is_mapped && r->swapped) {
     return sli_refuse(SL_ERR_UNSUPPORTED, "the byte order is not that of this processor: "
-        "sl_load_file");
+        "load without SL_LOAD_MAPPED");
   }
   status = status == SL_OK ? sli_read_analysis(r, &set->symbolic) : status;
   if (status == SL_OK && wanted != SL_SAVED_ANALYSIS && r->has_factor) {
@@ -33037,13 +33050,6 @@ SLI_COLD static sl_status sli_read(sli_reading *r, sl_saved_set *set) {
   }
   return status;
 }
-
-typedef struct sli_origin {
-  const void *memory;
-  size_t bytes;
-  const char *path;
-  int is_mapped;
-} sli_origin;
 
 static sl_status sli_read_path(sli_reading *r, const char *path, sl_saved_set *set) {
   sl_status status;
@@ -33080,10 +33086,21 @@ static sl_status sli_map_path(sli_reading *r, const char *path, sl_saved_set *se
   return status;
 }
 
-static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load_checks checks,
-    const sl_options *opt) {
+static const char *sli_load_wrong(const char *path, const void *memory, unsigned flags) {
+  const unsigned both = SL_LOAD_TRUSTED | SL_LOAD_VERIFIED;
+  return (flags & ~(both | SL_LOAD_MAPPED)) != 0 ? "flags has a bit that is not of sl_load_flag"
+       : (flags & both) == both ? "SL_LOAD_TRUSTED excludes SL_LOAD_VERIFIED"
+       : path == NULL && memory == NULL ? "path and memory are both NULL"
+       : path != NULL && memory != NULL ? "path and memory are both given"
+       : path == NULL && (flags & SL_LOAD_MAPPED) != 0 && (uintptr_t)memory % SLI_ALIGN != 0
+         ? "memory is not aligned to 64 bytes"
+         : NULL;
+}
+
+SL_API sl_status sl_load(sl_saved_set *set, const char *path, const void *memory, size_t bytes,
+    unsigned flags, const sl_options *opt) {
   const int saved = errno;
-  const int is_file = from->path != NULL;
+  const char *wrong;
   sl_saved_content wanted;
   int has_more;
   sli_reading r;
@@ -33096,72 +33113,23 @@ static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load
   has_more = sli_set_has_more(set);
   memset(set, 0, sizeof *set);
   set->wanted = wanted;
-  status = sli_argument(
-      has_more ? sli_set_reserved
+  wrong = has_more ? sli_set_reserved
       : (unsigned)wanted > (unsigned)SL_SAVED_ANALYSIS
-      ? "set.wanted is not a value of sl_saved_content: is the set initialized?"
-      : (unsigned)checks > (unsigned)SL_LOAD_VERIFIED ? "checks is not a value of sl_load_checks"
-      : !is_file && from->memory == NULL ? "path or memory is NULL"
-      : !is_file && from->is_mapped && (uintptr_t)from->memory % SLI_ALIGN != 0
-      ? "memory is not aligned to 64 bytes"
-      : sli_options_wrong(opt, SLI_READS_ISA));
-  if (status != SL_OK) {
-    errno = saved;
-    return status;
-  }
-  SLI_CLEAR(r);
-  r.checks = checks;
-  r.opt = opt;
-  r.allocator = sli_allocator(opt);
-  r.is_mapped = from->is_mapped;
-  if (!is_file) {
-    status = sli_read_memory(&r, from->memory, from->bytes, set);
-  } else if (from->is_mapped) {
-    status = sli_map_path(&r, from->path, set);
-  } else {
-    status = sli_read_path(&r, from->path, set);
+        ? "set.wanted is not a value of sl_saved_content: is the set initialized?"
+        : sli_load_wrong(path, memory, flags);
+  status = sli_argument(wrong != NULL ? wrong : sli_options_wrong(opt, SLI_READS_ISA));
+  if (status == SL_OK) {
+    SLI_CLEAR(r);
+    r.flags = flags;
+    r.opt = opt;
+    r.allocator = sli_allocator(opt);
+    r.is_mapped = (flags & SL_LOAD_MAPPED) != 0;
+    status = path == NULL ? sli_read_memory(&r, memory, bytes, set)
+         : r.is_mapped ? sli_map_path(&r, path, set)
+                 : sli_read_path(&r, path, set);
   }
   errno = saved;
   return status;
-}
-
-static sli_origin sli_origin_in_memory(const void *memory, size_t bytes, int is_mapped) {
-  sli_origin from;
-  from.memory = memory;
-  from.bytes = bytes;
-  from.path = NULL;
-  from.is_mapped = is_mapped;
-  return from;
-}
-
-static sli_origin sli_origin_in_file(const char *path, int is_mapped) {
-  sli_origin from = sli_origin_in_memory(NULL, 0, is_mapped);
-  from.path = path;
-  return from;
-}
-
-SL_API sl_status sl_load_memory(sl_saved_set *set, const void *memory, size_t bytes,
-    sl_load_checks checks, const sl_options *opt) {
-  const sli_origin from = sli_origin_in_memory(memory, bytes, 0);
-  return sli_read_set(&from, set, checks, opt);
-}
-
-SL_API sl_status sl_map_memory(sl_saved_set *set, const void *memory, size_t bytes,
-    sl_load_checks checks, const sl_options *opt) {
-  const sli_origin from = sli_origin_in_memory(memory, bytes, 1);
-  return sli_read_set(&from, set, checks, opt);
-}
-
-SL_API sl_status sl_load_file(sl_saved_set *set, const char *path, sl_load_checks checks,
-    const sl_options *opt) {
-  const sli_origin from = sli_origin_in_file(path, 0);
-  return sli_read_set(&from, set, checks, opt);
-}
-
-SL_API sl_status sl_map_file(sl_saved_set *set, const char *path, sl_load_checks checks,
-    const sl_options *opt) {
-  const sli_origin from = sli_origin_in_file(path, 1);
-  return sli_read_set(&from, set, checks, opt);
 }
 
 #endif
@@ -34330,14 +34298,16 @@ SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, con
   status = status == SL_OK
          ? sli_argument(S == NULL ? "S is NULL" : sli_options_wrong(opt, SLI_READS_REGION))
          : status;
+  status = status == SL_OK ? sli_list(&bset, &nb, S->n / 2) : status;
+  status = status == SL_OK ? sli_list(&xset, &nx, S->n / 2) : status;
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
   c = sli_complex_sets_of(bset, nb, xset, nx);
   status = sli_complex_sets_create(&c, S->n, &a, stats);
   if (status == SL_OK) {
-    status = sl_plan_create(out, S, sli_complex_real(&c.first), bset == NULL ? 0 : 2 * nb,
-        sli_complex_real(&c.second), xset == NULL ? 0 : 2 * nx, opt, stats);
+    status = sl_plan_create(out, S, sli_complex_real(&c.first), 2 * nb,
+        sli_complex_real(&c.second), 2 * nx, opt, stats);
     sli_free(&a, c.memory);
   }
   return sli_report(stats, status);

@@ -85,7 +85,7 @@ static void refactor(surface *s, double c) {
 
 static void exact(double *out, surface *s, double c) {
     refactor(s, c);
-    bench_must(sl_inverse_diagonal(s->F, out, NULL, 0, s->W, NULL), "diagonal");
+    bench_must(sl_inverse_diagonal(s->F, out, NULL, SL_ALL, s->W, NULL), "diagonal");
 }
 
 static void exact_adf(surface *s) {

@@ -22,7 +22,7 @@ typedef struct file_case {
 /* Makes the region or the selected inverse over the factor of a set. */
 static void make(const file_case *c, sl_saved_set *set, sl_region **R) {
     if (c->what == PART_SELECTED) {
-        bench_must(sl_selected_create(&set->selected, set->factor, NULL, 0, NULL, NULL),
+        bench_must(sl_selected_create(&set->selected, set->factor, NULL, SL_ALL, NULL, NULL),
                    "selected inverse");
     } else {
         bench_must(sl_region_create(R, set->factor, c->patch, c->size, NULL, NULL, NULL), "region");
@@ -35,7 +35,7 @@ static void make(const file_case *c, sl_saved_set *set, sl_region **R) {
 static void map_and_make(const file_case *c) {
     sl_saved_set set = {.wanted = SL_SAVED_FACTOR}, made;
     sl_region *R = NULL;
-    bench_must(sl_map_file(&set, c->path, SL_LOAD_CHECKED, NULL), "mapping");
+    bench_must(sl_load(&set, c->path, NULL, 0, SL_LOAD_MAPPED, NULL), "mapping");
     made = set;
     make(c, &made, &R);
     sl_region_free(R);
@@ -46,8 +46,9 @@ static void map_and_make(const file_case *c) {
 static void open_set(const file_case *c, int way) {
     sl_saved_set set = {0};
     bench_must(way == 3
-                   ? sl_load_file(&set, c->path, SL_LOAD_CHECKED, NULL)
-                   : sl_map_file(&set, c->path, way == 1 ? SL_LOAD_CHECKED : SL_LOAD_TRUSTED, NULL),
+                   ? sl_load(&set, c->path, NULL, 0, SL_LOAD_CHECKED, NULL)
+                   : sl_load(&set, c->path, NULL, 0,
+                             (way == 1 ? SL_LOAD_CHECKED : SL_LOAD_TRUSTED) | SL_LOAD_MAPPED, NULL),
                "opening");
     sl_saved_set_free(&set);
 }
@@ -55,7 +56,7 @@ static void open_set(const file_case *c, int way) {
 static int same_bits(const file_case *c, const sl_saved_set *made) {
     sl_saved_set got = {0};
     int same = 1;
-    bench_must(sl_map_file(&got, c->path, SL_LOAD_VERIFIED, NULL), "mapping");
+    bench_must(sl_load(&got, c->path, NULL, 0, SL_LOAD_VERIFIED | SL_LOAD_MAPPED, NULL), "mapping");
     if (c->what == PART_SELECTED) {
         const sl_selected_arrays a = sl_selected_view(made->selected),
                                  b = sl_selected_view(got.selected);
@@ -132,7 +133,7 @@ void bench_saved_inverses(bench_run *run, bench_report *report, const bench_syst
         set.symbolic = system->S;
         set.factor = system->F;
         make(&c, &set, &R);
-        bench_must(sl_save_file(c.path, &set, NULL), "saving");
+        bench_must(sl_save(c.path, NULL, NULL, &set, NULL), "saving");
         if (bench_expect(run, same_bits(&c, &set),
                          "a region or selected inverse of a file differs")) {
             time_ways(report, system, &c);

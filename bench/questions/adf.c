@@ -34,7 +34,7 @@ static void call_refactor(void *state) {
 
 static void call_diagonal(void *state) {
     adf *a = state;
-    bench_must(sl_inverse_diagonal(a->F, a->out, NULL, 0, a->W, &a->stats), "diagonal");
+    bench_must(sl_inverse_diagonal(a->F, a->out, NULL, SL_ALL, a->W, &a->stats), "diagonal");
 }
 
 static void call_both(void *state) {
@@ -45,18 +45,18 @@ static void call_both(void *state) {
 static void call_threaded(void *state) {
     adf *a = state;
     bench_must(sl_factor_refactor(a->threaded, &a->system->A, NULL), "refactor");
-    bench_must(sl_inverse_diagonal(a->threaded, a->out, NULL, 0, a->W, &a->stats), "diagonal");
+    bench_must(sl_inverse_diagonal(a->threaded, a->out, NULL, SL_ALL, a->W, &a->stats), "diagonal");
 }
 
 static void call_threaded_diagonal(void *state) {
     adf *a = state;
-    bench_must(sl_inverse_diagonal(a->threaded, a->out, NULL, 0, a->W, &a->stats), "diagonal");
+    bench_must(sl_inverse_diagonal(a->threaded, a->out, NULL, SL_ALL, a->W, &a->stats), "diagonal");
 }
 
 static void call_selected_refactor(void *state) {
     adf *a = state;
     bench_must(sl_selected_refactor(a->Z, a->F, a->W), "selected refactor");
-    bench_must(sl_selected_entries(a->Z, a->out, NULL, NULL, 0, NULL), "diagonal");
+    bench_must(sl_selected_entries(a->Z, a->out, NULL, NULL, SL_ALL, NULL), "diagonal");
 }
 
 /* A set of NEAR nearby vertices, by forward sweeps that they share; for a set this small the
@@ -85,7 +85,7 @@ static adf adf_create(const bench_system *system) {
     bench_must(sl_factor_create(&a.F, system->S, &system->A, NULL, NULL), "factor");
     options.threads = bench_threads(2);
     bench_must(sl_factor_create(&a.threaded, system->S, &system->A, &options, NULL), "factor");
-    bench_must(sl_selected_create(&a.Z, a.F, NULL, 0, NULL, NULL), "selected inverse");
+    bench_must(sl_selected_create(&a.Z, a.F, NULL, SL_ALL, NULL, NULL), "selected inverse");
     bench_must(sl_work_create(&a.W, NULL), "workspace");
     a.out = bench_alloc((size_t)system->n, sizeof *a.out);
     a.b = bench_alloc((size_t)system->n, sizeof *a.b);

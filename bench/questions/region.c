@@ -207,7 +207,7 @@ static void time_copies(bench_run *run, bench_report *report, const places *t, c
     double seconds[2][PLACES];
     sl_selected *Z;
     int count = 0;
-    bench_must(sl_selected_create(&Z, t->system->F, NULL, 0, NULL, NULL), "selected inverse");
+    bench_must(sl_selected_create(&Z, t->system->F, NULL, SL_ALL, NULL, NULL), "selected inverse");
     for (int k = 0; k < PLACES; k++) {
         sl_stats stats;
         for (int copied = 1; copied >= 0; copied--) {

@@ -23,7 +23,7 @@ typedef struct saved_case {
     char path[500], copy[500];
     size_t bytes;
     unsigned char *buffer; /* CHUNK bytes */
-    sl_load_checks checks;
+    unsigned checks;
     uint64_t rng;
     sl_saved_set mapped; /* the factor of the solves, beside that in memory */
     sl_work *W;
@@ -39,20 +39,20 @@ static sl_saved_set set_of(const saved_case *c) {
 static void call_save(void *state) {
     const saved_case *c = state;
     const sl_saved_set set = set_of(c);
-    bench_must(sl_save_file(c->copy, &set, NULL), "saving");
+    bench_must(sl_save(c->copy, NULL, NULL, &set, NULL), "saving");
 }
 
 static void call_load(void *state) {
     const saved_case *c = state;
     sl_saved_set set = {0};
-    bench_must(sl_load_file(&set, c->path, c->checks, NULL), "loading");
+    bench_must(sl_load(&set, c->path, NULL, 0, c->checks, NULL), "loading");
     sl_saved_set_free(&set);
 }
 
 static void call_map(void *state) {
     const saved_case *c = state;
     sl_saved_set set = {0};
-    bench_must(sl_map_file(&set, c->path, c->checks, NULL), "mapping");
+    bench_must(sl_load(&set, c->path, NULL, 0, (c->checks) | SL_LOAD_MAPPED, NULL), "mapping");
     sl_saved_set_free(&set);
 }
 
@@ -103,7 +103,8 @@ static void map_again(void *state) {
     saved_case *c = state;
     sl_saved_set_free(&c->mapped);
     sl_work_free(c->W);
-    bench_must(sl_map_file(&c->mapped, c->path, SL_LOAD_TRUSTED, NULL), "mapping");
+    bench_must(sl_load(&c->mapped, c->path, NULL, 0, SL_LOAD_TRUSTED | SL_LOAD_MAPPED, NULL),
+               "mapping");
     bench_must(sl_work_create(&c->W, NULL), "workspace");
 }
 
@@ -127,8 +128,8 @@ static int check_bits(bench_run *run, saved_case *c) {
     bench_must(sl_work_create(&W, NULL), "workspace");
     for (int way = 0; way < 4; way++) {
         sl_saved_set set = {0};
-        bench_must(way < 3 ? sl_map_file(&set, c->path, (sl_load_checks)way, NULL)
-                           : sl_load_file(&set, c->path, SL_LOAD_CHECKED, NULL),
+        bench_must(way < 3 ? sl_load(&set, c->path, NULL, 0, ((unsigned)way) | SL_LOAD_MAPPED, NULL)
+                           : sl_load(&set, c->path, NULL, 0, SL_LOAD_CHECKED, NULL),
                    "mapping");
         for (int k = 0; k < 100; k++) {
             const sl_int v = bench_random_below(&rng, c->system->n);
@@ -188,7 +189,7 @@ static void time_files(bench_report *report, saved_case *c) {
 
 /* Mapping computes and does not wait, so that processor time leaves out other programs. */
 static void time_maps(bench_report *report, saved_case *c) {
-    static const sl_load_checks checks[3] = {SL_LOAD_TRUSTED, SL_LOAD_CHECKED, SL_LOAD_VERIFIED};
+    static const unsigned checks[3] = {SL_LOAD_TRUSTED, SL_LOAD_CHECKED, SL_LOAD_VERIFIED};
     static const char *const names[3] = {"map, trusted", "map, checked", "map, verified"};
     double times[3][OPENS];
     bench_sample found[3];
@@ -257,7 +258,7 @@ static void be_child(const saved_case *c, int solves, child_result *out) {
     sl_work *W;
     uint64_t rng = 99;
     const double before = private_bytes();
-    bench_must(sl_map_file(&set, c->path, SL_LOAD_CHECKED, NULL), "mapping");
+    bench_must(sl_load(&set, c->path, NULL, 0, SL_LOAD_MAPPED, NULL), "mapping");
     bench_must(sl_work_create(&W, NULL), "workspace");
     for (int k = 0; k < solves / 10; k++) {
         (void)solve_at(set.factor, bench_random_below(&rng, c->system->n), W);
@@ -301,7 +302,7 @@ static void time_processes(bench_run *run, bench_report *report, const saved_cas
     int ok = 1;
     sl_saved_set set = {
         0}; /* maps all pages here, so that those of a single child are shared too */
-    bench_must(sl_map_file(&set, c->path, SL_LOAD_VERIFIED, NULL), "mapping");
+    bench_must(sl_load(&set, c->path, NULL, 0, SL_LOAD_VERIFIED | SL_LOAD_MAPPED, NULL), "mapping");
     child_result *r = mmap(NULL, 4096, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (r == MAP_FAILED) {
         bench_must(SL_ERR_MEMORY, "sharing memory");
@@ -345,8 +346,8 @@ void bench_saved(bench_run *run) {
     c.buffer = bench_alloc(CHUNK, 1);
     c.rng = 5;
     const sl_saved_set set = set_of(&c);
-    bench_must(sl_save_memory(NULL, &c.bytes, &set), "saving");
-    bench_must(sl_save_file(c.path, &set, NULL), "saving");
+    bench_must(sl_save(NULL, NULL, &c.bytes, &set, NULL), "saving");
+    bench_must(sl_save(c.path, NULL, NULL, &set, NULL), "saving");
     if (check_bits(run, &c)) {
         bench_report *report = bench_report_open(run, "saved", "factors in files",
                                                  "cp or read; map, checked; a factor in memory");

@@ -21,8 +21,8 @@
  *  SL_NO_CLOCK                   makes all times in the statistics 0, for systems without clock();
  *                                set automatically for WASI.
  *  SL_NO_THREAD_LOCAL            does not keep the last error of each thread (sl_error_text).
- *  SL_NO_MMAP                    leaves out sl_map_file, and with it the headers of the system that
- *                                map files.
+ *  SL_NO_MMAP                    leaves out mapped files (SL_LOAD_MAPPED), and with them the
+ *                                headers of the system that map files.
  *  SL_API                        linkage of the public functions. By default, with gcc and clang on
  *                                ELF systems, they are hidden in the program or shared library that
  *                                has their bodies: copies in one process do not call each other.

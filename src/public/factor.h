@@ -59,7 +59,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *  stats  [out]     factor.
  *  Returns  as sl_factor_create; SL_ERR_READ_ONLY: a mapped factor, or one that
  *           is loaded in part (save.h). SL_ERR_MEMORY and
- *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load_file),
+ *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load),
  *           which allocates its fronts; SL_ERR_UNSUPPORTED only with SL_STORAGE_COMPLEX, or with
  *           null_vector_count where A has more null vectors than columns are given.
  *  Cost     as sl_factor_create, without its memory.

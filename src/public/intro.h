@@ -57,7 +57,7 @@
  *  the pseudo-inverse of a singular A             sl_factor_pseudo_inverse               pseudo.h
  *  many solves by one call                        sl_batch_solve                         batch.h
  *  M + t K for many t                             sl_factor_create_sums                  several.h
- *  a factor in a file, mapped without a copy      sl_map_file                            save.h
+ *  a factor in a file, mapped without a copy      sl_save, sl_load                       save.h
  *  a complex Hermitian system                     sl_matrix_from_hermitian               complex.h
  *  a matrix from a file                           sl_matrix_read                         files.h
  */
@@ -72,11 +72,13 @@
  *              that releases it, such as sl_factor_free, which accepts NULL. Dense arguments are
  *              column-major with a leading dimension in elements; solves take row-major ones, too
  *              (SL_ROWS). Row numbers are the caller's, also in errors. A b-set comes before an
- *              x-set, and a length follows its array; a set is empty if its length is 0 and its
- *              pointer is not NULL. The library never prints or aborts. Threads share no mutable
- *              globals: each keeps its last error, and with SL_NO_THREAD_LOCAL nothing. For METIS,
- *              an option, see sl_symbolic_create. What is marked EXPERIMENTAL may change in any
- *              version; all else keeps its promises from 1.0 on.
+ *              x-set, and a length follows its array. A set that is NULL with the length SL_ALL or
+ *              n is all n rows; with 0 a set is empty. Any other length of NULL is refused, and so
+ *              is SL_ALL with a pointer that is not NULL. The library never prints or aborts.
+ *              Threads share no mutable globals: each keeps its last error, and with
+ *              SL_NO_THREAD_LOCAL nothing. For METIS, an option, see sl_symbolic_create. What is
+ *              marked EXPERIMENTAL may change in any version; all else keeps its promises from 1.0
+ *              on.
  * Lifetimes    An object keeps what it was made from: a factor, a plan, a region and a selected
  *              inverse their analysis, a plan its region, pins their factor. So all of them may be
  *              freed in any order, and on any threads with gcc, clang and MSVC; other compilers

@@ -13,8 +13,8 @@ typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *
 /** Threads, opt-in: all zero means none. Results do not depend on the number of threads. */
 typedef struct sl_threads {
     sl_int count; /* 0 or 1: the calling thread only */
-    /* the caller's thread pool; NULL: SL_PTHREADS or OpenMP if compiled with it, else serial
-     * execution: stats.threads is 1 */
+    /* the caller's thread pool; NULL: SL_PTHREADS or OpenMP; compiled with neither, a count above 1
+     * is SL_ERR_UNSUPPORTED */
     sl_parallel_for run;
     void *context; /* passed to run */
 } sl_threads;

@@ -13,10 +13,9 @@
  *  out    [out]  the plan.
  *  S      [in]   analysis of A, n columns; kept by the plan.
  *  bset   [in]   nb rows of A in 0..n-1, any order; b is 0 in the others, and values of a row given
- *                twice add up. NULL (nb is ignored): all n.
- *  xset   [in]   nx rows of A in 0..n-1, any order; a row given twice is answered twice. NULL (nx
- *                is ignored): all n. For an empty set pass a pointer that is not NULL, and nb or nx
- *                = 0; it is not dereferenced.
+ *                twice add up. NULL: nb is SL_ALL or n, all rows, or 0.
+ *  xset   [in]   nx rows of A in 0..n-1, any order; a row given twice is answered twice. NULL: nx
+ *                is SL_ALL or n, all rows, or 0.
  *  opt    [in]   allocator, region. If both sets are inside the region, the sweeps end at its
  *                boundary. If they are not, or if one is NULL, the region is not used.
  *  stats  [out]  plan; error.row: an index out of range.

@@ -32,8 +32,8 @@
  *  out    [out]  the region. For options.region of sl_plan_create.
  *  F      [in]   the factor, whose analysis the object keeps. When F is refactored, or a
  *                refactorization fails, plans in the region are refused until sl_region_refactor.
- *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                ignored): all n.
+ *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: count is
+ *                SL_ALL or n, all rows, or 0.
  *  Z      [in]   a selected inverse of the present numbers of F, or NULL. It is used if it contains
  *                all entries needed, for example those of a single row or of the subtree of one
  *                supernode; such a region is then preferred if it costs a solve at most twice as

@@ -9,8 +9,8 @@
  *
  *     sl_saved_set set = {0}, got = {0};
  *     set.symbolic = S;  set.factor = F;
- *     sl_save_file(path, &set, NULL);
- *     sl_map_file(&got, path, SL_LOAD_CHECKED, NULL);       here or in any other process
+ *     sl_save(path, NULL, NULL, &set, NULL);
+ *     sl_load(&got, path, NULL, 0, SL_LOAD_MAPPED, NULL);   here or in any other process
  *     sl_factor_solve(got.factor, x, n, b, n, 1, NULL);     the bits that F gives
  *     sl_saved_set_free(&got);
  *
@@ -47,123 +47,90 @@ typedef struct sl_saved_set {
     void *reserved[6];       /* must be NULL; new fields take their place */
 } sl_saved_set;
 
-/** How a saved factor is checked before it is used. The header and the table of sections are always
- *  checked, with their checksums. */
-typedef enum sl_load_checks {
+/** How sl_load reads, to be combined by |. The header and the table of sections are always checked,
+ *  with their checksums. */
+typedef enum sl_load_flag {
     /* every index is in range and every structure consistent: with any bytes whatsoever, later
      * calls stay inside the memory of the objects and terminate. Numbers may be wrong */
     SL_LOAD_CHECKED = 0,
     /* no more than loading itself needs: for files that nobody else can write. A forged or damaged
      * file may crash the call or later ones */
-    SL_LOAD_TRUSTED,
+    SL_LOAD_TRUSTED = 1,
     /* as SL_LOAD_CHECKED, and the checksums of everything that is loaded: no byte of it has changed
-     * by accident */
-    SL_LOAD_VERIFIED
-} sl_load_checks;
+     * by accident. Not with SL_LOAD_TRUSTED */
+    SL_LOAD_VERIFIED = 2,
+    /* the arrays of the objects are those in the file or in memory, without a copy */
+    SL_LOAD_MAPPED = 4
+} sl_load_flag;
 
-/** Saves a set in the caller's memory, or only counts its bytes.
+/** Saves a set in a file or in the caller's memory, or counts its bytes.
  *
- *  memory  [out]     of any alignment; sl_map_memory needs 64 bytes. Not written on error, nor
- *                    beyond what the set takes. NULL: nothing is saved, only *bytes is set.
- *  bytes   [in,out]  in: the size of memory; not read if that is NULL. Out: what the set takes, a
- *                    multiple of 64, also if memory is too small; as before on any other error.
- *  set     [in]      an analysis and what belongs to it. A selected inverse may be saved without a
- *                    factor; regions may not. The same region may be given more than once.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: memory is too small, bytes, set or an object of it is NULL,
- *           n_regions is below 0, a reserved field is set, or regions without a factor;
- *           SL_ERR_STALE: a failed factor, or a selected inverse or region that is not of its
- *           present numbers; SL_ERR_MISMATCH: objects of different analyses, or from a file that a
- *           newer version has written and this one reads in part; SL_ERR_UNSUPPORTED:
- *           SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds.
- *  Cost     reads the objects twice; O(1 + n_regions) without memory.
- *  Threads  reads the objects.
- *  Example  tests/core/test_save.c, test_saved_set.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_save_memory(void *memory, size_t *bytes,
-                                               const sl_saved_set *set);
-
-/** Saves a set in a file.
- *
- *  The file gets its name only when it is complete and, on Linux, macOS and Windows, on its device.
+ *  A file gets its name only when it is complete and, on Linux, macOS and Windows, on its device.
  *  An error, a full disk or a crash leaves the old file as it was, and processes that have mapped
  *  the old file keep it. On Linux, a process that is killed leaves no temporary file on most file
  *  systems. A device or a symbolic link is written in place.
  *
- *  path  [in]  the name of the file.
- *  set   [in]  as in sl_save_memory.
- *  opt   [in]  allocator; may be NULL.
- *  Returns  as sl_save_memory; SL_ERR_IO; SL_ERR_MEMORY.
- *  Cost     reads the objects twice; waits until the file is on its device.
+ *  path    [in]      the name of the file, or NULL.
+ *  memory  [out]     of any alignment; SL_LOAD_MAPPED needs 64 bytes. Not written on error, nor
+ *                    beyond what the set takes. NULL: to path or, without one, only *bytes is set.
+ *  bytes   [in,out]  in: the size of memory, if that is not NULL. Out: what the set takes, a
+ *                    multiple of 64, also if memory is too small; as before on any other error. May
+ *                    be NULL with a path.
+ *  set     [in]      an analysis and what belongs to it. A selected inverse may be saved without a
+ *                    factor; regions may not. The same region may be given more than once.
+ *  opt     [in]      allocator; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: path and memory are both given, memory is too small, bytes, set
+ *           or an object of it is NULL, n_regions is below 0, a reserved field is set, or regions
+ *           without a factor; SL_ERR_STALE: a failed factor, or a selected inverse or region that
+ *           is not of its present numbers; SL_ERR_MISMATCH: objects of different analyses, or from
+ *           a file that a newer version has written and this one reads in part;
+ *           SL_ERR_UNSUPPORTED: SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds;
+ *           SL_ERR_IO; SL_ERR_MEMORY: of a file.
+ *  Cost     reads the objects twice, and waits until a file is on its device; O(1 + n_regions) to
+ *           count.
  *  Threads  reads the objects.
- *  Example  tests/core/test_save_file.c
+ *  Example  tests/core/test_save.c, test_saved_set.c, test_save_file.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_save_file(const char *path, const sl_saved_set *set,
-                                             const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_save(const char *path, void *memory, size_t *bytes,
+                                        const sl_saved_set *set, const sl_options *opt);
 
-/** Creates the objects that memory holds, as copies.
+/** Creates the objects that a file or memory holds, as copies or, by SL_LOAD_MAPPED, in place.
+ *
+ *  Mapped memory must outlive the objects and not change. A mapped file is read-only and shared
+ *  with other processes; it is unmapped when the last object is released, and its pages are read
+ *  when they are first needed. Replace it by sl_save or a rename: the system stops a process that
+ *  reads a part of a mapped file that was cut off, and changes show in the factor. Of copies the
+ *  file is closed when the call returns.
  *
  *  A selected inverse that was saved without a factor answers queries and can be refactored;
  *  sl_region_create refuses it.
  *
  *  set     [in,out]  in: `wanted` and `reserved`. Out: the objects, or NULL and 0 on error and for
  *                    what was not saved or is not wanted. Release with sl_saved_set_free.
- *  memory  [in]      what sl_save_memory or sl_save_file wrote, of any alignment.
- *  bytes   [in]      the size that was saved, exactly.
- *  checks  [in]      see sl_load_checks.
- *  opt     [in]      allocator, threads, isa; may be NULL. threads are those of refactorizations.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_UNSUPPORTED: not a saved factor, one that this version
- *           cannot read, the isa, or L in float where isa keeps it in double (sl_storage);
- *           SL_ERR_IO: incomplete, damaged or inconsistent; SL_ERR_TOO_LARGE: sizes do not fit
+ *  path    [in]      the file, or NULL.
+ *  memory  [in]      NULL, or what sl_save wrote, of any alignment; aligned to 64 bytes if mapped.
+ *  bytes   [in]      the size that was saved in memory, exactly; not read with a path.
+ *  flags   [in]      any of sl_load_flag, but not both SL_LOAD_TRUSTED and SL_LOAD_VERIFIED.
+ *  opt     [in]      allocator, threads, isa; may be NULL. threads are those of refactorizations;
+ *                    of mapped objects those of the inverse.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also if path and memory are both given or both NULL;
+ *           SL_ERR_UNSUPPORTED: not a saved factor, one that this version cannot read, the isa, or
+ *           L in float where isa keeps it in double (sl_storage); mapped: also the other byte
+ *           order and, of a file, SL_NO_MMAP and systems other than POSIX and Windows; SL_ERR_IO:
+ *           unreadable, incomplete, damaged or inconsistent; SL_ERR_TOO_LARGE: sizes do not fit
  *           size_t; SL_ERR_MEMORY.
  *  Cost     the copy, and checks in O(n + rows of the supernodes + entries of A), O(supernodes) for
  *           a selected inverse and O(roots and rows of the boundary, log n each, and rows below the
  *           roots) for regions. Never allocates more than `bytes` and the size of analysis and
- *           factor, or 8 times `bytes` with regions, whatever the memory contains.
+ *           factor, or 8 times `bytes` with regions, whatever the memory contains. Mapped: the
+ *           checks; with SL_LOAD_TRUSTED O(1) and O(rows of the boundary) for each region. Keeps
+ *           less than 4 KB, and for each region less than 500 bytes and 16 for each row of the
+ *           boundary and each subtree.
  *  Threads  any number of calls at once.
- *  Example  tests/core/test_save.c, test_saved_set.c
+ *  Example  tests/core/test_save.c, test_saved_set.c, test_save_file.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_load_memory(sl_saved_set *set, const void *memory, size_t bytes,
-                                               sl_load_checks checks, const sl_options *opt);
-
-/** sl_load_memory from a file, which is closed when the call returns.
- *
- *  path  [in]  the file.
- *  Arguments, status, cost and threads otherwise as in sl_load_memory; SL_ERR_IO: also if the file
- *  cannot be read.
- *  Example  tests/core/test_save_file.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_load_file(sl_saved_set *set, const char *path,
-                                             sl_load_checks checks, const sl_options *opt);
-
-/** Creates objects whose arrays are those in memory, without a copy.
- *
- *  memory  [in]  as in sl_load_memory, aligned to 64 bytes; borrowed, must outlive the objects and
- *                not change.
- *  set, bytes, checks, opt  as in sl_load_memory; isa only, threads are those of the inverse.
- *  Returns  as sl_load_memory; SL_ERR_ARGUMENT: also if memory is not aligned; SL_ERR_UNSUPPORTED:
- *           also if the byte order is not that of this processor.
- *  Cost     the checks; with SL_LOAD_TRUSTED O(1) and O(rows of the boundary) for each region.
- *           Keeps less than 4 KB, and for each region less than 500 bytes and 16 for each row of
- *           the boundary and each subtree.
- *  Threads  any number of calls at once.
- *  Example  tests/core/test_save.c, test_saved_set.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_map_memory(sl_saved_set *set, const void *memory, size_t bytes,
-                                              sl_load_checks checks, const sl_options *opt);
-
-/** sl_map_memory of a file that is mapped into memory, read-only and shared with other processes.
- *
- *  The file is unmapped when the last object is released. Replace it by sl_save_file or a rename:
- *  the system stops a process that reads a part of a mapped file that was cut off, and changes show
- *  in the factor. Pages are read when they are first needed.
- *
- *  path  [in]  the file.
- *  Arguments, status, cost and threads otherwise as in sl_map_memory; SL_ERR_IO: the file cannot be
- *  read; SL_ERR_UNSUPPORTED: also with SL_NO_MMAP, and on systems other than POSIX and Windows.
- *  Example  tests/core/test_save_file.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_map_file(sl_saved_set *set, const char *path,
-                                            sl_load_checks checks, const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_load(sl_saved_set *set, const char *path, const void *memory,
+                                        size_t bytes, unsigned flags, const sl_options *opt);
 
 /** Releases what a load put into a set, then sets it to all zero: regions and their array, selected
  *  inverse, factor, and the analysis at last.

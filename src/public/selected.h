@@ -17,8 +17,8 @@
  *  out    [out]  the selected inverse. It does not change if F is refactored or released, until
  *                sl_selected_refactor.
  *  F      [in]   the factor; its analysis is kept by the object.
- *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                ignored): all n.
+ *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: count is
+ *                SL_ALL or n, all rows, or 0.
  *  opt    [in]   allocator, threads. The object keeps the threads; without, those of F. The
  *                instruction set is that of F.
  *  stats  [out]  selected; error.row: a row out of range.
@@ -60,8 +60,8 @@ SL_API void sl_selected_free(sl_selected *Z);
  *
  *  out      [out]  count entries: out[k] is the entry of rows[k] and columns[k]. On error
  *                  untouched.
- *  rows     [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                  ignored): all n, which needs columns = NULL.
+ *  rows     [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: count is
+ *                  SL_ALL or n, all rows, or 0; columns is NULL then.
  *  columns  [in]   count columns of A in 0..n-1; NULL: columns = rows, the diagonal.
  *  stats    [out]  error.row, and error.column if columns are given.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or an index out of range; SL_ERR_OTHER_PATTERN: an entry

@@ -49,6 +49,9 @@ typedef enum sl_status {
  *  says more. */
 SL_API const char *sl_status_string(sl_status status);
 
+/** The count of a list of rows that is NULL: all n rows. */
+#define SL_ALL (-1)
+
 /** View of a sparse matrix in compressed columns: column j has rows i[p[j]] .. i[p[j+1]-1].
  *
  *  The caller owns the arrays; no call keeps a pointer to them. The rows of a column may be in any

@@ -53,10 +53,10 @@ static void saved(sl_symbolic *S, sl_factor *F, const double *b, const double *f
     memset(&got, 0, sizeof got);
     set.symbolic = S;
     set.factor = F;
-    HOLDS(sl_save_memory(NULL, &bytes, &set) == SL_OK);
+    HOLDS(sl_save(NULL, NULL, &bytes, &set, NULL) == SL_OK);
     memory = malloc(bytes);
-    HOLDS(memory != NULL && sl_save_memory(memory, &bytes, &set) == SL_OK);
-    HOLDS(sl_load_memory(&got, memory, bytes, SL_LOAD_VERIFIED, NULL) == SL_OK);
+    HOLDS(memory != NULL && sl_save(NULL, memory, &bytes, &set, NULL) == SL_OK);
+    HOLDS(sl_load(&got, NULL, memory, bytes, SL_LOAD_VERIFIED, NULL) == SL_OK);
     HOLDS(got.factor != NULL && got.n_regions == 0);
     HOLDS(sl_factor_solve(got.factor, y, N, b, N, 1, NULL) == SL_OK);
     HOLDS(memcmp(y, full, sizeof y) == 0);

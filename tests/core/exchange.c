@@ -52,7 +52,7 @@ static void make(sl_saved_set *set, sl_region **R, const char *storage) {
     opt.storage = strcmp(storage, "float") == 0 ? SL_STORAGE_FLOAT : SL_STORAGE_DOUBLE;
     must(sl_symbolic_create(&set->symbolic, &A, NULL, NULL), "analysis");
     must(sl_factor_create(&set->factor, set->symbolic, &A, &opt, NULL), "factor");
-    must(sl_selected_create(&set->selected, set->factor, NULL, 0, NULL, NULL), "selected");
+    must(sl_selected_create(&set->selected, set->factor, NULL, SL_ALL, NULL, NULL), "selected");
     must(sl_region_create(R, set->factor, rows, 4, NULL, NULL, NULL), "region");
     set->regions = R;
     set->n_regions = 1;
@@ -70,7 +70,7 @@ static void ask(const sl_saved_set *set, double *x) {
         b[k] = 1 + k % 5;
     }
     must(sl_factor_solve(set->factor, x, N, b, N, 1, NULL), "solve");
-    must(sl_selected_entries(set->selected, x + N, NULL, NULL, 0, NULL), "diagonal");
+    must(sl_selected_entries(set->selected, x + N, NULL, NULL, SL_ALL, NULL), "diagonal");
     must(sl_plan_create(&P, set->symbolic, rows, 1, rows, 1, &opt, NULL), "plan");
     must(sl_plan_solve(P, set->factor, x + 2 * N, 1, b, 1, 1, NULL), "solve in the region");
     sl_plan_free(P);
@@ -85,11 +85,11 @@ int main(int argc, char **argv) {
     }
     make(&made, &R, argv[1]);
     if (argc == 3) {
-        must(sl_save_file(argv[2], &made, NULL), argv[2]);
+        must(sl_save(argv[2], NULL, NULL, &made, NULL), argv[2]);
     } else {
         /* D and the order are those of double; L in float is rounded once more */
         const double bound = strcmp(argv[1], "float") == 0 ? 1e-5 : 1e-13;
-        must(sl_load_file(&loaded, argv[3], SL_LOAD_VERIFIED, NULL), argv[3]);
+        must(sl_load(&loaded, argv[3], NULL, 0, SL_LOAD_VERIFIED, NULL), argv[3]);
         ask(&made, own);
         ask(&loaded, other);
         for (int k = 0; k < 2 * N + 1; k++) {
@@ -98,7 +98,7 @@ int main(int argc, char **argv) {
                 return 1;
             }
         }
-        must(sl_save_file(argv[2], &loaded, NULL), argv[2]);
+        must(sl_save(argv[2], NULL, NULL, &loaded, NULL), argv[2]);
         sl_saved_set_free(&loaded);
     }
     sl_region_free(R);

@@ -194,7 +194,7 @@ static int set_up(void **state) {
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(o->failed, &bad, NULL));
     free(zeros);
     SL_CHECK(sl_plan_create(&o->P, o->good.S, o->bset, NB, o->xset, NX, NULL, NULL));
-    SL_CHECK(sl_selected_create(&o->Z, o->good.F, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_selected_create(&o->Z, o->good.F, NULL, SL_ALL, NULL, NULL));
     SL_CHECK(sl_region_create(&o->R, o->good.F, o->bset, NB, NULL, NULL, NULL));
     SL_CHECK(sl_work_create(&o->W, NULL));
     return 0;

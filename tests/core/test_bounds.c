@@ -65,7 +65,7 @@ static void bounds_in_blocks_are_those_alone(void **state) {
         options_set_variant(&opt, &variants, v);
         factored_t y = factored_make(GEN_GRID2, ROWS, 1, 0, &opt);
         SL_CHECK(sl_factor_certify(y.F, &y.M.view, SL_ESTIMATED, NULL, NULL));
-        SL_CHECK(sl_plan_create(&P, y.S, NULL, 0, NULL, 0, NULL, NULL));
+        SL_CHECK(sl_plan_create(&P, y.S, NULL, SL_ALL, NULL, SL_ALL, NULL, NULL));
         for (sl_int nrhs = 7; nrhs <= MOST; nrhs += nrhs < 31 ? 8 : 1) {
             SL_CHECK(
                 sl_plan_solve_bounded(P, y.F, X, ROWS, bounds, B, ROWS, nrhs, NULL, NULL, NULL));

@@ -109,8 +109,8 @@ static void one_tree_of_two_is_centered(void **state) {
         SL_CHECK(sl_work_create(&W, NULL));
         SL_CHECK(sl_factor_certify(F, &A, SL_ESTIMATED, W, &stats));
         eta[tiny] = stats.certificate.eta;
-        SL_CHECK(sl_plan_create(&all, S, NULL, 0, NULL, 0, NULL, NULL));
-        SL_CHECK(sl_plan_create(&some, S, NULL, 0, xset, 3, NULL, NULL));
+        SL_CHECK(sl_plan_create(&all, S, NULL, SL_ALL, NULL, SL_ALL, NULL, NULL));
+        SL_CHECK(sl_plan_create(&some, S, NULL, SL_ALL, xset, 3, NULL, NULL));
         SL_CHECK(sl_plan_solve_bounded(all, F, y, 7, bounds, b, 7, 1, NULL, W, NULL));
         SL_CHECK(sl_plan_solve_bounded(some, F, part, 3, part_bounds, b, 7, 1, NULL, W, NULL));
         for (int k = 0; k < 7; k++) {
@@ -187,7 +187,7 @@ static void no_rows_and_infinite_ones(void **state) {
     sl_factor *F = factor_of(&A, &S, NULL);
     SL_CHECK(sl_factor_certify(F, &A, SL_GUARANTEED, NULL, NULL));
     SL_CHECK(sl_plan_create(&none, S, i, 1, i, 0, NULL, NULL));
-    SL_CHECK(sl_plan_create(&all, S, NULL, 0, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_plan_create(&all, S, NULL, SL_ALL, NULL, SL_ALL, NULL, NULL));
     SL_CHECK(sl_plan_solve_bounded(none, F, NULL, 1, NULL, &b, 1, 1, NULL, NULL, NULL));
     SL_EXPECT(SL_ERR_NOT_FINITE,
               sl_plan_solve_bounded(all, F, &x, 1, &bound, &b, 1, 1, NULL, NULL, NULL));

@@ -18,7 +18,7 @@ static void bounds_scale_with_the_rows(void **state) {
     for (int k = 0; k < 100; k++) {
         exponent[k] = k % 2 ? 280 : -280;
     }
-    SL_CHECK(sl_plan_create(&P, y.S, bset, 2, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_plan_create(&P, y.S, bset, 2, NULL, SL_ALL, NULL, NULL));
     for (int turn = 0; turn < 2; turn++) {
         SL_CHECK(sl_factor_refactor(y.F, &A, NULL));
         SL_CHECK(sl_factor_certify(y.F, &A, SL_GUARANTEED, NULL, NULL));
@@ -58,7 +58,7 @@ static void unknown_norms_give_infinite_bounds(void **state) {
     SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
     SL_CHECK(sl_factor_certify(F, &A, SL_GUARANTEED, NULL, NULL));
-    SL_CHECK(sl_plan_create(&P, S, bset, 2, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_plan_create(&P, S, bset, 2, NULL, SL_ALL, NULL, NULL));
     SL_CHECK(sl_plan_solve_bounded(P, F, x, 4, bounds, b, 2, 3, NULL, NULL, NULL));
     for (int k = 0; k < 3 * 4; k++) {
         assert_true(bounds[k] == (k / 4 == 1 || k % 4 > 1 ? 0.0 : HUGE_VAL));

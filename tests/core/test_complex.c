@@ -47,7 +47,7 @@ static void local_solves_equal_full_ones(void **state) {
     sl_plan_free(P);
     /* all rows, and none */
     double all[2 * N];
-    SL_CHECK(sl_complex_plan_create(&P, y.S, bset, 3, NULL, -7, NULL, NULL));
+    SL_CHECK(sl_complex_plan_create(&P, y.S, bset, 3, NULL, SL_ALL, NULL, NULL));
     SL_CHECK(sl_plan_solve(P, y.F, all, 2 * N, b, 6, 1, NULL));
     SAME_VALUES(all, full, 2 * N);
     sl_plan_free(P);

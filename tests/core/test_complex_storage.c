@@ -183,7 +183,7 @@ static void check_other_calls(const pair_t *y, sl_isa isa) {
         SL_CHECK(sl_complex_logdet(y->F[k], &logdet[k], &sign[k]));
         SL_CHECK(sl_inverse_block(y->F[k], block[k], 4, rows, 4, columns, 2, NULL, NULL));
         sl_factor_stats(y->F[k], &stats[k]);
-        SL_CHECK(sl_selected_create(&Z, y->F[k], NULL, 0, NULL, NULL));
+        SL_CHECK(sl_selected_create(&Z, y->F[k], NULL, SL_ALL, NULL, NULL));
         SL_CHECK(sl_selected_entries(Z, diagonal[k], NULL, NULL, y->n, NULL));
         SL_CHECK(sl_factor_rcond(y->F[k], &y->A, &rcond[k], NULL));
         sl_selected_free(Z);

@@ -62,11 +62,11 @@ static void no_set_is_all_rows(void **state) {
     double b[2 * N] = {1, 2, 0, 0, 3, 4}, part[4] = {3, 4, 1, 2}, full[2 * N], x[2 * N];
     sl_plan *P;
     SL_CHECK(sl_factor_solve(y.F, full, 2 * N, b, 2 * N, 1, NULL));
-    SL_CHECK(sl_complex_plan_create(&P, y.S, rows, 2, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_complex_plan_create(&P, y.S, rows, 2, NULL, SL_ALL, NULL, NULL));
     SL_CHECK(sl_plan_solve(P, y.F, x, 2 * N, part, 4, 1, NULL));
     assert_memory_equal(x, full, sizeof x);
     sl_plan_free(P);
-    SL_CHECK(sl_complex_plan_create(&P, y.S, NULL, 0, rows, 2, NULL, NULL));
+    SL_CHECK(sl_complex_plan_create(&P, y.S, NULL, SL_ALL, rows, 2, NULL, NULL));
     SL_CHECK(sl_plan_solve(P, y.F, x, 4, b, 2 * N, 1, NULL));
     assert_memory_equal(x, full + 4, 2 * sizeof *x);
     assert_memory_equal(x + 2, full, 2 * sizeof *x);

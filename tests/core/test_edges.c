@@ -10,7 +10,7 @@ static void queries_of_null_are_zero(void **state) {
     factored_t y = factored_make(GEN_GRID2, N, 1, 0, NULL);
     sl_plan *P = NULL;
     sl_stats none;
-    SL_CHECK(sl_plan_create(&P, y.S, NULL, 0, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_plan_create(&P, y.S, NULL, SL_ALL, NULL, SL_ALL, NULL, NULL));
     const sl_symbolic_arrays symbolic = sl_symbolic_view(NULL);
     const sl_factor_arrays factor = sl_factor_view(NULL);
     assert_int_equal(symbolic.n, 0);
@@ -191,7 +191,7 @@ static void one_array_may_be_both_sides_in_part(void **state) {
     sl_selected *T = NULL;
     double entry = 7;
     const sl_int row[1] = {3}, outside[3] = {-1, N, INT32_MAX};
-    SL_CHECK(sl_selected_create(&T, y.F, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_selected_create(&T, y.F, NULL, SL_ALL, NULL, NULL));
     for (int k = 0; k < 3; k++) {
         SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(T, &entry, &outside[k], row, 1, NULL));
         SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(T, &entry, row, &outside[k], 1, NULL));

@@ -143,11 +143,11 @@ static void files_that_are_not_read_to_their_end(void **state) {
     sl_status status = SL_ERR_IO;
     sl_saved_set set = {0};
     int reads = 0;
-    SL_CHECK(sl_save_file(path, set_of(&q), NULL));
+    SL_CHECK(sl_save(path, NULL, NULL, set_of(&q), NULL));
     for (; status != SL_OK; reads++) {
         fault = FREAD_FAILS;
         fault_number = reads;
-        status = sl_load_file(&set, path, SL_LOAD_VERIFIED, &opt);
+        status = sl_load(&set, path, NULL, 0, SL_LOAD_VERIFIED, &opt);
         fault = NO_FAULT;
         assert_true(status == SL_OK || status == SL_ERR_IO);
         assert_true((set.symbolic != NULL) == (status == SL_OK));

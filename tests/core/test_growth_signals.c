@@ -56,7 +56,7 @@ static void local_refinement_reports_a_large_error(void **state) {
     variant_list_t variants = variants_present();
     sl_plan *P = NULL;
     sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
-    SL_CHECK(sl_plan_create(&P, S, NULL, 0, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_plan_create(&P, S, NULL, SL_ALL, NULL, SL_ALL, NULL, NULL));
     for (int k = 0; k < variants.count; k++) {
         for (int off = 0; off < 2; off++) {
             const double B[3] = {1.0, -2.0, 0.5};

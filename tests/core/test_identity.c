@@ -91,7 +91,7 @@ static void a_selected_inverse_of_a_released_factor(void **state) {
         sl_region *R = NULL;
         SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
         SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
-        SL_CHECK(sl_selected_create(&Z, F, NULL, 0, &opt, NULL));
+        SL_CHECK(sl_selected_create(&Z, F, NULL, SL_ALL, &opt, NULL));
         const uintptr_t old = (uintptr_t)F;
         sl_factor_free(F);
         change_values(way, &M.view, x);
@@ -178,7 +178,7 @@ static void assert_saving(sl_status expected, sl_symbolic *S, sl_factor *F, sl_s
     all.selected = Z;
     all.regions = regions;
     all.n_regions = R != NULL;
-    SL_EXPECT(expected, sl_save_memory(NULL, &bytes, &all));
+    SL_EXPECT(expected, sl_save(NULL, NULL, &bytes, &all, NULL));
 }
 
 /* A plan, a factor and a region keep an analysis that was released. They do not belong to one that
@@ -199,7 +199,7 @@ static void an_analysis_created_again(void **state) {
         SL_CHECK(sl_factor_create(&F, S, &M.view, &rest, NULL));
         SL_CHECK(sl_plan_create(&P, S, set, 6, set, 6, &rest, NULL));
         SL_CHECK(sl_region_create(&R, F, set, 6, NULL, &rest, NULL));
-        SL_CHECK(sl_selected_create(&Z, F, NULL, 0, &rest, NULL));
+        SL_CHECK(sl_selected_create(&Z, F, NULL, SL_ALL, &rest, NULL));
         const uintptr_t old = (uintptr_t)S;
         sl_symbolic_free(S);
         opt.ordering = other ? SL_ORDERING_NATURAL : SL_ORDERING_ND;
@@ -260,7 +260,7 @@ static void sums_and_changed_columns(void **state) {
                 SL_CHECK(sl_factor_refactor_changed(F, &B, &column, 1, NULL));
             }
             if (turn == 0) {
-                SL_CHECK(sl_selected_create(&Z, F, NULL, 0, &opt, NULL));
+                SL_CHECK(sl_selected_create(&Z, F, NULL, SL_ALL, &opt, NULL));
             } else {
                 SL_EXPECT(SL_ERR_STALE, sl_region_create(&R, F, set, 6, Z, &opt, NULL));
             }

@@ -51,8 +51,8 @@ static void the_diagonal_equals_the_dense_inverse(void **state) {
                 sl_work *W = NULL;
                 SL_CHECK(sl_work_create(&W, NULL));
                 assert_int_equal(diagonal(&y, all, NULL, -3, W), SL_INVERSE_SELECTED);
-                SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, NULL, NULL));
-                SL_CHECK(sl_selected_entries(Z, kept, NULL, NULL, 0, NULL));
+                SL_CHECK(sl_selected_create(&Z, y.F, NULL, SL_ALL, NULL, NULL));
+                SL_CHECK(sl_selected_entries(Z, kept, NULL, NULL, SL_ALL, NULL));
                 SAME_VALUES(all, kept, (size_t)n);
                 for (sl_int count = 1; count <= 3 * n; count = 2 * count + 1) {
                     random_rows(rows, count, n, &seed);
@@ -188,7 +188,7 @@ static void pairs_in_the_pattern_equal_the_selected_inverse(void **state) {
                 columns[p] = p % 2 ? y.M.i[p] : j;
             }
         }
-        SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, NULL, NULL));
+        SL_CHECK(sl_selected_create(&Z, y.F, NULL, SL_ALL, NULL, NULL));
         SL_CHECK(sl_selected_entries(Z, kept, rows, columns, count, NULL));
         SL_CHECK(sl_inverse_pairs(y.F, out, rows, columns, count, NULL, &stats));
         assert_int_equal(stats.inverse.method, SL_INVERSE_SELECTED);

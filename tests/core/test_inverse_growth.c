@@ -65,7 +65,7 @@ static void check_all_ways(const factored_t *y, const double *X, double allowed,
     const sl_int count = r.count;
     sl_selected *Z = NULL;
     sl_stats stats;
-    SL_CHECK(sl_inverse_diagonal(y->F, r.z, NULL, 0, NULL, &stats));
+    SL_CHECK(sl_inverse_diagonal(y->F, r.z, NULL, SL_ALL, NULL, &stats));
     assert_close(X, r.z, r.all, r.all, n, allowed);
     assert_int_equal(stats.inverse.method, is_lossy ? SL_INVERSE_FORWARD : SL_INVERSE_SELECTED);
     SL_CHECK(sl_inverse_diagonal(y->F, r.z, r.all, n, NULL, NULL));
@@ -75,7 +75,8 @@ static void check_all_ways(const factored_t *y, const double *X, double allowed,
     for (sl_int set = 0; set < n; set += 40) {
         SL_CHECK(sl_selected_create(&Z, y->F, &set, set == 0 ? 0 : 1, NULL, NULL));
         sl_selected_free(Z);
-        SL_CHECK(sl_selected_create(&Z, y->F, set == 0 ? NULL : &set, 1, NULL, NULL));
+        SL_CHECK(sl_selected_create(&Z, y->F, set == 0 ? NULL : &set, set == 0 ? SL_ALL : 1, NULL,
+                                    NULL));
         SL_CHECK(sl_selected_entries(Z, r.z, &set, NULL, 1, NULL));
         assert_close(X, r.z, &set, &set, 1, allowed);
         if (set == 0) {
@@ -126,7 +127,7 @@ static void solves_in_regions_are_right_or_refused(void **state) {
             double *Z = solved_inverse(y.F, &most);
             sl_selected *selected = NULL;
             int refused = 0;
-            SL_CHECK(sl_selected_create(&selected, y.F, NULL, 0, NULL, NULL));
+            SL_CHECK(sl_selected_create(&selected, y.F, NULL, SL_ALL, NULL, NULL));
             for (sl_int count = 5; count < n; count += 9) {
                 const sl_int *set = perm + (7 * count) % (n - count);
                 sl_options opt = options_none();
@@ -194,7 +195,7 @@ static void a_refused_region_takes_other_numbers_later(void **state) {
     set_of.factor = good.F;
     set_of.regions = &R;
     set_of.n_regions = 1;
-    SL_EXPECT(SL_ERR_STALE, sl_save_memory(NULL, &bytes, &set_of));
+    SL_EXPECT(SL_ERR_STALE, sl_save(NULL, NULL, &bytes, &set_of, NULL));
     SL_EXPECT(SL_ERR_STALE, sl_plan_solve(P, bad, after, (size_t)count, b, (size_t)count, 1, NULL));
     SL_EXPECT(SL_ERR_STALE,
               sl_plan_solve(P, good.F, after, (size_t)count, b, (size_t)count, 1, NULL));
@@ -214,7 +215,7 @@ static sl_status call(int which, const factored_t *y, const requests_t *r, sl_se
                       sl_region *R, sl_work *W) {
     switch (which) {
     case 0:
-        return sl_inverse_diagonal(y->F, r->z, NULL, 0, W, NULL);
+        return sl_inverse_diagonal(y->F, r->z, NULL, SL_ALL, W, NULL);
     case 1:
         return sl_inverse_pairs(y->F, r->z, r->rows, r->columns, r->count, W, NULL);
     case 2:
@@ -238,7 +239,7 @@ static void every_allocation_may_fail(void **state) {
         sl_region *R = NULL;
         /* beside no pivot that is small */
         const sl_int last = sl_symbolic_view(y.S).perm[n - 30];
-        SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, &kept, NULL));
+        SL_CHECK(sl_selected_create(&Z, y.F, NULL, SL_ALL, &kept, NULL));
         SL_CHECK(sl_region_create(&R, y.F, &last, 1, NULL, &kept, NULL));
         for (int which = 0; which < 8; which++) {
             sl_status status = SL_ERR_MEMORY;

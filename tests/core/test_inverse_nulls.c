@@ -52,15 +52,15 @@ static void check_zeros(sl_factor *F, const sl_symbolic *S, sl_int nulls) {
     }
     SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_NULL, null_rows, NULL, n, &count));
     assert_int_equal(count, nulls);
-    SL_CHECK(sl_selected_create(&Z, F, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_selected_create(&Z, F, NULL, SL_ALL, NULL, NULL));
     SL_CHECK(sl_inverse_block(F, B, size, all, n, all, n, NULL, NULL));
     for (int way = 0; way < 3; way++) {
         if (way == 0) {
-            SL_CHECK(sl_inverse_diagonal(F, d, NULL, 0, NULL, NULL));
+            SL_CHECK(sl_inverse_diagonal(F, d, NULL, SL_ALL, NULL, NULL));
         } else if (way == 1) {
             SL_CHECK(sl_inverse_diagonal(F, d, all, n, NULL, NULL));
         } else {
-            SL_CHECK(sl_selected_entries(Z, d, NULL, NULL, 0, NULL));
+            SL_CHECK(sl_selected_entries(Z, d, NULL, NULL, SL_ALL, NULL));
         }
         for (sl_int k = 0; k < count; k++) {
             assert_true(d[null_rows[k]] == 0.0);

@@ -253,7 +253,7 @@ static void invalid_arguments_are_refused(void **state) {
 #define REFUSED(call) SL_EXPECT(SL_ERR_ARGUMENT, call)
     REFUSED(sl_inverse_diagonal(NULL, out, good, 3, NULL, NULL));
     REFUSED(sl_inverse_diagonal(y.F, NULL, good, 3, NULL, NULL));
-    REFUSED(sl_inverse_diagonal(y.F, NULL, NULL, 0, NULL, NULL));
+    REFUSED(sl_inverse_diagonal(y.F, NULL, NULL, SL_ALL, NULL, NULL));
     REFUSED(sl_inverse_diagonal(y.F, out, good, -1, NULL, NULL));
     REFUSED(sl_inverse_diagonal(y.F, out, low, 3, NULL, &stats));
     assert_int_equal(stats.error.row, -1);

@@ -21,7 +21,7 @@ static objects_t objects_make(const sl_csc *A, const sl_options *opt) {
     sl_options in_region = *opt;
     SL_CHECK(sl_symbolic_create(&o.S, A, opt, NULL));
     SL_CHECK(sl_factor_create(&o.F, o.S, A, opt, NULL));
-    SL_CHECK(sl_selected_create(&o.Z, o.F, NULL, 0, opt, NULL));
+    SL_CHECK(sl_selected_create(&o.Z, o.F, NULL, SL_ALL, opt, NULL));
     SL_CHECK(sl_region_create(&o.R, o.F, set, 4, NULL, opt, NULL));
     in_region.region = o.R;
     SL_CHECK(sl_plan_create(&o.P, o.S, set, 4, set, 4, &in_region, NULL));
@@ -146,11 +146,11 @@ static void objects_of_a_mapped_set(void **state) {
     memset(&mapped, 0, sizeof mapped);
     set_of.symbolic = y.S;
     set_of.factor = y.F;
-    SL_CHECK(sl_save_memory(NULL, &bytes, &set_of));
+    SL_CHECK(sl_save(NULL, NULL, &bytes, &set_of, NULL));
     char *block = (char *)test_array(bytes + 64, 1);
     char *at = block + (64 - (uintptr_t)block % 64) % 64;
-    SL_CHECK(sl_save_memory(at, &bytes, &set_of));
-    SL_CHECK(sl_map_memory(&mapped, at, bytes, SL_LOAD_CHECKED, NULL));
+    SL_CHECK(sl_save(NULL, at, &bytes, &set_of, NULL));
+    SL_CHECK(sl_load(&mapped, NULL, at, bytes, SL_LOAD_MAPPED, NULL));
     sl_symbolic_free(mapped.symbolic);
     SL_CHECK(sl_factor_solve(mapped.factor, got, N, b, N, 1, NULL));
     assert_memory_equal(got, x, sizeof x);

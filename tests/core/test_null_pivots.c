@@ -167,9 +167,9 @@ static void inverse_entries_match_solves(void **state) {
         for (size_t i = 0; i < n; i++) {
             most = fmax(most, fabs(X[i + n * i]));
         }
-        SL_CHECK(sl_inverse_diagonal(F, diagonal, NULL, 0, NULL, NULL));
-        SL_CHECK(sl_selected_create(&Z, F, NULL, 0, FOR_OTHERS(&opt), NULL));
-        SL_CHECK(sl_selected_entries(Z, selected, NULL, NULL, 0, NULL));
+        SL_CHECK(sl_inverse_diagonal(F, diagonal, NULL, SL_ALL, NULL, NULL));
+        SL_CHECK(sl_selected_create(&Z, F, NULL, SL_ALL, FOR_OTHERS(&opt), NULL));
+        SL_CHECK(sl_selected_entries(Z, selected, NULL, NULL, SL_ALL, NULL));
         for (size_t i = 0; i < n; i++) {
             assert_true(fabs(diagonal[i] - X[i + n * i]) <= 100.0 * (double)n * DBL_EPSILON * most);
             assert_true(fabs(selected[i] - X[i + n * i]) <= 100.0 * (double)n * DBL_EPSILON * most);

@@ -59,6 +59,27 @@ static void a_negative_number_of_threads_is_refused_by_every_call(void **state) 
     option_fixture_free(f);
 }
 
+/* Threads without a pool, in a build that has none of its own. */
+static void threads_that_are_not_compiled_in_are_refused_by_every_call(void **state) {
+    (void)state;
+    option_fixture_t *f = option_fixture_make();
+    sl_options opt = options_none();
+    char text[200];
+    opt.threads.count = 2;
+    for (int call = 0; call < OPTION_CALLS; call++) {
+        const sl_status status = option_calls[call].call(f, &opt);
+        if (WITHOUT_POOL == SL_OK) {
+            SL_CHECK(status);
+            continue;
+        }
+        sl_error_text(text, sizeof text, WITHOUT_POOL, NULL);
+        if (strstr(text, "SL_PTHREADS or OpenMP") == NULL) {
+            fail_msg("%s: %s", option_calls[call].name, text);
+        }
+    }
+    option_fixture_free(f);
+}
+
 static void half_an_allocator_is_refused_by_every_call(void **state) {
     (void)state;
     option_fixture_t *f = option_fixture_make();
@@ -161,6 +182,7 @@ int main(void) {
         cmocka_unit_test(another_size_is_refused_by_every_call),
         cmocka_unit_test(a_reserved_field_is_refused_by_every_call),
         cmocka_unit_test(a_negative_number_of_threads_is_refused_by_every_call),
+        cmocka_unit_test(threads_that_are_not_compiled_in_are_refused_by_every_call),
         cmocka_unit_test(half_an_allocator_is_refused_by_every_call),
         cmocka_unit_test(init_clears_the_size_that_the_caller_has),
         cmocka_unit_test(the_library_reports_its_version_and_sizes),

@@ -200,8 +200,10 @@ static void unusual_thread_counts_are_handled(void **state) {
     sl_symbolic_free(S);
     opt.threads.count = 2;
     opt.threads.run = NULL;
-    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
-    assert_same_order(S, one);
+    SL_EXPECT(WITHOUT_POOL, sl_symbolic_create(&S, &M.view, &opt, NULL));
+    if (S != NULL) {
+        assert_same_order(S, one);
+    }
     sl_symbolic_free(S);
     sl_symbolic_free(one);
     gen_matrix_free(&M);

@@ -92,7 +92,7 @@ static void reserved_workspaces_do_not_grow(void **state) {
         sl_int set[5] = {0, 1, 2, 3, 4};
         double *B = test_reals(ld * MOST), *X = test_reals(ld * MOST);
         sl_plan *plan = NULL;
-        SL_CHECK(sl_plan_create(&plan, y.S, set, rows, NULL, 0, NULL, NULL));
+        SL_CHECK(sl_plan_create(&plan, y.S, set, rows, NULL, SL_ALL, NULL, NULL));
         for (sl_int most = 0; most <= MOST; most++) {
             counter_t counter = counter_make();
             sl_options opt = options_counted(&counter);

@@ -257,7 +257,7 @@ static void other_calls_work_or_are_refused(void **state) {
     double out[4], b[90], x[90], y[90];
     SL_CHECK(sl_symbolic_create_pivoted(&S, &M.view, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &M.view, NULL, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_selected_create(&Z, F, NULL, 0, NULL, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_selected_create(&Z, F, NULL, SL_ALL, NULL, NULL));
     SL_EXPECT(SL_ERR_UNSUPPORTED, sl_region_create(&R, F, rows, 2, NULL, NULL, NULL));
     SL_EXPECT(SL_ERR_UNSUPPORTED, sl_inverse_diagonal(F, out, rows, 2, NULL, NULL));
     SL_EXPECT(SL_ERR_UNSUPPORTED, sl_inverse_pairs(F, out, rows, rows, 2, NULL, NULL));

@@ -483,7 +483,7 @@ static void padded_files_are_read(void **state) {
         }
         SL_CHECK(sl_factor_refactor(F, &M.view, NULL));
     }
-    SL_CHECK(sl_selected_create(&Z, F, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_selected_create(&Z, F, NULL, SL_ALL, NULL, NULL));
     sl_selected_free(Z);
     sl_factor_free(F);
     sl_factor_free(G);

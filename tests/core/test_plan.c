@@ -246,10 +246,9 @@ static void wrong_arguments_are_refused(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_create(&P, y.S, set, -1, set, 3, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_create(&P, y.S, set, 3, set, -1, NULL, NULL));
     assert_null(P);
-    /* nb is ignored when the set is NULL. */
-    SL_CHECK(sl_plan_create(&P, y.S, NULL, -1, set, 3, NULL, NULL));
+    SL_CHECK(sl_plan_create(&P, y.S, NULL, SL_ALL, set, 3, NULL, NULL));
     sl_plan_free(P);
-    SL_CHECK(sl_plan_create(&P, y.S, set, 3, NULL, 77, NULL, NULL));
+    SL_CHECK(sl_plan_create(&P, y.S, set, 3, NULL, 9, NULL, NULL));
     sl_plan_free(P);
     SL_CHECK(sl_plan_create(&P, y.S, set, 2, set, 3, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve(NULL, y.F, X, 3, B, 3, 1, NULL));
@@ -268,7 +267,8 @@ static void wrong_arguments_are_refused(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_local_solve(y.F, set, 3, set, 3, X, 3, B, 3, -1, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_local_solve(y.F, set, 3, set, -3, X, 3, B, 3, 1, NULL, NULL));
     /* ldx < n */
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_local_solve(y.F, set, 3, NULL, 0, X, 8, B, 3, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_local_solve(y.F, set, 3, NULL, SL_ALL, X, 8, B, 3, 1, NULL, NULL));
     assert_true(X[0] == 5 && X[1] == 5 && X[2] == 5);
     sl_plan_free(P);
     sl_plan_free(NULL);

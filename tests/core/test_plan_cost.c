@@ -73,7 +73,8 @@ static void the_reach_equals_a_graph_search(void **state) {
             gen_set(bset, nb, n, seed);
             gen_set(xset, nx, n, seed + 1);
             SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
-            SL_CHECK(sl_plan_create(&P, S, round % 5 ? bset : NULL, nb, xset, nx, NULL, &stats));
+            SL_CHECK(sl_plan_create(&P, S, round % 5 ? bset : NULL, round % 5 ? nb : SL_ALL, xset,
+                                    nx, NULL, &stats));
             sl_symbolic_arrays v = sl_symbolic_view(S);
             reach_t b = reach_by_graph_search(&v, round % 5 ? bset : NULL, round % 5 ? nb : n),
                     x = reach_by_graph_search(&v, xset, nx);
@@ -153,7 +154,7 @@ static void the_reach_of_all_rows_is_the_whole_factor(void **state) {
     memset(&stats, 0, sizeof stats);
     memset(&all, 0, sizeof all);
     sl_symbolic_stats(y.S, &all);
-    SL_CHECK(sl_plan_create(&P, y.S, NULL, 0, NULL, 0, NULL, &stats));
+    SL_CHECK(sl_plan_create(&P, y.S, NULL, SL_ALL, NULL, SL_ALL, NULL, &stats));
     assert_int_equal(stats.plan.b_columns, 400);
     assert_int_equal(stats.plan.x_columns, 400);
     assert_int_equal(stats.plan.b_supernodes, all.symbolic.supernodes);

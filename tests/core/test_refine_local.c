@@ -56,7 +56,7 @@ static fixture_t *fixture_make(const variant_list_t *variants, int k) {
         }
     }
     SL_CHECK(sl_plan_create(&f->P, f->y.S, f->bset, f->nb, f->xset, f->nx, NULL, NULL));
-    SL_CHECK(sl_plan_create(&f->all, f->y.S, NULL, 0, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_plan_create(&f->all, f->y.S, NULL, SL_ALL, NULL, SL_ALL, NULL, NULL));
     return f;
 }
 
@@ -149,7 +149,7 @@ static void growth_is_an_error_that_remains(void **state) {
     sl_plan *P = NULL;
     double b[N], x[N], same[N];
     gen_reals(b, N, 5);
-    SL_CHECK(sl_plan_create(&P, y.S, NULL, 0, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_plan_create(&P, y.S, NULL, SL_ALL, NULL, SL_ALL, NULL, NULL));
     for (int way = 0; way < 4; way++) {
         const int is_float = way % 2;
         sl_options opt = options_none();
@@ -303,7 +303,7 @@ static void what_is_not_finite_is_refused(void **state) {
     opt.signs = y.signs;
     opt.error_limit = -1.0;
     SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
-    SL_CHECK(sl_plan_create(&P, y.S, NULL, 0, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_plan_create(&P, y.S, NULL, SL_ALL, NULL, SL_ALL, NULL, NULL));
     for (int k = 0; k < 6; k++) {
         const double wrong[2] = {(double)NAN, 1.7e308};
         gen_reals(b, N, 5);
@@ -337,7 +337,7 @@ static void what_is_not_finite_elsewhere_is_refused(void **state) {
     SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &A, FOR_FACTOR(&opt), &stats));
     assert_true(stats.factor.regularized == 1);
-    SL_CHECK(sl_plan_create(&P, S, NULL, 0, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_plan_create(&P, S, NULL, SL_ALL, NULL, SL_ALL, NULL, NULL));
     for (sl_int steps = 0; steps < 3; steps++) {
         SL_CHECK(sl_plan_solve_regularized(P, F, x, 3, good, 3, 1, steps, NULL, NULL));
         for (int k = 0; k < 3; k++) {

@@ -200,7 +200,7 @@ static void squares_of_a_grid_match_full_solves(void **state) {
         factored_t y = factored_make(GEN_GRID2, N, 1, 0, &opt);
         sl_selected *all = NULL;
         assert_int_equal(y.M.view.n_cols, N);
-        SL_CHECK(sl_selected_create(&all, y.F, NULL, 0, NULL, NULL));
+        SL_CHECK(sl_selected_create(&all, y.F, NULL, SL_ALL, NULL, NULL));
         for (int place = 0; place < PLACES / isas.count; place++) {
             const sl_int top = place == 0 ? (SIDE - SMALL) / 2 : gen_below(&seed, SIDE - SMALL),
                          left = place == 0 ? top : gen_below(&seed, SIDE - SMALL);
@@ -298,7 +298,7 @@ static void neighbors_and_spread_sets_match_the_dense_inverse(void **state) {
     sl_selected *all = NULL;
     uint64_t seed = 5;
     int copied = 0;
-    SL_CHECK(sl_selected_create(&all, y.F, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_selected_create(&all, y.F, NULL, SL_ALL, NULL, NULL));
     for (int k = 0; k < REGIONS; k++) {
         const sl_int count = 2 + k % 3, first = gen_below(&seed, n - count);
         sl_region *R = NULL;

@@ -29,7 +29,7 @@ static void a_subtree_may_be_too_wide(void **state) {
     factored_t y = {gen_store(&t, gen_style(0), 1), NULL, NULL};
     SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, FOR_ANALYSIS(&opt), NULL));
     SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, NULL, NULL));
-    SL_CHECK(sl_selected_create(&all, y.F, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_selected_create(&all, y.F, NULL, SL_ALL, NULL, NULL));
     opt.region_bytes = SET * SET * sizeof(double) / 2 - 1;
     SL_CHECK(sl_region_create(&R, y.F, set, SET, all, FOR_REGION(&opt), &stats));
     NOTHING_WRONG(check_region(R, set, SET));

@@ -15,9 +15,11 @@ static void rows_outside_give_a_plain_plan(void **state) {
         const sl_int *bset = which == 0 ? outside : which == 1 ? NULL : some;
         const sl_int *xset = which == 2 ? outside : which == 3 ? NULL : some;
         sl_int nb = bset == outside ? 1
+                    : bset == NULL  ? SL_ALL
                     : which == 4    ? 0
                                     : 3,
                nx = xset == outside ? 1
+                    : xset == NULL  ? SL_ALL
                     : which == 5    ? 0
                                     : 3;
         sl_int rows = bset ? nb : N, columns = xset ? nx : N;
@@ -214,7 +216,7 @@ static void empty_and_full_sets_work(void **state) {
         sl_plan_free(P);
         sl_region_free(R);
         opt.region_bytes = 1;
-        SL_CHECK(sl_region_create(&R, y.F, NULL, -5, NULL, FOR_REGION(&opt), &stats));
+        SL_CHECK(sl_region_create(&R, y.F, NULL, SL_ALL, NULL, FOR_REGION(&opt), &stats));
         assert_int_equal(stats.region.boundary, 0);
         assert_int_equal(stats.region.rows, n);
         for (sl_int k = 0; k < n; k++) {

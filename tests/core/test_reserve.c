@@ -80,8 +80,8 @@ static void full_and_planned_solves(void **state) {
             for (sl_int k = 0; k < count; k++) {
                 set[k] = gen_below(&seed, n);
             }
-            SL_CHECK(
-                sl_plan_create(&P, y.S, set, count, which % 3 ? set : NULL, count, NULL, NULL));
+            SL_CHECK(sl_plan_create(&P, y.S, set, count, which % 3 ? set : NULL,
+                                    which % 3 ? count : SL_ALL, NULL, NULL));
             reserved_begin(&full);
             RESERVE_FOR(full.W, NULL, sl_factor_solve(y.F, X, ld, B, ld, most, trial));
             reserved_done(&full);
@@ -155,7 +155,7 @@ static void no_rows_need_no_workspace(void **state) {
     SL_CHECK(sl_work_create(&W, NULL));
     sl_factor *F;
     SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
-    SL_CHECK(sl_local_solve(F, NULL, 0, NULL, 0, &x, 1, &x, 1, 0, W, NULL));
+    SL_CHECK(sl_local_solve(F, NULL, SL_ALL, NULL, SL_ALL, &x, 1, &x, 1, 0, W, NULL));
     assert_true(x == 7.0);
     sl_factor_free(F);
     sl_work_free(W);
@@ -178,7 +178,8 @@ static void refined_local_solves(void **state) {
     double *B = test_reals(240 * R), *X = test_reals(240 * R);
     gen_reals(B, 240 * R, 9);
     for (int whole = 0; whole < 2; whole++) {
-        SL_CHECK(sl_plan_create(&P, y.S, whole ? NULL : rows, count, rows, count, NULL, NULL));
+        SL_CHECK(sl_plan_create(&P, y.S, whole ? NULL : rows, whole ? SL_ALL : count, rows, count,
+                                NULL, NULL));
         for (sl_int most = 0; most <= R; most++) {
             reserved_t r;
             reserved_begin(&r);
@@ -239,7 +240,7 @@ static void no_x_needs_no_workspace(void **state) {
     sl_plan *empty = NULL;
     gen_reals(B, n * 3, 2);
     SL_CHECK(sl_work_create(&W, NULL));
-    SL_CHECK(sl_plan_create(&empty, y.S, NULL, 0, none, 0, NULL, NULL));
+    SL_CHECK(sl_plan_create(&empty, y.S, NULL, SL_ALL, none, 0, NULL, NULL));
     SL_CHECK(sl_plan_solve(empty, y.F, &x, 1, B, n, 3, W));
     SL_CHECK(sl_plan_solve_regularized(empty, y.F, &x, 1, B, n, 3, 2, W, NULL));
     assert_int_equal(sl_work_bytes(W), 0);

@@ -93,7 +93,7 @@ static void entries_of(const factored_t *y, const sl_int *rows, const sl_int *co
     SL_CHECK(sl_inverse_diagonal(y->F, out, rows, count, W, NULL));
     SL_CHECK(sl_inverse_pairs(y->F, out, rows, columns, count, W, NULL));
     if (count == y->M.view.n_cols) {
-        SL_CHECK(sl_inverse_diagonal(y->F, out, NULL, 0, W, NULL));
+        SL_CHECK(sl_inverse_diagonal(y->F, out, NULL, SL_ALL, W, NULL));
     }
 }
 
@@ -181,7 +181,8 @@ static void selected(const factored_t *y, int threads, counter_t *counter) {
         if (set >= 0) {
             make_rows(rows, count, n, set, &seed);
         }
-        SL_CHECK(sl_selected_create(&Z, y->F, set < 0 ? NULL : rows, count, &opt, NULL));
+        SL_CHECK(sl_selected_create(&Z, y->F, set < 0 ? NULL : rows, set < 0 ? SL_ALL : count, &opt,
+                                    NULL));
         RESERVE_FOR(W, NULL, sl_selected_refactor(Z, y->F, trial));
         const size_t calls = counter->calls;
         SL_CHECK(sl_selected_refactor(Z, y->F, W));
@@ -204,7 +205,7 @@ static void regions(const factored_t *y, int threads, counter_t *counter) {
     sl_selected *Z = NULL;
     uint64_t seed = 9;
     (void)threads;
-    SL_CHECK(sl_selected_create(&Z, y->F, NULL, 0, &opt, NULL));
+    SL_CHECK(sl_selected_create(&Z, y->F, NULL, SL_ALL, &opt, NULL));
     for (int set = 0; set < SETS && n > 0; set++) {
         for (int copies = 0; copies < 2; copies++) {
             sl_region *R = NULL;

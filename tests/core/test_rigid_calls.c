@@ -173,8 +173,8 @@ static void check_inverse(bodies_t *f, const sl_options *opt) {
             assert_true(fabs(sum - f->B[i + r * f->n]) <= 1e-14 * (double)n * largest);
         }
     }
-    SL_CHECK(sl_inverse_diagonal(f->F, d, NULL, 0, NULL, NULL));
-    SL_CHECK(sl_selected_create(&Z, f->F, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_inverse_diagonal(f->F, d, NULL, SL_ALL, NULL, NULL));
+    SL_CHECK(sl_selected_create(&Z, f->F, NULL, SL_ALL, NULL, NULL));
     SL_CHECK(sl_selected_entries(Z, e, all, all, n, NULL));
     SL_CHECK(sl_inverse_pairs(f->F, a, all, all, n, NULL, NULL));
     for (sl_int i = 0; i < n; i++) {

@@ -15,8 +15,8 @@ static void assert_same_factor_stats(const sl_factor *F, const sl_factor *G) {
 }
 
 /* Saves, loads with `call`, and compares everything. */
-static void round_trip(const saved_case_t *c, saved_call_t call, sl_load_checks checks,
-                       const saved_t *m, const sl_options *opt) {
+static void round_trip(const saved_case_t *c, saved_call_t call, unsigned checks, const saved_t *m,
+                       const sl_options *opt) {
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
     SL_CHECK(call(&S, &F, m->bytes, m->size, checks, opt));
@@ -51,8 +51,8 @@ static void way_for_all_matrices(int way, const sl_options *from) {
         saved_t m = saved_make(c.y.S, c.y.F), again = saved_make(c.y.S, c.y.F);
         assert_memory_equal(m.bytes, again.bytes, m.size);
         for (int checks = SL_LOAD_CHECKED; checks <= SL_LOAD_VERIFIED; checks++) {
-            round_trip(&c, pair_load_memory, (sl_load_checks)checks, &m, &opt);
-            round_trip(&c, pair_map_memory, (sl_load_checks)checks, &m, &opt);
+            round_trip(&c, pair_load_memory, (unsigned)checks, &m, &opt);
+            round_trip(&c, pair_map_memory, (unsigned)checks, &m, &opt);
         }
         assert_memory_equal(m.bytes, again.bytes, m.size); /* nobody wrote to it */
         saved_free(&m);
@@ -97,8 +97,7 @@ static void every_way_has_what_it_stands_for(void **state) {
         sl_symbolic_stats(c.y.S, &stats);
         sl_factor_stats(c.y.F, &stats);
         const int is_pivoted = way == SAVED_PIVOTED || way == SAVED_PIVOTED_REGULARIZED;
-        const int skips =
-            way == SAVED_SKIPPED || way == SAVED_WEIGHTED || way == SAVED_VECTORS;
+        const int skips = way == SAVED_SKIPPED || way == SAVED_WEIGHTED || way == SAVED_VECTORS;
         assert_true((stats.symbolic.pairs > 10) == is_pivoted);
         assert_true(stats.factor.negative > 10 || !is_pivoted);
         assert_true((stats.factor.null > 0) == skips);

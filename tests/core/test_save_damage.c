@@ -18,8 +18,8 @@ static void use(const sl_symbolic *S, sl_factor *F, const sl_csc *A) {
         (void)(sl_plan_solve(P, F, x, 3, b, 3, 2, NULL) == SL_OK);
         (void)(sl_plan_solve_regularized(P, F, x, 3, b, 3, 1, 1, NULL, NULL) == SL_OK);
     }
-    (void)(sl_inverse_diagonal(F, x, NULL, 0, NULL, NULL) == SL_OK);
-    (void)(sl_selected_create(&Z, F, NULL, 0, NULL, NULL) == SL_OK);
+    (void)(sl_inverse_diagonal(F, x, NULL, SL_ALL, NULL, NULL) == SL_OK);
+    (void)(sl_selected_create(&Z, F, NULL, SL_ALL, NULL, NULL) == SL_OK);
     (void)(sl_region_create(&R, F, set, 3, NULL, NULL, NULL) == SL_OK);
     (void)(sl_factor_create(&G, S, A, NULL, NULL) == SL_OK);
     (void)(sl_factor_refactor(F, A, NULL) == SL_OK);
@@ -32,7 +32,7 @@ static void use(const sl_symbolic *S, sl_factor *F, const sl_csc *A) {
 }
 
 /* Loads or maps bytes; uses what comes out. Returns the status. */
-static sl_status attempt(saved_call_t call, const saved_t *m, size_t size, sl_load_checks checks,
+static sl_status attempt(saved_call_t call, const saved_t *m, size_t size, unsigned checks,
                          const sl_csc *A) {
     counter_t counter = counter_make();
     sl_options opt = options_counted(&counter);
@@ -58,9 +58,9 @@ static void every_truncation_is_refused(void **state) {
         saved_t cut = saved_of_size(size); /* so that a read past the end is noticed */
         memcpy(cut.bytes, m.bytes, size);
         for (int checks = 0; checks < 3; checks++) {
-            assert_int_equal(attempt(pair_load_memory, &cut, size, (sl_load_checks)checks, NULL),
+            assert_int_equal(attempt(pair_load_memory, &cut, size, (unsigned)checks, NULL),
                              SL_ERR_IO);
-            assert_int_equal(attempt(pair_map_memory, &cut, size, (sl_load_checks)checks, NULL),
+            assert_int_equal(attempt(pair_map_memory, &cut, size, (unsigned)checks, NULL),
                              SL_ERR_IO);
         }
         /* also with a header that agrees with the size */
@@ -323,8 +323,8 @@ static void the_other_byte_order_is_loaded_and_not_mapped(void **state) {
         assert_memory_not_equal(k.bytes, m.bytes, m.size);
         for (int checks = 0; checks < 3; checks++) {
             SL_EXPECT(SL_ERR_UNSUPPORTED,
-                      pair_map_memory(&S, &F, k.bytes, k.size, (sl_load_checks)checks, NULL));
-            SL_CHECK(pair_load_memory(&S, &F, k.bytes, k.size, (sl_load_checks)checks, NULL));
+                      pair_map_memory(&S, &F, k.bytes, k.size, (unsigned)checks, NULL));
+            SL_CHECK(pair_load_memory(&S, &F, k.bytes, k.size, (unsigned)checks, NULL));
             assert_same_answers(c.y.F, F);
             SL_CHECK(sl_factor_refactor(F, &c.y.M.view, NULL)); /* the pattern is recognized */
             saved_t again = saved_make(S, F);

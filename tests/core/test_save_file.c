@@ -53,21 +53,21 @@ static void a_file_has_the_bytes_of_memory(void **state) {
     SL_CHECK(pair_save_file(files_path("a.slf"), y.S, y.F, NULL));
     assert_int_equal(other_files(), 0);
     for (int checks = 0; checks < 3; checks++) {
-        SL_CHECK(pair_load_file(&S, &F, files_path("a.slf"), (sl_load_checks)checks, NULL));
+        SL_CHECK(pair_load_file(&S, &F, files_path("a.slf"), (unsigned)checks, NULL));
         assert_same_answers(y.F, F);
         SL_CHECK(sl_factor_refactor(F, &y.M.view, NULL));
         sl_factor_free(F);
         SL_CHECK(sl_factor_create(&F, S, &y.M.view, NULL, NULL));
         sl_factor_free(F);
         sl_symbolic_free(S);
-        SL_CHECK(pair_map_file(&S, &F, files_path("a.slf"), (sl_load_checks)checks, NULL));
+        SL_CHECK(pair_map_file(&S, &F, files_path("a.slf"), (unsigned)checks, NULL));
         assert_same_answers(y.F, F);
         SL_EXPECT(SL_ERR_READ_ONLY, sl_factor_refactor(F, &y.M.view, NULL));
         sl_factor_free(F);
         sl_symbolic_free(S);
-        SL_CHECK(pair_load_file(&S, NULL, files_path("a.slf"), (sl_load_checks)checks, NULL));
+        SL_CHECK(pair_load_file(&S, NULL, files_path("a.slf"), (unsigned)checks, NULL));
         sl_symbolic_free(S);
-        SL_CHECK(pair_map_file(&S, NULL, files_path("a.slf"), (sl_load_checks)checks, NULL));
+        SL_CHECK(pair_map_file(&S, NULL, files_path("a.slf"), (unsigned)checks, NULL));
         sl_symbolic_free(S);
     }
     assert_int_equal(errno, 77);
@@ -188,14 +188,14 @@ static void what_is_no_saved_factor_is_refused(void **state) {
     (void)state;
     factored_t y = factored_make(GEN_GRID2, 100, 1, 0, NULL);
     saved_t m = saved_make(y.S, y.F);
-    sl_status (*calls[2])(sl_symbolic **, sl_factor **, const char *, sl_load_checks,
+    sl_status (*calls[2])(sl_symbolic **, sl_factor **, const char *, unsigned,
                           const sl_options *) = {pair_load_file, pair_map_file};
     for (int k = 0; k < 2; k++) {
         sl_symbolic *S = y.S;
         sl_factor *F = y.F;
         SL_EXPECT(SL_ERR_ARGUMENT, calls[k](&S, &F, NULL, SL_LOAD_CHECKED, NULL));
         assert_true(S == NULL && F == NULL);
-        SL_EXPECT(SL_ERR_ARGUMENT, calls[k](&S, &F, "x", (sl_load_checks)9, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT, calls[k](&S, &F, "x", (unsigned)9, NULL));
         SL_EXPECT(SL_ERR_IO, calls[k](&S, &F, files_path("none.slf"), SL_LOAD_CHECKED, NULL));
         SL_EXPECT(SL_ERR_IO, calls[k](&S, &F, files_folder, SL_LOAD_CHECKED, NULL));
         (void)files_put("a.slf", "", 0);
@@ -262,7 +262,7 @@ static void files_of_all_versions_are_read(void **state) {
         sl_factor_free(F);
         sl_symbolic_free(S);
         sl_saved_set set = {0};
-        SL_CHECK(sl_load_file(&set, all.paths[k], SL_LOAD_VERIFIED, NULL));
+        SL_CHECK(sl_load(&set, all.paths[k], NULL, 0, SL_LOAD_VERIFIED, NULL));
         inverses += set.selected != NULL;
         regions += set.n_regions;
         for (sl_int m = 0; m < set.n_regions; m++) {

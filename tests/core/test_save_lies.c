@@ -28,8 +28,8 @@ static saved_t copy_of(const saved_t *m) {
 static sl_status status_of(const saved_t *m, int is_mapped) {
     sl_saved_set set = {0};
     const sl_status status = is_mapped
-                                 ? sl_map_memory(&set, m->bytes, m->size, SL_LOAD_CHECKED, NULL)
-                                 : sl_load_memory(&set, m->bytes, m->size, SL_LOAD_CHECKED, NULL);
+                                 ? sl_load(&set, NULL, m->bytes, m->size, SL_LOAD_MAPPED, NULL)
+                                 : sl_load(&set, NULL, m->bytes, m->size, SL_LOAD_CHECKED, NULL);
     assert_true((set.symbolic != NULL) == (status == SL_OK));
     sl_saved_set_free(&set);
     return status;
@@ -325,7 +325,7 @@ static void sets_of_later_versions_are_read_only(void **state) {
     sl_saved_set set = {0};
     saved_put32(m.bytes + SAVED_WRITE, SAVED_LATER);
     saved_repair(m.bytes, m.size);
-    SL_CHECK(sl_load_memory(&set, m.bytes, m.size, SL_LOAD_VERIFIED, NULL));
+    SL_CHECK(sl_load(&set, NULL, m.bytes, m.size, SL_LOAD_VERIFIED, NULL));
     assert_same_set(&q.set, &set);
     SL_EXPECT(SL_ERR_READ_ONLY, sl_selected_refactor(set.selected, set.factor, NULL));
     SL_EXPECT(SL_ERR_READ_ONLY, sl_region_refactor(set.regions[0], set.factor, NULL, NULL));

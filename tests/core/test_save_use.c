@@ -1,4 +1,5 @@
 /* test_save_use.c: what may be done with loaded and mapped factors, and what is refused */
+#include "tests/lib/parallel_for.h"
 #include "tests/lib/saved.h"
 
 /* ---- the analysis alone, and what fits what ---- */
@@ -72,7 +73,10 @@ static void a_loaded_factor_can_be_refactored(void **state) {
             sl_options from = options_none(), opt = options_none();
             options_set_variant(&from, &variants, k);
             opt.isa = from.isa;
+            int runs = 0;
             opt.threads.count = 2;
+            opt.threads.run = run_backwards;
+            opt.threads.context = &runs;
             saved_case_t c = saved_case_make(way, GEN_GRID2, 400, 0, &from);
             saved_t m = saved_make(c.y.S, c.y.F);
             sl_symbolic *S = NULL;
@@ -210,9 +214,9 @@ static void wrong_arguments_are_refused(void **state) {
     assert_null(F)
         REFUSED(SL_ERR_ARGUMENT, calls[k](&S, &F, NULL, m.size, SL_LOAD_CHECKED, NULL));
         assert_null(S);
-        REFUSED(SL_ERR_ARGUMENT, calls[k](&S, &F, m.bytes, m.size, (sl_load_checks)3, NULL));
+        REFUSED(SL_ERR_ARGUMENT, calls[k](&S, &F, m.bytes, m.size, (unsigned)3, NULL));
         assert_null(S);
-        REFUSED(SL_ERR_ARGUMENT, calls[k](&S, &F, m.bytes, m.size, (sl_load_checks)-1, NULL));
+        REFUSED(SL_ERR_ARGUMENT, calls[k](&S, &F, m.bytes, m.size, (unsigned)-1, NULL));
         opt = options_none();
         opt.size = 1;
         REFUSED(SL_ERR_ARGUMENT, calls[k](&S, &F, m.bytes, m.size, SL_LOAD_CHECKED, &opt));

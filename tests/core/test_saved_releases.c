@@ -19,7 +19,7 @@ static void record(void) {
                  SL_VERSION_MINOR, SL_VERSION_PATCH, way);
         set_case_t q = case_of(way);
         const sl_saved_set pair = pair_set(q.c.y.S, q.c.y.F);
-        SL_CHECK(sl_save_file(path, way == SAVED_DEFINITE ? set_of(&q) : &pair, NULL));
+        SL_CHECK(sl_save(path, NULL, NULL, way == SAVED_DEFINITE ? set_of(&q) : &pair, NULL));
         set_case_free(&q);
     }
 }
@@ -73,9 +73,12 @@ static double allowed_error(int way) {
     switch (way) {
     case SAVED_FLOAT: return 1e-5;
     case SAVED_REGULARIZED:
-    case SAVED_PIVOTED_REGULARIZED: return 1e-7;
-    case SAVED_SIGNED: return 1;
-    default: return 1e-13;
+    case SAVED_PIVOTED_REGULARIZED:
+        return 1e-7;
+    case SAVED_SIGNED:
+        return 1;
+    default:
+        return 1e-13;
     }
 }
 
@@ -85,8 +88,8 @@ static void check_file(const char *path, int way) {
     set_case_t today = case_of(way);
     for (int is_mapped = 0; is_mapped < 2; is_mapped++) {
         sl_saved_set set = {0};
-        SL_CHECK(is_mapped ? sl_map_file(&set, path, SL_LOAD_CHECKED, NULL)
-                           : sl_load_file(&set, path, SL_LOAD_VERIFIED, NULL));
+        SL_CHECK(is_mapped ? sl_load(&set, path, NULL, 0, SL_LOAD_MAPPED, NULL)
+                           : sl_load(&set, path, NULL, 0, SL_LOAD_VERIFIED, NULL));
         assert_true(backward_error(set.factor, &today.c.y.M.view) <= allowed);
         assert_int_equal(set.selected != NULL, way == SAVED_DEFINITE);
         assert_int_equal(set.n_regions, way == SAVED_DEFINITE ? SETS_REGIONS : 0);

@@ -2,6 +2,7 @@
 #define _XOPEN_SOURCE 700
 #include "tests/lib/temporary_files.h"
 
+#include "tests/lib/parallel_for.h"
 #include "tests/lib/saved_format.h"
 #include "tests/lib/saved_set.h"
 
@@ -23,7 +24,7 @@ static void refactor(const set_case_t *q, const sl_saved_set *got, const saved_t
         const sl_selected *Z = k == 2 ? got->selected : NULL; /* as it was made */
         if (!is_mapped) { /* the factor has other numbers now, if the same ones */
             size_t bytes = 0;
-            SL_EXPECT(SL_ERR_STALE, sl_save_memory(NULL, &bytes, got));
+            SL_EXPECT(SL_ERR_STALE, sl_save(NULL, NULL, &bytes, got, NULL));
         }
         SL_EXPECT(expected, sl_region_refactor(got->regions[k], F, Z, NULL));
     }
@@ -33,7 +34,7 @@ static void refactor(const set_case_t *q, const sl_saved_set *got, const saved_t
     saved_free(&again);
 }
 
-static void round_trip(set_case_t *q, const saved_t *m, int call, sl_load_checks checks,
+static void round_trip(set_case_t *q, const saved_t *m, int call, unsigned checks,
                        const sl_options *opt) {
     sl_saved_set got = {0};
     memset(&got, 0xA5, sizeof got);
@@ -92,10 +93,13 @@ static void a_set_answers_with_the_same_bits(void **state) {
     for (int v = 0; v < variants.count; v++) {
         for (int way = 0; way < SAVED_WAYS; way++) {
             for (gen_kind_t kind = GEN_NONE; kind < GEN_REGULAR; kind = (gen_kind_t)(kind + 1)) {
+                int runs = 0;
                 sl_options from = options_none(), opt = options_none();
                 options_set_variant(&from, &variants, v);
                 opt.isa = from.isa;
                 opt.threads.count = (int)kind % 3;
+                opt.threads.run = run_backwards;
+                opt.threads.context = &runs;
                 set_case_t q = set_case_make(way, kind, 100, 0, (int)kind % 2, &from);
                 saved_t m = set_save(set_of(&q));
                 for (sl_int k = 0; k < q.set.n_regions; k++) {
@@ -105,8 +109,8 @@ static void a_set_answers_with_the_same_bits(void **state) {
                     copied += stats.region.is_copied && stats.region.boundary > 0;
                 }
                 for (int checks = SL_LOAD_CHECKED; checks <= SL_LOAD_VERIFIED; checks++) {
-                    round_trip(&q, &m, 0, (sl_load_checks)checks, &opt);
-                    round_trip(&q, &m, 1, (sl_load_checks)checks, &opt);
+                    round_trip(&q, &m, 0, (unsigned)checks, &opt);
+                    round_trip(&q, &m, 1, (unsigned)checks, &opt);
                 }
                 read_as_pair(&q, &m);
                 saved_free(&m);
@@ -184,11 +188,11 @@ static void the_other_byte_order_is_loaded(void **state) {
     saved_change_order(m.bytes);
     for (int checks = 0; checks < 3; checks++) {
         sl_saved_set got = {0};
-        SL_CHECK(sl_load_memory(&got, m.bytes, m.size, (sl_load_checks)checks, NULL));
+        SL_CHECK(sl_load(&got, NULL, m.bytes, m.size, (unsigned)checks, NULL));
         assert_same_set(set_of(&q), &got);
         sl_saved_set_free(&got);
         SL_EXPECT(SL_ERR_UNSUPPORTED,
-                  sl_map_memory(&got, m.bytes, m.size, (sl_load_checks)checks, NULL));
+                  sl_load(&got, NULL, m.bytes, m.size, ((unsigned)checks) | SL_LOAD_MAPPED, NULL));
     }
     saved_free(&m);
     set_case_free(&q);
@@ -205,30 +209,30 @@ static void a_set_is_saved_in_a_file(void **state) {
     sl_saved_set got = {0};
     size_t length = 0;
     errno = 77;
-    SL_CHECK(sl_save_file(path, set_of(&q), NULL));
+    SL_CHECK(sl_save(path, NULL, NULL, set_of(&q), NULL));
     char *bytes = files_get(path, &length);
     assert_int_equal(length, m.size);
     assert_memory_equal(bytes, m.bytes, m.size);
     free(bytes);
     for (int checks = 0; checks < 3; checks++) {
-        SL_CHECK(sl_load_file(&got, path, (sl_load_checks)checks, NULL));
+        SL_CHECK(sl_load(&got, path, NULL, 0, (unsigned)checks, NULL));
         assert_same_set(set_of(&q), &got);
         refactor(&q, &got, &m, 0);
         sl_saved_set_free(&got);
-        SL_CHECK(sl_map_file(&got, path, (sl_load_checks)checks, NULL));
+        SL_CHECK(sl_load(&got, path, NULL, 0, ((unsigned)checks) | SL_LOAD_MAPPED, NULL));
         assert_same_set(set_of(&q), &got);
         refactor(&q, &got, &m, 1);
-        SL_CHECK(sl_save_file(path, &got, NULL)); /* over the file that is mapped */
+        SL_CHECK(sl_save(path, NULL, NULL, &got, NULL)); /* over the file that is mapped */
         assert_same_set(set_of(&q), &got);
         sl_saved_set_free(&got);
     }
     assert_int_equal(errno, 77);
     (void)files_put("set.slf", m.bytes, m.size - 64);
-    SL_EXPECT(SL_ERR_IO, sl_load_file(&got, path, SL_LOAD_TRUSTED, NULL));
+    SL_EXPECT(SL_ERR_IO, sl_load(&got, path, NULL, 0, SL_LOAD_TRUSTED, NULL));
     assert_null(got.symbolic);
-    SL_EXPECT(SL_ERR_IO, sl_map_file(&got, path, SL_LOAD_TRUSTED, NULL));
-    SL_EXPECT(SL_ERR_IO, sl_load_file(&got, files_path("none"), SL_LOAD_CHECKED, NULL));
-    SL_EXPECT(SL_ERR_IO, sl_save_file(files_path("no/such/folder"), set_of(&q), NULL));
+    SL_EXPECT(SL_ERR_IO, sl_load(&got, path, NULL, 0, SL_LOAD_TRUSTED | SL_LOAD_MAPPED, NULL));
+    SL_EXPECT(SL_ERR_IO, sl_load(&got, files_path("none"), NULL, 0, SL_LOAD_CHECKED, NULL));
+    SL_EXPECT(SL_ERR_IO, sl_save(files_path("no/such/folder"), NULL, NULL, set_of(&q), NULL));
     saved_free(&m);
     set_case_free(&q);
 }

@@ -38,10 +38,10 @@ static void use(const sl_saved_set *set, const sl_csc *A) {
     sl_region *R = NULL;
     sl_stats stats;
     size_t size = 0;
-    const sl_status status = sl_save_memory(NULL, &size, set);
+    const sl_status status = sl_save(NULL, NULL, &size, set, NULL);
     assert_true(status == SL_OK || status == SL_ERR_MISMATCH); /* as if of a later version */
     saved_t again = saved_of_size(size);
-    SL_EXPECT(status, sl_save_memory(again.bytes, &size, set));
+    SL_EXPECT(status, sl_save(NULL, again.bytes, &size, set, NULL));
     saved_free(&again);
     for (sl_int k = 0; k < set->n_regions; k++) {
         sl_region_stats(set->regions[k], &stats);
@@ -57,7 +57,7 @@ static void use(const sl_saved_set *set, const sl_csc *A) {
             (void)(sl_selected_entries(set->selected, x, &k, NULL, 1, NULL) == SL_OK);
             (void)(sl_selected_entries(set->selected, x, &k, &row, 1, NULL) == SL_OK);
         }
-        (void)(sl_selected_entries(set->selected, x, NULL, NULL, 0, NULL) == SL_OK);
+        (void)(sl_selected_entries(set->selected, x, NULL, NULL, SL_ALL, NULL) == SL_OK);
         if (set->factor != NULL) {
             (void)(sl_selected_refactor(set->selected, set->factor, NULL) == SL_OK);
         }
@@ -71,7 +71,7 @@ static void use(const sl_saved_set *set, const sl_csc *A) {
 }
 
 /* Loads or maps bytes; uses what comes out. Returns the status. */
-static sl_status attempt(set_call_t call, const saved_t *m, size_t size, sl_load_checks checks,
+static sl_status attempt(set_call_t call, const saved_t *m, size_t size, unsigned checks,
                          const sl_csc *A) {
     counter_t counter = counter_make();
     sl_options opt = options_counted(&counter);
@@ -152,8 +152,8 @@ static void every_truncation_is_refused(void **state) {
         saved_t cut = saved_of_size(size); /* so that a read past the end is noticed */
         memcpy(cut.bytes, t.m.bytes, size);
         for (int again = 0; again < 2; again++) {
-            assert_int_equal(attempt(sl_load_memory, &cut, size, SL_LOAD_TRUSTED, NULL), SL_ERR_IO);
-            assert_int_equal(attempt(sl_map_memory, &cut, size, SL_LOAD_VERIFIED, NULL), SL_ERR_IO);
+            assert_int_equal(attempt(set_load, &cut, size, SL_LOAD_TRUSTED, NULL), SL_ERR_IO);
+            assert_int_equal(attempt(set_map, &cut, size, SL_LOAD_VERIFIED, NULL), SL_ERR_IO);
             if (size >= SAVED_HEADER) { /* a header that agrees with the size */
                 saved_put64(cut.bytes + SAVED_BYTES, size);
                 saved_repair(cut.bytes, size);
@@ -175,12 +175,12 @@ static void every_flipped_bit_is_noticed_or_harmless(void **state) {
         for (size_t bit = 0; bit < 8 * t.m.size; bit += is_added(&t, bit / 8) ? 1 : 37) {
             memcpy(t.k.bytes, t.m.bytes, t.m.size);
             t.k.bytes[bit / 8] ^= (unsigned char)(1u << bit % 8);
-            assert_true(attempt(sl_load_memory, &t.k, t.m.size, SL_LOAD_VERIFIED, t.A) != SL_OK);
+            assert_true(attempt(set_load, &t.k, t.m.size, SL_LOAD_VERIFIED, t.A) != SL_OK);
             if (bit % 4 == 0) {
-                assert_true(attempt(sl_map_memory, &t.k, t.m.size, SL_LOAD_VERIFIED, t.A) != SL_OK);
+                assert_true(attempt(set_map, &t.k, t.m.size, SL_LOAD_VERIFIED, t.A) != SL_OK);
             }
             saved_repair(t.k.bytes, t.m.size);
-            const int is_ok = attempt(bit % 2 ? sl_load_memory : sl_map_memory, &t.k, t.m.size,
+            const int is_ok = attempt(bit % 2 ? set_load : set_map, &t.k, t.m.size,
                                       SL_LOAD_VERIFIED, t.A) == SL_OK;
             accepted += is_ok;
             refused += !is_ok;
@@ -203,8 +203,7 @@ static void every_replaced_word_is_noticed_or_harmless(void **state) {
                 memcpy(t.k.bytes, t.m.bytes, t.m.size);
                 saved_put32(t.k.bytes + at, values[v]);
                 saved_repair(t.k.bytes, t.m.size);
-                (void)attempt(v % 2 ? sl_load_memory : sl_map_memory, &t.k, t.m.size,
-                              SL_LOAD_CHECKED, t.A);
+                (void)attempt(v % 2 ? set_load : set_map, &t.k, t.m.size, SL_LOAD_CHECKED, t.A);
             }
         }
         target_free(&t);
@@ -222,8 +221,7 @@ static void every_extreme_word_is_noticed_or_harmless(void **state) {
                 memcpy(t.k.bytes, t.m.bytes, t.m.size);
                 saved_put64(t.k.bytes + at, saved_extreme(v, 25));
                 saved_repair(t.k.bytes, t.m.size);
-                (void)attempt(v % 2 ? sl_load_memory : sl_map_memory, &t.k, t.m.size,
-                              SL_LOAD_CHECKED, t.A);
+                (void)attempt(v % 2 ? set_load : set_map, &t.k, t.m.size, SL_LOAD_CHECKED, t.A);
             }
         }
         target_free(&t);
@@ -249,8 +247,8 @@ static void refuse(const target_t *t, uint32_t id, size_t at, uint32_t value) {
     assert_true(at + 4 <= bytes && saved_u32(word) != value);
     saved_put32(word, value);
     saved_repair(t->k.bytes, t->m.size);
-    assert_int_equal(attempt(sl_load_memory, &t->k, t->m.size, SL_LOAD_CHECKED, t->A), SL_ERR_IO);
-    assert_int_equal(attempt(sl_map_memory, &t->k, t->m.size, SL_LOAD_CHECKED, t->A), SL_ERR_IO);
+    assert_int_equal(attempt(set_load, &t->k, t->m.size, SL_LOAD_CHECKED, t->A), SL_ERR_IO);
+    assert_int_equal(attempt(set_map, &t->k, t->m.size, SL_LOAD_CHECKED, t->A), SL_ERR_IO);
 }
 
 static void lists_must_be_those_of_regions(void **state) {
@@ -260,7 +258,7 @@ static void lists_must_be_those_of_regions(void **state) {
     const sl_region_arrays r = sl_region_view(t.q.regions[0]);
     const sl_symbolic_arrays v = sl_symbolic_view(r.symbolic);
     assert_true(r.n_roots > 0 && r.n_boundary > 1);
-    assert_int_equal(attempt(sl_load_memory, &t.m, t.m.size, SL_LOAD_VERIFIED, t.A), SL_OK);
+    assert_int_equal(attempt(set_load, &t.m, t.m.size, SL_LOAD_VERIFIED, t.A), SL_OK);
     refuse(&t, 96, 0, 0);                        /* no regions */
     refuse(&t, 96, 0, SETS_REGIONS + 1);         /* more than there are records */
     refuse(&t, 97, 0, (uint32_t)r.n_roots + 17); /* more roots than are listed */

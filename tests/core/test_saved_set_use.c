@@ -1,4 +1,5 @@
 /* test_saved_set_use.c: sets of saved objects: what is refused, sizes of memory, failing loads */
+#include "tests/lib/parallel_for.h"
 #include "tests/lib/saved_format.h"
 #include "tests/lib/saved_set.h"
 
@@ -21,17 +22,17 @@ static void memory_of_any_size(void **state) {
     for (int k = 0; k < 4; k++) {
         size_t size = small[k];
         memset(other.bytes, 0x5A, other.size);
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_save_memory(other.bytes, &size, set_of(&q)));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_save(NULL, other.bytes, &size, set_of(&q), NULL));
         assert_true(size == m.size);
         assert_filled(other.bytes, other.size);
         size = small[k];
-        SL_CHECK(sl_save_memory(NULL, &size, set_of(&q)));
+        SL_CHECK(sl_save(NULL, NULL, &size, set_of(&q), NULL));
         assert_true(size == m.size);
     }
     for (int k = 0; k < 3; k++) {
         size_t size = enough[k];
         memset(other.bytes, 0x5A, other.size);
-        SL_CHECK(sl_save_memory(other.bytes + k, &size, set_of(&q)));
+        SL_CHECK(sl_save(NULL, other.bytes + k, &size, set_of(&q), NULL));
         assert_true(size == m.size);
         assert_filled(other.bytes, (size_t)k);
         assert_memory_equal(other.bytes + k, m.bytes, m.size);
@@ -52,12 +53,12 @@ static void what_does_not_belong_together_is_refused(void **state) {
     sl_region *mixed[2] = {q.regions[0], NULL};
     size_t size = 7, kept = m.size;
 #define REFUSED(status, what) \
-    SL_EXPECT(status, sl_save_memory(NULL, &size, what)); \
-    SL_EXPECT(status, sl_save_memory(m.bytes, &kept, what)); \
-    SL_EXPECT(status, sl_save_file(NOWHERE, what, NULL))
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_memory(NULL, NULL, &set));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_memory(m.bytes, NULL, &set));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_file(NULL, &set, NULL));
+    SL_EXPECT(status, sl_save(NULL, NULL, &size, what, NULL)); \
+    SL_EXPECT(status, sl_save(NULL, m.bytes, &kept, what, NULL)); \
+    SL_EXPECT(status, sl_save(NOWHERE, NULL, NULL, what, NULL))
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_save(NULL, NULL, NULL, &set, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_save(NULL, m.bytes, NULL, &set, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_save(NULL, NULL, NULL, &set, NULL));
     REFUSED(SL_ERR_ARGUMENT, NULL);
     set.symbolic = NULL;
     REFUSED(SL_ERR_ARGUMENT, &set);
@@ -100,7 +101,8 @@ static void what_does_not_belong_together_is_refused(void **state) {
         assert_true(got.symbolic == NULL && got.reserved[0] == NULL);
         SL_EXPECT(SL_ERR_ARGUMENT, set_calls[k](&got, NULL, m.size, SL_LOAD_CHECKED, NULL));
         assert_true(got.symbolic == NULL && got.regions == NULL && got.n_regions == 0);
-        SL_EXPECT(SL_ERR_ARGUMENT, set_calls[k](&got, m.bytes, m.size, (sl_load_checks)3, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  set_calls[k](&got, m.bytes, m.size, SL_LOAD_TRUSTED | SL_LOAD_VERIFIED, NULL));
         SL_EXPECT(SL_ERR_IO, set_calls[k](&got, m.bytes, m.size - 64, SL_LOAD_CHECKED, NULL));
         assert_int_equal(got.wanted, SL_SAVED_FACTOR);
         got.wanted = (sl_saved_content)3;
@@ -109,11 +111,11 @@ static void what_does_not_belong_together_is_refused(void **state) {
         SL_EXPECT(SL_ERR_ARGUMENT, set_calls[k](&got, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
         got.wanted = SL_SAVED_ALL;
     }
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_map_memory(&got, m.bytes + 8, m.size, SL_LOAD_CHECKED, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_load_file(&got, NULL, SL_LOAD_CHECKED, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_load_file(NULL, "x", SL_LOAD_CHECKED, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_map_file(&got, NULL, SL_LOAD_CHECKED, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_map_file(NULL, "x", SL_LOAD_CHECKED, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_load(&got, NULL, m.bytes + 8, m.size, SL_LOAD_MAPPED, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_load(&got, NULL, NULL, 0, SL_LOAD_CHECKED, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_load(NULL, "x", NULL, 0, SL_LOAD_CHECKED, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_load(&got, NULL, NULL, 0, SL_LOAD_MAPPED, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_load(NULL, "x", NULL, 0, SL_LOAD_MAPPED, NULL));
     sl_saved_set_free(NULL);
     saved_free(&m);
     set_case_free(&q);
@@ -165,13 +167,15 @@ static void every_allocation_of_a_load_may_fail(void **state) {
         set_case_t q = set_case_make(SAVED_DEFINITE, GEN_GRID2, 144, 0, is_whole, &from);
         saved_t m = set_save(set_of(&q));
         for (int call = 0; call < 2; call++) {
-            int done = 0;
+            int done = 0, runs = 0;
             for (int64_t at = 0; !done; at++) {
                 counter_t counter = counter_make();
                 sl_options opt = options_counted(&counter);
                 sl_saved_set got = {0};
                 counter.fail_at = at;
                 opt.threads.count = 2;
+                opt.threads.run = run_backwards;
+                opt.threads.context = &runs;
                 const sl_status status =
                     set_calls[call](&got, m.bytes, m.size, SL_LOAD_CHECKED, &opt);
                 done = status == SL_OK;
@@ -202,7 +206,7 @@ static void a_mapped_set_keeps_little(void **state) {
         saved_t m = set_save(set_of(&q));
         sl_saved_set got = {0};
         size_t rows = 0;
-        SL_CHECK(sl_map_memory(&got, m.bytes, m.size, SL_LOAD_CHECKED, &opt));
+        SL_CHECK(sl_load(&got, NULL, m.bytes, m.size, SL_LOAD_MAPPED, &opt));
         for (sl_int k = 0; k < got.n_regions; k++) {
             const sl_region_arrays r = sl_region_view(got.regions[k]);
             rows += (size_t)(r.n_roots + r.n_boundary);

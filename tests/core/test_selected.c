@@ -41,7 +41,7 @@ static void entries_match_the_dense_inverse(void **state) {
                 sl_selected *Z = NULL;
                 sl_stats stats;
                 memset(&stats, 0, sizeof stats);
-                SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, NULL, &stats));
+                SL_CHECK(sl_selected_create(&Z, y.F, NULL, SL_ALL, NULL, &stats));
                 const char *wrong = check_selected(Z, &r);
                 if (wrong) {
                     print_error("%s, n = %d, %s: %s\n", gen_name((gen_kind_t)kind),
@@ -75,7 +75,7 @@ static void wide_supernodes_match_the_dense_inverse(void **state) {
             factored_t y = factored_make(n % 2 ? GEN_DENSE : GEN_GRID3, n, 1, 0, &opt);
             reference_t r = reference_make(&y.M.view, y.F);
             sl_selected *Z = NULL;
-            SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, FOR_OTHERS(&opt), NULL));
+            SL_CHECK(sl_selected_create(&Z, y.F, NULL, SL_ALL, FOR_OTHERS(&opt), NULL));
             NOTHING_WRONG(check_selected(Z, &r));
             sl_selected_free(Z);
             reference_free(&r);
@@ -98,8 +98,8 @@ static void entries_match_full_solves(void **state) {
                *diagonal = test_reals((size_t)n);
         sl_selected *Z = NULL;
         uint64_t seed = 5;
-        SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, NULL, NULL));
-        SL_CHECK(sl_selected_entries(Z, diagonal, NULL, NULL, 0, NULL));
+        SL_CHECK(sl_selected_create(&Z, y.F, NULL, SL_ALL, NULL, NULL));
+        SL_CHECK(sl_selected_entries(Z, diagonal, NULL, NULL, SL_ALL, NULL));
         for (int times = 0; times < 60; times++) {
             sl_int j = gen_below(&seed, n);
             double largest = 0.0;
@@ -140,7 +140,7 @@ static void a_set_gives_the_same_bits(void **state) {
             sl_symbolic_arrays v = sl_symbolic_view(y.S);
             sl_int n = v.n, *set = test_ints((size_t)n + 2);
             sl_selected *all = NULL;
-            SL_CHECK(sl_selected_create(&all, y.F, NULL, 0, NULL, NULL));
+            SL_CHECK(sl_selected_create(&all, y.F, NULL, SL_ALL, NULL, NULL));
             for (sl_int count = 0; count <= n; count = 3 * count + 1) {
                 char *mark = (char *)test_array((size_t)v.n_supers, 1);
                 sl_selected *some = (sl_selected *)(void *)&seed;
@@ -196,7 +196,7 @@ static void a_wrong_entry_is_detected(void **state) {
     factored_t y = factored_make(GEN_GRID2, 49, 1, 0, NULL);
     reference_t r = reference_make(&y.M.view, y.F);
     sl_selected *Z = NULL;
-    SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_selected_create(&Z, y.F, NULL, SL_ALL, NULL, NULL));
     sl_selected_arrays z = sl_selected_view(Z);
     sl_symbolic_arrays v = sl_symbolic_view(y.S);
     double *numbers = (double *)(uintptr_t)z.Z;

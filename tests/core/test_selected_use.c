@@ -7,19 +7,19 @@ static void values_outlive_the_factor(void **state) {
     factored_t y = factored_make(GEN_GRID2, 225, 1, 0, NULL);
     double before[225], after[225], again[225];
     sl_selected *Z = NULL, *none = (sl_selected *)(void *)before;
-    SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, NULL, NULL));
-    SL_CHECK(sl_selected_entries(Z, before, NULL, NULL, 0, NULL));
+    SL_CHECK(sl_selected_create(&Z, y.F, NULL, SL_ALL, NULL, NULL));
+    SL_CHECK(sl_selected_entries(Z, before, NULL, NULL, SL_ALL, NULL));
     for (sl_int p = 0; p < y.M.p[225]; p++) {
         y.M.x[p] *= 4.0;
     }
     SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
-    SL_CHECK(sl_selected_entries(Z, after, NULL, NULL, 0, NULL));
+    SL_CHECK(sl_selected_entries(Z, after, NULL, NULL, SL_ALL, NULL));
     SAME_VALUES(before, after, 225);
     SL_CHECK(sl_selected_refactor(Z, y.F, NULL));
-    SL_CHECK(sl_selected_entries(Z, again, NULL, NULL, 0, NULL));
+    SL_CHECK(sl_selected_entries(Z, again, NULL, NULL, SL_ALL, NULL));
     sl_selected_free(Z);
-    SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, NULL, NULL));
-    SL_CHECK(sl_selected_entries(Z, after, NULL, NULL, 0, NULL));
+    SL_CHECK(sl_selected_create(&Z, y.F, NULL, SL_ALL, NULL, NULL));
+    SL_CHECK(sl_selected_entries(Z, after, NULL, NULL, SL_ALL, NULL));
     SAME_VALUES(again, after, 225);
     /* Exact: a power of two. */
     for (int k = 0; k < 225; k++) {
@@ -27,12 +27,12 @@ static void values_outlive_the_factor(void **state) {
     }
     y.M.x[3] = NAN;
     SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(y.F, &y.M.view, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_selected_create(&none, y.F, NULL, 0, NULL, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_selected_create(&none, y.F, NULL, SL_ALL, NULL, NULL));
     assert_null(none);
     SL_EXPECT(SL_ERR_STALE, sl_selected_refactor(Z, y.F, NULL));
     sl_factor_free(y.F);
     y.F = NULL;
-    SL_CHECK(sl_selected_entries(Z, after, NULL, NULL, 0, NULL));
+    SL_CHECK(sl_selected_entries(Z, after, NULL, NULL, SL_ALL, NULL));
     SAME_VALUES(again, after, 225);
     sl_selected_free(Z);
     factored_free(&y);
@@ -48,16 +48,17 @@ static void empty_problems_work(void **state) {
             sl_stats stats;
             double out[1] = {5.0};
             memset(&stats, 0, sizeof stats);
-            SL_CHECK(sl_selected_create(&Z, y.F, whole ? NULL : no_rows, 0, NULL, &stats));
+            SL_CHECK(sl_selected_create(&Z, y.F, whole ? NULL : no_rows, whole ? SL_ALL : 0, NULL,
+                                        &stats));
             assert_int_equal(stats.selected.columns, whole ? kind : 0);
             SL_CHECK(sl_selected_entries(Z, NULL, no_rows, NULL, 0, NULL));
             SL_CHECK(sl_selected_entries(Z, NULL, no_rows, no_rows, 0, NULL));
             if (kind == GEN_NONE) {
-                SL_CHECK(sl_selected_entries(Z, NULL, NULL, NULL, 0, NULL));
+                SL_CHECK(sl_selected_entries(Z, NULL, NULL, NULL, SL_ALL, NULL));
                 assert_int_equal(sl_selected_view(Z).count, 0);
             } else {
                 SL_EXPECT(whole ? SL_OK : SL_ERR_OTHER_PATTERN,
-                          sl_selected_entries(Z, out, NULL, NULL, 0, &stats));
+                          sl_selected_entries(Z, out, NULL, NULL, SL_ALL, &stats));
                 assert_true(out[0] == (whole ? 1.0 / sl_factor_view(y.F).D[0] : 5.0));
             }
             sl_selected_free(Z);
@@ -79,23 +80,23 @@ static void wrong_arguments_are_refused(void **state) {
     memset(&stats, 0, sizeof stats);
     incomplete.allocator.release = counter_release;
     out[0] = 5.0;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_create(NULL, y.F, NULL, 0, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_create(&none, NULL, NULL, 0, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_create(NULL, y.F, NULL, SL_ALL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_create(&none, NULL, NULL, SL_ALL, NULL, NULL));
     assert_null(none);
     none = (sl_selected *)(void *)out;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_create(&none, y.F, fine, -1, NULL, NULL));
     assert_null(none);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_create(&none, y.F, NULL, 0, &incomplete, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_create(&none, y.F, NULL, SL_ALL, &incomplete, NULL));
     none = (sl_selected *)(void *)out;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_create(&none, y.F, below, 3, NULL, &stats));
     assert_null(none);
     assert_int_equal(stats.error.row, -1);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_create(&none, y.F, above, 3, NULL, &stats));
     assert_int_equal(stats.error.row, 20);
-    SL_CHECK(sl_selected_create(&Z, y.F, NULL, -1, NULL, &stats)); /* count is not read */
+    SL_CHECK(sl_selected_create(&Z, y.F, NULL, SL_ALL, NULL, &stats));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(NULL, out, fine, NULL, 3, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(Z, NULL, fine, NULL, 3, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(Z, NULL, NULL, NULL, 0, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(Z, NULL, NULL, NULL, SL_ALL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(Z, out, fine, NULL, -1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(Z, out, above, NULL, 3, &stats));
     assert_int_equal(stats.error.row, 20);
@@ -138,7 +139,8 @@ static void every_allocation_may_fail(void **state) {
             sl_options opt = options_counted(&counter);
             sl_selected *Z = (sl_selected *)(void *)&counter;
             counter.fail_at = k;
-            status = sl_selected_create(&Z, y.F, whole ? NULL : set, 3, &opt, NULL);
+            status =
+                sl_selected_create(&Z, y.F, whole ? NULL : set, whole ? SL_ALL : 3, &opt, NULL);
             assert_true(status == SL_OK || status == SL_ERR_MEMORY);
             assert_int_equal(status == SL_ERR_MEMORY, counter.calls > (size_t)k);
             assert_true((Z != NULL) == (status == SL_OK));

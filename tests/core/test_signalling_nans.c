@@ -99,7 +99,7 @@ static void invert_all(buffers_t *y, const sl_symbolic *S, const sl_factor *F) {
     SL_CHECK(sl_inverse_diagonal(F, signalling(y), NULL, y->n, W, &stats));
     SL_CHECK(sl_inverse_pairs(F, signalling(y), y->bset, y->xset, y->nb, W, &stats));
     SL_CHECK(sl_inverse_block(F, signalling(y), n, y->bset, y->nb, y->xset, y->nb, W, &stats));
-    SL_CHECK(sl_selected_create(&Z, F, NULL, 0, &y->opt, &stats));
+    SL_CHECK(sl_selected_create(&Z, F, NULL, SL_ALL, &y->opt, &stats));
     sl_selected_free(Z);
     if (stats.factor.null == 0) {
         const sl_status status = sl_region_create(&R, F, y->bset, y->nb, NULL, &y->opt, &stats);

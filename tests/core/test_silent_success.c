@@ -46,7 +46,7 @@ static void every_use_is_refused(const sl_factor *F, const sl_symbolic *S) {
     SL_EXPECT(SL_ERR_STALE, sl_factor_logdet(F, &log_abs, &sign));
     SL_EXPECT(SL_ERR_STALE, sl_factor_lower(&L, F, NULL));
     SL_EXPECT(SL_ERR_STALE, sl_inverse_diagonal(F, x, set, 2, NULL, NULL));
-    SL_EXPECT(SL_ERR_STALE, sl_selected_create(&Z, F, NULL, 0, NULL, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_selected_create(&Z, F, NULL, SL_ALL, NULL, NULL));
     SL_EXPECT(SL_ERR_STALE, sl_region_create(&R, F, set, 2, NULL, NULL, NULL));
     SL_CHECK(sl_plan_create(&P, S, set, 2, set, 2, NULL, NULL));
     SL_EXPECT(SL_ERR_STALE, sl_plan_solve(P, F, x, 2, b, 2, 1, NULL));

@@ -35,7 +35,7 @@ static run_t run(gen_kind_t kind, sl_int size, sl_ordering ordering) {
     SL_CHECK(sl_factor_create(&F, S, &M.view, NULL, &r.stats));
     r.factor += seconds();
     r.selected = -seconds();
-    SL_CHECK(sl_selected_create(&Z, F, NULL, 0, NULL, &r.stats));
+    SL_CHECK(sl_selected_create(&Z, F, NULL, SL_ALL, NULL, &r.stats));
     r.selected += seconds();
     r.region = -seconds();
     SL_CHECK(sl_region_create(&R, F, set, 3, NULL, NULL, &r.stats));
@@ -125,7 +125,7 @@ static void groups_are_filled_again(void **state) {
         sl_stats made, again;
         memset(&made, 0, sizeof made);
         memset(&again, 0xFF, sizeof again);
-        SL_CHECK(sl_selected_create(&Z, y.F, whole ? NULL : set, 3, NULL, &made));
+        SL_CHECK(sl_selected_create(&Z, y.F, whole ? NULL : set, whole ? SL_ALL : 3, NULL, &made));
         sl_selected_stats(Z, &again);
         assert_true(made.selected.entries > 0 && made.selected.bytes > 0);
         assert_int_equal(again.selected.supernodes, made.selected.supernodes);
@@ -165,7 +165,7 @@ static void inverse_calls_have_a_group(void **state) {
         memset(&stats, 0xFF, sizeof stats);
         switch (call) {
         case 0:
-            SL_CHECK(sl_inverse_diagonal(y.F, out, NULL, 0, NULL, &stats));
+            SL_CHECK(sl_inverse_diagonal(y.F, out, NULL, SL_ALL, NULL, &stats));
             break;
         case 1:
             SL_CHECK(sl_inverse_diagonal(y.F, out, rows, ROWS, NULL, &stats));

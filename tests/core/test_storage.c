@@ -213,7 +213,7 @@ static void exact_inverses(const exact_t *e) {
     }
     for (int k = 0; k < 2; k++) {
         sl_selected *Z = NULL;
-        SL_CHECK(sl_selected_create(&Z, e->F[k], NULL, 0, NULL, NULL));
+        SL_CHECK(sl_selected_create(&Z, e->F[k], NULL, SL_ALL, NULL, NULL));
         SL_CHECK(sl_selected_entries(Z, to[k], NULL, NULL, e->n, NULL));
         SL_CHECK(sl_selected_refactor(Z, e->F[1 - k], NULL)); /* the other type of L */
         SL_CHECK(sl_selected_entries(Z, to[k] + n, NULL, NULL, e->n, NULL));

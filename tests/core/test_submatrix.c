@@ -180,7 +180,7 @@ static void restrictions_are_independent_and_complete(void **state) {
         for (sl_int k = 0; k < n; k++) {
             assert_true(fabs(diagonal[k] - AT(Z, k, k)) <= 1e-12 * fabs(AT(Z, k, k)));
         }
-        SL_CHECK(sl_selected_create(&selected, t.G, NULL, 0, NULL, NULL));
+        SL_CHECK(sl_selected_create(&selected, t.G, NULL, SL_ALL, NULL, NULL));
         SL_CHECK(sl_selected_entries(selected, diagonal, NULL, NULL, n, NULL));
         for (sl_int k = 0; k < n; k++) {
             assert_true(fabs(diagonal[k] - AT(Z, k, k)) <= 1e-12 * fabs(AT(Z, k, k)));

@@ -165,8 +165,8 @@ static void many_trees_give_the_same_bits(void **state) {
     check_workers(y.F, NULL, ROWS, 260, 2);
     for (int k = 0; k < 2; k++) {
         sl_plan *P = NULL;
-        SL_CHECK(sl_plan_create(&P, y.S, k == 0 ? NULL : set, k == 0 ? 0 : 3, k == 0 ? set : NULL,
-                                k == 0 ? 3 : 0, NULL, NULL));
+        SL_CHECK(sl_plan_create(&P, y.S, k == 0 ? NULL : set, k == 0 ? SL_ALL : 3,
+                                k == 0 ? set : NULL, k == 0 ? 3 : SL_ALL, NULL, NULL));
         check_workers(y.F, P, ROWS, 1, 8);
         sl_plan_free(P);
     }

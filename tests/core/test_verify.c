@@ -5,6 +5,7 @@
 #include "tests/lib/no_kernels.h"
 #define SPARSE_LOCAL_IMPLEMENTATION
 #include "tests/lib/option_calls.h"
+#include "tests/lib/parallel_for.h"
 
 typedef struct option_t {
     const char *name;
@@ -138,9 +139,12 @@ static void options_that_every_call_reads_are_accepted(void **state) {
     option_fixture_t *f = option_fixture_make();
     counter_t counter = counter_make();
     sl_options opt;
+    int runs = 0;
     sl_options_init(&opt, sizeof opt);
     opt.allocator = options_counted(&counter).allocator;
     opt.threads.count = 2;
+    opt.threads.run = run_backwards;
+    opt.threads.context = &runs;
     for (int call = 0; call < OPTION_CALLS; call++) {
         assert_option_call(f, call, &opt, SL_OK);
     }

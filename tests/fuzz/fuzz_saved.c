@@ -51,12 +51,12 @@ static void use(const sl_symbolic *S, sl_factor *F) {
         ignore(sl_plan_solve(P, F, x, ld, b, ld, 2, NULL));
         ignore(sl_plan_solve_regularized(P, F, x, ld, b, ld, 1, 1, NULL, NULL));
     }
-    ignore(sl_inverse_diagonal(F, x, NULL, 0, NULL, NULL));
+    ignore(sl_inverse_diagonal(F, x, NULL, SL_ALL, NULL, NULL));
     ignore(sl_factor_defects(F, x, ld, b, ld, 1, NULL));
     ignore(sl_factor_logdet(F, &log_abs, &sign));
     ignore(sl_factor_lower(&L, F, NULL));
-    if (sl_selected_create(&Z, F, NULL, 0, NULL, NULL) == SL_OK) {
-        ignore(sl_selected_entries(Z, x, NULL, NULL, 0, NULL));
+    if (sl_selected_create(&Z, F, NULL, SL_ALL, NULL, NULL) == SL_OK) {
+        ignore(sl_selected_entries(Z, x, NULL, NULL, SL_ALL, NULL));
     }
     if (sl_region_create(&R, F, set, count, NULL, NULL, NULL) == SL_OK) {
         memset(&opt, 0, sizeof opt);
@@ -119,7 +119,7 @@ static void use_set(const sl_saved_set *set) {
     sl_region *R = NULL;
     size_t size = 0;
     PROMISE(x != NULL);
-    ignore(sl_save_memory(NULL, &size, set));
+    ignore(sl_save(NULL, NULL, &size, set, NULL));
     for (sl_int k = 0; k < set->n_regions; k++) {
         use_region(set, set->regions[k]);
     }
@@ -133,7 +133,7 @@ static void use_set(const sl_saved_set *set) {
         ignore(sl_selected_entries(set->selected, x, &k, &row, 1, NULL));
     }
     if (set->selected != NULL) {
-        ignore(sl_selected_entries(set->selected, x, NULL, NULL, 0, NULL));
+        ignore(sl_selected_entries(set->selected, x, NULL, NULL, SL_ALL, NULL));
         ignore(sl_selected_refactor(set->selected, set->factor, NULL));
     }
     for (sl_int k = 0; k < set->n_regions; k++) {
@@ -143,8 +143,7 @@ static void use_set(const sl_saved_set *set) {
     free(x);
 }
 
-static void load_set(const unsigned char *bytes, size_t size, int is_mapped,
-                     sl_load_checks checks) {
+static void load_set(const unsigned char *bytes, size_t size, int is_mapped, unsigned checks) {
     sl_options opt;
     sl_saved_set set;
     memset(&set, 0, sizeof set);
@@ -152,8 +151,9 @@ static void load_set(const unsigned char *bytes, size_t size, int is_mapped,
     opt.allocator.allocate = allocate;
     opt.allocator.release = release;
     limit = size + 4096;
-    const sl_status status = is_mapped ? sl_map_memory(&set, bytes, size, checks, &opt)
-                                       : sl_load_memory(&set, bytes, size, checks, &opt);
+    const sl_status status = is_mapped
+                                 ? sl_load(&set, NULL, bytes, size, checks | SL_LOAD_MAPPED, &opt)
+                                 : sl_load(&set, NULL, bytes, size, checks, &opt);
     limit = 0;
     PROMISE((set.symbolic != NULL) == (status == SL_OK));
     if (status == SL_OK && checks != SL_LOAD_TRUSTED) {
@@ -162,7 +162,7 @@ static void load_set(const unsigned char *bytes, size_t size, int is_mapped,
     sl_saved_set_free(&set);
 }
 
-static void load(const unsigned char *bytes, size_t size, int is_mapped, sl_load_checks checks) {
+static void load(const unsigned char *bytes, size_t size, int is_mapped, unsigned checks) {
     sl_options opt;
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;

@@ -112,9 +112,9 @@ static unsigned char *save(sl_symbolic *S, sl_factor *F, int has_inverse, size_t
                                               NULL, NULL) == SL_OK;
         }
     }
-    PROMISE(sl_save_memory(NULL, size, &set) == SL_OK);
+    PROMISE(sl_save(NULL, NULL, size, &set, NULL) == SL_OK);
     unsigned char *bytes = (unsigned char *)malloc(*size);
-    PROMISE(bytes != NULL && sl_save_memory(bytes, size, &set) == SL_OK);
+    PROMISE(bytes != NULL && sl_save(NULL, bytes, size, &set, NULL) == SL_OK);
     for (int k = 0; k < REGIONS; k++) {
         sl_region_free(regions[k]);
     }

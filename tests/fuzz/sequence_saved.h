@@ -52,7 +52,7 @@ static void copy(input_t *in) {
     unsigned char *block, *aligned = aligned_room(bytes, &block);
     PROMISE(pair_save_memory(aligned, &bytes, analyses[f->analysis].S, f->F) == SL_OK);
     const sl_options opt = load_options(f);
-    const sl_load_checks checks = (sl_load_checks)(form / 2 % 3);
+    const unsigned checks = (unsigned)(form / 2 % 3);
     status = form % 2 ? pair_map_memory(&S, &F, aligned, bytes, checks, &opt)
                       : pair_load_memory(&S, &F, aligned, bytes, checks, &opt);
     PROMISE((F != NULL) == (status == SL_OK) && (S != NULL) == (status == SL_OK));
@@ -155,18 +155,18 @@ static void copy_set(input_t *in) {
             may_be_saved &= may_belong(f, regions[k].analysis, regions[k].a);
         }
     }
-    sl_status status = sl_save_memory(NULL, &bytes, &set);
+    sl_status status = sl_save(NULL, NULL, &bytes, &set, NULL);
     PROMISE(status == SL_OK || is_apart(status));
     PROMISE(is_apart(status) || (may_be_saved && (f->is_valid || !set.factor)));
     if (status != SL_OK) {
         return;
     }
     unsigned char *block, *aligned = aligned_room(bytes, &block);
-    PROMISE(sl_save_memory(aligned, &bytes, &set) == SL_OK);
+    PROMISE(sl_save(NULL, aligned, &bytes, &set, NULL) == SL_OK);
     const sl_options opt = load_options(f);
-    const sl_load_checks checks = (sl_load_checks)(form / 4 % 3);
-    status = form / 2 % 2 ? sl_map_memory(&loaded, aligned, bytes, checks, &opt)
-                          : sl_load_memory(&loaded, aligned, bytes, checks, &opt);
+    const unsigned checks = (unsigned)(form / 4 % 3);
+    status = form / 2 % 2 ? sl_load(&loaded, NULL, aligned, bytes, checks | SL_LOAD_MAPPED, &opt)
+                          : sl_load(&loaded, NULL, aligned, bytes, checks, &opt);
     PROMISE((loaded.symbolic != NULL) == (status == SL_OK));
     PROMISE(status == SL_OK || no_memory(status));
     left = -1;

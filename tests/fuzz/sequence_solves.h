@@ -167,7 +167,7 @@ static sl_status solve_zeros(const factor_t *f, const plan_t *p, sl_int nrhs, sl
     status[0] = sl_factor_solve(f->F, full, MOST, full, MOST, nrhs, W);
     status[1] = sl_factor_refine(f->F, &A, X, SET, B, SET, nrhs, 0, W, &stats);
     status[2] = sl_factor_rcond(f->F, &A, &rcond, W);
-    status[3] = sl_inverse_diagonal(f->F, X, NULL, 0, W, NULL);
+    status[3] = sl_inverse_diagonal(f->F, X, NULL, SL_ALL, W, NULL);
     if (A.n_cols > 0) {
         const sl_int row = A.n_cols / 2;
         status[4] = sl_local_solve(f->F, &row, 1, NULL, A.n_cols, X, SET, B, SET, nrhs, W, NULL);

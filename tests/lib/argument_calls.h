@@ -132,16 +132,16 @@ static sl_status save_memory(arguments_t *a) {
     size_t bytes = 0;
     good.symbolic = o->good.S;
     good.factor = o->good.F;
-    SL_CHECK(sl_save_memory(NULL, &bytes, &good));
+    SL_CHECK(sl_save(NULL, NULL, &bytes, &good, NULL));
     void *memory = test_array(bytes, 1);
-    const sl_status status = sl_save_memory(memory, &bytes, &set);
+    const sl_status status = sl_save(NULL, memory, &bytes, &set, NULL);
     free(memory);
     return status;
 }
 
 static sl_status save_file(arguments_t *a) {
     const sl_saved_set set = saved_set(a);
-    return sl_save_file(NOWHERE, &set, NULL);
+    return sl_save(NOWHERE, NULL, NULL, &set, NULL);
 }
 
 static sl_status batch_solve(arguments_t *a) {
@@ -282,8 +282,8 @@ static const struct {
     {"sl_constraints_release", pins_release, PINS_ | LIST_},
     {"sl_constraints_refactor", pins_refactor, PINS_},
     {"sl_constraints_solve", pins_solve, PINS_ | X_ | LDX_ | B_ | LDB_ | NRHS_},
-    {"sl_save_memory", save_memory, S_ | FAILED_ | OTHER_},
-    {"sl_save_file", save_file, S_ | FAILED_ | OTHER_},
+    {"sl_save to memory", save_memory, S_ | FAILED_ | OTHER_},
+    {"sl_save to a file", save_file, S_ | FAILED_ | OTHER_},
     {"sl_batch_solve", batch_solve, SOLVE_},
     {"sl_work_reserve", reserve, W_},
 };

@@ -251,11 +251,11 @@ static inline double judge_all_ways(judge_t *t, const double *B, double most) {
         if (way == 0) {
             SL_CHECK(sl_inverse_pairs(F, z, r, s, set, NULL, NULL));
         } else if (way == 1) {
-            SL_CHECK(sl_selected_create(&Z, F, NULL, 0, NULL, NULL));
+            SL_CHECK(sl_selected_create(&Z, F, NULL, SL_ALL, NULL, NULL));
             SL_CHECK(sl_selected_entries(Z, z, r, s, set, NULL));
             sl_selected_free(Z);
         } else if (way == 2) {
-            SL_CHECK(sl_inverse_diagonal(F, z, NULL, 0, NULL, NULL));
+            SL_CHECK(sl_inverse_diagonal(F, z, NULL, SL_ALL, NULL, NULL));
         } else if (way == 3) {
             SL_CHECK(sl_inverse_diagonal(F, z, all, n, NULL, NULL));
         } else {

@@ -73,7 +73,7 @@ static inline void judge_region(judge_t *t, sl_int *set, sl_int count) {
         set[k] = sl_symbolic_view(t->S).perm[from + k];
     }
     if (gen_below(&t->state, 2) &&
-        sl_selected_create(&selected, t->F, NULL, 0, NULL, NULL) != SL_OK) {
+        sl_selected_create(&selected, t->F, NULL, SL_ALL, NULL, NULL) != SL_OK) {
         selected = NULL;
     }
     if (judge_succeeded(t, sl_region_create(&R, t->F, set, count, selected, NULL, NULL),

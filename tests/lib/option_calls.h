@@ -92,7 +92,7 @@ OPTION_CALL(option_edit_factor, sl_factor,
 OPTION_CALL(option_work, sl_work, sl_work_create(&out, opt))
 OPTION_CALL(option_plan, sl_plan,
             sl_plan_create(&out, f->pair.S, f->perm, 1, f->perm, 1, opt, NULL))
-OPTION_CALL(option_selected, sl_selected, sl_selected_create(&out, f->F, NULL, 0, opt, NULL))
+OPTION_CALL(option_selected, sl_selected, sl_selected_create(&out, f->F, NULL, SL_ALL, opt, NULL))
 OPTION_CALL(option_region, sl_region, sl_region_create(&out, f->F, f->perm, 1, NULL, opt, NULL))
 OPTION_CALL(option_batch_factor, sl_factor,
             sl_factor_create_sums(&out, 1, f->pair.S, f->coefficients, matrix_pair_values(&f->pair),
@@ -111,7 +111,7 @@ static inline sl_status option_load(option_fixture_t *f, const sl_options *opt) 
     static const char nothing[64];
     sl_saved_set set = {0};
     set.symbolic = OPTION_GARBAGE(sl_symbolic);
-    const sl_status status = sl_load_memory(&set, nothing, 64, SL_LOAD_CHECKED, opt);
+    const sl_status status = sl_load(&set, NULL, nothing, 64, SL_LOAD_CHECKED, opt);
     assert_null(set.symbolic);
     return status == SL_ERR_UNSUPPORTED ? SL_OK : status;
 }
@@ -121,7 +121,7 @@ static inline sl_status option_save(option_fixture_t *f, const sl_options *opt) 
     memset(&set, 0, sizeof set);
     set.symbolic = f->pair.S;
     set.factor = f->F;
-    return sl_save_file(NOWHERE, &set, opt);
+    return sl_save(NOWHERE, NULL, NULL, &set, opt);
 }
 
 /* The identity of U's rows: an edit that changes nothing. */
@@ -213,8 +213,8 @@ static const struct {
     {"sl_selected_create", option_selected, READS_NOTHING},
     {"sl_region_create", option_region, READS_REGION_BYTES},
     {"sl_factor_create_sums", option_batch_factor, READS_FACTOR | READS_ISA},
-    {"sl_load_memory", option_load, READS_ISA},
-    {"sl_save_file", option_save, READS_NOTHING},
+    {"sl_load", option_load, READS_ISA},
+    {"sl_save", option_save, READS_NOTHING},
     {"sl_batch_solve", option_batch_solve, READS_NOTHING},
     {"sl_batch_solve by rows", option_batch_by_rows, READS_NOTHING},
     {"sl_factor_refactor_sums", option_batch_refactor, READS_NOTHING},

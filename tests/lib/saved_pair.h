@@ -19,13 +19,13 @@ static inline sl_saved_set pair_set(const sl_symbolic *S, const sl_factor *F) {
 static inline sl_status pair_save_memory(void *memory, size_t *bytes, const sl_symbolic *S,
                                          const sl_factor *F) {
     const sl_saved_set set = pair_set(S, F);
-    return sl_save_memory(memory, bytes, &set);
+    return sl_save(NULL, memory, bytes, &set, NULL);
 }
 
 static inline sl_status pair_save_file(const char *path, const sl_symbolic *S, const sl_factor *F,
                                        const sl_options *opt) {
     const sl_saved_set set = pair_set(S, F);
-    return sl_save_file(path, &set, opt);
+    return sl_save(path, NULL, NULL, &set, opt);
 }
 
 /* The set of a load of both or, if F is NULL, of the analysis. */
@@ -46,32 +46,30 @@ static inline sl_status pair_take(sl_symbolic **S, sl_factor **F, const sl_saved
 }
 
 static inline sl_status pair_load_memory(sl_symbolic **S, sl_factor **F, const void *memory,
-                                         size_t bytes, sl_load_checks checks,
-                                         const sl_options *opt) {
+                                         size_t bytes, unsigned checks, const sl_options *opt) {
     sl_saved_set set = pair_wanted(F);
-    const sl_status status = sl_load_memory(&set, memory, bytes, checks, opt);
+    const sl_status status = sl_load(&set, NULL, memory, bytes, checks, opt);
     return pair_take(S, F, &set, status);
 }
 
 static inline sl_status pair_map_memory(sl_symbolic **S, sl_factor **F, const void *memory,
-                                        size_t bytes, sl_load_checks checks,
-                                        const sl_options *opt) {
+                                        size_t bytes, unsigned checks, const sl_options *opt) {
     sl_saved_set set = pair_wanted(F);
-    const sl_status status = sl_map_memory(&set, memory, bytes, checks, opt);
+    const sl_status status = sl_load(&set, NULL, memory, bytes, checks | SL_LOAD_MAPPED, opt);
     return pair_take(S, F, &set, status);
 }
 
 static inline sl_status pair_load_file(sl_symbolic **S, sl_factor **F, const char *path,
-                                       sl_load_checks checks, const sl_options *opt) {
+                                       unsigned checks, const sl_options *opt) {
     sl_saved_set set = pair_wanted(F);
-    const sl_status status = sl_load_file(&set, path, checks, opt);
+    const sl_status status = sl_load(&set, path, NULL, 0, checks, opt);
     return pair_take(S, F, &set, status);
 }
 
 static inline sl_status pair_map_file(sl_symbolic **S, sl_factor **F, const char *path,
-                                      sl_load_checks checks, const sl_options *opt) {
+                                      unsigned checks, const sl_options *opt) {
     sl_saved_set set = pair_wanted(F);
-    const sl_status status = sl_map_file(&set, path, checks, opt);
+    const sl_status status = sl_load(&set, path, NULL, 0, checks | SL_LOAD_MAPPED, opt);
     return pair_take(S, F, &set, status);
 }
 

@@ -16,9 +16,19 @@ typedef struct set_case_t {
 
 /* A way to create a set from saved bytes. */
 typedef sl_status (*set_call_t)(sl_saved_set *set, const void *memory, size_t bytes,
-                                sl_load_checks checks, const sl_options *opt);
+                                unsigned checks, const sl_options *opt);
 
-static const set_call_t set_calls[2] = {sl_load_memory, sl_map_memory};
+static sl_status set_load(sl_saved_set *set, const void *memory, size_t bytes, unsigned checks,
+                          const sl_options *opt) {
+    return sl_load(set, NULL, memory, bytes, checks, opt);
+}
+
+static sl_status set_map(sl_saved_set *set, const void *memory, size_t bytes, unsigned checks,
+                         const sl_options *opt) {
+    return sl_load(set, NULL, memory, bytes, checks | SL_LOAD_MAPPED, opt);
+}
+
+static const set_call_t set_calls[2] = {set_load, set_map};
 
 /* is_whole: the selected inverse is that of all rows, not of a few. */
 static inline set_case_t set_case_make(int way, gen_kind_t kind, sl_int size, int style,
@@ -33,14 +43,15 @@ static inline set_case_t set_case_make(int way, gen_kind_t kind, sl_int size, in
     q.set.symbolic = q.c.y.S;
     q.set.factor = q.c.y.F;
     gen_set(rows, count, n, 8);
-    status = sl_selected_create(&q.set.selected, F, is_whole ? NULL : rows, count, FOR_REGION(from),
-                                NULL);
+    status = sl_selected_create(&q.set.selected, F, is_whole ? NULL : rows,
+                                is_whole ? SL_ALL : count, FOR_REGION(from), NULL);
     assert_true(status == SL_OK || way >= SAVED_PIVOTED);
     /* a few rows, all rows, one row out of the selected inverse, and none */
     const sl_int counts[SETS_REGIONS] = {count, n, n > 0, 0};
     for (int k = 0; k < SETS_REGIONS; k++) {
-        status = sl_region_create(&q.regions[k], F, k == 1 ? NULL : rows, counts[k],
-                                  k == 2 ? q.set.selected : NULL, FOR_REGION(from), NULL);
+        status =
+            sl_region_create(&q.regions[k], F, k == 1 ? NULL : rows, k == 1 ? SL_ALL : counts[k],
+                             k == 2 ? q.set.selected : NULL, FOR_REGION(from), NULL);
         assert_true(status == SL_OK || (status == SL_ERR_UNSUPPORTED && q.regions[k] == NULL));
         q.set.n_regions += status == SL_OK;
     }
@@ -65,11 +76,11 @@ static inline void set_case_free(set_case_t *q) {
 
 static inline saved_t set_save(const sl_saved_set *set) {
     size_t size = 1;
-    SL_CHECK(sl_save_memory(NULL, &size, set));
+    SL_CHECK(sl_save(NULL, NULL, &size, set, NULL));
     assert_int_equal(size % 64, 0);
     saved_t m = saved_of_size(size);
     memset(m.bytes, 0xA5, size);
-    SL_CHECK(sl_save_memory(m.bytes, &size, set));
+    SL_CHECK(sl_save(NULL, m.bytes, &size, set, NULL));
     return m;
 }
 

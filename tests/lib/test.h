@@ -165,6 +165,13 @@ static inline sl_int *test_ints(size_t count) {
     return (sl_int *)test_array(count, sizeof(sl_int));
 }
 
+/* What a call with several threads and no pool gives. */
+#if defined(SL_PTHREADS) || defined(_OPENMP)
+#define WITHOUT_POOL SL_OK
+#else
+#define WITHOUT_POOL SL_ERR_UNSUPPORTED
+#endif
+
 /* ---- the options that a call reads: under SL_VERIFY it refuses all others ---- */
 
 /* The options for sl_symbolic_create. */

@@ -48,7 +48,7 @@ static inline void judge_bounds(const sl_factor *F, const truth_t *truth, sl_int
             B[k + nb * r] = 0.0;
         }
     }
-    SL_CHECK(sl_plan_create(&P, S, bset, nb, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_plan_create(&P, S, bset, nb, NULL, SL_ALL, NULL, NULL));
     for (int turn = 0; turn < 2; turn++) { /* the second one finds the scales */
         sl_stats stats;
         SL_CHECK(sl_plan_solve_bounded(P, F, X, rows, turn ? again : bounds, B, (size_t)nb, nrhs,

@@ -58,7 +58,7 @@ WRONG(small_ldx) {
 
 WRONG(small_ldb) {
     const sl_int row = 3;
-    return sl_local_solve(w.y.F, NULL, 0, &row, 1, w.x, 1, w.b, 7, 1, NULL, stats);
+    return sl_local_solve(w.y.F, NULL, SL_ALL, &row, 1, w.x, 1, w.b, 7, 1, NULL, stats);
 }
 
 WRONG(in_place) {
@@ -79,7 +79,7 @@ WRONG(no_numbers) {
 WRONG(other_analysis) {
     sl_plan *P = NULL;
     (void)stats;
-    SL_CHECK(sl_plan_create(&P, w.y.S, NULL, 0, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_plan_create(&P, w.y.S, NULL, SL_ALL, NULL, SL_ALL, NULL, NULL));
     const sl_status status = sl_plan_solve(P, w.other.F, w.x, N, w.b, N, 1, NULL);
     sl_plan_free(P);
     return status;

@@ -10,7 +10,7 @@
 static inline sl_status load(const char *path) {
     sl_saved_set set;
     memset(&set, 0, sizeof set);
-    const sl_status status = sl_load_file(&set, path, SL_LOAD_VERIFIED, NULL);
+    const sl_status status = sl_load(&set, path, NULL, 0, SL_LOAD_VERIFIED, NULL);
     assert_null(set.symbolic);
     return status;
 }
@@ -24,7 +24,7 @@ static inline sl_status load_changed(size_t length, size_t position, int change)
     memset(&set, 0, sizeof set);
     set.symbolic = w.y.S;
     set.factor = w.y.F;
-    SL_CHECK(sl_save_file(files_path("a.slf"), &set, NULL));
+    SL_CHECK(sl_save(files_path("a.slf"), NULL, NULL, &set, NULL));
     bytes = files_get(files_path("a.slf"), &size);
     position = position < size ? position : size + position;
     bytes[position] = (char)(bytes[position] ^ change);
@@ -75,7 +75,7 @@ WRONG(no_folder) {
     (void)stats;
     memset(&set, 0, sizeof set);
     set.symbolic = w.y.S;
-    return sl_save_file(files_path("no/folder/a.slf"), &set, NULL);
+    return sl_save(files_path("no/folder/a.slf"), NULL, NULL, &set, NULL);
 }
 
 WRONG(mapped) {
@@ -84,8 +84,8 @@ WRONG(mapped) {
     memset(&got, 0, sizeof got);
     set.symbolic = w.y.S;
     set.factor = w.y.F;
-    SL_CHECK(sl_save_file(files_path("a.slf"), &set, NULL));
-    SL_CHECK(sl_map_file(&got, files_path("a.slf"), SL_LOAD_CHECKED, NULL));
+    SL_CHECK(sl_save(files_path("a.slf"), NULL, NULL, &set, NULL));
+    SL_CHECK(sl_load(&got, files_path("a.slf"), NULL, 0, SL_LOAD_MAPPED, NULL));
     const sl_status status = sl_factor_refactor(got.factor, &w.y.M.view, stats);
     sl_saved_set_free(&got);
     return status;

@@ -164,13 +164,14 @@ public:
     /* valid until the end of the statement, as an argument of a call is */
     Rows(std::initializer_list<sl_int> rows) : Rows(rows.begin(), rows.size()) {
     }
-    /* A count that does not fit becomes -1, which every call refuses. */
+    /* A count that does not fit becomes -2, which every call refuses. */
     Rows(const sl_int *rows, std::size_t count)
-        : rows_(count ? rows : none()), count_(count > INT32_MAX ? -1 : sl_int(count)) {
+        : rows_(count ? rows : none()), count_(count > INT32_MAX ? -2 : sl_int(count)) {
     }
     static Rows all() {
         Rows every;
         every.rows_ = nullptr;
+        every.count_ = SL_ALL;
         return every;
     }
 
@@ -381,7 +382,8 @@ public:
         std::size_t nb = std::size_t(bset.count(n())), nx = std::size_t(xset.count(n()));
         std::vector<double> result;
         sl_stats stats;
-        if (nrhs < 0 || bset.count() < 0 || xset.count() < 0 || b.size() != nb * std::size_t(nrhs))
+        if (nrhs < 0 || bset.count() < SL_ALL || xset.count() < SL_ALL ||
+            b.size() != nb * std::size_t(nrhs))
             return finish(wrong_size());
         result.resize(nx * std::size_t(nrhs));
         sl_status status = sl_local_solve(get(), bset.data(), bset.count(), xset.data(),
@@ -410,7 +412,7 @@ public:
     SL_RESULT inverse_diagonal(std::vector<double> &out, const Rows &rows,
                                Work *work = nullptr) const {
         sl_stats stats;
-        if (rows.count() < 0) {
+        if (rows.count() < SL_ALL) {
             return finish(Status(SL_ERR_ARGUMENT, "there are 2^31 rows or more"));
         }
         std::vector<double> result(std::size_t(rows.count(n())));

@@ -105,9 +105,9 @@ class RowSet {
         static const sl_int nothing = 0;
         return all_ ? nullptr : rows_.empty() ? &nothing : rows_.data();
     }
-    /* A count that does not fit becomes -1, which every call refuses. */
+    /* A count that does not fit becomes -2, which every call refuses. */
     sl_int count() const {
-        return rows_.size() > INT32_MAX ? -1 : sl_int(rows_.size());
+        return all_ ? SL_ALL : rows_.size() > INT32_MAX ? -2 : sl_int(rows_.size());
     }
     Eigen::Index size(Eigen::Index n) const {
         return all_ ? n : Eigen::Index(rows_.size());

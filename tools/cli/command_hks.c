@@ -1,5 +1,6 @@
 /* command_hks.c: heat kernel signatures: the auto-diffusion function at several times */
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -232,6 +233,41 @@ static void run_files(const char *const *files, const char *at, const app_output
     free(values);
 }
 
+typedef struct part {
+    void (*body)(void *data, sl_int k);
+    void *data;
+    sl_int k;
+} part;
+
+static void *run_part(void *at) {
+    const part *p = at;
+    p->body(p->data, p->k);
+    return NULL;
+}
+
+/* A thread for each k, and those that cannot be started on this one: at most 1,024. */
+static void in_threads(void *context, sl_int count, void (*body)(void *data, sl_int k),
+                       void *data) {
+    pthread_t thread[1024];
+    part parts[1024];
+    sl_int started = 0, k;
+    (void)context;
+    for (k = 0; k < count - 1 && k < 1024; k++, started++) {
+        parts[k].body = body;
+        parts[k].data = data;
+        parts[k].k = k;
+        if (pthread_create(&thread[k], NULL, run_part, &parts[k]) != 0) {
+            break;
+        }
+    }
+    for (; k < count; k++) {
+        body(data, k);
+    }
+    for (k = 0; k < started; k++) {
+        (void)pthread_join(thread[k], NULL);
+    }
+}
+
 int command_hks(int argc, char **argv) {
     const char *operands[FILES_MAX] = {NULL}, *at = "all", *like = NULL, *laplacian = NULL;
     double first = 0, last = 0;
@@ -292,6 +328,9 @@ int command_hks(int argc, char **argv) {
     find_times(times, n_times, first, last, &m);
     heat_system_analyze(&h, &m, laplacian, NULL);
     double begin = app_now();
+    if (threads.count > 1) {
+        threads.run = in_threads;
+    }
     compute(values, &h, times, n_times, vertices, count, strcmp(at, "all") == 0, &threads);
     printf("signatures of %d of %d vertices at %d times from %.6g to %.6g\n", (int)count,
            (int)m.n_vertices, (int)n_times, times[0], times[n_times - 1]);

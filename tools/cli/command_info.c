@@ -105,7 +105,7 @@ static void print_saved(const char *path) {
     sl_saved_set set = {0};
     sl_stats s;
     memset(&s, 0, sizeof s);
-    app_must(sl_load_file(&set, path, SL_LOAD_VERIFIED, NULL), path, NULL);
+    app_must(sl_load(&set, path, NULL, 0, SL_LOAD_VERIFIED, NULL), path, NULL);
     sl_symbolic_stats(set.symbolic, &s);
     printf("%s\n", path);
     printf("matrix               %12d   rows, %lld entries of the lower triangle\n",

@@ -188,9 +188,7 @@ int command_query(int argc, char **argv) {
     sl_saved_set set;
     sl_work *W = NULL;
     query_line line = {NULL, 0, 0};
-    sl_load_checks checks = trusted    ? SL_LOAD_TRUSTED
-                            : verified ? SL_LOAD_VERIFIED
-                                       : SL_LOAD_CHECKED;
+    unsigned checks = trusted ? SL_LOAD_TRUSTED : verified ? SL_LOAD_VERIFIED : SL_LOAD_CHECKED;
     saved_file_open(&set, operand, checks);
     accuracy_warn(NULL, set.factor, NULL);
     app_must(sl_work_create(&W, NULL), "workspace", NULL);

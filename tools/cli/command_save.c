@@ -32,7 +32,7 @@ static void make_inverses(sl_saved_set *set, sl_region **R, const char *region, 
     sl_stats stats;
     if (selected) {
         app_stage("selected inverse");
-        app_must(sl_selected_create(&set->selected, set->factor, NULL, 0, opt, &stats),
+        app_must(sl_selected_create(&set->selected, set->factor, NULL, SL_ALL, opt, &stats),
                  "selected inverse", &stats);
     }
     if (region != NULL) {
@@ -69,8 +69,8 @@ static void make_pair(heat_solver *s, intrinsic *surface, const mesh *m, const h
 static double write_set(const char *path, const sl_saved_set *set) {
     size_t bytes = 0;
     app_stage("save");
-    app_must(sl_save_memory(NULL, &bytes, set), "save", NULL);
-    app_must(sl_save_file(path, set, NULL), path, NULL);
+    app_must(sl_save(NULL, NULL, &bytes, set, NULL), "save", NULL);
+    app_must(sl_save(path, NULL, NULL, set, NULL), path, NULL);
     app_progress_end();
     return 1e-6 * (double)bytes;
 }

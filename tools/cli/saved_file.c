@@ -5,11 +5,11 @@
 
 #include <string.h>
 
-void saved_file_open(sl_saved_set *set, const char *path, sl_load_checks checks) {
+void saved_file_open(sl_saved_set *set, const char *path, unsigned checks) {
     memset(set, 0, sizeof *set);
-    sl_status status = sl_map_file(set, path, checks, NULL);
+    sl_status status = sl_load(set, path, NULL, 0, checks | SL_LOAD_MAPPED, NULL);
     if (status == SL_ERR_UNSUPPORTED) {
-        status = sl_load_file(set, path, checks, NULL);
+        status = sl_load(set, path, NULL, 0, checks, NULL);
     }
     app_must(status, path, NULL);
     if (set->factor == NULL) {

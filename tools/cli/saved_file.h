@@ -10,6 +10,6 @@
  *
  *  set  [out]  release with sl_saved_set_free.
  */
-void saved_file_open(sl_saved_set *set, const char *path, sl_load_checks checks);
+void saved_file_open(sl_saved_set *set, const char *path, unsigned checks);
 
 #endif

@@ -94,11 +94,11 @@ static void provide_factor(job *j) {
         app_mesh(&m, j->operand, true);
         heat_system_create(&h, &m, heat_time_value(&time, &m, 0), time.laplacian, NULL);
         const sl_saved_set made = {.symbolic = h.S, .factor = h.F};
-        must(sl_save_file(j->factor, &made, NULL), j->factor);
+        must(sl_save(j->factor, NULL, NULL, &made, NULL), j->factor);
         heat_system_free(&h);
         mesh_free(&m);
     }
-    must(sl_map_file(&set, j->factor, SL_LOAD_VERIFIED, NULL), j->factor);
+    must(sl_load(&set, j->factor, NULL, 0, SL_LOAD_VERIFIED | SL_LOAD_MAPPED, NULL), j->factor);
     sl_saved_set_free(&set);
 }
 
@@ -314,7 +314,7 @@ int main(int argc, char **argv) {
         provide_factor(&j);
     }
     (void)MPI_Barrier(MPI_COMM_WORLD);
-    must(sl_map_file(&j.set, j.factor, SL_LOAD_TRUSTED, NULL), j.factor);
+    must(sl_load(&j.set, j.factor, NULL, 0, SL_LOAD_TRUSTED | SL_LOAD_MAPPED, NULL), j.factor);
     if (j.set.factor == NULL) {
         fail("%s: holds an analysis without a factor", j.factor);
     }

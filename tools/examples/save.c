@@ -16,8 +16,8 @@ int main(void) {
     ok(sl_factor_solve(F, x, N, b, N, 1, NULL));
     set.symbolic = S;
     set.factor = F;
-    ok(sl_save_file(path, &set, NULL));
-    ok(sl_map_file(&got, path, SL_LOAD_CHECKED, NULL)); /* here or in any other process */
+    ok(sl_save(path, NULL, NULL, &set, NULL));
+    ok(sl_load(&got, path, NULL, 0, SL_LOAD_MAPPED, NULL)); /* here or in any other process */
     ok(sl_factor_solve(got.factor, y, N, b, N, 1, NULL));
     printf("x(7) = %.15f, from the file %.15f\n", x[7], y[7]);
     sl_saved_set_free(&got);

@@ -52,7 +52,7 @@ static sl_status cells_everywhere(sl_int *site, double *heat, heat_solver *s, co
         for (sl_int k = 0; k < width * width; k++) {
             B[k] = k % width == k / width;
         }
-        status = sl_local_solve(s->heat, sites + first, width, NULL, 0, U, n, B, (size_t)width,
+        status = sl_local_solve(s->heat, sites + first, width, NULL, SL_ALL, U, n, B, (size_t)width,
                                 width, s->work, NULL);
         for (sl_int k = 0; k < width && status == SL_OK; k++) {
             keep_larger(site, heat, NULL, (sl_int)n, U + n * (size_t)k, first + k);

@@ -134,7 +134,7 @@ static sl_int *rows_of(const mxArray *a, sl_int *count) {
     sl_int *rows;
     const double *x;
     size_t k;
-    *count = 0;
+    *count = SL_ALL;
     if (mxIsChar(a)) return NULL;
     check_dense(a, "a set of rows");
     *count = count_of(mxGetNumberOfElements(a));

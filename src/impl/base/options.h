@@ -4,6 +4,7 @@
 
 #include "../../public/options.h"
 #include "base.h"
+#include "status.h"
 
 /* Groups of options that a call may read besides the allocator and the threads. */
 enum {
@@ -66,10 +67,15 @@ SLI_NOINLINE static const char *sli_options_wrong(const sl_options *opt, int rea
 #else
     (void)reads;
 #endif
-    return opt->threads.count < 0 ? "options.threads.count is below 0"
-           : (opt->allocator.allocate == NULL) != (opt->allocator.release == NULL)
-               ? "options.allocator has only one of its two functions"
-               : NULL;
+    if ((opt->allocator.allocate == NULL) != (opt->allocator.release == NULL)) {
+        return "options.allocator has only one of its two functions";
+    }
+#if !defined(SL_PTHREADS) && !defined(_OPENMP)
+    if (opt->threads.count > 1 && opt->threads.run == NULL) {
+        return sli_needs_threads;
+    }
+#endif
+    return opt->threads.count < 0 ? "options.threads.count is below 0" : NULL;
 }
 
 /* The threads of the options; none without options. */

@@ -5,14 +5,8 @@
 #include "../../public/options.h"
 #include "base.h"
 
-/* The number of workers for the options of threads: their count, or 1 where there is no pool,
- * neither SL_PTHREADS nor OpenMP. */
+/* The number of workers for the options of threads. */
 SLI_INLINE sl_int sli_workers(const sl_threads *t) {
-#if !defined(SL_PTHREADS) && !defined(_OPENMP)
-    if (t->run == NULL) {
-        return 1;
-    }
-#endif
     return sli_max(t->count, 1);
 }
 

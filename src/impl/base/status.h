@@ -99,9 +99,35 @@ SLI_COLD static sl_status sli_no_memory(void) {
     return sli_refuse(SL_ERR_MEMORY, "the allocator returned NULL");
 }
 
-/* Refuses arguments. wrong: what is wrong with them; NULL: nothing, which gives SL_OK. */
+static const char sli_needs_threads[] =
+    "threads.count is above 1: compile with SL_PTHREADS or OpenMP, or set threads.run";
+
+/* Refuses arguments. wrong: what is wrong with them; NULL: nothing, which gives SL_OK. Threads that
+ * are not compiled in are right, but unsupported. */
 SLI_NOINLINE static sl_status sli_argument(const char *wrong) {
-    return wrong == NULL ? SL_OK : sli_refuse(SL_ERR_ARGUMENT, wrong);
+    return wrong == NULL
+               ? SL_OK
+               : sli_refuse(wrong == sli_needs_threads ? SL_ERR_UNSUPPORTED : SL_ERR_ARGUMENT,
+                            wrong);
+}
+
+/* The list of rows of a call on n rows: NULL with SL_ALL or n is all rows, and stays NULL with the
+ * count n; NULL with 0 is the empty list, and becomes a pointer. Every public call whose list may
+ * be NULL begins with this. */
+SLI_NOINLINE static sl_status sli_list(const sl_int **rows, sl_int *count, sl_int n) {
+    static const sl_int sli_empty = 0;
+    if (*rows != NULL) {
+        return sli_argument(*count < 0 ? "the count of a list is below 0; SL_ALL goes with NULL"
+                                       : NULL);
+    }
+    if (*count == 0) {
+        *rows = &sli_empty;
+    } else if (*count == SL_ALL || *count == n) {
+        *count = n;
+    } else {
+        return sli_argument("the list is NULL: its count must be SL_ALL, n, or 0");
+    }
+    return SL_OK;
 }
 
 /* Sets *out of a call that creates an object to NULL; refuses out if it is NULL itself. */

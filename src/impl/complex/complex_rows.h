@@ -103,14 +103,16 @@ SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, con
     status = status == SL_OK
                  ? sli_argument(S == NULL ? "S is NULL" : sli_options_wrong(opt, SLI_READS_REGION))
                  : status;
+    status = status == SL_OK ? sli_list(&bset, &nb, S->n / 2) : status;
+    status = status == SL_OK ? sli_list(&xset, &nx, S->n / 2) : status;
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
     c = sli_complex_sets_of(bset, nb, xset, nx);
     status = sli_complex_sets_create(&c, S->n, &a, stats);
     if (status == SL_OK) {
-        status = sl_plan_create(out, S, sli_complex_real(&c.first), bset == NULL ? 0 : 2 * nb,
-                                sli_complex_real(&c.second), xset == NULL ? 0 : 2 * nx, opt, stats);
+        status = sl_plan_create(out, S, sli_complex_real(&c.first), 2 * nb,
+                                sli_complex_real(&c.second), 2 * nx, opt, stats);
         sli_free(&a, c.memory);
     }
     return sli_report(stats, status);

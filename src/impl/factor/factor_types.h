@@ -194,7 +194,7 @@ SLI_INLINE sl_status sli_inverse_check(const sl_factor *F) {
 
 /* Refuses to change an object whose numbers are in mapped memory or whose analysis is not whole. */
 SLI_COLD static sl_status sli_refuse_mapped(void) {
-    return sli_refuse(SL_ERR_READ_ONLY, "it is mapped (sl_load_file copies it), of "
+    return sli_refuse(SL_ERR_READ_ONLY, "it is mapped (sl_load copies without SL_LOAD_MAPPED), of "
                                         "sl_factor_submatrix, or saved by a newer version");
 }
 

@@ -28,12 +28,14 @@ static sl_status sli_inverse_entries(sli_entries *q, sl_work *W, sl_stats *stats
 
 SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_int *rows,
                                      sl_int count, sl_work *W, sl_stats *stats) {
+    sl_status status;
     sli_entries q;
     sli_stats_clear_error(stats);
-    if (F == NULL) {
-        return sli_report(stats, sli_argument("F is NULL"));
+    status = F == NULL ? sli_argument("F is NULL") : sli_list(&rows, &count, F->S->n);
+    if (status != SL_OK) {
+        return sli_report(stats, status);
     }
-    q = sli_entries_of(F, out, rows, rows, rows == NULL ? F->S->n : count);
+    q = sli_entries_of(F, out, rows, rows, count);
     return sli_inverse_entries(&q, W, stats);
 }
 

@@ -224,17 +224,16 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
     sli_stats_clear_error(stats);
     status = sli_begin(out);
     if (status == SL_OK) {
-        status = sli_argument(F == NULL ? "F is NULL"
-                              : set != NULL && count < 0
-                                  ? "count is below 0"
-                                  : sli_options_wrong(opt, SLI_READS_REGION_BYTES));
+        status =
+            sli_argument(F == NULL ? "F is NULL" : sli_options_wrong(opt, SLI_READS_REGION_BYTES));
     }
+    status = status == SL_OK ? sli_list(&set, &count, F->S->n) : status;
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
     SLI_CLEAR(start);
     start.S = F->S;
-    start.count = set == NULL ? F->S->n : count;
+    start.count = count;
     start.may_copy = Z != NULL;
     start.bytes_max = opt == NULL ? 0 : opt->region_bytes;
     status = sli_region_check_factor(F, Z);

@@ -270,11 +270,9 @@ SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const
     sli_stats_clear_error(stats);
     status = sli_begin(out);
     if (status == SL_OK) {
-        status =
-            sli_argument(F == NULL                  ? "F is NULL"
-                         : set != NULL && count < 0 ? "count is below 0"
-                                                    : sli_options_wrong(opt, SLI_READS_NOTHING));
+        status = sli_argument(F == NULL ? "F is NULL" : sli_options_wrong(opt, SLI_READS_NOTHING));
     }
+    status = status == SL_OK ? sli_list(&set, &count, F->S->n) : status;
     status = status == SL_OK ? sli_inverse_check(F) : status;
     if (status != SL_OK) {
         return sli_report(stats, status);

@@ -69,10 +69,9 @@ SL_API sl_status sl_selected_entries(const sl_selected *Z, double *out, const sl
     sli_stats_clear_error(stats);
     status = sli_argument(Z == NULL                         ? "Z is NULL"
                           : rows == NULL && columns != NULL ? "rows is NULL, but columns is not"
-                          : rows != NULL && count < 0       ? "count is below 0"
                                                             : NULL);
+    status = status == SL_OK ? sli_list(&rows, &count, Z->traversal.S->n) : status;
     if (status == SL_OK) {
-        count = rows == NULL ? Z->traversal.S->n : count;
         status = sli_argument(count > 0 && out == NULL ? "out is NULL" : NULL);
     }
     if (status != SL_OK) {

@@ -71,7 +71,8 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
     }
 #else
     (void)path;
-    status = sli_refuse(SL_ERR_UNSUPPORTED, "files cannot be mapped here: sl_load_file");
+    status =
+        sli_refuse(SL_ERR_UNSUPPORTED, "files cannot be mapped here: load without SL_LOAD_MAPPED");
 #endif
     return status;
 }

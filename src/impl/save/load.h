@@ -12,7 +12,7 @@ typedef struct sli_reading {
     uint64_t size, at; /* bytes in all, and read so far */
     int is_mapped;     /* the objects use the memory itself */
     int swapped;       /* the bytes have the other order */
-    sl_load_checks checks;
+    unsigned flags;    /* sl_load_flag */
     const sl_options *opt;
     sl_allocator allocator;
     sli_saved saved; /* with the table that was read */
@@ -132,7 +132,7 @@ static int sli_table_is_expected(const sli_saved *f, const sli_saved *expected,
  * byte order of this processor. */
 static int sli_section_accept(const sli_reading *r, sl_int k, void *data, int always) {
     const sli_section *section = &r->saved.table[k];
-    if (always || r->checks == SL_LOAD_VERIFIED) {
+    if (always || (r->flags & SL_LOAD_VERIFIED) != 0) {
         sli_checksum sum = sli_checksum_begin();
         sli_checksum_add(&sum, data, (size_t)sli_round_up(section->bytes));
         if (sli_checksum_end(&sum) != section->checksum) {
@@ -260,7 +260,7 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
     S->is_partial = r->saved.header.write_version > SLI_WRITE_VERSION;
     if (S->rows_begin[S->n_supers] != a->rows || S->panel_begin[S->n_supers] != a->panels ||
         S->scatter_begin[S->n_supers] != a->entries ||
-        (r->checks != SL_LOAD_TRUSTED && !sli_check_analysis(S, a))) {
+        ((r->flags & SL_LOAD_TRUSTED) == 0 && !sli_check_analysis(S, a))) {
         sli_free(&r->allocator, m.block);
         return sli_damaged();
     }
@@ -301,7 +301,7 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
     sli_factor_layout(F, &b, (int)g->has_mass);
     F->rule.signs = g->has_signs ? F->rule.signs : NULL;
     F->stats.factor.bytes = m.head + m.bytes;
-    if (r->checks != SL_LOAD_TRUSTED && !sli_check_factor(F)) {
+    if ((r->flags & SL_LOAD_TRUSTED) == 0 && !sli_check_factor(F)) {
         sli_free(&r->allocator, m.block);
         return sli_damaged();
     }

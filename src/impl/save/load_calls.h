@@ -28,7 +28,7 @@ SLI_COLD static sl_status sli_read(sli_reading *r, sl_saved_set *set) {
     sl_status status = sli_read_front(r);
     if (status == SL_OK && r->is_mapped && r->swapped) {
         return sli_refuse(SL_ERR_UNSUPPORTED, "the byte order is not that of this processor: "
-                                              "sl_load_file");
+                                              "load without SL_LOAD_MAPPED");
     }
     status = status == SL_OK ? sli_read_analysis(r, &set->symbolic) : status;
     if (status == SL_OK && wanted != SL_SAVED_ANALYSIS && r->has_factor) {
@@ -46,14 +46,6 @@ SLI_COLD static sl_status sli_read(sli_reading *r, sl_saved_set *set) {
     }
     return status;
 }
-
-/* Where the bytes are: in memory, which may be used in place, or in a file. */
-typedef struct sli_origin {
-    const void *memory;
-    size_t bytes;
-    const char *path; /* NULL: in memory */
-    int is_mapped;
-} sli_origin;
 
 static sl_status sli_read_path(sli_reading *r, const char *path, sl_saved_set *set) {
     sl_status status;
@@ -90,11 +82,22 @@ static sl_status sli_map_path(sli_reading *r, const char *path, sl_saved_set *se
     return status;
 }
 
-/* Checks the arguments and reads. */
-static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load_checks checks,
-                              const sl_options *opt) {
+/* What is wrong with where a set is loaded from, or NULL. */
+static const char *sli_load_wrong(const char *path, const void *memory, unsigned flags) {
+    const unsigned both = SL_LOAD_TRUSTED | SL_LOAD_VERIFIED;
+    return (flags & ~(both | SL_LOAD_MAPPED)) != 0 ? "flags has a bit that is not of sl_load_flag"
+           : (flags & both) == both                ? "SL_LOAD_TRUSTED excludes SL_LOAD_VERIFIED"
+           : path == NULL && memory == NULL        ? "path and memory are both NULL"
+           : path != NULL && memory != NULL        ? "path and memory are both given"
+           : path == NULL && (flags & SL_LOAD_MAPPED) != 0 && (uintptr_t)memory % SLI_ALIGN != 0
+               ? "memory is not aligned to 64 bytes"
+               : NULL;
+}
+
+SL_API sl_status sl_load(sl_saved_set *set, const char *path, const void *memory, size_t bytes,
+                         unsigned flags, const sl_options *opt) {
     const int saved = errno;
-    const int is_file = from->path != NULL;
+    const char *wrong;
     sl_saved_content wanted;
     int has_more;
     sli_reading r;
@@ -107,72 +110,23 @@ static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load
     has_more = sli_set_has_more(set);
     memset(set, 0, sizeof *set);
     set->wanted = wanted;
-    status = sli_argument(
-        has_more ? sli_set_reserved
-        : (unsigned)wanted > (unsigned)SL_SAVED_ANALYSIS
-            ? "set.wanted is not a value of sl_saved_content: is the set initialized?"
-        : (unsigned)checks > (unsigned)SL_LOAD_VERIFIED ? "checks is not a value of sl_load_checks"
-        : !is_file && from->memory == NULL              ? "path or memory is NULL"
-        : !is_file && from->is_mapped && (uintptr_t)from->memory % SLI_ALIGN != 0
-            ? "memory is not aligned to 64 bytes"
-            : sli_options_wrong(opt, SLI_READS_ISA));
-    if (status != SL_OK) {
-        errno = saved;
-        return status;
-    }
-    SLI_CLEAR(r);
-    r.checks = checks;
-    r.opt = opt;
-    r.allocator = sli_allocator(opt);
-    r.is_mapped = from->is_mapped;
-    if (!is_file) {
-        status = sli_read_memory(&r, from->memory, from->bytes, set);
-    } else if (from->is_mapped) {
-        status = sli_map_path(&r, from->path, set);
-    } else {
-        status = sli_read_path(&r, from->path, set);
+    wrong = has_more ? sli_set_reserved
+            : (unsigned)wanted > (unsigned)SL_SAVED_ANALYSIS
+                ? "set.wanted is not a value of sl_saved_content: is the set initialized?"
+                : sli_load_wrong(path, memory, flags);
+    status = sli_argument(wrong != NULL ? wrong : sli_options_wrong(opt, SLI_READS_ISA));
+    if (status == SL_OK) {
+        SLI_CLEAR(r);
+        r.flags = flags;
+        r.opt = opt;
+        r.allocator = sli_allocator(opt);
+        r.is_mapped = (flags & SL_LOAD_MAPPED) != 0;
+        status = path == NULL  ? sli_read_memory(&r, memory, bytes, set)
+                 : r.is_mapped ? sli_map_path(&r, path, set)
+                               : sli_read_path(&r, path, set);
     }
     errno = saved;
     return status;
-}
-
-static sli_origin sli_origin_in_memory(const void *memory, size_t bytes, int is_mapped) {
-    sli_origin from;
-    from.memory = memory;
-    from.bytes = bytes;
-    from.path = NULL;
-    from.is_mapped = is_mapped;
-    return from;
-}
-
-static sli_origin sli_origin_in_file(const char *path, int is_mapped) {
-    sli_origin from = sli_origin_in_memory(NULL, 0, is_mapped);
-    from.path = path; /* NULL is refused, as memory without an address */
-    return from;
-}
-
-SL_API sl_status sl_load_memory(sl_saved_set *set, const void *memory, size_t bytes,
-                                sl_load_checks checks, const sl_options *opt) {
-    const sli_origin from = sli_origin_in_memory(memory, bytes, 0);
-    return sli_read_set(&from, set, checks, opt);
-}
-
-SL_API sl_status sl_map_memory(sl_saved_set *set, const void *memory, size_t bytes,
-                               sl_load_checks checks, const sl_options *opt) {
-    const sli_origin from = sli_origin_in_memory(memory, bytes, 1);
-    return sli_read_set(&from, set, checks, opt);
-}
-
-SL_API sl_status sl_load_file(sl_saved_set *set, const char *path, sl_load_checks checks,
-                              const sl_options *opt) {
-    const sli_origin from = sli_origin_in_file(path, 0);
-    return sli_read_set(&from, set, checks, opt);
-}
-
-SL_API sl_status sl_map_file(sl_saved_set *set, const char *path, sl_load_checks checks,
-                             const sl_options *opt) {
-    const sli_origin from = sli_origin_in_file(path, 1);
-    return sli_read_set(&from, set, checks, opt);
 }
 
 #endif

@@ -108,7 +108,7 @@ SLI_COLD static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected *
     }
     ends = (const sl_off *)begin;
     if (bytes % sizeof(double) != 0 || (uint64_t)ends[count] != bytes / sizeof(double) ||
-        ((r->checks != SL_LOAD_TRUSTED || !r->is_mapped) && /* copies use the list at once */
+        (((r->flags & SL_LOAD_TRUSTED) == 0 || !r->is_mapped) && /* copies use the list at once */
          !sli_check_selected(draft->traversal.S, (const sl_int *)supers, ends, count))) {
         return sli_damaged();
     }
@@ -237,7 +237,7 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
     draft.is_immutable = r->is_mapped || F->S->is_partial;
     if (!sli_check_columns(roots, draft.extent.n_roots, F->S->n_supers) ||
         !sli_check_columns(rows, draft.extent.n_rows, F->S->n) ||
-        (r->checks != SL_LOAD_TRUSTED && !sli_check_extent(F->S, &draft.extent))) {
+        ((r->flags & SL_LOAD_TRUSTED) == 0 && !sli_check_extent(F->S, &draft.extent))) {
         return sli_damaged();
     }
     SLI_LAYOUT(&b, &r->allocator, status) {
@@ -258,7 +258,7 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
 static sl_status sli_read_regions_numbers(sli_reading *r, const sl_saved_set *set) {
     const uint32_t k = r->first_region + SLI_REGION_SECTIONS - 1;
     const sli_section *section = &r->saved.table[k];
-    const int verifies = r->checks == SL_LOAD_VERIFIED;
+    const int verifies = (r->flags & SL_LOAD_VERIFIED) != 0;
     sli_checksum sum = sli_checksum_begin();
     sl_int m;
     for (m = 0; m < set->n_regions; m++) {

@@ -265,14 +265,41 @@ SLI_COLD static void sli_save_write(sli_saved *f, sli_sink *to) {
     }
 }
 
-SL_API sl_status sl_save_memory(void *memory, size_t *bytes, const sl_saved_set *set) {
+SLI_COLD static sl_status sli_save_to_file(sli_saved *f, const char *path, const sl_allocator *a) {
+    const int saved = errno;
+    sli_output output;
+    sli_sink to;
+    sl_status status = sli_output_open(&output, path, a);
+    if (status == SL_OK) {
+        int complete;
+        to.memory = NULL;
+        to.file = output.file;
+        to.has_failed = 0;
+        sli_save_write(f, &to);
+        complete = !to.has_failed && sli_flush(output.file);
+        status = sli_output_close(&output, complete, a);
+    }
+    errno = saved;
+    return status;
+}
+
+SL_API sl_status sl_save(const char *path, void *memory, size_t *bytes, const sl_saved_set *set,
+                         const sl_options *opt) {
+    const sl_allocator a = sli_allocator(opt);
     sli_saved f;
     sli_sink to;
     sl_status status;
-    status = sli_argument(bytes == NULL ? "bytes is NULL" : set == NULL ? "set is NULL" : NULL);
+    int is_short = 0;
+    status = sli_argument(path != NULL && memory != NULL  ? "path and memory are both given"
+                          : path == NULL && bytes == NULL ? "path and bytes are NULL"
+                          : set == NULL                   ? "set is NULL"
+                                        : sli_options_wrong(opt, SLI_READS_NOTHING));
     status = status == SL_OK ? sli_save_prepare(&f, set) : status;
-    if (status == SL_OK) {
-        const int is_short = memory != NULL && *bytes < f.header.bytes;
+    if (status == SL_OK && path != NULL) {
+        status = sli_save_to_file(&f, path, &a);
+    }
+    if (status == SL_OK && bytes != NULL) {
+        is_short = memory != NULL && *bytes < f.header.bytes;
         *bytes = (size_t)f.header.bytes;
         status = sli_argument(is_short ? "memory is smaller than the set" : NULL);
     }
@@ -282,31 +309,6 @@ SL_API sl_status sl_save_memory(void *memory, size_t *bytes, const sl_saved_set 
         to.has_failed = 0;
         sli_save_write(&f, &to);
     }
-    return status;
-}
-
-SL_API sl_status sl_save_file(const char *path, const sl_saved_set *set, const sl_options *opt) {
-    const int saved = errno;
-    const sl_allocator a = sli_allocator(opt);
-    sli_output output;
-    sli_saved f;
-    sli_sink to;
-    sl_status status;
-    status = sli_argument(path == NULL  ? "path is NULL"
-                          : set == NULL ? "set is NULL"
-                                        : sli_options_wrong(opt, SLI_READS_NOTHING));
-    status = status == SL_OK ? sli_save_prepare(&f, set) : status;
-    status = status == SL_OK ? sli_output_open(&output, path, &a) : status;
-    if (status == SL_OK) {
-        int complete;
-        to.memory = NULL;
-        to.file = output.file;
-        to.has_failed = 0;
-        sli_save_write(&f, &to);
-        complete = !to.has_failed && sli_flush(output.file);
-        status = sli_output_close(&output, complete, &a);
-    }
-    errno = saved;
     return status;
 }
 

@@ -145,10 +145,4 @@ static void sli_query_stats(const sli_query *q, sl_stats *stats) {
     stats->plan.region_entries = q->used.entries;
 }
 
-static sl_status sli_check_sets(const sl_int *bset, sl_int nb, const sl_int *xset, sl_int nx) {
-    return bset != NULL && nb < 0   ? sli_argument("nb is below 0")
-           : xset != NULL && nx < 0 ? sli_argument("nx is below 0")
-                                    : SL_OK;
-}
-
 #endif

@@ -71,7 +71,8 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
     sli_local l;
     sl_status status;
     sli_stats_clear_error(stats);
-    status = F == NULL ? sli_argument("F is NULL") : sli_check_sets(bset, nb, xset, nx);
+    status = F == NULL ? sli_argument("F is NULL") : sli_list(&bset, &nb, F->S->n);
+    status = status == SL_OK ? sli_list(&xset, &nx, F->S->n) : status;
     if (status != SL_OK) {
         return sli_report(stats, status);
     }

@@ -56,7 +56,8 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
     status = status == SL_OK
                  ? sli_argument(S == NULL ? "S is NULL" : sli_options_wrong(opt, SLI_READS_REGION))
                  : status;
-    status = status == SL_OK ? sli_check_sets(bset, nb, xset, nx) : status;
+    status = status == SL_OK ? sli_list(&bset, &nb, S->n) : status;
+    status = status == SL_OK ? sli_list(&xset, &nx, S->n) : status;
     if (status == SL_OK && ending != NULL && !ending->calls->belongs(ending, S)) {
         status = sli_refuse(SL_ERR_MISMATCH, "options.region is a region of another analysis");
     }

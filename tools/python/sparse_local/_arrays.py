@@ -11,6 +11,7 @@ import numpy as np
 from ._errors import ArgumentError, NotFiniteError, TooLargeError
 
 LIMIT = 2**31 - 1
+ALL = -1  # SL_ALL, the count of a set that is NULL: every row
 
 
 def address(array):
@@ -154,9 +155,9 @@ class _Real:
 
     @staticmethod
     def set(chosen):
-        """A set of rows as (array of the library, address, count); None is every row: NULL."""
+        """A set of rows as (array of the library, address, count); None is every row: SL_ALL."""
         if chosen is None:
-            return None, None, 0
+            return None, None, ALL
         array = np.asarray(chosen)
         if array.size == 0:
             array = np.zeros(0, dtype=np.int32)
@@ -181,7 +182,7 @@ class _Complex:
     def set(chosen):
         rows, _, count = _Real.set(chosen)
         if rows is None:
-            return None, None, 0
+            return None, None, ALL
         if count and (rows.max() > LIMIT // 2 or rows.min() < 0):
             raise ArgumentError("a row out of range", int(rows.max() if rows.min() >= 0
                                                          else rows.min()))

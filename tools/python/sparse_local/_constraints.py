@@ -56,7 +56,7 @@ class Pins:
         if self._factor._kind is arrays.COMPLEX:
             raise ArgumentError("equalities are those of real matrices")
         keep, address, count = arrays.rows(rows)
-        if not count:
+        if keep is None or not count:
             raise ArgumentError("an equality needs rows")
         values, stats = arrays.vector(coefficients, count, "coefficients"), Stats()
         self._factor._pointer

@@ -14,6 +14,7 @@ from ._threads import set_threads
 
 _SAVED_FACTOR = 1  # SL_SAVED_FACTOR: without what else the file has
 CHECKS = {"checked": 0, "trusted": 1, "verified": 2}
+MAPPED = 4
 
 
 class Files:
@@ -22,7 +23,7 @@ class Files:
     def save(self, path):
         """Writes the analysis and the factor to a file, which load reads. An existing file is
         replaced when the new one is complete. Error: the path cannot be written."""
-        check(lib.sl_save_file(encoded(path), self._set(), None), path=path)
+        check(lib.sl_save(encoded(path), None, None, self._set(), None), path=path)
 
     @classmethod
     def load(cls, path, *, map=False, checks="checked", triangle=None, threads=None,
@@ -34,16 +35,16 @@ class Files:
         triangle, threads, definite  as for Factor, for later refactors.
         is_complex  True: a factor of a complex matrix.
         """
-        call = lib.sl_map_file if map else lib.sl_load_file
-        return cls._loaded(call, (encoded(path),), checks, triangle, threads, is_complex,
+        flags = choice(CHECKS, checks, "checks") | (MAPPED if map else 0)
+        return cls._loaded((encoded(path), None, 0, flags), triangle, threads, is_complex,
                            definite, path)
 
     def to_bytes(self):
         """The analysis and the factor as bytes, as save writes them; pickle uses this."""
         size = ctypes.c_size_t()
-        check(lib.sl_save_memory(None, ctypes.byref(size), self._set()))
+        check(lib.sl_save(None, None, ctypes.byref(size), self._set(), None))
         memory = np.empty(size.value, dtype=np.uint8)
-        check(lib.sl_save_memory(arrays.address(memory), ctypes.byref(size), self._set()))
+        check(lib.sl_save(None, arrays.address(memory), ctypes.byref(size), self._set(), None))
         return memory.tobytes()
 
     def _set(self):
@@ -54,8 +55,9 @@ class Files:
                    definite=False):
         """A factor from the bytes of to_bytes, as a copy."""
         memory = np.frombuffer(data, dtype=np.uint8)
-        return cls._loaded(lib.sl_load_memory, (arrays.address(memory), memory.size), checks,
-                           triangle, threads, is_complex, definite)
+        flags = choice(CHECKS, checks, "checks")
+        return cls._loaded((None, arrays.address(memory), memory.size, flags), triangle, threads,
+                           is_complex, definite)
 
     def __reduce__(self):
         return _unpickle, (self.to_bytes(), self.analysis._triangle, self._threads,
@@ -63,12 +65,11 @@ class Files:
                            self.analysis._is_ordered)
 
     @classmethod
-    def _loaded(cls, call, source, checks, triangle, threads, is_complex, definite, path=None):
+    def _loaded(cls, source, triangle, threads, is_complex, definite, path=None):
         check_triangle(triangle)
         loaded, options = SavedSet(wanted=_SAVED_FACTOR), new_options()
         set_threads(options, threads)
-        check(call(ctypes.byref(loaded), *source, choice(CHECKS, checks, "checks"),
-                   ctypes.byref(options)), path=path)
+        check(lib.sl_load(ctypes.byref(loaded), *source, ctypes.byref(options)), path=path)
         return cls._taken(loaded, triangle, threads, is_complex, definite)
 
     @classmethod

@@ -75,11 +75,8 @@ _CALLS = {
     "selected_create": [_OUT, PTR, PTR, INT, _OPT, _STATS],
     "selected_refactor": [PTR, PTR, PTR],
     "selected_entries": [PTR, PTR, PTR, PTR, INT, _STATS],
-    "save_memory": [PTR, ctypes.POINTER(SIZE), _SET],
-    "save_file": [ctypes.c_char_p, _SET, _OPT],
-    "load_memory": [_SET, PTR, SIZE, ENUM, _OPT],
-    "load_file": [_SET, ctypes.c_char_p, ENUM, _OPT],
-    "map_file": [_SET, ctypes.c_char_p, ENUM, _OPT],
+    "save": [ctypes.c_char_p, PTR, ctypes.POINTER(SIZE), _SET, _OPT],
+    "load": [_SET, ctypes.c_char_p, PTR, SIZE, ctypes.c_uint, _OPT],
 }
 _FREES = ("matrix_free", "symbolic_free", "factor_free", "work_free", "plan_free", "region_free",
           "selected_free", "constraints_free", "fixed_free", "saved_set_free")

@@ -7,7 +7,7 @@ import numpy as np
 from . import _arrays as arrays
 from ._errors import ArgumentError
 from ._factor import Factor
-from ._files import CHECKS, encoded
+from ._files import CHECKS, MAPPED, encoded
 from ._library import Handle, SavedSet, Stats, as_dict, check, lib, new_options
 from ._matrix import check_triangle
 from ._options import choice
@@ -99,7 +99,7 @@ def save_set(path, factor, selected=None, regions=()):
     stored = SavedSet(factor._symbolic.pointer, factor._pointer,
                       selected._selected.pointer if selected is not None else None, pointers,
                       len(regions))
-    check(lib.sl_save_file(encoded(path), ctypes.byref(stored), None), path=path)
+    check(lib.sl_save(encoded(path), None, None, ctypes.byref(stored), None), path=path)
 
 
 def load_set(path, *, map=False, checks="checked", triangle=None, threads=None, is_complex=False,
@@ -110,11 +110,11 @@ def load_set(path, *, map=False, checks="checked", triangle=None, threads=None, 
     With map=True all of them are immutable, and processes share one copy in memory.
     """
     check_triangle(triangle)
-    call = lib.sl_map_file if map else lib.sl_load_file
+    flags = choice(CHECKS, checks, "checks") | (MAPPED if map else 0)
     loaded, options = SavedSet(), new_options()
     set_threads(options, threads)
-    check(call(ctypes.byref(loaded), encoded(path), choice(CHECKS, checks, "checks"),
-               ctypes.byref(options)), path=path)
+    check(lib.sl_load(ctypes.byref(loaded), encoded(path), None, 0, flags,
+                      ctypes.byref(options)), path=path)
     if not loaded.factor:
         lib.sl_saved_set_free(ctypes.byref(loaded))
         raise ArgumentError("the file has no factor")
