@@ -1,5 +1,5 @@
-/* nh.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: aa129ab23f893931
+/* sparse_local.h 1.0.0, generated: edit src/, run make header
+ * FNV-1a of the lines after this comment, without the license: 46018a3590f633cf
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -4934,7 +4934,7 @@ typedef struct sli_kernels {
  * each instruction set. SL_HEADER is the name of this file. */
 #if defined(__has_include)
 #if !__has_include(SL_HEADER)
-#error "nh.h was renamed: define SL_HEADER as its new name, in quotes"
+#error "sparse_local.h was renamed: define SL_HEADER as its new name, in quotes"
 #endif
 #endif
 #define SLI_SELF_INCLUSION
@@ -4950,7 +4950,7 @@ typedef struct sli_kernels {
 #define SLI_INL_WORDS_UNDEF
 #include SL_HEADER /* not found: define SL_HEADER, see above */
 #ifdef SLI_INL_WORDS_UNDEF
-#error "nh.h: SL_HEADER names another file, not this one"
+#error "sparse_local.h: SL_HEADER names another file, not this one"
 #endif
 /* src/impl/kernels/simd_avx2.h: the kernels in AVX2 and FMA */
 
@@ -36074,7 +36074,7 @@ static const char *sli_storage_needs(sl_storage storage) { /* untested: the same
     (SL_VERSION_MAJOR != 1 || \
      SL_VERSION_MINOR != 0 || \
      SL_VERSION_PATCH != 0)
-#error "nh.h: SL_HEADER names another version of the header"
+#error "sparse_local.h: SL_HEADER names another version of the header"
 #endif
 
 #ifdef SLI_INL_FRONTS
