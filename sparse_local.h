@@ -1,58 +1,60 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 5d3549fa3d59e9d9
+ * FNV-1a of the lines after this comment, without the license: 987428f3468e213b
  * The comments of the implementation are in src/impl.
  *
  * Contents
- *     60 intro.h      what the library does, a quick start, which call for which question, references
- *    192 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    236 config.h     macros that a user may define before the include, the version, and the integer types
- *    325 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    502 options.h    options of all calls, threads, and the allocator
- *    619 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    857 csc.h        sparse matrices: creation, checks, products, residuals
- *    950 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1026 factor.h     the numerical factorization P A P' = L D L'
- *   1155 solve.h      full solves, and the workspace of all solves
- *   1251 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1326 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1410 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1491 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1530 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1631 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1710 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1780 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1873 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1979 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2021 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2143 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2288 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2391 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2495 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2536 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2621 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2709 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2772 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2815 impl/ base: the compiler, status, memory, sorting, threads
- *   4117 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5026 impl/ matrix: sparse matrices of the caller and of the library
- *   5705 impl/ ordering: fill-reducing orderings of a graph
- *  10305 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12553 impl/ factor: the numbers of L and D
- *  15133 impl/ solve: full and local solves
- *  16675 impl/ singular: null spaces of semidefinite matrices
- *  17946 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19961 impl/ pivots: the order of the pivots by the values of a matrix
- *  20369 impl/ float: L in single precision
- *  20599 impl/ inverse: entries of the inverse, regions
- *  23556 impl/ change: a factor that follows changes of its matrix
- *  29842 impl/ fixed: rows fixed at given values
- *  30401 impl/ io: files that are replaced only when they are complete
- *  30619 impl/ files: Matrix Market files, 64-bit indices
- *  31165 impl/ save: factors in files
- *  33138 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33824 impl/ complex: complex Hermitian systems over real factors
- *  34329 impl/ packs: the tables through which the core calls packs
- *  34731 impl/ templates: the header includes them from itself, once for each instruction set
+ *     62 intro.h      what the library does, a quick start, which call for which question, references
+ *    194 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    248 config.h     macros that a user may define before the include, the version, and the integer types
+ *    337 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    515 options.h    options of all calls, threads, and the allocator
+ *    632 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    870 csc.h        sparse matrices: creation, checks, products, residuals
+ *    963 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1039 factor.h     the numerical factorization P A P' = L D L'
+ *   1168 solve.h      full solves, and the workspace of all solves
+ *   1264 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1339 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1423 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1504 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1543 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1644 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1723 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1793 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1886 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1992 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2034 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2156 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2301 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2389 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
+ *   2502 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
+ *   2544 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
+ *   2620 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2708 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2771 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2814 impl/ base: the compiler, status, memory, sorting, threads
+ *   4116 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5025 impl/ matrix: sparse matrices of the caller and of the library
+ *   5704 impl/ ordering: fill-reducing orderings of a graph
+ *  10304 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12552 impl/ factor: the numbers of L and D
+ *  15145 impl/ solve: full and local solves
+ *  16687 impl/ singular: null spaces of semidefinite matrices
+ *  17958 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19973 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20381 impl/ float: L in single precision
+ *  20611 impl/ inverse: entries of the inverse, regions
+ *  23527 impl/ change: a factor that follows changes of its matrix
+ *  25805 impl/ constraints: rows held at values, on a factor that stays
+ *  27113 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  29851 impl/ fixed: rows fixed at given values
+ *  30410 impl/ io: files that are replaced only when they are complete
+ *  30628 impl/ files: Matrix Market files, 64-bit indices
+ *  31174 impl/ save: factors in files
+ *  33147 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33833 impl/ complex: complex Hermitian systems over real factors
+ *  34338 impl/ packs: the tables through which the core calls packs
+ *  34730 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -196,7 +198,9 @@
  * every include of this header to add to it, or SL_WITH_ALL for all packs:
  *
  *  SL_WITH_INVERSE    entries of the inverse, selected inversion, regions
- *  SL_WITH_CHANGE     changes of a factor in place, pins, factors of submatrices, edits
+ *  SL_WITH_CHANGE     changes of a factor in place, by vectors, entries and columns
+ *  SL_WITH_CONSTRAINTS rows held at given values, on a factor that stays
+ *  SL_WITH_EDIT       factors of submatrices, edits of the pattern
  *  SL_WITH_FIXED      rows fixed at given values: harmonic maps, interpolation
  *  SL_WITH_SAVE       factors, selected inverses and regions in files and in mapped memory
  *  SL_WITH_BATCH      many factors or solves by one call, weighted sums of matrices
@@ -207,10 +211,13 @@
  *  SL_WITH_PIVOTS     2x2 pivots for indefinite matrices
  *
  * A call of a pack that is off does not compile, and the error names the macro. An option that
- * needs such a pack gives SL_ERR_UNSUPPORTED. SL_WITH_CHANGE brings SL_WITH_INVERSE along, which
- * pins need, and so does SL_WITH_SAVE. Objects and structs are the same with any packs. */
+ * needs such a pack gives SL_ERR_UNSUPPORTED. SL_WITH_CONSTRAINTS and SL_WITH_SAVE bring
+ * SL_WITH_INVERSE along, SL_WITH_EDIT brings SL_WITH_CHANGE. Objects and structs are the same with
+ * any packs. */
 #if defined(SL_WITH_ALL)
 #undef SL_WITH_CHANGE
+#undef SL_WITH_CONSTRAINTS
+#undef SL_WITH_EDIT
 #undef SL_WITH_FIXED
 #undef SL_WITH_SAVE
 #undef SL_WITH_BATCH
@@ -220,6 +227,8 @@
 #undef SL_WITH_FILES
 #undef SL_WITH_PIVOTS
 #define SL_WITH_CHANGE
+#define SL_WITH_CONSTRAINTS
+#define SL_WITH_EDIT
 #define SL_WITH_FIXED
 #define SL_WITH_SAVE
 #define SL_WITH_BATCH
@@ -229,8 +238,11 @@
 #define SL_WITH_FILES
 #define SL_WITH_PIVOTS
 #endif
-#if (defined(SL_WITH_CHANGE) || defined(SL_WITH_SAVE)) && !defined(SL_WITH_INVERSE)
+#if (defined(SL_WITH_CONSTRAINTS) || defined(SL_WITH_SAVE)) && !defined(SL_WITH_INVERSE)
 #define SL_WITH_INVERSE
+#endif
+#if defined(SL_WITH_EDIT) && !defined(SL_WITH_CHANGE)
+#define SL_WITH_CHANGE
 #endif
 
 /* src/public/config.h: macros that a user may define before the include, the version, and the integer types */
@@ -477,7 +489,7 @@ typedef enum sl_certainty {
 typedef enum sl_change_method {
     SL_CHANGE_NONE = 0, /* nothing changed */
     SL_CHANGE_UPDATE,   /* rank-one changes of the columns on their paths */
-    SL_CHANGE_REACH,    /* sl_factor_refactor_changed */
+    SL_CHANGE_REACH,    /* the columns of L that the change reaches were computed again */
     SL_CHANGE_REFACTOR  /* sl_factor_refactor */
 } sl_change_method;
 
@@ -486,7 +498,8 @@ typedef enum sl_change_reason {
     SL_CHANGE_CHEAPEST = 0, /* the fewest flops, weighted by what one costs in each way */
     SL_CHANGE_UNSUITED,     /* null pivots, 2x2 pivots, or F has no numbers */
     SL_CHANGE_DRIFT,        /* the errors of earlier changes have reached their limit */
-    SL_CHANGE_REFUSED       /* rank-one changes met a pivot that they refuse */
+    SL_CHANGE_REFUSED,      /* rank-one changes met a pivot that they refuse */
+    SL_CHANGE_COLUMNS       /* columns of A were given, and no entries */
 } sl_change_reason;
 
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
@@ -749,10 +762,10 @@ typedef struct sl_change_info {
      * the rows or the vectors of a call have lost more (tools/docs/changes.md) */
     double drift;
     double flops_update; /* of the rank-one changes, about; 0 if F cannot be changed so */
-    /* of sl_factor_refactor_changed, counted up to the cost of the cheapest way; of
-     * sl_factor_change_entries, else 0 */
+    /* to compute what the change reaches, counted up to the cost of the cheapest way; of entries
+     * given to sl_factor_change_entries, else 0 */
     double flops_changed;
-    double flops_refactor; /* of sl_factor_refactor; of sl_factor_change_entries, else 0 */
+    double flops_refactor; /* of sl_factor_refactor; as flops_changed */
     double seconds;
 } sl_change_info;
 
@@ -2324,70 +2337,55 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rank_update(sl_factor *F, const sl_csc
                                                       const double *sigma, sl_work *W,
                                                       sl_stats *stats);
 
-/** Changes a factor by entries of A, a_ij and a_ji by delta, in the cheapest way: by rank-one
- *  changes, by recomputing the columns of L that the change reaches, or by a refactorization. By
- *  rank-one changes alone if A is NULL.
+/** Changes a factor by entries of A, or by columns of A in which entries have changed.
  *
- *  Rank-one changes: one for the weight of an edge of a graph, which changes a_ij by -w and a_ii
- *  and a_jj by w, one for an entry of the diagonal, and up to three for any other entry, which
- *  follow the scales of the two rows if all pivots have one sign.
- *
- *  The ways are compared by their flops, each with what a flop costs in it. Where rank-one changes
+ *  By entries (rows, columns, deltas): a_ij and a_ji change by delta, in the cheapest way: by
+ *  rank-one changes, by computing the columns of L again that the change reaches, or by a
+ *  refactorization. If A is NULL, by rank-one changes alone. Rank-one changes: one for the weight
+ *  of an edge of a graph, which changes a_ij by -w and a_ii and a_jj by w, one for an entry of the
+ *  diagonal, and up to three for any other entry, which follow the scales of the two rows if all
+ *  pivots have one sign. The ways are compared by counted flops and entries. Where rank-one changes
  *  are not possible or have added up too much error, the other two remain (stats.change.reason).
  *
- *  F              [in,out]  the factor, or, with A, a failed one, which is refactored. On error as
- *                           with sl_factor_rank_update; with A as with sl_factor_refactor, and
- *                           without numbers where the error of a change is too large and A is
- *                           refused.
- *  A              [in]      the changed matrix, in the analyzed pattern, or NULL. Rank-one changes
- *                           compare its size only; the other ways read it and check its pattern.
- *  rows, columns  [in]  count entries (i, j) of either triangle, each pair i != j once for both
- *                       sides; repeated ones add up. L must have an entry there; all entries of A
- *                       do.
- *  deltas         [in]  count changes.
- *  stats          [out]     change, factor.
+ *  By columns (rows and deltas are NULL): the columns of L that the changes reach are computed
+ *  again. They agree with sl_factor_refactor up to rounding; the others keep their bits. An
+ *  up-looking factor is computed completely.
+ *
+ *  F        [in,out]  the factor. By entries with A also a failed one, which is refactored. On
+ *                     error as with sl_factor_rank_update; with A as with sl_factor_refactor, and
+ *                     without numbers where the error of a change is too large and A is refused. By
+ *                     columns unchanged after SL_ERR_ARGUMENT, _MALFORMED, _OTHER_PATTERN,
+ *                     _READ_ONLY and _MEMORY, else without numbers.
+ *  A        [in]      the changed matrix, in the analyzed pattern; by entries it may be NULL.
+ *                     Rank-one changes compare its size only.
+ *  rows     [in]      count rows of entries (i, j) of either triangle, each pair i != j once for
+ *                     both sides; repeated ones add up. L has an entry there. NULL: by columns.
+ *  columns  [in]      count columns of the entries; or of A, in which A stores changed entries.
+ *  deltas   [in]      count changes; NULL with rows.
+ *  stats    [out]     change, factor.
  *  Returns  as sl_factor_refactor and sl_factor_rank_update; SL_ERR_ARGUMENT: also an index out of
- *           range, at error.row and error.column.
- *  Cost     that of the way, and at most a few percent of a refactorization to count flops;
- *           nothing of O(n) or O(nnz) for rank-one changes, but for one look at L where pivots have
- *           both signs and the largest |a| may have fallen to a sixteenth.
- *  Threads  exclusive use of F.
+ *           range, at error.row and error.column, by columns at error.row; SL_ERR_STALE: by columns
+ *           also a failed factor.
+ *  Cost     that of the way, and at most a few percent of a refactorization to count flops; nothing
+ *           of O(n) or O(nnz) for rank-one changes, but for one look at L where pivots have both
+ *           signs and the largest |a| may have fallen to a sixteenth. By columns the fronts
+ *           reached, and the update matrices of the subtrees below them, from L: about 25 % of a
+ *           factorization for one vertex of a 2D mesh, and temporary memory for such a matrix.
+ *  Threads  exclusive use of F; uses the workers of F where columns are computed.
+ *  Source   the subtrees: left-looking supernodal factorization [NP93].
  *  Manual   tools/docs/changes.md
- *  Example  tests/core/test_change_choice.c
+ *  Example  tests/core/test_change_choice.c, tests/core/test_change_columns.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_change_entries(sl_factor *F, const sl_csc *A,
                                                          const sl_int *rows, const sl_int *columns,
                                                          const double *deltas, sl_int count,
                                                          sl_work *W, sl_stats *stats);
 
-/** Refactors after local changes: recomputes only the columns of L that the changes reach.
- *
- *  Results agree with sl_factor_refactor up to rounding; the other columns of L keep their bits. An
- *  up-looking factor is recomputed completely.
- *
- *  F        [in,out]  the factor of a matrix that differs from A in the given columns only.
- *                     Unchanged after SL_ERR_ARGUMENT, _MALFORMED, _OTHER_PATTERN, _READ_ONLY and
- *                     _MEMORY; without numbers after other errors.
- *  A        [in]      the analyzed pattern, new values.
- *  columns  [in]      count columns of A, in which A stores changed entries; any order, repetitions
- *                     allowed.
- *  stats    [out]     factor, of all of L and A: the growth is that of sl_factor_refactor, to
- *                     rounding.
- *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error.row); SL_ERR_STALE:
- *           F has no numbers; SL_ERR_READ_ONLY: F is mapped.
- *  Cost     the fronts reached, and the update matrices of the subtrees below them, from L: about
- *           25 % of a factorization for one vertex of a 2D mesh. Temporary memory: 4 bytes per
- *           supernode, and for each worker an update matrix, 4 bytes per row of A and 4 per row of
- *           the largest front. With null pivots and mass, one complete sweep over L.
- *  Threads  exclusive use of F; uses the workers of F.
- *  Source   the subtrees: left-looking supernodal factorization [NP93].
- *  Manual   tools/docs/changes.md
- *  Example  tests/core/test_refactor_changed.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A,
-                                                           const sl_int *columns, sl_int count,
-                                                           sl_stats *stats);
-
+#else
+#define sl_factor_rank_update(...) sl_factor_rank_update_needs_SL_WITH_CHANGE
+#define sl_factor_change_entries(...) sl_factor_change_entries_needs_SL_WITH_CHANGE
+#endif
+#if defined(SL_WITH_CONSTRAINTS)
 /* src/public/constraints.h: rows held at given values, on top of a factor that stays as it is */
 
 /** Creates an empty set of pins: rows, or linear combinations of rows, that solves hold at given
@@ -2492,6 +2490,15 @@ SL_API SL_WARN_UNUSED sl_status sl_constraints_solve(const sl_constraints *P, co
                                                      size_t ldb, const double *G, size_t ldg,
                                                      sl_int nrhs, sl_work *W);
 
+#else
+#define sl_constraints_create(...) sl_constraints_create_needs_SL_WITH_CONSTRAINTS
+#define sl_constraints_free(...) sl_constraints_free_needs_SL_WITH_CONSTRAINTS
+#define sl_constraints_add(...) sl_constraints_add_needs_SL_WITH_CONSTRAINTS
+#define sl_constraints_release(...) sl_constraints_release_needs_SL_WITH_CONSTRAINTS
+#define sl_constraints_refactor(...) sl_constraints_refactor_needs_SL_WITH_CONSTRAINTS
+#define sl_constraints_solve(...) sl_constraints_solve_needs_SL_WITH_CONSTRAINTS
+#endif
+#if defined(SL_WITH_EDIT)
 /* src/public/submatrix.h: the factor of a principal submatrix, from that of the whole matrix */
 
 /** EXPERIMENTAL. Factors A[R, R], the matrix of the rows and columns R of A, from a factor of A.
@@ -2522,7 +2529,8 @@ SL_API SL_WARN_UNUSED sl_status sl_constraints_solve(const sl_constraints *P, co
  *           has 2x2 pivots or is a restriction itself; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     linear in the entries of A in R and the rows of supernodes in R, a copy of the kept
  *           entries of L, and the flops of the other columns: 0.44 to 1.45 of the time of analyzing
- *           and factoring A[R, R] in a given order.
+ *           and factoring A[R, R] in a given order. Below 1,000 rows sl_matrix_submatrix and new
+ *           objects take less.
  *  Threads  reads F; one thread.
  *  Source   [HA18]
  *  Manual   tools/docs/changes.md
@@ -2604,18 +2612,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor 
                                                sl_stats *stats);
 
 #else
-#define sl_factor_rank_update(...) sl_factor_rank_update_needs_SL_WITH_CHANGE
-#define sl_factor_change_entries(...) sl_factor_change_entries_needs_SL_WITH_CHANGE
-#define sl_factor_refactor_changed(...) sl_factor_refactor_changed_needs_SL_WITH_CHANGE
-#define sl_constraints_create(...) sl_constraints_create_needs_SL_WITH_CHANGE
-#define sl_constraints_free(...) sl_constraints_free_needs_SL_WITH_CHANGE
-#define sl_constraints_add(...) sl_constraints_add_needs_SL_WITH_CHANGE
-#define sl_constraints_release(...) sl_constraints_release_needs_SL_WITH_CHANGE
-#define sl_constraints_refactor(...) sl_constraints_refactor_needs_SL_WITH_CHANGE
-#define sl_constraints_solve(...) sl_constraints_solve_needs_SL_WITH_CHANGE
-#define sl_factor_submatrix(...) sl_factor_submatrix_needs_SL_WITH_CHANGE
-#define sl_symbolic_edit(...) sl_symbolic_edit_needs_SL_WITH_CHANGE
-#define sl_factor_edit(...) sl_factor_edit_needs_SL_WITH_CHANGE
+#define sl_factor_submatrix(...) sl_factor_submatrix_needs_SL_WITH_EDIT
+#define sl_symbolic_edit(...) sl_symbolic_edit_needs_SL_WITH_EDIT
+#define sl_factor_edit(...) sl_factor_edit_needs_SL_WITH_EDIT
 #endif
 #if defined(SL_WITH_COMPLEX)
 /* src/public/complex.h: complex Hermitian systems, solved as real ones of twice the size */
@@ -15129,6 +15128,19 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
   return v;
 }
 
+/* src/impl/factor/costs.h: what steps cost, by which packs choose between methods: counted, in entries of L that a */
+
+#define SLI_COST_LANES(lanes) (0.75 + 0.25 * (lanes))
+#define SLI_COST_FRONT 4000.0
+#define SLI_COST_INPUT 20.0
+
+SLI_INLINE double sli_cost_flop(sl_isa isa) {
+  return isa == SL_ISA_AVX512 ? 1.0 / 8.0
+       : isa == SL_ISA_AVX2 ? 1.0 / 4.0
+       : isa == SL_ISA_SCALAR ? 1.0
+                  : 1.0 / 2.0;
+}
+
 /* solve: full and local solves */
 /* src/impl/solve/work.h: the workspace: one block of scratch memory that only grows */
 
@@ -21242,48 +21254,6 @@ static sl_status sli_sort_rows(const sl_symbolic *S, const sl_int *rows, sl_int 
   return status;
 }
 
-/* src/impl/inverse/costs.h: what steps cost, by which the packs choose between methods: measured, a row for each */
-
-typedef struct sli_costs {
-  double lanes[4];
-  double inverse_front, inverse_entry, inverse_flop;
-  double flop;
-  double change[4];
-} sli_costs;
-
-static const sli_costs sli_costs_table[SLI_ISAS] = {
-  {{1.0, 1.3, 1.9, 3.3}, 2000.0, 4.0, 0.35, 0.08e-9, {1.0, 2.1, 3.2, 5.8}},
-  {{1.0, 1.2, 3.8, 8.6}, 2000.0, 4.0, 2.2, 0.155e-9, {1.0, 2.0, 4.0, 8.0}},
-  {{1.0, 1.3, 1.9, 3.3}, 2000.0, 4.0, 0.35, 0.024e-9, {1.0, 2.1, 3.2, 5.8}},
-  {{1.0, 1.2, 1.9, 2.1}, 2000.0, 4.0, 0.2, 0.014e-9, {1.0, 2.1, 2.9, 4.6}}};
-
-SLI_INLINE const sli_costs *sli_costs_of(sl_isa isa) {
-  return &sli_costs_table[sli_isa_row(isa)];
-}
-
-#define SLI_PAIR_CACHED 1.7
-#define SLI_PAIR_READ 1.25
-#define SLI_PAIR_LARGE 5e5
-
-#define SLI_CHANGE_ENTRY 0.27e-9
-#define SLI_CHANGE_HIDDEN 15e-12
-#define SLI_CHANGE_PIVOT(flop) (4e-9 + 100.0 * (flop))
-#define SLI_CHANGE_FRONT(flop) (0.4e-6 + 20000.0 * (flop))
-#define SLI_CHANGE_VISIT(flop) (0.4e-6 + 3000.0 * (flop))
-#define SLI_CHANGE_INPUT 2.5e-9
-
-#define SLI_CHANGE_PATH 800.0
-#define SLI_CHANGE_PASS 3000.0
-#define SLI_CHANGE_SPLIT 500.0
-#define SLI_CHANGE_GAINS 2.0
-#define SLI_CHANGE_LOG(entries) ((entries) <= 65536 ? 0.7 : 1.5)
-#define SLI_CHANGE_TRIAL 1.5
-
-#define SLI_REUSE_FLOP 0.1e-9
-#define SLI_REUSE_FRONT 400e-9
-#define SLI_REUSE_SUPER 150e-9
-#define SLI_REUSE_ENTRY 0.5e-9
-
 /* src/impl/inverse/unit_vectors.h: forward sweeps of unit vectors, in blocks of up to 8 of similar reach */
 
 #define SLI_LANES_MAX 8
@@ -21325,7 +21295,6 @@ static int sli_rhs_block_add(sli_rhs_block *block, sl_int column, const sl_symbo
 
 typedef struct sli_requests {
   const sl_symbolic *S;
-  const double *lanes_cost;
   const sl_int *rows, *columns;
   sl_int count;
   sl_int n_blocks;
@@ -21338,7 +21307,6 @@ static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, cons
   sli_requests r;
   SLI_CLEAR(r);
   r.S = F->S;
-  r.lanes_cost = sli_costs_of(F->kernels->isa)->lanes;
   r.rows = rows;
   r.columns = columns;
   r.count = count;
@@ -21399,7 +21367,7 @@ static sl_int sli_rhs_block_choose(const sli_requests *r, sl_int k, sli_rhs_bloc
   for (; k < r->count && k - from < SLI_BLOCK_REQUESTS_MAX &&
       sli_rhs_block_add_request(&block, r, k, r->S);
       k++) {
-    const double time = r->lanes_cost[sli_lanes_kind(block.count)] *
+    const double time = SLI_COST_LANES(1 << sli_lanes_kind(block.count)) *
               (double)block.size.entries / (double)(k - from + 1);
     if (block_size == 0 || time <= least) {
       least = time;
@@ -21441,7 +21409,7 @@ static double sli_requests_partition_within(sli_requests *r, sli_capacity *capac
     const sl_int block_size = sli_rhs_block_choose(r, k, &block);
     const int kind = sli_lanes_kind(block.count);
     sli_capacity_add(capacity, &block.size, (sl_int)1 << kind);
-    time += r->lanes_cost[kind] * (double)block.size.entries;
+    time += SLI_COST_LANES(1 << kind) * (double)block.size.entries;
     r->block_size[r->n_blocks] = (uint64_t)block_size;
     k += block_size;
   }
@@ -21795,7 +21763,7 @@ static int sli_entries_are_in_pattern(const sli_entries *q) {
 static double sli_traversal_time(const sli_entries *q, sl_int *supers) {
   const sl_symbolic *S = q->F->S;
   const sli_requests *r = &q->requests;
-  const sli_costs *cost = sli_costs_of(q->F->kernels->isa);
+  const double flop = sli_cost_flop(q->F->kernels->isa);
   double time = 0.0;
   sl_int k = 0, s, next;
   *supers = 0;
@@ -21804,8 +21772,7 @@ static double sli_traversal_time(const sli_entries *q, sl_int *supers) {
     next = sli_next_seed(S, r->order, r->count, &k);
     for (; s != -1 && s < next; s = S->super_parent[s]) {
       const double h = S->steps[s].width + S->steps[s].below;
-      time += cost->inverse_front + cost->inverse_entry * h * h +
-          cost->inverse_flop * sli_front_flops(&S->steps[s]);
+      time += SLI_COST_FRONT + 4.0 * h * h + 2.0 * flop * sli_front_flops(&S->steps[s]);
       ++*supers;
     }
   }
@@ -22128,6 +22095,10 @@ SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_i
   q = sli_entries_of(F, out, rows, rows, count);
   return sli_inverse_entries(&q, W, stats);
 }
+
+#define SLI_PAIR_CACHED 1.7
+#define SLI_PAIR_READ 1.25
+#define SLI_PAIR_LARGE 5e5
 
 static int sli_entry_is_local(const sl_symbolic *S, sl_int a, sl_int b) {
   sl_int s = S->super_of[a], t = S->super_of[b];
@@ -23876,6 +23847,24 @@ static sli_kept sli_kept_of(const sl_factor *F, const sl_int *from, const sl_int
   return p;
 }
 
+static double sli_kept_flops(const sl_symbolic *S, sl_int s, sl_int *visits) {
+  const sl_int end = S->super_first[s + 1];
+  double flops = (double)S->steps[s].width * S->steps[s].below * S->steps[s].below;
+  sl_int d;
+  for (d = s - 1; d >= S->first_descendant[s];) {
+    const sl_int below = S->steps[d].below;
+    const double m = below - sli_lower_bound(S->rows + S->rows_begin[d], below, end);
+    if (m > 0.0) {
+      flops += S->steps[d].width * m * m;
+      ++*visits;
+      d--;
+    } else {
+      d = S->first_descendant[d] - 1;
+    }
+  }
+  return flops;
+}
+
 /* src/impl/change/reached.h: refactors after local changes: keeps the supernodes that they do not reach */
 
 static int sli_nulls_remain(const sl_factor *F) {
@@ -23966,6 +23955,11 @@ static void sli_changes_mark(const sli_changes *c, const sl_symbolic *S, const s
   }
 }
 
+static int sli_reached_is_suited(const sl_factor *F) {
+  return F->method == SL_METHOD_SUPERNODAL && F->type->storage == SL_STORAGE_DOUBLE &&
+       F->type->accepts == NULL;
+}
+
 static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_changes *c,
     sl_stats *stats) {
   const double started = sli_seconds();
@@ -23980,8 +23974,7 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
-  if (F->method != SL_METHOD_SUPERNODAL || F->type->storage != SL_STORAGE_DOUBLE ||
-      F->type->accepts != NULL || entries >= (uint64_t)sli_nnz(A)) {
+  if (!sli_reached_is_suited(F) || entries >= (uint64_t)sli_nnz(A)) {
     return sl_factor_refactor(F, A, stats);
   }
   status = sli_factor_prepare(F);
@@ -24011,16 +24004,6 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
   sli_free(&F->allocator, room.base);
   sli_free(&F->allocator, b.base);
   return sli_report(stats, status);
-}
-
-SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
-    sl_int count, sl_stats *stats) {
-  sli_changes c;
-  c.columns = columns;
-  c.count = count;
-  c.seeds = NULL;
-  c.n_seeds = 0;
-  return sli_reached_refactor(F, A, &c, stats);
 }
 
 /* src/impl/change/update_loss.h: what the rows of a definite matrix lose by changes, relative to what is left */
@@ -24656,17 +24639,93 @@ static sl_status sli_path_take(sli_update *u, const sli_rank_one *one) {
   return SL_OK;
 }
 
-static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_tried) {
-  sl_factor *F = u->F;
-  const sl_symbolic *S = F->S;
-  const sli_change_kernels *kernels = sli_change_kernels_of(F->kernels->isa);
-  sl_factor_info *info = &F->stats.factor;
-  const sl_int v = sli_value(seed);
-  sl_int s = S->super_of[sli_key(seed)], count = 0, rest, i, k;
-  double *next = u->vectors, *from = NULL, sum = 0.0;
-  sl_int tile = (sli_key(seed) - S->super_first[s]) / SLI_TILE;
-  const sl_int *to = NULL;
+static sli_rank_one *sli_path_open(sli_update *u, sl_int v, sl_int s, sl_int count, double **next) {
+  const sl_symbolic *S = u->F->S;
+  const sli_step *step = &S->steps[s];
+  const sl_int wide = SLI_TILE * sli_tiles(step->width);
+  const sl_int rows = SLI_TILE * sli_tiles(step->width + step->below);
+  sli_rank_one *one = &u->path[count];
+  one->w = *next;
+  one->y = one->w + rows;
+  one->b = one->y + rows;
+  one->e = one->b + wide;
+  *next = one->e + wide;
+  if (count == 0) {
+    one->sum = -sli_path_load(u, v, s, one->w);
+  } else {
+    const sli_rank_one *last = one - 1;
+    const sl_int *to = S->relative + S->rows_begin[last->super];
+    const double *from = (u->is_trial ? last->y : last->w) + last->width;
+    sl_int i;
+    one->sum = last->sum;
+    one->first_tile = last->below > 0 ? to[0] / SLI_TILE : 0;
+    memset(one->w + SLI_TILE * one->first_tile, 0,
+        (size_t)(rows - SLI_TILE * one->first_tile) * sizeof *one->w);
+    for (i = 0; i < last->below; i++) {
+      one->w[to[i]] = from[i];
+    }
+  }
+  one->ahead = u->ahead;
+  one->super = s;
+  one->D = u->F->D + step->column;
+  one->width = step->width;
+  one->below = step->below;
+  return one;
+}
+
+static sl_status sli_path_sweep(sli_update *u, uint64_t seed, sl_int *count) {
+  const sl_symbolic *S = u->F->S;
+  const sli_change_kernels *kernels = sli_change_kernels_of(u->F->kernels->isa);
+  sl_int s = S->super_of[sli_key(seed)];
+  double *next = u->vectors;
   sl_status status = SL_OK;
+  u->path[0].first_tile = (sli_key(seed) - S->super_first[s]) / SLI_TILE;
+  for (*count = 0; s != -1 && status == SL_OK; s = S->super_parent[s], ++*count) {
+    sli_rank_one *one = sli_path_open(u, sli_value(seed), s, *count, &next);
+    sli_update_open(u, &S->steps[s]);
+    one->panel = u->panel;
+    kernels->panel(one, 1, !u->is_trial);
+    if (!u->is_trial) {
+      sli_update_close(u, &S->steps[s]);
+    }
+    status = sli_path_take(u, one);
+  }
+  return status;
+}
+
+static void sli_path_write(sli_update *u, sl_int count) {
+  const sli_change_kernels *kernels = sli_change_kernels_of(u->F->kernels->isa);
+  sl_int k;
+  for (k = 0; k < count; k++) {
+    (void)sli_path_take(u, &u->path[k]);
+  }
+  for (k = count - 1; k >= 0; k--) {
+    const sli_step *step = &u->F->S->steps[u->path[k].super];
+    sli_update_open(u, step);
+    u->path[k].panel = u->panel;
+    kernels->panel(&u->path[k], 0, 1);
+    sli_update_close(u, step);
+  }
+}
+
+static void sli_path_note(sli_update *u, sl_int v, sl_int count) {
+  sl_factor *F = u->F;
+  sl_int k, rest = u->V->p[v + 1] - u->V->p[v];
+  for (k = 0; k < count; k++) {
+    const sl_int s = u->path[k].super;
+    rest -= rest > 0 ? sli_path_extent(u, v, s) : 0;
+    u->entry = fmax(u->entry, F->extents[s].entry);
+    u->growth = fmax(u->growth, F->extents[s].magnitude);
+    if (F->history.marks != NULL) {
+      F->history.marks[s] = 0;
+    }
+  }
+}
+
+static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_tried) {
+  sl_factor_info *info = &u->F->stats.factor;
+  sl_int count;
+  sl_status status;
   u->is_trial = is_tried;
   u->is_tried = 0;
   u->most = u->top = u->entry = u->growth = 0.0;
@@ -24675,70 +24734,18 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_tried) {
   u->loss = u->swept = 1.0;
   u->lost = 0.0;
   u->state->ranks = 1;
-  for (; s != -1 && status == SL_OK; s = S->super_parent[s], count++) {
-    const sli_step *step = &S->steps[s];
-    const sl_int wide = SLI_TILE * sli_tiles(step->width);
-    const sl_int rows = SLI_TILE * sli_tiles(step->width + step->below);
-    sli_rank_one *one = &u->path[count];
-    one->w = next;
-    one->y = next += rows;
-    one->b = next += rows;
-    one->e = next += wide;
-    next += wide;
-    if (count == 0) {
-      sum = -sli_path_load(u, v, s, one->w);
-    } else {
-      memset(one->w + SLI_TILE * tile, 0, (size_t)(rows - SLI_TILE * tile) * sizeof *next);
-      for (i = 0; i < S->steps[one[-1].super].below; i++) {
-        one->w[to[i]] = from[i];
-      }
-    }
-    sli_update_open(u, step);
-    one->ahead = u->ahead;
-    one->super = s;
-    one->panel = u->panel;
-    one->D = F->D + step->column;
-    one->width = step->width;
-    one->below = step->below;
-    one->first_tile = tile;
-    one->sum = sum;
-    kernels->panel(one, 1, !is_tried);
-    if (!is_tried) {
-      sli_update_close(u, step);
-    }
-    sum = one->sum;
-    status = sli_path_take(u, one);
-    from = (is_tried ? one->y : one->w) + step->width;
-    to = S->relative + S->rows_begin[s];
-    tile = step->below > 0 ? to[0] / SLI_TILE : 0;
-  }
+  status = sli_path_sweep(u, seed, &count);
   u->is_trial = 0;
   if (status != SL_OK) {
     return status;
   }
   u->is_tried = is_tried;
-  for (k = 0; k < count && is_tried; k++) {
-    (void)sli_path_take(u, &u->path[k]);
+  if (is_tried) {
+    sli_path_write(u, count);
   }
   info->pivot_min = fmin(info->pivot_min, u->low);
   info->pivot_max = fmax(info->pivot_max, u->top);
-  for (k = count - 1; k >= 0 && is_tried; k--) {
-    const sli_step *step = &S->steps[u->path[k].super];
-    sli_update_open(u, step);
-    u->path[k].panel = u->panel;
-    kernels->panel(&u->path[k], 0, 1);
-    sli_update_close(u, step);
-  }
-  rest = u->V->p[v + 1] - u->V->p[v];
-  for (k = 0; k < count; k++) {
-    s = u->path[k].super;
-    rest -= rest > 0 ? sli_path_extent(u, v, s) : 0;
-    u->entry = fmax(u->entry, F->extents[s].entry);
-    u->growth = fmax(u->growth, F->extents[s].magnitude);
-    if (F->history.marks != NULL) {
-      F->history.marks[s] = 0;
-    }
-  }
+  sli_path_note(u, sli_value(seed), count);
   return SL_OK;
 }
 
@@ -24895,12 +24902,14 @@ static void sli_rank_walk(const sli_rank *q, sl_int k, sli_rank_path *path, sli_
   path->columns += through.columns;
 }
 
+#define SLI_RANK_PATH 800.0
+#define SLI_RANK_PASS 3000.0
+
 static double sli_rank_cost(const sli_rank *q, sl_int count, sl_off entries) {
   const int is_path = sli_rank_is_path(q, count);
-  const int kind = is_path ? SLI_NRHS_1 : sli_update_kind(count);
-  const double entry = sli_costs_of(q->u.F->kernels->isa)->change[kind] +
-             (q->u.sign == 0.0 ? SLI_CHANGE_GAINS : 0.0);
-  return entry * (double)entries + (is_path ? SLI_CHANGE_PATH : SLI_CHANGE_PASS);
+  const int lanes = is_path ? 1 : 1 << sli_update_kind(count);
+  const double entry = (is_path ? 1.0 : 1.0 + 0.5 * lanes) + (q->u.sign == 0.0 ? 2.0 : 0.0);
+  return entry * (double)entries + (is_path ? SLI_RANK_PATH : SLI_RANK_PASS);
 }
 
 typedef struct sli_rank_rest {
@@ -24948,9 +24957,9 @@ static void sli_rank_split(const sli_rank *q, sli_rank_rest *best) {
 }
 
 static void sli_rank_plan(sli_rank *q, int may_fail) {
-  const double whole = (double)q->whole.entries, log = SLI_CHANGE_LOG(whole) * whole;
+  const double whole = (double)q->whole.entries, log = whole;
   const int prefers_log = sli_rank_prefers_log(q);
-  const double least = whole + 2.0 * SLI_CHANGE_PATH;
+  const double least = whole + 2.0 * SLI_RANK_PATH;
   sli_rank_rest none, best, one;
   sli_rank_path path;
   path.entries = q->whole.entries;
@@ -24959,12 +24968,12 @@ static void sli_rank_plan(sli_rank *q, int may_fail) {
   sli_rank_prepend(q, sli_min(q->count, SLI_TILE), &path, &none, &one);
   best = one;
   q->ends[0] = q->count;
-  if (q->count > SLI_TILE || one.cost > least + SLI_CHANGE_SPLIT * (double)q->count) {
+  if (q->count > SLI_TILE || one.cost > least + SLI_RANK_PATH * (double)q->count) {
     sli_rank_split(q, &best);
   }
   if (q->count <= SLI_TILE &&
       (one.cost <= best.cost ||
-      (may_fail && !prefers_log && SLI_CHANGE_TRIAL * one.cost <= best.cost + log))) {
+      (may_fail && !prefers_log && 1.5 * one.cost <= best.cost + log))) {
     best = one;
     q->ends[0] = q->count;
   }
@@ -25505,6 +25514,8 @@ static void sli_edges_begin(sli_rank *q, const sl_int *rows, const sl_int *colum
 
 /* src/impl/change/choose.h: sl_factor_change_entries: rank-one changes, the reach of the change, or all of L */
 
+#define SLI_COST_PIVOT 50.0
+
 typedef struct sli_change_choice {
   uint64_t *seeds;
   sl_int n_seeds;
@@ -25515,34 +25526,9 @@ typedef struct sli_change_choice {
   sl_change_reason reason;
 } sli_change_choice;
 
-static double sli_choose_refactor(const sl_factor *F) {
-  const sl_symbolic *S = F->S;
-  const double flop = sli_costs_of(F->kernels->isa)->flop;
-  return flop * S->stats.symbolic.flops + SLI_CHANGE_FRONT(flop) * S->n_supers +
-       SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
-}
-
-static double sli_choose_front(const sl_symbolic *S, sl_int s) {
-  const double w = S->steps[s].width, h = w + S->steps[s].below;
-  return w * (h * h - h * w + w * w / 3.0);
-}
-
-static double sli_choose_kept(const sl_symbolic *S, sl_int s, sl_int *visits) {
-  const sl_int end = S->super_first[s + 1];
-  double flops = (double)S->steps[s].width * S->steps[s].below * S->steps[s].below;
-  sl_int d;
-  for (d = s - 1; d >= S->first_descendant[s];) {
-    const sl_int below = S->steps[d].below;
-    const double m = below - sli_lower_bound(S->rows + S->rows_begin[d], below, end);
-    if (m > 0.0) {
-      flops += S->steps[d].width * m * m;
-      ++*visits;
-      d--;
-    } else {
-      d = S->first_descendant[d] - 1;
-    }
-  }
-  return flops;
+static double sli_choose_cost(const sl_factor *F, double fronts, double flops) {
+  return sli_cost_flop(F->kernels->isa) * flops + SLI_COST_FRONT * fronts +
+       SLI_COST_INPUT * (double)F->S->scatter_begin[F->S->n_supers];
 }
 
 static int sli_choose_is_reached(const sli_change_choice *c, const sl_symbolic *S, sl_int s) {
@@ -25561,11 +25547,11 @@ static int sli_choose_is_reached(const sli_change_choice *c, const sl_symbolic *
 
 static double sli_choose_step(const sli_change_choice *c, const sl_symbolic *S, sl_int s,
     sl_int *visits) {
-  double flops = sli_choose_front(S, s);
+  double flops = sli_front_flops(&S->steps[s]);
   sl_int k;
   for (k = s - 1; k >= S->first_descendant[s]; k = S->first_descendant[k] - 1) {
     if (!sli_choose_is_reached(c, S, k)) {
-      flops += sli_choose_kept(S, k, visits);
+      flops += sli_kept_flops(S, k, visits);
       ++*visits;
     }
   }
@@ -25574,29 +25560,25 @@ static double sli_choose_step(const sli_change_choice *c, const sl_symbolic *S, 
 
 static void sli_choose_measure(sli_change_choice *c, const sl_factor *F, double limit) {
   const sl_symbolic *S = F->S;
-  const double input = SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
-  const double flop = sli_costs_of(F->kernels->isa)->flop;
-  sl_int k = 0, s, next, fronts = 0, visits = 0;
+  sl_int k = 0, s, next, steps = 0;
   c->flops_changed = 0.0;
-  c->changed = input;
+  c->changed = sli_choose_cost(F, 0.0, 0.0);
   while (k < c->n_seeds && c->changed <= limit) {
     s = S->super_of[sli_key(c->seeds[k])];
     next = sli_next_seed(S, c->seeds, c->n_seeds, &k);
     for (; s != -1 && s < next && c->changed <= limit; s = S->super_parent[s]) {
-      fronts++;
-      c->flops_changed += sli_choose_step(c, S, s, &visits);
-      c->changed = input + SLI_CHANGE_FRONT(flop) * fronts + SLI_CHANGE_VISIT(flop) * visits +
-             flop * c->flops_changed;
+      steps++;
+      c->flops_changed += sli_choose_step(c, S, s, &steps);
+      c->changed = sli_choose_cost(F, steps, c->flops_changed);
     }
   }
 }
 
 static sl_change_method sli_choose_make(sli_change_choice *c, const sl_factor *F, int can_update) {
   const sl_symbolic *S = F->S;
-  const int can_reach =
-    F->is_valid && F->method == SL_METHOD_SUPERNODAL && F->type->storage == SL_STORAGE_DOUBLE;
+  const int can_reach = F->is_valid && sli_reached_is_suited(F);
   c->flops_refactor = S->stats.symbolic.flops;
-  c->refactor = sli_choose_refactor(F);
+  c->refactor = sli_choose_cost(F, S->n_supers, c->flops_refactor);
   c->reason = can_update ? SL_CHANGE_CHEAPEST : SL_CHANGE_UNSUITED;
   if (!F->is_valid) {
     return SL_CHANGE_REFACTOR;
@@ -25664,10 +25646,8 @@ static sl_status sli_choose_reach(sli_change_choice *c, const sli_rank *q, const
 }
 
 static double sli_choose_update(const sli_rank *q, double entries, double pivots, double flops) {
-  const double flop = sli_costs_of(q->u.F->kernels->isa)->flop;
-  return (SLI_CHANGE_ENTRY * entries + SLI_CHANGE_PIVOT(flop) * pivots +
-      1.2 * fmax(flop - SLI_CHANGE_HIDDEN, 0.0) * flops) *
-       (q->has_trial || q->has_log ? 1.5 : 1.0);
+  const double passes = q->has_trial || q->has_log ? 3.0 : 2.0;
+  return passes * entries + sli_cost_flop(q->u.F->kernels->isa) * flops + SLI_COST_PIVOT * pivots;
 }
 
 static void sli_choose_estimate(sli_change_choice *c, const sli_rank *q) {
@@ -25767,6 +25747,26 @@ static sl_status sli_choose_cheapest(sli_rank *q, const sl_csc *A, sl_work *W, d
   return status;
 }
 
+static sl_status sli_choose_columns(sl_factor *F, const sl_csc *A, const sl_int *columns,
+    sl_int count, sl_stats *stats) {
+  const double started = stats == NULL ? 0.0 : sli_seconds();
+  sli_changes changes;
+  sl_status status;
+  SLI_CLEAR(changes);
+  changes.columns = columns;
+  changes.count = count;
+  status = sli_reached_refactor(F, A, &changes, stats);
+  if (status == SL_OK && stats != NULL) {
+    SLI_CLEAR(stats->change);
+    stats->change.method = sli_reached_is_suited(F) ? SL_CHANGE_REACH : SL_CHANGE_REFACTOR;
+    stats->change.reason = SL_CHANGE_COLUMNS;
+    stats->change.updates = F->history.updates;
+    stats->change.drift = F->history.drift;
+    stats->change.seconds = sli_seconds() - started;
+  }
+  return sli_report(stats, status);
+}
+
 SL_API sl_status sl_factor_change_entries(sl_factor *F, const sl_csc *A, const sl_int *rows,
     const sl_int *columns, const double *deltas, sl_int count,
     sl_work *W, sl_stats *stats) {
@@ -25774,6 +25774,9 @@ SL_API sl_status sl_factor_change_entries(sl_factor *F, const sl_csc *A, const s
   sli_rank q;
   sl_status status;
   sli_stats_clear_error(stats);
+  if (rows == NULL && deltas == NULL && (A != NULL || count > 0)) {
+    return sli_choose_columns(F, A, columns, count, stats);
+  }
   status = sli_edges_check(F, rows, columns, deltas, count, stats);
   if (status == SL_OK) {
     status = A == NULL ? sli_rank_check(F) : sli_factor_may_change(F);
@@ -25796,7 +25799,10 @@ SL_API sl_status sl_factor_change_entries(sl_factor *F, const sl_csc *A, const s
   return sli_report(stats, status);
 }
 
-/* src/impl/change/constraints_types.h: a set of pins: the method, and what it keeps */
+#endif
+/* constraints: rows held at values, on a factor that stays */
+#if defined(SL_WITH_CONSTRAINTS)
+/* src/impl/constraints/constraints_types.h: a set of pins: the method, and what it keeps */
 
 static const char sli_pinned_twice[] = "the row is pinned twice";
 static const char sli_nulls_unknown[] =
@@ -25847,7 +25853,7 @@ static sl_status sli_constraints_are_current(const sl_constraints *P) {
          : status;
 }
 
-/* src/impl/change/constraints_nulls.h: null vectors under pins: their products with the pins, and what remains free */
+/* src/impl/constraints/constraints_nulls.h: null vectors under pins: their products with the pins, and what remains free */
 
 static sli_tree_range sli_tree_of(const sl_symbolic *S, sl_int column) {
   sli_tree_range tree;
@@ -26041,7 +26047,7 @@ static void sli_constraints_nulls_begin(const sli_constraints_nulls *w, const sl
   sli_constraints_nulls_mark(w, P);
 }
 
-/* src/impl/change/constraints_capacitance.h: the sweeps of pins, and the factor of their capacitance matrix */
+/* src/impl/constraints/constraints_capacitance.h: the sweeps of pins, and the factor of their capacitance matrix */
 
 static void sli_pin_clear_nulls(const sl_constraints *P, const sli_pin *pin, const sli_reach *R,
     double *y, sl_int lanes) {
@@ -26329,7 +26335,7 @@ static void sli_constraints_apply(const sl_constraints *P, double *f, sl_int lan
   sli_capacitance_solve(P->K, (size_t)P->capacity, P->n_pins, f, lanes);
 }
 
-/* src/impl/change/constraints_rows.h: rows pinned together: up to 8 of them share a sweep */
+/* src/impl/constraints/constraints_rows.h: rows pinned together: up to 8 of them share a sweep */
 
 #define SLI_CONSTRAINTS_SINGLY 4
 
@@ -26453,7 +26459,7 @@ static sl_status sli_constraints_push_rows(sl_constraints *P, const sl_int *rows
   return status;
 }
 
-/* src/impl/change/constraints_balance.h: null vectors in solves with pins: balance of forces, and motions */
+/* src/impl/constraints/constraints_balance.h: null vectors in solves with pins: balance of forces, and motions */
 
 static sl_status sli_constraints_nulls_factor(const sli_constraints_nulls *w,
     const sl_constraints *P) {
@@ -26615,7 +26621,7 @@ static void sli_constraints_shift(const sl_constraints *P, const sli_query *q,
   }
 }
 
-/* src/impl/change/constraints.h: sets of pins: created, added, released, and made again for other numbers */
+/* src/impl/constraints/constraints.h: sets of pins: created, added, released, and made again for other numbers */
 
 static sl_status sli_constraints_take(sl_constraints *P) {
   const sl_factor *F = P->F;
@@ -26854,7 +26860,7 @@ SL_API sl_status sl_constraints_refactor(sl_constraints *P, sl_stats *stats) {
   return sli_report(stats, status);
 }
 
-/* src/impl/change/constraints_solve.h: sl_constraints_solve: solves with rows held */
+/* src/impl/constraints/constraints_solve.h: sl_constraints_solve: solves with rows held */
 
 typedef struct sli_constraints_solve {
   const sl_constraints *P;
@@ -27101,7 +27107,10 @@ SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *pl
   return status;
 }
 
-/* src/impl/change/subset.h: a set of rows of A as a sorted list of columns of L, and a map from columns to ranks */
+#endif
+/* edit: factors of submatrices, and of matrices whose pattern is edited */
+#if defined(SL_WITH_EDIT)
+/* src/impl/edit/subset.h: a set of rows of A as a sorted list of columns of L, and a map from columns to ranks */
 
 static void sli_fill_relative_of(const sl_symbolic *S, sl_int s, sl_int *local) {
   const sl_off begin = S->rows_begin[s];
@@ -27259,7 +27268,7 @@ SLI_HOT static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, co
   return SL_OK;
 }
 
-/* src/impl/change/submatrix_kept.h: a set R of rows of A, and what the analysis of A[R, R] keeps of that of A */
+/* src/impl/edit/submatrix_kept.h: a set R of rows of A, and what the analysis of A[R, R] keeps of that of A */
 
 #define SLI_RESTRICT_KEPT 0.4
 
@@ -27450,7 +27459,7 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
   return status;
 }
 
-/* src/impl/change/submatrix_analysis.h: the analysis of A[R, R] from that of A: new for columns with a removed */
+/* src/impl/edit/submatrix_analysis.h: the analysis of A[R, R] from that of A: new for columns with a removed */
 
 static sl_status sli_restriction_work(sli_restriction *r, uint64_t entries, const sl_allocator *a) {
   sli_analysis *w = &r->w;
@@ -27698,7 +27707,7 @@ static sl_status sli_restriction_list(sli_restriction *r, const sl_allocator *a,
   return sli_restriction_graph(r, stats);
 }
 
-/* src/impl/change/submatrix_symbolic.h: joins kept subtrees and new supernodes to the analysis of A[R, R] */
+/* src/impl/edit/submatrix_symbolic.h: joins kept subtrees and new supernodes to the analysis of A[R, R] */
 
 typedef struct sli_joint {
   sl_symbolic *S;
@@ -27914,7 +27923,7 @@ static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_
   return status;
 }
 
-/* src/impl/change/submatrix.h: sl_factor_submatrix: the factor of A[R, R] from that of A */
+/* src/impl/edit/submatrix.h: sl_factor_submatrix: the factor of A[R, R] from that of A */
 
 static sl_status sli_submatrix_check(const sl_factor *F, const sli_restriction *r,
     sli_failure *failure) {
@@ -28139,7 +28148,7 @@ SL_API sl_status sl_factor_submatrix(sl_symbolic **S, sl_factor **G, const sl_fa
   return sli_report(stats, status);
 }
 
-/* src/impl/change/edit_match.h: which rows of an edited matrix have other neighbors than before */
+/* src/impl/edit/edit_match.h: which rows of an edited matrix have other neighbors than before */
 
 typedef struct sli_edit {
   const sl_symbolic *S;
@@ -28339,7 +28348,7 @@ static void sli_edit_match(sli_edit *e) {
   }
 }
 
-/* src/impl/change/edit_place.h: places new rows in the tree of supernodes, and moves rows until every entry of the */
+/* src/impl/edit/edit_place.h: places new rows in the tree of supernodes, and moves rows until every entry of the */
 
 static void sli_edit_grow(sli_edit *e, int layer) {
   const sl_csc *B = e->B;
@@ -28580,7 +28589,7 @@ static int sli_edit_place_all(sli_edit *e) {
   return e->steps > 0;
 }
 
-/* src/impl/change/edit_separate.h: smallest separators near an edit, where rows have come and gone */
+/* src/impl/edit/edit_separate.h: smallest separators near an edit, where rows have come and gone */
 
 typedef struct sli_band {
   sli_edit *e;
@@ -28892,7 +28901,7 @@ static sl_status sli_edit_separate(sli_edit *e, const sl_allocator *a) {
   return SL_OK;
 }
 
-/* src/impl/change/edit_order.h: the order of an edited matrix: a new order of small subtrees with active rows */
+/* src/impl/edit/edit_order.h: the order of an edited matrix: a new order of small subtrees with active rows */
 
 static void sli_edit_mark(sli_edit *e) {
   const sl_symbolic *S = e->S;
@@ -29056,7 +29065,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
   return status;
 }
 
-/* src/impl/change/edit_graph.h: the graph of the columns that an edit analyzes again, and their supernodes */
+/* src/impl/edit/edit_graph.h: the graph of the columns that an edit analyzes again, and their supernodes */
 
 SLI_INLINE int sli_edit_is_root(const sli_edit *e, sl_int s) {
   const sl_int up = e->S->super_parent[s];
@@ -29138,7 +29147,7 @@ static sl_status sli_edit_analyze_fresh(sli_edit *e, sli_restriction *r, sl_rela
   return sli_restriction_analyze(r, a, stats);
 }
 
-/* src/impl/change/edit_join.h: joins kept subtrees and fresh supernodes to the analysis of an edited matrix */
+/* src/impl/edit/edit_join.h: joins kept subtrees and fresh supernodes to the analysis of an edited matrix */
 
 typedef struct sli_edit_join {
   sli_edit *e;
@@ -29388,7 +29397,7 @@ static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const s
   return status;
 }
 
-/* src/impl/change/edit.h: sl_symbolic_edit: the analysis of an edited matrix from that of the matrix before */
+/* src/impl/edit/edit.h: sl_symbolic_edit: the analysis of an edited matrix from that of the matrix before */
 
 #define SLI_EDIT_MOST_ACTIVE 0.25
 
@@ -29542,7 +29551,7 @@ SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const
   return sli_report(stats, status);
 }
 
-/* src/impl/change/edit_factor.h: sl_factor_edit: the factor of an edited matrix from that of the matrix before */
+/* src/impl/edit/edit_factor.h: sl_factor_edit: the factor of an edited matrix from that of the matrix before */
 
 #define SLI_REUSE_SHARE 0.97
 #define SLI_REUSE_SAMPLE 8
@@ -29682,8 +29691,9 @@ static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_
 static int sli_reuse_choose(sli_reuse *r) {
   const sl_symbolic *T = r->G->S;
   sl_reuse_info *info = &r->info;
+  const double flop = sli_cost_flop(r->G->kernels->isa);
   sl_int s, supers = 0, visits = 0;
-  double seconds;
+  double cost;
   info->flops = r->flops;
   for (s = 0; s < T->n_supers; s++) {
     const sl_int up = T->super_parent[s];
@@ -29695,20 +29705,19 @@ static int sli_reuse_choose(sli_reuse *r) {
     info->kept += T->steps[s].width;
     info->entries += T->panel_begin[s + 1] - T->panel_begin[s];
     if (up != -1 && r->from[up] == -1) {
-      info->flops += sli_choose_kept(T, s, &visits);
+      info->flops += sli_kept_flops(T, s, &visits);
     }
   }
   info->computed = T->n - info->kept;
-  seconds = SLI_REUSE_FLOP * info->flops + SLI_REUSE_FRONT * visits + SLI_REUSE_SUPER * supers +
-        SLI_REUSE_ENTRY * (double)info->entries;
-  return seconds < SLI_REUSE_SHARE *
-             (SLI_REUSE_FLOP * r->flops_anew + SLI_REUSE_FRONT * (double)T->n_supers);
+  cost = flop * info->flops + SLI_COST_FRONT * visits + SLI_COST_FRONT / 4.0 * supers +
+       2.0 * (double)info->entries;
+  return cost < SLI_REUSE_SHARE * (flop * r->flops_anew + SLI_COST_FRONT * (double)T->n_supers);
 }
 
 static void sli_reuse_drop(sli_reuse *r, sl_int s) {
   for (; s != -1 && r->from[s] != -1; s = r->G->S->super_parent[s]) {
     r->from[s] = -1;
-    r->flops += sli_choose_front(r->G->S, s);
+    r->flops += sli_front_flops(&r->G->S->steps[s]);
   }
 }
 
@@ -29728,7 +29737,7 @@ static int sli_reuse_find(sli_reuse *r) {
   int is_sample;
   for (s = 0; s < T->n_supers; s++) {
     r->from[s] = SLI_REUSE_UNKNOWN;
-    r->flops_anew += sli_choose_front(T, s);
+    r->flops_anew += sli_front_flops(&T->steps[s]);
   }
   r->info.flops_anew = r->flops_anew;
   for (is_sample = 1; is_sample >= 0; is_sample--) {
@@ -34609,6 +34618,9 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_JUDGE_FEW
 #undef SLI_JUDGE_READS
 #undef SLI_ASYMMETRY_MOST
+#undef SLI_COST_LANES
+#undef SLI_COST_FRONT
+#undef SLI_COST_INPUT
 #undef SLI_BLOCK_MOST
 #undef SLI_BLOCK_SINGULAR
 #undef SLI_ROWS_AHEAD
@@ -34641,30 +34653,14 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_INVERSE_ROW
 #undef SLI_INVERSE_PHASES
 #undef SLI_PANEL_AHEAD
-#undef SLI_PAIR_CACHED
-#undef SLI_PAIR_READ
-#undef SLI_PAIR_LARGE
-#undef SLI_CHANGE_ENTRY
-#undef SLI_CHANGE_HIDDEN
-#undef SLI_CHANGE_PIVOT
-#undef SLI_CHANGE_FRONT
-#undef SLI_CHANGE_VISIT
-#undef SLI_CHANGE_INPUT
-#undef SLI_CHANGE_PATH
-#undef SLI_CHANGE_PASS
-#undef SLI_CHANGE_SPLIT
-#undef SLI_CHANGE_GAINS
-#undef SLI_CHANGE_LOG
-#undef SLI_CHANGE_TRIAL
-#undef SLI_REUSE_FLOP
-#undef SLI_REUSE_FRONT
-#undef SLI_REUSE_SUPER
-#undef SLI_REUSE_ENTRY
 #undef SLI_LANES_MAX
 #undef SLI_BLOCK_REQUESTS_MAX
 #undef SLI_LOSS_LIMIT
 #undef SLI_LOSS_REFUSED
 #undef SLI_SWEEP_FLOPS
+#undef SLI_PAIR_CACHED
+#undef SLI_PAIR_READ
+#undef SLI_PAIR_LARGE
 #undef SLI_BLOCK_KEPT
 #undef SLI_REGION_COLUMNS
 #undef SLI_REGION_PASSES
@@ -34675,8 +34671,11 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_RANK_LOGGED
 #undef SLI_RANK_LARGE
 #undef SLI_RANK_SMALL
+#undef SLI_RANK_PATH
+#undef SLI_RANK_PASS
 #undef SLI_RANK_RING
 #undef SLI_EDGES_HEAVY
+#undef SLI_COST_PIVOT
 #undef SLI_CONSTRAINTS_SINGLY
 #undef SLI_CONSTRAINTS_LOST
 #undef SLI_SUBSET_BITS

@@ -1,6 +1,6 @@
 # peers.mk: measurements against other libraries, tables and figures of them (a part of the Makefile)
 
-.PHONY: deps-peers deps-arpack bench-peers bench-eigenpairs measure-costs speed-table figures
+.PHONY: deps-peers deps-arpack bench-peers bench-eigenpairs speed-table figures
 
 PEERS := $(wildcard bench/peers/*.c bench/peers/*.cpp)
 
@@ -25,11 +25,6 @@ ARPACK_BENCH = B=build/arpack BENCH_ENV='$(PEER_ENV) OPENBLAS_NUM_THREADS=1' CFL
 	PEER_LIBS='-larpack -lopenblas' PEER_OBJECTS='$(ARPACK_OBJECTS)'
 bench-eigenpairs: deps deps-arpack sparse_local.h ## auto-diffusion by the eigenpairs of ARPACK, with our factor as its solver: digits and time
 	@+$(SUB_MAKE) run-bench QUESTION_DEFAULT=eigenpairs $(ARPACK_BENCH)
-
-measure-costs: sparse_local.h ## prints the rows of this machine for the table of src/impl/inverse/costs.h (a minute, on an idle core)
-	@mkdir -p build
-	@$(CC) -O2 -w -DSL_WITH_ALL -I. bench/costs/measure_costs.c -o build/measure_costs $(LDFLAGS) $(LDLIBS) -lm
-	@build/measure_costs
 
 speed-table: ## prints the measurements of the last bench-peers as Markdown tables
 	@awk -f tools/build/csv.awk -f tools/build/speed_table.awk build/bench-out/peers.machine.txt build/bench-out/peers.csv \

@@ -42,7 +42,11 @@ extern "C" {
 #endif
 #if defined(SL_WITH_CHANGE)
 #include "public/change.h"
+#endif
+#if defined(SL_WITH_CONSTRAINTS)
 #include "public/constraints.h"
+#endif
+#if defined(SL_WITH_EDIT)
 #include "public/submatrix.h"
 #include "public/edit.h"
 #endif
@@ -150,6 +154,7 @@ extern "C" {
 #include "impl/factor/symmetry.h"
 #include "impl/factor/factor.h"
 #include "impl/factor/factor_query.h"
+#include "impl/factor/costs.h"
 /* solve: full and local solves */
 #include "impl/solve/work.h"
 #include "impl/solve/query.h"
@@ -202,7 +207,6 @@ extern "C" {
 #include "impl/inverse/traversal.h"
 #include "impl/inverse/traversal_run.h"
 #include "impl/inverse/row_sets.h"
-#include "impl/inverse/costs.h"
 #include "impl/inverse/unit_vectors.h"
 #include "impl/inverse/pair_sums.h"
 #include "impl/inverse/loss.h"
@@ -230,26 +234,32 @@ extern "C" {
 #include "impl/change/rank.h"
 #include "impl/change/edges.h"
 #include "impl/change/choose.h"
-#include "impl/change/constraints_types.h"
-#include "impl/change/constraints_nulls.h"
-#include "impl/change/constraints_capacitance.h"
-#include "impl/change/constraints_rows.h"
-#include "impl/change/constraints_balance.h"
-#include "impl/change/constraints.h"
-#include "impl/change/constraints_solve.h"
-#include "impl/change/subset.h"
-#include "impl/change/submatrix_kept.h"
-#include "impl/change/submatrix_analysis.h"
-#include "impl/change/submatrix_symbolic.h"
-#include "impl/change/submatrix.h"
-#include "impl/change/edit_match.h"
-#include "impl/change/edit_place.h"
-#include "impl/change/edit_separate.h"
-#include "impl/change/edit_order.h"
-#include "impl/change/edit_graph.h"
-#include "impl/change/edit_join.h"
-#include "impl/change/edit.h"
-#include "impl/change/edit_factor.h"
+#endif
+/* constraints: rows held at values, on a factor that stays */
+#if defined(SL_WITH_CONSTRAINTS)
+#include "impl/constraints/constraints_types.h"
+#include "impl/constraints/constraints_nulls.h"
+#include "impl/constraints/constraints_capacitance.h"
+#include "impl/constraints/constraints_rows.h"
+#include "impl/constraints/constraints_balance.h"
+#include "impl/constraints/constraints.h"
+#include "impl/constraints/constraints_solve.h"
+#endif
+/* edit: factors of submatrices, and of matrices whose pattern is edited */
+#if defined(SL_WITH_EDIT)
+#include "impl/edit/subset.h"
+#include "impl/edit/submatrix_kept.h"
+#include "impl/edit/submatrix_analysis.h"
+#include "impl/edit/submatrix_symbolic.h"
+#include "impl/edit/submatrix.h"
+#include "impl/edit/edit_match.h"
+#include "impl/edit/edit_place.h"
+#include "impl/edit/edit_separate.h"
+#include "impl/edit/edit_order.h"
+#include "impl/edit/edit_graph.h"
+#include "impl/edit/edit_join.h"
+#include "impl/edit/edit.h"
+#include "impl/edit/edit_factor.h"
 #endif
 /* fixed: rows fixed at given values */
 #if defined(SL_WITH_FIXED)

@@ -38,7 +38,10 @@ build/packs/small.ok: tests/core/check_packs.sh tools/build/layers.awk build/ama
 PACK_TESTS_core = checks csc csc_products csc_triplets factor factor_fail factor_overflow levels mindeg order_hashes order_kkt ordering peel plan \
 	relaxation rigid_mass_cases small solve subnormal symbolic symbolic_order zero_mean_cases
 PACK_TESTS_inverse = inverse inverse_diagonal region selected selected_use stats
-PACK_TESTS_change = change change_drift change_rare change_scaled change_several constraints constraints_rigid constraints_trust constraints_sets refactor_changed submatrix supernodal
+PACK_TESTS_change = change change_columns change_drift change_rare change_scaled change_several supernodal
+PACK_TESTS_constraints = constraints constraints_rigid constraints_trust constraints_sets
+PACK_TESTS_edit = submatrix
+PACK_ALSO_edit = constraints
 PACK_TESTS_fixed = fixed fixed_rare
 PACK_TESTS_save = save save_file saved_set saved_set_use save_lies
 PACK_ALSO_save = accuracy complex float pivots

@@ -94,8 +94,9 @@ static void call_eight(void *state) {
 
 static void call_changed(void *state) {
     change *c = state;
-    bench_must(sl_factor_refactor_changed(c->F, &c->system->A, &c->i[c->next], 1, NULL),
-               "refactorization of a reach");
+    bench_must(
+        sl_factor_change_entries(c->F, &c->system->A, NULL, &c->i[c->next], NULL, 1, NULL, NULL),
+        "refactorization of a reach");
     c->next = (c->next + 1) % EDGES;
 }
 

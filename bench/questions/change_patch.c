@@ -114,8 +114,9 @@ static void call_reach(void *state) {
     change_state *s = state;
     const patch_change *p = &s->patches[s->next];
     const sl_csc A = target(s);
-    bench_must(sl_factor_refactor_changed(s->F, &A, p->vertices, p->n_vertices, NULL),
-               "refactorization of a reach");
+    bench_must(
+        sl_factor_change_entries(s->F, &A, NULL, p->vertices, NULL, p->n_vertices, NULL, NULL),
+        "refactorization of a reach");
     step_on(s);
 }
 

@@ -42,68 +42,48 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rank_update(sl_factor *F, const sl_csc
                                                       const double *sigma, sl_work *W,
                                                       sl_stats *stats);
 
-/** Changes a factor by entries of A, a_ij and a_ji by delta, in the cheapest way: by rank-one
- *  changes, by recomputing the columns of L that the change reaches, or by a refactorization. By
- *  rank-one changes alone if A is NULL.
+/** Changes a factor by entries of A, or by columns of A in which entries have changed.
  *
- *  Rank-one changes: one for the weight of an edge of a graph, which changes a_ij by -w and a_ii
- *  and a_jj by w, one for an entry of the diagonal, and up to three for any other entry, which
- *  follow the scales of the two rows if all pivots have one sign.
- *
- *  The ways are compared by their flops, each with what a flop costs in it. Where rank-one changes
+ *  By entries (rows, columns, deltas): a_ij and a_ji change by delta, in the cheapest way: by
+ *  rank-one changes, by computing the columns of L again that the change reaches, or by a
+ *  refactorization. If A is NULL, by rank-one changes alone. Rank-one changes: one for the weight
+ *  of an edge of a graph, which changes a_ij by -w and a_ii and a_jj by w, one for an entry of the
+ *  diagonal, and up to three for any other entry, which follow the scales of the two rows if all
+ *  pivots have one sign. The ways are compared by counted flops and entries. Where rank-one changes
  *  are not possible or have added up too much error, the other two remain (stats.change.reason).
  *
- *  F              [in,out]  the factor, or, with A, a failed one, which is refactored. On error as
- *                           with sl_factor_rank_update; with A as with sl_factor_refactor, and
- *                           without numbers where the error of a change is too large and A is
- *                           refused.
- *  A              [in]      the changed matrix, in the analyzed pattern, or NULL. Rank-one changes
- *                           compare its size only; the other ways read it and check its pattern.
- *  rows, columns  [in]  count entries (i, j) of either triangle, each pair i != j once for both
- *                       sides; repeated ones add up. L must have an entry there; all entries of A
- *                       do.
- *  deltas         [in]  count changes.
- *  stats          [out]     change, factor.
+ *  By columns (rows and deltas are NULL): the columns of L that the changes reach are computed
+ *  again. They agree with sl_factor_refactor up to rounding; the others keep their bits. An
+ *  up-looking factor is computed completely.
+ *
+ *  F        [in,out]  the factor. By entries with A also a failed one, which is refactored. On
+ *                     error as with sl_factor_rank_update; with A as with sl_factor_refactor, and
+ *                     without numbers where the error of a change is too large and A is refused. By
+ *                     columns unchanged after SL_ERR_ARGUMENT, _MALFORMED, _OTHER_PATTERN,
+ *                     _READ_ONLY and _MEMORY, else without numbers.
+ *  A        [in]      the changed matrix, in the analyzed pattern; by entries it may be NULL.
+ *                     Rank-one changes compare its size only.
+ *  rows     [in]      count rows of entries (i, j) of either triangle, each pair i != j once for
+ *                     both sides; repeated ones add up. L has an entry there. NULL: by columns.
+ *  columns  [in]      count columns of the entries; or of A, in which A stores changed entries.
+ *  deltas   [in]      count changes; NULL with rows.
+ *  stats    [out]     change, factor.
  *  Returns  as sl_factor_refactor and sl_factor_rank_update; SL_ERR_ARGUMENT: also an index out of
- *           range, at error.row and error.column.
- *  Cost     that of the way, and at most a few percent of a refactorization to count flops;
- *           nothing of O(n) or O(nnz) for rank-one changes, but for one look at L where pivots have
- *           both signs and the largest |a| may have fallen to a sixteenth.
- *  Threads  exclusive use of F.
+ *           range, at error.row and error.column, by columns at error.row; SL_ERR_STALE: by columns
+ *           also a failed factor.
+ *  Cost     that of the way, and at most a few percent of a refactorization to count flops; nothing
+ *           of O(n) or O(nnz) for rank-one changes, but for one look at L where pivots have both
+ *           signs and the largest |a| may have fallen to a sixteenth. By columns the fronts
+ *           reached, and the update matrices of the subtrees below them, from L: about 25 % of a
+ *           factorization for one vertex of a 2D mesh, and temporary memory for such a matrix.
+ *  Threads  exclusive use of F; uses the workers of F where columns are computed.
+ *  Source   the subtrees: left-looking supernodal factorization [NP93].
  *  Manual   tools/docs/changes.md
- *  Example  tests/core/test_change_choice.c
+ *  Example  tests/core/test_change_choice.c, tests/core/test_change_columns.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_change_entries(sl_factor *F, const sl_csc *A,
                                                          const sl_int *rows, const sl_int *columns,
                                                          const double *deltas, sl_int count,
                                                          sl_work *W, sl_stats *stats);
-
-/** Refactors after local changes: recomputes only the columns of L that the changes reach.
- *
- *  Results agree with sl_factor_refactor up to rounding; the other columns of L keep their bits. An
- *  up-looking factor is recomputed completely.
- *
- *  F        [in,out]  the factor of a matrix that differs from A in the given columns only.
- *                     Unchanged after SL_ERR_ARGUMENT, _MALFORMED, _OTHER_PATTERN, _READ_ONLY and
- *                     _MEMORY; without numbers after other errors.
- *  A        [in]      the analyzed pattern, new values.
- *  columns  [in]      count columns of A, in which A stores changed entries; any order, repetitions
- *                     allowed.
- *  stats    [out]     factor, of all of L and A: the growth is that of sl_factor_refactor, to
- *                     rounding.
- *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error.row); SL_ERR_STALE:
- *           F has no numbers; SL_ERR_READ_ONLY: F is mapped.
- *  Cost     the fronts reached, and the update matrices of the subtrees below them, from L: about
- *           25 % of a factorization for one vertex of a 2D mesh. Temporary memory: 4 bytes per
- *           supernode, and for each worker an update matrix, 4 bytes per row of A and 4 per row of
- *           the largest front. With null pivots and mass, one complete sweep over L.
- *  Threads  exclusive use of F; uses the workers of F.
- *  Source   the subtrees: left-looking supernodal factorization [NP93].
- *  Manual   tools/docs/changes.md
- *  Example  tests/core/test_refactor_changed.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A,
-                                                           const sl_int *columns, sl_int count,
-                                                           sl_stats *stats);
 
 #endif

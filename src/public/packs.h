@@ -7,7 +7,9 @@
  * every include of this header to add to it, or SL_WITH_ALL for all packs:
  *
  *  SL_WITH_INVERSE    entries of the inverse, selected inversion, regions
- *  SL_WITH_CHANGE     changes of a factor in place, pins, factors of submatrices, edits
+ *  SL_WITH_CHANGE     changes of a factor in place, by vectors, entries and columns
+ *  SL_WITH_CONSTRAINTS rows held at given values, on a factor that stays
+ *  SL_WITH_EDIT       factors of submatrices, edits of the pattern
  *  SL_WITH_FIXED      rows fixed at given values: harmonic maps, interpolation
  *  SL_WITH_SAVE       factors, selected inverses and regions in files and in mapped memory
  *  SL_WITH_BATCH      many factors or solves by one call, weighted sums of matrices
@@ -18,10 +20,13 @@
  *  SL_WITH_PIVOTS     2x2 pivots for indefinite matrices
  *
  * A call of a pack that is off does not compile, and the error names the macro. An option that
- * needs such a pack gives SL_ERR_UNSUPPORTED. SL_WITH_CHANGE brings SL_WITH_INVERSE along, which
- * pins need, and so does SL_WITH_SAVE. Objects and structs are the same with any packs. */
+ * needs such a pack gives SL_ERR_UNSUPPORTED. SL_WITH_CONSTRAINTS and SL_WITH_SAVE bring
+ * SL_WITH_INVERSE along, SL_WITH_EDIT brings SL_WITH_CHANGE. Objects and structs are the same with
+ * any packs. */
 #if defined(SL_WITH_ALL)
 #undef SL_WITH_CHANGE
+#undef SL_WITH_CONSTRAINTS
+#undef SL_WITH_EDIT
 #undef SL_WITH_FIXED
 #undef SL_WITH_SAVE
 #undef SL_WITH_BATCH
@@ -31,6 +36,8 @@
 #undef SL_WITH_FILES
 #undef SL_WITH_PIVOTS
 #define SL_WITH_CHANGE
+#define SL_WITH_CONSTRAINTS
+#define SL_WITH_EDIT
 #define SL_WITH_FIXED
 #define SL_WITH_SAVE
 #define SL_WITH_BATCH
@@ -40,8 +47,11 @@
 #define SL_WITH_FILES
 #define SL_WITH_PIVOTS
 #endif
-#if (defined(SL_WITH_CHANGE) || defined(SL_WITH_SAVE)) && !defined(SL_WITH_INVERSE)
+#if (defined(SL_WITH_CONSTRAINTS) || defined(SL_WITH_SAVE)) && !defined(SL_WITH_INVERSE)
 #define SL_WITH_INVERSE
+#endif
+#if defined(SL_WITH_EDIT) && !defined(SL_WITH_CHANGE)
+#define SL_WITH_CHANGE
 #endif
 
 #endif

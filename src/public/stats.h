@@ -135,10 +135,10 @@ typedef struct sl_change_info {
      * the rows or the vectors of a call have lost more (tools/docs/changes.md) */
     double drift;
     double flops_update; /* of the rank-one changes, about; 0 if F cannot be changed so */
-    /* of sl_factor_refactor_changed, counted up to the cost of the cheapest way; of
-     * sl_factor_change_entries, else 0 */
+    /* to compute what the change reaches, counted up to the cost of the cheapest way; of entries
+     * given to sl_factor_change_entries, else 0 */
     double flops_changed;
-    double flops_refactor; /* of sl_factor_refactor; of sl_factor_change_entries, else 0 */
+    double flops_refactor; /* of sl_factor_refactor; as flops_changed */
     double seconds;
 } sl_change_info;
 

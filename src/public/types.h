@@ -157,7 +157,7 @@ typedef enum sl_certainty {
 typedef enum sl_change_method {
     SL_CHANGE_NONE = 0, /* nothing changed */
     SL_CHANGE_UPDATE,   /* rank-one changes of the columns on their paths */
-    SL_CHANGE_REACH,    /* sl_factor_refactor_changed */
+    SL_CHANGE_REACH,    /* the columns of L that the change reaches were computed again */
     SL_CHANGE_REFACTOR  /* sl_factor_refactor */
 } sl_change_method;
 
@@ -166,7 +166,8 @@ typedef enum sl_change_reason {
     SL_CHANGE_CHEAPEST = 0, /* the fewest flops, weighted by what one costs in each way */
     SL_CHANGE_UNSUITED,     /* null pivots, 2x2 pivots, or F has no numbers */
     SL_CHANGE_DRIFT,        /* the errors of earlier changes have reached their limit */
-    SL_CHANGE_REFUSED       /* rank-one changes met a pivot that they refuse */
+    SL_CHANGE_REFUSED,      /* rank-one changes met a pivot that they refuse */
+    SL_CHANGE_COLUMNS       /* columns of A were given, and no entries */
 } sl_change_reason;
 
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */

@@ -109,9 +109,9 @@ static sl_status refused_call(const subject_t *s, int k) {
     case 15:
         return sl_factor_change_entries(s->F, A, &first, &first, &nan, 1, NULL, NULL);
     case 16:
-        return sl_factor_refactor_changed(s->F, A, &beyond, 1, NULL);
+        return sl_factor_change_entries(s->F, A, NULL, &beyond, NULL, 1, NULL, NULL);
     case 17:
-        return sl_factor_refactor_changed(s->F, &small, &first, 1, NULL);
+        return sl_factor_change_entries(s->F, &small, NULL, &first, NULL, 1, NULL, NULL);
     case 18:
         other.i = test_ints((size_t)A->p[N]);
         memset((sl_int *)(uintptr_t)other.i, 0, (size_t)A->p[N] * sizeof *other.i);

@@ -218,7 +218,7 @@ static void what_is_computed_again_is_not_lost(void **state) {
     band_make(&y, 1.0);
     row_change(&y, 0, row, 1e10, &stats);
     y.a[y.p[row]] -= 1e10;
-    SL_CHECK(sl_factor_refactor_changed(y.F, &y.view, &row, 1, &stats));
+    SL_CHECK(sl_factor_change_entries(y.F, &y.view, NULL, &row, NULL, 1, NULL, &stats));
     for (int k = 0; k < 2; k++) {
         row_change(&y, k, row, 1.0, &stats);
         row_change(&y, 2, N - 1, 1.0, &stats);

@@ -116,8 +116,9 @@ static void plain_c_refuses_what_is_not_complex(void **state) {
     sl_factor_free(G);
     assert_int_equal(sl_factor_edit(&G, y.F[1], y.S, &A, same, &opt, NULL), SL_ERR_UNSUPPORTED);
     assert_null(G);
-    SL_CHECK(sl_factor_refactor_changed(y.F[1], &y.A, &changed, 1, NULL));
-    assert_int_equal(sl_factor_refactor_changed(y.F[1], &A, &changed, 1, NULL), SL_ERR_UNSUPPORTED);
+    SL_CHECK(sl_factor_change_entries(y.F[1], &y.A, NULL, &changed, NULL, 1, NULL, NULL));
+    assert_int_equal(sl_factor_change_entries(y.F[1], &A, NULL, &changed, NULL, 1, NULL, NULL),
+                     SL_ERR_UNSUPPORTED);
     assert_int_equal(sl_factor_refactor(y.F[1], &A, NULL), SL_ERR_UNSUPPORTED);
     SL_CHECK(sl_factor_refactor(y.F[1], &y.A, NULL));
     free(same);

@@ -178,7 +178,7 @@ static void changed_factors_follow(void **state) {
     check_right(G, &y.A.view);
     assert_true(!stats.reuse.is_anew && stats.reuse.computed > 0);
     sl_factor_free(G);
-    SL_CHECK(sl_factor_refactor_changed(y.F, &y.A.view, &column, 1, NULL));
+    SL_CHECK(sl_factor_change_entries(y.F, &y.A.view, NULL, &column, NULL, 1, NULL, NULL));
     SL_CHECK(sl_factor_edit(&G, y.F, y.S, &y.A.view, map, NULL, &stats));
     assert_int_equal(stats.reuse.kept, y.t.n);
     assert_same_bits(y.F, G);

@@ -55,7 +55,8 @@ static void a_forged_pattern_is_refused(void **state) {
     assert_true(sli_hash_equals(hash, forged)); /* it is a forgery */
     SL_EXPECT(SL_ERR_MALFORMED, sl_factor_create(&G, S, &B, NULL, &stats));
     SL_EXPECT(SL_ERR_MALFORMED, sl_factor_refactor(F, &B, &stats));
-    SL_EXPECT(SL_ERR_MALFORMED, sl_factor_refactor_changed(F, &B, &column, 1, &stats));
+    SL_EXPECT(SL_ERR_MALFORMED,
+              sl_factor_change_entries(F, &B, NULL, &column, NULL, 1, NULL, &stats));
     SL_EXPECT(SL_ERR_MALFORMED, sl_factor_refine(F, &B, y, N, b, N, 1, 2, NULL, &stats));
     SL_EXPECT(SL_ERR_MALFORMED, sl_factor_rcond(F, &B, &rcond, NULL));
     SL_CHECK(sl_factor_solve(F, y, N, b, N, 1, NULL));

@@ -209,11 +209,11 @@ static void growth_does_not_depend_on_threads_or_on_what_changed(void **state) {
         const double keep = M.x[M.p[column]];
         assert_int_equal(M.i[M.p[column]], column);
         M.x[M.p[column]] = 1e9;
-        SL_CHECK(sl_factor_refactor_changed(F, &M.view, &column, 1, &changed));
+        SL_CHECK(sl_factor_change_entries(F, &M.view, NULL, &column, NULL, 1, NULL, &changed));
         assert_growth(F, &M.view, &changed);
         assert_true(changed.factor.entry_max == 1e9);
         M.x[M.p[column]] = keep;
-        SL_CHECK(sl_factor_refactor_changed(F, &M.view, &column, 1, &changed));
+        SL_CHECK(sl_factor_change_entries(F, &M.view, NULL, &column, NULL, 1, NULL, &changed));
         assert_growth(F, &M.view, &changed);
         assert_true(changed.factor.entry_max == stats.factor.entry_max);
         assert_true(fabs(changed.factor.growth - first) <= 1e-6 * first);
@@ -271,8 +271,9 @@ static void growth_beyond_the_limit_is_refused_with_its_pivot(void **state) {
             assert_refused(sl_factor_create(&F, S, &bad.view, &opt, &stats), &stats, at, -1e-20);
             assert_null(F);
             SL_CHECK(sl_factor_create(&F, S, &fine.view, &opt, &stats));
-            assert_refused(sl_factor_refactor_changed(F, &bad.view, &column, 1, &stats), &stats, at,
-                           -1e-20);
+            assert_refused(
+                sl_factor_change_entries(F, &bad.view, NULL, &column, NULL, 1, NULL, &stats),
+                &stats, at, -1e-20);
             SL_EXPECT(SL_ERR_STALE, sl_factor_solve(F, x, N, x, N, 1, NULL));
             assert_refused(sl_factor_refactor(F, &bad.view, &stats), &stats, at, -1e-20);
             sl_factor_stats(F, &stats);

@@ -257,7 +257,7 @@ static void sums_and_changed_columns(void **state) {
                 memcpy(x, M.x, (size_t)M.p[N] * sizeof *x);
                 x[M.p[column]] *= c;
                 B.x = x;
-                SL_CHECK(sl_factor_refactor_changed(F, &B, &column, 1, NULL));
+                SL_CHECK(sl_factor_change_entries(F, &B, NULL, &column, NULL, 1, NULL, NULL));
             }
             if (turn == 0) {
                 SL_CHECK(sl_selected_create(&Z, F, NULL, SL_ALL, &opt, NULL));

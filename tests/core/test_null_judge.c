@@ -178,7 +178,7 @@ static void every_way_judges_alike(void **state) {
     SL_CHECK(sl_factor_create(&F, S, &A.view, NULL, NULL));
     SL_CHECK(sl_factor_edit(&G, F, S, &A.view, same, NULL, NULL));
     assert_same_bits(F, G);
-    SL_CHECK(sl_factor_refactor_changed(G, &A.view, column, 1, NULL));
+    SL_CHECK(sl_factor_change_entries(G, &A.view, NULL, column, NULL, 1, NULL, NULL));
     assert_same_bits(F, G);
     sl_factor_free(G);
     SL_CHECK(sl_factor_submatrix(&T, &G, F, &A.view, same, n, NULL, NULL));
@@ -190,8 +190,10 @@ static void every_way_judges_alike(void **state) {
             A.x[p] = B.x[p];
         }
     }
-    SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor_changed(F, &A.view, same, n, &stats));
-    SL_EXPECT(SL_ERR_STALE, sl_factor_refactor_changed(F, &A.view, column, 1, &stats));
+    SL_EXPECT(SL_ERR_PIVOT,
+              sl_factor_change_entries(F, &A.view, NULL, same, NULL, n, NULL, &stats));
+    SL_EXPECT(SL_ERR_STALE,
+              sl_factor_change_entries(F, &A.view, NULL, column, NULL, 1, NULL, &stats));
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(F, &A.view, &stats));
     sl_factor_free(F);
     sl_symbolic_free(S);

@@ -127,7 +127,8 @@ static void changes_to_both_signs_are_refused(void **state) {
     M.x[M.p[0]] = -3.0;
     M.x[M.p[0] + 1] = 3.0;
     M.x[M.p[1]] = -2.0;
-    SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor_changed(F, &M.view, columns, 2, NULL));
+    SL_EXPECT(SL_ERR_PIVOT,
+              sl_factor_change_entries(F, &M.view, NULL, columns, NULL, 2, NULL, NULL));
     SL_EXPECT(SL_ERR_STALE, sl_factor_solve(F, x, 4, b, 4, 1, NULL));
     sl_factor_free(F);
     sl_symbolic_free(S);

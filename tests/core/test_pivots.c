@@ -147,7 +147,7 @@ static void factors_have_the_same_bits(void **state) {
             for (sl_int p = M.p[column]; p < M.p[column + 1]; p++) {
                 M.x[p] *= 1.01;
             }
-            SL_CHECK(sl_factor_refactor_changed(F, &M.view, &column, 1, NULL));
+            SL_CHECK(sl_factor_change_entries(F, &M.view, NULL, &column, NULL, 1, NULL, NULL));
             check_solves(F, &M.view);
             sl_factor_free(F);
             sl_factor_free(G);

@@ -259,7 +259,7 @@ static void changes_are_followed(void **state) {
             for (sl_int q = M.p[column]; q < M.p[column + 1]; q++) {
                 M.x[q] *= 1.25;
             }
-            SL_CHECK(sl_factor_refactor_changed(F, &M.view, &column, 1, NULL));
+            SL_CHECK(sl_factor_change_entries(F, &M.view, NULL, &column, NULL, 1, NULL, NULL));
             NOTHING_WRONG(check_factor(F, &M.view));
         }
         sl_factor_free(F);

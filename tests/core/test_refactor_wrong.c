@@ -110,7 +110,8 @@ static void a_wrong_matrix_changes_nothing(void **state) {
         snapshot_t before = snapshot(y.F);
         sl_int *p = test_ints(N + 1), *i = test_ints((size_t)y.M.p[N]), column = 7;
         SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor(y.F, NULL, NULL));
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_changed(y.F, NULL, &column, 1, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_factor_change_entries(y.F, NULL, NULL, &column, NULL, 1, NULL, NULL));
         assert_unchanged(y.F, &before);
         for (int which = 0; which < WRONG; which++) {
             sl_csc bad;
@@ -120,7 +121,8 @@ static void a_wrong_matrix_changes_nothing(void **state) {
             SL_EXPECT(status, sl_factor_refactor(y.F, &bad, &stats));
             assert_unchanged(y.F, &before);
             SL_EXPECT(status, sl_factor_refactor(y.F, &bad, NULL));
-            SL_EXPECT(status, sl_factor_refactor_changed(y.F, &bad, &column, 1, &stats));
+            SL_EXPECT(status,
+                      sl_factor_change_entries(y.F, &bad, NULL, &column, NULL, 1, NULL, &stats));
             assert_unchanged(y.F, &before);
         }
         SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL)); /* and it still can be factored again */

@@ -76,7 +76,7 @@ static void stale_values_are_refused(void **state) {
             SL_CHECK(sl_factor_refactor(f->y.F, &A, NULL));
             break;
         case 1:
-            SL_CHECK(sl_factor_refactor_changed(f->y.F, &A, &column, 1, NULL));
+            SL_CHECK(sl_factor_change_entries(f->y.F, &A, NULL, &column, NULL, 1, NULL, NULL));
             break;
         case 2:
             SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(f->y.F, &bad, NULL));

@@ -52,7 +52,8 @@ static void dependent_constraints_are_regularized(void **state) {
                     assert_true(shifts[m] < -1e-11 && shifts[m] > -1e-7);
                 }
                 SL_CHECK(again == 0 ? sl_factor_refactor(F, &y.M.view, &stats)
-                                    : sl_factor_refactor_changed(F, &y.M.view, columns, 2, &stats));
+                                    : sl_factor_change_entries(F, &y.M.view, NULL, columns, NULL, 2,
+                                                               NULL, &stats));
             }
             /* Without the option the matrix is refused. */
             opt.regularization = 0.0;

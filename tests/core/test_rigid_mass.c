@@ -17,7 +17,7 @@ static void solutions_have_no_rigid_motion(void **state) {
         assert_means(&f, f.F);
         SL_CHECK(sl_factor_refactor(f.F, &f.y.A, NULL));
         assert_means(&f, f.F);
-        SL_CHECK(sl_factor_refactor_changed(f.F, &f.y.A, &column, 1, NULL));
+        SL_CHECK(sl_factor_change_entries(f.F, &f.y.A, NULL, &column, NULL, 1, NULL, NULL));
         assert_means(&f, f.F);
         weighed_free(&f);
     }

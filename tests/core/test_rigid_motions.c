@@ -118,7 +118,7 @@ static void no_rigid_motion_is_missed_or_dropped(void **state) {
         SL_CHECK(sl_factor_refactor(G, &y.A, &stats));
         assert_nulls(&y, G, &stats);
         assert_same_bits(F, G);
-        SL_CHECK(sl_factor_refactor_changed(G, &y.A, &changed, 1, &stats));
+        SL_CHECK(sl_factor_change_entries(G, &y.A, NULL, &changed, NULL, 1, NULL, &stats));
         assert_nulls(&y, G, &stats);
         assert_solves(&y.A, G, seed);
         sl_factor_free(F);
@@ -153,7 +153,7 @@ static void rotations_may_be_about_a_distant_point(void **state) {
 
 /* A body that springs hold in some rows of one node: what remains are the rotations about it and,
  * if not all rows are held, translations, which are combinations of the given vectors. Releasing
- * and holding it by sl_factor_refactor_changed finds and drops the others. */
+ * and holding it by sl_factor_change_entries finds and drops the others. */
 static void what_a_support_leaves_is_found(void **state) {
     (void)state;
     variant_list_t variants = variants_present();
@@ -183,10 +183,10 @@ static void what_a_support_leaves_is_found(void **state) {
         assert_int_equal(stats.factor.null, left);
         assert_solves(&firm, F, seed);
         for (int again = 0; again < 2; again++) {
-            SL_CHECK(sl_factor_refactor_changed(F, &y.A, columns, y.dim, &stats));
+            SL_CHECK(sl_factor_change_entries(F, &y.A, NULL, columns, NULL, y.dim, NULL, &stats));
             assert_nulls(&y, F, &stats);
             assert_solves(&y.A, F, seed);
-            SL_CHECK(sl_factor_refactor_changed(F, &firm, columns, y.dim, &stats));
+            SL_CHECK(sl_factor_change_entries(F, &firm, NULL, columns, NULL, y.dim, NULL, &stats));
             assert_int_equal(stats.factor.null, left);
             assert_solves(&firm, F, seed);
         }

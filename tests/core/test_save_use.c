@@ -90,8 +90,8 @@ static void a_loaded_factor_can_be_refactored(void **state) {
             }
             B.x = x;
             SL_CHECK(pair_load_memory(&S, &F, m.bytes, m.size, SL_LOAD_CHECKED, &opt));
-            SL_CHECK(sl_factor_refactor_changed(F, A, columns, 2, NULL));
-            SL_CHECK(sl_factor_refactor_changed(c.y.F, A, columns, 2, NULL));
+            SL_CHECK(sl_factor_change_entries(F, A, NULL, columns, NULL, 2, NULL, NULL));
+            SL_CHECK(sl_factor_change_entries(c.y.F, A, NULL, columns, NULL, 2, NULL, NULL));
             assert_same_answers(c.y.F, F);
             SL_CHECK(sl_factor_refactor(F, &B, NULL));
             SL_CHECK(sl_factor_refactor(c.y.F, &B, NULL));
@@ -117,8 +117,10 @@ static void a_mapped_factor_is_immutable(void **state) {
     sl_int failed = 7;
     SL_CHECK(pair_map_memory(&S, &F, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
     SL_EXPECT(SL_ERR_READ_ONLY, sl_factor_refactor(F, &y.M.view, NULL));
-    SL_EXPECT(SL_ERR_READ_ONLY, sl_factor_refactor_changed(F, &y.M.view, &column, 1, NULL));
-    SL_EXPECT(SL_ERR_READ_ONLY, sl_factor_refactor_changed(F, &y.M.view, &column, 0, NULL));
+    SL_EXPECT(SL_ERR_READ_ONLY,
+              sl_factor_change_entries(F, &y.M.view, NULL, &column, NULL, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_READ_ONLY,
+              sl_factor_change_entries(F, &y.M.view, NULL, &column, NULL, 0, NULL, NULL));
     SL_EXPECT(SL_ERR_READ_ONLY,
               sl_factor_refactor_sums(&F, 1, &one, &values, 1, NULL, &failed, NULL));
     assert_int_equal(failed, 0);

@@ -138,7 +138,7 @@ static void run(gen_matrix_t *M, sl_options *for_factor) {
     SL_CHECK(sl_factor_create(&F, S, &M->view, for_factor, NULL));
     SL_CHECK(sl_factor_refactor(F, &M->view, NULL));
     const sl_int changed = 0;
-    SL_CHECK(sl_factor_refactor_changed(F, &M->view, &changed, y.n > 0, NULL));
+    SL_CHECK(sl_factor_change_entries(F, &M->view, NULL, &changed, NULL, y.n > 0, NULL, NULL));
     solve_all(&y, &M->view, S, F);
     invert_all(&y, S, F);
     (void)fedisableexcept(TRAPS);

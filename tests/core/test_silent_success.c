@@ -277,7 +277,8 @@ static void nothing_is_derived_from_a_failed_factor(void **state) {
     assert_refused(sl_batch_solve(NULL, &request, 1, NULL, NULL, &failed), SL_ERR_STALE, NULL);
     assert_int_equal(failed, 0);
     assert_true(x[0] == 0.0);
-    assert_refused(sl_factor_refactor_changed(y.F, &A, rows, 1, &stats), SL_ERR_STALE, &stats);
+    assert_refused(sl_factor_change_entries(y.F, &A, NULL, rows, NULL, 1, NULL, &stats),
+                   SL_ERR_STALE, &stats);
     assert_refused(sl_factor_change_entries(y.F, NULL, rows, rows, &one, 1, NULL, &stats),
                    SL_ERR_STALE, &stats);
     SL_CHECK(sl_factor_refactor(y.F, &A, NULL)); /* a refactorization mends it */

@@ -80,7 +80,7 @@ static void changes_of(sl_storage storage) {
     memset(&stats, 0, sizeof stats);
     SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_rank_update(y.F, &W, &sigma, NULL, NULL));
     y.M.x[y.M.p[column]] += 1.0; /* its diagonal entry comes first */
-    SL_CHECK(sl_factor_refactor_changed(y.F, &y.M.view, &column, 1, &stats));
+    SL_CHECK(sl_factor_change_entries(y.F, &y.M.view, NULL, &column, NULL, 1, NULL, &stats));
     SL_CHECK(sl_factor_create(&G, y.S, &y.M.view, &opt, NULL));
     assert_memory_equal(sl_factor_view(y.F).L_float, sl_factor_view(G).L_float,
                         (size_t)panel_doubles(G) * sizeof(float));

@@ -24,7 +24,8 @@ static void numbers_of_a_restriction_stay(void **state) {
         double rcond;
         assert_int_equal(t.stats.submatrix.is_anew, anew);
         assert_int_equal(sl_factor_refactor(t.G, B, NULL), SL_ERR_READ_ONLY);
-        assert_int_equal(sl_factor_refactor_changed(t.G, B, &row, 1, NULL), SL_ERR_READ_ONLY);
+        assert_int_equal(sl_factor_change_entries(t.G, B, NULL, &row, NULL, 1, NULL, NULL),
+                         SL_ERR_READ_ONLY);
         assert_int_equal(sl_factor_change_entries(t.G, B, &row, &row, &one, 1, NULL, NULL),
                          SL_ERR_READ_ONLY);
         assert_int_equal(sl_factor_rank_update(t.G, &V, NULL, NULL, NULL), SL_ERR_READ_ONLY);

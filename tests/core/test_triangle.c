@@ -187,7 +187,7 @@ static void refactor_reads_the_chosen_triangle(void **state) {
     }
 }
 
-static void refactor_changed_reads_the_chosen_triangle(void **state) {
+static void changed_columns_read_the_chosen_triangle(void **state) {
     (void)state;
     const sl_int columns[3] = {40, 7, 311};
     for (int side = 0; side < SIDES; side++) {
@@ -206,7 +206,7 @@ static void refactor_changed_reads_the_chosen_triangle(void **state) {
                 z.y.x[p] *= z.y.A.i[p] == j ? 2 : 0.5;
             }
         }
-        SL_CHECK(sl_factor_refactor_changed(z.F, &z.y.A, columns, 3, NULL));
+        SL_CHECK(sl_factor_change_entries(z.F, &z.y.A, NULL, columns, NULL, 3, NULL, NULL));
         NOTHING_WRONG(check_factor(z.F, &P));
         assert_solves(z.F, &P);
         free(values);
@@ -386,7 +386,7 @@ int main(void) {
         cmocka_unit_test(every_ordering_analyzes_the_chosen_triangle),
         cmocka_unit_test(the_factor_is_that_of_the_chosen_triangle),
         cmocka_unit_test(refactor_reads_the_chosen_triangle),
-        cmocka_unit_test(refactor_changed_reads_the_chosen_triangle),
+        cmocka_unit_test(changed_columns_read_the_chosen_triangle),
         cmocka_unit_test(the_other_triangle_may_hold_nan),
         cmocka_unit_test(refine_uses_the_chosen_triangle),
         cmocka_unit_test(rcond_uses_the_chosen_triangle),

@@ -58,7 +58,8 @@ static void solutions_equal_dense_bordered_systems(void **state) {
                     SL_CHECK(sl_factor_solve(F, x, n, b, n, 1, NULL));
                     assert_zero_mean(&M.view, of, m, x, b);
                     assert_dense(&M.view, of, components, m, x, b);
-                    SL_CHECK(again ? sl_factor_refactor_changed(F, &M.view, &column, 1, NULL)
+                    SL_CHECK(again ? sl_factor_change_entries(F, &M.view, NULL, &column, NULL, 1,
+                                                              NULL, NULL)
                                    : sl_factor_refactor(F, &M.view, NULL));
                 }
                 sl_factor_free(F);

@@ -31,7 +31,7 @@ static void release_one(input_t *in) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static void (*const calls[])(input_t * in) = {
-        create_analysis, create_factor, create_factor, combine, refactor,    refactor_changed,
+        create_analysis, create_factor, create_factor, combine, refactor,    change_columns,
         create_plan,     create_plan,   solve,         solve,   solve,       create_selected,
         create_region,   invert,        query,         reserve, solve_batch, release_one};
     static void (*const more[])(input_t * in) = {solve_rows,   multiply, build_matrices, look_into,

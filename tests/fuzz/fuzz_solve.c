@@ -188,7 +188,7 @@ static void change_half(case_t *c, const sl_symbolic *S, sl_factor *F, input_t *
     for (sl_int q = 0; q < c->p[half]; q++) {
         c->x[q] = take_value(in);
     }
-    if (sl_factor_refactor_changed(F, &c->A, columns, half, NULL) == SL_OK) {
+    if (sl_factor_change_entries(F, &c->A, NULL, columns, NULL, half, NULL, NULL) == SL_OK) {
         solve_parts(c, S, F);
     }
 }

@@ -166,7 +166,7 @@ static void refactor(input_t *in) {
 }
 
 /* New values in some columns only. Symmetric entries in other columns stay as they are stored. */
-static void refactor_changed(input_t *in) {
+static void change_columns(input_t *in) {
     factor_t *f = &factors[take(in) % FACTORS];
     sl_int columns[MOST], count = 0;
     if (!f->F) {
@@ -188,7 +188,8 @@ static void refactor_changed(input_t *in) {
     }
     set_dense(s, &v);
     const sl_csc A = view(s, v.x);
-    const sl_status status = sl_factor_refactor_changed(f->F, &A, columns, count, NULL);
+    const sl_status status =
+        sl_factor_change_entries(f->F, &A, NULL, columns, NULL, count, NULL, NULL);
     if (f->is_valid) {
         note_numbers(f, status, &v);
     } else {

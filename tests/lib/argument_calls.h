@@ -186,7 +186,7 @@ static sl_constraints *pins_make(sl_int count) {
 
 CALL(check, sl_csc_check(a->A, &a->stats))
 CALL(refactor, sl_factor_refactor(a->F, a->A, &a->stats))
-CALL(changed, sl_factor_refactor_changed(a->F, a->A, a->xset, a->nx, &a->stats))
+CALL(changed, sl_factor_change_entries(a->F, a->A, NULL, a->xset, NULL, a->nx, NULL, &a->stats))
 CALL(refine,
      sl_factor_refine(a->F, a->A, a->X, a->ldx, a->B, a->ldb, a->nrhs, a->steps, NULL, &a->stats))
 CALL(certify, sl_factor_certify(a->F, a->A, SL_ESTIMATED, NULL, &a->stats))
@@ -251,7 +251,7 @@ static const struct {
     {"sl_symbolic_scatter", scatter, A_ | SQUARE_ | VALUES_ | S_},
     {"sl_factor_create", factor, A_ | SQUARE_ | VALUES_ | S_},
     {"sl_factor_refactor", refactor, A_ | SQUARE_ | VALUES_ | F_},
-    {"sl_factor_refactor_changed", changed, A_ | SQUARE_ | VALUES_ | F_ | FAILED_ | LIST_},
+    {"sl_factor_change_entries, columns", changed, A_ | SQUARE_ | VALUES_ | F_ | FAILED_ | LIST_},
     {"sl_factor_refine", refine, A_ | SQUARE_ | VALUES_ | SOLVE_ | STEPS_},
     {"sl_factor_rcond", rcond, A_ | SQUARE_ | VALUES_ | F_ | FAILED_},
     {"sl_factor_certify", certify, A_ | SQUARE_ | VALUES_ | F_ | FAILED_},

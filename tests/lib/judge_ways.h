@@ -229,7 +229,7 @@ static inline void judge_way_change(judge_t *t) {
                 status = SL_OK;
             }
         } else if (kind == 1) {
-            status = sl_factor_refactor_changed(F, &M.view, columns, count, &stats);
+            status = sl_factor_change_entries(F, &M.view, NULL, columns, NULL, count, NULL, &stats);
         } else if (kind == 2) {
             status =
                 sl_factor_change_entries(F, &M.view, rows, columns, deltas, count, NULL, &stats);

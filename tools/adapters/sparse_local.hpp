@@ -357,10 +357,11 @@ public:
         sl_status status = sl_factor_refactor(get(), &A, &stats);
         return finish(Status(status, stats));
     }
-    SL_RESULT refactor_changed(const sl_csc &A, const Rows &columns) {
+    SL_RESULT change_columns(const sl_csc &A, const Rows &columns) {
         sl_stats stats;
         sl_status status =
-            sl_factor_refactor_changed(get(), &A, columns.data(), columns.count(), &stats);
+            sl_factor_change_entries(get(), &A, nullptr, columns.data(), nullptr,
+                                     columns.count(), nullptr, &stats);
         return finish(Status(status, stats));
     }
 

@@ -156,7 +156,7 @@ if (data.marked.length < 2) { /* the harmonic field is 0 at the farthest vertex 
     for (let v = 0; v < n; v++) if (distance.value[v] > distance.value[farthest]) farthest = v;
     if (farthest !== source) data.marked.push(farthest);
 }
-const held = data.marked.slice(1), pins = poisson.pins([...held, source]), nothing = poisson.plan([], null);
+const held = data.marked.slice(1), pins = poisson.constraints([...held, source]), nothing = poisson.plan([], null);
 const levels = [...held.map(() => 0), 1];
 
 function setHarmonic(to) {

@@ -1,5 +1,5 @@
 /* constraints.c: a membrane held at a few vertices, which are grabbed, moved and released */
-#define SL_WITH_CHANGE
+#define SL_WITH_CONSTRAINTS
 #include "example.h"
 
 int main(void) {

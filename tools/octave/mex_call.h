@@ -11,6 +11,7 @@
 #define SL_STATIC
 #define SL_WITH_ACCURACY
 #define SL_WITH_CHANGE
+#define SL_WITH_CONSTRAINTS
 #define SL_WITH_FILES
 #define SL_WITH_FLOAT
 #define SL_WITH_PIVOTS

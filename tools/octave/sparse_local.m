@@ -38,7 +38,7 @@ classdef sparse_local < handle
 %     F.downdate(V)            A - V * V'
 %     F.change(B, A)           from the factor of A to that of B, in the cheapest way
 %   Rows held at values
-%     P = F.constraints(I)            x = P.solve(b, values); see sparse_local_constraints
+%     P = F.constraints(I)     x = P.solve(b, values); see sparse_local_constraints
 %   F.close() releases the memory; so does clearing the last variable that refers to F.
 %
 %   I and J are row numbers, logical masks, or ':' for all rows. Rows in messages begin with 1.

@@ -1,7 +1,7 @@
 classdef sparse_local_constraints < handle
 %SPARSE_LOCAL_CONSTRAINTS  Rows held at given values, on top of a factor that stays as it is.
 %
-%   P = F.constraints(I)             of a factor F (sparse_local): x is held in rows I
+%   P = F.constraints(I)      of a factor F (sparse_local): x is held in rows I
 %   x = P.solve(b, values)    A * x = b in the other rows; numel(I) x k values for b of n x k
 %   x = P.solve(b, values, Q) the same in the rows of a plan Q of F; b has the rows of that plan
 %   P.add(I), P.release(K)    more pins; without those of number K. The others keep their order

@@ -8,6 +8,7 @@
 #define SPARSE_LOCAL_IMPLEMENTATION
 #define SL_STATIC
 #define SL_WITH_CHANGE
+#define SL_WITH_CONSTRAINTS
 #include "sparse_local.h"
 
 #include <stdlib.h>

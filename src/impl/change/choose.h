@@ -2,9 +2,12 @@
 #ifndef SLI_CHANGE_CHOOSE_H
 #define SLI_CHANGE_CHOOSE_H
 
-#include "../inverse/costs.h"
+#include "../factor/costs.h"
 #include "reached.h"
 #include "edges.h"
+
+/* A pivot that one vector changes, in the unit of costs.h: a division and some checks. */
+#define SLI_COST_PIVOT 50.0
 
 /* A choice between the three methods: rank-one changes, the reach of the change, all of L. */
 typedef struct sli_change_choice {
@@ -13,42 +16,14 @@ typedef struct sli_change_choice {
     uint64_t *scratch; /* 2 count: for sorting */
     sl_int *columns;   /* room for the columns of A that store changed entries */
     double flops_update, flops_changed, flops_refactor;
-    double update, changed, refactor; /* seconds */
+    double update, changed, refactor; /* in the unit of costs.h */
     sl_change_reason reason;
 } sli_change_choice;
 
-/* Seconds of a refactorization. */
-static double sli_choose_refactor(const sl_factor *F) {
-    const sl_symbolic *S = F->S;
-    const double flop = sli_costs_of(F->kernels->isa)->flop;
-    return flop * S->stats.symbolic.flops + SLI_CHANGE_FRONT(flop) * S->n_supers +
-           SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
-}
-
-/* Flops of the elimination of supernode s alone. */
-static double sli_choose_front(const sl_symbolic *S, sl_int s) {
-    const double w = S->steps[s].width, h = w + S->steps[s].below;
-    return w * (h * h - h * w + w * w / 3.0); /* about the sum of (h - j)^2 over its columns */
-}
-
-/* Flops of the update matrix of kept supernode s, as sli_kept_update computes it. *visits +=
- * descendants. */
-static double sli_choose_kept(const sl_symbolic *S, sl_int s, sl_int *visits) {
-    const sl_int end = S->super_first[s + 1];
-    double flops = (double)S->steps[s].width * S->steps[s].below * S->steps[s].below;
-    sl_int d;
-    for (d = s - 1; d >= S->first_descendant[s];) {
-        const sl_int below = S->steps[d].below;
-        const double m = below - sli_lower_bound(S->rows + S->rows_begin[d], below, end);
-        if (m > 0.0) {
-            flops += S->steps[d].width * m * m;
-            ++*visits;
-            d--;
-        } else {
-            d = S->first_descendant[d] - 1;
-        }
-    }
-    return flops;
+/* The cost of fronts with so many flops, of which all entries of A are looked at. */
+static double sli_choose_cost(const sl_factor *F, double fronts, double flops) {
+    return sli_cost_flop(F->kernels->isa) * flops + SLI_COST_FRONT * fronts +
+           SLI_COST_INPUT * (double)F->S->scatter_begin[F->S->n_supers];
 }
 
 /* Does a change reach supernode s? */
@@ -69,11 +44,11 @@ static int sli_choose_is_reached(const sli_change_choice *c, const sl_symbolic *
 /* Flops of supernode s, which is reached: of its front and of the kept ones below it. */
 static double sli_choose_step(const sli_change_choice *c, const sl_symbolic *S, sl_int s,
                               sl_int *visits) {
-    double flops = sli_choose_front(S, s);
+    double flops = sli_front_flops(&S->steps[s]);
     sl_int k;
     for (k = s - 1; k >= S->first_descendant[s]; k = S->first_descendant[k] - 1) {
         if (!sli_choose_is_reached(c, S, k)) {
-            flops += sli_choose_kept(S, k, visits);
+            flops += sli_kept_flops(S, k, visits);
             ++*visits;
         }
     }
@@ -83,19 +58,16 @@ static double sli_choose_step(const sli_change_choice *c, const sl_symbolic *S, 
 /* Counts the reach of the change, up to a cost of `limit`: to count the descendants takes time. */
 static void sli_choose_measure(sli_change_choice *c, const sl_factor *F, double limit) {
     const sl_symbolic *S = F->S;
-    const double input = SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
-    const double flop = sli_costs_of(F->kernels->isa)->flop;
-    sl_int k = 0, s, next, fronts = 0, visits = 0;
+    sl_int k = 0, s, next, steps = 0; /* fronts, and descendants that update them */
     c->flops_changed = 0.0;
-    c->changed = input;
+    c->changed = sli_choose_cost(F, 0.0, 0.0);
     while (k < c->n_seeds && c->changed <= limit) {
         s = S->super_of[sli_key(c->seeds[k])];
         next = sli_next_seed(S, c->seeds, c->n_seeds, &k);
         for (; s != -1 && s < next && c->changed <= limit; s = S->super_parent[s]) {
-            fronts++;
-            c->flops_changed += sli_choose_step(c, S, s, &visits);
-            c->changed = input + SLI_CHANGE_FRONT(flop) * fronts + SLI_CHANGE_VISIT(flop) * visits +
-                         flop * c->flops_changed;
+            steps++;
+            c->flops_changed += sli_choose_step(c, S, s, &steps);
+            c->changed = sli_choose_cost(F, steps, c->flops_changed);
         }
     }
 }
@@ -103,10 +75,9 @@ static void sli_choose_measure(sli_change_choice *c, const sl_factor *F, double 
 /* Chooses. can_update: rank-one changes are possible. */
 static sl_change_method sli_choose_make(sli_change_choice *c, const sl_factor *F, int can_update) {
     const sl_symbolic *S = F->S;
-    const int can_reach =
-        F->is_valid && F->method == SL_METHOD_SUPERNODAL && F->type->storage == SL_STORAGE_DOUBLE;
+    const int can_reach = F->is_valid && sli_reached_is_suited(F);
     c->flops_refactor = S->stats.symbolic.flops;
-    c->refactor = sli_choose_refactor(F);
+    c->refactor = sli_choose_cost(F, S->n_supers, c->flops_refactor);
     c->reason = can_update ? SL_CHANGE_CHEAPEST : SL_CHANGE_UNSUITED;
     if (!F->is_valid) {
         return SL_CHANGE_REFACTOR;
@@ -177,12 +148,11 @@ static sl_status sli_choose_reach(sli_change_choice *c, const sli_rank *q, const
     return sli_reached_refactor(F, A, &changes, q->stats);
 }
 
-/* Seconds of rank-one changes. */
+/* The cost of rank-one changes: passes read and write their entries, a trial or a copy once more,
+ * and each vector changes them in a register and its pivots one by one. */
 static double sli_choose_update(const sli_rank *q, double entries, double pivots, double flops) {
-    const double flop = sli_costs_of(q->u.F->kernels->isa)->flop;
-    return (SLI_CHANGE_ENTRY * entries + SLI_CHANGE_PIVOT(flop) * pivots +
-            1.2 * fmax(flop - SLI_CHANGE_HIDDEN, 0.0) * flops) *
-           (q->has_trial || q->has_log ? 1.5 : 1.0);
+    const double passes = q->has_trial || q->has_log ? 3.0 : 2.0;
+    return passes * entries + sli_cost_flop(q->u.F->kernels->isa) * flops + SLI_COST_PIVOT * pivots;
 }
 
 /* Estimates the rank-one changes with the path of the column in the middle: a vector for each seed
@@ -286,6 +256,27 @@ static sl_status sli_choose_cheapest(sli_rank *q, const sl_csc *A, sl_work *W, d
     return status;
 }
 
+/* Computes the columns of L again that columns of A reach, in which entries have changed. */
+static sl_status sli_choose_columns(sl_factor *F, const sl_csc *A, const sl_int *columns,
+                                    sl_int count, sl_stats *stats) {
+    const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
+    sli_changes changes;
+    sl_status status;
+    SLI_CLEAR(changes);
+    changes.columns = columns;
+    changes.count = count;
+    status = sli_reached_refactor(F, A, &changes, stats);
+    if (status == SL_OK && stats != NULL) {
+        SLI_CLEAR(stats->change);
+        stats->change.method = sli_reached_is_suited(F) ? SL_CHANGE_REACH : SL_CHANGE_REFACTOR;
+        stats->change.reason = SL_CHANGE_COLUMNS;
+        stats->change.updates = F->history.updates;
+        stats->change.drift = F->history.drift;
+        stats->change.seconds = sli_seconds() - started;
+    }
+    return sli_report(stats, status);
+}
+
 SL_API sl_status sl_factor_change_entries(sl_factor *F, const sl_csc *A, const sl_int *rows,
                                           const sl_int *columns, const double *deltas, sl_int count,
                                           sl_work *W, sl_stats *stats) {
@@ -293,6 +284,9 @@ SL_API sl_status sl_factor_change_entries(sl_factor *F, const sl_csc *A, const s
     sli_rank q;
     sl_status status;
     sli_stats_clear_error(stats);
+    if (rows == NULL && deltas == NULL && (A != NULL || count > 0)) {
+        return sli_choose_columns(F, A, columns, count, stats);
+    }
     status = sli_edges_check(F, rows, columns, deltas, count, stats);
     if (status == SL_OK) {
         status = A == NULL ? sli_rank_check(F) : sli_factor_may_change(F);

@@ -267,4 +267,24 @@ static sli_kept sli_kept_of(const sl_factor *F, const sl_int *from, const sl_int
     return p;
 }
 
+/* Flops of the update matrix of kept supernode s, as sli_kept_update computes it. *visits +=
+ * descendants. */
+static double sli_kept_flops(const sl_symbolic *S, sl_int s, sl_int *visits) {
+    const sl_int end = S->super_first[s + 1];
+    double flops = (double)S->steps[s].width * S->steps[s].below * S->steps[s].below;
+    sl_int d;
+    for (d = s - 1; d >= S->first_descendant[s];) {
+        const sl_int below = S->steps[d].below;
+        const double m = below - sli_lower_bound(S->rows + S->rows_begin[d], below, end);
+        if (m > 0.0) {
+            flops += S->steps[d].width * m * m;
+            ++*visits;
+            d--;
+        } else {
+            d = S->first_descendant[d] - 1;
+        }
+    }
+    return flops;
+}
+
 #endif

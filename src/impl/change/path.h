@@ -89,20 +89,102 @@ static sl_status sli_path_take(sli_update *u, const sli_rank_one *one) {
     return SL_OK;
 }
 
-/* Sweeps a vector along its path, and changes the columns, if `is_tried` after all pivots were
- * checked. Then the panels change from the root down: what was swept last is in the cache. seed:
- * its first column and its number. On failure some columns are changed, none if it is tried. */
-static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_tried) {
-    sl_factor *F = u->F;
-    const sl_symbolic *S = F->S;
-    const sli_change_kernels *kernels = sli_change_kernels_of(F->kernels->isa);
-    sl_factor_info *info = &F->stats.factor;
-    const sl_int v = sli_value(seed);
-    sl_int s = S->super_of[sli_key(seed)], count = 0, rest, i, k;
-    double *next = u->vectors, *from = NULL, sum = 0.0;
-    sl_int tile = (sli_key(seed) - S->super_first[s]) / SLI_TILE;
-    const sl_int *to = NULL;
+/* Lays the vectors of the next supernode of the path, s, into the room at *next, and loads into
+ * them vector v or what the supernode before has left. */
+static sli_rank_one *sli_path_open(sli_update *u, sl_int v, sl_int s, sl_int count, double **next) {
+    const sl_symbolic *S = u->F->S;
+    const sli_step *step = &S->steps[s];
+    const sl_int wide = SLI_TILE * sli_tiles(step->width);
+    const sl_int rows = SLI_TILE * sli_tiles(step->width + step->below);
+    sli_rank_one *one = &u->path[count];
+    one->w = *next;
+    one->y = one->w + rows;
+    one->b = one->y + rows;
+    one->e = one->b + wide;
+    *next = one->e + wide;
+    if (count == 0) {
+        one->sum = -sli_path_load(u, v, s, one->w);
+    } else {
+        const sli_rank_one *last = one - 1;
+        const sl_int *to = S->relative + S->rows_begin[last->super];
+        const double *from = (u->is_trial ? last->y : last->w) + last->width;
+        sl_int i;
+        one->sum = last->sum;
+        one->first_tile = last->below > 0 ? to[0] / SLI_TILE : 0;
+        memset(one->w + SLI_TILE * one->first_tile, 0,
+               (size_t)(rows - SLI_TILE * one->first_tile) * sizeof *one->w);
+        for (i = 0; i < last->below; i++) {
+            one->w[to[i]] = from[i];
+        }
+    }
+    one->ahead = u->ahead;
+    one->super = s;
+    one->D = u->F->D + step->column;
+    one->width = step->width;
+    one->below = step->below;
+    return one;
+}
+
+/* Sweeps a vector along its path, and changes the columns, if it is a trial the pivots only.
+ * *count := the supernodes of the path. On failure some columns are changed, none by a trial. */
+static sl_status sli_path_sweep(sli_update *u, uint64_t seed, sl_int *count) {
+    const sl_symbolic *S = u->F->S;
+    const sli_change_kernels *kernels = sli_change_kernels_of(u->F->kernels->isa);
+    sl_int s = S->super_of[sli_key(seed)];
+    double *next = u->vectors;
     sl_status status = SL_OK;
+    u->path[0].first_tile = (sli_key(seed) - S->super_first[s]) / SLI_TILE;
+    for (*count = 0; s != -1 && status == SL_OK; s = S->super_parent[s], ++*count) {
+        sli_rank_one *one = sli_path_open(u, sli_value(seed), s, *count, &next);
+        sli_update_open(u, &S->steps[s]);
+        one->panel = u->panel;
+        kernels->panel(one, 1, !u->is_trial);
+        if (!u->is_trial) {
+            sli_update_close(u, &S->steps[s]);
+        }
+        status = sli_path_take(u, one);
+    }
+    return status;
+}
+
+/* Changes what a trial has swept: the pivots, and the panels from the root down, as what was swept
+ * last is in the cache. */
+static void sli_path_write(sli_update *u, sl_int count) {
+    const sli_change_kernels *kernels = sli_change_kernels_of(u->F->kernels->isa);
+    sl_int k;
+    for (k = 0; k < count; k++) {
+        (void)sli_path_take(u, &u->path[k]);
+    }
+    for (k = count - 1; k >= 0; k--) {
+        const sli_step *step = &u->F->S->steps[u->path[k].super];
+        sli_update_open(u, step);
+        u->path[k].panel = u->panel;
+        kernels->panel(&u->path[k], 0, 1);
+        sli_update_close(u, step);
+    }
+}
+
+/* Notes what vector v has added to the magnitudes of the path. */
+static void sli_path_note(sli_update *u, sl_int v, sl_int count) {
+    sl_factor *F = u->F;
+    sl_int k, rest = u->V->p[v + 1] - u->V->p[v];
+    for (k = 0; k < count; k++) {
+        const sl_int s = u->path[k].super;
+        rest -= rest > 0 ? sli_path_extent(u, v, s) : 0;
+        u->entry = fmax(u->entry, F->extents[s].entry);
+        u->growth = fmax(u->growth, F->extents[s].magnitude);
+        if (F->history.marks != NULL) {
+            F->history.marks[s] = 0;
+        }
+    }
+}
+
+/* Changes L by one vector, if `is_tried` after all pivots were checked. seed: its first column and
+ * its number. On failure some columns are changed, none if it is tried. */
+static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_tried) {
+    sl_factor_info *info = &u->F->stats.factor;
+    sl_int count;
+    sl_status status;
     u->is_trial = is_tried;
     u->is_tried = 0;
     u->most = u->top = u->entry = u->growth = 0.0;
@@ -111,70 +193,18 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_tried) {
     u->loss = u->swept = 1.0;
     u->lost = 0.0;
     u->state->ranks = 1;
-    for (; s != -1 && status == SL_OK; s = S->super_parent[s], count++) {
-        const sli_step *step = &S->steps[s];
-        const sl_int wide = SLI_TILE * sli_tiles(step->width);
-        const sl_int rows = SLI_TILE * sli_tiles(step->width + step->below);
-        sli_rank_one *one = &u->path[count];
-        one->w = next;
-        one->y = next += rows;
-        one->b = next += rows;
-        one->e = next += wide;
-        next += wide;
-        if (count == 0) {
-            sum = -sli_path_load(u, v, s, one->w);
-        } else {
-            memset(one->w + SLI_TILE * tile, 0, (size_t)(rows - SLI_TILE * tile) * sizeof *next);
-            for (i = 0; i < S->steps[one[-1].super].below; i++) {
-                one->w[to[i]] = from[i];
-            }
-        }
-        sli_update_open(u, step);
-        one->ahead = u->ahead;
-        one->super = s;
-        one->panel = u->panel;
-        one->D = F->D + step->column;
-        one->width = step->width;
-        one->below = step->below;
-        one->first_tile = tile;
-        one->sum = sum;
-        kernels->panel(one, 1, !is_tried);
-        if (!is_tried) {
-            sli_update_close(u, step);
-        }
-        sum = one->sum;
-        status = sli_path_take(u, one);
-        from = (is_tried ? one->y : one->w) + step->width;
-        to = S->relative + S->rows_begin[s];
-        tile = step->below > 0 ? to[0] / SLI_TILE : 0;
-    }
+    status = sli_path_sweep(u, seed, &count);
     u->is_trial = 0;
     if (status != SL_OK) {
         return status;
     }
     u->is_tried = is_tried;
-    for (k = 0; k < count && is_tried; k++) {
-        (void)sli_path_take(u, &u->path[k]);
+    if (is_tried) {
+        sli_path_write(u, count);
     }
     info->pivot_min = fmin(info->pivot_min, u->low);
     info->pivot_max = fmax(info->pivot_max, u->top);
-    for (k = count - 1; k >= 0 && is_tried; k--) {
-        const sli_step *step = &S->steps[u->path[k].super];
-        sli_update_open(u, step);
-        u->path[k].panel = u->panel;
-        kernels->panel(&u->path[k], 0, 1);
-        sli_update_close(u, step);
-    }
-    rest = u->V->p[v + 1] - u->V->p[v];
-    for (k = 0; k < count; k++) {
-        s = u->path[k].super;
-        rest -= rest > 0 ? sli_path_extent(u, v, s) : 0;
-        u->entry = fmax(u->entry, F->extents[s].entry);
-        u->growth = fmax(u->growth, F->extents[s].magnitude);
-        if (F->history.marks != NULL) {
-            F->history.marks[s] = 0;
-        }
-    }
+    sli_path_note(u, sli_value(seed), count);
     return SL_OK;
 }
 

@@ -2,7 +2,7 @@
 #ifndef SLI_CHANGE_RANK_VECTORS_H
 #define SLI_CHANGE_RANK_VECTORS_H
 
-#include "../inverse/costs.h"
+#include "../factor/costs.h"
 #include "update.h"
 
 /* A rank-k change in progress. */
@@ -174,13 +174,18 @@ static void sli_rank_walk(const sli_rank *q, sl_int k, sli_rank_path *path, sli_
     path->columns += through.columns;
 }
 
-/* The cost of a pass of `count` vectors over so many entries, in entries of a pass of one. */
+/* What begins a pass, in entries of a pass of one vector: on a path, and of several vectors. */
+#define SLI_RANK_PATH 800.0
+#define SLI_RANK_PASS 3000.0
+
+/* The cost of a pass of `count` vectors over so many entries, in entries of a pass of one: they are
+ * read and written once, and each vector adds half of that. */
 static double sli_rank_cost(const sli_rank *q, sl_int count, sl_off entries) {
     const int is_path = sli_rank_is_path(q, count);
-    const int kind = is_path ? SLI_NRHS_1 : sli_update_kind(count);
-    const double entry = sli_costs_of(q->u.F->kernels->isa)->change[kind] +
-                         (q->u.sign == 0.0 ? SLI_CHANGE_GAINS : 0.0);
-    return entry * (double)entries + (is_path ? SLI_CHANGE_PATH : SLI_CHANGE_PASS);
+    const int lanes = is_path ? 1 : 1 << sli_update_kind(count);
+    /* pivots of both signs: each entry is read again for its gain */
+    const double entry = (is_path ? 1.0 : 1.0 + 0.5 * lanes) + (q->u.sign == 0.0 ? 2.0 : 0.0);
+    return entry * (double)entries + (is_path ? SLI_RANK_PATH : SLI_RANK_PASS);
 }
 
 /* The passes from one vector on. A pass of k vectors reads and writes its entries once, with 4 k
@@ -236,9 +241,9 @@ static void sli_rank_split(const sli_rank *q, sli_rank_rest *best) {
 /* Splits the vectors, measures the passes, and chooses how they are undone. may_fail: their
  * pivots; one pass may be tried first, several need a copy. */
 static void sli_rank_plan(sli_rank *q, int may_fail) {
-    const double whole = (double)q->whole.entries, log = SLI_CHANGE_LOG(whole) * whole;
+    const double whole = (double)q->whole.entries, log = whole; /* to copy them */
     const int prefers_log = sli_rank_prefers_log(q);
-    const double least = whole + 2.0 * SLI_CHANGE_PATH; /* of two passes */
+    const double least = whole + 2.0 * SLI_RANK_PATH; /* of two passes */
     sli_rank_rest none, best, one;
     sli_rank_path path;
     path.entries = q->whole.entries;
@@ -247,12 +252,12 @@ static void sli_rank_plan(sli_rank *q, int may_fail) {
     sli_rank_prepend(q, sli_min(q->count, SLI_TILE), &path, &none, &one);
     best = one;
     q->ends[0] = q->count;
-    if (q->count > SLI_TILE || one.cost > least + SLI_CHANGE_SPLIT * (double)q->count) {
+    if (q->count > SLI_TILE || one.cost > least + SLI_RANK_PATH * (double)q->count) {
         sli_rank_split(q, &best);
     }
     if (q->count <= SLI_TILE && /* of both signs they are not in one order: its reach is less */
         (one.cost <= best.cost ||
-         (may_fail && !prefers_log && SLI_CHANGE_TRIAL * one.cost <= best.cost + log))) {
+         (may_fail && !prefers_log && 1.5 * one.cost <= best.cost + log))) {
         best = one;
         q->ends[0] = q->count;
     }

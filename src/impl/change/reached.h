@@ -103,7 +103,13 @@ static void sli_changes_mark(const sli_changes *c, const sl_symbolic *S, const s
     }
 }
 
-/* sl_factor_refactor_changed. */
+/* May columns of F be kept? Else all of it is computed again. */
+static int sli_reached_is_suited(const sl_factor *F) {
+    return F->method == SL_METHOD_SUPERNODAL && F->type->storage == SL_STORAGE_DOUBLE &&
+           F->type->accepts == NULL;
+}
+
+/* Computes the columns of L that the changes reach, or all where they are no local ones. */
 static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_changes *c,
                                       sl_stats *stats) {
     const double started = sli_seconds();
@@ -118,8 +124,7 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
     if (status != SL_OK) {
         return sli_report(stats, status);
     }
-    if (F->method != SL_METHOD_SUPERNODAL || F->type->storage != SL_STORAGE_DOUBLE ||
-        F->type->accepts != NULL || entries >= (uint64_t)sli_nnz(A)) {
+    if (!sli_reached_is_suited(F) || entries >= (uint64_t)sli_nnz(A)) {
         return sl_factor_refactor(F, A, stats);
     }
     status = sli_factor_prepare(F);
@@ -149,16 +154,6 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
     sli_free(&F->allocator, room.base);
     sli_free(&F->allocator, b.base);
     return sli_report(stats, status);
-}
-
-SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
-                                            sl_int count, sl_stats *stats) {
-    sli_changes c;
-    c.columns = columns;
-    c.count = count;
-    c.seeds = NULL;
-    c.n_seeds = 0;
-    return sli_reached_refactor(F, A, &c, stats);
 }
 
 #endif

@@ -65,7 +65,7 @@ static int sli_entries_are_in_pattern(const sli_entries *q) {
 static double sli_traversal_time(const sli_entries *q, sl_int *supers) {
     const sl_symbolic *S = q->F->S;
     const sli_requests *r = &q->requests;
-    const sli_costs *cost = sli_costs_of(q->F->kernels->isa);
+    const double flop = sli_cost_flop(q->F->kernels->isa);
     double time = 0.0;
     sl_int k = 0, s, next;
     *supers = 0;
@@ -74,18 +74,18 @@ static double sli_traversal_time(const sli_entries *q, sl_int *supers) {
         next = sli_next_seed(S, r->order, r->count, &k);
         for (; s != -1 && s < next; s = S->super_parent[s]) {
             const double h = S->steps[s].width + S->steps[s].below;
-            time += cost->inverse_front + cost->inverse_entry * h * h +
-                    cost->inverse_flop * sli_front_flops(&S->steps[s]);
+            /* twice the flops of the factorization; each entry is read and written, twice */
+            time += SLI_COST_FRONT + 4.0 * h * h + 2.0 * flop * sli_front_flops(&S->steps[s]);
             ++*supers;
         }
     }
     return time;
 }
 
-/* What a step of sli_costs takes, in operations of a factorization. */
+/* What an entry of costs.h takes, in operations of a factorization. */
 #define SLI_SWEEP_FLOPS 8.0
 
-/* The workers for sweeps that take so long, in the unit of sli_costs. */
+/* The workers for sweeps that take so long, in the unit of costs.h. */
 static sl_int sli_entries_workers(const sli_entries *q, double time) {
     return sli_min(sli_workers_for(q->threads, SLI_SWEEP_FLOPS * time), q->requests.n_blocks);
 }

@@ -39,6 +39,12 @@ SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_i
     return sli_inverse_entries(&q, W, stats);
 }
 
+/* A forward sweep of two lanes over an entry of L, relative to one lane, as it was measured for
+ * single pairs on grids of 900 to 5e5 rows; and the entries from which L comes from memory. */
+#define SLI_PAIR_CACHED 1.7
+#define SLI_PAIR_READ 1.25
+#define SLI_PAIR_LARGE 5e5
+
 /* Is the entry of two columns cheaper by a forward and a backward sweep of one lane than by one
  * forward sweep of two? That has the columns of both paths once. */
 static int sli_entry_is_local(const sl_symbolic *S, sl_int a, sl_int b) {

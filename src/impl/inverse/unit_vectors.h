@@ -3,7 +3,7 @@
 #define SLI_INVERSE_UNIT_VECTORS_H
 
 #include "../solve/sweep.h"
-#include "costs.h"
+#include "../factor/costs.h"
 
 #define SLI_LANES_MAX 8
 /* per block: 8 columns make 36 pairs; more requests must be repetitions */
@@ -49,7 +49,6 @@ static int sli_rhs_block_add(sli_rhs_block *block, sl_int column, const sl_symbo
 /* Requested entries of the inverse, and their partition into blocks of nearby ones. */
 typedef struct sli_requests {
     const sl_symbolic *S;
-    const double *lanes_cost; /* of sli_costs */
     /* count each, NULL: 0, 1, 2, ...; one array twice: columns or the diagonal of the inverse */
     const sl_int *rows, *columns;
     sl_int count;
@@ -65,7 +64,6 @@ static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, cons
     sli_requests r;
     SLI_CLEAR(r);
     r.S = F->S;
-    r.lanes_cost = sli_costs_of(F->kernels->isa)->lanes;
     r.rows = rows;
     r.columns = columns;
     r.count = count;
@@ -135,7 +133,7 @@ static sl_int sli_rhs_block_choose(const sli_requests *r, sl_int k, sli_rhs_bloc
     for (; k < r->count && k - from < SLI_BLOCK_REQUESTS_MAX &&
            sli_rhs_block_add_request(&block, r, k, r->S);
          k++) {
-        const double time = r->lanes_cost[sli_lanes_kind(block.count)] *
+        const double time = SLI_COST_LANES(1 << sli_lanes_kind(block.count)) *
                             (double)block.size.entries / (double)(k - from + 1);
         if (block_size == 0 || time <= least) {
             least = time;
@@ -173,7 +171,7 @@ static void sli_capacity_add(sli_capacity *capacity, const sli_reach *R, sl_int 
 }
 
 /* Sorts requests, partitions them into blocks, and finds the capacity that their sweeps need.
- * Returns the time of the sweeps in the unit of sli_costs; stops early when it reaches the limit.
+ * Returns the time of the sweeps in the unit of costs.h; stops early when it reaches the limit.
  */
 static double sli_requests_partition_within(sli_requests *r, sli_capacity *capacity, double limit) {
     double time = 0.0;
@@ -184,7 +182,7 @@ static double sli_requests_partition_within(sli_requests *r, sli_capacity *capac
         const sl_int block_size = sli_rhs_block_choose(r, k, &block);
         const int kind = sli_lanes_kind(block.count);
         sli_capacity_add(capacity, &block.size, (sl_int)1 << kind);
-        time += r->lanes_cost[kind] * (double)block.size.entries;
+        time += SLI_COST_LANES(1 << kind) * (double)block.size.entries;
         r->block_size[r->n_blocks] = (uint64_t)block_size;
         k += block_size;
     }

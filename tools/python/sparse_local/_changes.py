@@ -29,8 +29,9 @@ class Changes:
         keep, address, count = self._kind.set(columns)
         matrix, stats = self.analysis._matrix(A), Stats()
         self._nulls = None
-        self._checked(self._lib.sl_factor_refactor_changed(
-            self._pointer, matrix.reference(), address, count, ctypes.byref(stats)), stats)
+        self._checked(self._lib.sl_factor_change_entries(
+            self._pointer, matrix.reference(), None, address, None, count, None,
+            ctypes.byref(stats)), stats)
         return self
 
     def change(self, A, was=None, *, rows=None, columns=None, deltas=None):

@@ -49,7 +49,6 @@ _CALLS = {
     "factor_defects": [PTR, PTR, SIZE, PTR, SIZE, INT, PTR],
     "factor_create": [_OUT, PTR, _CSC, _OPT, _STATS],
     "factor_refactor": [PTR, _CSC, _STATS],
-    "factor_refactor_changed": [PTR, _CSC, PTR, INT, _STATS],
     "factor_solve_part": [PTR, PTR, ctypes.c_uint, PTR, SIZE, PTR, SIZE, INT, PTR],
     "factor_multiply_part": [PTR, ctypes.c_uint, PTR, SIZE, PTR, SIZE, INT, PTR],
     "factor_solve": [PTR, PTR, SIZE, PTR, SIZE, INT, PTR],

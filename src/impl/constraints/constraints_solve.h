@@ -1,6 +1,6 @@
 /* constraints_solve.h: sl_constraints_solve: solves with rows held */
-#ifndef SLI_CHANGE_CONSTRAINTS_SOLVE_H
-#define SLI_CHANGE_CONSTRAINTS_SOLVE_H
+#ifndef SLI_CONSTRAINTS_SOLVE_H
+#define SLI_CONSTRAINTS_SOLVE_H
 
 #include "constraints_balance.h"
 

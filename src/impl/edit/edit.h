@@ -1,6 +1,6 @@
 /* edit.h: sl_symbolic_edit: the analysis of an edited matrix from that of the matrix before */
-#ifndef SLI_CHANGE_EDIT_H
-#define SLI_CHANGE_EDIT_H
+#ifndef SLI_EDIT_H
+#define SLI_EDIT_H
 
 #include "../../public/edit.h"
 #include "../analysis/same_pattern.h"

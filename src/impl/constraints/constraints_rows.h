@@ -1,6 +1,6 @@
 /* constraints_rows.h: rows pinned together: up to 8 of them share a sweep */
-#ifndef SLI_CHANGE_CONSTRAINTS_ROWS_H
-#define SLI_CHANGE_CONSTRAINTS_ROWS_H
+#ifndef SLI_CONSTRAINTS_ROWS_H
+#define SLI_CONSTRAINTS_ROWS_H
 
 #include "constraints_capacitance.h"
 

@@ -1,10 +1,11 @@
 /* edit_factor.h: sl_factor_edit: the factor of an edited matrix from that of the matrix before */
-#ifndef SLI_CHANGE_EDIT_FACTOR_H
-#define SLI_CHANGE_EDIT_FACTOR_H
+#ifndef SLI_EDIT_FACTOR_H
+#define SLI_EDIT_FACTOR_H
 
-#include "kept.h"
+#include "../change/kept.h"
 #include "../../public/edit.h"
-#include "choose.h"
+#include "../factor/costs.h"
+#include "../factor/factor.h"
 #include "edit_match.h"
 #include "../factor/panel_load.h"
 
@@ -166,8 +167,9 @@ static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_
 static int sli_reuse_choose(sli_reuse *r) {
     const sl_symbolic *T = r->G->S;
     sl_reuse_info *info = &r->info;
+    const double flop = sli_cost_flop(r->G->kernels->isa);
     sl_int s, supers = 0, visits = 0;
-    double seconds;
+    double cost;
     info->flops = r->flops;
     for (s = 0; s < T->n_supers; s++) {
         const sl_int up = T->super_parent[s];
@@ -179,21 +181,21 @@ static int sli_reuse_choose(sli_reuse *r) {
         info->kept += T->steps[s].width;
         info->entries += T->panel_begin[s + 1] - T->panel_begin[s];
         if (up != -1 && r->from[up] == -1) {
-            info->flops += sli_choose_kept(T, s, &visits);
+            info->flops += sli_kept_flops(T, s, &visits);
         }
     }
     info->computed = T->n - info->kept;
-    seconds = SLI_REUSE_FLOP * info->flops + SLI_REUSE_FRONT * visits + SLI_REUSE_SUPER * supers +
-              SLI_REUSE_ENTRY * (double)info->entries;
-    return seconds < SLI_REUSE_SHARE *
-                         (SLI_REUSE_FLOP * r->flops_anew + SLI_REUSE_FRONT * (double)T->n_supers);
+    /* a kept supernode is found and copied, its entries are read and written */
+    cost = flop * info->flops + SLI_COST_FRONT * visits + SLI_COST_FRONT / 4.0 * supers +
+           2.0 * (double)info->entries;
+    return cost < SLI_REUSE_SHARE * (flop * r->flops_anew + SLI_COST_FRONT * (double)T->n_supers);
 }
 
 /* Supernode s is not kept, nor are its ancestors. */
 static void sli_reuse_drop(sli_reuse *r, sl_int s) {
     for (; s != -1 && r->from[s] != -1; s = r->G->S->super_parent[s]) {
         r->from[s] = -1;
-        r->flops += sli_choose_front(r->G->S, s);
+        r->flops += sli_front_flops(&r->G->S->steps[s]);
     }
 }
 
@@ -215,7 +217,7 @@ static int sli_reuse_find(sli_reuse *r) {
     int is_sample;
     for (s = 0; s < T->n_supers; s++) {
         r->from[s] = SLI_REUSE_UNKNOWN;
-        r->flops_anew += sli_choose_front(T, s);
+        r->flops_anew += sli_front_flops(&T->steps[s]);
     }
     r->info.flops_anew = r->flops_anew;
     for (is_sample = 1; is_sample >= 0; is_sample--) {

@@ -1,7 +1,7 @@
 /* constraints_nulls.h: null vectors under pins: their products with the pins, and what remains free
  * */
-#ifndef SLI_CHANGE_CONSTRAINTS_NULLS_H
-#define SLI_CHANGE_CONSTRAINTS_NULLS_H
+#ifndef SLI_CONSTRAINTS_NULLS_H
+#define SLI_CONSTRAINTS_NULLS_H
 
 #include "constraints_types.h"
 

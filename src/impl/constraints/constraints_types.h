@@ -1,6 +1,6 @@
 /* constraints_types.h: a set of pins: the method, and what it keeps */
-#ifndef SLI_CHANGE_CONSTRAINTS_TYPES_H
-#define SLI_CHANGE_CONSTRAINTS_TYPES_H
+#ifndef SLI_CONSTRAINTS_TYPES_H
+#define SLI_CONSTRAINTS_TYPES_H
 
 #include "../../public/constraints.h"
 #include "../solve/plan.h"

@@ -1,4 +1,4 @@
-/* test_refactor_changed.c: sl_factor_refactor_changed: the factor, what is recomputed, errors */
+/* test_change_columns.c: sl_factor_change_entries by columns: what is recomputed, errors */
 #include "tests/lib/factored.h"
 
 /* Largest difference of two factors: of D relative to each pivot, of L relative to max(1, |l|). */
@@ -75,7 +75,8 @@ static void a_local_refactor_equals_a_full_one(void **state) {
                     size_t doubles = (size_t)panel_doubles(F);
                     double *before = test_reals(doubles);
                     memcpy(before, sl_factor_view(F).L, doubles * sizeof *before);
-                    SL_CHECK(sl_factor_refactor_changed(F, &y.M.view, columns, count, &stats));
+                    SL_CHECK(sl_factor_change_entries(F, &y.M.view, NULL, columns, NULL, count,
+                                                      NULL, &stats));
                     SL_CHECK(sl_factor_create(&G, y.S, &y.M.view, &opt, NULL));
                     double grown = kind == GEN_SCALED || kind == GEN_KKT ? 1e6 : 1.0;
                     assert_true(largest_difference(F, G) <=
@@ -122,17 +123,19 @@ static void only_the_reach_is_read(void **state) {
     assert_true(other >= 0);
     double keep = y.M.x[y.M.p[other]];
     y.M.x[y.M.p[other]] = NAN;
-    SL_CHECK(sl_factor_refactor_changed(y.F, &y.M.view, &column, 1, NULL));
+    SL_CHECK(sl_factor_change_entries(y.F, &y.M.view, NULL, &column, NULL, 1, NULL, NULL));
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
-    SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor_changed(y.F, &y.M.view, &other, 1, &stats));
+    SL_EXPECT(SL_ERR_NOT_FINITE,
+              sl_factor_change_entries(y.F, &y.M.view, NULL, &other, NULL, 1, NULL, &stats));
     assert_int_equal(stats.error.row, y.M.i[y.M.p[other]]);
     assert_int_equal(stats.error.column, other);
     /* after a failure only a full refactor is accepted */
-    SL_EXPECT(SL_ERR_STALE, sl_factor_refactor_changed(y.F, &y.M.view, &column, 1, &stats));
+    SL_EXPECT(SL_ERR_STALE,
+              sl_factor_change_entries(y.F, &y.M.view, NULL, &column, NULL, 1, NULL, &stats));
     y.M.x[y.M.p[other]] = keep;
     SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
-    SL_CHECK(sl_factor_refactor_changed(y.F, &y.M.view, &column, 1, &stats));
+    SL_CHECK(sl_factor_change_entries(y.F, &y.M.view, NULL, &column, NULL, 1, NULL, &stats));
     free(mark);
     factored_free(&y);
 }
@@ -157,7 +160,8 @@ static void a_null_pivot_is_reported(void **state) {
         for (sl_int k = 0; k <= j; k++) {
             columns[k] = k;
         }
-        SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor_changed(y.F, &y.M.view, columns, j + 1, &stats));
+        SL_EXPECT(SL_ERR_PIVOT, sl_factor_change_entries(y.F, &y.M.view, NULL, columns, NULL, j + 1,
+                                                         NULL, &stats));
         assert_int_equal(stats.error.row, j);
         assert_int_equal(stats.factor.null, 1);
         memcpy(y.M.x, keep, bytes);
@@ -178,26 +182,35 @@ static void invalid_arguments_are_refused(void **state) {
     const sl_int fine[2] = {3, 3}, below[2] = {3, -1}, above[2] = {100, 3};
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_changed(NULL, &y.M.view, fine, 2, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_changed(y.F, NULL, fine, 2, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_changed(y.F, &y.M.view, NULL, 2, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_changed(y.F, &y.M.view, fine, -1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_changed(y.F, &y.M.view, below, 2, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_factor_change_entries(NULL, &y.M.view, NULL, fine, NULL, 2, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_factor_change_entries(y.F, NULL, NULL, fine, NULL, 2, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_factor_change_entries(y.F, &y.M.view, NULL, NULL, NULL, 2, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_factor_change_entries(y.F, &y.M.view, NULL, fine, NULL, -1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_factor_change_entries(y.F, &y.M.view, NULL, below, NULL, 2, NULL, &stats));
     assert_int_equal(stats.error.row, -1);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_changed(y.F, &y.M.view, above, 2, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_factor_change_entries(y.F, &y.M.view, NULL, above, NULL, 2, NULL, &stats));
     assert_int_equal(stats.error.row, 100);
-    SL_EXPECT(SL_ERR_OTHER_PATTERN, sl_factor_refactor_changed(y.F, &other.view, fine, 2, NULL));
+    SL_EXPECT(SL_ERR_OTHER_PATTERN,
+              sl_factor_change_entries(y.F, &other.view, NULL, fine, NULL, 2, NULL, NULL));
     for (int k = 0; k < 2; k++) { /* both allocations */
         counter.fail_at = (int64_t)counter.calls + k;
-        SL_EXPECT(SL_ERR_MEMORY, sl_factor_refactor_changed(y.F, &y.M.view, fine, 2, NULL));
+        SL_EXPECT(SL_ERR_MEMORY,
+                  sl_factor_change_entries(y.F, &y.M.view, NULL, fine, NULL, 2, NULL, NULL));
     }
     counter.fail_at = -1;
     double b[100], x[100];
     gen_reals(b, 100, 2);
     SL_CHECK(sl_factor_solve(y.F, x, 100, b, 100, 1, NULL)); /* F is unchanged */
     BACKWARD_PASSES(&y.M.view, x, 100, b, 100, 1);
-    SL_CHECK(sl_factor_refactor_changed(y.F, &y.M.view, fine, 2, NULL)); /* the same column twice */
-    SL_CHECK(sl_factor_refactor_changed(y.F, &y.M.view, NULL, 0, NULL));
+    SL_CHECK(sl_factor_change_entries(y.F, &y.M.view, NULL, fine, NULL, 2, NULL,
+                                      NULL)); /* the same column twice */
+    SL_CHECK(sl_factor_change_entries(y.F, &y.M.view, NULL, NULL, NULL, 0, NULL, NULL));
     SL_CHECK(sl_factor_solve(y.F, x, 100, b, 100, 1, NULL));
     BACKWARD_PASSES(&y.M.view, x, 100, b, 100, 1);
     gen_matrix_free(&other);

@@ -1,6 +1,6 @@
 /* edit_order.h: the order of an edited matrix: a new order of small subtrees with active rows */
-#ifndef SLI_CHANGE_EDIT_ORDER_H
-#define SLI_CHANGE_EDIT_ORDER_H
+#ifndef SLI_EDIT_ORDER_H
+#define SLI_EDIT_ORDER_H
 
 #include "edit_separate.h"
 

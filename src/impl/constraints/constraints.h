@@ -1,6 +1,6 @@
 /* constraints.h: sets of pins: created, added, released, and made again for other numbers */
-#ifndef SLI_CHANGE_CONSTRAINTS_H
-#define SLI_CHANGE_CONSTRAINTS_H
+#ifndef SLI_CONSTRAINTS_H
+#define SLI_CONSTRAINTS_H
 
 #include "../factor/factor_setup.h"
 #include "constraints_rows.h"

@@ -1,6 +1,6 @@
 /* edit_separate.h: smallest separators near an edit, where rows have come and gone */
-#ifndef SLI_CHANGE_EDIT_SEPARATE_H
-#define SLI_CHANGE_EDIT_SEPARATE_H
+#ifndef SLI_EDIT_SEPARATE_H
+#define SLI_EDIT_SEPARATE_H
 
 #include "edit_place.h"
 

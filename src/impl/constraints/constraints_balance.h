@@ -1,6 +1,6 @@
 /* constraints_balance.h: null vectors in solves with pins: balance of forces, and motions */
-#ifndef SLI_CHANGE_CONSTRAINTS_BALANCE_H
-#define SLI_CHANGE_CONSTRAINTS_BALANCE_H
+#ifndef SLI_CONSTRAINTS_BALANCE_H
+#define SLI_CONSTRAINTS_BALANCE_H
 
 #include "constraints_capacitance.h"
 

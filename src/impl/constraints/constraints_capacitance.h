@@ -1,6 +1,6 @@
 /* constraints_capacitance.h: the sweeps of pins, and the factor of their capacitance matrix */
-#ifndef SLI_CHANGE_CONSTRAINTS_CAPACITANCE_H
-#define SLI_CHANGE_CONSTRAINTS_CAPACITANCE_H
+#ifndef SLI_CONSTRAINTS_CAPACITANCE_H
+#define SLI_CONSTRAINTS_CAPACITANCE_H
 
 #include "../inverse/block.h"
 #include "constraints_nulls.h"

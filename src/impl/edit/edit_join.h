@@ -1,6 +1,6 @@
 /* edit_join.h: joins kept subtrees and fresh supernodes to the analysis of an edited matrix */
-#ifndef SLI_CHANGE_EDIT_JOIN_H
-#define SLI_CHANGE_EDIT_JOIN_H
+#ifndef SLI_EDIT_JOIN_H
+#define SLI_EDIT_JOIN_H
 
 #include "edit_graph.h"
 

@@ -1,6 +1,6 @@
 /* edit_graph.h: the graph of the columns that an edit analyzes again, and their supernodes */
-#ifndef SLI_CHANGE_EDIT_GRAPH_H
-#define SLI_CHANGE_EDIT_GRAPH_H
+#ifndef SLI_EDIT_GRAPH_H
+#define SLI_EDIT_GRAPH_H
 
 #include "edit_order.h"
 #include "submatrix_symbolic.h"

@@ -1,7 +1,7 @@
 /* edit_place.h: places new rows in the tree of supernodes, and moves rows until every entry of the
  * edited matrix joins two nodes of which one is an ancestor of the other */
-#ifndef SLI_CHANGE_EDIT_PLACE_H
-#define SLI_CHANGE_EDIT_PLACE_H
+#ifndef SLI_EDIT_PLACE_H
+#define SLI_EDIT_PLACE_H
 
 #include "edit_match.h"
 

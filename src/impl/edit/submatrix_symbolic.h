@@ -1,6 +1,6 @@
 /* submatrix_symbolic.h: joins kept subtrees and new supernodes to the analysis of A[R, R] */
-#ifndef SLI_CHANGE_SUBMATRIX_SYMBOLIC_H
-#define SLI_CHANGE_SUBMATRIX_SYMBOLIC_H
+#ifndef SLI_EDIT_SUBMATRIX_SYMBOLIC_H
+#define SLI_EDIT_SUBMATRIX_SYMBOLIC_H
 
 #include "submatrix_analysis.h"
 

@@ -1,6 +1,6 @@
 /* edit_match.h: which rows of an edited matrix have other neighbors than before */
-#ifndef SLI_CHANGE_EDIT_MATCH_H
-#define SLI_CHANGE_EDIT_MATCH_H
+#ifndef SLI_EDIT_MATCH_H
+#define SLI_EDIT_MATCH_H
 
 #include "../analysis/symbolic.h"
 #include "../factor/factor_types.h"

@@ -1,7 +1,7 @@
 /* submatrix_analysis.h: the analysis of A[R, R] from that of A: new for columns with a removed
  * descendant only */
-#ifndef SLI_CHANGE_SUBMATRIX_ANALYSIS_H
-#define SLI_CHANGE_SUBMATRIX_ANALYSIS_H
+#ifndef SLI_EDIT_SUBMATRIX_ANALYSIS_H
+#define SLI_EDIT_SUBMATRIX_ANALYSIS_H
 
 #include "submatrix_kept.h"
 

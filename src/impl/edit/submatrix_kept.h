@@ -1,6 +1,6 @@
 /* submatrix_kept.h: a set R of rows of A, and what the analysis of A[R, R] keeps of that of A */
-#ifndef SLI_CHANGE_SUBMATRIX_KEPT_H
-#define SLI_CHANGE_SUBMATRIX_KEPT_H
+#ifndef SLI_EDIT_SUBMATRIX_KEPT_H
+#define SLI_EDIT_SUBMATRIX_KEPT_H
 
 #include "../analysis/symbolic_build.h"
 #include "subset.h"

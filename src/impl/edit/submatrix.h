@@ -1,10 +1,10 @@
 /* submatrix.h: sl_factor_submatrix: the factor of A[R, R] from that of A */
-#ifndef SLI_CHANGE_SUBMATRIX_H
-#define SLI_CHANGE_SUBMATRIX_H
+#ifndef SLI_EDIT_SUBMATRIX_FACTOR_H
+#define SLI_EDIT_SUBMATRIX_FACTOR_H
 
 #include "../../public/submatrix.h"
 #include "../factor/factor.h"
-#include "kept.h"
+#include "../change/kept.h"
 #include "submatrix_symbolic.h"
 
 /* Refuses a kept pivot that was skipped as null. */

@@ -1,6 +1,6 @@
 /* subset.h: a set of rows of A as a sorted list of columns of L, and a map from columns to ranks */
-#ifndef SLI_CHANGE_SUBSET_H
-#define SLI_CHANGE_SUBSET_H
+#ifndef SLI_EDIT_SUBSET_H
+#define SLI_EDIT_SUBSET_H
 
 #include "../analysis/symbolic_types.h"
 #include "../base/sort.h"

@@ -1,0 +1,24 @@
+/* costs.h: what steps cost, by which packs choose between methods: counted, in entries of L that a
+ * sweep of one vector reads */
+#ifndef SLI_FACTOR_COSTS_H
+#define SLI_FACTOR_COSTS_H
+
+#include "../kernels/dispatch.h"
+
+/* A sweep of some lanes reads an entry once, and computes with it in each of them. */
+#define SLI_COST_LANES(lanes) (0.75 + 0.25 * (lanes))
+/* What begins and ends a front, whatever its size: its rows, its panel, its place in its parent. */
+#define SLI_COST_FRONT 4000.0
+/* An entry of A that is looked up and put into a front. */
+#define SLI_COST_INPUT 20.0
+
+/* A flop of a front. Its kernels do about as many in the time of an entry as a register has
+ * doubles. */
+SLI_INLINE double sli_cost_flop(sl_isa isa) {
+    return isa == SL_ISA_AVX512   ? 1.0 / 8.0
+           : isa == SL_ISA_AVX2   ? 1.0 / 4.0
+           : isa == SL_ISA_SCALAR ? 1.0
+                                  : 1.0 / 2.0;
+}
+
+#endif
