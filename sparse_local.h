@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: afb8e5fea2dce3cf
+ * FNV-1a of the lines after this comment, without the license: 4d592e3bf52c07eb
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,28 +36,28 @@
  *   2980 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3023 impl/ base: the compiler, status, memory, sorting, threads
  *   4304 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5243 impl/ matrix: sparse matrices of the caller and of the library
- *   5919 impl/ ordering: fill-reducing orderings of a graph
- *  11021 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13260 impl/ factor: the numbers of L and D
- *  16673 impl/ solve: full and local solves
- *  18550 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20547 impl/ pivots: the order of the pivots by the values of a matrix
- *  20955 impl/ float: L and fronts in single precision
- *  21460 impl/ inverse: entries of the inverse, regions
- *  24559 impl/ change: a factor that follows changes of its matrix
- *  30864 impl/ fixed: rows fixed at given values
- *  31505 impl/ fixed: by a factor of all rows
- *  31739 impl/ io: files that are replaced only when they are complete
- *  31957 impl/ files: Matrix Market files, 64-bit indices
- *  32577 impl/ save: factors in files
- *  34590 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35276 impl/ batch: diagonals of many inverses
- *  35416 impl/ complex: complex Hermitian systems over real factors
- *  35978 impl/ complex: entries of the inverse
- *  36038 impl/ packs: the tables through which the core calls packs
- *  36087 impl/ last: undefine every internal macro
- *  36468 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5232 impl/ matrix: sparse matrices of the caller and of the library
+ *   5908 impl/ ordering: fill-reducing orderings of a graph
+ *  11010 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13249 impl/ factor: the numbers of L and D
+ *  16662 impl/ solve: full and local solves
+ *  18539 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20536 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20944 impl/ float: L and fronts in single precision
+ *  21449 impl/ inverse: entries of the inverse, regions
+ *  24548 impl/ change: a factor that follows changes of its matrix
+ *  30853 impl/ fixed: rows fixed at given values
+ *  31494 impl/ fixed: by a factor of all rows
+ *  31728 impl/ io: files that are replaced only when they are complete
+ *  31946 impl/ files: Matrix Market files, 64-bit indices
+ *  32566 impl/ save: factors in files
+ *  34579 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35265 impl/ batch: diagonals of many inverses
+ *  35405 impl/ complex: complex Hermitian systems over real factors
+ *  35967 impl/ complex: entries of the inverse
+ *  36027 impl/ packs: the tables through which the core calls packs
+ *  36076 impl/ last: undefine every internal macro
+ *  36456 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4849,17 +4849,6 @@ typedef struct sli_kernels {
   case k: \
     call(k); \
     break;
-#define SLI_CASES(call) \
-  switch (w) { \
-    SLI_CASE(2, call) \
-    SLI_CASE(3, call) \
-    SLI_CASE(4, call) \
-    SLI_CASE(5, call) \
-    SLI_CASE(6, call) \
-    SLI_CASE(7, call) \
-  default: \
-    call(8); \
-  }
 
 #define SLI_EXPAND_PLAIN(mask, lanes, count) \
   const sl_int *lanes_ = (lanes), count_ = (count); \
@@ -36164,7 +36153,6 @@ static const sli_fixed_ways *sli_fixed_ways_of(void) {
 #undef SLI_SORT_SMALL
 #undef SLI_TILE
 #undef SLI_CASE
-#undef SLI_CASES
 #undef SLI_PREFETCH_DISTANCE
 #undef SLI_STEPS_AHEAD
 #undef SLI_ROWS_FETCHED
@@ -39595,11 +39583,6 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(tile_backward)(const SLV_VALUE *l, double
 /* src/impl/kernels/small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
 
 #if !defined(SLV_PLAIN)
-#if SLV_SINGLE
-#define SLI_BY_WIDTH(call) call(w)
-#else
-#define SLI_BY_WIDTH(call) SLI_CASES(call)
-#endif
 #define SLI_HAS(k) ((k) < 2 || (k) < w)
 #define SLI_DECLARE(k, y) \
   SLV_DECLARE(y##k) \
@@ -39736,8 +39719,6 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, co
 }
 
 #else
-#define SLI_BY_WIDTH(call) call(w)
-
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_forward)(sl_int w, const sli_step *s,
     const sl_int *rows, const SLV_VALUE *L,
     double *x, double *buf) {
@@ -39893,9 +39874,6 @@ SLV_SWEEP(backward_plain)(const sli_step *s, const sli_reach *R, const sl_int **
   return last - (from - xs);
 }
 
-#define SLI_FORWARD(k) SLV_SWEEP(small_forward)(k, s, rows, L, x, buf)
-#define SLI_BACKWARD(k) SLV_SWEEP(small_backward)(k, s, rows, L, D, x)
-
 SLI_AT_LINE SLV_FUNCTION static const sli_step *
 SLV_SWEEP(forward_small)(const sli_step *s, const sli_reach *R, const sl_int **next_rows,
     const SLV_VALUE *L, double *x, double *buf) {
@@ -39907,7 +39885,7 @@ SLV_SWEEP(forward_small)(const sli_step *s, const sli_reach *R, const sl_int **n
       s = SLV_SWEEP(forward_plain)(s, R, &rows, L, x);
       continue;
     }
-    SLI_BY_WIDTH(SLI_FORWARD);
+    SLV_SWEEP(small_forward)(w, s, rows, L, x, buf);
     rows += (s++)->below;
   }
   *next_rows = rows;
@@ -39926,7 +39904,7 @@ SLV_SWEEP(backward_small)(const sli_step *s, const sli_reach *R, const sl_int **
       continue;
     }
     rows -= (--s)->below;
-    SLI_BY_WIDTH(SLI_BACKWARD);
+    SLV_SWEEP(small_backward)(w, s, rows, L, D, x);
   }
   *rows_end = rows;
   return s;
@@ -39949,9 +39927,6 @@ SLV_SWEEP(backward_small)(const sli_step *s, const sli_reach *R, const sl_int **
 #undef SLI_GET
 #undef SLI_XT
 #undef SLI_ROW
-#undef SLI_FORWARD
-#undef SLI_BACKWARD
-#undef SLI_BY_WIDTH
 /* end of small_supernode.inl.h */
 #endif
 /* src/impl/kernels/single_rhs.inl.h: sweeps for one right-hand side, vectorized over the 8 rows of a tile */
@@ -40294,9 +40269,8 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 #define SLI_CLEAR_WIDE
 #endif
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli_rows below,
-    const SLV_VALUE *l, double *xs,
-    double *x) {
+SLI_AT_LINE SLV_FUNCTION static void
+SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l, double *xs, double *x) {
   const sl_int stride = below.lanes;
   sl_int lane = w, i;
   SLW_EACH(SLI_DECLARE, 0)
@@ -40344,7 +40318,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli
     SLW_ADD(a##k, b) \
   }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sli_rows below,
+SLI_AT_LINE SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
     const SLV_VALUE *l, const double *d,
     double *xs, const double *x) {
   const sl_int stride = below.lanes;
@@ -40379,25 +40353,6 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
   SLW_EACH(SLI_STORE_OWN, xs)
 }
 
-#define SLI_FORWARD(k) SLW_SWEEP(small_forward)(k, below, l, xs, x)
-#define SLI_BACKWARD(k) SLW_SWEEP(small_backward)(k, below, l, d, xs, x)
-#if defined(SLW_GROUPS) || SLV_SINGLE || SLW_NRHS == 2
-#define SLI_BY_WIDTH(call) call(w)
-#else
-#define SLI_BY_WIDTH(call) SLI_CASES(call)
-#endif
-
-SLI_AT_LINE SLV_FUNCTION static void
-SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l, double *xs, double *x) {
-  SLI_BY_WIDTH(SLI_FORWARD);
-}
-
-SLI_AT_LINE SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
-    const SLV_VALUE *l, const double *d,
-    double *xs, const double *x) {
-  SLI_BY_WIDTH(SLI_BACKWARD);
-}
-
 #undef SLI_LOAD_OWN
 #undef SLI_STORE_OWN
 #undef SLI_ZERO_OWN
@@ -40409,9 +40364,6 @@ SLI_AT_LINE SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_row
 #undef SLI_ROW_OWN
 #undef SLI_ABOVE_OWN
 #undef SLI_DIVIDE_OWN
-#undef SLI_FORWARD
-#undef SLI_BACKWARD
-#undef SLI_BY_WIDTH
 #undef SLI_CLEAR_WIDE
 #else
 SLV_FUNCTION SLI_INLINE void SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l,

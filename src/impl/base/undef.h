@@ -78,7 +78,6 @@
 #undef SLI_SORT_SMALL
 #undef SLI_TILE
 #undef SLI_CASE
-#undef SLI_CASES
 #undef SLI_PREFETCH_DISTANCE
 #undef SLI_STEPS_AHEAD
 #undef SLI_ROWS_FETCHED
