@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 987428f3468e213b
+ * FNV-1a of the lines after this comment, without the license: 578b57ef39f20359
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -34,27 +34,27 @@
  *   2771 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   2814 impl/ base: the compiler, status, memory, sorting, threads
  *   4116 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5025 impl/ matrix: sparse matrices of the caller and of the library
- *   5704 impl/ ordering: fill-reducing orderings of a graph
- *  10304 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12552 impl/ factor: the numbers of L and D
- *  15145 impl/ solve: full and local solves
- *  16687 impl/ singular: null spaces of semidefinite matrices
- *  17958 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19973 impl/ pivots: the order of the pivots by the values of a matrix
- *  20381 impl/ float: L in single precision
- *  20611 impl/ inverse: entries of the inverse, regions
- *  23527 impl/ change: a factor that follows changes of its matrix
- *  25805 impl/ constraints: rows held at values, on a factor that stays
- *  27113 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  29851 impl/ fixed: rows fixed at given values
- *  30410 impl/ io: files that are replaced only when they are complete
- *  30628 impl/ files: Matrix Market files, 64-bit indices
- *  31174 impl/ save: factors in files
- *  33147 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33833 impl/ complex: complex Hermitian systems over real factors
- *  34338 impl/ packs: the tables through which the core calls packs
- *  34730 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5014 impl/ matrix: sparse matrices of the caller and of the library
+ *   5693 impl/ ordering: fill-reducing orderings of a graph
+ *  10293 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12541 impl/ factor: the numbers of L and D
+ *  15134 impl/ solve: full and local solves
+ *  16676 impl/ singular: null spaces of semidefinite matrices
+ *  17947 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19962 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20370 impl/ float: L in single precision
+ *  20600 impl/ inverse: entries of the inverse, regions
+ *  23516 impl/ change: a factor that follows changes of its matrix
+ *  25794 impl/ constraints: rows held at values, on a factor that stays
+ *  27102 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  29840 impl/ fixed: rows fixed at given values
+ *  30399 impl/ io: files that are replaced only when they are complete
+ *  30617 impl/ files: Matrix Market files, 64-bit indices
+ *  31163 impl/ save: factors in files
+ *  33136 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33822 impl/ complex: complex Hermitian systems over real factors
+ *  34327 impl/ packs: the tables through which the core calls packs
+ *  34718 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4648,17 +4648,6 @@ typedef struct sli_kernels {
   case k: \
     call(k); \
     break;
-#define SLI_CASES(call) \
-  switch (w) { \
-    SLI_CASE(2, call) \
-    SLI_CASE(3, call) \
-    SLI_CASE(4, call) \
-    SLI_CASE(5, call) \
-    SLI_CASE(6, call) \
-    SLI_CASE(7, call) \
-  default: \
-    call(8); \
-  }
 
 #define SLI_EXPAND_PLAIN(mask, lanes, count) \
   const sl_int *lanes_ = (lanes), count_ = (count); \
@@ -34475,7 +34464,6 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_LOW8
 #undef SLI_IS_IN
 #undef SLI_CASE
-#undef SLI_CASES
 #undef SLI_EXPAND_PLAIN
 #undef SLI_EXPAND_ADD_PLAIN
 #undef SLI_LOOP
@@ -37825,11 +37813,6 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(tile_backward)(const SLV_VALUE *l, double
 /* src/impl/kernels/small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
 
 #if !defined(SLV_PLAIN)
-#if SLV_SINGLE
-#define SLI_BY_WIDTH(call) call(w)
-#else
-#define SLI_BY_WIDTH(call) SLI_CASES(call)
-#endif
 #define SLI_HAS(k) ((k) < 2 || (k) < w)
 #define SLI_DECLARE(k, y) \
   SLV_DECLARE(y##k) \
@@ -37966,8 +37949,6 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, co
 }
 
 #else
-#define SLI_BY_WIDTH(call) call(w)
-
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_forward)(sl_int w, const sli_step *s,
     const sl_int *rows, const SLV_VALUE *L,
     double *x, double *buf) {
@@ -38123,9 +38104,6 @@ SLV_SWEEP(backward_plain)(const sli_step *s, const sli_reach *R, const sl_int **
   return last - (from - xs);
 }
 
-#define SLI_FORWARD(k) SLV_SWEEP(small_forward)(k, s, rows, L, x, buf)
-#define SLI_BACKWARD(k) SLV_SWEEP(small_backward)(k, s, rows, L, D, x)
-
 SLI_AT_LINE SLV_FUNCTION static const sli_step *
 SLV_SWEEP(forward_small)(const sli_step *s, const sli_reach *R, const sl_int **next_rows,
     const SLV_VALUE *L, double *x, double *buf) {
@@ -38137,7 +38115,7 @@ SLV_SWEEP(forward_small)(const sli_step *s, const sli_reach *R, const sl_int **n
       s = SLV_SWEEP(forward_plain)(s, R, &rows, L, x);
       continue;
     }
-    SLI_BY_WIDTH(SLI_FORWARD);
+    SLV_SWEEP(small_forward)(w, s, rows, L, x, buf);
     rows += (s++)->below;
   }
   *next_rows = rows;
@@ -38156,7 +38134,7 @@ SLV_SWEEP(backward_small)(const sli_step *s, const sli_reach *R, const sl_int **
       continue;
     }
     rows -= (--s)->below;
-    SLI_BY_WIDTH(SLI_BACKWARD);
+    SLV_SWEEP(small_backward)(w, s, rows, L, D, x);
   }
   *rows_end = rows;
   return s;
@@ -38179,9 +38157,6 @@ SLV_SWEEP(backward_small)(const sli_step *s, const sli_reach *R, const sl_int **
 #undef SLI_GET
 #undef SLI_XT
 #undef SLI_ROW
-#undef SLI_FORWARD
-#undef SLI_BACKWARD
-#undef SLI_BY_WIDTH
 /* end of small_supernode.inl.h */
 #endif
 /* src/impl/kernels/single_rhs.inl.h: sweeps for one right-hand side, vectorized over the 8 rows of a tile */
@@ -38524,9 +38499,8 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 #define SLI_CLEAR_WIDE
 #endif
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli_rows below,
-    const SLV_VALUE *l, double *xs,
-    double *x) {
+SLI_AT_LINE SLV_FUNCTION static void
+SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l, double *xs, double *x) {
   const sl_int stride = below.lanes;
   sl_int lane = w, i;
   SLW_EACH(SLI_DECLARE, 0)
@@ -38574,7 +38548,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli
     SLW_ADD(a##k, b) \
   }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sli_rows below,
+SLI_AT_LINE SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
     const SLV_VALUE *l, const double *d,
     double *xs, const double *x) {
   const sl_int stride = below.lanes;
@@ -38609,25 +38583,6 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
   SLW_EACH(SLI_STORE_OWN, xs)
 }
 
-#define SLI_FORWARD(k) SLW_SWEEP(small_forward)(k, below, l, xs, x)
-#define SLI_BACKWARD(k) SLW_SWEEP(small_backward)(k, below, l, d, xs, x)
-#if defined(SLW_GROUPS) || SLV_SINGLE || SLW_NRHS == 2
-#define SLI_BY_WIDTH(call) call(w)
-#else
-#define SLI_BY_WIDTH(call) SLI_CASES(call)
-#endif
-
-SLI_AT_LINE SLV_FUNCTION static void
-SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l, double *xs, double *x) {
-  SLI_BY_WIDTH(SLI_FORWARD);
-}
-
-SLI_AT_LINE SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
-    const SLV_VALUE *l, const double *d,
-    double *xs, const double *x) {
-  SLI_BY_WIDTH(SLI_BACKWARD);
-}
-
 #undef SLI_LOAD_OWN
 #undef SLI_STORE_OWN
 #undef SLI_ZERO_OWN
@@ -38639,9 +38594,6 @@ SLI_AT_LINE SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_row
 #undef SLI_ROW_OWN
 #undef SLI_ABOVE_OWN
 #undef SLI_DIVIDE_OWN
-#undef SLI_FORWARD
-#undef SLI_BACKWARD
-#undef SLI_BY_WIDTH
 #undef SLI_CLEAR_WIDE
 #else
 SLV_FUNCTION SLI_INLINE void SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l,

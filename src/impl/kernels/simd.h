@@ -111,23 +111,11 @@
 /* Is the constant k one of 0 .. count-1? There is at least 0. */
 #define SLI_IS_IN(k, count) ((k) == 0 || (k) < (count))
 
-/* Calls one of 7 copies of a function, compiled for the constant numbers of columns w = 2 .. 8. One
- * column has kernels of its own. */
+/* One case of a switch over the numbers that a function is compiled for as constants. */
 #define SLI_CASE(k, call) \
     case k: \
         call(k); \
         break;
-#define SLI_CASES(call) \
-    switch (w) { \
-        SLI_CASE(2, call) \
-        SLI_CASE(3, call) \
-        SLI_CASE(4, call) \
-        SLI_CASE(5, call) \
-        SLI_CASE(6, call) \
-        SLI_CASE(7, call) \
-    default: \
-        call(8); \
-    }
 
 /* SLV_EXPAND and SLV_EXPAND_ADD for instruction sets that have no instruction for them. */
 #define SLI_EXPAND_PLAIN(mask, lanes, count) \

@@ -3,15 +3,9 @@
 /* Most supernodes of a 2D mesh are this small. They do not spend their time reading L but on loops
  * of few iterations, on calls, and on vector loads of values that were just stored one by one. Here
  * there are no loops over columns: y or the sums of all columns stay in registers, and x is
- * gathered directly into registers. For L in double the width is a constant in each of 7 copies.
- * With L in float, branches on the width take 1.00 of the time, at most 1.05. */
+ * gathered directly into registers. Branches on the width take the time of a copy for each. */
 
 #if !defined(SLV_PLAIN)
-#if SLV_SINGLE
-#define SLI_BY_WIDTH(call) call(w)
-#else
-#define SLI_BY_WIDTH(call) SLI_CASES(call)
-#endif
 /* Is k a column? The supernode has at least two. */
 #define SLI_HAS(k) ((k) < 2 || (k) < w)
 #define SLI_DECLARE(k, y) \
@@ -155,9 +149,6 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, co
 }
 
 #else
-/* In plain C, loops that take the width as a variable are as fast as copies. */
-#define SLI_BY_WIDTH(call) call(w)
-
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(small_forward)(sl_int w, const sli_step *s,
                                                       const sl_int *rows, const SLV_VALUE *L,
                                                       double *x, double *buf) {
@@ -318,9 +309,6 @@ SLV_SWEEP(backward_plain)(const sli_step *s, const sli_reach *R, const sl_int **
     return last - (from - xs);
 }
 
-#define SLI_FORWARD(k) SLV_SWEEP(small_forward)(k, s, rows, L, x, buf)
-#define SLI_BACKWARD(k) SLV_SWEEP(small_backward)(k, s, rows, L, D, x)
-
 /* A run of such supernodes from step s on, up to one that is wider. Returns the step
  * after the run and moves next_rows on. A function for runs, because a call for each supernode took
  * 3 % of the time of a solve. */
@@ -335,7 +323,7 @@ SLV_SWEEP(forward_small)(const sli_step *s, const sli_reach *R, const sl_int **n
             s = SLV_SWEEP(forward_plain)(s, R, &rows, L, x);
             continue;
         }
-        SLI_BY_WIDTH(SLI_FORWARD);
+        SLV_SWEEP(small_forward)(w, s, rows, L, x, buf);
         rows += (s++)->below;
     }
     *next_rows = rows;
@@ -356,7 +344,7 @@ SLV_SWEEP(backward_small)(const sli_step *s, const sli_reach *R, const sl_int **
             continue;
         }
         rows -= (--s)->below;
-        SLI_BY_WIDTH(SLI_BACKWARD);
+        SLV_SWEEP(small_backward)(w, s, rows, L, D, x);
     }
     *rows_end = rows;
     return s;
@@ -379,6 +367,3 @@ SLV_SWEEP(backward_small)(const sli_step *s, const sli_reach *R, const sl_int **
 #undef SLI_GET
 #undef SLI_XT
 #undef SLI_ROW
-#undef SLI_FORWARD
-#undef SLI_BACKWARD
-#undef SLI_BY_WIDTH
