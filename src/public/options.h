@@ -14,7 +14,7 @@ typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *
 typedef struct sl_threads {
     sl_int count; /* 0 or 1: the calling thread only */
     /* the caller's thread pool; NULL: SL_PTHREADS or OpenMP if compiled with it, else serial
-     * execution: stats.threads is 1 */
+     * execution: stats.factor.threads is 1 */
     sl_parallel_for run;
     void *context; /* passed to run */
 } sl_threads;
