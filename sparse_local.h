@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 578b57ef39f20359
+ * FNV-1a of the lines after this comment, without the license: 6542d5aba99bd476
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -9,52 +9,52 @@
  *    337 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    515 options.h    options of all calls, threads, and the allocator
  *    632 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    870 csc.h        sparse matrices: creation, checks, products, residuals
- *    963 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1039 factor.h     the numerical factorization P A P' = L D L'
- *   1168 solve.h      full solves, and the workspace of all solves
- *   1264 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1339 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1423 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1504 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1543 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1644 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1723 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1793 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1886 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1992 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2034 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2156 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2301 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2389 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
- *   2502 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
- *   2544 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
- *   2620 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2708 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2771 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2814 impl/ base: the compiler, status, memory, sorting, threads
- *   4116 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5014 impl/ matrix: sparse matrices of the caller and of the library
- *   5693 impl/ ordering: fill-reducing orderings of a graph
- *  10293 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12541 impl/ factor: the numbers of L and D
- *  15134 impl/ solve: full and local solves
- *  16676 impl/ singular: null spaces of semidefinite matrices
- *  17947 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19962 impl/ pivots: the order of the pivots by the values of a matrix
- *  20370 impl/ float: L in single precision
- *  20600 impl/ inverse: entries of the inverse, regions
- *  23516 impl/ change: a factor that follows changes of its matrix
- *  25794 impl/ constraints: rows held at values, on a factor that stays
- *  27102 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  29840 impl/ fixed: rows fixed at given values
- *  30399 impl/ io: files that are replaced only when they are complete
- *  30617 impl/ files: Matrix Market files, 64-bit indices
- *  31163 impl/ save: factors in files
- *  33136 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33822 impl/ complex: complex Hermitian systems over real factors
- *  34327 impl/ packs: the tables through which the core calls packs
- *  34718 impl/ templates: the header includes them from itself, once for each instruction set
+ *    868 csc.h        sparse matrices: creation, checks, products, residuals
+ *    961 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1036 factor.h     the numerical factorization P A P' = L D L'
+ *   1164 solve.h      full solves, and the workspace of all solves
+ *   1260 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1335 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1419 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1500 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1539 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1640 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1719 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1789 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1880 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1983 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2025 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2147 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2292 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2380 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
+ *   2493 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
+ *   2535 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
+ *   2611 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2699 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2762 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2805 impl/ base: the compiler, status, memory, sorting, threads
+ *   4107 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5005 impl/ matrix: sparse matrices of the caller and of the library
+ *   5684 impl/ ordering: fill-reducing orderings of a graph
+ *  10284 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12526 impl/ factor: the numbers of L and D
+ *  15105 impl/ solve: full and local solves
+ *  16647 impl/ singular: null spaces of semidefinite matrices
+ *  17918 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19933 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20341 impl/ float: L in single precision
+ *  20571 impl/ inverse: entries of the inverse, regions
+ *  23481 impl/ change: a factor that follows changes of its matrix
+ *  25759 impl/ constraints: rows held at values, on a factor that stays
+ *  27067 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  29807 impl/ fixed: rows fixed at given values
+ *  30366 impl/ io: files that are replaced only when they are complete
+ *  30584 impl/ files: Matrix Market files, 64-bit indices
+ *  31130 impl/ save: factors in files
+ *  33103 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33789 impl/ complex: complex Hermitian systems over real factors
+ *  34294 impl/ packs: the tables through which the core calls packs
+ *  34685 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -455,7 +455,7 @@ typedef enum sl_method {
 
 /** How a factor keeps L. B, X and the arithmetic of solves are double in any case. Accuracy and
  *  limits: tools/docs/float.md. If SIMD is compiled in, plain C (SL_ISA_SCALAR, processors without
- *  AVX2) has no kernels but those of double: L is then in double, as stats.storage says. */
+ *  AVX2) has no kernels but those of double: L is then in double (stats.factor.storage). */
 typedef enum sl_storage {
     SL_STORAGE_DOUBLE = 0,
     SL_STORAGE_FLOAT,  /* half the bytes of L, its accuracy until refined */
@@ -643,7 +643,7 @@ typedef struct sl_error {
     const char *what;
 } sl_error;
 
-/** An analysis: sl_symbolic_create, _create_pivoted, sl_symbolic_stats. */
+/** An analysis: sl_symbolic_create, _create_pivoted, sl_symbolic_view. */
 typedef struct sl_symbolic_info {
     sl_int n;
     sl_triangle triangle;
@@ -665,7 +665,7 @@ typedef struct sl_symbolic_info {
     size_t bytes;
 } sl_symbolic_info;
 
-/** A factorization: sl_factor_create, sl_factor_refactor, their variants, sl_factor_stats. */
+/** A factorization: sl_factor_create, sl_factor_refactor, their variants, sl_factor_view. */
 typedef struct sl_factor_info {
     sl_int positive;    /* pivots (eigenvalues of 2x2 ones) by sign: the inertia of A */
     sl_int negative;    /* the same */
@@ -678,7 +678,11 @@ typedef struct sl_factor_info {
      * unique, and options.mass does not apply to them */
     sl_int regular;
     sl_isa isa;
-    sl_method method; /* the method that was used */
+    sl_method method;   /* the method that was used */
+    sl_storage storage; /* how L is kept */
+    /* that a factorization is divided among; 1: the matrix is small, or the header was compiled
+     * with neither SL_PTHREADS nor OpenMP and options.threads has no pool */
+    sl_int threads;
     double pivot_min; /* smallest |d|, or magnitude of an eigenvalue of a 2x2 pivot */
     double pivot_max; /* largest */
     double entry_max; /* largest |a| among the entries of A that were read */
@@ -686,6 +690,9 @@ typedef struct sl_factor_info {
      * of the pattern: about 1 to 2 for definite matrices, whatever their scaling. The backward
      * error of a solve without refinement is at most about growth * epsilon (sl_factor_create) */
     double growth;
+    /* of a factorization that was refused with SL_ERR_PIVOT: a pivot (error.value) up to this size
+     * is null; 0: not known */
+    double null_bound;
     /* of schedule and memory in sl_factor_create; 0 below 4000 values of L */
     double seconds_setup;
     double seconds; /* of the numbers */
@@ -714,7 +721,7 @@ typedef struct sl_inverse_info {
     sl_off entries; /* SL_INVERSE_FORWARD: doubles of L that all sweeps together read; else 0 */
 } sl_inverse_info;
 
-/** A selected inverse: sl_selected_create, sl_selected_stats. */
+/** A selected inverse: sl_selected_create, sl_selected_view. */
 typedef struct sl_selected_info {
     sl_int supernodes; /* supernodes whose part of the inverse is kept */
     sl_int columns;    /* their columns */
@@ -723,7 +730,7 @@ typedef struct sl_selected_info {
     size_t bytes;
 } sl_selected_info;
 
-/** A region: sl_region_create, sl_region_refactor, sl_region_stats. */
+/** A region: sl_region_create, sl_region_refactor, sl_region_view. */
 typedef struct sl_region_info {
     sl_int rows;     /* rows of A that a plan in it may use, the boundary included */
     sl_int boundary; /* rows of the boundary */
@@ -754,7 +761,6 @@ typedef struct sl_change_info {
     sl_change_method method; /* the way that was taken */
     sl_change_reason reason; /* why; of sl_factor_change_entries */
     sl_int ranks;            /* rank-one changes that the change consists of; 0: not counted */
-    sl_int padding;          /* not written */
     sl_off entries;          /* doubles of L that rank-one changes read and write */
     sl_off updates;          /* rank-one changes since the last complete factorization */
     /* an estimate of the backward error that they have added: the sum over all passes of epsilon
@@ -775,7 +781,6 @@ typedef struct sl_submatrix_info {
     sl_int computed; /* the others */
     sl_off entries;  /* doubles of L that were copied */
     int is_anew;     /* 1: too few columns to copy: all were analyzed and computed */
-    int padding;     /* not written */
     double seconds;  /* analysis included */
 } sl_submatrix_info;
 
@@ -834,17 +839,10 @@ typedef struct sl_stats {
     sl_change_info change;
     sl_submatrix_info submatrix;
     sl_edit_info edit;
-    sl_off storage; /* sl_storage of the factor; with the group factor */
     sl_reuse_info reuse;
     sl_constraints_info constraints;
     sl_certificate_info certificate;
-    /* of a factorization that was refused with SL_ERR_PIVOT: a pivot (error.value) up to this size
-     * is null; 0: not known */
-    double null_bound;
     sl_fixed_info fixed;
-    /* that a factorization is divided among; 1: the matrix is small, or the header was compiled
-     * with neither SL_PTHREADS nor OpenMP and options.threads has no pool; with the group factor */
-    sl_off threads;
     /* new fields take this space, so that the size of the struct never changes; not written */
     sl_off reserved[40];
 } sl_stats;
@@ -997,9 +995,6 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_c
 /** Releases an analysis. Objects made from it keep it as long as they need it. */
 SL_API void sl_symbolic_free(sl_symbolic *S);
 
-/** Fills the symbolic group of stats. */
-SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
-
 /** Arrays of an analysis; valid as long as the analysis.
  *
  *  Supernode s has columns super_first[s] .. super_first[s+1]-1 of L, stored as one dense panel:
@@ -1014,6 +1009,7 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
  *  Without such a tree n_nodes = 0 and the arrays are NULL (tools/docs/ordering.md).
  */
 typedef struct sl_symbolic_arrays {
+    sl_symbolic_info info;
     sl_int n;
     sl_int n_supers;
     const sl_int *perm;         /* n: perm[k] = row of A that is pivot k */
@@ -1034,6 +1030,7 @@ typedef struct sl_symbolic_arrays {
     const void *reserved[2];    /* NULL; new fields take their place */
 } sl_symbolic_arrays;
 
+/** The arrays and statistics of S; all 0 if S is NULL. */
 SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
 
 /* src/public/factor.h: the numerical factorization P A P' = L D L' */
@@ -1104,9 +1101,6 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A
 /** Releases a factor. */
 SL_API void sl_factor_free(sl_factor *F);
 
-/** Fills the factor group of stats. */
-SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
-
 /** Pivots that a factorization did not take as they came. */
 typedef enum sl_pivot_kind {
     SL_PIVOT_NULL = 0,   /* null ones that were skipped: SL_PIVOTS_SKIP_NULL */
@@ -1154,6 +1148,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor
 
 /** Arrays of a factor; valid as long as the factor. */
 typedef struct sl_factor_arrays {
+    sl_factor_info info; /* of the present numbers, or of the factorization that failed */
     const sl_symbolic *symbolic;
     /* panels, in the layout described at sl_symbolic_arrays; NULL if L is in float or complex */
     const double *L;
@@ -1163,6 +1158,7 @@ typedef struct sl_factor_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_factor_arrays;
 
+/** The arrays and statistics of F; all 0 if F is NULL. */
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
 
 /* src/public/solve.h: full solves, and the workspace of all solves */
@@ -1866,9 +1862,10 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_entries(const sl_selected *Z, double
  *
  *  The panel of supernode supers[k] begins at Z[begin[k]] and has the layout of the panels of L,
  *  described at sl_symbolic_arrays. Unlike there, the diagonal is stored; entries above it within a
- *  tile are unspecified, and padding is 0.
+ *  tile are unspecified, and padding is 0. Cost: O(supernodes kept).
  */
 typedef struct sl_selected_arrays {
+    sl_selected_info info; /* seconds: of the last sl_selected_create or sl_selected_refactor */
     const sl_symbolic *symbolic;
     sl_int count;            /* supernodes */
     const sl_int *supers;    /* count, ascending */
@@ -1877,11 +1874,8 @@ typedef struct sl_selected_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_selected_arrays;
 
+/** The arrays and statistics of Z; all 0 if Z is NULL. */
 SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z);
-
-/** Fills the selected group of stats again; seconds are those of the last sl_selected_create or
- *  sl_selected_refactor. */
-SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats);
 
 /* src/public/region.h: regions, inside which the cost of local solves does not depend on the whole matrix */
 
@@ -1957,11 +1951,9 @@ SL_API SL_WARN_UNUSED sl_status sl_region_refactor(sl_region *R, const sl_factor
 /** Releases a region. */
 SL_API void sl_region_free(sl_region *R);
 
-/** Fills the region group of stats. */
-SL_API void sl_region_stats(const sl_region *R, sl_stats *stats);
-
-/** Arrays of a region; valid as long as the object. */
+/** Arrays of a region; valid as long as the object. Cost: O(subtrees). */
 typedef struct sl_region_arrays {
+    sl_region_info info;
     const sl_symbolic *symbolic;
     sl_int n_roots;
     const sl_int *roots; /* n_roots supernodes, ascending: roots of the interior subtrees */
@@ -1970,6 +1962,7 @@ typedef struct sl_region_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_region_arrays;
 
+/** The arrays and statistics of R; all 0 if R is NULL. */
 SL_API sl_region_arrays sl_region_view(const sl_region *R);
 
 #else
@@ -1981,11 +1974,9 @@ SL_API sl_region_arrays sl_region_view(const sl_region *R);
 #define sl_selected_free(...) sl_selected_free_needs_SL_WITH_INVERSE
 #define sl_selected_entries(...) sl_selected_entries_needs_SL_WITH_INVERSE
 #define sl_selected_view(...) sl_selected_view_needs_SL_WITH_INVERSE
-#define sl_selected_stats(...) sl_selected_stats_needs_SL_WITH_INVERSE
 #define sl_region_create(...) sl_region_create_needs_SL_WITH_INVERSE
 #define sl_region_refactor(...) sl_region_refactor_needs_SL_WITH_INVERSE
 #define sl_region_free(...) sl_region_free_needs_SL_WITH_INVERSE
-#define sl_region_stats(...) sl_region_stats_needs_SL_WITH_INVERSE
 #define sl_region_view(...) sl_region_view_needs_SL_WITH_INVERSE
 #endif
 #if defined(SL_WITH_BATCH)
@@ -2073,7 +2064,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coe
 
 /** Scatters the values of a matrix into an array in the order of the analysis.
  *
- *  values  [out]  stats.symbolic.nnz_a doubles of S (sl_symbolic_stats), valid for S only, 0 where
+ *  values  [out]  stats.symbolic.nnz_a doubles of S (sl_symbolic_view), valid for S only, 0 where
  *                 K has no entry; those of a supernode are contiguous. On error untouched.
  *  K       [in]   n x n with values, any triangle, read as a factorization reads it: rows in any
  *                 order, duplicates summed. Its pattern is a subset of the analyzed one; values may
@@ -12138,17 +12129,11 @@ SLI_INLINE void sli_symbolic_return(const sl_symbolic *S) {
   sl_symbolic_free((sl_symbolic *)S);
 }
 
-SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats) {
-  sli_stats_clear_error(stats);
-  if (S != NULL && stats != NULL) {
-    stats->symbolic = S->stats.symbolic;
-  }
-}
-
 SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S) {
   sl_symbolic_arrays v;
   SLI_CLEAR(v);
   if (S != NULL) {
+    v.info = S->stats.symbolic;
     v.n = S->n;
     v.n_supers = S->n_supers;
     v.perm = S->perm;
@@ -12702,8 +12687,6 @@ typedef struct sli_row_work {
 typedef struct sli_factor_stats {
   sl_error error;
   sl_factor_info factor;
-  double null_bound;
-  sl_off storage, threads;
 } sli_factor_stats;
 
 struct sl_factor {
@@ -14502,8 +14485,8 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
     return sli_refuse(SL_ERR_UNSUPPORTED, "options.isa has no kernels for L in float");
   }
   F->own.front = F->type->front(F->kernels);
-  F->stats.storage = (sl_off)F->type->storage;
-  F->stats.threads = F->schedule.workers;
+  F->stats.factor.storage = F->type->storage;
+  F->stats.factor.threads = F->schedule.workers;
   return SL_OK;
 }
 
@@ -14744,7 +14727,7 @@ SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const 
   sl_int n_done = F->S->n;
   sl_stats found;
   sli_stats_clear_error(&found);
-  F->stats.null_bound = f->bound > 0.0 ? f->bound : 0.0;
+  F->stats.factor.null_bound = f->bound > 0.0 ? f->bound : 0.0;
   if (f->status != SL_OK && f->pivot >= 0) {
     n_done = has_pivots ? n_done : f->pivot;
     (void)sli_fail_at(&found, f->status, F->S->perm[f->pivot], -1, f->value,
@@ -14760,16 +14743,9 @@ SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const 
   F->stats.factor.null += f->status == SL_ERR_PIVOT && !has_pivots;
 }
 
-SLI_NOINLINE static void sli_factor_stats_copy(const sli_factor_stats *from, sl_stats *to) {
-  to->factor = from->factor;
-  to->storage = from->storage;
-  to->threads = from->threads;
-}
-
 static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {
-  sli_factor_stats_copy(&F->stats, stats);
+  stats->factor = F->stats.factor;
   stats->error = F->stats.error;
-  stats->null_bound = F->stats.null_bound;
 }
 
 static void sli_factor_outcome(sl_factor *F, const sl_csc *A, const sli_failure *failure,
@@ -14993,14 +14969,7 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
   return sli_report(stats, status);
 }
 
-/* src/impl/factor/factor_query.h: read access to a factor: statistics, null rows, determinant, L as a matrix */
-
-SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats) {
-  sli_stats_clear_error(stats);
-  if (F != NULL && stats != NULL) {
-    sli_factor_stats_copy(&F->stats, stats);
-  }
-}
+/* src/impl/factor/factor_query.h: read access to a factor: its arrays, null rows, determinant, L as a matrix */
 
 SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, double *sign) {
   double sum = 0.0;
@@ -15106,8 +15075,10 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
 }
 
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
-  sl_factor_arrays v = {NULL, NULL, NULL, NULL, NULL, {NULL, NULL}};
+  sl_factor_arrays v;
+  SLI_CLEAR(v);
   if (F != NULL) {
+    v.info = F->stats.factor;
     v.symbolic = F->S;
     v.L = F->type->storage == SL_STORAGE_DOUBLE ? (const double *)F->values : NULL;
     v.L_float = sli_is_float(F) ? (const float *)F->values : NULL;
@@ -22639,7 +22610,9 @@ SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const
   }
   if (status == SL_OK) {
     Z->seconds = sli_seconds() - started;
-    sl_selected_stats(Z, stats);
+    if (stats != NULL) {
+      stats->selected = sl_selected_view(Z).info;
+    }
     *out = Z;
   } else {
     sl_selected_free(Z);
@@ -22744,20 +22717,15 @@ SL_API sl_status sl_selected_entries(const sl_selected *Z, double *out, const sl
   return sli_report(stats, sli_selected_read(Z, out, rows, columns, count, stats));
 }
 
-SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats) {
-  sli_stats_clear_error(stats);
-  if (Z != NULL && stats != NULL) {
-    stats->selected.supernodes = Z->traversal.forest.count;
-    stats->selected.columns = sli_traversal_count_columns(&Z->traversal);
-    stats->selected.entries = Z->begin[Z->traversal.forest.count];
-    stats->selected.seconds = Z->seconds;
-    stats->selected.bytes = Z->bytes;
-  }
-}
-
 SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z) {
-  sl_selected_arrays v = {NULL, 0, NULL, NULL, NULL, {NULL, NULL}};
+  sl_selected_arrays v;
+  SLI_CLEAR(v);
   if (Z != NULL) {
+    v.info.supernodes = Z->traversal.forest.count;
+    v.info.columns = sli_traversal_count_columns(&Z->traversal);
+    v.info.entries = Z->begin[Z->traversal.forest.count];
+    v.info.seconds = Z->seconds;
+    v.info.bytes = Z->bytes;
     v.symbolic = Z->traversal.S;
     v.count = Z->traversal.forest.count;
     v.supers = Z->traversal.supers;
@@ -23448,7 +23416,9 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
     R->seconds = sli_seconds() - started;
   }
   if (status == SL_OK) {
-    sl_region_stats(R, stats);
+    if (stats != NULL) {
+      stats->region = sl_region_view(R).info;
+    }
     *out = R;
   } else {
     sl_region_free(R);
@@ -23480,27 +23450,22 @@ SL_API void sl_region_free(sl_region *R) {
   }
 }
 
-SL_API void sl_region_stats(const sl_region *R, sl_stats *stats) {
+SL_API sl_region_arrays sl_region_view(const sl_region *R) {
+  sl_region_arrays v;
   sl_int k;
-  sli_stats_clear_error(stats);
-  if (R != NULL && stats != NULL) {
-    stats->region.rows = R->extent.n_rows;
+  SLI_CLEAR(v);
+  if (R != NULL) {
+    v.info.rows = R->extent.n_rows;
     for (k = 0; k < R->extent.n_roots; k++) {
       const sl_int s = R->roots[k], first = R->S->first_descendant[s];
-      stats->region.rows += R->S->super_first[s + 1] - R->S->super_first[first];
+      v.info.rows += R->S->super_first[s + 1] - R->S->super_first[first];
     }
-    stats->region.boundary = R->extent.n_rows;
-    stats->region.subtrees = R->extent.n_roots;
-    stats->region.entries = R->begin[sli_region_chunks(R->extent.n_rows)];
-    stats->region.is_copied = R->is_copied;
-    stats->region.seconds = R->seconds;
-    stats->region.bytes = R->bytes;
-  }
-}
-
-SL_API sl_region_arrays sl_region_view(const sl_region *R) {
-  sl_region_arrays v = {NULL, 0, NULL, 0, NULL, {NULL, NULL}};
-  if (R != NULL) {
+    v.info.boundary = R->extent.n_rows;
+    v.info.subtrees = R->extent.n_roots;
+    v.info.entries = R->begin[sli_region_chunks(R->extent.n_rows)];
+    v.info.is_copied = R->is_copied;
+    v.info.seconds = R->seconds;
+    v.info.bytes = R->bytes;
     v.symbolic = R->S;
     v.n_roots = R->extent.n_roots;
     v.roots = R->extent.roots;
@@ -25274,7 +25239,7 @@ static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
 static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) {
   if (stats != NULL) {
     const sl_factor *F = q->u.F;
-    sli_factor_stats_copy(&F->stats, stats);
+    stats->factor = F->stats.factor;
     SLI_CLEAR(stats->change);
     stats->change.method = q->count > 0 ? SL_CHANGE_UPDATE : SL_CHANGE_NONE;
     stats->change.ranks = q->count;
@@ -29468,7 +29433,9 @@ static sl_status sli_edit_analyze(sl_symbolic **out, sli_edit *e, const sl_optio
     info->seconds_order = ordered - started;
     info->seconds_analyze = sli_seconds() - ordered;
     info->seconds_structure = info->seconds_analyze - info->seconds_tree;
-    sl_symbolic_stats(*out, stats);
+    if (stats != NULL) {
+      stats->symbolic = *info;
+    }
   }
   sli_restriction_free(&j.r, a);
   sli_free(a, j.block);

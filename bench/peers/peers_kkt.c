@@ -121,11 +121,11 @@ static void one_program(bench_run *run, bench_report *report, kkt_kind kind, int
     for (int k = 1; k >= 0; k--) {
         analyze(&c, k);
         bench_must(sl_factor_create(&c.F[k], c.S[k], &system->A, NULL, &system->stats), "factor");
-        sl_symbolic_stats(c.S[k], &system->stats);
+        system->stats.symbolic = sl_symbolic_view(c.S[k]).info;
         solve(&c, k);
         passed &= bench_check_residual(run, system, c.x, c.b, 1, "ours");
     }
-    sl_symbolic_stats(c.S[1], &stats);
+    stats.symbolic = sl_symbolic_view(c.S[1]).info;
     c.ldl = peer_ldl_create(&system->A);
     peer_ldl_factor(c.ldl);
     peer_ldl_solve(c.ldl, c.x, c.b);

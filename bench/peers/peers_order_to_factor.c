@@ -78,7 +78,7 @@ static int check_factors(bench_run *run, comparison *cmp) {
     sl_stats stats;
     bench_random_fill(&rng, cmp->B, n);
     ours_create(cmp, SL_PURPOSE_ONE_FACTOR, &S, &F);
-    sl_symbolic_stats(S, &stats);
+    stats.symbolic = sl_symbolic_view(S).info;
     cmp->one_factor_flops = stats.symbolic.flops;
     bench_must(sl_factor_solve(F, cmp->X, n, cmp->B, n, 1, NULL), "solve");
     sl_factor_free(F);

@@ -150,7 +150,7 @@ static void report_variants(bench_report *report, const bench_system *system,
                          .flops = system->stats.symbolic.flops,
                          .time = samples[c],
                          .baseline = baseline};
-        sl_factor_stats(variants[c].F, &stats);
+        stats.factor = sl_factor_view(variants[c].F).info;
         row.isa = stats.factor.isa;
         row.threads = variants[c].options.threads.count;
         bench_report_row(report, system, &row);

@@ -114,7 +114,7 @@ static void time_full(bench_run *run, bench_report *report, bench_system *system
 static void time_system(bench_run *run, bench_report *report, const bench_system *system) {
     sl_stats full, single;
     bench_system systems[TYPES] = {*system, in_float(system, &single)};
-    sl_factor_stats(system->F, &full);
+    full.factor = sl_factor_view(system->F).info;
     time_vertices(run, report, systems);
     time_patches(run, report, systems);
     time_full(run, report, systems);

@@ -40,9 +40,6 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_c
 /** Releases an analysis. Objects made from it keep it as long as they need it. */
 SL_API void sl_symbolic_free(sl_symbolic *S);
 
-/** Fills the symbolic group of stats. */
-SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
-
 /** Arrays of an analysis; valid as long as the analysis.
  *
  *  Supernode s has columns super_first[s] .. super_first[s+1]-1 of L, stored as one dense panel:
@@ -57,6 +54,7 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
  *  Without such a tree n_nodes = 0 and the arrays are NULL (tools/docs/ordering.md).
  */
 typedef struct sl_symbolic_arrays {
+    sl_symbolic_info info;
     sl_int n;
     sl_int n_supers;
     const sl_int *perm;         /* n: perm[k] = row of A that is pivot k */
@@ -77,6 +75,7 @@ typedef struct sl_symbolic_arrays {
     const void *reserved[2];    /* NULL; new fields take their place */
 } sl_symbolic_arrays;
 
+/** The arrays and statistics of S; all 0 if S is NULL. */
 SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
 
 #endif

@@ -71,9 +71,6 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A
 /** Releases a factor. */
 SL_API void sl_factor_free(sl_factor *F);
 
-/** Fills the factor group of stats. */
-SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
-
 /** Pivots that a factorization did not take as they came. */
 typedef enum sl_pivot_kind {
     SL_PIVOT_NULL = 0,   /* null ones that were skipped: SL_PIVOTS_SKIP_NULL */
@@ -121,6 +118,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor
 
 /** Arrays of a factor; valid as long as the factor. */
 typedef struct sl_factor_arrays {
+    sl_factor_info info; /* of the present numbers, or of the factorization that failed */
     const sl_symbolic *symbolic;
     /* panels, in the layout described at sl_symbolic_arrays; NULL if L is in float or complex */
     const double *L;
@@ -130,6 +128,7 @@ typedef struct sl_factor_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_factor_arrays;
 
+/** The arrays and statistics of F; all 0 if F is NULL. */
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
 
 #endif

@@ -77,11 +77,9 @@ SL_API SL_WARN_UNUSED sl_status sl_region_refactor(sl_region *R, const sl_factor
 /** Releases a region. */
 SL_API void sl_region_free(sl_region *R);
 
-/** Fills the region group of stats. */
-SL_API void sl_region_stats(const sl_region *R, sl_stats *stats);
-
-/** Arrays of a region; valid as long as the object. */
+/** Arrays of a region; valid as long as the object. Cost: O(subtrees). */
 typedef struct sl_region_arrays {
+    sl_region_info info;
     const sl_symbolic *symbolic;
     sl_int n_roots;
     const sl_int *roots; /* n_roots supernodes, ascending: roots of the interior subtrees */
@@ -90,6 +88,7 @@ typedef struct sl_region_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_region_arrays;
 
+/** The arrays and statistics of R; all 0 if R is NULL. */
 SL_API sl_region_arrays sl_region_view(const sl_region *R);
 
 #endif

@@ -79,9 +79,10 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_entries(const sl_selected *Z, double
  *
  *  The panel of supernode supers[k] begins at Z[begin[k]] and has the layout of the panels of L,
  *  described at sl_symbolic_arrays. Unlike there, the diagonal is stored; entries above it within a
- *  tile are unspecified, and padding is 0.
+ *  tile are unspecified, and padding is 0. Cost: O(supernodes kept).
  */
 typedef struct sl_selected_arrays {
+    sl_selected_info info; /* seconds: of the last sl_selected_create or sl_selected_refactor */
     const sl_symbolic *symbolic;
     sl_int count;            /* supernodes */
     const sl_int *supers;    /* count, ascending */
@@ -90,10 +91,7 @@ typedef struct sl_selected_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_selected_arrays;
 
+/** The arrays and statistics of Z; all 0 if Z is NULL. */
 SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z);
-
-/** Fills the selected group of stats again; seconds are those of the last sl_selected_create or
- *  sl_selected_refactor. */
-SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats);
 
 #endif

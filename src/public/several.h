@@ -45,7 +45,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coe
 
 /** Scatters the values of a matrix into an array in the order of the analysis.
  *
- *  values  [out]  stats.symbolic.nnz_a doubles of S (sl_symbolic_stats), valid for S only, 0 where
+ *  values  [out]  stats.symbolic.nnz_a doubles of S (sl_symbolic_view), valid for S only, 0 where
  *                 K has no entry; those of a supernode are contiguous. On error untouched.
  *  K       [in]   n x n with values, any triangle, read as a factorization reads it: rows in any
  *                 order, duplicates summed. Its pattern is a subset of the analyzed one; values may

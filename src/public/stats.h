@@ -16,7 +16,7 @@ typedef struct sl_error {
     const char *what;
 } sl_error;
 
-/** An analysis: sl_symbolic_create, _create_pivoted, sl_symbolic_stats. */
+/** An analysis: sl_symbolic_create, _create_pivoted, sl_symbolic_view. */
 typedef struct sl_symbolic_info {
     sl_int n;
     sl_triangle triangle;
@@ -38,7 +38,7 @@ typedef struct sl_symbolic_info {
     size_t bytes;
 } sl_symbolic_info;
 
-/** A factorization: sl_factor_create, sl_factor_refactor, their variants, sl_factor_stats. */
+/** A factorization: sl_factor_create, sl_factor_refactor, their variants, sl_factor_view. */
 typedef struct sl_factor_info {
     sl_int positive;    /* pivots (eigenvalues of 2x2 ones) by sign: the inertia of A */
     sl_int negative;    /* the same */
@@ -51,7 +51,11 @@ typedef struct sl_factor_info {
      * unique, and options.mass does not apply to them */
     sl_int regular;
     sl_isa isa;
-    sl_method method; /* the method that was used */
+    sl_method method;   /* the method that was used */
+    sl_storage storage; /* how L is kept */
+    /* that a factorization is divided among; 1: the matrix is small, or the header was compiled
+     * with neither SL_PTHREADS nor OpenMP and options.threads has no pool */
+    sl_int threads;
     double pivot_min; /* smallest |d|, or magnitude of an eigenvalue of a 2x2 pivot */
     double pivot_max; /* largest */
     double entry_max; /* largest |a| among the entries of A that were read */
@@ -59,6 +63,9 @@ typedef struct sl_factor_info {
      * of the pattern: about 1 to 2 for definite matrices, whatever their scaling. The backward
      * error of a solve without refinement is at most about growth * epsilon (sl_factor_create) */
     double growth;
+    /* of a factorization that was refused with SL_ERR_PIVOT: a pivot (error.value) up to this size
+     * is null; 0: not known */
+    double null_bound;
     /* of schedule and memory in sl_factor_create; 0 below 4000 values of L */
     double seconds_setup;
     double seconds; /* of the numbers */
@@ -87,7 +94,7 @@ typedef struct sl_inverse_info {
     sl_off entries; /* SL_INVERSE_FORWARD: doubles of L that all sweeps together read; else 0 */
 } sl_inverse_info;
 
-/** A selected inverse: sl_selected_create, sl_selected_stats. */
+/** A selected inverse: sl_selected_create, sl_selected_view. */
 typedef struct sl_selected_info {
     sl_int supernodes; /* supernodes whose part of the inverse is kept */
     sl_int columns;    /* their columns */
@@ -96,7 +103,7 @@ typedef struct sl_selected_info {
     size_t bytes;
 } sl_selected_info;
 
-/** A region: sl_region_create, sl_region_refactor, sl_region_stats. */
+/** A region: sl_region_create, sl_region_refactor, sl_region_view. */
 typedef struct sl_region_info {
     sl_int rows;     /* rows of A that a plan in it may use, the boundary included */
     sl_int boundary; /* rows of the boundary */
@@ -127,7 +134,6 @@ typedef struct sl_change_info {
     sl_change_method method; /* the way that was taken */
     sl_change_reason reason; /* why; of sl_factor_change_entries */
     sl_int ranks;            /* rank-one changes that the change consists of; 0: not counted */
-    sl_int padding;          /* not written */
     sl_off entries;          /* doubles of L that rank-one changes read and write */
     sl_off updates;          /* rank-one changes since the last complete factorization */
     /* an estimate of the backward error that they have added: the sum over all passes of epsilon
@@ -148,7 +154,6 @@ typedef struct sl_submatrix_info {
     sl_int computed; /* the others */
     sl_off entries;  /* doubles of L that were copied */
     int is_anew;     /* 1: too few columns to copy: all were analyzed and computed */
-    int padding;     /* not written */
     double seconds;  /* analysis included */
 } sl_submatrix_info;
 
@@ -207,17 +212,10 @@ typedef struct sl_stats {
     sl_change_info change;
     sl_submatrix_info submatrix;
     sl_edit_info edit;
-    sl_off storage; /* sl_storage of the factor; with the group factor */
     sl_reuse_info reuse;
     sl_constraints_info constraints;
     sl_certificate_info certificate;
-    /* of a factorization that was refused with SL_ERR_PIVOT: a pivot (error.value) up to this size
-     * is null; 0: not known */
-    double null_bound;
     sl_fixed_info fixed;
-    /* that a factorization is divided among; 1: the matrix is small, or the header was compiled
-     * with neither SL_PTHREADS nor OpenMP and options.threads has no pool; with the group factor */
-    sl_off threads;
     /* new fields take this space, so that the size of the struct never changes; not written */
     sl_off reserved[40];
 } sl_stats;

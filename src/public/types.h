@@ -123,7 +123,7 @@ typedef enum sl_method {
 
 /** How a factor keeps L. B, X and the arithmetic of solves are double in any case. Accuracy and
  *  limits: tools/docs/float.md. If SIMD is compiled in, plain C (SL_ISA_SCALAR, processors without
- *  AVX2) has no kernels but those of double: L is then in double, as stats.storage says. */
+ *  AVX2) has no kernels but those of double: L is then in double (stats.factor.storage). */
 typedef enum sl_storage {
     SL_STORAGE_DOUBLE = 0,
     SL_STORAGE_FLOAT,  /* half the bytes of L, its accuracy until refined */

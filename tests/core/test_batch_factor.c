@@ -85,7 +85,7 @@ static void threads_take_whole_factors_and_share_the_rest(void **state) {
         assert_int_equal(stats.factor.positive, y.n);
         size_t bytes = 0;
         for (int k = 0; k < count; k++) {
-            sl_factor_stats(F[k], &single);
+            single.factor = sl_factor_view(F[k]).info;
             bytes += single.factor.bytes;
         }
         assert_int_equal(stats.factor.bytes, bytes);

@@ -67,7 +67,7 @@ static void a_local_refactor_equals_a_full_one(void **state) {
                 SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
                 sl_stats stats;
                 memset(&stats, 0, sizeof stats);
-                sl_factor_stats(F, &stats);
+                stats.factor = sl_factor_view(F).info;
                 for (sl_int count = 1; count <= n; count = 2 * count + gen_below(&seed, 5)) {
                     gen_set(columns, count, n, gen_bits(&seed));
                     scale_columns(&y.M, columns, count, &seed);

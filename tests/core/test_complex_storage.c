@@ -30,7 +30,7 @@ static void check_half(const pair_t *y, sl_isa isa) {
     opt.threads.run = run_backwards;
     opt.threads.context = &calls;
     SL_CHECK(sl_factor_create(&G, y->S, &y->A, &opt, &stats));
-    assert_int_equal(stats.storage, keeps ? SL_STORAGE_COMPLEX : SL_STORAGE_DOUBLE);
+    assert_int_equal(stats.factor.storage, keeps ? SL_STORAGE_COMPLEX : SL_STORAGE_DOUBLE);
     SL_CHECK(sl_factor_refactor(G, &y->A, NULL));
     const size_t n = (size_t)y->n;
     const double *D = sl_factor_view(y->F[1]).D;
@@ -182,7 +182,7 @@ static void check_other_calls(const pair_t *y, sl_isa isa) {
                                          NULL));
         SL_CHECK(sl_complex_logdet(y->F[k], &logdet[k], &sign[k]));
         SL_CHECK(sl_inverse_block(y->F[k], block[k], 4, rows, 4, columns, 2, NULL, NULL));
-        sl_factor_stats(y->F[k], &stats[k]);
+        stats[k].factor = sl_factor_view(y->F[k]).info;
         SL_CHECK(sl_selected_create(&Z, y->F[k], NULL, SL_ALL, NULL, NULL));
         SL_CHECK(sl_selected_entries(Z, diagonal[k], NULL, NULL, y->n, NULL));
         SL_CHECK(sl_factor_rcond(y->F[k], &y->A, &rcond[k], NULL));
@@ -227,19 +227,19 @@ static void memory_is_halved(void **state) {
     (void)state;
     pair_t y = pair_make(GEN_DENSE, 200, 0, SL_ISA_AUTO);
     sl_stats full, half;
-    sl_symbolic_stats(y.S, &full);
+    full.symbolic = sl_symbolic_view(y.S).info;
     half = full;
-    sl_factor_stats(y.F[0], &full);
-    sl_factor_stats(y.F[1], &half);
+    full.factor = sl_factor_view(y.F[0]).info;
+    half.factor = sl_factor_view(y.F[1]).info;
     /* dense: the one panel is needed in double as well while it is factored */
     assert_true((double)half.factor.bytes <
                 (double)full.factor.bytes + 4.1 * (double)full.symbolic.nnz_panels + 4096);
     pair_free(&y);
     y = pair_make(GEN_GRID2, 3000, 0, SL_ISA_AUTO);
-    sl_symbolic_stats(y.S, &full);
+    full.symbolic = sl_symbolic_view(y.S).info;
     half = full;
-    sl_factor_stats(y.F[0], &full);
-    sl_factor_stats(y.F[1], &half);
+    full.factor = sl_factor_view(y.F[0]).info;
+    half.factor = sl_factor_view(y.F[1]).info;
     assert_true((double)half.factor.bytes <
                 (double)full.factor.bytes - 3.0 * (double)full.symbolic.nnz_panels);
     pair_free(&y);
@@ -266,7 +266,7 @@ static void check_restricted(const pair_t *y, sl_isa isa) {
             sl_stats stats;
             SL_CHECK(sl_factor_submatrix(&S, &G, y->F[k], &y->A, rows, count, NULL, &stats));
             assert_true(!is_half || stats.submatrix.kept == 0);
-            assert_int_equal(stats.storage, is_half && (way == FORWARD || n == 0)
+            assert_int_equal(stats.factor.storage, is_half && (way == FORWARD || n == 0)
                                                 ? SL_STORAGE_COMPLEX
                                                 : SL_STORAGE_DOUBLE);
             SL_CHECK(sl_factor_solve(G, x[k], ld, b, ld, 1, NULL));

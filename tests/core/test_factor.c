@@ -20,7 +20,7 @@ static void ldl_reproduces_a_for_every_method_style_and_sign(void **state) {
                     NOTHING_WRONG(check_factor(y.F, &y.M.view));
                     sl_stats stats;
                     memset(&stats, 0, sizeof stats);
-                    sl_factor_stats(y.F, &stats);
+                    stats.factor = sl_factor_view(y.F).info;
                     assert_int_equal(stats.factor.isa, variants.variant[k].isa);
                     assert_int_equal(stats.factor.method, variants.variant[k].method);
                     factored_free(&y);
@@ -183,7 +183,7 @@ static void inertia_and_determinant_are_known(void **state) {
             double log_det = -1, det_sign = 0, wanted_log = 0, wanted_sign = 1, least = INFINITY,
                    most = 0;
             memset(&stats, 0, sizeof stats);
-            sl_factor_stats(y.F, &stats);
+            stats.factor = sl_factor_view(y.F).info;
             SL_CHECK(sl_factor_logdet(y.F, &log_det, &det_sign));
             for (sl_int k = 0; k < n; k++) {
                 double d = sl_factor_view(y.F).D[k];
@@ -331,7 +331,7 @@ static void the_default_instruction_set_is_the_best(void **state) {
     factored_t y = factored_make(GEN_GRID2, 49, 1, 0, NULL);
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
-    sl_factor_stats(y.F, &stats);
+    stats.factor = sl_factor_view(y.F).info;
     assert_int_equal(stats.factor.isa, isas.isa[isas.count - 1]);
     print_message("instruction sets:");
     for (int k = 0; k < isas.count; k++) {

@@ -62,7 +62,6 @@ static void objects_free(objects_t *o, int which) {
 static void objects_use(const objects_t *o, const double *b, const double *x, const double *held) {
     const double g = 2.0;
     double y[N];
-    sl_stats stats;
     if (o->F != NULL) {
         SL_CHECK(sl_factor_solve(o->F, y, N, b, N, 1, NULL));
         assert_memory_equal(y, x, sizeof y);
@@ -74,9 +73,9 @@ static void objects_use(const objects_t *o, const double *b, const double *x, co
         SL_CHECK(sl_constraints_solve(o->pins, NULL, y, N, b, N, &g, 1, 1, NULL));
         assert_memory_equal(y, held, sizeof y);
     }
-    sl_region_stats(o->R, &stats);
-    sl_selected_stats(o->Z, &stats);
-    sl_symbolic_stats(o->S, &stats);
+    (void)sl_region_view(o->R);
+    (void)sl_selected_view(o->Z);
+    (void)sl_symbolic_view(o->S);
 }
 
 static void every_order_of_frees(void **state) {

@@ -129,7 +129,7 @@ static void what_long_double_solves_is_not_refused(void **state) {
         if (error_in_long_double(block, m) <= 1e-8) {
             const sl_status status = factor_and_solve(&A, &opt, &stats);
             assert_true(status == SL_OK || (status == SL_ERR_PIVOT && !is_definite &&
-                                            fabs(stats.error.value) <= stats.null_bound));
+                                            fabs(stats.error.value) <= stats.factor.null_bound));
             solved += status == SL_OK;
             refused += status == SL_ERR_PIVOT;
         }

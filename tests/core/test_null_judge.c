@@ -47,7 +47,7 @@ static void a_stiff_smoother_is_kept(void **state) {
             /* a tolerance of the caller's is not judged */
             opt.null_tolerance = 1e-11;
             SL_EXPECT(SL_ERR_PIVOT, factor_and_solve(&M, &opt, &stats));
-            assert_true(stats.null_bound >= fabs(stats.error.value));
+            assert_true(stats.factor.null_bound >= fabs(stats.error.value));
         }
     }
     gen_matrix_free(&M);
@@ -73,7 +73,7 @@ static void without_memory_a_small_pivot_is_refused(void **state) {
             counter.fail_at = (int64_t)counter.calls + k;
             status = sl_factor_refactor(F, &A.view, &stats);
             assert_true(status == SL_OK || strstr(stats.error.what, "no memory") != NULL);
-            assert_true(status == SL_OK || stats.null_bound == 0.0);
+            assert_true(status == SL_OK || stats.factor.null_bound == 0.0);
             failed += status == SL_ERR_PIVOT;
         }
         assert_int_equal(status, SL_OK);

@@ -83,7 +83,7 @@ static void a_failure_after_a_small_pivot_is_that_of_the_pivot(void **state) {
         SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &A.view, FOR_FACTOR(&opt), &stats));
         assert_in_range(stats.error.row, 1, 2);
         assert_true(stats.error.row == 2 ? stats.error.value == 0.0 : stats.error.value == d);
-        assert_true(stats.null_bound > 0.0);
+        assert_true(stats.factor.null_bound > 0.0);
         sl_symbolic_free(S);
         gen_matrix_free(&A);
     }
@@ -177,13 +177,14 @@ static void a_refusal_says_what_helps(void **state) {
     opt.null_tolerance = 1e-6;
     SL_EXPECT(SL_ERR_PIVOT, factor_and_solve(&C, &opt, &stats));
     assert_true(strstr(stats.error.what, "null_tolerance") != NULL);
-    assert_true(stats.null_bound > 1e-6 && stats.null_bound < 3e-6);
+    assert_true(stats.factor.null_bound > 1e-6 && stats.factor.null_bound < 3e-6);
     /* a pivot that is negative beyond rounding in a matrix that should be semidefinite */
     opt.null_tolerance = 0.0;
     opt.pivots = SL_PIVOTS_SKIP_NULL;
     SL_EXPECT(SL_ERR_PIVOT, factor_and_solve(&C, &opt, &stats));
     assert_true(strstr(stats.error.what, "wrong sign") != NULL);
-    assert_true(stats.error.value < 0.0 && stats.null_bound > 0.0 && stats.null_bound < 1e-12);
+    assert_true(stats.error.value < 0.0 && stats.factor.null_bound > 0.0 &&
+                stats.factor.null_bound < 1e-12);
     gen_matrix_free(&A);
     gen_matrix_free(&B);
     gen_matrix_free(&C);

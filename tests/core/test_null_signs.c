@@ -26,7 +26,7 @@ static void a_sign_within_its_error_is_refused(void **state) {
         gen_matrix_t A = path_of_pivots(-4.0);
         SL_EXPECT(SL_ERR_PIVOT, factor_and_solve(&A, &opt, &stats));
         assert_int_equal(stats.error.row, 2);
-        assert_true(stats.error.value < 0.0 && -stats.error.value <= stats.null_bound);
+        assert_true(stats.error.value < 0.0 && -stats.error.value <= stats.factor.null_bound);
         gen_matrix_free(&A);
         A = path_of_pivots(-100.0); /* indefinite */
         SL_EXPECT(k % 2 ? SL_ERR_PIVOT : SL_OK, factor_and_solve(&A, &opt, &stats));

@@ -50,7 +50,7 @@ static void columns_are_kept_apart(void **state) {
         SL_CHECK(sl_symbolic_create(&S, &M.view, FOR_ANALYSIS(&opt), &stats));
         assert_true((double)stats.symbolic.nnz_panels <= 1.3 * (double)stats.symbolic.nnz_l);
         SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
-        if (stats.storage == SL_STORAGE_DOUBLE) {
+        if (stats.factor.storage == SL_STORAGE_DOUBLE) {
             NOTHING_WRONG(check_factor(F, &M.view));
         }
         SL_CHECK(sl_work_create(&W, NULL));

@@ -153,7 +153,7 @@ static void the_reach_of_all_rows_is_the_whole_factor(void **state) {
     sl_plan *P = NULL;
     memset(&stats, 0, sizeof stats);
     memset(&all, 0, sizeof all);
-    sl_symbolic_stats(y.S, &all);
+    all.symbolic = sl_symbolic_view(y.S).info;
     SL_CHECK(sl_plan_create(&P, y.S, NULL, SL_ALL, NULL, SL_ALL, NULL, &stats));
     assert_int_equal(stats.plan.b_columns, 400);
     assert_int_equal(stats.plan.x_columns, 400);

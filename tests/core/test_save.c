@@ -5,8 +5,8 @@ static void assert_same_factor_stats(const sl_factor *F, const sl_factor *G) {
     sl_stats a, b;
     memset(&a, 0, sizeof a);
     memset(&b, 0, sizeof b);
-    sl_factor_stats(F, &a);
-    sl_factor_stats(G, &b);
+    a.factor = sl_factor_view(F).info;
+    b.factor = sl_factor_view(G).info;
     assert_true(b.factor.bytes > 0);
     a.factor.seconds = a.factor.seconds_setup = 0;
     b.factor.seconds = b.factor.seconds_setup = 0;
@@ -94,8 +94,8 @@ static void every_way_has_what_it_stands_for(void **state) {
     for (int way = 0; way < SAVED_WAYS; way++) {
         saved_case_t c = saved_case_make(way, GEN_GRID2, 144, 0, NULL);
         sl_stats stats;
-        sl_symbolic_stats(c.y.S, &stats);
-        sl_factor_stats(c.y.F, &stats);
+        stats.symbolic = sl_symbolic_view(c.y.S).info;
+        stats.factor = sl_factor_view(c.y.F).info;
         const int is_pivoted = way == SAVED_PIVOTED || way == SAVED_PIVOTED_REGULARIZED;
         const int skips = way == SAVED_SKIPPED || way == SAVED_WEIGHTED || way == SAVED_VECTORS;
         assert_true((stats.symbolic.pairs > 10) == is_pivoted);

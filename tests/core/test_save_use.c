@@ -138,7 +138,7 @@ static void batches_refactor_loaded_factors(void **state) {
     sl_symbolic *S = NULL;
     sl_factor *F[2] = {NULL, NULL}, *G[2] = {NULL, NULL};
     sl_stats stats;
-    sl_symbolic_stats(y.S, &stats);
+    stats.symbolic = sl_symbolic_view(y.S).info;
     double *values = test_reals((size_t)stats.symbolic.nnz_a);
     const double *const arrays[1] = {values};
     const double coefficients[2] = {1, 2};

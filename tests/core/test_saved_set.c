@@ -104,7 +104,7 @@ static void a_set_answers_with_the_same_bits(void **state) {
                 saved_t m = set_save(set_of(&q));
                 for (sl_int k = 0; k < q.set.n_regions; k++) {
                     sl_stats stats;
-                    sl_region_stats(q.regions[k], &stats);
+                    stats.region = sl_region_view(q.regions[k]).info;
                     with_subtrees += stats.region.subtrees > 0 && stats.region.boundary > 0;
                     copied += stats.region.is_copied && stats.region.boundary > 0;
                 }

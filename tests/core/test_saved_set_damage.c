@@ -36,7 +36,6 @@ static void use(const sl_saved_set *set, const sl_csc *A) {
     const sl_int n = sl_symbolic_view(set->symbolic).n, row = n / 2;
     double *x = test_reals((size_t)n + 1);
     sl_region *R = NULL;
-    sl_stats stats;
     size_t size = 0;
     const sl_status status = sl_save(NULL, NULL, &size, set, NULL);
     assert_true(status == SL_OK || status == SL_ERR_MISMATCH); /* as if of a later version */
@@ -44,7 +43,7 @@ static void use(const sl_saved_set *set, const sl_csc *A) {
     SL_EXPECT(status, sl_save(NULL, again.bytes, &size, set, NULL));
     saved_free(&again);
     for (sl_int k = 0; k < set->n_regions; k++) {
-        sl_region_stats(set->regions[k], &stats);
+        (void)sl_region_view(set->regions[k]);
         use_region(set, set->regions[k]);
     }
     if (set->factor != NULL) {
@@ -52,7 +51,7 @@ static void use(const sl_saved_set *set, const sl_csc *A) {
         (void)(sl_factor_refactor(set->factor, A, NULL) == SL_OK);
     }
     if (set->selected != NULL) {
-        sl_selected_stats(set->selected, &stats);
+        (void)sl_selected_view(set->selected);
         for (sl_int k = 0; k < n; k++) {
             (void)(sl_selected_entries(set->selected, x, &k, NULL, 1, NULL) == SL_OK);
             (void)(sl_selected_entries(set->selected, x, &k, &row, 1, NULL) == SL_OK);

@@ -96,7 +96,7 @@ static void short_columns_are_right(void **state) {
         opt.relaxation = k % 2 ? SL_RELAXATION_NONE : SL_RELAXATION_DEFAULT;
         SL_CHECK(sl_symbolic_create(&S, &M.view, FOR_ANALYSIS(&opt), NULL));
         SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
-        if (stats.storage == SL_STORAGE_DOUBLE) {
+        if (stats.factor.storage == SL_STORAGE_DOUBLE) {
             NOTHING_WRONG(check_factor(F, &M.view));
         }
         SL_CHECK(sl_work_create(&W, NULL));

@@ -51,9 +51,9 @@ static void plain_c_keeps_double_beside_simd(void **state) {
             sl_stats stats;
             opt.storage = SL_STORAGE_FLOAT;
             SL_CHECK(sl_factor_create(&G, y.S, &y.M.view, &opt, &stats));
-            assert_int_equal(stats.storage, kept);
-            sl_factor_stats(G, &stats);
-            assert_int_equal(stats.storage, kept);
+            assert_int_equal(stats.factor.storage, kept);
+            stats.factor = sl_factor_view(G).info;
+            assert_int_equal(stats.factor.storage, kept);
             assert_int_equal(sl_factor_view(G).L_float == NULL, kept == SL_STORAGE_DOUBLE);
             if (kept == SL_STORAGE_DOUBLE) {
                 assert_same_bits(y.F, G);

@@ -364,7 +364,7 @@ static void any_storage_and_several_null_vectors_are_restricted(void **state) {
         const size_t n = (size_t)t.count;
         double *b = test_reals(n), *x = test_reals(n), *r = test_reals(n), error;
         assert_int_equal(t.stats.submatrix.is_anew, 1);
-        assert_int_equal(t.stats.storage, storages[kind]);
+        assert_int_equal(t.stats.factor.storage, storages[kind]);
         gen_reals(b, n, 3);
         SL_CHECK(sl_factor_solve(t.G, x, n, b, n, 1, NULL));
         SL_CHECK(sl_csc_residual(&t.B.view, r, n, &error, x, n, b, n, 1));

@@ -47,7 +47,7 @@ static void check_all(const sl_csc *A, const sl_options *opt) {
     sl_stats again;
     memset(&again, 0, sizeof again);
     again.factor.positive = 77; /* another group: not touched */
-    sl_symbolic_stats(S, &again);
+    again.symbolic = sl_symbolic_view(S).info;
     assert_int_equal(again.symbolic.nnz_l, nnz);
     assert_int_equal(again.symbolic.nnz_a, stats.symbolic.nnz_a);
     assert_int_equal(again.symbolic.triangle, stats.symbolic.triangle);

@@ -35,7 +35,7 @@ static void query(case_t *c, const sl_factor *F, sl_work *W) {
     if (c->part == CONDITION) {
         PROMISE(sl_factor_rcond(F, &c->A, &rcond, W) == SL_OK && rcond >= 0.0);
     } else if (c->part == DEFECTS) {
-        sl_factor_stats(F, &stats);
+        stats.factor = sl_factor_view(F).info;
         PROMISE(sl_factor_pivot_rows(F, SL_PIVOT_NULL, NULL, NULL, 0, &count) == SL_OK &&
                 count == stats.factor.null);
         PROMISE(sl_factor_pivot_rows(F, SL_PIVOT_REGULARIZED, NULL, NULL, 0, &count) == SL_OK);

@@ -115,7 +115,7 @@ static void combine(input_t *in) {
     take_values(in, s, DOMINANT, &v);
     const sl_csc A = view(s, v.x);
     sl_stats stats;
-    sl_symbolic_stats(s->S, &stats);
+    stats.symbolic = sl_symbolic_view(s->S).info;
     PROMISE(stats.symbolic.nnz_a == s->p[s->n]);
     if (no_memory(sl_symbolic_scatter(s->S, scattered, &A, NULL))) {
         return;

@@ -96,7 +96,7 @@ static void create_region(input_t *in) {
         PROMISE(is_apart(status));
     } else { /* with pivots of both signs solves in it could lose digits */
         sl_stats stats;
-        sl_factor_stats(f->F, &stats);
+        stats.factor = sl_factor_view(f->F).info;
         PROMISE(status == SL_OK || (z && is_apart(status)) ||
                 (status == SL_ERR_INACCURATE && stats.factor.positive > 0 &&
                  stats.factor.negative > 0));

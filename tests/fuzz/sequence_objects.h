@@ -142,7 +142,7 @@ static void look_into(input_t *in) {
     PROMISE(status == expected || no_memory(status));
     PROMISE(sl_factor_pivot_rows(f->F, SL_PIVOT_REGULARIZED, NULL, NULL, 0, &count) == expected);
     PROMISE(count == (f->is_valid ? 0 : -1));
-    sl_symbolic_stats(analyses[f->analysis].S, &stats);
+    stats.symbolic = sl_symbolic_view(analyses[f->analysis].S).info;
     PROMISE(stats.symbolic.n == n && stats.symbolic.supernodes == s.n_supers);
     for (int k = 0; k < PLANS; k++) {
         sl_plan_stats(plans[k].P, &stats);
@@ -175,7 +175,7 @@ static void select_pairs(input_t *in) {
     sl_int rows[MOST], columns[MOST], count = 0;
     double out[MOST], one[1];
     sl_stats stats;
-    sl_selected_stats(z->Z, &stats);
+    stats.selected = sl_selected_view(z->Z).info;
     const sl_selected_arrays v = sl_selected_view(z->Z);
     PROMISE(v.symbolic == analyses[z->analysis].S);
     for (sl_int i = 0; i < n; i++) {
@@ -221,7 +221,7 @@ static void reserve_others(input_t *in) {
         const factor_t *f = &factors[r->factor];
         const sl_region_arrays v = sl_region_view(r->R);
         sl_stats stats;
-        sl_region_stats(r->R, &stats);
+        stats.region = sl_region_view(r->R).info;
         PROMISE(v.symbolic == analyses[r->analysis].S && v.n_boundary == stats.region.boundary);
         if (f->F && f->is_valid && f->analysis == r->analysis &&
             memcmp(f->v.a, r->a, sizeof r->a) == 0 && !f->has_mass) {

@@ -16,7 +16,7 @@ static unsigned char *aligned_room(size_t bytes, unsigned char **block) {
 static sl_options load_options(const factor_t *f) {
     sl_options opt = options();
     sl_stats stats;
-    sl_factor_stats(f->F, &stats);
+    stats.factor = sl_factor_view(f->F).info;
     opt.isa = stats.factor.isa;
     return opt;
 }

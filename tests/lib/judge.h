@@ -82,7 +82,7 @@ static inline int judge_is_told(const sl_stats *stats) {
 
 /* The backward error that L alone allows: 1e-8, or that of float. */
 static inline double judge_limit(const sl_stats *stats) {
-    return stats->storage == SL_STORAGE_FLOAT ? 1e-4 * fmax(stats->factor.growth, 1.0)
+    return stats->factor.storage == SL_STORAGE_FLOAT ? 1e-4 * fmax(stats->factor.growth, 1.0)
                                               : JUDGE_LIMIT;
 }
 

@@ -225,7 +225,7 @@ static inline void judge_way_change(judge_t *t) {
                     count--;
                     *judge_entry(&M, rows[count], columns[count]) = before[count];
                 }
-                sl_factor_stats(F, &stats);
+                stats.factor = sl_factor_view(F).info;
                 status = SL_OK;
             }
         } else if (kind == 1) {
@@ -240,7 +240,7 @@ static inline void judge_way_change(judge_t *t) {
     if (F != NULL && judge_succeeded(t, status, "change")) {
         sl_int *of = judge_components(&M.view);
         sl_stats now;
-        sl_factor_stats(F, &now);
+        now.factor = sl_factor_view(F).info;
         double *b = test_reals(t->n), *x = test_reals(t->n), *z = test_reals(t->n);
         gen_reals(z, t->n, t->seed);
         if (t->y->skips) {

@@ -102,8 +102,8 @@ static inline void assert_same_selected(const sl_selected *Z, const sl_selected 
         SL_EXPECT(status, sl_selected_entries(Y, q, &k, NULL, 1, NULL));
         assert_true(status == SL_ERR_OTHER_PATTERN || memcmp(p, q, sizeof *p) == 0);
     }
-    sl_selected_stats(Z, &a);
-    sl_selected_stats(Y, &b);
+    a.selected = sl_selected_view(Z).info;
+    b.selected = sl_selected_view(Y).info;
     assert_int_equal(a.selected.columns, b.selected.columns);
     assert_true(a.selected.entries == b.selected.entries && b.selected.bytes > 0);
     free(p);
@@ -123,8 +123,8 @@ static inline void assert_same_region(const sl_region *R, const sl_factor *F, co
     assert_memory_equal(r.roots, q.roots, (size_t)r.n_roots * sizeof *r.roots);
     assert_int_equal(r.n_boundary, q.n_boundary);
     assert_memory_equal(r.boundary, q.boundary, (size_t)r.n_boundary * sizeof *r.boundary);
-    sl_region_stats(R, &a);
-    sl_region_stats(Q, &b);
+    a.region = sl_region_view(R).info;
+    b.region = sl_region_view(Q).info;
     a.region.seconds = b.region.seconds = 0; /* is not saved */
     a.region.bytes = b.region.bytes;         /* of the factor in memory: Z as well */
     assert_memory_equal(&a.region, &b.region, sizeof a.region);

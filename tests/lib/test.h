@@ -52,7 +52,7 @@ static inline void test_status(sl_status got, sl_status wanted, const char *call
 /* Doubles of an array of values in the order of an analysis. */
 static inline sl_int scatter_length(const sl_symbolic *S) {
     sl_stats stats;
-    sl_symbolic_stats(S, &stats);
+    stats.symbolic = sl_symbolic_view(S).info;
     return (sl_int)stats.symbolic.nnz_a;
 }
 

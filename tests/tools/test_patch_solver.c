@@ -174,7 +174,7 @@ static void the_share_of_the_factor_read_falls_with_the_mesh(void **state) {
         disk_patch d = grown_disk(&w, (side / 2) * side + side / 2, 300);
         patch_solver s = patch_solver_of(&w, &d.p);
         sl_stats all;
-        sl_symbolic_stats(w.S, &all);
+        all.symbolic = sl_symbolic_view(w.S).info;
         assert_int_equal(d.p.m.n_vertices, 300);
         double share = (double)s.stats.plan.x_entries / (double)all.symbolic.nnz_panels;
         print_message("%d x %d: %.3f of the factor\n", (int)side, (int)side, share);

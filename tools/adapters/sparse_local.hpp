@@ -330,9 +330,7 @@ public:
         return sl_symbolic_view(get());
     }
     sl_symbolic_info info() const {
-        sl_stats stats = sl_stats();
-        if (get()) sl_symbolic_stats(get(), &stats);
-        return stats.symbolic;
+        return sl_symbolic_view(get()).info;
     }
 };
 
@@ -448,9 +446,7 @@ public:
         return sl_factor_view(get());
     }
     sl_factor_info info() const {
-        sl_stats stats = sl_stats();
-        if (get()) sl_factor_stats(get(), &stats);
-        return stats.factor;
+        return sl_factor_view(get()).info;
     }
 
 private:
@@ -501,9 +497,7 @@ public:
             sl_region_refactor(get(), F.get(), Z ? Z->get() : nullptr, work_of(work)));
     }
     sl_region_info info() const {
-        sl_stats stats = sl_stats();
-        if (get()) sl_region_stats(get(), &stats);
-        return stats.region;
+        return sl_region_view(get()).info;
     }
 };
 

@@ -444,9 +444,7 @@ class LocalRegion {
         return bool(holder_);
     }
     sl_region_info stats() const {
-        sl_stats stats = sl_stats();
-        if (holder_) sl_region_stats(holder_->region, &stats);
-        return stats.region;
+        return sl_region_view(holder_ ? holder_->region : nullptr).info;
     }
 
   private:

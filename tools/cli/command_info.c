@@ -106,25 +106,25 @@ static void print_saved(const char *path) {
     sl_stats s;
     memset(&s, 0, sizeof s);
     app_must(sl_load(&set, path, NULL, 0, SL_LOAD_VERIFIED, NULL), path, NULL);
-    sl_symbolic_stats(set.symbolic, &s);
+    s.symbolic = sl_symbolic_view(set.symbolic).info;
     printf("%s\n", path);
     printf("matrix               %12d   rows, %lld entries of the lower triangle\n",
            (int)s.symbolic.n, (long long)s.symbolic.nnz_a);
     print_analysis(set.symbolic, &s);
     if (set.factor != NULL) {
-        sl_factor_stats(set.factor, &s);
+        s.factor = sl_factor_view(set.factor).info;
         print_factor(&s);
         printf("signs of the pivots  %12d   positive, %d negative, %d null, %d regularized\n",
                (int)s.factor.positive, (int)s.factor.negative, (int)s.factor.null,
                (int)s.factor.regularized);
     }
     if (set.selected != NULL) {
-        sl_selected_stats(set.selected, &s);
+        s.selected = sl_selected_view(set.selected).info;
         printf("selected inverse     %12d   columns, %lld entries\n", (int)s.selected.columns,
                (long long)s.selected.entries);
     }
     for (sl_int k = 0; k < set.n_regions; k++) {
-        sl_region_stats(set.regions[k], &s);
+        s.region = sl_region_view(set.regions[k]).info;
         printf("region               %12d   rows, %d of them on its boundary\n", (int)s.region.rows,
                (int)s.region.boundary);
     }

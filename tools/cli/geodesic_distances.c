@@ -51,7 +51,7 @@ static void prepare_patch(geodesic_command *cmd, heat_patch *patch) {
     double seconds = app_now() - began;
     if (cmd->region) {
         app_print_region("region (L)", &patch->poisson.stats, patch->poisson.stats.region.seconds);
-        sl_region_stats(patch->heat_region, &stats);
+        stats.region = sl_region_view(patch->heat_region).info;
         app_print_region("region (M)", &stats, stats.region.seconds);
     }
     printf("prepared   %d vertices around the sources: plans%s in %.3f ms\n", (int)patch->b.n,
@@ -87,7 +87,7 @@ void geodesic_distances(geodesic_command *cmd) {
     prepare_patch(cmd, &patch);
     double seconds = best_distance(&f, cmd, &patch), farthest = 0;
     heat_patch_free(&patch);
-    sl_symbolic_stats(cmd->s.S, &all);
+    all.symbolic = sl_symbolic_view(cmd->s.S).info;
     if (!cmd->raw) {
         path_check check;
         app_stage("comparing with paths");

@@ -99,8 +99,8 @@ static void open_saved(heat_system *h, mesh *m, const char *path) {
     set.factor = NULL;
     set.selected = NULL;
     sl_saved_set_free(&set);
-    sl_symbolic_stats(h->S, &h->stats);
-    sl_factor_stats(h->F, &h->stats);
+    h->stats.symbolic = sl_symbolic_view(h->S).info;
+    h->stats.factor = sl_factor_view(h->F).info;
     h->stats.error.row = -1;
     h->n = m->n_vertices = h->stats.symbolic.n;
     h->t = NAN;

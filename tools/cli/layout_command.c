@@ -139,7 +139,7 @@ void layout_command_open(layout_command *job, const char *operand) {
     factor_mesh(job);
     plan_patch(job);
     sl_stats all;
-    sl_symbolic_stats(job->S, &all);
+    all.symbolic = sl_symbolic_view(job->S).info;
     printf("mesh       %d vertices, %d faces; Laplacian factored in %.1f ms\n",
            (int)job->m.n_vertices, (int)job->m.n_faces, 1e3 * job->seconds_factor);
     printf("patch      %d vertices, %d faces, %d on its boundary, %d with neighbors outside\n",

@@ -95,7 +95,7 @@ void accuracy_warn(const accuracy_faces *faces, const sl_factor *F, const sl_csc
         condition = condition_of(F, A);
     }
     if (F != NULL) {
-        sl_factor_stats(F, &stats);
+        stats.factor = sl_factor_view(F).info;
     }
     if (A == NULL && stats.factor.pivot_min > 0) { /* a lower bound for definite matrices */
         condition = stats.factor.pivot_max / stats.factor.pivot_min;

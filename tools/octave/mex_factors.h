@@ -133,8 +133,8 @@ static sl_status info(call *c) {
     double values[COUNT];
     int k = 0;
     memset(&s, 0, sizeof s);
-    sl_symbolic_stats(f->symbolic, &s);
-    sl_factor_stats(f->factor, &s);
+    s.symbolic = sl_symbolic_view(f->symbolic).info;
+    s.factor = sl_factor_view(f->factor).info;
     values[k++] = s.symbolic.n;
     values[k++] = (double)s.symbolic.nnz_l;
     values[k++] = s.symbolic.flops;

@@ -160,8 +160,8 @@ sl_status web_refactor(sl_factor *F, sl_int n, const sl_int *p, const sl_int *i,
  *  pivots above and below 0, null ones, and the growth. */
 WEB_EXPORT(web_factor_stats) const double *web_factor_stats(const sl_factor *F) {
     static double number[9];
-    sl_symbolic_stats(sl_factor_view(F).symbolic, &stats);
-    sl_factor_stats(F, &stats);
+    stats.symbolic = sl_symbolic_view(sl_factor_view(F).symbolic).info;
+    stats.factor = sl_factor_view(F).info;
     number[0] = (double)stats.symbolic.nnz_l;
     number[1] = (double)stats.symbolic.nnz_panels;
     number[2] = stats.symbolic.supernodes;

@@ -162,17 +162,11 @@ SLI_INLINE void sli_symbolic_return(const sl_symbolic *S) {
     sl_symbolic_free((sl_symbolic *)S);
 }
 
-SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats) {
-    sli_stats_clear_error(stats);
-    if (S != NULL && stats != NULL) {
-        stats->symbolic = S->stats.symbolic;
-    }
-}
-
 SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S) {
     sl_symbolic_arrays v;
     SLI_CLEAR(v);
     if (S != NULL) {
+        v.info = S->stats.symbolic;
         v.n = S->n;
         v.n_supers = S->n_supers;
         v.perm = S->perm;

@@ -272,7 +272,7 @@ static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
 static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) {
     if (stats != NULL) {
         const sl_factor *F = q->u.F;
-        sli_factor_stats_copy(&F->stats, stats);
+        stats->factor = F->stats.factor;
         SLI_CLEAR(stats->change);
         stats->change.method = q->count > 0 ? SL_CHANGE_UPDATE : SL_CHANGE_NONE;
         stats->change.ranks = q->count;

@@ -92,7 +92,9 @@ static sl_status sli_edit_analyze(sl_symbolic **out, sli_edit *e, const sl_optio
         info->seconds_order = ordered - started;
         info->seconds_analyze = sli_seconds() - ordered;
         info->seconds_structure = info->seconds_analyze - info->seconds_tree;
-        sl_symbolic_stats(*out, stats);
+        if (stats != NULL) {
+            stats->symbolic = *info;
+        }
     }
     sli_restriction_free(&j.r, a);
     sli_free(a, j.block);

@@ -88,7 +88,7 @@ SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const 
     sl_int n_done = F->S->n; /* pivots before the failure */
     sl_stats found;
     sli_stats_clear_error(&found);
-    F->stats.null_bound = f->bound > 0.0 ? f->bound : 0.0;
+    F->stats.factor.null_bound = f->bound > 0.0 ? f->bound : 0.0;
     if (f->status != SL_OK && f->pivot >= 0) {
         n_done = has_pivots ? n_done : f->pivot;
         (void)sli_fail_at(&found, f->status, F->S->perm[f->pivot], -1, f->value,
@@ -104,16 +104,9 @@ SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const 
     F->stats.factor.null += f->status == SL_ERR_PIVOT && !has_pivots;
 }
 
-SLI_NOINLINE static void sli_factor_stats_copy(const sli_factor_stats *from, sl_stats *to) {
-    to->factor = from->factor;
-    to->storage = from->storage;
-    to->threads = from->threads;
-}
-
 static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {
-    sli_factor_stats_copy(&F->stats, stats);
+    stats->factor = F->stats.factor;
     stats->error = F->stats.error;
-    stats->null_bound = F->stats.null_bound;
 }
 
 /* Reports the pivots or a failure. Without all pivots there is no growth. */

@@ -1,17 +1,10 @@
-/* factor_query.h: read access to a factor: statistics, null rows, determinant, L as a matrix */
+/* factor_query.h: read access to a factor: its arrays, null rows, determinant, L as a matrix */
 #ifndef SLI_FACTOR_FACTOR_QUERY_H
 #define SLI_FACTOR_FACTOR_QUERY_H
 
 #include "factor.h"
 #include "pivot_check.h"
 #include "storage_type.h"
-
-SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats) {
-    sli_stats_clear_error(stats);
-    if (F != NULL && stats != NULL) {
-        sli_factor_stats_copy(&F->stats, stats);
-    }
-}
 
 SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, double *sign) {
     double sum = 0.0;
@@ -119,8 +112,10 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
 }
 
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
-    sl_factor_arrays v = {NULL, NULL, NULL, NULL, NULL, {NULL, NULL}};
+    sl_factor_arrays v;
+    SLI_CLEAR(v);
     if (F != NULL) {
+        v.info = F->stats.factor;
         v.symbolic = F->S;
         v.L = F->type->storage == SL_STORAGE_DOUBLE ? (const double *)F->values : NULL;
         v.L_float = sli_is_float(F) ? (const float *)F->values : NULL;

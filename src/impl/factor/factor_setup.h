@@ -153,8 +153,8 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
         return sli_refuse(SL_ERR_UNSUPPORTED, "options.isa has no kernels for L in float");
     }
     F->own.front = F->type->front(F->kernels);
-    F->stats.storage = (sl_off)F->type->storage;
-    F->stats.threads = F->schedule.workers;
+    F->stats.factor.storage = F->type->storage;
+    F->stats.factor.threads = F->schedule.workers;
     return SL_OK;
 }
 

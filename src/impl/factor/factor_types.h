@@ -113,8 +113,6 @@ typedef struct sli_row_work {
 typedef struct sli_factor_stats {
     sl_error error;
     sl_factor_info factor;
-    double null_bound;
-    sl_off storage, threads;
 } sli_factor_stats;
 
 struct sl_factor {

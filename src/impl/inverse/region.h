@@ -243,7 +243,9 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
         R->seconds = sli_seconds() - started;
     }
     if (status == SL_OK) {
-        sl_region_stats(R, stats);
+        if (stats != NULL) {
+            stats->region = sl_region_view(R).info;
+        }
         *out = R;
     } else {
         sl_region_free(R);
@@ -275,27 +277,22 @@ SL_API void sl_region_free(sl_region *R) {
     }
 }
 
-SL_API void sl_region_stats(const sl_region *R, sl_stats *stats) {
+SL_API sl_region_arrays sl_region_view(const sl_region *R) {
+    sl_region_arrays v;
     sl_int k;
-    sli_stats_clear_error(stats);
-    if (R != NULL && stats != NULL) {
-        stats->region.rows = R->extent.n_rows;
+    SLI_CLEAR(v);
+    if (R != NULL) {
+        v.info.rows = R->extent.n_rows;
         for (k = 0; k < R->extent.n_roots; k++) {
             const sl_int s = R->roots[k], first = R->S->first_descendant[s];
-            stats->region.rows += R->S->super_first[s + 1] - R->S->super_first[first];
+            v.info.rows += R->S->super_first[s + 1] - R->S->super_first[first];
         }
-        stats->region.boundary = R->extent.n_rows;
-        stats->region.subtrees = R->extent.n_roots;
-        stats->region.entries = R->begin[sli_region_chunks(R->extent.n_rows)];
-        stats->region.is_copied = R->is_copied;
-        stats->region.seconds = R->seconds;
-        stats->region.bytes = R->bytes;
-    }
-}
-
-SL_API sl_region_arrays sl_region_view(const sl_region *R) {
-    sl_region_arrays v = {NULL, 0, NULL, 0, NULL, {NULL, NULL}};
-    if (R != NULL) {
+        v.info.boundary = R->extent.n_rows;
+        v.info.subtrees = R->extent.n_roots;
+        v.info.entries = R->begin[sli_region_chunks(R->extent.n_rows)];
+        v.info.is_copied = R->is_copied;
+        v.info.seconds = R->seconds;
+        v.info.bytes = R->bytes;
         v.symbolic = R->S;
         v.n_roots = R->extent.n_roots;
         v.roots = R->extent.roots;

@@ -286,7 +286,9 @@ SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const
     }
     if (status == SL_OK) {
         Z->seconds = sli_seconds() - started;
-        sl_selected_stats(Z, stats);
+        if (stats != NULL) {
+            stats->selected = sl_selected_view(Z).info;
+        }
         *out = Z;
     } else {
         sl_selected_free(Z);

@@ -84,20 +84,15 @@ SL_API sl_status sl_selected_entries(const sl_selected *Z, double *out, const sl
     return sli_report(stats, sli_selected_read(Z, out, rows, columns, count, stats));
 }
 
-SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats) {
-    sli_stats_clear_error(stats);
-    if (Z != NULL && stats != NULL) {
-        stats->selected.supernodes = Z->traversal.forest.count;
-        stats->selected.columns = sli_traversal_count_columns(&Z->traversal);
-        stats->selected.entries = Z->begin[Z->traversal.forest.count];
-        stats->selected.seconds = Z->seconds;
-        stats->selected.bytes = Z->bytes;
-    }
-}
-
 SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z) {
-    sl_selected_arrays v = {NULL, 0, NULL, NULL, NULL, {NULL, NULL}};
+    sl_selected_arrays v;
+    SLI_CLEAR(v);
     if (Z != NULL) {
+        v.info.supernodes = Z->traversal.forest.count;
+        v.info.columns = sli_traversal_count_columns(&Z->traversal);
+        v.info.entries = Z->begin[Z->traversal.forest.count];
+        v.info.seconds = Z->seconds;
+        v.info.bytes = Z->bytes;
         v.symbolic = Z->traversal.S;
         v.count = Z->traversal.forest.count;
         v.supers = Z->traversal.supers;

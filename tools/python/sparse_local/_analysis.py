@@ -103,9 +103,7 @@ class Analysis:
     @property
     def stats(self):
         """Counts, times and sizes of the analysis, by their C names."""
-        stats = Stats()
-        lib.sl_symbolic_stats(self._symbolic.pointer, ctypes.byref(stats))
-        return as_dict(stats.symbolic)
+        return as_dict(lib.sl_symbolic_view(self._symbolic.pointer).info)
 
     def __repr__(self):
         return "<sparse_local.Analysis of %d rows, %d entries in L>" % (self.n,

@@ -159,16 +159,15 @@ class Factor(Solves, Entries, Changes, Files):
         """Refuses the numbers of a factor that has to be definite and is not."""
         if not self._definite:
             return
-        stats = Stats()
-        lib.sl_factor_stats(self._factor.pointer, ctypes.byref(stats))
-        if stats.factor.negative == 0:
+        negative = lib.sl_factor_view(self._factor.pointer).info.negative
+        if negative == 0:
             return
         pivots = self._pivots()
         k = int(np.argmin(pivots > 0))
         row, value = int(self.perm[k // self._kind.width]), float(pivots[k])
         self._refused = "a failed factor: not positive definite"
         raise PivotError("not positive definite: %d negative pivots, the first of them %.3g" %
-                         (stats.factor.negative // self._kind.width, value), row, value=value)
+                         (negative // self._kind.width, value), row, value=value)
 
     def _pivots(self):
         """D in the order of the pivots, those of the library; a view."""
@@ -191,9 +190,8 @@ class Factor(Solves, Entries, Changes, Files):
 
     def _null_space(self, pseudo=True):
         """What corrects entries to those of the pseudo-inverse; None: A is regular."""
-        stats = Stats()
-        lib.sl_factor_stats(self._pointer, ctypes.byref(stats))
-        if not pseudo or stats.factor.null == 0 or self._kind is arrays.COMPLEX:
+        null = lib.sl_factor_view(self._pointer).info.null
+        if not pseudo or null == 0 or self._kind is arrays.COMPLEX:
             return None
         if self._nulls is None:
             self._nulls = NullSpace(self)
@@ -224,11 +222,8 @@ class Factor(Solves, Entries, Changes, Files):
     @property
     def stats(self):
         """Counts, times and sizes of the analysis and the factorization, by their C names."""
-        stats = Stats()
-        lib.sl_symbolic_stats(self._symbolic.pointer, ctypes.byref(stats))
-        lib.sl_factor_stats(self._factor.pointer, ctypes.byref(stats))
-        return {"symbolic": as_dict(stats.symbolic), "factor": as_dict(stats.factor),
-                "storage": stats.storage, "threads": stats.threads}
+        return {"symbolic": as_dict(lib.sl_symbolic_view(self._symbolic.pointer).info),
+                "factor": as_dict(lib.sl_factor_view(self._factor.pointer).info)}
 
     def __repr__(self):
         return "<sparse_local.Factor of %d rows, %d entries in L, inertia %s>" % (

@@ -9,8 +9,8 @@ import sys
 
 from ._errors import BY_STATUS, Error, PivotError, StateError
 from ._structs import (ENUM, INT, OFF, PTR, REAL, SIZE, Csc, Csc64, FixedArrays,
-                       FactorArrays, Hermitian, Options, PseudoInverse, Request, SavedSet, Stats,
-                       SymbolicArrays)
+                       FactorArrays, Hermitian, Options, PseudoInverse, RegionArrays,
+                       Request, SavedSet, SelectedArrays, Stats, SymbolicArrays)
 
 _OUT = ctypes.POINTER(PTR)
 _CSC, _OPT, _STATS = (ctypes.POINTER(Csc), ctypes.POINTER(Options), ctypes.POINTER(Stats))
@@ -118,11 +118,12 @@ def _load():
     lib.sl_fixed_view.restype = FixedArrays
     lib.sl_factor_view.argtypes = [PTR]
     lib.sl_factor_view.restype = FactorArrays
-    for name in ("symbolic_stats", "factor_stats", "plan_stats", "region_stats",
-                 "selected_stats"):
-        call = getattr(lib, "sl_" + name)
-        call.argtypes = [PTR, _STATS]
-        call.restype = None
+    lib.sl_selected_view.argtypes = [PTR]
+    lib.sl_selected_view.restype = SelectedArrays
+    lib.sl_region_view.argtypes = [PTR]
+    lib.sl_region_view.restype = RegionArrays
+    lib.sl_plan_stats.argtypes = [PTR, _STATS]
+    lib.sl_plan_stats.restype = None
     if lib.sl_version() // 10000 != 1:
         raise ImportError("libsparse_local has version %d; this package is for 1.x" %
                           lib.sl_version())
@@ -171,8 +172,8 @@ def check(status, stats=None, width=1, path=None):
     lib.sl_error_text(buffer, len(buffer), status, None if stats is None else ctypes.byref(stats))
     text = buffer.value.decode()
     if stats is not None:
-        if kind is PivotError and stats.null_bound > 0:
-            text += ", pivot %.3g, null up to %.3g" % (value, stats.null_bound)
+        if kind is PivotError and stats.factor.null_bound > 0:
+            text += ", pivot %.3g, null up to %.3g" % (value, stats.factor.null_bound)
     text = text.replace("sl_symbolic_create_pivoted", "pivoted=True (sl_symbolic_create_pivoted)")
     if path is not None:
         text += ", %s" % os.fsdecode(path)

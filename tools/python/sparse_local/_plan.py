@@ -44,9 +44,7 @@ class Region:
     @property
     def stats(self):
         """Rows, boundary and bytes, by their C names."""
-        stats = Stats()
-        lib.sl_region_stats(self._region.pointer, ctypes.byref(stats))
-        return as_dict(stats.region)
+        return as_dict(lib.sl_region_view(self._region.pointer).info)
 
 
 class Plan:

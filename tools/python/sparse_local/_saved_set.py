@@ -80,9 +80,7 @@ class Selected:
     @property
     def stats(self):
         """Supernodes, columns, entries and bytes, by their C names."""
-        stats = Stats()
-        lib.sl_selected_stats(self._selected.pointer, ctypes.byref(stats))
-        return as_dict(stats.selected)
+        return as_dict(lib.sl_selected_view(self._selected.pointer).info)
 
 
 Loaded = namedtuple("Loaded", "factor selected regions")

@@ -45,8 +45,9 @@ _Symbolic = _struct("_Symbolic", [
     ("bytes", SIZE)])
 _FactorInfo = _struct("_FactorInfo", [
     ("positive", INT), ("negative", INT), ("null", INT), ("regularized", INT),
-    ("weak", INT), ("regular", INT), ("isa", ENUM), ("method", ENUM), ("pivot_min", REAL),
-    ("pivot_max", REAL), ("entry_max", REAL), ("growth", REAL), ("seconds_setup", REAL),
+    ("weak", INT), ("regular", INT), ("isa", ENUM), ("method", ENUM), ("storage", ENUM),
+    ("threads", INT), ("pivot_min", REAL), ("pivot_max", REAL), ("entry_max", REAL),
+    ("growth", REAL), ("null_bound", REAL), ("seconds_setup", REAL),
     ("seconds", REAL), ("bytes", SIZE)])
 _PlanInfo = _struct("_PlanInfo", [
     ("b_supernodes", INT), ("b_columns", INT), ("b_entries", OFF), ("x_supernodes", INT),
@@ -61,12 +62,12 @@ _RegionInfo = _struct("_RegionInfo", [
     ("rows", INT), ("boundary", INT), ("subtrees", INT), ("entries", OFF),
     ("is_copied", ctypes.c_int), ("seconds", REAL), ("bytes", SIZE)])
 _ChangeInfo = _struct("_ChangeInfo", [
-    ("method", ENUM), ("reason", ENUM), ("ranks", INT), ("padding", INT), ("entries", OFF),
+    ("method", ENUM), ("reason", ENUM), ("ranks", INT), ("entries", OFF),
     ("updates", OFF), ("drift", REAL), ("flops_update", REAL), ("flops_changed", REAL),
     ("flops_refactor", REAL), ("seconds", REAL)])
 _SubmatrixInfo = _struct("_SubmatrixInfo", [
     ("kept", INT), ("computed", INT), ("entries", OFF), ("is_anew", ctypes.c_int),
-    ("padding", ctypes.c_int), ("seconds", REAL)])
+    ("seconds", REAL)])
 _EditInfo = _struct("_EditInfo", [
     ("changed", INT), ("moved", INT), ("reordered", INT), ("computed", INT),
     ("is_anew", ctypes.c_int), ("is_due", ctypes.c_int), ("growth", REAL), ("seconds", REAL)])
@@ -89,10 +90,9 @@ class Stats(ctypes.Structure):
                 ("plan", _PlanInfo), ("inverse", _InverseInfo), ("selected", _SelectedInfo),
                 ("region", _RegionInfo), ("refine", _RefineInfo),
                 ("change", _ChangeInfo), ("submatrix", _SubmatrixInfo),
-                ("edit", _EditInfo), ("storage", OFF), ("reuse", _ReuseInfo),
+                ("edit", _EditInfo), ("reuse", _ReuseInfo),
                 ("constraints", _ConstraintsInfo), ("certificate", _CertificateInfo),
-                ("null_bound", REAL), ("fixed", _FixedInfo), ("threads", OFF),
-                ("reserved", OFF * 40)]
+                ("fixed", _FixedInfo), ("reserved", OFF * 40)]
 
 
 class SavedSet(ctypes.Structure):
@@ -105,7 +105,7 @@ class SavedSet(ctypes.Structure):
 
 class SymbolicArrays(ctypes.Structure):
     """sl_symbolic_arrays"""
-    _fields_ = [("n", INT), ("n_supers", INT)] + [(name, PTR) for name in (
+    _fields_ = [("info", _Symbolic), ("n", INT), ("n_supers", INT)] + [(name, PTR) for name in (
         "perm", "iperm", "parent", "counts", "super_first", "super_of", "super_parent",
         "rows_begin", "rows", "panel_begin", "pairs")] + [("n_nodes", INT)] + [
             (name, PTR) for name in ("node_of", "node_parent", "node_level")] + [
@@ -120,8 +120,20 @@ class PseudoInverse(ctypes.Structure):
 
 class FactorArrays(ctypes.Structure):
     """sl_factor_arrays"""
-    _fields_ = [("symbolic", PTR), ("L", PTR), ("D", PTR), ("E", PTR), ("L_float", PTR),
-                ("reserved", PTR * 2)]
+    _fields_ = [("info", _FactorInfo), ("symbolic", PTR), ("L", PTR), ("D", PTR), ("E", PTR),
+                ("L_float", PTR), ("reserved", PTR * 2)]
+
+
+class SelectedArrays(ctypes.Structure):
+    """sl_selected_arrays"""
+    _fields_ = [("info", _SelectedInfo), ("symbolic", PTR), ("count", INT), ("supers", PTR),
+                ("begin", PTR), ("Z", PTR), ("reserved", PTR * 2)]
+
+
+class RegionArrays(ctypes.Structure):
+    """sl_region_arrays"""
+    _fields_ = [("info", _RegionInfo), ("symbolic", PTR), ("n_roots", INT), ("roots", PTR),
+                ("n_boundary", INT), ("boundary", PTR), ("reserved", PTR * 2)]
 
 
 class FixedArrays(ctypes.Structure):

@@ -18,14 +18,15 @@ HEADER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "csrc")
 @pytest.mark.skipif(not os.path.exists(HEADER), reason="no header beside the package")
 @pytest.mark.parametrize("name", ["Options", "Stats", "Csc", "Csc64", "SavedSet", "SymbolicArrays",
                                   "PseudoInverse", "FactorArrays", "Hermitian", "Request",
-                                  "FixedArrays"])
+                                  "FixedArrays", "SelectedArrays", "RegionArrays"])
 def test_structs_are_those_of_the_header(tmp_path, name):
     """Every member of the C struct, in order, at the same offset, and nothing after the last."""
     struct = {"Options": "sl_options", "Stats": "sl_stats", "Csc": "sl_csc", "Csc64": "sl_csc64",
               "SavedSet": "sl_saved_set", "SymbolicArrays": "sl_symbolic_arrays",
               "PseudoInverse": "sl_pseudo_inverse", "FactorArrays": "sl_factor_arrays",
               "Hermitian": "sl_hermitian", "Request": "sl_request",
-              "FixedArrays": "sl_fixed_arrays"}[name]
+              "FixedArrays": "sl_fixed_arrays", "SelectedArrays": "sl_selected_arrays",
+              "RegionArrays": "sl_region_arrays"}[name]
     ours = dict(leaves(getattr(_structs, name)))
     with open(os.path.join(HEADER, "sparse_local.h")) as file:
         theirs = c_members(file.read(), struct)

@@ -18,7 +18,7 @@ SIDE = 170  # of a grid whose factorization is divided
 def test_threads_give_the_same_bits(threads):
     A = grid(SIDE)
     one, many = sl.Factor(A), sl.Factor(A, threads=threads)
-    assert one.stats["threads"] == 1 and many.stats["threads"] == threads
+    assert one.stats["factor"]["threads"] == 1 and many.stats["factor"]["threads"] == threads
     B = right_hand_sides(A.shape[0], 40)
     assert np.array_equal(one.solve(B), many.solve(B))
     assert np.array_equal(one.solve(B[:, 0]), many.solve(B[:, 0]))
