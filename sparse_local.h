@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 46018a3590f633cf
+ * FNV-1a of the lines after this comment, without the license: 48a0ea5fedd606ad
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40,25 +40,25 @@
  *   5890 impl/ ordering: fill-reducing orderings of a graph
  *  10992 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  13231 impl/ factor: the numbers of L and D
- *  16657 impl/ solve: full and local solves
- *  18534 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20531 impl/ pivots: the order of the pivots by the values of a matrix
- *  20939 impl/ float: L and fronts in single precision
- *  21444 impl/ inverse: entries of the inverse, regions
- *  24502 impl/ change: a factor that follows changes of its matrix
- *  26782 impl/ constraints: rows held at values, on a factor that stays
- *  28092 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30831 impl/ fixed: rows fixed at given values
- *  31392 impl/ io: files that are replaced only when they are complete
- *  31610 impl/ files: Matrix Market files, 64-bit indices
- *  32230 impl/ save: factors in files
- *  34243 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34929 impl/ batch: diagonals of many inverses
- *  35069 impl/ complex: complex Hermitian systems over real factors
- *  35631 impl/ complex: entries of the inverse
- *  35691 impl/ packs: the tables through which the core calls packs
- *  35724 impl/ last: undefine every internal macro
- *  36082 impl/ templates: the header includes them from itself, once for each instruction set
+ *  16660 impl/ solve: full and local solves
+ *  18537 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20534 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20942 impl/ float: L and fronts in single precision
+ *  21447 impl/ inverse: entries of the inverse, regions
+ *  24507 impl/ change: a factor that follows changes of its matrix
+ *  26787 impl/ constraints: rows held at values, on a factor that stays
+ *  28097 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30836 impl/ fixed: rows fixed at given values
+ *  31397 impl/ io: files that are replaced only when they are complete
+ *  31615 impl/ files: Matrix Market files, 64-bit indices
+ *  32235 impl/ save: factors in files
+ *  34248 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34934 impl/ batch: diagonals of many inverses
+ *  35074 impl/ complex: complex Hermitian systems over real factors
+ *  35636 impl/ complex: entries of the inverse
+ *  35696 impl/ packs: the tables through which the core calls packs
+ *  35729 impl/ last: undefine every internal macro
+ *  36086 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -16642,7 +16642,6 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
 
 /* src/impl/factor/costs.h: what steps cost, by which packs choose between methods: counted, in entries of L that a */
 
-#define SLI_COST_LANES(lanes) (0.75 + 0.25 * (lanes))
 #define SLI_COST_FRONT 4000.0
 #define SLI_COST_INPUT 20.0
 
@@ -16651,6 +16650,10 @@ SLI_INLINE double sli_cost_flop(sl_isa isa) {
        : isa == SL_ISA_AVX2 ? 1.0 / 4.0
        : isa == SL_ISA_SCALAR ? 1.0
                   : 1.0 / 2.0;
+}
+
+SLI_INLINE double sli_cost_lanes(sl_isa isa, sl_int lanes) {
+  return isa == SL_ISA_AVX512 && lanes == 8 ? 2.1 : 0.7 + 0.3 * lanes;
 }
 
 /* solve: full and local solves */
@@ -22128,6 +22131,7 @@ static int sli_rhs_block_add(sli_rhs_block *block, sl_int column, const sl_symbo
 
 typedef struct sli_requests {
   const sl_symbolic *S;
+  sl_isa isa;
   const sl_int *rows, *columns;
   sl_int count;
   sl_int n_blocks;
@@ -22140,6 +22144,7 @@ static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, cons
   sli_requests r;
   SLI_CLEAR(r);
   r.S = F->S;
+  r.isa = F->kernels->isa;
   r.rows = rows;
   r.columns = columns;
   r.count = count;
@@ -22200,7 +22205,7 @@ static sl_int sli_rhs_block_choose(const sli_requests *r, sl_int k, sli_rhs_bloc
   for (; k < r->count && k - from < SLI_BLOCK_REQUESTS_MAX &&
       sli_rhs_block_add_request(&block, r, k, r->S);
       k++) {
-    const double time = SLI_COST_LANES(1 << sli_lanes_kind(block.count)) *
+    const double time = sli_cost_lanes(r->isa, 1 << sli_lanes_kind(block.count)) *
               (double)block.size.entries / (double)(k - from + 1);
     if (block_size == 0 || time <= least) {
       least = time;
@@ -22242,7 +22247,7 @@ static double sli_requests_partition_within(sli_requests *r, sli_capacity *capac
     const sl_int block_size = sli_rhs_block_choose(r, k, &block);
     const int kind = sli_lanes_kind(block.count);
     sli_capacity_add(capacity, &block.size, (sl_int)1 << kind);
-    time += SLI_COST_LANES(1 << kind) * (double)block.size.entries;
+    time += sli_cost_lanes(r->isa, 1 << kind) * (double)block.size.entries;
     r->block_size[r->n_blocks] = (uint64_t)block_size;
     k += block_size;
   }
@@ -22745,7 +22750,7 @@ static double sli_traversal_time(const sli_entries *q, sl_int *supers) {
     next = sli_next_seed(S, r->order, r->count, &k);
     for (; s != -1 && s < next; s = S->super_parent[s]) {
       const double h = S->steps[s].width + S->steps[s].below;
-      time += SLI_COST_FRONT + 4.0 * h * h + 2.0 * flop * sli_front_flops(&S->steps[s]);
+      time += SLI_COST_FRONT / 2.0 + 4.0 * h * h + 1.5 * flop * sli_front_flops(&S->steps[s]);
       ++*supers;
     }
   }
@@ -36024,7 +36029,6 @@ static const char *sli_storage_needs(sl_storage storage) { /* untested: the same
 #undef SLI_PATH_CACHED
 #undef SLI_RANK_PATH
 #undef SLI_RANK_PASS
-#undef SLI_COST_LANES
 #undef SLI_COST_FRONT
 #undef SLI_COST_INPUT
 #undef SLI_COST_PIVOT
