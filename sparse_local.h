@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 6542d5aba99bd476
+ * FNV-1a of the lines after this comment, without the license: 00113adf1b7fba8a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,23 +38,23 @@
  *   5684 impl/ ordering: fill-reducing orderings of a graph
  *  10284 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12526 impl/ factor: the numbers of L and D
- *  15105 impl/ solve: full and local solves
- *  16647 impl/ singular: null spaces of semidefinite matrices
- *  17918 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19933 impl/ pivots: the order of the pivots by the values of a matrix
- *  20341 impl/ float: L in single precision
- *  20571 impl/ inverse: entries of the inverse, regions
- *  23481 impl/ change: a factor that follows changes of its matrix
- *  25759 impl/ constraints: rows held at values, on a factor that stays
- *  27067 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  29807 impl/ fixed: rows fixed at given values
- *  30366 impl/ io: files that are replaced only when they are complete
- *  30584 impl/ files: Matrix Market files, 64-bit indices
- *  31130 impl/ save: factors in files
- *  33103 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33789 impl/ complex: complex Hermitian systems over real factors
- *  34294 impl/ packs: the tables through which the core calls packs
- *  34685 impl/ templates: the header includes them from itself, once for each instruction set
+ *  15108 impl/ solve: full and local solves
+ *  16650 impl/ singular: null spaces of semidefinite matrices
+ *  17921 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19936 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20344 impl/ float: L in single precision
+ *  20574 impl/ inverse: entries of the inverse, regions
+ *  23486 impl/ change: a factor that follows changes of its matrix
+ *  25764 impl/ constraints: rows held at values, on a factor that stays
+ *  27072 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  29812 impl/ fixed: rows fixed at given values
+ *  30371 impl/ io: files that are replaced only when they are complete
+ *  30589 impl/ files: Matrix Market files, 64-bit indices
+ *  31135 impl/ save: factors in files
+ *  33108 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33794 impl/ complex: complex Hermitian systems over real factors
+ *  34299 impl/ packs: the tables through which the core calls packs
+ *  34689 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -15090,7 +15090,6 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
 
 /* src/impl/factor/costs.h: what steps cost, by which packs choose between methods: counted, in entries of L that a */
 
-#define SLI_COST_LANES(lanes) (0.75 + 0.25 * (lanes))
 #define SLI_COST_FRONT 4000.0
 #define SLI_COST_INPUT 20.0
 
@@ -15099,6 +15098,10 @@ SLI_INLINE double sli_cost_flop(sl_isa isa) {
        : isa == SL_ISA_AVX2 ? 1.0 / 4.0
        : isa == SL_ISA_SCALAR ? 1.0
                   : 1.0 / 2.0;
+}
+
+SLI_INLINE double sli_cost_lanes(sl_isa isa, sl_int lanes) {
+  return isa == SL_ISA_AVX512 && lanes == 8 ? 2.1 : 0.7 + 0.3 * lanes;
 }
 
 /* solve: full and local solves */
@@ -21255,6 +21258,7 @@ static int sli_rhs_block_add(sli_rhs_block *block, sl_int column, const sl_symbo
 
 typedef struct sli_requests {
   const sl_symbolic *S;
+  sl_isa isa;
   const sl_int *rows, *columns;
   sl_int count;
   sl_int n_blocks;
@@ -21267,6 +21271,7 @@ static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, cons
   sli_requests r;
   SLI_CLEAR(r);
   r.S = F->S;
+  r.isa = F->kernels->isa;
   r.rows = rows;
   r.columns = columns;
   r.count = count;
@@ -21327,7 +21332,7 @@ static sl_int sli_rhs_block_choose(const sli_requests *r, sl_int k, sli_rhs_bloc
   for (; k < r->count && k - from < SLI_BLOCK_REQUESTS_MAX &&
       sli_rhs_block_add_request(&block, r, k, r->S);
       k++) {
-    const double time = SLI_COST_LANES(1 << sli_lanes_kind(block.count)) *
+    const double time = sli_cost_lanes(r->isa, 1 << sli_lanes_kind(block.count)) *
               (double)block.size.entries / (double)(k - from + 1);
     if (block_size == 0 || time <= least) {
       least = time;
@@ -21369,7 +21374,7 @@ static double sli_requests_partition_within(sli_requests *r, sli_capacity *capac
     const sl_int block_size = sli_rhs_block_choose(r, k, &block);
     const int kind = sli_lanes_kind(block.count);
     sli_capacity_add(capacity, &block.size, (sl_int)1 << kind);
-    time += SLI_COST_LANES(1 << kind) * (double)block.size.entries;
+    time += sli_cost_lanes(r->isa, 1 << kind) * (double)block.size.entries;
     r->block_size[r->n_blocks] = (uint64_t)block_size;
     k += block_size;
   }
@@ -21732,7 +21737,7 @@ static double sli_traversal_time(const sli_entries *q, sl_int *supers) {
     next = sli_next_seed(S, r->order, r->count, &k);
     for (; s != -1 && s < next; s = S->super_parent[s]) {
       const double h = S->steps[s].width + S->steps[s].below;
-      time += SLI_COST_FRONT + 4.0 * h * h + 2.0 * flop * sli_front_flops(&S->steps[s]);
+      time += SLI_COST_FRONT / 2.0 + 4.0 * h * h + 1.5 * flop * sli_front_flops(&S->steps[s]);
       ++*supers;
     }
   }
@@ -34573,7 +34578,6 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_JUDGE_FEW
 #undef SLI_JUDGE_READS
 #undef SLI_ASYMMETRY_MOST
-#undef SLI_COST_LANES
 #undef SLI_COST_FRONT
 #undef SLI_COST_INPUT
 #undef SLI_BLOCK_MOST

@@ -74,8 +74,9 @@ static double sli_traversal_time(const sli_entries *q, sl_int *supers) {
         next = sli_next_seed(S, r->order, r->count, &k);
         for (; s != -1 && s < next; s = S->super_parent[s]) {
             const double h = S->steps[s].width + S->steps[s].below;
-            /* twice the flops of the factorization; each entry is read and written, twice */
-            time += SLI_COST_FRONT + 4.0 * h * h + 2.0 * flop * sli_front_flops(&S->steps[s]);
+            /* no assembly: twice the flops of the factorization, in wider products; each entry is
+             * read and written twice */
+            time += SLI_COST_FRONT / 2.0 + 4.0 * h * h + 1.5 * flop * sli_front_flops(&S->steps[s]);
             ++*supers;
         }
     }
