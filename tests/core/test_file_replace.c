@@ -1,4 +1,4 @@
-/* test_file_replace.c: sl_save_file over an existing file, by the means that every system has */
+/* test_file_replace.c: sl_save over an existing file, by the means that every system has */
 #include "tests/lib/gen_matrices.h"
 
 static const char old_text[] = "the old content\n";
@@ -46,7 +46,7 @@ static sl_status write_path(const char *path) {
     memset(&set, 0, sizeof set);
     SL_CHECK(sl_symbolic_create(&set.symbolic, &M.view, NULL, NULL));
     SL_CHECK(sl_factor_create(&set.factor, set.symbolic, &M.view, NULL, NULL));
-    const sl_status status = sl_save_file(path, &set, NULL);
+    const sl_status status = sl_save(path, NULL, NULL, &set, NULL);
     sl_saved_set_free(&set);
     gen_matrix_free(&M);
     return status;
@@ -55,7 +55,7 @@ static sl_status write_path(const char *path) {
 static void assert_is_saved(const char *path) {
     sl_saved_set back;
     memset(&back, 0, sizeof back);
-    SL_CHECK(sl_load_file(&back, path, SL_LOAD_CHECKED, NULL));
+    SL_CHECK(sl_load(&back, path, NULL, 0, SL_LOAD_CHECKED, NULL));
     sl_saved_set_free(&back);
 }
 

@@ -1,4 +1,4 @@
-/* test_save_replace.c: sl_save_file replaces a file as a whole or not at all; devices and links */
+/* test_save_replace.c: sl_save replaces a file as a whole or not at all; devices and links */
 #define _XOPEN_SOURCE 700
 #include "tests/lib/temporary_files.h"
 
@@ -17,7 +17,7 @@ static sl_status write_grid(sl_int n, const char *path) {
     SL_CHECK(sl_symbolic_create(&set.symbolic, &M.view, NULL, NULL));
     SL_CHECK(sl_factor_create(&set.factor, set.symbolic, &M.view, NULL, NULL));
     errno = 77;
-    const sl_status status = sl_save_file(path, &set, NULL);
+    const sl_status status = sl_save(path, NULL, NULL, &set, NULL);
     assert_int_equal(errno, 77);
     sl_saved_set_free(&set);
     gen_matrix_free(&M);
@@ -27,7 +27,7 @@ static sl_status write_grid(sl_int n, const char *path) {
 static void assert_is_saved(const char *path) {
     sl_saved_set back;
     memset(&back, 0, sizeof back);
-    SL_CHECK(sl_load_file(&back, path, SL_LOAD_CHECKED, NULL));
+    SL_CHECK(sl_load(&back, path, NULL, 0, SL_LOAD_CHECKED, NULL));
     sl_saved_set_free(&back);
 }
 
