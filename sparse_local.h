@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4d592e3bf52c07eb
+ * FNV-1a of the lines after this comment, without the license: 1ca2220f47585a0e
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,28 +36,28 @@
  *   2980 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   3023 impl/ base: the compiler, status, memory, sorting, threads
  *   4304 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5232 impl/ matrix: sparse matrices of the caller and of the library
- *   5908 impl/ ordering: fill-reducing orderings of a graph
- *  11010 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  13249 impl/ factor: the numbers of L and D
- *  16662 impl/ solve: full and local solves
- *  18539 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20536 impl/ pivots: the order of the pivots by the values of a matrix
- *  20944 impl/ float: L and fronts in single precision
- *  21449 impl/ inverse: entries of the inverse, regions
- *  24548 impl/ change: a factor that follows changes of its matrix
- *  30853 impl/ fixed: rows fixed at given values
- *  31494 impl/ fixed: by a factor of all rows
- *  31728 impl/ io: files that are replaced only when they are complete
- *  31946 impl/ files: Matrix Market files, 64-bit indices
- *  32566 impl/ save: factors in files
- *  34579 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  35265 impl/ batch: diagonals of many inverses
- *  35405 impl/ complex: complex Hermitian systems over real factors
- *  35967 impl/ complex: entries of the inverse
- *  36027 impl/ packs: the tables through which the core calls packs
- *  36076 impl/ last: undefine every internal macro
- *  36456 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5238 impl/ matrix: sparse matrices of the caller and of the library
+ *   5914 impl/ ordering: fill-reducing orderings of a graph
+ *  11016 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  13255 impl/ factor: the numbers of L and D
+ *  16668 impl/ solve: full and local solves
+ *  18543 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20539 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20947 impl/ float: L and fronts in single precision
+ *  21452 impl/ inverse: entries of the inverse, regions
+ *  24551 impl/ change: a factor that follows changes of its matrix
+ *  30856 impl/ fixed: rows fixed at given values
+ *  31497 impl/ fixed: by a factor of all rows
+ *  31731 impl/ io: files that are replaced only when they are complete
+ *  31949 impl/ files: Matrix Market files, 64-bit indices
+ *  32569 impl/ save: factors in files
+ *  34582 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  35268 impl/ batch: diagonals of many inverses
+ *  35408 impl/ complex: complex Hermitian systems over real factors
+ *  35970 impl/ complex: entries of the inverse
+ *  36030 impl/ packs: the tables through which the core calls packs
+ *  36079 impl/ last: undefine every internal macro
+ *  36459 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4421,6 +4421,12 @@ SLI_INLINE size_t sli_sweep_scratch(sl_int height, sl_int width, sl_int nrhs) {
   const size_t tile = SLI_TILE;
   return nrhs > 2 ? tile * (size_t)nrhs
           : tile * ((size_t)sli_tiles(height) * (size_t)nrhs + (size_t)width);
+}
+
+SLI_INLINE size_t sli_sweep_scratch_up_to(sl_int height, sl_int width, sl_int nrhs) {
+  const size_t few = sli_sweep_scratch(height, width, sli_min(nrhs, 2));
+  const size_t many = sli_sweep_scratch(height, width, nrhs);
+  return few > many ? few : many;
 }
 
 #define SLI_PREFETCH_DISTANCE 4096
@@ -17711,9 +17717,7 @@ static void sli_sweep_tasks_finish(sli_sweep_tasks *t) {
 
 static size_t sli_sweep_tasks_scratch(const sli_sweep_tasks *t) {
   const sl_symbolic *S = t->F->S;
-  const size_t few = sli_sweep_scratch(S->tallest, S->widest, 2);
-  const size_t many = sli_sweep_scratch(S->tallest, S->widest, SLI_BLOCK_MOST);
-  return few > many ? few : many;
+  return sli_sweep_scratch_up_to(S->tallest, S->widest, SLI_BLOCK_MOST);
 }
 
 static void sli_sweep_tasks_layout(sli_sweep_tasks *t, sli_block *b) {
@@ -20222,8 +20226,7 @@ static void sli_bounds_layout(sli_bounds *p, sli_block *b, sl_int nrhs, int need
   const sli_reach *R = &p->q->backward;
   const uint64_t paths = (uint64_t)p->q->forward.count + 1;
   const sl_int most = sli_block_most(p->F);
-  size_t scratch = sli_sweep_scratch(R->tallest, R->widest, SLI_TILE);
-  scratch += sli_sweep_scratch(R->tallest, R->widest, 2);
+  const size_t scratch = sli_sweep_scratch_up_to(R->tallest, R->widest, SLI_TILE);
   p->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(p->q, nrhs, most), 1);
   p->norms = SLI_TAKE(b, double, paths << sli_lanes_kind(sli_block_size(nrhs, most)));
   if (needs == SLI_NEEDS_NOTHING) {
