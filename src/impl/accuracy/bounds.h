@@ -64,8 +64,7 @@ static void sli_bounds_layout(sli_bounds *p, sli_block *b, sl_int nrhs, int need
     const sli_reach *R = &p->q->backward;
     const uint64_t paths = (uint64_t)p->q->forward.count + 1;
     const sl_int most = sli_block_most(p->F);
-    size_t scratch = sli_sweep_scratch(R->tallest, R->widest, SLI_TILE);
-    scratch += sli_sweep_scratch(R->tallest, R->widest, 2); /* one and two keep partial sums */
+    const size_t scratch = sli_sweep_scratch_up_to(R->tallest, R->widest, SLI_TILE);
     p->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(p->q, nrhs, most), 1);
     p->norms = SLI_TAKE(b, double, paths << sli_lanes_kind(sli_block_size(nrhs, most)));
     if (needs == SLI_NEEDS_NOTHING) {

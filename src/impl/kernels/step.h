@@ -109,6 +109,14 @@ SLI_INLINE size_t sli_sweep_scratch(sl_int height, sl_int width, sl_int nrhs) {
                     : tile * ((size_t)sli_tiles(height) * (size_t)nrhs + (size_t)width);
 }
 
+/* The same for sweeps of any number of right-hand sides up to nrhs: those of one and two keep
+ * partial sums that wider ones do not need. */
+SLI_INLINE size_t sli_sweep_scratch_up_to(sl_int height, sl_int width, sl_int nrhs) {
+    const size_t few = sli_sweep_scratch(height, width, sli_min(nrhs, 2));
+    const size_t many = sli_sweep_scratch(height, width, nrhs);
+    return few > many ? few : many;
+}
+
 /* Distance in bytes from the entries of L that a sweep reads to those that it prefetches. Small
  * supernodes are read too slowly for the hardware prefetcher to run far enough ahead, and it starts
  * again at every page. */

@@ -212,9 +212,7 @@ static void sli_sweep_tasks_finish(sli_sweep_tasks *t) {
 /* The scratch of one worker's sweeps. */
 static size_t sli_sweep_tasks_scratch(const sli_sweep_tasks *t) {
     const sl_symbolic *S = t->F->S;
-    const size_t few = sli_sweep_scratch(S->tallest, S->widest, 2);
-    const size_t many = sli_sweep_scratch(S->tallest, S->widest, SLI_BLOCK_MOST);
-    return few > many ? few : many;
+    return sli_sweep_scratch_up_to(S->tallest, S->widest, SLI_BLOCK_MOST);
 }
 
 static void sli_sweep_tasks_layout(sli_sweep_tasks *t, sli_block *b) {
