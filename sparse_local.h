@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 00113adf1b7fba8a
+ * FNV-1a of the lines after this comment, without the license: 1efa1e66eb7e6ef9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -10,51 +10,51 @@
  *    515 options.h    options of all calls, threads, and the allocator
  *    632 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
  *    868 csc.h        sparse matrices: creation, checks, products, residuals
- *    961 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1036 factor.h     the numerical factorization P A P' = L D L'
- *   1164 solve.h      full solves, and the workspace of all solves
- *   1260 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1335 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1419 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1500 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1539 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1640 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1719 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1789 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1880 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1983 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2025 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2147 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2292 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2380 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
- *   2493 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
- *   2535 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
- *   2611 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2699 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2762 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2805 impl/ base: the compiler, status, memory, sorting, threads
- *   4107 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5005 impl/ matrix: sparse matrices of the caller and of the library
- *   5684 impl/ ordering: fill-reducing orderings of a graph
- *  10284 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12526 impl/ factor: the numbers of L and D
- *  15108 impl/ solve: full and local solves
- *  16650 impl/ singular: null spaces of semidefinite matrices
- *  17921 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19936 impl/ pivots: the order of the pivots by the values of a matrix
- *  20344 impl/ float: L in single precision
- *  20574 impl/ inverse: entries of the inverse, regions
- *  23486 impl/ change: a factor that follows changes of its matrix
- *  25764 impl/ constraints: rows held at values, on a factor that stays
- *  27072 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  29812 impl/ fixed: rows fixed at given values
- *  30371 impl/ io: files that are replaced only when they are complete
- *  30589 impl/ files: Matrix Market files, 64-bit indices
- *  31135 impl/ save: factors in files
- *  33108 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33794 impl/ complex: complex Hermitian systems over real factors
- *  34299 impl/ packs: the tables through which the core calls packs
- *  34689 impl/ templates: the header includes them from itself, once for each instruction set
+ *    962 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1037 factor.h     the numerical factorization P A P' = L D L'
+ *   1165 solve.h      full solves, and the workspace of all solves
+ *   1261 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1336 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1420 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1501 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1540 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1641 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1720 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1790 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1881 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1984 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2026 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2148 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2293 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2381 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
+ *   2494 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
+ *   2536 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
+ *   2612 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2700 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2763 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2806 impl/ base: the compiler, status, memory, sorting, threads
+ *   4108 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   5012 impl/ matrix: sparse matrices of the caller and of the library
+ *   5746 impl/ ordering: fill-reducing orderings of a graph
+ *  10346 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12588 impl/ factor: the numbers of L and D
+ *  15170 impl/ solve: full and local solves
+ *  16710 impl/ singular: null spaces of semidefinite matrices
+ *  17981 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19995 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20403 impl/ float: L in single precision
+ *  20633 impl/ inverse: entries of the inverse, regions
+ *  23545 impl/ change: a factor that follows changes of its matrix
+ *  25823 impl/ constraints: rows held at values, on a factor that stays
+ *  27131 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  29871 impl/ fixed: rows fixed at given values
+ *  30430 impl/ io: files that are replaced only when they are complete
+ *  30648 impl/ files: Matrix Market files, 64-bit indices
+ *  31194 impl/ save: factors in files
+ *  33167 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33853 impl/ complex: complex Hermitian systems over real factors
+ *  34358 impl/ packs: the tables through which the core calls packs
+ *  34748 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -889,14 +889,15 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int 
 /** The principal submatrix C = A[rows, rows] of a square matrix: C(k, l) = A(rows[k], rows[l]).
  *  With all rows it is a symmetric permutation P A P'.
  *
- *  If A stores one triangle, C has its lower triangle; if A stores both, so does C. Rows of a
- *  column are in any order; duplicates stay.
+ *  If the entries of C are in one triangle of A, C has its lower triangle; if in both, so has C.
+ *  Rows of a column are in any order; duplicates stay. Only the columns `rows` of A are read and
+ *  checked.
  *
  *  rows   [in]   count rows of A in 0..n-1, any order, none twice.
  *  stats  [out]  error.row: a row out of range or given twice.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also not square; SL_ERR_MALFORMED; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
- *  Cost     O(n + nnz).
+ *  Cost     O((count + entries of these columns) log count), in memory O(count + entries of C).
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_submatrix(sl_matrix **out, const sl_csc *A,
                                                     const sl_int *rows, sl_int count,
@@ -4226,6 +4227,12 @@ SLI_INLINE size_t sli_sweep_scratch(sl_int height, sl_int width, sl_int nrhs) {
           : tile * ((size_t)sli_tiles(height) * (size_t)nrhs + (size_t)width);
 }
 
+SLI_INLINE size_t sli_sweep_scratch_up_to(sl_int height, sl_int width, sl_int nrhs) {
+  const size_t few = sli_sweep_scratch(height, width, sli_min(nrhs, 2));
+  const size_t many = sli_sweep_scratch(height, width, nrhs);
+  return few > many ? few : many;
+}
+
 #define SLI_PREFETCH_DISTANCE 4096
 
 #define SLI_STEPS_AHEAD 2
@@ -5585,16 +5592,35 @@ typedef struct sli_submatrix {
   int is_folded;
   sl_int count;
   const sl_int *where;
+  uint64_t *sorted;
 } sli_submatrix;
+
+static sl_int sli_submatrix_position(const sli_submatrix *s, sl_int i) {
+  sl_int low = 0, high = s->count;
+  if (s->where != NULL) {
+    return s->where[i];
+  }
+  while (low < high) {
+    const sl_int middle = low + (high - low) / 2;
+    if (sli_key(s->sorted[middle]) < i) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low < s->count && sli_key(s->sorted[low]) == i ? sli_value(s->sorted[low]) : -1;
+}
 
 static void sli_submatrix_visit(const sli_submatrix *s, sl_int *position, sl_matrix *M,
     sl_int *from) {
   const sl_csc *A = s->A;
-  sl_int j, p;
-  for (j = 0; j < A->n_cols; j++) {
-    const sl_int c = s->where[j];
+  const sl_int columns = s->where != NULL ? A->n_cols : s->count;
+  sl_int k, p;
+  for (k = 0; k < columns; k++) {
+    const sl_int j = s->where != NULL ? k : sli_key(s->sorted[k]);
+    const sl_int c = s->where != NULL ? s->where[k] : sli_value(s->sorted[k]);
     for (p = A->p[j]; p < A->p[j + 1] && c >= 0; p++) {
-      const sl_int r = s->where[A->i[p]];
+      const sl_int r = sli_submatrix_position(s, A->i[p]);
       const sl_int column = s->is_folded && r < c ? r : c;
       if (r < 0 || !sli_is_read(s->triangle, A->i[p], j)) {
         continue;
@@ -5640,42 +5666,78 @@ SLI_HOT static sl_status sli_submatrix_make(sl_matrix **out, sl_int **from, cons
   return status;
 }
 
+static sl_status sli_columns_check(sli_submatrix *s, const sl_int *rows, uint64_t *scratch,
+    sl_stats *stats) {
+  const sl_csc *A = s->A;
+  sl_int k, p, below = 0, above = 0;
+  sl_off total = 0;
+  for (k = 0; k < s->count; k++) {
+    if (rows[k] < 0 || rows[k] >= A->n_cols) {
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0, "a row is out of range");
+    }
+    s->sorted[k] = sli_keyed(rows[k], k);
+  }
+  sli_sort(s->sorted, s->count, scratch);
+  for (k = 0; k < s->count; k++) {
+    const sl_int j = sli_key(s->sorted[k]);
+    if (k > 0 && sli_key(s->sorted[k - 1]) == j) {
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, j, -1, 0.0, "a row is given twice");
+    }
+    total += (sl_off)A->p[j + 1] - A->p[j];
+    if (A->p[j] < 0 || A->p[j + 1] < A->p[j] || A->p[j + 1] > sli_nnz(A) ||
+        total > sli_nnz(A)) {
+      return sli_fail_at(stats, SL_ERR_MALFORMED, -1, j, 0.0, "A.p descends");
+    }
+    for (p = A->p[j]; p < A->p[j + 1]; p++) {
+      const sl_int i = A->i[p];
+      if (i < 0 || i >= A->n_rows) {
+        return sli_fail_at(stats, SL_ERR_MALFORMED, i, j, 0.0,
+            "a row of A is out of range; rows count from 0");
+      }
+      if (i != j && sli_submatrix_position(s, i) >= 0) {
+        below |= i > j;
+        above |= i < j;
+      }
+    }
+  }
+  s->is_folded = !(below && above);
+  return SL_OK;
+}
+
 SL_API sl_status sl_matrix_submatrix(sl_matrix **out, const sl_csc *A, const sl_int *rows,
     sl_int count, const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
   sli_block b = {NULL, 0};
   sli_submatrix s;
-  sl_int *where = NULL, *position = NULL, bad;
+  sl_int *position = NULL;
+  uint64_t *scratch = NULL;
   sl_status status;
   sli_stats_clear_error(stats);
+  SLI_CLEAR(s);
   status = sli_begin(out);
-  status = status == SL_OK ? sl_csc_check(A, stats) : status;
+  status = status == SL_OK ? sli_argument(A == NULL ? "A is NULL" : NULL) : status;
+  status = status == SL_OK ? sli_csc_check_sizes(A->n_rows, A->n_cols, A->p) : status;
   if (status == SL_OK) {
-    status =
-      sli_argument(A->n_rows != A->n_cols ? "A is not square"
-          : count < 0 ? "count is below 0"
-          : count > 0 && rows == NULL ? "rows is NULL"
-          : sli_options_wrong(opt, SLI_READS_NOTHING));
+    status = sli_argument(A->n_rows != A->n_cols ? "A is not square"
+        : count < 0 ? "count is below 0"
+        : count > 0 && rows == NULL ? "rows is NULL"
+        : A->n_cols > 0 && sli_nnz(A) > 0 && A->i == NULL
+        ? "A.i is NULL"
+        : sli_options_wrong(opt, SLI_READS_NOTHING));
   }
   SLI_LAYOUT(&b, &a, status) {
-    where = SLI_TAKE(&b, sl_int, A->n_cols);
+    s.sorted = SLI_TAKE(&b, uint64_t, count);
+    scratch = SLI_TAKE(&b, uint64_t, count);
     position = SLI_TAKE(&b, sl_int, (uint64_t)count + 1);
   }
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
-  bad = sli_rows_invert(rows, count, A->n_cols, where);
-  if (bad >= 0) {
-    status = sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0,
-        "a row is out of range or given twice");
-  } else {
-    s.A = A;
-    s.triangle = SL_TRIANGLE_NONE;
-    s.is_folded = sli_triangle_scan(A) != SL_TRIANGLE_BOTH;
-    s.count = count;
-    s.where = where;
-    status = sli_submatrix_make(out, NULL, &s, position, &a);
-  }
+  s.A = A;
+  s.triangle = SL_TRIANGLE_NONE;
+  s.count = count;
+  status = sli_columns_check(&s, rows, scratch, stats);
+  status = status == SL_OK ? sli_submatrix_make(out, NULL, &s, position, &a) : status;
   sli_free(&a, b.base);
   return sli_report(stats, status);
 }
@@ -15931,9 +15993,7 @@ static void sli_sweep_tasks_finish(sli_sweep_tasks *t) {
 
 static size_t sli_sweep_tasks_scratch(const sli_sweep_tasks *t) {
   const sl_symbolic *S = t->F->S;
-  const size_t few = sli_sweep_scratch(S->tallest, S->widest, 2);
-  const size_t many = sli_sweep_scratch(S->tallest, S->widest, SLI_BLOCK_MOST);
-  return few > many ? few : many;
+  return sli_sweep_scratch_up_to(S->tallest, S->widest, SLI_BLOCK_MOST);
 }
 
 static void sli_sweep_tasks_layout(sli_sweep_tasks *t, sli_block *b) {
@@ -19622,8 +19682,7 @@ static void sli_bounds_layout(sli_bounds *p, sli_block *b, sl_int nrhs, int need
   const sli_reach *R = &p->q->backward;
   const uint64_t paths = (uint64_t)p->q->forward.count + 1;
   const sl_int most = sli_block_most(p->F);
-  size_t scratch = sli_sweep_scratch(R->tallest, R->widest, SLI_TILE);
-  scratch += sli_sweep_scratch(R->tallest, R->widest, 2);
+  const size_t scratch = sli_sweep_scratch_up_to(R->tallest, R->widest, SLI_TILE);
   p->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(p->q, nrhs, most), 1);
   p->norms = SLI_TAKE(b, double, paths << sli_lanes_kind(sli_block_size(nrhs, most)));
   if (needs == SLI_NEEDS_NOTHING) {

@@ -27,14 +27,15 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int 
 /** The principal submatrix C = A[rows, rows] of a square matrix: C(k, l) = A(rows[k], rows[l]).
  *  With all rows it is a symmetric permutation P A P'.
  *
- *  If A stores one triangle, C has its lower triangle; if A stores both, so does C. Rows of a
- *  column are in any order; duplicates stay.
+ *  If the entries of C are in one triangle of A, C has its lower triangle; if in both, so has C.
+ *  Rows of a column are in any order; duplicates stay. Only the columns `rows` of A are read and
+ *  checked.
  *
  *  rows   [in]   count rows of A in 0..n-1, any order, none twice.
  *  stats  [out]  error.row: a row out of range or given twice.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also not square; SL_ERR_MALFORMED; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
- *  Cost     O(n + nnz).
+ *  Cost     O((count + entries of these columns) log count), in memory O(count + entries of C).
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_submatrix(sl_matrix **out, const sl_csc *A,
                                                     const sl_int *rows, sl_int count,

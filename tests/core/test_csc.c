@@ -230,6 +230,31 @@ static void a_submatrix_has_the_chosen_rows(void **state) {
     gen_list_free(&t);
 }
 
+/* Few rows of a large matrix take few bytes, and columns that are not read are not checked. */
+static void a_submatrix_costs_what_it_reads(void **state) {
+    (void)state;
+    enum { MANY = 100000 };
+    gen_matrix_t M = gen_matrix(GEN_PATH, MANY, 1, 1);
+    const sl_int rows[3] = {70001, 5, 70000};
+    counter_t counter = counter_make();
+    sl_options opt = options_counted(&counter);
+    sl_matrix *P = NULL;
+    sl_stats stats;
+    M.i[M.p[40000]] = -7;
+    SL_CHECK(sl_matrix_submatrix(&P, &M.view, rows, 3, &opt, NULL));
+    assert_true(counter.total_bytes < 4096);
+    sl_matrix_free(P);
+    M.i[M.p[70000]] = MANY;
+    SL_EXPECT(SL_ERR_MALFORMED, sl_matrix_submatrix(&P, &M.view, rows, 3, &opt, &stats));
+    assert_int_equal(stats.error.column, 70000);
+    assert_null(P);
+    M.p[70001] = -1;
+    SL_EXPECT(SL_ERR_MALFORMED, sl_matrix_submatrix(&P, &M.view, rows, 3, &opt, &stats));
+    assert_null(P);
+    COUNTER_CLEAN(&counter);
+    gen_matrix_free(&M);
+}
+
 static void invalid_arguments_of_submatrix_are_refused(void **state) {
     (void)state;
     gen_matrix_t M = gen_matrix(GEN_PATH, 4, 1, 1);
@@ -261,6 +286,7 @@ int main(void) {
         cmocka_unit_test(triangle_detection_agrees_with_dense_patterns),
         cmocka_unit_test(all_rows_make_a_symmetric_permutation),
         cmocka_unit_test(a_submatrix_has_the_chosen_rows),
+        cmocka_unit_test(a_submatrix_costs_what_it_reads),
         cmocka_unit_test(invalid_arguments_of_submatrix_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

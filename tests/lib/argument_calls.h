@@ -242,7 +242,7 @@ static const struct {
     {"sl_csc_check", check, A_},
     {"sl_csc_triangle", triangle, A_ | SQUARE_},
     {"sl_fixed_create", fixed, A_ | SQUARE_ | VALUES_ | LIST_},
-    {"sl_matrix_submatrix", submatrix, A_ | SQUARE_ | LIST_},
+    {"sl_matrix_submatrix", submatrix, SQUARE_ | LIST_},
     {"sl_matrix_sum", sum, A_ | SQUARE_},
     {"sl_symbolic_create", symbolic, A_ | SQUARE_},
     {"sl_symbolic_edit", edit, A_ | SQUARE_ | S_},
