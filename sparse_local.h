@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 1efa1e66eb7e6ef9
+ * FNV-1a of the lines after this comment, without the license: 11f43d46b9d6fde7
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -7941,7 +7941,7 @@ SLI_TARGET("avx2,popcnt") static void sli_mindeg_run_avx2(sli_mindeg *m, sl_int 
 }
 #endif
 
-static int sli_mindeg_has_avx2(sl_int n) {
+static int sli_mindeg_is_wide(sl_int n) {
   return n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
 }
 
@@ -8893,7 +8893,7 @@ static sl_status sli_order_nd(const sli_order_job *job) {
     sli_nd_layout(&w, &b);
   }
   if (status == SL_OK) {
-    const int has_avx2 = sli_mindeg_has_avx2(w.G->n);
+    const int has_avx2 = sli_mindeg_is_wide(w.G->n);
     for (k = 0; k < job->team->workers; k++) {
       w.d.workers[k].mindeg.has_avx2 = has_avx2;
     }

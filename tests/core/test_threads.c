@@ -314,12 +314,6 @@ static void every_allocation_may_fail(void **state) {
     factored_free(&y);
 }
 
-#if defined(_OPENMP) || defined(SL_PTHREADS)
-enum { HAS_THREADS = 1 };
-#else
-enum { HAS_THREADS = 0 };
-#endif
-
 static void unusual_thread_counts_are_handled(void **state) {
     (void)state;
     factored_t y = factored_make(GEN_GRID2, 100, 1, 0, NULL);
