@@ -97,6 +97,7 @@ extern "C" {
 #include "impl/matrix/csc.h"
 #include "impl/matrix/csc_build.h"
 #include "impl/matrix/csc_triangle.h"
+#include "impl/matrix/dense.h"
 #include "impl/matrix/csc_products.h"
 #include "impl/matrix/submatrix.h"
 /* ordering: fill-reducing orderings of a graph */

@@ -8,6 +8,7 @@
 /* Y := z' b for the null vectors that are known, where components have several; Y is rhs->X. */
 static void sli_defects_known(const sl_factor *F, const sli_packed *b, const sli_rhs *rhs) {
     const sli_reach *R = b->R;
+    const sli_dense at = sli_dense_of(rhs->ldx);
     sl_int first = 0, s, r;
     for (s = 0; s < R->count && F->null.vectors > 1; s++) {
         sli_null_dot dot;
@@ -17,7 +18,7 @@ static void sli_defects_known(const sl_factor *F, const sli_packed *b, const sli
         dot.next = sli_null_first(F, R, s);
         while (F->null.calls->next_dot(F, b, first, s, &dot)) {
             for (r = 0; r < rhs->nrhs; r++) {
-                rhs->X[(size_t)dot.number + (size_t)r * rhs->ldx] = dot.sums[r];
+                rhs->X[(size_t)dot.number * at.row + (size_t)r * at.column] = dot.sums[r];
             }
         }
         first = s + 1;
@@ -26,6 +27,7 @@ static void sli_defects_known(const sl_factor *F, const sli_packed *b, const sli
 
 /* Y := the entries of L^-1 P B at the null pivots, in blocks of right-hand sides; Y is rhs->X. */
 static void sli_defects(const sl_factor *F, const sli_query *q, const sli_rhs *rhs, void *memory) {
+    const sli_dense at = sli_dense_of(rhs->ldx);
     sl_int c, r, m;
     for (c = 0; c < rhs->nrhs; c += sli_min(8, rhs->nrhs - c)) {
         const sli_rhs block = sli_rhs_part(rhs, c, sli_min(8, rhs->nrhs - c));
@@ -38,7 +40,7 @@ static void sli_defects(const sl_factor *F, const sli_query *q, const sli_rhs *r
         for (m = 0; m < F->null.count; m++) {
             const int is_known = F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
             for (r = 0; r < block.nrhs && !is_known; r++) {
-                block.X[(size_t)m + (size_t)r * block.ldx] =
+                block.X[(size_t)m * at.row + (size_t)r * at.column] =
                     v.y[(ptrdiff_t)F->null.pivots[m] * lanes + r];
             }
         }
@@ -54,7 +56,7 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
     sl_status status;
     status = F == NULL ? sli_argument("F is NULL") : sli_factor_has_numbers(F);
     status = status == SL_OK ? sli_singular_needed() : status;
-    status = status == SL_OK ? sli_rhs_check_columns(&rhs, F->null.count, F->S->n) : status;
+    status = status == SL_OK ? sli_rhs_check(&rhs, F->null.count, F->S->n) : status;
     if (status == SL_OK && Y == B && Y != NULL) {
         status = sli_argument("Y is B");
     }

@@ -53,7 +53,7 @@ static void sli_norm_estimate_residual(const sli_norm_estimate *p) {
 SLI_HOT static double sli_norm_estimate_solve(sli_norm_estimate *p) {
     const sl_factor *F = p->F;
     const sl_int n = p->all.columns;
-    const double size = sli_largest(p->v, n);
+    const double size = sli_largest(p->v, 1, n);
     double sum = 0.0, error;
     sl_int k;
     SLI_COPY(p->residual, p->v, n);
@@ -63,7 +63,7 @@ SLI_HOT static double sli_norm_estimate_solve(sli_norm_estimate *p) {
         sum += fabs(p->v[k]);
     }
     sli_norm_estimate_residual(p);
-    error = sli_backward_error(sli_largest(p->residual, n), p->norm, sli_largest(p->v, n), size);
+    error = sli_backward_error(sli_largest(p->residual, 1, n), p->norm, sli_largest(p->v, 1, n), size);
     p->error = error > p->error ? error : p->error;
     return sum;
 }
@@ -153,7 +153,7 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
     if (status == SL_OK) {
         double inverse, unit;
         sli_norm_estimate_layout(&p, &b);
-        p.norm = sli_csc_norm(A, F->S->stats.symbolic.triangle, p.v);
+        p.norm = sli_csc_norm(A, F->S->stats.symbolic.triangle, p.v, 1);
         inverse = sli_inverse_norm(&p);
         /* Divided by the larger norm first: 1 / (smallest subnormal) is infinite. */
         *rcond = p.norm > 0.0 && inverse > 0.0 ? 1.0 / fmax(p.norm, inverse) / fmin(p.norm, inverse)

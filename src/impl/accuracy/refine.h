@@ -35,7 +35,7 @@ static void sli_refinement_layout(sli_refinement *f, sli_block *b, sl_int column
 /* R -= A X and size += |A| |X| for a constant number of columns, each of which is added up as it
  * would be alone. */
 SLI_ALWAYS_INLINE void sli_subtract_columns(const sli_refinement *f, double *R, const double *X,
-                                            size_t ldx, sl_int columns) {
+                                            sl_int columns) {
     const sl_csc *A = f->A;
     const size_t n = (size_t)A->n_cols;
     double x[SLI_PRODUCT_COLUMNS], r[SLI_PRODUCT_COLUMNS], size[SLI_PRODUCT_COLUMNS];
@@ -44,7 +44,7 @@ SLI_ALWAYS_INLINE void sli_subtract_columns(const sli_refinement *f, double *R, 
     for (j = 0; j < A->n_cols; j++) {
         SLI_UNROLL
         for (c = 0; c < columns; c++) {
-            x[c] = X[(size_t)c * ldx + (size_t)j];
+            x[c] = X[(size_t)c * n + (size_t)j];
             r[c] = R[(size_t)c * n + (size_t)j];
             size[c] = sizes[(size_t)c * n + (size_t)j];
         }
@@ -60,7 +60,7 @@ SLI_ALWAYS_INLINE void sli_subtract_columns(const sli_refinement *f, double *R, 
             } else if (sli_is_read(f->triangle, i, j)) {
                 SLI_UNROLL
                 for (c = 0; c < columns; c++) {
-                    const double other = a * X[(size_t)c * ldx + (size_t)i];
+                    const double other = a * X[(size_t)c * n + (size_t)i];
                     R[(size_t)c * n + (size_t)i] -= a * x[c];
                     sizes[(size_t)c * n + (size_t)i] += fabs(a * x[c]);
                     r[c] -= other;
@@ -76,29 +76,30 @@ SLI_ALWAYS_INLINE void sli_subtract_columns(const sli_refinement *f, double *R, 
     }
 }
 
-/* For each column to do, the c-th of X and of R: R := B - A X, and error[c], the componentwise
- * backward error of X: the least relative change of the entries of A and b that makes it an exact
+/* For each column to do, the c-th of T and of R: R := B - A T, and error[c], the componentwise
+ * backward error of T: the least relative change of the entries of A and b that makes it an exact
  * solution. */
-SLI_HOT static void sli_row_errors(const sli_refinement *f, const double *X, size_t ldx,
-                                   const sli_rhs *rhs, double *error) {
+SLI_HOT static void sli_row_errors(const sli_refinement *f, const sli_rhs *rhs, double *error) {
+    const sli_dense at = sli_dense_of(rhs->ldb);
     const size_t n = (size_t)f->A->n_cols;
     size_t i;
     sl_int first, c, step;
     for (first = 0; first < f->todo; first += step) {
         double *R = f->R + n * (size_t)first;
+        const double *T = f->T + n * (size_t)first;
         step = f->todo - first >= SLI_PRODUCT_COLUMNS ? SLI_PRODUCT_COLUMNS : 1;
         for (c = 0; c < step; c++) {
-            const double *b = rhs->B + rhs->ldb * (size_t)f->column[first + c];
+            const double *b = rhs->B + at.column * (size_t)f->column[first + c];
             double *r = R + n * (size_t)c, *size = f->size + n * (size_t)c;
             for (i = 0; i < n; i++) {
-                r[i] = b[i];
-                size[i] = fabs(b[i]);
+                r[i] = b[i * at.row];
+                size[i] = fabs(b[i * at.row]);
             }
         }
         if (step == 1) {
-            sli_subtract_columns(f, R, X + ldx * (size_t)first, ldx, 1);
+            sli_subtract_columns(f, R, T, 1);
         } else {
-            sli_subtract_columns(f, R, X + ldx * (size_t)first, ldx, SLI_PRODUCT_COLUMNS);
+            sli_subtract_columns(f, R, T, SLI_PRODUCT_COLUMNS);
         }
         for (c = 0; c < step; c++) {
             const double *r = R + n * (size_t)c;
@@ -107,7 +108,7 @@ SLI_HOT static void sli_row_errors(const sli_refinement *f, const double *X, siz
                 const double d = r[i] == 0.0 ? 1.0 : size[i];
                 size[i] = fabs(r[i]) / d + (d - d);
             }
-            error[first + c] = sli_largest(size, f->A->n_cols);
+            error[first + c] = sli_largest(size, 1, f->A->n_cols);
         }
     }
 }
@@ -124,17 +125,20 @@ static void sli_correct(const sli_refinement *f, sl_int columns) {
     sli_unpack(f->F, &q, &rhs, v.x);
 }
 
-/* Judges a correction of column c, which has led from x to t with this error. The column is done
- * once a correction does not halve its error. With L in float that takes two in a row, and the
- * first may double it: where a high condition leaves x without a digit, the first correction is as
- * large as x, and its own backward error is again that of float. Returns whether it is done. */
-static int sli_refine_column(sli_refinement *f, sl_int c, double *x, const double *t, double error,
+/* Judges a correction of the k-th column to do, which has led from x to t with this error. The
+ * column is done once a correction does not halve its error. With L in float that takes two in a
+ * row, and the first may double it: where a high condition leaves x without a digit, the first
+ * correction is as large as x, and its own backward error is again that of float. Returns whether
+ * it is done. */
+static int sli_refine_column(sli_refinement *f, const sli_rhs *rhs, sl_int k, double error,
                              sl_int step) {
+    const sl_int c = f->column[k], n = f->F->S->n;
     const int may_wait = sli_is_float(f->F) && !f->is_slow[c];
     const int is_kept = error < f->error[c] || (may_wait && error <= 2.0 * f->error[c]);
     f->is_slow[c] = !(error <= 0.5 * f->error[c]);
     if (is_kept) {
-        memcpy(x, t, (size_t)f->F->S->n * sizeof(double));
+        const sli_dense x = sli_dense_of(rhs->ldx), t = sli_dense_by_columns((size_t)n);
+        sli_dense_copy(rhs->X + x.column * (size_t)c, x, f->T + t.column * (size_t)k, t, n, 1);
         f->error[c] = error;
         f->steps = sli_max(f->steps, step);
     }
@@ -158,6 +162,7 @@ static void sli_refine_rest(sli_refinement *f, const int *is_done) {
 
 static void sli_refine_block(sli_refinement *f, const sli_rhs *rhs, sl_int steps) {
     const size_t n = (size_t)f->F->S->n;
+    const sli_dense at = sli_dense_of(rhs->ldx);
     double error[SLI_TILE];
     int is_done[SLI_TILE];
     sl_int c, step;
@@ -167,7 +172,8 @@ static void sli_refine_block(sli_refinement *f, const sli_rhs *rhs, sl_int steps
         f->column[c] = c;
         f->is_slow[c] = 0;
     }
-    sli_row_errors(f, rhs->X, rhs->ldx, rhs, f->error);
+    sli_dense_copy(f->T, sli_dense_by_columns(n), rhs->X, at, f->F->S->n, rhs->nrhs);
+    sli_row_errors(f, rhs, f->error);
     for (c = 0; c < rhs->nrhs; c++) {
         is_done[c] = f->error[c] <= DBL_EPSILON;
     }
@@ -178,17 +184,15 @@ static void sli_refine_block(sli_refinement *f, const sli_rhs *rhs, sl_int steps
         }
         sli_correct(f, rhs->nrhs); /* the bits depend on how many there are */
         for (c = 0; c < f->todo; c++) {
-            const double *x = rhs->X + rhs->ldx * (size_t)f->column[c], *r = f->R + n * (size_t)c;
+            const double *x = rhs->X + at.column * (size_t)f->column[c], *r = f->R + n * (size_t)c;
             double *t = f->T + n * (size_t)c;
             for (i = 0; i < n; i++) {
-                t[i] = x[i] + r[i];
+                t[i] = x[i * at.row] + r[i];
             }
         }
-        sli_row_errors(f, f->T, n, rhs, error);
+        sli_row_errors(f, rhs, error);
         for (c = 0; c < f->todo; c++) {
-            is_done[c] =
-                sli_refine_column(f, f->column[c], rhs->X + rhs->ldx * (size_t)f->column[c],
-                                  f->T + n * (size_t)c, error[c], step);
+            is_done[c] = sli_refine_column(f, rhs, c, error[c], step);
         }
     }
 }
@@ -223,7 +227,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
     sl_int r, c;
     sli_stats_clear_error(stats);
     status = sli_argument(F == NULL ? "F is NULL" : steps < 0 ? "steps is below 0" : NULL);
-    status = status == SL_OK ? sli_rhs_check_columns(&rhs, F->S->n, F->S->n) : status;
+    status = status == SL_OK ? sli_rhs_check(&rhs, F->S->n, F->S->n) : status;
     if (status == SL_OK && X == B && nrhs > 0 && F->S->n > 0) {
         status = sli_argument("X is B");
     }

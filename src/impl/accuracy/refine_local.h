@@ -113,10 +113,12 @@ static void sli_local_refinement_norms(const sli_local_refinement *f, const sli_
                                        double *norms) {
     const sl_int columns = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(columns);
     const sli_vectors v = sli_vectors_of(f->q, columns, f->memory);
+    const sli_dense b = sli_dense_of(rhs->ldb);
     sl_int k, c;
     if (!f->q->b_repeats) {
         for (c = 0; c < columns; c++) {
-            norms[c] = f->q->nb > 0 ? sli_largest(rhs->B + rhs->ldb * (size_t)c, f->q->nb) : 0.0;
+            norms[c] = f->q->nb == 0 ? 0.0
+                                     : sli_largest(rhs->B + b.column * (size_t)c, b.row, f->q->nb);
         }
         return;
     }
@@ -144,9 +146,8 @@ static void sli_local_refinement_block(sli_local_refinement *f, const sli_rhs *r
             todo += !f->is_done[c];
         }
     }
-    for (c = 0; c < columns; c++) {
-        memcpy(rhs->X + rhs->ldx * (size_t)c, f->best + nx * (size_t)c, nx * sizeof(double));
-    }
+    sli_dense_copy(rhs->X, sli_dense_of(rhs->ldx), f->best, sli_dense_by_columns(nx), f->q->nx,
+                   columns);
 }
 
 /* The backward error that refinement leaves, as it removes that of E alone: what growth lets
@@ -200,7 +201,7 @@ SL_API sl_status sl_plan_solve_regularized(const sl_plan *P, const sl_factor *F,
                           : F == NULL ? "F is NULL"
                           : steps < 0 ? "steps is below 0"
                                       : NULL);
-    status = status == SL_OK ? sli_rhs_check_columns(&rhs, P->query.nx, P->query.nb) : status;
+    status = status == SL_OK ? sli_rhs_check(&rhs, P->query.nx, P->query.nb) : status;
     if (status != SL_OK) {
         return sli_report(stats, status);
     }

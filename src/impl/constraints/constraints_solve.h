@@ -9,8 +9,8 @@ typedef struct sli_constraints_solve {
     const sl_constraints *P;
     const sli_query *q;
     sli_rhs rhs;     /* the current block of up to 8 right-hand sides */
-    const double *G; /* its n_pins x rhs.nrhs, column-major: C' x */
-    size_t ldg;
+    const double *G; /* its n_pins x rhs.nrhs: C' x */
+    sli_dense g;     /* strides of G */
     sl_int lanes;
     unsigned char *memory; /* of the sweeps */
     double *largest;       /* steps of the backward reach x lanes: |x| */
@@ -61,7 +61,7 @@ static void sli_constraints_load(const sli_constraints_solve *w, const double *y
             }
         }
         for (r = 0; r < lanes; r++) {
-            f[r] = r < nrhs ? w->G[(size_t)p + w->ldg * (size_t)r] - sums[r] : 0.0;
+            f[r] = r < nrhs ? w->G[(size_t)p * w->g.row + (size_t)r * w->g.column] - sums[r] : 0.0;
         }
     }
 }
@@ -118,7 +118,7 @@ static int sli_constraints_hold(const sli_constraints_solve *w, const double *x)
     for (r = 0; r < w->rhs.nrhs; r++) {
         for (p = 0; p < P->n_pins; p++) {
             const sli_pin *pin = P->pins[p];
-            const double g = w->G[(size_t)p + w->ldg * (size_t)r];
+            const double g = w->G[(size_t)p * w->g.row + (size_t)r * w->g.column];
             double sum = -g, size = 0.0, weight = 0.0;
             sl_int s = 0;
             for (k = 0; k < pin->count && s != -1; k++) {
@@ -226,11 +226,12 @@ SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *pl
         return sli_argument("P is NULL");
     }
     all = sli_query_all(P->F->S);
-    status = sli_rhs_check_columns(&rhs, q->nx, q->nb);
+    status = sli_rhs_check(&rhs, q->nx, q->nb);
     if (status == SL_OK && nrhs > 0 && P->n_pins > 0) {
-        status = sli_argument(G == NULL                    ? "G is NULL"
-                              : !sli_is_ld(ldg, P->n_pins) ? "ldg is below the number of pins"
-                                                           : NULL);
+        status = sli_argument(G == NULL ? "G is NULL"
+                              : !sli_dense_spans(ldg, P->n_pins, nrhs)
+                                  ? "ldg is below the number of pins (nrhs with SL_ROWS)"
+                                  : NULL);
     }
     status = status == SL_OK ? sli_constraints_are_current(P) : status;
     status = status == SL_OK ? sli_query_check(q, P->F) : status;
@@ -247,7 +248,7 @@ SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *pl
     W = W == NULL ? &own : W;
     w.P = P;
     w.q = q;
-    w.ldg = ldg;
+    w.g = sli_dense_of(ldg);
     sli_constraints_layout(&w, &counted, nrhs);
     status = sli_work_block(W, &counted);
     if (status == SL_OK) {
@@ -255,7 +256,7 @@ SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *pl
         status = sli_constraints_nulls_factor(&w.nulls, P);
         for (r = 0; r < nrhs && status == SL_OK; r += sli_min(8, nrhs - r)) {
             w.rhs = sli_rhs_part(&rhs, r, sli_min(8, nrhs - r));
-            w.G = P->n_pins == 0 ? G : G + (size_t)r * ldg;
+            w.G = P->n_pins == 0 ? G : G + (size_t)r * w.g.column;
             status = sli_constraints_block(&w);
         }
     }

@@ -4,6 +4,7 @@
 
 #include "../analysis/reach.h"
 #include "../factor/factor_types.h"
+#include "../matrix/dense.h"
 #include "work.h"
 
 /* Where the sweeps of a query end before the roots. The object of a pack begins with this; rows of
@@ -163,37 +164,6 @@ static sli_vectors sli_vectors_of(const sli_query *q, sl_int nrhs, void *memory)
     return v;
 }
 
-/* A dense block of the caller's: its strides between rows and between columns. */
-typedef struct sli_dense {
-    size_t row, column; /* one of them is 1 */
-} sli_dense;
-
-SLI_INLINE sli_dense sli_dense_by_rows(size_t row) {
-    sli_dense at;
-    at.row = row;
-    at.column = 1;
-    return at;
-}
-
-SLI_INLINE sli_dense sli_dense_by_columns(size_t column) {
-    sli_dense at;
-    at.row = 1;
-    at.column = column;
-    return at;
-}
-
-/* The strides of a leading dimension as the caller gives it: by rows if it is one of SL_ROWS. */
-SLI_INLINE sli_dense sli_dense_of(size_t ld) {
-    return ld & SL_ROW_MAJOR ? sli_dense_by_rows(ld & ~SL_ROW_MAJOR) : sli_dense_by_columns(ld);
-}
-
-/* Does a leading dimension span the rows of a column or, by rows, the columns of a row? */
-SLI_INLINE int sli_dense_spans(size_t ld, sl_int rows, sl_int columns) {
-    const size_t elements = ld & ~SL_ROW_MAJOR;
-    return elements < SL_ROW_MAJOR / 2 && /* that bit is for later layouts */
-           elements >= (size_t)(ld & SL_ROW_MAJOR ? columns : rows);
-}
-
 /* The right-hand sides of a call and their solutions, in the caller's arrays, or some of them. */
 typedef struct sli_rhs {
     double *X;
@@ -240,13 +210,6 @@ static sl_status sli_rhs_check(const sli_rhs *r, sl_int nx, sl_int nb) {
                         : bad_b && r->B == NULL ? "B is NULL"
                         : bad_b ? "ldb is below the rows of B (nrhs with SL_ROWS), or too large"
                                 : "X is B, but ldx is not ldb");
-}
-
-/* The same for calls that take columns only. */
-SLI_INLINE sl_status sli_rhs_check_columns(const sli_rhs *r, sl_int nx, sl_int nb) {
-    return r->nrhs > 0 && ((r->ldx | r->ldb) & SL_ROW_MAJOR)
-               ? sli_argument("ldx or ldb is one of SL_ROWS, which this call does not take")
-               : sli_rhs_check(r, nx, nb);
 }
 
 /* How many rows ahead the loops below prefetch. The caller's order jumps about in the vector, which

@@ -1,0 +1,66 @@
+/* dense.h: dense blocks of the caller's, column-major or row-major */
+#ifndef SLI_MATRIX_DENSE_H
+#define SLI_MATRIX_DENSE_H
+
+#include "../../public/solve.h"
+#include "../base/alloc.h"
+
+/* A dense block of the caller's: its strides between rows and between columns. */
+typedef struct sli_dense {
+    size_t row, column; /* one of them is 1 */
+} sli_dense;
+
+SLI_INLINE sli_dense sli_dense_by_rows(size_t row) {
+    sli_dense at;
+    at.row = row;
+    at.column = 1;
+    return at;
+}
+
+SLI_INLINE sli_dense sli_dense_by_columns(size_t column) {
+    sli_dense at;
+    at.row = 1;
+    at.column = column;
+    return at;
+}
+
+/* The strides of a leading dimension as the caller gives it: by rows if it is one of SL_ROWS. */
+SLI_INLINE sli_dense sli_dense_of(size_t ld) {
+    return ld & SL_ROW_MAJOR ? sli_dense_by_rows(ld & ~SL_ROW_MAJOR) : sli_dense_by_columns(ld);
+}
+
+/* Does a leading dimension span the rows of a column or, by rows, the columns of a row? */
+SLI_INLINE int sli_dense_spans(size_t ld, sl_int rows, sl_int columns) {
+    const size_t elements = ld & ~SL_ROW_MAJOR;
+    return elements < SL_ROW_MAJOR / 2 && /* that bit is for later layouts */
+           elements >= (size_t)(ld & SL_ROW_MAJOR ? columns : rows);
+}
+
+/* Copies one block to another. */
+static void sli_dense_copy(double *to, sli_dense t, const double *from, sli_dense f, sl_int rows,
+                           sl_int columns) {
+    size_t i, r;
+    for (r = 0; r < (size_t)columns; r++) {
+        double *x = to + r * t.column;
+        const double *y = from + r * f.column;
+        if (t.row == 1 && f.row == 1) {
+            SLI_COPY(x, y, rows);
+        } else {
+            for (i = 0; i < (size_t)rows; i++) {
+                x[i * t.row] = y[i * f.row];
+            }
+        }
+    }
+}
+
+/* Clears a block. */
+static void sli_dense_zero(double *to, sli_dense t, sl_int rows, sl_int columns) {
+    const int by_rows = t.column == 1;
+    const size_t runs = (size_t)(by_rows ? rows : columns), step = by_rows ? t.row : t.column;
+    size_t k;
+    for (k = 0; k < runs; k++) {
+        SLI_ZERO(to + k * step, by_rows ? columns : rows);
+    }
+}
+
+#endif
