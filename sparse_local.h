@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 11f43d46b9d6fde7
+ * FNV-1a of the lines after this comment, without the license: 7f705e4d25cb8b6d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,26 +35,26 @@
  *   2806 impl/ base: the compiler, status, memory, sorting, threads
  *   4108 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   5012 impl/ matrix: sparse matrices of the caller and of the library
- *   5746 impl/ ordering: fill-reducing orderings of a graph
- *  10346 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12588 impl/ factor: the numbers of L and D
- *  15170 impl/ solve: full and local solves
- *  16710 impl/ singular: null spaces of semidefinite matrices
- *  17981 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19995 impl/ pivots: the order of the pivots by the values of a matrix
- *  20403 impl/ float: L in single precision
- *  20633 impl/ inverse: entries of the inverse, regions
- *  23545 impl/ change: a factor that follows changes of its matrix
- *  25823 impl/ constraints: rows held at values, on a factor that stays
- *  27131 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  29871 impl/ fixed: rows fixed at given values
- *  30430 impl/ io: files that are replaced only when they are complete
- *  30648 impl/ files: Matrix Market files, 64-bit indices
- *  31194 impl/ save: factors in files
- *  33167 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33853 impl/ complex: complex Hermitian systems over real factors
- *  34358 impl/ packs: the tables through which the core calls packs
- *  34748 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5817 impl/ ordering: fill-reducing orderings of a graph
+ *  10417 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12659 impl/ factor: the numbers of L and D
+ *  15241 impl/ solve: full and local solves
+ *  16747 impl/ singular: null spaces of semidefinite matrices
+ *  18018 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20038 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20446 impl/ float: L in single precision
+ *  20676 impl/ inverse: entries of the inverse, regions
+ *  23588 impl/ change: a factor that follows changes of its matrix
+ *  25866 impl/ constraints: rows held at values, on a factor that stays
+ *  27175 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  29915 impl/ fixed: rows fixed at given values
+ *  30474 impl/ io: files that are replaced only when they are complete
+ *  30692 impl/ files: Matrix Market files, 64-bit indices
+ *  31238 impl/ save: factors in files
+ *  33211 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33897 impl/ complex: complex Hermitian systems over real factors
+ *  34402 impl/ packs: the tables through which the core calls packs
+ *  34792 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4630,7 +4630,7 @@ typedef struct sli_kernels {
   sli_separate_kernel separate;
 } sli_kernels;
 
-/* src/impl/kernels/simd.h: the SIMD vocabulary of the kernel templates, and macros that repeat code */
+/* src/impl/kernels/words/simd.h: the SIMD vocabulary of the kernel templates, and macros that repeat code */
 
 #define SLI_EACH4(op, k) op(0, k) op(1, k) op(2, k) op(3, k)
 #define SLI_EACH8(op, k) SLI_EACH4(op, k) op(4, k) op(5, k) op(6, k) op(7, k)
@@ -4722,7 +4722,7 @@ typedef struct sli_kernels {
 #define SLV_WIDE(v, columns) SLI_BY_TYPE(SLI_WIDE_, SLV_SINGLE)(v, columns)
 #define SLV_WIDEN(v, l, columns, rows) SLI_BY_TYPE(SLI_WIDEN_, SLV_SINGLE)(v, l, columns, rows)
 
-/* src/impl/kernels/simd_scalar.h: the kernels in plain C */
+/* src/impl/kernels/words/simd_scalar.h: the kernels in plain C */
 
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
@@ -4750,7 +4750,7 @@ typedef struct sli_kernels {
 #ifdef SLI_INL_WORDS_UNDEF
 #error "sparse_local.h: SL_HEADER names another file, not this one"
 #endif
-/* src/impl/kernels/simd_avx2.h: the kernels in AVX2 and FMA */
+/* src/impl/kernels/words/simd_avx2.h: the kernels in AVX2 and FMA */
 
 #if defined(SLI_X86)
 
@@ -4821,7 +4821,7 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #include SL_HEADER
 #endif
 
-/* src/impl/kernels/simd_avx512.h: the kernels in AVX-512F; some are those of AVX2 */
+/* src/impl/kernels/words/simd_avx512.h: the kernels in AVX-512F; some are those of AVX2 */
 
 #if defined(SLI_X86) && !defined(SL_NO_AVX512)
 
@@ -4853,7 +4853,7 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #include SL_HEADER
 #endif
 
-/* src/impl/kernels/simd_neon.h: the kernels in NEON */
+/* src/impl/kernels/words/simd_neon.h: the kernels in NEON */
 
 #if defined(SLI_ARM)
 
@@ -5386,20 +5386,76 @@ SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_opt
   return sli_report(stats, status);
 }
 
+/* src/impl/matrix/dense.h: dense blocks of the caller's, column-major or row-major */
+
+typedef struct sli_dense {
+  size_t row, column;
+} sli_dense;
+
+SLI_INLINE sli_dense sli_dense_by_rows(size_t row) {
+  sli_dense at;
+  at.row = row;
+  at.column = 1;
+  return at;
+}
+
+SLI_INLINE sli_dense sli_dense_by_columns(size_t column) {
+  sli_dense at;
+  at.row = 1;
+  at.column = column;
+  return at;
+}
+
+SLI_INLINE sli_dense sli_dense_of(size_t ld) {
+  return ld & SL_ROW_MAJOR ? sli_dense_by_rows(ld & ~SL_ROW_MAJOR) : sli_dense_by_columns(ld);
+}
+
+SLI_INLINE int sli_dense_spans(size_t ld, sl_int rows, sl_int columns) {
+  const size_t elements = ld & ~SL_ROW_MAJOR;
+  return elements < SL_ROW_MAJOR / 2 &&
+       elements >= (size_t)(ld & SL_ROW_MAJOR ? columns : rows);
+}
+
+static void sli_dense_copy(double *to, sli_dense t, const double *from, sli_dense f, sl_int rows,
+    sl_int columns) {
+  size_t i, r;
+  for (r = 0; r < (size_t)columns; r++) {
+    double *x = to + r * t.column;
+    const double *y = from + r * f.column;
+    if (t.row == 1 && f.row == 1) {
+      SLI_COPY(x, y, rows);
+    } else {
+      for (i = 0; i < (size_t)rows; i++) {
+        x[i * t.row] = y[i * f.row];
+      }
+    }
+  }
+}
+
+static void sli_dense_zero(double *to, sli_dense t, sl_int rows, sl_int columns) {
+  const int by_rows = t.column == 1;
+  const size_t runs = (size_t)(by_rows ? rows : columns), step = by_rows ? t.row : t.column;
+  size_t k;
+  for (k = 0; k < runs; k++) {
+    SLI_ZERO(to + k * step, by_rows ? columns : rows);
+  }
+}
+
 /* src/impl/matrix/csc_products.h: products with a matrix in compressed columns, its norm, residuals */
 
 #define SLI_PRODUCT_COLUMNS 4
 
 SLI_ALWAYS_INLINE void sli_add_columns(const sl_csc *A, sl_triangle triangle, double sign,
-    double *Y, size_t ldy, const double *X, size_t ldx,
+    double *Y, sli_dense to, const double *X, sli_dense from,
     sl_int columns, int is_half) {
   double x[SLI_PRODUCT_COLUMNS], y[SLI_PRODUCT_COLUMNS];
   sl_int j, p, r;
   for (j = 0; j < A->n_cols; j++) {
     SLI_UNROLL
     for (r = 0; r < columns; r++) {
-      x[r] = X[(size_t)r * ldx + (size_t)j];
-      y[r] = is_half ? Y[(size_t)r * ldy + (size_t)j] : 0.0; /* branches untested: constant */
+      x[r] = X[(size_t)r * from.column + (size_t)j * from.row];
+      y[r] = is_half ? Y[(size_t)r * to.column + (size_t)j * to.row]
+               : 0.0; /* branches untested: constant */
     }
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
       const sl_int i = A->i[p];
@@ -5413,9 +5469,9 @@ SLI_ALWAYS_INLINE void sli_add_columns(const sl_csc *A, sl_triangle triangle, do
           sli_is_read(triangle, i, j)) {
         SLI_UNROLL
         for (r = 0; r < columns; r++) {
-          Y[(size_t)r * ldy + (size_t)i] += a * x[r];
+          Y[(size_t)r * to.column + (size_t)i * to.row] += a * x[r];
           if (is_half) { /* branches untested: the same */
-            y[r] += a * X[(size_t)r * ldx + (size_t)i];
+            y[r] += a * X[(size_t)r * from.column + (size_t)i * from.row];
           }
         }
       }
@@ -5423,27 +5479,41 @@ SLI_ALWAYS_INLINE void sli_add_columns(const sl_csc *A, sl_triangle triangle, do
     if (is_half) { /* branches untested: the same */
       SLI_UNROLL
       for (r = 0; r < columns; r++) { /* branches untested: the same */
-        Y[(size_t)r * ldy + (size_t)j] = y[r];
+        Y[(size_t)r * to.column + (size_t)j * to.row] = y[r];
       }
     }
   }
 }
 
+SLI_NOINLINE static void sli_add_strided(const sl_csc *A, sl_triangle triangle, double sign,
+    double *Y, sli_dense to, const double *X, sli_dense from) {
+  if (triangle != SL_TRIANGLE_NONE) {
+    sli_add_columns(A, triangle, sign, Y, to, X, from, 1, 1);
+  } else {
+    sli_add_columns(A, triangle, sign, Y, to, X, from, 1, 0);
+  }
+}
+
 SLI_HOT static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, double *Y,
-    size_t ldy, const double *X, size_t ldx, sl_int nrhs) {
-  const int is_half = triangle != SL_TRIANGLE_NONE;
+    sli_dense to, const double *X, sli_dense from, sl_int nrhs) {
+  const sli_dense y = sli_dense_by_columns(to.column), x = sli_dense_by_columns(from.column);
+  const int is_half = triangle != SL_TRIANGLE_NONE, by_columns = to.row == 1 && from.row == 1;
   sl_int r, step;
-  for (r = 0; r < nrhs; r += step, Y += (size_t)step * ldy, X += (size_t)step * ldx) {
-    step = nrhs - r >= SLI_PRODUCT_COLUMNS ? SLI_PRODUCT_COLUMNS : 1;
-    if (step == 1 && is_half) {
-      sli_add_columns(A, triangle, sign, Y, ldy, X, ldx, 1, 1);
+  for (r = 0; r < nrhs; r += step) {
+    step = by_columns && nrhs - r >= SLI_PRODUCT_COLUMNS ? SLI_PRODUCT_COLUMNS : 1;
+    if (!by_columns) {
+      sli_add_strided(A, triangle, sign, Y, to, X, from);
+    } else if (step == 1 && is_half) {
+      sli_add_columns(A, triangle, sign, Y, y, X, x, 1, 1);
     } else if (step == 1) {
-      sli_add_columns(A, triangle, sign, Y, ldy, X, ldx, 1, 0);
+      sli_add_columns(A, triangle, sign, Y, y, X, x, 1, 0);
     } else if (is_half) {
-      sli_add_columns(A, triangle, sign, Y, ldy, X, ldx, SLI_PRODUCT_COLUMNS, 1);
+      sli_add_columns(A, triangle, sign, Y, y, X, x, SLI_PRODUCT_COLUMNS, 1);
     } else {
-      sli_add_columns(A, triangle, sign, Y, ldy, X, ldx, SLI_PRODUCT_COLUMNS, 0);
+      sli_add_columns(A, triangle, sign, Y, y, X, x, SLI_PRODUCT_COLUMNS, 0);
     }
+    Y += (size_t)step * to.column;
+    X += (size_t)step * from.column;
   }
 }
 
@@ -5461,7 +5531,6 @@ static const char *sli_product_wrong(const sl_csc *A, sl_int nrhs, int is_square
 SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y, size_t ldy,
     const double *X, size_t ldx, sl_int nrhs) {
   sl_triangle triangle;
-  sl_int r;
   sl_status status = sli_argument(reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED
       ? "reading is not a value of sl_reading"
       : sli_product_wrong(A, nrhs, reading == SL_AS_SYMMETRIC));
@@ -5470,28 +5539,28 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
   }
   status =
     sli_argument(Y == NULL ? "Y is NULL"
-        : !sli_is_ld(ldy, A->n_rows) ? "ldy is below the rows of A, or too large"
-        : !sli_is_ld(ldx, A->n_cols) ? "ldx is below the columns of A, or too large"
         : A->n_cols > 0 && X == NULL ? "X is NULL"
         : A->n_cols > 0 && X == Y ? "X is Y"
+        : !sli_dense_spans(ldy, A->n_rows, nrhs)
+        ? "ldy is below the rows of A (nrhs with SL_ROWS), or too large"
+        : A->n_cols > 0 && !sli_dense_spans(ldx, A->n_cols, nrhs)
+        ? "ldx is below the columns of A (nrhs with SL_ROWS), or too large"
         : NULL);
   if (status != SL_OK) {
     return status;
   }
   triangle = reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE;
-  for (r = 0; r < nrhs; r++) {
-    SLI_ZERO(Y + (size_t)r * ldy, A->n_rows);
-  }
-  sli_add_product(A, triangle, 1.0, Y, ldy, X, ldx, nrhs);
+  sli_dense_zero(Y, sli_dense_of(ldy), A->n_rows, nrhs);
+  sli_add_product(A, triangle, 1.0, Y, sli_dense_of(ldy), X, sli_dense_of(ldx), nrhs);
   return SL_OK;
 }
 
-static double sli_largest(const double *x, sl_int n) {
+static double sli_largest(const double *x, size_t step, sl_int n) {
   uint64_t largest = 0;
   double found;
   sl_int i;
   for (i = 0; i < n; i++) {
-    const double size = fabs(x[i]);
+    const double size = fabs(x[(size_t)i * step]);
     uint64_t bits;
     memcpy(&bits, &size, sizeof bits);
     largest = bits > largest ? bits : largest;
@@ -5500,20 +5569,22 @@ static double sli_largest(const double *x, sl_int n) {
   return found;
 }
 
-static double sli_csc_norm(const sl_csc *A, sl_triangle triangle, double *sums) {
+static double sli_csc_norm(const sl_csc *A, sl_triangle triangle, double *sums, size_t step) {
   sl_int j, p;
-  SLI_ZERO(sums, A->n_cols);
   for (j = 0; j < A->n_cols; j++) {
-    double sum = sums[j];
+    sums[(size_t)j * step] = 0.0;
+  }
+  for (j = 0; j < A->n_cols; j++) {
+    double sum = sums[(size_t)j * step];
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
       if (sli_is_read(triangle, A->i[p], j)) {
         sum += fabs(A->x[p]);
-        sums[A->i[p]] += fabs(A->x[p]);
+        sums[(size_t)A->i[p] * step] += fabs(A->x[p]);
       }
     }
-    sums[j] = sum;
+    sums[(size_t)j * step] = sum;
   }
-  return sli_largest(sums, A->n_cols);
+  return sli_largest(sums, step, A->n_cols);
 }
 
 static double sli_backward_error(double r, double a, double x, double b) {
@@ -5524,16 +5595,15 @@ static double sli_backward_error(double r, double a, double x, double b) {
 SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double *backward_error,
     const double *X, size_t ldx, const double *B, size_t ldb,
     sl_int nrhs) {
+  const sli_dense to = sli_dense_of(ldr), x = sli_dense_of(ldx), b = sli_dense_of(ldb);
   double norm = 0.0;
   sl_int r, n;
-  size_t rows;
   sl_triangle triangle;
   sl_status status = sli_argument(sli_product_wrong(A, nrhs, 1));
   if (status != SL_OK) {
     return status;
   }
   n = A->n_cols;
-  rows = (size_t)n;
   if (nrhs == 0 || n == 0) {
     for (r = 0; r < nrhs && backward_error != NULL; r++) {
       backward_error[r] = 0.0;
@@ -5544,9 +5614,9 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
     sli_argument(B == NULL ? "B is NULL"
         : R == NULL ? "R is NULL"
         : X == NULL ? "X is NULL"
-        : !sli_is_ld(ldb, n) ? "ldb is below n"
-        : !sli_is_ld(ldr, n) ? "ldr is below n"
-        : !sli_is_ld(ldx, n) ? "ldx is below n"
+        : !sli_dense_spans(ldb, n, nrhs) ? "ldb is below n (nrhs with SL_ROWS)"
+        : !sli_dense_spans(ldr, n, nrhs) ? "ldr is below n (nrhs with SL_ROWS)"
+        : !sli_dense_spans(ldx, n, nrhs) ? "ldx is below n (nrhs with SL_ROWS)"
         : R == X ? "R is X"
         : R == B && ldr != ldb ? "R is B with another leading dimension"
         : R == B && backward_error != NULL ? "R is B, and backward_error is wanted"
@@ -5556,16 +5626,17 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
   }
   triangle = sli_triangle_scan(A);
   if (backward_error != NULL) {
-    norm = sli_csc_norm(A, triangle, R);
+    norm = sli_csc_norm(A, triangle, R, to.row);
   }
-  for (r = 0; r < nrhs && R != B; r++) {
-    memcpy(R + (size_t)r * ldr, B + (size_t)r * ldb, rows * sizeof(double));
+  if (R != B) {
+    sli_dense_copy(R, to, B, b, n, nrhs);
   }
-  sli_add_product(A, triangle, -1.0, R, ldr, X, ldx, nrhs);
+  sli_add_product(A, triangle, -1.0, R, to, X, x, nrhs);
   for (r = 0; r < nrhs && backward_error != NULL; r++) {
-    backward_error[r] = sli_backward_error(sli_largest(R + (size_t)r * ldr, n), norm,
-        sli_largest(X + (size_t)r * ldx, n),
-        sli_largest(B + (size_t)r * ldb, n));
+    const size_t c = (size_t)r;
+    backward_error[r] = sli_backward_error(sli_largest(R + c * to.column, to.row, n), norm,
+        sli_largest(X + c * x.column, x.row, n),
+        sli_largest(B + c * b.column, b.row, n));
   }
   return SL_OK;
 }
@@ -15404,34 +15475,6 @@ static sli_vectors sli_vectors_of(const sli_query *q, sl_int nrhs, void *memory)
   return v;
 }
 
-typedef struct sli_dense {
-  size_t row, column;
-} sli_dense;
-
-SLI_INLINE sli_dense sli_dense_by_rows(size_t row) {
-  sli_dense at;
-  at.row = row;
-  at.column = 1;
-  return at;
-}
-
-SLI_INLINE sli_dense sli_dense_by_columns(size_t column) {
-  sli_dense at;
-  at.row = 1;
-  at.column = column;
-  return at;
-}
-
-SLI_INLINE sli_dense sli_dense_of(size_t ld) {
-  return ld & SL_ROW_MAJOR ? sli_dense_by_rows(ld & ~SL_ROW_MAJOR) : sli_dense_by_columns(ld);
-}
-
-SLI_INLINE int sli_dense_spans(size_t ld, sl_int rows, sl_int columns) {
-  const size_t elements = ld & ~SL_ROW_MAJOR;
-  return elements < SL_ROW_MAJOR / 2 &&
-       elements >= (size_t)(ld & SL_ROW_MAJOR ? columns : rows);
-}
-
 typedef struct sli_rhs {
   double *X;
   const double *B;
@@ -15474,12 +15517,6 @@ static sl_status sli_rhs_check(const sli_rhs *r, sl_int nx, sl_int nb) {
       : bad_b && r->B == NULL ? "B is NULL"
       : bad_b ? "ldb is below the rows of B (nrhs with SL_ROWS), or too large"
       : "X is B, but ldx is not ldb");
-}
-
-SLI_INLINE sl_status sli_rhs_check_columns(const sli_rhs *r, sl_int nx, sl_int nb) {
-  return r->nrhs > 0 && ((r->ldx | r->ldb) & SL_ROW_MAJOR)
-         ? sli_argument("ldx or ldb is one of SL_ROWS, which this call does not take")
-         : sli_rhs_check(r, nx, nb);
 }
 
 #define SLI_ROWS_AHEAD 32
@@ -18429,7 +18466,7 @@ static void sli_refinement_layout(sli_refinement *f, sli_block *b, sl_int column
 }
 
 SLI_ALWAYS_INLINE void sli_subtract_columns(const sli_refinement *f, double *R, const double *X,
-    size_t ldx, sl_int columns) {
+    sl_int columns) {
   const sl_csc *A = f->A;
   const size_t n = (size_t)A->n_cols;
   double x[SLI_PRODUCT_COLUMNS], r[SLI_PRODUCT_COLUMNS], size[SLI_PRODUCT_COLUMNS];
@@ -18438,7 +18475,7 @@ SLI_ALWAYS_INLINE void sli_subtract_columns(const sli_refinement *f, double *R, 
   for (j = 0; j < A->n_cols; j++) {
     SLI_UNROLL
     for (c = 0; c < columns; c++) {
-      x[c] = X[(size_t)c * ldx + (size_t)j];
+      x[c] = X[(size_t)c * n + (size_t)j];
       r[c] = R[(size_t)c * n + (size_t)j];
       size[c] = sizes[(size_t)c * n + (size_t)j];
     }
@@ -18454,7 +18491,7 @@ SLI_ALWAYS_INLINE void sli_subtract_columns(const sli_refinement *f, double *R, 
       } else if (sli_is_read(f->triangle, i, j)) {
         SLI_UNROLL
         for (c = 0; c < columns; c++) {
-          const double other = a * X[(size_t)c * ldx + (size_t)i];
+          const double other = a * X[(size_t)c * n + (size_t)i];
           R[(size_t)c * n + (size_t)i] -= a * x[c];
           sizes[(size_t)c * n + (size_t)i] += fabs(a * x[c]);
           r[c] -= other;
@@ -18470,26 +18507,27 @@ SLI_ALWAYS_INLINE void sli_subtract_columns(const sli_refinement *f, double *R, 
   }
 }
 
-SLI_HOT static void sli_row_errors(const sli_refinement *f, const double *X, size_t ldx,
-    const sli_rhs *rhs, double *error) {
+SLI_HOT static void sli_row_errors(const sli_refinement *f, const sli_rhs *rhs, double *error) {
+  const sli_dense at = sli_dense_of(rhs->ldb);
   const size_t n = (size_t)f->A->n_cols;
   size_t i;
   sl_int first, c, step;
   for (first = 0; first < f->todo; first += step) {
     double *R = f->R + n * (size_t)first;
+    const double *T = f->T + n * (size_t)first;
     step = f->todo - first >= SLI_PRODUCT_COLUMNS ? SLI_PRODUCT_COLUMNS : 1;
     for (c = 0; c < step; c++) {
-      const double *b = rhs->B + rhs->ldb * (size_t)f->column[first + c];
+      const double *b = rhs->B + at.column * (size_t)f->column[first + c];
       double *r = R + n * (size_t)c, *size = f->size + n * (size_t)c;
       for (i = 0; i < n; i++) {
-        r[i] = b[i];
-        size[i] = fabs(b[i]);
+        r[i] = b[i * at.row];
+        size[i] = fabs(b[i * at.row]);
       }
     }
     if (step == 1) {
-      sli_subtract_columns(f, R, X + ldx * (size_t)first, ldx, 1);
+      sli_subtract_columns(f, R, T, 1);
     } else {
-      sli_subtract_columns(f, R, X + ldx * (size_t)first, ldx, SLI_PRODUCT_COLUMNS);
+      sli_subtract_columns(f, R, T, SLI_PRODUCT_COLUMNS);
     }
     for (c = 0; c < step; c++) {
       const double *r = R + n * (size_t)c;
@@ -18498,7 +18536,7 @@ SLI_HOT static void sli_row_errors(const sli_refinement *f, const double *X, siz
         const double d = r[i] == 0.0 ? 1.0 : size[i];
         size[i] = fabs(r[i]) / d + (d - d);
       }
-      error[first + c] = sli_largest(size, f->A->n_cols);
+      error[first + c] = sli_largest(size, 1, f->A->n_cols);
     }
   }
 }
@@ -18514,13 +18552,15 @@ static void sli_correct(const sli_refinement *f, sl_int columns) {
   sli_unpack(f->F, &q, &rhs, v.x);
 }
 
-static int sli_refine_column(sli_refinement *f, sl_int c, double *x, const double *t, double error,
+static int sli_refine_column(sli_refinement *f, const sli_rhs *rhs, sl_int k, double error,
     sl_int step) {
+  const sl_int c = f->column[k], n = f->F->S->n;
   const int may_wait = sli_is_float(f->F) && !f->is_slow[c];
   const int is_kept = error < f->error[c] || (may_wait && error <= 2.0 * f->error[c]);
   f->is_slow[c] = !(error <= 0.5 * f->error[c]);
   if (is_kept) {
-    memcpy(x, t, (size_t)f->F->S->n * sizeof(double));
+    const sli_dense x = sli_dense_of(rhs->ldx), t = sli_dense_by_columns((size_t)n);
+    sli_dense_copy(rhs->X + x.column * (size_t)c, x, f->T + t.column * (size_t)k, t, n, 1);
     f->error[c] = error;
     f->steps = sli_max(f->steps, step);
   }
@@ -18543,6 +18583,7 @@ static void sli_refine_rest(sli_refinement *f, const int *is_done) {
 
 static void sli_refine_block(sli_refinement *f, const sli_rhs *rhs, sl_int steps) {
   const size_t n = (size_t)f->F->S->n;
+  const sli_dense at = sli_dense_of(rhs->ldx);
   double error[SLI_TILE];
   int is_done[SLI_TILE];
   sl_int c, step;
@@ -18552,7 +18593,8 @@ static void sli_refine_block(sli_refinement *f, const sli_rhs *rhs, sl_int steps
     f->column[c] = c;
     f->is_slow[c] = 0;
   }
-  sli_row_errors(f, rhs->X, rhs->ldx, rhs, f->error);
+  sli_dense_copy(f->T, sli_dense_by_columns(n), rhs->X, at, f->F->S->n, rhs->nrhs);
+  sli_row_errors(f, rhs, f->error);
   for (c = 0; c < rhs->nrhs; c++) {
     is_done[c] = f->error[c] <= DBL_EPSILON;
   }
@@ -18563,17 +18605,15 @@ static void sli_refine_block(sli_refinement *f, const sli_rhs *rhs, sl_int steps
     }
     sli_correct(f, rhs->nrhs);
     for (c = 0; c < f->todo; c++) {
-      const double *x = rhs->X + rhs->ldx * (size_t)f->column[c], *r = f->R + n * (size_t)c;
+      const double *x = rhs->X + at.column * (size_t)f->column[c], *r = f->R + n * (size_t)c;
       double *t = f->T + n * (size_t)c;
       for (i = 0; i < n; i++) {
-        t[i] = x[i] + r[i];
+        t[i] = x[i * at.row] + r[i];
       }
     }
-    sli_row_errors(f, f->T, n, rhs, error);
+    sli_row_errors(f, rhs, error);
     for (c = 0; c < f->todo; c++) {
-      is_done[c] =
-        sli_refine_column(f, f->column[c], rhs->X + rhs->ldx * (size_t)f->column[c],
-            f->T + n * (size_t)c, error[c], step);
+      is_done[c] = sli_refine_column(f, rhs, c, error[c], step);
     }
   }
 }
@@ -18606,7 +18646,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
   sl_int r, c;
   sli_stats_clear_error(stats);
   status = sli_argument(F == NULL ? "F is NULL" : steps < 0 ? "steps is below 0" : NULL);
-  status = status == SL_OK ? sli_rhs_check_columns(&rhs, F->S->n, F->S->n) : status;
+  status = status == SL_OK ? sli_rhs_check(&rhs, F->S->n, F->S->n) : status;
   if (status == SL_OK && X == B && nrhs > 0 && F->S->n > 0) {
     status = sli_argument("X is B");
   }
@@ -18739,10 +18779,12 @@ static void sli_local_refinement_norms(const sli_local_refinement *f, const sli_
     double *norms) {
   const sl_int columns = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(columns);
   const sli_vectors v = sli_vectors_of(f->q, columns, f->memory);
+  const sli_dense b = sli_dense_of(rhs->ldb);
   sl_int k, c;
   if (!f->q->b_repeats) {
     for (c = 0; c < columns; c++) {
-      norms[c] = f->q->nb > 0 ? sli_largest(rhs->B + rhs->ldb * (size_t)c, f->q->nb) : 0.0;
+      norms[c] = f->q->nb == 0 ? 0.0
+                   : sli_largest(rhs->B + b.column * (size_t)c, b.row, f->q->nb);
     }
     return;
   }
@@ -18770,9 +18812,8 @@ static void sli_local_refinement_block(sli_local_refinement *f, const sli_rhs *r
       todo += !f->is_done[c];
     }
   }
-  for (c = 0; c < columns; c++) {
-    memcpy(rhs->X + rhs->ldx * (size_t)c, f->best + nx * (size_t)c, nx * sizeof(double));
-  }
+  sli_dense_copy(rhs->X, sli_dense_of(rhs->ldx), f->best, sli_dense_by_columns(nx), f->q->nx,
+      columns);
 }
 
 static double sli_local_rounding(const sl_factor *F) {
@@ -18823,7 +18864,7 @@ SL_API sl_status sl_plan_solve_regularized(const sl_plan *P, const sl_factor *F,
       : F == NULL ? "F is NULL"
       : steps < 0 ? "steps is below 0"
       : NULL);
-  status = status == SL_OK ? sli_rhs_check_columns(&rhs, P->query.nx, P->query.nb) : status;
+  status = status == SL_OK ? sli_rhs_check(&rhs, P->query.nx, P->query.nb) : status;
   if (status != SL_OK) {
     return sli_report(stats, status);
   }
@@ -18893,7 +18934,7 @@ static void sli_norm_estimate_residual(const sli_norm_estimate *p) {
 SLI_HOT static double sli_norm_estimate_solve(sli_norm_estimate *p) {
   const sl_factor *F = p->F;
   const sl_int n = p->all.columns;
-  const double size = sli_largest(p->v, n);
+  const double size = sli_largest(p->v, 1, n);
   double sum = 0.0, error;
   sl_int k;
   SLI_COPY(p->residual, p->v, n);
@@ -18903,7 +18944,7 @@ SLI_HOT static double sli_norm_estimate_solve(sli_norm_estimate *p) {
     sum += fabs(p->v[k]);
   }
   sli_norm_estimate_residual(p);
-  error = sli_backward_error(sli_largest(p->residual, n), p->norm, sli_largest(p->v, n), size);
+  error = sli_backward_error(sli_largest(p->residual, 1, n), p->norm, sli_largest(p->v, 1, n), size);
   p->error = error > p->error ? error : p->error;
   return sum;
 }
@@ -18987,7 +19028,7 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
   if (status == SL_OK) {
     double inverse, unit;
     sli_norm_estimate_layout(&p, &b);
-    p.norm = sli_csc_norm(A, F->S->stats.symbolic.triangle, p.v);
+    p.norm = sli_csc_norm(A, F->S->stats.symbolic.triangle, p.v, 1);
     inverse = sli_inverse_norm(&p);
     *rcond = p.norm > 0.0 && inverse > 0.0 ? 1.0 / fmax(p.norm, inverse) / fmin(p.norm, inverse)
                          : 0.0;
@@ -19002,6 +19043,7 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
 
 static void sli_defects_known(const sl_factor *F, const sli_packed *b, const sli_rhs *rhs) {
   const sli_reach *R = b->R;
+  const sli_dense at = sli_dense_of(rhs->ldx);
   sl_int first = 0, s, r;
   for (s = 0; s < R->count && F->null.vectors > 1; s++) {
     sli_null_dot dot;
@@ -19011,7 +19053,7 @@ static void sli_defects_known(const sl_factor *F, const sli_packed *b, const sli
     dot.next = sli_null_first(F, R, s);
     while (F->null.calls->next_dot(F, b, first, s, &dot)) {
       for (r = 0; r < rhs->nrhs; r++) {
-        rhs->X[(size_t)dot.number + (size_t)r * rhs->ldx] = dot.sums[r];
+        rhs->X[(size_t)dot.number * at.row + (size_t)r * at.column] = dot.sums[r];
       }
     }
     first = s + 1;
@@ -19019,6 +19061,7 @@ static void sli_defects_known(const sl_factor *F, const sli_packed *b, const sli
 }
 
 static void sli_defects(const sl_factor *F, const sli_query *q, const sli_rhs *rhs, void *memory) {
+  const sli_dense at = sli_dense_of(rhs->ldx);
   sl_int c, r, m;
   for (c = 0; c < rhs->nrhs; c += sli_min(8, rhs->nrhs - c)) {
     const sli_rhs block = sli_rhs_part(rhs, c, sli_min(8, rhs->nrhs - c));
@@ -19031,7 +19074,7 @@ static void sli_defects(const sl_factor *F, const sli_query *q, const sli_rhs *r
     for (m = 0; m < F->null.count; m++) {
       const int is_known = F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
       for (r = 0; r < block.nrhs && !is_known; r++) {
-        block.X[(size_t)m + (size_t)r * block.ldx] =
+        block.X[(size_t)m * at.row + (size_t)r * at.column] =
           v.y[(ptrdiff_t)F->null.pivots[m] * lanes + r];
       }
     }
@@ -19047,7 +19090,7 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
   sl_status status;
   status = F == NULL ? sli_argument("F is NULL") : sli_factor_has_numbers(F);
   status = status == SL_OK ? sli_singular_needed() : status;
-  status = status == SL_OK ? sli_rhs_check_columns(&rhs, F->null.count, F->S->n) : status;
+  status = status == SL_OK ? sli_rhs_check(&rhs, F->null.count, F->S->n) : status;
   if (status == SL_OK && Y == B && Y != NULL) {
     status = sli_argument("Y is B");
   }
@@ -26885,7 +26928,7 @@ typedef struct sli_constraints_solve {
   const sli_query *q;
   sli_rhs rhs;
   const double *G;
-  size_t ldg;
+  sli_dense g;
   sl_int lanes;
   unsigned char *memory;
   double *largest;
@@ -26933,7 +26976,7 @@ static void sli_constraints_load(const sli_constraints_solve *w, const double *y
       }
     }
     for (r = 0; r < lanes; r++) {
-      f[r] = r < nrhs ? w->G[(size_t)p + w->ldg * (size_t)r] - sums[r] : 0.0;
+      f[r] = r < nrhs ? w->G[(size_t)p * w->g.row + (size_t)r * w->g.column] - sums[r] : 0.0;
     }
   }
 }
@@ -26983,7 +27026,7 @@ static int sli_constraints_hold(const sli_constraints_solve *w, const double *x)
   for (r = 0; r < w->rhs.nrhs; r++) {
     for (p = 0; p < P->n_pins; p++) {
       const sli_pin *pin = P->pins[p];
-      const double g = w->G[(size_t)p + w->ldg * (size_t)r];
+      const double g = w->G[(size_t)p * w->g.row + (size_t)r * w->g.column];
       double sum = -g, size = 0.0, weight = 0.0;
       sl_int s = 0;
       for (k = 0; k < pin->count && s != -1; k++) {
@@ -27088,10 +27131,11 @@ SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *pl
     return sli_argument("P is NULL");
   }
   all = sli_query_all(P->F->S);
-  status = sli_rhs_check_columns(&rhs, q->nx, q->nb);
+  status = sli_rhs_check(&rhs, q->nx, q->nb);
   if (status == SL_OK && nrhs > 0 && P->n_pins > 0) {
     status = sli_argument(G == NULL ? "G is NULL"
-        : !sli_is_ld(ldg, P->n_pins) ? "ldg is below the number of pins"
+        : !sli_dense_spans(ldg, P->n_pins, nrhs)
+        ? "ldg is below the number of pins (nrhs with SL_ROWS)"
         : NULL);
   }
   status = status == SL_OK ? sli_constraints_are_current(P) : status;
@@ -27109,7 +27153,7 @@ SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *pl
   W = W == NULL ? &own : W;
   w.P = P;
   w.q = q;
-  w.ldg = ldg;
+  w.g = sli_dense_of(ldg);
   sli_constraints_layout(&w, &counted, nrhs);
   status = sli_work_block(W, &counted);
   if (status == SL_OK) {
@@ -27117,7 +27161,7 @@ SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *pl
     status = sli_constraints_nulls_factor(&w.nulls, P);
     for (r = 0; r < nrhs && status == SL_OK; r += sli_min(8, nrhs - r)) {
       w.rhs = sli_rhs_part(&rhs, r, sli_min(8, nrhs - r));
-      w.G = P->n_pins == 0 ? G : G + (size_t)r * ldg;
+      w.G = P->n_pins == 0 ? G : G + (size_t)r * w.g.column;
       status = sli_constraints_block(&w);
     }
   }
@@ -35244,7 +35288,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_INL_WORDS_NEON
 #undef SLI_INL_WORDS_NEON
-/* src/impl/kernels/words_neon.inl.h: the vocabulary SLV_ in NEON: a vector of 8 doubles is four registers */
+/* src/impl/kernels/words/words_neon.inl.h: the vocabulary SLV_ in NEON: a vector of 8 doubles is four registers */
 
 #define SLV_NAME(f) sli_##f##_neon
 #define SLV_ISA SL_ISA_NEON
@@ -35387,7 +35431,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_INL_LANES_NEON
 #undef SLI_INL_LANES_NEON
-/* src/impl/kernels/lanes_neon.inl.h: the vocabulary SLW_ in NEON, for SLW_NRHS right-hand sides */
+/* src/impl/kernels/words/lanes_neon.inl.h: the vocabulary SLW_ in NEON, for SLW_NRHS right-hand sides */
 
 #if SLW_NRHS == 2
 #define SLW_NAME(f) sli_##f##2_neon
@@ -35461,7 +35505,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_INL_WORDS_AVX512
 #undef SLI_INL_WORDS_AVX512
-/* src/impl/kernels/words_avx512.inl.h: the vocabulary SLV_ in AVX-512F: a vector of 8 doubles is one register */
+/* src/impl/kernels/words/words_avx512.inl.h: the vocabulary SLV_ in AVX-512F: a vector of 8 doubles is one register */
 
 #define SLV_NAME(f) sli_##f##_avx512
 #define SLV_NAME_4(f) sli_##f##4_avx2
@@ -35567,7 +35611,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_INL_LANES_AVX512
 #undef SLI_INL_LANES_AVX512
-/* src/impl/kernels/lanes_avx512.inl.h: the vocabulary SLW_ in AVX-512F, for SLW_NRHS right-hand sides */
+/* src/impl/kernels/words/lanes_avx512.inl.h: the vocabulary SLW_ in AVX-512F, for SLW_NRHS right-hand sides */
 
 #if SLW_NRHS == 8
 #define SLW_NAME(f) sli_##f##8_avx512
@@ -35609,7 +35653,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_INL_WORDS_AVX2
 #undef SLI_INL_WORDS_AVX2
-/* src/impl/kernels/words_avx2.inl.h: the vocabulary SLV_ in AVX2 and FMA: a vector of 8 doubles is two registers */
+/* src/impl/kernels/words/words_avx2.inl.h: the vocabulary SLV_ in AVX2 and FMA: a vector of 8 doubles is two registers */
 
 #define SLV_NAME(f) sli_##f##_avx2
 #define SLV_ISA SL_ISA_AVX2
@@ -35750,7 +35794,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_INL_LANES_AVX2
 #undef SLI_INL_LANES_AVX2
-/* src/impl/kernels/lanes_avx2.inl.h: the vocabulary SLW_ in AVX2 and FMA, for SLW_NRHS right-hand sides */
+/* src/impl/kernels/words/lanes_avx2.inl.h: the vocabulary SLW_ in AVX2 and FMA, for SLW_NRHS right-hand sides */
 
 #if SLW_NRHS == 2
 #define SLW_NAME(f) sli_##f##2_avx2
@@ -35807,7 +35851,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_INL_WORDS_SCALAR
 #undef SLI_INL_WORDS_SCALAR
-/* src/impl/kernels/words_scalar.inl.h: the vocabulary SLV_ in plain C: a vector is an array */
+/* src/impl/kernels/words/words_scalar.inl.h: the vocabulary SLV_ in plain C: a vector is an array */
 
 #define SLV_NAME(f) sli_##f##_scalar
 #define SLV_ISA SL_ISA_SCALAR
@@ -36328,7 +36372,7 @@ static const sli_change_kernels SLV_NAME(change_kernels) = {
 
 #ifdef SLI_INL_LANES_SCALAR
 #undef SLI_INL_LANES_SCALAR
-/* src/impl/kernels/lanes_scalar.inl.h: the vocabulary SLW_ in plain C, for SLW_NRHS right-hand sides */
+/* src/impl/kernels/words/lanes_scalar.inl.h: the vocabulary SLW_ in plain C, for SLW_NRHS right-hand sides */
 
 #if SLW_NRHS == 2
 #define SLW_NAME(f) sli_##f##2_scalar
@@ -36721,7 +36765,7 @@ static const sli_inverse_kernels SLV_NAME(inverse_kernels) = {
 
 #ifdef SLI_INL_COPY_ROWS
 #undef SLI_INL_COPY_ROWS
-/* src/impl/kernels/copy_rows.inl.h: rows of several right-hand sides to a buffer and back */
+/* src/impl/kernels/sweeps/copy_rows.inl.h: rows of several right-hand sides to a buffer and back */
 
 SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, const double *own,
     sli_rows below, const double *x) {
@@ -36758,9 +36802,9 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
 
 #ifdef SLI_INL_FRONT
 #undef SLI_INL_FRONT
-/* src/impl/kernels/front.inl.h: factors the panel of a front, computes its update matrix, assembles a front */
+/* src/impl/kernels/fronts/front.inl.h: factors the panel of a front, computes its update matrix, assembles a front */
 
-/* src/impl/kernels/product.inl.h: C -= A D B' on tiles, the inner loop of the factorization */
+/* src/impl/kernels/fronts/product.inl.h: C -= A D B' on tiles, the inner loop of the factorization */
 
 #if SLV_VECTOR_TILES == 1
 #define SLI_LOAD_ROWS(a, p, q) SLV_LOAD_PINNED(a, p)
@@ -37801,9 +37845,9 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const vo
 
 #ifdef SLI_INL_SWEEPS
 #undef SLI_INL_SWEEPS
-/* src/impl/kernels/sweeps.inl.h: the sweeps for one right-hand side, for one type of L */
+/* src/impl/kernels/sweeps/sweeps.inl.h: the sweeps for one right-hand side, for one type of L */
 
-/* src/impl/kernels/unit_triangle.inl.h: one right-hand side through the unit triangle of a diagonal tile */
+/* src/impl/kernels/sweeps/unit_triangle.inl.h: one right-hand side through the unit triangle of a diagonal tile */
 
 #define SLI_X(k, j) r##k = SLV_FNMA1(v[SLI_TILE * j + k], r##j, r##k);
 #define SLI_XT(j, k) r##j = SLV_FNMA1(v[SLI_TILE * j + k], r##k, r##j);
@@ -37840,7 +37884,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(tile_backward)(const SLV_VALUE *l, double
 #undef SLI_XT
 /* end of unit_triangle.inl.h */
 #if defined(SLV_OWN_SMALL)
-/* src/impl/kernels/small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
+/* src/impl/kernels/sweeps/small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
 
 #if !defined(SLV_PLAIN)
 #define SLI_HAS(k) ((k) < 2 || (k) < w)
@@ -38189,7 +38233,7 @@ SLV_SWEEP(backward_small)(const sli_step *s, const sli_reach *R, const sl_int **
 #undef SLI_ROW
 /* end of small_supernode.inl.h */
 #endif
-/* src/impl/kernels/single_rhs.inl.h: sweeps for one right-hand side, vectorized over the 8 rows of a tile */
+/* src/impl/kernels/sweeps/single_rhs.inl.h: sweeps for one right-hand side, vectorized over the 8 rows of a tile */
 
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(panel_forward)(const SLV_VALUE *tile, sl_int t0,
     sl_int width, sl_int columns, sl_int rows,
@@ -38424,7 +38468,7 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 
 #ifdef SLI_INL_MULTI_RHS
 #undef SLI_INL_MULTI_RHS
-/* src/impl/kernels/multi_rhs.inl.h: what row tiles of L do to several right-hand sides of a real matrix */
+/* src/impl/kernels/sweeps/multi_rhs.inl.h: what row tiles of L do to several right-hand sides of a real matrix */
 
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
 #define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*distance)
@@ -38497,7 +38541,7 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
   SLW_LOW(SLI_ROW, 0)
 
 #if SLW_ROWS == 8 || defined(SLW_HALF)
-/* src/impl/kernels/multi_rhs_small.inl.h: several right-hand sides through a supernode of at most 8 columns */
+/* src/impl/kernels/sweeps/multi_rhs_small.inl.h: several right-hand sides through a supernode of at most 8 columns */
 
 #if !defined(SLW_HALF)
 #define SLI_LOAD_OWN(k, p) \
@@ -38648,7 +38692,7 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
 
 #ifdef SLI_INL_TWO_RHS
 #undef SLI_INL_TWO_RHS
-/* src/impl/kernels/two_rhs.inl.h: sweeps for two right-hand sides, vectorized over the 8 rows of a tile */
+/* src/impl/kernels/sweeps/two_rhs.inl.h: sweeps for two right-hand sides, vectorized over the 8 rows of a tile */
 
 #define SLI_TWO_AXPY(v, l, p) \
   SLV_REPEAT(b, p) \
@@ -38819,7 +38863,7 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, co
 
 #ifdef SLI_INL_MULTI_RHS_TILES
 #undef SLI_INL_MULTI_RHS_TILES
-/* src/impl/kernels/multi_rhs_tiles.inl.h: several right-hand sides through supernodes of any width, by row tiles */
+/* src/impl/kernels/sweeps/multi_rhs_tiles.inl.h: several right-hand sides through supernodes of any width, by row tiles */
 
 #define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below.index[r] * stride)
 #define SLI_ZERO_ROW(r, unused) SLW_ZERO(a##r)
@@ -39119,7 +39163,7 @@ static const sli_float_kernels SLV_NAME(float_kernels) = {
 #undef SLI_INL_KERNEL_SET
 /* src/impl/kernels/kernel_set.inl.h: the other kernels of one instruction set, and its table */
 
-/* src/impl/kernels/row.inl.h: one row of L in the up-looking factorization */
+/* src/impl/kernels/fronts/row.inl.h: one row of L in the up-looking factorization */
 
 SLV_FUNCTION static void SLV_NAME(row)(sli_row *k, const sli_step *s, sl_int q,
     const sl_int *rows) {
@@ -39156,7 +39200,7 @@ SLV_FUNCTION static void SLV_NAME(row)(sli_row *k, const sli_step *s, sl_int q,
   k->magnitude = size;
 }
 /* end of row.inl.h */
-/* src/impl/kernels/interleave.inl.h: 8 columns of a dense block to interleaved rows of a vector, and back */
+/* src/impl/kernels/sweeps/interleave.inl.h: 8 columns of a dense block to interleaved rows of a vector, and back */
 
 #if !defined(SLV_PLAIN)
 #define SLI_UNROLL_ROWS SLI_UNROLL
@@ -39262,7 +39306,7 @@ static const sli_kernels SLV_NAME(kernels) = {
 
 #ifdef SLI_INL_LANES_UNDEF
 #undef SLI_INL_LANES_UNDEF
-/* src/impl/kernels/lanes_undef.inl.h: undefines the SIMD vocabulary of one number of right-hand sides, and what */
+/* src/impl/kernels/words/lanes_undef.inl.h: undefines the SIMD vocabulary of one number of right-hand sides, and what */
 
 #undef SLW_NAME
 #undef SLW_NRHS
@@ -39317,7 +39361,7 @@ static const sli_kernels SLV_NAME(kernels) = {
 
 #ifdef SLI_INL_WORDS_UNDEF
 #undef SLI_INL_WORDS_UNDEF
-/* src/impl/kernels/words_undef.inl.h: undefines the SIMD vocabulary after the last template of a file simd_*.h */
+/* src/impl/kernels/words/words_undef.inl.h: undefines the SIMD vocabulary after the last template of a file simd_*.h */
 
 #undef SLV_SINGLE
 #undef SLV_COMPLEX
