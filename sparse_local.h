@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7f705e4d25cb8b6d
+ * FNV-1a of the lines after this comment, without the license: a38157c8b57e0a07
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -41,20 +41,20 @@
  *  15241 impl/ solve: full and local solves
  *  16747 impl/ singular: null spaces of semidefinite matrices
  *  18018 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20038 impl/ pivots: the order of the pivots by the values of a matrix
- *  20446 impl/ float: L in single precision
- *  20676 impl/ inverse: entries of the inverse, regions
- *  23588 impl/ change: a factor that follows changes of its matrix
- *  25866 impl/ constraints: rows held at values, on a factor that stays
- *  27175 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  29915 impl/ fixed: rows fixed at given values
- *  30474 impl/ io: files that are replaced only when they are complete
- *  30692 impl/ files: Matrix Market files, 64-bit indices
- *  31238 impl/ save: factors in files
- *  33211 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33897 impl/ complex: complex Hermitian systems over real factors
- *  34402 impl/ packs: the tables through which the core calls packs
- *  34792 impl/ templates: the header includes them from itself, once for each instruction set
+ *  20039 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20447 impl/ float: L in single precision
+ *  20677 impl/ inverse: entries of the inverse, regions
+ *  23589 impl/ change: a factor that follows changes of its matrix
+ *  25867 impl/ constraints: rows held at values, on a factor that stays
+ *  27176 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  29916 impl/ fixed: rows fixed at given values
+ *  30475 impl/ io: files that are replaced only when they are complete
+ *  30693 impl/ files: Matrix Market files, 64-bit indices
+ *  31239 impl/ save: factors in files
+ *  33212 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33898 impl/ complex: complex Hermitian systems over real factors
+ *  34403 impl/ packs: the tables through which the core calls packs
+ *  34793 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -18944,7 +18944,8 @@ SLI_HOT static double sli_norm_estimate_solve(sli_norm_estimate *p) {
     sum += fabs(p->v[k]);
   }
   sli_norm_estimate_residual(p);
-  error = sli_backward_error(sli_largest(p->residual, 1, n), p->norm, sli_largest(p->v, 1, n), size);
+  error =
+    sli_backward_error(sli_largest(p->residual, 1, n), p->norm, sli_largest(p->v, 1, n), size);
   p->error = error > p->error ? error : p->error;
   return sum;
 }

@@ -89,10 +89,11 @@ static void packs(const sl_csc *A, sl_symbolic *S, sl_factor *F, const double *b
     HOLDS(sl_inverse_pairs(F, &z, xset, bset, 1, NULL, &stats) == SL_OK);
     HOLDS(stats.inverse.method != SL_INVERSE_NONE && z > 0);
     HOLDS(sl_constraints_create(&pins, F, NULL) == SL_OK);
-    HOLDS(sl_constraints_add(pins, fixed, 2, &stats) == SL_OK && stats.constraints.count == 2);
+    HOLDS(sl_constraints_add(pins, fixed, NULL, 2, &stats) == SL_OK &&
+          stats.constraints.count == 2);
     HOLDS(sl_constraints_solve(pins, NULL, y, N, b, N, values, 2, 1, NULL) == SL_OK);
     HOLDS(fabs(y[0] - 1) < 1e-12 && fabs(y[N - 1] + 1) < 1e-12);
-    HOLDS(sl_fixed_create(&D, A, fixed, 2, NULL, NULL, &stats) == SL_OK);
+    HOLDS(sl_fixed_create(&D, A, fixed, 2, NULL, &stats) == SL_OK);
     HOLDS(sl_fixed_view(D).n_free == N - 2 && stats.fixed.n_free == N - 2);
     HOLDS(sl_factor_change_entries(F, NULL, xset, xset, &delta, 1, NULL, &stats) == SL_OK);
     HOLDS(stats.change.method == SL_CHANGE_UPDATE && stats.factor.positive == N);
@@ -128,7 +129,7 @@ int main(void) {
     HOLDS(stats.symbolic.n == N && stats.symbolic.triangle == SL_TRIANGLE_LOWER);
     HOLDS(sl_symbolic_view(S).n == N && sl_symbolic_view(S).perm != NULL);
     HOLDS(sl_factor_create(&F, S, &A, &options, &stats) == SL_OK);
-    HOLDS(stats.factor.positive == N && stats.factor.pivot_min > 0 && stats.threads == 1);
+    HOLDS(stats.factor.positive == N && stats.factor.pivot_min > 0 && stats.factor.threads == 1);
     HOLDS(sl_factor_view(F).symbolic == S && sl_factor_view(F).D != NULL);
     HOLDS(sl_factor_logdet(F, &logarithm, &sign) == SL_OK && sign == 1);
     HOLDS(sl_factor_solve(F, full, N, b, N, 1, NULL) == SL_OK);

@@ -8,14 +8,14 @@ typedef enum sl_status {
     SL_OK = 0,
     SL_ERR_ARGUMENT,
     SL_ERR_MEMORY,
-    SL_ERR_PATTERN,
+    SL_ERR_MALFORMED,
     SL_ERR_PIVOT,
     SL_ERR_NOT_FINITE,
     SL_ERR_TOO_LARGE,
     SL_ERR_UNSUPPORTED,
     SL_ERR_IO,
     SL_ERR_ORDERING,
-    SL_ERR_STATE,
+    SL_ERR_MISMATCH,
     SL_ERR_INCONSISTENT,
     SL_ERR_INACCURATE,
     SL_ERR_OTHER_PATTERN,
@@ -23,6 +23,7 @@ typedef enum sl_status {
     SL_ERR_READ_ONLY
 } sl_status;
 extern const char *sl_status_string(sl_status status);
+#define SL_ALL (-1)
 typedef struct sl_csc {
     sl_int n_rows;
     sl_int n_cols;
@@ -70,13 +71,13 @@ typedef enum sl_method {
 typedef enum sl_storage {
     SL_STORAGE_DOUBLE = 0,
     SL_STORAGE_FLOAT,
-    SL_STORAGE_FLOAT_FRONTS,
     SL_STORAGE_COMPLEX
 } sl_storage;
-typedef enum sl_null_pivots {
-    SL_NULL_PIVOT_REFUSE = 0,
-    SL_NULL_PIVOT_SKIP
-} sl_null_pivots;
+typedef enum sl_pivots {
+    SL_PIVOTS_NONZERO = 0,
+    SL_PIVOTS_POSITIVE,
+    SL_PIVOTS_SKIP_NULL
+} sl_pivots;
 typedef enum sl_inverse_method {
     SL_INVERSE_NONE = 0,
     SL_INVERSE_FORWARD,
@@ -97,22 +98,18 @@ typedef enum sl_change_reason {
     SL_CHANGE_CHEAPEST = 0,
     SL_CHANGE_UNSUITED,
     SL_CHANGE_DRIFT,
-    SL_CHANGE_REFUSED
+    SL_CHANGE_REFUSED,
+    SL_CHANGE_COLUMNS
 } sl_change_reason;
-typedef enum sl_dirichlet_method {
-    SL_DIRICHLET_SUBMATRIX = 0,
-    SL_DIRICHLET_RESTRICTION,
-    SL_DIRICHLET_PINS
-} sl_dirichlet_method;
 typedef struct sl_matrix sl_matrix;
 typedef struct sl_symbolic sl_symbolic;
 typedef struct sl_factor sl_factor;
 typedef struct sl_plan sl_plan;
 typedef struct sl_work sl_work;
 typedef struct sl_selected sl_selected;
-typedef struct sl_pins sl_pins;
+typedef struct sl_constraints sl_constraints;
 typedef struct sl_region sl_region;
-typedef struct sl_dirichlet sl_dirichlet;
+typedef struct sl_fixed sl_fixed;
 typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *data, sl_int k),
                                 void *data);
 typedef struct sl_threads {
@@ -133,25 +130,23 @@ typedef struct sl_options {
     sl_relaxation relaxation;
     sl_triangle triangle;
     const sl_int *perm;
-    const sl_int *metis_options;
     sl_int block_size;
     sl_purpose purpose;
     sl_isa isa;
     sl_method method;
-    sl_null_pivots null_pivots;
+    sl_storage storage;
+    sl_pivots pivots;
     double null_tolerance;
+    const double *null_vector;
+    sl_int null_vector_count;
     const double *mass;
     double consistency_tolerance;
     double regularization;
     const sl_int *signs;
-    const sl_region *region;
-    size_t region_bytes;
-    const double *null_vector;
     double growth_limit;
     double error_limit;
-    size_t null_vector_count;
-    sl_storage storage;
-    size_t definite;
+    const sl_region *region;
+    size_t region_bytes;
     sl_off reserved[16];
 } sl_options;
 extern void sl_options_init(sl_options *opt, size_t size);
@@ -190,10 +185,13 @@ typedef struct sl_factor_info {
     sl_int regular;
     sl_isa isa;
     sl_method method;
+    sl_storage storage;
+    sl_int threads;
     double pivot_min;
     double pivot_max;
     double entry_max;
     double growth;
+    double null_bound;
     double seconds_setup;
     double seconds;
     size_t bytes;
@@ -246,7 +244,6 @@ typedef struct sl_change_info {
     sl_change_method method;
     sl_change_reason reason;
     sl_int ranks;
-    sl_int padding;
     sl_off entries;
     sl_off updates;
     double drift;
@@ -255,14 +252,13 @@ typedef struct sl_change_info {
     double flops_refactor;
     double seconds;
 } sl_change_info;
-typedef struct sl_restrict_info {
+typedef struct sl_submatrix_info {
     sl_int kept;
     sl_int computed;
     sl_off entries;
     int is_anew;
-    int padding;
     double seconds;
-} sl_restrict_info;
+} sl_submatrix_info;
 typedef struct sl_edit_info {
     sl_int changed;
     sl_int moved;
@@ -283,19 +279,15 @@ typedef struct sl_reuse_info {
     sl_change_reason reason;
     double seconds;
 } sl_reuse_info;
-typedef struct sl_pins_info {
+typedef struct sl_constraints_info {
     sl_int count;
     double seconds;
-} sl_pins_info;
-typedef struct sl_dirichlet_info {
-    sl_dirichlet_method method;
+} sl_constraints_info;
+typedef struct sl_fixed_info {
     sl_int n_free;
     sl_off couplings;
-    double seconds_submatrix;
-    double seconds_restriction;
-    double seconds_pins;
     double seconds;
-} sl_dirichlet_info;
+} sl_fixed_info;
 typedef struct sl_stats {
     sl_error error;
     sl_symbolic_info symbolic;
@@ -306,15 +298,12 @@ typedef struct sl_stats {
     sl_region_info region;
     sl_refine_info refine;
     sl_change_info change;
-    sl_restrict_info restriction;
+    sl_submatrix_info submatrix;
     sl_edit_info edit;
-    sl_off storage;
     sl_reuse_info reuse;
-    sl_pins_info pins;
+    sl_constraints_info constraints;
     sl_certificate_info certificate;
-    double null_bound;
-    sl_dirichlet_info dirichlet;
-    sl_off threads;
+    sl_fixed_info fixed;
     sl_off reserved[40];
 } sl_stats;
 extern size_t sl_error_text(char *buffer, size_t size, sl_status status, const sl_stats *stats);
@@ -324,8 +313,6 @@ extern sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows,
                                                         const sl_int *i, const sl_int *j,
                                                         const double *x, const sl_options *opt,
                                                         sl_stats *stats);
-extern sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A,
-                                                    const sl_options *opt);
 extern sl_status sl_matrix_submatrix(sl_matrix **out, const sl_csc *A,
                                                     const sl_int *rows, sl_int count,
                                                     const sl_options *opt, sl_stats *stats);
@@ -343,8 +330,8 @@ extern sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr,
 extern sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
                                                    const sl_options *opt, sl_stats *stats);
 extern void sl_symbolic_free(sl_symbolic *S);
-extern void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
 typedef struct sl_symbolic_arrays {
+    sl_symbolic_info info;
     sl_int n;
     sl_int n_supers;
     const sl_int *perm;
@@ -370,7 +357,6 @@ extern sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S,
                                                  sl_stats *stats);
 extern sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats);
 extern void sl_factor_free(sl_factor *F);
-extern void sl_factor_stats(const sl_factor *F, sl_stats *stats);
 typedef enum sl_pivot_kind {
     SL_PIVOT_NULL = 0,
     SL_PIVOT_REGULARIZED
@@ -383,6 +369,7 @@ extern sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det,
 extern sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F,
                                                 const sl_options *opt);
 typedef struct sl_factor_arrays {
+    sl_factor_info info;
     const sl_symbolic *symbolic;
     const double *L;
     const double *D;
@@ -412,17 +399,15 @@ extern sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
                                                const sl_int *xset, sl_int nx, double *X, size_t ldx,
                                                const double *B, size_t ldb, sl_int nrhs, sl_work *W,
                                                sl_stats *stats);
-extern sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A,
-                                                    const sl_int *rows, sl_int count,
-                                                    const sl_factor *F, const sl_options *opt,
-                                                    sl_stats *stats);
-extern void sl_dirichlet_free(sl_dirichlet *D);
-extern sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A,
-                                                      sl_stats *stats);
-extern sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx,
-                                                   const double *B, size_t ldb, const double *G,
-                                                   size_t ldg, sl_int nrhs, sl_work *W);
-typedef struct sl_dirichlet_arrays {
+extern sl_status sl_fixed_create(sl_fixed **out, const sl_csc *A, const sl_int *rows,
+                                                sl_int count, const sl_options *opt,
+                                                sl_stats *stats);
+extern void sl_fixed_free(sl_fixed *D);
+extern sl_status sl_fixed_refactor(sl_fixed *D, const sl_csc *A, sl_stats *stats);
+extern sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx,
+                                               const double *B, size_t ldb, const double *G,
+                                               size_t ldg, sl_int nrhs, sl_work *W);
+typedef struct sl_fixed_arrays {
     sl_int n_free, n_fixed;
     const sl_int *free_rows;
     const sl_int *fixed_rows;
@@ -430,8 +415,8 @@ typedef struct sl_dirichlet_arrays {
     const sl_factor *factor;
     sl_csc matrix;
     const void *reserved[2];
-} sl_dirichlet_arrays;
-extern sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D);
+} sl_fixed_arrays;
+extern sl_fixed_arrays sl_fixed_view(const sl_fixed *D);
 typedef enum sl_part {
     SL_PART_P = 1,
     SL_PART_L = 2,
@@ -440,16 +425,13 @@ typedef enum sl_part {
     SL_PART_LT = 16,
     SL_PART_PT = 32
 } sl_part;
-extern sl_status sl_factor_solve_part(const sl_factor *F, unsigned parts, double *X,
-                                                     size_t ldx, const double *B, size_t ldb,
-                                                     sl_int nrhs, sl_work *W);
+extern sl_status sl_factor_solve_part(const sl_factor *F, const sl_plan *plan,
+                                                     unsigned parts, double *X, size_t ldx,
+                                                     const double *B, size_t ldb, sl_int nrhs,
+                                                     sl_work *W);
 extern sl_status sl_factor_multiply_part(const sl_factor *F, unsigned parts,
                                                         double *X, size_t ldx, const double *B,
                                                         size_t ldb, sl_int nrhs, sl_work *W);
-extern sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F,
-                                                   unsigned parts, double *X, size_t ldx,
-                                                   const double *B, size_t ldb, sl_int nrhs,
-                                                   sl_work *W);
 extern sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns,
                                                 sl_int capacity, sl_int *count);
 typedef struct sl_pseudo_inverse {
@@ -465,10 +447,10 @@ extern sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
                                                  size_t ldx, const double *B, size_t ldb,
                                                  sl_int nrhs, sl_int steps, sl_work *W,
                                                  sl_stats *stats);
-extern sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F,
-                                                      double *X, size_t ldx, const double *B,
-                                                      size_t ldb, sl_int nrhs, sl_int steps,
-                                                      sl_work *W, sl_stats *stats);
+extern sl_status sl_plan_solve_regularized(const sl_plan *P, const sl_factor *F,
+                                                          double *X, size_t ldx, const double *B,
+                                                          size_t ldb, sl_int nrhs, sl_int steps,
+                                                          sl_work *W, sl_stats *stats);
 extern sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rcond,
                                                 sl_work *W);
 extern sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy,
@@ -491,10 +473,6 @@ extern sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz,
                                                  const sl_int *rows, sl_int n_rows,
                                                  const sl_int *columns, sl_int n_columns,
                                                  sl_work *W, sl_stats *stats);
-extern sl_status sl_inverse_bilinear(const sl_factor *F, double *out,
-                                                    const sl_int *bset, const double *b, sl_int nb,
-                                                    const sl_int *cset, const double *c, sl_int nc,
-                                                    sl_work *W, sl_stats *stats);
 extern sl_status sl_selected_create(sl_selected **out, const sl_factor *F,
                                                    const sl_int *set, sl_int count,
                                                    const sl_options *opt, sl_stats *stats);
@@ -505,6 +483,7 @@ extern sl_status sl_selected_entries(const sl_selected *Z, double *out,
                                                     const sl_int *rows, const sl_int *columns,
                                                     sl_int count, sl_stats *stats);
 typedef struct sl_selected_arrays {
+    sl_selected_info info;
     const sl_symbolic *symbolic;
     sl_int count;
     const sl_int *supers;
@@ -513,7 +492,6 @@ typedef struct sl_selected_arrays {
     const void *reserved[2];
 } sl_selected_arrays;
 extern sl_selected_arrays sl_selected_view(const sl_selected *Z);
-extern void sl_selected_stats(const sl_selected *Z, sl_stats *stats);
 extern sl_status sl_region_create(sl_region **out, const sl_factor *F,
                                                  const sl_int *set, sl_int count,
                                                  const sl_selected *Z, const sl_options *opt,
@@ -521,8 +499,8 @@ extern sl_status sl_region_create(sl_region **out, const sl_factor *F,
 extern sl_status sl_region_refactor(sl_region *R, const sl_factor *F,
                                                    const sl_selected *Z, sl_work *W);
 extern void sl_region_free(sl_region *R);
-extern void sl_region_stats(const sl_region *R, sl_stats *stats);
 typedef struct sl_region_arrays {
+    sl_region_info info;
     const sl_symbolic *symbolic;
     sl_int n_roots;
     const sl_int *roots;
@@ -548,21 +526,17 @@ extern sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients,
                                               const sl_options *opt, sl_stats *stats);
 extern sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values,
                                                     const sl_csc *K, sl_stats *stats);
-extern sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symbolic *S,
-                                                const double *coefficients,
-                                                const double *const *values, sl_int terms,
-                                                const sl_options *opt, sl_int *failed,
-                                                sl_stats *stats);
-extern sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
-                                                  const double *coefficients,
-                                                  const double *const *values, sl_int terms,
-                                                  const sl_options *opt, sl_int *failed,
-                                                  sl_stats *stats);
-extern sl_status sl_batch_diagonal(sl_factor *const *factors, sl_int count,
-                                                  double *out, size_t ldo, const sl_int *rows,
-                                                  sl_int n_rows, const sl_options *opt,
-                                                  sl_work *const *works, sl_int *failed,
-                                                  sl_stats *stats);
+extern sl_status sl_factor_create_sums(sl_factor **out, sl_int count,
+                                                      const sl_symbolic *S,
+                                                      const double *coefficients,
+                                                      const double *const *values, sl_int terms,
+                                                      const sl_options *opt, sl_int *failed,
+                                                      sl_stats *stats);
+extern sl_status sl_factor_refactor_sums(sl_factor *const *factors, sl_int count,
+                                                        const double *coefficients,
+                                                        const double *const *values, sl_int terms,
+                                                        const sl_options *opt, sl_int *failed,
+                                                        sl_stats *stats);
 typedef enum sl_saved_content {
     SL_SAVED_ALL = 0,
     SL_SAVED_FACTOR,
@@ -578,50 +552,41 @@ typedef struct sl_saved_set {
     sl_saved_content wanted;
     void *reserved[6];
 } sl_saved_set;
-typedef enum sl_load_checks {
+typedef enum sl_load_flag {
     SL_LOAD_CHECKED = 0,
-    SL_LOAD_TRUSTED,
-    SL_LOAD_VERIFIED
-} sl_load_checks;
-extern sl_status sl_save_memory(void *memory, size_t *bytes,
-                                               const sl_saved_set *set);
-extern sl_status sl_save_file(const char *path, const sl_saved_set *set,
-                                             const sl_options *opt);
-extern sl_status sl_load_memory(sl_saved_set *set, const void *memory, size_t bytes,
-                                               sl_load_checks checks, const sl_options *opt);
-extern sl_status sl_load_file(sl_saved_set *set, const char *path,
-                                             sl_load_checks checks, const sl_options *opt);
-extern sl_status sl_map_memory(sl_saved_set *set, const void *memory, size_t bytes,
-                                              sl_load_checks checks, const sl_options *opt);
-extern sl_status sl_map_file(sl_saved_set *set, const char *path,
-                                            sl_load_checks checks, const sl_options *opt);
+    SL_LOAD_TRUSTED = 1,
+    SL_LOAD_VERIFIED = 2,
+    SL_LOAD_MAPPED = 4
+} sl_load_flag;
+extern sl_status sl_save(const char *path, void *memory, size_t *bytes,
+                                        const sl_saved_set *set, const sl_options *opt);
+extern sl_status sl_load(sl_saved_set *set, const char *path, const void *memory,
+                                        size_t bytes, unsigned flags, const sl_options *opt);
 extern void sl_saved_set_free(sl_saved_set *set);
-extern sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *sigma,
-                                                 sl_work *W, sl_stats *stats);
-extern sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,
-                                                 const sl_int *columns, const double *deltas,
-                                                 sl_int count, sl_work *W, sl_stats *stats);
-extern sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A,
-                                                           const sl_int *columns, sl_int count,
-                                                           sl_stats *stats);
-extern sl_status sl_pins_create(sl_pins **out, const sl_factor *F,
-                                               const sl_options *opt);
-extern void sl_pins_free(sl_pins *P);
-extern sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count,
-                                            sl_stats *stats);
-extern sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows,
-                                                     const double *values, sl_int count,
-                                                     sl_stats *stats);
-extern sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count,
-                                                sl_stats *stats);
-extern sl_status sl_pins_refactor(sl_pins *P, sl_stats *stats);
-extern sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
-                                              size_t ldx, const double *B, size_t ldb,
-                                              const double *G, size_t ldg, sl_int nrhs, sl_work *W);
-extern sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G,
-                                                   const sl_factor *F, const sl_csc *A,
-                                                   const sl_int *rows, sl_int count,
-                                                   const sl_options *opt, sl_stats *stats);
+extern sl_status sl_factor_rank_update(sl_factor *F, const sl_csc *V,
+                                                      const double *sigma, sl_work *W,
+                                                      sl_stats *stats);
+extern sl_status sl_factor_change_entries(sl_factor *F, const sl_csc *A,
+                                                         const sl_int *rows, const sl_int *columns,
+                                                         const double *deltas, sl_int count,
+                                                         sl_work *W, sl_stats *stats);
+extern sl_status sl_constraints_create(sl_constraints **out, const sl_factor *F,
+                                                      const sl_options *opt);
+extern void sl_constraints_free(sl_constraints *P);
+extern sl_status sl_constraints_add(sl_constraints *P, const sl_int *rows,
+                                                   const double *values, sl_int count,
+                                                   sl_stats *stats);
+extern sl_status sl_constraints_release(sl_constraints *P, const sl_int *indices,
+                                                       sl_int count, sl_stats *stats);
+extern sl_status sl_constraints_refactor(sl_constraints *P, sl_stats *stats);
+extern sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *plan,
+                                                     double *X, size_t ldx, const double *B,
+                                                     size_t ldb, const double *G, size_t ldg,
+                                                     sl_int nrhs, sl_work *W);
+extern sl_status sl_factor_submatrix(sl_symbolic **S, sl_factor **G,
+                                                    const sl_factor *F, const sl_csc *A,
+                                                    const sl_int *rows, sl_int count,
+                                                    const sl_options *opt, sl_stats *stats);
 extern sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S,
                                                  const sl_csc *A, const sl_csc *B,
                                                  const sl_int *new_of, const sl_options *opt,
@@ -639,27 +604,16 @@ typedef struct sl_hermitian {
 } sl_hermitian;
 extern sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H,
                                                          const sl_options *opt, sl_stats *stats);
-extern sl_status sl_matrix_refill_hermitian(sl_matrix *M, const sl_hermitian *H,
-                                                           sl_stats *stats);
-extern sl_status sl_complex_rows(sl_int *out, const sl_int *rows, sl_int count);
 extern sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S,
                                                        const sl_int *bset, sl_int nb,
                                                        const sl_int *xset, sl_int nx,
                                                        const sl_options *opt, sl_stats *stats);
 extern sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det,
                                                   double *sign);
-extern sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t ldz,
-                                                         const sl_int *rows, sl_int n_rows,
-                                                         const sl_int *columns, sl_int n_columns,
-                                                         sl_work *W, sl_stats *stats);
-extern sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out,
-                                                         const sl_int *rows, const sl_int *columns,
-                                                         sl_int count, sl_work *W, sl_stats *stats);
 extern sl_status sl_matrix_read(sl_matrix **out, const char *path,
                                                const sl_options *opt, sl_stats *stats);
 extern sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
                                                 const sl_options *opt, sl_stats *stats);
-extern sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path);
 typedef struct sl_csc64 {
     int64_t n_rows, n_cols;
     const int64_t *p;

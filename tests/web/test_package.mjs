@@ -68,7 +68,7 @@ const F = sl.factor(A, {definite: true});
 
 test("an instance has a version and a heap", () => {
     check(/^\d+\.\d+\.\d+$/.test(sl.version) && sl.bytes > 0 && load === loadToo);
-    check(JSON.parse(readFileSync(new URL("package.json", folder))).version === sl.version);
+    check(JSON.parse(readFileSync(new URL("package.json", folder))).version.split("-")[0] === sl.version);
 });
 
 test("a matrix from triplets is in compressed columns", () => {

@@ -4,8 +4,8 @@
 
 #include "mex_options.h"
 
-/* id = pins(factor) */
-static sl_status pins(call *c) {
+/* id = constraints(factor) */
+static sl_status constraints(call *c) {
     object *f = find(c->in[0], FACTOR), *p;
     (void)new_output(c, 0, 1, 1);
     p = new_object(PINS);

@@ -145,7 +145,7 @@ static sl_status info(call *c) {
     values[k++] = s.factor.growth;
     values[k++] = s.factor.pivot_min;
     values[k++] = s.factor.pivot_max;
-    values[k++] = (double)s.threads;
+    values[k++] = (double)s.factor.threads;
     values[k++] = (double)(s.symbolic.bytes + s.factor.bytes);
     c->out[0] = mxCreateStructMatrix(1, 1, COUNT, (const char **)names);
     for (k = 0; k < COUNT; k++) {
