@@ -266,7 +266,7 @@ test-no-simd: deps sparse_local.h ## tests of kernels and of choices by their co
 
 # those of regular systems
 NO_SINGULAR = test_no_singular test_factor_overflow test_solve test_plan test_supernodal test_small test_growth test_null_judge \
-	test_result_hashes test_threads test_change_several test_pins_use test_restrict test_inverse_use test_region_use \
+	test_result_hashes test_threads test_change_several test_constraints_use test_submatrix test_inverse_use test_region_use \
 	test_selected_use test_complex_use test_parts_use test_refine_local
 
 test-no-singular: deps sparse_local.h ## tests of regular systems, built with -DSL_NO_SINGULAR

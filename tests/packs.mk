@@ -39,7 +39,9 @@ PACK_TESTS_core = checks csc csc_products csc_triplets factor factor_fail factor
 	relaxation rigid_mass_cases small solve subnormal symbolic symbolic_order zero_mean_cases
 PACK_TESTS_inverse = inverse inverse_diagonal region selected selected_use stats
 PACK_TESTS_change = change change_columns change_drift change_rare change_scaled change_several supernodal
+PACK_ALSO_change = edit
 PACK_TESTS_constraints = constraints constraints_rigid constraints_trust constraints_sets
+PACK_ALSO_constraints = change
 PACK_TESTS_edit = submatrix
 PACK_ALSO_edit = constraints
 PACK_TESTS_fixed = fixed fixed_rare
@@ -51,8 +53,8 @@ PACK_ALSO_complex = inverse
 PACK_TESTS_float = storage
 PACK_ALSO_float = accuracy inverse
 PACK_TESTS_accuracy = bounds bounds_nulls bounds_rare condition refine refine_local reserve
-PACK_ALSO_accuracy = change float
-PACK_TESTS_files = csc64 csc_write locale matrix_market matrix_market_file
+PACK_ALSO_accuracy = edit float
+PACK_TESTS_files = csc64 locale matrix_market matrix_market_file
 PACK_TESTS_pivots = pivots_rare
 PACK_ALSO_pivots = float
 
