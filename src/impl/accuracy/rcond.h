@@ -63,7 +63,8 @@ SLI_HOT static double sli_norm_estimate_solve(sli_norm_estimate *p) {
         sum += fabs(p->v[k]);
     }
     sli_norm_estimate_residual(p);
-    error = sli_backward_error(sli_largest(p->residual, 1, n), p->norm, sli_largest(p->v, 1, n), size);
+    error =
+        sli_backward_error(sli_largest(p->residual, 1, n), p->norm, sli_largest(p->v, 1, n), size);
     p->error = error > p->error ? error : p->error;
     return sum;
 }
