@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: b2563c435c1fddb2
+ * FNV-1a of the lines after this comment, without the license: e7708cb46f27cc06
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -2431,7 +2431,7 @@ SL_API SL_WARN_UNUSED sl_status sl_constraints_refactor(sl_constraints *P, sl_st
  *                the b-set, the pins are not: they need not be in either set. A plan in a region is
  *                not supported.
  *  X      [out]  nx x nrhs (full: n x nrhs), leading dimension ldx. May be B itself (then ldx =
- *                ldb). Errors write it only if SL_ERR_INCONSISTENT, _NOT_FINITE or _INACCURATE.
+ *                ldb). Errors but SL_ERR_INCONSISTENT, _NOT_FINITE, _INACCURATE leave it untouched.
  *  B      [in]   nb x nrhs (full: n x nrhs), leading dimension ldb; not used in rows that are pins.
  *  G      [in]   k x nrhs, leading dimension ldg: the values, in the order of the pins.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: F has changed; SL_ERR_MISMATCH: the plan is of
