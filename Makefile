@@ -49,7 +49,7 @@ FILE_LIBS = -lz -lcjson
 LIBS = -lmetis $(FILE_LIBS) -lm
 TEST_LIBS = -lcmocka
 
-PARTS := $(wildcard src/public/*.h src/impl/*/*.h)
+PARTS := $(wildcard src/public/*.h src/impl/*/*.h src/impl/*/*/*.h)
 SRC := src/sparse_local.in.h $(PARTS)
 MAIN := tools/cli/main.c
 NEED_PNG := tools/draw/png_write.c
@@ -115,7 +115,7 @@ map: ## what is in each file of src, tests, tools and bench, by its first commen
 
 style: ## are all lines short enough, is the wording of the public headers plain, and has every error a reason?
 	@tools/build/check_style.sh
-	@awk -f tools/build/errors.awk $(wildcard src/impl/*/*.h)
+	@awk -f tools/build/errors.awk $(filter src/impl/%,$(PARTS))
 
 parts: $(patsubst src/%,build/parts/%.ok,$(filter-out %.inl.h,$(PARTS))) ## does every part compile alone?
 	@echo 'parts: each of $(words $^) compiles alone'

@@ -111,9 +111,9 @@ const char *sl_save(void) {
     return "saved";
 }
 C
-part impl/save/save_change.h 'bodies of files of changes' <<'C'
-#include "../change/change.h"
-#include "save.h"
+part impl/save/more/save_change.h 'bodies of files of changes' <<'C'
+#include "../../change/change.h"
+#include "../save.h"
 int sl_save_change(void) {
     return sl_change(*sl_save());
 }
@@ -175,7 +175,7 @@ extern "C" {
 #include "impl/save/save.h"
 #endif
 #if defined(SL_WITH_SAVE) && defined(SL_WITH_CHANGE)
-#include "impl/save/save_change.h"
+#include "impl/save/more/save_change.h"
 #endif
 /* wide: nothing */
 #if defined(SL_WITH_WIDE)
@@ -297,7 +297,8 @@ check 'a block with a second branch' '
 # ---- make layers ----
 
 layers() {
-    awk -f "$root/tools/build/layers.awk" "$1"/small.in.h "$1"/public/*.h "$1"/impl/*/*.h
+    awk -f "$root/tools/build/layers.awk" "$1"/small.in.h "$1"/public/*.h "$1"/impl/*/*.h \
+        "$1"/impl/*/*/*.h
 }
 # The small tree has some macros that stay and names of its own: what counts is what is new.
 layers src >expected
@@ -323,7 +324,7 @@ check 'layers: a part of a pack under no condition' '
     manifest "s/^#include .impl.save.save.h.*/#endif\n&\n#ifdef SL_WITH_SAVE/" &&
     layer "save.h is in the folder of a pack, but under no condition" "put it under SL_WITH_SAVE"'
 check 'layers: a part of a pack under the condition of another one' '
-    manifest "s/^#include .impl.save.save_change.*/#endif\n#ifdef SL_WITH_CHANGE\n&/" &&
+    manifest "s/^#include .impl.save.more.save_change.*/#endif\n#ifdef SL_WITH_CHANGE\n&/" &&
     layer "save_change.h is in the folder of a pack, but under SL_WITH_CHANGE" "SL_WITH_SAVE"'
 check 'layers: conditions that amalgamate refuses' '
     manifest "s/^#if defined(SL_WITH_CHANGE)/& \&\& defined(SL_NO)/" &&

@@ -50,7 +50,7 @@ static void the_diagonal_equals_the_dense_inverse(void **state) {
                 sl_selected *Z = NULL;
                 sl_work *W = NULL;
                 SL_CHECK(sl_work_create(&W, NULL));
-                assert_int_equal(diagonal(&y, all, NULL, -3, W), SL_INVERSE_SELECTED);
+                assert_int_equal(diagonal(&y, all, NULL, SL_ALL, W), SL_INVERSE_SELECTED);
                 SL_CHECK(sl_selected_create(&Z, y.F, NULL, SL_ALL, NULL, NULL));
                 SL_CHECK(sl_selected_entries(Z, kept, NULL, NULL, SL_ALL, NULL));
                 SAME_VALUES(all, kept, (size_t)n);
@@ -89,7 +89,7 @@ static void the_cheaper_method_is_chosen(void **state) {
         double *out = test_reals((size_t)n), *all = test_reals((size_t)n);
         char *mark = (char *)test_array((size_t)v.n_supers, 1);
         sl_stats stats;
-        assert_int_equal(diagonal(&y, all, NULL, 0, NULL), SL_INVERSE_SELECTED);
+        assert_int_equal(diagonal(&y, all, NULL, SL_ALL, NULL), SL_INVERSE_SELECTED);
         for (sl_int i = 0; i < n; i++) {
             rows[i] = n - 1 - i;
         }
@@ -144,7 +144,7 @@ static void leading_columns_of_a_supernode_are_skipped(void **state) {
             sl_int *rows = test_ints((size_t)(width * TIMES));
             double *all = test_reals((size_t)n), *out = test_reals((size_t)(width * TIMES));
             assert_true(width > 128);
-            assert_int_equal(diagonal(&y, all, NULL, 0, NULL), SL_INVERSE_SELECTED);
+            assert_int_equal(diagonal(&y, all, NULL, SL_ALL, NULL), SL_INVERSE_SELECTED);
             for (sl_int late = 1; late < width; late += late / 2 + 1) {
                 for (sl_int i = 0; i < late * TIMES; i++) {
                     rows[i] = v.perm[n - late + i % late];
@@ -308,7 +308,7 @@ static void null_rows_are_zero(void **state) {
         for (sl_int i = 0; i < n; i++) {
             largest = fmax(largest, AT(Z, i, i));
         }
-        assert_int_equal(diagonal(&y, all, NULL, 0, NULL), SL_INVERSE_SELECTED);
+        assert_int_equal(diagonal(&y, all, NULL, SL_ALL, NULL), SL_INVERSE_SELECTED);
         for (sl_int i = 0; i < n; i++) {
             const double allowed = 100 * (double)n * DBL_EPSILON * largest;
             assert_int_equal(diagonal(&y, some + i, rows + i, 1, NULL), SL_INVERSE_FORWARD);

@@ -349,12 +349,12 @@ static void pairs_are_unsupported(void **state) {
 /* The storage is inherited, and all columns are computed: also if F skips several null pivots. */
 static void any_storage_and_several_null_vectors_are_restricted(void **state) {
     (void)state;
-    const sl_storage storages[] = {SL_STORAGE_FLOAT, SL_STORAGE_DOUBLE, SL_STORAGE_DOUBLE};
+    const sl_storage storages[] = {SL_STORAGE_FLOAT, SL_STORAGE_DOUBLE};
     double *z = test_reals(2 * 225);
-    for (int kind = 0; kind < 3; kind++) {
+    for (int kind = 0; kind < 2; kind++) {
         sl_options opt = options_none();
         opt.storage = storages[kind];
-        if (kind == 2) {
+        if (kind == 1) {
             opt.pivots = SL_PIVOTS_SKIP_NULL;
             opt.null_vector = z;
             opt.null_vector_count = 2;
@@ -368,8 +368,8 @@ static void any_storage_and_several_null_vectors_are_restricted(void **state) {
         gen_reals(b, n, 3);
         SL_CHECK(sl_factor_solve(t.G, x, n, b, n, 1, NULL));
         SL_CHECK(sl_csc_residual(&t.B.view, r, n, &error, x, n, b, n, 1));
-        assert_true(error <= (kind < 2 ? 1e-5 : 1e-14));
-        if (kind == 2) {
+        assert_true(error <= (kind == 0 ? 1e-5 : 1e-14));
+        if (kind == 1) {
             submatrix_check(&t);
         }
         free(b);

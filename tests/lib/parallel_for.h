@@ -17,6 +17,13 @@ static inline void *share_run(void *share) {
     return NULL;
 }
 
+/* Are threads of the header's own compiled in? */
+#if defined(_OPENMP) || defined(SL_PTHREADS)
+enum { HAS_THREADS = 1 };
+#else
+enum { HAS_THREADS = 0 };
+#endif
+
 /* Options that set nothing but threads. */
 #define THREADS(t) (&(sl_options){.threads = (t)})
 

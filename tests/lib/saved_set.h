@@ -52,11 +52,19 @@ static inline set_case_t set_case_make(int way, gen_kind_t kind, sl_int size, in
         status =
             sl_region_create(&q.regions[k], F, k == 1 ? NULL : rows, k == 1 ? SL_ALL : counts[k],
                              k == 2 ? q.set.selected : NULL, FOR_REGION(from), NULL);
-        assert_true(status == SL_OK || (status == SL_ERR_UNSUPPORTED && q.regions[k] == NULL));
+        /* wrong signs make L grow, too much for some orders */
+        assert_true(status == SL_OK || status == SL_ERR_UNSUPPORTED ||
+                    (status == SL_ERR_INACCURATE && way == SAVED_SIGNED));
         q.set.n_regions += status == SL_OK;
     }
     free(rows);
-    assert_true(q.set.n_regions == 0 || q.set.n_regions == SETS_REGIONS);
+    if (q.set.n_regions < SETS_REGIONS) { /* all or none */
+        for (int k = 0; k < SETS_REGIONS; k++) {
+            sl_region_free(q.regions[k]);
+            q.regions[k] = NULL;
+        }
+        q.set.n_regions = 0;
+    }
     return q;
 }
 

@@ -43,7 +43,7 @@ gives 2 'unknown command frobnicate$' frobnicate
 gives 2 'unknown command heta; did you mean heat?' heta sphere:1
 gives 2 'unknown command geodesics; did you mean geodesic?' help geodesics
 gives 0 'usage: sparse-local heat ' help heat
-gives 0 '^sparse-local [0-9]*[.][0-9]*[.][0-9]*$' --version
+gives 0 '^sparse-local [0-9]*[.][0-9]*[.][0-9]*\(-dev\)\{0,1\}$' --version
 gives 2 'unknown option --radis; did you mean --radius?' geodesic sphere:1 --radis 3
 gives 2 'pictures are PNG files; end the name in .png' adf sphere:1 --png "$dir/x.jpg"
 gives 2 'pictures are PNG files; end the name in .png' reach sphere:1 --pattern "$dir/x.svg"

@@ -5,7 +5,8 @@
 #
 # Prints a name and a number a line: public calls; fields of sl_options without reserved; tuning
 # constants; functions of src, those above 60 lines and those of more than 6 parameters; files in
-# the largest folder of src/impl. With an argument, lists the constants or the functions instead.
+# the largest folder of src/impl, subfolders apart. With an argument, lists the constants or the
+# functions instead.
 
 cd "$(dirname "$0")/../.." || exit 1
 export LC_ALL=C
@@ -32,11 +33,11 @@ constants() {
             if (is_number && value !~ /^\(?(-[0-9]+|[01])\)?$/ && !($2 in seen))
                 print FILENAME, $2, value
             if (is_number && value !~ /^\(?(-[0-9]+|[01])\)?$/) seen[$2] = 1
-        }' src/impl/*/*.h
+        }' src/impl/*/*.h src/impl/*/*/*.h
 }
 
 functions() {
-    awk -f tools/build/functions.awk src/impl/*/*.h src/public/*.h
+    awk -f tools/build/functions.awk src/impl/*/*.h src/impl/*/*/*.h src/public/*.h
 }
 
 case $1 in
@@ -57,6 +58,6 @@ functions | awk '
         print "long_functions", long + 0
         print "wide_functions", wide + 0
     }'
-for folder in src/impl/*/; do
-    find "$folder" -type f | wc -l
+for folder in src/impl/*/ src/impl/*/*/; do
+    find "$folder" -maxdepth 1 -type f | wc -l
 done | sort -n | awk 'END { print "folder", $1 }'

@@ -1,12 +1,13 @@
 # layers.awk: checks the direction of all includes and the names at file scope of src/ (make layers)
 #
-#     awk -f tools/build/layers.awk src/sparse_local.in.h src/public/*.h src/impl/*/*.h OTHER ...
+#     awk -f tools/build/layers.awk src/sparse_local.in.h src/public/*.h \
+#         src/impl/*/*.h src/impl/*/*/*.h OTHER ...
 #
 # src/: the manifest sparse_local.in.h is the first argument. It lists the parts (the other files of
-# src/) bottom up. A folder is a layer, and the manifest lists its parts one after another. A part
-# includes parts of lower layers and earlier parts of its own layer, and nothing outside src/. A
-# repeated part (*.inl.h) has no include guard and is not in the manifest. It takes the place of
-# the first part that includes it.
+# src/) bottom up. A folder is a layer with its subfolders, and the manifest lists its parts one
+# after another. A part includes parts of lower layers and earlier parts of its own layer, and
+# nothing outside src/. A repeated part (*.inl.h) has no include guard and is not in the manifest.
+# It takes the place of the first part that includes it.
 #
 # OTHER: C files of tools/, tests/ and bench/. A file includes files of its own folder, and
 #     tools/X      of the tools folders below X: adapters < matrix < io < mesh < geometry < draw <
@@ -156,7 +157,7 @@ function include_in_src(target) {
     if (is_manifest) {
         listed[++n_listed] = target
         order[target] = n_listed
-        layer_of[target] = layer_in_manifest(directory(target))
+        layer_of[target] = layer_in_manifest(layer_folder(target))
         condition_of[target] = block_condition()
         manifest_line[target] = FNR
         return
@@ -166,6 +167,11 @@ function include_in_src(target) {
     to_part[n_edges] = target
     line_of[n_edges] = FNR
     if (is_repeated(target) && !(target in first_user)) first_user[target] = part
+}
+
+# public/, or the folder of impl/ that a part is in, at any depth.
+function layer_folder(path) {
+    return match(path, /^impl\/[^\/]+\//) ? substr(path, 1, RLENGTH) : directory(path)
 }
 
 # The number of a folder's layer, in the order in which the manifest names the folders.
@@ -346,7 +352,7 @@ function check_packs(    k, b, path, pack, is_pack, under, names, n) {
     }
     for (k = 1; k <= n_listed; k++) {
         path = listed[k]
-        pack = directory(path)
+        pack = layer_folder(path)
         if (!(pack in is_pack) || follows(condition_of[path], is_pack[pack])) continue
         under = condition_of[path] == "" ? "no condition" : in_words(condition_of[path])
         violation_at(manifest, manifest_line[path], \

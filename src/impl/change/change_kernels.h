@@ -63,32 +63,32 @@ typedef struct sli_change_kernels {
 
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
-#include "../kernels/words_scalar.inl.h"
+#include "../kernels/words/words_scalar.inl.h"
 #include "change.inl.h"
-#include "../kernels/words_undef.inl.h"
+#include "../kernels/words/words_undef.inl.h"
 
 #if defined(SLI_X86)
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
-#include "../kernels/words_avx2.inl.h"
+#include "../kernels/words/words_avx2.inl.h"
 #include "change.inl.h"
-#include "../kernels/words_undef.inl.h"
+#include "../kernels/words/words_undef.inl.h"
 #endif
 
 #if defined(SLI_AVX512)
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
-#include "../kernels/words_avx512.inl.h"
+#include "../kernels/words/words_avx512.inl.h"
 #include "change.inl.h"
-#include "../kernels/words_undef.inl.h"
+#include "../kernels/words/words_undef.inl.h"
 #endif
 
 #if defined(SLI_ARM)
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
-#include "../kernels/words_neon.inl.h"
+#include "../kernels/words/words_neon.inl.h"
 #include "change.inl.h"
-#include "../kernels/words_undef.inl.h"
+#include "../kernels/words/words_undef.inl.h"
 #endif
 
 /* The table of an instruction set. */

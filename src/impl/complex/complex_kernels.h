@@ -14,16 +14,16 @@ typedef struct sli_complex_kernels {
 #define SLV_COMPLEX 1
 #define SLW_NRHS 2
 #define SLW_GROUPS 64
-#include "../kernels/words_scalar.inl.h"
-#include "../kernels/lanes_scalar.inl.h"
-#include "../kernels/front.inl.h"
+#include "../kernels/words/words_scalar.inl.h"
+#include "../kernels/words/lanes_scalar.inl.h"
+#include "../kernels/fronts/front.inl.h"
 #include "complex_small.inl.h"
 #include "complex_rows.inl.h"
 #include "complex_groups.inl.h"
-#include "../kernels/multi_rhs_tiles.inl.h"
+#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
 #include "complex_set.inl.h"
-#include "../kernels/lanes_undef.inl.h"
-#include "../kernels/words_undef.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
+#include "../kernels/words/words_undef.inl.h"
 #endif
 
 #if defined(SLI_X86)
@@ -31,23 +31,23 @@ typedef struct sli_complex_kernels {
 #define SLV_COMPLEX 1
 #define SLW_NRHS 4
 #define SLW_GROUPS 64
-#include "../kernels/words_avx2.inl.h"
-#include "../kernels/lanes_avx2.inl.h"
-#include "../kernels/front.inl.h"
+#include "../kernels/words/words_avx2.inl.h"
+#include "../kernels/words/lanes_avx2.inl.h"
+#include "../kernels/fronts/front.inl.h"
 #include "complex_groups.inl.h"
-#include "../kernels/multi_rhs_tiles.inl.h"
-#include "../kernels/lanes_undef.inl.h"
+#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
 #define SLW_NRHS 2
 #define SLW_GROUPS 2
-#include "../kernels/lanes_avx2.inl.h"
-#include "../kernels/copy_rows.inl.h"
+#include "../kernels/words/lanes_avx2.inl.h"
+#include "../kernels/sweeps/copy_rows.inl.h"
 #include "complex_small.inl.h"
 #include "complex_rows.inl.h"
 #include "complex_groups.inl.h"
-#include "../kernels/multi_rhs_tiles.inl.h"
+#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
 #include "complex_set.inl.h"
-#include "../kernels/lanes_undef.inl.h"
-#include "../kernels/words_undef.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
+#include "../kernels/words/words_undef.inl.h"
 #endif
 
 #if defined(SLI_AVX512)
@@ -55,22 +55,22 @@ typedef struct sli_complex_kernels {
 #define SLV_COMPLEX 1
 #define SLW_NRHS 8
 #define SLW_GROUPS 8
-#include "../kernels/words_avx512.inl.h"
-#include "../kernels/lanes_avx512.inl.h"
-#include "../kernels/front.inl.h"
+#include "../kernels/words/words_avx512.inl.h"
+#include "../kernels/words/lanes_avx512.inl.h"
+#include "../kernels/fronts/front.inl.h"
 #include "complex_groups.inl.h"
-#include "../kernels/multi_rhs_tiles.inl.h"
-#include "../kernels/lanes_undef.inl.h"
+#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
 #define SLW_NRHS 16
 #define SLW_GROUPS 64
-#include "../kernels/lanes_avx512.inl.h"
+#include "../kernels/words/lanes_avx512.inl.h"
 #include "complex_small.inl.h"
 #include "complex_rows.inl.h"
 #include "complex_groups.inl.h"
-#include "../kernels/multi_rhs_tiles.inl.h"
+#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
 #include "complex_set.inl.h"
-#include "../kernels/lanes_undef.inl.h"
-#include "../kernels/words_undef.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
+#include "../kernels/words/words_undef.inl.h"
 #endif
 
 #if defined(SLI_ARM)
@@ -78,23 +78,23 @@ typedef struct sli_complex_kernels {
 #define SLV_COMPLEX 1
 #define SLW_NRHS 4
 #define SLW_GROUPS 64
-#include "../kernels/words_neon.inl.h"
-#include "../kernels/lanes_neon.inl.h"
-#include "../kernels/front.inl.h"
+#include "../kernels/words/words_neon.inl.h"
+#include "../kernels/words/lanes_neon.inl.h"
+#include "../kernels/fronts/front.inl.h"
 #include "complex_groups.inl.h"
-#include "../kernels/multi_rhs_tiles.inl.h"
-#include "../kernels/lanes_undef.inl.h"
+#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
 #define SLW_NRHS 2
 #define SLW_GROUPS 2
-#include "../kernels/lanes_neon.inl.h"
-#include "../kernels/copy_rows.inl.h"
+#include "../kernels/words/lanes_neon.inl.h"
+#include "../kernels/sweeps/copy_rows.inl.h"
 #include "complex_small.inl.h"
 #include "complex_rows.inl.h"
 #include "complex_groups.inl.h"
-#include "../kernels/multi_rhs_tiles.inl.h"
+#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
 #include "complex_set.inl.h"
-#include "../kernels/lanes_undef.inl.h"
-#include "../kernels/words_undef.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
+#include "../kernels/words/words_undef.inl.h"
 #endif
 
 /* The table of an instruction set; NULL: it has none, so that L is kept in double. */

@@ -31,14 +31,14 @@ SLI_ROUND_PLAIN(sli_single_round_scalar)
 #define SLV_COMPLEX 0
 #define SLW_NRHS 2
 #define SLW_GROUPS 64
-#include "../kernels/words_scalar.inl.h"
-#include "../kernels/lanes_scalar.inl.h"
-#include "../kernels/sweeps.inl.h"
-#include "../kernels/multi_rhs.inl.h"
-#include "../kernels/multi_rhs_tiles.inl.h"
+#include "../kernels/words/words_scalar.inl.h"
+#include "../kernels/words/lanes_scalar.inl.h"
+#include "../kernels/sweeps/sweeps.inl.h"
+#include "../kernels/sweeps/multi_rhs.inl.h"
+#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
 #include "float_set.inl.h"
-#include "../kernels/lanes_undef.inl.h"
-#include "../kernels/words_undef.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
+#include "../kernels/words/words_undef.inl.h"
 #endif
 
 #if defined(SLI_X86)
@@ -61,25 +61,25 @@ static int sli_single_round_avx2(float *to, const double *from, ptrdiff_t count)
 #define SLV_SINGLE 1
 #define SLV_COMPLEX 0
 #define SLW_NRHS 4
-#include "../kernels/words_avx2.inl.h"
-#include "../kernels/lanes_avx2.inl.h"
-#include "../kernels/sweeps.inl.h"
-#include "../kernels/multi_rhs.inl.h"
-#include "../kernels/multi_rhs_tiles.inl.h"
-#include "../kernels/lanes_undef.inl.h"
+#include "../kernels/words/words_avx2.inl.h"
+#include "../kernels/words/lanes_avx2.inl.h"
+#include "../kernels/sweeps/sweeps.inl.h"
+#include "../kernels/sweeps/multi_rhs.inl.h"
+#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
 #define SLW_NRHS 2
-#include "../kernels/lanes_avx2.inl.h"
-#include "../kernels/multi_rhs.inl.h"
-#include "../kernels/two_rhs.inl.h"
-#include "../kernels/lanes_undef.inl.h"
+#include "../kernels/words/lanes_avx2.inl.h"
+#include "../kernels/sweeps/multi_rhs.inl.h"
+#include "../kernels/sweeps/two_rhs.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
 #define SLW_NRHS 8
 #define SLW_GROUPS 64
-#include "../kernels/lanes_avx2.inl.h"
-#include "../kernels/multi_rhs.inl.h"
-#include "../kernels/multi_rhs_tiles.inl.h"
+#include "../kernels/words/lanes_avx2.inl.h"
+#include "../kernels/sweeps/multi_rhs.inl.h"
+#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
 #include "float_set.inl.h"
-#include "../kernels/lanes_undef.inl.h"
-#include "../kernels/words_undef.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
+#include "../kernels/words/words_undef.inl.h"
 #endif
 
 #if defined(SLI_AVX512)
@@ -87,21 +87,21 @@ static int sli_single_round_avx2(float *to, const double *from, ptrdiff_t count)
 #define SLV_COMPLEX 0
 #define SLW_NRHS 8
 #define SLW_GROUPS 8 /* no copies by width, to keep the object small */
-#include "../kernels/words_avx512.inl.h"
-#include "../kernels/lanes_avx512.inl.h"
-#include "../kernels/sweeps.inl.h"
-#include "../kernels/two_rhs.inl.h"
-#include "../kernels/multi_rhs.inl.h"
-#include "../kernels/multi_rhs_tiles.inl.h"
-#include "../kernels/lanes_undef.inl.h"
+#include "../kernels/words/words_avx512.inl.h"
+#include "../kernels/words/lanes_avx512.inl.h"
+#include "../kernels/sweeps/sweeps.inl.h"
+#include "../kernels/sweeps/two_rhs.inl.h"
+#include "../kernels/sweeps/multi_rhs.inl.h"
+#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
 #define SLW_NRHS 16
 #define SLW_GROUPS 64
-#include "../kernels/lanes_avx512.inl.h"
-#include "../kernels/multi_rhs.inl.h"
-#include "../kernels/multi_rhs_tiles.inl.h"
+#include "../kernels/words/lanes_avx512.inl.h"
+#include "../kernels/sweeps/multi_rhs.inl.h"
+#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
 #include "float_set.inl.h"
-#include "../kernels/lanes_undef.inl.h"
-#include "../kernels/words_undef.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
+#include "../kernels/words/words_undef.inl.h"
 #endif
 
 #if defined(SLI_ARM)
@@ -109,25 +109,25 @@ SLI_ROUND_PLAIN(sli_single_round_neon)
 #define SLV_SINGLE 1
 #define SLV_COMPLEX 0
 #define SLW_NRHS 4
-#include "../kernels/words_neon.inl.h"
-#include "../kernels/lanes_neon.inl.h"
-#include "../kernels/sweeps.inl.h"
-#include "../kernels/multi_rhs.inl.h"
-#include "../kernels/multi_rhs_tiles.inl.h"
-#include "../kernels/lanes_undef.inl.h"
+#include "../kernels/words/words_neon.inl.h"
+#include "../kernels/words/lanes_neon.inl.h"
+#include "../kernels/sweeps/sweeps.inl.h"
+#include "../kernels/sweeps/multi_rhs.inl.h"
+#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
 #define SLW_NRHS 2
-#include "../kernels/lanes_neon.inl.h"
-#include "../kernels/multi_rhs.inl.h"
-#include "../kernels/two_rhs.inl.h"
-#include "../kernels/lanes_undef.inl.h"
+#include "../kernels/words/lanes_neon.inl.h"
+#include "../kernels/sweeps/multi_rhs.inl.h"
+#include "../kernels/sweeps/two_rhs.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
 #define SLW_NRHS 8
 #define SLW_GROUPS 64
-#include "../kernels/lanes_neon.inl.h"
-#include "../kernels/multi_rhs.inl.h"
-#include "../kernels/multi_rhs_tiles.inl.h"
+#include "../kernels/words/lanes_neon.inl.h"
+#include "../kernels/sweeps/multi_rhs.inl.h"
+#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
 #include "float_set.inl.h"
-#include "../kernels/lanes_undef.inl.h"
-#include "../kernels/words_undef.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
+#include "../kernels/words/words_undef.inl.h"
 #endif
 
 /* The table of an instruction set; NULL: it has none, so that L is kept in double. */

@@ -19,51 +19,51 @@ typedef struct sli_inverse_kernels {
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
 #define SLW_NRHS 8
-#include "../kernels/words_scalar.inl.h"
-#include "../kernels/lanes_scalar.inl.h"
+#include "../kernels/words/words_scalar.inl.h"
+#include "../kernels/words/lanes_scalar.inl.h"
 #include "products.inl.h"
 #include "inverse_front.inl.h"
 #include "inverse_set.inl.h"
-#include "../kernels/lanes_undef.inl.h"
-#include "../kernels/words_undef.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
+#include "../kernels/words/words_undef.inl.h"
 
 #if defined(SLI_X86)
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
 #define SLW_NRHS 8
-#include "../kernels/words_avx2.inl.h"
-#include "../kernels/lanes_avx2.inl.h"
+#include "../kernels/words/words_avx2.inl.h"
+#include "../kernels/words/lanes_avx2.inl.h"
 #include "products.inl.h"
 #include "inverse_front.inl.h"
 #include "inverse_set.inl.h"
-#include "../kernels/lanes_undef.inl.h"
-#include "../kernels/words_undef.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
+#include "../kernels/words/words_undef.inl.h"
 #endif
 
 #if defined(SLI_AVX512)
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
 #define SLW_NRHS 8
-#include "../kernels/words_avx512.inl.h"
-#include "../kernels/lanes_avx512.inl.h"
+#include "../kernels/words/words_avx512.inl.h"
+#include "../kernels/words/lanes_avx512.inl.h"
 #include "products.inl.h"
 #include "inverse_front.inl.h"
 #include "inverse_set.inl.h"
-#include "../kernels/lanes_undef.inl.h"
-#include "../kernels/words_undef.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
+#include "../kernels/words/words_undef.inl.h"
 #endif
 
 #if defined(SLI_ARM)
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
 #define SLW_NRHS 8
-#include "../kernels/words_neon.inl.h"
-#include "../kernels/lanes_neon.inl.h"
+#include "../kernels/words/words_neon.inl.h"
+#include "../kernels/words/lanes_neon.inl.h"
 #include "products.inl.h"
 #include "inverse_front.inl.h"
 #include "inverse_set.inl.h"
-#include "../kernels/lanes_undef.inl.h"
-#include "../kernels/words_undef.inl.h"
+#include "../kernels/words/lanes_undef.inl.h"
+#include "../kernels/words/words_undef.inl.h"
 #endif
 
 /* The table of an instruction set. */

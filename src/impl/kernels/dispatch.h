@@ -2,10 +2,10 @@
 #ifndef SLI_KERNELS_DISPATCH_H
 #define SLI_KERNELS_DISPATCH_H
 
-#include "simd_avx2.h"
-#include "simd_avx512.h"
-#include "simd_neon.h"
-#include "simd_scalar.h"
+#include "words/simd_avx2.h"
+#include "words/simd_avx512.h"
+#include "words/simd_neon.h"
+#include "words/simd_scalar.h"
 
 #if defined(SLI_X86)
 /* What CPUID says of a leaf: eax, ebx, ecx, edx. Not by <cpuid.h>, which conflicts with <intrin.h>.

@@ -1,7 +1,7 @@
 /* kernel_set.inl.h: the other kernels of one instruction set, and its table */
 
-#include "row.inl.h"
-#include "interleave.inl.h"
+#include "fronts/row.inl.h"
+#include "sweeps/interleave.inl.h"
 
 static const sli_kernels SLV_NAME(kernels) = {
     SLV_ISA,

@@ -141,7 +141,7 @@ SLI_TARGET("avx2,popcnt") static void sli_mindeg_run_avx2(sli_mindeg *m, sl_int 
 
 /* Are leaves of a graph of n vertices ordered by AVX2? To ask takes longer than what that saves in
  * a small graph. */
-static int sli_mindeg_has_avx2(sl_int n) {
+static int sli_mindeg_is_wide(sl_int n) {
     return n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
 }
 

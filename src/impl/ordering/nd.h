@@ -292,7 +292,7 @@ static sl_status sli_order_nd(const sli_order_job *job) {
         sli_nd_layout(&w, &b);
     }
     if (status == SL_OK) {
-        const int has_avx2 = sli_mindeg_has_avx2(w.G->n);
+        const int has_avx2 = sli_mindeg_is_wide(w.G->n);
         for (k = 0; k < job->team->workers; k++) {
             w.d.workers[k].mindeg.has_avx2 = has_avx2;
         }

@@ -1,4 +1,4 @@
-"""Pins: rows of a system that solves hold at given values, on top of a factor."""
+"""Constraints: rows of a system that solves hold at given values, on top of a factor."""
 import ctypes
 
 import numpy as np
@@ -8,7 +8,7 @@ from ._errors import ArgumentError
 from ._library import Handle, Stats, as_dict, check, lib
 
 
-class Pins:
+class Constraints:
     """Rows, or linear combinations of rows, that solves hold at given values. The factor stays.
 
     For a definite A this minimizes x' A x / 2 - b' x under these equalities. A singular Laplacian

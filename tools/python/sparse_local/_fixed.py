@@ -47,7 +47,7 @@ class FixedRows:
         check(self._lib.sl_fixed_create(
             ctypes.byref(pointer), matrix.reference(), address, count,
             ctypes.byref(both.options), ctypes.byref(stats)), stats, self._kind.width)
-        self._fixed = Handle("fixed rows", pointer.value)
+        self._fixed = Handle("fixed", pointer.value)
         self._works = Works(options.get("threads"))
         self.n, self.stats = matrix.n, as_dict(stats.fixed)
         self._count = count // self._kind.width

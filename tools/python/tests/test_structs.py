@@ -68,7 +68,7 @@ def c_members(text, struct):
         match = re.match(r"\s*(?:const |unsigned )*(\w+)(.*)", line, re.S)
         if not match:
             continue
-        for declared in match.group(2).replace("const", "").split(","):
+        for declared in match.group(2).replace("const ", "").split(","):
             name = re.search(r"\w+", declared)
             if not name:
                 continue

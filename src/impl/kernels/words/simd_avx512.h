@@ -4,7 +4,7 @@
 
 #include "simd_avx2.h"
 #include "simd.h"
-#include "table.h"
+#include "../table.h"
 
 #if defined(SLI_X86) && !defined(SL_NO_AVX512)
 
@@ -15,21 +15,21 @@
 #define SLW_NRHS 8
 #include "words_avx512.inl.h"
 #include "lanes_avx512.inl.h"
-#include "copy_rows.inl.h"
-#include "front.inl.h"
-#include "sweeps.inl.h"
-#include "two_rhs.inl.h"
-#include "multi_rhs.inl.h"
-#include "multi_rhs_tiles.inl.h"
+#include "../sweeps/copy_rows.inl.h"
+#include "../fronts/front.inl.h"
+#include "../sweeps/sweeps.inl.h"
+#include "../sweeps/two_rhs.inl.h"
+#include "../sweeps/multi_rhs.inl.h"
+#include "../sweeps/multi_rhs_tiles.inl.h"
 #include "lanes_undef.inl.h"
 
 #define SLW_NRHS 16
 #define SLW_GROUPS 64
 #include "lanes_avx512.inl.h"
-#include "copy_rows.inl.h"
-#include "multi_rhs.inl.h"
-#include "multi_rhs_tiles.inl.h"
-#include "kernel_set.inl.h"
+#include "../sweeps/copy_rows.inl.h"
+#include "../sweeps/multi_rhs.inl.h"
+#include "../sweeps/multi_rhs_tiles.inl.h"
+#include "../kernel_set.inl.h"
 #include "lanes_undef.inl.h"
 #include "words_undef.inl.h"
 

@@ -2,7 +2,7 @@
 #ifndef SLI_KERNELS_SIMD_H
 #define SLI_KERNELS_SIMD_H
 
-#include "panel.h"
+#include "../panel.h"
 
 /* A template *.inl.h is compiled once for each instruction set. It uses two groups of words:
  * words_*.inl.h define SLV_, and lanes_*.inl.h define SLW_ for SLW_NRHS right-hand sides.
