@@ -15,16 +15,15 @@
  *
  *  F      [in]      a factor of A, or of a matrix close to A.
  *  A      [in]      the matrix, with the analyzed pattern.
- *  X      [in,out]  n x nrhs, column-major: solutions from sl_factor_solve, or any other start;
- *                   must not overlap B. On errors other than SL_ERR_INACCURATE untouched.
- *  B      [in]      n x nrhs, column-major.
+ *  X      [in,out]  n x nrhs, leading dimension ldx: solutions from sl_factor_solve, or any other
+ *                   start; must not overlap B. On errors other than SL_ERR_INACCURATE untouched.
+ *  B      [in]      n x nrhs, leading dimension ldb.
  *  steps  [in]      maximum number of corrections per column, 0 or more; 0 only measures, and does
  *                   not return SL_ERR_INACCURATE.
  *  stats  [out]     refine.
  *  Returns  SL_OK; SL_ERR_INACCURATE: see above; SL_ERR_ARGUMENT; SL_ERR_STALE;
  *           SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     one product with A, and another product and a solve per step; W grows to
- *           O(n min(nrhs, 8)).
+ *  Cost     a product with A, then a product and a solve per step; W grows to O(n min(nrhs, 8)).
  *  Threads  any number at once on one F, each with its own W.
  *  Source   [Sk80]: one step makes a solver stable row by row.
  *  Manual   tools/docs/indefinite.md
@@ -43,7 +42,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
  *
  *  P      [in]   a plan whose two reaches contain every regularized row of the components of b.
  *                This holds if these rows are in both sets.
- *  F, X, ldx, B, ldb, nrhs, W  as in sl_plan_solve, column-major.
+ *  F, X, ldx, B, ldb, nrhs, W  as in sl_plan_solve.
  *  steps  [in]   maximum number of corrections per column, 0 or more; 0 only measures.
  *  stats  [out]  refine, with backward_error = max |E (x - previous x)| / max |b|, or that of
  *                rounding where it is larger; error.row with SL_ERR_ARGUMENT: a regularized row

@@ -14,9 +14,8 @@
  *
  *  out    [out]  the analysis.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
- *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, block_size,
- *                purpose. block_size is used by all but SL_ORDERING_GIVEN and
- *                SL_ORDERING_NATURAL; every ordering refuses an invalid one.
+ *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, block_size, purpose. A
+ *                block_size that is invalid is refused also by orderings that do not use it.
  *  stats  [out]  symbolic.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first
  *           offending position), or another option that is not allowed; SL_ERR_MALFORMED;
@@ -24,10 +23,9 @@
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes). Each further thread has
  *           scratch of about the size of the pattern, of which it writes little.
- *  Threads  options.threads, up to 16, distribute the ordering and the entries of A, by one call of
- *           the pool, whose threads may call the allocator, one at a time. Any number of calls at
- *           once. The result is the same for any number of threads, on every processor and with
- *           every compiler, except with METIS, which uses rand() and signals of the process.
+ *  Threads  options.threads, up to 16, distribute the ordering and the entries of A by one call of
+ *           the pool, whose threads call the allocator one at a time. Any number of calls at once.
+ *           The same result for any number of threads, processor and compiler, except with METIS.
  *  Source   [George73] nested dissection; [KK98] multilevel graphs; [FM82] refinement of
  *           separators; [FF56] minimum vertex cuts; [ADD96] minimum degree; [MR85] trees;
  *           [Liu90] elimination tree, structures of columns; [AG89] relaxed supernodes.

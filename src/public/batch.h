@@ -7,10 +7,10 @@
 /** One solve of a batch: a plan and its right-hand sides, or a full solve. */
 typedef struct sl_request {
     const sl_plan *plan;     /* NULL: a full solve, as sl_factor_solve */
-    double *X;               /* nx x nrhs (full: n x nrhs), column-major */
-    size_t ldx;              /* leading dimension in elements; row-major if it is SL_ROWS(ld) */
-    const double *B;         /* nb x nrhs (full: n x nrhs), column-major */
-    size_t ldb;              /* as ldx */
+    double *X;               /* nx x nrhs (full: n x nrhs) */
+    size_t ldx;              /* its leading dimension */
+    const double *B;         /* nb x nrhs (full: n x nrhs) */
+    size_t ldb;              /* its leading dimension */
     sl_int nrhs;             /* 0 or more; blocks of 8 are distributed like separate requests */
     const sl_factor *factor; /* NULL: the factor of the call */
 } sl_request;

@@ -24,12 +24,11 @@
  *                       as a rule 1e3 to 1e6 times larger. Barring underflow.
  *  stats      [out]     certificate.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_MISMATCH: guaranteed, and other values
- *           than those of F; SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_UNSUPPORTED:
- *           negative or regularized pivots, complex storage, options.mass with several or unknown
- *           null vectors; guaranteed also null pivots, L in float, restrictions, duplicate entries,
- *           entries of the diagonal beyond 1e-200 .. 1e200; SL_ERR_INACCURATE:
- *           eta exceeds 1/16, as with an A that is not that of F; SL_ERR_TOO_LARGE, SL_ERR_MEMORY.
- *           On errors F has no eta.
+ *           than those of F; SL_ERR_OTHER_PATTERN; SL_ERR_UNSUPPORTED: negative or regularized
+ *           pivots, complex storage, options.mass with several or unknown null vectors; guaranteed
+ *           also null pivots, L in float, restrictions, duplicate entries, entries of the diagonal
+ *           beyond 1e-200 .. 1e200; SL_ERR_INACCURATE: eta exceeds 1/16, as with another A;
+ *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY. On errors F has no eta.
  *  Cost     estimated: 28 solves, 4 or 8 at a time, with products: as long as 15 (n = 1e5) to 45
  *           (n = 900) single solves; W grows by 20 n numbers. Guaranteed: 7 to 10 factorizations;
  *           memory of a second factor while it runs.

@@ -44,13 +44,12 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rank_update(sl_factor *F, const sl_csc
 
 /** Changes a factor by entries of A, or by columns of A in which entries have changed.
  *
- *  By entries (rows, columns, deltas): a_ij and a_ji change by delta, in the cheapest way: by
- *  rank-one changes, by computing the columns of L again that the change reaches, or by a
- *  refactorization. If A is NULL, by rank-one changes alone. Rank-one changes: one for the weight
- *  of an edge of a graph, which changes a_ij by -w and a_ii and a_jj by w, one for an entry of the
- *  diagonal, and up to three for any other entry, which follow the scales of the two rows if all
- *  pivots have one sign. The ways are compared by counted flops and entries. Where rank-one changes
- *  are not possible or have added up too much error, the other two remain (stats.change.reason).
+ *  By entries (rows, columns, deltas): a_ij and a_ji change by delta, in the way that counted flops
+ *  and entries call cheapest: by rank-one changes, by computing the columns of L again that the
+ *  change reaches, or by a refactorization. If A is NULL, by rank-one changes alone: one for the
+ *  weight of an edge of a graph, which changes a_ij by -w and a_ii and a_jj by w, one for an entry
+ *  of the diagonal, and up to three for any other entry. Where these are not possible or have added
+ *  up too much error, the other ways remain (stats.change.reason).
  *
  *  By columns (rows and deltas are NULL): the columns of L that the changes reach are computed
  *  again. They agree with sl_factor_refactor up to rounding; the others keep their bits. An

@@ -12,14 +12,13 @@
  *
  *  Singular matrices: with SL_PIVOTS_SKIP_NULL and known null vectors (sl_factor_create), one pin
  *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
- *  pins that leave none of its 6 motions. Components without pins are solved as by sl_factor_solve:
- *  with the weights of options.mass, or with x = 0 in null rows and b in balance. If the pins of a
- *  component leave motions, b must be in balance with them, and x = 0 in null rows fixes them.
+ *  pins that leave none of its 6 motions. If the pins of a component leave motions, b must be in
+ *  balance with them, and x = 0 in null rows fixes them. Components without pins are solved as by
+ *  sl_factor_solve.
  *
- *  Accuracy: the capacitance matrix corrects the solution without pins. Where that solution is
- *  10^d times as large as the one with pins, as with a weak mass term, d digits are lost. Solves
- *  check C' x = g in each tree of the factor and report the loss (SL_ERR_INACCURATE). Local solves
- *  check the equalities whose rows are all in their reach.
+ *  Accuracy: the capacitance matrix corrects the solution without pins. Where that is 10^d times as
+ *  large as the one with pins, as with a weak mass term, d digits are lost. Solves check C' x = g,
+ *  local ones where all rows of an equality are in their reach (SL_ERR_INACCURATE).
  *
  *  out  [out]  the set.
  *  F    [in]   the factor; kept by the object. When F changes, solves are refused until
@@ -85,13 +84,10 @@ SL_API SL_WARN_UNUSED sl_status sl_constraints_refactor(sl_constraints *P, sl_st
  *  plan   [in]   a local solve of the rows that the plan names; NULL: a full one. b is 0 outside of
  *                the b-set, the pins are not: they need not be in either set. A plan in a region is
  *                not supported.
- *  X      [out]  nx x nrhs (full: n x nrhs), column-major, leading dimension ldx elements. May be B
- *                itself (then ldx = ldb). Overwritten also after SL_ERR_INCONSISTENT, _NOT_FINITE
- *                and _INACCURATE; after other errors untouched.
- *  B      [in]   nb x nrhs (full: n x nrhs), column-major, leading dimension ldb elements. Its
- *                values in rows that are pins are not used.
- *  G      [in]   k x nrhs, column-major, leading dimension ldg elements: the values, in the order
- *                of the pins.
+ *  X      [out]  nx x nrhs (full: n x nrhs), leading dimension ldx. May be B itself (then ldx =
+ *                ldb). Errors but SL_ERR_INCONSISTENT, _NOT_FINITE, _INACCURATE leave it untouched.
+ *  B      [in]   nb x nrhs (full: n x nrhs), leading dimension ldb; not used in rows that are pins.
+ *  G      [in]   k x nrhs, leading dimension ldg: the values, in the order of the pins.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: F has changed; SL_ERR_MISMATCH: the plan is of
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: C' x = g
  *           does not hold to 1e-8 of x or, where g is 0, of b / max |a|, or rounding hides whether

@@ -7,12 +7,11 @@
 
 /** EXPERIMENTAL. Analyzes an edited matrix B, starting from the analysis of A, the one before it.
  *
- *  This is for meshes that are remeshed or cut in places: edges are flipped, split and collapsed,
- *  and vertices are doubled. The elimination tree of A is kept where no neighbors change. If edits
- *  are local, the order is about as good as the one before, and slowly becomes worse than a new
- *  one: if stats.edit.is_due is set, create a new analysis when there is time. If a quarter of the
- *  rows have other neighbors, or the edits are not local, this call does so itself
- *  (stats.edit.is_anew).
+ *  This is for meshes that are remeshed or cut in places. The elimination tree of A is kept where
+ *  no neighbors change. If edits are local, the order is about as good as the one before, and
+ *  slowly becomes worse than a new one: if stats.edit.is_due is set, create a new analysis when
+ *  there is time. If a quarter of the rows have other neighbors, or the edits are not local, this
+ *  call does so itself (stats.edit.is_anew).
  *
  *  out     [out]  the analysis of B. It does not depend on S. It has no separator tree, unless it
  *                 is a new one.

@@ -34,10 +34,9 @@
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles and, with the
  *           supernodal method, the update stack: about 5 % more for 2D meshes and 30 % for 3D
  *           meshes, more with threads.
- *  Threads  any number of calls at once on one S. options.threads distribute this call, and every
- *           sl_factor_refactor of the factor, by one loop of the pool; threads that begin late
- *           leave their share to the others. Small systems use fewer threads. L has the same bits
- *           for any number of them. Only the supernodal method uses them, with gcc, clang and MSVC.
+ *  Threads  any number of calls at once on one S. If F is supernodal and not small, options.threads
+ *           distribute this call, and every sl_factor_refactor of the factor, by one loop of the
+ *           pool, with gcc, clang and MSVC. L has the same bits for any number of threads.
  *  Source   supernodal: multifrontal [DR83] [Liu92] on row tiles; up-looking: [LDL05], [Davis06]
  *           4.7; growth: [Hi02] 11.1.
  *  Manual   tools/docs/singular.md: null pivots, null vectors, weights; tools/docs/indefinite.md:
@@ -57,10 +56,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *                   numbers, and every solve refuses it until a refactor succeeds.
  *  A      [in]      the analyzed pattern, new values. Two triangles are not compared.
  *  stats  [out]     factor.
- *  Returns  as sl_factor_create; SL_ERR_READ_ONLY: a mapped factor, or one that
- *           is loaded in part (save.h). SL_ERR_MEMORY and
- *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load),
- *           which allocates its fronts; SL_ERR_UNSUPPORTED only with SL_STORAGE_COMPLEX, or with
+ *  Returns  as sl_factor_create; SL_ERR_READ_ONLY: a mapped factor, or one that is loaded in part
+ *           (save.h). SL_ERR_MEMORY and SL_ERR_TOO_LARGE only with the first refactorization of a
+ *           loaded factor; SL_ERR_UNSUPPORTED only with SL_STORAGE_COMPLEX, or with
  *           null_vector_count where A has more null vectors than columns are given.
  *  Cost     as sl_factor_create, without its memory.
  *  Threads  exclusive use of F.

@@ -36,9 +36,8 @@ SL_API void sl_fixed_free(sl_fixed *D);
  *
  *  A      [in]   the pattern that sl_fixed_create was given, its entries in the same order.
  *  stats  [out]  fixed, factor; errors are in rows of A.
- *  Returns  as sl_fixed_create; SL_ERR_OTHER_PATTERN. After SL_ERR_PIVOT,
- *           _NOT_FINITE, _INACCURATE and _UNSUPPORTED solves are refused until a
- *           refactorization succeeds; after other errors D is as before.
+ *  Returns  as sl_fixed_create; SL_ERR_OTHER_PATTERN. After SL_ERR_PIVOT, _NOT_FINITE, _INACCURATE
+ *           and _UNSUPPORTED solves are refused until a call succeeds; else D is as before.
  *  Cost     a refactorization of A[free, free]; nothing is allocated.
  *  Threads  exclusive use of D.
  */
@@ -46,13 +45,11 @@ SL_API SL_WARN_UNUSED sl_status sl_fixed_refactor(sl_fixed *D, const sl_csc *A, 
 
 /** Solves for x in the free rows, for any values of the fixed ones.
  *
- *  X     [out]  n x nrhs, leading dimension ldx, rows in the order of A; row-major if ldx is
- *               SL_ROWS(ld). Fixed rows are g. May be B itself (then ldx = ldb). Overwritten also
- *               after SL_ERR_INCONSISTENT and _NOT_FINITE; after other errors untouched.
- *  B     [in]   n x nrhs, leading dimension ldb, or row-major as X; fixed rows are not used. NULL:
- *               b = 0.
- *  G     [in]   count x nrhs, leading dimension ldg, or row-major as X: the values, in the order of
- *               rows. Must not overlap X. May be NULL if count = 0.
+ *  X     [out]  n x nrhs, leading dimension ldx; fixed rows are g. May be B itself (then ldx =
+ *               ldb). Errors but SL_ERR_INCONSISTENT and _NOT_FINITE leave it untouched.
+ *  B     [in]   n x nrhs, leading dimension ldb; fixed rows are not used. NULL: b = 0.
+ *  G     [in]   count x nrhs, leading dimension ldg: the values, in the order of rows. Must not
+ *               overlap X. May be NULL if count = 0.
  *  nrhs  [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed refactorization; SL_ERR_NOT_FINITE,
  *           SL_ERR_INCONSISTENT: as sl_factor_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.

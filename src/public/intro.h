@@ -70,8 +70,8 @@
  *              untouched, and sl_error_text says why. Options and stats may be NULL. So may W, a
  *              workspace: the call then allocates one for itself. Each kind of object has a call
  *              that releases it, such as sl_factor_free, which accepts NULL. Dense arguments are
- *              column-major with a leading dimension in elements; solves take row-major ones, too
- *              (SL_ROWS). Row numbers are the caller's, also in errors. A b-set comes before an
+ *              column-major with a leading dimension in elements, or row-major by SL_ROWS(ld).
+ *              Row numbers are the caller's, also in errors. A b-set comes before an
  *              x-set, and a length follows its array. A set that is NULL with the length SL_ALL or
  *              n is all n rows; with 0 a set is empty. Any other length of NULL is refused, and so
  *              is SL_ALL with a pointer that is not NULL. The library never prints or aborts.

@@ -37,8 +37,7 @@
 /** Diagonal entries of the inverse: out[k] = (A^-1)(rows[k], rows[k]).
  *
  *  out    [out]  count values.
- *  rows   [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: count is
- *                SL_ALL or n, all rows, or 0.
+ *  rows   [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: all, or none.
  *  Source   [HDA17] 5; [ET75], [SelInv].
  *  Example  tests/core/test_inverse_diagonal.c
  */

@@ -26,11 +26,10 @@ typedef enum sl_part {
  *  | SQRT_D, LT, PT             | samples of covariance A^-1 if B is standard normal             |
  *  | P, L, SQRT_D               | whitened B: independent, of variance 1, if its covariance is A |
  *
- *  Parts applied one after the other give the bits of sl_factor_solve. Skipped null pivots count as
- *  0, and dividing by them gives 0: D^-1 is the pseudo-inverse. Consistency is not checked, and
- *  options.mass is not used, so that with null pivots all parts together need not give the solution
- *  of sl_factor_solve. With several null vectors a component (options.null_vector_count), null
- *  pivots are not the last ones, and P' L D L' P differs from A in their rows and columns.
+ *  Parts applied one after the other give the bits of sl_factor_solve, but consistency is not
+ *  checked and options.mass not used. Skipped null pivots count as 0, and dividing by them gives 0:
+ *  D^-1 is the pseudo-inverse. With several null vectors a component (options.null_vector_count),
+ *  null pivots are not the last ones, and P' L D L' P differs from A in their rows and columns.
  *
  *  With a plan it is one half of a local solve. Forward: SL_PART_P, SL_PART_L and perhaps one of
  *  SL_PART_D and SL_PART_SQRT_D. B has the rows of the b-set; X has the b_columns rows that the
@@ -42,10 +41,10 @@ typedef enum sl_part {
  *  plan   [in]   over the analysis of F, without a region; NULL: all rows.
  *  parts  [in]   any of sl_part, but not both SL_PART_D and SL_PART_SQRT_D; 0 copies B. With a plan
  *                those above.
- *  X      [out]  n x nrhs, leading dimension ldx, or by SL_ROWS; in the order of A with SL_PART_PT,
- *                else of the pivots. May be B itself (then ldx = ldb). On error untouched.
- *  B      [in]   n x nrhs, leading dimension ldb, or by SL_ROWS; in the order of A with SL_PART_P,
- *                else of the pivots.
+ *  X      [out]  n x nrhs, leading dimension ldx; in the order of A with SL_PART_PT, else of the
+ *                pivots. May be B itself (then ldx = ldb). On error untouched.
+ *  B      [in]   n x nrhs, leading dimension ldb; in the order of A with SL_PART_P, else of the
+ *                pivots.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_PIVOT: SL_PART_SQRT_D with a negative
  *           pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots, or a plan in a region;

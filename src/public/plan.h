@@ -7,15 +7,13 @@
 /** Prepares solves of A x = b where b is nonzero only in bset and x is wanted only in xset.
  *
  *  With P A P' = L D L', the forward sweep needs the paths of the elimination tree from bset to the
- *  roots and the backward sweep those from xset. Each reach is found separately, in time
- *  proportional to its own size.
+ *  roots and the backward sweep those from xset.
  *
  *  out    [out]  the plan.
  *  S      [in]   analysis of A, n columns; kept by the plan.
  *  bset   [in]   nb rows of A in 0..n-1, any order; b is 0 in the others, and values of a row given
  *                twice add up. NULL: nb is SL_ALL or n, all rows, or 0.
- *  xset   [in]   nx rows of A in 0..n-1, any order; a row given twice is answered twice. NULL: nx
- *                is SL_ALL or n, all rows, or 0.
+ *  xset   [in]   nx rows of A, any order; a row given twice is answered twice. NULL: likewise.
  *  opt    [in]   allocator, region. If both sets are inside the region, the sweeps end at its
  *                boundary. If they are not, or if one is NULL, the region is not used.
  *  stats  [out]  plan; error.row: an index out of range.
@@ -44,11 +42,9 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *  except for the sign of zeros. In a region it agrees up to rounding.
  *
  *  F      [in]   a factor over the plan's analysis.
- *  X      [out]  nx x nrhs, column-major, leading dimension ldx elements, rows in the order of
- *                xset; row-major if ldx is SL_ROWS(ld). May be B itself (then ldx = ldb). On error
- *                untouched.
- *  B      [in]   nb x nrhs, column-major, leading dimension ldb elements, or row-major as X; rows
- *                in the order of bset.
+ *  X      [out]  nx x nrhs, leading dimension ldx, rows in the order of xset. May be B itself (then
+ *                ldx = ldb). On error untouched.
+ *  B      [in]   nb x nrhs, leading dimension ldb, rows in the order of bset.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed factor, or, in a region, one whose
  *           numbers are not those that the region was computed from; SL_ERR_MISMATCH: a factor of

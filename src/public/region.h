@@ -26,14 +26,12 @@
 /** Creates the region of a set of rows: what solves with b and x in the set need of the inverse.
  *
  *  The subtrees are chosen so that a solve with b and x on the whole set reads as few numbers as
- *  possible. Few large subtrees have a short boundary and large panels; with no subtree at all, the
- *  set itself is the boundary. The other rows of the subtrees belong to the region too.
+ *  possible; all of their rows belong to the region. With none, the set itself is the boundary.
  *
  *  out    [out]  the region. For options.region of sl_plan_create.
  *  F      [in]   the factor, whose analysis the object keeps. When F is refactored, or a
  *                refactorization fails, plans in the region are refused until sl_region_refactor.
- *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: count is
- *                SL_ALL or n, all rows, or 0.
+ *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: all, or none.
  *  Z      [in]   a selected inverse of the present numbers of F, or NULL. It is used if it contains
  *                all entries needed, for example those of a single row or of the subtree of one
  *                supernode; such a region is then preferred if it costs a solve at most twice as
@@ -50,8 +48,7 @@
  *           binary search per entry of Z. Keeps 4 (boundary)^2 bytes and about 100 per row of the
  *           boundary.
  *  Threads  reads F and Z.
- *  Source   [HDA17] 3 for the sweeps. The part of the matrix outside T enters as a Schur
- *           complement, whose inverse is (A^-1)_SS.
+ *  Source   [HDA17] 3 for the sweeps; (A^-1)_SS inverts the Schur complement of the rest.
  *  Example  tests/core/test_region.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_factor *F,

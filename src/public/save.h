@@ -99,8 +99,7 @@ SL_API SL_WARN_UNUSED sl_status sl_save(const char *path, void *memory, size_t *
  *  Mapped memory must outlive the objects and not change. A mapped file is read-only and shared
  *  with other processes; it is unmapped when the last object is released, and its pages are read
  *  when they are first needed. Replace it by sl_save or a rename: the system stops a process that
- *  reads a part of a mapped file that was cut off, and changes show in the factor. Of copies the
- *  file is closed when the call returns.
+ *  reads a part of a mapped file that was cut off, and changes show in the factor.
  *
  *  A selected inverse that was saved without a factor answers queries and can be refactored;
  *  sl_region_create refuses it.
@@ -119,13 +118,12 @@ SL_API SL_WARN_UNUSED sl_status sl_save(const char *path, void *memory, size_t *
  *           order and, of a file, SL_NO_MMAP and systems other than POSIX and Windows; SL_ERR_IO:
  *           unreadable, incomplete, damaged or inconsistent; SL_ERR_TOO_LARGE: sizes do not fit
  *           size_t; SL_ERR_MEMORY.
- *  Cost     the copy, and checks in O(n + rows of the supernodes + entries of A), O(supernodes) for
- *           a selected inverse and O(roots and rows of the boundary, log n each, and rows below the
- *           roots) for regions. Never allocates more than `bytes` and the size of analysis and
- *           factor, or 8 times `bytes` with regions, whatever the memory contains. Mapped: the
- *           checks; with SL_LOAD_TRUSTED O(1) and O(rows of the boundary) for each region. Keeps
- *           less than 4 KB, and for each region less than 500 bytes and 16 for each row of the
- *           boundary and each subtree.
+ *  Cost     the copy, and checks in O(n + rows of the supernodes + entries of A) and, for regions,
+ *           O(rows of the boundary and below the roots, log n each). Never allocates more than
+ *           `bytes` and the size of analysis and factor, or 8 times `bytes` with regions, whatever
+ *           the memory contains. Mapped: the checks; with SL_LOAD_TRUSTED O(1) and O(rows of the
+ *           boundary) for each region. Keeps less than 4 KB, and for each region 500 bytes and 16
+ *           for each row of the boundary and each subtree.
  *  Threads  any number of calls at once.
  *  Example  tests/core/test_save.c, test_saved_set.c, test_save_file.c
  */

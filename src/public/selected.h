@@ -17,22 +17,19 @@
  *  out    [out]  the selected inverse. It does not change if F is refactored or released, until
  *                sl_selected_refactor.
  *  F      [in]   the factor; its analysis is kept by the object.
- *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: count is
- *                SL_ALL or n, all rows, or 0.
+ *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: all, or none.
  *  opt    [in]   allocator, threads. The object keeps the threads; without, those of F. The
  *                instruction set is that of F.
  *  stats  [out]  selected; error.row: a row out of range.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_UNSUPPORTED: 2x2 pivots; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     about twice the flops of the factorization of the same supernodes; of columns that are
- *           solved for, some 10 to 100 times as long. Keeps entries doubles (stats.selected) and
- *           28 bytes per supernode, 44 with several threads. Temporary memory: 8 height^2 bytes
- *           per active front, where height counts the columns of a supernode and the rows below
- *           them. A front is active if it is on the path from the current supernode to its root and
- *           has unvisited children. With several threads, this holds for each of them, and the
- *           roots of the subtrees that they share are active, too: a few dozen.
- *  Threads  reads F; the object is immutable and may be shared. The same bits for any number of
- *           threads.
+ *           solved for, some 10 to 100 times as long. Keeps entries doubles (stats.selected) and 28
+ *           bytes per supernode, 44 with several threads. Temporary memory: 8 bytes for each pair
+ *           of rows of an active front: one on the path from the current supernode of a thread to
+ *           its root that has unvisited children, and the few dozen roots of subtrees that threads
+ *           share.
+ *  Threads  reads F; the object may be shared. The same bits for any number of threads.
  *  Source   [ET75]; supernodal: [SelInv].
  *  Example  tests/core/test_selected.c
  */
@@ -65,8 +62,7 @@ SL_API void sl_selected_free(sl_selected *Z);
  *  columns  [in]   count columns of A in 0..n-1; NULL: columns = rows, the diagonal.
  *  stats    [out]  error.row, and error.column if columns are given.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or an index out of range; SL_ERR_OTHER_PATTERN: an entry
- *           that is not in the pattern of L or that the set of Z does not reach. error.row and
- *           error.column name it.
+ *           (error) that is not in the pattern of L or that the set of Z does not reach.
  *  Cost     O(count) binary searches; of the diagonal O(count), with a logarithmic factor if Z was
  *           made for a set.
  *  Threads  any number at once.

@@ -47,9 +47,8 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coe
  *
  *  values  [out]  stats.symbolic.nnz_a doubles of S (sl_symbolic_view), valid for S only, 0 where
  *                 K has no entry; those of a supernode are contiguous. On error untouched.
- *  K       [in]   n x n with values, any triangle, read as a factorization reads it: rows in any
- *                 order, duplicates summed. Its pattern is a subset of the analyzed one; values may
- *                 be anything.
+ *  K       [in]   n x n with values, read as a factorization reads it: any triangle, rows in any
+ *                 order, duplicates summed. Its pattern is a subset of the analyzed one.
  *  stats   [out]  error.row, error.column: the first stored entry outside the analyzed pattern, or
  *                 a malformed one.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, no values; SL_ERR_MALFORMED: malformed, or both

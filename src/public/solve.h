@@ -5,18 +5,18 @@
 #include "options.h"
 #include "stats.h"
 
-/** EXPERIMENTAL. A leading dimension of rows: the block is row-major, ld elements from row to row.
+/** A leading dimension of rows: the block is row-major, ld elements from row to row.
  *
- *  The fastest layout for several right-hand sides: gathering and scattering 8 separate columns
- *  takes about a fifth of a solve. The solutions have the same bits. With B and X of n x 8:
+ *  Dense blocks are column-major, with leading dimensions in elements. In solves, products and
+ *  residuals, each of ldx, ldb and the like may be one of SL_ROWS instead; only sl_inverse_block
+ *  refuses it. So x, y, z side by side are solved for as they are stored:
  *
- *      sl_factor_solve(F, X, SL_ROWS(8), B, SL_ROWS(8), 8, W);
+ *      sl_factor_solve(F, X, SL_ROWS(3), B, SL_ROWS(3), 3, W);
  *
  *  ld must be at least the number of right-hand sides. Its two top bits, one of which says the
- *  layout, must be clear. X and B of a call may have different layouts, unless they are one array.
- *  Accepted by sl_factor_solve, sl_plan_solve, sl_plan_solve_bounded, sl_local_solve,
- *  sl_fixed_solve, the requests of sl_batch_solve, and the half solves and products of parts.h;
- *  all other calls refuse it with SL_ERR_ARGUMENT.
+ *  layout, must be clear. Blocks of a call may have different layouts, unless they are one array.
+ *  The results have the same bits in any layout. For several right-hand sides solves are fastest by
+ *  rows: gathering and scattering 8 separate columns takes about a fifth of a solve.
  */
 #define SL_ROWS(ld) ((size_t)(ld) | SL_ROW_MAJOR)
 
@@ -54,13 +54,11 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  |  _refine, _rcond                  | but they may with threads: try each number             |
  *  | sl_factor_pseudo_inverse          | the analysis and the number of columns                 |
  *  | sl_fixed_solve                    | the object, nrhs, and the threads of W                 |
- *  | sl_plan_solve, parts of a plan    | the plan, nrhs, whether F has null pivots; fewer       |
- *  |                                   | right-hand sides need no more                          |
- *  | sl_plan_solve_regularized         | the same, and the number of regularized rows           |
+ *  | sl_plan_solve, parts of a plan,   | the plan, nrhs, null pivots of F, regularized rows;    |
+ *  |  sl_plan_solve_regularized        | fewer right-hand sides need no more                    |
  *  | sl_selected_refactor              | the selected inverse and options.storage of F          |
  *  | sl_region_refactor                | the region, the instruction set of F, and Z            |
- *  | sl_local_solve, sl_inverse_*      | the rows of the call, too. Fewer rows can need more:   |
- *  |                                   | try each set of rows                                   |
+ *  | sl_local_solve, sl_inverse_*      | the rows of the call, too; fewer can need more         |
  *
  *  Each workspace of a batch needs what its largest request does. The values of A, B and X, and
  *  leading dimensions, make no difference, but for entries of the inverse of A with pivots of both
@@ -77,10 +75,9 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
 /** Solves A X = B. For a singular A, sl_factor_create describes which solution is computed.
  *
  *  F      [in]   factor of A, n x n.
- *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, rows in the order of A;
- *                row-major if ldx is SL_ROWS(ld). May be B itself (then ldx = ldb). On error
- *                untouched.
- *  B      [in]   n x nrhs, column-major, leading dimension ldb elements, or row-major as X.
+ *  X      [out]  n x nrhs, leading dimension ldx, rows in the order of A. May be B itself (then ldx
+ *                = ldb). On error untouched.
+ *  B      [in]   n x nrhs, leading dimension ldb.
  *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 64, 32 and
  *                13 to 16, with the bits of blocks of 8, then of up to 8. 8 take as long as two to
  *                three single solves, 32 as long as six to eight.

@@ -120,8 +120,8 @@ CALL(pinned_local,
      sl_constraints_solve(y->pins, y->P, X.at, X.ld, B.at, B.ld, G.at, G.ld, nrhs, NULL))
 CALL(product, sl_csc_multiply(A, SL_AS_SYMMETRIC, X.at, X.ld, B.at, B.ld, nrhs))
 CALL(as_stored, sl_csc_multiply(A, SL_AS_STORED, X.at, X.ld, B.at, B.ld, nrhs))
-CALL(residual, sl_csc_residual(A, X.at, X.ld, X.at == B.at ? NULL : extra, G.at, G.ld, B.at, B.ld,
-                               nrhs))
+CALL(residual,
+     sl_csc_residual(A, X.at, X.ld, X.at == B.at ? NULL : extra, G.at, G.ld, B.at, B.ld, nrhs))
 CALL(defects, sl_factor_defects(y->singular.F, X.at, X.ld, B.at, B.ld, nrhs, NULL))
 
 typedef struct call_t {

@@ -28,6 +28,8 @@ static void refine_rcond_defects(void **state) {
             for (sl_int nrhs = 0; nrhs <= most; nrhs++) {
                 memset(X, 0, ld * R * sizeof *X);
                 SL_CHECK(sl_factor_refine(y.F, &y.M.view, X, ld, B, ld, nrhs, 2, r.W, NULL));
+                SL_CHECK(sl_factor_refine(y.F, &y.M.view, X, SL_ROWS(R), B, SL_ROWS(R), nrhs, 2,
+                                          r.W, NULL));
             }
             reserved_end(&r);
         }
@@ -54,6 +56,7 @@ static void refine_rcond_defects(void **state) {
         reserved_done(&r);
         for (sl_int nrhs = 0; nrhs <= most; nrhs++) {
             SL_CHECK(sl_factor_defects(y.F, Y, 1, B, (size_t)n, nrhs, r.W));
+            SL_CHECK(sl_factor_defects(y.F, Y, SL_ROWS(R), B, SL_ROWS(R), nrhs, r.W));
         }
         reserved_end(&r);
         free(B);

@@ -56,9 +56,6 @@ static void what_does_not_belong_together_is_refused(void **state) {
     SL_EXPECT(status, sl_save(NULL, NULL, &size, what, NULL)); \
     SL_EXPECT(status, sl_save(NULL, m.bytes, &kept, what, NULL)); \
     SL_EXPECT(status, sl_save(NOWHERE, NULL, NULL, what, NULL))
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save(NULL, NULL, NULL, &set, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save(NULL, m.bytes, NULL, &set, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save(NULL, NULL, NULL, &set, NULL));
     REFUSED(SL_ERR_ARGUMENT, NULL);
     set.symbolic = NULL;
     REFUSED(SL_ERR_ARGUMENT, &set);
@@ -101,8 +98,6 @@ static void what_does_not_belong_together_is_refused(void **state) {
         assert_true(got.symbolic == NULL && got.reserved[0] == NULL);
         SL_EXPECT(SL_ERR_ARGUMENT, set_calls[k](&got, NULL, m.size, SL_LOAD_CHECKED, NULL));
         assert_true(got.symbolic == NULL && got.regions == NULL && got.n_regions == 0);
-        SL_EXPECT(SL_ERR_ARGUMENT,
-                  set_calls[k](&got, m.bytes, m.size, SL_LOAD_TRUSTED | SL_LOAD_VERIFIED, NULL));
         SL_EXPECT(SL_ERR_IO, set_calls[k](&got, m.bytes, m.size - 64, SL_LOAD_CHECKED, NULL));
         assert_int_equal(got.wanted, SL_SAVED_FACTOR);
         got.wanted = (sl_saved_content)3;
@@ -111,15 +106,73 @@ static void what_does_not_belong_together_is_refused(void **state) {
         SL_EXPECT(SL_ERR_ARGUMENT, set_calls[k](&got, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
         got.wanted = SL_SAVED_ALL;
     }
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_load(&got, NULL, m.bytes + 8, m.size, SL_LOAD_MAPPED, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_load(&got, NULL, NULL, 0, SL_LOAD_CHECKED, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_load(NULL, "x", NULL, 0, SL_LOAD_CHECKED, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_load(&got, NULL, NULL, 0, SL_LOAD_MAPPED, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_load(NULL, "x", NULL, 0, SL_LOAD_MAPPED, NULL));
     sl_saved_set_free(NULL);
     saved_free(&m);
     set_case_free(&q);
     set_case_free(&z);
+}
+
+/* A path or memory, exactly one, and flags that exist and agree. */
+static void places_and_flags_are_checked(void **state) {
+    (void)state;
+    sl_options from = options_none();
+    set_case_t q = set_case_make(SAVED_DEFINITE, GEN_GRID2, 100, 0, 1, &from);
+    saved_t m = set_save(set_of(&q));
+    const struct {
+        unsigned flags;
+        const char *path;
+        const void *memory;
+        const char *reason;
+    } loads[] = {
+        {8, NULL, m.bytes, "bit"},
+        {1u << 31 | SL_LOAD_MAPPED, NOWHERE, NULL, "bit"},
+        {~0u, NULL, m.bytes, "bit"},
+        {SL_LOAD_TRUSTED | SL_LOAD_VERIFIED, NULL, m.bytes, "excludes"},
+        {SL_LOAD_TRUSTED | SL_LOAD_VERIFIED | SL_LOAD_MAPPED, NOWHERE, NULL, "excludes"},
+        {SL_LOAD_CHECKED, NULL, NULL, "both NULL"},
+        {SL_LOAD_MAPPED, NULL, NULL, "both NULL"},
+        {SL_LOAD_CHECKED, NOWHERE, m.bytes, "both given"},
+        {SL_LOAD_MAPPED, NOWHERE, m.bytes, "both given"},
+        {SL_LOAD_MAPPED, NULL, m.bytes + 8, "aligned"},
+    };
+    sl_saved_set got = {0};
+    char text[300];
+    for (size_t k = 0; k < sizeof loads / sizeof loads[0]; k++) {
+        got.n_regions = 3; /* of a set that was used before */
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_load(&got, loads[k].path, loads[k].memory, m.size, loads[k].flags, NULL));
+        sl_error_text(text, sizeof text, SL_ERR_ARGUMENT, NULL);
+        assert_non_null(strstr(text, loads[k].reason));
+        assert_true(got.symbolic == NULL && got.n_regions == 0);
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_load(NULL, loads[k].path, loads[k].memory, m.size, loads[k].flags, NULL));
+    }
+    unsigned char *copy = (unsigned char *)test_array(m.size, 1);
+    size_t size = m.size;
+    const struct {
+        const char *path;
+        void *memory;
+        size_t *bytes;
+        const char *reason;
+    } saves[] = {
+        {NOWHERE, copy, &size, "both given"},
+        {NOWHERE, copy, NULL, "both given"},
+        {NULL, copy, NULL, "bytes are NULL"},
+        {NULL, NULL, NULL, "bytes are NULL"},
+    };
+    for (size_t k = 0; k < sizeof saves / sizeof saves[0]; k++) {
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_save(saves[k].path, saves[k].memory, saves[k].bytes, set_of(&q), NULL));
+        sl_error_text(text, sizeof text, SL_ERR_ARGUMENT, NULL);
+        assert_non_null(strstr(text, saves[k].reason));
+        assert_true(size == m.size && copy[0] == 0);
+    }
+    size = 1; /* with a path bytes is the size that was written, whatever it was */
+    SL_CHECK(sl_save(NOWHERE, NULL, &size, set_of(&q), NULL));
+    assert_true(size == m.size);
+    free(copy);
+    saved_free(&m);
+    set_case_free(&q);
 }
 
 /* A set that was filled in by hand, and in part. */
@@ -222,6 +275,7 @@ static void a_mapped_set_keeps_little(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_of_any_size),
+        cmocka_unit_test(places_and_flags_are_checked),
         cmocka_unit_test(what_does_not_belong_together_is_refused),
         cmocka_unit_test(a_set_without_a_list_is_released),
         cmocka_unit_test(parts_of_another_factor_are_refused),

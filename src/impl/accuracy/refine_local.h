@@ -117,8 +117,8 @@ static void sli_local_refinement_norms(const sli_local_refinement *f, const sli_
     sl_int k, c;
     if (!f->q->b_repeats) {
         for (c = 0; c < columns; c++) {
-            norms[c] = f->q->nb == 0 ? 0.0
-                                     : sli_largest(rhs->B + b.column * (size_t)c, b.row, f->q->nb);
+            norms[c] =
+                f->q->nb == 0 ? 0.0 : sli_largest(rhs->B + b.column * (size_t)c, b.row, f->q->nb);
         }
         return;
     }

@@ -107,15 +107,14 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
     if (status != SL_OK || nrhs == 0 || A->n_rows == 0) {
         return status;
     }
-    status =
-        sli_argument(Y == NULL                    ? "Y is NULL"
-                     : A->n_cols > 0 && X == NULL ? "X is NULL"
-                     : A->n_cols > 0 && X == Y    ? "X is Y"
-                     : !sli_dense_spans(ldy, A->n_rows, nrhs)
-                         ? "ldy is below the rows of A (nrhs with SL_ROWS), or too large"
-                     : A->n_cols > 0 && !sli_dense_spans(ldx, A->n_cols, nrhs)
-                         ? "ldx is below the columns of A (nrhs with SL_ROWS), or too large"
-                         : NULL);
+    status = sli_argument(Y == NULL                    ? "Y is NULL"
+                          : A->n_cols > 0 && X == NULL ? "X is NULL"
+                          : A->n_cols > 0 && X == Y    ? "X is Y"
+                          : !sli_dense_spans(ldy, A->n_rows, nrhs)
+                              ? "ldy is below the rows of A (nrhs with SL_ROWS), or too large"
+                          : A->n_cols > 0 && !sli_dense_spans(ldx, A->n_cols, nrhs)
+                              ? "ldx is below the columns of A (nrhs with SL_ROWS), or too large"
+                              : NULL);
     if (status != SL_OK) {
         return status;
     }
