@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4f7503ebedf2d790
+ * FNV-1a of the lines after this comment, without the license: 27a3268714d6da17
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -37525,9 +37525,7 @@ SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(complex_forward_step)(const sli_s
   const double *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / 2;
   double *xs = x + s->base;
   sl_int row, i, j;
-  for (i = first; i < w; i++) {
-    buf[i] = xs[i - first];
-  }
+  SLI_COPY(buf + first, xs, w - first);
   for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
     buf[i] = 0.0;
   }
@@ -38264,7 +38262,8 @@ SLV_FUNCTION static void SLV_SWEEP(forward)(const sli_reach *R, const void *valu
 #define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_ROW_AT(k) rows[at + (k)]
-#define SLI_ROW_AT_PART(k) rows[at + sli_clamp((k)-inner, part - 1)]
+#define SLI_ROW(k) rows[k]
+#define SLI_ROW_PART(k) rows[sli_clamp((k)-inner, part - 1)]
 
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots1)(const SLV_VALUE *l, const double *x, sl_int first,
     sl_int final, double *sums) {
@@ -38339,6 +38338,26 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inne
   }
 }
 
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(rows_below)(const double *x, const sl_int *rows,
+    sl_int inner, sl_int part, double *buf) {
+  sl_int j;
+  SLV_DECLARE(v)
+  if (part == SLI_TILE) {
+    SLV_GATHER(v, x, SLI_ROW)
+    SLV_STORE(buf, v)
+  } else if (inner < SLI_TILE) {
+    SLV_ZERO(v)
+    if (part > 0) {
+      SLV_GATHER(v, x, SLI_ROW_PART)
+      SLV_FIRST(v, inner + part)
+    }
+    SLV_STORE(buf, v)
+    for (j = 0; j < inner; j++) {
+      buf[j] = 0.0;
+    }
+  }
+}
+
 #define SLI_FEW_STEPS 512
 
 SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *values,
@@ -38371,20 +38390,7 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
       const SLV_VALUE *above;
       tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
       above = tile - SLI_TILE * (ptrdiff_t) final;
-      if (part == SLI_TILE) {
-        SLV_GATHER(v, x, SLI_ROW_AT)
-        SLV_STORE(buf + SLI_TILE, v)
-      } else if (inner < SLI_TILE) {
-        SLV_ZERO(v)
-        if (part > 0) {
-          SLV_GATHER(v, x, SLI_ROW_AT_PART)
-          SLV_FIRST(v, inner + part)
-        }
-        SLV_STORE(buf + SLI_TILE, v)
-        for (j = 0; j < inner; j++) {
-          buf[SLI_TILE + j] = 0.0;
-        }
-      }
+      SLV_SWEEP(rows_below)(x, rows + at, inner, part, buf + SLI_TILE);
       if (inner > 0) {
         SLV_SWEEP(diagonal)
         (tile + SLI_TILE * (ptrdiff_t)row, inner, sums + SLI_TILE * (ptrdiff_t)row, d + row,
@@ -38416,7 +38422,8 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 #undef SLI_DECLARE
 #undef SLI_SUM_DECLARE
 #undef SLI_ROW_AT
-#undef SLI_ROW_AT_PART
+#undef SLI_ROW
+#undef SLI_ROW_PART
 #undef SLI_TAKE_SUM
 #undef SLI_FEW_STEPS
 /* end of single_rhs.inl.h */
@@ -38662,6 +38669,47 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
   SLV_REPEAT_ROWS(t, l, 1) \
   SLV_FNMA(a, t, v1)
 
+SLV_FUNCTION SLI_ALWAYS_INLINE void
+SLV_SWEEP(panel_forward2)(const SLV_VALUE *tile, sl_int t0, sl_int w, sl_int height, double *buf) {
+  const sl_int first = SLI_TILE * t0;
+  sl_int row, j;
+  for (row = first; row < height; row += SLI_TILE) {
+    const sl_int final = sli_min(row, w), inner = sli_clamp(w - row, SLI_TILE);
+    const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first;
+    double *p = buf + 2 * (ptrdiff_t)row;
+    SLV_DECLARE(v0)
+    SLV_DECLARE(v1)
+    SLV_DECLARE(u0)
+    SLV_DECLARE(u1)
+    SLV_DECLARE(t)
+    SLV_DECLARE(b)
+    SLV_LOAD(v0, p)
+    SLV_LOAD(v1, p + SLI_TILE)
+    SLV_ZERO(u0)
+    SLV_ZERO(u1)
+    for (j = first; j + 2 <= final; j += 2, l += 2 * SLI_TILE) {
+      SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+      SLI_PREFETCH(l + SLI_TILE, SLI_PREFETCH_DISTANCE);
+      SLI_TWO_AXPY(v, l, buf + 2 * (ptrdiff_t)j)
+      SLI_TWO_AXPY(u, l + SLI_TILE, buf + 2 * (ptrdiff_t)(j + 1))
+    }
+    if (j < final) {
+      SLI_TWO_AXPY(v, l, buf + 2 * (ptrdiff_t)j)
+    }
+    SLV_ADD(v0, u0)
+    SLV_ADD(v1, u1)
+    SLV_STORE(p, v0)
+    SLV_STORE(p + SLI_TILE, v1)
+    if (inner > 0) {
+      const sl_int below = sli_min(height - row, SLI_TILE) - inner;
+      SLV_SWEEP_2(forward_small)
+      (inner, sli_rows_of(sli_tile_rows + inner, below, 2), tile + SLI_TILE * (ptrdiff_t)row,
+       p, p);
+    }
+    tile += SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+  }
+}
+
 SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *values,
     double *x, double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
@@ -38672,7 +38720,7 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, con
     const size_t columns = 2 * (size_t)(w - first);
     const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
     double *xs = x + 2 * (ptrdiff_t)s->base;
-    sl_int row, i, j;
+    sl_int i, j;
     if (w == 1) {
       for (i = 0; i < s->below; i++) {
         double *to = x + 2 * (ptrdiff_t)rows[i];
@@ -38689,47 +38737,60 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, con
     memcpy(buf + 2 * (ptrdiff_t)first, xs, columns * sizeof(double));
     memset(buf + 2 * (ptrdiff_t)w, 0,
         2 * (size_t)(SLI_TILE * sli_tiles(height) - w) * sizeof(double));
-    for (row = first; row < height; row += SLI_TILE) {
-      const sl_int final = sli_min(row, w), inner = sli_clamp(w - row, SLI_TILE);
-      const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first;
-      double *p = buf + 2 * (ptrdiff_t)row;
-      SLV_DECLARE(v0)
-      SLV_DECLARE(v1)
-      SLV_DECLARE(u0)
-      SLV_DECLARE(u1)
-      SLV_DECLARE(t)
-      SLV_DECLARE(b)
-      SLV_LOAD(v0, p)
-      SLV_LOAD(v1, p + SLI_TILE)
-      SLV_ZERO(u0)
-      SLV_ZERO(u1)
-      for (j = first; j + 2 <= final; j += 2, l += 2 * SLI_TILE) {
-        SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
-        SLI_PREFETCH(l + SLI_TILE, SLI_PREFETCH_DISTANCE);
-        SLI_TWO_AXPY(v, l, buf + 2 * (ptrdiff_t)j)
-        SLI_TWO_AXPY(u, l + SLI_TILE, buf + 2 * (ptrdiff_t)(j + 1))
-      }
-      if (j < final) {
-        SLI_TWO_AXPY(v, l, buf + 2 * (ptrdiff_t)j)
-      }
-      SLV_ADD(v0, u0)
-      SLV_ADD(v1, u1)
-      SLV_STORE(p, v0)
-      SLV_STORE(p + SLI_TILE, v1)
-      if (inner > 0) {
-        const sl_int below = sli_min(height - row, SLI_TILE) - inner;
-        SLV_SWEEP_2(forward_small)
-        (inner, sli_rows_of(sli_tile_rows + inner, below, 2),
-         tile + SLI_TILE * (ptrdiff_t)row, p, p);
-      }
-      tile += SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-    }
+    SLV_SWEEP(panel_forward2)(tile, s->first_tile, w, height, buf);
     memcpy(xs, buf + 2 * (ptrdiff_t)first, columns * sizeof(double));
     for (i = 0; i < s->below; i++) {
       double *to = x + 2 * (ptrdiff_t)rows[i];
       for (j = 0; j < 2; j++) {
         to[j] += buf[2 * (ptrdiff_t)(w + i) + j];
       }
+    }
+  }
+}
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(panel_backward2)(const sli_step *s,
+    const SLV_VALUE *tile,
+    const double *d, const double *xs,
+    double *buf) {
+  const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+  const sl_int padded = SLI_TILE * sli_tiles(height);
+  double *sums = buf + 2 * (ptrdiff_t)padded;
+  sl_int row, i, j;
+  SLV_DECLARE(v0)
+  SLV_DECLARE(v1)
+  SLV_DECLARE(a)
+  SLV_DECLARE(t)
+  SLV_ZERO(a)
+  for (i = first; i < w; i++) {
+    SLV_STORE(sums + SLI_TILE * (ptrdiff_t)i, a)
+  }
+  for (row = padded - SLI_TILE; row >= first; row -= SLI_TILE) {
+    const sl_int inner = sli_clamp(w - row, SLI_TILE);
+    double *p = buf + 2 * (ptrdiff_t)row;
+    const SLV_VALUE *l;
+    tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+    for (i = 0; i < inner; i++) {
+      const double *part = sums + SLI_TILE * (ptrdiff_t)(row + i);
+      for (j = 0; j < 2; j++) {
+        p[2 * i + j] = xs[2 * (ptrdiff_t)(row + i) + j] / d[row + i] +
+                 ((part[j] + part[2 + j]) + (part[4 + j] + part[6 + j]));
+      }
+    }
+    if (inner > 0) {
+      const sl_int below = sli_min(height - row, SLI_TILE) - inner;
+      SLV_SWEEP_2(backward_small)
+      (inner, sli_rows_of(sli_tile_rows + inner, below, 2), tile + SLI_TILE * (ptrdiff_t)row,
+       NULL, p, p);
+    }
+    SLV_LOAD(v0, p)
+    SLV_LOAD(v1, p + SLI_TILE)
+    l = tile + SLI_TILE * (ptrdiff_t)sli_min(row, w);
+    for (j = sli_min(row, w) - 1; j >= first; j--) {
+      l -= SLI_TILE;
+      SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
+      SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
+      SLI_TWO_DOT(a, l)
+      SLV_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
     }
   }
 }
@@ -38745,12 +38806,7 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, co
     const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
     const double *d = D + s->column - first;
     double *xs = x + 2 * ((ptrdiff_t)s->base - first);
-    double *sums = buf + 2 * (ptrdiff_t)padded;
-    sl_int row, i, j;
-    SLV_DECLARE(v0)
-    SLV_DECLARE(v1)
-    SLV_DECLARE(a)
-    SLV_DECLARE(t)
+    sl_int i, j;
     rows_end -= s->below;
     if (w == 1) {
       for (j = 0; j < 2; j++) {
@@ -38769,45 +38825,13 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, co
       (w, sli_rows_of(rows_end, s->below, 2), tile - SLI_TILE * w, d, xs, x);
       continue;
     }
-    SLV_ZERO(a)
-    for (i = first; i < w; i++) {
-      SLV_STORE(sums + SLI_TILE * (ptrdiff_t)i, a)
-    }
     for (i = 0; i < s->below; i++) {
       for (j = 0; j < 2; j++) {
         buf[2 * (ptrdiff_t)(w + i) + j] = x[2 * (ptrdiff_t)rows_end[i] + j];
       }
     }
     memset(buf + 2 * (ptrdiff_t)height, 0, 2 * (size_t)(padded - height) * sizeof(double));
-    for (row = padded - SLI_TILE; row >= first; row -= SLI_TILE) {
-      const sl_int inner = sli_clamp(w - row, SLI_TILE);
-      double *p = buf + 2 * (ptrdiff_t)row;
-      const SLV_VALUE *l;
-      tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-      for (i = 0; i < inner; i++) {
-        const double *part = sums + SLI_TILE * (ptrdiff_t)(row + i);
-        for (j = 0; j < 2; j++) {
-          p[2 * i + j] = xs[2 * (ptrdiff_t)(row + i) + j] / d[row + i] +
-                   ((part[j] + part[2 + j]) + (part[4 + j] + part[6 + j]));
-        }
-      }
-      if (inner > 0) {
-        const sl_int below = sli_min(height - row, SLI_TILE) - inner;
-        SLV_SWEEP_2(backward_small)
-        (inner, sli_rows_of(sli_tile_rows + inner, below, 2),
-         tile + SLI_TILE * (ptrdiff_t)row, NULL, p, p);
-      }
-      SLV_LOAD(v0, p)
-      SLV_LOAD(v1, p + SLI_TILE)
-      l = tile + SLI_TILE * (ptrdiff_t)sli_min(row, w);
-      for (j = sli_min(row, w) - 1; j >= first; j--) {
-        l -= SLI_TILE;
-        SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
-        SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLI_TWO_DOT(a, l)
-        SLV_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
-      }
-    }
+    SLV_SWEEP(panel_backward2)(s, tile, d, xs, buf);
     memcpy(xs + 2 * (ptrdiff_t)first, buf + 2 * (ptrdiff_t)first,
         2 * (size_t)(w - first) * sizeof(double));
   }
@@ -38886,7 +38910,7 @@ SLV_FUNCTION SLI_INLINE void SLI_KERNEL(column_backward)(sli_rows below, const S
 SLV_FUNCTION SLI_ALWAYS_INLINE void SLI_KERNEL(tiles_forward)(const sli_step *s, sli_rows rows,
     const SLV_VALUE *tile, double *xs,
     double *x, double *buf) {
-  const sl_int w = s->width, height = w + rows.count, first = SLI_TILE * s->first_tile;
+  const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
   const sl_int stride = rows.lanes;
   ptrdiff_t row;
   sl_int group, j;
@@ -38995,7 +39019,7 @@ SLV_FUNCTION SLI_INLINE void SLI_KERNEL(divide)(double *xs, const double *d, sl_
 SLV_FUNCTION SLI_ALWAYS_INLINE void SLI_KERNEL(tiles_backward)(const sli_step *s, sli_rows rows,
     const SLV_VALUE *tile, double *xs,
     double *x, double *buf) {
-  const sl_int w = s->width, height = w + rows.count, first = SLI_TILE * s->first_tile;
+  const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
   const sl_int stride = rows.lanes;
   ptrdiff_t row;
   sl_int group, j;

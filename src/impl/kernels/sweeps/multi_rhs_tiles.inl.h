@@ -85,7 +85,7 @@ SLV_FUNCTION SLI_INLINE void SLI_KERNEL(column_backward)(sli_rows below, const S
 SLV_FUNCTION SLI_ALWAYS_INLINE void SLI_KERNEL(tiles_forward)(const sli_step *s, sli_rows rows,
                                                               const SLV_VALUE *tile, double *xs,
                                                               double *x, double *buf) {
-    const sl_int w = s->width, height = w + rows.count, first = SLI_TILE * s->first_tile;
+    const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const sl_int stride = rows.lanes;
     ptrdiff_t row;
     sl_int group, j;
@@ -197,7 +197,7 @@ SLV_FUNCTION SLI_INLINE void SLI_KERNEL(divide)(double *xs, const double *d, sl_
 SLV_FUNCTION SLI_ALWAYS_INLINE void SLI_KERNEL(tiles_backward)(const sli_step *s, sli_rows rows,
                                                                const SLV_VALUE *tile, double *xs,
                                                                double *x, double *buf) {
-    const sl_int w = s->width, height = w + rows.count, first = SLI_TILE * s->first_tile;
+    const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const sl_int stride = rows.lanes;
     ptrdiff_t row;
     sl_int group, j;
