@@ -33,9 +33,7 @@ SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(complex_forward_step)(const sli_s
     const double *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / 2;
     double *xs = x + s->base;
     sl_int row, i, j;
-    for (i = first; i < w; i++) {
-        buf[i] = xs[i - first];
-    }
+    SLI_COPY(buf + first, xs, w - first);
     for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
         buf[i] = 0.0;
     }
