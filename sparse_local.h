@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a38157c8b57e0a07
+ * FNV-1a of the lines after this comment, without the license: 32c45f638b51ba68
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -11,50 +11,50 @@
  *    632 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
  *    868 csc.h        sparse matrices: creation, checks, products, residuals
  *    962 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1037 factor.h     the numerical factorization P A P' = L D L'
- *   1165 solve.h      full solves, and the workspace of all solves
- *   1261 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1336 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1420 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1501 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1540 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1641 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1720 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1790 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1881 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1984 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2026 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2148 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2293 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2381 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
- *   2494 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
- *   2536 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
- *   2612 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2700 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2763 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2806 impl/ base: the compiler, status, memory, sorting, threads
- *   4108 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5012 impl/ matrix: sparse matrices of the caller and of the library
- *   5817 impl/ ordering: fill-reducing orderings of a graph
- *  10417 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12659 impl/ factor: the numbers of L and D
- *  15241 impl/ solve: full and local solves
- *  16747 impl/ singular: null spaces of semidefinite matrices
- *  18018 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20039 impl/ pivots: the order of the pivots by the values of a matrix
- *  20447 impl/ float: L in single precision
- *  20677 impl/ inverse: entries of the inverse, regions
- *  23589 impl/ change: a factor that follows changes of its matrix
- *  25867 impl/ constraints: rows held at values, on a factor that stays
- *  27176 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  29916 impl/ fixed: rows fixed at given values
- *  30475 impl/ io: files that are replaced only when they are complete
- *  30693 impl/ files: Matrix Market files, 64-bit indices
- *  31239 impl/ save: factors in files
- *  33212 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33898 impl/ complex: complex Hermitian systems over real factors
- *  34403 impl/ packs: the tables through which the core calls packs
- *  34793 impl/ templates: the header includes them from itself, once for each instruction set
+ *   1035 factor.h     the numerical factorization P A P' = L D L'
+ *   1161 solve.h      full solves, and the workspace of all solves
+ *   1254 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1325 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1406 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1486 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1525 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1625 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1703 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1772 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1859 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1959 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2001 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2122 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2265 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2352 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
+ *   2461 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
+ *   2503 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
+ *   2578 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2666 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2729 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2772 impl/ base: the compiler, status, memory, sorting, threads
+ *   4074 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4978 impl/ matrix: sparse matrices of the caller and of the library
+ *   5782 impl/ ordering: fill-reducing orderings of a graph
+ *  10382 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12624 impl/ factor: the numbers of L and D
+ *  15206 impl/ solve: full and local solves
+ *  16712 impl/ singular: null spaces of semidefinite matrices
+ *  17983 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20004 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20412 impl/ float: L in single precision
+ *  20642 impl/ inverse: entries of the inverse, regions
+ *  23554 impl/ change: a factor that follows changes of its matrix
+ *  25832 impl/ constraints: rows held at values, on a factor that stays
+ *  27141 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  29881 impl/ fixed: rows fixed at given values
+ *  30440 impl/ io: files that are replaced only when they are complete
+ *  30658 impl/ files: Matrix Market files, 64-bit indices
+ *  31204 impl/ save: factors in files
+ *  33177 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33863 impl/ complex: complex Hermitian systems over real factors
+ *  34368 impl/ packs: the tables through which the core calls packs
+ *  34758 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -129,8 +129,8 @@
  *              untouched, and sl_error_text says why. Options and stats may be NULL. So may W, a
  *              workspace: the call then allocates one for itself. Each kind of object has a call
  *              that releases it, such as sl_factor_free, which accepts NULL. Dense arguments are
- *              column-major with a leading dimension in elements; solves take row-major ones, too
- *              (SL_ROWS). Row numbers are the caller's, also in errors. A b-set comes before an
+ *              column-major with a leading dimension in elements, or row-major by SL_ROWS(ld).
+ *              Row numbers are the caller's, also in errors. A b-set comes before an
  *              x-set, and a length follows its array. A set that is NULL with the length SL_ALL or
  *              n is all n rows; with 0 a set is empty. Any other length of NULL is refused, and so
  *              is SL_ALL with a pointer that is not NULL. The library never prints or aborts.
@@ -970,9 +970,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
  *
  *  out    [out]  the analysis.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
- *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, block_size,
- *                purpose. block_size is used by all but SL_ORDERING_GIVEN and
- *                SL_ORDERING_NATURAL; every ordering refuses an invalid one.
+ *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, block_size, purpose. A
+ *                block_size that is invalid is refused also by orderings that do not use it.
  *  stats  [out]  symbolic.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first
  *           offending position), or another option that is not allowed; SL_ERR_MALFORMED;
@@ -980,10 +979,9 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes). Each further thread has
  *           scratch of about the size of the pattern, of which it writes little.
- *  Threads  options.threads, up to 16, distribute the ordering and the entries of A, by one call of
- *           the pool, whose threads may call the allocator, one at a time. Any number of calls at
- *           once. The result is the same for any number of threads, on every processor and with
- *           every compiler, except with METIS, which uses rand() and signals of the process.
+ *  Threads  options.threads, up to 16, distribute the ordering and the entries of A by one call of
+ *           the pool, whose threads call the allocator one at a time. Any number of calls at once.
+ *           The same result for any number of threads, processor and compiler, except with METIS.
  *  Source   [George73] nested dissection; [KK98] multilevel graphs; [FM82] refinement of
  *           separators; [FF56] minimum vertex cuts; [ADD96] minimum degree; [MR85] trees;
  *           [Liu90] elimination tree, structures of columns; [AG89] relaxed supernodes.
@@ -1065,10 +1063,9 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles and, with the
  *           supernodal method, the update stack: about 5 % more for 2D meshes and 30 % for 3D
  *           meshes, more with threads.
- *  Threads  any number of calls at once on one S. options.threads distribute this call, and every
- *           sl_factor_refactor of the factor, by one loop of the pool; threads that begin late
- *           leave their share to the others. Small systems use fewer threads. L has the same bits
- *           for any number of them. Only the supernodal method uses them, with gcc, clang and MSVC.
+ *  Threads  any number of calls at once on one S. If F is supernodal and not small, options.threads
+ *           distribute this call, and every sl_factor_refactor of the factor, by one loop of the
+ *           pool, with gcc, clang and MSVC. L has the same bits for any number of threads.
  *  Source   supernodal: multifrontal [DR83] [Liu92] on row tiles; up-looking: [LDL05], [Davis06]
  *           4.7; growth: [Hi02] 11.1.
  *  Manual   tools/docs/singular.md: null pivots, null vectors, weights; tools/docs/indefinite.md:
@@ -1088,10 +1085,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *                   numbers, and every solve refuses it until a refactor succeeds.
  *  A      [in]      the analyzed pattern, new values. Two triangles are not compared.
  *  stats  [out]     factor.
- *  Returns  as sl_factor_create; SL_ERR_READ_ONLY: a mapped factor, or one that
- *           is loaded in part (save.h). SL_ERR_MEMORY and
- *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load),
- *           which allocates its fronts; SL_ERR_UNSUPPORTED only with SL_STORAGE_COMPLEX, or with
+ *  Returns  as sl_factor_create; SL_ERR_READ_ONLY: a mapped factor, or one that is loaded in part
+ *           (save.h). SL_ERR_MEMORY and SL_ERR_TOO_LARGE only with the first refactorization of a
+ *           loaded factor; SL_ERR_UNSUPPORTED only with SL_STORAGE_COMPLEX, or with
  *           null_vector_count where A has more null vectors than columns are given.
  *  Cost     as sl_factor_create, without its memory.
  *  Threads  exclusive use of F.
@@ -1164,18 +1160,18 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
 
 /* src/public/solve.h: full solves, and the workspace of all solves */
 
-/** EXPERIMENTAL. A leading dimension of rows: the block is row-major, ld elements from row to row.
+/** A leading dimension of rows: the block is row-major, ld elements from row to row.
  *
- *  The fastest layout for several right-hand sides: gathering and scattering 8 separate columns
- *  takes about a fifth of a solve. The solutions have the same bits. With B and X of n x 8:
+ *  Dense blocks are column-major, with leading dimensions in elements. In solves, products and
+ *  residuals, each of ldx, ldb and the like may be one of SL_ROWS instead; only sl_inverse_block
+ *  refuses it. So x, y, z side by side are solved for as they are stored:
  *
- *      sl_factor_solve(F, X, SL_ROWS(8), B, SL_ROWS(8), 8, W);
+ *      sl_factor_solve(F, X, SL_ROWS(3), B, SL_ROWS(3), 3, W);
  *
  *  ld must be at least the number of right-hand sides. Its two top bits, one of which says the
- *  layout, must be clear. X and B of a call may have different layouts, unless they are one array.
- *  Accepted by sl_factor_solve, sl_plan_solve, sl_plan_solve_bounded, sl_local_solve,
- *  sl_fixed_solve, the requests of sl_batch_solve, and the half solves and products of parts.h;
- *  all other calls refuse it with SL_ERR_ARGUMENT.
+ *  layout, must be clear. Blocks of a call may have different layouts, unless they are one array.
+ *  The results have the same bits in any layout. For several right-hand sides solves are fastest by
+ *  rows: gathering and scattering 8 separate columns takes about a fifth of a solve.
  */
 #define SL_ROWS(ld) ((size_t)(ld) | SL_ROW_MAJOR)
 
@@ -1213,13 +1209,11 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  |  _refine, _rcond                  | but they may with threads: try each number             |
  *  | sl_factor_pseudo_inverse          | the analysis and the number of columns                 |
  *  | sl_fixed_solve                    | the object, nrhs, and the threads of W                 |
- *  | sl_plan_solve, parts of a plan    | the plan, nrhs, whether F has null pivots; fewer       |
- *  |                                   | right-hand sides need no more                          |
- *  | sl_plan_solve_regularized         | the same, and the number of regularized rows           |
+ *  | sl_plan_solve, parts of a plan,   | the plan, nrhs, null pivots of F, regularized rows;    |
+ *  |  sl_plan_solve_regularized        | fewer right-hand sides need no more                    |
  *  | sl_selected_refactor              | the selected inverse and options.storage of F          |
  *  | sl_region_refactor                | the region, the instruction set of F, and Z            |
- *  | sl_local_solve, sl_inverse_*      | the rows of the call, too. Fewer rows can need more:   |
- *  |                                   | try each set of rows                                   |
+ *  | sl_local_solve, sl_inverse_*      | the rows of the call, too; fewer can need more         |
  *
  *  Each workspace of a batch needs what its largest request does. The values of A, B and X, and
  *  leading dimensions, make no difference, but for entries of the inverse of A with pivots of both
@@ -1236,10 +1230,9 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
 /** Solves A X = B. For a singular A, sl_factor_create describes which solution is computed.
  *
  *  F      [in]   factor of A, n x n.
- *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, rows in the order of A;
- *                row-major if ldx is SL_ROWS(ld). May be B itself (then ldx = ldb). On error
- *                untouched.
- *  B      [in]   n x nrhs, column-major, leading dimension ldb elements, or row-major as X.
+ *  X      [out]  n x nrhs, leading dimension ldx, rows in the order of A. May be B itself (then ldx
+ *                = ldb). On error untouched.
+ *  B      [in]   n x nrhs, leading dimension ldb.
  *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 64, 32 and
  *                13 to 16, with the bits of blocks of 8, then of up to 8. 8 take as long as two to
  *                three single solves, 32 as long as six to eight.
@@ -1263,15 +1256,13 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, s
 /** Prepares solves of A x = b where b is nonzero only in bset and x is wanted only in xset.
  *
  *  With P A P' = L D L', the forward sweep needs the paths of the elimination tree from bset to the
- *  roots and the backward sweep those from xset. Each reach is found separately, in time
- *  proportional to its own size.
+ *  roots and the backward sweep those from xset.
  *
  *  out    [out]  the plan.
  *  S      [in]   analysis of A, n columns; kept by the plan.
  *  bset   [in]   nb rows of A in 0..n-1, any order; b is 0 in the others, and values of a row given
  *                twice add up. NULL: nb is SL_ALL or n, all rows, or 0.
- *  xset   [in]   nx rows of A in 0..n-1, any order; a row given twice is answered twice. NULL: nx
- *                is SL_ALL or n, all rows, or 0.
+ *  xset   [in]   nx rows of A, any order; a row given twice is answered twice. NULL: likewise.
  *  opt    [in]   allocator, region. If both sets are inside the region, the sweeps end at its
  *                boundary. If they are not, or if one is NULL, the region is not used.
  *  stats  [out]  plan; error.row: an index out of range.
@@ -1300,11 +1291,9 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *  except for the sign of zeros. In a region it agrees up to rounding.
  *
  *  F      [in]   a factor over the plan's analysis.
- *  X      [out]  nx x nrhs, column-major, leading dimension ldx elements, rows in the order of
- *                xset; row-major if ldx is SL_ROWS(ld). May be B itself (then ldx = ldb). On error
- *                untouched.
- *  B      [in]   nb x nrhs, column-major, leading dimension ldb elements, or row-major as X; rows
- *                in the order of bset.
+ *  X      [out]  nx x nrhs, leading dimension ldx, rows in the order of xset. May be B itself (then
+ *                ldx = ldb). On error untouched.
+ *  B      [in]   nb x nrhs, leading dimension ldb, rows in the order of bset.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed factor, or, in a region, one whose
  *           numbers are not those that the region was computed from; SL_ERR_MISMATCH: a factor of
@@ -1367,9 +1356,8 @@ SL_API void sl_fixed_free(sl_fixed *D);
  *
  *  A      [in]   the pattern that sl_fixed_create was given, its entries in the same order.
  *  stats  [out]  fixed, factor; errors are in rows of A.
- *  Returns  as sl_fixed_create; SL_ERR_OTHER_PATTERN. After SL_ERR_PIVOT,
- *           _NOT_FINITE, _INACCURATE and _UNSUPPORTED solves are refused until a
- *           refactorization succeeds; after other errors D is as before.
+ *  Returns  as sl_fixed_create; SL_ERR_OTHER_PATTERN. After SL_ERR_PIVOT, _NOT_FINITE, _INACCURATE
+ *           and _UNSUPPORTED solves are refused until a call succeeds; else D is as before.
  *  Cost     a refactorization of A[free, free]; nothing is allocated.
  *  Threads  exclusive use of D.
  */
@@ -1377,13 +1365,11 @@ SL_API SL_WARN_UNUSED sl_status sl_fixed_refactor(sl_fixed *D, const sl_csc *A, 
 
 /** Solves for x in the free rows, for any values of the fixed ones.
  *
- *  X     [out]  n x nrhs, leading dimension ldx, rows in the order of A; row-major if ldx is
- *               SL_ROWS(ld). Fixed rows are g. May be B itself (then ldx = ldb). Overwritten also
- *               after SL_ERR_INCONSISTENT and _NOT_FINITE; after other errors untouched.
- *  B     [in]   n x nrhs, leading dimension ldb, or row-major as X; fixed rows are not used. NULL:
- *               b = 0.
- *  G     [in]   count x nrhs, leading dimension ldg, or row-major as X: the values, in the order of
- *               rows. Must not overlap X. May be NULL if count = 0.
+ *  X     [out]  n x nrhs, leading dimension ldx; fixed rows are g. May be B itself (then ldx =
+ *               ldb). Errors but SL_ERR_INCONSISTENT and _NOT_FINITE leave it untouched.
+ *  B     [in]   n x nrhs, leading dimension ldb; fixed rows are not used. NULL: b = 0.
+ *  G     [in]   count x nrhs, leading dimension ldg: the values, in the order of rows. Must not
+ *               overlap X. May be NULL if count = 0.
  *  nrhs  [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: a failed refactorization; SL_ERR_NOT_FINITE,
  *           SL_ERR_INCONSISTENT: as sl_factor_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
@@ -1440,11 +1426,10 @@ typedef enum sl_part {
  *  | SQRT_D, LT, PT             | samples of covariance A^-1 if B is standard normal             |
  *  | P, L, SQRT_D               | whitened B: independent, of variance 1, if its covariance is A |
  *
- *  Parts applied one after the other give the bits of sl_factor_solve. Skipped null pivots count as
- *  0, and dividing by them gives 0: D^-1 is the pseudo-inverse. Consistency is not checked, and
- *  options.mass is not used, so that with null pivots all parts together need not give the solution
- *  of sl_factor_solve. With several null vectors a component (options.null_vector_count), null
- *  pivots are not the last ones, and P' L D L' P differs from A in their rows and columns.
+ *  Parts applied one after the other give the bits of sl_factor_solve, but consistency is not
+ *  checked and options.mass not used. Skipped null pivots count as 0, and dividing by them gives 0:
+ *  D^-1 is the pseudo-inverse. With several null vectors a component (options.null_vector_count),
+ *  null pivots are not the last ones, and P' L D L' P differs from A in their rows and columns.
  *
  *  With a plan it is one half of a local solve. Forward: SL_PART_P, SL_PART_L and perhaps one of
  *  SL_PART_D and SL_PART_SQRT_D. B has the rows of the b-set; X has the b_columns rows that the
@@ -1456,10 +1441,10 @@ typedef enum sl_part {
  *  plan   [in]   over the analysis of F, without a region; NULL: all rows.
  *  parts  [in]   any of sl_part, but not both SL_PART_D and SL_PART_SQRT_D; 0 copies B. With a plan
  *                those above.
- *  X      [out]  n x nrhs, leading dimension ldx, or by SL_ROWS; in the order of A with SL_PART_PT,
- *                else of the pivots. May be B itself (then ldx = ldb). On error untouched.
- *  B      [in]   n x nrhs, leading dimension ldb, or by SL_ROWS; in the order of A with SL_PART_P,
- *                else of the pivots.
+ *  X      [out]  n x nrhs, leading dimension ldx; in the order of A with SL_PART_PT, else of the
+ *                pivots. May be B itself (then ldx = ldb). On error untouched.
+ *  B      [in]   n x nrhs, leading dimension ldb; in the order of A with SL_PART_P, else of the
+ *                pivots.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_PIVOT: SL_PART_SQRT_D with a negative
  *           pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots, or a plan in a region;
@@ -1549,16 +1534,15 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_
  *
  *  F      [in]      a factor of A, or of a matrix close to A.
  *  A      [in]      the matrix, with the analyzed pattern.
- *  X      [in,out]  n x nrhs, column-major: solutions from sl_factor_solve, or any other start;
- *                   must not overlap B. On errors other than SL_ERR_INACCURATE untouched.
- *  B      [in]      n x nrhs, column-major.
+ *  X      [in,out]  n x nrhs, leading dimension ldx: solutions from sl_factor_solve, or any other
+ *                   start; must not overlap B. On errors other than SL_ERR_INACCURATE untouched.
+ *  B      [in]      n x nrhs, leading dimension ldb.
  *  steps  [in]      maximum number of corrections per column, 0 or more; 0 only measures, and does
  *                   not return SL_ERR_INACCURATE.
  *  stats  [out]     refine.
  *  Returns  SL_OK; SL_ERR_INACCURATE: see above; SL_ERR_ARGUMENT; SL_ERR_STALE;
  *           SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     one product with A, and another product and a solve per step; W grows to
- *           O(n min(nrhs, 8)).
+ *  Cost     a product with A, then a product and a solve per step; W grows to O(n min(nrhs, 8)).
  *  Threads  any number at once on one F, each with its own W.
  *  Source   [Sk80]: one step makes a solver stable row by row.
  *  Manual   tools/docs/indefinite.md
@@ -1577,7 +1561,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
  *
  *  P      [in]   a plan whose two reaches contain every regularized row of the components of b.
  *                This holds if these rows are in both sets.
- *  F, X, ldx, B, ldb, nrhs, W  as in sl_plan_solve, column-major.
+ *  F, X, ldx, B, ldb, nrhs, W  as in sl_plan_solve.
  *  steps  [in]   maximum number of corrections per column, 0 or more; 0 only measures.
  *  stats  [out]  refine, with backward_error = max |E (x - previous x)| / max |b|, or that of
  *                rounding where it is larger; error.row with SL_ERR_ARGUMENT: a regularized row
@@ -1658,12 +1642,11 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
  *                       as a rule 1e3 to 1e6 times larger. Barring underflow.
  *  stats      [out]     certificate.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_MISMATCH: guaranteed, and other values
- *           than those of F; SL_ERR_OTHER_PATTERN: not the analyzed pattern; SL_ERR_UNSUPPORTED:
- *           negative or regularized pivots, complex storage, options.mass with several or unknown
- *           null vectors; guaranteed also null pivots, L in float, restrictions, duplicate entries,
- *           entries of the diagonal beyond 1e-200 .. 1e200; SL_ERR_INACCURATE:
- *           eta exceeds 1/16, as with an A that is not that of F; SL_ERR_TOO_LARGE, SL_ERR_MEMORY.
- *           On errors F has no eta.
+ *           than those of F; SL_ERR_OTHER_PATTERN; SL_ERR_UNSUPPORTED: negative or regularized
+ *           pivots, complex storage, options.mass with several or unknown null vectors; guaranteed
+ *           also null pivots, L in float, restrictions, duplicate entries, entries of the diagonal
+ *           beyond 1e-200 .. 1e200; SL_ERR_INACCURATE: eta exceeds 1/16, as with another A;
+ *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY. On errors F has no eta.
  *  Cost     estimated: 28 solves, 4 or 8 at a time, with products: as long as 15 (n = 1e5) to 45
  *           (n = 900) single solves; W grows by 20 n numbers. Guaranteed: 7 to 10 factorizations;
  *           memory of a second factor while it runs.
@@ -1751,8 +1734,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
 /** Diagonal entries of the inverse: out[k] = (A^-1)(rows[k], rows[k]).
  *
  *  out    [out]  count values.
- *  rows   [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: count is
- *                SL_ALL or n, all rows, or 0.
+ *  rows   [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: all, or none.
  *  Source   [HDA17] 5; [ET75], [SelInv].
  *  Example  tests/core/test_inverse_diagonal.c
  */
@@ -1801,22 +1783,19 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_block(const sl_factor *F, double *Z, 
  *  out    [out]  the selected inverse. It does not change if F is refactored or released, until
  *                sl_selected_refactor.
  *  F      [in]   the factor; its analysis is kept by the object.
- *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: count is
- *                SL_ALL or n, all rows, or 0.
+ *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: all, or none.
  *  opt    [in]   allocator, threads. The object keeps the threads; without, those of F. The
  *                instruction set is that of F.
  *  stats  [out]  selected; error.row: a row out of range.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_UNSUPPORTED: 2x2 pivots; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     about twice the flops of the factorization of the same supernodes; of columns that are
- *           solved for, some 10 to 100 times as long. Keeps entries doubles (stats.selected) and
- *           28 bytes per supernode, 44 with several threads. Temporary memory: 8 height^2 bytes
- *           per active front, where height counts the columns of a supernode and the rows below
- *           them. A front is active if it is on the path from the current supernode to its root and
- *           has unvisited children. With several threads, this holds for each of them, and the
- *           roots of the subtrees that they share are active, too: a few dozen.
- *  Threads  reads F; the object is immutable and may be shared. The same bits for any number of
- *           threads.
+ *           solved for, some 10 to 100 times as long. Keeps entries doubles (stats.selected) and 28
+ *           bytes per supernode, 44 with several threads. Temporary memory: 8 bytes for each pair
+ *           of rows of an active front: one on the path from the current supernode of a thread to
+ *           its root that has unvisited children, and the few dozen roots of subtrees that threads
+ *           share.
+ *  Threads  reads F; the object may be shared. The same bits for any number of threads.
  *  Source   [ET75]; supernodal: [SelInv].
  *  Example  tests/core/test_selected.c
  */
@@ -1849,8 +1828,7 @@ SL_API void sl_selected_free(sl_selected *Z);
  *  columns  [in]   count columns of A in 0..n-1; NULL: columns = rows, the diagonal.
  *  stats    [out]  error.row, and error.column if columns are given.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or an index out of range; SL_ERR_OTHER_PATTERN: an entry
- *           that is not in the pattern of L or that the set of Z does not reach. error.row and
- *           error.column name it.
+ *           (error) that is not in the pattern of L or that the set of Z does not reach.
  *  Cost     O(count) binary searches; of the diagonal O(count), with a logarithmic factor if Z was
  *           made for a set.
  *  Threads  any number at once.
@@ -1901,14 +1879,12 @@ SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z);
 /** Creates the region of a set of rows: what solves with b and x in the set need of the inverse.
  *
  *  The subtrees are chosen so that a solve with b and x on the whole set reads as few numbers as
- *  possible. Few large subtrees have a short boundary and large panels; with no subtree at all, the
- *  set itself is the boundary. The other rows of the subtrees belong to the region too.
+ *  possible; all of their rows belong to the region. With none, the set itself is the boundary.
  *
  *  out    [out]  the region. For options.region of sl_plan_create.
  *  F      [in]   the factor, whose analysis the object keeps. When F is refactored, or a
  *                refactorization fails, plans in the region are refused until sl_region_refactor.
- *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: count is
- *                SL_ALL or n, all rows, or 0.
+ *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL: all, or none.
  *  Z      [in]   a selected inverse of the present numbers of F, or NULL. It is used if it contains
  *                all entries needed, for example those of a single row or of the subtree of one
  *                supernode; such a region is then preferred if it costs a solve at most twice as
@@ -1925,8 +1901,7 @@ SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z);
  *           binary search per entry of Z. Keeps 4 (boundary)^2 bytes and about 100 per row of the
  *           boundary.
  *  Threads  reads F and Z.
- *  Source   [HDA17] 3 for the sweeps. The part of the matrix outside T enters as a Schur
- *           complement, whose inverse is (A^-1)_SS.
+ *  Source   [HDA17] 3 for the sweeps; (A^-1)_SS inverts the Schur complement of the rest.
  *  Example  tests/core/test_region.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_factor *F,
@@ -1986,10 +1961,10 @@ SL_API sl_region_arrays sl_region_view(const sl_region *R);
 /** One solve of a batch: a plan and its right-hand sides, or a full solve. */
 typedef struct sl_request {
     const sl_plan *plan;     /* NULL: a full solve, as sl_factor_solve */
-    double *X;               /* nx x nrhs (full: n x nrhs), column-major */
-    size_t ldx;              /* leading dimension in elements; row-major if it is SL_ROWS(ld) */
-    const double *B;         /* nb x nrhs (full: n x nrhs), column-major */
-    size_t ldb;              /* as ldx */
+    double *X;               /* nx x nrhs (full: n x nrhs) */
+    size_t ldx;              /* its leading dimension */
+    const double *B;         /* nb x nrhs (full: n x nrhs) */
+    size_t ldb;              /* its leading dimension */
     sl_int nrhs;             /* 0 or more; blocks of 8 are distributed like separate requests */
     const sl_factor *factor; /* NULL: the factor of the call */
 } sl_request;
@@ -2067,9 +2042,8 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coe
  *
  *  values  [out]  stats.symbolic.nnz_a doubles of S (sl_symbolic_view), valid for S only, 0 where
  *                 K has no entry; those of a supernode are contiguous. On error untouched.
- *  K       [in]   n x n with values, any triangle, read as a factorization reads it: rows in any
- *                 order, duplicates summed. Its pattern is a subset of the analyzed one; values may
- *                 be anything.
+ *  K       [in]   n x n with values, read as a factorization reads it: any triangle, rows in any
+ *                 order, duplicates summed. Its pattern is a subset of the analyzed one.
  *  stats   [out]  error.row, error.column: the first stored entry outside the analyzed pattern, or
  *                 a malformed one.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, no values; SL_ERR_MALFORMED: malformed, or both
@@ -2242,8 +2216,7 @@ SL_API SL_WARN_UNUSED sl_status sl_save(const char *path, void *memory, size_t *
  *  Mapped memory must outlive the objects and not change. A mapped file is read-only and shared
  *  with other processes; it is unmapped when the last object is released, and its pages are read
  *  when they are first needed. Replace it by sl_save or a rename: the system stops a process that
- *  reads a part of a mapped file that was cut off, and changes show in the factor. Of copies the
- *  file is closed when the call returns.
+ *  reads a part of a mapped file that was cut off, and changes show in the factor.
  *
  *  A selected inverse that was saved without a factor answers queries and can be refactored;
  *  sl_region_create refuses it.
@@ -2262,13 +2235,12 @@ SL_API SL_WARN_UNUSED sl_status sl_save(const char *path, void *memory, size_t *
  *           order and, of a file, SL_NO_MMAP and systems other than POSIX and Windows; SL_ERR_IO:
  *           unreadable, incomplete, damaged or inconsistent; SL_ERR_TOO_LARGE: sizes do not fit
  *           size_t; SL_ERR_MEMORY.
- *  Cost     the copy, and checks in O(n + rows of the supernodes + entries of A), O(supernodes) for
- *           a selected inverse and O(roots and rows of the boundary, log n each, and rows below the
- *           roots) for regions. Never allocates more than `bytes` and the size of analysis and
- *           factor, or 8 times `bytes` with regions, whatever the memory contains. Mapped: the
- *           checks; with SL_LOAD_TRUSTED O(1) and O(rows of the boundary) for each region. Keeps
- *           less than 4 KB, and for each region less than 500 bytes and 16 for each row of the
- *           boundary and each subtree.
+ *  Cost     the copy, and checks in O(n + rows of the supernodes + entries of A) and, for regions,
+ *           O(rows of the boundary and below the roots, log n each). Never allocates more than
+ *           `bytes` and the size of analysis and factor, or 8 times `bytes` with regions, whatever
+ *           the memory contains. Mapped: the checks; with SL_LOAD_TRUSTED O(1) and O(rows of the
+ *           boundary) for each region. Keeps less than 4 KB, and for each region 500 bytes and 16
+ *           for each row of the boundary and each subtree.
  *  Threads  any number of calls at once.
  *  Example  tests/core/test_save.c, test_saved_set.c, test_save_file.c
  */
@@ -2331,13 +2303,12 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rank_update(sl_factor *F, const sl_csc
 
 /** Changes a factor by entries of A, or by columns of A in which entries have changed.
  *
- *  By entries (rows, columns, deltas): a_ij and a_ji change by delta, in the cheapest way: by
- *  rank-one changes, by computing the columns of L again that the change reaches, or by a
- *  refactorization. If A is NULL, by rank-one changes alone. Rank-one changes: one for the weight
- *  of an edge of a graph, which changes a_ij by -w and a_ii and a_jj by w, one for an entry of the
- *  diagonal, and up to three for any other entry, which follow the scales of the two rows if all
- *  pivots have one sign. The ways are compared by counted flops and entries. Where rank-one changes
- *  are not possible or have added up too much error, the other two remain (stats.change.reason).
+ *  By entries (rows, columns, deltas): a_ij and a_ji change by delta, in the way that counted flops
+ *  and entries call cheapest: by rank-one changes, by computing the columns of L again that the
+ *  change reaches, or by a refactorization. If A is NULL, by rank-one changes alone: one for the
+ *  weight of an edge of a graph, which changes a_ij by -w and a_ii and a_jj by w, one for an entry
+ *  of the diagonal, and up to three for any other entry. Where these are not possible or have added
+ *  up too much error, the other ways remain (stats.change.reason).
  *
  *  By columns (rows and deltas are NULL): the columns of L that the changes reach are computed
  *  again. They agree with sl_factor_refactor up to rounding; the others keep their bits. An
@@ -2387,14 +2358,13 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change_entries(sl_factor *F, const sl_
  *
  *  Singular matrices: with SL_PIVOTS_SKIP_NULL and known null vectors (sl_factor_create), one pin
  *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
- *  pins that leave none of its 6 motions. Components without pins are solved as by sl_factor_solve:
- *  with the weights of options.mass, or with x = 0 in null rows and b in balance. If the pins of a
- *  component leave motions, b must be in balance with them, and x = 0 in null rows fixes them.
+ *  pins that leave none of its 6 motions. If the pins of a component leave motions, b must be in
+ *  balance with them, and x = 0 in null rows fixes them. Components without pins are solved as by
+ *  sl_factor_solve.
  *
- *  Accuracy: the capacitance matrix corrects the solution without pins. Where that solution is
- *  10^d times as large as the one with pins, as with a weak mass term, d digits are lost. Solves
- *  check C' x = g in each tree of the factor and report the loss (SL_ERR_INACCURATE). Local solves
- *  check the equalities whose rows are all in their reach.
+ *  Accuracy: the capacitance matrix corrects the solution without pins. Where that is 10^d times as
+ *  large as the one with pins, as with a weak mass term, d digits are lost. Solves check C' x = g,
+ *  local ones where all rows of an equality are in their reach (SL_ERR_INACCURATE).
  *
  *  out  [out]  the set.
  *  F    [in]   the factor; kept by the object. When F changes, solves are refused until
@@ -2460,13 +2430,10 @@ SL_API SL_WARN_UNUSED sl_status sl_constraints_refactor(sl_constraints *P, sl_st
  *  plan   [in]   a local solve of the rows that the plan names; NULL: a full one. b is 0 outside of
  *                the b-set, the pins are not: they need not be in either set. A plan in a region is
  *                not supported.
- *  X      [out]  nx x nrhs (full: n x nrhs), column-major, leading dimension ldx elements. May be B
- *                itself (then ldx = ldb). Overwritten also after SL_ERR_INCONSISTENT, _NOT_FINITE
- *                and _INACCURATE; after other errors untouched.
- *  B      [in]   nb x nrhs (full: n x nrhs), column-major, leading dimension ldb elements. Its
- *                values in rows that are pins are not used.
- *  G      [in]   k x nrhs, column-major, leading dimension ldg elements: the values, in the order
- *                of the pins.
+ *  X      [out]  nx x nrhs (full: n x nrhs), leading dimension ldx. May be B itself (then ldx =
+ *                ldb). Errors but SL_ERR_INCONSISTENT, _NOT_FINITE, _INACCURATE leave it untouched.
+ *  B      [in]   nb x nrhs (full: n x nrhs), leading dimension ldb; not used in rows that are pins.
+ *  G      [in]   k x nrhs, leading dimension ldg: the values, in the order of the pins.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE: F has changed; SL_ERR_MISMATCH: the plan is of
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: C' x = g
  *           does not hold to 1e-8 of x or, where g is 0, of b / max |a|, or rounding hides whether
@@ -2537,12 +2504,11 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_submatrix(sl_symbolic **S, sl_factor *
 
 /** EXPERIMENTAL. Analyzes an edited matrix B, starting from the analysis of A, the one before it.
  *
- *  This is for meshes that are remeshed or cut in places: edges are flipped, split and collapsed,
- *  and vertices are doubled. The elimination tree of A is kept where no neighbors change. If edits
- *  are local, the order is about as good as the one before, and slowly becomes worse than a new
- *  one: if stats.edit.is_due is set, create a new analysis when there is time. If a quarter of the
- *  rows have other neighbors, or the edits are not local, this call does so itself
- *  (stats.edit.is_anew).
+ *  This is for meshes that are remeshed or cut in places. The elimination tree of A is kept where
+ *  no neighbors change. If edits are local, the order is about as good as the one before, and
+ *  slowly becomes worse than a new one: if stats.edit.is_due is set, create a new analysis when
+ *  there is time. If a quarter of the rows have other neighbors, or the edits are not local, this
+ *  call does so itself (stats.edit.is_anew).
  *
  *  out     [out]  the analysis of B. It does not depend on S. It has no separator tree, unless it
  *                 is a new one.
@@ -5537,15 +5503,14 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
   if (status != SL_OK || nrhs == 0 || A->n_rows == 0) {
     return status;
   }
-  status =
-    sli_argument(Y == NULL ? "Y is NULL"
-        : A->n_cols > 0 && X == NULL ? "X is NULL"
-        : A->n_cols > 0 && X == Y ? "X is Y"
-        : !sli_dense_spans(ldy, A->n_rows, nrhs)
-        ? "ldy is below the rows of A (nrhs with SL_ROWS), or too large"
-        : A->n_cols > 0 && !sli_dense_spans(ldx, A->n_cols, nrhs)
-        ? "ldx is below the columns of A (nrhs with SL_ROWS), or too large"
-        : NULL);
+  status = sli_argument(Y == NULL ? "Y is NULL"
+      : A->n_cols > 0 && X == NULL ? "X is NULL"
+      : A->n_cols > 0 && X == Y ? "X is Y"
+      : !sli_dense_spans(ldy, A->n_rows, nrhs)
+      ? "ldy is below the rows of A (nrhs with SL_ROWS), or too large"
+      : A->n_cols > 0 && !sli_dense_spans(ldx, A->n_cols, nrhs)
+      ? "ldx is below the columns of A (nrhs with SL_ROWS), or too large"
+      : NULL);
   if (status != SL_OK) {
     return status;
   }
@@ -18783,8 +18748,8 @@ static void sli_local_refinement_norms(const sli_local_refinement *f, const sli_
   sl_int k, c;
   if (!f->q->b_repeats) {
     for (c = 0; c < columns; c++) {
-      norms[c] = f->q->nb == 0 ? 0.0
-                   : sli_largest(rhs->B + b.column * (size_t)c, b.row, f->q->nb);
+      norms[c] =
+        f->q->nb == 0 ? 0.0 : sli_largest(rhs->B + b.column * (size_t)c, b.row, f->q->nb);
     }
     return;
   }
@@ -37570,9 +37535,7 @@ SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(complex_forward_step)(const sli_s
   const double *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / 2;
   double *xs = x + s->base;
   sl_int row, i, j;
-  for (i = first; i < w; i++) {
-    buf[i] = xs[i - first];
-  }
+  SLI_COPY(buf + first, xs, w - first);
   for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
     buf[i] = 0.0;
   }
@@ -38309,7 +38272,8 @@ SLV_FUNCTION static void SLV_SWEEP(forward)(const sli_reach *R, const void *valu
 #define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_ROW_AT(k) rows[at + (k)]
-#define SLI_ROW_AT_PART(k) rows[at + sli_clamp((k)-inner, part - 1)]
+#define SLI_ROW(k) rows[k]
+#define SLI_ROW_PART(k) rows[sli_clamp((k)-inner, part - 1)]
 
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots1)(const SLV_VALUE *l, const double *x, sl_int first,
     sl_int final, double *sums) {
@@ -38384,6 +38348,26 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inne
   }
 }
 
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(rows_below)(const double *x, const sl_int *rows,
+    sl_int inner, sl_int part, double *buf) {
+  sl_int j;
+  SLV_DECLARE(v)
+  if (part == SLI_TILE) {
+    SLV_GATHER(v, x, SLI_ROW)
+    SLV_STORE(buf, v)
+  } else if (inner < SLI_TILE) {
+    SLV_ZERO(v)
+    if (part > 0) {
+      SLV_GATHER(v, x, SLI_ROW_PART)
+      SLV_FIRST(v, inner + part)
+    }
+    SLV_STORE(buf, v)
+    for (j = 0; j < inner; j++) {
+      buf[j] = 0.0;
+    }
+  }
+}
+
 #define SLI_FEW_STEPS 512
 
 SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *values,
@@ -38416,20 +38400,7 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
       const SLV_VALUE *above;
       tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
       above = tile - SLI_TILE * (ptrdiff_t) final;
-      if (part == SLI_TILE) {
-        SLV_GATHER(v, x, SLI_ROW_AT)
-        SLV_STORE(buf + SLI_TILE, v)
-      } else if (inner < SLI_TILE) {
-        SLV_ZERO(v)
-        if (part > 0) {
-          SLV_GATHER(v, x, SLI_ROW_AT_PART)
-          SLV_FIRST(v, inner + part)
-        }
-        SLV_STORE(buf + SLI_TILE, v)
-        for (j = 0; j < inner; j++) {
-          buf[SLI_TILE + j] = 0.0;
-        }
-      }
+      SLV_SWEEP(rows_below)(x, rows + at, inner, part, buf + SLI_TILE);
       if (inner > 0) {
         SLV_SWEEP(diagonal)
         (tile + SLI_TILE * (ptrdiff_t)row, inner, sums + SLI_TILE * (ptrdiff_t)row, d + row,
@@ -38461,7 +38432,8 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 #undef SLI_DECLARE
 #undef SLI_SUM_DECLARE
 #undef SLI_ROW_AT
-#undef SLI_ROW_AT_PART
+#undef SLI_ROW
+#undef SLI_ROW_PART
 #undef SLI_TAKE_SUM
 #undef SLI_FEW_STEPS
 /* end of single_rhs.inl.h */
@@ -38707,6 +38679,47 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
   SLV_REPEAT_ROWS(t, l, 1) \
   SLV_FNMA(a, t, v1)
 
+SLV_FUNCTION SLI_ALWAYS_INLINE void
+SLV_SWEEP(panel_forward2)(const SLV_VALUE *tile, sl_int t0, sl_int w, sl_int height, double *buf) {
+  const sl_int first = SLI_TILE * t0;
+  sl_int row, j;
+  for (row = first; row < height; row += SLI_TILE) {
+    const sl_int final = sli_min(row, w), inner = sli_clamp(w - row, SLI_TILE);
+    const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first;
+    double *p = buf + 2 * (ptrdiff_t)row;
+    SLV_DECLARE(v0)
+    SLV_DECLARE(v1)
+    SLV_DECLARE(u0)
+    SLV_DECLARE(u1)
+    SLV_DECLARE(t)
+    SLV_DECLARE(b)
+    SLV_LOAD(v0, p)
+    SLV_LOAD(v1, p + SLI_TILE)
+    SLV_ZERO(u0)
+    SLV_ZERO(u1)
+    for (j = first; j + 2 <= final; j += 2, l += 2 * SLI_TILE) {
+      SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+      SLI_PREFETCH(l + SLI_TILE, SLI_PREFETCH_DISTANCE);
+      SLI_TWO_AXPY(v, l, buf + 2 * (ptrdiff_t)j)
+      SLI_TWO_AXPY(u, l + SLI_TILE, buf + 2 * (ptrdiff_t)(j + 1))
+    }
+    if (j < final) {
+      SLI_TWO_AXPY(v, l, buf + 2 * (ptrdiff_t)j)
+    }
+    SLV_ADD(v0, u0)
+    SLV_ADD(v1, u1)
+    SLV_STORE(p, v0)
+    SLV_STORE(p + SLI_TILE, v1)
+    if (inner > 0) {
+      const sl_int below = sli_min(height - row, SLI_TILE) - inner;
+      SLV_SWEEP_2(forward_small)
+      (inner, sli_rows_of(sli_tile_rows + inner, below, 2), tile + SLI_TILE * (ptrdiff_t)row,
+       p, p);
+    }
+    tile += SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+  }
+}
+
 SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, const void *values,
     double *x, double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
@@ -38717,7 +38730,7 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, con
     const size_t columns = 2 * (size_t)(w - first);
     const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
     double *xs = x + 2 * (ptrdiff_t)s->base;
-    sl_int row, i, j;
+    sl_int i, j;
     if (w == 1) {
       for (i = 0; i < s->below; i++) {
         double *to = x + 2 * (ptrdiff_t)rows[i];
@@ -38734,47 +38747,60 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, con
     memcpy(buf + 2 * (ptrdiff_t)first, xs, columns * sizeof(double));
     memset(buf + 2 * (ptrdiff_t)w, 0,
         2 * (size_t)(SLI_TILE * sli_tiles(height) - w) * sizeof(double));
-    for (row = first; row < height; row += SLI_TILE) {
-      const sl_int final = sli_min(row, w), inner = sli_clamp(w - row, SLI_TILE);
-      const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first;
-      double *p = buf + 2 * (ptrdiff_t)row;
-      SLV_DECLARE(v0)
-      SLV_DECLARE(v1)
-      SLV_DECLARE(u0)
-      SLV_DECLARE(u1)
-      SLV_DECLARE(t)
-      SLV_DECLARE(b)
-      SLV_LOAD(v0, p)
-      SLV_LOAD(v1, p + SLI_TILE)
-      SLV_ZERO(u0)
-      SLV_ZERO(u1)
-      for (j = first; j + 2 <= final; j += 2, l += 2 * SLI_TILE) {
-        SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
-        SLI_PREFETCH(l + SLI_TILE, SLI_PREFETCH_DISTANCE);
-        SLI_TWO_AXPY(v, l, buf + 2 * (ptrdiff_t)j)
-        SLI_TWO_AXPY(u, l + SLI_TILE, buf + 2 * (ptrdiff_t)(j + 1))
-      }
-      if (j < final) {
-        SLI_TWO_AXPY(v, l, buf + 2 * (ptrdiff_t)j)
-      }
-      SLV_ADD(v0, u0)
-      SLV_ADD(v1, u1)
-      SLV_STORE(p, v0)
-      SLV_STORE(p + SLI_TILE, v1)
-      if (inner > 0) {
-        const sl_int below = sli_min(height - row, SLI_TILE) - inner;
-        SLV_SWEEP_2(forward_small)
-        (inner, sli_rows_of(sli_tile_rows + inner, below, 2),
-         tile + SLI_TILE * (ptrdiff_t)row, p, p);
-      }
-      tile += SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-    }
+    SLV_SWEEP(panel_forward2)(tile, s->first_tile, w, height, buf);
     memcpy(xs, buf + 2 * (ptrdiff_t)first, columns * sizeof(double));
     for (i = 0; i < s->below; i++) {
       double *to = x + 2 * (ptrdiff_t)rows[i];
       for (j = 0; j < 2; j++) {
         to[j] += buf[2 * (ptrdiff_t)(w + i) + j];
       }
+    }
+  }
+}
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(panel_backward2)(const sli_step *s,
+    const SLV_VALUE *tile,
+    const double *d, const double *xs,
+    double *buf) {
+  const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+  const sl_int padded = SLI_TILE * sli_tiles(height);
+  double *sums = buf + 2 * (ptrdiff_t)padded;
+  sl_int row, i, j;
+  SLV_DECLARE(v0)
+  SLV_DECLARE(v1)
+  SLV_DECLARE(a)
+  SLV_DECLARE(t)
+  SLV_ZERO(a)
+  for (i = first; i < w; i++) {
+    SLV_STORE(sums + SLI_TILE * (ptrdiff_t)i, a)
+  }
+  for (row = padded - SLI_TILE; row >= first; row -= SLI_TILE) {
+    const sl_int inner = sli_clamp(w - row, SLI_TILE);
+    double *p = buf + 2 * (ptrdiff_t)row;
+    const SLV_VALUE *l;
+    tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+    for (i = 0; i < inner; i++) {
+      const double *part = sums + SLI_TILE * (ptrdiff_t)(row + i);
+      for (j = 0; j < 2; j++) {
+        p[2 * i + j] = xs[2 * (ptrdiff_t)(row + i) + j] / d[row + i] +
+                 ((part[j] + part[2 + j]) + (part[4 + j] + part[6 + j]));
+      }
+    }
+    if (inner > 0) {
+      const sl_int below = sli_min(height - row, SLI_TILE) - inner;
+      SLV_SWEEP_2(backward_small)
+      (inner, sli_rows_of(sli_tile_rows + inner, below, 2), tile + SLI_TILE * (ptrdiff_t)row,
+       NULL, p, p);
+    }
+    SLV_LOAD(v0, p)
+    SLV_LOAD(v1, p + SLI_TILE)
+    l = tile + SLI_TILE * (ptrdiff_t)sli_min(row, w);
+    for (j = sli_min(row, w) - 1; j >= first; j--) {
+      l -= SLI_TILE;
+      SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
+      SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
+      SLI_TWO_DOT(a, l)
+      SLV_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
     }
   }
 }
@@ -38790,12 +38816,7 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, co
     const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
     const double *d = D + s->column - first;
     double *xs = x + 2 * ((ptrdiff_t)s->base - first);
-    double *sums = buf + 2 * (ptrdiff_t)padded;
-    sl_int row, i, j;
-    SLV_DECLARE(v0)
-    SLV_DECLARE(v1)
-    SLV_DECLARE(a)
-    SLV_DECLARE(t)
+    sl_int i, j;
     rows_end -= s->below;
     if (w == 1) {
       for (j = 0; j < 2; j++) {
@@ -38814,45 +38835,13 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, co
       (w, sli_rows_of(rows_end, s->below, 2), tile - SLI_TILE * w, d, xs, x);
       continue;
     }
-    SLV_ZERO(a)
-    for (i = first; i < w; i++) {
-      SLV_STORE(sums + SLI_TILE * (ptrdiff_t)i, a)
-    }
     for (i = 0; i < s->below; i++) {
       for (j = 0; j < 2; j++) {
         buf[2 * (ptrdiff_t)(w + i) + j] = x[2 * (ptrdiff_t)rows_end[i] + j];
       }
     }
     memset(buf + 2 * (ptrdiff_t)height, 0, 2 * (size_t)(padded - height) * sizeof(double));
-    for (row = padded - SLI_TILE; row >= first; row -= SLI_TILE) {
-      const sl_int inner = sli_clamp(w - row, SLI_TILE);
-      double *p = buf + 2 * (ptrdiff_t)row;
-      const SLV_VALUE *l;
-      tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-      for (i = 0; i < inner; i++) {
-        const double *part = sums + SLI_TILE * (ptrdiff_t)(row + i);
-        for (j = 0; j < 2; j++) {
-          p[2 * i + j] = xs[2 * (ptrdiff_t)(row + i) + j] / d[row + i] +
-                   ((part[j] + part[2 + j]) + (part[4 + j] + part[6 + j]));
-        }
-      }
-      if (inner > 0) {
-        const sl_int below = sli_min(height - row, SLI_TILE) - inner;
-        SLV_SWEEP_2(backward_small)
-        (inner, sli_rows_of(sli_tile_rows + inner, below, 2),
-         tile + SLI_TILE * (ptrdiff_t)row, NULL, p, p);
-      }
-      SLV_LOAD(v0, p)
-      SLV_LOAD(v1, p + SLI_TILE)
-      l = tile + SLI_TILE * (ptrdiff_t)sli_min(row, w);
-      for (j = sli_min(row, w) - 1; j >= first; j--) {
-        l -= SLI_TILE;
-        SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
-        SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLI_TWO_DOT(a, l)
-        SLV_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
-      }
-    }
+    SLV_SWEEP(panel_backward2)(s, tile, d, xs, buf);
     memcpy(xs + 2 * (ptrdiff_t)first, buf + 2 * (ptrdiff_t)first,
         2 * (size_t)(w - first) * sizeof(double));
   }
@@ -38887,6 +38876,104 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, co
 #define SLI_SET_STRIDE const sl_int stride = SLW_NRHS;
 #endif
 
+#if SLI_PARTS == 1
+SLV_FUNCTION SLI_INLINE void SLI_KERNEL(column_forward)(sli_rows below, const SLV_VALUE *l,
+    const double *xs, double *x) {
+  const sl_int stride = below.lanes;
+  sl_int group, j;
+  for (group = 0; group < stride; group += SLW_NRHS) {
+    SLW_DECLARE(a)
+    SLW_DECLARE(b)
+    SLW_DECLARE(c)
+    SLW_LOAD(a, xs + group)
+    for (j = 0; j < below.count; j++) {
+      double *to = x + (ptrdiff_t)below.index[j] * stride + group;
+      const SLW_ENTRY entry = l[j];
+      SLW_ZERO(b)
+      SLW_FNMA(b, entry, a)
+      SLW_LOAD(c, to)
+      SLW_ADD(c, b)
+      SLW_STORE(to, c)
+    }
+  }
+}
+
+SLV_FUNCTION SLI_INLINE void SLI_KERNEL(column_backward)(sli_rows below, const SLV_VALUE *l,
+    double d, double *xs, const double *x) {
+  const sl_int stride = below.lanes;
+  sl_int group, j;
+  for (group = 0; group < stride; group += SLW_NRHS) {
+    SLW_DECLARE(a)
+    SLW_DECLARE(b)
+    SLW_LOAD(a, xs + group)
+    SLW_DIVIDE(a, d)
+    for (j = 0; j < below.count; j++) {
+      const SLW_ENTRY entry = l[j];
+      SLW_LOAD(b, x + (ptrdiff_t)below.index[j] * stride + group)
+      SLW_FNMA(a, entry, b)
+    }
+    SLW_STORE(xs + group, a)
+  }
+}
+#endif
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLI_KERNEL(tiles_forward)(const sli_step *s, sli_rows rows,
+    const SLV_VALUE *tile, double *xs,
+    double *x, double *buf) {
+  const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+  const sl_int stride = rows.lanes;
+  ptrdiff_t row;
+  sl_int group, j;
+  SLI_PREPARE
+  for (row = first; row < height; row += SLW_ROWS) {
+    const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+    const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+    const sli_rows below =
+      sli_rows_of(rows.index + (row + inner - w), height - (sl_int)row - inner, stride);
+    const int is_below = SLI_IS_DIRECT && inner == 0 && below.count >= SLW_ROWS;
+    const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
+    for (group = 0; group < stride; group += SLW_NRHS) {
+      double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
+      const SLV_VALUE *l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t)first + lane;
+      const double *xj = xs + (ptrdiff_t)first * stride + group;
+      SLW_EACH(SLI_DECLARE, 0)
+      if (inner == 0) {
+        SLW_EACH(SLI_ZERO_ROW, 0)
+      } else {
+        if (inner < SLW_ROWS) {
+          SLW_NAME(rows_in)(buf, inner, own, sli_rows_of(NULL, 0, stride), x);
+        }
+        SLW_EACH(SLI_LOAD, p)
+      }
+      for (j = first; j < final;) {
+        const sl_int end = j + SLI_BLOCK(final - j);
+        const SLW_ENTRY *lj;
+        SLI_READ_BLOCK(lj, l, end - j)
+        for (; j < end; j += SLI_PARTS, xj += SLI_PARTS * (ptrdiff_t)stride) {
+          SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+          SLI_APPLY_COLUMN
+          l += SLI_TILE;
+          lj += SLI_TILE;
+        }
+      }
+      if (inner > 0) {
+        SLI_TRIANGLE
+      }
+      if (is_below) {
+        SLW_EACH(SLI_ADD_BELOW, x + group)
+        continue;
+      }
+      SLW_EACH(SLI_STORE, p)
+      if (inner < SLW_ROWS) {
+        SLW_NAME(rows_out)(buf, inner, own, below, x + group);
+      }
+    }
+    if (lane + SLW_ROWS == SLI_TILE) {
+      tile += SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+    }
+  }
+}
+
 SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *values, double *x,
     double *buf SLI_STRIDE_PARAMETER) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
@@ -38897,92 +38984,98 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(const sli_reach *R, const void *val
 #if SLW_GROUPS >= 8
   const int is_fetched = sli_steps_exceed_cache(count, s, stride);
 #endif
-  SLI_PREPARE
   for (; count > 0; rows += s->below, count--, s++) {
-    const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-    const SLV_VALUE *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / SLI_PARTS;
+    const sl_int w = s->width, first = SLI_TILE * s->first_tile;
+    const sli_rows below = sli_rows_of(rows, s->below, stride);
     double *xs = x + ((ptrdiff_t)s->base - first) * stride;
-    ptrdiff_t row;
-    sl_int group, j;
+    const SLV_VALUE *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / SLI_PARTS;
 #if SLW_GROUPS >= 8
     if (is_fetched && count > SLI_STEPS_AHEAD) {
       sli_step_prefetch(s + SLI_STEPS_AHEAD, rows + s->below + s[1].below, x, stride);
     }
 #endif
 #if SLI_PARTS == 1
-    for (group = 0; group < stride && w == 1; group += SLW_NRHS) {
-      SLW_DECLARE(a)
-      SLW_DECLARE(b)
-      SLW_DECLARE(c)
-      SLW_LOAD(a, xs + group)
-      for (j = 0; j < s->below; j++) {
-        double *to = x + (ptrdiff_t)rows[j] * stride + group;
-        const SLW_ENTRY l = tile[1 + j];
-        SLW_ZERO(b)
-        SLW_FNMA(b, l, a)
-        SLW_LOAD(c, to)
-        SLW_ADD(c, b)
-        SLW_STORE(to, c)
-      }
-    }
     if (w == 1) {
+      SLI_KERNEL(column_forward)(below, tile + 1, xs, x);
       continue;
     }
 #endif
 #if defined(SLI_SMALL)
     if (w <= SLI_TILE) {
-      const sli_rows below = sli_rows_of(rows, s->below, stride);
+      sl_int group;
       for (group = 0; group < stride; group += SLW_NRHS) {
         SLW_SWEEP(forward_small)(w, below, tile, xs + group, x + group);
       }
       continue;
     }
 #endif
-    for (row = first; row < height; row += SLW_ROWS) {
-      const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
-      const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-      const sli_rows below =
-        sli_rows_of(rows + (row + inner - w), height - (sl_int)row - inner, stride);
-      const int is_below = SLI_IS_DIRECT && inner == 0 && below.count >= SLW_ROWS;
-      const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
-      for (group = 0; group < stride; group += SLW_NRHS) {
-        double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
-        const SLV_VALUE *l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t)first + lane;
-        const double *xj = xs + (ptrdiff_t)first * stride + group;
-        SLW_EACH(SLI_DECLARE, 0)
-        if (inner == 0) {
-          SLW_EACH(SLI_ZERO_ROW, 0)
-        } else {
-          if (inner < SLW_ROWS) {
-            SLW_NAME(rows_in)(buf, inner, own, sli_rows_of(NULL, 0, stride), x);
-          }
-          SLW_EACH(SLI_LOAD, p)
+    SLI_KERNEL(tiles_forward)(s, below, tile, xs, x, buf);
+  }
+}
+
+SLV_FUNCTION SLI_INLINE void SLI_KERNEL(divide)(double *xs, const double *d, sl_int columns,
+    sl_int stride) {
+  sl_int group, i;
+  for (i = 0; i < columns; i++, xs += stride) {
+    for (group = 0; group < stride; group += SLW_NRHS) {
+      SLW_DECLARE(b)
+      SLW_LOAD(b, xs + group)
+      SLW_DIVIDE(b, d[i])
+      SLW_STORE(xs + group, b)
+    }
+  }
+}
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLI_KERNEL(tiles_backward)(const sli_step *s, sli_rows rows,
+    const SLV_VALUE *tile, double *xs,
+    double *x, double *buf) {
+  const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+  const sl_int stride = rows.lanes;
+  ptrdiff_t row;
+  sl_int group, j;
+  SLI_PREPARE
+  for (row = SLI_TILE * sli_tiles(height) - SLW_ROWS; row >= first; row -= SLW_ROWS) {
+    const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+    const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+    const sli_rows below =
+      sli_rows_of(rows.index + (row + inner - w), height - (sl_int)row - inner, stride);
+    const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
+    if (lane + SLW_ROWS == SLI_TILE) {
+      tile -= SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+    }
+    for (group = 0; group < stride; group += SLW_NRHS) {
+      double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
+      double *xj = xs + (ptrdiff_t) final * stride + group;
+      const SLV_VALUE *l = tile + SLI_TILE / SLI_PARTS * row + lane;
+      SLW_EACH(SLI_DECLARE, 0)
+      if (SLI_IS_DIRECT && inner == 0 && below.count >= SLW_ROWS) {
+        SLW_EACH(SLI_LOAD_BELOW, x + group)
+      } else {
+        if (inner < SLW_ROWS) {
+          SLW_NAME(rows_in)(buf, inner, own, below, x + group);
         }
-        for (j = first; j < final;) {
-          const sl_int end = j + SLI_BLOCK(final - j);
-          const SLW_ENTRY *lj;
-          SLI_READ_BLOCK(lj, l, end - j)
-          for (; j < end; j += SLI_PARTS, xj += SLI_PARTS * (ptrdiff_t)stride) {
-            SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
-            SLI_APPLY_COLUMN
-            l += SLI_TILE;
-            lj += SLI_TILE;
-          }
-        }
-        if (inner > 0) {
-          SLI_TRIANGLE
-        }
-        if (is_below) {
-          SLW_EACH(SLI_ADD_BELOW, x + group)
-          continue;
-        }
+        SLW_EACH(SLI_LOAD, p)
+      }
+      if (inner > 0) {
+        SLI_TRIANGLE_UP
         SLW_EACH(SLI_STORE, p)
         if (inner < SLW_ROWS) {
-          SLW_NAME(rows_out)(buf, inner, own, below, x + group);
+          SLW_NAME(rows_out)(buf, inner, own, sli_rows_of(NULL, 0, stride), x);
         }
       }
-      if (lane + SLW_ROWS == SLI_TILE) {
-        tile += SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+      l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t) final + lane;
+      for (j = final; j > first;) {
+        const sl_int begin = j - SLI_BLOCK(j - first);
+        const ptrdiff_t size = SLI_TILE / SLI_PARTS * (ptrdiff_t)(j - begin);
+        const SLW_ENTRY *lj;
+        SLI_READ_BLOCK(lj, l - size, j - begin)
+        for (lj += size; j > begin; j -= SLI_PARTS) {
+          l -= SLI_TILE;
+          lj -= SLI_TILE;
+          xj -= SLI_PARTS * (ptrdiff_t)stride;
+          SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
+          SLI_GATHER_COLUMN
+        }
       }
     }
   }
@@ -38993,46 +39086,32 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(const sli_reach *R, const void *va
     double *buf SLI_STRIDE_PARAMETER) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   const sli_step *s = R->steps;
-  const sl_int *rows_end = R->rows + R->n_rows;
+  const sl_int *rows = R->rows + R->n_rows;
   sl_int count = R->count;
   SLI_SET_STRIDE
 #if SLW_GROUPS >= 8
   const int is_fetched = sli_steps_exceed_cache(count, s, stride);
 #endif
-  SLI_PREPARE
   for (s += count; count > 0; count--) {
-    const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+    const sl_int w = (--s)->width, first = SLI_TILE * s->first_tile;
     const SLV_VALUE *tile = L + (s->panel + sli_panel_size(w, s->below)) / SLI_PARTS;
-    const double *d = D + s->column - first;
+    const sli_rows below = sli_rows_of(rows -= s->below, s->below, stride);
+    const double *d = D + s->column;
     double *xs = x + ((ptrdiff_t)s->base - first) * stride;
-    ptrdiff_t row;
-    sl_int group, i, j;
-    rows_end -= s->below;
 #if SLW_GROUPS >= 8
     if (is_fetched && count > SLI_STEPS_AHEAD) {
-      sli_step_prefetch(s - SLI_STEPS_AHEAD, rows_end - s[-1].below - s[-2].below, x, stride);
+      sli_step_prefetch(s - SLI_STEPS_AHEAD, rows - s[-1].below - s[-2].below, x, stride);
     }
 #endif
 #if SLI_PARTS == 1
-    for (group = 0; group < stride && w == 1; group += SLW_NRHS) {
-      SLW_DECLARE(a)
-      SLW_DECLARE(b)
-      SLW_LOAD(a, xs + group)
-      SLW_DIVIDE(a, d[0])
-      for (j = 0; j < s->below; j++) {
-        const SLW_ENTRY l = tile[j - s->below];
-        SLW_LOAD(b, x + (ptrdiff_t)rows_end[j] * stride + group)
-        SLW_FNMA(a, l, b)
-      }
-      SLW_STORE(xs + group, a)
-    }
     if (w == 1) {
+      SLI_KERNEL(column_backward)(below, tile - s->below, d[0], xs, x);
       continue;
     }
 #endif
 #if defined(SLI_SMALL)
     if (w <= SLI_TILE) {
-      const sli_rows below = sli_rows_of(rows_end, s->below, stride);
+      sl_int group;
       for (group = 0; group < stride; group += SLW_NRHS) {
         SLW_SWEEP(backward_small)
         (w, below, tile - SLI_TILE * w, d, xs + group, x + group);
@@ -39040,59 +39119,8 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(const sli_reach *R, const void *va
       continue;
     }
 #endif
-    for (i = first; i < w; i++) {
-      for (group = 0; group < stride; group += SLW_NRHS) {
-        SLW_DECLARE(b)
-        SLW_LOAD(b, xs + (ptrdiff_t)i * stride + group)
-        SLW_DIVIDE(b, d[i])
-        SLW_STORE(xs + (ptrdiff_t)i * stride + group, b)
-      }
-    }
-    for (row = SLI_TILE * sli_tiles(height) - SLW_ROWS; row >= first; row -= SLW_ROWS) {
-      const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
-      const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-      const sli_rows below =
-        sli_rows_of(rows_end + (row + inner - w), height - (sl_int)row - inner, stride);
-      const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
-      if (lane + SLW_ROWS == SLI_TILE) {
-        tile -= SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
-      }
-      for (group = 0; group < stride; group += SLW_NRHS) {
-        double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
-        double *xj = xs + (ptrdiff_t) final * stride + group;
-        const SLV_VALUE *l = tile + SLI_TILE / SLI_PARTS * row + lane;
-        SLW_EACH(SLI_DECLARE, 0)
-        if (SLI_IS_DIRECT && inner == 0 && below.count >= SLW_ROWS) {
-          SLW_EACH(SLI_LOAD_BELOW, x + group)
-        } else {
-          if (inner < SLW_ROWS) {
-            SLW_NAME(rows_in)(buf, inner, own, below, x + group);
-          }
-          SLW_EACH(SLI_LOAD, p)
-        }
-        if (inner > 0) {
-          SLI_TRIANGLE_UP
-          SLW_EACH(SLI_STORE, p)
-          if (inner < SLW_ROWS) {
-            SLW_NAME(rows_out)(buf, inner, own, sli_rows_of(NULL, 0, stride), x);
-          }
-        }
-        l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t) final + lane;
-        for (j = final; j > first;) {
-          const sl_int begin = j - SLI_BLOCK(j - first);
-          const ptrdiff_t size = SLI_TILE / SLI_PARTS * (ptrdiff_t)(j - begin);
-          const SLW_ENTRY *lj;
-          SLI_READ_BLOCK(lj, l - size, j - begin)
-          for (lj += size; j > begin; j -= SLI_PARTS) {
-            l -= SLI_TILE;
-            lj -= SLI_TILE;
-            xj -= SLI_PARTS * (ptrdiff_t)stride;
-            SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
-            SLI_GATHER_COLUMN
-          }
-        }
-      }
-    }
+    SLI_KERNEL(divide)(xs + (ptrdiff_t)first * stride, d, w - first, stride);
+    SLI_KERNEL(tiles_backward)(s, below, tile, xs, x, buf);
   }
 }
 
