@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 27a3268714d6da17
+ * FNV-1a of the lines after this comment, without the license: 6bee98d69fc763f8
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -34,27 +34,27 @@
  *   2763 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   2806 impl/ base: the compiler, status, memory, sorting, threads
  *   4108 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   5012 impl/ matrix: sparse matrices of the caller and of the library
- *   5746 impl/ ordering: fill-reducing orderings of a graph
- *  10346 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12588 impl/ factor: the numbers of L and D
- *  15170 impl/ solve: full and local solves
- *  16710 impl/ singular: null spaces of semidefinite matrices
- *  17981 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  19995 impl/ pivots: the order of the pivots by the values of a matrix
- *  20403 impl/ float: L in single precision
- *  20633 impl/ inverse: entries of the inverse, regions
- *  23545 impl/ change: a factor that follows changes of its matrix
- *  25823 impl/ constraints: rows held at values, on a factor that stays
- *  27131 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  29871 impl/ fixed: rows fixed at given values
- *  30430 impl/ io: files that are replaced only when they are complete
- *  30648 impl/ files: Matrix Market files, 64-bit indices
- *  31194 impl/ save: factors in files
- *  33167 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33853 impl/ complex: complex Hermitian systems over real factors
- *  34358 impl/ packs: the tables through which the core calls packs
- *  34748 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5009 impl/ matrix: sparse matrices of the caller and of the library
+ *   5743 impl/ ordering: fill-reducing orderings of a graph
+ *  10343 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12585 impl/ factor: the numbers of L and D
+ *  15167 impl/ solve: full and local solves
+ *  16707 impl/ singular: null spaces of semidefinite matrices
+ *  17978 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  19992 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20400 impl/ float: L in single precision
+ *  20630 impl/ inverse: entries of the inverse, regions
+ *  23542 impl/ change: a factor that follows changes of its matrix
+ *  25820 impl/ constraints: rows held at values, on a factor that stays
+ *  27128 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  29868 impl/ fixed: rows fixed at given values
+ *  30427 impl/ io: files that are replaced only when they are complete
+ *  30645 impl/ files: Matrix Market files, 64-bit indices
+ *  31191 impl/ save: factors in files
+ *  33164 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33850 impl/ complex: complex Hermitian systems over real factors
+ *  34355 impl/ packs: the tables through which the core calls packs
+ *  34742 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4704,14 +4704,11 @@ typedef struct sli_kernels {
     } \
   }
 #define SLV_VALUE SLI_BY_TYPE(SLI_VALUE_, SLV_SINGLE)
-#define SLV_LEAST 1e-290
-#define SLV_MOST 1e290
 #define SLV_PARTS (1 + SLV_COMPLEX)
 #define SLV_FRONT(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME, f)
-#define SLV_FRONT_PIVOTS(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME_PIVOTS, f)
+#define SLV_FRONT_SHORT(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME_SHORT, f)
 #define SLV_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME, f)
-#define SLV_SWEEP_SMALL(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME_SMALL, f)
-#define SLV_SWEEP_2(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME_2, f)
+#define SLV_SWEEP_SHORT(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME_SHORT, f)
 #define SLW_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_NAME, f)
 #define SLW_SWEEP_HALF(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_HALF, f)
 #define SLV_READ(l) SLI_BY_TYPE(SLV_READ_, SLV_SINGLE)(l)
@@ -34513,14 +34510,11 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_WIDEN_0
 #undef SLI_WIDEN_1
 #undef SLV_VALUE
-#undef SLV_LEAST
-#undef SLV_MOST
 #undef SLV_PARTS
 #undef SLV_FRONT
-#undef SLV_FRONT_PIVOTS
+#undef SLV_FRONT_SHORT
 #undef SLV_SWEEP
-#undef SLV_SWEEP_SMALL
-#undef SLV_SWEEP_2
+#undef SLV_SWEEP_SHORT
 #undef SLW_SWEEP
 #undef SLW_SWEEP_HALF
 #undef SLV_READ
@@ -35377,12 +35371,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #define SLV_VECTOR_TILES 1
 #define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
 #define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
-#define SLV_NAME_4(f) SLV_NAME(f##4)
-#define SLV_NAME_2(f) SLV_NAME(f##2)
-#define SLV_NAME_SMALL SLV_NAME
-#define SLV_OWN_SMALL
-#define SLV_NAME_PIVOTS SLV_NAME
-#define SLV_OWN_PIVOTS
+#define SLV_NAME_SHORT SLV_NAME
+#define SLV_OWN_SHORT
 #endif
 
 #ifdef SLI_INL_LANES_NEON
@@ -35464,10 +35454,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 /* src/impl/kernels/words/words_avx512.inl.h: the vocabulary SLV_ in AVX-512F: a vector of 8 doubles is one register */
 
 #define SLV_NAME(f) sli_##f##_avx512
-#define SLV_NAME_4(f) sli_##f##4_avx2
-#define SLV_NAME_2(f) sli_##f##2_avx2
-#define SLV_NAME_SMALL(f) sli_##f##_avx2
-#define SLV_NAME_PIVOTS(f) sli_##f##_avx2
+#define SLV_NAME_SHORT(f) sli_##f##_avx2
 #define SLV_ISA SL_ISA_AVX512
 #define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
 #define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
@@ -35740,12 +35727,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #define SLV_VECTOR_TILES 1
 #define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
 #define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
-#define SLV_NAME_4(f) SLV_NAME(f##4)
-#define SLV_NAME_2(f) SLV_NAME(f##2)
-#define SLV_NAME_SMALL SLV_NAME
-#define SLV_OWN_SMALL
-#define SLV_NAME_PIVOTS SLV_NAME
-#define SLV_OWN_PIVOTS
+#define SLV_NAME_SHORT SLV_NAME
+#define SLV_OWN_SHORT
 #endif
 
 #ifdef SLI_INL_LANES_AVX2
@@ -35888,12 +35871,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #define SLV_VECTOR_TILES 1
 #define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
 #define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
-#define SLV_NAME_4(f) SLV_NAME(f##4)
-#define SLV_NAME_2(f) SLV_NAME(f##2)
-#define SLV_NAME_SMALL SLV_NAME
-#define SLV_OWN_SMALL
-#define SLV_NAME_PIVOTS SLV_NAME
-#define SLV_OWN_PIVOTS
+#define SLV_NAME_SHORT SLV_NAME
+#define SLV_OWN_SHORT
 #define SLV_PLAIN
 #if defined(SLI_X86) || defined(SLI_ARM)
 #define SLV_ARRAYS
@@ -37074,7 +37053,7 @@ SLV_FUNCTION static void SLV_FRONT(product)(const double *panel, sl_int w, const
     SLI_TAKE_PIVOT(k, d) \
     minus_sign[k] = (double)(d < 0 ? 1 : -1); \
     reciprocal[k] = (double)1 / d; \
-    safe &= fabs(d) > SLV_LEAST && fabs(d) < SLV_MOST; \
+    safe &= fabs(d) > 1e-290 && fabs(d) < 1e290; \
     SLI_GAIN(l, a##k, k) \
     SLV_BELOW(l, (k)*SLV_PARTS + SLV_PARTS - 1) \
     SLV_STORE((p) + SLI_TILE * (k), l) \
@@ -37117,9 +37096,8 @@ SLV_FUNCTION static void SLV_FRONT(product)(const double *panel, sl_int w, const
     SLV_STORE(update + SLI_TILE * (k), a##k) \
   }
 
-#if defined(SLV_OWN_PIVOTS)
-SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
-    double *reciprocals) {
+#if defined(SLV_OWN_SHORT)
+SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c, double *reciprocals) {
   const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first) / SLV_PARTS;
   const sl_int all = columns + (f->is_small ? f->below : 0);
 #if !SLV_COMPLEX
@@ -37127,7 +37105,7 @@ SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
   const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
 #endif
   double *p = f->panel + sli_tile_offset(f->width, c) / SLV_PARTS +
-           SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
+        SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
   double *update = f->update;
   double *D = f->D + first, *magnitude = f->magnitude + first;
   double *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
@@ -37212,8 +37190,8 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(catch_up)(const sli_front *f, sl_int firs
     sl_int c1, sl_int t0, sl_int t1, double *B) {
   if (c0 > first) {
     SLV_FRONT(product)
-    (f->panel, f->width, f->D, f->E, t0, t1, c0, c1, SLI_TILE * first,
-     SLI_TILE * c0, f->panel, f->width, 0, B);
+    (f->panel, f->width, f->D, f->E, t0, t1, c0, c1, SLI_TILE * first, SLI_TILE * c0, f->panel,
+     f->width, 0, B);
   }
 }
 
@@ -37228,7 +37206,7 @@ SLV_FUNCTION static void SLV_FRONT(pivots)(const sli_front *f, sl_int c0, void *
     if (!SLV_COMPLEX && sli_tile_has_pairs(f, c)) {
       sli_pair_tile(f, c, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
     } else {
-      SLV_FRONT_PIVOTS(tile_pivots)(f, c, reciprocals);
+      SLV_FRONT_SHORT(tile_pivots)(f, c, reciprocals);
     }
     if (c + 1 < c1) {
       SLV_FRONT(tile_rows)(f, c, c + 1, c1, reciprocals);
@@ -37256,8 +37234,8 @@ SLV_FUNCTION static void SLV_FRONT(update)(const sli_front *f, sl_int c0, sl_int
   sl_int c;
   for (c = c0; c < last; c += SLI_GROUP_TILES) {
     SLV_FRONT(product)
-    (f->panel, w, f->D, f->E, sli_max(t0, c), t1, c,
-     sli_min(c + SLI_GROUP_TILES, last), 0, w, f->update, SLI_TILE * (t1 - c0), c0, B);
+    (f->panel, w, f->D, f->E, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP_TILES, last), 0, w,
+     f->update, SLI_TILE * (t1 - c0), c0, B);
   }
 }
 
@@ -37324,7 +37302,7 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
     SLI_XT(0, 2) \
   }
 
-#if defined(SLV_OWN_SMALL)
+#if defined(SLV_OWN_SHORT)
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
@@ -37675,7 +37653,7 @@ SLV_FUNCTION static void SLV_NAME(complex_forward)(const sli_reach *R, const voi
   const sl_int *rows = R->rows;
   while (s < end) {
     if (SLI_SMALL && s->width <= SLI_TILE) {
-      s = SLV_NAME_SMALL(complex_forward_small)(s, end, &rows, L, x, buf);
+      s = SLV_NAME_SHORT(complex_forward_small)(s, end, &rows, L, x, buf);
     } else {
       SLV_NAME(complex_forward_step)(s, rows, L, x, buf);
       rows += (s++)->below;
@@ -37690,7 +37668,7 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const vo
   const sl_int *rows = R->rows + R->n_rows;
   while (s > begin) {
     if (SLI_SMALL && s[-1].width <= SLI_TILE) {
-      s = SLV_NAME_SMALL(complex_backward_small)(s, begin, &rows, L, D, x);
+      s = SLV_NAME_SHORT(complex_backward_small)(s, begin, &rows, L, D, x);
     } else {
       rows -= (--s)->below;
       SLV_NAME(complex_backward_step)(s, rows, L, D, x, buf);
@@ -37837,7 +37815,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(tile_backward)(const SLV_VALUE *l, double
 #undef SLI_X
 #undef SLI_XT
 /* end of unit_triangle.inl.h */
-#if defined(SLV_OWN_SMALL)
+#if defined(SLV_OWN_SHORT)
 /* src/impl/kernels/sweeps/small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
 
 #if !defined(SLV_PLAIN)
@@ -38242,7 +38220,7 @@ SLV_FUNCTION static void SLV_SWEEP(forward)(const sli_reach *R, const void *valu
     double *xs = x + s->base;
     sl_int i;
     if (w <= SLI_TILE) {
-      s = SLV_SWEEP_SMALL(forward_small)(s, R, &rows, L, x, buf);
+      s = SLV_SWEEP_SHORT(forward_small)(s, R, &rows, L, x, buf);
       continue;
     }
     SLI_COPY(buf + first, xs, w - first);
@@ -38376,7 +38354,7 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
     SLV_DECLARE(v)
     SLV_SUM_DECLARE(a)
     if (w <= SLI_TILE) {
-      s = SLV_SWEEP_SMALL(backward_small)(s + 1, R, &rows_end, L, D, x);
+      s = SLV_SWEEP_SHORT(backward_small)(s + 1, R, &rows_end, L, D, x);
       continue;
     }
     rows = rows_end -= s->below;
@@ -38702,7 +38680,7 @@ SLV_SWEEP(panel_forward2)(const SLV_VALUE *tile, sl_int t0, sl_int w, sl_int hei
     SLV_STORE(p + SLI_TILE, v1)
     if (inner > 0) {
       const sl_int below = sli_min(height - row, SLI_TILE) - inner;
-      SLV_SWEEP_2(forward_small)
+      SLV_SWEEP_SHORT(forward_small2)
       (inner, sli_rows_of(sli_tile_rows + inner, below, 2), tile + SLI_TILE * (ptrdiff_t)row,
        p, p);
     }
@@ -38731,7 +38709,7 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, con
       continue;
     }
     if (w <= SLI_TILE) {
-      SLV_SWEEP_2(forward_small)(w, sli_rows_of(rows, s->below, 2), tile, xs, x);
+      SLV_SWEEP_SHORT(forward_small2)(w, sli_rows_of(rows, s->below, 2), tile, xs, x);
       continue;
     }
     memcpy(buf + 2 * (ptrdiff_t)first, xs, columns * sizeof(double));
@@ -38778,7 +38756,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(panel_backward2)(const sli_step *s
     }
     if (inner > 0) {
       const sl_int below = sli_min(height - row, SLI_TILE) - inner;
-      SLV_SWEEP_2(backward_small)
+      SLV_SWEEP_SHORT(backward_small2)
       (inner, sli_rows_of(sli_tile_rows + inner, below, 2), tile + SLI_TILE * (ptrdiff_t)row,
        NULL, p, p);
     }
@@ -38821,7 +38799,7 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, co
       continue;
     }
     if (w <= SLI_TILE) {
-      SLV_SWEEP_2(backward_small)
+      SLV_SWEEP_SHORT(backward_small2)
       (w, sli_rows_of(rows_end, s->below, 2), tile - SLI_TILE * w, d, xs, x);
       continue;
     }
@@ -39154,12 +39132,12 @@ SLI_GROUPED_KERNELS(64)
 /* src/impl/complex/complex_set.inl.h: the table of the kernels of complex matrices, for one instruction set */
 
 static const sli_complex_kernels SLV_NAME(complex_kernels) = {
-  {{SLV_NAME(complex_forward), SLV_NAME_2(complex_forward), SLV_NAME_4(complex_forward),
+  {{SLV_NAME(complex_forward), SLV_NAME_SHORT(complex_forward2), SLV_NAME_SHORT(complex_forward4),
     SLV_NAME(complex_forward8), SLV_NAME(complex_forward16), SLV_NAME(complex_forward32),
     SLV_NAME(complex_forward64)},
-   {SLV_NAME(complex_backward), SLV_NAME_2(complex_backward), SLV_NAME_4(complex_backward),
-    SLV_NAME(complex_backward8), SLV_NAME(complex_backward16), SLV_NAME(complex_backward32),
-    SLV_NAME(complex_backward64)}},
+   {SLV_NAME(complex_backward), SLV_NAME_SHORT(complex_backward2),
+    SLV_NAME_SHORT(complex_backward4), SLV_NAME(complex_backward8), SLV_NAME(complex_backward16),
+    SLV_NAME(complex_backward32), SLV_NAME(complex_backward64)}},
   {SLV_NAME(complex_pivots), SLV_NAME(complex_rows), SLV_NAME(complex_update),
    SLV_NAME(complex_assemble)}};
 #endif
@@ -39169,13 +39147,13 @@ static const sli_complex_kernels SLV_NAME(complex_kernels) = {
 /* src/impl/float/float_set.inl.h: the table of the kernels of L in float, for one instruction set */
 
 static const sli_float_kernels SLV_NAME(float_kernels) = {
-  {{SLV_NAME(single_forward), SLV_NAME(single_forward2), SLV_NAME_4(single_forward),
+  {{SLV_NAME(single_forward), SLV_NAME(single_forward2), SLV_NAME_SHORT(single_forward4),
     SLV_NAME(single_forward8), SLV_NAME(single_forward16), SLV_NAME(single_forward32),
     SLV_NAME(single_forward64)},
-   {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
+   {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_SHORT(single_backward4),
     SLV_NAME(single_backward8), SLV_NAME(single_backward16), SLV_NAME(single_backward32),
     SLV_NAME(single_backward64)}},
-  SLV_NAME_PIVOTS(single_round)};
+  SLV_NAME_SHORT(single_round)};
 #endif
 
 #ifdef SLI_INL_KERNEL_SET
@@ -39313,9 +39291,9 @@ SLV_FUNCTION static void SLV_NAME(separate)(double *M, size_t ldm, const double 
 
 static const sli_kernels SLV_NAME(kernels) = {
   SLV_ISA,
-  {{SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_4(forward), SLV_NAME(forward8),
+  {{SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_SHORT(forward4), SLV_NAME(forward8),
     SLV_NAME(forward16), SLV_NAME(forward32), SLV_NAME(forward64)},
-   {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME_4(backward), SLV_NAME(backward8),
+   {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME_SHORT(backward4), SLV_NAME(backward8),
     SLV_NAME(backward16), SLV_NAME(backward32), SLV_NAME(backward64)}},
   {SLV_NAME(pivots), SLV_NAME(rows), SLV_NAME(update), SLV_NAME(assemble)},
   SLV_NAME(row),
@@ -39386,12 +39364,8 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_COMPLEX
 
 #undef SLV_NAME
-#undef SLV_NAME_4
-#undef SLV_NAME_2
-#undef SLV_NAME_SMALL
-#undef SLV_OWN_SMALL
-#undef SLV_NAME_PIVOTS
-#undef SLV_OWN_PIVOTS
+#undef SLV_NAME_SHORT
+#undef SLV_OWN_SHORT
 #undef SLV_PLAIN
 #undef SLV_ARRAYS
 #undef SLV_ISA
