@@ -188,7 +188,7 @@ SLV_FUNCTION static void SLV_NAME(complex_forward)(const sli_reach *R, const voi
     const sl_int *rows = R->rows;
     while (s < end) {
         if (SLI_SMALL && s->width <= SLI_TILE) {
-            s = SLV_NAME_SMALL(complex_forward_small)(s, end, &rows, L, x, buf);
+            s = SLV_NAME_SHORT(complex_forward_small)(s, end, &rows, L, x, buf);
         } else {
             SLV_NAME(complex_forward_step)(s, rows, L, x, buf);
             rows += (s++)->below;
@@ -203,7 +203,7 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const vo
     const sl_int *rows = R->rows + R->n_rows;
     while (s > begin) {
         if (SLI_SMALL && s[-1].width <= SLI_TILE) {
-            s = SLV_NAME_SMALL(complex_backward_small)(s, begin, &rows, L, D, x);
+            s = SLV_NAME_SHORT(complex_backward_small)(s, begin, &rows, L, D, x);
         } else {
             rows -= (--s)->below;
             SLV_NAME(complex_backward_step)(s, rows, L, D, x, buf);

@@ -23,7 +23,7 @@
         SLI_XT(0, 2) \
     }
 
-#if defined(SLV_OWN_SMALL)
+#if defined(SLV_OWN_SHORT)
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)

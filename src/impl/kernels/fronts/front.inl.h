@@ -16,7 +16,7 @@
 #endif
 
 /* l(rows, k) = x(rows, k) / d(k); multiplies by 1/d where every |d| of the tile is in
- * SLV_LEAST .. SLV_MOST, so that 1/d neither overflows nor underflows */
+ * 1e-290 .. 1e290, so that 1/d neither overflows nor underflows */
 #define SLI_SCALE(l, x, k) \
     if (by_reciprocal) { \
         SLV_BROADCAST(b, reciprocal + (k)) \
@@ -97,7 +97,7 @@
         SLI_TAKE_PIVOT(k, d) \
         minus_sign[k] = (double)(d < 0 ? 1 : -1); \
         reciprocal[k] = (double)1 / d; \
-        safe &= fabs(d) > SLV_LEAST && fabs(d) < SLV_MOST; \
+        safe &= fabs(d) > 1e-290 && fabs(d) < 1e290; \
         SLI_GAIN(l, a##k, k) \
         SLV_BELOW(l, (k)*SLV_PARTS + SLV_PARTS - 1) \
         SLV_STORE((p) + SLI_TILE * (k), l) \
@@ -143,11 +143,10 @@
         SLV_STORE(update + SLI_TILE * (k), a##k) \
     }
 
-#if defined(SLV_OWN_PIVOTS)
+#if defined(SLV_OWN_SHORT)
 /* The pivots of column tile c, 8 or fewer, and the update matrix of a small front. The columns
  * before it are already applied. */
-SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
-                                                double *reciprocals) {
+SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c, double *reciprocals) {
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first) / SLV_PARTS;
     const sl_int all = columns + (f->is_small ? f->below : 0);
 #if !SLV_COMPLEX
@@ -155,7 +154,7 @@ SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
     const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
 #endif
     double *p = f->panel + sli_tile_offset(f->width, c) / SLV_PARTS +
-                   SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
+                SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
     double *update = f->update;
     double *D = f->D + first, *magnitude = f->magnitude + first;
     double *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
@@ -243,8 +242,8 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(catch_up)(const sli_front *f, sl_int firs
                                                  sl_int c1, sl_int t0, sl_int t1, double *B) {
     if (c0 > first) {
         SLV_FRONT(product)
-        (f->panel, f->width, f->D, f->E, t0, t1, c0, c1, SLI_TILE * first,
-         SLI_TILE * c0, f->panel, f->width, 0, B);
+        (f->panel, f->width, f->D, f->E, t0, t1, c0, c1, SLI_TILE * first, SLI_TILE * c0, f->panel,
+         f->width, 0, B);
     }
 }
 
@@ -259,7 +258,7 @@ SLV_FUNCTION static void SLV_FRONT(pivots)(const sli_front *f, sl_int c0, void *
         if (!SLV_COMPLEX && sli_tile_has_pairs(f, c)) {
             sli_pair_tile(f, c, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
         } else {
-            SLV_FRONT_PIVOTS(tile_pivots)(f, c, reciprocals);
+            SLV_FRONT_SHORT(tile_pivots)(f, c, reciprocals);
         }
         if (c + 1 < c1) {
             SLV_FRONT(tile_rows)(f, c, c + 1, c1, reciprocals);
@@ -287,8 +286,8 @@ SLV_FUNCTION static void SLV_FRONT(update)(const sli_front *f, sl_int c0, sl_int
     sl_int c;
     for (c = c0; c < last; c += SLI_GROUP_TILES) {
         SLV_FRONT(product)
-        (f->panel, w, f->D, f->E, sli_max(t0, c), t1, c,
-         sli_min(c + SLI_GROUP_TILES, last), 0, w, f->update, SLI_TILE * (t1 - c0), c0, B);
+        (f->panel, w, f->D, f->E, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP_TILES, last), 0, w,
+         f->update, SLI_TILE * (t1 - c0), c0, B);
     }
 }
 

@@ -57,7 +57,7 @@ SLV_FUNCTION static void SLV_SWEEP(forward)(const sli_reach *R, const void *valu
         double *xs = x + s->base;
         sl_int i;
         if (w <= SLI_TILE) {
-            s = SLV_SWEEP_SMALL(forward_small)(s, R, &rows, L, x, buf);
+            s = SLV_SWEEP_SHORT(forward_small)(s, R, &rows, L, x, buf);
             continue;
         }
         SLI_COPY(buf + first, xs, w - first);
@@ -204,7 +204,7 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
         SLV_DECLARE(v)
         SLV_SUM_DECLARE(a)
         if (w <= SLI_TILE) {
-            s = SLV_SWEEP_SMALL(backward_small)(s + 1, R, &rows_end, L, D, x);
+            s = SLV_SWEEP_SHORT(backward_small)(s + 1, R, &rows_end, L, D, x);
             continue;
         }
         rows = rows_end -= s->below;

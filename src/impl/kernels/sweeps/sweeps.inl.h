@@ -1,7 +1,7 @@
 /* sweeps.inl.h: the sweeps for one right-hand side, for one type of L */
 
 #include "unit_triangle.inl.h"
-#if defined(SLV_OWN_SMALL)
+#if defined(SLV_OWN_SHORT)
 #include "small_supernode.inl.h"
 #endif
 #include "single_rhs.inl.h"

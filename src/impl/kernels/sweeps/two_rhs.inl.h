@@ -53,7 +53,7 @@ SLV_SWEEP(panel_forward2)(const SLV_VALUE *tile, sl_int t0, sl_int w, sl_int hei
         SLV_STORE(p + SLI_TILE, v1)
         if (inner > 0) {
             const sl_int below = sli_min(height - row, SLI_TILE) - inner;
-            SLV_SWEEP_2(forward_small)
+            SLV_SWEEP_SHORT(forward_small2)
             (inner, sli_rows_of(sli_tile_rows + inner, below, 2), tile + SLI_TILE * (ptrdiff_t)row,
              p, p);
         }
@@ -82,7 +82,7 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, con
             continue;
         }
         if (w <= SLI_TILE) {
-            SLV_SWEEP_2(forward_small)(w, sli_rows_of(rows, s->below, 2), tile, xs, x);
+            SLV_SWEEP_SHORT(forward_small2)(w, sli_rows_of(rows, s->below, 2), tile, xs, x);
             continue;
         }
         memcpy(buf + 2 * (ptrdiff_t)first, xs, columns * sizeof(double));
@@ -131,7 +131,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(panel_backward2)(const sli_step *s
         }
         if (inner > 0) {
             const sl_int below = sli_min(height - row, SLI_TILE) - inner;
-            SLV_SWEEP_2(backward_small)
+            SLV_SWEEP_SHORT(backward_small2)
             (inner, sli_rows_of(sli_tile_rows + inner, below, 2), tile + SLI_TILE * (ptrdiff_t)row,
              NULL, p, p);
         }
@@ -174,7 +174,7 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, co
             continue;
         }
         if (w <= SLI_TILE) {
-            SLV_SWEEP_2(backward_small)
+            SLV_SWEEP_SHORT(backward_small2)
             (w, sli_rows_of(rows_end, s->below, 2), tile - SLI_TILE * w, d, xs, x);
             continue;
         }

@@ -19,15 +19,11 @@
  * SLV_: a, b, c are vectors of 8 doubles, the lanes: one column of a row tile.
  *
  *  SLV_NAME(f)            name of function f in this instruction set
- *  SLV_NAME_4(f)          name of sweep f for 4 right-hand sides
- *  SLV_NAME_2(f)          the same for 2 right-hand sides, of a complex sweep and of one through a
- *                         supernode of at most 8 columns
- *  SLV_NAME_SMALL(f)      name of sweep f for one right-hand side and a supernode of at most 8
- *                         columns; with SLV_OWN_SMALL it is compiled for this instruction set
+ *  SLV_NAME_SHORT(f)      name of f where it gains nothing from longer registers: for 2 and 4
+ *                         right-hand sides, supernodes of at most 8 columns, tiles of pivots
+ *  SLV_OWN_SHORT          defined: this is SLV_NAME, and f is compiled for this instruction set
  *  SLV_PLAIN              defined: this is plain C
  *  SLV_ARRAYS             defined: vectors are arrays, and tiles of fronts are computed in loops
- *  SLV_NAME_PIVOTS(f)     name of the function for a tile of pivots, and of others that gain
- *                         nothing from longer registers; SLV_OWN_PIVOTS: SLV_NAME
  *  SLV_ISA, SLV_FUNCTION  its sl_isa; the attributes of a function
  *  SLV_FNMA1(a, b, c)     scalars: c - a b, fused where the vectors are
  *  SLV_DECLARE(a)         declares a
@@ -57,9 +53,8 @@
  *  What depends on the type of L:
  *
  *  SLV_VALUE              the type of an entry of L
- *  SLV_LEAST, SLV_MOST    the reciprocal of a number between them neither overflows nor underflows
- *  SLV_SWEEP(f)           SLV_NAME of a function that reads L. SLV_SWEEP_2(f): SLV_NAME_2,
- *                         SLW_SWEEP(f): SLW_NAME of one
+ *  SLV_SWEEP(f)           SLV_NAME of a function that reads L. SLV_SWEEP_SHORT(f): its
+ *                         SLV_NAME_SHORT, SLW_SWEEP(f): its SLW_NAME
  *  SLV_READ(l)            what SLV_AXPY, SLV_DOT, SLV_SUM_DOT and SLV_REPEAT_ROWS load, as doubles;
  *                         each instruction set defines SLV_READ_0 for double, SLV_READ_1 for float
  *  SLV_WIDE(v, columns)   declares v for SLV_WIDEN(v, l, columns, rows): v = columns 0 .. columns-1
@@ -178,14 +173,11 @@
         } \
     }
 #define SLV_VALUE SLI_BY_TYPE(SLI_VALUE_, SLV_SINGLE)
-#define SLV_LEAST 1e-290
-#define SLV_MOST 1e290
 #define SLV_PARTS (1 + SLV_COMPLEX)
 #define SLV_FRONT(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME, f)
-#define SLV_FRONT_PIVOTS(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME_PIVOTS, f)
+#define SLV_FRONT_SHORT(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME_SHORT, f)
 #define SLV_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME, f)
-#define SLV_SWEEP_SMALL(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME_SMALL, f)
-#define SLV_SWEEP_2(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME_2, f)
+#define SLV_SWEEP_SHORT(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME_SHORT, f)
 #define SLW_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_NAME, f)
 #define SLW_SWEEP_HALF(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_HALF, f)
 #define SLV_READ(l) SLI_BY_TYPE(SLV_READ_, SLV_SINGLE)(l)

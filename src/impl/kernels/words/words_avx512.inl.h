@@ -1,15 +1,11 @@
 /* words_avx512.inl.h: the vocabulary SLV_ in AVX-512F: a vector of 8 doubles is one register */
 
 #define SLV_NAME(f) sli_##f##_avx512
-/* 4 right-hand sides are one 256-bit register: AVX2's kernels do the same operations. */
-#define SLV_NAME_4(f) sli_##f##4_avx2
-#define SLV_NAME_2(f) sli_##f##2_avx2
-/* One right-hand side in supernodes of at most 8 columns gains nothing from longer registers: with
- * AVX-512 here, solves with 400 to 3600 unknowns took 1.03 to 1.08 of the time. */
-#define SLV_NAME_SMALL(f) sli_##f##_avx2
-/* The columns of a tile of pivots wait for each other's divisions, and a longer register divides
- * half as fast. */
-#define SLV_NAME_PIVOTS(f) sli_##f##_avx2
+/* Kernels of AVX2 do the same operations. 4 right-hand sides are one 256-bit register. One in
+ * supernodes of at most 8 columns gains nothing from longer ones: with AVX-512 here, solves with
+ * 400 to 3600 unknowns took 1.03 to 1.08 of the time. The columns of a tile of pivots wait for each
+ * other's divisions, and a longer register divides half as fast. */
+#define SLV_NAME_SHORT(f) sli_##f##_avx2
 #define SLV_ISA SL_ISA_AVX512
 #define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
 #define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)

@@ -79,12 +79,8 @@
 #define SLV_VECTOR_TILES 1
 #define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
 #define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
-#define SLV_NAME_4(f) SLV_NAME(f##4)
-#define SLV_NAME_2(f) SLV_NAME(f##2)
-#define SLV_NAME_SMALL SLV_NAME
-#define SLV_OWN_SMALL
-#define SLV_NAME_PIVOTS SLV_NAME
-#define SLV_OWN_PIVOTS
+#define SLV_NAME_SHORT SLV_NAME
+#define SLV_OWN_SHORT
 #define SLV_PLAIN
 #if defined(SLI_X86) || defined(SLI_ARM) /* few processors there run plain C */
 #define SLV_ARRAYS

@@ -4,12 +4,8 @@
 #undef SLV_COMPLEX
 
 #undef SLV_NAME
-#undef SLV_NAME_4
-#undef SLV_NAME_2
-#undef SLV_NAME_SMALL
-#undef SLV_OWN_SMALL
-#undef SLV_NAME_PIVOTS
-#undef SLV_OWN_PIVOTS
+#undef SLV_NAME_SHORT
+#undef SLV_OWN_SHORT
 #undef SLV_PLAIN
 #undef SLV_ARRAYS
 #undef SLV_ISA
