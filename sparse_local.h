@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e7708cb46f27cc06
+ * FNV-1a of the lines after this comment, without the license: bd0397345c81cd6d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -4596,7 +4596,7 @@ typedef struct sli_kernels {
   sli_separate_kernel separate;
 } sli_kernels;
 
-/* src/impl/kernels/simd.h: the SIMD vocabulary of the kernel templates, and macros that repeat code */
+/* src/impl/kernels/words/simd.h: the SIMD vocabulary of the kernel templates, and macros that repeat code */
 
 #define SLI_EACH4(op, k) op(0, k) op(1, k) op(2, k) op(3, k)
 #define SLI_EACH8(op, k) SLI_EACH4(op, k) op(4, k) op(5, k) op(6, k) op(7, k)
@@ -4688,7 +4688,7 @@ typedef struct sli_kernels {
 #define SLV_WIDE(v, columns) SLI_BY_TYPE(SLI_WIDE_, SLV_SINGLE)(v, columns)
 #define SLV_WIDEN(v, l, columns, rows) SLI_BY_TYPE(SLI_WIDEN_, SLV_SINGLE)(v, l, columns, rows)
 
-/* src/impl/kernels/simd_scalar.h: the kernels in plain C */
+/* src/impl/kernels/words/simd_scalar.h: the kernels in plain C */
 
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
@@ -4716,7 +4716,7 @@ typedef struct sli_kernels {
 #ifdef SLI_INL_WORDS_UNDEF
 #error "sparse_local.h: SL_HEADER names another file, not this one"
 #endif
-/* src/impl/kernels/simd_avx2.h: the kernels in AVX2 and FMA */
+/* src/impl/kernels/words/simd_avx2.h: the kernels in AVX2 and FMA */
 
 #if defined(SLI_X86)
 
@@ -4787,7 +4787,7 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #include SL_HEADER
 #endif
 
-/* src/impl/kernels/simd_avx512.h: the kernels in AVX-512F; some are those of AVX2 */
+/* src/impl/kernels/words/simd_avx512.h: the kernels in AVX-512F; some are those of AVX2 */
 
 #if defined(SLI_X86) && !defined(SL_NO_AVX512)
 
@@ -4819,7 +4819,7 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #include SL_HEADER
 #endif
 
-/* src/impl/kernels/simd_neon.h: the kernels in NEON */
+/* src/impl/kernels/words/simd_neon.h: the kernels in NEON */
 
 #if defined(SLI_ARM)
 
@@ -7977,7 +7977,7 @@ SLI_TARGET("avx2,popcnt") static void sli_mindeg_run_avx2(sli_mindeg *m, sl_int 
 }
 #endif
 
-static int sli_mindeg_has_avx2(sl_int n) {
+static int sli_mindeg_is_wide(sl_int n) {
   return n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
 }
 
@@ -8929,7 +8929,7 @@ static sl_status sli_order_nd(const sli_order_job *job) {
     sli_nd_layout(&w, &b);
   }
   if (status == SL_OK) {
-    const int has_avx2 = sli_mindeg_has_avx2(w.G->n);
+    const int has_avx2 = sli_mindeg_is_wide(w.G->n);
     for (k = 0; k < job->team->workers; k++) {
       w.d.workers[k].mindeg.has_avx2 = has_avx2;
     }
@@ -35254,7 +35254,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_INL_WORDS_NEON
 #undef SLI_INL_WORDS_NEON
-/* src/impl/kernels/words_neon.inl.h: the vocabulary SLV_ in NEON: a vector of 8 doubles is four registers */
+/* src/impl/kernels/words/words_neon.inl.h: the vocabulary SLV_ in NEON: a vector of 8 doubles is four registers */
 
 #define SLV_NAME(f) sli_##f##_neon
 #define SLV_ISA SL_ISA_NEON
@@ -35397,7 +35397,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_INL_LANES_NEON
 #undef SLI_INL_LANES_NEON
-/* src/impl/kernels/lanes_neon.inl.h: the vocabulary SLW_ in NEON, for SLW_NRHS right-hand sides */
+/* src/impl/kernels/words/lanes_neon.inl.h: the vocabulary SLW_ in NEON, for SLW_NRHS right-hand sides */
 
 #if SLW_NRHS == 2
 #define SLW_NAME(f) sli_##f##2_neon
@@ -35471,7 +35471,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_INL_WORDS_AVX512
 #undef SLI_INL_WORDS_AVX512
-/* src/impl/kernels/words_avx512.inl.h: the vocabulary SLV_ in AVX-512F: a vector of 8 doubles is one register */
+/* src/impl/kernels/words/words_avx512.inl.h: the vocabulary SLV_ in AVX-512F: a vector of 8 doubles is one register */
 
 #define SLV_NAME(f) sli_##f##_avx512
 #define SLV_NAME_4(f) sli_##f##4_avx2
@@ -35577,7 +35577,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_INL_LANES_AVX512
 #undef SLI_INL_LANES_AVX512
-/* src/impl/kernels/lanes_avx512.inl.h: the vocabulary SLW_ in AVX-512F, for SLW_NRHS right-hand sides */
+/* src/impl/kernels/words/lanes_avx512.inl.h: the vocabulary SLW_ in AVX-512F, for SLW_NRHS right-hand sides */
 
 #if SLW_NRHS == 8
 #define SLW_NAME(f) sli_##f##8_avx512
@@ -35619,7 +35619,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_INL_WORDS_AVX2
 #undef SLI_INL_WORDS_AVX2
-/* src/impl/kernels/words_avx2.inl.h: the vocabulary SLV_ in AVX2 and FMA: a vector of 8 doubles is two registers */
+/* src/impl/kernels/words/words_avx2.inl.h: the vocabulary SLV_ in AVX2 and FMA: a vector of 8 doubles is two registers */
 
 #define SLV_NAME(f) sli_##f##_avx2
 #define SLV_ISA SL_ISA_AVX2
@@ -35760,7 +35760,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_INL_LANES_AVX2
 #undef SLI_INL_LANES_AVX2
-/* src/impl/kernels/lanes_avx2.inl.h: the vocabulary SLW_ in AVX2 and FMA, for SLW_NRHS right-hand sides */
+/* src/impl/kernels/words/lanes_avx2.inl.h: the vocabulary SLW_ in AVX2 and FMA, for SLW_NRHS right-hand sides */
 
 #if SLW_NRHS == 2
 #define SLW_NAME(f) sli_##f##2_avx2
@@ -35817,7 +35817,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #ifdef SLI_INL_WORDS_SCALAR
 #undef SLI_INL_WORDS_SCALAR
-/* src/impl/kernels/words_scalar.inl.h: the vocabulary SLV_ in plain C: a vector is an array */
+/* src/impl/kernels/words/words_scalar.inl.h: the vocabulary SLV_ in plain C: a vector is an array */
 
 #define SLV_NAME(f) sli_##f##_scalar
 #define SLV_ISA SL_ISA_SCALAR
@@ -36338,7 +36338,7 @@ static const sli_change_kernels SLV_NAME(change_kernels) = {
 
 #ifdef SLI_INL_LANES_SCALAR
 #undef SLI_INL_LANES_SCALAR
-/* src/impl/kernels/lanes_scalar.inl.h: the vocabulary SLW_ in plain C, for SLW_NRHS right-hand sides */
+/* src/impl/kernels/words/lanes_scalar.inl.h: the vocabulary SLW_ in plain C, for SLW_NRHS right-hand sides */
 
 #if SLW_NRHS == 2
 #define SLW_NAME(f) sli_##f##2_scalar
@@ -36731,7 +36731,7 @@ static const sli_inverse_kernels SLV_NAME(inverse_kernels) = {
 
 #ifdef SLI_INL_COPY_ROWS
 #undef SLI_INL_COPY_ROWS
-/* src/impl/kernels/copy_rows.inl.h: rows of several right-hand sides to a buffer and back */
+/* src/impl/kernels/sweeps/copy_rows.inl.h: rows of several right-hand sides to a buffer and back */
 
 SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, const double *own,
     sli_rows below, const double *x) {
@@ -36768,9 +36768,9 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
 
 #ifdef SLI_INL_FRONT
 #undef SLI_INL_FRONT
-/* src/impl/kernels/front.inl.h: factors the panel of a front, computes its update matrix, assembles a front */
+/* src/impl/kernels/fronts/front.inl.h: factors the panel of a front, computes its update matrix, assembles a front */
 
-/* src/impl/kernels/product.inl.h: C -= A D B' on tiles, the inner loop of the factorization */
+/* src/impl/kernels/fronts/product.inl.h: C -= A D B' on tiles, the inner loop of the factorization */
 
 #if SLV_VECTOR_TILES == 1
 #define SLI_LOAD_ROWS(a, p, q) SLV_LOAD_PINNED(a, p)
@@ -37811,9 +37811,9 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const vo
 
 #ifdef SLI_INL_SWEEPS
 #undef SLI_INL_SWEEPS
-/* src/impl/kernels/sweeps.inl.h: the sweeps for one right-hand side, for one type of L */
+/* src/impl/kernels/sweeps/sweeps.inl.h: the sweeps for one right-hand side, for one type of L */
 
-/* src/impl/kernels/unit_triangle.inl.h: one right-hand side through the unit triangle of a diagonal tile */
+/* src/impl/kernels/sweeps/unit_triangle.inl.h: one right-hand side through the unit triangle of a diagonal tile */
 
 #define SLI_X(k, j) r##k = SLV_FNMA1(v[SLI_TILE * j + k], r##j, r##k);
 #define SLI_XT(j, k) r##j = SLV_FNMA1(v[SLI_TILE * j + k], r##k, r##j);
@@ -37850,7 +37850,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(tile_backward)(const SLV_VALUE *l, double
 #undef SLI_XT
 /* end of unit_triangle.inl.h */
 #if defined(SLV_OWN_SMALL)
-/* src/impl/kernels/small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
+/* src/impl/kernels/sweeps/small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
 
 #if !defined(SLV_PLAIN)
 #define SLI_HAS(k) ((k) < 2 || (k) < w)
@@ -38199,7 +38199,7 @@ SLV_SWEEP(backward_small)(const sli_step *s, const sli_reach *R, const sl_int **
 #undef SLI_ROW
 /* end of small_supernode.inl.h */
 #endif
-/* src/impl/kernels/single_rhs.inl.h: sweeps for one right-hand side, vectorized over the 8 rows of a tile */
+/* src/impl/kernels/sweeps/single_rhs.inl.h: sweeps for one right-hand side, vectorized over the 8 rows of a tile */
 
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(panel_forward)(const SLV_VALUE *tile, sl_int t0,
     sl_int width, sl_int columns, sl_int rows,
@@ -38434,7 +38434,7 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 
 #ifdef SLI_INL_MULTI_RHS
 #undef SLI_INL_MULTI_RHS
-/* src/impl/kernels/multi_rhs.inl.h: what row tiles of L do to several right-hand sides of a real matrix */
+/* src/impl/kernels/sweeps/multi_rhs.inl.h: what row tiles of L do to several right-hand sides of a real matrix */
 
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
 #define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*distance)
@@ -38507,7 +38507,7 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
   SLW_LOW(SLI_ROW, 0)
 
 #if SLW_ROWS == 8 || defined(SLW_HALF)
-/* src/impl/kernels/multi_rhs_small.inl.h: several right-hand sides through a supernode of at most 8 columns */
+/* src/impl/kernels/sweeps/multi_rhs_small.inl.h: several right-hand sides through a supernode of at most 8 columns */
 
 #if !defined(SLW_HALF)
 #define SLI_LOAD_OWN(k, p) \
@@ -38658,7 +38658,7 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
 
 #ifdef SLI_INL_TWO_RHS
 #undef SLI_INL_TWO_RHS
-/* src/impl/kernels/two_rhs.inl.h: sweeps for two right-hand sides, vectorized over the 8 rows of a tile */
+/* src/impl/kernels/sweeps/two_rhs.inl.h: sweeps for two right-hand sides, vectorized over the 8 rows of a tile */
 
 #define SLI_TWO_AXPY(v, l, p) \
   SLV_REPEAT(b, p) \
@@ -38829,7 +38829,7 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, co
 
 #ifdef SLI_INL_MULTI_RHS_TILES
 #undef SLI_INL_MULTI_RHS_TILES
-/* src/impl/kernels/multi_rhs_tiles.inl.h: several right-hand sides through supernodes of any width, by row tiles */
+/* src/impl/kernels/sweeps/multi_rhs_tiles.inl.h: several right-hand sides through supernodes of any width, by row tiles */
 
 #define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below.index[r] * stride)
 #define SLI_ZERO_ROW(r, unused) SLW_ZERO(a##r)
@@ -39129,7 +39129,7 @@ static const sli_float_kernels SLV_NAME(float_kernels) = {
 #undef SLI_INL_KERNEL_SET
 /* src/impl/kernels/kernel_set.inl.h: the other kernels of one instruction set, and its table */
 
-/* src/impl/kernels/row.inl.h: one row of L in the up-looking factorization */
+/* src/impl/kernels/fronts/row.inl.h: one row of L in the up-looking factorization */
 
 SLV_FUNCTION static void SLV_NAME(row)(sli_row *k, const sli_step *s, sl_int q,
     const sl_int *rows) {
@@ -39166,7 +39166,7 @@ SLV_FUNCTION static void SLV_NAME(row)(sli_row *k, const sli_step *s, sl_int q,
   k->magnitude = size;
 }
 /* end of row.inl.h */
-/* src/impl/kernels/interleave.inl.h: 8 columns of a dense block to interleaved rows of a vector, and back */
+/* src/impl/kernels/sweeps/interleave.inl.h: 8 columns of a dense block to interleaved rows of a vector, and back */
 
 #if !defined(SLV_PLAIN)
 #define SLI_UNROLL_ROWS SLI_UNROLL
@@ -39272,7 +39272,7 @@ static const sli_kernels SLV_NAME(kernels) = {
 
 #ifdef SLI_INL_LANES_UNDEF
 #undef SLI_INL_LANES_UNDEF
-/* src/impl/kernels/lanes_undef.inl.h: undefines the SIMD vocabulary of one number of right-hand sides, and what */
+/* src/impl/kernels/words/lanes_undef.inl.h: undefines the SIMD vocabulary of one number of right-hand sides, and what */
 
 #undef SLW_NAME
 #undef SLW_NRHS
@@ -39327,7 +39327,7 @@ static const sli_kernels SLV_NAME(kernels) = {
 
 #ifdef SLI_INL_WORDS_UNDEF
 #undef SLI_INL_WORDS_UNDEF
-/* src/impl/kernels/words_undef.inl.h: undefines the SIMD vocabulary after the last template of a file simd_*.h */
+/* src/impl/kernels/words/words_undef.inl.h: undefines the SIMD vocabulary after the last template of a file simd_*.h */
 
 #undef SLV_SINGLE
 #undef SLV_COMPLEX
