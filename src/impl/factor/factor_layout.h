@@ -6,6 +6,7 @@
 #include "../analysis/schedule.h"
 #include "../analysis/symbolic.h"
 #include "components.h"
+#include "storage_type.h"
 
 /* What a factorization leaves and solves read, and the options that the next one needs. has_mass:
  * there are weights. A saved factor has these arrays in this order (save/format.h). */
