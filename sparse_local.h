@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 32c45f638b51ba68
+ * FNV-1a of the lines after this comment, without the license: d3b578ec8f805efb
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -34,27 +34,27 @@
  *   2729 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   2772 impl/ base: the compiler, status, memory, sorting, threads
  *   4074 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4978 impl/ matrix: sparse matrices of the caller and of the library
- *   5782 impl/ ordering: fill-reducing orderings of a graph
- *  10382 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12624 impl/ factor: the numbers of L and D
- *  15206 impl/ solve: full and local solves
- *  16712 impl/ singular: null spaces of semidefinite matrices
- *  17983 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20004 impl/ pivots: the order of the pivots by the values of a matrix
- *  20412 impl/ float: L in single precision
- *  20642 impl/ inverse: entries of the inverse, regions
- *  23554 impl/ change: a factor that follows changes of its matrix
- *  25832 impl/ constraints: rows held at values, on a factor that stays
- *  27141 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  29881 impl/ fixed: rows fixed at given values
- *  30440 impl/ io: files that are replaced only when they are complete
- *  30658 impl/ files: Matrix Market files, 64-bit indices
- *  31204 impl/ save: factors in files
- *  33177 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33863 impl/ complex: complex Hermitian systems over real factors
- *  34368 impl/ packs: the tables through which the core calls packs
- *  34758 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4975 impl/ matrix: sparse matrices of the caller and of the library
+ *   5779 impl/ ordering: fill-reducing orderings of a graph
+ *  10379 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12621 impl/ factor: the numbers of L and D
+ *  15203 impl/ solve: full and local solves
+ *  16709 impl/ singular: null spaces of semidefinite matrices
+ *  17980 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20001 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20409 impl/ float: L in single precision
+ *  20639 impl/ inverse: entries of the inverse, regions
+ *  23551 impl/ change: a factor that follows changes of its matrix
+ *  25829 impl/ constraints: rows held at values, on a factor that stays
+ *  27138 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  29878 impl/ fixed: rows fixed at given values
+ *  30437 impl/ io: files that are replaced only when they are complete
+ *  30655 impl/ files: Matrix Market files, 64-bit indices
+ *  31201 impl/ save: factors in files
+ *  33174 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33860 impl/ complex: complex Hermitian systems over real factors
+ *  34365 impl/ packs: the tables through which the core calls packs
+ *  34752 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4670,14 +4670,11 @@ typedef struct sli_kernels {
     } \
   }
 #define SLV_VALUE SLI_BY_TYPE(SLI_VALUE_, SLV_SINGLE)
-#define SLV_LEAST 1e-290
-#define SLV_MOST 1e290
 #define SLV_PARTS (1 + SLV_COMPLEX)
 #define SLV_FRONT(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME, f)
-#define SLV_FRONT_PIVOTS(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME_PIVOTS, f)
+#define SLV_FRONT_SHORT(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME_SHORT, f)
 #define SLV_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME, f)
-#define SLV_SWEEP_SMALL(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME_SMALL, f)
-#define SLV_SWEEP_2(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME_2, f)
+#define SLV_SWEEP_SHORT(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME_SHORT, f)
 #define SLW_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_NAME, f)
 #define SLW_SWEEP_HALF(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_HALF, f)
 #define SLV_READ(l) SLI_BY_TYPE(SLV_READ_, SLV_SINGLE)(l)
@@ -34523,14 +34520,11 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_WIDEN_0
 #undef SLI_WIDEN_1
 #undef SLV_VALUE
-#undef SLV_LEAST
-#undef SLV_MOST
 #undef SLV_PARTS
 #undef SLV_FRONT
-#undef SLV_FRONT_PIVOTS
+#undef SLV_FRONT_SHORT
 #undef SLV_SWEEP
-#undef SLV_SWEEP_SMALL
-#undef SLV_SWEEP_2
+#undef SLV_SWEEP_SHORT
 #undef SLW_SWEEP
 #undef SLW_SWEEP_HALF
 #undef SLV_READ
@@ -35387,12 +35381,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #define SLV_VECTOR_TILES 1
 #define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
 #define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
-#define SLV_NAME_4(f) SLV_NAME(f##4)
-#define SLV_NAME_2(f) SLV_NAME(f##2)
-#define SLV_NAME_SMALL SLV_NAME
-#define SLV_OWN_SMALL
-#define SLV_NAME_PIVOTS SLV_NAME
-#define SLV_OWN_PIVOTS
+#define SLV_NAME_SHORT SLV_NAME
+#define SLV_OWN_SHORT
 #endif
 
 #ifdef SLI_INL_LANES_NEON
@@ -35474,10 +35464,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 /* src/impl/kernels/words/words_avx512.inl.h: the vocabulary SLV_ in AVX-512F: a vector of 8 doubles is one register */
 
 #define SLV_NAME(f) sli_##f##_avx512
-#define SLV_NAME_4(f) sli_##f##4_avx2
-#define SLV_NAME_2(f) sli_##f##2_avx2
-#define SLV_NAME_SMALL(f) sli_##f##_avx2
-#define SLV_NAME_PIVOTS(f) sli_##f##_avx2
+#define SLV_NAME_SHORT(f) sli_##f##_avx2
 #define SLV_ISA SL_ISA_AVX512
 #define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
 #define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
@@ -35750,12 +35737,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #define SLV_VECTOR_TILES 1
 #define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
 #define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
-#define SLV_NAME_4(f) SLV_NAME(f##4)
-#define SLV_NAME_2(f) SLV_NAME(f##2)
-#define SLV_NAME_SMALL SLV_NAME
-#define SLV_OWN_SMALL
-#define SLV_NAME_PIVOTS SLV_NAME
-#define SLV_OWN_PIVOTS
+#define SLV_NAME_SHORT SLV_NAME
+#define SLV_OWN_SHORT
 #endif
 
 #ifdef SLI_INL_LANES_AVX2
@@ -35898,12 +35881,8 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #define SLV_VECTOR_TILES 1
 #define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
 #define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
-#define SLV_NAME_4(f) SLV_NAME(f##4)
-#define SLV_NAME_2(f) SLV_NAME(f##2)
-#define SLV_NAME_SMALL SLV_NAME
-#define SLV_OWN_SMALL
-#define SLV_NAME_PIVOTS SLV_NAME
-#define SLV_OWN_PIVOTS
+#define SLV_NAME_SHORT SLV_NAME
+#define SLV_OWN_SHORT
 #define SLV_PLAIN
 #if defined(SLI_X86) || defined(SLI_ARM)
 #define SLV_ARRAYS
@@ -37084,7 +37063,7 @@ SLV_FUNCTION static void SLV_FRONT(product)(const double *panel, sl_int w, const
     SLI_TAKE_PIVOT(k, d) \
     minus_sign[k] = (double)(d < 0 ? 1 : -1); \
     reciprocal[k] = (double)1 / d; \
-    safe &= fabs(d) > SLV_LEAST && fabs(d) < SLV_MOST; \
+    safe &= fabs(d) > 1e-290 && fabs(d) < 1e290; \
     SLI_GAIN(l, a##k, k) \
     SLV_BELOW(l, (k)*SLV_PARTS + SLV_PARTS - 1) \
     SLV_STORE((p) + SLI_TILE * (k), l) \
@@ -37127,9 +37106,8 @@ SLV_FUNCTION static void SLV_FRONT(product)(const double *panel, sl_int w, const
     SLV_STORE(update + SLI_TILE * (k), a##k) \
   }
 
-#if defined(SLV_OWN_PIVOTS)
-SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
-    double *reciprocals) {
+#if defined(SLV_OWN_SHORT)
+SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c, double *reciprocals) {
   const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first) / SLV_PARTS;
   const sl_int all = columns + (f->is_small ? f->below : 0);
 #if !SLV_COMPLEX
@@ -37137,7 +37115,7 @@ SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
   const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
 #endif
   double *p = f->panel + sli_tile_offset(f->width, c) / SLV_PARTS +
-           SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
+        SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
   double *update = f->update;
   double *D = f->D + first, *magnitude = f->magnitude + first;
   double *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
@@ -37222,8 +37200,8 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(catch_up)(const sli_front *f, sl_int firs
     sl_int c1, sl_int t0, sl_int t1, double *B) {
   if (c0 > first) {
     SLV_FRONT(product)
-    (f->panel, f->width, f->D, f->E, t0, t1, c0, c1, SLI_TILE * first,
-     SLI_TILE * c0, f->panel, f->width, 0, B);
+    (f->panel, f->width, f->D, f->E, t0, t1, c0, c1, SLI_TILE * first, SLI_TILE * c0, f->panel,
+     f->width, 0, B);
   }
 }
 
@@ -37238,7 +37216,7 @@ SLV_FUNCTION static void SLV_FRONT(pivots)(const sli_front *f, sl_int c0, void *
     if (!SLV_COMPLEX && sli_tile_has_pairs(f, c)) {
       sli_pair_tile(f, c, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
     } else {
-      SLV_FRONT_PIVOTS(tile_pivots)(f, c, reciprocals);
+      SLV_FRONT_SHORT(tile_pivots)(f, c, reciprocals);
     }
     if (c + 1 < c1) {
       SLV_FRONT(tile_rows)(f, c, c + 1, c1, reciprocals);
@@ -37266,8 +37244,8 @@ SLV_FUNCTION static void SLV_FRONT(update)(const sli_front *f, sl_int c0, sl_int
   sl_int c;
   for (c = c0; c < last; c += SLI_GROUP_TILES) {
     SLV_FRONT(product)
-    (f->panel, w, f->D, f->E, sli_max(t0, c), t1, c,
-     sli_min(c + SLI_GROUP_TILES, last), 0, w, f->update, SLI_TILE * (t1 - c0), c0, B);
+    (f->panel, w, f->D, f->E, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP_TILES, last), 0, w,
+     f->update, SLI_TILE * (t1 - c0), c0, B);
   }
 }
 
@@ -37334,7 +37312,7 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
     SLI_XT(0, 2) \
   }
 
-#if defined(SLV_OWN_SMALL)
+#if defined(SLV_OWN_SHORT)
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
@@ -37685,7 +37663,7 @@ SLV_FUNCTION static void SLV_NAME(complex_forward)(const sli_reach *R, const voi
   const sl_int *rows = R->rows;
   while (s < end) {
     if (SLI_SMALL && s->width <= SLI_TILE) {
-      s = SLV_NAME_SMALL(complex_forward_small)(s, end, &rows, L, x, buf);
+      s = SLV_NAME_SHORT(complex_forward_small)(s, end, &rows, L, x, buf);
     } else {
       SLV_NAME(complex_forward_step)(s, rows, L, x, buf);
       rows += (s++)->below;
@@ -37700,7 +37678,7 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const vo
   const sl_int *rows = R->rows + R->n_rows;
   while (s > begin) {
     if (SLI_SMALL && s[-1].width <= SLI_TILE) {
-      s = SLV_NAME_SMALL(complex_backward_small)(s, begin, &rows, L, D, x);
+      s = SLV_NAME_SHORT(complex_backward_small)(s, begin, &rows, L, D, x);
     } else {
       rows -= (--s)->below;
       SLV_NAME(complex_backward_step)(s, rows, L, D, x, buf);
@@ -37847,7 +37825,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(tile_backward)(const SLV_VALUE *l, double
 #undef SLI_X
 #undef SLI_XT
 /* end of unit_triangle.inl.h */
-#if defined(SLV_OWN_SMALL)
+#if defined(SLV_OWN_SHORT)
 /* src/impl/kernels/sweeps/small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
 
 #if !defined(SLV_PLAIN)
@@ -38252,7 +38230,7 @@ SLV_FUNCTION static void SLV_SWEEP(forward)(const sli_reach *R, const void *valu
     double *xs = x + s->base;
     sl_int i;
     if (w <= SLI_TILE) {
-      s = SLV_SWEEP_SMALL(forward_small)(s, R, &rows, L, x, buf);
+      s = SLV_SWEEP_SHORT(forward_small)(s, R, &rows, L, x, buf);
       continue;
     }
     SLI_COPY(buf + first, xs, w - first);
@@ -38386,7 +38364,7 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
     SLV_DECLARE(v)
     SLV_SUM_DECLARE(a)
     if (w <= SLI_TILE) {
-      s = SLV_SWEEP_SMALL(backward_small)(s + 1, R, &rows_end, L, D, x);
+      s = SLV_SWEEP_SHORT(backward_small)(s + 1, R, &rows_end, L, D, x);
       continue;
     }
     rows = rows_end -= s->below;
@@ -38712,7 +38690,7 @@ SLV_SWEEP(panel_forward2)(const SLV_VALUE *tile, sl_int t0, sl_int w, sl_int hei
     SLV_STORE(p + SLI_TILE, v1)
     if (inner > 0) {
       const sl_int below = sli_min(height - row, SLI_TILE) - inner;
-      SLV_SWEEP_2(forward_small)
+      SLV_SWEEP_SHORT(forward_small2)
       (inner, sli_rows_of(sli_tile_rows + inner, below, 2), tile + SLI_TILE * (ptrdiff_t)row,
        p, p);
     }
@@ -38741,7 +38719,7 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(forward2)(const sli_reach *R, con
       continue;
     }
     if (w <= SLI_TILE) {
-      SLV_SWEEP_2(forward_small)(w, sli_rows_of(rows, s->below, 2), tile, xs, x);
+      SLV_SWEEP_SHORT(forward_small2)(w, sli_rows_of(rows, s->below, 2), tile, xs, x);
       continue;
     }
     memcpy(buf + 2 * (ptrdiff_t)first, xs, columns * sizeof(double));
@@ -38788,7 +38766,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(panel_backward2)(const sli_step *s
     }
     if (inner > 0) {
       const sl_int below = sli_min(height - row, SLI_TILE) - inner;
-      SLV_SWEEP_2(backward_small)
+      SLV_SWEEP_SHORT(backward_small2)
       (inner, sli_rows_of(sli_tile_rows + inner, below, 2), tile + SLI_TILE * (ptrdiff_t)row,
        NULL, p, p);
     }
@@ -38831,7 +38809,7 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, co
       continue;
     }
     if (w <= SLI_TILE) {
-      SLV_SWEEP_2(backward_small)
+      SLV_SWEEP_SHORT(backward_small2)
       (w, sli_rows_of(rows_end, s->below, 2), tile - SLI_TILE * w, d, xs, x);
       continue;
     }
@@ -39164,12 +39142,12 @@ SLI_GROUPED_KERNELS(64)
 /* src/impl/complex/complex_set.inl.h: the table of the kernels of complex matrices, for one instruction set */
 
 static const sli_complex_kernels SLV_NAME(complex_kernels) = {
-  {{SLV_NAME(complex_forward), SLV_NAME_2(complex_forward), SLV_NAME_4(complex_forward),
+  {{SLV_NAME(complex_forward), SLV_NAME_SHORT(complex_forward2), SLV_NAME_SHORT(complex_forward4),
     SLV_NAME(complex_forward8), SLV_NAME(complex_forward16), SLV_NAME(complex_forward32),
     SLV_NAME(complex_forward64)},
-   {SLV_NAME(complex_backward), SLV_NAME_2(complex_backward), SLV_NAME_4(complex_backward),
-    SLV_NAME(complex_backward8), SLV_NAME(complex_backward16), SLV_NAME(complex_backward32),
-    SLV_NAME(complex_backward64)}},
+   {SLV_NAME(complex_backward), SLV_NAME_SHORT(complex_backward2),
+    SLV_NAME_SHORT(complex_backward4), SLV_NAME(complex_backward8), SLV_NAME(complex_backward16),
+    SLV_NAME(complex_backward32), SLV_NAME(complex_backward64)}},
   {SLV_NAME(complex_pivots), SLV_NAME(complex_rows), SLV_NAME(complex_update),
    SLV_NAME(complex_assemble)}};
 #endif
@@ -39179,13 +39157,13 @@ static const sli_complex_kernels SLV_NAME(complex_kernels) = {
 /* src/impl/float/float_set.inl.h: the table of the kernels of L in float, for one instruction set */
 
 static const sli_float_kernels SLV_NAME(float_kernels) = {
-  {{SLV_NAME(single_forward), SLV_NAME(single_forward2), SLV_NAME_4(single_forward),
+  {{SLV_NAME(single_forward), SLV_NAME(single_forward2), SLV_NAME_SHORT(single_forward4),
     SLV_NAME(single_forward8), SLV_NAME(single_forward16), SLV_NAME(single_forward32),
     SLV_NAME(single_forward64)},
-   {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
+   {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_SHORT(single_backward4),
     SLV_NAME(single_backward8), SLV_NAME(single_backward16), SLV_NAME(single_backward32),
     SLV_NAME(single_backward64)}},
-  SLV_NAME_PIVOTS(single_round)};
+  SLV_NAME_SHORT(single_round)};
 #endif
 
 #ifdef SLI_INL_KERNEL_SET
@@ -39323,9 +39301,9 @@ SLV_FUNCTION static void SLV_NAME(separate)(double *M, size_t ldm, const double 
 
 static const sli_kernels SLV_NAME(kernels) = {
   SLV_ISA,
-  {{SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_4(forward), SLV_NAME(forward8),
+  {{SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_SHORT(forward4), SLV_NAME(forward8),
     SLV_NAME(forward16), SLV_NAME(forward32), SLV_NAME(forward64)},
-   {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME_4(backward), SLV_NAME(backward8),
+   {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME_SHORT(backward4), SLV_NAME(backward8),
     SLV_NAME(backward16), SLV_NAME(backward32), SLV_NAME(backward64)}},
   {SLV_NAME(pivots), SLV_NAME(rows), SLV_NAME(update), SLV_NAME(assemble)},
   SLV_NAME(row),
@@ -39396,12 +39374,8 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_COMPLEX
 
 #undef SLV_NAME
-#undef SLV_NAME_4
-#undef SLV_NAME_2
-#undef SLV_NAME_SMALL
-#undef SLV_OWN_SMALL
-#undef SLV_NAME_PIVOTS
-#undef SLV_OWN_PIVOTS
+#undef SLV_NAME_SHORT
+#undef SLV_OWN_SHORT
 #undef SLV_PLAIN
 #undef SLV_ARRAYS
 #undef SLV_ISA
