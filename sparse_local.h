@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d3b578ec8f805efb
+ * FNV-1a of the lines after this comment, without the license: 069c95b051e3b0bc
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -51,10 +51,10 @@
  *  30437 impl/ io: files that are replaced only when they are complete
  *  30655 impl/ files: Matrix Market files, 64-bit indices
  *  31201 impl/ save: factors in files
- *  33174 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33860 impl/ complex: complex Hermitian systems over real factors
- *  34365 impl/ packs: the tables through which the core calls packs
- *  34752 impl/ templates: the header includes them from itself, once for each instruction set
+ *  33180 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33866 impl/ complex: complex Hermitian systems over real factors
+ *  34371 impl/ packs: the tables through which the core calls packs
+ *  34758 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -31720,11 +31720,11 @@ static int sli_decode_analysis(const sli_saved_analysis *a, sl_symbolic *S) {
   return 1;
 }
 
-static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl_factor *F) {
+static int sli_saved_factor_is_valid(const sli_saved_factor *g, const sl_symbolic *S) {
   const int skips = g->skips_null != 0;
   const int64_t n = S->n;
-  sl_factor_info *info = &F->stats.factor;
-  if ((g->method != SL_METHOD_UP_LOOKING && g->method != SL_METHOD_SUPERNODAL) ||
+  return !(
+      (g->method != SL_METHOD_UP_LOOKING && g->method != SL_METHOD_SUPERNODAL) ||
       !sli_count_is_valid(g->skips_null, 1) || !sli_count_is_valid(g->has_mass, skips) ||
       !sli_count_is_valid(g->checks, skips) || !sli_count_is_valid(g->nulls, skips ? n : 0) ||
       g->null != g->nulls || !sli_count_is_valid(g->is_centered, g->nulls > 0 && g->has_mass) ||
@@ -31741,7 +31741,13 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
       !sli_count_is_valid(g->storage, g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT : 0) ||
       !sli_count_is_valid(g->certainty, SL_GUARANTEED) || !(g->eta >= 0.0) || g->eta > 1.0 ||
       !(g->drift >= 0.0) || g->null_tolerance != g->null_tolerance ||
-      g->consistency != g->consistency) {
+      g->consistency != g->consistency);
+}
+
+static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl_factor *F) {
+  const int skips = g->skips_null != 0;
+  sl_factor_info *info = &F->stats.factor;
+  if (!sli_saved_factor_is_valid(g, S)) {
     return 0;
   }
   F->S = S;

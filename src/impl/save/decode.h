@@ -114,11 +114,12 @@ static int sli_decode_analysis(const sli_saved_analysis *a, sl_symbolic *S) {
     return 1;
 }
 
-static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl_factor *F) {
+/* Are the numbers of a saved factor those of one that options can make? */
+static int sli_saved_factor_is_valid(const sli_saved_factor *g, const sl_symbolic *S) {
     const int skips = g->skips_null != 0;
     const int64_t n = S->n;
-    sl_factor_info *info = &F->stats.factor;
-    if ((g->method != SL_METHOD_UP_LOOKING && g->method != SL_METHOD_SUPERNODAL) ||
+    return !(
+        (g->method != SL_METHOD_UP_LOOKING && g->method != SL_METHOD_SUPERNODAL) ||
         !sli_count_is_valid(g->skips_null, 1) || !sli_count_is_valid(g->has_mass, skips) ||
         !sli_count_is_valid(g->checks, skips) || !sli_count_is_valid(g->nulls, skips ? n : 0) ||
         g->null != g->nulls || !sli_count_is_valid(g->is_centered, g->nulls > 0 && g->has_mass) ||
@@ -135,7 +136,13 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
         !sli_count_is_valid(g->storage, g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT : 0) ||
         !sli_count_is_valid(g->certainty, SL_GUARANTEED) || !(g->eta >= 0.0) || g->eta > 1.0 ||
         !(g->drift >= 0.0) || g->null_tolerance != g->null_tolerance ||
-        g->consistency != g->consistency) {
+        g->consistency != g->consistency);
+}
+
+static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl_factor *F) {
+    const int skips = g->skips_null != 0;
+    sl_factor_info *info = &F->stats.factor;
+    if (!sli_saved_factor_is_valid(g, S)) {
         return 0;
     }
     F->S = S;
