@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 069c95b051e3b0bc
+ * FNV-1a of the lines after this comment, without the license: daa1be3fc297b1f1
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,25 +36,25 @@
  *   4074 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   4975 impl/ matrix: sparse matrices of the caller and of the library
  *   5779 impl/ ordering: fill-reducing orderings of a graph
- *  10379 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12621 impl/ factor: the numbers of L and D
- *  15203 impl/ solve: full and local solves
- *  16709 impl/ singular: null spaces of semidefinite matrices
- *  17980 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20001 impl/ pivots: the order of the pivots by the values of a matrix
- *  20409 impl/ float: L in single precision
- *  20639 impl/ inverse: entries of the inverse, regions
- *  23551 impl/ change: a factor that follows changes of its matrix
- *  25829 impl/ constraints: rows held at values, on a factor that stays
- *  27138 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  29878 impl/ fixed: rows fixed at given values
- *  30437 impl/ io: files that are replaced only when they are complete
- *  30655 impl/ files: Matrix Market files, 64-bit indices
- *  31201 impl/ save: factors in files
- *  33180 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33866 impl/ complex: complex Hermitian systems over real factors
- *  34371 impl/ packs: the tables through which the core calls packs
- *  34758 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10669 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12911 impl/ factor: the numbers of L and D
+ *  15493 impl/ solve: full and local solves
+ *  16999 impl/ singular: null spaces of semidefinite matrices
+ *  18270 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20291 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20699 impl/ float: L in single precision
+ *  20929 impl/ inverse: entries of the inverse, regions
+ *  23841 impl/ change: a factor that follows changes of its matrix
+ *  26119 impl/ constraints: rows held at values, on a factor that stays
+ *  27428 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30168 impl/ fixed: rows fixed at given values
+ *  30727 impl/ io: files that are replaced only when they are complete
+ *  30945 impl/ files: Matrix Market files, 64-bit indices
+ *  31491 impl/ save: factors in files
+ *  33470 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34156 impl/ complex: complex Hermitian systems over real factors
+ *  34661 impl/ packs: the tables through which the core calls packs
+ *  35058 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5944,6 +5944,7 @@ typedef struct sli_order_job {
   const sl_options *opt;
   sl_int *perm;
   sl_int *scratch;
+  uint64_t *bits;
   sli_septree *septree;
   sli_order_choice *choice;
   sli_team *team;
@@ -8074,6 +8075,7 @@ typedef struct sli_dissection {
   sl_int leaf_size;
   sl_int first;
   int is_volume, may_be_seven_point;
+  int has_labels;
   int is_levelset;
   sli_label_tree tree, other_tree;
   sli_border_pool pool;
@@ -8664,6 +8666,279 @@ static sl_status sli_dissect_graph(sli_dissection *d) {
   return SL_OK;
 }
 
+/* src/impl/ordering/thin.h: nested dissection of strips, tubes and bars along the levels of a breadth-first search */
+
+#define SLI_THIN_NARROW 22
+#define SLI_THIN_WIDTH 64
+#define SLI_THIN_LONG 7
+#define SLI_THIN_DEGREE 4
+#define SLI_THIN_EVEN 3
+#define SLI_THIN_ASPECT 8
+#define SLI_THIN_LEAF_MIN 64
+#define SLI_THIN_LEAF_MAX 250
+
+#define SLI_LATTICE_SHARE 75
+#define SLI_LATTICE_DEGREES 32
+
+static int sli_is_lattice(const sli_level *g) {
+  sl_int count[SLI_LATTICE_DEGREES] = {0}, v, most = 0;
+  for (v = 0; v < g->n; v++) {
+    const sl_off degree = g->begin[v + 1] - g->begin[v];
+    if (degree >= SLI_THIN_DEGREE && degree < SLI_LATTICE_DEGREES) {
+      count[degree]++;
+      most = sli_max(most, count[degree]);
+    }
+  }
+  return 100 * (int64_t)most >= SLI_LATTICE_SHARE * (int64_t)g->n;
+}
+
+typedef struct sli_thin_part {
+  sl_int first, end, levels;
+  sl_int above;
+} sli_thin_part;
+
+typedef struct sli_thin {
+  const sli_level *g;
+  sl_int *queue;
+  sl_int *mark;
+  sl_int *begin;
+  sl_int *ahead;
+  sl_int *spare, *kept;
+  sl_int *up;
+  sl_int marks, leaf, parts;
+  int is_narrow;
+  sli_thin_part *part;
+} sli_thin;
+
+static sl_int sli_thin_level(sli_thin *t, sl_int level, sl_int first, sl_int last) {
+  const sli_level *g = t->g;
+  const sl_int mark = ++t->marks;
+  sl_int k, at = first, ahead = 0, tail = last;
+  sl_off e;
+  for (k = first; k < last; k++) {
+    const sl_int v = t->queue[k];
+    int is_ahead = 0;
+    for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+      const sl_int u = g->to[e];
+      if (t->mark[u] == -1) {
+        t->mark[u] = mark;
+        t->queue[tail++] = u;
+      }
+      is_ahead |= t->mark[u] == mark;
+    }
+    if (is_ahead) {
+      t->spare[ahead++] = v;
+    } else {
+      t->queue[at++] = v;
+    }
+  }
+  SLI_COPY(t->queue + at, t->spare, ahead);
+  t->ahead[level] = ahead;
+  t->begin[level] = first;
+  return tail;
+}
+
+static void sli_thin_push(sli_thin *t, sl_int first, sl_int end, sl_int levels, sl_int above) {
+  if (first < end) {
+    sli_thin_part *p = &t->part[t->parts++];
+    p->first = first;
+    p->end = end;
+    p->levels = levels;
+    p->above = above;
+  }
+}
+
+static int sli_thin_search(sli_thin *t, sl_int root) {
+  const int64_t n = t->g->n;
+  int64_t squares = 0, ends = 0, even = 0;
+  sl_int first = 0, last = 1, levels = 0;
+  memset(t->mark, -1, (size_t)n * sizeof(sl_int));
+  t->queue[0] = root;
+  t->mark[root] = 0;
+  while (first < last) {
+    const sl_int tail = sli_thin_level(t, levels++, first, last);
+    const int64_t size = last - first;
+    squares += size * size;
+    t->is_narrow = squares <= SLI_THIN_NARROW * (last + n / 16);
+    ends = t->is_narrow ? 0 : squares / last * (squares / last) / 3;
+    even = last + SLI_THIN_EVEN * n / 100 + ends;
+    if (size > 4 * SLI_THIN_WIDTH || squares > SLI_THIN_WIDTH * (last + n / 16) ||
+        squares > even * even / levels) {
+      return 0;
+    }
+    first = last;
+    last = tail;
+  }
+  t->leaf = sli_min((sl_int)(SLI_THIN_ASPECT * squares / n), SLI_THIN_LEAF_MAX);
+  t->leaf = sli_max(t->leaf, SLI_THIN_LEAF_MIN);
+  sli_thin_push(t, 0, (sl_int)n, levels, -1);
+  even = n + n / 200 + ends;
+  return t->is_narrow ||
+       (squares <= even * even / levels && 2 * (int64_t)levels >= squares / n * SLI_THIN_LONG &&
+        sli_is_lattice(t->g));
+}
+
+static sl_int sli_thin_cut(const sli_thin *t, const sli_thin_part *p, int64_t *least) {
+  const sl_int n = p->end - p->first;
+  sl_int s, best = -1;
+  *least = INT64_MAX;
+  for (s = p->first; s < p->first + p->levels - 1; s++) {
+    const sl_int next = t->begin[s + 1];
+    const int64_t side = sli_max(next - t->ahead[s] - p->first, p->end - next);
+    const int64_t cost = 100 * side <= SLI_LEVELSET_BALANCE * (int64_t)n ? side * t->ahead[s]
+                                       : INT64_MAX / 2 + side;
+    if (cost < *least) {
+      best = s;
+      *least = cost;
+    }
+  }
+  return best;
+}
+
+static void sli_thin_split(sli_thin *t, const sli_thin_part *p, sl_int cut, sl_int end,
+    sl_int above, sl_int above_next) {
+  const sl_int next = t->begin[cut + 1], before = cut - p->first + (end > t->begin[cut]);
+  const sl_int behind = p->first + p->levels - 1 - cut;
+  sli_thin_push(t, p->first, end, before, above);
+  sli_thin_push(t, next, p->end, behind, above_next);
+  memmove(t->begin + next, t->begin + cut + 1, (size_t)behind * sizeof(sl_int));
+  memmove(t->ahead + next, t->ahead + cut + 1, (size_t)behind * sizeof(sl_int));
+}
+
+static sl_int sli_thin_dissect(sli_thin *t, sli_dissect_worker *w, const sl_int *row, sl_int *perm,
+    sl_int end, sl_int *node_of) {
+  int64_t least;
+  sl_int k, node;
+  for (node = 0; t->parts > 0; node++) {
+    const sli_thin_part p = t->part[--t->parts];
+    const sl_int size = p.end - p.first;
+    const sl_int cut = size <= t->leaf ? -1 : sli_thin_cut(t, &p, &least);
+    const sl_int count = cut == -1 ? size : t->ahead[cut];
+    const sl_int from = cut == -1 ? p.first : t->begin[cut + 1] - count;
+    if (cut == -1) {
+      sli_mindeg_order(&w->mindeg, t->g, t->queue + from, count);
+    } else {
+      sli_thin_split(t, &p, cut, from, node, node);
+    }
+    end -= count;
+    for (k = 0; k < count; k++) {
+      perm[end + k] = row[t->queue[from + k]];
+      node_of[perm[end + k]] = node;
+    }
+    t->up[node] = p.above;
+  }
+  return node;
+}
+
+static int sli_thin_renew(sli_thin *t, sli_thin_part *p, sl_int root) {
+  sl_int k, first = p->first, last = first + 1, level = first;
+  for (k = 0; k < p->end - p->first; k++) {
+    t->mark[t->kept[k]] = -1;
+  }
+  t->queue[first] = root;
+  t->mark[root] = 0;
+  while (first < last) {
+    const sl_int tail = sli_thin_level(t, level++, first, last);
+    first = last;
+    last = tail;
+  }
+  p->levels = level - p->first;
+  return last == p->end;
+}
+
+static sl_int sli_thin_turn(sli_thin *t, sli_thin_part *p, sl_int cut, int64_t least,
+    sl_int *scratch) {
+  const sli_thin_part before = *p;
+  const size_t size = (size_t)(p->end - p->first), levels = (size_t)p->levels;
+  int64_t cost;
+  sl_int k;
+  memcpy(t->kept, t->queue + p->first, size * sizeof(sl_int));
+  memcpy(scratch, t->begin + p->first, levels * sizeof(sl_int));
+  memcpy(scratch + size, t->ahead + p->first, levels * sizeof(sl_int));
+  if (sli_thin_renew(t, p, t->queue[p->first]) && /* branches untested: it is connected */
+      sli_thin_renew(t, p, t->queue[p->end - 1])) {
+    const sl_int turned = sli_thin_cut(t, p, &cost);
+    if (cost <= least / 10 * 9) {
+      return turned;
+    }
+  }
+  *p = before;
+  for (k = 0; k < p->end - p->first; k++) {
+    t->mark[t->kept[k]] = 0;
+  }
+  memcpy(t->queue + p->first, t->kept, size * sizeof(sl_int));
+  memcpy(t->begin + p->first, scratch, levels * sizeof(sl_int));
+  memcpy(t->ahead + p->first, scratch + size, levels * sizeof(sl_int));
+  return cut;
+}
+
+static void sli_thin_label(sli_thin *t, sli_dissection *d) {
+  sli_label_tree *tree = &d->tree;
+  int64_t least;
+  sl_int k;
+  d->level = 0;
+  sli_dissect_start(d);
+  t->part[0].above = tree->root;
+  while (t->parts > 0) {
+    sli_thin_part p = t->part[--t->parts];
+    const sl_int size = p.end - p.first, node = p.above;
+    const int may_cut = size > t->leaf &&
+              tree->count < tree->room - 1; /* branches untested: tiny leaves */
+    sl_int cut = may_cut ? sli_thin_cut(t, &p, &least) : -1;
+    if (cut != -1 && (int64_t)p.levels * p.levels < 2 * (int64_t)size &&
+        t->marks < INT32_MAX - 2 * size) { /* branches untested: 2^31 marks */
+      cut = sli_thin_turn(t, &p, cut, least, (sl_int *)(void *)d->workers[0].next);
+    }
+    tree->weight[node] = size;
+    for (k = cut == -1 ? p.first : p.end; k < p.end; k++) {
+      d->label[t->queue[k]] = node;
+    }
+    if (cut != -1) {
+      sli_label_tree_split(tree, node);
+      sli_thin_split(t, &p, cut, t->begin[cut + 1], tree->left[node], tree->right[node]);
+    }
+  }
+  sli_label_tree_number(tree, t->g->n, d->label);
+  d->has_labels = 1;
+}
+
+static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl_int at,
+    sli_septree *septree) {
+  const sl_int n = d->levels[0].n;
+  sli_dissect_worker *w = &d->workers[0];
+  sl_int k, nodes, last, *scratch = w->subgraph.scratch;
+  sli_thin t;
+  SLI_CLEAR(t);
+  t.g = &d->levels[0];
+  t.queue = scratch;
+  t.mark = scratch + n;
+  t.ahead = scratch + 2 * (size_t)n;
+  t.up = scratch + 3 * (size_t)n;
+  t.part = (sli_thin_part *)(void *)(scratch + 4 * (size_t)n);
+  t.begin = d->begin;
+  t.spare = d->order;
+  t.kept = d->other;
+  if (!sli_thin_search(&t, n - 1)) {
+    return 0;
+  }
+  if (!t.is_narrow) {
+    sli_thin_label(&t, d);
+    return 0;
+  }
+  w->mindeg.order = t.spare;
+  nodes = sli_thin_dissect(&t, w, row, perm, at + n, septree->node_of);
+  w->mindeg.order = scratch;
+  last = septree->count + nodes - 1;
+  for (k = 0; k < nodes; k++) {
+    septree->parent[last - k] = t.up[k] == -1 ? -1 : last - t.up[k];
+  }
+  for (k = at; k < at + n; k++) {
+    septree->node_of[perm[k]] = last - septree->node_of[perm[k]];
+  }
+  septree->count += nodes;
+  return 1;
+}
+
 /* src/impl/ordering/nd.h: nested dissection of any graph: component by component, dense rows last */
 
 #define SLI_ND_RESPLITS 12
@@ -8824,6 +9099,13 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
   }
 }
 
+static sl_status sli_nd_label(sli_nd *w) {
+  sli_dissection *d = &w->d;
+  d->is_volume = d->may_be_seven_point = 0;
+  d->is_levelset = 0;
+  return d->has_labels ? SL_OK : sli_dissect_graph(d);
+}
+
 static int sli_nd_is_thin(const sli_dissection *d) {
   sl_int v, count = 0;
   for (v = 0; v < d->levels[0].n; v++) {
@@ -8841,9 +9123,7 @@ static sl_status sli_nd_dissect(sli_nd *w) {
     sli_dissect_start(d);
     return SL_OK;
   }
-  d->is_volume = d->may_be_seven_point = 0;
-  d->is_levelset = 0;
-  status = sli_dissect_graph(d);
+  status = sli_nd_label(w);
   if (status == SL_OK) {
     do {
       sli_dissect_visit(d, sli_dissect_separate);
@@ -8891,6 +9171,12 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
         continue;
       }
       sli_nd_graph(w, count);
+      w->d.has_labels = 0;
+      if (w->weight == NULL && count > w->d.leaf_size &&
+          sli_order_thin(&w->d, w->row, perm, at, septree)) {
+        at += count;
+        continue;
+      }
       status = sli_nd_dissect(w);
       if (status == SL_OK) {
         sli_septree_append(&w->d, w->row, perm, at, septree);
@@ -9739,6 +10025,7 @@ enum {
   SLI_WANTS_MANY_SOLVES = 1 << 1,
   SLI_IS_IRREGULAR = 1 << 2,
   SLI_IS_BIPARTITE = 1 << 3,
+  SLI_IS_THIN = 1 << 13,
   SLI_IS_EXPANDING = 1 << 4,
   SLI_TRIED_LEVELS = 1 << 5,
   SLI_IS_NARROW = 1 << 6,
@@ -9774,7 +10061,7 @@ static const struct sli_order_rule {
   {SLI_WANTS_ONE_FACTOR, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
   {SLI_WANTS_ONE_FACTOR | SLI_IS_CHEAP, 0, SLI_BY_MINDEG},
   {SLI_WANTS_ONE_FACTOR | SLI_IS_IRREGULAR, 0, SLI_BY_MINDEG},
-  {SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
+  {SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_IS_THIN | SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
   {SLI_WANTS_MANY_SOLVES | SLI_IS_BIPARTITE, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
   {SLI_WANTS_MANY_SOLVES | SLI_IS_EXPANDING, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
   {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_CORE, 0, SLI_BY_MINDEG},
@@ -9836,7 +10123,7 @@ static int sli_graph_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *sid
   return 1;
 }
 
-static int sli_graph_is_expanding(const sli_order_job *job) {
+static int sli_graph_shape(const sli_order_job *job) {
   const int64_t n = job->G->n, most = n * n / 8;
   sli_levels l = sli_levels_of(job);
   sl_int v, tail = 0;
@@ -9845,7 +10132,9 @@ static int sli_graph_is_expanding(const sli_order_job *job) {
       tail = sli_levels_search(&l, v, tail, 1, most);
     }
   }
-  return l.entries > most;
+  return l.entries > most ? SLI_IS_EXPANDING
+       : l.entries <= 32 * n && l.entries <= n * n / 32 ? SLI_IS_THIN
+                              : 0;
 }
 
 static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
@@ -9861,9 +10150,10 @@ static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
   }
   f.bits |= sli_graph_is_irregular(G, job->is_peeled || is_for_one) ? SLI_IS_IRREGULAR : 0;
   if (!is_for_one && (job->is_peeled || mean * mean > n || (f.bits & SLI_IS_IRREGULAR) != 0)) {
-    f.bits |= sli_graph_is_expanding(job) ? SLI_IS_EXPANDING : 0;
+    f.bits |= sli_graph_shape(job);
   }
-  if (!is_for_one && job->is_peeled && sli_graph_is_bipartite(G, job->perm, job->scratch)) {
+  if (!is_for_one && job->is_peeled && (f.bits & SLI_IS_THIN) == 0 &&
+      sli_graph_is_bipartite(G, job->perm, job->scratch)) {
     f.bits |= SLI_IS_BIPARTITE;
   }
   return f;
@@ -34591,6 +34881,16 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_DISSECT_BAND_FROM
 #undef SLI_SEPARATOR_BALANCE
 #undef SLI_LEVELSET_BALANCE
+#undef SLI_THIN_NARROW
+#undef SLI_THIN_WIDTH
+#undef SLI_THIN_LONG
+#undef SLI_THIN_DEGREE
+#undef SLI_THIN_EVEN
+#undef SLI_THIN_ASPECT
+#undef SLI_THIN_LEAF_MIN
+#undef SLI_THIN_LEAF_MAX
+#undef SLI_LATTICE_SHARE
+#undef SLI_LATTICE_DEGREES
 #undef SLI_ND_RESPLITS
 #undef SLI_ND_THIN
 #undef SLI_ND_THIN_LEAF

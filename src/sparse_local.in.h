@@ -114,6 +114,7 @@ extern "C" {
 #include "impl/ordering/dissection.h"
 #include "impl/ordering/dissect.h"
 #include "impl/ordering/levelset.h"
+#include "impl/ordering/thin.h"
 #include "impl/ordering/nd.h"
 #include "impl/ordering/compress.h"
 #include "impl/ordering/metis.h"

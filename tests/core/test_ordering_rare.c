@@ -1,5 +1,6 @@
-/* test_ordering_rare.c: what only sizes beyond memory reach, by direct calls: hubs of many edges,
- * hierarchies that end, rows of equal keys; bands of random graphs */
+/* test_ordering_rare.c: what only other processors and sizes beyond memory reach, by direct calls:
+ * small orders without AVX2, hubs of many edges, hierarchies that end, rows of equal keys; bands of
+ * random graphs */
 #define SPARSE_LOCAL_IMPLEMENTATION
 #include "tests/lib/check_factor.h"
 
@@ -99,6 +100,20 @@ static void bands_of_random_graphs_end(void **state) {
     }
 }
 
+/* What is before a cut that takes the first level as a whole is no part. */
+static void parts_without_rows_are_none(void **state) {
+    (void)state;
+    sli_thin_part part[2];
+    sli_thin t;
+    memset(&t, 0, sizeof t);
+    t.part = part;
+    sli_thin_push(&t, 7, 7, 0, 5);
+    assert_int_equal(t.parts, 0);
+    sli_thin_push(&t, 7, 8, 1, 5);
+    assert_int_equal(t.parts, 1);
+    assert_int_equal(part[0].above, 5);
+}
+
 /* The cost of columns by themselves is that of their rows, unless the sum would overflow. */
 static void columns_of_too_many_rows_are_merged(void **state) {
     (void)state;
@@ -125,6 +140,7 @@ int main(void) {
         cmocka_unit_test(a_hierarchy_that_does_not_shrink_ends),
         cmocka_unit_test(rows_of_equal_keys_may_differ),
         cmocka_unit_test(bands_of_random_graphs_end),
+        cmocka_unit_test(parts_without_rows_are_none),
         cmocka_unit_test(columns_of_too_many_rows_are_merged),
         cmocka_unit_test(the_null_tolerance_stays_small),
     };

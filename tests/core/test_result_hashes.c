@@ -127,7 +127,7 @@ static void same_bits(sl_isa isa, const uint64_t *expected) {
 }
 
 static void plain_c_has_the_same_bits(void **state) {
-    static const uint64_t expected[KINDS] = {0x9b9775db337d11d4u, 0xda0c5d67d1ca5f5au,
+    static const uint64_t expected[KINDS] = {0x9b9775db337d11d4u, 0xd0347f8ab645293au,
                                              0x9b98e7a1823ee6c8u, 0xa812157bd89717acu,
                                              0xac37e37bee2cc165u};
     (void)state;
@@ -135,7 +135,7 @@ static void plain_c_has_the_same_bits(void **state) {
 }
 
 static void avx2_has_the_same_bits(void **state) {
-    static const uint64_t expected[KINDS] = {0x3c560f34ba7d1cc7u, 0xbcdd4845426cc3b0u,
+    static const uint64_t expected[KINDS] = {0x3c560f34ba7d1cc7u, 0x38ca3a34ff29fe14u,
                                              0x3f3c2215c343e502u, 0xc7bd93db274c4f2au,
                                              0x84a658975c3361e1u};
     (void)state;
@@ -143,7 +143,7 @@ static void avx2_has_the_same_bits(void **state) {
 }
 
 static void avx512_has_the_same_bits(void **state) {
-    static const uint64_t expected[KINDS] = {0x8f27dd1c6a79bf5fu, 0xbcdd4845426cc3b0u,
+    static const uint64_t expected[KINDS] = {0x8f27dd1c6a79bf5fu, 0x38ca3a34ff29fe14u,
                                              0x0d022bddcbb8e74eu, 0x064a203d3edc7521u,
                                              0xac7b1562446892cau};
     (void)state;

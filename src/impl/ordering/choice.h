@@ -13,6 +13,7 @@ enum {
     /* counted in the graph */
     SLI_IS_IRREGULAR = 1 << 2, /* degrees vary */
     SLI_IS_BIPARTITE = 1 << 3,
+    SLI_IS_THIN = 1 << 13,     /* a mean level of a search is small */
     SLI_IS_EXPANDING = 1 << 4, /* a mean level has an eighth of all rows */
     /* counted in an order that was tried */
     SLI_TRIED_LEVELS = 1 << 5,
@@ -56,8 +57,9 @@ static const struct sli_order_rule {
     {SLI_WANTS_ONE_FACTOR | SLI_IS_CHEAP, 0, SLI_BY_MINDEG},
     /* networks with hubs, one factor: twice the entries of L */
     {SLI_WANTS_ONE_FACTOR | SLI_IS_IRREGULAR, 0, SLI_BY_MINDEG},
-    /* What minimum degree costs is known in a fraction of the time. */
-    {SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
+    /* What minimum degree costs is known in a fraction of the time, but thin graphs are dissected
+     * along their levels in less. */
+    {SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_IS_THIN | SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
     {SLI_WANTS_MANY_SOLVES | SLI_IS_BIPARTITE, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
     {SLI_WANTS_MANY_SOLVES | SLI_IS_EXPANDING, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
     /* Q random: 2.8; dissection also has more fill and longer paths */
@@ -132,9 +134,10 @@ static int sli_graph_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *sid
     return 1;
 }
 
-/* Are most rows a few edges apart? A mean level of a breadth-first search then has 1/8 of all: a
- * tenth of that in volumes of 1e4 rows. */
-static int sli_graph_is_expanding(const sli_order_job *job) {
+/* How far apart are the rows? In a thin graph the levels of a breadth-first search have at most 32
+ * rows in the mean, and there are at least 32. In an expanding one most rows are a few edges apart,
+ * and a mean level has 1/8 of all: a tenth of that in volumes of 1e4 rows. */
+static int sli_graph_shape(const sli_order_job *job) {
     const int64_t n = job->G->n, most = n * n / 8;
     sli_levels l = sli_levels_of(job);
     sl_int v, tail = 0;
@@ -143,7 +146,9 @@ static int sli_graph_is_expanding(const sli_order_job *job) {
             tail = sli_levels_search(&l, v, tail, 1, most);
         }
     }
-    return l.entries > most;
+    return l.entries > most                                 ? SLI_IS_EXPANDING
+           : l.entries <= 32 * n && l.entries <= n * n / 32 ? SLI_IS_THIN
+                                                            : 0;
 }
 
 /* Counts what the rules ask for of the graph of a job. perm and scratch are scratch. */
@@ -161,9 +166,10 @@ static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
     f.bits |= sli_graph_is_irregular(G, job->is_peeled || is_for_one) ? SLI_IS_IRREGULAR : 0;
     /* with n < mean^2, two edges may lead from most rows to most others */
     if (!is_for_one && (job->is_peeled || mean * mean > n || (f.bits & SLI_IS_IRREGULAR) != 0)) {
-        f.bits |= sli_graph_is_expanding(job) ? SLI_IS_EXPANDING : 0;
+        f.bits |= sli_graph_shape(job);
     }
-    if (!is_for_one && job->is_peeled && sli_graph_is_bipartite(G, job->perm, job->scratch)) {
+    if (!is_for_one && job->is_peeled && (f.bits & SLI_IS_THIN) == 0 &&
+        sli_graph_is_bipartite(G, job->perm, job->scratch)) {
         f.bits |= SLI_IS_BIPARTITE;
     }
     return f;
