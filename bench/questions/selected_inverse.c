@@ -116,11 +116,11 @@ static void report_variant(bench_report *report, const variant *w, const char *w
 static void one_system(bench_run *run, bench_report *report, const bench_system *system) {
     variant all, avx2, some, two;
     bench_patch patch = bench_patch_create(system, system->n / 2, PATCH);
-    const int has_all = variant_create(&all, system, SL_ISA_AUTO, 1, NULL, 0);
+    const int has_all = variant_create(&all, system, SL_ISA_AUTO, 1, NULL, SL_ALL);
     const int has_avx2 = system->stats.factor.isa == SL_ISA_AVX512 &&
-                         variant_create(&avx2, system, SL_ISA_AVX2, 1, NULL, 0);
+                         variant_create(&avx2, system, SL_ISA_AVX2, 1, NULL, SL_ALL);
     const int has_some = variant_create(&some, system, SL_ISA_AUTO, 1, patch.vertices, patch.size);
-    const int has_two = variant_create(&two, system, SL_ISA_AUTO, 2, NULL, 0);
+    const int has_two = variant_create(&two, system, SL_ISA_AUTO, 2, NULL, SL_ALL);
     if (has_all && has_some && has_two && check_diagonal(run, &all) && check_diagonal(run, &some) &&
         check_diagonal(run, &two) && (!has_avx2 || check_diagonal(run, &avx2))) {
         bench_contender contenders[VARIANTS] = {{call_refactor, &all, 1, NULL},
