@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: daa1be3fc297b1f1
+ * FNV-1a of the lines after this comment, without the license: a5a6225ac65900c9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38830,8 +38830,9 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 #define SLI_CLEAR_WIDE
 #endif
 
-SLI_AT_LINE SLV_FUNCTION static void
-SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l, double *xs, double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sli_rows below,
+    const SLV_VALUE *l, double *xs,
+    double *x) {
   const sl_int stride = below.lanes;
   sl_int lane = w, i;
   SLW_EACH(SLI_DECLARE, 0)
@@ -38879,7 +38880,7 @@ SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l, double *x
     SLW_ADD(a##k, b) \
   }
 
-SLI_AT_LINE SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sli_rows below,
     const SLV_VALUE *l, const double *d,
     double *xs, const double *x) {
   const sl_int stride = below.lanes;
@@ -38914,6 +38915,35 @@ SLI_AT_LINE SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_row
   SLW_EACH(SLI_STORE_OWN, xs)
 }
 
+#define SLI_FORWARD(k) SLW_SWEEP(small_forward)(k, below, l, xs, x)
+#define SLI_BACKWARD(k) SLW_SWEEP(small_backward)(k, below, l, d, xs, x)
+#if SLW_NRHS == 4 && !SLV_SINGLE
+#define SLI_BY_WIDTH(call) \
+  switch (w) { \
+    SLI_CASE(2, call) \
+    SLI_CASE(3, call) \
+    SLI_CASE(4, call) \
+  default: \
+    call(w); \
+  }
+#else
+#define SLI_BY_WIDTH(call) call(w)
+#endif
+
+SLI_AT_LINE SLV_FUNCTION static void
+SLW_SWEEP(forward_small)(sl_int w, sli_rows below, const SLV_VALUE *l, double *xs, double *x) {
+  SLI_BY_WIDTH(SLI_FORWARD);
+}
+
+SLI_AT_LINE SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
+    const SLV_VALUE *l, const double *d,
+    double *xs, const double *x) {
+  SLI_BY_WIDTH(SLI_BACKWARD);
+}
+
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+#undef SLI_BY_WIDTH
 #undef SLI_LOAD_OWN
 #undef SLI_STORE_OWN
 #undef SLI_ZERO_OWN
