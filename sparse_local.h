@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a5a6225ac65900c9
+ * FNV-1a of the lines after this comment, without the license: cfda4fe0411836a5
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38599,7 +38599,12 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots2)(const SLV_VALUE *l0, const SLV_VAL
   } else { \
     SLV_SUM_ZERO(a##k) \
   }
-SLV_FUNCTION SLI_INLINE void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inner,
+#if defined(SLV_PLAIN)
+SLI_NOINLINE static void
+#else
+SLV_FUNCTION SLI_INLINE void
+#endif
+SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inner,
     const double *sums, const double *d, double *xs,
     double *buf) {
   double r[SLI_TILE];
