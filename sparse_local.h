@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: cfda4fe0411836a5
+ * FNV-1a of the lines after this comment, without the license: 6d5885efc1ffba95
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,23 +38,23 @@
  *   5779 impl/ ordering: fill-reducing orderings of a graph
  *  10669 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12911 impl/ factor: the numbers of L and D
- *  15493 impl/ solve: full and local solves
- *  16999 impl/ singular: null spaces of semidefinite matrices
- *  18270 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20291 impl/ pivots: the order of the pivots by the values of a matrix
- *  20699 impl/ float: L in single precision
- *  20929 impl/ inverse: entries of the inverse, regions
- *  23841 impl/ change: a factor that follows changes of its matrix
- *  26119 impl/ constraints: rows held at values, on a factor that stays
- *  27428 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30168 impl/ fixed: rows fixed at given values
- *  30727 impl/ io: files that are replaced only when they are complete
- *  30945 impl/ files: Matrix Market files, 64-bit indices
- *  31491 impl/ save: factors in files
- *  33470 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34156 impl/ complex: complex Hermitian systems over real factors
- *  34661 impl/ packs: the tables through which the core calls packs
- *  35058 impl/ templates: the header includes them from itself, once for each instruction set
+ *  15527 impl/ solve: full and local solves
+ *  17034 impl/ singular: null spaces of semidefinite matrices
+ *  18305 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20326 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20734 impl/ float: L in single precision
+ *  20964 impl/ inverse: entries of the inverse, regions
+ *  23876 impl/ change: a factor that follows changes of its matrix
+ *  26154 impl/ constraints: rows held at values, on a factor that stays
+ *  27463 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30203 impl/ fixed: rows fixed at given values
+ *  30762 impl/ io: files that are replaced only when they are complete
+ *  30980 impl/ files: Matrix Market files, 64-bit indices
+ *  31526 impl/ save: factors in files
+ *  33505 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34191 impl/ complex: complex Hermitian systems over real factors
+ *  34696 impl/ packs: the tables through which the core calls packs
+ *  35093 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3148,7 +3148,7 @@ SL_API const char *sl_status_string(sl_status status) {
   case SL_ERR_MALFORMED:
     return "malformed or unsymmetric pattern";
   case SL_ERR_PIVOT:
-    return "null pivot: singular matrix, or one that needs pivoting";
+    return "refused pivot: singular matrix, or one that needs pivoting";
   case SL_ERR_NOT_FINITE:
     return "not a finite number";
   case SL_ERR_TOO_LARGE:
@@ -14611,6 +14611,80 @@ SLI_COLD static sl_status sli_signs_judge(sl_factor *F, sli_failure *failure) {
   return failure->status;
 }
 
+/* src/impl/factor/advice.h: what helps where a factorization was refused, as text */
+
+SLI_COLD static const char *sli_advice_of_matrix(sl_factor *F, const sli_source *from, sl_int k) {
+  const sl_symbolic *S = F->S;
+  sli_null_row *rows =
+    (sli_null_row *)sli_judge_memory(F, S->n, sizeof(sli_null_row) + 2 * sizeof(double));
+  const char *what = NULL;
+  if (rows != NULL) {
+    double *most = (double *)(void *)(rows + S->n);
+    sl_int *last = (sl_int *)(void *)(most + S->n);
+    const sli_null_walk w = sli_null_walk_begin(S, 0, rows, NULL, NULL);
+    sli_null_add_map(&w, S, from, NULL);
+    sli_null_components(&w, S, NULL, last, most);
+    if (rows[k].size == 0.0) {
+      what = "the row is 0, as that of an isolated vertex. Set options.pivots = "
+           "SL_PIVOTS_SKIP_NULL, without sl_symbolic_create_pivoted: x is 0 there";
+    } else if (most[last[k]] == 0.0) {
+      what = "the rows of this connected part sum to 0, as in a Laplacian: x is unique up to "
+           "a constant. Set options.pivots = SL_PIVOTS_SKIP_NULL, without "
+           "sl_symbolic_create_pivoted, and options.mass if b does not sum to 0";
+    }
+  }
+  sli_free(&F->allocator, rows);
+  return what;
+}
+
+SLI_COLD static const char *sli_advice_null(sl_factor *F, const sli_source *from, sl_int k) {
+  const char *what = sli_advice_of_matrix(F, from, k);
+  return what != NULL ? what
+       : F->rule.null_tolerance > sli_null_tolerance(F->S->n, DBL_EPSILON)
+         ? "the pivot is within options.null_tolerance, which is above its default"
+       : F->S->is_pivoted
+         ? "A is singular to working precision: if it is semidefinite, options.pivots = "
+         "SL_PIVOTS_SKIP_NULL, without sl_symbolic_create_pivoted"
+       : sli_singular_of(1) == NULL /* untested: null spaces are there */
+         ? "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
+         "options.pivots, which SL_NO_SINGULAR leaves out" /* untested: the same */
+         : "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
+         "options.pivots = SL_PIVOTS_SKIP_NULL";
+}
+
+SLI_COLD static const char *sli_advice_pivot(sl_factor *F, const sli_source *from,
+    const sli_failure *f) {
+  if (F->limits.is_definite && f->bound >= 0.0) {
+    return "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite";
+  }
+  if (f->bound < 0.0) {
+    return "there was no memory to judge whether the pivot is null";
+  }
+  if (sli_skips_nulls(F)) {
+    return f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
+                "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
+                : "A is indefinite, or options.null_vector or options.mass does not "
+                "suit its null vectors";
+  }
+  return sli_advice_null(F, from, f->pivot);
+}
+
+SLI_COLD static const char *sli_advice(sl_factor *F, const sli_source *from, const sli_failure *f) {
+  switch (f->status) {
+  case SL_ERR_PIVOT:
+    return sli_advice_pivot(F, from, f);
+  case SL_ERR_NOT_FINITE:
+    return "a pivot is not finite: numbers of A overflow";
+  case SL_ERR_UNSUPPORTED:
+    return "A has more null vectors than columns are given, options.null_vector_count";
+  default:
+    return F->stats.factor.growth <= F->limits.growth
+           ? "float cannot hold L: options.storage"
+         : F->S->is_pivoted ? "pivot growth exceeds options.growth_limit"
+                  : "sl_symbolic_create_pivoted avoids pivot growth";
+  }
+}
+
 /* src/impl/factor/factor_layout.h: the arrays of a factor, and memory for its factorizations */
 
 static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
@@ -15067,48 +15141,8 @@ SLI_COLD static void sli_factor_report_entry(const sl_factor *F, const sl_csc *A
       : "an entry of A exceeds the range of float");
 }
 
-SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_failure *f) {
-  const double size = fabs(f->value);
-  if (f->status == SL_ERR_INACCURATE && F->stats.factor.growth > F->limits.growth) {
-    return F->S->is_pivoted ? "pivot growth exceeds options.growth_limit"
-                : "sl_symbolic_create_pivoted avoids pivot growth";
-  }
-  if (f->status != SL_ERR_PIVOT) {
-    return f->status == SL_ERR_NOT_FINITE ? "a pivot is not finite: numbers of A overflow"
-         : f->status == SL_ERR_UNSUPPORTED
-           ? "A has more null vectors than columns are given, "
-           "options.null_vector_count"
-           : "float cannot hold L: options.storage";
-  }
-  if (F->limits.is_definite && f->bound >= 0.0) {
-    return "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite";
-  }
-  if (f->bound < 0.0) {
-    return "there was no memory to judge whether the pivot is null";
-  }
-  if (sli_skips_nulls(F)) {
-    return f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
-                "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
-                : "A is indefinite, or options.null_vector or options.mass does not "
-                "suit its null vectors";
-  }
-  if (F->S->is_pivoted) {
-    return "options.null_tolerance decides; a negative one accepts every pivot but 0";
-  }
-  if (sli_singular_of(1) == NULL) { /* untested: null spaces are there */
-    return "null pivot: if A is singular, options.pivots, which SL_NO_SINGULAR leaves "
-         "out; if it is regular, sl_symbolic_create_pivoted"; /* untested: the same */
-  }
-  return size > F->rule.epsilon * F->extents[f->super].magnitude
-         ? "if A is singular: options.pivots; if the pivot may be right, a smaller or "
-         "negative options.null_tolerance accepts it, and sl_symbolic_create_pivoted "
-         "avoids small pivots"
-         : "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
-         "options.pivots";
-}
-
-SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f,
-    int has_pivots) {
+SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sli_source *from,
+    const sli_failure *f, int has_pivots) {
   sl_int n_done = F->S->n;
   sl_stats found;
   sli_stats_clear_error(&found);
@@ -15116,10 +15150,10 @@ SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const 
   if (f->status != SL_OK && f->pivot >= 0) {
     n_done = has_pivots ? n_done : f->pivot;
     (void)sli_fail_at(&found, f->status, F->S->perm[f->pivot], -1, f->value,
-        sli_factor_advice(F, f));
+        sli_advice(F, from, f));
   } else if (f->status != SL_OK) {
     n_done = F->S->super_first[f->super];
-    sli_factor_report_entry(F, A, f, &found);
+    sli_factor_report_entry(F, from->A, f, &found);
   }
   F->stats.error = found.error;
   if (n_done == 0 || F->stats.factor.positive + F->stats.factor.negative != n_done) {
@@ -15133,12 +15167,12 @@ static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {
   stats->error = F->stats.error;
 }
 
-static void sli_factor_outcome(sl_factor *F, const sl_csc *A, const sli_failure *failure,
+static void sli_factor_outcome(sl_factor *F, const sli_source *from, const sli_failure *failure,
     int has_pivots) {
   if (!has_pivots) {
     F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
   }
-  sli_factor_report(F, A, failure, has_pivots);
+  sli_factor_report(F, from, failure, has_pivots);
 }
 
 static void sli_pairs_done(sl_factor *F) {
@@ -15165,7 +15199,7 @@ typedef struct sli_verdict {
 } sli_verdict;
 
 SLI_NOINLINE static void sli_verdict_report(const sli_verdict *v) {
-  sli_factor_outcome(v->F, v->from->A, v->failure, v->has_pivots);
+  sli_factor_outcome(v->F, v->from, v->failure, v->has_pivots);
 }
 
 static void sli_judge_nulls(sli_verdict *v) {
@@ -16556,7 +16590,8 @@ SLI_COLD static sl_status sli_not_finite(void) {
 
 SLI_COLD static sl_status sli_inconsistent(void) {
   return sli_refuse(SL_ERR_INCONSISTENT,
-      "B has a part along a null vector, beyond options.consistency_tolerance");
+      "b has a part along a null vector of A, so that no x solves it; with "
+      "options.mass solves leave that part out");
 }
 
 static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,

@@ -151,6 +151,7 @@ extern "C" {
 #include "impl/factor/front_tasks.h"
 #include "impl/factor/growth.h"
 #include "impl/factor/pivot_judge.h"
+#include "impl/factor/advice.h"
 #include "impl/factor/factor_layout.h"
 #include "impl/factor/factor_setup.h"
 #include "impl/factor/symmetry.h"

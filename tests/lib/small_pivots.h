@@ -9,7 +9,8 @@
 #define CELL(M, n, i, j) (M)[(size_t)(i) * (size_t)(n) + (size_t)(j)]
 
 /* Factors M; returns the status. With SL_OK the backward error of a solve is small. */
-static sl_status factor_and_solve(const gen_matrix_t *M, const sl_options *opt, sl_stats *stats) {
+static inline sl_status factor_and_solve(const gen_matrix_t *M, const sl_options *opt,
+                                         sl_stats *stats) {
     const sl_int n = M->view.n_cols;
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
@@ -32,7 +33,7 @@ static sl_status factor_and_solve(const gen_matrix_t *M, const sl_options *opt, 
 
 /* The lower triangle of an m x m block as the first rows of a matrix of n rows; the others have a
  * diagonal entry of 1. */
-static gen_matrix_t beside(const double *block, sl_int m, sl_int n) {
+static inline gen_matrix_t beside(const double *block, sl_int m, sl_int n) {
     gen_list_t t = gen_list(n);
     for (sl_int i = 0; i < m; i++) {
         for (sl_int j = 0; j <= i; j++) {

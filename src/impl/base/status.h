@@ -20,7 +20,7 @@ SL_API const char *sl_status_string(sl_status status) {
     case SL_ERR_MALFORMED:
         return "malformed or unsymmetric pattern";
     case SL_ERR_PIVOT:
-        return "null pivot: singular matrix, or one that needs pivoting";
+        return "refused pivot: singular matrix, or one that needs pivoting";
     case SL_ERR_NOT_FINITE:
         return "not a finite number";
     case SL_ERR_TOO_LARGE:

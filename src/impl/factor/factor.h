@@ -3,6 +3,7 @@
 #define SLI_FACTOR_FACTOR_H
 
 #include "../analysis/same_pattern.h"
+#include "advice.h"
 #include "factor_setup.h"
 #include "front_tasks.h"
 #include "pivot_check.h"
@@ -40,51 +41,10 @@ SLI_COLD static void sli_factor_report_entry(const sl_factor *F, const sl_csc *A
                           : "an entry of A exceeds the range of float");
 }
 
-/* What helps where a factorization was refused, as text; NULL: nothing is known. */
-SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_failure *f) {
-    const double size = fabs(f->value);
-    if (f->status == SL_ERR_INACCURATE && F->stats.factor.growth > F->limits.growth) {
-        return F->S->is_pivoted ? "pivot growth exceeds options.growth_limit"
-                                : "sl_symbolic_create_pivoted avoids pivot growth";
-    }
-    if (f->status != SL_ERR_PIVOT) {
-        return f->status == SL_ERR_NOT_FINITE ? "a pivot is not finite: numbers of A overflow"
-               : f->status == SL_ERR_UNSUPPORTED
-                   ? "A has more null vectors than columns are given, "
-                     "options.null_vector_count"
-                   : "float cannot hold L: options.storage";
-    }
-    if (F->limits.is_definite && f->bound >= 0.0) {
-        return "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite";
-    }
-    if (f->bound < 0.0) {
-        return "there was no memory to judge whether the pivot is null";
-    }
-    if (sli_skips_nulls(F)) {
-        return f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
-                                "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
-                              : "A is indefinite, or options.null_vector or options.mass does not "
-                                "suit its null vectors";
-    }
-    if (F->S->is_pivoted) {
-        return "options.null_tolerance decides; a negative one accepts every pivot but 0";
-    }
-    if (sli_singular_of(1) == NULL) { /* untested: null spaces are there */
-        return "null pivot: if A is singular, options.pivots, which SL_NO_SINGULAR leaves "
-               "out; if it is regular, sl_symbolic_create_pivoted"; /* untested: the same */
-    }
-    return size > F->rule.epsilon * F->extents[f->super].magnitude
-               ? "if A is singular: options.pivots; if the pivot may be right, a smaller or "
-                 "negative options.null_tolerance accepts it, and sl_symbolic_create_pivoted "
-                 "avoids small pivots"
-               : "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
-                 "options.pivots";
-}
-
 /* Fills F's stats: the pivot counts and, after a failure, the caller's row and column. has_pivots:
  * the failure came after all of them. */
-SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f,
-                                           int has_pivots) {
+SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sli_source *from,
+                                           const sli_failure *f, int has_pivots) {
     sl_int n_done = F->S->n; /* pivots before the failure */
     sl_stats found;
     sli_stats_clear_error(&found);
@@ -92,10 +52,10 @@ SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const 
     if (f->status != SL_OK && f->pivot >= 0) {
         n_done = has_pivots ? n_done : f->pivot;
         (void)sli_fail_at(&found, f->status, F->S->perm[f->pivot], -1, f->value,
-                          sli_factor_advice(F, f));
+                          sli_advice(F, from, f));
     } else if (f->status != SL_OK) {
         n_done = F->S->super_first[f->super];
-        sli_factor_report_entry(F, A, f, &found);
+        sli_factor_report_entry(F, from->A, f, &found);
     }
     F->stats.error = found.error;
     if (n_done == 0 || F->stats.factor.positive + F->stats.factor.negative != n_done) {
@@ -110,12 +70,12 @@ static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {
 }
 
 /* Reports the pivots or a failure. Without all pivots there is no growth. */
-static void sli_factor_outcome(sl_factor *F, const sl_csc *A, const sli_failure *failure,
+static void sli_factor_outcome(sl_factor *F, const sli_source *from, const sli_failure *failure,
                                int has_pivots) {
     if (!has_pivots) {
         F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
     }
-    sli_factor_report(F, A, failure, has_pivots);
+    sli_factor_report(F, from, failure, has_pivots);
 }
 
 /* Completes a factor with 2x2 pivots. The backward sweep does not divide by them. */
@@ -146,7 +106,7 @@ typedef struct sli_verdict {
 } sli_verdict;
 
 SLI_NOINLINE static void sli_verdict_report(const sli_verdict *v) {
-    sli_factor_outcome(v->F, v->from->A, v->failure, v->has_pivots);
+    sli_factor_outcome(v->F, v->from, v->failure, v->has_pivots);
 }
 
 /* Null pivots that are skipped: finds them, and computes what solves need. */

@@ -64,7 +64,8 @@ SLI_COLD static sl_status sli_not_finite(void) {
 
 SLI_COLD static sl_status sli_inconsistent(void) {
     return sli_refuse(SL_ERR_INCONSISTENT,
-                      "B has a part along a null vector, beyond options.consistency_tolerance");
+                      "b has a part along a null vector of A, so that no x solves it; with "
+                      "options.mass solves leave that part out");
 }
 
 /* Checks that A x = b has a solution for every right-hand side. Writes only to `memory`. */

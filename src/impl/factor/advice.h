@@ -1,0 +1,84 @@
+/* advice.h: what helps where a factorization was refused, as text */
+#ifndef SLI_FACTOR_ADVICE_H
+#define SLI_FACTOR_ADVICE_H
+
+#include "pivot_suspects.h"
+
+/* Looks at A for the reason of a null pivot; NULL: none is found. A matrix of several connected
+ * parts is judged by the one of the pivot. */
+SLI_COLD static const char *sli_advice_of_matrix(sl_factor *F, const sli_source *from, sl_int k) {
+    const sl_symbolic *S = F->S;
+    sli_null_row *rows =
+        (sli_null_row *)sli_judge_memory(F, S->n, sizeof(sli_null_row) + 2 * sizeof(double));
+    const char *what = NULL;
+    if (rows != NULL) {
+        double *most = (double *)(void *)(rows + S->n);
+        sl_int *last = (sl_int *)(void *)(most + S->n);
+        const sli_null_walk w = sli_null_walk_begin(S, 0, rows, NULL, NULL);
+        sli_null_add_map(&w, S, from, NULL);
+        sli_null_components(&w, S, NULL, last, most);
+        if (rows[k].size == 0.0) {
+            what = "the row is 0, as that of an isolated vertex. Set options.pivots = "
+                   "SL_PIVOTS_SKIP_NULL, without sl_symbolic_create_pivoted: x is 0 there";
+        } else if (most[last[k]] == 0.0) {
+            what = "the rows of this connected part sum to 0, as in a Laplacian: x is unique up to "
+                   "a constant. Set options.pivots = SL_PIVOTS_SKIP_NULL, without "
+                   "sl_symbolic_create_pivoted, and options.mass if b does not sum to 0";
+        }
+    }
+    sli_free(&F->allocator, rows);
+    return what;
+}
+
+/* What helps where null pivots are refused. */
+SLI_COLD static const char *sli_advice_null(sl_factor *F, const sli_source *from, sl_int k) {
+    const char *what = sli_advice_of_matrix(F, from, k);
+    return what != NULL ? what
+           : F->rule.null_tolerance > sli_null_tolerance(F->S->n, DBL_EPSILON)
+               ? "the pivot is within options.null_tolerance, which is above its default"
+           : F->S->is_pivoted
+               ? "A is singular to working precision: if it is semidefinite, options.pivots = "
+                 "SL_PIVOTS_SKIP_NULL, without sl_symbolic_create_pivoted"
+           : sli_singular_of(1) == NULL /* untested: null spaces are there */
+               ? "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
+                 "options.pivots, which SL_NO_SINGULAR leaves out" /* untested: the same */
+               : "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
+                 "options.pivots = SL_PIVOTS_SKIP_NULL";
+}
+
+/* What helps where a pivot was refused. */
+SLI_COLD static const char *sli_advice_pivot(sl_factor *F, const sli_source *from,
+                                             const sli_failure *f) {
+    if (F->limits.is_definite && f->bound >= 0.0) {
+        return "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite";
+    }
+    if (f->bound < 0.0) {
+        return "there was no memory to judge whether the pivot is null";
+    }
+    if (sli_skips_nulls(F)) {
+        return f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
+                                "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
+                              : "A is indefinite, or options.null_vector or options.mass does not "
+                                "suit its null vectors";
+    }
+    return sli_advice_null(F, from, f->pivot);
+}
+
+/* What helps where a factorization was refused at a pivot. */
+SLI_COLD static const char *sli_advice(sl_factor *F, const sli_source *from, const sli_failure *f) {
+    switch (f->status) {
+    case SL_ERR_PIVOT:
+        return sli_advice_pivot(F, from, f);
+    case SL_ERR_NOT_FINITE:
+        return "a pivot is not finite: numbers of A overflow";
+    case SL_ERR_UNSUPPORTED:
+        return "A has more null vectors than columns are given, options.null_vector_count";
+    default: /* SL_ERR_INACCURATE */
+        return F->stats.factor.growth <= F->limits.growth
+                   ? "float cannot hold L: options.storage"
+               : F->S->is_pivoted ? "pivot growth exceeds options.growth_limit"
+                                  : "sl_symbolic_create_pivoted avoids pivot growth";
+    }
+}
+
+#endif
