@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 6d5885efc1ffba95
+ * FNV-1a of the lines after this comment, without the license: 3e93f30db3df1d9e
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -46,15 +46,15 @@
  *  20964 impl/ inverse: entries of the inverse, regions
  *  23876 impl/ change: a factor that follows changes of its matrix
  *  26154 impl/ constraints: rows held at values, on a factor that stays
- *  27463 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30203 impl/ fixed: rows fixed at given values
- *  30762 impl/ io: files that are replaced only when they are complete
- *  30980 impl/ files: Matrix Market files, 64-bit indices
- *  31526 impl/ save: factors in files
- *  33505 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34191 impl/ complex: complex Hermitian systems over real factors
- *  34696 impl/ packs: the tables through which the core calls packs
- *  35093 impl/ templates: the header includes them from itself, once for each instruction set
+ *  27501 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30241 impl/ fixed: rows fixed at given values
+ *  30800 impl/ io: files that are replaced only when they are complete
+ *  31018 impl/ files: Matrix Market files, 64-bit indices
+ *  31564 impl/ save: factors in files
+ *  33543 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34229 impl/ complex: complex Hermitian systems over real factors
+ *  34734 impl/ packs: the tables through which the core calls packs
+ *  35131 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2370,8 +2370,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change_entries(sl_factor *F, const sl_
  *  F    [in]   the factor; kept by the object. When F changes, solves are refused until
  *              sl_constraints_refactor.
  *  opt  [in]   allocator.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_UNSUPPORTED: pivots of both signs, or 2x2
- *           pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_UNSUPPORTED: pivots of both signs, 2x2
+ *           pivots, or regularized ones; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
  *  Cost     O(1); with SL_PIVOTS_SKIP_NULL 8 bytes per row.
  *  Source   capacitance matrix of a change of low rank, as in [Hager89].
  *  Example  tests/core/test_constraints.c
@@ -2424,8 +2424,8 @@ SL_API SL_WARN_UNUSED sl_status sl_constraints_release(sl_constraints *P, const 
  */
 SL_API SL_WARN_UNUSED sl_status sl_constraints_refactor(sl_constraints *P, sl_stats *stats);
 
-/** Solves A x = b + C f with C' x = g, where the columns of C are the equalities: for pins, x is g
- *  in their rows, and A x = b in all others.
+/** Solves A x = b + C f with C' x = g, where the columns of C are the equalities: for pins, x is
+ *  exactly g in their rows, and A x = b in all others.
  *
  *  plan   [in]   a local solve of the rows that the plan names; NULL: a full one. b is 0 outside of
  *                the b-set, the pins are not: they need not be in either set. A plan in a region is
@@ -26161,6 +26161,7 @@ typedef struct sli_pin {
   sl_int count;
   sl_int *rows;
   double *values;
+  int exponent;
   sli_reach R;
   double *y;
   double *u;
@@ -26468,6 +26469,20 @@ static sl_status sli_pin_new(sli_pin **out, const sl_constraints *P, sli_set *se
   return status;
 }
 
+static void sli_pin_fill(sli_pin *pin, const sli_equality *e, const uint64_t *order) {
+  double most = 0.0;
+  sl_int k;
+  for (k = 0; k < e->count; k++) {
+    most = fmax(most, fabs(e->values[k]));
+  }
+  (void)frexp(most, &pin->exponent);
+  pin->exponent = 1 - pin->exponent;
+  for (k = 0; k < e->count; k++) {
+    pin->rows[k] = e->rows[sli_value(order[k])];
+    pin->values[k] = ldexp(e->values[sli_value(order[k])], pin->exponent);
+  }
+}
+
 static sl_status sli_pin_create(sli_pin **out, const sl_constraints *P, const sli_equality *e,
     int is_swept, sl_stats *stats) {
   const sl_symbolic *S = P->F->S;
@@ -26477,7 +26492,7 @@ static sl_status sli_pin_create(sli_pin **out, const sl_constraints *P, const sl
   sli_pin *pin = NULL;
   double *scratch = NULL;
   sl_status status = SL_OK;
-  sl_int k, row = -1;
+  sl_int row = -1;
   *out = NULL;
   SLI_LAYOUT(&seeds, &P->allocator, status) {
     sli_set_layout_seeds(&set, &seeds);
@@ -26490,10 +26505,7 @@ static sl_status sli_pin_create(sli_pin **out, const sl_constraints *P, const sl
     status = sli_pin_new(&pin, P, &set, e->count, &R);
   }
   if (status == SL_OK) {
-    for (k = 0; k < e->count; k++) {
-      pin->rows[k] = e->rows[sli_value(set.seeds[k])];
-      pin->values[k] = e->values[sli_value(set.seeds[k])];
-    }
+    sli_pin_fill(pin, e, set.seeds);
     status = sli_pin_find_nulls(P, pin, &row);
     if (status == SL_OK) {
       *out = pin;
@@ -26994,10 +27006,13 @@ static sl_status sli_constraints_take(sl_constraints *P) {
 static sl_status sli_constraints_check(const sl_factor *F) {
   const sl_factor_info *info = &F->stats.factor;
   const sl_status status = sli_factor_has_numbers(F);
-  if (status != SL_OK || (F->E == NULL && (info->positive == 0 || info->negative == 0))) {
+  if (status != SL_OK || (F->E == NULL && info->regularized == 0 &&
+      (info->positive == 0 || info->negative == 0))) {
     return status;
   }
-  return sli_refuse(SL_ERR_UNSUPPORTED, "pins with pivots of both signs or 2x2 pivots");
+  return sli_refuse(SL_ERR_UNSUPPORTED,
+      info->regularized > 0 ? "pins with regularized pivots"
+      : "pins with pivots of both signs or 2x2 pivots");
 }
 
 static void sli_constraints_release(sl_constraints *P) {
@@ -27151,7 +27166,7 @@ SL_API sl_status sl_constraints_release(sl_constraints *P, const sl_int *indices
 }
 
 SLI_INLINE int sli_pin_is_row(const sli_pin *pin) {
-  return pin->count == 1 && pin->values[0] == 1.0;
+  return pin->count == 1 && pin->values[0] == 1.0 && pin->exponent == 0;
 }
 
 static sl_status sli_constraints_fill(sl_constraints *D, const sl_constraints *P, sl_int *rows,
@@ -27166,6 +27181,9 @@ static sl_status sli_constraints_fill(sl_constraints *D, const sl_constraints *P
     if (last == k) {
       const sli_equality e = sli_equality_of(pin->rows, pin->values, pin->count);
       status = sli_constraints_push(D, &e, stats);
+      if (status == SL_OK) {
+        D->pins[k]->exponent = pin->exponent;
+      }
       last = k + 1;
     } else {
       status = sli_constraints_push_rows(D, rows, last - k, stats);
@@ -27236,17 +27254,24 @@ static void sli_constraints_layout(sli_constraints_solve *w, sli_block *b, sl_in
   sli_constraints_nulls_layout(&w->nulls, b, P);
 }
 
+static sl_int sli_pin_index(const sl_constraints *P, const sli_pin *pin, const sli_reach *R) {
+  return pin->count == 1 ? sli_reach_index_of(R, P->F->S->iperm[pin->rows[0]]) : -1;
+}
+
 static void sli_constraints_clear_rows(const sl_constraints *P, const sli_reach *R, double *b,
     sl_int lanes) {
   sl_int p, r;
   for (p = 0; p < P->n_pins; p++) {
     const sli_pin *pin = P->pins[p];
-    const sl_int at =
-      pin->count == 1 ? sli_reach_index_of(R, P->F->S->iperm[pin->rows[0]]) : -1;
+    const sl_int at = sli_pin_index(P, pin, R);
     for (r = 0; r < lanes && at != -1; r++) {
       b[(ptrdiff_t)at * lanes + r] = 0.0;
     }
   }
+}
+
+SLI_INLINE double sli_constraints_value(const sli_constraints_solve *w, sl_int p, sl_int r) {
+  return ldexp(w->G[(size_t)p * w->g.row + (size_t)r * w->g.column], w->P->pins[p]->exponent);
 }
 
 static void sli_constraints_load(const sli_constraints_solve *w, const double *y) {
@@ -27264,7 +27289,7 @@ static void sli_constraints_load(const sli_constraints_solve *w, const double *y
       }
     }
     for (r = 0; r < lanes; r++) {
-      f[r] = r < nrhs ? w->G[(size_t)p * w->g.row + (size_t)r * w->g.column] - sums[r] : 0.0;
+      f[r] = r < nrhs ? sli_constraints_value(w, p, r) - sums[r] : 0.0;
     }
   }
 }
@@ -27314,7 +27339,7 @@ static int sli_constraints_hold(const sli_constraints_solve *w, const double *x)
   for (r = 0; r < w->rhs.nrhs; r++) {
     for (p = 0; p < P->n_pins; p++) {
       const sli_pin *pin = P->pins[p];
-      const double g = w->G[(size_t)p * w->g.row + (size_t)r * w->g.column];
+      const double g = sli_constraints_value(w, p, r);
       double sum = -g, size = 0.0, weight = 0.0;
       sl_int s = 0;
       for (k = 0; k < pin->count && s != -1; k++) {
@@ -27335,6 +27360,18 @@ static int sli_constraints_hold(const sli_constraints_solve *w, const double *x)
     }
   }
   return 1;
+}
+
+static void sli_constraints_set(const sli_constraints_solve *w, double *x) {
+  const sl_constraints *P = w->P;
+  sl_int p, r;
+  for (p = 0; p < P->n_pins; p++) {
+    const sli_pin *pin = P->pins[p];
+    const sl_int at = sli_pin_index(P, pin, &w->q->backward);
+    for (r = 0; r < w->rhs.nrhs && at != -1; r++) {
+      x[(ptrdiff_t)at * w->lanes + r] = sli_constraints_value(w, p, r) / pin->values[0];
+    }
+  }
 }
 
 static int sli_constraints_forward(const sli_constraints_solve *w, const sli_vectors *v,
@@ -27400,6 +27437,7 @@ SLI_HOT static sl_status sli_constraints_block(sli_constraints_solve *w) {
   if (!sli_constraints_hold(w, v.x)) {
     return sli_refuse(SL_ERR_INACCURATE, "C' x = g holds too inaccurately");
   }
+  sli_constraints_set(w, v.x);
   sli_unpack(F, q, &w->rhs, v.x);
   return sli_sweep_is_finite(F, q, v.x, lanes) ? SL_OK : sli_not_finite();
 }

@@ -24,8 +24,8 @@
  *  F    [in]   the factor; kept by the object. When F changes, solves are refused until
  *              sl_constraints_refactor.
  *  opt  [in]   allocator.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_UNSUPPORTED: pivots of both signs, or 2x2
- *           pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_UNSUPPORTED: pivots of both signs, 2x2
+ *           pivots, or regularized ones; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
  *  Cost     O(1); with SL_PIVOTS_SKIP_NULL 8 bytes per row.
  *  Source   capacitance matrix of a change of low rank, as in [Hager89].
  *  Example  tests/core/test_constraints.c
@@ -78,8 +78,8 @@ SL_API SL_WARN_UNUSED sl_status sl_constraints_release(sl_constraints *P, const 
  */
 SL_API SL_WARN_UNUSED sl_status sl_constraints_refactor(sl_constraints *P, sl_stats *stats);
 
-/** Solves A x = b + C f with C' x = g, where the columns of C are the equalities: for pins, x is g
- *  in their rows, and A x = b in all others.
+/** Solves A x = b + C f with C' x = g, where the columns of C are the equalities: for pins, x is
+ *  exactly g in their rows, and A x = b in all others.
  *
  *  plan   [in]   a local solve of the rows that the plan names; NULL: a full one. b is 0 outside of
  *                the b-set, the pins are not: they need not be in either set. A plan in a region is

@@ -140,6 +140,56 @@ static void factors_of_other_kinds_hold(void **state) {
     gen_matrix_free(&M);
 }
 
+/* Held rows have exactly their values, in full and in local solves, also after the set is made
+ * anew; an equality holds whatever the size of its weights. */
+static void held_values_are_exact(void **state) {
+    (void)state;
+    static const double sizes[] = {1.0, 3.0, 1e-170, 1e-300, 1e-310, 1e200};
+    enum { N = 100 };
+    const sl_int pins[2] = {5, 50}, apart[2] = {7, 31}, wanted[3] = {5, 50, 7};
+    for (size_t m = 0; m < sizeof sizes / sizeof *sizes; m++) {
+        pinned_t p = pinned_make(GEN_GRID2, N, 1, NULL);
+        const double w = sizes[m], difference[2] = {w, -w}, g[3] = {1.0, 3.0, 0.1 * w};
+        double x[N], local[3], b[N];
+        sl_plan *plan;
+        gen_reals(b, N, m);
+        pin_rows(&p, pins, 2, NULL);
+        SL_CHECK(sl_constraints_add(p.P, apart, difference, 2, NULL));
+        SL_CHECK(sl_plan_create(&plan, p.y.S, NULL, SL_ALL, wanted, 3, NULL, NULL));
+        for (int turn = 0; turn < 2; turn++) {
+            SL_CHECK(sl_constraints_solve(p.P, NULL, x, N, b, N, g, 3, 1, NULL));
+            SL_CHECK(sl_constraints_solve(p.P, plan, local, 3, b, N, g, 3, 1, NULL));
+            assert_true(x[5] == 1.0 && x[50] == 3.0 && fabs(x[7] - x[31] - 0.1) <= 1e-12);
+            assert_true(local[0] == 1.0 && local[1] == 3.0 && local[2] == x[7]);
+            SL_CHECK(sl_factor_refactor(p.y.F, &p.y.M.view, NULL));
+            SL_CHECK(sl_constraints_refactor(p.P, NULL));
+        }
+        sl_plan_free(plan);
+        pinned_free(&p);
+    }
+}
+
+/* A factor whose pivots were regularized is that of A + E: solves with pins would be, too. */
+static void regularized_pivots_are_refused(void **state) {
+    (void)state;
+    static const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    static const double a[3] = {0.0, 1.0, 2.0};
+    const sl_csc A = {2, 2, p, i, a};
+    sl_options opt = options_none();
+    sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
+    sl_factor *F;
+    sl_constraints *P;
+    sl_stats stats;
+    const sl_int signs[2] = {1, -1};
+    opt.regularization = 1e-8;
+    opt.signs = signs;
+    SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
+    assert_int_equal(stats.factor.regularized, 1);
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_constraints_create(&P, F, NULL));
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
 /* A row that is named twice among many, beside pins that are there: all of them stay away. */
 static void a_row_twice_among_many_is_refused(void **state) {
     (void)state;
@@ -164,6 +214,8 @@ int main(void) {
         cmocka_unit_test(failing_allocations_refuse_solves),
         cmocka_unit_test(a_null_vector_may_be_lost),
         cmocka_unit_test(factors_of_other_kinds_hold),
+        cmocka_unit_test(held_values_are_exact),
+        cmocka_unit_test(regularized_pivots_are_refused),
         cmocka_unit_test(a_row_twice_among_many_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

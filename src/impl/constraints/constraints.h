@@ -25,14 +25,17 @@ static sl_status sli_constraints_take(sl_constraints *P) {
     return SL_OK;
 }
 
-/* May F have pins? */
+/* May F have pins? A regularized factor is that of A + E, and a set of pins has no refinement. */
 static sl_status sli_constraints_check(const sl_factor *F) {
     const sl_factor_info *info = &F->stats.factor;
     const sl_status status = sli_factor_has_numbers(F);
-    if (status != SL_OK || (F->E == NULL && (info->positive == 0 || info->negative == 0))) {
+    if (status != SL_OK || (F->E == NULL && info->regularized == 0 &&
+                            (info->positive == 0 || info->negative == 0))) {
         return status;
     }
-    return sli_refuse(SL_ERR_UNSUPPORTED, "pins with pivots of both signs or 2x2 pivots");
+    return sli_refuse(SL_ERR_UNSUPPORTED,
+                      info->regularized > 0 ? "pins with regularized pivots"
+                                            : "pins with pivots of both signs or 2x2 pivots");
 }
 
 /* Releases what a set has made on top of its factor. */
@@ -190,7 +193,7 @@ SL_API sl_status sl_constraints_release(sl_constraints *P, const sl_int *indices
 
 /* Is it the pin of a row? */
 SLI_INLINE int sli_pin_is_row(const sli_pin *pin) {
-    return pin->count == 1 && pin->values[0] == 1.0;
+    return pin->count == 1 && pin->values[0] == 1.0 && pin->exponent == 0;
 }
 
 /* Fills a new set, D, from the pins of P; rows: P->n_pins of scratch. */
@@ -206,6 +209,9 @@ static sl_status sli_constraints_fill(sl_constraints *D, const sl_constraints *P
         if (last == k) {
             const sli_equality e = sli_equality_of(pin->rows, pin->values, pin->count);
             status = sli_constraints_push(D, &e, stats);
+            if (status == SL_OK) {
+                D->pins[k]->exponent = pin->exponent; /* of the caller's values */
+            }
             last = k + 1;
         } else {
             status = sli_constraints_push_rows(D, rows, last - k, stats);

@@ -79,6 +79,22 @@ static sl_status sli_pin_new(sli_pin **out, const sl_constraints *P, sli_set *se
     return status;
 }
 
+/* Copies the rows and values of an equality in the order of its sorted rows, and scales them, so
+ * that the squares of small ones are no zeros. */
+static void sli_pin_fill(sli_pin *pin, const sli_equality *e, const uint64_t *order) {
+    double most = 0.0;
+    sl_int k;
+    for (k = 0; k < e->count; k++) {
+        most = fmax(most, fabs(e->values[k]));
+    }
+    (void)frexp(most, &pin->exponent);
+    pin->exponent = 1 - pin->exponent;
+    for (k = 0; k < e->count; k++) {
+        pin->rows[k] = e->rows[sli_value(order[k])];
+        pin->values[k] = ldexp(e->values[sli_value(order[k])], pin->exponent);
+    }
+}
+
 /* Makes an equality; without y and u if is_swept is 0. */
 static sl_status sli_pin_create(sli_pin **out, const sl_constraints *P, const sli_equality *e,
                                 int is_swept, sl_stats *stats) {
@@ -89,7 +105,7 @@ static sl_status sli_pin_create(sli_pin **out, const sl_constraints *P, const sl
     sli_pin *pin = NULL;
     double *scratch = NULL;
     sl_status status = SL_OK;
-    sl_int k, row = -1;
+    sl_int row = -1;
     *out = NULL;
     SLI_LAYOUT(&seeds, &P->allocator, status) {
         sli_set_layout_seeds(&set, &seeds);
@@ -102,10 +118,7 @@ static sl_status sli_pin_create(sli_pin **out, const sl_constraints *P, const sl
         status = sli_pin_new(&pin, P, &set, e->count, &R);
     }
     if (status == SL_OK) {
-        for (k = 0; k < e->count; k++) {
-            pin->rows[k] = e->rows[sli_value(set.seeds[k])];
-            pin->values[k] = e->values[sli_value(set.seeds[k])];
-        }
+        sli_pin_fill(pin, e, set.seeds);
         status = sli_pin_find_nulls(P, pin, &row);
         if (status == SL_OK) {
             *out = pin;

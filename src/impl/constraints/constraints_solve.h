@@ -30,6 +30,11 @@ static void sli_constraints_layout(sli_constraints_solve *w, sli_block *b, sl_in
     sli_constraints_nulls_layout(&w->nulls, b, P);
 }
 
+/* Where the row of a pin is in the vector of a reach; -1: it is not there, or there are several. */
+static sl_int sli_pin_index(const sl_constraints *P, const sli_pin *pin, const sli_reach *R) {
+    return pin->count == 1 ? sli_reach_index_of(R, P->F->S->iperm[pin->rows[0]]) : -1;
+}
+
 /* Clears b in pinned rows, where it changes nothing but the multiplier. So x is 0, and no rounding
  * of 0, where b is nonzero in pinned rows only. */
 static void sli_constraints_clear_rows(const sl_constraints *P, const sli_reach *R, double *b,
@@ -37,12 +42,16 @@ static void sli_constraints_clear_rows(const sl_constraints *P, const sli_reach 
     sl_int p, r;
     for (p = 0; p < P->n_pins; p++) {
         const sli_pin *pin = P->pins[p];
-        const sl_int at =
-            pin->count == 1 ? sli_reach_index_of(R, P->F->S->iperm[pin->rows[0]]) : -1;
+        const sl_int at = sli_pin_index(P, pin, R);
         for (r = 0; r < lanes && at != -1; r++) {
             b[(ptrdiff_t)at * lanes + r] = 0.0;
         }
     }
+}
+
+/* What equality p holds in right-hand side r of the block. */
+SLI_INLINE double sli_constraints_value(const sli_constraints_solve *w, sl_int p, sl_int r) {
+    return ldexp(w->G[(size_t)p * w->g.row + (size_t)r * w->g.column], w->P->pins[p]->exponent);
 }
 
 /* f := K f = g - C' A^-1 b, where y = L^-1 P b. */
@@ -61,7 +70,7 @@ static void sli_constraints_load(const sli_constraints_solve *w, const double *y
             }
         }
         for (r = 0; r < lanes; r++) {
-            f[r] = r < nrhs ? w->G[(size_t)p * w->g.row + (size_t)r * w->g.column] - sums[r] : 0.0;
+            f[r] = r < nrhs ? sli_constraints_value(w, p, r) - sums[r] : 0.0;
         }
     }
 }
@@ -118,7 +127,7 @@ static int sli_constraints_hold(const sli_constraints_solve *w, const double *x)
     for (r = 0; r < w->rhs.nrhs; r++) {
         for (p = 0; p < P->n_pins; p++) {
             const sli_pin *pin = P->pins[p];
-            const double g = w->G[(size_t)p * w->g.row + (size_t)r * w->g.column];
+            const double g = sli_constraints_value(w, p, r);
             double sum = -g, size = 0.0, weight = 0.0;
             sl_int s = 0;
             for (k = 0; k < pin->count && s != -1; k++) {
@@ -139,6 +148,19 @@ static int sli_constraints_hold(const sli_constraints_solve *w, const double *x)
         }
     }
     return 1;
+}
+
+/* x := g in the rows that are held, which it is but for rounding. */
+static void sli_constraints_set(const sli_constraints_solve *w, double *x) {
+    const sl_constraints *P = w->P;
+    sl_int p, r;
+    for (p = 0; p < P->n_pins; p++) {
+        const sli_pin *pin = P->pins[p];
+        const sl_int at = sli_pin_index(P, pin, &w->q->backward);
+        for (r = 0; r < w->rhs.nrhs && at != -1; r++) {
+            x[(ptrdiff_t)at * w->lanes + r] = sli_constraints_value(w, p, r) / pin->values[0];
+        }
+    }
 }
 
 /* y := L^-1 P b for the block, and f := K f. Returns 0 if b is inconsistent. norms := of b, if
@@ -207,6 +229,7 @@ SLI_HOT static sl_status sli_constraints_block(sli_constraints_solve *w) {
     if (!sli_constraints_hold(w, v.x)) {
         return sli_refuse(SL_ERR_INACCURATE, "C' x = g holds too inaccurately");
     }
+    sli_constraints_set(w, v.x);
     sli_unpack(F, q, &w->rhs, v.x);
     return sli_sweep_is_finite(F, q, v.x, lanes) ? SL_OK : sli_not_finite();
 }

@@ -33,7 +33,8 @@ static const char sli_nulls_unknown[] =
 typedef struct sli_pin {
     sl_int count;
     sl_int *rows;   /* count: the rows of c, in the order of L */
-    double *values; /* count: its entries */
+    double *values; /* count: its entries, of which the largest is between 1 and 2 */
+    int exponent;   /* these are the caller's times 2^exponent */
     sli_reach R;    /* of c */
     double *y;      /* R.columns: L^-1 P c, 0 at null pivots */
     double *u;      /* R.columns: D^-1 y */
