@@ -46,6 +46,7 @@ static void *worker(void *context) {
     return NULL;
 }
 
+/* ---- run ---- */
 /* An sl_parallel_for. One loop at a time: calls on different factors at once need a pool each. */
 static void run(void *context, sl_int count, void (*body)(void *data, sl_int k), void *data) {
     pool *p = context;
@@ -62,6 +63,7 @@ static void run(void *context, sl_int count, void (*body)(void *data, sl_int k),
     p->count = 0;
     pthread_mutex_unlock(&p->lock);
 }
+/* ---- end ---- */
 
 int main(void) {
     pool p = {.lock = PTHREAD_MUTEX_INITIALIZER,
