@@ -3,6 +3,7 @@
 .PHONY: docs pictures test-examples
 
 docs: ## build/manual/index.html: tutorial, tasks, API, background; fails if a link leads nowhere or there are too many words
+	@rm -rf build/manual
 	@python3 -B tools/docs/manual.py build/manual
 
 pictures: programs test-examples ## the pictures of the manual, by the commands in its pages

@@ -122,9 +122,10 @@ class Page:
         path = self.resolved(path)
         if not re.match(r"tools/(examples|adapters)/\w+\.\w+$", path):
             return None
-        if target in self.manual.shown:
+        whole_or_same = {"", section} if section else self.manual.shown.get(path, set())
+        if whole_or_same & self.manual.shown.get(path, set()):
             PROBLEMS.append("%s is shown twice, in %s" % (target, self.path))
-        self.manual.shown.add(target)
+        self.manual.shown.setdefault(path, set()).add(section)
         self.link(target)
         text = read(path).replace('#include "example.h"\n', "")
         if section:
@@ -143,7 +144,7 @@ class Page:
 
 class Manual:
     def __init__(self):
-        self.files, self.pictures, self.linked, self.shown = page_files(), set(), set(), set()
+        self.files, self.pictures, self.linked, self.shown = page_files(), set(), set(), {}
         uses = sections(read("tools/examples/uses.c"))
         uses = {name: uses[name] for name in uses if name.startswith("sl_")}
         self.pages, contents, self.page_of_name = api_pages(
@@ -256,8 +257,7 @@ def write(output, name, text):
 
 def main():
     output = sys.argv[1]
-    shutil.rmtree(output, ignore_errors=True)
-    os.makedirs(os.path.join(output, "examples"))
+    os.makedirs(os.path.join(output, "examples"), exist_ok=True)
     manual = Manual()
     manual.check_links()
     manual.check_texts()
