@@ -74,7 +74,7 @@ def shown_code(code):
 
 def shown_comment(comment):
     """A contract without the tests that it names: the manual shows a use."""
-    return re.sub(r"\n +Example +\S.*(?=\n|$)", "", "\n" + comment_text(comment)).strip("\n")
+    return re.sub(r"^Example +.*\n?", "", comment_text(comment), flags=re.M).rstrip("\n")
 
 
 def shown_entries(file, entries):

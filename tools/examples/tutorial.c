@@ -1,7 +1,8 @@
 /* tutorial.c: a mesh is loaded, warmed, measured, laid flat, pulled, changed, and its factor saved
  *
- * The steps of the tutorial, tools/docs/tutorial.md, which shows the sections of this file. Run it
- * beside hill.obj. It writes map.obj, pulled.obj and changed.obj. */
+ * The steps of the tutorial, tools/docs/tutorial.md, which shows the sections of this file. Its
+ * argument is the mesh, by default hill.obj. It writes map.obj, pulled.obj, changed.obj and
+ * hill.slf. */
 #define SL_WITH_CHANGE
 #define SL_WITH_CONSTRAINTS
 #define SL_WITH_FIXED
@@ -263,10 +264,11 @@ static void save(void) {
     if (again[TOP] != u[TOP]) exit(1);
 }
 
-int main(void) {
-    load("hill.obj");
-    if (n == 0) {
-        fprintf(stderr, "hill.obj is missing: it lies beside this program in tools/examples\n");
+int main(int argc, char **argv) {
+    const char *path = argc > 1 ? argv[1] : "hill.obj";
+    load(path);
+    if (n <= TOP || n_faces == 0) {
+        fprintf(stderr, "%s is not the mesh tools/examples/hill.obj\n", path);
         return 1;
     }
     printf("%d vertices, %d faces\n", (int)n, (int)n_faces);
