@@ -168,7 +168,8 @@ class Manual:
         body = "".join(pieces)
         if not page.startswith("api"):
             return body
-        return re.sub(r"tools/docs/([a-z]+)\.md", r'<a href="\1.html">tools/docs/\1.md</a>', body)
+        return re.sub(r"tools/docs/(?:do/)?[a-z]+\.md", lambda m: '<a href="%s.html">%s</a>' % (
+            self.files.get(m.group(0), m.group(0)), m.group(0)), body)
 
     def title(self, page):
         match = re.search(r"<h1.*?>(.*?)</h1>", self.pages[page])
