@@ -6,7 +6,7 @@
  * geometrycentral::LinearSolver<T>.
  *
  * Or the edit of four lines in src/numerical/positive_definite_solvers.cpp that the manual shows
- * (tools/docs/guide.md): there the checks are geometry-central's own.
+ * (tools/docs/doors.md): there the checks are geometry-central's own.
  */
 #ifndef SPARSE_LOCAL_GEOMETRY_CENTRAL_HPP
 #define SPARSE_LOCAL_GEOMETRY_CENTRAL_HPP

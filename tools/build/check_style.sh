@@ -1,5 +1,5 @@
 #!/bin/sh
-# check_style.sh: lengths of lines and public comments, wording of headers and README (make style)
+# check_style.sh: lengths of lines and public comments, wording of headers and texts (make style)
 #
 #     tools/build/check_style.sh
 #
@@ -40,7 +40,8 @@ export LC_ALL=C
             if (total > max_contract * count)
                 printf "src/public: contracts have %.1f lines on average\n", total / count
         }' src/public/*.h
-    grep -nEw -e "$phrases" src/public/*.h README.md /dev/null | sed 's/$/ (wording)/'
+    grep -nEw -e "$phrases" src/public/*.h README.md tools/docs/*.md \
+        tools/docs/do/*.md | sed 's/$/ (wording)/'
 } | {
     count=0
     while IFS= read -r line; do

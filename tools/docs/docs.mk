@@ -2,10 +2,11 @@
 
 .PHONY: docs pictures test-examples
 
-docs: ## build/manual/index.html: guide, API, algorithms, formats; fails if a link leads nowhere
-	@python3 tools/docs/manual.py build/manual
+docs: ## build/manual/index.html: tutorial, tasks, API, background; fails if a link leads nowhere or there are too many words
+	@rm -rf build/manual
+	@python3 -B tools/docs/manual.py build/manual
 
-pictures: programs ## the pictures of the manual, by the commands in tools/docs/program.md
+pictures: programs test-examples ## the pictures of the manual, by the commands in its pages
 	@PROGRAM=$(B)/sparse-local tools/docs/pictures.sh
 
 # ---- examples ----
@@ -16,6 +17,7 @@ EXAMPLES = $(patsubst tools/examples/%.c,%,$(wildcard tools/examples/*.c))
 
 test-examples: deps docs $(IMPL) ## compiles and runs the programs of tools/examples, as the manual shows them
 	@mkdir -p $(B)/examples
+	@cp build/manual/examples/*.obj $(B)/examples
 	@cd $(B)/examples && for name in $(EXAMPLES); do \
 	sed '/define SPARSE_LOCAL_IMPLEMENTATION/d' $(CURDIR)/build/manual/examples/$$name.c >$$name.c && \
 	$(CC) $(filter-out $(PACK_FLAGS),$(C_FLAGS)) -I$(CURDIR) -o $$name $$name.c $(abspath $(IMPL)) $(LIBS) && \

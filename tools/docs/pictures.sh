@@ -1,16 +1,19 @@
 #!/bin/sh
-# pictures.sh: draws the pictures of the manual anew, by the commands in tools/docs/program.md
+# pictures.sh: draws the pictures of the manual anew, by the commands in its pages
 #
 #     PROGRAM=build/sparse-local tools/docs/pictures.sh          (make pictures)
 #
-# Runs in the root of the repository each line of the chapter that is indented and begins with
-# sparse-local. Pages of the command view are drawn if Chromium is there.
+# Runs in the root of the repository each line of program.md and tutorial.md that is indented and
+# begins with sparse-local. Pages of the command view are drawn if Chromium is there. The meshes of
+# build/examples are those that the program of the tutorial writes.
 
 set -e
 mkdir -p build/pictures
-grep '^    sparse-local ' tools/docs/program.md | while read -r _ words; do
+pages='tools/docs/program.md tools/docs/tutorial.md'
+# shellcheck disable=SC2086
+grep -h '^    sparse-local ' $pages | while read -r _ words; do
     case $words in
-    *--png*) words="$words --size 360x288" ;;
+    *--png* | *--separators*) words="$words --size 360x288" ;;
     esac
     echo "sparse-local $words"
     # shellcheck disable=SC2086

@@ -17,10 +17,12 @@ int main(void) {
     int k, is_small = 1;
     ok(sl_symbolic_create(&S, &A, NULL, NULL));
     ok(sl_factor_create(&F, S, &A, NULL, NULL));
+    /* ---- bounds ---- */
     ok(sl_factor_certify(F, &A, SL_ESTIMATED, NULL, &stats));
     printf("relative error in the energy norm at most %.1e\n", stats.certificate.eta);
     ok(sl_plan_create(&P, S, &source, 1, rows, COUNT, NULL, NULL));
     ok(sl_plan_solve_bounded(P, F, x, COUNT, bounds, &one, 1, 1, scales, NULL, NULL));
+    /* ---- end ---- */
     for (k = 0; k < COUNT; k++) {
         printf("x = %.15f +- %.1e\n", x[k], bounds[k]);
         is_small &= bounds[k] < 1e-13;

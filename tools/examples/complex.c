@@ -31,6 +31,7 @@ int main(void) {
     sl_factor *F = NULL;
     sl_plan *P = NULL;
     turn(&L, 100.0, values);
+    /* ---- solve ---- */
     const sl_hermitian H = {N, L.p, L.i, values, NULL};
     ok(sl_matrix_from_hermitian(&M, &H, NULL, NULL));
     const sl_csc A = sl_matrix_view(M); /* 2 N real rows */
@@ -42,6 +43,7 @@ int main(void) {
     ok(sl_factor_create(&F, S, &A, &options, NULL));
     ok(sl_complex_plan_create(&P, S, source, 1, wanted, 2, NULL, NULL)); /* in complex rows */
     ok(sl_plan_solve(P, F, x, 4, b, 2, 1, NULL));
+    /* ---- end ---- */
     for (int k = 0; k < 2; k++) {
         const double found = atan2(x[2 * k + 1], x[2 * k]);
         /* the grid is flat: the vector is parallel everywhere, and only the frame differs */

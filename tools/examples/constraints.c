@@ -16,6 +16,7 @@ int main(void) {
     options.pivots = SL_PIVOTS_SKIP_NULL; /* without pins the Laplacian is singular */
     ok(sl_symbolic_create(&S, &A, NULL, NULL));
     ok(sl_factor_create(&F, S, &A, &options, NULL));
+    /* ---- pins ---- */
     ok(sl_constraints_create(&P, F, NULL));
     ok(sl_constraints_add(P, handles, NULL, 4, NULL)); /* a forward sweep each; F stays as it is */
     ok(sl_constraints_solve(P, NULL, x, N, b, N, heights, 4, 1, NULL));
@@ -27,6 +28,7 @@ int main(void) {
     const double twice = x[N - 1];
     ok(sl_constraints_release(P, &last, 1, NULL));
     ok(sl_constraints_solve(P, NULL, x, N, b, N, heights, 4, 1, NULL));
+    /* ---- end ---- */
     printf("moved to 2: %.4f; released: %.4f\n", twice, fabs(x[N - 1]));
     sl_constraints_free(P);
     sl_factor_free(F);

@@ -56,12 +56,14 @@ int main(void) {
     ok(sl_matrix_from_triplets(&M, ROWS, ROWS, count, i, j, e, NULL, NULL));
     A = sl_matrix_view(M);
     ok(sl_symbolic_create(&S, &A, NULL, NULL));
+    /* ---- null-vectors ---- */
     sl_options_init(&opt, sizeof opt);
     opt.pivots = SL_PIVOTS_SKIP_NULL;
     opt.null_vector = rigid;
     opt.null_vector_count = 3;
     ok(sl_factor_create(&F, S, &A, &opt, &stats));
     ok(sl_factor_solve(F, x, ROWS, b, ROWS, 1, NULL));
+    /* ---- end ---- */
     longer = x[2 * (SIDE - 1)] - x[0];
     b[0] += 0.5; /* now a force remains, which moves the plate */
     moved = sl_factor_solve(F, b, ROWS, b, ROWS, 1, NULL);

@@ -21,8 +21,10 @@ int main(void) {
         circle[2 * k] = cos(6.283185307179586 * k / count);
         circle[2 * k + 1] = sin(6.283185307179586 * k / count);
     }
+    /* ---- solve ---- */
     ok(sl_fixed_create(&D, &A, border, count, NULL, NULL));
     ok(sl_fixed_solve(D, uv, SL_ROWS(2), NULL, 0, circle, SL_ROWS(2), 2, NULL));
+    /* ---- end ---- */
     for (k = 0; k < N; k++) { /* a harmonic function is largest on the border */
         most = fmax(most, hypot(uv[2 * k], uv[2 * k + 1]));
     }

@@ -48,11 +48,13 @@ int main(void) {
     plan_rows(back + 1);
     ok(sl_symbolic_create(&S, &A, NULL, NULL));
     ok(sl_factor_create(&F, S, &A, NULL, NULL));
+    /* ---- plans ---- */
     /* x at the sensors and the edges; then lambda = A^-1 dl/dx at the source and the edges */
     ok(sl_plan_create(&forward, S, &source, 1, rows, SENSORS + ROWS, NULL, NULL));
     ok(sl_plan_create(&adjoint, S, sensors, SENSORS, back, 1 + ROWS, NULL, NULL));
     loss(F, forward, 1.0, residuals, x);
     ok(sl_plan_solve(adjoint, F, lambda, 1 + ROWS, residuals, SENSORS, 1, NULL));
+    /* ---- end ---- */
     printf("by the source: %.6e, by differences %.6e\n", lambda[0],
            (loss(F, forward, 1.0 + step, other, unused) -
             loss(F, forward, 1.0 - step, other, unused)) /

@@ -19,10 +19,12 @@ int main(void) {
     }
     ok(sl_symbolic_create(&S, &A, NULL, NULL));
     ok(sl_factor_create(&F, S, &A, NULL, NULL));
+    /* ---- region ---- */
     ok(sl_region_create(&R, F, patch, 100, NULL, NULL, NULL));
     sl_options_init(&opt, sizeof opt);
     opt.region = R;
     ok(sl_plan_create(&near, S, patch, 1, patch + 99, 1, &opt, &stats));
+    /* ---- end ---- */
     ok(sl_plan_create(&far, S, patch, 1, patch + 99, 1, NULL, NULL));
     ok(sl_plan_solve(near, F, &inside, 1, &one, 1, 1, NULL));
     ok(sl_plan_solve(far, F, &outside, 1, &one, 1, 1, NULL));

@@ -46,6 +46,7 @@ static void *worker(void *context) {
     return NULL;
 }
 
+/* ---- run ---- */
 /* An sl_parallel_for. One loop at a time: calls on different factors at once need a pool each. */
 static void run(void *context, sl_int count, void (*body)(void *data, sl_int k), void *data) {
     pool *p = context;
@@ -62,6 +63,7 @@ static void run(void *context, sl_int count, void (*body)(void *data, sl_int k),
     p->count = 0;
     pthread_mutex_unlock(&p->lock);
 }
+/* ---- end ---- */
 
 int main(void) {
     pool p = {.lock = PTHREAD_MUTEX_INITIALIZER,
@@ -71,9 +73,9 @@ int main(void) {
     sl_matrix *M = grid_laplacian(0.1);
     const sl_csc A = sl_matrix_view(M);
     sl_symbolic *S = NULL;
-    sl_factor *F[2] = {NULL, NULL};
-    sl_options options;
-    static double B[RHS * N], X[2][RHS * N];
+    sl_factor *F = NULL, *alone = NULL;
+    sl_options options = {0};
+    static double B[RHS * N], X[RHS * N], Y[RHS * N];
     int started = 0, k, same;
     while (started < WORKERS && pthread_create(&threads[started], NULL, worker, &p) == 0) {
         started++; /* fewer threads only take longer */
@@ -81,17 +83,18 @@ int main(void) {
     for (k = 0; k < RHS * N; k++) {
         B[k] = sin(k);
     }
-    ok(sl_symbolic_create(&S, &A, NULL, NULL));
-    sl_options_init(&options, sizeof options);
-    for (k = 0; k < 2; k++) { /* on the calling thread, then on the pool */
-        sl_request solve = {NULL, X[k], N, B, N, RHS, NULL};
-        options.threads.count = k == 0 ? 1 : WORKERS + 1;
-        options.threads.run = run;
-        options.threads.context = &p;
-        ok(sl_factor_create(&F[k], S, &A, &options, NULL));
-        ok(sl_batch_solve(F[k], &solve, 1, &options, NULL, NULL));
-    }
-    same = memcmp(X[0], X[1], sizeof X[0]) == 0;
+    /* ---- options ---- */
+    options.threads.count = WORKERS + 1; /* enough with SL_PTHREADS or OpenMP */
+    options.threads.run = run;           /* a pool of your own */
+    options.threads.context = &p;
+    ok(sl_symbolic_create(&S, &A, &options, NULL));  /* the threads order the rows */
+    ok(sl_factor_create(&F, S, &A, &options, NULL)); /* they factor, now and later */
+    const sl_request solve = {NULL, X, N, B, N, RHS, NULL};
+    ok(sl_batch_solve(F, &solve, 1, &options, NULL, NULL));
+    /* ---- end ---- */
+    ok(sl_factor_create(&alone, S, &A, NULL, NULL)); /* on the calling thread, for comparison */
+    ok(sl_factor_solve(alone, Y, N, B, N, RHS, NULL));
+    same = memcmp(X, Y, sizeof X) == 0;
     printf("%d threads: %s\n", started + 1, same ? "the same bits" : "different");
     pthread_mutex_lock(&p.lock);
     p.closing = 1;
@@ -100,8 +103,8 @@ int main(void) {
     while (started > 0) {
         pthread_join(threads[--started], NULL);
     }
-    sl_factor_free(F[0]);
-    sl_factor_free(F[1]);
+    sl_factor_free(F);
+    sl_factor_free(alone);
     sl_symbolic_free(S);
     sl_matrix_free(M);
     return !same;
