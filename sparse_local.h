@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 3e93f30db3df1d9e
+ * FNV-1a of the lines after this comment, without the license: 7b3fce0a0a8a657d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -26,35 +26,35 @@
  *   2001 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
  *   2122 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
  *   2265 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2352 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
- *   2461 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
- *   2503 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
- *   2578 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2666 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2729 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2772 impl/ base: the compiler, status, memory, sorting, threads
- *   4074 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4975 impl/ matrix: sparse matrices of the caller and of the library
- *   5779 impl/ ordering: fill-reducing orderings of a graph
- *  10669 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12911 impl/ factor: the numbers of L and D
- *  15527 impl/ solve: full and local solves
- *  17034 impl/ singular: null spaces of semidefinite matrices
- *  18305 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20326 impl/ pivots: the order of the pivots by the values of a matrix
- *  20734 impl/ float: L in single precision
- *  20964 impl/ inverse: entries of the inverse, regions
- *  23876 impl/ change: a factor that follows changes of its matrix
- *  26154 impl/ constraints: rows held at values, on a factor that stays
- *  27501 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30241 impl/ fixed: rows fixed at given values
- *  30800 impl/ io: files that are replaced only when they are complete
- *  31018 impl/ files: Matrix Market files, 64-bit indices
- *  31564 impl/ save: factors in files
- *  33543 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34229 impl/ complex: complex Hermitian systems over real factors
- *  34734 impl/ packs: the tables through which the core calls packs
- *  35131 impl/ templates: the header includes them from itself, once for each instruction set
+ *   2351 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
+ *   2460 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
+ *   2502 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
+ *   2577 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2665 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2728 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2771 impl/ base: the compiler, status, memory, sorting, threads
+ *   4073 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4974 impl/ matrix: sparse matrices of the caller and of the library
+ *   5778 impl/ ordering: fill-reducing orderings of a graph
+ *  10668 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12910 impl/ factor: the numbers of L and D
+ *  15526 impl/ solve: full and local solves
+ *  17033 impl/ singular: null spaces of semidefinite matrices
+ *  18304 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20325 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20733 impl/ float: L in single precision
+ *  20963 impl/ inverse: entries of the inverse, regions
+ *  23875 impl/ change: a factor that follows changes of its matrix
+ *  26153 impl/ constraints: rows held at values, on a factor that stays
+ *  27500 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30240 impl/ fixed: rows fixed at given values
+ *  30799 impl/ io: files that are replaced only when they are complete
+ *  31017 impl/ files: Matrix Market files, 64-bit indices
+ *  31563 impl/ save: factors in files
+ *  33542 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34228 impl/ complex: complex Hermitian systems over real factors
+ *  34733 impl/ packs: the tables through which the core calls packs
+ *  35130 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -130,10 +130,10 @@
  *              workspace: the call then allocates one for itself. Each kind of object has a call
  *              that releases it, such as sl_factor_free, which accepts NULL. Dense arguments are
  *              column-major with a leading dimension in elements, or row-major by SL_ROWS(ld).
- *              Row numbers are the caller's, also in errors. A b-set comes before an
- *              x-set, and a length follows its array. A set that is NULL with the length SL_ALL or
- *              n is all n rows; with 0 a set is empty. Any other length of NULL is refused, and so
- *              is SL_ALL with a pointer that is not NULL. The library never prints or aborts.
+ *              Row numbers are the caller's, also in errors. The rows of b come before
+ *              the rows of x, and each array before its length. A list of rows that is NULL means
+ *              all rows with the length SL_ALL or n, and no row with 0; any other length is
+ *              refused. SL_ALL needs NULL. The library never prints or aborts.
  *              Threads share no mutable globals: each keeps its last error, and with
  *              SL_NO_THREAD_LOCAL nothing. For METIS, an option, see sl_symbolic_create. What is
  *              marked EXPERIMENTAL may change in any version; all else keeps its promises from 1.0
@@ -257,8 +257,8 @@
  *  SL_STATIC                     makes everything static: a private copy in one source file.
  *  SL_METIS                      adds SL_ORDERING_METIS: needs <metis.h> and -lmetis.
  *  SL_NO_METIS                   overrides SL_METIS.
- *  SL_NO_SIMD                    compiles only the kernels in plain C: smallest object, fastest
- *                                compilation, easiest to debug.
+ *  SL_NO_SIMD                    compiles only the kernels in plain C: smallest object, easiest to
+ *                                debug, and with -O0 compiled in about a second.
  *  SL_NO_AVX512                  leaves out the AVX-512 kernels: AVX2 is then the best on x86.
  *  SL_NO_SINGULAR                leaves out null spaces, 26 kB: SL_PIVOTS_SKIP_NULL is refused.
  *  SL_PTHREADS                   threads of POSIX where options.threads.run is NULL; compile and
@@ -970,8 +970,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
  *
  *  out    [out]  the analysis.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
- *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, block_size, purpose. A
- *                block_size that is invalid is refused also by orderings that do not use it.
+ *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, block_size, purpose. An
+ *                invalid block_size is refused by every ordering.
  *  stats  [out]  symbolic.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first
  *           offending position), or another option that is not allowed; SL_ERR_MALFORMED;
@@ -1205,8 +1205,8 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  | calls                             | what they need depends on                              |
  *  |-----------------------------------|--------------------------------------------------------|
  *  | sl_factor_solve, _solve_part,     | the analysis, nrhs, the threads of W, and whether F    |
- *  |  _multiply_part, _defects,        | has null pivots. Fewer right-hand sides need no more,  |
- *  |  _refine, _rcond                  | but they may with threads: try each number             |
+ *  |  _multiply_part, _defects,        | has null pivots. With several threads, reserve for     |
+ *  |  _refine, _rcond                  | each nrhs: a smaller one may need more                 |
  *  | sl_factor_pseudo_inverse          | the analysis and the number of columns                 |
  *  | sl_fixed_solve                    | the object, nrhs, and the threads of W                 |
  *  | sl_plan_solve, parts of a plan,   | the plan, nrhs, null pivots of F, regularized rows;    |
@@ -1233,9 +1233,9 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *  X      [out]  n x nrhs, leading dimension ldx, rows in the order of A. May be B itself (then ldx
  *                = ldb). On error untouched.
  *  B      [in]   n x nrhs, leading dimension ldb.
- *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 64, 32 and
- *                13 to 16, with the bits of blocks of 8, then of up to 8. 8 take as long as two to
- *                three single solves, 32 as long as six to eight.
+ *  nrhs   [in]   number of right-hand sides, 0 or more. 8 take as long as two to three single
+ *                solves, 32 as long as six to eight. Each solution has the bits that it has in
+ *                a call for its group of 8.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_INCONSISTENT: a column of B has no
  *           solution (SL_PIVOTS_SKIP_NULL without mass); SL_ERR_NOT_FINITE: a number of B is not,
  *           or X overflows: X is written; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
@@ -2017,7 +2017,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
  * A plan belongs to the analysis. It serves all of these factors, one by one or in a batch whose
  * requests name their factors.
  *
- * Manual   tools/docs/inverse.md: heat-kernel signatures
+ * Manual   tools/docs/do/variances.md
  */
 
 /** C = c_1 A_1 + .. + c_k A_k of symmetric matrices, as its lower triangle with ascending rows.
@@ -2314,11 +2314,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rank_update(sl_factor *F, const sl_csc
  *  again. They agree with sl_factor_refactor up to rounding; the others keep their bits. An
  *  up-looking factor is computed completely.
  *
- *  F        [in,out]  the factor. By entries with A also a failed one, which is refactored. On
- *                     error as with sl_factor_rank_update; with A as with sl_factor_refactor, and
- *                     without numbers where the error of a change is too large and A is refused. By
- *                     columns unchanged after SL_ERR_ARGUMENT, _MALFORMED, _OTHER_PATTERN,
- *                     _READ_ONLY and _MEMORY, else without numbers.
+ *  F        [in,out]  the factor. By entries with A also a failed one, which is refactored. After
+ *                     an error by entries: as with sl_factor_rank_update, or with A as with
+ *                     sl_factor_refactor. By columns: unchanged after SL_ERR_ARGUMENT, _MALFORMED,
+ *                     _OTHER_PATTERN, _READ_ONLY and _MEMORY, else without numbers.
  *  A        [in]      the changed matrix, in the analyzed pattern; by entries it may be NULL.
  *                     Rank-one changes compare its size only.
  *  rows     [in]      count rows of entries (i, j) of either triangle, each pair i != j once for

@@ -14,8 +14,8 @@
  *
  *  out    [out]  the analysis.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
- *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, block_size, purpose. A
- *                block_size that is invalid is refused also by orderings that do not use it.
+ *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, block_size, purpose. An
+ *                invalid block_size is refused by every ordering.
  *  stats  [out]  symbolic.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first
  *           offending position), or another option that is not allowed; SL_ERR_MALFORMED;

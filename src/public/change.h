@@ -55,11 +55,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rank_update(sl_factor *F, const sl_csc
  *  again. They agree with sl_factor_refactor up to rounding; the others keep their bits. An
  *  up-looking factor is computed completely.
  *
- *  F        [in,out]  the factor. By entries with A also a failed one, which is refactored. On
- *                     error as with sl_factor_rank_update; with A as with sl_factor_refactor, and
- *                     without numbers where the error of a change is too large and A is refused. By
- *                     columns unchanged after SL_ERR_ARGUMENT, _MALFORMED, _OTHER_PATTERN,
- *                     _READ_ONLY and _MEMORY, else without numbers.
+ *  F        [in,out]  the factor. By entries with A also a failed one, which is refactored. After
+ *                     an error by entries: as with sl_factor_rank_update, or with A as with
+ *                     sl_factor_refactor. By columns: unchanged after SL_ERR_ARGUMENT, _MALFORMED,
+ *                     _OTHER_PATTERN, _READ_ONLY and _MEMORY, else without numbers.
  *  A        [in]      the changed matrix, in the analyzed pattern; by entries it may be NULL.
  *                     Rank-one changes compare its size only.
  *  rows     [in]      count rows of entries (i, j) of either triangle, each pair i != j once for

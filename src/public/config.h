@@ -12,8 +12,8 @@
  *  SL_STATIC                     makes everything static: a private copy in one source file.
  *  SL_METIS                      adds SL_ORDERING_METIS: needs <metis.h> and -lmetis.
  *  SL_NO_METIS                   overrides SL_METIS.
- *  SL_NO_SIMD                    compiles only the kernels in plain C: smallest object, fastest
- *                                compilation, easiest to debug.
+ *  SL_NO_SIMD                    compiles only the kernels in plain C: smallest object, easiest to
+ *                                debug, and with -O0 compiled in about a second.
  *  SL_NO_AVX512                  leaves out the AVX-512 kernels: AVX2 is then the best on x86.
  *  SL_NO_SINGULAR                leaves out null spaces, 26 kB: SL_PIVOTS_SKIP_NULL is refused.
  *  SL_PTHREADS                   threads of POSIX where options.threads.run is NULL; compile and

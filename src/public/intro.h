@@ -71,10 +71,10 @@
  *              workspace: the call then allocates one for itself. Each kind of object has a call
  *              that releases it, such as sl_factor_free, which accepts NULL. Dense arguments are
  *              column-major with a leading dimension in elements, or row-major by SL_ROWS(ld).
- *              Row numbers are the caller's, also in errors. A b-set comes before an
- *              x-set, and a length follows its array. A set that is NULL with the length SL_ALL or
- *              n is all n rows; with 0 a set is empty. Any other length of NULL is refused, and so
- *              is SL_ALL with a pointer that is not NULL. The library never prints or aborts.
+ *              Row numbers are the caller's, also in errors. The rows of b come before
+ *              the rows of x, and each array before its length. A list of rows that is NULL means
+ *              all rows with the length SL_ALL or n, and no row with 0; any other length is
+ *              refused. SL_ALL needs NULL. The library never prints or aborts.
  *              Threads share no mutable globals: each keeps its last error, and with
  *              SL_NO_THREAD_LOCAL nothing. For METIS, an option, see sl_symbolic_create. What is
  *              marked EXPERIMENTAL may change in any version; all else keeps its promises from 1.0

@@ -22,7 +22,7 @@
  * A plan belongs to the analysis. It serves all of these factors, one by one or in a batch whose
  * requests name their factors.
  *
- * Manual   tools/docs/inverse.md: heat-kernel signatures
+ * Manual   tools/docs/do/variances.md
  */
 
 /** C = c_1 A_1 + .. + c_k A_k of symmetric matrices, as its lower triangle with ascending rows.

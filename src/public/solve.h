@@ -50,8 +50,8 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  | calls                             | what they need depends on                              |
  *  |-----------------------------------|--------------------------------------------------------|
  *  | sl_factor_solve, _solve_part,     | the analysis, nrhs, the threads of W, and whether F    |
- *  |  _multiply_part, _defects,        | has null pivots. Fewer right-hand sides need no more,  |
- *  |  _refine, _rcond                  | but they may with threads: try each number             |
+ *  |  _multiply_part, _defects,        | has null pivots. With several threads, reserve for     |
+ *  |  _refine, _rcond                  | each nrhs: a smaller one may need more                 |
  *  | sl_factor_pseudo_inverse          | the analysis and the number of columns                 |
  *  | sl_fixed_solve                    | the object, nrhs, and the threads of W                 |
  *  | sl_plan_solve, parts of a plan,   | the plan, nrhs, null pivots of F, regularized rows;    |
@@ -78,9 +78,9 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *  X      [out]  n x nrhs, leading dimension ldx, rows in the order of A. May be B itself (then ldx
  *                = ldb). On error untouched.
  *  B      [in]   n x nrhs, leading dimension ldb.
- *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 64, 32 and
- *                13 to 16, with the bits of blocks of 8, then of up to 8. 8 take as long as two to
- *                three single solves, 32 as long as six to eight.
+ *  nrhs   [in]   number of right-hand sides, 0 or more. 8 take as long as two to three single
+ *                solves, 32 as long as six to eight. Each solution has the bits that it has in
+ *                a call for its group of 8.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_INCONSISTENT: a column of B has no
  *           solution (SL_PIVOTS_SKIP_NULL without mass); SL_ERR_NOT_FINITE: a number of B is not,
  *           or X overflows: X is written; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
