@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7b3fce0a0a8a657d
+ * FNV-1a of the lines after this comment, without the license: 88bf8c0d99c9e6ef
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -31,30 +31,30 @@
  *   2502 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
  *   2577 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
  *   2665 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2728 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2771 impl/ base: the compiler, status, memory, sorting, threads
- *   4073 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4974 impl/ matrix: sparse matrices of the caller and of the library
- *   5778 impl/ ordering: fill-reducing orderings of a graph
- *  10668 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12910 impl/ factor: the numbers of L and D
- *  15526 impl/ solve: full and local solves
- *  17033 impl/ singular: null spaces of semidefinite matrices
- *  18304 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20325 impl/ pivots: the order of the pivots by the values of a matrix
- *  20733 impl/ float: L in single precision
- *  20963 impl/ inverse: entries of the inverse, regions
- *  23875 impl/ change: a factor that follows changes of its matrix
- *  26153 impl/ constraints: rows held at values, on a factor that stays
- *  27500 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30240 impl/ fixed: rows fixed at given values
- *  30799 impl/ io: files that are replaced only when they are complete
- *  31017 impl/ files: Matrix Market files, 64-bit indices
- *  31563 impl/ save: factors in files
- *  33542 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34228 impl/ complex: complex Hermitian systems over real factors
- *  34733 impl/ packs: the tables through which the core calls packs
- *  35130 impl/ templates: the header includes them from itself, once for each instruction set
+ *   2729 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2772 impl/ base: the compiler, status, memory, sorting, threads
+ *   4074 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4975 impl/ matrix: sparse matrices of the caller and of the library
+ *   5779 impl/ ordering: fill-reducing orderings of a graph
+ *  10669 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12911 impl/ factor: the numbers of L and D
+ *  15527 impl/ solve: full and local solves
+ *  17034 impl/ singular: null spaces of semidefinite matrices
+ *  18305 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20326 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20734 impl/ float: L in single precision
+ *  20964 impl/ inverse: entries of the inverse, regions
+ *  23876 impl/ change: a factor that follows changes of its matrix
+ *  26154 impl/ constraints: rows held at values, on a factor that stays
+ *  27501 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30241 impl/ fixed: rows fixed at given values
+ *  30800 impl/ io: files that are replaced only when they are complete
+ *  31018 impl/ files: Matrix Market files, 64-bit indices
+ *  31574 impl/ save: factors in files
+ *  33553 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34239 impl/ complex: complex Hermitian systems over real factors
+ *  34744 impl/ packs: the tables through which the core calls packs
+ *  35141 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2679,8 +2679,9 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *lo
  *  Returns  SL_OK; SL_ERR_IO: no such file, or malformed at error.line, also by a line of 65536
  *           bytes or more that is not a comment; SL_ERR_UNSUPPORTED: complex, array or
  *           skew-symmetric, which error.what names; SL_ERR_MALFORMED: a symmetric file with an
- *           entry (error.row, error.column) in both triangles; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. NaN
- *           and infinity are accepted here.
+ *           entry (error.row, error.column) in both triangles; SL_ERR_TOO_LARGE: also if there
+ *           are more than 2^20 rows or columns and fewer than one entry for 16 of them;
+ *           SL_ERR_MEMORY. NaN and infinity are accepted here.
  *  Cost     O(file size + n_rows + n_cols). Memory grows with the entries read, so that a device
  *           without an end does not fill it.
  */
@@ -31434,6 +31435,15 @@ static sl_status sli_fold_entries(const sli_triplet_list *list, sli_triplets *t,
   return status;
 }
 
+static sl_status sli_check_empty(sli_reader *r, const sl_off *size) {
+  const sl_off rows = size[0] > size[1] ? size[0] : size[1];
+  if (rows / 16 <= SLI_ENTRIES_FIRST + size[2]) {
+    return SL_OK;
+  }
+  r->what = "more than a million rows or columns, and fewer than one entry for 16 of them";
+  return sli_refuse(SL_ERR_TOO_LARGE, r->what);
+}
+
 static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a) {
   const char *s, *e;
   sl_off size[3] = {0, 0, 0}, room;
@@ -31465,6 +31475,7 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
   room = r->buffer == NULL || size[2] < SLI_ENTRIES_FIRST ? size[2] : SLI_ENTRIES_FIRST;
   status = sli_triplets_grow(&t, room, has_values, a);
   status = status == SL_OK ? sli_read_entries(r, size, has_values, &t, a) : status;
+  status = status == SL_OK ? sli_check_empty(r, size) : status;
   if (status == SL_OK) {
     sli_triplet_list list;
     list.n_rows = (sl_int)size[0];

@@ -235,6 +235,27 @@ static void sizes_that_do_not_fit_are_refused(void **state) {
     }
 }
 
+/* A file of 78 bytes does not take 8 GB: empty rows have to be worth their memory. */
+static void empty_rows_stay_within_the_size_of_the_file(void **state) {
+    (void)state;
+    static const char *const refused[] = {
+        BANNER("real general") "2000000000 2000000000 1\n1 1 1\n",
+        BANNER("real symmetric") "2000000000 2000000000 0\n",
+        BANNER("real general") "1 1048700 1\n1 1 1\n",
+        BANNER("pattern general") "1048700 1 1\n1 1\n",
+    };
+    counter_t counter = counter_make();
+    sl_options opt = options_counted(&counter);
+    sl_matrix *M = NULL;
+    for (size_t k = 0; k < sizeof refused / sizeof *refused; k++) {
+        SL_EXPECT(SL_ERR_TOO_LARGE,
+                  sl_matrix_parse(&M, refused[k], strlen(refused[k]), &opt, NULL));
+        COUNTER_CLEAN(&counter);
+    }
+    SL_CHECK(parse(&M, BANNER("real general") "1048000 1 1\n1 1 1\n", NULL));
+    sl_matrix_free(M);
+}
+
 static void every_prefix_is_refused_or_read_correctly(void **state) {
     (void)state;
     static const char text[] =
@@ -299,6 +320,7 @@ int main(void) {
         cmocka_unit_test(unsupported_kinds_are_refused),
         cmocka_unit_test(both_triangles_are_refused),
         cmocka_unit_test(sizes_that_do_not_fit_are_refused),
+        cmocka_unit_test(empty_rows_stay_within_the_size_of_the_file),
         cmocka_unit_test(every_prefix_is_refused_or_read_correctly),
         cmocka_unit_test(blanks_and_bytes_that_are_no_digits),
         cmocka_unit_test(every_status_has_a_text),

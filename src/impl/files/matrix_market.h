@@ -168,6 +168,16 @@ static sl_status sli_fold_entries(const sli_triplet_list *list, sli_triplets *t,
     return status;
 }
 
+/* A few lines may promise gigabytes of empty rows: memory stays within the size of the file. */
+static sl_status sli_check_empty(sli_reader *r, const sl_off *size) {
+    const sl_off rows = size[0] > size[1] ? size[0] : size[1];
+    if (rows / 16 <= SLI_ENTRIES_FIRST + size[2]) {
+        return SL_OK;
+    }
+    r->what = "more than a million rows or columns, and fewer than one entry for 16 of them";
+    return sli_refuse(SL_ERR_TOO_LARGE, r->what);
+}
+
 /* Reads a whole matrix. Memory grows with the entries that are there, not with the number that the
  * header promises. */
 static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a) {
@@ -203,6 +213,7 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
     room = r->buffer == NULL || size[2] < SLI_ENTRIES_FIRST ? size[2] : SLI_ENTRIES_FIRST;
     status = sli_triplets_grow(&t, room, has_values, a);
     status = status == SL_OK ? sli_read_entries(r, size, has_values, &t, a) : status;
+    status = status == SL_OK ? sli_check_empty(r, size) : status;
     if (status == SL_OK) {
         sli_triplet_list list;
         list.n_rows = (sl_int)size[0];
