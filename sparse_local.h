@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 88bf8c0d99c9e6ef
+ * FNV-1a of the lines after this comment, without the license: 1cd10a2414a8a6a9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -8,53 +8,53 @@
  *    248 config.h     macros that a user may define before the include, the version, and the integer types
  *    337 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    515 options.h    options of all calls, threads, and the allocator
- *    632 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    868 csc.h        sparse matrices: creation, checks, products, residuals
- *    962 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1035 factor.h     the numerical factorization P A P' = L D L'
- *   1161 solve.h      full solves, and the workspace of all solves
- *   1254 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1325 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1406 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1486 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1525 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1625 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1703 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1772 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1859 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1959 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2001 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2122 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2265 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2351 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
- *   2460 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
- *   2502 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
- *   2577 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2665 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2729 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2772 impl/ base: the compiler, status, memory, sorting, threads
- *   4074 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4975 impl/ matrix: sparse matrices of the caller and of the library
- *   5779 impl/ ordering: fill-reducing orderings of a graph
- *  10669 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12911 impl/ factor: the numbers of L and D
- *  15527 impl/ solve: full and local solves
- *  17034 impl/ singular: null spaces of semidefinite matrices
- *  18305 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20326 impl/ pivots: the order of the pivots by the values of a matrix
- *  20734 impl/ float: L in single precision
- *  20964 impl/ inverse: entries of the inverse, regions
- *  23876 impl/ change: a factor that follows changes of its matrix
- *  26154 impl/ constraints: rows held at values, on a factor that stays
- *  27501 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30241 impl/ fixed: rows fixed at given values
- *  30800 impl/ io: files that are replaced only when they are complete
- *  31018 impl/ files: Matrix Market files, 64-bit indices
- *  31574 impl/ save: factors in files
- *  33553 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34239 impl/ complex: complex Hermitian systems over real factors
- *  34744 impl/ packs: the tables through which the core calls packs
- *  35141 impl/ templates: the header includes them from itself, once for each instruction set
+ *    633 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    869 csc.h        sparse matrices: creation, checks, products, residuals
+ *    963 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1036 factor.h     the numerical factorization P A P' = L D L'
+ *   1162 solve.h      full solves, and the workspace of all solves
+ *   1255 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1326 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1407 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1487 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1526 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1626 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1704 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1774 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1862 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1962 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2004 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2125 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2268 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2354 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
+ *   2463 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
+ *   2505 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
+ *   2580 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2668 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2732 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2775 impl/ base: the compiler, status, memory, sorting, threads
+ *   4077 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4978 impl/ matrix: sparse matrices of the caller and of the library
+ *   5782 impl/ ordering: fill-reducing orderings of a graph
+ *  10672 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12914 impl/ factor: the numbers of L and D
+ *  15530 impl/ solve: full and local solves
+ *  17037 impl/ singular: null spaces of semidefinite matrices
+ *  18308 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20369 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20777 impl/ float: L in single precision
+ *  21007 impl/ inverse: entries of the inverse, regions
+ *  23919 impl/ change: a factor that follows changes of its matrix
+ *  26197 impl/ constraints: rows held at values, on a factor that stays
+ *  27544 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30284 impl/ fixed: rows fixed at given values
+ *  30843 impl/ io: files that are replaced only when they are complete
+ *  31061 impl/ files: Matrix Market files, 64-bit indices
+ *  31617 impl/ save: factors in files
+ *  33596 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34282 impl/ complex: complex Hermitian systems over real factors
+ *  34787 impl/ packs: the tables through which the core calls packs
+ *  35184 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -597,7 +597,8 @@ typedef struct sl_options {
     double consistency_tolerance;
     /* with SL_PIVOTS_NONZERO only: a null pivot, or one of the wrong sign, becomes sign * max(|d|,
      * regularization * (sum of the magnitudes it was computed from, 1 if that is 0)); 1e-8 suits
-     * refinement; 0: no regularization */
+     * refinement. Then L D L' = P (A + E) P', and what does not refine is about A + E; 0: no
+     * regularization */
     double regularization;
     /* n, copied: the sign that each row's pivot should have, 1 or -1, or 0 for either; NULL: all 1
      */
@@ -1648,8 +1649,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
  *           beyond 1e-200 .. 1e200; SL_ERR_INACCURATE: eta exceeds 1/16, as with another A;
  *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY. On errors F has no eta.
  *  Cost     estimated: 28 solves, 4 or 8 at a time, with products: as long as 15 (n = 1e5) to 45
- *           (n = 900) single solves; W grows by 20 n numbers. Guaranteed: 7 to 10 factorizations;
- *           memory of a second factor while it runs.
+ *           (n = 900) single solves; W grows by 20 to 28 n numbers. Guaranteed: 7 to 10
+ *           factorizations; memory of a second factor while it runs.
  *  Threads  the caller serializes calls that change F.
  *  Source   [Ru06] for the eigenvalue; the bounds are derived in the manual.
  *  Manual   tools/docs/bounds.md
@@ -1706,7 +1707,8 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
  * the whole diagonal (stats.inverse.method). Results equal those of full solves up to rounding; the
  * last bits depend on the other requests of the same call, which may share sweeps. If null pivots
  * were skipped, the inverse is that of the matrix without their rows and columns, and 0 in these;
- * sl_factor_pseudo_inverse makes it the pseudo-inverse.
+ * sl_factor_pseudo_inverse makes it the pseudo-inverse. If regularization changed pivots, it is
+ * the inverse of A + E.
  *
  * If pivots have both signs, selected inversion may lose the square of stats.factor.growth, where
  * solves lose growth itself. A bound on the loss is computed first, from L. Beyond 1e-10, relative
@@ -1778,7 +1780,8 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_block(const sl_factor *F, double *Z, 
  *  including the entries that relaxation adds. For a set of rows only the supernodes on the paths
  *  from the set to the roots are computed. All numbers have the same bits as in the complete
  *  selected inverse. Where that would lose digits, as pivots have both signs (inverse.h), the
- *  columns are solved for, up to 8 at a time. Entries of null pivots that were skipped are 0.
+ *  columns are solved for, up to 8 at a time. Entries of null pivots that were skipped are 0. If
+ *  regularization changed pivots, the inverse is that of A + E.
  *
  *  out    [out]  the selected inverse. It does not change if F is refactored or released, until
  *                sl_selected_refactor.
@@ -19661,8 +19664,8 @@ typedef struct sli_probes {
   double *v;
   double *product;
   unsigned char *memory;
-  double norm[SLI_PROBES];
-  double scale[SLI_PROBES];
+  double *norm;
+  double *scale;
   double eta;
   sl_int solves;
 } sli_probes;
@@ -19672,7 +19675,23 @@ static void sli_probes_layout(sli_probes *p, sli_block *b) {
   const uint64_t count = (uint64_t)p->F->S->n * SLI_PROBES;
   p->v = SLI_TAKE(b, double, count);
   p->product = SLI_TAKE(b, double, 2 * count);
+  p->norm = SLI_TAKE(b, double, (uint64_t)p->F->S->stats.symbolic.components *SLI_PROBES);
+  p->scale = SLI_TAKE(b, double, (uint64_t)p->F->S->stats.symbolic.components *SLI_PROBES);
   p->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(&q, 2 * SLI_PROBES, SLI_TILE), 1);
+}
+
+SLI_INLINE ptrdiff_t sli_probes_at(const sli_probes *p, sl_int k) {
+  const sl_symbolic *S = p->F->S;
+  return (ptrdiff_t)(S->stats.symbolic.components == 1 ? k : S->perm[k]) * SLI_PROBES;
+}
+
+static sl_int sli_probes_end(const sli_probes *p, sl_int first) {
+  const sl_symbolic *S = p->F->S;
+  sl_int k = S->stats.symbolic.components == 1 ? S->n - 1 : first;
+  while (S->parent[k] != -1) {
+    k++;
+  }
+  return k + 1;
 }
 
 static void sli_probes_solve(sli_probes *p, double *x, sl_int count) {
@@ -19750,13 +19769,16 @@ SLI_HOT static void sli_probes_multiply(sli_probes *p) {
   }
 }
 
-SLI_HOT static void sli_probes_measure(sli_probes *p, int is_first) {
+SLI_HOT static void sli_probes_measure_tree(sli_probes *p, sl_int first, sl_int end, sl_int tree,
+    int is_first) {
   double square[SLI_PROBES], size[SLI_PROBES];
-  sl_int i, c;
+  double *before = p->norm + (ptrdiff_t)tree * SLI_PROBES;
+  const double *scale = p->scale + (ptrdiff_t)tree * SLI_PROBES;
+  sl_int k, c;
   memset(square, 0, sizeof square);
   memset(size, 0, sizeof size);
-  for (i = 0; i < p->F->S->n; i++) {
-    const ptrdiff_t at = (ptrdiff_t)i * SLI_PROBES;
+  for (k = first; k < end; k++) {
+    const ptrdiff_t at = sli_probes_at(p, k);
     for (c = 0; c < SLI_PROBES; c++) {
       square[c] +=
         p->v[at + c] * (p->product[2 * at + c] + p->product[2 * at + SLI_PROBES + c]);
@@ -19767,34 +19789,55 @@ SLI_HOT static void sli_probes_measure(sli_probes *p, int is_first) {
     const double norm = size[c] == 0.0 ? 0.0 : sqrt(square[c]);
     if (size[c] != 0.0 && !(square[c] > 0.0)) {
       p->eta = HUGE_VAL;
-    } else if (!is_first && p->norm[c] > 0.0) {
-      p->eta = fmax(p->eta, norm * (p->scale[c] / p->norm[c]));
+    } else if (!is_first && before[c] > 0.0) {
+      p->eta = fmax(p->eta, norm * (scale[c] / before[c]));
     }
-    p->norm[c] = norm;
+    before[c] = norm;
   }
 }
 
-SLI_HOT static void sli_probes_turn(sli_probes *p) {
-  double largest[SLI_PROBES], *v = p->v;
-  const double *x = p->product;
-  sl_int i, c;
-  sli_probes_solve(p, p->product, 2 * SLI_PROBES);
+static void sli_probes_measure(sli_probes *p, int is_first) {
+  sl_int first, end, tree = 0;
+  for (first = 0; first < p->F->S->n; first = end) {
+    end = sli_probes_end(p, first);
+    sli_probes_measure_tree(p, first, end, tree++, is_first);
+  }
+}
+
+SLI_HOT static void sli_probes_turn_tree(sli_probes *p, sl_int first, sl_int end, double *scale) {
+  double largest[SLI_PROBES];
+  sl_int k, c;
   memset(largest, 0, sizeof largest);
-  for (i = 0; i < p->F->S->n; i++, v += SLI_PROBES, x += 2 * SLI_PROBES) {
+  for (k = first; k < end; k++) {
+    const ptrdiff_t at = sli_probes_at(p, k);
+    const int is_null = sli_is_skipped(p->F, p->F->S->iperm[at / SLI_PROBES]);
+    double *v = p->v + at;
+    const double *x = p->product + 2 * at;
     for (c = 0; c < SLI_PROBES; c++) {
-      v[c] = (v[c] - x[c]) - x[c + SLI_PROBES];
+      v[c] = is_null ? 0.0 : (v[c] - x[c]) - x[c + SLI_PROBES];
       largest[c] = fmax(largest[c], fabs(v[c]));
     }
   }
   for (c = 0; c < SLI_PROBES; c++) {
     int exponent = 0;
     (void)frexp(largest[c], &exponent);
-    p->scale[c] = ldexp(1.0, exponent);
+    scale[c] = ldexp(1.0, exponent);
   }
-  for (i = 0, v = p->v; i < p->F->S->n; i++, v += SLI_PROBES) {
+  for (k = first; k < end; k++) {
+    double *v = p->v + sli_probes_at(p, k);
     for (c = 0; c < SLI_PROBES; c++) {
-      v[c] /= p->scale[c];
+      v[c] /= scale[c];
     }
+  }
+}
+
+static void sli_probes_turn(sli_probes *p) {
+  sl_int first, end;
+  double *scale = p->scale;
+  sli_probes_solve(p, p->product, 2 * SLI_PROBES);
+  for (first = 0; first < p->F->S->n; first = end, scale += SLI_PROBES) {
+    end = sli_probes_end(p, first);
+    sli_probes_turn_tree(p, first, end, scale);
   }
 }
 

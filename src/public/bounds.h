@@ -30,8 +30,8 @@
  *           beyond 1e-200 .. 1e200; SL_ERR_INACCURATE: eta exceeds 1/16, as with another A;
  *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY. On errors F has no eta.
  *  Cost     estimated: 28 solves, 4 or 8 at a time, with products: as long as 15 (n = 1e5) to 45
- *           (n = 900) single solves; W grows by 20 n numbers. Guaranteed: 7 to 10 factorizations;
- *           memory of a second factor while it runs.
+ *           (n = 900) single solves; W grows by 20 to 28 n numbers. Guaranteed: 7 to 10
+ *           factorizations; memory of a second factor while it runs.
  *  Threads  the caller serializes calls that change F.
  *  Source   [Ru06] for the eigenvalue; the bounds are derived in the manual.
  *  Manual   tools/docs/bounds.md

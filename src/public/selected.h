@@ -12,7 +12,8 @@
  *  including the entries that relaxation adds. For a set of rows only the supernodes on the paths
  *  from the set to the roots are computed. All numbers have the same bits as in the complete
  *  selected inverse. Where that would lose digits, as pivots have both signs (inverse.h), the
- *  columns are solved for, up to 8 at a time. Entries of null pivots that were skipped are 0.
+ *  columns are solved for, up to 8 at a time. Entries of null pivots that were skipped are 0. If
+ *  regularization changed pivots, the inverse is that of A + E.
  *
  *  out    [out]  the selected inverse. It does not change if F is refactored or released, until
  *                sl_selected_refactor.

@@ -13,16 +13,16 @@
  * v, in the energy norm. The next probe is that error: it is about A^-1 E v, where L D L' = A + E,
  * and so the probes turn to the vectors that E disturbs most, as a rule the smooth ones, while
  * rounding in the sweeps is measured along with E. Half of the probes start rough, half of them
- * smooth. */
+ * smooth. Each tree of the elimination forest has norms and probes of its own: in a mean over all
+ * of them the errors of a small one would not show. */
 #define SLI_PROBES 4
 #define SLI_PROBE_TURNS 3
 
-/* The probes measure a mean over all of A. The largest error of a solve was up to 2.0 times the
+/* The probes measure a mean over a tree. The largest error of a solve was up to 2.0 times the
  * largest measured one in 7e4 systems of up to 12 rows, and up to 1.03 times in 250 meshes of 500
  * to 1e4 rows: badly scaled ones, with conditions up to 1e10, L in double and in float. But where b
- * and x stay within a few rows of many, in small components or beside a heavy mass matrix, the
- * worst one of many small systems counts: 2.8 times in 1e3 components of 3 rows, 3.5 times in 3e4
- * of them. Errors are a few roundings of single rows there: eta is at least four of them. */
+ * and x stay within a few rows of many, beside a heavy mass matrix, the worst one of many small
+ * systems counts. Errors are a few roundings of single rows there: eta is at least four of them. */
 #define SLI_PROBE_SAFETY 4.0
 
 /* Above, the terms of second order in eta matter, which bounds take four times. */
@@ -35,9 +35,9 @@ typedef struct sli_probes {
     double *v;             /* n x SLI_PROBES, by rows: the probes */
     double *product;       /* n x 2 SLI_PROBES, by rows: A v as a sum, the large parts first */
     unsigned char *memory; /* of the sweeps */
-    double norm[SLI_PROBES];
-    double scale[SLI_PROBES]; /* of the error that has become the probe */
-    double eta;               /* the largest error so far */
+    double *norm;          /* trees x SLI_PROBES */
+    double *scale;         /* trees x SLI_PROBES: of the error that has become the probe */
+    double eta;            /* the largest error so far */
     sl_int solves;
 } sli_probes;
 
@@ -46,7 +46,26 @@ static void sli_probes_layout(sli_probes *p, sli_block *b) {
     const uint64_t count = (uint64_t)p->F->S->n * SLI_PROBES;
     p->v = SLI_TAKE(b, double, count);
     p->product = SLI_TAKE(b, double, 2 * count);
+    p->norm = SLI_TAKE(b, double, (uint64_t)p->F->S->stats.symbolic.components *SLI_PROBES);
+    p->scale = SLI_TAKE(b, double, (uint64_t)p->F->S->stats.symbolic.components *SLI_PROBES);
     p->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(&q, 2 * SLI_PROBES, SLI_TILE), 1);
+}
+
+/* Where row k of the probes is that are walked tree by tree: one tree is walked in the order of the
+ * caller. */
+SLI_INLINE ptrdiff_t sli_probes_at(const sli_probes *p, sl_int k) {
+    const sl_symbolic *S = p->F->S;
+    return (ptrdiff_t)(S->stats.symbolic.components == 1 ? k : S->perm[k]) * SLI_PROBES;
+}
+
+/* One more than the last row of the tree that begins with row `first`. */
+static sl_int sli_probes_end(const sli_probes *p, sl_int first) {
+    const sl_symbolic *S = p->F->S;
+    sl_int k = S->stats.symbolic.components == 1 ? S->n - 1 : first;
+    while (S->parent[k] != -1) {
+        k++;
+    }
+    return k + 1;
 }
 
 /* x := A^-1 x by the factor, 0 in the rows of null pivots. x: n x count, by rows. */
@@ -128,14 +147,17 @@ SLI_HOT static void sli_probes_multiply(sli_probes *p) {
     }
 }
 
-/* Takes the norms of the probes. Those after the first are the errors of the ones before. */
-SLI_HOT static void sli_probes_measure(sli_probes *p, int is_first) {
+/* Takes the norms of the probes in the tree of rows first .. end-1, the tree-th one. */
+SLI_HOT static void sli_probes_measure_tree(sli_probes *p, sl_int first, sl_int end, sl_int tree,
+                                            int is_first) {
     double square[SLI_PROBES], size[SLI_PROBES];
-    sl_int i, c;
+    double *before = p->norm + (ptrdiff_t)tree * SLI_PROBES;
+    const double *scale = p->scale + (ptrdiff_t)tree * SLI_PROBES;
+    sl_int k, c;
     memset(square, 0, sizeof square);
     memset(size, 0, sizeof size);
-    for (i = 0; i < p->F->S->n; i++) {
-        const ptrdiff_t at = (ptrdiff_t)i * SLI_PROBES;
+    for (k = first; k < end; k++) {
+        const ptrdiff_t at = sli_probes_at(p, k);
         for (c = 0; c < SLI_PROBES; c++) {
             square[c] +=
                 p->v[at + c] * (p->product[2 * at + c] + p->product[2 * at + SLI_PROBES + c]);
@@ -146,35 +168,59 @@ SLI_HOT static void sli_probes_measure(sli_probes *p, int is_first) {
         const double norm = size[c] == 0.0 ? 0.0 : sqrt(square[c]);
         if (size[c] != 0.0 && !(square[c] > 0.0)) { /* A is not definite, or not finite */
             p->eta = HUGE_VAL;
-        } else if (!is_first && p->norm[c] > 0.0) {
-            p->eta = fmax(p->eta, norm * (p->scale[c] / p->norm[c]));
+        } else if (!is_first && before[c] > 0.0) {
+            p->eta = fmax(p->eta, norm * (scale[c] / before[c]));
         }
-        p->norm[c] = norm;
+        before[c] = norm;
     }
 }
 
-/* The errors of the solves become the probes, scaled by powers of 2. */
-SLI_HOT static void sli_probes_turn(sli_probes *p) {
-    double largest[SLI_PROBES], *v = p->v;
-    const double *x = p->product;
-    sl_int i, c;
-    sli_probes_solve(p, p->product, 2 * SLI_PROBES);
+/* Takes the norms of the probes. Those after the first are the errors of the ones before. */
+static void sli_probes_measure(sli_probes *p, int is_first) {
+    sl_int first, end, tree = 0;
+    for (first = 0; first < p->F->S->n; first = end) {
+        end = sli_probes_end(p, first);
+        sli_probes_measure_tree(p, first, end, tree++, is_first);
+    }
+}
+
+/* The errors of the solves become the probes of a tree, scaled by powers of 2. Null pivots have no
+ * error: their x is 0 but for D, which is not infinite. */
+SLI_HOT static void sli_probes_turn_tree(sli_probes *p, sl_int first, sl_int end, double *scale) {
+    double largest[SLI_PROBES];
+    sl_int k, c;
     memset(largest, 0, sizeof largest);
-    for (i = 0; i < p->F->S->n; i++, v += SLI_PROBES, x += 2 * SLI_PROBES) {
+    for (k = first; k < end; k++) {
+        const ptrdiff_t at = sli_probes_at(p, k);
+        const int is_null = sli_is_skipped(p->F, p->F->S->iperm[at / SLI_PROBES]);
+        double *v = p->v + at;
+        const double *x = p->product + 2 * at;
         for (c = 0; c < SLI_PROBES; c++) {
-            v[c] = (v[c] - x[c]) - x[c + SLI_PROBES];
+            v[c] = is_null ? 0.0 : (v[c] - x[c]) - x[c + SLI_PROBES];
             largest[c] = fmax(largest[c], fabs(v[c]));
         }
     }
     for (c = 0; c < SLI_PROBES; c++) {
         int exponent = 0;
         (void)frexp(largest[c], &exponent);
-        p->scale[c] = ldexp(1.0, exponent);
+        scale[c] = ldexp(1.0, exponent);
     }
-    for (i = 0, v = p->v; i < p->F->S->n; i++, v += SLI_PROBES) {
+    for (k = first; k < end; k++) {
+        double *v = p->v + sli_probes_at(p, k);
         for (c = 0; c < SLI_PROBES; c++) {
-            v[c] /= p->scale[c];
+            v[c] /= scale[c];
         }
+    }
+}
+
+/* Solves for the products of the probes. */
+static void sli_probes_turn(sli_probes *p) {
+    sl_int first, end;
+    double *scale = p->scale;
+    sli_probes_solve(p, p->product, 2 * SLI_PROBES);
+    for (first = 0; first < p->F->S->n; first = end, scale += SLI_PROBES) {
+        end = sli_probes_end(p, first);
+        sli_probes_turn_tree(p, first, end, scale);
     }
 }
 
