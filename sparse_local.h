@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a5a6225ac65900c9
+ * FNV-1a of the lines after this comment, without the license: 41dbd222a02fd4f2
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,25 +36,25 @@
  *   4074 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   4975 impl/ matrix: sparse matrices of the caller and of the library
  *   5779 impl/ ordering: fill-reducing orderings of a graph
- *  10669 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12911 impl/ factor: the numbers of L and D
- *  15493 impl/ solve: full and local solves
- *  16999 impl/ singular: null spaces of semidefinite matrices
- *  18270 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20291 impl/ pivots: the order of the pivots by the values of a matrix
- *  20699 impl/ float: L in single precision
- *  20929 impl/ inverse: entries of the inverse, regions
- *  23841 impl/ change: a factor that follows changes of its matrix
- *  26119 impl/ constraints: rows held at values, on a factor that stays
- *  27428 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30168 impl/ fixed: rows fixed at given values
- *  30727 impl/ io: files that are replaced only when they are complete
- *  30945 impl/ files: Matrix Market files, 64-bit indices
- *  31491 impl/ save: factors in files
- *  33470 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34156 impl/ complex: complex Hermitian systems over real factors
- *  34661 impl/ packs: the tables through which the core calls packs
- *  35058 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10556 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12798 impl/ factor: the numbers of L and D
+ *  15380 impl/ solve: full and local solves
+ *  16886 impl/ singular: null spaces of semidefinite matrices
+ *  18157 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20178 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20586 impl/ float: L in single precision
+ *  20816 impl/ inverse: entries of the inverse, regions
+ *  23728 impl/ change: a factor that follows changes of its matrix
+ *  26006 impl/ constraints: rows held at values, on a factor that stays
+ *  27315 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30055 impl/ fixed: rows fixed at given values
+ *  30614 impl/ io: files that are replaced only when they are complete
+ *  30832 impl/ files: Matrix Market files, 64-bit indices
+ *  31378 impl/ save: factors in files
+ *  33357 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34043 impl/ complex: complex Hermitian systems over real factors
+ *  34548 impl/ packs: the tables through which the core calls packs
+ *  34940 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5944,7 +5944,6 @@ typedef struct sli_order_job {
   const sl_options *opt;
   sl_int *perm;
   sl_int *scratch;
-  uint64_t *bits;
   sli_septree *septree;
   sli_order_choice *choice;
   sli_team *team;
@@ -8075,7 +8074,6 @@ typedef struct sli_dissection {
   sl_int leaf_size;
   sl_int first;
   int is_volume, may_be_seven_point;
-  int has_labels;
   int is_levelset;
   sli_label_tree tree, other_tree;
   sli_border_pool pool;
@@ -8668,29 +8666,11 @@ static sl_status sli_dissect_graph(sli_dissection *d) {
 
 /* src/impl/ordering/thin.h: nested dissection of strips, tubes and bars along the levels of a breadth-first search */
 
-#define SLI_THIN_NARROW 22
-#define SLI_THIN_WIDTH 64
-#define SLI_THIN_LONG 7
-#define SLI_THIN_DEGREE 4
+#define SLI_THIN_WIDTH 22
 #define SLI_THIN_EVEN 3
 #define SLI_THIN_ASPECT 8
 #define SLI_THIN_LEAF_MIN 64
 #define SLI_THIN_LEAF_MAX 250
-
-#define SLI_LATTICE_SHARE 75
-#define SLI_LATTICE_DEGREES 32
-
-static int sli_is_lattice(const sli_level *g) {
-  sl_int count[SLI_LATTICE_DEGREES] = {0}, v, most = 0;
-  for (v = 0; v < g->n; v++) {
-    const sl_off degree = g->begin[v + 1] - g->begin[v];
-    if (degree >= SLI_THIN_DEGREE && degree < SLI_LATTICE_DEGREES) {
-      count[degree]++;
-      most = sli_max(most, count[degree]);
-    }
-  }
-  return 100 * (int64_t)most >= SLI_LATTICE_SHARE * (int64_t)g->n;
-}
 
 typedef struct sli_thin_part {
   sl_int first, end, levels;
@@ -8703,16 +8683,14 @@ typedef struct sli_thin {
   sl_int *mark;
   sl_int *begin;
   sl_int *ahead;
-  sl_int *spare, *kept;
+  sl_int *spare;
   sl_int *up;
-  sl_int marks, leaf, parts;
-  int is_narrow;
+  sl_int leaf, parts;
   sli_thin_part *part;
 } sli_thin;
 
 static sl_int sli_thin_level(sli_thin *t, sl_int level, sl_int first, sl_int last) {
   const sli_level *g = t->g;
-  const sl_int mark = ++t->marks;
   sl_int k, at = first, ahead = 0, tail = last;
   sl_off e;
   for (k = first; k < last; k++) {
@@ -8721,10 +8699,10 @@ static sl_int sli_thin_level(sli_thin *t, sl_int level, sl_int first, sl_int las
     for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
       const sl_int u = g->to[e];
       if (t->mark[u] == -1) {
-        t->mark[u] = mark;
+        t->mark[u] = level + 1;
         t->queue[tail++] = u;
       }
-      is_ahead |= t->mark[u] == mark;
+      is_ahead |= t->mark[u] > level;
     }
     if (is_ahead) {
       t->spare[ahead++] = v;
@@ -8750,20 +8728,16 @@ static void sli_thin_push(sli_thin *t, sl_int first, sl_int end, sl_int levels, 
 
 static int sli_thin_search(sli_thin *t, sl_int root) {
   const int64_t n = t->g->n;
-  int64_t squares = 0, ends = 0, even = 0;
+  int64_t squares = 0;
   sl_int first = 0, last = 1, levels = 0;
   memset(t->mark, -1, (size_t)n * sizeof(sl_int));
   t->queue[0] = root;
   t->mark[root] = 0;
   while (first < last) {
     const sl_int tail = sli_thin_level(t, levels++, first, last);
-    const int64_t size = last - first;
+    const int64_t size = last - first, even = last + SLI_THIN_EVEN * n / 100;
     squares += size * size;
-    t->is_narrow = squares <= SLI_THIN_NARROW * (last + n / 16);
-    ends = t->is_narrow ? 0 : squares / last * (squares / last) / 3;
-    even = last + SLI_THIN_EVEN * n / 100 + ends;
-    if (size > 4 * SLI_THIN_WIDTH || squares > SLI_THIN_WIDTH * (last + n / 16) ||
-        squares > even * even / levels) {
+    if (squares > SLI_THIN_WIDTH * (last + n / 16) || squares > even * even / levels) {
       return 0;
     }
     first = last;
@@ -8772,53 +8746,49 @@ static int sli_thin_search(sli_thin *t, sl_int root) {
   t->leaf = sli_min((sl_int)(SLI_THIN_ASPECT * squares / n), SLI_THIN_LEAF_MAX);
   t->leaf = sli_max(t->leaf, SLI_THIN_LEAF_MIN);
   sli_thin_push(t, 0, (sl_int)n, levels, -1);
-  even = n + n / 200 + ends;
-  return t->is_narrow ||
-       (squares <= even * even / levels && 2 * (int64_t)levels >= squares / n * SLI_THIN_LONG &&
-        sli_is_lattice(t->g));
+  return 1;
 }
 
-static sl_int sli_thin_cut(const sli_thin *t, const sli_thin_part *p, int64_t *least) {
+static sl_int sli_thin_cut(const sli_thin *t, const sli_thin_part *p) {
   const sl_int n = p->end - p->first;
+  int64_t least = INT64_MAX;
   sl_int s, best = -1;
-  *least = INT64_MAX;
   for (s = p->first; s < p->first + p->levels - 1; s++) {
     const sl_int next = t->begin[s + 1];
     const int64_t side = sli_max(next - t->ahead[s] - p->first, p->end - next);
     const int64_t cost = 100 * side <= SLI_LEVELSET_BALANCE * (int64_t)n ? side * t->ahead[s]
                                        : INT64_MAX / 2 + side;
-    if (cost < *least) {
+    if (cost < least) {
       best = s;
-      *least = cost;
+      least = cost;
     }
   }
   return best;
 }
 
 static void sli_thin_split(sli_thin *t, const sli_thin_part *p, sl_int cut, sl_int end,
-    sl_int above, sl_int above_next) {
+    sl_int node) {
   const sl_int next = t->begin[cut + 1], before = cut - p->first + (end > t->begin[cut]);
   const sl_int behind = p->first + p->levels - 1 - cut;
-  sli_thin_push(t, p->first, end, before, above);
-  sli_thin_push(t, next, p->end, behind, above_next);
+  sli_thin_push(t, p->first, end, before, node);
+  sli_thin_push(t, next, p->end, behind, node);
   memmove(t->begin + next, t->begin + cut + 1, (size_t)behind * sizeof(sl_int));
   memmove(t->ahead + next, t->ahead + cut + 1, (size_t)behind * sizeof(sl_int));
 }
 
 static sl_int sli_thin_dissect(sli_thin *t, sli_dissect_worker *w, const sl_int *row, sl_int *perm,
     sl_int end, sl_int *node_of) {
-  int64_t least;
   sl_int k, node;
   for (node = 0; t->parts > 0; node++) {
     const sli_thin_part p = t->part[--t->parts];
     const sl_int size = p.end - p.first;
-    const sl_int cut = size <= t->leaf ? -1 : sli_thin_cut(t, &p, &least);
+    const sl_int cut = size <= t->leaf ? -1 : sli_thin_cut(t, &p);
     const sl_int count = cut == -1 ? size : t->ahead[cut];
     const sl_int from = cut == -1 ? p.first : t->begin[cut + 1] - count;
     if (cut == -1) {
       sli_mindeg_order(&w->mindeg, t->g, t->queue + from, count);
     } else {
-      sli_thin_split(t, &p, cut, from, node, node);
+      sli_thin_split(t, &p, cut, from, node);
     }
     end -= count;
     for (k = 0; k < count; k++) {
@@ -8828,78 +8798,6 @@ static sl_int sli_thin_dissect(sli_thin *t, sli_dissect_worker *w, const sl_int 
     t->up[node] = p.above;
   }
   return node;
-}
-
-static int sli_thin_renew(sli_thin *t, sli_thin_part *p, sl_int root) {
-  sl_int k, first = p->first, last = first + 1, level = first;
-  for (k = 0; k < p->end - p->first; k++) {
-    t->mark[t->kept[k]] = -1;
-  }
-  t->queue[first] = root;
-  t->mark[root] = 0;
-  while (first < last) {
-    const sl_int tail = sli_thin_level(t, level++, first, last);
-    first = last;
-    last = tail;
-  }
-  p->levels = level - p->first;
-  return last == p->end;
-}
-
-static sl_int sli_thin_turn(sli_thin *t, sli_thin_part *p, sl_int cut, int64_t least,
-    sl_int *scratch) {
-  const sli_thin_part before = *p;
-  const size_t size = (size_t)(p->end - p->first), levels = (size_t)p->levels;
-  int64_t cost;
-  sl_int k;
-  memcpy(t->kept, t->queue + p->first, size * sizeof(sl_int));
-  memcpy(scratch, t->begin + p->first, levels * sizeof(sl_int));
-  memcpy(scratch + size, t->ahead + p->first, levels * sizeof(sl_int));
-  if (sli_thin_renew(t, p, t->queue[p->first]) && /* branches untested: it is connected */
-      sli_thin_renew(t, p, t->queue[p->end - 1])) {
-    const sl_int turned = sli_thin_cut(t, p, &cost);
-    if (cost <= least / 10 * 9) {
-      return turned;
-    }
-  }
-  *p = before;
-  for (k = 0; k < p->end - p->first; k++) {
-    t->mark[t->kept[k]] = 0;
-  }
-  memcpy(t->queue + p->first, t->kept, size * sizeof(sl_int));
-  memcpy(t->begin + p->first, scratch, levels * sizeof(sl_int));
-  memcpy(t->ahead + p->first, scratch + size, levels * sizeof(sl_int));
-  return cut;
-}
-
-static void sli_thin_label(sli_thin *t, sli_dissection *d) {
-  sli_label_tree *tree = &d->tree;
-  int64_t least;
-  sl_int k;
-  d->level = 0;
-  sli_dissect_start(d);
-  t->part[0].above = tree->root;
-  while (t->parts > 0) {
-    sli_thin_part p = t->part[--t->parts];
-    const sl_int size = p.end - p.first, node = p.above;
-    const int may_cut = size > t->leaf &&
-              tree->count < tree->room - 1; /* branches untested: tiny leaves */
-    sl_int cut = may_cut ? sli_thin_cut(t, &p, &least) : -1;
-    if (cut != -1 && (int64_t)p.levels * p.levels < 2 * (int64_t)size &&
-        t->marks < INT32_MAX - 2 * size) { /* branches untested: 2^31 marks */
-      cut = sli_thin_turn(t, &p, cut, least, (sl_int *)(void *)d->workers[0].next);
-    }
-    tree->weight[node] = size;
-    for (k = cut == -1 ? p.first : p.end; k < p.end; k++) {
-      d->label[t->queue[k]] = node;
-    }
-    if (cut != -1) {
-      sli_label_tree_split(tree, node);
-      sli_thin_split(t, &p, cut, t->begin[cut + 1], tree->left[node], tree->right[node]);
-    }
-  }
-  sli_label_tree_number(tree, t->g->n, d->label);
-  d->has_labels = 1;
 }
 
 static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl_int at,
@@ -8917,12 +8815,7 @@ static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl
   t.part = (sli_thin_part *)(void *)(scratch + 4 * (size_t)n);
   t.begin = d->begin;
   t.spare = d->order;
-  t.kept = d->other;
   if (!sli_thin_search(&t, n - 1)) {
-    return 0;
-  }
-  if (!t.is_narrow) {
-    sli_thin_label(&t, d);
     return 0;
   }
   w->mindeg.order = t.spare;
@@ -9099,13 +8992,6 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
   }
 }
 
-static sl_status sli_nd_label(sli_nd *w) {
-  sli_dissection *d = &w->d;
-  d->is_volume = d->may_be_seven_point = 0;
-  d->is_levelset = 0;
-  return d->has_labels ? SL_OK : sli_dissect_graph(d);
-}
-
 static int sli_nd_is_thin(const sli_dissection *d) {
   sl_int v, count = 0;
   for (v = 0; v < d->levels[0].n; v++) {
@@ -9123,7 +9009,9 @@ static sl_status sli_nd_dissect(sli_nd *w) {
     sli_dissect_start(d);
     return SL_OK;
   }
-  status = sli_nd_label(w);
+  d->is_volume = d->may_be_seven_point = 0;
+  d->is_levelset = 0;
+  status = sli_dissect_graph(d);
   if (status == SL_OK) {
     do {
       sli_dissect_visit(d, sli_dissect_separate);
@@ -9171,7 +9059,6 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
         continue;
       }
       sli_nd_graph(w, count);
-      w->d.has_labels = 0;
       if (w->weight == NULL && count > w->d.leaf_size &&
           sli_order_thin(&w->d, w->row, perm, at, septree)) {
         at += count;
@@ -34881,16 +34768,11 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_DISSECT_BAND_FROM
 #undef SLI_SEPARATOR_BALANCE
 #undef SLI_LEVELSET_BALANCE
-#undef SLI_THIN_NARROW
 #undef SLI_THIN_WIDTH
-#undef SLI_THIN_LONG
-#undef SLI_THIN_DEGREE
 #undef SLI_THIN_EVEN
 #undef SLI_THIN_ASPECT
 #undef SLI_THIN_LEAF_MIN
 #undef SLI_THIN_LEAF_MAX
-#undef SLI_LATTICE_SHARE
-#undef SLI_LATTICE_DEGREES
 #undef SLI_ND_RESPLITS
 #undef SLI_ND_THIN
 #undef SLI_ND_THIN_LEAF
