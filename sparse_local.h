@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 41dbd222a02fd4f2
+ * FNV-1a of the lines after this comment, without the license: 5b4857d8c4eb4e92
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -34,27 +34,27 @@
  *   2729 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   2772 impl/ base: the compiler, status, memory, sorting, threads
  *   4074 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4975 impl/ matrix: sparse matrices of the caller and of the library
- *   5779 impl/ ordering: fill-reducing orderings of a graph
- *  10556 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12798 impl/ factor: the numbers of L and D
- *  15380 impl/ solve: full and local solves
- *  16886 impl/ singular: null spaces of semidefinite matrices
- *  18157 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20178 impl/ pivots: the order of the pivots by the values of a matrix
- *  20586 impl/ float: L in single precision
- *  20816 impl/ inverse: entries of the inverse, regions
- *  23728 impl/ change: a factor that follows changes of its matrix
- *  26006 impl/ constraints: rows held at values, on a factor that stays
- *  27315 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30055 impl/ fixed: rows fixed at given values
- *  30614 impl/ io: files that are replaced only when they are complete
- *  30832 impl/ files: Matrix Market files, 64-bit indices
- *  31378 impl/ save: factors in files
- *  33357 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34043 impl/ complex: complex Hermitian systems over real factors
- *  34548 impl/ packs: the tables through which the core calls packs
- *  34940 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4974 impl/ matrix: sparse matrices of the caller and of the library
+ *   5778 impl/ ordering: fill-reducing orderings of a graph
+ *  10555 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12797 impl/ factor: the numbers of L and D
+ *  15356 impl/ solve: full and local solves
+ *  16862 impl/ singular: null spaces of semidefinite matrices
+ *  18133 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20154 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20562 impl/ float: L in single precision
+ *  20789 impl/ inverse: entries of the inverse, regions
+ *  23701 impl/ change: a factor that follows changes of its matrix
+ *  25979 impl/ constraints: rows held at values, on a factor that stays
+ *  27288 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30028 impl/ fixed: rows fixed at given values
+ *  30587 impl/ io: files that are replaced only when they are complete
+ *  30805 impl/ files: Matrix Market files, 64-bit indices
+ *  31351 impl/ save: factors in files
+ *  33329 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34015 impl/ complex: complex Hermitian systems over real factors
+ *  34500 impl/ packs: the tables through which the core calls packs
+ *  34892 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4242,7 +4242,6 @@ enum {
 typedef struct sli_pivot_rule {
   double null_tolerance;
   const sl_int *super_of, *super_first, *first_descendant;
-  double epsilon;
   int replaces;
   double regularization;
   signed char *signs;
@@ -4254,15 +4253,15 @@ typedef struct sli_pivot_rule {
 
 #define SLI_NULL_PIVOT DBL_MAX
 
-static double sli_null_tolerance(sl_int n, double epsilon) {
-  return (64.0 + n / 8) * epsilon;
+static double sli_null_tolerance(sl_int n) {
+  return (64.0 + n / 8) * DBL_EPSILON;
 }
 
 SLI_NOINLINE static double sli_rule_tolerance(const sli_pivot_rule *rule, sl_int k) {
   const sl_int *first = rule->super_first, s = rule->super_of == NULL ? 0 : rule->super_of[k];
   return rule->super_of == NULL
          ? rule->null_tolerance
-         : sli_null_tolerance(first[s + 1] - first[rule->first_descendant[s]], rule->epsilon);
+         : sli_null_tolerance(first[s + 1] - first[rule->first_descendant[s]]);
 }
 
 SLI_INLINE int sli_is_null(double pivot, double magnitude, double tolerance) {
@@ -4279,7 +4278,7 @@ SLI_INLINE int sli_is_null_by_rule(const sli_pivot_rule *rule, sl_int k, double 
 SLI_INLINE double sli_pivot_skipped(const sli_pivot_rule *rule, sl_int k, double d,
     double magnitude) {
   const int is_null = sli_is_null_by_rule(rule, k, d, magnitude);
-  const double sign = rule->signs[k] < 0 ? -1.0 : 1.0, least = rule->epsilon * magnitude;
+  const double sign = rule->signs[k] < 0 ? -1.0 : 1.0, least = DBL_EPSILON * magnitude;
   const int is_wrong = d * sign < 0.0;
   if (!sli_is_finite(d)) {
     return d;
@@ -13081,13 +13080,7 @@ SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
 
 /* src/impl/factor/storage_type.h: a table for each sl_storage: how L is kept and how fronts are computed */
 
-struct sli_storage_type {
-  sl_storage storage;
-  size_t value_bytes;
-  int half;
-  const sli_sweeps *(*sweeps)(const sli_kernels *kernels);
-  const sli_front_kernels *(*front)(const sli_kernels *kernels);
-
+typedef struct sli_fronts {
   sl_status (*factor)(sl_factor *F, const sli_source *from, sl_int first, sl_int last,
       sl_int worker, sli_failure *failure);
   sli_front (*shared)(const sl_factor *F, sl_int s, sl_int group);
@@ -13096,7 +13089,14 @@ struct sli_storage_type {
       sli_failure *failure);
   void (*assemble)(const sl_factor *F, const sli_front *f, sl_int worker, sl_int t0, sl_int t1);
   sl_status (*finish)(const sl_factor *F, const sli_front *f, sli_failure *failure);
+} sli_fronts;
 
+struct sli_storage_type {
+  sl_storage storage;
+  size_t value_bytes;
+  int half;
+  const sli_fronts *fronts;
+  sli_own_kernels (*kernels)(const sli_kernels *kernels);
   sl_status (*store)(const sl_factor *F, const sli_front *f, sli_failure *failure);
   double (*entry)(const void *values, sl_off at);
   void (*entry_clear)(void *values, sl_off at);
@@ -13188,7 +13188,7 @@ SLI_INLINE void sli_panel_begin(const sl_factor *F, sl_int s) {
 /* src/impl/factor/pivot_check.h: which pivots are refused, and what is recorded of the others */
 
 SLI_INLINE int sli_tolerance_is_default(const sl_factor *F) {
-  return F->rule.null_tolerance == sli_null_tolerance(F->S->n, F->rule.epsilon);
+  return F->rule.null_tolerance == sli_null_tolerance(F->S->n);
 }
 
 SLI_INLINE double sli_tolerance_option(const sl_factor *F) {
@@ -13538,13 +13538,13 @@ static void sli_null_components(const sli_null_walk *w, const sl_symbolic *S, co
 
 /* src/impl/factor/pivot_suspects.h: pivots that the tolerance may have missed, where null pivots are refused */
 
-static double sli_null_rounding(sl_int n, double epsilon) {
-  return 16.0 * (64.0 + n / 8) * epsilon;
+static double sli_null_rounding(sl_int n) {
+  return 16.0 * (64.0 + n / 8) * DBL_EPSILON;
 }
 
 static int sli_null_is_suspected(sl_factor *F) {
   const sl_symbolic *S = F->S;
-  const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
+  const double rounding = sli_null_rounding(S->n);
   sl_int root, first;
   if (F->rule.replaces || F->rule.null_tolerance < 0.0) {
     return 0;
@@ -13593,7 +13593,7 @@ static int sli_null_suspect_fits(const sl_factor *F) {
 SLI_COLD static sl_int sli_null_suspects_find(sl_factor *F, const sli_source *from, sl_int **list,
     sli_failure *failure) {
   const sl_symbolic *S = F->S;
-  const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
+  const double rounding = sli_null_rounding(S->n);
   void *room = sli_null_suspect_fits(F) ? NULL : sli_judge_memory(F, S->n, SLI_SUSPECT_ROW);
   sli_null_row *rows = (sli_null_row *)(room == NULL ? F->values : room);
   double *most = (double *)(void *)(rows + S->n);
@@ -13718,44 +13718,22 @@ static sli_front sli_front_in_double(const sl_factor *F, sl_int s, sl_int worker
 
 #define SLF_NAME(f) sli_double_##f
 #define SLF_HALF 0
-#define SLF_BEGIN sli_front_in_double
 #define SLI_INL_FRONTS
 #define SLI_INL_FRONTS_UNDEF
 #include SL_HEADER
-SLI_INLINE void sli_front_share(const sl_factor *F, sli_front *f, sl_int group) {
-  const sli_step *step = &F->S->steps[f->super];
-  f->magnitude = f->update + (sli_update_size(step) >> F->type->half);
-  f->reciprocals = f->magnitude + SLI_TILE * (ptrdiff_t)sli_front_tiles(f) +
-           SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
-  f->panel = sli_front_panel(F, f->super, F->schedule.workers);
-}
-
-static sli_front sli_double_shared(const sl_factor *F, sl_int s, sl_int group) {
-  sli_front f = sli_double_front_of(F, s, 0);
-  sli_front_share(F, &f, group);
-  return f;
-}
-
-static const sli_sweeps *sli_double_sweeps(const sli_kernels *kernels) {
-  return &kernels->sweeps;
-}
-
-static const sli_front_kernels *sli_double_front(const sli_kernels *kernels) {
-  return &kernels->front;
+static sli_own_kernels sli_double_own(const sli_kernels *kernels) {
+  sli_own_kernels own;
+  own.sweeps = &kernels->sweeps;
+  own.front = &kernels->front;
+  return own;
 }
 
 static const sli_storage_type sli_storage_double = {
   SL_STORAGE_DOUBLE,
   sizeof(double),
   0,
-  sli_double_sweeps,
-  sli_double_front,
-  sli_double_factor,
-  sli_double_shared,
-  sli_double_front_clear,
-  sli_double_front_load,
-  sli_double_front_assemble,
-  sli_double_front_finish,
+  &sli_double_fronts,
+  sli_double_own,
   NULL,
   NULL,
   NULL,
@@ -14030,12 +14008,12 @@ static void sli_piece_run(sl_factor *F, const sli_task *task, sl_int worker) {
   const sl_int t0 = sli_piece_begin(step, top, piece), t1 = sli_piece_begin(step, top, piece + 1);
   const sl_int group = task->step - SLI_STEP_ROWS, whole = step->width / SLI_TILE;
   double *scratch = F->work.buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
-  const sli_storage_type *type = F->type;
-  const sli_front f = type->shared(F, s, sli_max(group, 0));
+  const sli_fronts *fronts = F->type->fronts;
+  const sli_front f = fronts->shared(F, s, sli_max(group, 0));
   if (task->step == SLI_STEP_CLEAR) {
-    type->clear(&f, t0, t1);
+    fronts->clear(&f, t0, t1);
   } else if (task->step == SLI_STEP_ASSEMBLE) {
-    type->assemble(F, &f, worker, t0, t1);
+    fronts->assemble(F, &f, worker, t0, t1);
   } else if (task->step > sli_piece_last_step(step, piece)) {
     F->own.front->update(&f, whole, sli_front_tiles(&f), sli_max(t0, whole), t1, scratch);
   } else if (group == piece) {
@@ -14050,7 +14028,7 @@ static void sli_subtrees_run(sl_factor *F, const sli_source *from, sl_int bundle
   sl_int m = bundle > 0 ? p->bundle_end[bundle - 1] : 0;
   for (; m < p->bundle_end[bundle]; m++) {
     sli_failure failure;
-    if (F->type->factor(F, from, p->first[m], p->last[m], worker, &failure) != SL_OK) {
+    if (F->type->fronts->factor(F, from, p->first[m], p->last[m], worker, &failure) != SL_OK) {
       sli_keep_first_failure(&F->work.failures[worker], &failure);
     }
   }
@@ -14067,15 +14045,15 @@ static sl_status sli_task_run(sl_factor *F, const sli_source *from, const sli_ta
     sli_subtrees_run(F, from, task->at, worker);
     break;
   case SLI_TASK_FRONT:
-    (void)F->type->factor(F, from, s, s, worker, &failure);
+    (void)F->type->fronts->factor(F, from, s, s, worker, &failure);
     break;
   case SLI_TASK_LOAD:
-    f = F->type->shared(F, s, 0);
-    (void)F->type->load(F, from, &f, &failure);
+    f = F->type->fronts->shared(F, s, 0);
+    (void)F->type->fronts->load(F, from, &f, &failure);
     break;
   case SLI_TASK_FINISH:
-    f = F->type->shared(F, s, 0);
-    (void)F->type->finish(F, &f, &failure);
+    f = F->type->fronts->shared(F, s, 0);
+    (void)F->type->fronts->finish(F, &f, &failure);
     break;
   default:
     sli_piece_run(F, task, worker);
@@ -14149,7 +14127,7 @@ static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_fail
   sli_job job;
   sl_int k;
   if (F->schedule.workers == 1) {
-    return F->type->factor(F, from, 0, F->S->n_supers - 1, 0, failure);
+    return F->type->fronts->factor(F, from, 0, F->S->n_supers - 1, 0, failure);
   }
   sli_job_begin(&job, F, from);
   sli_parallel(&F->threads, F->schedule.workers, sli_worker_run, &job);
@@ -14354,7 +14332,7 @@ SLI_COLD static int sli_judge_is_null(sli_judge *judge, sl_int k) {
     squares += t * t;
   }
   judge->error =
-    F->rule.epsilon * (SLI_JUDGE_RANDOM * sqrt(squares) + SLI_JUDGE_BIASED * sum) * size;
+    DBL_EPSILON * (SLI_JUDGE_RANDOM * sqrt(squares) + SLI_JUDGE_BIASED * sum) * size;
   return !(judge->error < size);
 }
 
@@ -14441,7 +14419,7 @@ static int sli_judge_last(sli_judge *judge, sl_int last) {
   for (k = first; k < last && !is_null; k++) {
     const double size = fabs(F->D[k]);
     most = size > most ? size : most;
-    is_null = size <= sli_null_rounding(k - first + 1, F->rule.epsilon) * most &&
+    is_null = size <= sli_null_rounding(k - first + 1) * most &&
           sli_judge_is_null(judge, k);
   }
   return is_null;
@@ -14467,7 +14445,7 @@ static int sli_signs_are_suspected(const sl_factor *F) {
   const sl_factor_info *info = &F->stats.factor;
   return F->rule.super_of != NULL && !F->rule.replaces && F->E == NULL && info->positive > 0 &&
        info->negative > 0 &&
-       info->pivot_min <= 0.125 * sli_null_rounding(F->S->n, F->rule.epsilon) * info->pivot_max;
+       info->pivot_min <= 0.125 * sli_null_rounding(F->S->n) * info->pivot_max;
 }
 
 SLI_COLD static sl_status sli_signs_judge(sl_factor *F, sli_failure *failure) {
@@ -14479,7 +14457,7 @@ SLI_COLD static sl_status sli_signs_judge(sl_factor *F, sli_failure *failure) {
     if (!is_mixed && (F->D[k] < 0.0) != (F->D[first] < 0.0)) {
       sli_judge judge;
       is_mixed = 1;
-      if (size <= 0.125 * sli_null_rounding(k - first + 1, F->rule.epsilon) * most &&
+      if (size <= 0.125 * sli_null_rounding(k - first + 1) * most &&
           sli_judge_begin(&judge, F, k, failure) == SL_OK) {
         sli_judge_weigh(&judge, S->first_descendant[S->super_of[k]], S->super_of[k]);
         if (sli_judge_is_null(&judge, k)) {
@@ -14663,8 +14641,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
   const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
   const sl_int vectors = opt == NULL ? 0 : (sl_int)opt->null_vector_count;
   F->null.calls = sli_singular_of(opt != NULL && opt->pivots == SL_PIVOTS_SKIP_NULL);
-  F->rule.epsilon = DBL_EPSILON;
-  F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n, F->rule.epsilon) : null;
+  F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n) : null;
   F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
   F->rule.replaces = sli_skips_nulls(F) || F->rule.regularization != 0.0;
   F->null.vectors = sli_skips_nulls(F) ? sli_max(vectors, 1) : 1;
@@ -14752,11 +14729,10 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
   }
   F->stats.factor.isa = F->kernels->isa;
   F->stats.factor.method = F->method;
-  F->own.sweeps = F->type->sweeps(F->kernels);
+  F->own = F->type->kernels(F->kernels);
   if (F->own.sweeps == NULL) {
     return sli_refuse(SL_ERR_UNSUPPORTED, "options.isa has no kernels for L in float");
   }
-  F->own.front = F->type->front(F->kernels);
   F->stats.factor.storage = F->type->storage;
   F->stats.factor.threads = F->schedule.workers;
   return SL_OK;
@@ -14797,7 +14773,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
         sli_storage_needs(opt->storage)); /* untested: the same */
   }
-  if (draft.kernels != NULL && draft.type->sweeps(draft.kernels) == NULL) {
+  if (draft.kernels != NULL && draft.type->kernels(draft.kernels).sweeps == NULL) {
     draft.type = draft.type->in_double;
   }
   missing = sli_singular_missing(opt);
@@ -14986,7 +14962,7 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
     return "null pivot: if A is singular, options.pivots, which SL_NO_SINGULAR leaves "
          "out; if it is regular, sl_symbolic_create_pivoted"; /* untested: the same */
   }
-  return size > F->rule.epsilon * F->extents[f->super].magnitude
+  return size > DBL_EPSILON * F->extents[f->super].magnitude
          ? "if A is singular: options.pivots; if the pivot may be right, a smaller or "
          "negative options.null_tolerance accepts it, and sl_symbolic_create_pivoted "
          "avoids small pivots"
@@ -17374,7 +17350,7 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
     sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const int is_one = F->null.vectors == 1;
-  const double rounding = sli_null_rounding(S->n, F->rule.epsilon),
+  const double rounding = sli_null_rounding(S->n),
          *z = is_one ? F->null.z : NULL;
   double *diagonal =
     is_one ? F->null.g : F->null.products + ((size_t)F->null.vectors + 1) * (size_t)S->n;
@@ -20784,23 +20760,20 @@ static void sli_float_entry_clear(void *values, sl_off at) {
   ((float *)values)[at] = 0.0F;
 }
 
-static const sli_sweeps *sli_float_sweeps(const sli_kernels *kernels) {
-  const sli_float_kernels *own = sli_float_kernels_of(kernels->isa);
-  return own == NULL ? NULL : &own->sweeps;
+static sli_own_kernels sli_float_own(const sli_kernels *kernels) {
+  const sli_float_kernels *table = sli_float_kernels_of(kernels->isa);
+  sli_own_kernels own;
+  own.sweeps = table == NULL ? NULL : &table->sweeps;
+  own.front = &kernels->front;
+  return own;
 }
 
 static const sli_storage_type sli_storage_float = {
   SL_STORAGE_FLOAT,
   sizeof(float),
   0,
-  sli_float_sweeps,
-  sli_double_front,
-  sli_double_factor,
-  sli_double_shared,
-  sli_double_front_clear,
-  sli_double_front_load,
-  sli_double_front_assemble,
-  sli_double_front_finish,
+  &sli_double_fronts,
+  sli_float_own,
   sli_panel_round,
   sli_float_entry,
   sli_float_entry_clear,
@@ -25468,7 +25441,7 @@ SLI_NOINLINE static sl_status sli_rank_run(sli_rank *q) {
 static double sli_rank_least(const sl_factor *F) {
   return F->rule.null_tolerance < 0.0
          ? 0.0
-         : sli_null_rounding(F->S->n, F->rule.epsilon) * F->stats.factor.pivot_max;
+         : sli_null_rounding(F->S->n) * F->stats.factor.pivot_max;
 }
 
 static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
@@ -31942,7 +31915,6 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   F->null.consistency = g->consistency;
   F->limits.growth = g->growth_limit;
   F->limits.error = g->error_limit;
-  F->rule.epsilon = DBL_EPSILON;
   F->rule.null_tolerance = g->null_tolerance;
   F->rule.regularization = g->regularization;
   F->rule.replaces = skips || g->regularization != 0.0;
@@ -34235,37 +34207,23 @@ static void sli_complex_accepts(const sl_symbolic *S, const sli_source *from,
 
 #define SLF_NAME(f) sli_complex_##f
 #define SLF_HALF 1
-#define SLF_BEGIN sli_front_in_double
 #define SLI_INL_FRONTS
 #define SLI_INL_FRONTS_UNDEF
 #include SL_HEADER
-static sli_front sli_complex_shared(const sl_factor *F, sl_int s, sl_int group) {
-  sli_front f = sli_complex_front_of(F, s, 0);
-  sli_front_share(F, &f, group);
-  return f;
-}
-
-static const sli_sweeps *sli_complex_sweeps(const sli_kernels *kernels) {
-  const sli_complex_kernels *own = sli_complex_kernels_of(kernels->isa);
-  return own == NULL ? NULL : &own->sweeps;
-}
-
-static const sli_front_kernels *sli_complex_front(const sli_kernels *kernels) {
-  return &sli_complex_kernels_of(kernels->isa)->front;
+static sli_own_kernels sli_complex_own(const sli_kernels *kernels) {
+  const sli_complex_kernels *table = sli_complex_kernels_of(kernels->isa);
+  sli_own_kernels own;
+  own.sweeps = table == NULL ? NULL : &table->sweeps;
+  own.front = table == NULL ? NULL : &table->front;
+  return own;
 }
 
 static const sli_storage_type sli_storage_complex_in_double = {
   SL_STORAGE_DOUBLE,
   sizeof(double),
   0,
-  sli_double_sweeps,
-  sli_double_front,
-  sli_double_factor,
-  sli_double_shared,
-  sli_double_front_clear,
-  sli_double_front_load,
-  sli_double_front_assemble,
-  sli_double_front_finish,
+  &sli_double_fronts,
+  sli_double_own,
   NULL,
   NULL,
   NULL,
@@ -34279,14 +34237,8 @@ static const sli_storage_type sli_storage_complex = {
   SL_STORAGE_COMPLEX,
   sizeof(double),
   1,
-  sli_complex_sweeps,
-  sli_complex_front,
-  sli_complex_factor,
-  sli_complex_shared,
-  sli_complex_front_clear,
-  sli_complex_front_load,
-  sli_complex_front_assemble,
-  sli_complex_front_finish,
+  &sli_complex_fronts,
+  sli_complex_own,
   NULL,
   sli_complex_entry,
   NULL,
@@ -34948,7 +34900,7 @@ SLI_INLINE double *SLF_NAME(update_matrix)(const sl_factor *F, sl_int s, sl_int 
 }
 
 SLI_INLINE sli_front SLF_NAME(front_of)(const sl_factor *F, sl_int s, sl_int worker) {
-  sli_front f = SLF_BEGIN(F, s, worker);
+  sli_front f = sli_front_in_double(F, s, worker);
   f.update = SLF_NAME(update_matrix)(F, s, worker);
   return f;
 }
@@ -35423,6 +35375,24 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   }
   return status;
 }
+
+static sli_front SLF_NAME(shared)(const sl_factor *F, sl_int s, sl_int group) {
+  sli_front f = SLF_NAME(front_of)(F, s, 0);
+  f.magnitude = f.update + (sli_update_size(&F->S->steps[s]) >> SLF_HALF);
+  f.reciprocals = f.magnitude + SLI_TILE * (ptrdiff_t)sli_front_tiles(&f) +
+          SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
+  f.panel = sli_front_panel(F, s, F->schedule.workers);
+  return f;
+}
+
+static const sli_fronts SLF_NAME(fronts) = {
+  SLF_NAME(factor),
+  SLF_NAME(shared),
+  SLF_NAME(front_clear),
+  SLF_NAME(front_load),
+  SLF_NAME(front_assemble),
+  SLF_NAME(front_finish),
+};
 #endif
 
 #ifdef SLI_INL_FRONTS_UNDEF
@@ -35431,7 +35401,6 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #undef SLF_NAME
 #undef SLF_HALF
-#undef SLF_BEGIN
 #endif
 
 #ifdef SLI_INL_WORDS_NEON

@@ -73,7 +73,7 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
         return "null pivot: if A is singular, options.pivots, which SL_NO_SINGULAR leaves "
                "out; if it is regular, sl_symbolic_create_pivoted"; /* untested: the same */
     }
-    return size > F->rule.epsilon * F->extents[f->super].magnitude
+    return size > DBL_EPSILON * F->extents[f->super].magnitude
                ? "if A is singular: options.pivots; if the pivot may be right, a smaller or "
                  "negative options.null_tolerance accepts it, and sl_symbolic_create_pivoted "
                  "avoids small pivots"
