@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 1cd10a2414a8a6a9
+ * FNV-1a of the lines after this comment, without the license: 882744dace8440bb
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -34,27 +34,27 @@
  *   2732 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   2775 impl/ base: the compiler, status, memory, sorting, threads
  *   4077 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4978 impl/ matrix: sparse matrices of the caller and of the library
- *   5782 impl/ ordering: fill-reducing orderings of a graph
- *  10672 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12914 impl/ factor: the numbers of L and D
- *  15530 impl/ solve: full and local solves
- *  17037 impl/ singular: null spaces of semidefinite matrices
- *  18308 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20369 impl/ pivots: the order of the pivots by the values of a matrix
- *  20777 impl/ float: L in single precision
- *  21007 impl/ inverse: entries of the inverse, regions
- *  23919 impl/ change: a factor that follows changes of its matrix
- *  26197 impl/ constraints: rows held at values, on a factor that stays
- *  27544 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30284 impl/ fixed: rows fixed at given values
- *  30843 impl/ io: files that are replaced only when they are complete
- *  31061 impl/ files: Matrix Market files, 64-bit indices
- *  31617 impl/ save: factors in files
- *  33596 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34282 impl/ complex: complex Hermitian systems over real factors
- *  34787 impl/ packs: the tables through which the core calls packs
- *  35184 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4977 impl/ matrix: sparse matrices of the caller and of the library
+ *   5781 impl/ ordering: fill-reducing orderings of a graph
+ *  10558 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12800 impl/ factor: the numbers of L and D
+ *  15393 impl/ solve: full and local solves
+ *  16900 impl/ singular: null spaces of semidefinite matrices
+ *  18171 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20232 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20640 impl/ float: L in single precision
+ *  20867 impl/ inverse: entries of the inverse, regions
+ *  23779 impl/ change: a factor that follows changes of its matrix
+ *  26057 impl/ constraints: rows held at values, on a factor that stays
+ *  27404 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30144 impl/ fixed: rows fixed at given values
+ *  30703 impl/ io: files that are replaced only when they are complete
+ *  30921 impl/ files: Matrix Market files, 64-bit indices
+ *  31477 impl/ save: factors in files
+ *  33455 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34141 impl/ complex: complex Hermitian systems over real factors
+ *  34626 impl/ packs: the tables through which the core calls packs
+ *  35018 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4245,7 +4245,6 @@ enum {
 typedef struct sli_pivot_rule {
   double null_tolerance;
   const sl_int *super_of, *super_first, *first_descendant;
-  double epsilon;
   int replaces;
   double regularization;
   signed char *signs;
@@ -4257,15 +4256,15 @@ typedef struct sli_pivot_rule {
 
 #define SLI_NULL_PIVOT DBL_MAX
 
-static double sli_null_tolerance(sl_int n, double epsilon) {
-  return (64.0 + n / 8) * epsilon;
+static double sli_null_tolerance(sl_int n) {
+  return (64.0 + n / 8) * DBL_EPSILON;
 }
 
 SLI_NOINLINE static double sli_rule_tolerance(const sli_pivot_rule *rule, sl_int k) {
   const sl_int *first = rule->super_first, s = rule->super_of == NULL ? 0 : rule->super_of[k];
   return rule->super_of == NULL
          ? rule->null_tolerance
-         : sli_null_tolerance(first[s + 1] - first[rule->first_descendant[s]], rule->epsilon);
+         : sli_null_tolerance(first[s + 1] - first[rule->first_descendant[s]]);
 }
 
 SLI_INLINE int sli_is_null(double pivot, double magnitude, double tolerance) {
@@ -4282,7 +4281,7 @@ SLI_INLINE int sli_is_null_by_rule(const sli_pivot_rule *rule, sl_int k, double 
 SLI_INLINE double sli_pivot_skipped(const sli_pivot_rule *rule, sl_int k, double d,
     double magnitude) {
   const int is_null = sli_is_null_by_rule(rule, k, d, magnitude);
-  const double sign = rule->signs[k] < 0 ? -1.0 : 1.0, least = rule->epsilon * magnitude;
+  const double sign = rule->signs[k] < 0 ? -1.0 : 1.0, least = DBL_EPSILON * magnitude;
   const int is_wrong = d * sign < 0.0;
   if (!sli_is_finite(d)) {
     return d;
@@ -5947,7 +5946,6 @@ typedef struct sli_order_job {
   const sl_options *opt;
   sl_int *perm;
   sl_int *scratch;
-  uint64_t *bits;
   sli_septree *septree;
   sli_order_choice *choice;
   sli_team *team;
@@ -8078,7 +8076,6 @@ typedef struct sli_dissection {
   sl_int leaf_size;
   sl_int first;
   int is_volume, may_be_seven_point;
-  int has_labels;
   int is_levelset;
   sli_label_tree tree, other_tree;
   sli_border_pool pool;
@@ -8671,29 +8668,11 @@ static sl_status sli_dissect_graph(sli_dissection *d) {
 
 /* src/impl/ordering/thin.h: nested dissection of strips, tubes and bars along the levels of a breadth-first search */
 
-#define SLI_THIN_NARROW 22
-#define SLI_THIN_WIDTH 64
-#define SLI_THIN_LONG 7
-#define SLI_THIN_DEGREE 4
+#define SLI_THIN_WIDTH 22
 #define SLI_THIN_EVEN 3
 #define SLI_THIN_ASPECT 8
 #define SLI_THIN_LEAF_MIN 64
 #define SLI_THIN_LEAF_MAX 250
-
-#define SLI_LATTICE_SHARE 75
-#define SLI_LATTICE_DEGREES 32
-
-static int sli_is_lattice(const sli_level *g) {
-  sl_int count[SLI_LATTICE_DEGREES] = {0}, v, most = 0;
-  for (v = 0; v < g->n; v++) {
-    const sl_off degree = g->begin[v + 1] - g->begin[v];
-    if (degree >= SLI_THIN_DEGREE && degree < SLI_LATTICE_DEGREES) {
-      count[degree]++;
-      most = sli_max(most, count[degree]);
-    }
-  }
-  return 100 * (int64_t)most >= SLI_LATTICE_SHARE * (int64_t)g->n;
-}
 
 typedef struct sli_thin_part {
   sl_int first, end, levels;
@@ -8706,16 +8685,14 @@ typedef struct sli_thin {
   sl_int *mark;
   sl_int *begin;
   sl_int *ahead;
-  sl_int *spare, *kept;
+  sl_int *spare;
   sl_int *up;
-  sl_int marks, leaf, parts;
-  int is_narrow;
+  sl_int leaf, parts;
   sli_thin_part *part;
 } sli_thin;
 
 static sl_int sli_thin_level(sli_thin *t, sl_int level, sl_int first, sl_int last) {
   const sli_level *g = t->g;
-  const sl_int mark = ++t->marks;
   sl_int k, at = first, ahead = 0, tail = last;
   sl_off e;
   for (k = first; k < last; k++) {
@@ -8724,10 +8701,10 @@ static sl_int sli_thin_level(sli_thin *t, sl_int level, sl_int first, sl_int las
     for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
       const sl_int u = g->to[e];
       if (t->mark[u] == -1) {
-        t->mark[u] = mark;
+        t->mark[u] = level + 1;
         t->queue[tail++] = u;
       }
-      is_ahead |= t->mark[u] == mark;
+      is_ahead |= t->mark[u] > level;
     }
     if (is_ahead) {
       t->spare[ahead++] = v;
@@ -8753,20 +8730,16 @@ static void sli_thin_push(sli_thin *t, sl_int first, sl_int end, sl_int levels, 
 
 static int sli_thin_search(sli_thin *t, sl_int root) {
   const int64_t n = t->g->n;
-  int64_t squares = 0, ends = 0, even = 0;
+  int64_t squares = 0;
   sl_int first = 0, last = 1, levels = 0;
   memset(t->mark, -1, (size_t)n * sizeof(sl_int));
   t->queue[0] = root;
   t->mark[root] = 0;
   while (first < last) {
     const sl_int tail = sli_thin_level(t, levels++, first, last);
-    const int64_t size = last - first;
+    const int64_t size = last - first, even = last + SLI_THIN_EVEN * n / 100;
     squares += size * size;
-    t->is_narrow = squares <= SLI_THIN_NARROW * (last + n / 16);
-    ends = t->is_narrow ? 0 : squares / last * (squares / last) / 3;
-    even = last + SLI_THIN_EVEN * n / 100 + ends;
-    if (size > 4 * SLI_THIN_WIDTH || squares > SLI_THIN_WIDTH * (last + n / 16) ||
-        squares > even * even / levels) {
+    if (squares > SLI_THIN_WIDTH * (last + n / 16) || squares > even * even / levels) {
       return 0;
     }
     first = last;
@@ -8775,53 +8748,49 @@ static int sli_thin_search(sli_thin *t, sl_int root) {
   t->leaf = sli_min((sl_int)(SLI_THIN_ASPECT * squares / n), SLI_THIN_LEAF_MAX);
   t->leaf = sli_max(t->leaf, SLI_THIN_LEAF_MIN);
   sli_thin_push(t, 0, (sl_int)n, levels, -1);
-  even = n + n / 200 + ends;
-  return t->is_narrow ||
-       (squares <= even * even / levels && 2 * (int64_t)levels >= squares / n * SLI_THIN_LONG &&
-        sli_is_lattice(t->g));
+  return 1;
 }
 
-static sl_int sli_thin_cut(const sli_thin *t, const sli_thin_part *p, int64_t *least) {
+static sl_int sli_thin_cut(const sli_thin *t, const sli_thin_part *p) {
   const sl_int n = p->end - p->first;
+  int64_t least = INT64_MAX;
   sl_int s, best = -1;
-  *least = INT64_MAX;
   for (s = p->first; s < p->first + p->levels - 1; s++) {
     const sl_int next = t->begin[s + 1];
     const int64_t side = sli_max(next - t->ahead[s] - p->first, p->end - next);
     const int64_t cost = 100 * side <= SLI_LEVELSET_BALANCE * (int64_t)n ? side * t->ahead[s]
                                        : INT64_MAX / 2 + side;
-    if (cost < *least) {
+    if (cost < least) {
       best = s;
-      *least = cost;
+      least = cost;
     }
   }
   return best;
 }
 
 static void sli_thin_split(sli_thin *t, const sli_thin_part *p, sl_int cut, sl_int end,
-    sl_int above, sl_int above_next) {
+    sl_int node) {
   const sl_int next = t->begin[cut + 1], before = cut - p->first + (end > t->begin[cut]);
   const sl_int behind = p->first + p->levels - 1 - cut;
-  sli_thin_push(t, p->first, end, before, above);
-  sli_thin_push(t, next, p->end, behind, above_next);
+  sli_thin_push(t, p->first, end, before, node);
+  sli_thin_push(t, next, p->end, behind, node);
   memmove(t->begin + next, t->begin + cut + 1, (size_t)behind * sizeof(sl_int));
   memmove(t->ahead + next, t->ahead + cut + 1, (size_t)behind * sizeof(sl_int));
 }
 
 static sl_int sli_thin_dissect(sli_thin *t, sli_dissect_worker *w, const sl_int *row, sl_int *perm,
     sl_int end, sl_int *node_of) {
-  int64_t least;
   sl_int k, node;
   for (node = 0; t->parts > 0; node++) {
     const sli_thin_part p = t->part[--t->parts];
     const sl_int size = p.end - p.first;
-    const sl_int cut = size <= t->leaf ? -1 : sli_thin_cut(t, &p, &least);
+    const sl_int cut = size <= t->leaf ? -1 : sli_thin_cut(t, &p);
     const sl_int count = cut == -1 ? size : t->ahead[cut];
     const sl_int from = cut == -1 ? p.first : t->begin[cut + 1] - count;
     if (cut == -1) {
       sli_mindeg_order(&w->mindeg, t->g, t->queue + from, count);
     } else {
-      sli_thin_split(t, &p, cut, from, node, node);
+      sli_thin_split(t, &p, cut, from, node);
     }
     end -= count;
     for (k = 0; k < count; k++) {
@@ -8831,78 +8800,6 @@ static sl_int sli_thin_dissect(sli_thin *t, sli_dissect_worker *w, const sl_int 
     t->up[node] = p.above;
   }
   return node;
-}
-
-static int sli_thin_renew(sli_thin *t, sli_thin_part *p, sl_int root) {
-  sl_int k, first = p->first, last = first + 1, level = first;
-  for (k = 0; k < p->end - p->first; k++) {
-    t->mark[t->kept[k]] = -1;
-  }
-  t->queue[first] = root;
-  t->mark[root] = 0;
-  while (first < last) {
-    const sl_int tail = sli_thin_level(t, level++, first, last);
-    first = last;
-    last = tail;
-  }
-  p->levels = level - p->first;
-  return last == p->end;
-}
-
-static sl_int sli_thin_turn(sli_thin *t, sli_thin_part *p, sl_int cut, int64_t least,
-    sl_int *scratch) {
-  const sli_thin_part before = *p;
-  const size_t size = (size_t)(p->end - p->first), levels = (size_t)p->levels;
-  int64_t cost;
-  sl_int k;
-  memcpy(t->kept, t->queue + p->first, size * sizeof(sl_int));
-  memcpy(scratch, t->begin + p->first, levels * sizeof(sl_int));
-  memcpy(scratch + size, t->ahead + p->first, levels * sizeof(sl_int));
-  if (sli_thin_renew(t, p, t->queue[p->first]) && /* branches untested: it is connected */
-      sli_thin_renew(t, p, t->queue[p->end - 1])) {
-    const sl_int turned = sli_thin_cut(t, p, &cost);
-    if (cost <= least / 10 * 9) {
-      return turned;
-    }
-  }
-  *p = before;
-  for (k = 0; k < p->end - p->first; k++) {
-    t->mark[t->kept[k]] = 0;
-  }
-  memcpy(t->queue + p->first, t->kept, size * sizeof(sl_int));
-  memcpy(t->begin + p->first, scratch, levels * sizeof(sl_int));
-  memcpy(t->ahead + p->first, scratch + size, levels * sizeof(sl_int));
-  return cut;
-}
-
-static void sli_thin_label(sli_thin *t, sli_dissection *d) {
-  sli_label_tree *tree = &d->tree;
-  int64_t least;
-  sl_int k;
-  d->level = 0;
-  sli_dissect_start(d);
-  t->part[0].above = tree->root;
-  while (t->parts > 0) {
-    sli_thin_part p = t->part[--t->parts];
-    const sl_int size = p.end - p.first, node = p.above;
-    const int may_cut = size > t->leaf &&
-              tree->count < tree->room - 1; /* branches untested: tiny leaves */
-    sl_int cut = may_cut ? sli_thin_cut(t, &p, &least) : -1;
-    if (cut != -1 && (int64_t)p.levels * p.levels < 2 * (int64_t)size &&
-        t->marks < INT32_MAX - 2 * size) { /* branches untested: 2^31 marks */
-      cut = sli_thin_turn(t, &p, cut, least, (sl_int *)(void *)d->workers[0].next);
-    }
-    tree->weight[node] = size;
-    for (k = cut == -1 ? p.first : p.end; k < p.end; k++) {
-      d->label[t->queue[k]] = node;
-    }
-    if (cut != -1) {
-      sli_label_tree_split(tree, node);
-      sli_thin_split(t, &p, cut, t->begin[cut + 1], tree->left[node], tree->right[node]);
-    }
-  }
-  sli_label_tree_number(tree, t->g->n, d->label);
-  d->has_labels = 1;
 }
 
 static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl_int at,
@@ -8920,12 +8817,7 @@ static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl
   t.part = (sli_thin_part *)(void *)(scratch + 4 * (size_t)n);
   t.begin = d->begin;
   t.spare = d->order;
-  t.kept = d->other;
   if (!sli_thin_search(&t, n - 1)) {
-    return 0;
-  }
-  if (!t.is_narrow) {
-    sli_thin_label(&t, d);
     return 0;
   }
   w->mindeg.order = t.spare;
@@ -9102,13 +8994,6 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
   }
 }
 
-static sl_status sli_nd_label(sli_nd *w) {
-  sli_dissection *d = &w->d;
-  d->is_volume = d->may_be_seven_point = 0;
-  d->is_levelset = 0;
-  return d->has_labels ? SL_OK : sli_dissect_graph(d);
-}
-
 static int sli_nd_is_thin(const sli_dissection *d) {
   sl_int v, count = 0;
   for (v = 0; v < d->levels[0].n; v++) {
@@ -9126,7 +9011,9 @@ static sl_status sli_nd_dissect(sli_nd *w) {
     sli_dissect_start(d);
     return SL_OK;
   }
-  status = sli_nd_label(w);
+  d->is_volume = d->may_be_seven_point = 0;
+  d->is_levelset = 0;
+  status = sli_dissect_graph(d);
   if (status == SL_OK) {
     do {
       sli_dissect_visit(d, sli_dissect_separate);
@@ -9174,7 +9061,6 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
         continue;
       }
       sli_nd_graph(w, count);
-      w->d.has_labels = 0;
       if (w->weight == NULL && count > w->d.leaf_size &&
           sli_order_thin(&w->d, w->row, perm, at, septree)) {
         at += count;
@@ -13197,13 +13083,7 @@ SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
 
 /* src/impl/factor/storage_type.h: a table for each sl_storage: how L is kept and how fronts are computed */
 
-struct sli_storage_type {
-  sl_storage storage;
-  size_t value_bytes;
-  int half;
-  const sli_sweeps *(*sweeps)(const sli_kernels *kernels);
-  const sli_front_kernels *(*front)(const sli_kernels *kernels);
-
+typedef struct sli_fronts {
   sl_status (*factor)(sl_factor *F, const sli_source *from, sl_int first, sl_int last,
       sl_int worker, sli_failure *failure);
   sli_front (*shared)(const sl_factor *F, sl_int s, sl_int group);
@@ -13212,7 +13092,14 @@ struct sli_storage_type {
       sli_failure *failure);
   void (*assemble)(const sl_factor *F, const sli_front *f, sl_int worker, sl_int t0, sl_int t1);
   sl_status (*finish)(const sl_factor *F, const sli_front *f, sli_failure *failure);
+} sli_fronts;
 
+struct sli_storage_type {
+  sl_storage storage;
+  size_t value_bytes;
+  int half;
+  const sli_fronts *fronts;
+  sli_own_kernels (*kernels)(const sli_kernels *kernels);
   sl_status (*store)(const sl_factor *F, const sli_front *f, sli_failure *failure);
   double (*entry)(const void *values, sl_off at);
   void (*entry_clear)(void *values, sl_off at);
@@ -13304,7 +13191,7 @@ SLI_INLINE void sli_panel_begin(const sl_factor *F, sl_int s) {
 /* src/impl/factor/pivot_check.h: which pivots are refused, and what is recorded of the others */
 
 SLI_INLINE int sli_tolerance_is_default(const sl_factor *F) {
-  return F->rule.null_tolerance == sli_null_tolerance(F->S->n, F->rule.epsilon);
+  return F->rule.null_tolerance == sli_null_tolerance(F->S->n);
 }
 
 SLI_INLINE double sli_tolerance_option(const sl_factor *F) {
@@ -13654,13 +13541,13 @@ static void sli_null_components(const sli_null_walk *w, const sl_symbolic *S, co
 
 /* src/impl/factor/pivot_suspects.h: pivots that the tolerance may have missed, where null pivots are refused */
 
-static double sli_null_rounding(sl_int n, double epsilon) {
-  return 16.0 * (64.0 + n / 8) * epsilon;
+static double sli_null_rounding(sl_int n) {
+  return 16.0 * (64.0 + n / 8) * DBL_EPSILON;
 }
 
 static int sli_null_is_suspected(sl_factor *F) {
   const sl_symbolic *S = F->S;
-  const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
+  const double rounding = sli_null_rounding(S->n);
   sl_int root, first;
   if (F->rule.replaces || F->rule.null_tolerance < 0.0) {
     return 0;
@@ -13709,7 +13596,7 @@ static int sli_null_suspect_fits(const sl_factor *F) {
 SLI_COLD static sl_int sli_null_suspects_find(sl_factor *F, const sli_source *from, sl_int **list,
     sli_failure *failure) {
   const sl_symbolic *S = F->S;
-  const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
+  const double rounding = sli_null_rounding(S->n);
   void *room = sli_null_suspect_fits(F) ? NULL : sli_judge_memory(F, S->n, SLI_SUSPECT_ROW);
   sli_null_row *rows = (sli_null_row *)(room == NULL ? F->values : room);
   double *most = (double *)(void *)(rows + S->n);
@@ -13834,44 +13721,22 @@ static sli_front sli_front_in_double(const sl_factor *F, sl_int s, sl_int worker
 
 #define SLF_NAME(f) sli_double_##f
 #define SLF_HALF 0
-#define SLF_BEGIN sli_front_in_double
 #define SLI_INL_FRONTS
 #define SLI_INL_FRONTS_UNDEF
 #include SL_HEADER
-SLI_INLINE void sli_front_share(const sl_factor *F, sli_front *f, sl_int group) {
-  const sli_step *step = &F->S->steps[f->super];
-  f->magnitude = f->update + (sli_update_size(step) >> F->type->half);
-  f->reciprocals = f->magnitude + SLI_TILE * (ptrdiff_t)sli_front_tiles(f) +
-           SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
-  f->panel = sli_front_panel(F, f->super, F->schedule.workers);
-}
-
-static sli_front sli_double_shared(const sl_factor *F, sl_int s, sl_int group) {
-  sli_front f = sli_double_front_of(F, s, 0);
-  sli_front_share(F, &f, group);
-  return f;
-}
-
-static const sli_sweeps *sli_double_sweeps(const sli_kernels *kernels) {
-  return &kernels->sweeps;
-}
-
-static const sli_front_kernels *sli_double_front(const sli_kernels *kernels) {
-  return &kernels->front;
+static sli_own_kernels sli_double_own(const sli_kernels *kernels) {
+  sli_own_kernels own;
+  own.sweeps = &kernels->sweeps;
+  own.front = &kernels->front;
+  return own;
 }
 
 static const sli_storage_type sli_storage_double = {
   SL_STORAGE_DOUBLE,
   sizeof(double),
   0,
-  sli_double_sweeps,
-  sli_double_front,
-  sli_double_factor,
-  sli_double_shared,
-  sli_double_front_clear,
-  sli_double_front_load,
-  sli_double_front_assemble,
-  sli_double_front_finish,
+  &sli_double_fronts,
+  sli_double_own,
   NULL,
   NULL,
   NULL,
@@ -14146,12 +14011,12 @@ static void sli_piece_run(sl_factor *F, const sli_task *task, sl_int worker) {
   const sl_int t0 = sli_piece_begin(step, top, piece), t1 = sli_piece_begin(step, top, piece + 1);
   const sl_int group = task->step - SLI_STEP_ROWS, whole = step->width / SLI_TILE;
   double *scratch = F->work.buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
-  const sli_storage_type *type = F->type;
-  const sli_front f = type->shared(F, s, sli_max(group, 0));
+  const sli_fronts *fronts = F->type->fronts;
+  const sli_front f = fronts->shared(F, s, sli_max(group, 0));
   if (task->step == SLI_STEP_CLEAR) {
-    type->clear(&f, t0, t1);
+    fronts->clear(&f, t0, t1);
   } else if (task->step == SLI_STEP_ASSEMBLE) {
-    type->assemble(F, &f, worker, t0, t1);
+    fronts->assemble(F, &f, worker, t0, t1);
   } else if (task->step > sli_piece_last_step(step, piece)) {
     F->own.front->update(&f, whole, sli_front_tiles(&f), sli_max(t0, whole), t1, scratch);
   } else if (group == piece) {
@@ -14166,7 +14031,7 @@ static void sli_subtrees_run(sl_factor *F, const sli_source *from, sl_int bundle
   sl_int m = bundle > 0 ? p->bundle_end[bundle - 1] : 0;
   for (; m < p->bundle_end[bundle]; m++) {
     sli_failure failure;
-    if (F->type->factor(F, from, p->first[m], p->last[m], worker, &failure) != SL_OK) {
+    if (F->type->fronts->factor(F, from, p->first[m], p->last[m], worker, &failure) != SL_OK) {
       sli_keep_first_failure(&F->work.failures[worker], &failure);
     }
   }
@@ -14183,15 +14048,15 @@ static sl_status sli_task_run(sl_factor *F, const sli_source *from, const sli_ta
     sli_subtrees_run(F, from, task->at, worker);
     break;
   case SLI_TASK_FRONT:
-    (void)F->type->factor(F, from, s, s, worker, &failure);
+    (void)F->type->fronts->factor(F, from, s, s, worker, &failure);
     break;
   case SLI_TASK_LOAD:
-    f = F->type->shared(F, s, 0);
-    (void)F->type->load(F, from, &f, &failure);
+    f = F->type->fronts->shared(F, s, 0);
+    (void)F->type->fronts->load(F, from, &f, &failure);
     break;
   case SLI_TASK_FINISH:
-    f = F->type->shared(F, s, 0);
-    (void)F->type->finish(F, &f, &failure);
+    f = F->type->fronts->shared(F, s, 0);
+    (void)F->type->fronts->finish(F, &f, &failure);
     break;
   default:
     sli_piece_run(F, task, worker);
@@ -14265,7 +14130,7 @@ static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_fail
   sli_job job;
   sl_int k;
   if (F->schedule.workers == 1) {
-    return F->type->factor(F, from, 0, F->S->n_supers - 1, 0, failure);
+    return F->type->fronts->factor(F, from, 0, F->S->n_supers - 1, 0, failure);
   }
   sli_job_begin(&job, F, from);
   sli_parallel(&F->threads, F->schedule.workers, sli_worker_run, &job);
@@ -14470,7 +14335,7 @@ SLI_COLD static int sli_judge_is_null(sli_judge *judge, sl_int k) {
     squares += t * t;
   }
   judge->error =
-    F->rule.epsilon * (SLI_JUDGE_RANDOM * sqrt(squares) + SLI_JUDGE_BIASED * sum) * size;
+    DBL_EPSILON * (SLI_JUDGE_RANDOM * sqrt(squares) + SLI_JUDGE_BIASED * sum) * size;
   return !(judge->error < size);
 }
 
@@ -14557,7 +14422,7 @@ static int sli_judge_last(sli_judge *judge, sl_int last) {
   for (k = first; k < last && !is_null; k++) {
     const double size = fabs(F->D[k]);
     most = size > most ? size : most;
-    is_null = size <= sli_null_rounding(k - first + 1, F->rule.epsilon) * most &&
+    is_null = size <= sli_null_rounding(k - first + 1) * most &&
           sli_judge_is_null(judge, k);
   }
   return is_null;
@@ -14583,7 +14448,7 @@ static int sli_signs_are_suspected(const sl_factor *F) {
   const sl_factor_info *info = &F->stats.factor;
   return F->rule.super_of != NULL && !F->rule.replaces && F->E == NULL && info->positive > 0 &&
        info->negative > 0 &&
-       info->pivot_min <= 0.125 * sli_null_rounding(F->S->n, F->rule.epsilon) * info->pivot_max;
+       info->pivot_min <= 0.125 * sli_null_rounding(F->S->n) * info->pivot_max;
 }
 
 SLI_COLD static sl_status sli_signs_judge(sl_factor *F, sli_failure *failure) {
@@ -14595,7 +14460,7 @@ SLI_COLD static sl_status sli_signs_judge(sl_factor *F, sli_failure *failure) {
     if (!is_mixed && (F->D[k] < 0.0) != (F->D[first] < 0.0)) {
       sli_judge judge;
       is_mixed = 1;
-      if (size <= 0.125 * sli_null_rounding(k - first + 1, F->rule.epsilon) * most &&
+      if (size <= 0.125 * sli_null_rounding(k - first + 1) * most &&
           sli_judge_begin(&judge, F, k, failure) == SL_OK) {
         sli_judge_weigh(&judge, S->first_descendant[S->super_of[k]], S->super_of[k]);
         if (sli_judge_is_null(&judge, k)) {
@@ -14643,7 +14508,7 @@ SLI_COLD static const char *sli_advice_of_matrix(sl_factor *F, const sli_source 
 SLI_COLD static const char *sli_advice_null(sl_factor *F, const sli_source *from, sl_int k) {
   const char *what = sli_advice_of_matrix(F, from, k);
   return what != NULL ? what
-       : F->rule.null_tolerance > sli_null_tolerance(F->S->n, DBL_EPSILON)
+       : F->rule.null_tolerance > sli_null_tolerance(F->S->n)
          ? "the pivot is within options.null_tolerance, which is above its default"
        : F->S->is_pivoted
          ? "A is singular to working precision: if it is semidefinite, options.pivots = "
@@ -14853,8 +14718,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
   const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
   const sl_int vectors = opt == NULL ? 0 : (sl_int)opt->null_vector_count;
   F->null.calls = sli_singular_of(opt != NULL && opt->pivots == SL_PIVOTS_SKIP_NULL);
-  F->rule.epsilon = DBL_EPSILON;
-  F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n, F->rule.epsilon) : null;
+  F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n) : null;
   F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
   F->rule.replaces = sli_skips_nulls(F) || F->rule.regularization != 0.0;
   F->null.vectors = sli_skips_nulls(F) ? sli_max(vectors, 1) : 1;
@@ -14942,11 +14806,10 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
   }
   F->stats.factor.isa = F->kernels->isa;
   F->stats.factor.method = F->method;
-  F->own.sweeps = F->type->sweeps(F->kernels);
+  F->own = F->type->kernels(F->kernels);
   if (F->own.sweeps == NULL) {
     return sli_refuse(SL_ERR_UNSUPPORTED, "options.isa has no kernels for L in float");
   }
-  F->own.front = F->type->front(F->kernels);
   F->stats.factor.storage = F->type->storage;
   F->stats.factor.threads = F->schedule.workers;
   return SL_OK;
@@ -14987,7 +14850,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
         sli_storage_needs(opt->storage)); /* untested: the same */
   }
-  if (draft.kernels != NULL && draft.type->sweeps(draft.kernels) == NULL) {
+  if (draft.kernels != NULL && draft.type->kernels(draft.kernels).sweeps == NULL) {
     draft.type = draft.type->in_double;
   }
   missing = sli_singular_missing(opt);
@@ -17525,7 +17388,7 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
     sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const int is_one = F->null.vectors == 1;
-  const double rounding = sli_null_rounding(S->n, F->rule.epsilon),
+  const double rounding = sli_null_rounding(S->n),
          *z = is_one ? F->null.z : NULL;
   double *diagonal =
     is_one ? F->null.g : F->null.products + ((size_t)F->null.vectors + 1) * (size_t)S->n;
@@ -20975,23 +20838,20 @@ static void sli_float_entry_clear(void *values, sl_off at) {
   ((float *)values)[at] = 0.0F;
 }
 
-static const sli_sweeps *sli_float_sweeps(const sli_kernels *kernels) {
-  const sli_float_kernels *own = sli_float_kernels_of(kernels->isa);
-  return own == NULL ? NULL : &own->sweeps;
+static sli_own_kernels sli_float_own(const sli_kernels *kernels) {
+  const sli_float_kernels *table = sli_float_kernels_of(kernels->isa);
+  sli_own_kernels own;
+  own.sweeps = table == NULL ? NULL : &table->sweeps;
+  own.front = &kernels->front;
+  return own;
 }
 
 static const sli_storage_type sli_storage_float = {
   SL_STORAGE_FLOAT,
   sizeof(float),
   0,
-  sli_float_sweeps,
-  sli_double_front,
-  sli_double_factor,
-  sli_double_shared,
-  sli_double_front_clear,
-  sli_double_front_load,
-  sli_double_front_assemble,
-  sli_double_front_finish,
+  &sli_double_fronts,
+  sli_float_own,
   sli_panel_round,
   sli_float_entry,
   sli_float_entry_clear,
@@ -25659,7 +25519,7 @@ SLI_NOINLINE static sl_status sli_rank_run(sli_rank *q) {
 static double sli_rank_least(const sl_factor *F) {
   return F->rule.null_tolerance < 0.0
          ? 0.0
-         : sli_null_rounding(F->S->n, F->rule.epsilon) * F->stats.factor.pivot_max;
+         : sli_null_rounding(F->S->n) * F->stats.factor.pivot_max;
 }
 
 static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
@@ -32181,7 +32041,6 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   F->null.consistency = g->consistency;
   F->limits.growth = g->growth_limit;
   F->limits.error = g->error_limit;
-  F->rule.epsilon = DBL_EPSILON;
   F->rule.null_tolerance = g->null_tolerance;
   F->rule.regularization = g->regularization;
   F->rule.replaces = skips || g->regularization != 0.0;
@@ -34474,37 +34333,23 @@ static void sli_complex_accepts(const sl_symbolic *S, const sli_source *from,
 
 #define SLF_NAME(f) sli_complex_##f
 #define SLF_HALF 1
-#define SLF_BEGIN sli_front_in_double
 #define SLI_INL_FRONTS
 #define SLI_INL_FRONTS_UNDEF
 #include SL_HEADER
-static sli_front sli_complex_shared(const sl_factor *F, sl_int s, sl_int group) {
-  sli_front f = sli_complex_front_of(F, s, 0);
-  sli_front_share(F, &f, group);
-  return f;
-}
-
-static const sli_sweeps *sli_complex_sweeps(const sli_kernels *kernels) {
-  const sli_complex_kernels *own = sli_complex_kernels_of(kernels->isa);
-  return own == NULL ? NULL : &own->sweeps;
-}
-
-static const sli_front_kernels *sli_complex_front(const sli_kernels *kernels) {
-  return &sli_complex_kernels_of(kernels->isa)->front;
+static sli_own_kernels sli_complex_own(const sli_kernels *kernels) {
+  const sli_complex_kernels *table = sli_complex_kernels_of(kernels->isa);
+  sli_own_kernels own;
+  own.sweeps = table == NULL ? NULL : &table->sweeps;
+  own.front = table == NULL ? NULL : &table->front;
+  return own;
 }
 
 static const sli_storage_type sli_storage_complex_in_double = {
   SL_STORAGE_DOUBLE,
   sizeof(double),
   0,
-  sli_double_sweeps,
-  sli_double_front,
-  sli_double_factor,
-  sli_double_shared,
-  sli_double_front_clear,
-  sli_double_front_load,
-  sli_double_front_assemble,
-  sli_double_front_finish,
+  &sli_double_fronts,
+  sli_double_own,
   NULL,
   NULL,
   NULL,
@@ -34518,14 +34363,8 @@ static const sli_storage_type sli_storage_complex = {
   SL_STORAGE_COMPLEX,
   sizeof(double),
   1,
-  sli_complex_sweeps,
-  sli_complex_front,
-  sli_complex_factor,
-  sli_complex_shared,
-  sli_complex_front_clear,
-  sli_complex_front_load,
-  sli_complex_front_assemble,
-  sli_complex_front_finish,
+  &sli_complex_fronts,
+  sli_complex_own,
   NULL,
   sli_complex_entry,
   NULL,
@@ -35007,16 +34846,11 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_DISSECT_BAND_FROM
 #undef SLI_SEPARATOR_BALANCE
 #undef SLI_LEVELSET_BALANCE
-#undef SLI_THIN_NARROW
 #undef SLI_THIN_WIDTH
-#undef SLI_THIN_LONG
-#undef SLI_THIN_DEGREE
 #undef SLI_THIN_EVEN
 #undef SLI_THIN_ASPECT
 #undef SLI_THIN_LEAF_MIN
 #undef SLI_THIN_LEAF_MAX
-#undef SLI_LATTICE_SHARE
-#undef SLI_LATTICE_DEGREES
 #undef SLI_ND_RESPLITS
 #undef SLI_ND_THIN
 #undef SLI_ND_THIN_LEAF
@@ -35192,7 +35026,7 @@ SLI_INLINE double *SLF_NAME(update_matrix)(const sl_factor *F, sl_int s, sl_int 
 }
 
 SLI_INLINE sli_front SLF_NAME(front_of)(const sl_factor *F, sl_int s, sl_int worker) {
-  sli_front f = SLF_BEGIN(F, s, worker);
+  sli_front f = sli_front_in_double(F, s, worker);
   f.update = SLF_NAME(update_matrix)(F, s, worker);
   return f;
 }
@@ -35667,6 +35501,24 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   }
   return status;
 }
+
+static sli_front SLF_NAME(shared)(const sl_factor *F, sl_int s, sl_int group) {
+  sli_front f = SLF_NAME(front_of)(F, s, 0);
+  f.magnitude = f.update + (sli_update_size(&F->S->steps[s]) >> SLF_HALF);
+  f.reciprocals = f.magnitude + SLI_TILE * (ptrdiff_t)sli_front_tiles(&f) +
+          SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
+  f.panel = sli_front_panel(F, s, F->schedule.workers);
+  return f;
+}
+
+static const sli_fronts SLF_NAME(fronts) = {
+  SLF_NAME(factor),
+  SLF_NAME(shared),
+  SLF_NAME(front_clear),
+  SLF_NAME(front_load),
+  SLF_NAME(front_assemble),
+  SLF_NAME(front_finish),
+};
 #endif
 
 #ifdef SLI_INL_FRONTS_UNDEF
@@ -35675,7 +35527,6 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 
 #undef SLF_NAME
 #undef SLF_HALF
-#undef SLF_BEGIN
 #endif
 
 #ifdef SLI_INL_WORDS_NEON

@@ -280,6 +280,8 @@ static void options_are_in_rows_of_the_matrix(void **state) {
     SL_CHECK(sl_fixed_create(&D, &two_paths, fixed, 1, &opt, &stats));
     assert_int_equal(stats.factor.null, 1);
     sl_fixed_free(D);
+    opt.null_vector_count = 33; /* is refused before columns are read that are not there */
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_fixed_create(&D, &two_paths, fixed, 1, &opt, &stats));
     opt.null_vector_count = 0;
     SL_CHECK(sl_fixed_create(&D, &two_paths, fixed, 1, &opt, &stats));
     sl_fixed_free(D);

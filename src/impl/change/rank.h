@@ -252,7 +252,7 @@ SLI_NOINLINE static sl_status sli_rank_run(sli_rank *q) {
 static double sli_rank_least(const sl_factor *F) {
     return F->rule.null_tolerance < 0.0
                ? 0.0
-               : sli_null_rounding(F->S->n, F->rule.epsilon) * F->stats.factor.pivot_max;
+               : sli_null_rounding(F->S->n) * F->stats.factor.pivot_max;
 }
 
 /* Starts a change of F. */

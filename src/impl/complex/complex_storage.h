@@ -100,23 +100,15 @@ static void sli_complex_accepts(const sl_symbolic *S, const sli_source *from,
 
 #define SLF_NAME(f) sli_complex_##f
 #define SLF_HALF 1
-#define SLF_BEGIN sli_front_in_double
 #include "../factor/fronts.inl.h"
 #include "../factor/fronts_undef.inl.h"
 
-static sli_front sli_complex_shared(const sl_factor *F, sl_int s, sl_int group) {
-    sli_front f = sli_complex_front_of(F, s, 0);
-    sli_front_share(F, &f, group);
-    return f;
-}
-
-static const sli_sweeps *sli_complex_sweeps(const sli_kernels *kernels) {
-    const sli_complex_kernels *own = sli_complex_kernels_of(kernels->isa);
-    return own == NULL ? NULL : &own->sweeps;
-}
-
-static const sli_front_kernels *sli_complex_front(const sli_kernels *kernels) {
-    return &sli_complex_kernels_of(kernels->isa)->front;
+static sli_own_kernels sli_complex_own(const sli_kernels *kernels) {
+    const sli_complex_kernels *table = sli_complex_kernels_of(kernels->isa);
+    sli_own_kernels own;
+    own.sweeps = table == NULL ? NULL : &table->sweeps;
+    own.front = table == NULL ? NULL : &table->front;
+    return own;
 }
 
 /* The same in double: of the same matrices. */
@@ -124,14 +116,8 @@ static const sli_storage_type sli_storage_complex_in_double = {
     SL_STORAGE_DOUBLE, /* storage */
     sizeof(double), /* value_bytes */
     0, /* half */
-    sli_double_sweeps, /* sweeps */
-    sli_double_front, /* front */
-    sli_double_factor, /* factor */
-    sli_double_shared, /* shared */
-    sli_double_front_clear, /* clear */
-    sli_double_front_load, /* load */
-    sli_double_front_assemble, /* assemble */
-    sli_double_front_finish, /* finish */
+    &sli_double_fronts, /* fronts */
+    sli_double_own, /* kernels */
     NULL, /* store */
     NULL, /* entry */
     NULL, /* entry_clear */
@@ -145,14 +131,8 @@ static const sli_storage_type sli_storage_complex = {
     SL_STORAGE_COMPLEX, /* storage */
     sizeof(double), /* value_bytes */
     1, /* half */
-    sli_complex_sweeps, /* sweeps */
-    sli_complex_front, /* front */
-    sli_complex_factor, /* factor */
-    sli_complex_shared, /* shared */
-    sli_complex_front_clear, /* clear */
-    sli_complex_front_load, /* load */
-    sli_complex_front_assemble, /* assemble */
-    sli_complex_front_finish, /* finish */
+    &sli_complex_fronts, /* fronts */
+    sli_complex_own, /* kernels */
     NULL, /* store */
     sli_complex_entry, /* entry */
     NULL, /* entry_clear */

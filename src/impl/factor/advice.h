@@ -34,7 +34,7 @@ SLI_COLD static const char *sli_advice_of_matrix(sl_factor *F, const sli_source 
 SLI_COLD static const char *sli_advice_null(sl_factor *F, const sli_source *from, sl_int k) {
     const char *what = sli_advice_of_matrix(F, from, k);
     return what != NULL ? what
-           : F->rule.null_tolerance > sli_null_tolerance(F->S->n, DBL_EPSILON)
+           : F->rule.null_tolerance > sli_null_tolerance(F->S->n)
                ? "the pivot is within options.null_tolerance, which is above its default"
            : F->S->is_pivoted
                ? "A is singular to working precision: if it is semidefinite, options.pivots = "

@@ -54,8 +54,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
     const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
     const sl_int vectors = opt == NULL ? 0 : (sl_int)opt->null_vector_count;
     F->null.calls = sli_singular_of(opt != NULL && opt->pivots == SL_PIVOTS_SKIP_NULL);
-    F->rule.epsilon = DBL_EPSILON;
-    F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n, F->rule.epsilon) : null;
+    F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n) : null;
     F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
     F->rule.replaces = sli_skips_nulls(F) || F->rule.regularization != 0.0;
     F->null.vectors = sli_skips_nulls(F) ? sli_max(vectors, 1) : 1;
@@ -148,11 +147,10 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
     }
     F->stats.factor.isa = F->kernels->isa;
     F->stats.factor.method = F->method;
-    F->own.sweeps = F->type->sweeps(F->kernels);
+    F->own = F->type->kernels(F->kernels);
     if (F->own.sweeps == NULL) { /* a saved factor, whose L cannot become double */
         return sli_refuse(SL_ERR_UNSUPPORTED, "options.isa has no kernels for L in float");
     }
-    F->own.front = F->type->front(F->kernels);
     F->stats.factor.storage = F->type->storage;
     F->stats.factor.threads = F->schedule.workers;
     return SL_OK;
@@ -197,7 +195,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
         return sli_refuse(SL_ERR_UNSUPPORTED,               /* untested: the same */
                           sli_storage_needs(opt->storage)); /* untested: the same */
     }
-    if (draft.kernels != NULL && draft.type->sweeps(draft.kernels) == NULL) {
+    if (draft.kernels != NULL && draft.type->kernels(draft.kernels).sweeps == NULL) {
         draft.type = draft.type->in_double;
     }
     missing = sli_singular_missing(opt);

@@ -9,7 +9,7 @@ SLI_INLINE double *SLF_NAME(update_matrix)(const sl_factor *F, sl_int s, sl_int 
 
 /* The front of supernode s, which this worker factors. */
 SLI_INLINE sli_front SLF_NAME(front_of)(const sl_factor *F, sl_int s, sl_int worker) {
-    sli_front f = SLF_BEGIN(F, s, worker);
+    sli_front f = sli_front_in_double(F, s, worker);
     f.update = SLF_NAME(update_matrix)(F, s, worker);
     return f;
 }

@@ -223,12 +223,12 @@ static void sli_piece_run(sl_factor *F, const sli_task *task, sl_int worker) {
     const sl_int t0 = sli_piece_begin(step, top, piece), t1 = sli_piece_begin(step, top, piece + 1);
     const sl_int group = task->step - SLI_STEP_ROWS, whole = step->width / SLI_TILE;
     double *scratch = F->work.buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
-    const sli_storage_type *type = F->type;
-    const sli_front f = type->shared(F, s, sli_max(group, 0));
+    const sli_fronts *fronts = F->type->fronts;
+    const sli_front f = fronts->shared(F, s, sli_max(group, 0));
     if (task->step == SLI_STEP_CLEAR) {
-        type->clear(&f, t0, t1);
+        fronts->clear(&f, t0, t1);
     } else if (task->step == SLI_STEP_ASSEMBLE) {
-        type->assemble(F, &f, worker, t0, t1);
+        fronts->assemble(F, &f, worker, t0, t1);
     } else if (task->step > sli_piece_last_step(step, piece)) {
         F->own.front->update(&f, whole, sli_front_tiles(&f), sli_max(t0, whole), t1, scratch);
     } else if (group == piece) {
@@ -245,7 +245,7 @@ static void sli_subtrees_run(sl_factor *F, const sli_source *from, sl_int bundle
     sl_int m = bundle > 0 ? p->bundle_end[bundle - 1] : 0;
     for (; m < p->bundle_end[bundle]; m++) {
         sli_failure failure;
-        if (F->type->factor(F, from, p->first[m], p->last[m], worker, &failure) != SL_OK) {
+        if (F->type->fronts->factor(F, from, p->first[m], p->last[m], worker, &failure) != SL_OK) {
             sli_keep_first_failure(&F->work.failures[worker], &failure);
         }
     }
@@ -262,15 +262,15 @@ static sl_status sli_task_run(sl_factor *F, const sli_source *from, const sli_ta
         sli_subtrees_run(F, from, task->at, worker);
         break;
     case SLI_TASK_FRONT:
-        (void)F->type->factor(F, from, s, s, worker, &failure);
+        (void)F->type->fronts->factor(F, from, s, s, worker, &failure);
         break;
     case SLI_TASK_LOAD:
-        f = F->type->shared(F, s, 0);
-        (void)F->type->load(F, from, &f, &failure);
+        f = F->type->fronts->shared(F, s, 0);
+        (void)F->type->fronts->load(F, from, &f, &failure);
         break;
     case SLI_TASK_FINISH:
-        f = F->type->shared(F, s, 0);
-        (void)F->type->finish(F, &f, &failure);
+        f = F->type->fronts->shared(F, s, 0);
+        (void)F->type->fronts->finish(F, &f, &failure);
         break;
     default:
         sli_piece_run(F, task, worker);
@@ -347,7 +347,7 @@ static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_fail
     sli_job job;
     sl_int k;
     if (F->schedule.workers == 1) {
-        return F->type->factor(F, from, 0, F->S->n_supers - 1, 0, failure);
+        return F->type->fronts->factor(F, from, 0, F->S->n_supers - 1, 0, failure);
     }
     sli_job_begin(&job, F, from);
     sli_parallel(&F->threads, F->schedule.workers, sli_worker_run, &job);

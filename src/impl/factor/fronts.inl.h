@@ -4,8 +4,6 @@
  *
  *  SLF_NAME(f)            the name of function f
  *  SLF_HALF               1: a front holds the first columns of pairs only; 0: all columns
- *  SLF_BEGIN(F, s, w)     the front of supernode s, which worker w factors, without its update
- *                         matrix
  *
  * fronts_undef.inl.h undefines them. [DR83], [Liu92] */
 
@@ -225,3 +223,22 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
     }
     return status;
 }
+
+/* Of a front that workers share, magnitudes and reciprocals are behind its update matrix. */
+static sli_front SLF_NAME(shared)(const sl_factor *F, sl_int s, sl_int group) {
+    sli_front f = SLF_NAME(front_of)(F, s, 0);
+    f.magnitude = f.update + (sli_update_size(&F->S->steps[s]) >> SLF_HALF);
+    f.reciprocals = f.magnitude + SLI_TILE * (ptrdiff_t)sli_front_tiles(&f) +
+                    SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
+    f.panel = sli_front_panel(F, s, F->schedule.workers);
+    return f;
+}
+
+static const sli_fronts SLF_NAME(fronts) = {
+    SLF_NAME(factor),         /* factor */
+    SLF_NAME(shared),         /* shared */
+    SLF_NAME(front_clear),    /* clear */
+    SLF_NAME(front_load),     /* load */
+    SLF_NAME(front_assemble), /* assemble */
+    SLF_NAME(front_finish),   /* finish */
+};

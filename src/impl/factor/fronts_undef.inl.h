@@ -2,4 +2,3 @@
 
 #undef SLF_NAME
 #undef SLF_HALF
-#undef SLF_BEGIN

@@ -101,45 +101,22 @@ static sli_front sli_front_in_double(const sl_factor *F, sl_int s, sl_int worker
 
 #define SLF_NAME(f) sli_double_##f
 #define SLF_HALF 0
-#define SLF_BEGIN sli_front_in_double
 #include "fronts.inl.h"
 #include "fronts_undef.inl.h"
 
-/* Where the scratch of a front in double that workers share begins: after its update matrix. */
-SLI_INLINE void sli_front_share(const sl_factor *F, sli_front *f, sl_int group) {
-    const sli_step *step = &F->S->steps[f->super];
-    f->magnitude = f->update + (sli_update_size(step) >> F->type->half);
-    f->reciprocals = f->magnitude + SLI_TILE * (ptrdiff_t)sli_front_tiles(f) +
-                     SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
-    f->panel = sli_front_panel(F, f->super, F->schedule.workers);
-}
-
-static sli_front sli_double_shared(const sl_factor *F, sl_int s, sl_int group) {
-    sli_front f = sli_double_front_of(F, s, 0);
-    sli_front_share(F, &f, group);
-    return f;
-}
-
-static const sli_sweeps *sli_double_sweeps(const sli_kernels *kernels) {
-    return &kernels->sweeps;
-}
-
-static const sli_front_kernels *sli_double_front(const sli_kernels *kernels) {
-    return &kernels->front;
+static sli_own_kernels sli_double_own(const sli_kernels *kernels) {
+    sli_own_kernels own;
+    own.sweeps = &kernels->sweeps;
+    own.front = &kernels->front;
+    return own;
 }
 
 static const sli_storage_type sli_storage_double = {
     SL_STORAGE_DOUBLE, /* storage */
     sizeof(double), /* value_bytes */
     0, /* half */
-    sli_double_sweeps, /* sweeps */
-    sli_double_front, /* front */
-    sli_double_factor, /* factor */
-    sli_double_shared, /* shared */
-    sli_double_front_clear, /* clear */
-    sli_double_front_load, /* load */
-    sli_double_front_assemble, /* assemble */
-    sli_double_front_finish, /* finish */
+    &sli_double_fronts, /* fronts */
+    sli_double_own, /* kernels */
     NULL, /* store */
     NULL, /* entry */
     NULL, /* entry_clear */

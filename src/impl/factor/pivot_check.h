@@ -6,7 +6,7 @@
 
 /* Is the tolerance the default? */
 SLI_INLINE int sli_tolerance_is_default(const sl_factor *F) {
-    return F->rule.null_tolerance == sli_null_tolerance(F->S->n, F->rule.epsilon);
+    return F->rule.null_tolerance == sli_null_tolerance(F->S->n);
 }
 
 /* options.null_tolerance for a factor with the same tolerance. */

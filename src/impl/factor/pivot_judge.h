@@ -127,7 +127,7 @@ SLI_COLD static int sli_judge_is_null(sli_judge *judge, sl_int k) {
         squares += t * t;
     }
     judge->error =
-        F->rule.epsilon * (SLI_JUDGE_RANDOM * sqrt(squares) + SLI_JUDGE_BIASED * sum) * size;
+        DBL_EPSILON * (SLI_JUDGE_RANDOM * sqrt(squares) + SLI_JUDGE_BIASED * sum) * size;
     return !(judge->error < size);
 }
 
@@ -222,7 +222,7 @@ static int sli_judge_last(sli_judge *judge, sl_int last) {
     for (k = first; k < last && !is_null; k++) {
         const double size = fabs(F->D[k]);
         most = size > most ? size : most;
-        is_null = size <= sli_null_rounding(k - first + 1, F->rule.epsilon) * most &&
+        is_null = size <= sli_null_rounding(k - first + 1) * most &&
                   sli_judge_is_null(judge, k);
     }
     return is_null;
@@ -251,7 +251,7 @@ static int sli_signs_are_suspected(const sl_factor *F) {
     const sl_factor_info *info = &F->stats.factor;
     return F->rule.super_of != NULL && !F->rule.replaces && F->E == NULL && info->positive > 0 &&
            info->negative > 0 &&
-           info->pivot_min <= 0.125 * sli_null_rounding(F->S->n, F->rule.epsilon) * info->pivot_max;
+           info->pivot_min <= 0.125 * sli_null_rounding(F->S->n) * info->pivot_max;
 }
 
 /* A pivot whose sign is rounding error would be counted in the inertia. Refuses the first pivot of
@@ -266,7 +266,7 @@ SLI_COLD static sl_status sli_signs_judge(sl_factor *F, sli_failure *failure) {
         if (!is_mixed && (F->D[k] < 0.0) != (F->D[first] < 0.0)) {
             sli_judge judge;
             is_mixed = 1;
-            if (size <= 0.125 * sli_null_rounding(k - first + 1, F->rule.epsilon) * most &&
+            if (size <= 0.125 * sli_null_rounding(k - first + 1) * most &&
                 sli_judge_begin(&judge, F, k, failure) == SL_OK) {
                 sli_judge_weigh(&judge, S->first_descendant[S->super_of[k]], S->super_of[k]);
                 if (sli_judge_is_null(&judge, k)) {

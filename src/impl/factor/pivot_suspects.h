@@ -9,8 +9,8 @@
 /* The rounding error that the heaviest rows of a matrix may cause in a pivot, relative to their
  * diagonal entries. Over 80,000 meshes with weak bridges and slivers, pivots of the wrong sign
  * stayed below (128 + n/4) epsilon. The factor 16 leaves a margin. */
-static double sli_null_rounding(sl_int n, double epsilon) {
-    return 16.0 * (64.0 + n / 8) * epsilon;
+static double sli_null_rounding(sl_int n) {
+    return 16.0 * (64.0 + n / 8) * DBL_EPSILON;
 }
 
 /* Where null pivots are refused: may a root of the elimination forest be a null pivot that the
@@ -18,7 +18,7 @@ static double sli_null_rounding(sl_int n, double epsilon) {
  * the pivots for the report. */
 static int sli_null_is_suspected(sl_factor *F) {
     const sl_symbolic *S = F->S;
-    const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
+    const double rounding = sli_null_rounding(S->n);
     sl_int root, first;
     if (F->rule.replaces || F->rule.null_tolerance < 0.0) {
         return 0;
@@ -73,7 +73,7 @@ static int sli_null_suspect_fits(const sl_factor *F) {
 SLI_COLD static sl_int sli_null_suspects_find(sl_factor *F, const sli_source *from, sl_int **list,
                                               sli_failure *failure) {
     const sl_symbolic *S = F->S;
-    const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
+    const double rounding = sli_null_rounding(S->n);
     void *room = sli_null_suspect_fits(F) ? NULL : sli_judge_memory(F, S->n, SLI_SUSPECT_ROW);
     sli_null_row *rows = (sli_null_row *)(room == NULL ? F->values : room);
     double *most = (double *)(void *)(rows + S->n); /* n: of a last pivot: the heaviest one */

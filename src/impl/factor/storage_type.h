@@ -5,16 +5,8 @@
 #include "../analysis/reach.h"
 #include "factor_types.h"
 
-/* The core has the table of L in double; packs have those of the other storages. Common code reads
- * the sizes; what else differs goes through the functions. */
-struct sli_storage_type {
-    sl_storage storage;
-    size_t value_bytes; /* of an entry of L */
-    int half;           /* 1: panels and fronts hold the first columns of pairs only; else 0 */
-    /* NULL: the instruction set of the kernels does not serve this storage */
-    const sli_sweeps *(*sweeps)(const sli_kernels *kernels);
-    const sli_front_kernels *(*front)(const sli_kernels *kernels);
-
+/* How fronts are computed (fronts.inl.h). */
+typedef struct sli_fronts {
     /* Factors supernodes first .. last, whose descendants are done, on one worker. Stops at the
      * first failure. */
     sl_status (*factor)(sl_factor *F, const sli_source *from, sl_int first, sl_int last,
@@ -28,7 +20,17 @@ struct sli_storage_type {
                       sli_failure *failure);
     void (*assemble)(const sl_factor *F, const sli_front *f, sl_int worker, sl_int t0, sl_int t1);
     sl_status (*finish)(const sl_factor *F, const sli_front *f, sli_failure *failure);
+} sli_fronts;
 
+/* The core has the table of L in double; packs have those of the other storages. Common code reads
+ * the sizes; what else differs goes through the functions. */
+struct sli_storage_type {
+    sl_storage storage;
+    size_t value_bytes; /* of an entry of L */
+    int half;           /* 1: panels and fronts hold the first columns of pairs only; else 0 */
+    const sli_fronts *fronts;
+    /* The kernels of an instruction set; sweeps NULL: it has none for this storage. */
+    sli_own_kernels (*kernels)(const sli_kernels *kernels);
     /* Stores the panel of a front that is done; NULL: the panel is where it belongs. */
     sl_status (*store)(const sl_factor *F, const sli_front *f, sli_failure *failure);
     /* The entry of L at a position of the panels, and sets it to 0; NULL: L is in double. */

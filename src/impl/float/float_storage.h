@@ -79,23 +79,20 @@ static void sli_float_entry_clear(void *values, sl_off at) {
     ((float *)values)[at] = 0.0F;
 }
 
-static const sli_sweeps *sli_float_sweeps(const sli_kernels *kernels) {
-    const sli_float_kernels *own = sli_float_kernels_of(kernels->isa);
-    return own == NULL ? NULL : &own->sweeps;
+static sli_own_kernels sli_float_own(const sli_kernels *kernels) {
+    const sli_float_kernels *table = sli_float_kernels_of(kernels->isa);
+    sli_own_kernels own;
+    own.sweeps = table == NULL ? NULL : &table->sweeps;
+    own.front = &kernels->front;
+    return own;
 }
 
 static const sli_storage_type sli_storage_float = {
     SL_STORAGE_FLOAT, /* storage */
     sizeof(float), /* value_bytes */
     0, /* half */
-    sli_float_sweeps, /* sweeps */
-    sli_double_front, /* front */
-    sli_double_factor, /* factor */
-    sli_double_shared, /* shared */
-    sli_double_front_clear, /* clear */
-    sli_double_front_load, /* load */
-    sli_double_front_assemble, /* assemble */
-    sli_double_front_finish, /* finish */
+    &sli_double_fronts, /* fronts */
+    sli_float_own, /* kernels */
     sli_panel_round, /* store */
     sli_float_entry, /* entry */
     sli_float_entry_clear, /* entry_clear */

@@ -18,7 +18,6 @@ typedef struct sli_pivot_rule {
     /* by default each supernode has a tolerance of its own, which follows from its subtree: arrays
      * of the analysis, set with each factorization; NULL: null_tolerance is that of all */
     const sl_int *super_of, *super_first, *first_descendant;
-    double epsilon;        /* of the type in which fronts are computed */
     int replaces;          /* 0: pivots are used as computed, and the caller looks for null ones */
     double regularization; /* 0: a null pivot becomes SLI_NULL_PIVOT */
     signed char *signs;    /* n: 1, -1, or 0 if both signs are right; NULL: all 1 */
@@ -36,8 +35,8 @@ typedef struct sli_pivot_rule {
 /* The last pivot of a singular Laplacian is rounding error. Over meshes, grids and paths of n = 1e2
  * to 1e6 rows it stayed below 60 + n/16 units of rounding. Smaller pivots may be right as well
  * (factor/pivot_judge.h). */
-static double sli_null_tolerance(sl_int n, double epsilon) {
-    return (64.0 + n / 8) * epsilon;
+static double sli_null_tolerance(sl_int n) {
+    return (64.0 + n / 8) * DBL_EPSILON;
 }
 
 /* The tolerance for pivot k. */
@@ -45,7 +44,7 @@ SLI_NOINLINE static double sli_rule_tolerance(const sli_pivot_rule *rule, sl_int
     const sl_int *first = rule->super_first, s = rule->super_of == NULL ? 0 : rule->super_of[k];
     return rule->super_of == NULL
                ? rule->null_tolerance
-               : sli_null_tolerance(first[s + 1] - first[rule->first_descendant[s]], rule->epsilon);
+               : sli_null_tolerance(first[s + 1] - first[rule->first_descendant[s]]);
 }
 
 /* A pivot is null if |pivot| <= tolerance * magnitude, the sum of the magnitudes that it was
@@ -71,7 +70,7 @@ SLI_INLINE int sli_is_null_by_rule(const sli_pivot_rule *rule, sl_int k, double 
 SLI_INLINE double sli_pivot_skipped(const sli_pivot_rule *rule, sl_int k, double d,
                                     double magnitude) {
     const int is_null = sli_is_null_by_rule(rule, k, d, magnitude);
-    const double sign = rule->signs[k] < 0 ? -1.0 : 1.0, least = rule->epsilon * magnitude;
+    const double sign = rule->signs[k] < 0 ? -1.0 : 1.0, least = DBL_EPSILON * magnitude;
     const int is_wrong = d * sign < 0.0;
     if (!sli_is_finite(d)) {
         return d;

@@ -31,7 +31,6 @@ typedef struct sli_dissection {
     sl_int leaf_size;                 /* most vertices of a leaf, if it can be bisected */
     sl_int first;                     /* bisections are the first ones up to so many nodes */
     int is_volume, may_be_seven_point;
-    int has_labels;  /* by the levels of a search */
     int is_levelset; /* labels are level sets */
     sli_label_tree tree, other_tree; /* other_tree and other: a dissection that is compared */
     sli_border_pool pool;

@@ -27,7 +27,6 @@ typedef struct sli_order_job {
     const sl_options *opt;
     sl_int *perm;    /* n: the order */
     sl_int *scratch; /* 4 n */
-    uint64_t *bits;  /* 5 n of scratch, which an allocator may give, too */
     sli_septree *septree;
     sli_order_choice *choice;
     sli_team *team;

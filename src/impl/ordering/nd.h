@@ -182,14 +182,6 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
     }
 }
 
-/* Finds labels of the current component, unless it has some by levels. */
-static sl_status sli_nd_label(sli_nd *w) {
-    sli_dissection *d = &w->d;
-    d->is_volume = d->may_be_seven_point = 0; /* unless the first coarser level shows it */
-    d->is_levelset = 0;
-    return d->has_labels ? SL_OK : sli_dissect_graph(d);
-}
-
 /* Returns whether the mean separator is small. Leaves are then thin, too: minimum degree eliminates
  * them from their ends, and most of a path is within a leaf. */
 static int sli_nd_is_thin(const sli_dissection *d) {
@@ -210,7 +202,9 @@ static sl_status sli_nd_dissect(sli_nd *w) {
         sli_dissect_start(d);
         return SL_OK;
     }
-    status = sli_nd_label(w);
+    d->is_volume = d->may_be_seven_point = 0; /* unless the first coarser level shows it */
+    d->is_levelset = 0;
+    status = sli_dissect_graph(d);
     if (status == SL_OK) {
         do {
             sli_dissect_visit(d, sli_dissect_separate);
@@ -260,7 +254,6 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
                 continue;
             }
             sli_nd_graph(w, count);
-            w->d.has_labels = 0;
             if (w->weight == NULL && count > w->d.leaf_size &&
                 sli_order_thin(&w->d, w->row, perm, at, septree)) {
                 at += count;

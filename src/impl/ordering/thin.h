@@ -5,43 +5,19 @@
 #include "job.h"
 #include "levelset.h"
 
-/* A graph is narrow if the sizes of its levels, weighed by themselves, have a mean of at most
- * NARROW, give or take a sixteenth. In a strip of 20 rows across L has 3 percent more entries than
- * by multilevel dissection, in one of 30 rows 20 percent. No level is larger than 4 WIDTH. */
-#define SLI_THIN_NARROW 22
-/* Up to WIDTH, there are labels by levels, in lattices of at least DEGREE neighbors and of LONG
- * halves as many levels as one has rows. In other meshes L would have 2 to 7 percent more
- * entries. */
-#define SLI_THIN_WIDTH 64
-#define SLI_THIN_LONG 7
-#define SLI_THIN_DEGREE 4
-/* The levels of a narrow graph are even if their quadratic mean exceeds the plain one by at most
- * EVEN percent: it does by 1 to 2 in strips, tubes and bars, and by 12 to 27 in random graphs and
- * around holes, where other separators are far smaller than levels. In wide strips half a percent
- * is allowed besides what ends add, which is up to a third of a square. */
+/* A graph is thin if the sizes of its levels, weighed by themselves, have a mean of at most WIDTH,
+ * give or take a sixteenth. In a strip of 20 rows across L has 3 percent more entries than by
+ * multilevel dissection, in one of 30 rows 20 percent. */
+#define SLI_THIN_WIDTH 22
+/* The levels are even if their quadratic mean exceeds the plain one by at most EVEN percent: it
+ * does by 1 to 2 in strips, tubes and bars, and by 12 to 27 in random graphs and around holes,
+ * where other separators are far smaller than levels. */
 #define SLI_THIN_EVEN 3
 /* Parts are ordered by minimum degree once they have at most ASPECT times the vertices of a level,
  * within these limits. */
 #define SLI_THIN_ASPECT 8
 #define SLI_THIN_LEAF_MIN 64
 #define SLI_THIN_LEAF_MAX 250
-
-/* In a lattice, at least this percentage of the vertices have equal degrees. */
-#define SLI_LATTICE_SHARE 75
-#define SLI_LATTICE_DEGREES 32
-
-/* Is the graph that of a grid, apart from its boundary, with at least SLI_THIN_DEGREE neighbors? */
-static int sli_is_lattice(const sli_level *g) {
-    sl_int count[SLI_LATTICE_DEGREES] = {0}, v, most = 0;
-    for (v = 0; v < g->n; v++) {
-        const sl_off degree = g->begin[v + 1] - g->begin[v];
-        if (degree >= SLI_THIN_DEGREE && degree < SLI_LATTICE_DEGREES) {
-            count[degree]++;
-            most = sli_max(most, count[degree]);
-        }
-    }
-    return 100 * (int64_t)most >= SLI_LATTICE_SHARE * (int64_t)g->n;
-}
 
 /* Positions first..end-1 of the queue. */
 typedef struct sli_thin_part {
@@ -52,21 +28,19 @@ typedef struct sli_thin_part {
 typedef struct sli_thin {
     const sli_level *g;
     sl_int *queue; /* the vertices by level; those next to the next level are behind the others */
-    sl_int *mark;  /* of each vertex: that of its level in the last search; -1: not reached */
+    sl_int *mark;  /* of each vertex: its level; -1: not reached */
     sl_int *begin; /* of each level, where it begins: those of a part are numbered from its first
                       position on */
     sl_int *ahead; /* of each level: vertices next to the next one */
-    sl_int *spare, *kept; /* n of scratch each */
-    sl_int *up;           /* of each node: the one above; nodes are numbered from the root */
-    sl_int marks, leaf, parts;
-    int is_narrow;
+    sl_int *spare; /* n */
+    sl_int *up;    /* of each node: the one above; nodes are numbered from the root */
+    sl_int leaf, parts;
     sli_thin_part *part; /* a stack of disjoint parts, none of them empty */
 } sli_thin;
 
 /* Appends what is next to a level, which is at first..last-1 of the queue. Returns the new end. */
 static sl_int sli_thin_level(sli_thin *t, sl_int level, sl_int first, sl_int last) {
     const sli_level *g = t->g;
-    const sl_int mark = ++t->marks;
     sl_int k, at = first, ahead = 0, tail = last;
     sl_off e;
     for (k = first; k < last; k++) {
@@ -75,10 +49,10 @@ static sl_int sli_thin_level(sli_thin *t, sl_int level, sl_int first, sl_int las
         for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
             const sl_int u = g->to[e];
             if (t->mark[u] == -1) {
-                t->mark[u] = mark;
+                t->mark[u] = level + 1;
                 t->queue[tail++] = u;
             }
-            is_ahead |= t->mark[u] == mark;
+            is_ahead |= t->mark[u] > level;
         }
         if (is_ahead) {
             t->spare[ahead++] = v;
@@ -106,20 +80,16 @@ static void sli_thin_push(sli_thin *t, sl_int first, sl_int end, sl_int levels, 
  * is not: sqrt(squares * levels) - last only grows from level to level, by Cauchy and Schwarz. */
 static int sli_thin_search(sli_thin *t, sl_int root) {
     const int64_t n = t->g->n;
-    int64_t squares = 0, ends = 0, even = 0;
+    int64_t squares = 0;
     sl_int first = 0, last = 1, levels = 0;
     memset(t->mark, -1, (size_t)n * sizeof(sl_int));
     t->queue[0] = root;
     t->mark[root] = 0;
     while (first < last) {
         const sl_int tail = sli_thin_level(t, levels++, first, last);
-        const int64_t size = last - first;
+        const int64_t size = last - first, even = last + SLI_THIN_EVEN * n / 100;
         squares += size * size;
-        t->is_narrow = squares <= SLI_THIN_NARROW * (last + n / 16);
-        ends = t->is_narrow ? 0 : squares / last * (squares / last) / 3;
-        even = last + SLI_THIN_EVEN * n / 100 + ends;
-        if (size > 4 * SLI_THIN_WIDTH || squares > SLI_THIN_WIDTH * (last + n / 16) ||
-            squares > even * even / levels) {
+        if (squares > SLI_THIN_WIDTH * (last + n / 16) || squares > even * even / levels) {
             return 0;
         }
         first = last;
@@ -128,39 +98,36 @@ static int sli_thin_search(sli_thin *t, sl_int root) {
     t->leaf = sli_min((sl_int)(SLI_THIN_ASPECT * squares / n), SLI_THIN_LEAF_MAX);
     t->leaf = sli_max(t->leaf, SLI_THIN_LEAF_MIN);
     sli_thin_push(t, 0, (sl_int)n, levels, -1);
-    even = n + n / 200 + ends;
-    return t->is_narrow ||
-           (squares <= even * even / levels && 2 * (int64_t)levels >= squares / n * SLI_THIN_LONG &&
-            sli_is_lattice(t->g));
+    return 1;
 }
 
 /* The level whose last vertices separate the levels before it, and the others of its own, from
  * those behind it: of those that leave at most SLI_LEVELSET_BALANCE percent on a side, the one
  * of least size times imbalance; otherwise the one that leaves least; -1 if there is only one. */
-static sl_int sli_thin_cut(const sli_thin *t, const sli_thin_part *p, int64_t *least) {
+static sl_int sli_thin_cut(const sli_thin *t, const sli_thin_part *p) {
     const sl_int n = p->end - p->first;
+    int64_t least = INT64_MAX;
     sl_int s, best = -1;
-    *least = INT64_MAX;
     for (s = p->first; s < p->first + p->levels - 1; s++) {
         const sl_int next = t->begin[s + 1];
         const int64_t side = sli_max(next - t->ahead[s] - p->first, p->end - next);
         const int64_t cost = 100 * side <= SLI_LEVELSET_BALANCE * (int64_t)n ? side * t->ahead[s]
                                                                              : INT64_MAX / 2 + side;
-        if (cost < *least) {
+        if (cost < least) {
             best = s;
-            *least = cost;
+            least = cost;
         }
     }
     return best;
 }
 
-/* Splits a part behind a level. The rows from position `end` on are not in the first half. */
+/* Splits a part behind a level, of which the vertices from position `end` on become a node. */
 static void sli_thin_split(sli_thin *t, const sli_thin_part *p, sl_int cut, sl_int end,
-                           sl_int above, sl_int above_next) {
+                           sl_int node) {
     const sl_int next = t->begin[cut + 1], before = cut - p->first + (end > t->begin[cut]);
     const sl_int behind = p->first + p->levels - 1 - cut;
-    sli_thin_push(t, p->first, end, before, above);
-    sli_thin_push(t, next, p->end, behind, above_next);
+    sli_thin_push(t, p->first, end, before, node);
+    sli_thin_push(t, next, p->end, behind, node);
     memmove(t->begin + next, t->begin + cut + 1, (size_t)behind * sizeof(sl_int));
     memmove(t->ahead + next, t->ahead + cut + 1, (size_t)behind * sizeof(sl_int));
 }
@@ -169,18 +136,17 @@ static void sli_thin_split(sli_thin *t, const sli_thin_part *p, sl_int cut, sl_i
  * many there are. */
 static sl_int sli_thin_dissect(sli_thin *t, sli_dissect_worker *w, const sl_int *row, sl_int *perm,
                                sl_int end, sl_int *node_of) {
-    int64_t least;
     sl_int k, node;
     for (node = 0; t->parts > 0; node++) {
         const sli_thin_part p = t->part[--t->parts];
         const sl_int size = p.end - p.first;
-        const sl_int cut = size <= t->leaf ? -1 : sli_thin_cut(t, &p, &least);
+        const sl_int cut = size <= t->leaf ? -1 : sli_thin_cut(t, &p);
         const sl_int count = cut == -1 ? size : t->ahead[cut];
         const sl_int from = cut == -1 ? p.first : t->begin[cut + 1] - count;
         if (cut == -1) {
             sli_mindeg_order(&w->mindeg, t->g, t->queue + from, count);
         } else {
-            sli_thin_split(t, &p, cut, from, node, node);
+            sli_thin_split(t, &p, cut, from, node);
         }
         end -= count;
         for (k = 0; k < count; k++) {
@@ -192,88 +158,9 @@ static sl_int sli_thin_dissect(sli_thin *t, sli_dissect_worker *w, const sl_int 
     return node;
 }
 
-/* Searches a part anew. kept: its vertices. Returns whether it is connected. */
-static int sli_thin_renew(sli_thin *t, sli_thin_part *p, sl_int root) {
-    sl_int k, first = p->first, last = first + 1, level = first;
-    for (k = 0; k < p->end - p->first; k++) {
-        t->mark[t->kept[k]] = -1;
-    }
-    t->queue[first] = root;
-    t->mark[root] = 0;
-    while (first < last) {
-        const sl_int tail = sli_thin_level(t, level++, first, last);
-        first = last;
-        last = tail;
-    }
-    p->levels = level - p->first;
-    return last == p->end;
-}
-
-/* Looks for a cut across the width of a part that is wider than long, along the levels of a search
- * from one of its ends in that direction. Returns that cut, if it is far smaller, or the one that
- * there is. scratch: 2 n. */
-static sl_int sli_thin_turn(sli_thin *t, sli_thin_part *p, sl_int cut, int64_t least,
-                            sl_int *scratch) {
-    const sli_thin_part before = *p;
-    const size_t size = (size_t)(p->end - p->first), levels = (size_t)p->levels;
-    int64_t cost;
-    sl_int k;
-    memcpy(t->kept, t->queue + p->first, size * sizeof(sl_int));
-    memcpy(scratch, t->begin + p->first, levels * sizeof(sl_int));
-    memcpy(scratch + size, t->ahead + p->first, levels * sizeof(sl_int));
-    if (sli_thin_renew(t, p, t->queue[p->first]) && /* branches untested: it is connected */
-        sli_thin_renew(t, p, t->queue[p->end - 1])) {
-        const sl_int turned = sli_thin_cut(t, p, &cost);
-        if (cost <= least / 10 * 9) {
-            return turned;
-        }
-    }
-    *p = before;
-    for (k = 0; k < p->end - p->first; k++) {
-        t->mark[t->kept[k]] = 0; /* if the part is not connected, some are -1 */
-    }
-    memcpy(t->queue + p->first, t->kept, size * sizeof(sl_int));
-    memcpy(t->begin + p->first, scratch, levels * sizeof(sl_int));
-    memcpy(t->ahead + p->first, scratch + size, levels * sizeof(sl_int));
-    return cut;
-}
-
-/* Labels the parts on both sides of each cut. The marks of all searches differ, so that no vertex
- * of another part is taken for one of the next level. */
-static void sli_thin_label(sli_thin *t, sli_dissection *d) {
-    sli_label_tree *tree = &d->tree;
-    int64_t least;
-    sl_int k;
-    d->level = 0;
-    sli_dissect_start(d);
-    t->part[0].above = tree->root;
-    while (t->parts > 0) {
-        sli_thin_part p = t->part[--t->parts];
-        const sl_int size = p.end - p.first, node = p.above;
-        const int may_cut = size > t->leaf && /* there is room for more nodes than rows in leaves */
-                            tree->count < tree->room - 1; /* branches untested: tiny leaves */
-        sl_int cut = may_cut ? sli_thin_cut(t, &p, &least) : -1;
-        if (cut != -1 && (int64_t)p.levels * p.levels < 2 * (int64_t)size &&
-            t->marks < INT32_MAX - 2 * size) { /* branches untested: 2^31 marks */
-            cut = sli_thin_turn(t, &p, cut, least, (sl_int *)(void *)d->workers[0].next);
-        }
-        tree->weight[node] = size;
-        for (k = cut == -1 ? p.first : p.end; k < p.end; k++) {
-            d->label[t->queue[k]] = node;
-        }
-        if (cut != -1) {
-            sli_label_tree_split(tree, node);
-            sli_thin_split(t, &p, cut, t->begin[cut + 1], tree->left[node], tree->right[node]);
-        }
-    }
-    sli_label_tree_number(tree, t->g->n, d->label);
-    d->has_labels = 1;
-}
-
-/* Orders a connected graph, if it is narrow, in place of a dissection: perm from `at` on, and nodes
- * of the separator tree. Returns whether it is. Of a wider lattice it finds labels, and sets
- * d->has_labels. The graph is numbered in the order of a search from vertex 0, so that its last
- * vertex is an end. */
+/* Orders a connected graph, if it is thin, in place of a dissection: perm from `at` on, and nodes
+ * of the separator tree. Returns whether it is. The graph is numbered in the order of a search from
+ * vertex 0, so that its last vertex is an end. */
 static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl_int at,
                           sli_septree *septree) {
     const sl_int n = d->levels[0].n;
@@ -289,12 +176,7 @@ static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl
     t.part = (sli_thin_part *)(void *)(scratch + 4 * (size_t)n);
     t.begin = d->begin;
     t.spare = d->order;
-    t.kept = d->other;
     if (!sli_thin_search(&t, n - 1)) {
-        return 0;
-    }
-    if (!t.is_narrow) {
-        sli_thin_label(&t, d);
         return 0;
     }
     w->mindeg.order = t.spare; /* the scratch of leaves has the queue */

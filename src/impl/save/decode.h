@@ -160,7 +160,6 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     F->null.consistency = g->consistency;
     F->limits.growth = g->growth_limit;
     F->limits.error = g->error_limit;
-    F->rule.epsilon = DBL_EPSILON;
     F->rule.null_tolerance = g->null_tolerance;
     F->rule.regularization = g->regularization;
     F->rule.replaces = skips || g->regularization != 0.0;
