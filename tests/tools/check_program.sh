@@ -114,6 +114,40 @@ gives 0 'at 3 times' hks sphere:2 --times 3 --threads 2 --csv "$dir/h2.csv"
     cmp -s "$dir/h1.csv" "$dir/h2.csv"
 record $? "hks gives the same numbers with one thread and with two"
 
+# A speck that comes first, and a sphere: distances are those of the larger part, from its first
+# vertex, and vertices that no path reaches have no value in any file.
+
+"$program" heat sphere:0 --out "$dir/speck.obj" >"$dir/out" 2>&1
+"$program" heat sphere:2 --out "$dir/ball.obj" >"$dir/out" 2>&1
+both() { # the speck at x = $1
+    awk -v x="$1" 'FNR == 1 && NR > 1 { ball = 1 }
+        $1 == "v" { if (ball) print $1, $2, $3, $4; else print $1, $2 / 9 + x, $3 / 9, $4 / 9 }
+        $1 == "f" { print $1, $2 + 12 * ball, $3 + 12 * ball, $4 + 12 * ball }' \
+        "$dir/speck.obj" "$dir/ball.obj"
+}
+both 3 >"$dir/two.obj"
+both 1e4 >"$dir/lost.obj"
+gives 0 '^no value   distance at 12 of 174 vertices$' geodesic "$dir/two.obj" \
+    --out "$dir/two.gltf" --csv "$dir/two.csv"
+awk -F, 'NR == 2 { first = $1; zero = $2 } END { exit NR != 163 || first != 12 || zero != 0 }' \
+    "$dir/two.csv"
+record $? "geodesic starts in the largest part"
+grep -q '_HAS_DISTANCE' "$dir/two.gltf"
+record $? "glTF says which vertices have no distance"
+gives 0 '^no value   heat at 11 of 174 vertices, log10_heat at 173$' heat "$dir/two.obj" --from 0 \
+    --at 0,12-173 --out "$dir/two.glb"
+gives 0 '^no value   site at 162 of 174 vertices$' geodesic "$dir/two.obj" --voronoi --from 3,7 \
+    --out "$dir/two.ply" --csv "$dir/two.csv"
+[ "$(wc -l <"$dir/two.csv")" -eq 13 ]
+record $? "the table of cells has no row for a vertex without a site"
+"$program" geodesic "$dir/two.obj" --from 0 --view 90,0 --png "$dir/two.png" >"$dir/out" \
+    2>"$dir/err"
+[ ! -s "$dir/err" ]
+record $? "a picture of two small parts is not called empty"
+"$program" adf "$dir/lost.obj" --png "$dir/lost.png" >"$dir/out" 2>"$dir/err"
+grep -q 'there is almost nothing in the picture: the mesh covers 1 of [0-9]*00 pixels' "$dir/err"
+record $? "a picture of a mesh that is a speck in it warns"
+
 # Vectors (test_vector_heat.c): on a plane a vector stays as it is, and a logarithm is x - x0.
 
 gives 0 'from 1 vertex to 25 of 25' vectors grid:5x5 --from 12 --vectors 0.6,-0.8,9 \
@@ -316,7 +350,7 @@ gives 0 'patch 5 of 6' reach "$dir/fan.obj" --png "$dir/fan.png" --pattern "$dir
 gives 0 'pairs on 6 vertices' pairs "$dir/fan.obj" --count 30
 printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >"$dir/flat.obj"
 gives 0 'without area 1' info "$dir/flat.obj"
-gives 0 'auto-diffusion of 3 of 3' adf "$dir/flat.obj" --png "$dir/flat.png"
+gives 0 'auto-diffusion of 3 of 3' adf "$dir/flat.obj"
 
 # Faces with vertices of their own: a square of two triangles.
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 1 1e-9\nf 1 2 3\nf 4 5 6\n' \

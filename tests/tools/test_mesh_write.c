@@ -2,6 +2,9 @@
 #define _POSIX_C_SOURCE 200809L
 #include "tests/lib/pyramid_mesh.h"
 
+#include <float.h>
+#include <math.h>
+
 #include "tools/mesh/mesh_write.h"
 #include "tools/mesh/surface_generator.h"
 
@@ -146,9 +149,9 @@ static void written_files_are_read_back(void **state) {
         }
         mesh_free(&back);
     }
-    m.xyz[1] = 1e39;
+    m.xyz[1] = NAN;
     assert_false(mesh_write(files_path("w.glb"), &m, NULL, message, sizeof message));
-    assert_non_null(strstr(message, "range of single precision"));
+    assert_non_null(strstr(message, "not finite"));
     mesh_free(&m);
     assert_true(mesh_write(files_path("w.gltf"), &m, NULL, message, sizeof message));
     assert_true(mesh_read(&back, files_path("w.gltf"), message, sizeof message));
@@ -156,6 +159,101 @@ static void written_files_are_read_back(void **state) {
     free(color);
     free(uv);
     free(value);
+}
+
+/* A sphere that is far away, tiny, huge or both keeps its shape in single precision: vertices stay
+ * within 2^-23 of its radius, as they do at the origin. */
+static void gltf_keeps_the_shape_of_any_mesh(void **state) {
+    (void)state;
+    static const double cases[][2] = {{5e6, 1},   {-3e12, 1e3}, {0, 1e-60},
+                                      {0, 1e200}, {1e60, 1e50}, {1e-50, 1e-60}};
+    mesh m, back;
+    char message[300];
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const double radius = cases[k][1];
+        assert_true(surface_generate(&m, "sphere:2", NULL, 0));
+        for (size_t i = 0; i < 3 * (size_t)m.n_vertices; i++) {
+            m.xyz[i] = cases[k][0] + radius * m.xyz[i];
+        }
+        for (int form = 0; form < 2; form++) {
+            const char *path = files_path(form == 0 ? "far.glb" : "far.gltf");
+            assert_true(mesh_write(path, &m, NULL, message, sizeof message));
+            assert_true(mesh_read(&back, path, message, sizeof message));
+            assert_int_equal(back.n_vertices, m.n_vertices);
+            for (size_t i = 0; i < 3 * (size_t)m.n_vertices; i++) {
+                const double rounding = 4 * fabs(m.xyz[i]) * DBL_EPSILON;
+                assert_true(fabs(back.xyz[i] - m.xyz[i]) <= 0x1p-23 * radius + rounding);
+            }
+            mesh_free(&back);
+        }
+        mesh_free(&m);
+    }
+}
+
+/* The numbers of an attribute of a .glb file, by its accessor, which is its array and its view. */
+static float *gltf_floats(const char *path, const char *name, size_t *count) {
+    size_t length = 0;
+    char *file = files_get(path, &length), key[64];
+    uint32_t words[5];
+    unsigned long long offset = 0, bytes = 0;
+    memcpy(words, file, sizeof words);
+    (void)snprintf(key, sizeof key, "\"%s\":", name);
+    const char *at = strstr(file + 20, key), *view = strstr(file + 20, "\"bufferViews\":[");
+    *count = 0;
+    if (at == NULL) {
+        free(file);
+        return NULL;
+    }
+    for (int k = atoi(at + strlen(key)); k >= 0; k--) {
+        view = strstr(view + 1, "{\"buffer\":0");
+        assert_non_null(view);
+    }
+    assert_int_equal(
+        sscanf(view, "{\"buffer\":0,\"byteOffset\":%llu,\"byteLength\":%llu", &offset, &bytes), 2);
+    float *values = (float *)test_array(bytes / 4 + 1, sizeof *values);
+    memcpy(values, file + 28 + words[3] + offset, bytes);
+    *count = bytes / 4;
+    free(file);
+    return values;
+}
+
+/* Where there is no value, glTF has the lowest number and a 0 in _HAS_NAME; a field and texture
+ * coordinates without gaps have no such attribute. In OBJ the faces there have no texture. */
+static void missing_values_stay_missing(void **state) {
+    (void)state;
+    double xyz[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+    double heat[4] = {NAN, 2, 0, INFINITY}, full[4] = {0, 1e300, -2, 3}, uv[8] = {0};
+    sl_int faces[6] = {0, 1, 2, 2, 1, 3};
+    const mesh m = {4, 2, xyz, faces};
+    const mesh_field fields[2] = {{"heat", heat}, {"full", full}};
+    uv[3] = NAN;
+    const mesh_extra extra = {uv, NULL, NULL, fields, 2}, scalar = {NULL, NULL, NULL, fields, 1};
+    const struct {
+        const char *name;
+        size_t count;
+        float value[8];
+    } wanted[] = {{"_HEAT", 4, {-FLT_MAX, 2, 0, -FLT_MAX}},
+                  {"_HAS_HEAT", 4, {0, 1, 1, 0}},
+                  {"_FULL", 4, {0, FLT_MAX, -2, 3}},
+                  {"_HAS_FULL", 0, {0}},
+                  {"TEXCOORD_0", 8, {0, 0, 0, -FLT_MAX, 0, 0, 0, 0}},
+                  {"_HAS_TEXCOORD_0", 4, {1, 0, 1, 1}}};
+    assert_int_equal(mesh_missing(heat, 1, 4), 2);
+    assert_int_equal(mesh_missing(uv, 2, 4), 1);
+    assert_true(mesh_write(files_path("gaps.glb"), &m, &extra, NULL, 0));
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++) {
+        size_t count = 0;
+        float *value = gltf_floats(files_path("gaps.glb"), wanted[k].name, &count);
+        assert_int_equal(count, wanted[k].count);
+        assert_true(count == 0 || memcmp(value, wanted[k].value, count * sizeof *value) == 0);
+        free(value);
+    }
+    size_t length = 0;
+    heat[3] = 1;
+    assert_true(mesh_write(files_path("gaps.obj"), &m, &scalar, NULL, 0));
+    char *got = files_get(files_path("gaps.obj"), &length);
+    assert_non_null(strstr(got, "\nf 1 2 3\nf 3/3 2/2 4/4\n#field heat\n#f nan\n#f 2\n"));
+    free(got);
 }
 
 static void bad_paths_are_refused(void **state) {
@@ -180,6 +278,8 @@ int main(void) {
         cmocka_unit_test(ply_bytes_are_as_specified),
         cmocka_unit_test(obj_lines_are_as_specified),
         cmocka_unit_test(written_files_are_read_back),
+        cmocka_unit_test(gltf_keeps_the_shape_of_any_mesh),
+        cmocka_unit_test(missing_values_stay_missing),
         cmocka_unit_test(bad_paths_are_refused),
     };
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);

@@ -90,6 +90,9 @@ static void pages_hold_the_data(void **state) {
     size_t length;
     assert_true(mesh_grid(&m, 3, 2, 0, 1));
     assert_int_equal(m.n_vertices, 6);
+    for (int v = 0; v < 6; v++) { /* far away: positions are relative to a center */
+        m.xyz[3 * v] += 1e12;
+    }
     FILE *file = fopen(files_path("page.html"), "w");
     assert_non_null(file);
     const sl_int marked[2] = {4, 1};
@@ -117,6 +120,11 @@ static void pages_hold_the_data(void **state) {
         assert_int_equal(bytes[4 * k + 1] | bytes[4 * k + 2] | bytes[4 * k + 3], 0);
     }
     assert_int_equal(decode(page, "positions: \"", bytes), 12 * m.n_vertices);
+    for (int v = 0; v < 6; v++) {
+        float x;
+        memcpy(&x, bytes + 12 * v, sizeof x); /* this machine is little-endian, as the page is */
+        assert_true(x == (float)(m.xyz[3 * v] - 1e12 - 0.5));
+    }
     assert_int_equal(decode(page, "colors: \"", bytes), 768);
     assert_true(bytes[2] > bytes[0] && bytes[765] > bytes[767]); /* from blue to yellow */
     free(page);

@@ -193,8 +193,9 @@ void app_view(render_view *view, const app_output *o);
  *  the work, not after it. `out` is NULL or the file. */
 void app_check_output(const app_output *o, const char *out);
 
-/** The vertex that commands start from unless one is given: the first one that belongs to a face
- *  with an area; if there is none, the first one that belongs to a face. */
+/** The vertex that commands start from unless one is given: of the connected part with the largest
+ *  area, the first one that belongs to a face with an area; without areas, the first one that
+ *  belongs to a face. */
 sl_int app_default_vertex(const mesh *m);
 
 /** Sets o->direction to the mean normal of the faces at these vertices, weighted by area, so that a
@@ -218,7 +219,11 @@ const char *app_guess_up(const char *up, const mesh *m, bool is_drawn);
  *  value is finite. */
 void app_range(double *low, double *high, const mesh *m, const double *value);
 
-/** Writes the mesh with `extra` to o->out and the picture in `style` to o->png; dies on failure. */
+/** Prints a line on how many vertices have no value of a field, if there are any. */
+void app_print_missing(const mesh *m, const mesh_field *fields, int n_fields);
+
+/** Writes the mesh with `extra` to o->out and the picture in `style` to o->png. Prints how many
+ *  vertices have no value, and warns of a picture that shows nothing. Dies on failure. */
 void app_write(const app_output *o, const mesh *m, const mesh_extra *extra,
                const render_style *style);
 

@@ -237,16 +237,46 @@ void app_close(FILE *file) {
     }
 }
 
+/* The smallest vertex of the part of v; links lead to smaller vertices of the same part. */
+static sl_int root_of(sl_int *part, sl_int v) {
+    while (part[v] != v) {
+        v = part[v] = part[part[v]];
+    }
+    return v;
+}
+
+/* Joins the vertices of each face. */
+static sl_int *parts_of(const mesh *m) {
+    sl_int *part = app_alloc((size_t)m->n_vertices, sizeof *part);
+    for (sl_int v = 0; v < m->n_vertices; v++) {
+        part[v] = v;
+    }
+    for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
+        const sl_int a = root_of(part, m->faces[k]), b = root_of(part, m->faces[k - k % 3]);
+        part[a > b ? a : b] = a > b ? b : a;
+    }
+    return part;
+}
+
 sl_int app_default_vertex(const mesh *m) {
-    sl_int first = INT32_MAX, any = INT32_MAX;
+    sl_int first = INT32_MAX, any = INT32_MAX, largest = -1;
+    sl_int *part = parts_of(m);
+    double *area = app_alloc((size_t)m->n_vertices, sizeof *area); /* of the part of a root */
+    for (size_t f = 0; f < (size_t)m->n_faces; f++) {
+        const sl_int root = root_of(part, m->faces[3 * f]);
+        area[root] += laplacian_of_face(m, m->faces + 3 * f).area;
+        largest = area[root] > 0 && (largest < 0 || area[root] > area[largest]) ? root : largest;
+    }
     for (size_t f = 0; f < (size_t)m->n_faces; f++) {
         const sl_int *v = m->faces + 3 * f;
         sl_int least = v[0] < v[1] ? v[0] : v[1];
         least = v[2] < least ? v[2] : least;
         any = least < any ? least : any;
-        if (least < first && laplacian_of_face(m, v).area > 0) {
+        if (least < first && root_of(part, v[0]) == largest && laplacian_of_face(m, v).area > 0) {
             first = least;
         }
     }
+    free(area);
+    free(part);
     return first < INT32_MAX ? first : any < INT32_MAX ? any : 0;
 }

@@ -55,7 +55,8 @@ static const options_manual manual = {
     "what errors remain; with --voronoi, how many vertices may still be nearer to another site, "
     "and by how much. exact: errors with --exact.\n"
     "--csv has columns vertex,distance,path,heat, where path is the length along edges; with "
-    "--each source,vertex,distance; with --voronoi vertex,site.",
+    "--each source,vertex,distance; with --voronoi vertex,site. Vertices without a value have no "
+    "row; in files of --out they are NaN, in .glb and .gltf 0 in the attribute _HAS_DISTANCE.",
     "star:6 --from 100 --png distance.png\nbunny.obj --from 17 --radius 0.3 --csv distance.csv\n"
     "torus:120x40 --voronoi --from random:60 --png cells.png"};
 

@@ -31,10 +31,7 @@ void mesh_write_obj(mesh_sink *s, const mesh *m, const mesh_extra *extra);
 void mesh_write_ply(mesh_sink *s, const mesh *m, const mesh_extra *extra);
 void mesh_write_vtk(mesh_sink *s, const mesh *m, const mesh_extra *extra);
 
-/** Whether the coordinates are in the range of single precision, which glTF has. */
-bool mesh_fits_gltf(const mesh *m);
-
-/** Writes a mesh for which mesh_fits_gltf is true.
+/** Writes a mesh whose coordinates are finite.
  *
  *  is_container  [in]  true: .glb; false: .gltf, with the numbers as base64.
  */

@@ -10,6 +10,18 @@
 #include "mesh_sink.h"
 #include "tools/io/output_file.h"
 
+sl_int mesh_missing(const double *value, int width, sl_int n) {
+    sl_int missing = 0;
+    for (sl_int v = 0; v < n; v++) {
+        bool is_known = true;
+        for (int k = 0; k < width; k++) {
+            is_known = is_known && isfinite(value[(size_t)width * (size_t)v + (size_t)k]);
+        }
+        missing += !is_known;
+    }
+    return missing;
+}
+
 /* Writes a field as the texture coordinate u, scaled from its range to 0..1. */
 static void print_field_as_uv(mesh_sink *s, const mesh_field *field, sl_int n) {
     double low = HUGE_VAL, high = -HUGE_VAL;
@@ -40,6 +52,20 @@ static bool print_uv(mesh_sink *s, const mesh *m, const mesh_extra *extra) {
     return uv != NULL;
 }
 
+/* Whether all corners of face f have texture coordinates: those of a corner without a value, which
+ * are 0 to keep the count, belong to no face. */
+static bool has_texture(const mesh *m, const mesh_extra *extra, size_t f) {
+    const double *uv = extra->corner_uv != NULL ? extra->corner_uv : extra->uv;
+    sl_int missing = 0;
+    for (size_t k = 3 * f; k < 3 * f + 3; k++) {
+        const size_t v = (size_t)m->faces[k];
+        missing += extra->corner_uv != NULL ? mesh_missing(uv + 2 * k, 2, 1)
+                   : uv != NULL             ? mesh_missing(uv + 2 * v, 2, 1)
+                                            : mesh_missing(extra->fields[0].value + v, 1, 1);
+    }
+    return missing == 0;
+}
+
 void mesh_write_obj(mesh_sink *s, const mesh *m, const mesh_extra *extra) {
     for (size_t v = 0; v < (size_t)m->n_vertices; v++) {
         const double *x = m->xyz + 3 * v;
@@ -52,11 +78,12 @@ void mesh_write_obj(mesh_sink *s, const mesh *m, const mesh_extra *extra) {
     }
     bool textured = print_uv(s, m, extra);
     for (size_t f = 0; f < (size_t)m->n_faces; f++) {
+        const bool is_textured = textured && has_texture(m, extra, f);
         sink_print(s, "f");
         for (size_t c = 0; c < 3; c++) {
             long vertex = (long)m->faces[3 * f + c] + 1;
             long texture = extra->corner_uv != NULL ? (long)(3 * f + c) + 1 : vertex;
-            if (textured) {
+            if (is_textured) {
                 sink_print(s, " %ld/%ld", vertex, texture);
             } else {
                 sink_print(s, " %ld", vertex);
@@ -166,9 +193,8 @@ bool mesh_write(const char *path, const mesh *m, const mesh_extra *extra, char *
                        mesh_write_formats);
         return fail(message, message_size, path, words);
     }
-    if ((format == GLB || format == GLTF) && !mesh_fits_gltf(m)) {
-        return fail(message, message_size, path,
-                    "coordinates beyond the range of single precision, which glTF has");
+    if ((format == GLB || format == GLTF) && mesh_missing(m->xyz, 3, m->n_vertices) > 0) {
+        return fail(message, message_size, path, "coordinates that are not finite");
     }
     FILE *file = output_open(path, message, message_size);
     if (file == NULL) {
