@@ -133,7 +133,7 @@ for command in heat adf hks pairs reach param arap scp geodesic vectors edit inf
     done
 done
 printf 'v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n' >point.obj
-"$program" info point.obj --mesh-only >out 2>err
+"$program" info point.obj --mesh-only --verbose >out 2>err
 [ $? -eq 0 ] && grep -q '^angles  *none' out && ! grep -q nan out
 record $? 'info: no face has an area'
 

@@ -43,7 +43,12 @@ void app_must(sl_status status, const char *what, const sl_stats *stats);
 /** Allocates count elements of size bytes, zeroed; dies if out of memory. Release with free. */
 void *app_alloc(size_t count, size_t size);
 
-/* ---- counts of a solve ---- */
+/* ---- what is printed ----
+ *
+ * A command prints its result as at most five lines, each a sentence. */
+
+/** Prints what only --verbose asks for: sizes, times, counts. */
+APP_PRINTF void app_detail(const char *format, ...);
 
 /** Prints a line, labeled `name` (at most 10 characters), on what one solve with a plan reads: rows
  *  and entries of L in both sweeps, entries of a region's inverse. Unlike times, these counts do

@@ -28,7 +28,7 @@ static void weld(mesh *m, const char *operand, bool is_file) {
         app_die("%s: out of memory for vertices at the same place", operand);
     }
     if (app_weld >= 0) {
-        printf("weld       %d vertices merged with others, %d faces that lost a corner left out\n",
+        printf("%d vertices are merged with others; %d faces that lost a corner are left out.\n",
                (int)merged.vertices, (int)merged.faces);
     } else if (count > 0) {
         app_warn("%s: %d of %d vertices have the coordinates of others, and faces at them are "
@@ -159,14 +159,14 @@ int app_read_vertices(sl_int **out, sl_int *count, const char *text, sl_int n, c
 /* Names the vertices that were drawn, so that a run can be repeated with a part of them. */
 static void print_drawn(const char *option_name, const sl_int *vertices, sl_int count) {
     enum { SHOWN = 200 };
-    printf("drawn      --%s ", option_name);
+    app_detail("drawn      --%s ", option_name);
     for (sl_int k = 0; k < count && k < SHOWN; k++) {
-        printf(k > 0 ? ",%d" : "%d", (int)vertices[k]);
+        app_detail(k > 0 ? ",%d" : "%d", (int)vertices[k]);
     }
     if (count > SHOWN) {
-        printf(" and %d more", (int)(count - SHOWN));
+        app_detail(" and %d more", (int)(count - SHOWN));
     }
-    printf("\n");
+    app_detail("\n");
 }
 
 static sl_int *random_vertices(const char *option_name, const char *text, sl_int n, uint64_t seed,

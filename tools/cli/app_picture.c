@@ -20,7 +20,7 @@ const char *app_guess_up(const char *up, const mesh *m, bool is_drawn) {
     }
     const camera_up axis = upward_of(m, &reason);
     if (axis == CAMERA_UP_Z && is_drawn) {
-        printf("%-10s z, because %s; --up y is the other choice\n", "upward", reason);
+        app_detail("%-10s z, because %s; --up y is the other choice\n", "upward", reason);
     }
     return axis == CAMERA_UP_Z ? "z" : "y";
 }
@@ -211,12 +211,12 @@ void app_print_missing(const mesh *m, const mesh_field *fields, int n_fields) {
     for (int k = 0; k < n_fields; k++) {
         const sl_int missing = mesh_missing(fields[k].value, 1, m->n_vertices);
         if (missing > 0) {
-            printf(is_first ? "no value   %s at %d of %d vertices" : ", %s at %d", fields[k].name,
-                   (int)missing, (int)m->n_vertices);
+            printf(is_first ? "There is no value of %s at %d of %d vertices" : ", of %s at %d",
+                   fields[k].name, (int)missing, (int)m->n_vertices);
             is_first = false;
         }
     }
-    printf(is_first ? "" : "\n");
+    printf(is_first ? "" : ".\n");
 }
 
 void app_write(const app_output *o, const mesh *m, const mesh_extra *extra,

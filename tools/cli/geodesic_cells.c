@@ -76,12 +76,12 @@ void geodesic_cells(geodesic_command *cmd) {
         smallest = sizes[k] < smallest ? sizes[k] : smallest;
         largest = sizes[k] > largest ? sizes[k] : largest;
     }
-    printf("cells      of %d sites, %d to %d vertices each, in %.3f ms; %lld values of heat\n",
-           (int)cmd->n_sources, (int)smallest, (int)largest, 1e3 * seconds, (long long)touched);
-    if (sizes[cmd->n_sources] > 0) {
-        printf("no site    for %d vertices: outside the radius, or too far away for this time\n",
-               (int)sizes[cmd->n_sources]);
-    }
+    printf("Each vertex has the nearest of %d sites; cells have %d to %d vertices, and %d vertices "
+           "have "
+           "no site.\n",
+           (int)cmd->n_sources, (int)smallest, (int)largest, (int)sizes[cmd->n_sources]);
+    app_detail("cells      of %d sites, %d to %d vertices each, in %.3f ms; %lld values of heat\n",
+               (int)cmd->n_sources, (int)smallest, (int)largest, 1e3 * seconds, (long long)touched);
     write_cells(cmd, cell);
     free(largest_heat);
     free(sizes);

@@ -12,6 +12,8 @@
 #include "tools/io/input.h"
 #include "tools/io/output_file.h"
 
+bool options_verbose = false;
+
 enum { LINE_WIDTH = 90, HELP_COLUMN = 25 };
 
 static const option *option_named(const option *options, const char *name, size_t length) {
@@ -119,6 +121,8 @@ options_result options_parse(const options_usage *usage, const option *options, 
     for (int a = 1; a < argc; a++) {
         if (!only_operands && strcmp(argv[a], "--") == 0) {
             only_operands = true;
+        } else if (!only_operands && strcmp(argv[a], "--verbose") == 0) {
+            options_verbose = true;
         } else if (!only_operands && argv[a][0] == '-' && argv[a][1] != '\0') {
             if (!read_option(options, argc, argv, &a, message, message_size)) {
                 return OPTIONS_BAD;
@@ -188,7 +192,11 @@ void options_help(const options_usage *usage, const options_manual *manual, cons
         }
         options_print_wrapped(o->help, HELP_COLUMN, column);
     }
-    int column = printf("  --help");
+    int column = printf("  --verbose");
+    options_print_wrapped("print more than the result: sizes, times, what solves read, what was "
+                          "checked (at most five lines)",
+                          HELP_COLUMN, column);
+    column = printf("  --help");
     options_print_wrapped("print this text (sparse-local --help explains MESH)", HELP_COLUMN,
                           column);
     (void)printf("\nOutput:\n");
@@ -232,6 +240,9 @@ static void check_outputs(const option *options) {
     char message[512];
     for (const option *o = options; o->kind != OPTION_END; o++) {
         const char *path = output_of(o);
+        if (path != NULL && strcmp(path, "-") == 0) {
+            output_take_standard();
+        }
         if (path != NULL) {
             check_kind_of_picture(o->name, path);
         }
