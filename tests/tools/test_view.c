@@ -6,6 +6,7 @@
 
 #include "tools/draw/view_page.h"
 #include "tools/io/field_table.h"
+#include "tools/io/input.h"
 #include "tools/mesh/grid.h"
 
 static const char *table_file(const char *text) {
@@ -47,6 +48,26 @@ static void malformed_tables_are_refused(void **state) {
         assert_non_null(strstr(message, cases[k][1]));
         assert_int_equal(t.n_fields, 0);
     }
+}
+
+/* Columns without rows take memory for each vertex, which the length of the table limits. */
+static void wide_tables_are_refused(void **state) {
+    (void)state;
+    enum { COLUMNS = 1000, VERTICES = 1000000 };
+    char *text = (char *)test_array(2 * COLUMNS + 10, 1), message[300];
+    field_table t;
+    (void)strcpy(text, "vertex");
+    for (int k = 0; k < COLUMNS; k++) {
+        (void)strcpy(text + 6 + 2 * k, ",a");
+    }
+    const char *path = table_file(text);
+    assert_false(field_table_read(&t, path, VERTICES, message, sizeof message));
+    assert_non_null(strstr(message, "a table of 9 columns for 1000000 vertices would take 72 MB"));
+    input_most_bytes = 1e8; /* --max-memory 100 */
+    assert_false(field_table_read(&t, path, VERTICES, message, sizeof message));
+    assert_non_null(strstr(message, "a table of 13 columns"));
+    input_most_bytes = 0;
+    free(text);
 }
 
 /* The bytes of the base64 text after `key`. */
@@ -277,12 +298,10 @@ static void pages_open_at_the_source(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(tables_are_read),
-                                       cmocka_unit_test(malformed_tables_are_refused),
-                                       cmocka_unit_test(pages_hold_the_data),
-                                       cmocka_unit_test(pages_open_at_the_source),
-                                       cmocka_unit_test(live_pages_hold_the_surface),
-                                       cmocka_unit_test(live_pages_are_written),
-                                       cmocka_unit_test(times_need_a_live_page)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tables_are_read),          cmocka_unit_test(malformed_tables_are_refused),
+        cmocka_unit_test(wide_tables_are_refused),  cmocka_unit_test(pages_hold_the_data),
+        cmocka_unit_test(pages_open_at_the_source), cmocka_unit_test(live_pages_hold_the_surface),
+        cmocka_unit_test(live_pages_are_written),   cmocka_unit_test(times_need_a_live_page)};
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
 }

@@ -54,8 +54,13 @@ static void print_mesh(const mesh *m, const mesh_stats *f) {
     } else {
         printf("It has no border; ");
     }
-    printf("edges are %.4g to %.4g long, %.4g on average, angles %.3g to %.3g degrees.\n",
-           f->edge_min, f->edge_max, f->edge_mean, f->angle_min, f->angle_max);
+    printf("edges are %.4g to %.4g long, %.4g on average, ", f->edge_min, f->edge_max,
+           f->edge_mean);
+    if (isnan(f->angle_min)) {
+        printf("and no face has an area.\n");
+    } else {
+        printf("angles %.3g to %.3g degrees.\n", f->angle_min, f->angle_max);
+    }
     print_defects(m, f);
     app_detail("vertices             %12d   used by a face %d\n", (int)m->n_vertices,
                (int)f->used_vertices);
