@@ -395,6 +395,12 @@ record $? "vertices at the same place are warned of"
 gives 0 '1 vertices are merged with others; 0 faces' info "$dir/soup.obj" --weld
 gives 0 '2 vertices are merged with others; 0 faces' geodesic --weld=1e-6 "$dir/soup.obj"
 gives 0 '0 vertices are merged with others; 0 faces' adf sphere:1 --weld
+gives 0 'The heat of 1 source' heat "$dir/soup.obj" --weld --from 3,1 --weld-map "$dir/map.csv" \
+    --csv "$dir/soup.csv"
+awk -F, 'NR > 1 && $2 > 4 { bad = 1 } $1 == 1 { one = $2 } $1 == 3 { three = $2 }
+    END { exit NR != 7 || bad || one != three }' "$dir/map.csv"
+record $? "--weld-map has a row for each vertex of the file, and --from counts those"
+gives 2 'weld-map: only with --weld' info "$dir/soup.obj" --weld-map "$dir/map.csv"
 gives 2 'f.slf: a saved factor has no mesh for --weld' heat "$dir/f.slf" --weld
 gives 2 'f.slf: a saved factor has no mesh for --weld' info "$dir/f.slf" --weld
 gives 2 'weld -1: not a finite number of 0 or more' info --weld=-1 "$dir/soup.obj"

@@ -41,9 +41,9 @@ static void coordinates_keep_their_bits(void **state) {
             uv[2 * v] = v % 5 == 0 ? (double)NAN : (double)v;
         }
         const mesh_field fields[2] = {{"heat", value}, {"other", value}};
-        const mesh_extra all = {uv, NULL, color, fields, 2},
-                         corners = {NULL, corner_uv, NULL, fields, 1},
-                         one = {NULL, NULL, NULL, fields, 1};
+        const mesh_extra all = {uv, NULL, color, fields, 2, NULL},
+                         corners = {NULL, corner_uv, NULL, fields, 1, NULL},
+                         one = {NULL, NULL, NULL, fields, 1, NULL};
         for (size_t k = 0; k < 7; k++) {
             assert_reads_back(&m, names[k], NULL);
             assert_reads_back(&m, names[k], &all);
@@ -67,7 +67,7 @@ static void ply_bytes_are_as_specified(void **state) {
     const mesh m = {3, 1, xyz, faces};
     const rgb color[3] = {{1, 2, 3}, {4, 5, 6}, {7, 8, 255}};
     const mesh_field field = {"heat", value};
-    const mesh_extra extra = {uv, NULL, color, &field, 1};
+    const mesh_extra extra = {uv, NULL, color, &field, 1, NULL};
     static const char header[] =
         "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty double x\nproperty "
         "double y\nproperty double z\nproperty double heat\nproperty double s\nproperty double "
@@ -106,7 +106,8 @@ static void obj_lines_are_as_specified(void **state) {
     const mesh m = {3, 1, xyz, faces};
     const rgb color[3] = {{255, 0, 51}, {0, 0, 0}, {0, 0, 0}};
     const mesh_field field = {"heat", value};
-    const mesh_extra all = {uv, NULL, color, &field, 1}, scalar = {NULL, NULL, NULL, &field, 1};
+    const mesh_extra all = {uv, NULL, color, &field, 1, NULL},
+                     scalar = {NULL, NULL, NULL, &field, 1, NULL};
     size_t length = 0;
     assert_true(mesh_write(files_path("t.obj"), &m, &all, NULL, 0));
     char *got = files_get(files_path("t.obj"), &length);
@@ -135,8 +136,9 @@ static void written_files_are_read_back(void **state) {
     value[0] = NAN;
     value[1] = 1e300;
     const mesh_field fields[2] = {{"heat", value}, {"a_long_name_of_a_field", value}};
-    const mesh_extra extra[3] = {
-        {NULL, NULL, NULL, NULL, 0}, {uv, NULL, NULL, fields, 2}, {uv, NULL, color, fields, 1}};
+    const mesh_extra extra[3] = {{NULL, NULL, NULL, NULL, 0, NULL},
+                                 {uv, NULL, NULL, fields, 2, NULL},
+                                 {uv, NULL, color, fields, 1, NULL}};
     for (int k = 0; k < 12; k++) {
         const char *path = files_path(names[k % 4]);
         assert_true(mesh_write(path, &m, &extra[k / 4], message, sizeof message));
@@ -227,7 +229,8 @@ static void missing_values_stay_missing(void **state) {
     const mesh m = {4, 2, xyz, faces};
     const mesh_field fields[2] = {{"heat", heat}, {"full", full}};
     uv[3] = NAN;
-    const mesh_extra extra = {uv, NULL, NULL, fields, 2}, scalar = {NULL, NULL, NULL, fields, 1};
+    const mesh_extra extra = {uv, NULL, NULL, fields, 2, NULL},
+                     scalar = {NULL, NULL, NULL, fields, 1, NULL};
     const struct {
         const char *name;
         size_t count;
@@ -256,6 +259,50 @@ static void missing_values_stay_missing(void **state) {
     free(got);
 }
 
+/* A mesh of an OBJ file keeps its lines: polygons, groups, comments, texture coordinates, normals.
+ * Without texture coordinates the field is added to the faces. Read back and written again, the
+ * file is the same. */
+static void obj_files_keep_their_lines(void **state) {
+    (void)state;
+    static const char *const texts[2][2] = {
+        {"# by hand\ng front\nv 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0\nvt 0.5 0.25\nusemtl red\n"
+         "f 1/1 2/1 3/1 4/1\ng back\nv 0 0 1\nf -1 \\\n  1//1 2\ns 1\n",
+         "# by hand\ng front\nv 7 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0\nvt 0.5 0.25\nusemtl red\n"
+         "f 1/1 2/1 3/1 4/1\ng back\nv 0 0 1\nf -1 \\\n  1//1 2\ns 1\n"
+         "#field heat\n#f 0\n#f 4\n#f 2\n#f 1\n#f nan\n"},
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\no a\nf 1 2//9 3 4\nv 0 0 1\nf -1 1 2\n",
+         "vt 0 0\nvt 1 0\nvt 0.5 0\nvt 0.25 0\nvt 0 0\n"
+         "v 7 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\no a\nf 1/1 2/2/9 3/3 4/4\nv 0 0 1\nf 5 1 2\n"
+         "#field heat\n#f 0\n#f 4\n#f 2\n#f 1\n#f nan\n"}};
+    const double heat[5] = {0, 4, 2, 1, NAN};
+    const mesh_field field = {"heat", heat};
+    for (int k = 0; k < 2; k++) {
+        mesh m;
+        size_t length;
+        char message[300], source[FILE_PATH_SIZE + 100];
+        (void)snprintf(source, sizeof source, "%s", files_put_text("source.obj", texts[k][0]));
+        const mesh_extra extra = {NULL, NULL, NULL, &field, 1, source};
+        for (int pass = 0; pass < 2; pass++) {
+            assert_true(mesh_read(&m, source, message, sizeof message));
+            m.xyz[0] = 7;
+            assert_true(mesh_write(files_path("kept.obj"), &m, &extra, message, sizeof message));
+            char *got = files_get(files_path("kept.obj"), &length);
+            got[length] = '\0';
+            assert_string_equal(got, texts[k][1]);
+            free(got);
+            m.n_faces--; /* other faces than those of the file: its lines are of no use */
+            assert_true(mesh_write(files_path("other.obj"), &m, &extra, message, sizeof message));
+            got = files_get(files_path("other.obj"), &length);
+            got[length] = '\0';
+            assert_null(strstr(got, "\ng "));
+            assert_null(strstr(got, "\no "));
+            free(got);
+            mesh_free(&m);
+            (void)snprintf(source, sizeof source, "%s", files_path("kept.obj"));
+        }
+    }
+}
+
 static void bad_paths_are_refused(void **state) {
     (void)state;
     const mesh none = {0, 0, NULL, NULL};
@@ -280,6 +327,7 @@ int main(void) {
         cmocka_unit_test(written_files_are_read_back),
         cmocka_unit_test(gltf_keeps_the_shape_of_any_mesh),
         cmocka_unit_test(missing_values_stay_missing),
+        cmocka_unit_test(obj_files_keep_their_lines),
         cmocka_unit_test(bad_paths_are_refused),
     };
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);

@@ -128,12 +128,18 @@ typedef struct app_output {
 /** Distance within which app_mesh merges vertices; below 0: it does not. */
 extern double app_weld;
 
-/** The row of an option table that sets it. */
+/** The file that app_mesh writes then, with what each vertex of the mesh has become; NULL: none. */
+extern const char *app_weld_map;
+
+/** The rows of an option table that set them. */
 #define APP_WELD_OPTION \
+    {OPTION_OPTIONAL, "weld", &app_weld, "TOLERANCE", \
+     "merge the vertices of the mesh that have equal coordinates, or that are within " \
+     "--weld=TOLERANCE of each other; lists of vertices count those of the file"}, \
     { \
-        OPTION_OPTIONAL, "weld", &app_weld, "TOLERANCE", \
-            "merge the vertices of the mesh that have equal coordinates, or that are within " \
-            "--weld=TOLERANCE of each other" \
+        OPTION_OUTPUT, "weld-map", &app_weld_map, "FILE", \
+            "with --weld: write a table vertex,merged: the number in all other output of each " \
+            "vertex of the file" \
     }
 
 /** Describes the operand MESH, for the help texts. */
@@ -147,6 +153,9 @@ extern const char app_mesh_help[];
  */
 void app_mesh(mesh *out, const char *operand, bool faces_needed);
 
+/** The file of the last app_mesh, if the mesh has its vertices as they are; else NULL. */
+extern const char *app_source;
+
 /** mesh_mean_edge_length (laplacian.h); dies if out of memory. */
 double app_mean_edge_length(const mesh *m);
 
@@ -157,7 +166,8 @@ bool app_is_saved(const char *operand);
 void app_refuse_weld(const char *operand);
 
 /** Parses a list of vertices: "3,17,100-200", "all" or "random:5" (5 distinct vertices, whose
- *  numbers are printed). Dies if the list is malformed or a vertex is not below n.
+ *  numbers are printed). After --weld, numbers are those of the file, and the list has what these
+ *  vertices have become, each once. Dies if the list is malformed or a vertex is not below n.
  *
  *  count  [out]  length of the list.
  *  Returns  the list in the order given, including repetitions; local solves refuse those, see

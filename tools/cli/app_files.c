@@ -19,13 +19,37 @@ const char app_mesh_help[] =
     "grid:100x100, hills:100x100, sphere:5, blob:5, star:5, torus:120x40, knot:400x24.";
 
 double app_weld = -1;
+const char *app_weld_map = NULL;
+
+/* Of --weld: the vertices of the file, and what each has become, of the `n` that are left. */
+static struct { sl_int count, n, *map; } welded;
+
+/* Writes the table of --weld-map. */
+static void write_map(void) {
+    FILE *csv = app_create(app_weld_map);
+    fprintf(csv, "vertex,merged\n");
+    for (sl_int v = 0; v < welded.count; v++) {
+        fprintf(csv, "%d,%d\n", (int)v, (int)welded.map[v]);
+    }
+    app_close(csv);
+}
 
 /* Merges vertices of a mesh if the option asks for it, or warns of those that could be. */
 static void weld(mesh *m, const char *operand, bool is_file) {
     coincident_merged merged;
     const sl_int count = app_weld < 0 && is_file ? coincident_count(m) : 0;
-    if (count < 0 || (app_weld >= 0 && !coincident_merge(m, &merged, app_weld))) {
+    welded.count = m->n_vertices;
+    free(welded.map);
+    welded.map = NULL;
+    if (count < 0 || (app_weld >= 0 && !coincident_merge(m, &merged, &welded.map, app_weld))) {
         app_die("%s: out of memory for vertices at the same place", operand);
+    }
+    welded.n = m->n_vertices;
+    if (app_weld < 0 && app_weld_map != NULL) {
+        app_die_usage("--weld-map: only with --weld");
+    }
+    if (app_weld_map != NULL) {
+        write_map();
     }
     if (app_weld >= 0) {
         printf("%d vertices are merged with others; %d faces that lost a corner are left out.\n",
@@ -36,6 +60,8 @@ static void weld(mesh *m, const char *operand, bool is_file) {
                  operand, (int)count, (int)m->n_vertices);
     }
 }
+
+const char *app_source = NULL;
 
 void app_mesh(mesh *out, const char *operand, bool faces_needed) {
     char message[512], note[512] = "";
@@ -48,6 +74,7 @@ void app_mesh(mesh *out, const char *operand, bool faces_needed) {
         app_warn("%s", note);
     }
     weld(out, operand, !made);
+    app_source = made || app_weld >= 0 || strcmp(operand, "-") == 0 ? NULL : operand;
     if (faces_needed && out->n_faces == 0) {
         app_die("%s: has no faces, only %d vertices; this command needs a surface", operand,
                 (int)out->n_vertices);
@@ -198,13 +225,19 @@ sl_int *app_vertices(const char *option_name, const char *text, sl_int n, uint64
     }
     char message[512];
     sl_int *list;
-    const int status = app_read_vertices(&list, count, text, n, message, sizeof message);
+    const bool is_mapped = welded.map != NULL && n == welded.n && strcmp(text, "all") != 0;
+    const int status = app_read_vertices(&list, count, text, is_mapped ? welded.count : n, message,
+                                         sizeof message);
     if (status == 2) {
         app_die_usage("--%s: %s", option_name, message);
     }
     if (status != 0) {
         app_die("--%s: %s", option_name, message);
     }
+    for (sl_int k = 0; k < *count && is_mapped; k++) {
+        list[k] = welded.map[list[k]];
+    }
+    *count = is_mapped ? app_distinct(list, *count, n) : *count;
     return list;
 }
 

@@ -225,7 +225,11 @@ void app_write(const app_output *o, const mesh *m, const mesh_extra *extra,
     if (extra != NULL && (o->out != NULL || o->png != NULL)) {
         app_print_missing(m, extra->fields, extra->n_fields);
     }
-    if (o->out != NULL && !mesh_write(o->out, m, extra, message, sizeof message)) {
+    mesh_extra all;
+    memset(&all, 0, sizeof all);
+    all = extra != NULL ? *extra : all;
+    all.source = app_source;
+    if (o->out != NULL && !mesh_write(o->out, m, &all, message, sizeof message)) {
         app_die("%s", message);
     }
     if (o->png != NULL) {

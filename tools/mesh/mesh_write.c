@@ -22,8 +22,7 @@ sl_int mesh_missing(const double *value, int width, sl_int n) {
     return missing;
 }
 
-/* Writes a field as the texture coordinate u, scaled from its range to 0..1. */
-static void print_field_as_uv(mesh_sink *s, const mesh_field *field, sl_int n) {
+void sink_field_as_uv(mesh_sink *s, const mesh_field *field, sl_int n) {
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (sl_int v = 0; v < n; v++) {
         if (isfinite(field->value[v])) {
@@ -42,7 +41,7 @@ static bool print_uv(mesh_sink *s, const mesh *m, const mesh_extra *extra) {
     const double *uv = extra->corner_uv != NULL ? extra->corner_uv : extra->uv;
     size_t count = extra->corner_uv != NULL ? 3 * (size_t)m->n_faces : (size_t)m->n_vertices;
     if (uv == NULL && extra->n_fields > 0) {
-        print_field_as_uv(s, &extra->fields[0], m->n_vertices);
+        sink_field_as_uv(s, &extra->fields[0], m->n_vertices);
         return true;
     }
     for (size_t k = 0; uv != NULL && k < count; k++) {
@@ -66,7 +65,7 @@ static bool has_texture(const mesh *m, const mesh_extra *extra, size_t f) {
     return missing == 0;
 }
 
-void mesh_write_obj(mesh_sink *s, const mesh *m, const mesh_extra *extra) {
+static void print_triangles(mesh_sink *s, const mesh *m, const mesh_extra *extra) {
     for (size_t v = 0; v < (size_t)m->n_vertices; v++) {
         const double *x = m->xyz + 3 * v;
         sink_print(s, "v %.17g %.17g %.17g", x[0], x[1], x[2]);
@@ -90,6 +89,12 @@ void mesh_write_obj(mesh_sink *s, const mesh *m, const mesh_extra *extra) {
             }
         }
         sink_print(s, "\n");
+    }
+}
+
+void mesh_write_obj(mesh_sink *s, const mesh *m, const mesh_extra *extra) {
+    if (!mesh_write_source(s, m, extra)) {
+        print_triangles(s, m, extra);
     }
     for (int k = 0; k < extra->n_fields; k++) {
         sink_print(s, "#field %s\n", extra->fields[k].name);
@@ -169,7 +174,7 @@ bool mesh_write_knows(const char *path) {
 }
 
 static void write_as(int format, mesh_sink *s, const mesh *m, const mesh_extra *extra) {
-    static const mesh_extra nothing = {NULL, NULL, NULL, NULL, 0};
+    static const mesh_extra nothing = {NULL, NULL, NULL, NULL, 0, NULL};
     const mesh_extra *more = extra != NULL ? extra : &nothing;
     if (format == OBJ) {
         mesh_write_obj(s, m, more);

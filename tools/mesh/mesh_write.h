@@ -21,6 +21,8 @@ typedef struct mesh_extra {
     const rgb *color;        /* n_vertices */
     const mesh_field *fields;
     int n_fields;
+    const char
+        *source; /* the file that the mesh was read from, with all of its vertices and faces */
 } mesh_extra;
 
 /** How many of n rows of `width` numbers are no value: a number in them is NaN or infinite. */
@@ -38,6 +40,8 @@ bool mesh_write_knows(const char *path);
  *  OBJ  v lines, with r g b in 0..1 after x y z if there are colors; vt lines and f v/vt corners if
  *       there are texture coordinates. Without texture coordinates the first field is written as u,
  *       scaled from its range to 0..1. A face with a corner that has none is written without them.
+ *       If `source` is an OBJ file and there are no other texture coordinates, its lines are
+ *       written with the coordinates of m: polygons, groups and texture coordinates stay.
  *       All fields follow as comment lines "#field NAME" and "#f VALUE", where nan is no value.
  *  PLY  binary little-endian: x y z as double, fields as double properties by name, s t for texture
  *       coordinates, red green blue.
