@@ -28,11 +28,11 @@ bool picture_write_png(const picture *p, const char *path, char *message, size_t
 
 enum { RUN_WORDS = 24 };
 
-/* Splits `words` at blanks and runs the command. Returns what it wrote to standard output and
- * standard error; the caller frees it. exit_status: -1 if a signal killed it. */
+/* Splits `words` at blanks and runs the command with --verbose. Returns what it wrote to standard
+ * output and standard error; the caller frees it. exit_status: -1 if a signal killed it. */
 static inline char *run_command(int (*command)(int argc, char **argv), const char *words,
                                 int *exit_status) {
-    char copy[1024], *argv[RUN_WORDS + 1];
+    char copy[1024], word_verbose[] = "--verbose", *argv[RUN_WORDS + 1];
     const char *path = files_path("output.txt");
     int argc = 0, status = 0;
     size_t length;
@@ -42,6 +42,8 @@ static inline char *run_command(int (*command)(int argc, char **argv), const cha
         assert_true(argc < RUN_WORDS);
         argv[argc++] = word;
     }
+    assert_true(argc < RUN_WORDS);
+    argv[argc++] = word_verbose;
     argv[argc] = NULL;
     (void)fflush(NULL);
     pid_t child = fork();

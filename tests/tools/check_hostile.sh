@@ -118,6 +118,26 @@ within() {
     status=$?
 }
 
+# A compressed file that expands a thousand times is refused before it takes 128 MB, a polygon of
+# 800,000 corners before it takes long.
+awk 'BEGIN { for (k = 0; k < 3000000; k++) printf "%50s\n", "" }' | gzip -9 >bomb.obj.gz
+(
+    ulimit -v 200000 2>/dev/null
+    "$program" info bomb.obj.gz >out 2>err
+)
+grep -q 'bomb.obj.gz: .*expands to more than [67][0-9] MB' err ||
+    grep -q 'AddressSanitizer' err # which reserves terabytes
+record $? 'a file that expands a thousand times is refused'
+refuses 1 'expands to more than 9 MB' info bomb.obj.gz --max-memory 9
+refuses 2 'max-memory 0: not a finite number above 0' info sphere:1 --max-memory 0
+awk 'BEGIN {
+    for (k = 0; k < 800000; k++) print "v", k < 400000 ? k : 799999 - k, k < 400000 ? k % 2 : -5, 0
+    printf "f"
+    for (k = 1; k <= 800000; k++) printf " %d", k
+    print ""
+}' >comb.obj
+refuses 1 'polygons of 800000 corners that are not convex' info comb.obj
+
 least=1000 # with which the program is loaded
 while within $least --help 2>/dev/null && [ $status -ne 0 ] && [ $least -lt 200000 ]; do
     least=$((least + 500))
@@ -133,7 +153,7 @@ for command in heat adf hks pairs reach param arap scp geodesic vectors edit inf
     done
 done
 printf 'v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n' >point.obj
-"$program" info point.obj --mesh-only >out 2>err
+"$program" info point.obj --mesh-only --verbose >out 2>err
 [ $? -eq 0 ] && grep -q '^angles  *none' out && ! grep -q nan out
 record $? 'info: no face has an area'
 

@@ -30,7 +30,7 @@ static void soups_are_joined(void **state) {
         mesh_stats s;
         assert_int_equal(m.n_vertices, 3600);
         assert_true(k == 1 || coincident_count(&m) == 3000);
-        assert_true(coincident_merge(&m, &merged, 4 * shifts[k]));
+        assert_true(coincident_merge(&m, &merged, NULL, 4 * shifts[k]));
         assert_true(m.n_vertices == 600 && m.n_faces == 1200);
         assert_true(merged.vertices == 3000 && merged.faces == 0);
         assert_true(mesh_stats_compute(&s, &m));
@@ -55,18 +55,18 @@ static void first_vertices_are_kept(void **state) {
     m.n_faces = 1;
     assert_int_equal(coincident_count(&m), 0);
     m.n_faces = 3;
-    assert_true(coincident_merge(&m, &merged, 0));
+    assert_true(coincident_merge(&m, &merged, NULL, 0));
     assert_true(m.n_vertices == 4 && m.n_faces == 2);
     assert_true(merged.vertices == 2 && merged.faces == 1);
     SAME_VALUES(m.xyz, expected, 12);
     assert_memory_equal(m.faces, joined, sizeof joined);
     /* a face that repeats a vertex already stays; a tolerance beyond the mesh leaves one vertex */
     m.faces[0] = 2;
-    assert_true(coincident_merge(&m, NULL, 100));
+    assert_true(coincident_merge(&m, NULL, NULL, 100));
     assert_true(m.n_vertices == 1 && m.n_faces == 0);
     mesh_free(&m);
     mesh none = bad_mesh_allocate(0, 0);
-    assert_true(coincident_count(&none) == 0 && coincident_merge(&none, &merged, 1));
+    assert_true(coincident_count(&none) == 0 && coincident_merge(&none, &merged, NULL, 1));
     assert_true(merged.vertices == 0 && merged.faces == 0);
     mesh_free(&none);
 }
@@ -75,7 +75,7 @@ static void first_vertices_are_kept(void **state) {
 static void tolerances_are_kept(void **state) {
     (void)state;
     mesh m = soup_of("blob:2", 0.01), before = soup_of("blob:2", 0.01);
-    assert_true(coincident_merge(&m, NULL, 0.1));
+    assert_true(coincident_merge(&m, NULL, NULL, 0.1));
     assert_true(m.n_vertices > 10 && m.n_vertices < before.n_vertices);
     for (sl_int v = 0; v < before.n_vertices; v++) {
         double least = HUGE_VAL;
@@ -88,7 +88,7 @@ static void tolerances_are_kept(void **state) {
         assert_true(least <= 0.1);
     }
     coincident_merged again;
-    assert_true(coincident_merge(&m, &again, 0.1));
+    assert_true(coincident_merge(&m, &again, NULL, 0.1));
     assert_int_equal(again.vertices, 0);
     mesh_free(&before);
     mesh_free(&m);

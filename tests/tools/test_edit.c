@@ -211,7 +211,7 @@ static void options_are_checked(void **state) {
     char words[800];
     (void)snprintf(words, sizeof words, "edit --kinds flip,pin,weight,patch %s",
                    files_path("one.obj"));
-    command_says(command_edit, words, 0, "no place   for");
+    command_says(command_edit, words, 0, "found no place.");
 }
 
 int main(void) {

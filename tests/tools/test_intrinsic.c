@@ -179,86 +179,11 @@ static void paths_approach_straight_lines(void **state) {
     surface_search *none;
     assert_false(surface_search_create(&none, &inc, 16));
     assert_null(none);
-    double d[4] = {0, 5, 0.001, NAN};
-    const sl_int at[4] = {source, 0, 440, 5};
-    double *flat = test_reals((size_t)m.n_vertices);
-    for (sl_int v = 0; v < m.n_vertices; v++) {
-        flat[v] = INFINITY;
-    }
-    const surface_lengths known = {u[1], u[2], flat, flat};
-    surface_correction c = surface_paths_correct(d, at, 4, &known, 0.01);
-    assert_true(c.lowered == 1 && c.raised == 1 && d[0] == 0 && isnan(d[3]));
-    assert_true(d[1] == u[2][0] && d[2] < u[2][440] && d[2] > 0.9 * u[2][440]);
-    flat[0] = u[2][0] - 0.05; /* where it is known, it decides */
-    flat[440] = u[2][440] - 0.05;
-    d[1] = 5;
-    d[2] = 0.001;
-    c = surface_paths_correct(d, at, 4, &known, 0.01);
-    assert_true(c.lowered == 1 && c.raised == 1 && c.largest_width < 0.1);
-    assert_true(fabs(d[1] - flat[0] - 0.01) < 1e-12 && fabs(d[2] - flat[440] + 0.01) < 1e-12);
-    free(flat);
     for (int k = 0; k < 3; k++) {
         free(u[k]);
     }
     incidence_free(&inc);
     mesh_free(&m);
-}
-
-static double apart(const double *x, const double *y) {
-    return hypot(hypot(x[0] - y[0], x[1] - y[1]), x[2] - y[2]);
-}
-
-/* In a plane, and in one that is rolled up, distances are exact across the faces; on a sphere only
- * those along an edge are known. */
-static void flat_distances_are_exact(void **state) {
-    (void)state;
-    for (int which = 0; which < 3; which++) {
-        mesh plane = flat_grid(21, which == 0 ? 0.3 : 0), m = plane;
-        incidence inc;
-        surface_search *search;
-        const sl_int sources[2] = {220, 5};
-        sl_int known = 0;
-        if (which > 0) {
-            m = which == 1 ? rolled_grid(21) : sphere_grid(21, 1);
-        }
-        for (sl_int v = 0; v < m.n_vertices && which == 1; v++) { /* chords, not arcs */
-            plane.xyz[3 * v] = 40 * sin(0.075) * plane.xyz[3 * v];
-        }
-        const double *at = which == 2 ? m.xyz : plane.xyz;
-        double over = 0, under = 0;
-        sl_int exact = 0;
-        assert_true(incidence_create(&inc, &m));
-        assert_true(surface_search_create(&search, &inc, 3));
-        for (int pass = 0; pass < 2; pass++) { /* the second with a limit */
-            assert_true(surface_search_run(search, sources, 2, pass == 0 ? INFINITY : 0.2));
-            const double *flat = surface_search_unfold(search, false);
-            const double *mixed = surface_search_unfold(search, true);
-            assert_true(flat != NULL && mixed != NULL);
-            for (sl_int v = 0; v < m.n_vertices; v++) {
-                const double line = fmin(apart(at + 3 * v, at + 3 * sources[0]),
-                                         apart(at + 3 * v, at + 3 * sources[1]));
-                const bool is_near = surface_search_lengths(search)[v] < INFINITY;
-                if (flat[v] < INFINITY) {
-                    assert_true(flat[v] > line - 1e-9);
-                    assert_true(mixed[v] < line + (pass == 0 ? 1e-9 : 0.01));
-                    over = fmax(over, flat[v] - line);
-                    under = fmax(under, line - mixed[v]);
-                    exact += flat[v] - mixed[v] < 1e-9;
-                }
-                assert_true(flat[v] < INFINITY || which == 2 || (pass == 1 && !is_near));
-                known += pass == 0 && flat[v] < INFINITY;
-            }
-        }
-        print_message("%d of %d exact, others over by %.4f, under by %.4f\n", (int)exact,
-                      2 * (int)m.n_vertices, over, under);
-        assert_true(which == 2 ? known > 8 && known < 20 : 3 * exact > 2 * m.n_vertices);
-        surface_search_free(search);
-        incidence_free(&inc);
-        if (which > 0) {
-            mesh_free(&plane);
-        }
-        mesh_free(&m);
-    }
 }
 
 /* Heat is positive and distances are near the paths on all of them; the cotangent Laplacian is
@@ -296,7 +221,6 @@ int main(void) {
         cmocka_unit_test(sound_meshes_keep_their_laplacian),
         cmocka_unit_test(useless_meshes_are_refused),
         cmocka_unit_test(paths_approach_straight_lines),
-        cmocka_unit_test(flat_distances_are_exact),
         cmocka_unit_test(commands_choose_the_laplacian),
     };
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);

@@ -122,7 +122,7 @@ static void geodesic_writes_distances_and_cells(void **state) {
     char *output = output_of(command_geodesic,
                              "geodesic sphere:4 --exact sphere --from 9 --csv @d.csv --out @d.ply "
                              "--png @d.png --size 120x90");
-    assert_true(number_after(output, "mean error ") < 0.03);
+    assert_true(number_after(output, "on the sphere are ") < 0.03);
     free(output);
     char *text = files_get(files_path("d.csv"), &length);
     /* A line of column names, and nothing after the last newline. */
@@ -132,7 +132,7 @@ static void geodesic_writes_distances_and_cells(void **state) {
     assert_picture("d.png", 120, 90);
     output =
         output_of(command_geodesic, "geodesic grid:60x60 --exact plane --from 1830 --radius 0.2");
-    assert_true(number_after(output, "mean error ") < 0.01);
+    assert_true(number_after(output, "on the plane are ") < 0.01);
     double near = number_after(output, "touched    ");
     assert_true(near < 3600 / 2);
     free(output);
@@ -208,9 +208,9 @@ static void help_is_shown_and_bad_input_refused(void **state) {
                  "vertex 5: it has no face");
     command_says(command_scp, expand_paths("scp @fan.obj"), 0, "spectral conformal");
     command_says(command_geodesic, expand_paths("geodesic @fan.obj --png @fan.png"), 0,
-                 "distances  of 5 vertices");
+                 "those of 5 of 6 vertices");
     command_says(command_geodesic, expand_paths("geodesic @fan.obj --from 5"), 0,
-                 "distances  of 1 vertices");
+                 "those of 1 of 6 vertices");
     /* One face without area: its layout is arbitrary. */
     command_says(command_param, expand_paths("param @point.obj"), 1, "3 vertices have no weights");
     command_says(command_arap, expand_paths("arap @point.obj"), 0, "no area");

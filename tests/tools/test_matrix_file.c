@@ -170,6 +170,9 @@ static void bad_text_files_are_refused(void **state) {
         files_put_text("b.mtx",
                        "%%MatrixMarket matrix coordinate complex symmetric\n1 1 1\n1 1 1 1\n"),
         ":1: 'complex' is not supported");
+    assert_is_refused(files_put_text("c.mtx", "%%MatrixMarket matrix coordinate real general\n"
+                                              "% a comment\n2000000000 2000000000 1\n1 1 1\n"),
+                      ":3: a matrix of 2000000000 x 2000000000 would take 96000 MB, and the limit");
     assert_is_refused(files_put_text("a_csparse.txt", "\n"), "no entries");
     assert_is_refused(files_put_text("b_csparse.txt", "0 0 1\n0 1\n"),
                       ":2: a line 'i j value' is expected");
@@ -180,7 +183,7 @@ static void bad_text_files_are_refused(void **state) {
     assert_is_refused(files_put_text("e_csparse.txt", "0 -1 1\n"),
                       ":1: entry (0, -1) is out of range");
     assert_is_refused(files_put_text("f_csparse.txt", "0 2000000000 1\n"),
-                      "too large for a file of this length");
+                      "the limit for a file of this size is 64 MB");
     assert_is_refused(files_put_text("g_csparse.txt", "0 2147483647 1\n"), "out of range");
     assert_is_refused(files_put_text("h_csparse.txt", "0 x 1\n"), "a line 'i j value' is expected");
     assert_is_refused(files_put_text("a_cholmod.txt", ""), "a header");
@@ -195,7 +198,7 @@ static void bad_text_files_are_refused(void **state) {
     assert_is_refused(files_put_text("h_cholmod.txt", "3 3 1\n0 3 1\n"),
                       ":2: entry (0, 3) is out of range");
     assert_is_refused(files_put_text("i_cholmod.txt", "2000000000 3 1\n0 1 1\n"),
-                      "too large for a file of this length");
+                      "the limit for a file of this size is 64 MB");
     assert_is_refused(files_put_text("j_cholmod.txt", "3 3 2000000000\n0 1 1\n"),
                       "truncated: 1 of 2000000000");
 }
@@ -214,7 +217,7 @@ static void bad_rutherford_boeing_files_are_refused(void **state) {
                       "counts of rows");
     assert_is_refused(
         files_put_text("g.rb", RB_TWO_LINES "rsa 2000000000 2000000000 1 0\n" RB_FORMATS),
-        "too large");
+        "the limit for a file of this size is 64 MB");
     assert_is_refused(files_put_text("h.rb", RB_TWO_LINES "rsa 1 1 2000000000 0\n" RB_FORMATS),
                       "counts of rows");
     assert_is_refused(files_put_text("i.rb", RB_TWO_LINES "rsa 1 1 1 0\n(3X2) (3I2) (3E5.1)\n"),

@@ -95,6 +95,52 @@ static void off_variants_are_read(void **state) {
     mesh_free(&m);
 }
 
+/* A big-endian word. */
+static char *put_word(char *at, uint32_t word) {
+    for (int k = 0; k < 4; k++) {
+        at[k] = (char)(word >> (24 - 8 * k));
+    }
+    return at + 4;
+}
+
+/* The same square as text, whose faces go on in the next line, and binary, with colors of vertices
+ * and of a face. A binary file that is cut anywhere is refused. */
+static void off_faces_over_lines_and_binary_off(void **state) {
+    (void)state;
+    static const sl_int wanted[6] = {0, 1, 2, 0, 2, 3};
+    static const uint32_t one = 0x3F800000, zero = 0; /* floats */
+    const uint32_t xyz[12] = {zero, zero, zero, one, zero, zero, one, one, zero, zero, one, zero};
+    const uint32_t tail[] = {3, 0, 1, 2, 0, 3, 0, 2, 3, 3, one, zero, one};
+    char bytes[300] = "COFF BINARY\n", message[300];
+    char *at = bytes + strlen(bytes);
+    mesh m;
+    at = put_word(put_word(put_word(at, 4), 2), 0);
+    for (int k = 0; k < 12; k++) {
+        at = put_word(at, xyz[k]);
+        for (int i = 0; i < 4 && k % 3 == 2; i++) {
+            at = put_word(at, one);
+        }
+    }
+    for (size_t k = 0; k < sizeof tail / sizeof *tail; k++) {
+        at = put_word(at, tail[k]);
+    }
+    const size_t length = (size_t)(at - bytes);
+    (void)files_put_text("lines.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+                                      "3 0 1\n2 255 0 0\n3\n0 2\n# here\n 3\n");
+    for (int k = 0; k < 2; k++) {
+        const char *path =
+            k == 0 ? files_path("lines.off") : files_put("binary.off", bytes, length);
+        assert_true(mesh_read(&m, path, message, sizeof message));
+        assert_true(m.n_vertices == 4 && m.n_faces == 2);
+        assert_memory_equal(m.faces, wanted, sizeof wanted);
+        assert_true(m.xyz[6] == 1 && m.xyz[7] == 1 && m.xyz[8] == 0);
+        mesh_free(&m);
+    }
+    for (size_t cut = 12; cut < length; cut++) {
+        assert_false(mesh_read(&m, files_put("cut.off", bytes, cut), message, sizeof message));
+    }
+}
+
 static void bad_off_files_are_refused(void **state) {
     (void)state;
     assert_is_refused(files_put_text("a.off", ""), "empty");
@@ -103,7 +149,7 @@ static void bad_off_files_are_refused(void **state) {
     assert_is_refused(files_put_text("b.off", "noff\n5 5 8\n"), "not an OFF mesh");
     assert_is_refused(files_put_text("b.off", "4off\n5 5 8\n"), "three coordinates");
     assert_is_refused(files_put_text("b.off", "OFFSET\n5 5 8\n"), "not an OFF mesh");
-    assert_is_refused(files_put_text("c.off", "OFF BINARY\n5 5 0\n"), "binary");
+    assert_is_refused(files_put_text("c.off", "OFF BINARY\n5 5 0\n"), "truncated");
     assert_is_refused(files_put_text("d.off", "4OFF\n5 5 0\n"), "three coordinates");
     assert_is_refused(files_put_text("e.off", "nOFF\n3\n5 5 0\n"), "three coordinates");
     assert_is_refused(files_put_text("f.off", "OFF\n-5 5 0\n"), ":2: counts of vertices");
@@ -227,6 +273,7 @@ int main(void) {
         cmocka_unit_test(obj_keeps_repeated_and_unused_vertices),
         cmocka_unit_test(bad_obj_files_are_refused),
         cmocka_unit_test(off_variants_are_read),
+        cmocka_unit_test(off_faces_over_lines_and_binary_off),
         cmocka_unit_test(bad_off_files_are_refused),
         cmocka_unit_test(byte_order_marks_are_skipped),
         cmocka_unit_test(other_files_are_refused),

@@ -121,8 +121,8 @@ static void other_polygons_remain_fans(void **state) {
     }
 }
 
-/* A polygon with too many corners for ears remains a fan, and is noted. */
-static void large_polygons_are_noted(void **state) {
+/* A polygon with too many corners for ears is refused, also as a file. */
+static void large_polygons_are_refused(void **state) {
     (void)state;
     enum { N = EARS_CORNERS_MAX + 1 };
     double *xyz = test_reals(3 * (size_t)N);
@@ -137,9 +137,22 @@ static void large_polygons_are_noted(void **state) {
         faces[3 * (k - 2) + 1] = k - 1;
         faces[3 * (k - 2) + 2] = k;
     }
-    assert_int_equal(ears_instead_of_fan(faces, N, xyz), EARS_IMPOSSIBLE);
+    assert_int_equal(ears_instead_of_fan(faces, N, xyz), EARS_TOO_LARGE);
     assert_int_equal(faces[3 * (N - 3) + 1], N - 2);
     assert_int_equal(ears_instead_of_fan(faces, 4001, xyz), EARS_CUT);
+    FILE *file = fopen(files_path("saw.obj"), "w");
+    assert_non_null(file);
+    for (int k = 0; k < N; k++) {
+        (void)fprintf(file, "v %g %g 0\n", xyz[3 * k], xyz[3 * k + 1]);
+    }
+    for (int k = 0; k < N; k++) {
+        (void)fprintf(file, k == 0 ? "f %d" : " %d", k + 1);
+    }
+    assert_int_equal(fclose(file), 0);
+    mesh m;
+    char message[400];
+    assert_false(mesh_read(&m, files_path("saw.obj"), message, sizeof message));
+    assert_non_null(strstr(message, "polygons of 8193 corners that are not convex"));
     free(faces);
     free(xyz);
 }
@@ -149,7 +162,7 @@ int main(void) {
         cmocka_unit_test(reflex_corners_are_respected),
         cmocka_unit_test(long_spirals_are_divided),
         cmocka_unit_test(other_polygons_remain_fans),
-        cmocka_unit_test(large_polygons_are_noted),
+        cmocka_unit_test(large_polygons_are_refused),
     };
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
 }

@@ -156,7 +156,7 @@ static void bytes_are_as_specified(void **state) {
     const mesh m = {3, 1, xyz, faces};
     const rgb color[3] = {{1, 2, 3}, {4, 5, 6}, {7, 8, 255}};
     const mesh_field field = {"heat", value};
-    const mesh_extra extra = {uv, NULL, color, &field, 1};
+    const mesh_extra extra = {uv, NULL, color, &field, 1, NULL};
     binary_t b;
     memset(&b, 0, sizeof b);
     b.big_endian = true;

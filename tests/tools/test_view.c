@@ -6,6 +6,7 @@
 
 #include "tools/draw/view_page.h"
 #include "tools/io/field_table.h"
+#include "tools/io/input.h"
 #include "tools/mesh/grid.h"
 
 static const char *table_file(const char *text) {
@@ -49,6 +50,26 @@ static void malformed_tables_are_refused(void **state) {
     }
 }
 
+/* Columns without rows take memory for each vertex, which the length of the table limits. */
+static void wide_tables_are_refused(void **state) {
+    (void)state;
+    enum { COLUMNS = 1000, VERTICES = 1000000 };
+    char *text = (char *)test_array(2 * COLUMNS + 10, 1), message[300];
+    field_table t;
+    (void)strcpy(text, "vertex");
+    for (int k = 0; k < COLUMNS; k++) {
+        (void)strcpy(text + 6 + 2 * k, ",a");
+    }
+    const char *path = table_file(text);
+    assert_false(field_table_read(&t, path, VERTICES, message, sizeof message));
+    assert_non_null(strstr(message, "a table of 9 columns for 1000000 vertices would take 72 MB"));
+    input_most_bytes = 1e8; /* --max-memory 100 */
+    assert_false(field_table_read(&t, path, VERTICES, message, sizeof message));
+    assert_non_null(strstr(message, "a table of 13 columns"));
+    input_most_bytes = 0;
+    free(text);
+}
+
 /* The bytes of the base64 text after `key`. */
 static size_t decode(const char *page, const char *key, unsigned char *bytes) {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -90,6 +111,9 @@ static void pages_hold_the_data(void **state) {
     size_t length;
     assert_true(mesh_grid(&m, 3, 2, 0, 1));
     assert_int_equal(m.n_vertices, 6);
+    for (int v = 0; v < 6; v++) { /* far away: positions are relative to a center */
+        m.xyz[3 * v] += 1e12;
+    }
     FILE *file = fopen(files_path("page.html"), "w");
     assert_non_null(file);
     const sl_int marked[2] = {4, 1};
@@ -117,6 +141,11 @@ static void pages_hold_the_data(void **state) {
         assert_int_equal(bytes[4 * k + 1] | bytes[4 * k + 2] | bytes[4 * k + 3], 0);
     }
     assert_int_equal(decode(page, "positions: \"", bytes), 12 * m.n_vertices);
+    for (int v = 0; v < 6; v++) {
+        float x;
+        memcpy(&x, bytes + 12 * v, sizeof x); /* this machine is little-endian, as the page is */
+        assert_true(x == (float)(m.xyz[3 * v] - 1e12 - 0.5));
+    }
     assert_int_equal(decode(page, "colors: \"", bytes), 768);
     assert_true(bytes[2] > bytes[0] && bytes[765] > bytes[767]); /* from blue to yellow */
     free(page);
@@ -269,12 +298,10 @@ static void pages_open_at_the_source(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(tables_are_read),
-                                       cmocka_unit_test(malformed_tables_are_refused),
-                                       cmocka_unit_test(pages_hold_the_data),
-                                       cmocka_unit_test(pages_open_at_the_source),
-                                       cmocka_unit_test(live_pages_hold_the_surface),
-                                       cmocka_unit_test(live_pages_are_written),
-                                       cmocka_unit_test(times_need_a_live_page)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tables_are_read),          cmocka_unit_test(malformed_tables_are_refused),
+        cmocka_unit_test(wide_tables_are_refused),  cmocka_unit_test(pages_hold_the_data),
+        cmocka_unit_test(pages_open_at_the_source), cmocka_unit_test(live_pages_hold_the_surface),
+        cmocka_unit_test(live_pages_are_written),   cmocka_unit_test(times_need_a_live_page)};
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
 }

@@ -38,7 +38,7 @@ static void faces_are_read(void **state) {
                        "g.vtk",
                        "# vtk DataFile Version 5.1\na\nASCII\nDATASET UNSTRUCTURED_GRID\n"
                        "POINTS 5 float\n" OFF_VERTICES "CELLS 6 16\nOFFSETS vtktypeint64\n0 4 7 10 "
-                                                       "13 16\nCONNECTIVITY vtktypeint64\n"
+                       "13 16\nCONNECTIVITY vtktypeint64\n"
                        "0 3 2 1 0 1 4 1 2 4 2 3 4 3 0 4\nCELL_TYPES 5\n7 6 5 5 5\n"));
     /* a pixel lists its second pair of corners in the other order */
     assert_is_pyramid(files_put_text("g.vtk",
@@ -99,6 +99,33 @@ static void surfaces_of_solids_are_read(void **state) {
     mesh_free(&m);
 }
 
+/* A file of solids, faces, lines and data says what is not read. */
+static void mixed_files_say_what_they_drop(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *words[3];
+    } mixed[] = {
+        {GRID_PYRAMID "CELLS 4 15\n4 0 1 2 4\n3 0 1 2\n3 0 2 3\n1 3\nCELL_TYPES 4\n10 5 5 1\n"
+                      "POINT_DATA 5\n",
+         {"the surface of 1 solid cells is read", "1 faces are those of solid cells, and left out",
+          "data at points and cells are not read"}},
+        {"# vtk DataFile Version 3.0\nmixed\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n"
+         "0 0 0 1 0 0 0 1 0\nLINES 1 3\n2 0 1\nVERTICES 2 4\n1 0\n1 2\nPOLYGONS 1 4\n3 0 1 2\n"
+         "CELL_DATA 4\n",
+         {"3 cells are points or lines, and ignored", "data at points and cells are not read",
+          ""}}};
+    for (size_t k = 0; k < sizeof mixed / sizeof *mixed; k++) {
+        mesh m;
+        char message[300], note[500];
+        const char *path = files_put_text("mixed.vtk", mixed[k].text);
+        assert_true(mesh_read_noting(&m, path, message, sizeof message, note, sizeof note));
+        for (int i = 0; i < 3; i++) {
+            assert_non_null(strstr(note, mixed[k].words[i]));
+        }
+        mesh_free(&m);
+    }
+}
+
 static void bad_grids_are_refused(void **state) {
     (void)state;
     static const struct {
@@ -129,6 +156,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(faces_are_read),
         cmocka_unit_test(surfaces_of_solids_are_read),
+        cmocka_unit_test(mixed_files_say_what_they_drop),
         cmocka_unit_test(bad_grids_are_refused),
     };
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);

@@ -69,6 +69,15 @@ void app_must(sl_status status, const char *what, const sl_stats *stats) {
     app_die("%s: %s", what, app_error_text(status, stats));
 }
 
+void app_detail(const char *format, ...) {
+    va_list list;
+    va_start(list, format);
+    if (options_verbose) {
+        (void)vprintf(format, list);
+    }
+    va_end(list);
+}
+
 void *app_alloc(size_t count, size_t size) {
     void *block = calloc(count > 0 ? count : 1, size > 0 ? size : 1);
     if (block == NULL) {
@@ -78,19 +87,19 @@ void *app_alloc(size_t count, size_t size) {
 }
 
 void app_print_reads(const char *name, const sl_stats *plan) {
-    printf("%-10s forward %d rows, %lld entries of L; backward %d rows, %lld entries", name,
-           (int)plan->plan.b_columns, (long long)plan->plan.b_entries, (int)plan->plan.x_columns,
-           (long long)plan->plan.x_entries);
+    app_detail("%-10s forward %d rows, %lld entries of L; backward %d rows, %lld entries", name,
+               (int)plan->plan.b_columns, (long long)plan->plan.b_entries,
+               (int)plan->plan.x_columns, (long long)plan->plan.x_entries);
     if (plan->plan.in_region) {
-        printf("; %lld of the region's inverse", (long long)plan->plan.region_entries);
+        app_detail("; %lld of the region's inverse", (long long)plan->plan.region_entries);
     }
-    printf("\n");
+    app_detail("\n");
 }
 
 void app_print_region(const char *name, const sl_stats *region, double seconds) {
-    printf("%-10s %d rows in %d subtrees, %d on its boundary; %.1f KB; created in %.2f ms\n", name,
-           (int)region->region.rows, (int)region->region.subtrees, (int)region->region.boundary,
-           1e-3 * (double)region->region.bytes, 1e3 * seconds);
+    app_detail("%-10s %d rows in %d subtrees, %d on its boundary; %.1f KB; created in %.2f ms\n",
+               name, (int)region->region.rows, (int)region->region.subtrees,
+               (int)region->region.boundary, 1e-3 * (double)region->region.bytes, 1e3 * seconds);
 }
 
 double app_now(void) {

@@ -43,7 +43,12 @@ void app_must(sl_status status, const char *what, const sl_stats *stats);
 /** Allocates count elements of size bytes, zeroed; dies if out of memory. Release with free. */
 void *app_alloc(size_t count, size_t size);
 
-/* ---- counts of a solve ---- */
+/* ---- what is printed ----
+ *
+ * A command prints its result as at most five lines, each a sentence. */
+
+/** Prints what only --verbose asks for: sizes, times, counts. */
+APP_PRINTF void app_detail(const char *format, ...);
 
 /** Prints a line, labeled `name` (at most 10 characters), on what one solve with a plan reads: rows
  *  and entries of L in both sweeps, entries of a region's inverse. Unlike times, these counts do
@@ -123,12 +128,18 @@ typedef struct app_output {
 /** Distance within which app_mesh merges vertices; below 0: it does not. */
 extern double app_weld;
 
-/** The row of an option table that sets it. */
+/** The file that app_mesh writes then, with what each vertex of the mesh has become; NULL: none. */
+extern const char *app_weld_map;
+
+/** The rows of an option table that set them. */
 #define APP_WELD_OPTION \
+    {OPTION_OPTIONAL, "weld", &app_weld, "TOLERANCE", \
+     "merge the vertices of the mesh that have equal coordinates, or that are within " \
+     "--weld=TOLERANCE of each other; lists of vertices count those of the file"}, \
     { \
-        OPTION_OPTIONAL, "weld", &app_weld, "TOLERANCE", \
-            "merge the vertices of the mesh that have equal coordinates, or that are within " \
-            "--weld=TOLERANCE of each other" \
+        OPTION_OUTPUT, "weld-map", &app_weld_map, "FILE", \
+            "with --weld: write a table vertex,merged: the number in all other output of each " \
+            "vertex of the file" \
     }
 
 /** Describes the operand MESH, for the help texts. */
@@ -142,6 +153,9 @@ extern const char app_mesh_help[];
  */
 void app_mesh(mesh *out, const char *operand, bool faces_needed);
 
+/** The file of the last app_mesh, if the mesh has its vertices as they are; else NULL. */
+extern const char *app_source;
+
 /** mesh_mean_edge_length (laplacian.h); dies if out of memory. */
 double app_mean_edge_length(const mesh *m);
 
@@ -152,7 +166,8 @@ bool app_is_saved(const char *operand);
 void app_refuse_weld(const char *operand);
 
 /** Parses a list of vertices: "3,17,100-200", "all" or "random:5" (5 distinct vertices, whose
- *  numbers are printed). Dies if the list is malformed or a vertex is not below n.
+ *  numbers are printed). After --weld, numbers are those of the file, and the list has what these
+ *  vertices have become, each once. Dies if the list is malformed or a vertex is not below n.
  *
  *  count  [out]  length of the list.
  *  Returns  the list in the order given, including repetitions; local solves refuse those, see
@@ -193,8 +208,9 @@ void app_view(render_view *view, const app_output *o);
  *  the work, not after it. `out` is NULL or the file. */
 void app_check_output(const app_output *o, const char *out);
 
-/** The vertex that commands start from unless one is given: the first one that belongs to a face
- *  with an area; if there is none, the first one that belongs to a face. */
+/** The vertex that commands start from unless one is given: of the connected part with the largest
+ *  area, the first one that belongs to a face with an area; without areas, the first one that
+ *  belongs to a face. */
 sl_int app_default_vertex(const mesh *m);
 
 /** Sets o->direction to the mean normal of the faces at these vertices, weighted by area, so that a
@@ -218,7 +234,11 @@ const char *app_guess_up(const char *up, const mesh *m, bool is_drawn);
  *  value is finite. */
 void app_range(double *low, double *high, const mesh *m, const double *value);
 
-/** Writes the mesh with `extra` to o->out and the picture in `style` to o->png; dies on failure. */
+/** Prints a line on how many vertices have no value of a field, if there are any. */
+void app_print_missing(const mesh *m, const mesh_field *fields, int n_fields);
+
+/** Writes the mesh with `extra` to o->out and the picture in `style` to o->png. Prints how many
+ *  vertices have no value, and warns of a picture that shows nothing. Dies on failure. */
 void app_write(const app_output *o, const mesh *m, const mesh_extra *extra,
                const render_style *style);
 

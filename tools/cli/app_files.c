@@ -19,16 +19,40 @@ const char app_mesh_help[] =
     "grid:100x100, hills:100x100, sphere:5, blob:5, star:5, torus:120x40, knot:400x24.";
 
 double app_weld = -1;
+const char *app_weld_map = NULL;
+
+/* Of --weld: the vertices of the file, and what each has become, of the `n` that are left. */
+static struct { sl_int count, n, *map; } welded;
+
+/* Writes the table of --weld-map. */
+static void write_map(void) {
+    FILE *csv = app_create(app_weld_map);
+    fprintf(csv, "vertex,merged\n");
+    for (sl_int v = 0; v < welded.count; v++) {
+        fprintf(csv, "%d,%d\n", (int)v, (int)welded.map[v]);
+    }
+    app_close(csv);
+}
 
 /* Merges vertices of a mesh if the option asks for it, or warns of those that could be. */
 static void weld(mesh *m, const char *operand, bool is_file) {
     coincident_merged merged;
     const sl_int count = app_weld < 0 && is_file ? coincident_count(m) : 0;
-    if (count < 0 || (app_weld >= 0 && !coincident_merge(m, &merged, app_weld))) {
+    welded.count = m->n_vertices;
+    free(welded.map);
+    welded.map = NULL;
+    if (count < 0 || (app_weld >= 0 && !coincident_merge(m, &merged, &welded.map, app_weld))) {
         app_die("%s: out of memory for vertices at the same place", operand);
     }
+    welded.n = m->n_vertices;
+    if (app_weld < 0 && app_weld_map != NULL) {
+        app_die_usage("--weld-map: only with --weld");
+    }
+    if (app_weld_map != NULL) {
+        write_map();
+    }
     if (app_weld >= 0) {
-        printf("weld       %d vertices merged with others, %d faces that lost a corner left out\n",
+        printf("%d vertices are merged with others; %d faces that lost a corner are left out.\n",
                (int)merged.vertices, (int)merged.faces);
     } else if (count > 0) {
         app_warn("%s: %d of %d vertices have the coordinates of others, and faces at them are "
@@ -36,6 +60,8 @@ static void weld(mesh *m, const char *operand, bool is_file) {
                  operand, (int)count, (int)m->n_vertices);
     }
 }
+
+const char *app_source = NULL;
 
 void app_mesh(mesh *out, const char *operand, bool faces_needed) {
     char message[512], note[512] = "";
@@ -48,6 +74,7 @@ void app_mesh(mesh *out, const char *operand, bool faces_needed) {
         app_warn("%s", note);
     }
     weld(out, operand, !made);
+    app_source = made || app_weld >= 0 || strcmp(operand, "-") == 0 ? NULL : operand;
     if (faces_needed && out->n_faces == 0) {
         app_die("%s: has no faces, only %d vertices; this command needs a surface", operand,
                 (int)out->n_vertices);
@@ -159,14 +186,14 @@ int app_read_vertices(sl_int **out, sl_int *count, const char *text, sl_int n, c
 /* Names the vertices that were drawn, so that a run can be repeated with a part of them. */
 static void print_drawn(const char *option_name, const sl_int *vertices, sl_int count) {
     enum { SHOWN = 200 };
-    printf("drawn      --%s ", option_name);
+    app_detail("drawn      --%s ", option_name);
     for (sl_int k = 0; k < count && k < SHOWN; k++) {
-        printf(k > 0 ? ",%d" : "%d", (int)vertices[k]);
+        app_detail(k > 0 ? ",%d" : "%d", (int)vertices[k]);
     }
     if (count > SHOWN) {
-        printf(" and %d more", (int)(count - SHOWN));
+        app_detail(" and %d more", (int)(count - SHOWN));
     }
-    printf("\n");
+    app_detail("\n");
 }
 
 static sl_int *random_vertices(const char *option_name, const char *text, sl_int n, uint64_t seed,
@@ -198,13 +225,19 @@ sl_int *app_vertices(const char *option_name, const char *text, sl_int n, uint64
     }
     char message[512];
     sl_int *list;
-    const int status = app_read_vertices(&list, count, text, n, message, sizeof message);
+    const bool is_mapped = welded.map != NULL && n == welded.n && strcmp(text, "all") != 0;
+    const int status = app_read_vertices(&list, count, text, is_mapped ? welded.count : n, message,
+                                         sizeof message);
     if (status == 2) {
         app_die_usage("--%s: %s", option_name, message);
     }
     if (status != 0) {
         app_die("--%s: %s", option_name, message);
     }
+    for (sl_int k = 0; k < *count && is_mapped; k++) {
+        list[k] = welded.map[list[k]];
+    }
+    *count = is_mapped ? app_distinct(list, *count, n) : *count;
     return list;
 }
 
@@ -237,16 +270,46 @@ void app_close(FILE *file) {
     }
 }
 
+/* The smallest vertex of the part of v; links lead to smaller vertices of the same part. */
+static sl_int root_of(sl_int *part, sl_int v) {
+    while (part[v] != v) {
+        v = part[v] = part[part[v]];
+    }
+    return v;
+}
+
+/* Joins the vertices of each face. */
+static sl_int *parts_of(const mesh *m) {
+    sl_int *part = app_alloc((size_t)m->n_vertices, sizeof *part);
+    for (sl_int v = 0; v < m->n_vertices; v++) {
+        part[v] = v;
+    }
+    for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
+        const sl_int a = root_of(part, m->faces[k]), b = root_of(part, m->faces[k - k % 3]);
+        part[a > b ? a : b] = a > b ? b : a;
+    }
+    return part;
+}
+
 sl_int app_default_vertex(const mesh *m) {
-    sl_int first = INT32_MAX, any = INT32_MAX;
+    sl_int first = INT32_MAX, any = INT32_MAX, largest = -1;
+    sl_int *part = parts_of(m);
+    double *area = app_alloc((size_t)m->n_vertices, sizeof *area); /* of the part of a root */
+    for (size_t f = 0; f < (size_t)m->n_faces; f++) {
+        const sl_int root = root_of(part, m->faces[3 * f]);
+        area[root] += laplacian_of_face(m, m->faces + 3 * f).area;
+        largest = area[root] > 0 && (largest < 0 || area[root] > area[largest]) ? root : largest;
+    }
     for (size_t f = 0; f < (size_t)m->n_faces; f++) {
         const sl_int *v = m->faces + 3 * f;
         sl_int least = v[0] < v[1] ? v[0] : v[1];
         least = v[2] < least ? v[2] : least;
         any = least < any ? least : any;
-        if (least < first && laplacian_of_face(m, v).area > 0) {
+        if (least < first && root_of(part, v[0]) == largest && laplacian_of_face(m, v).area > 0) {
             first = least;
         }
     }
+    free(area);
+    free(part);
     return first < INT32_MAX ? first : any < INT32_MAX ? any : 0;
 }

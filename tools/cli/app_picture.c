@@ -20,7 +20,7 @@ const char *app_guess_up(const char *up, const mesh *m, bool is_drawn) {
     }
     const camera_up axis = upward_of(m, &reason);
     if (axis == CAMERA_UP_Z && is_drawn) {
-        printf("%-10s z, because %s; --up y is the other choice\n", "upward", reason);
+        app_detail("%-10s z, because %s; --up y is the other choice\n", "upward", reason);
     }
     return axis == CAMERA_UP_Z ? "z" : "y";
 }
@@ -151,6 +151,24 @@ static void find_range(render_style *style, sl_int n) {
     }
 }
 
+/* Warns of a picture in which there is nothing to see: hardly a pixel, or no value. */
+static void warn_if_empty(const picture *p, const mesh *m, const render_style *style) {
+    const size_t count = (size_t)p->width * (size_t)p->height;
+    size_t drawn = 0, known = style->scalar == NULL;
+    for (size_t k = 0; k < count; k++) {
+        drawn += memcmp(&p->at[k], &p->at[0], sizeof *p->at) != 0;
+    }
+    for (size_t k = 0; k < 3 * (size_t)m->n_faces && known == 0; k++) {
+        known = isfinite(style->scalar[m->faces[k]]);
+    }
+    if (1000 * drawn < count) {
+        app_warn("there is almost nothing in the picture: the mesh covers %zu of %zu pixels", drawn,
+                 count);
+    } else if (known == 0) {
+        app_warn("the picture is gray: no vertex of a face has a value");
+    }
+}
+
 /* Renders the mesh, with a legend at its right if the style has one and the picture room for it. */
 static bool render_with_legend(picture *p, const mesh *m, const render_view *whole,
                                const render_style *given) {
@@ -160,7 +178,11 @@ static bool render_with_legend(picture *p, const mesh *m, const render_view *who
     picture drawn;
     int width = given->legend != NULL ? legend_width(view.width, view.height) : 0;
     if (width == 0) {
-        return render_mesh(p, m, &view, &style);
+        const bool is_drawn = render_mesh(p, m, &view, &style);
+        if (is_drawn) {
+            warn_if_empty(p, m, &style);
+        }
+        return is_drawn;
     }
     if (style.scalar != NULL) {
         find_range(&style, m->n_vertices);
@@ -173,6 +195,7 @@ static bool render_with_legend(picture *p, const mesh *m, const render_view *who
         picture_free(p);
         return false;
     }
+    warn_if_empty(&drawn, m, &style);
     picture_paste(p, &drawn, 0, 0);
     picture_free(&drawn);
     if (style.scalar != NULL) {
@@ -183,10 +206,30 @@ static bool render_with_legend(picture *p, const mesh *m, const render_view *who
     return true;
 }
 
+void app_print_missing(const mesh *m, const mesh_field *fields, int n_fields) {
+    bool is_first = true;
+    for (int k = 0; k < n_fields; k++) {
+        const sl_int missing = mesh_missing(fields[k].value, 1, m->n_vertices);
+        if (missing > 0) {
+            printf(is_first ? "There is no value of %s at %d of %d vertices" : ", of %s at %d",
+                   fields[k].name, (int)missing, (int)m->n_vertices);
+            is_first = false;
+        }
+    }
+    printf(is_first ? "" : ".\n");
+}
+
 void app_write(const app_output *o, const mesh *m, const mesh_extra *extra,
                const render_style *style) {
     char message[512];
-    if (o->out != NULL && !mesh_write(o->out, m, extra, message, sizeof message)) {
+    if (extra != NULL && (o->out != NULL || o->png != NULL)) {
+        app_print_missing(m, extra->fields, extra->n_fields);
+    }
+    mesh_extra all;
+    memset(&all, 0, sizeof all);
+    all = extra != NULL ? *extra : all;
+    all.source = app_source;
+    if (o->out != NULL && !mesh_write(o->out, m, &all, message, sizeof message)) {
         app_die("%s", message);
     }
     if (o->png != NULL) {

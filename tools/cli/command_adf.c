@@ -116,15 +116,16 @@ int command_adf(int argc, char **argv) {
     double seconds = app_now() - begin;
     app_progress_end();
     double full = compare_full(values, &h, vertices, count, &worst);
-    printf("auto-diffusion of %d of %d vertices, %s\n", (int)count, (int)m.n_vertices,
-           heat_system_time(&h));
-    printf("seconds: order and analyze %.4g, factor %.4g, auto-diffusion %.4g\n",
-           h.stats.symbolic.seconds_order + h.stats.symbolic.seconds_analyze,
-           h.stats.factor.seconds, seconds);
+    printf("The auto-diffusion of %d of %d vertices, %s, is computed.\n", (int)count,
+           (int)m.n_vertices, heat_system_time(&h));
+    app_detail("seconds: order and analyze %.4g, factor %.4g, auto-diffusion %.4g\n",
+               h.stats.symbolic.seconds_order + h.stats.symbolic.seconds_analyze,
+               h.stats.factor.seconds, seconds);
     const int solves = count < SAMPLE ? (int)count : (int)SAMPLE;
-    printf("a full solve for each vertex would take %.4g s, %.0f times as long: estimated from %d "
-           "solves, whose values differ by at most %.2g\n",
-           full * count, seconds > 0 ? full * count / seconds : 0, solves, worst);
+    app_detail(
+        "a full solve for each vertex would take %.4g s, %.0f times as long: estimated from %d "
+        "solves, whose values differ by at most %.2g\n",
+        full * count, seconds > 0 ? full * count / seconds : 0, solves, worst);
     write_results(&output, &m, h.t, values, vertices, count);
     free(values);
     free(vertices);

@@ -171,49 +171,56 @@ static int by_size(const void *a, const void *b) {
 
 static void print_summary(edit_command *cmd) {
     const sl_int done = cmd->n_edits - cmd->not_found;
-    printf("edits      %d in %.1f ms, %.4f ms each\n", (int)done, cmd->total_ms,
-           done > 0 ? cmd->total_ms / done : 0);
-    printf("  %-8s", "kind");
-    for (int w = EDIT_UPDATE; w < EDIT_WAYS; w++) {
-        printf(" %8s", way_names[w]);
+    printf("%d edits took %.4f ms each, and %d found no place.\n", (int)done,
+           done > 0 ? cmd->total_ms / done : 0, (int)cmd->not_found);
+    if (cmd->n_checks > 0) {
+        printf(
+            "A new analysis and factor takes %.3f ms, a refactorization %.3f ms. Solutions differ "
+            "from those of new factors by at most %.3g.\n",
+            cmd->worst.anew_ms, cmd->worst.refactor_ms, cmd->worst.difference);
     }
-    printf("  median ms     max ms\n");
+    app_detail("edits      %d in %.1f ms, %.4f ms each\n", (int)done, cmd->total_ms,
+               done > 0 ? cmd->total_ms / done : 0);
+    app_detail("  %-8s", "kind");
+    for (int w = EDIT_UPDATE; w < EDIT_WAYS; w++) {
+        app_detail(" %8s", way_names[w]);
+    }
+    app_detail("  median ms     max ms\n");
     for (int k = 0; k < EDIT_ALL_KINDS; k++) {
         const sl_int count = cmd->count[k];
         if (count == 0) {
             continue;
         }
         qsort(cmd->times[k], (size_t)count, sizeof *cmd->times[k], by_size);
-        printf("  %-8s", kind_names[k]);
+        app_detail("  %-8s", kind_names[k]);
         for (int w = EDIT_UPDATE; w < EDIT_WAYS; w++) {
-            printf(" %8d", (int)cmd->ways[k][w]);
+            app_detail(" %8d", (int)cmd->ways[k][w]);
         }
-        printf(" %10.4f %10.4f\n", cmd->times[k][count / 2], cmd->times[k][count - 1]);
-    }
-    if (cmd->not_found > 0) {
-        printf("no place   for %d edits\n", (int)cmd->not_found);
+        app_detail(" %10.4f %10.4f\n", cmd->times[k][count / 2], cmd->times[k][count - 1]);
     }
     if (cmd->count[EDIT_FLIP] > 0 && !cmd->is_mesh) {
-        printf("flips      %d of %d outside of the fill of L or of what updates can follow: "
-               "analyzed anew\n",
-               (int)cmd->ways[EDIT_FLIP][EDIT_ANEW], (int)cmd->count[EDIT_FLIP]);
+        app_detail("flips      %d of %d outside of the fill of L or of what updates can follow: "
+                   "analyzed anew\n",
+                   (int)cmd->ways[EDIT_FLIP][EDIT_ANEW], (int)cmd->count[EDIT_FLIP]);
     }
     if (cmd->is_mesh) {
-        printf("growth     entries of L at most %.3f times those expected of a new order; %d "
-               "vertices\n",
-               cmd->most_growth, (int)cmd->mesh.mesh.faces.m.n_vertices);
+        app_detail("growth     entries of L at most %.3f times those expected of a new order; %d "
+                   "vertices\n",
+                   cmd->most_growth, (int)cmd->mesh.mesh.faces.m.n_vertices);
     } else {
-        printf(
+        app_detail(
             "growth     drift at most %.3g; %lld rank-one changes since the last factorization\n",
             cmd->most_drift, (long long)cmd->e.stats.change.updates);
     }
     if (cmd->n_checks > 0) {
-        printf("check      %d new factors: a refactorization takes %.3f ms, order, analysis and "
-               "factor %.3f ms\n",
-               (int)cmd->n_checks, cmd->worst.refactor_ms, cmd->worst.anew_ms);
-        printf("           solutions differ by at most %.3g, bound %.3g; backward error at most "
-               "%.3g\n",
-               cmd->worst.difference, cmd->bound, cmd->worst.backward_error);
+        app_detail(
+            "check      %d new factors: a refactorization takes %.3f ms, order, analysis and "
+            "factor %.3f ms\n",
+            (int)cmd->n_checks, cmd->worst.refactor_ms, cmd->worst.anew_ms);
+        app_detail(
+            "           solutions differ by at most %.3g, bound %.3g; backward error at most "
+            "%.3g\n",
+            cmd->worst.difference, cmd->bound, cmd->worst.backward_error);
     }
 }
 
@@ -239,7 +246,7 @@ static void open_command(edit_command *cmd, const char *operand) {
         edit_system_create(&cmd->e, &cmd->m, t, patch, (uint64_t)cmd->seed);
     }
     app_progress_end();
-    printf("mesh       %d vertices, %d faces; t = %.6g\n", (int)most, (int)cmd->m.n_faces, t);
+    app_detail("mesh       %d vertices, %d faces; t = %.6g\n", (int)most, (int)cmd->m.n_faces, t);
     for (int k = 0; k < EDIT_ALL_KINDS; k++) {
         cmd->times[k] = app_alloc((size_t)cmd->n_edits, sizeof *cmd->times[k]);
     }

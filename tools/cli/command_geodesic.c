@@ -27,11 +27,11 @@ static const options_manual manual = {
     "edge "
     "or two on even meshes if --scaled-time is 4 or more, and to much more on bad ones. Distances "
     "are "
-    "therefore compared with paths over the faces through 3 and through 1 points of each edge, and "
-    "moved where they exceed the shorter one, or fall short of it by more than 0.03 mean edges "
-    "and half the difference of both, or are shorter than the straight line (not with --raw); "
-    "where the surface is flat up to the source, to within 0.03 mean edges of the distance in the "
-    "plane. "
+    "therefore compared with paths over the faces: the shortest one through 3 points of each edge, "
+    "straightened in the strip of triangles that it crosses. A distance that exceeds its path, or "
+    "falls short of it by more than 0.03 mean edges, becomes the length of the path, and one that "
+    "is shorter than the straight line that of the line (not with --raw). The first line of output "
+    "says how many distances are which, the second how far off they are. "
     "Several sources are all equally warm and held at 0, by a factor of the Laplacian of the ball, "
     "and the gradient is taken from the distance three times more. From one source, with "
     "--scaled-time 1, the usual value, an error of "
@@ -48,14 +48,16 @@ static const options_manual manual = {
     "near, and on bad meshes. Vertices therefore move to the site with the shortest path over the "
     "faces where theirs is farther by more than a quarter of an edge and half the difference "
     "(not with --raw).",
-    "mesh, region, prepared, distances: sizes and times; with --region, region (L) and region (M) "
-    "are those of the factors of the Laplacian L and of heat, M + t L. touched: vertices of the "
-    "ball and entries of L read. heat, distance: what the solves read. bounds: how far distances "
-    "violate what holds on every surface. paths: what was moved, and "
-    "what errors remain; with --voronoi, how many vertices may still be nearer to another site, "
-    "and by how much. exact: errors with --exact.\n"
+    "How many distances are those of the heat method, lengths of paths and of straight lines, and "
+    "how far off they can be. With --verbose: mesh, region, prepared, distances: sizes and times; "
+    "with --region, region (L) and region (M) are those of the factors of the Laplacian L and of "
+    "heat, M + t L. touched: vertices of the ball and entries of L read. heat, distance: what the "
+    "solves read. bounds: how far distances violate what holds on every surface. paths: the time "
+    "of the comparison; with --voronoi, how many vertices may still be nearer to another site, and "
+    "by how much.\n"
     "--csv has columns vertex,distance,path,heat, where path is the length along edges; with "
-    "--each source,vertex,distance; with --voronoi vertex,site.",
+    "--each source,vertex,distance; with --voronoi vertex,site. Vertices without a value have no "
+    "row; in files of --out they are NaN, in .glb and .gltf 0 in the attribute _HAS_DISTANCE.",
     "star:6 --from 100 --png distance.png\nbunny.obj --from 17 --radius 0.3 --csv distance.csv\n"
     "torus:120x40 --voronoi --from random:60 --png cells.png"};
 
@@ -93,8 +95,8 @@ static sl_int place_source(const char *from, mesh *m) {
         app_die("--from %s: out of memory for a vertex there", from);
     }
     const double *at = m->xyz + 3 * (size_t)vertex;
-    printf("source     in face %d at (%.3g, %.3g), vertex %d at %.6g %.6g %.6g\n", (int)p.face, p.u,
-           p.v, (int)vertex, at[0], at[1], at[2]);
+    app_detail("source     in face %d at (%.3g, %.3g), vertex %d at %.6g %.6g %.6g\n", (int)p.face,
+               p.u, p.v, (int)vertex, at[0], at[1], at[2]);
     return vertex;
 }
 
@@ -142,7 +144,7 @@ static void open_command(geodesic_command *cmd, const char *operand) {
     } else {
         heat_factors_create(&cmd->s, &cmd->surface, &cmd->m, cmd->laplacian, t, NULL);
     }
-    printf(
+    app_detail(
         "mesh       %d vertices, %d faces, mean edge %.4g; time %.4g; both factors %s in %.1f ms\n",
         (int)cmd->m.n_vertices, (int)cmd->m.n_faces, edge, cmd->s.t,
         is_saved ? "mapped and checked" : "made", 1e3 * (app_now() - began));

@@ -86,18 +86,18 @@ static void solve(double *x, const heat_system *h, const sl_int *sources, sl_int
     app_must(sl_plan_solve(P, h->F, x, (size_t)n_wanted, heat, (size_t)n_sources, 1, W),
              "local solve", NULL);
     double second = app_now();
-    printf("%d sources, wanted %d of %d vertices, %s\n", (int)n_sources, (int)n_wanted, (int)h->n,
-           heat_system_time(h));
-    printf("columns visited: forward %d, backward %d of %d; entries of L read %lld of %lld\n",
-           (int)stats.plan.b_columns, (int)stats.plan.x_columns, (int)stats.symbolic.n,
-           (long long)(stats.plan.b_entries + stats.plan.x_entries),
-           (long long)(2 * stats.symbolic.nnz_panels));
+    app_detail("%d sources, wanted %d of %d vertices, %s\n", (int)n_sources, (int)n_wanted,
+               (int)h->n, heat_system_time(h));
+    app_detail("columns visited: forward %d, backward %d of %d; entries of L read %lld of %lld\n",
+               (int)stats.plan.b_columns, (int)stats.plan.x_columns, (int)stats.symbolic.n,
+               (long long)(stats.plan.b_entries + stats.plan.x_entries),
+               (long long)(2 * stats.symbolic.nnz_panels));
     if (stats.plan.in_region) {
-        printf("entries read of the region's inverse: %lld\n",
-               (long long)stats.plan.region_entries);
+        app_detail("entries read of the region's inverse: %lld\n",
+                   (long long)stats.plan.region_entries);
     }
-    printf("microseconds: plan %.1f, first solve %.1f, each further solve %.1f\n",
-           1e6 * (planned - begin), 1e6 * (first - planned), 1e6 * (second - first));
+    app_detail("microseconds: plan %.1f, first solve %.1f, each further solve %.1f\n",
+               1e6 * (planned - begin), 1e6 * (first - planned), 1e6 * (second - first));
     sl_work_free(W);
     sl_plan_free(P);
     sl_region_free(R);
@@ -197,8 +197,15 @@ int command_heat(int argc, char **argv) {
                          ? within(&m, sources, n_sources, radius, &n_wanted)
                          : app_vertices("at", at != NULL ? at : "all", m.n_vertices, 2, &n_wanted);
     n_wanted = app_distinct(wanted, n_wanted, m.n_vertices);
-    double *x = app_alloc((size_t)n_wanted, sizeof *x);
+    double *x = app_alloc((size_t)n_wanted, sizeof *x), least = INFINITY, most = -INFINITY;
     solve(x, &h, sources, n_sources, wanted, n_wanted, in_region);
+    for (sl_int k = 0; k < n_wanted; k++) {
+        least = fmin(least, x[k]);
+        most = fmax(most, x[k]);
+    }
+    printf("The heat of %d source%s is solved for at %d of %d vertices, %s: from %.4g to %.4g.\n",
+           (int)n_sources, n_sources == 1 ? "" : "s", (int)n_wanted, (int)m.n_vertices,
+           heat_system_time(&h), n_wanted > 0 ? least : 0, n_wanted > 0 ? most : 0);
     if (output.csv != NULL) {
         write_csv(output.csv, x, wanted, n_wanted);
     } else if (n_wanted <= 20) {

@@ -107,8 +107,8 @@ static sl_int *read_files(double **values, sl_int *count, const char *const *fil
         app_progress("signatures", (double)(k + 1) / n_files);
     }
     app_progress_end();
-    printf("signatures of %d of %d vertices at the times of %d files, in %.4g s\n", (int)*count,
-           (int)n, (int)n_files, app_now() - began);
+    printf("The signatures of %d of %d vertices at the times of %d files took %.4g s.\n",
+           (int)*count, (int)n, (int)n_files, app_now() - began);
     return vertices;
 }
 
@@ -332,10 +332,11 @@ int command_hks(int argc, char **argv) {
         threads.run = in_threads;
     }
     compute(values, &h, times, n_times, vertices, count, strcmp(at, "all") == 0, &threads);
-    printf("signatures of %d of %d vertices at %d times from %.6g to %.6g\n", (int)count,
-           (int)m.n_vertices, (int)n_times, times[0], times[n_times - 1]);
-    printf("seconds: order and analyze %.4g, factors and signatures %.4g\n",
-           h.stats.symbolic.seconds_order + h.stats.symbolic.seconds_analyze, app_now() - begin);
+    printf("The signatures of %d of %d vertices at %d times from %.6g to %.6g are computed.\n",
+           (int)count, (int)m.n_vertices, (int)n_times, times[0], times[n_times - 1]);
+    app_detail("seconds: order and analyze %.4g, factors and signatures %.4g\n",
+               h.stats.symbolic.seconds_order + h.stats.symbolic.seconds_analyze,
+               app_now() - begin);
     if (output.csv != NULL) {
         write_csv(output.csv, values, times, NULL, n_times, vertices, count);
     }

@@ -172,14 +172,15 @@ static double report(const pair_times *times, const double *one, const double *t
         double size = fmax(fabs(two[k]), 1e-300);
         worst = fmax(worst, fmax(fabs(one[k] - two[k]), fabs(entries[k] - two[k])) / size);
     }
-    printf("microseconds per pair, means: one tree %.2f, two trees %.2f, all in one call %.2f; "
-           "medians: one tree %.2f, two trees %.2f\n",
-           1e6 * mean(times->one_tree, count), 1e6 * mean(times->two_trees, count),
-           count > 0 ? 1e6 * times->together / count : 0, 1e6 * median(times->one_tree, count),
-           1e6 * median(times->two_trees, count));
-    printf("two trees: median speedup %.2f, slower for %.2f %% of the pairs\n", median(gain, count),
-           count > 0 ? 100.0 * slower / count : 0);
-    printf("the methods differ by at most %.2g, relative to the value\n", worst);
+    app_detail("microseconds per pair, means: one tree %.2f, two trees %.2f, all in one call %.2f; "
+               "medians: one tree %.2f, two trees %.2f\n",
+               1e6 * mean(times->one_tree, count), 1e6 * mean(times->two_trees, count),
+               count > 0 ? 1e6 * times->together / count : 0, 1e6 * median(times->one_tree, count),
+               1e6 * median(times->two_trees, count));
+    printf("Two trees are %.2f times as fast as one in the median, and slower for %.2f %% of the "
+           "pairs.\n",
+           median(gain, count), count > 0 ? 100.0 * slower / count : 0);
+    app_detail("the methods differ by at most %.2g, relative to the value\n", worst);
     free(gain);
     return worst;
 }
@@ -227,7 +228,8 @@ int command_pairs(int argc, char **argv) {
     pair_times times = {app_alloc(size, sizeof(double)), app_alloc(size, sizeof(double)), 0};
     solve_pairs(one, two, &times, h.F, i, j, count);
     times.together = solve_together(entries, h.F, i, j, count);
-    printf("%d pairs on %d vertices, %s\n", (int)count, (int)m.n_vertices, heat_system_time(&h));
+    printf("The heat between %d pairs of %d vertices, %s, is computed by three methods.\n",
+           (int)count, (int)m.n_vertices, heat_system_time(&h));
     double worst = report(&times, one, two, entries, count);
     if (csv != NULL) {
         write_csv(csv, i, j, two, &times, count);

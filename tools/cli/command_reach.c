@@ -216,16 +216,17 @@ static void print_reach(const sl_symbolic_arrays *view, const int *kind, const s
         entries += kind[k] >= 0 ? view->counts[k] : 0;
         all += view->counts[k];
     }
-    printf("patch %d of %d vertices; columns visited %d, %d of them outside the patch\n",
+    printf("A solve on a patch of %d of %d vertices visits %d columns, %d of them outside the "
+           "patch.\n",
            (int)count, (int)view->n, (int)visited, (int)(visited - count));
-    printf("entries of L in these columns: %.0f of %.0f (%.2f %%)\n", entries, all,
+    printf("They have %.0f of the %.0f entries of L (%.2f %%).\n", entries, all,
            100 * entries / all);
     for (sl_int d = 0; d < levels; d++) {
         sl_int columns = 0;
         for (sl_int k = 0; k < view->n; k++) {
             columns += level[k] == d;
         }
-        printf("separators of level %d: %d vertices\n", (int)d, (int)columns);
+        app_detail("separators of level %d: %d vertices\n", (int)d, (int)columns);
     }
 }
 

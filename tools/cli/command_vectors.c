@@ -110,9 +110,9 @@ static void prepare(vectors_command *cmd, double t) {
     app_stage("factoring");
     app_must(vector_heat_create(&cmd->s, &cmd->m, t), "factors", &cmd->s.stats);
     app_progress_end();
-    printf("%-10s %d complex rows, %lld real entries of L, t = %.6g, %.1f ms\n", "prepared",
-           (int)cmd->m.n_vertices, (long long)cmd->s.stats.symbolic.nnz_panels, cmd->s.t,
-           1e3 * (app_now() - began));
+    app_detail("%-10s %d complex rows, %lld real entries of L, t = %.6g, %.1f ms\n", "prepared",
+               (int)cmd->m.n_vertices, (long long)cmd->s.stats.symbolic.nnz_panels, cmd->s.t,
+               1e3 * (app_now() - began));
 }
 
 /* Gives the logarithms lengths that paths over the faces allow (path_check.h); directions stay. */
@@ -156,9 +156,9 @@ static void solve(vectors_command *cmd) {
                                        cmd->radius),
                  "transport", NULL);
     }
-    printf("%-10s from %d %s to %d of %d, %.1f ms\n", cmd->log ? "logarithm" : "transport",
-           (int)cmd->n_sources, cmd->n_sources == 1 ? "vertex" : "vertices", (int)f->n,
-           (int)cmd->m.n_vertices, 1e3 * (app_now() - began));
+    app_detail("%-10s from %d %s to %d of %d, %.1f ms\n", cmd->log ? "logarithm" : "transport",
+               (int)cmd->n_sources, cmd->n_sources == 1 ? "vertex" : "vertices", (int)f->n,
+               (int)cmd->m.n_vertices, 1e3 * (app_now() - began));
     app_print_reads("reads", &f->stats);
 }
 
@@ -180,6 +180,10 @@ static void compute(vectors_command *cmd) {
         vector_heat_free(&cmd->s);
         free(cmd->given);
     }
+    printf("%s from %d %s %s %d of %d vertices.\n",
+           cmd->log ? "The logarithmic map" : "Parallel transport", (int)cmd->n_sources,
+           cmd->n_sources == 1 ? "vertex" : "vertices", cmd->log ? "covers" : "reaches", (int)f->n,
+           (int)cmd->m.n_vertices);
     if (f->unreached > 0) {
         app_warn("no heat arrives at %d vertices%s", (int)f->unreached,
                  is_given ? ": a longer time helps" : "");

@@ -220,7 +220,7 @@ int command_view(int argc, char **argv) {
     printf("%s: %d vertices, %d faces, %d fields\n", out, (int)m.n_vertices, (int)m.n_faces,
            (int)f.n_fields);
     if (removed > 0) {
-        printf("%d faces with the vertices of others are left out\n", (int)removed);
+        printf("%d faces with the vertices of others are left out.\n", (int)removed);
     }
     if (is_live) {
         intrinsic_free(&surface);

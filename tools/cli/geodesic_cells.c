@@ -27,7 +27,9 @@ static void write_cells(const geodesic_command *cmd, const sl_int *cell) {
         FILE *csv = app_create(cmd->output.csv);
         fprintf(csv, "vertex,site\n");
         for (size_t v = 0; v < n; v++) {
-            fprintf(csv, "%d,%d\n", (int)v, cell[v] < 0 ? -1 : (int)cmd->sources[cell[v]]);
+            if (cell[v] >= 0) {
+                fprintf(csv, "%d,%d\n", (int)v, (int)cmd->sources[cell[v]]);
+            }
         }
         app_close(csv);
     }
@@ -35,7 +37,7 @@ static void write_cells(const geodesic_command *cmd, const sl_int *cell) {
     rgb *colors = app_alloc(n, sizeof *colors);
     const rgb none = {0xd8, 0xd8, 0xd8};
     for (size_t v = 0; v < n; v++) {
-        site[v] = cell[v] < 0 ? -1 : (double)cmd->sources[cell[v]];
+        site[v] = cell[v] < 0 ? NAN : (double)cmd->sources[cell[v]];
         colors[v] = cell[v] < 0 ? none : cell_color(cell[v]);
     }
     const mesh_field field = {"site", site};
@@ -74,12 +76,12 @@ void geodesic_cells(geodesic_command *cmd) {
         smallest = sizes[k] < smallest ? sizes[k] : smallest;
         largest = sizes[k] > largest ? sizes[k] : largest;
     }
-    printf("cells      of %d sites, %d to %d vertices each, in %.3f ms; %lld values of heat\n",
-           (int)cmd->n_sources, (int)smallest, (int)largest, 1e3 * seconds, (long long)touched);
-    if (sizes[cmd->n_sources] > 0) {
-        printf("no site    for %d vertices: outside the radius, or too far away for this time\n",
-               (int)sizes[cmd->n_sources]);
-    }
+    printf("Each vertex has the nearest of %d sites; cells have %d to %d vertices, and %d vertices "
+           "have "
+           "no site.\n",
+           (int)cmd->n_sources, (int)smallest, (int)largest, (int)sizes[cmd->n_sources]);
+    app_detail("cells      of %d sites, %d to %d vertices each, in %.3f ms; %lld values of heat\n",
+               (int)cmd->n_sources, (int)smallest, (int)largest, 1e3 * seconds, (long long)touched);
     write_cells(cmd, cell);
     free(largest_heat);
     free(sizes);

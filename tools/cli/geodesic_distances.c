@@ -54,8 +54,8 @@ static void prepare_patch(geodesic_command *cmd, heat_patch *patch) {
         stats.region = sl_region_view(patch->heat_region).info;
         app_print_region("region (M)", &stats, stats.region.seconds);
     }
-    printf("prepared   %d vertices around the sources: plans%s in %.3f ms\n", (int)patch->b.n,
-           cmd->region ? " and both regions" : "", 1e3 * seconds);
+    app_detail("prepared   %d vertices around the sources: plans%s in %.3f ms\n", (int)patch->b.n,
+               cmd->region ? " and both regions" : "", 1e3 * seconds);
 }
 
 /* The radius within which the heat method returns distances. Where these are compared with paths,
@@ -101,14 +101,18 @@ void geodesic_distances(geodesic_command *cmd) {
     for (sl_int k = 0; k < f.n; k++) {
         farthest = fmax(farthest, f.distance[k]);
     }
-    printf("distances  of %d vertices, up to %.6g, in %.3f ms\n", (int)f.n, farthest,
-           1e3 * seconds);
-    printf("touched    %d vertices; %.3g of %.3g entries of each factor, ", (int)f.n_patch,
-           (double)f.heat_stats.plan.x_entries, (double)all.symbolic.nnz_panels);
+    if (cmd->raw) {
+        printf("All %d distances are those of the heat method, compared with nothing.\n", (int)f.n);
+    }
+    printf("They are those of %d of %d vertices, up to %.6g.\n", (int)f.n, (int)cmd->m.n_vertices,
+           farthest);
+    app_detail("distances  in %.3f ms\n", 1e3 * seconds);
+    app_detail("touched    %d vertices; %.3g of %.3g entries of each factor, ", (int)f.n_patch,
+               (double)f.heat_stats.plan.x_entries, (double)all.symbolic.nnz_panels);
     if (f.pinned) {
-        printf("a factor of the ball with %d sources held at 0\n", (int)cmd->n_sources);
+        app_detail("a factor of the ball with %d sources held at 0\n", (int)cmd->n_sources);
     } else {
-        printf("%d solves for the distance\n", f.solves);
+        app_detail("%d solves for the distance\n", f.solves);
     }
     app_print_reads("heat", &f.heat_stats);
     if (!f.pinned) {
@@ -120,10 +124,10 @@ void geodesic_distances(geodesic_command *cmd) {
                  (int)f.negative);
     }
     if (f.faces_without_gradient > 0) {
-        printf("no heat    at %d faces: too far away for this time, or degenerate\n",
-               (int)f.faces_without_gradient);
+        app_detail("no heat    at %d faces: too far away for this time, or degenerate\n",
+                   (int)f.faces_without_gradient);
     }
-    if (cmd->n_sources <= 100) { /* costs vertices x sources */
+    if (options_verbose && cmd->n_sources <= 100) { /* costs vertices x sources */
         distance_print_bounds(&cmd->m, cmd->sources, cmd->n_sources, &f);
     }
     if (cmd->exact != NULL) {
@@ -173,13 +177,12 @@ void geodesic_distances_of_each(geodesic_command *cmd) {
     }
     app_progress_end();
     heat_patch_free(&patch);
-    printf("distances  %lld, from each of %d sources, in %.3f ms: %.3f ms per source\n",
-           (long long)found, (int)cmd->n_sources, 1e3 * seconds,
-           1e3 * seconds / (double)cmd->n_sources);
     if (!cmd->raw) {
         path_check_report(&check);
         path_check_close(&check);
     }
+    printf("%lld distances from each of %d sources took %.3f ms per source.\n", (long long)found,
+           (int)cmd->n_sources, 1e3 * seconds / (double)cmd->n_sources);
     if (negative > 0) {
         app_warn("negative heat from %d of %d sources: the heat method is wrong there, a larger "
                  "--scaled-time may help",

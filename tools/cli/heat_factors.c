@@ -30,7 +30,7 @@ void heat_factors_find_time(heat_solver *s, double first, double squared_edge,
         app_must(heat_solver_set_time(s, 2 * scaled * squared_edge), "factor of heat", NULL);
     }
     if (before > 0) {
-        printf(
+        app_detail(
             "time       raised to %g squared mean edges: heat was negative at %d vertices behind "
             "obtuse faces\n",
             scaled, (int)before);

@@ -12,6 +12,19 @@
 #include "tools/io/input.h"
 #include "tools/io/output_file.h"
 
+bool options_verbose = false;
+static double most_megabytes = 0;
+
+/* What every command takes. */
+static const option common[] = {
+    {OPTION_ABOVE_0, "max-memory", &most_megabytes, "MB",
+     "most megabytes that the content of a file, or a count that it claims, may take (64, and as "
+     "many for each byte of the file as files in use need)"},
+    {OPTION_FLAG, "verbose", &options_verbose, NULL,
+     "print more than the result, at most five sentences: sizes, times, what solves read, what was "
+     "checked"},
+    {OPTION_END, NULL, NULL, NULL, NULL}};
+
 enum { LINE_WIDTH = 90, HELP_COLUMN = 25 };
 
 static const option *option_named(const option *options, const char *name, size_t length) {
@@ -120,7 +133,9 @@ options_result options_parse(const options_usage *usage, const option *options, 
         if (!only_operands && strcmp(argv[a], "--") == 0) {
             only_operands = true;
         } else if (!only_operands && argv[a][0] == '-' && argv[a][1] != '\0') {
-            if (!read_option(options, argc, argv, &a, message, message_size)) {
+            if (option_named(common, argv[a] + 2, strcspn(argv[a] + 2, "=")) != NULL
+                    ? !read_option(common, argc, argv, &a, message, message_size)
+                    : !read_option(options, argc, argv, &a, message, message_size)) {
                 return OPTIONS_BAD;
             }
         } else if (count == usage->max_operands) {
@@ -130,6 +145,7 @@ options_result options_parse(const options_usage *usage, const option *options, 
             operands[count++] = argv[a];
         }
     }
+    input_most_bytes = 1e6 * most_megabytes;
     if (count < usage->min_operands) {
         (void)snprintf(message, message_size, "needs %s", usage->operands);
         return OPTIONS_BAD;
@@ -170,11 +186,7 @@ static void print_examples(const char *command, const char *example) {
     }
 }
 
-void options_help(const options_usage *usage, const options_manual *manual, const option *options) {
-    (void)printf("%s\n\nusage: sparse-local %s [options] %s\n\n", usage->summary, usage->command,
-                 usage->operands);
-    options_print_wrapped(manual->details, 0, 0);
-    (void)printf("\nOptions (defaults in parentheses):\n");
+static void print_options(const option *options) {
     for (const option *o = options; o->kind != OPTION_END; o++) {
         const bool is_optional = o->kind == OPTION_OPTIONAL;
         int column = printf("  --%s%s%s%s", o->name,
@@ -188,6 +200,15 @@ void options_help(const options_usage *usage, const options_manual *manual, cons
         }
         options_print_wrapped(o->help, HELP_COLUMN, column);
     }
+}
+
+void options_help(const options_usage *usage, const options_manual *manual, const option *options) {
+    (void)printf("%s\n\nusage: sparse-local %s [options] %s\n\n", usage->summary, usage->command,
+                 usage->operands);
+    options_print_wrapped(manual->details, 0, 0);
+    (void)printf("\nOptions (defaults in parentheses):\n");
+    print_options(options);
+    print_options(common);
     int column = printf("  --help");
     options_print_wrapped("print this text (sparse-local --help explains MESH)", HELP_COLUMN,
                           column);
@@ -232,6 +253,9 @@ static void check_outputs(const option *options) {
     char message[512];
     for (const option *o = options; o->kind != OPTION_END; o++) {
         const char *path = output_of(o);
+        if (path != NULL && strcmp(path, "-") == 0) {
+            output_take_standard();
+        }
         if (path != NULL) {
             check_kind_of_picture(o->name, path);
         }

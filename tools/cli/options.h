@@ -44,6 +44,9 @@ typedef struct options_manual {
     const char *example; /* arguments of one or more example calls, separated by '\n' */
 } options_manual;
 
+/** Whether --verbose is among the words of the command line, which every command takes. */
+extern bool options_verbose;
+
 typedef enum options_result { OPTIONS_READ, OPTIONS_HELP, OPTIONS_BAD } options_result;
 
 /** Parses argv[1 ..]. A word that is not an option is an operand; so is every word after --.

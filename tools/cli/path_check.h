@@ -11,21 +11,20 @@
 typedef struct path_check {
     const mesh *m; /* borrowed */
     incidence inc;
-    surface_search *one, *three; /* through 1 and 3 points of each edge */
-    double edge;                 /* the mean length */
-    double slack; /* what a distance may fall short of a path in any case, in mean edges */
+    surface_search *three; /* through 3 points of each edge */
+    double edge;           /* the mean length */
+    double slack;          /* what a distance may fall short of a path in any case, in mean edges */
     double seconds;
-    surface_correction sum; /* over all distances; mean_width is a sum until the report */
-    double width_sum;
-    sl_off distances;
-    sl_off straight; /* distances raised to the straight line */
-    sl_off far;      /* distances moved by more than half an edge */
+    sl_off kept, paths, lines; /* distances that stayed, are lengths of paths or straight lines, */
+    sl_off others;             /* have no path: their sum is that of all distances */
+    double largest;            /* the largest change */
+    double gap, widest; /* what straightening took off the paths: the sum, and the largest one */
 } path_check;
 
 /** Prepares the searches; release with path_check_close. m must outlive it. */
 void path_check_open(path_check *check, const mesh *m);
 
-/** Moves distances that cannot be right (surface_paths_correct).
+/** Moves distances that cannot be right (surface_paths_correct), and counts which are which.
  *
  *  f       [in,out]  distances from the sources. With a radius, of a whole patch; those that are
  *                    then beyond the radius are removed.
@@ -35,7 +34,7 @@ void path_check_open(path_check *check, const mesh *m);
 void path_check_distances(path_check *check, heat_field *f, const sl_int *sources, sl_int count,
                           double radius, double limit);
 
-/** Prints what path_check_distances has done, and warns of large errors. */
+/** Prints which distances are which and how far off they can be, and warns of large errors. */
 void path_check_report(const path_check *check);
 
 /** Moves vertices to nearer sites (cell_paths_correct), prints what was done and what errors

@@ -108,8 +108,12 @@ function computeHeat(source) {
 function setHeat(source) {
     computeHeat(source);
     heat.value.set(heap.u.view);
-    const most = heat.value[source];
-    heat.bounds = {linear: [0, most], logarithm: [1e-12 * most, most]};
+    let least = Infinity, most = 0; /* of the heat above 0: no heat is as good as none below 12 decades */
+    for (const u of heat.value) {
+        if (u > 0 && u < least) least = u;
+        if (u > most) most = u;
+    }
+    heat.bounds = {linear: [Math.min(least, most), most], logarithm: [Math.max(least, 1e-12 * most), most]};
 }
 
 /* b = div X; X = - grad u / |grad u| on each face that heat reaches. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "colors.h"
+#include "tools/mesh/single_frame.h"
 
 enum { COLORS = 256 };
 
@@ -65,10 +66,12 @@ static void put_text(FILE *out, const char *text) {
     (void)putc('"', out);
 }
 
+/* Relative to the frame of the mesh: the page shows no coordinates, only where vertices are. */
 static void put_coordinates(FILE *out, const mesh *m) {
+    const single_frame frame = single_frame_of(m);
     base64 b = begin(out);
     for (size_t k = 0; k < 3 * (size_t)m->n_vertices; k++) {
-        const float x = (float)m->xyz[k];
+        const float x = single_frame_coordinate(&frame, m, k);
         uint32_t word;
         memcpy(&word, &x, sizeof word);
         put_bytes(&b, word, 4);

@@ -43,7 +43,8 @@ typedef struct view_page {
 } view_page;
 
 /** Writes the page. It loads nothing from anywhere: scripts and data are in the file, coordinates
- *  in single precision, values in double. Errors of writing are those of the stream. */
+ *  in single precision relative to a center (single_frame.h), values in double. Errors of writing
+ *  are those of the stream. */
 void view_page_write(FILE *out, const view_page *page);
 
 #endif

@@ -38,7 +38,7 @@ void distance_print_accuracy(const mesh *m, const sl_int *sources, sl_int count,
         worst = fmax(worst, fabs(f->distance[k] - nearest));
         farthest = fmax(farthest, nearest);
     }
-    printf("exact      on the %s: mean error %.3g, largest %.3g, of distances up to %.4g\n",
+    printf("The errors on the %s are %.3g on average and at most %.3g, of distances up to %.4g.\n",
            sphere ? "sphere" : "plane", f->n > 0 ? sum / f->n : 0, worst, farthest);
 }
 

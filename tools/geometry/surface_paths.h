@@ -36,51 +36,39 @@ const double *surface_search_lengths(const surface_search *s);
  *  length is finite. */
 const sl_int *surface_search_origins(const surface_search *s);
 
-/** Distances where the surface is flat: those of vertices that a path can reach through vertices
- *  whose faces fill 360 degrees, or of the border of such a part. Where it crosses the edge of a
- *  face opposite to a vertex, the distance there follows from those at the ends of that edge as in
- *  the plane.
+/** Straightens the paths of the last search to some vertices. Each becomes the shortest one within
+ *  the strip of triangles that it crosses, which is unfolded (a funnel); where it bends at a vertex
+ *  around whose other side it would be shorter, the strip goes there, as long as that helps.
  *
- *  mixed  [in]  whether the distances at the ends of an edge may be those of different sources. If
- *               so, none is too large, else none is too small; they differ where fronts meet. Near
- *               the limit of the search both may be too large.
- *  Returns  by vertex of the mesh, INFINITY at the others, for the sources of the last search and
- *           within its limit; valid until the next search. NULL: out of memory.
- *  Cost     O(k log k) for the k vertices found, and O(faces) at the first call.
- *  Example  tests/tools/test_intrinsic.c
+ *  vertices  [in]  count of them.
+ *  Returns  lengths by vertex of the mesh, INFINITY at the others and where no path leads; valid
+ *           until the next call. Each is that of a path, at most that of surface_search_lengths,
+ *           and exact where the surface is flat. NULL: out of memory.
+ *  Cost     O(triangles crossed) for each vertex, and O(faces) at the first call.
+ *  Source   Lee, Preparata: Euclidean shortest paths in the presence of rectilinear barriers, 1984;
+ *           Sharp, Crane: You can find geodesic paths in triangle meshes by just flipping edges,
+ *           2020.
+ *  Example  tests/tools/test_straight_paths.c
  */
-const double *surface_search_unfold(surface_search *s, bool mixed);
+const double *surface_search_straighten(surface_search *s, const sl_int *vertices, sl_int count);
 
 /** Releases everything; NULL is allowed. */
 void surface_search_free(surface_search *s);
 
-/** What surface_paths_correct did. */
+/** What surface_paths_correct did with the distances that a path reaches. */
 typedef struct surface_correction {
-    sl_int raised, lowered; /* vertices whose distance changed */
-    double largest;         /* the largest change */
-    double mean_width;      /* estimated errors that remain: u1 - u3 + slack */
-    double largest_width;
+    sl_int kept, raised, lowered; /* how many stayed, or became the length of the path */
+    double largest;               /* the largest change */
 } surface_correction;
 
-/** What is known of the distance at each vertex of a mesh. */
-typedef struct surface_lengths {
-    const double *one, *three;  /* of the shortest paths through 1 and 3 points of each edge */
-    const double *flat, *mixed; /* surface_search_unfold, of one source an edge, or of two */
-} surface_lengths;
-
-/** Moves distances into the intervals that lengths of paths leave to them.
- *
- *  Errors of u3, through 3 points, and of u1, through 1, fall with the square of the number of
- *  points. Distances below u3 - slack - (u1 - u3) / 2 are raised to that, those above u3 are
- *  lowered to it. Where the surface is flat, distances are moved to within `slack` of what they are
- *  there.
+/** Compares distances with the lengths of straightened paths, which none can exceed. Those that do,
+ *  or fall short of them by more than slack, become these lengths.
  *
  *  distance  [in,out]  n values of the vertices `vertices`; NaNs stay.
- *  u         [in]      by vertex of the mesh; distances stay where u3 is infinite, and are
- *                      only lowered where u1 is.
+ *  straight  [in]      by vertex of the mesh; distances stay where it is infinite.
  *  slack     [in]      0 or more.
  */
 surface_correction surface_paths_correct(double *distance, const sl_int *vertices, sl_int n,
-                                         const surface_lengths *u, double slack);
+                                         const double *straight, double slack);
 
 #endif

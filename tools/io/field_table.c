@@ -2,10 +2,14 @@
 #include "field_table.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "input.h"
+
+/* Bytes for each byte of a table, of which most vertices may have no row. */
+enum { TABLE_SHARE = 100 };
 
 /* Length of the text up to the next comma or the end of the line. */
 static size_t cell_length(const input *in) {
@@ -27,6 +31,11 @@ static bool skip_comma(input *in) {
 /* Adds a column whose name is the next cell. */
 static bool add_column(field_table *t, input *in, sl_int n) {
     const size_t length = cell_length(in), count = t->n_fields + 1;
+    char what[80];
+    (void)snprintf(what, sizeof what, "a table of %zu columns for %d vertices", count, (int)n);
+    if (!input_allows(in, (double)sizeof(double) * (double)count * (double)n, TABLE_SHARE, what)) {
+        return false;
+    }
     char **names = realloc(t->names, count * sizeof *names);
     t->names = names != NULL ? names : t->names;
     double **values = realloc(t->values, count * sizeof *values);

@@ -2,6 +2,7 @@
 #include "input.h"
 #include "path_message.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,8 +10,32 @@
 
 #include <zlib.h>
 
-/* Far above any mesh in use. It bounds the memory that a small malicious .gz can expand to. */
-#define INPUT_LIMIT ((size_t)1 << 31)
+/* What a file may expand to: text of meshes and matrices by 3 to 20 times, a malicious one by 1000.
+ * The rest is for small files, and the limit for all is far above any mesh in use. */
+enum { EXPANSION = 40 };
+static const size_t free_bytes = 64000000, most_bytes = (size_t)1 << 31;
+
+double input_most_bytes = 0;
+
+bool input_allows(input *in, double bytes, double share, const char *what) {
+    const double room = (double)free_bytes + share * (double)(in->end - in->data);
+    const double limit = input_most_bytes > 0 ? input_most_bytes : room;
+    if (bytes <= limit) {
+        return true;
+    }
+    return input_error(in,
+                       "%s would take %.0f MB, and the limit for a file of this size is %.0f MB; "
+                       "--max-memory raises it",
+                       what, 1e-6 * bytes, 1e-6 * limit);
+}
+
+/* How long the content may become, of which the first bytes of the file have given a part. */
+static size_t content_limit(gzFile file) {
+    const double read = (double)gzoffset(file);
+    const double limit =
+        input_most_bytes > 0 ? input_most_bytes : (double)free_bytes + EXPANSION * fmax(0, read);
+    return limit < (double)most_bytes ? (size_t)limit : most_bytes;
+}
 
 enum { STDIN = 0 }; /* its descriptor */
 
@@ -38,7 +63,9 @@ static bool read_content(input *in, gzFile file) {
     size_t capacity = 0;
     for (;;) {
         if (length + 1 >= capacity) {
+            const size_t limit = content_limit(file) + 2;
             capacity = capacity == 0 ? 65536 : 2 * capacity;
+            capacity = capacity > limit && limit > length + 1 ? limit : capacity;
             char *larger = (char *)realloc(in->data, capacity);
             if (larger == NULL) {
                 return input_error(in, "out of memory");
@@ -58,8 +85,14 @@ static bool read_content(input *in, gzFile file) {
             break;
         }
         length += (size_t)got;
-        if (length > INPUT_LIMIT) {
-            return input_error(in, "more than 2 GiB of content");
+        if (length > content_limit(file)) {
+            return length > most_bytes
+                       ? input_error(in, "more than 2 GiB of content")
+                       : input_error(
+                             in,
+                             "expands to more than %.0f MB, the limit for a compressed file "
+                             "of this size; --max-memory raises it",
+                             1e-6 * (double)content_limit(file));
         }
     }
     in->data[length] = '\0';

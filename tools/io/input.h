@@ -12,7 +12,8 @@
 #define INPUT_PRINTF(text, first)
 #endif
 
-/** The content of a file, at most 2 GiB, followed by a zero byte, and a cursor `at` in data..end.
+/** The content of a file, at most 2 GiB and, if it is compressed, 64 MB and 40 times its size,
+ *  unless input_most_bytes says otherwise; followed by a zero byte, and a cursor `at` in data..end.
  *
  *  A line ends at \n, \r\n or \r. Blanks are space, tab, vertical tab and form feed. A word is a
  *  maximal sequence of other characters.
@@ -38,6 +39,17 @@ typedef struct input {
  *           memory; the message is set.
  */
 bool input_open(input *in, const char *path, char *message, size_t message_size);
+
+/** Most bytes of one file's content, and of what is allocated for counts that a file claims; 0: as
+ *  its size allows. The option --max-memory sets it. */
+extern double input_most_bytes;
+
+/** Whether memory for a count that the file claims may be allocated: 64 MB, and `share` bytes for
+ *  each byte of the file, unless input_most_bytes says otherwise. If not, sets the message.
+ *
+ *  what  [in]  for the message: "a matrix of 2000000000 rows".
+ */
+bool input_allows(input *in, double bytes, double share, const char *what);
 
 /** Releases the content. */
 void input_close(input *in);

@@ -1,22 +1,43 @@
 /* matrix_file.c: reads matrix files: selects the format, converts the entries to a matrix */
 #include "matrix_file.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "matrix_read.h"
 
+/* Bytes for each row and column, of which some may be empty: their pointers and the counts while a
+ * matrix is assembled. */
+enum { ROW_BYTES = 24, SHARE = 64 };
+
+/* Whether a matrix of this size is small enough for the length of its file. */
+static bool is_allowed(input *in, int64_t n_rows, int64_t n_cols) {
+    char what[80];
+    (void)snprintf(what, sizeof what, "a matrix of %lld x %lld", (long long)n_rows,
+                   (long long)n_cols);
+    return input_allows(in, (double)ROW_BYTES * ((double)n_rows + (double)n_cols), SHARE, what);
+}
+
 bool matrix_read_set_size(matrix_read *r, int64_t n_rows, int64_t n_cols) {
-    /* an empty row takes memory too, but a digit in a header does not: the file length is the
-     * limit */
-    int64_t limit = r->in->end - r->in->data;
-    limit = limit < INT32_MAX ? limit : INT32_MAX;
-    if (n_rows < 0 || n_cols < 0 || n_rows > limit || n_cols > limit) {
-        return input_error(
-            r->in, "the size %lld x %lld is out of range, or too large for a file of this length",
-            (long long)n_rows, (long long)n_cols);
+    if (n_rows < 0 || n_cols < 0 || n_rows > INT32_MAX || n_cols > INT32_MAX) {
+        return input_error(r->in, "the size %lld x %lld is out of range", (long long)n_rows,
+                           (long long)n_cols);
     }
     r->n_rows = n_rows;
     r->n_cols = n_cols;
+    return is_allowed(r->in, n_rows, n_cols);
+}
+
+/* Reads the size of a Matrix Market file, ahead of the library. What is no size is left to it. */
+static bool is_allowed_market(input *in) {
+    const input before = *in;
+    int64_t rows = 0, columns = 0;
+    in->comment = '%';
+    const bool has_size = input_more(in) && input_integer(in, &rows) && input_integer(in, &columns);
+    if (has_size && rows >= 0 && columns >= 0 && !is_allowed(in, rows, columns)) {
+        return false;
+    }
+    *in = before;
     return true;
 }
 
@@ -52,6 +73,9 @@ static bool finish(sl_matrix **out, input *in, sl_status status, const sl_stats 
 static bool read_matrix_market(sl_matrix **out, input *in) {
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
+    if (!is_allowed_market(in)) {
+        return false;
+    }
     sl_status status = sl_matrix_parse(out, in->at, (size_t)(in->end - in->at), NULL, &stats);
     in->line = status != SL_OK && stats.error.line > 0 ? stats.error.line : 0;
     if (status == SL_ERR_MALFORMED) {

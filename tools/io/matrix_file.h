@@ -26,8 +26,8 @@
  *  message_size  [in]   bytes at message.
  *  Returns  true; false: no such file, unknown format, malformed or truncated file; a complex,
  *           skew-symmetric or elemental matrix, or an array; a symmetric .mtx file of both
- *           triangles; more rows or columns than the file has bytes (all formats but .mtx); more
- *           than 2 GiB of content; out of memory.
+ *           triangles; more rows or columns than its length allows (input_allows); more than
+ *           2 GiB of content; out of memory.
  *  Cost     O(file size), for .mtx plus O(rows + columns).
  *  Example  tests/tools/test_matrix_file.c
  */

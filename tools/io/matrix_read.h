@@ -15,7 +15,7 @@ typedef struct matrix_read {
 } matrix_read;
 
 /** Sets the size of the matrix. Returns false and sets the message if the size is out of range or
- *  larger than the file in bytes. */
+ *  too large for the length of the file (input_allows). */
 bool matrix_read_set_size(matrix_read *r, int64_t n_rows, int64_t n_cols);
 
 /* One reader per format. Each reads all of r->in into r; false: r->in has the message. */

@@ -32,7 +32,7 @@ bool matrix_read_csparse(matrix_read *r) {
         }
         n = i >= n ? (int64_t)i + 1 : n;
         n = j >= n ? (int64_t)j + 1 : n;
-        if (!matrix_read_set_size(r, n, n)) {
+        if (n > r->n_rows && !matrix_read_set_size(r, n, n)) {
             return false;
         }
         if (!triplets_add(&r->entries, i, j, x)) {

@@ -25,6 +25,7 @@ struct output {
  * initialized and leaves it before it is freed. */
 static output *volatile open_files = NULL;
 static const char *program_name = "";
+static int standard_output = 1; /* where files called - go */
 
 /* ---- memory and messages ---- */
 
@@ -87,6 +88,9 @@ bool output_is_possible(const char *path, char *message, size_t message_size) {
     struct stat file, around;
     int error = 0;
     const bool exists = stat(path, &file) == 0;
+    if (strcmp(path, "-") == 0) {
+        return true;
+    }
     if (exists && S_ISDIR(file.st_mode)) {
         error = EISDIR;
     } else if (!exists && errno != ENOENT) {
@@ -127,6 +131,9 @@ bool output_is_same(const char *a, const char *b) {
     const char *last_a = strrchr(a, '/'), *last_b = strrchr(b, '/');
     char folder_a[4096], folder_b[4096];
     struct stat of_a, of_b;
+    if (strcmp(a, "-") == 0 || strcmp(b, "-") == 0) {
+        return strcmp(a, b) == 0;
+    }
     const bool a_exists = stat(a, &of_a) == 0, b_exists = stat(b, &of_b) == 0;
     if (a_exists || b_exists) {
         return a_exists && b_exists && S_ISREG(of_a.st_mode) && of_a.st_dev == of_b.st_dev &&
@@ -134,8 +141,8 @@ bool output_is_same(const char *a, const char *b) {
     }
     return strcmp(last_a != NULL ? last_a + 1 : a, last_b != NULL ? last_b + 1 : b) == 0 &&
            folder_of(folder_a, sizeof folder_a, a) && folder_of(folder_b, sizeof folder_b, b) &&
-           stat(folder_a, &of_a) == 0 && stat(folder_b, &of_b) == 0 &&
-           of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
+           stat(folder_a, &of_a) == 0 && stat(folder_b, &of_b) == 0 && of_a.st_dev == of_b.st_dev &&
+           of_a.st_ino == of_b.st_ino;
 }
 
 /* Gives the new file the owner, group and permissions of the old one; false if that is refused, or
@@ -192,6 +199,10 @@ static int create_temporary(output *o, const struct stat *old) {
  * errno. */
 static int open_descriptor(output *o) {
     struct stat file, link;
+    if (strcmp(o->path, "-") == 0) {
+        (void)fflush(stdout);
+        return dup(standard_output);
+    }
     bool known = stat(o->path, &file) == 0;
     int standard = known ? standard_descriptor(&file) : -1, fd = -1;
     if (standard >= 0) {
@@ -304,6 +315,14 @@ bool output_close(FILE *stream, char *message, size_t message_size) {
     }
     output_free(o);
     return ok;
+}
+
+void output_take_standard(void) {
+    const int copy = standard_output == 1 ? dup(1) : -1;
+    (void)fflush(stdout);
+    if (copy >= 0 && dup2(2, 1) == 1) {
+        standard_output = copy;
+    }
 }
 
 void output_discard(FILE *stream) {

@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/** Opens a file for writing.
+/** Opens a file for writing. The name - is standard output (output_take_standard).
  *
  *  A regular file or a new name: the stream writes to a temporary file PATH.tmpPID-K in the same
  *  folder. output_close renames it to PATH, so that an error or a kill leaves the old file as it
@@ -44,6 +44,10 @@ bool output_is_same(const char *a, const char *b);
  *  Returns  true; false: the old file is as it was, unless it was written in place.
  */
 bool output_close(FILE *stream, char *message, size_t message_size);
+
+/** Prepares standard output for a file that is called -: what the program prints from now on goes
+ *  to standard error, so that only the file is there. */
+void output_take_standard(void);
 
 /** Closes the stream and removes the temporary file; the old file remains. */
 void output_discard(FILE *stream);

@@ -115,10 +115,13 @@ static sl_int renumber_faces(mesh *m, const sl_int *number) {
     return removed;
 }
 
-bool coincident_merge(mesh *m, coincident_merged *merged, double tolerance) {
+bool coincident_merge(mesh *m, coincident_merged *merged, sl_int **map, double tolerance) {
     const size_t n = (size_t)m->n_vertices;
     double largest = 0;
     cells c;
+    if (map != NULL) {
+        *map = NULL;
+    }
     for (size_t k = 0; k < 3 * n; k++) {
         largest = fmax(largest, fabs(m->xyz[k]));
     }
@@ -144,6 +147,10 @@ bool coincident_merge(mesh *m, coincident_merged *merged, double tolerance) {
     }
     m->n_vertices = kept;
     free(c.first);
-    free(number);
+    if (map != NULL) {
+        *map = number;
+    } else {
+        free(number);
+    }
     return true;
 }

@@ -23,12 +23,13 @@ typedef struct coincident_merged {
  *
  *  m          [in/out]
  *  merged     [out]     may be NULL.
+ *  map        [out]     what each vertex has become; release with free; NULL on error; may be NULL.
  *  tolerance  [in]      in units of the coordinates; 0: equal coordinates only, as does a tolerance
  *                       below 2^-52 of the largest coordinate.
  *  Returns  true; false: out of memory, m is as it was.
  *  Cost     O(n) on average.
  *  Example  tests/tools/test_coincident.c
  */
-bool coincident_merge(mesh *m, coincident_merged *merged, double tolerance);
+bool coincident_merge(mesh *m, coincident_merged *merged, sl_int **map, double tolerance);
 
 #endif

@@ -177,9 +177,12 @@ bool mesh_build_is_in_range(mesh_build *b) {
 
 /* Divides the polygons that are not convex by ears where their fans turn triangles over. */
 static bool cut_ears(mesh_build *b) {
+    const double most_work = 0x1p33; /* squares of corners: seconds */
     const mesh *m = &b->result;
     int64_t crossed = 0;
+    double work = 0;
     for (size_t k = 0; k < b->n_polygon; k += 2) {
+        const double corners = (double)b->polygon[k + 1] + 2;
         sl_int *faces = m->faces + 3 * (size_t)b->polygon[k];
         const ears_result r = ears_instead_of_fan(faces, (size_t)b->polygon[k + 1] + 2, m->xyz);
         if (r == EARS_NO_MEMORY) {
@@ -187,12 +190,20 @@ static bool cut_ears(mesh_build *b) {
             return input_error(b->in, "out of memory");
         }
         crossed += r == EARS_IMPOSSIBLE;
+        work += r == EARS_FAN ? 0 : corners * corners;
+        if (r == EARS_TOO_LARGE || work > most_work) {
+            b->in->line = 0;
+            return input_error(b->in,
+                               "polygons of %.0f corners that are not convex: at most %d corners "
+                               "are divided into triangles, and at most 128 polygons of so many; "
+                               "divide them before",
+                               corners, (int)EARS_CORNERS_MAX);
+        }
     }
     if (crossed > 0) {
         mesh_build_note(b,
-                        "%lld polygons cross themselves, or have more than %d corners and are not "
-                        "convex: some of their triangles are turned over",
-                        (long long)crossed, (int)EARS_CORNERS_MAX);
+                        "%lld polygons cross themselves: some of their triangles are turned over",
+                        (long long)crossed);
     }
     return true;
 }

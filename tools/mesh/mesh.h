@@ -25,10 +25,12 @@ typedef struct mesh {
  *
  *  OBJ  v, f and fo lines. Corners are v, v/vt, v//vn or v/vt/vn; a negative index counts back
  *       from the latest vertex; a backslash continues a line. All other lines are ignored.
- *  OFF  ASCII. The first word is OFF or off, optionally with the prefixes ST, C and N, or is
- *       missing. Comments are allowed. The counts are on the first line or on a line of their own.
- *       Each vertex and each face has its own line; anything after the coordinates or corners is
- *       ignored.
+ *  OFF  The first word is OFF or off, optionally with the prefixes ST, C and N, or is missing.
+ *       ASCII: comments are allowed. The counts are on the first line or on a line of their own.
+ *       Each vertex begins a line, and each face, whose corners may go on in the next ones;
+ *       anything after the coordinates or corners is ignored. After the word BINARY and the end of
+ *       its line: big-endian counts and corners as int32, coordinates and colors as float, four of
+ *       the latter for a vertex of COFF, and of a face so many as a count after its corners says.
  *  PLY  1.0: ascii, binary_little_endian, binary_big_endian. Properties of any scalar type in any
  *       order; the corners are a list vertex_indices or vertex_index of element face, or strips of
  *       element tristrips, in which -1 begins a new strip. Other properties are ignored; other
@@ -40,7 +42,8 @@ typedef struct mesh {
  *  VTK  Legacy, ASCII or binary, versions 1 to 5. Polygonal data: polygons and triangle strips.
  *       Unstructured grids: triangles, quadrilaterals, polygons and strips, and the surface of
  *       tetrahedra, hexahedra, voxels, wedges and pyramids (vtk_grid.h), which is noted. Lines,
- *       single vertices and data at points and cells are ignored.
+ *       single vertices and faces of solids are ignored, which is noted, and data at points and
+ *       cells, which is noted if the file is mixed.
  *  glTF 2.0, as text (.gltf) with buffers in data URIs or in files of the same folder, or as a
  *       container (.glb): all meshes of the scene, placed by their nodes; triangles, strips and
  *       fans. Points and lines are ignored, which is noted. Vertices with equal coordinates in one
@@ -61,8 +64,9 @@ typedef struct mesh {
  *           vertices, more than 2^31-1 vertices or faces, more than 2 GiB of content, out of
  *           memory; VTK: another kind of data; glTF: compressed meshes, buffers elsewhere, nodes
  *           that repeat meshes to more than 64 elements for each byte.
- *  Cost     O(file size) in time and memory. Memory grows with the data that is read, not with the
- *           counts that a header claims.
+ *  Cost     O(file size) in time and memory; for polygons that are not convex the squares of their
+ *           corners: more than 8192 of them, or than 2^33 squares in all, are refused. Memory
+ *           grows with the data that is read, not with the counts that a header claims.
  *  Example  tests/tools/test_mesh_obj_off.c, test_mesh_ply.c, test_mesh_stl.c,
  *           test_mesh_vtk.c, test_mesh_gltf.c, test_mesh_polygons.c
  */

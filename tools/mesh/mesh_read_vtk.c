@@ -17,6 +17,8 @@ typedef struct vtk {
     bool has_points;
     bool is_grid; /* an unstructured grid */
     vtk_grid grid;
+    int64_t others; /* cells that are vertices or lines */
+    bool has_data;  /* at points or cells */
 } vtk;
 
 /* Reads a word in capital letters: keywords may be in either case. */
@@ -146,6 +148,7 @@ static bool read_cell(vtk *f, scalar_type type, const char *section, int64_t cor
     if (f->is_grid) {
         return keep_cell(f);
     }
+    f->others += !is_face;
     return !is_face || (is_strip ? mesh_build_strip(f->b) : mesh_build_polygon(f->b));
 }
 
@@ -285,6 +288,7 @@ static bool read_sections(vtk *f) {
         char word[32];
         read_keyword(in, word);
         is_data = strcmp(word, "POINT_DATA") == 0 || strcmp(word, "CELL_DATA") == 0;
+        f->has_data = is_data;
         if (strcmp(word, "POINTS") == 0) {
             ok = read_points(f);
         } else if (is_cell_section(f, word)) {
@@ -311,6 +315,12 @@ bool mesh_read_vtk(mesh_build *b) {
     ok = ok && (f.has_points || input_error(b->in, "there are no POINTS"));
     if (ok && f.is_grid) {
         ok = mesh_build_is_in_range(b) && vtk_grid_add_faces(b, &f.grid);
+    }
+    if (ok && f.others > 0) {
+        mesh_build_note(b, "%lld cells are points or lines, and ignored", (long long)f.others);
+    }
+    if (ok && f.has_data && (f.others > 0 || f.is_grid)) {
+        mesh_build_note(b, "data at points and cells are not read");
     }
     vtk_grid_free(&f.grid);
     return ok;

@@ -31,10 +31,14 @@ void mesh_write_obj(mesh_sink *s, const mesh *m, const mesh_extra *extra);
 void mesh_write_ply(mesh_sink *s, const mesh *m, const mesh_extra *extra);
 void mesh_write_vtk(mesh_sink *s, const mesh *m, const mesh_extra *extra);
 
-/** Whether the coordinates are in the range of single precision, which glTF has. */
-bool mesh_fits_gltf(const mesh *m);
+/** Writes the lines of the OBJ file extra->source with the coordinates of m. Returns false, and
+ *  writes nothing, if there is none, or if it has other vertices or faces. */
+bool mesh_write_source(mesh_sink *s, const mesh *m, const mesh_extra *extra);
 
-/** Writes a mesh for which mesh_fits_gltf is true.
+/** Writes lines vt with a field as texture coordinate u, scaled from its range to 0..1. */
+void sink_field_as_uv(mesh_sink *s, const mesh_field *field, sl_int n);
+
+/** Writes a mesh whose coordinates are finite.
  *
  *  is_container  [in]  true: .glb; false: .gltf, with the numbers as base64.
  */

@@ -10,8 +10,19 @@
 #include "mesh_sink.h"
 #include "tools/io/output_file.h"
 
-/* Writes a field as the texture coordinate u, scaled from its range to 0..1. */
-static void print_field_as_uv(mesh_sink *s, const mesh_field *field, sl_int n) {
+sl_int mesh_missing(const double *value, int width, sl_int n) {
+    sl_int missing = 0;
+    for (sl_int v = 0; v < n; v++) {
+        bool is_known = true;
+        for (int k = 0; k < width; k++) {
+            is_known = is_known && isfinite(value[(size_t)width * (size_t)v + (size_t)k]);
+        }
+        missing += !is_known;
+    }
+    return missing;
+}
+
+void sink_field_as_uv(mesh_sink *s, const mesh_field *field, sl_int n) {
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (sl_int v = 0; v < n; v++) {
         if (isfinite(field->value[v])) {
@@ -30,7 +41,7 @@ static bool print_uv(mesh_sink *s, const mesh *m, const mesh_extra *extra) {
     const double *uv = extra->corner_uv != NULL ? extra->corner_uv : extra->uv;
     size_t count = extra->corner_uv != NULL ? 3 * (size_t)m->n_faces : (size_t)m->n_vertices;
     if (uv == NULL && extra->n_fields > 0) {
-        print_field_as_uv(s, &extra->fields[0], m->n_vertices);
+        sink_field_as_uv(s, &extra->fields[0], m->n_vertices);
         return true;
     }
     for (size_t k = 0; uv != NULL && k < count; k++) {
@@ -40,7 +51,21 @@ static bool print_uv(mesh_sink *s, const mesh *m, const mesh_extra *extra) {
     return uv != NULL;
 }
 
-void mesh_write_obj(mesh_sink *s, const mesh *m, const mesh_extra *extra) {
+/* Whether all corners of face f have texture coordinates: those of a corner without a value, which
+ * are 0 to keep the count, belong to no face. */
+static bool has_texture(const mesh *m, const mesh_extra *extra, size_t f) {
+    const double *uv = extra->corner_uv != NULL ? extra->corner_uv : extra->uv;
+    sl_int missing = 0;
+    for (size_t k = 3 * f; k < 3 * f + 3; k++) {
+        const size_t v = (size_t)m->faces[k];
+        missing += extra->corner_uv != NULL ? mesh_missing(uv + 2 * k, 2, 1)
+                   : uv != NULL             ? mesh_missing(uv + 2 * v, 2, 1)
+                                            : mesh_missing(extra->fields[0].value + v, 1, 1);
+    }
+    return missing == 0;
+}
+
+static void print_triangles(mesh_sink *s, const mesh *m, const mesh_extra *extra) {
     for (size_t v = 0; v < (size_t)m->n_vertices; v++) {
         const double *x = m->xyz + 3 * v;
         sink_print(s, "v %.17g %.17g %.17g", x[0], x[1], x[2]);
@@ -52,17 +77,24 @@ void mesh_write_obj(mesh_sink *s, const mesh *m, const mesh_extra *extra) {
     }
     bool textured = print_uv(s, m, extra);
     for (size_t f = 0; f < (size_t)m->n_faces; f++) {
+        const bool is_textured = textured && has_texture(m, extra, f);
         sink_print(s, "f");
         for (size_t c = 0; c < 3; c++) {
             long vertex = (long)m->faces[3 * f + c] + 1;
             long texture = extra->corner_uv != NULL ? (long)(3 * f + c) + 1 : vertex;
-            if (textured) {
+            if (is_textured) {
                 sink_print(s, " %ld/%ld", vertex, texture);
             } else {
                 sink_print(s, " %ld", vertex);
             }
         }
         sink_print(s, "\n");
+    }
+}
+
+void mesh_write_obj(mesh_sink *s, const mesh *m, const mesh_extra *extra) {
+    if (!mesh_write_source(s, m, extra)) {
+        print_triangles(s, m, extra);
     }
     for (int k = 0; k < extra->n_fields; k++) {
         sink_print(s, "#field %s\n", extra->fields[k].name);
@@ -142,7 +174,7 @@ bool mesh_write_knows(const char *path) {
 }
 
 static void write_as(int format, mesh_sink *s, const mesh *m, const mesh_extra *extra) {
-    static const mesh_extra nothing = {NULL, NULL, NULL, NULL, 0};
+    static const mesh_extra nothing = {NULL, NULL, NULL, NULL, 0, NULL};
     const mesh_extra *more = extra != NULL ? extra : &nothing;
     if (format == OBJ) {
         mesh_write_obj(s, m, more);
@@ -166,9 +198,8 @@ bool mesh_write(const char *path, const mesh *m, const mesh_extra *extra, char *
                        mesh_write_formats);
         return fail(message, message_size, path, words);
     }
-    if ((format == GLB || format == GLTF) && !mesh_fits_gltf(m)) {
-        return fail(message, message_size, path,
-                    "coordinates beyond the range of single precision, which glTF has");
+    if ((format == GLB || format == GLTF) && mesh_missing(m->xyz, 3, m->n_vertices) > 0) {
+        return fail(message, message_size, path, "coordinates that are not finite");
     }
     FILE *file = output_open(path, message, message_size);
     if (file == NULL) {

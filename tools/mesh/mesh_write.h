@@ -21,7 +21,12 @@ typedef struct mesh_extra {
     const rgb *color;        /* n_vertices */
     const mesh_field *fields;
     int n_fields;
+    const char
+        *source; /* the file that the mesh was read from, with all of its vertices and faces */
 } mesh_extra;
+
+/** How many of n rows of `width` numbers are no value: a number in them is NaN or infinite. */
+sl_int mesh_missing(const double *value, int width, sl_int n);
 
 /** The endings of names for messages: ".obj, .ply, ...". */
 extern const char mesh_write_formats[];
@@ -34,20 +39,27 @@ bool mesh_write_knows(const char *path);
  *
  *  OBJ  v lines, with r g b in 0..1 after x y z if there are colors; vt lines and f v/vt corners if
  *       there are texture coordinates. Without texture coordinates the first field is written as u,
- *       scaled from its range to 0..1. All fields follow as comment lines "#field NAME" and
- *       "#f VALUE".
+ *       scaled from its range to 0..1. A face with a corner that has none is written without them.
+ *       If `source` is an OBJ file and there are no other texture coordinates, its lines are
+ *       written with the coordinates of m: polygons, groups and texture coordinates stay.
+ *       All fields follow as comment lines "#field NAME" and "#f VALUE", where nan is no value.
  *  PLY  binary little-endian: x y z as double, fields as double properties by name, s t for texture
  *       coordinates, red green blue.
  *  VTK  legacy polygonal data, binary, version 3.0: fields as scalars of the points by name.
  *  glTF 2.0, as a container (.glb) or as text with the numbers in base64 (.gltf): one mesh in
- *       single precision; fields as attributes _NAME in capital letters, where values that are
- *       not finite become 0; COLOR_0 and TEXCOORD_0. A mesh without faces becomes points.
+ *       single precision; fields as attributes _NAME in capital letters; COLOR_0 and TEXCOORD_0. A
+ *       value that is not finite, which glTF does not allow, becomes the lowest number of single
+ *       precision, and an attribute _HAS_NAME is 0 there and 1 elsewhere. A mesh far from the
+ *       origin, or of a size that single precision does not have, is translated and scaled by its
+ *       node (single_frame.h). A mesh without faces becomes points.
+ *
+ *  In PLY and VTK a missing value is NaN.
  *
  *  path     [in]   the file; an existing one is replaced only by a complete one (output_open).
  *  extra    [in]   may be NULL.
  *  message  [out]  the reason on error, message_size bytes; may be NULL.
  *  Returns  true; false: unknown file name extension, the file cannot be written, or for glTF:
- *           a coordinate is beyond the range of single precision.
+ *           a coordinate is not finite.
  *  Example  tests/tools/test_mesh_write.c
  */
 bool mesh_write(const char *path, const mesh *m, const mesh_extra *extra, char *message,

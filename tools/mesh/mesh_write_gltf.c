@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "mesh_sink.h"
+#include "single_frame.h"
 
 /* A growing text: the document, whose length a container tells before it. */
 typedef struct text {
@@ -79,8 +80,9 @@ static void end_bytes(bytes *b, int64_t length) {
     }
 }
 
+/* glTF has no NaNs: the lowest number says that there is no value. */
 static void put_float(bytes *b, double x) {
-    const float single = fabs(x) <= FLT_MAX ? (float)x : 0; /* glTF has no NaNs */
+    const float single = isfinite(x) ? (float)fmax(-FLT_MAX, fmin(FLT_MAX, x)) : -FLT_MAX;
     uint32_t bits;
     memcpy(&bits, &single, sizeof bits);
     put_word(b, bits);
@@ -107,20 +109,38 @@ static void describe(layout *l, const char *attribute, int64_t count, int row, c
     l->count++;
 }
 
-/* "_ADF" for adf: names of one's own begin with _. */
-static void attribute_name(char *name, size_t size, const char *field) {
-    (void)snprintf(name, size, "_%s", field);
-    for (char *c = name; *c != '\0'; c++) {
+/* The rows of numbers of one attribute of the vertices, and whether one of them is no value. */
+typedef struct attribute {
+    char name[64];
+    const double *value;
+    int width;
+    bool has_gaps;
+} attribute;
+
+/* Attribute k: a field, or the texture coordinates after the last field. "_ADF" for adf: names of
+ * one's own begin with _. Returns whether there is one. */
+static bool attribute_at(attribute *a, const mesh *m, const mesh_extra *extra, int k) {
+    const bool is_field = k < extra->n_fields;
+    if (k > extra->n_fields || (!is_field && extra->uv == NULL)) {
+        return false;
+    }
+    (void)snprintf(a->name, sizeof a->name, is_field ? "_%s" : "%s",
+                   is_field ? extra->fields[k].name : "TEXCOORD_0");
+    for (char *c = a->name; *c != '\0'; c++) {
         *c = (char)toupper((unsigned char)*c);
     }
+    a->value = is_field ? extra->fields[k].value : extra->uv;
+    a->width = is_field ? 1 : 2;
+    a->has_gaps = mesh_missing(a->value, a->width, m->n_vertices) > 0;
+    return true;
 }
 
 /* Positions need their bounds, as they are in single precision. */
-static void describe_positions(layout *l, const mesh *m) {
+static void describe_positions(layout *l, const mesh *m, const single_frame *frame) {
     double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
     char more[300];
     for (size_t k = 0; k < 3 * (size_t)m->n_vertices; k++) {
-        const double x = (double)(float)m->xyz[k];
+        const double x = (double)single_frame_coordinate(frame, m, k);
         low[k % 3] = k < 3 || x < low[k % 3] ? x : low[k % 3];
         high[k % 3] = k < 3 || x > high[k % 3] ? x : high[k % 3];
     }
@@ -132,19 +152,22 @@ static void describe_positions(layout *l, const mesh *m) {
 }
 
 /* All arrays, in the order in which put_arrays writes them. */
-static void describe_arrays(layout *l, const mesh *m, const mesh_extra *extra) {
+static void describe_arrays(layout *l, const mesh *m, const mesh_extra *extra,
+                            const single_frame *frame) {
     static const char scalars[] = "\"componentType\":5126,\"type\":\"SCALAR\"";
-    char name[64];
+    attribute a;
+    char mask[80];
     if (m->n_faces > 0) {
         describe(l, NULL, 3 * (int64_t)m->n_faces, 4, "\"componentType\":5125,\"type\":\"SCALAR\"");
     }
-    describe_positions(l, m);
-    for (int k = 0; k < extra->n_fields; k++) {
-        attribute_name(name, sizeof name, extra->fields[k].name);
-        describe(l, name, m->n_vertices, 4, scalars);
-    }
-    if (extra->uv != NULL) {
-        describe(l, "TEXCOORD_0", m->n_vertices, 8, "\"componentType\":5126,\"type\":\"VEC2\"");
+    describe_positions(l, m, frame);
+    for (int k = 0; attribute_at(&a, m, extra, k); k++) {
+        describe(l, a.name, m->n_vertices, 4 * a.width,
+                 a.width == 1 ? scalars : "\"componentType\":5126,\"type\":\"VEC2\"");
+        (void)snprintf(mask, sizeof mask, "_HAS%s%s", a.name[0] == '_' ? "" : "_", a.name);
+        if (a.has_gaps) {
+            describe(l, mask, m->n_vertices, 4, scalars);
+        }
     }
     if (extra->color != NULL) {
         describe(l, "COLOR_0", m->n_vertices, 4,
@@ -152,21 +175,24 @@ static void describe_arrays(layout *l, const mesh *m, const mesh_extra *extra) {
     }
 }
 
-static void put_arrays(bytes *b, const mesh *m, const mesh_extra *extra) {
+static void put_arrays(bytes *b, const mesh *m, const mesh_extra *extra,
+                       const single_frame *frame) {
     const size_t n = (size_t)m->n_vertices;
+    attribute a;
     for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
         put_word(b, (uint32_t)m->faces[k]);
     }
     for (size_t k = 0; k < 3 * n; k++) {
-        put_float(b, m->xyz[k]);
+        put_float(b, (double)single_frame_coordinate(frame, m, k));
     }
-    for (int k = 0; k < extra->n_fields; k++) {
-        for (size_t v = 0; v < n; v++) {
-            put_float(b, extra->fields[k].value[v]);
+    for (int i = 0; attribute_at(&a, m, extra, i); i++) {
+        const size_t width = (size_t)a.width;
+        for (size_t k = 0; k < width * n; k++) {
+            put_float(b, a.value[k]);
         }
-    }
-    for (size_t k = 0; extra->uv != NULL && k < 2 * n; k++) {
-        put_float(b, extra->uv[k]);
+        for (size_t v = 0; v < n && a.has_gaps; v++) {
+            put_float(b, mesh_missing(a.value + width * v, a.width, 1) > 0 ? 0 : 1);
+        }
     }
     for (size_t v = 0; extra->color != NULL && v < n; v++) {
         const rgb c = extra->color[v];
@@ -176,14 +202,20 @@ static void put_arrays(bytes *b, const mesh *m, const mesh_extra *extra) {
 
 /* The document up to the buffer, whose data URI may follow. A mesh without faces is one of points,
  * and one without vertices an empty scene. */
-static void write_document(text *t, const layout *l, const mesh *m) {
+static void write_document(text *t, const layout *l, const mesh *m, const single_frame *frame) {
+    const double *c = frame->center;
     add(t, "{\"asset\":{\"version\":\"2.0\",\"generator\":\"sparse-local\"},\"scene\":0,"
            "\"scenes\":[{");
     if (m->n_vertices == 0) {
         add(t, "}]}");
         return;
     }
-    add(t, "\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{");
+    add(t, "\"nodes\":[0]}],\"nodes\":[{\"mesh\":0");
+    if (!single_frame_is_identity(frame)) {
+        add(t, ",\"translation\":[%.17g,%.17g,%.17g],\"scale\":[%.17g,%.17g,%.17g]", c[0], c[1],
+            c[2], frame->scale, frame->scale, frame->scale);
+    }
+    add(t, "}],\"meshes\":[{\"primitives\":[{");
     add(t, m->n_faces > 0 ? "\"indices\":0,\"attributes\":{" : "\"mode\":0,\"attributes\":{");
     append(t, l->attributes.at, l->attributes.used);
     add(t, "}}]}],\"bufferViews\":[");
@@ -193,23 +225,15 @@ static void write_document(text *t, const layout *l, const mesh *m) {
     add(t, "],\"buffers\":[{\"byteLength\":%lld", (long long)l->length);
 }
 
-bool mesh_fits_gltf(const mesh *m) {
-    for (size_t k = 0; k < 3 * (size_t)m->n_vertices; k++) {
-        if (!(fabs(m->xyz[k]) <= FLT_MAX)) {
-            return false;
-        }
-    }
-    return true;
-}
-
 void mesh_write_gltf(mesh_sink *s, const mesh *m, const mesh_extra *extra, bool is_container) {
     layout l;
     text t = {NULL, 0, 0, false};
     bytes b = {s, !is_container, 0, 0};
+    const single_frame frame = single_frame_of(m);
     memset(&l, 0, sizeof l);
     const bool has_data = m->n_vertices > 0;
-    describe_arrays(&l, m, extra);
-    write_document(&t, &l, m);
+    describe_arrays(&l, m, extra, &frame);
+    write_document(&t, &l, m, &frame);
     add(&t, is_container && has_data ? "}]}" : "");
     while (is_container && t.used % 4 != 0 && !t.failed) {
         add(&t, " "); /* chunks have multiples of 4 bytes; those of the arrays are */
@@ -227,13 +251,13 @@ void mesh_write_gltf(mesh_sink *s, const mesh *m, const mesh_extra *extra, bool 
         if (has_data) {
             put_word(&b, (uint32_t)l.length);
             put_word(&b, 0x004E4942);
-            put_arrays(&b, m, extra);
+            put_arrays(&b, m, extra, &frame);
         }
     } else {
         sink_put(s, t.at, t.used);
         if (has_data) {
             sink_print(s, ",\"uri\":\"data:application/octet-stream;base64,");
-            put_arrays(&b, m, extra);
+            put_arrays(&b, m, extra, &frame);
             end_bytes(&b, l.length);
             sink_print(s, "\"}]}\n");
         }

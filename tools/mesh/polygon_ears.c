@@ -13,6 +13,7 @@ typedef struct ring {
     double *x, *y; /* corners */
     sl_int *before, *next;
     double least; /* a smaller area is none */
+    double steps; /* corners that may still be looked at */
 } ring;
 
 /* Twice the area of a triangle; positive if it is counterclockwise. */
@@ -26,12 +27,13 @@ static bool is_same_point(const ring *r, sl_int a, sl_int b) {
 
 /* Whether corner b, between a and c, can be cut off: it is convex, and no reflex corner is in the
  * triangle or on its sides. */
-static bool is_ear(const ring *r, sl_int b) {
+static bool is_ear(ring *r, sl_int b) {
     const sl_int a = r->before[b], c = r->next[b];
     if (!(area_of(r, a, b, c) > r->least)) {
         return false;
     }
     for (sl_int k = r->next[c]; k != a; k = r->next[k]) {
+        r->steps--;
         if (area_of(r, r->before[k], k, r->next[k]) <= r->least && area_of(r, a, b, k) >= 0 &&
             area_of(r, b, c, k) >= 0 && area_of(r, c, a, k) >= 0 && !is_same_point(r, a, k) &&
             !is_same_point(r, b, k) && !is_same_point(r, c, k)) {
@@ -50,7 +52,7 @@ static bool cut_ears(ring *r, size_t corners, sl_int *triangle) {
     while (left > 3) {
         const bool is_straight =
             tried >= left && fabs(area_of(r, r->before[at], at, r->next[at])) <= r->least;
-        if (tried >= 2 * left) {
+        if (tried >= 2 * left || r->steps < 0) {
             return false;
         }
         if (is_straight || is_ear(r, at)) {
@@ -139,20 +141,24 @@ ears_result ears_instead_of_fan(sl_int *faces, size_t corners, const double *xyz
         return EARS_FAN;
     }
     if (corners > EARS_CORNERS_MAX) {
-        return EARS_IMPOSSIBLE;
+        return EARS_TOO_LARGE;
     }
     ears_result result = EARS_NO_MEMORY;
     const size_t triangles = corners - 2;
     double *x = (double *)malloc(2 * corners * sizeof *x);
     sl_int *number = (sl_int *)malloc((3 * corners + 3 * triangles) * sizeof *number);
     if (x != NULL && number != NULL) {
-        ring r = {x, x + corners, number, number + corners, 0};
+        const double most = 8; /* of the square; shapes that take the cube are rare */
+        ring r = {
+            x, x + corners, number, number + corners, 0, most * (double)corners * (double)corners};
         sl_int *vertex = number + 2 * corners, *triangle = vertex + corners;
         for (size_t k = 0; k < corners; k++) {
             vertex[k] = k == 0 ? faces[0] : k == 1 ? faces[1] : faces[3 * (k - 2) + 2];
         }
         project(&r, faces, corners, xyz, normal);
-        result = cut_ears(&r, corners, triangle) ? EARS_CUT : EARS_IMPOSSIBLE;
+        result = cut_ears(&r, corners, triangle) ? EARS_CUT
+                 : r.steps < 0                   ? EARS_TOO_LARGE
+                                                 : EARS_IMPOSSIBLE;
         for (size_t k = 0; k < 3 * triangles && result == EARS_CUT; k++) {
             faces[k] = vertex[triangle[k]];
         }

@@ -7,13 +7,14 @@
 
 #include "sparse_local.h"
 
-/** A polygon with more corners remains a fan: the time grows with their square. */
+/** A polygon with more corners is not divided: the time grows with their square. */
 enum { EARS_CORNERS_MAX = 1 << 13 };
 
 typedef enum ears_result {
     EARS_FAN, /* the fan turns no triangle over, or the polygon has no area: nothing changed */
     EARS_CUT, /* the fan was replaced by ears */
-    EARS_IMPOSSIBLE, /* the polygon crosses itself, or has too many corners: nothing changed */
+    EARS_IMPOSSIBLE, /* the polygon crosses itself: nothing changed */
+    EARS_TOO_LARGE,  /* it has too many corners, and the fan turns triangles over */
     EARS_NO_MEMORY   /* nothing changed */
 } ears_result;
 

@@ -173,6 +173,7 @@ static bool add_flat(mesh_build *b, const sl_int *at, sl_int type) {
 
 static bool add_cells(mesh_build *b, const vtk_grid *g, const solid_face *list, size_t n_faces) {
     const sl_int *at = g->cells.at;
+    int64_t left_out = 0;
     for (int64_t k = 0; k < g->n_cells; k++, at += 1 + at[0]) {
         const sl_int type = g->types.at[k];
         const solid *s = solid_of(type);
@@ -182,14 +183,19 @@ static bool add_cells(mesh_build *b, const vtk_grid *g, const solid_face *list, 
             ok = add_solid(b, at + 1, s, list, n_faces);
         } else if (may_be_face && n_faces > 0) {
             const solid_face wanted = face_of(at + 1, NULL, (int)at[0]);
-            ok = bsearch(&wanted, list, n_faces, sizeof *list, by_key) != NULL ||
-                 add_flat(b, at, type);
+            const bool is_of_solid = bsearch(&wanted, list, n_faces, sizeof *list, by_key) != NULL;
+            left_out += is_of_solid;
+            ok = is_of_solid || add_flat(b, at, type);
         } else if (type >= TRIANGLE) {
             ok = add_flat(b, at, type);
         }
         if (!ok) {
             return false;
         }
+    }
+    if (left_out > 0) {
+        mesh_build_note(b, "%lld faces are those of solid cells, and left out",
+                        (long long)left_out);
     }
     return true;
 }

@@ -1,0 +1,30 @@
+/* surface_search.h: inside of surface_paths.h: the searches and the paths that they have found */
+#ifndef TOOLS_SURFACE_SEARCH_H
+#define TOOLS_SURFACE_SEARCH_H
+
+#include "surface_paths.h"
+
+#include "tools/mesh/path_heap.h"
+
+/* Points are the vertices, then `points` of each edge, from its lower to its higher vertex. */
+struct surface_search {
+    const incidence *inc;
+    int points;
+    sl_int n_edges;
+    sl_int *edge_of; /* 3 n_faces: the edge opposite to a corner */
+    sl_off *begin;   /* n_edges + 1: the sides of an edge are side[begin[e]] .. */
+    sl_int *side;    /* 3 n_faces: corners opposite to edges */
+    double *length;  /* of the shortest path so far, by point */
+    sl_int *origin;  /* the position of its source, by point */
+    int64_t *parent; /* the point before the last one of the path, by point; -1: a source */
+    sl_int *across;  /* the face of the last step, by point */
+    int64_t *found;  /* the points with a path, in the order of discovery */
+    size_t n_found;
+    double limit;
+    path_heap heap;
+    /* of surface_search_straighten, n_vertices each; NULL: not needed yet */
+    double *angle;    /* the sum of the angles around a vertex; INFINITY on the border */
+    double *straight; /* lengths; INFINITY where no path leads */
+};
+
+#endif
