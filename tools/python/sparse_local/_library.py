@@ -171,14 +171,17 @@ def check(status, stats=None, width=1, path=None):
     buffer = ctypes.create_string_buffer(1000)
     lib.sl_error_text(buffer, len(buffer), status, None if stats is None else ctypes.byref(stats))
     text = buffer.value.decode()
-    if stats is not None:
-        if kind is PivotError and stats.factor.null_bound > 0:
-            text += ", pivot %.3g, null up to %.3g" % (value, stats.factor.null_bound)
+    bound = ""
+    if stats is not None and kind is PivotError and stats.factor.null_bound > 0:
+        bound = ", pivot %.3g, null up to %.3g" % (value, stats.factor.null_bound)
+    text += bound
     text = text.replace("sl_symbolic_create_pivoted", "pivoted=True (sl_symbolic_create_pivoted)")
     if path is not None:
         text += ", %s" % os.fsdecode(path)
     error = kind(text)  # which has the place already
     error.row, error.column, error.value = row, column, value
+    if "sl_" in text or "options." in text:
+        error.cause = str(kind(lib.sl_status_string(status).decode() + bound, row, column))
     raise error
 
 

@@ -25,7 +25,7 @@ class Solves:
             gives a dense X by solves that begin in the rows where B has entries.
         ArgumentError: another shape; NotFiniteError: a NaN or infinity in B; StateError: a failed
         factor; InconsistentError: A is singular and B has no solution (null_pivots='skip' without
-        mass). Cost: two passes over L for up to 8 columns of B.
+        mass). Cost: two passes over L for up to 64 columns of B.
         """
         if type(B) is not np.ndarray and is_sparse(B):
             if tuple(B.shape[:1]) != (self.n,) or len(B.shape) != 2:
@@ -46,20 +46,26 @@ class Solves:
         """Raises InconsistentError with its size; B in the given rows, None: all."""
         if status != _INCONSISTENT:
             return
-        B, n = dense.right(), self.n * self._kind.width
-        right = np.zeros((n, B.shape[1]), order="F")
-        np.add.at(right, slice(None) if rows is None else rows, B)
-        defects = np.zeros((self.stats["factor"]["null"], right.shape[1]), order="F")
-        check(self._lib.sl_factor_defects(self._pointer, arrays.address(defects),
-                                          max(defects.shape[0], 1), arrays.address(right), n,
-                                          right.shape[1], self._work()))
-        sizes = abs(right).sum(axis=0)
-        worst = (abs(defects).max(axis=0) / np.where(sizes > 0, sizes, 1)).max()
+        worst = self._inconsistency(dense, rows)
         text = ("%s: |z' b| for a null vector z is %.2g of sum |b|"
                 % (lib.sl_status_string(status).decode(), worst))
         if self._consistency is not None:
             text += ", consistency_tolerance is %.2g" % self._consistency
-        raise InconsistentError(text, value=float(worst))
+        raise InconsistentError(text, value=worst)
+
+    def _inconsistency(self, dense, rows=None):
+        """The largest |z' b| / sum |b| of null vectors z of a singular A; 0: none is skipped."""
+        null = self.stats["factor"]["null"]
+        B, n = dense.right(), self.n * self._kind.width
+        right = np.zeros((n, B.shape[1]), order="F")
+        np.add.at(right, slice(None) if rows is None else rows, B)
+        defects = np.zeros((null, right.shape[1]), order="F")
+        check(self._lib.sl_factor_defects(self._pointer, arrays.address(defects),
+                                          max(defects.shape[0], 1), arrays.address(right), n,
+                                          right.shape[1], self._work()))
+        sizes = abs(right).sum(axis=0)
+        ratios = abs(defects).max(axis=0, initial=0.0) / np.where(sizes > 0, sizes, 1)
+        return float(ratios.max(initial=0.0))
 
     def local(self, bset, B, xset):
         """The rows xset of the solution for a B that is 0 outside the rows bset.
