@@ -84,8 +84,9 @@ function F = prepare(A, known, Aeq)
     catch e
         singular = strcmp(e.identifier, 'sparse_local:pivot');
         if ~singular && ~strcmp(e.identifier, 'sparse_local:inaccurate'), rethrow(e); end
-        kept = independent(F.Aeq(:, F.unknown));
-        if numel(kept) < F.equalities, F = with_equalities(F, A, kept); end
+        if F.equalities > 0
+            F = with_equalities(F, A, independent(F.Aeq(:, F.unknown)));
+        end
         F.factor = factor_of_singular(F, e);
     end
 end
