@@ -6,8 +6,9 @@
     l = system.logdet(values)
 
 All are differentiable by values and b; solves any number of times. A second derivative of logdet,
-and of local_solve, raises NotImplementedError. Gradients by values are those of sparse_local.gradients: where A stores both triangles, each value of a pair gets half
-of the derivative of the pair. Tensors of float32 are computed in float64; results are float64.
+and of local_solve, raises NotImplementedError. Gradients by values are those of
+sparse_local.gradients: where A stores both triangles, each value of a pair gets half of the
+derivative of the pair. Tensors of float32 are computed in float64; results are float64.
 """
 import numpy as np
 import torch

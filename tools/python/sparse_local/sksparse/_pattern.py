@@ -34,9 +34,11 @@ def square(A):
     return A
 
 
-def lower(A):
-    """A for its lower triangle, the only one that is read; warns if the other one differs."""
+def readable(A, triangle="lower"):
+    """A matrix whose lower triangle is the one of A that is read; warns if the other differs."""
     A = square(A)
+    if triangle == "upper" and A.dtype.kind == "c":
+        A, triangle = A.conj().T.tocsc(), "lower"
     try:
         with translated(None):
             view = Matrix(A)
@@ -46,12 +48,14 @@ def lower(A):
     except CholmodInvalidError as error:
         if not isinstance(error.__cause__, PatternError) or not _is_well_formed(A):
             raise
-        warnings.warn("only the lower triangle is read: %s" % error, CholmodWarning, stacklevel=4)
-        return sparse.tril(A, format="csc")
-    if stored == TRIANGLES["upper"]:
-        raise CholmodInvalidError("the lower triangle is read, and this matrix stores only the "
-                                  "upper one")
-    return A
+        warnings.warn("only the %s triangle is read: %s" % (triangle, error), CholmodWarning,
+                      stacklevel=4)
+        return sparse.tril(A if triangle == "lower" else A.T, format="csc")
+    other = "upper" if triangle == "lower" else "lower"
+    if stored == TRIANGLES[other]:
+        raise CholmodInvalidError("the %s triangle is read, and this matrix stores only the %s "
+                                  "one" % (triangle, other))
+    return A.T.tocsc() if stored == TRIANGLES["upper"] else A
 
 
 def _stored_triangle(view):

@@ -28,7 +28,7 @@ from ._errors import (CholmodError, CholmodGpuProblemError, CholmodInvalidError,
                       CholmodNotInstalledError, CholmodNotPositiveDefiniteError,
                       CholmodOutOfMemoryError, CholmodTooLargeError, CholmodTypeConversionWarning,
                       CholmodWarning, translated)
-from ._pattern import Pattern, checked, lower, product, product_pattern, square
+from ._pattern import Pattern, checked, product, product_pattern, readable, square
 
 __all__ = ["analyze", "analyze_AAt", "cholesky", "cholesky_AAt", "CholmodError",
            "CholmodGpuProblemError", "CholmodInvalidError", "CholmodNotInstalledError",
@@ -52,23 +52,23 @@ class Factor:
     def __init__(self, key, *parts):
         if key is not _key:
             raise CholmodError("a Factor is made by analyze and cholesky")
-        self._analysis, self._pattern, self._mode, self._natural = parts
+        self._analysis, self._pattern, self._mode, self._shown = parts
         self._numbers = None
         self._is_singular = False  # null pivots are skipped
         self._low = None  # the lower triangle that is factored
         self._order()
 
     def _order(self):
-        """What permutes between the order of the library and a natural order that it keeps in
-        effect but not in sequence."""
-        if self._natural:
-            self._from = np.argsort(self._analysis.perm)  # place k there for place r here
+        """Places in the order of the library, which keeps the order that is shown (a given one, or
+        the natural one) in effect but not in sequence. None: it is the order of the library."""
+        if self._shown is not None:
+            self._from = np.argsort(self._analysis.perm)[self._shown]
 
     # ---- factorization ----
 
     def cholesky_inplace(self, A, beta=0):
         """Factors A + beta I, whose pattern is in the analyzed one."""
-        self._factor(lower(A), beta)
+        self._factor(readable(A), beta)
 
     def cholesky_AAt_inplace(self, A, beta=0):
         """Factors A A^H + beta I."""
@@ -114,7 +114,7 @@ class Factor:
 
     def copy(self):
         """A Factor with numbers of its own."""
-        other = Factor(_key, self._analysis, self._pattern, self._mode, self._natural)
+        other = Factor(_key, self._analysis, self._pattern, self._mode, self._shown)
         other._low, other._is_singular = self._low, self._is_singular
         if self._numbers is not None:
             with translated(self):
@@ -125,13 +125,13 @@ class Factor:
 
     def cholesky(self, A, beta=0):
         """A new Factor of A + beta I with this analysis."""
-        other = Factor(_key, self._analysis, self._pattern, self._mode, self._natural)
+        other = Factor(_key, self._analysis, self._pattern, self._mode, self._shown)
         other.cholesky_inplace(A, beta)
         return other
 
     def cholesky_AAt(self, A, beta=0):
         """A new Factor of A A^H + beta I with this analysis."""
-        other = Factor(_key, self._analysis, self._pattern, self._mode, self._natural)
+        other = Factor(_key, self._analysis, self._pattern, self._mode, self._shown)
         other.cholesky_AAt_inplace(A, beta)
         return other
 
@@ -157,7 +157,8 @@ class Factor:
         except CholmodInvalidError:
             self._pattern = Pattern(low)
             with translated(self):
-                self._analysis = Analysis(self._pattern.first, perm=self.P())
+                self._shown = self.P()
+                self._analysis = Analysis(self._pattern.first, perm=self._shown)
                 self._numbers = None
                 self._order()
             self._factor_in_pattern(self._pattern.first)
@@ -171,18 +172,18 @@ class Factor:
 
     def P(self):
         """The order as n row numbers: A[P][:, P] is decomposed."""
-        return np.arange(self._analysis.n, dtype=np.int32) if self._natural else self._analysis.perm
+        return self._analysis.perm if self._shown is None else self._shown.copy()
 
     def D(self):
         """D as n numbers."""
         with translated(self):
             d = self._ready().pivots()[0]
-        return d[self._from] if self._natural else d
+        return d if self._shown is None else d[self._from]
 
     def _lower(self):
         with translated(self):
             L = self._ready().lower()
-        if self._natural:
+        if self._shown is not None:
             L = L[self._from][:, self._from].tocsc()
             L.sort_indices()
         return L
@@ -274,9 +275,9 @@ class Factor:
             if parts in ("P", "PT"):
                 order = self.P() if parts == "P" else np.argsort(self.P())
                 return np.array(F._kind.dense(b, F.n, F.n).B[order])
-            if not self._natural:
+            if self._shown is None:
                 return F.solve_part(parts, b)
-            return F.solve_part(parts, b[self._analysis.perm])[self._from]
+            return F.solve_part(parts, b[np.argsort(self._from)])[self._from]
 
     def _warn_if_inconsistent(self, b):
         if not self._is_singular:
@@ -321,7 +322,7 @@ def analyze_AAt(A, mode="auto", ordering_method="default", use_long=None):
 
 def cholesky(A, beta=0, mode="auto", ordering_method="default", use_long=None):
     """The Factor of A + beta I; only the lower triangle of A is read."""
-    return _made(lower(A), beta, mode, ordering_method)
+    return _made(readable(A), beta, mode, ordering_method)
 
 
 def cholesky_AAt(A, beta=0, mode="auto", ordering_method="default", use_long=None):
@@ -358,4 +359,5 @@ def _analyze(low, mode, ordering_method, beta=0.0):
     with translated():
         ordering = _ordering_methods[ordering_method or "default"]
         analysis = Analysis(pattern.first, ordering=ordering)
-    return Factor(_key, analysis, pattern, mode, ordering == "natural")
+    natural = np.arange(analysis.n, dtype=np.int32) if ordering == "natural" else None
+    return Factor(_key, analysis, pattern, mode, natural)
