@@ -147,9 +147,11 @@ def as_dict(struct):
 
 
 def new_options():
-    options = Options()
-    lib.sl_options_init(options, ctypes.sizeof(Options))
-    return options
+    return Options.from_buffer_copy(_defaults)
+
+
+_defaults = Options()
+lib.sl_options_init(_defaults, ctypes.sizeof(Options))
 
 
 def check(status, stats=None, width=1, path=None):
@@ -185,12 +187,15 @@ def check(status, stats=None, width=1, path=None):
     raise error
 
 
+_frees = {name[:-5]: getattr(lib, "sl_" + name) for name in _FREES}
+
+
 class Handle:
     """Owner of one object of the library. pointer is its address; StateError once it is closed."""
 
     def __init__(self, name, pointer, *borrowed):
         self._name = name
-        self._free = getattr(lib, "sl_%s_free" % name)
+        self._free = _frees[name]
         self._pointer = pointer
         self._borrowed = borrowed  # these live as long as the object
 

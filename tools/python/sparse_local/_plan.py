@@ -5,6 +5,7 @@ import threading
 import numpy as np
 
 from . import _arrays as arrays
+from ._arrays import DOUBLE, address, is_plain
 from ._library import Handle, Stats, as_dict, check, lib, new_options
 from ._errors import StateError
 from ._options import choice
@@ -86,8 +87,13 @@ class Plan:
 
     def solve(self, B):
         """x on xset; B has the shape (nb,) or (nb, count), the result (nx,) or (nx, count)."""
-        dense = self._dense(B)
         factor = self._factor
+        if is_plain(B, DOUBLE) and B.shape == (self.nb,) and factor._kind is arrays.REAL:
+            X = np.empty(self.nx)
+            if not lib.sl_plan_solve(self._plan.pointer, factor._pointer, address(X), self.nx or 1,
+                                     address(B), self.nb or 1, 1, factor._work()):
+                return X  # what most calls are; errors are found below
+        dense = self._dense(B)
         status = lib.sl_plan_solve(self._plan.pointer, factor._pointer, *dense.arguments(),
                                    factor._work())
         if status:
