@@ -13,6 +13,7 @@ from ._library import Handle, Stats, as_dict, check, lib
 from ._matrix import Matrix
 from ._options import POSITIVE, Chosen, choice, default_options, split
 from ._pseudo import NullSpace
+from ._shared import forget_closed
 from ._solves import Solves
 from ._threads import calls
 from ._works import Works
@@ -111,6 +112,7 @@ class Factor(Solves, Entries, Changes, Files):
         self._lib = calls(threads)
         self._solve_call = self._lib.sl_factor_solve
         self._definite = definite
+        self._source = None  # of a mapped factor
         self._refused = None  # why the numbers are not to be used
         self._consistency = None  # that of a file
         self._has_mass = False
@@ -206,6 +208,8 @@ class Factor(Solves, Entries, Changes, Files):
         """Releases the memory of the factor; every later use of it, of its plans, regions and pins
         raises StateError. Without close, this happens when nothing refers to it any more."""
         self._factor.close()
+        if self._source is not None:
+            forget_closed()
 
     def __enter__(self):
         return self

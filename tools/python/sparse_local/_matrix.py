@@ -13,8 +13,8 @@ from ._library import Csc, Csc64, Handle, Hermitian, Stats, check, lib, new_opti
 _AS_SYMMETRIC, _AS_STORED = 0, 1
 TRIANGLES = {None: 0, "lower": 1, "upper": 2, "both": 3}
 
-_NEEDED = ("a sparse matrix in compressed columns is needed, not %s: scipy.sparse.csc_matrix(A) makes "
-           "one")
+_NEEDED = ("a sparse matrix in compressed columns is needed, not %s: scipy.sparse.csc_matrix(A) "
+           "makes one")
 _probe = np.random.default_rng(0).uniform(0.5, 1.5, 1000)  # of small matrices
 
 CscArrays = namedtuple("CscArrays", "shape indptr indices data")

@@ -31,7 +31,8 @@ class Solves:
         factor; InconsistentError: A is singular and B has no solution (null_pivots='skip' without
         mass). Cost: two passes over L for up to 64 columns of B.
         """
-        if rows is None and is_plain(B, DOUBLE) and B.shape == (self.n,) and self._kind is arrays.REAL:
+        if rows is None and is_plain(B, DOUBLE) and B.shape == (self.n,) and \
+                self._kind is arrays.REAL:
             X = np.empty_like(B)
             n = self.n or 1
             if not self._solve_call(self._pointer, address(X), n, address(B), n, 1, self._work()):

@@ -5,7 +5,7 @@
     w, V = eigsh(A, 6, M=M, sigma=0, OPinv=shift_invert(A, 0, M))
 
 Real symmetric and complex Hermitian matrices, with both triangles, are solved by this package. All
-others, and those that it refuses as singular, are given to SciPy, whose answers and errors they get.
+others, and those that it refuses as singular, are given to SciPy, and get its answers and errors.
 """
 import numpy as np
 from scipy import sparse
