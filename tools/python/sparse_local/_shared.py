@@ -8,8 +8,9 @@ from ._errors import Error, StateError
 
 _HEADER = 64  # bytes of a saved file; its size and the checksum of all are in 24..40
 _KEPT = 16  # files that a process keeps open for factors that come again
-_open = weakref.WeakValueDictionary()  # what is open, by what it was opened with
-_kept = OrderedDict()  # the last of those that came from other processes
+# what is open, by what it was opened with
+_open: "weakref.WeakValueDictionary" = weakref.WeakValueDictionary()
+_kept: OrderedDict = OrderedDict()  # the last of those that came from other processes
 _lock = threading.RLock()
 
 
