@@ -42,10 +42,15 @@ function [Z, F, Lambda, Lambda_known] = min_quad_with_fixed(A, B, known, Y, Aeq,
     Beq_all = Beq;
     Beq = Beq(F.kept, :);
     right = [-0.5 * B(u, :); Beq] - F.coupling * Y;
-    if F.equalities > 0
-        x = F.factor.refine(F.matrix, right);
-    else
-        x = F.factor.solve(right);
+    try
+        if F.equalities > 0
+            x = F.factor.refine(F.matrix, right);
+        else
+            x = F.factor.solve(right);
+        end
+    catch e
+        if ~strcmp(e.identifier, 'sparse_local:inconsistent'), rethrow(e); end
+        error(e.identifier, 'A is singular and B has a part along a null vector: no minimum');
     end
     Z = zeros(F.n, columns);
     Z(F.known, :) = Y;
@@ -135,7 +140,11 @@ function in_original_rows(e, F)
             where = sprintf('; this is equality %d', F.kept(row - numel(F.unknown)));
         end
     end
-    error(e.identifier, '%s%s', e.message, where);
+    what = 'the system is singular: its solution is not unique, or there is none';
+    if strcmp(e.identifier, 'sparse_local:inaccurate')
+        what = 'the system is so badly scaled that its factor has no correct digit';
+    end
+    error(e.identifier, '%s%s', what, where);
 end
 
 function M = spread(M, columns)
