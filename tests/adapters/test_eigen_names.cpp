@@ -214,11 +214,109 @@ void equality_constraints() {
         CHECK(ours.compute(grid_matrix(4)).stats().symbolic.pairs == 0);
         CHECK(sl::SimplicialLLT<Sparse>(K).info() == Eigen::NumericalIssue);
     }
-    /* singular: as before the attempt */
-    sl::SimplicialLDLT<Sparse> ours(grid_matrix(5, 0.0));
+    /* singular and not semidefinite: as before the attempts */
+    Sparse K = kkt_matrix(true);
+    for (Sparse::InnerIterator q(K, 0); q; ++q)
+        q.valueRef() = 0;
+    sl::SimplicialLDLT<Sparse> ours(K);
     CHECK(ours.info() == Eigen::NumericalIssue && ours.analyses() == 1);
+    CHECK(!ours.lastErrorMessage().empty());
+    CHECK(ours.permutationP().size() == 39 && all_nan(Vector(ours.solve(b))));
+}
+
+/* Two grids without boundary conditions, as meshes of two parts have: Eigen's class solves it up to
+ * constants, since rounding leaves the last pivots at 1e-16. */
+template <class Solver> void null_pivots_are_skipped() {
+    const Sparse part = grid_matrix(5, 0.0);
+    std::vector<Eigen::Triplet<double>> t;
+    for (int j = 0; j < 25; j++) {
+        for (Sparse::InnerIterator q(part, j); q; ++q) {
+            t.emplace_back(q.row(), j, q.value());
+            t.emplace_back(25 + q.row(), 25 + j, 3.0 * q.value());
+        }
+    }
+    Sparse A(50, 50);
+    A.setFromTriplets(t.begin(), t.end());
+    Vector b = some_vector(50);
+    b.head(25).array() -= b.head(25).mean();
+    b.tail(25).array() -= b.tail(25).mean();
+    Solver ours(A);
+    CHECK(ours.info() == Eigen::Success && ours.stats().factor.null == 2);
+    CHECK((ours.vectorD().array() == 0).count() == 2 && ours.analyses() == 1);
+    const Vector x = ours.solve(b);
+    const Dense full = Sparse(A.template selfadjointView<Eigen::Lower>());
+    CHECK(ours.info() == Eigen::Success && close(full * x, b, 1e-12));
+    const auto is_null = [](const Vector &v) { return (v.array().abs() < 1e-300).count(); };
+    CHECK(is_null(x.head(25)) == 1 && is_null(x.tail(25)) == 1);
+    /* a b that no x solves */
+    b[3] += 1;
+    CHECK(all_nan(Vector(ours.solve(b))) && ours.info() == Eigen::NumericalIssue);
     CHECK(ours.lastErrorMessage().find("setZeroMean") != std::string::npos);
-    CHECK(ours.permutationP().size() == 25 && all_nan(Vector(ours.solve(some_vector(25)))));
+    /* another matrix of the pattern is judged anew */
+    const Sparse shifted = grid_matrix(5);
+    CHECK(ours.compute(shifted).info() == Eigen::Success && ours.stats().factor.null == 0);
+    CHECK(ours.compute(A).info() == Eigen::Success && ours.stats().factor.null == 2);
+    CHECK(ours.setNullPivots(false).compute(A).info() == Eigen::NumericalIssue);
+    CHECK(ours.lastErrorMessage().find("setNullPivots") != std::string::npos);
+}
+
+/* Our own names refuse what is singular, and LLT what is not positive. */
+void own_names_are_strict() {
+    const Sparse A = grid_matrix(5, 0.0);
+    CHECK(sl::LocalLDLT<Sparse>(A).status() == SL_ERR_PIVOT);
+    CHECK(sl::LocalLLT<Sparse>(A).status() == SL_ERR_PIVOT);
+    CHECK(sl::SimplicialLLT<Sparse>(Sparse(-A)).status() == SL_ERR_PIVOT);
+    CHECK(sl::SimplicialLDLT<Sparse>(Sparse(-A)).info() == Eigen::Success);
+    const Sparse both = A.selfadjointView<Eigen::Lower>();
+    const sl::SimplicialLDLT<Hermitian> hermitian(both.cast<Complex>());
+    Eigen::VectorXcd c = some_complex(25);
+    c.array() -= c.mean();
+    const Eigen::VectorXcd z = hermitian.solve(c);
+    CHECK(hermitian.info() == Eigen::Success && close(both.cast<Complex>() * z, c, 1e-11));
+}
+
+/* Clients count the signs of vectorD(): with 2x2 pivots it has the eigenvalues of the blocks. */
+void inertia_of_pivots() {
+    const Sparse K = kkt_matrix(true);
+    const Dense full = Sparse(K.selfadjointView<Eigen::Lower>());
+    sl::SimplicialLDLT<Sparse> ours;
+    ours.setPivoted().compute(K);
+    CHECK(ours.info() == Eigen::Success && ours.stats().symbolic.pairs > 0);
+    const Vector d = ours.vectorD();
+    CHECK((d.array() < 0).count() == 3 && (d.array() > 0).count() == 36);
+    CHECK(std::fabs(d.prod() / full.determinant() - 1) < 1e-10);
+    sl::SimplicialLDLT<Hermitian> hermitian;
+    const Sparse both = K.selfadjointView<Eigen::Lower>();
+    hermitian.setPivoted().compute(both.cast<Complex>());
+    CHECK(hermitian.info() == Eigen::Success && hermitian.vectorD().size() == 39);
+    CHECK((hermitian.vectorD().real().array() < 0).count() == 3);
+}
+
+/* Every failure has a sentence, of the last call and not of an earlier one. */
+void errors_have_a_sentence() {
+    const auto has = [](const std::string &text, const char *part) {
+        return text.find(part) != std::string::npos;
+    };
+    sl::LocalLDLT<Sparse> ours;
+    const Vector one = Vector::Ones(1), b = some_vector(16);
+    CHECK(all_nan(Dense(ours.solve({0}, one, {0}))) || ours.rows() == 0);
+    CHECK(has(ours.lastErrorMessage(), "compute"));
+    ours.compute(grid_matrix(4));
+    CHECK(ours.lastErrorMessage().empty());
+    CHECK(all_nan(Dense(ours.solve({1}, one, {16}))));
+    CHECK(has(ours.lastErrorMessage(), "row 16"));
+    CHECK(all_nan(Dense(ours.solve({1, 2}, one, {3}))));
+    CHECK(has(ours.lastErrorMessage(), "as many rows as its set"));
+    Vector broken = b;
+    broken[3] = std::numeric_limits<double>::quiet_NaN();
+    CHECK(all_nan(Vector(ours.solve(broken))) && has(ours.lastErrorMessage(), "finite"));
+    CHECK(!all_nan(Vector(ours.solve(b))) && ours.lastErrorMessage().empty());
+    ours.compute(grid_matrix(4, 0.0));
+    const std::string refused = ours.lastErrorMessage();
+    CHECK(has(refused, "pivot") && has(refused, "setNullPivots") && !has(refused, "sl_"));
+    sl::LocalLDLT<Sparse> other(Sparse(2, 3)); /* does not change what ours says */
+    CHECK(all_nan(Vector(ours.solve(b))) && ours.lastErrorMessage() == refused);
+    CHECK(!other.lastErrorMessage().empty() && other.lastErrorMessage() != refused);
 }
 
 void zero_mean() {
@@ -285,7 +383,7 @@ void hermitian_matrices() {
     const Hermitian upper = turning_matrix(3).triangularView<Eigen::Upper>();
     CHECK(ours.compute(upper).status() == SL_ERR_MALFORMED);
     CHECK(ours.compute(Hermitian(0, 0)).info() == Eigen::Success);
-    CHECK(ours.compute(Hermitian(2, 2)).info() == Eigen::NumericalIssue);
+    CHECK(ours.setNullPivots(false).compute(Hermitian(2, 2)).info() == Eigen::NumericalIssue);
     Hermitian missing(2, 2);
     missing.insert(1, 0) = Complex(0, 1);
     CHECK(ours.setShift(1).compute(missing).status() == SL_ERR_MALFORMED);
@@ -370,6 +468,13 @@ int main() {
                        {"names_and_types", names_and_types},
                        {"orders_of_the_caller", orders_of_the_caller},
                        {"equality_constraints", equality_constraints},
+                       {"null_pivots_are_skipped",
+                        null_pivots_are_skipped<sl::SimplicialLDLT<Sparse>>},
+                       {"null_pivots_are_skipped_llt",
+                        null_pivots_are_skipped<sl::SimplicialLLT<Sparse>>},
+                       {"own_names_are_strict", own_names_are_strict},
+                       {"inertia_of_pivots", inertia_of_pivots},
+                       {"errors_have_a_sentence", errors_have_a_sentence},
                        {"zero_mean", zero_mean},
                        {"hermitian_matrices", hermitian_matrices},
                        {"hermitian_factors", hermitian_factors},

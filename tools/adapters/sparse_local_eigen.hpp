@@ -30,9 +30,11 @@
  * Indefinite  SimplicialLDLT keeps the order of the pattern. If a pivot is null or L grows, it
  *             chooses 1x1 and 2x2 pivots by the values, as KKT systems [Q A'; A 0] need
  *             (setPivoted).
- * Singular    a numerically singular matrix is refused. Eigen accepts it unless a pivot is exactly
- *             0, and so does options().null_tolerance = -1. setZeroMean() solves singular
- *             Laplacians.
+ * Singular    a singular semidefinite matrix, such as the Laplacian of a closed mesh, has one null
+ *             pivot in each connected component. The classes with Eigen's names skip them: x is 0
+ *             in their rows, stats().factor.null counts them, and a b without a solution makes
+ *             info() NumericalIssue. LocalLDLT and LocalLLT refuse singular matrices
+ *             (setNullPivots). setZeroMean() gives the solution with mean zero.
  * Other differences from Eigen's classes:
  *             - factorize with another pattern than that of analyzePattern analyzes it, and compute
  *               with the pattern of the last analysis does not analyze it again; analyses() counts.
@@ -529,12 +531,19 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
     /** true: from the next analysis on, 1x1 and 2x2 pivots are chosen by the values of the matrix;
      *  false: never. Without this call, SimplicialLDLT chooses them after a null pivot or pivot
      *  growth. Other values of a pattern keep them, and if these do not suit, are analyzed again.
-     *  With 2x2 pivots vectorD() has the diagonal of D only, and entries of the inverse and regions
+     *  With 2x2 pivots vectorD() has the eigenvalues of D, and entries of the inverse and regions
      *  are refused (sl_symbolic_create_pivoted). */
     Solver &setPivoted(bool on = true) {
         const Pivoting wanted = on ? pivoted_always : pivoted_never;
         if (wanted != pivoting_) forget();
         pivoting_ = wanted;
+        return derived();
+    }
+    /** Whether null pivots of singular semidefinite matrices are skipped, from the next
+     *  factorization on, so that x is 0 in their rows: true but in LocalLDLT and LocalLLT. */
+    Solver &setNullPivots(bool are_skipped) {
+        skips_nulls_ = are_skipped;
+        options_changed_ = true;
         return derived();
     }
     /** Singular semidefinite matrices, such as Laplacians, are accepted from the next factorization
@@ -600,16 +609,8 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
     }
     /** What is wrong and what helps; empty after a success. */
     std::string lastErrorMessage() const {
-        if (status() == SL_OK) return std::string();
-        std::string text = sl_status_string(status());
-        if (stats_.error.what) text += std::string(": ") + stats_.error.what;
-        if (stats_.error.row >= 0) text += ", row " + std::to_string(stats_.error.row);
-        if (stats_.error.column >= 0) text += ", column " + std::to_string(stats_.error.column);
-        if (status() == SL_ERR_PIVOT && is_llt_) text += "; SimplicialLDLT allows negative pivots";
-        if (status() == SL_ERR_PIVOT && !is_zero_mean_) {
-            text += "; setZeroMean() solves singular Laplacians";
-        }
-        return text;
+        const std::lock_guard<std::mutex> lock(message_mutex_);
+        return status() == SL_OK ? std::string() : message_;
     }
     /** What the last analysis or factorization reported: the row of an error, counts, times. Counts
      *  are those of the real system, whose rows are twice those of a complex one. */
@@ -763,13 +764,21 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
     const Permutation &permutationPinv() const {
         return m_Pinv;
     }
-    /** D of SimplicialLDLT; the squared diagonal of L of SimplicialLLT. */
+    /** D of SimplicialLDLT; the squared diagonal of L of SimplicialLLT. A skipped null pivot is 0.
+     *  A 2x2 pivot gives its two eigenvalues: the signs are the inertia of the matrix. */
     VectorType vectorD() const {
         if (ready_ != SL_OK) return VectorType();
-        typedef Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<unit>> Reals;
-        return Reals(sl_factor_view(factor_.get()).D, n_)
-            .template cast<RealScalar>()
-            .template cast<Scalar>();
+        const sl_factor_arrays view = sl_factor_view(factor_.get());
+        std::vector<double> d(view.D, view.D + n_ * unit);
+        for (double &pivot : d)
+            if (pivot == std::numeric_limits<double>::max()) pivot = 0;
+        if (view.E) use_eigenvalues(d, view.E);
+        /* real and imaginary parts have pivots of their own with 2x2 pivots, else the same */
+        if (view.E && unit == 2) std::sort(d.begin(), d.end());
+        VectorType out(n_);
+        for (Eigen::Index k = 0; k < n_; k++)
+            out[k] = Scalar(RealScalar(d[std::size_t(k) * unit]));
+        return out;
     }
 
     // ---- what Eigen calls ----
@@ -777,7 +786,7 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
     template <class Rhs, class Dest>
     void _solve_impl(const Eigen::MatrixBase<Rhs> &b, Eigen::MatrixBase<Dest> &dest) const {
         sl_status status = ready_;
-        if (status == SL_OK && b.rows() != n_) status = SL_ERR_ARGUMENT;
+        if (status == SL_OK && b.rows() != n_) status = wrong_size();
         if (status == SL_OK) status = solve_dense(b.derived(), dest.derived(), IsSplit<Rhs>());
         set_status(status);
         if (status != SL_OK) dest.setConstant(nan<typename Dest::Scalar>());
@@ -790,7 +799,7 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
         typedef Eigen::SparseMatrix<typename Dest::Scalar, Eigen::ColMajor, Eigen::Index> Result;
         Result X(n_, b.cols());
         const sl_status status =
-            b.rows() == n_ ? solve_sparse(b.derived(), X, IsSplit<Rhs>()) : SL_ERR_ARGUMENT;
+            b.rows() == n_ ? solve_sparse(b.derived(), X, IsSplit<Rhs>()) : wrong_size();
         set_status(ready_ ? ready_ : status);
         assign(dest.derived(), X, std::integral_constant<bool, Dest::ColsAtCompileTime == 1>());
     }
@@ -808,6 +817,7 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
         }
         analyzed_with_ = options_;
         status_.store(SL_ERR_MISMATCH);
+        has_no_numbers();
     }
 
     /* For classes that derive from Eigen's and set m_P and m_Pinv: the next factorization takes
@@ -819,7 +829,7 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
         m_P = P;
         m_Pinv = inverse;
         report(SL_OK, A.rows());
-        ready_ = SL_ERR_MISMATCH;
+        has_no_numbers();
     }
 
     /* L: of LDLT without its unit diagonal. Computed when it is first asked for. */
@@ -829,7 +839,8 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
         sl_matrix *made = nullptr;
         lower_ = CholMatrixType();
         set_status(ready_ != SL_OK   ? ready_
-                   : m_P.size() < n_ ? SL_ERR_UNSUPPORTED
+                   : m_P.size() < n_ ? refuse(SL_ERR_UNSUPPORTED, "L of a complex matrix with 2x2 "
+                                                                  "pivots")
                                      : sl_factor_lower(&made, factor_.get(), nullptr));
         if (made) fill_lower(sl_matrix_view(made));
         sl_matrix_free(made);
@@ -840,7 +851,7 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
         if (is_llt == is_llt_) return;
         is_llt_ = is_llt;
         forget();
-        ready_ = SL_ERR_MISMATCH;
+        has_no_numbers();
     }
 
     Permutation m_P, m_Pinv;
@@ -867,16 +878,71 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
         m_Pinv.resize(0);
         has_lower_ = has_pivots_ = false;
     }
+    /* The library knows the reason of its last error in this thread; so it is asked at once. */
     void set_status(sl_status status) const {
         status_.store(status);
+        if (status == SL_OK) return;
+        const std::lock_guard<std::mutex> lock(message_mutex_);
+        message_ = status == ready_ ? ready_message_ : message_of(status, nullptr);
+    }
+    void has_no_numbers() {
+        ready_ = SL_ERR_MISMATCH;
+        ready_message_ = "there is no factor: call compute, or factorize";
+    }
+    sl_status wrong_size() const {
+        return refuse(SL_ERR_ARGUMENT, "B does not have as many rows as its set");
+    }
+    /* A refusal of this class, of which the library does not know. */
+    sl_status refuse(sl_status status, const char *why) const {
+        own_reason_.store(why);
+        return status;
+    }
+    /* The text of an error; known: where it is described, NULL: by the library itself. */
+    std::string message_of(sl_status status, const sl_stats *known) const {
+        std::vector<char> buffer(1000);
+        sl_stats own = sl_stats();
+        own.error.line = -1;
+        own.error.row = own.error.column = -1;
+        own.error.what = own_reason_.exchange(nullptr);
+        sl_error_text(buffer.data(), buffer.size(), status, own.error.what ? &own : known);
+        std::string text = buffer.data();
+        replace(text, "sl_symbolic_create_pivoted", is_llt_ ? "SimplicialLDLT" : "setPivoted()");
+        replace(text, "options.", "options().");
+        if (status == SL_ERR_PIVOT && is_llt_) text += "; SimplicialLDLT allows negative pivots";
+        if (status == SL_ERR_PIVOT && !is_zero_mean_ && !skips_nulls_) {
+            text += "; setZeroMean() or setNullPivots(true) solves singular Laplacians";
+        }
+        if (status == SL_ERR_INCONSISTENT) text += "; setZeroMean() makes b consistent";
+        return text;
+    }
+    static void replace(std::string &text, const std::string &from, const char *to) {
+        const std::string with = to;
+        std::size_t at = text.find(from);
+        for (; at != std::string::npos; at = text.find(from, at + with.size()))
+            text.replace(at, from.size(), with);
+    }
+    /* The 2x2 pivots in d by their eigenvalues, the smaller one first; e is beside the diagonal. */
+    static void use_eigenvalues(std::vector<double> &d, const double *e) {
+        for (std::size_t k = 0; k + 1 < d.size(); k++) {
+            if (e[k] == 0) continue;
+            const double middle = 0.5 * (d[k] + d[k + 1]);
+            const double far = std::copysign(std::hypot(0.5 * (d[k] - d[k + 1]), e[k]), middle);
+            const double large = middle + far;
+            /* the product is the determinant, which does not cancel as middle - far does */
+            const double small = d[k] * (d[k + 1] / large) - e[k] * (e[k] / large);
+            d[k] = std::min(large, small);
+            d[k + 1] = std::max(large, small);
+            k++;
+        }
     }
     /* After an error too, the solver has the size of A, and solves fail instead of asserting. */
     void report(sl_status status, Eigen::Index n) {
         this->m_isInitialized = true;
         n_ = n;
         ready_ = status;
-        set_status(status);
         if (unit == 2 && stats_.error.row >= 0) stats_.error.row /= 2;
+        ready_message_ = status == SL_OK ? std::string() : message_of(status, &stats_);
+        set_status(status);
     }
 
     // ---- the analysis ----
@@ -887,7 +953,7 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
         report(arrays.status() == SL_OK ? analyze(A, arrays.view(), pivoting_ == pivoted_always)
                                         : arrays.status(),
                A.rows());
-        if (ready_ == SL_OK) ready_ = SL_ERR_MISMATCH;
+        if (ready_ == SL_OK) has_no_numbers();
     }
     void keep_order(const Permutation &order) {
         order_.clear();
@@ -939,7 +1005,9 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
             options.triangle = SL_TRIANGLE_UPPER;
         }
         forget();
-        if (!use_order(A, view, options)) return SL_ERR_ARGUMENT;
+        if (!use_order(A, view, options)) {
+            return refuse(SL_ERR_ARGUMENT, "an order of another size than the matrix");
+        }
         const sl_status status = with_pivots
                                      ? sl_symbolic_create_pivoted(&made, &view, &options, &stats_)
                                      : sl_symbolic_create(&made, &view, &options, &stats_);
@@ -950,7 +1018,7 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
         if (options.triangle != SL_TRIANGLE_NONE && read.components == read.n &&
             sl_off(view.p[view.n_cols]) > read.nnz_a) {
             forget();
-            return SL_ERR_MALFORMED;
+            return refuse(SL_ERR_MALFORMED, "the triangle that is read is empty");
         }
         has_pivots_ = with_pivots;
         analyzed_with_ = options_;
@@ -989,6 +1057,9 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
     sl_status factor_any(const MatrixType &A, const sl_csc &view) {
         bool with_pivots = pivoting_ == pivoted_always;
         sl_status status = SL_ERR_OTHER_PATTERN;
+        /* whether the last matrix was singular says nothing of this one */
+        if (has_skipped_) options_changed_ = true;
+        has_skipped_ = false;
         if (symbolic_ && is_analyzed_as_wanted()) status = factor_numbers(view);
         const bool is_again = has_pivots_ && is_refused(status);
         if (status == SL_ERR_OTHER_PATTERN || is_again) {
@@ -996,12 +1067,26 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
             status = analyze(A, view, with_pivots);
             if (status == SL_OK) status = factor_numbers(view);
         }
-        if (is_refused(status) && !has_pivots_ && pivoting_ == pivoted_if_needed && !is_llt_ &&
-            !is_zero_mean_ && options_.pivots == SL_PIVOTS_NONZERO &&
-            options_.regularization == 0) {
+        const bool is_open = !has_pivots_ && !is_zero_mean_ &&
+                             options_.pivots == SL_PIVOTS_NONZERO && options_.regularization == 0;
+        if (status == SL_ERR_PIVOT && is_open && skips_nulls_) status = factor_skipping(view);
+        if (is_refused(status) && is_open && pivoting_ == pivoted_if_needed && !is_llt_) {
             status = factor_pivoted(A, view, status);
         }
         return status;
+    }
+    /* The same with skipped null pivots; if that fails too, all is as after the first failure. */
+    sl_status factor_skipping(const sl_csc &view) {
+        const sl_stats stats = stats_;
+        has_skipped_ = options_changed_ = true;
+        sl_status status = factor_numbers(view);
+        /* a semidefinite matrix may be a negative one */
+        if (status == SL_OK && (!is_llt_ || stats_.factor.negative == 0)) return SL_OK;
+        has_skipped_ = false;
+        options_changed_ = true;
+        factor_.reset();
+        stats_ = stats;
+        return SL_ERR_PIVOT;
     }
     /* The same with 2x2 pivots; if that fails too, all is as after the first failure. */
     sl_status factor_pivoted(const MatrixType &A, const sl_csc &view, sl_status first) {
@@ -1028,7 +1113,7 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
         sl_factor *made = nullptr;
         sl_options options = options_;
         std::vector<double> ones;
-        if (is_zero_mean_) use_zero_mean(options, ones, std::size_t(view.n_cols));
+        if (is_zero_mean_ || has_skipped_) skip_nulls(options, ones, std::size_t(view.n_cols));
         if (is_llt_ && options.pivots == SL_PIVOTS_NONZERO && options.regularization == 0) {
             options.pivots = SL_PIVOTS_POSITIVE;
         }
@@ -1048,10 +1133,10 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
         return status;
     }
     /* A complex null vector z is two real ones, z and i z. */
-    static void use_zero_mean(sl_options &options, std::vector<double> &ones, std::size_t n) {
+    void skip_nulls(sl_options &options, std::vector<double> &ones, std::size_t n) const {
         ones.assign(n * (unit == 2 ? 3 : 1), 1.0);
         options.pivots = SL_PIVOTS_SKIP_NULL;
-        if (!options.mass) options.mass = ones.data();
+        if (is_zero_mean_ && !options.mass) options.mass = ones.data();
         if (unit == 1 || options.null_vector) return;
         for (std::size_t k = 0; k < 2 * n; k++)
             ones[n + k] = k % 2 == (k < n ? 0u : 1u) ? 1 : 0;
@@ -1135,7 +1220,7 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
         Dense x(nx, b.cols());
         internal::LentWork work(work_);
         sl_status status = ready_;
-        if (status == SL_OK) status = fits ? call(x, work.get()) : SL_ERR_ARGUMENT;
+        if (status == SL_OK) status = fits ? call(x, work.get()) : wrong_size();
         set_status(status);
         if (status != SL_OK) x.setConstant(nan<Wide>());
         if (result) *result = status;
@@ -1211,7 +1296,7 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
     }
     sl_status solve_block(Wide *x, Eigen::Index ldx, const Input &B) const {
         internal::LentWork work(work_);
-        if (B.cols() > INT32_MAX) return SL_ERR_TOO_LARGE;
+        if (B.cols() > INT32_MAX) return refuse(SL_ERR_TOO_LARGE, "more than 2^31 columns");
         return sl_factor_solve(factor_.get(), reinterpret_cast<double *>(x),
                                std::size_t(ldx) * unit, reinterpret_cast<const double *>(B.data()),
                                std::size_t(stride_of(B)) * unit, sl_int(B.cols()), work.get());
@@ -1303,6 +1388,8 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
     bool has_pivots_ = false; /* the analysis chose them */
     bool is_llt_ = Traits::is_llt != 0;
     bool is_zero_mean_ = false;
+    bool skips_nulls_ = true;  /* of singular matrices */
+    bool has_skipped_ = false; /* as the matrix that was factored last is singular */
     bool options_changed_ = false;
     bool has_order_ = false; /* order_ is that of analyzePattern */
     std::vector<sl_int> order_;
@@ -1312,6 +1399,10 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
     int analyses_ = 0;
     double shift_offset_ = 0, shift_scale_ = 1;
     mutable std::atomic<int> status_;
+    std::string ready_message_; /* of ready_ */
+    mutable std::string message_;
+    mutable std::mutex message_mutex_;
+    mutable std::atomic<const char *> own_reason_{nullptr};
     mutable internal::WorkSlot work_;
     mutable std::mutex lower_mutex_;
     mutable CholMatrixType lower_;
@@ -1429,16 +1520,17 @@ class CholmodSupernodalLLT : public SimplicialLLT<MatrixType, UpLo> {
     }
 };
 
-/** SimplicialLDLT and SimplicialLLT with an order for many local solves. */
+/** SimplicialLDLT and SimplicialLLT with an order for many local solves. They refuse singular
+ *  matrices unless setNullPivots(true) or setZeroMean() is called. */
 template <class MatrixType, int UpLo = Eigen::Lower,
           class Ordering = Eigen::AMDOrdering<typename MatrixType::StorageIndex>>
 class LocalLDLT : public SimplicialLDLT<MatrixType, UpLo, Ordering> {
   public:
     LocalLDLT() {
         this->options().purpose = SL_PURPOSE_MANY_SOLVES;
+        this->setNullPivots(false);
     }
-    explicit LocalLDLT(const MatrixType &A) {
-        this->options().purpose = SL_PURPOSE_MANY_SOLVES;
+    explicit LocalLDLT(const MatrixType &A) : LocalLDLT() {
         this->compute(A);
     }
 };
@@ -1448,9 +1540,9 @@ class LocalLLT : public SimplicialLLT<MatrixType, UpLo, Ordering> {
   public:
     LocalLLT() {
         this->options().purpose = SL_PURPOSE_MANY_SOLVES;
+        this->setNullPivots(false);
     }
-    explicit LocalLLT(const MatrixType &A) {
-        this->options().purpose = SL_PURPOSE_MANY_SOLVES;
+    explicit LocalLLT(const MatrixType &A) : LocalLLT() {
         this->compute(A);
     }
 };

@@ -16,7 +16,7 @@ SHARED_FLAGS ?=
 SHARED_LIBS ?=
 
 .PHONY: deps-eigen deps-packaging test-adapters test-clients test-osqp bench-osqp shared test-shared deps-abi abi abi-record \
-	install uninstall check-install deps-python deps-torch test-python test-python-build bench-python deps-octave octave test-octave
+	install uninstall check-install deps-python deps-python-more deps-torch test-python test-python-build bench-python deps-octave octave test-octave
 
 deps-eigen: deps-cxx ## Eigen: the tests of its adapter
 	@tools/build/deps.sh /usr/include/eigen3/Eigen/Sparse=libeigen3-dev
@@ -151,6 +151,9 @@ deps-python: ## NumPy, SciPy, pytest, pip and setuptools
 	@$(PYTHON) -c 'import numpy, pytest, scipy, setuptools, wheel' 2>/dev/null || tools/build/deps.sh \
 	$(DIST)/numpy=python3-numpy $(DIST)/scipy=python3-scipy $(DIST)/pytest=python3-pytest \
 	$(DIST)/pip=python3-pip $(DIST)/setuptools=python3-setuptools $(DIST)/wheel=python3-wheel
+
+deps-python-more: ## joblib, Dask and mypy: tests of the Python package that are skipped without them
+	@tools/build/deps.sh $(DIST)/joblib=python3-joblib $(DIST)/distributed=python3-distributed /usr/bin/mypy=mypy
 
 deps-torch: ## torch, for the derivatives of the Python package
 	@$(PYTHON) -c 'import torch' 2>/dev/null || tools/build/deps.sh $(DIST)/torch=python3-torch

@@ -430,14 +430,45 @@ function quadratic_energies()
         assert(strcmp(e.identifier, 'min_quad_with_fixed:blank'), e.message);
     end
     % nothing known, and no equality: a Laplacian alone is singular; with one equality it is not
-    refused('pivot', 'of A', @() min_quad_with_fixed(A, [], [], []));
-    Z = min_quad_with_fixed(A, B(:, 1) - mean(B(:, 1)), [], [], ones(1, n), 0);
+    b = B(:, 1) - mean(B(:, 1));
+    Z = min_quad_with_fixed(A, b, [], [], ones(1, n), 0);
     near(sum(Z), 0, 1e-10);
-    refused('pivot', 'equality', ...
-            @() min_quad_with_fixed(A, [], [], [], ones(2, n), [0; 0]));
+    free = min_quad_with_fixed(A, b, [], []);
+    near(free - mean(free), Z, 1e-10);
+    assert(sum(abs(free) < 1e-300) == 1);
+    refused('inconsistent', '', @() min_quad_with_fixed(A, b + 1, [], []));
+    near(min_quad_with_fixed(-A, b, [], []), -free, 1e-10);
+    equalities_that_follow_from_others(A, B, known, Y);
     % a saddle
     D = sparse([0, 1; 1, 0]);
     near(min_quad_with_fixed(D, [2; 4], [], []), [-2; -1], 1e-14);
+end
+
+function equalities_that_follow_from_others(A, B, known, Y)
+    n = size(A, 1);
+    Aeq = sparse([1, 1, 2, 3], [8, 9, 40, 30], [1, -1, 2, 1], 3, n);
+    Beq = [0; 2; 7];
+    Z = min_quad_with_fixed(A, B, known, Y, Aeq, Beq);
+    more = [Aeq; 2 * Aeq(1, :) - Aeq(3, :); 1e5 * Aeq(2, :); Aeq];
+    [W, F, Lambda] = min_quad_with_fixed(A, B, known, Y, more, ...
+                                         [Beq; -7; 2e5; Beq]);
+    near(W, Z, 1e-9);
+    assert(isequal(size(Lambda), [8, 2]) && numel(F.kept) == 3);
+    u = setdiff(1:n, known)';
+    near(2 * A(u, :) * W + B(u, :) + 2 * more(:, u)' * Lambda, zeros(numel(u), 2), 1e-9);
+    lastwarn('');
+    min_quad_with_fixed(A, B, known, Y, more, [Beq; 0; 2e5; Beq], F);
+    [~, id] = lastwarn();
+    assert(strcmp(id, 'min_quad_with_fixed:contradiction'), id);
+    Z = min_quad_with_fixed(A, [], [], [], ones(2, n), [3; 3]);
+    near(Z, 3 / n * ones(n, 1), 1e-10);
+    % a matrix that the equalities leave singular
+    refused('pivot', 'row', @() min_quad_with_fixed(sparse(n, n), [], [], [], Aeq, Beq));
+    try
+        min_quad_with_fixed(sparse(n, n), [], [], [], Aeq, Beq);
+    catch e % which does not advise what this function does not take
+        assert(isempty(strfind(e.message, 'options')) && isempty(strfind(e.message, 'sl_')));
+    end
 end
 
 function help_texts()

@@ -7,7 +7,7 @@ from . import _arrays as arrays
 from ._errors import ArgumentError
 from ._library import Handle, Stats, as_dict, check, lib
 from ._matrix import CscArrays, Matrix
-from ._options import Chosen, split
+from ._options import Chosen, default_options, split
 from ._threads import calls
 
 
@@ -41,21 +41,32 @@ class Analysis:
 
     def _analyze(self, matrix, triangle=None, pivoted=False, **options):
         width = matrix.kind().width
-        chosen = Chosen(matrix.n, matrix.is_complex).analysis(**options)
-        chosen.options.triangle = matrix.triangle(triangle)
+        chosen = default_options()
+        if options or triangle is not None or matrix.is_complex:
+            kept = Chosen(matrix.n, matrix.is_complex).analysis(**options)
+            chosen = kept.options
+            chosen.triangle = matrix.triangle(triangle)
         stats, symbolic = Stats(), ctypes.c_void_p()
         ours = calls(options.get("threads"))
         analyze = ours.sl_symbolic_create_pivoted if pivoted else ours.sl_symbolic_create
-        check(analyze(ctypes.byref(symbolic), matrix.reference(), ctypes.byref(chosen.options),
-                      ctypes.byref(stats)), stats, width)
-        self._own(symbolic.value, triangle, matrix.kind())
+        status = analyze(symbolic, matrix.csc, chosen, stats)
+        if status:
+            check(status, stats, width)
+        self._take(symbolic.value, triangle, matrix.kind(), matrix.n, stats.symbolic.triangle)
 
     def _own(self, symbolic, triangle, kind, is_ordered=True):
+        view = lib.sl_symbolic_view(symbolic)
+        return self._take(symbolic, triangle, kind, view.n // kind.width, view.info.triangle,
+                          is_ordered)
+
+    def _take(self, symbolic, triangle, kind, n, read, is_ordered=True):
+        """read: the triangles of the matrix that was analyzed, of which it read one."""
         self._symbolic = Handle("symbolic", symbolic)
         self._triangle = triangle
         self._kind = kind
         self._is_ordered = is_ordered
-        self.n = lib.sl_symbolic_view(symbolic).n // kind.width
+        self.n = n
+        self._read = read
         return self
 
     @classmethod
@@ -81,7 +92,7 @@ class Analysis:
         if self._triangle is None:
             matrix.check_symmetric()
             return matrix
-        read = self.stats["triangle"]
+        read = self._read
         if read in (1, 2) and matrix.triangle(self._triangle) != read:
             # stored by rows where the analyzed matrix was stored by columns, or the reverse
             if not hasattr(A, "tocsr"):

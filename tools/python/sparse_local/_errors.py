@@ -13,6 +13,7 @@ class Error(Exception):
         if column is not None:
             text += ", column %d" % column
         super().__init__(text)
+        self.cause = text  # without advice on options, for doors that do not take them
 
 
 class ArgumentError(Error, ValueError):

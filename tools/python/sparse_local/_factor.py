@@ -11,8 +11,9 @@ from ._errors import PivotError, StateError
 from ._files import Files
 from ._library import Handle, Stats, as_dict, check, lib
 from ._matrix import Matrix
-from ._options import POSITIVE, Chosen, choice, split
+from ._options import POSITIVE, Chosen, choice, default_options, split
 from ._pseudo import NullSpace
+from ._shared import forget_closed
 from ._solves import Solves
 from ._threads import calls
 from ._works import Works
@@ -68,12 +69,12 @@ class Factor(Solves, Entries, Changes, Files):
         matrix = Matrix(A)
         analysis = Analysis._made(matrix, **chosen)
         if chosen.get("triangle") is None:
-            matrix.check_symmetric()
+            matrix.check_symmetric(analysis._read)
         self._set_up(analysis, matrix, numbers)
 
     @classmethod
     def _create(cls, analysis, matrix, numbers):
-        if split(numbers)[1].keys() != numbers.keys():
+        if numbers and split(numbers)[1].keys() != numbers.keys():
             raise TypeError("%s are options of the analysis" %
                             ", ".join(numbers.keys() - split(numbers)[1].keys()))
         self = cls.__new__(cls)
@@ -81,21 +82,25 @@ class Factor(Solves, Entries, Changes, Files):
         return self
 
     def _set_up(self, analysis, matrix, numbers):
-        numbers = dict(numbers)
-        definite = numbers.pop("definite", False)
-        chosen = Chosen(analysis.n, analysis._kind is arrays.COMPLEX).numbers(**numbers)
+        definite, options = False, default_options()
+        if numbers:
+            numbers = dict(numbers)
+            definite = numbers.pop("definite", False)
+            chosen = Chosen(analysis.n, analysis._kind is arrays.COMPLEX).numbers(**numbers)
+            options = chosen.options
         # the library's own refusal comes earlier, but does not go with these
-        if definite and not (chosen.options.regularization or chosen.options.pivots):
-            chosen.options.pivots = POSITIVE
+        if definite and not (options.regularization or options.pivots):
+            options.pivots = POSITIVE
         stats, factor = Stats(), ctypes.c_void_p()
-        self._lib = calls(numbers.get("threads"))
-        check(self._lib.sl_factor_create(ctypes.byref(factor), analysis._symbolic.pointer,
-                                         matrix.reference(), ctypes.byref(chosen.options),
-                                         ctypes.byref(stats)), stats, analysis._kind.width)
+        status = calls(numbers.get("threads")).sl_factor_create(
+            factor, analysis._symbolic.pointer, matrix.csc, options, stats)
+        if status:
+            check(status, stats, analysis._kind.width)
         self._own(analysis, factor.value, numbers.get("threads"), definite)
         self._consistency = numbers.get("consistency_tolerance") or 1e-6
         self._has_mass = numbers.get("mass") is not None
-        self._check_definite()
+        if definite:
+            self._check_definite()
 
     def _own(self, analysis, factor, threads=None, definite=False):
         """Takes over an object of the library."""
@@ -105,7 +110,9 @@ class Factor(Solves, Entries, Changes, Files):
         self.n = analysis.n
         self._threads = threads
         self._lib = calls(threads)
+        self._solve_call = self._lib.sl_factor_solve
         self._definite = definite
+        self._source = None  # of a mapped factor
         self._refused = None  # why the numbers are not to be used
         self._consistency = None  # that of a file
         self._has_mass = False
@@ -126,7 +133,7 @@ class Factor(Solves, Entries, Changes, Files):
         """The factor for a call that reads its numbers."""
         if self._refused is not None:
             raise StateError(self._refused)
-        return self._factor.pointer
+        return self._factor._pointer or self._factor.pointer
 
     @property
     def _symbolic(self):
@@ -201,6 +208,8 @@ class Factor(Solves, Entries, Changes, Files):
         """Releases the memory of the factor; every later use of it, of its plans, regions and pins
         raises StateError. Without close, this happens when nothing refers to it any more."""
         self._factor.close()
+        if self._source is not None:
+            forget_closed()
 
     def __enter__(self):
         return self

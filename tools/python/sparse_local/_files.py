@@ -1,10 +1,12 @@
 """Factors in files, in memory that processes share, and in pickles."""
 import ctypes
 import os
+import pickle
 
 import numpy as np
 
 from . import _arrays as arrays
+from . import _shared
 from ._analysis import Analysis
 from ._errors import ArgumentError
 from ._library import SavedSet, check, lib, new_options
@@ -36,16 +38,25 @@ class Files:
         is_complex  True: a factor of a complex matrix.
         """
         flags = choice(CHECKS, checks, "checks") | (MAPPED if map else 0)
-        return cls._loaded((encoded(path), None, 0, flags), triangle, threads, is_complex,
-                           definite, path)
+        if not map:
+            return cls._loaded((encoded(path), None, 0, flags), triangle, threads, is_complex,
+                               definite, path)
+        return mapped(path, lambda: cls._loaded((encoded(path), None, 0, flags), triangle, threads,
+                                                is_complex, definite, path),
+                      dict(checks=checks, triangle=triangle, threads=threads,
+                           is_complex=is_complex, definite=definite))
 
     def to_bytes(self):
-        """The analysis and the factor as bytes, as save writes them; pickle uses this."""
+        """The analysis and the factor as bytes, as save writes them."""
+        return self._saved().tobytes()
+
+    def _saved(self):
+        """The same as an array of bytes."""
         size = ctypes.c_size_t()
         check(lib.sl_save(None, None, ctypes.byref(size), self._set(), None))
         memory = np.empty(size.value, dtype=np.uint8)
         check(lib.sl_save(None, arrays.address(memory), ctypes.byref(size), self._set(), None))
-        return memory.tobytes()
+        return memory
 
     def _set(self):
         return ctypes.byref(SavedSet(self._symbolic.pointer, self._pointer))
@@ -59,10 +70,16 @@ class Files:
         return cls._loaded((None, arrays.address(memory), memory.size, flags), triangle, threads,
                            is_complex, definite)
 
-    def __reduce__(self):
-        return _unpickle, (self.to_bytes(), self.analysis._triangle, self._threads,
-                           self._kind is arrays.COMPLEX, self._definite,
-                           self.analysis._is_ordered)
+    def __reduce_ex__(self, protocol):
+        """A mapped factor is its path and identity; others are their bytes, from protocol 5 on in a
+        buffer that need not be copied."""
+        self._pointer  # refuses a closed factor
+        if self._source is not None:
+            return _of_source, (self._source,)
+        saved = self._saved()
+        return _unpickle, (pickle.PickleBuffer(saved) if protocol >= 5 else saved.tobytes(),
+                           self.analysis._triangle, self._threads, self._kind is arrays.COMPLEX,
+                           self._definite, self.analysis._is_ordered)
 
     @classmethod
     def _loaded(cls, source, triangle, threads, is_complex, definite, path=None):
@@ -88,6 +105,23 @@ def encoded(path):
     if b"\0" in name:
         raise ArgumentError("a path without zero bytes is needed")
     return name
+
+
+def mapped(path, load, arguments):
+    """What load maps, which pickles as its path and identity."""
+    path = os.path.abspath(os.fsdecode(path))
+    before = None
+    if os.path.isfile(path):  # otherwise the error of load is the better one
+        before = _shared.identity(path)
+    factor = load()
+    if before is not None and _shared.identity(path) == before:
+        _shared.Source(path, before, arguments).remember(factor)
+    return factor
+
+
+def _of_source(source):
+    from ._factor import Factor
+    return _shared.opened(Factor.load, source)
 
 
 def _unpickle(data, triangle, threads=None, is_complex=False, definite=False, is_ordered=False):

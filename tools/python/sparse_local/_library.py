@@ -147,9 +147,11 @@ def as_dict(struct):
 
 
 def new_options():
-    options = Options()
-    lib.sl_options_init(options, ctypes.sizeof(Options))
-    return options
+    return Options.from_buffer_copy(_defaults)
+
+
+_defaults = Options()
+lib.sl_options_init(_defaults, ctypes.sizeof(Options))
 
 
 def check(status, stats=None, width=1, path=None):
@@ -171,15 +173,21 @@ def check(status, stats=None, width=1, path=None):
     buffer = ctypes.create_string_buffer(1000)
     lib.sl_error_text(buffer, len(buffer), status, None if stats is None else ctypes.byref(stats))
     text = buffer.value.decode()
-    if stats is not None:
-        if kind is PivotError and stats.factor.null_bound > 0:
-            text += ", pivot %.3g, null up to %.3g" % (value, stats.factor.null_bound)
+    bound = ""
+    if stats is not None and kind is PivotError and stats.factor.null_bound > 0:
+        bound = ", pivot %.3g, null up to %.3g" % (value, stats.factor.null_bound)
+    text += bound
     text = text.replace("sl_symbolic_create_pivoted", "pivoted=True (sl_symbolic_create_pivoted)")
     if path is not None:
         text += ", %s" % os.fsdecode(path)
     error = kind(text)  # which has the place already
     error.row, error.column, error.value = row, column, value
+    if "sl_" in text or "options." in text:
+        error.cause = str(kind(lib.sl_status_string(status).decode() + bound, row, column))
     raise error
+
+
+_frees = {name[:-5]: getattr(lib, "sl_" + name) for name in _FREES}
 
 
 class Handle:
@@ -187,7 +195,7 @@ class Handle:
 
     def __init__(self, name, pointer, *borrowed):
         self._name = name
-        self._free = getattr(lib, "sl_%s_free" % name)
+        self._free = _frees[name]
         self._pointer = pointer
         self._borrowed = borrowed  # these live as long as the object
 

@@ -1,17 +1,20 @@
 """Sparse matrices: those of SciPy, or anything with their arrays, as views of the library."""
 import ctypes
 from collections import namedtuple
+from math import isfinite
 
 import numpy as np
 
 from . import _arrays as arrays
-from ._arrays import address
+from ._arrays import DOUBLE, INDEX, address, is_plain
 from ._errors import ArgumentError, NotFiniteError, PatternError, TooLargeError
 from ._library import Csc, Csc64, Handle, Hermitian, Stats, check, lib, new_options
 
 _AS_SYMMETRIC, _AS_STORED = 0, 1
 TRIANGLES = {None: 0, "lower": 1, "upper": 2, "both": 3}
 
+_NEEDED = ("a sparse matrix in compressed columns is needed, not %s: scipy.sparse.csc_matrix(A) "
+           "makes one")
 _probe = np.random.default_rng(0).uniform(0.5, 1.5, 1000)  # of small matrices
 
 CscArrays = namedtuple("CscArrays", "shape indptr indices data")
@@ -33,8 +36,10 @@ class Matrix:
         if form not in ("csc", "csr"):
             A = A.tocsc()
             form = "csc"
-        if not all(hasattr(A, name) for name in ("shape", "indptr", "indices", "data")):
-            raise TypeError("a sparse matrix in compressed columns is needed (scipy.sparse.csc)")
+        try:
+            A.shape, A.indptr, A.indices, A.data
+        except AttributeError:
+            raise TypeError(_NEEDED % type(A).__name__) from None
         if is_ordered and _is_out_of_order(A):
             A = A.copy()
             A.sum_duplicates()
@@ -42,15 +47,13 @@ class Matrix:
         rows, columns = A.shape
         if self.is_turned:
             rows, columns = columns, rows
-        if max(rows, columns) > arrays.LIMIT:
+        if rows > arrays.LIMIT or columns > arrays.LIMIT:
             raise TooLargeError("a matrix of %d x %d" % (rows, columns))
-        is_wide = np.asarray(A.indptr).dtype == np.asarray(A.indices).dtype == np.int64
-        self.p = _positions(A.indptr, "positions", is_wide)
-        self.i = _positions(A.indices, "row indices", is_wide)
-        self.x = np.ascontiguousarray(arrays.number_array(A.data, "values"))
-        if self.p.ndim != 1 or self.p.size != columns + 1:
+        self.p, self.i, self.x, is_wide = _as_wanted(A.indptr, A.indices, A.data)
+        if self.p.shape != (columns + 1,):
             raise PatternError("indptr needs one entry for each column and one more")
-        if self.p[0] != 0 or not self.p[-1] <= min(self.i.size, self.x.size):
+        count = self.p.item(columns)
+        if self.p.item(0) != 0 or count > self.i.size or count > self.x.size:
             raise PatternError("positions do not fit the arrays of indices and values")
         self.n = rows
         self.is_complex = self.x.dtype.kind == "c"
@@ -99,32 +102,41 @@ class Matrix:
         """arrays.REAL or arrays.COMPLEX."""
         return arrays.COMPLEX if self.is_complex else arrays.REAL
 
-    def check_symmetric(self):
+    def check_symmetric(self, stored=None):
         """Raises PatternError if both triangles are stored and differ, NotFiniteError for a NaN.
 
         Compares two products with one vector: as stored, and as the lower triangle defines them.
+        stored: the triangles of a matrix that was analyzed; None: it may be malformed.
         """
-        stats, found = Stats(), ctypes.c_int()
-        options = new_options()
-        check(lib.sl_csc_triangle(self.reference(), ctypes.byref(found), ctypes.byref(options),
-                                  ctypes.byref(stats)), stats)
-        if found.value != TRIANGLES["both"]:
+        if stored is None:
+            stats, found = Stats(), ctypes.c_int()
+            check(lib.sl_csc_triangle(self.reference(), found, new_options(), stats), stats)
+            stored = found.value
+        if stored != TRIANGLES["both"]:
             return
+        n = self.csc.n_rows
+        x = _probe[:n] if n <= _probe.size else np.random.default_rng(0).uniform(0.5, 1.5, n)
+        as_stored, mirrored, lead, of_x = np.empty(n), np.empty(n), n or 1, address(x)
+        for reading, y in ((_AS_STORED, as_stored), (_AS_SYMMETRIC, mirrored)):
+            check(lib.sl_csc_multiply(self.csc, reading, address(y), lead, of_x, lead, 1))
+        # the same terms in the same order, if all entries are in order
+        if isfinite(as_stored.dot(mirrored)) and as_stored.tobytes() == mirrored.tobytes():
+            return
+        self._check_mirrored(x, as_stored, mirrored)
+
+    def _check_mirrored(self, x, stored, mirrored):
+        """Compares the products relative to the magnitudes that they are sums of."""
         width, n = self.kind().width, self.csc.n_rows
         bad = np.flatnonzero(~np.isfinite(self.x[:self.p[-1]]))
         if bad.size:
             column = int(np.searchsorted(self.p, bad[0], side="right")) - 1
             raise NotFiniteError("NaN or infinity", int(self.i[bad[0]]) // width, column // width,
                                  float(self.x[bad[0]]))
-        x = _probe[:n] if n <= _probe.size else np.random.default_rng(0).uniform(0.5, 1.5, n)
-        stored, mirrored, scale = np.empty(n), np.empty(n), np.empty(n)
-        magnitude = Csc(n, n, self.csc.p, self.csc.i, 0)
+        scale, magnitude = np.empty(n), Csc(n, n, self.csc.p, self.csc.i, 0)
         values = np.abs(self.x)
         magnitude.x = address(values)
-        for csc, reading, y in ((self.csc, _AS_STORED, stored), (self.csc, _AS_SYMMETRIC, mirrored),
-                                (magnitude, _AS_STORED, scale)):
-            check(lib.sl_csc_multiply(ctypes.byref(csc), reading, address(y), max(n, 1),
-                                      address(x), max(n, 1), 1))
+        check(lib.sl_csc_multiply(magnitude, _AS_STORED, address(scale), max(n, 1), address(x),
+                                  max(n, 1), 1))
         differs = ~(np.abs(stored - mirrored) <= 1e-9 * scale)
         if differs.any():
             row = int(np.argmax(differs)) // width
@@ -143,8 +155,14 @@ def _is_out_of_order(A):
             not A.has_canonical_format)
 
 
-def _positions(array, what, is_wide):
-    return np.ascontiguousarray(array) if is_wide else arrays.index_array(array, what)
+def _as_wanted(p, i, x):
+    """(positions, rows, values, whether the indices have 64 bits): in place if they fit."""
+    if is_plain(p, INDEX) and is_plain(i, INDEX) and is_plain(x, DOUBLE):
+        return p, i, x, False  # what most calls pass
+    x = np.ascontiguousarray(arrays.number_array(x, "values"))
+    if np.asarray(p).dtype == np.asarray(i).dtype == np.int64:
+        return np.ascontiguousarray(p), np.ascontiguousarray(i), x, True
+    return arrays.index_array(p, "positions"), arrays.index_array(i, "row indices"), x, False
 
 
 def check_triangle(name):
@@ -192,15 +210,14 @@ def from_triplets(rows, columns, values, n):
     return from_arrays((n, n), *csc_arrays(lib.sl_matrix_view(matrix.pointer)))
 
 
-def columns_of(B):
-    """A sparse right-hand side by columns: (rows that have an entry, dense block of these rows)."""
-    B = B.tocsc() if hasattr(B, "tocsc") else B
-    p, i = np.asarray(B.indptr), np.asarray(B.indices)
-    data = arrays.number_array(B.data, "right-hand sides")
-    columns = np.repeat(np.arange(B.shape[1]), np.diff(p))
-    i, data = i[:columns.size], data[:columns.size]
-    rows, places = np.unique(i, return_inverse=True)
-    block = np.zeros((rows.size, B.shape[1]), data.dtype)
+def columns_of(B, first=0, end=None):
+    """Columns of a sparse right-hand side in compressed columns: (rows that have an entry, dense
+    block of these rows)."""
+    p = np.asarray(B.indptr)[first:None if end is None else end + 1]
+    data = arrays.number_array(B.data, "right-hand sides")[p[0]:p[-1]]
+    columns = np.repeat(np.arange(p.size - 1), np.diff(p))
+    rows, places = np.unique(np.asarray(B.indices)[p[0]:p[-1]], return_inverse=True)
+    block = np.zeros((rows.size, p.size - 1), data.dtype)
     np.add.at(block, (places, columns), data)
     return rows, block
 

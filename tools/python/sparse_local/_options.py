@@ -84,8 +84,18 @@ class Chosen:
             setattr(self.options, name, arrays.address(self._kept[-1]))
 
 
+def default_options():
+    """The options of a call without any; only read."""
+    return _defaults
+
+
+_defaults = new_options()
+
+
 def split(keywords):
     """Keywords as those of the analysis and those of the numbers; TypeError: an unknown one."""
+    if not keywords:
+        return keywords, keywords
     for name in keywords:
         if name not in ANALYSIS and name not in NUMBERS:
             raise TypeError("unknown option %r" % name)

@@ -5,6 +5,7 @@ import threading
 import numpy as np
 
 from . import _arrays as arrays
+from ._arrays import DOUBLE, address, is_plain
 from ._library import Handle, Stats, as_dict, check, lib, new_options
 from ._errors import StateError
 from ._options import choice
@@ -24,17 +25,25 @@ class Region:
     """
 
     def __init__(self, factor, rows, bytes=0):
-        keep, address, count = factor._kind.set(rows)
+        keep, first, count = factor._kind.set(rows)
         options, pointer, stats = new_options(), ctypes.c_void_p(), Stats()
         options.region_bytes = bytes
-        check(lib.sl_region_create(ctypes.byref(pointer), factor._pointer, address, count, None,
+        check(lib.sl_region_create(ctypes.byref(pointer), factor._pointer, first, count, None,
                                    ctypes.byref(options), ctypes.byref(stats)), stats,
               factor._kind.width)
         self._own(factor, pointer.value)
+        self._made_with = _rows_of_user(factor, keep), bytes
 
     def _own(self, factor, pointer):
         self._factor = factor
+        self._made_with = None
         self._region = Handle("region", pointer, factor._factor, factor._symbolic)
+
+    def __reduce__(self):
+        """A pickle is the factor and the rows."""
+        if self._made_with is None:
+            raise TypeError("a region of a file is not pickled: Region(factor, rows) is")
+        return Region, (self._factor,) + self._made_with
 
     def update(self):
         """Computes the region again from the present numbers of the factor."""
@@ -65,12 +74,17 @@ class Plan:
                                  x_rows, nx, ctypes.byref(options), ctypes.byref(stats)), stats,
               width)
         self._factor = factor
-        self._bset = keep_b  # rows of the library; None: all
+        self._bset, self._xset, self._region = keep_b, keep_x, region  # rows of the library
         self._plan = Handle("plan", pointer.value, factor._symbolic,
                             region._region if region is not None else None)
         self._scales = threading.local()
         self.nb = factor.n if bset is None else nb // width
         self.nx = factor.n if xset is None else nx // width
+
+    def __reduce__(self):
+        """A pickle is the factor, the rows and the region."""
+        sets = (_rows_of_user(self._factor, rows) for rows in (self._bset, self._xset))
+        return Plan, (self._factor, *sets, self._region)
 
     def on(self, factor):
         """This plan for another factor of the same analysis; nothing is computed."""
@@ -86,8 +100,13 @@ class Plan:
 
     def solve(self, B):
         """x on xset; B has the shape (nb,) or (nb, count), the result (nx,) or (nx, count)."""
-        dense = self._dense(B)
         factor = self._factor
+        if is_plain(B, DOUBLE) and B.shape == (self.nb,) and factor._kind is arrays.REAL:
+            X = np.empty(self.nx)
+            if not lib.sl_plan_solve(self._plan.pointer, factor._pointer, address(X), self.nx or 1,
+                                     address(B), self.nb or 1, 1, factor._work()):
+                return X  # what most calls are; errors are found below
+        dense = self._dense(B)
         status = lib.sl_plan_solve(self._plan.pointer, factor._pointer, *dense.arguments(),
                                    factor._work())
         if status:
@@ -169,6 +188,12 @@ class Plan:
         stats = Stats()
         lib.sl_plan_stats(self._plan.pointer, ctypes.byref(stats))
         return as_dict(stats.plan)
+
+
+def _rows_of_user(factor, rows):
+    """A set of rows of the library as it was given; None: all."""
+    width = factor._kind.width
+    return None if rows is None else rows[::width] // width
 
 
 def part_bits(parts):

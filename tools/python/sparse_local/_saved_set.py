@@ -7,7 +7,7 @@ import numpy as np
 from . import _arrays as arrays
 from ._errors import ArgumentError
 from ._factor import Factor
-from ._files import CHECKS, MAPPED, encoded
+from ._files import CHECKS, MAPPED, encoded, mapped
 from ._library import Handle, SavedSet, Stats, as_dict, check, lib, new_options
 from ._matrix import check_triangle
 from ._options import choice
@@ -111,12 +111,17 @@ def load_set(path, *, map=False, checks="checked", triangle=None, threads=None, 
     flags = choice(CHECKS, checks, "checks") | (MAPPED if map else 0)
     loaded, options = SavedSet(), new_options()
     set_threads(options, threads)
-    check(lib.sl_load(ctypes.byref(loaded), encoded(path), None, 0, flags,
-                      ctypes.byref(options)), path=path)
-    if not loaded.factor:
-        lib.sl_saved_set_free(ctypes.byref(loaded))
-        raise ArgumentError("the file has no factor")
-    factor = Factor._taken(loaded, triangle, threads, is_complex, definite)
+
+    def load():
+        check(lib.sl_load(ctypes.byref(loaded), encoded(path), None, 0, flags,
+                          ctypes.byref(options)), path=path)
+        if not loaded.factor:
+            lib.sl_saved_set_free(ctypes.byref(loaded))
+            raise ArgumentError("the file has no factor")
+        return Factor._taken(loaded, triangle, threads, is_complex, definite)
+
+    factor = mapped(path, load, dict(checks=checks, triangle=triangle, threads=threads,
+                                     is_complex=is_complex, definite=definite)) if map else load()
     selected, regions = None, []
     if loaded.selected:
         selected = Selected.__new__(Selected)

@@ -4,6 +4,7 @@ import ctypes
 import numpy as np
 
 from . import _arrays as arrays
+from ._arrays import DOUBLE, address, is_plain
 from ._errors import ArgumentError, InconsistentError
 from ._library import Stats, check, lib
 from ._matrix import columns_of, is_sparse
@@ -12,27 +13,37 @@ from ._constraints import Constraints
 from ._plan import Plan, Region, part_bits
 
 _CERTAINTIES = {"estimated": 1, "guaranteed": 2}
+_COLUMNS = 64  # of a sparse right-hand side that are solved at once
 _INCONSISTENT = 11  # SL_ERR_INCONSISTENT
 
 
 class Solves:
     """What Factor inherits: solves."""
 
-    def solve(self, B):
+    def solve(self, B, rows=None):
         """X with A X = B; B has the shape (n,) or (n, count), and so has X.
 
-        B   float64 is used in place, in either order; complex is allowed. A sparse B (n, count)
-            gives a dense X by solves that begin in the rows where B has entries.
+        B     float64 is used in place, in either order; complex is allowed. A sparse B (n, count)
+              gives a dense X by solves that begin in the rows where B has entries.
+        rows  of X that are wanted, in this order: X has the shape (len(rows), count), and nothing
+              else of its size is allocated if B is sparse.
         ArgumentError: another shape; NotFiniteError: a NaN or infinity in B; StateError: a failed
         factor; InconsistentError: A is singular and B has no solution (null_pivots='skip' without
-        mass). Cost: two passes over L for up to 8 columns of B.
+        mass). Cost: two passes over L for up to 64 columns of B.
         """
+        if rows is None and is_plain(B, DOUBLE) and B.shape == (self.n,) and \
+                self._kind is arrays.REAL:
+            X = np.empty_like(B)
+            n = self.n or 1
+            if not self._solve_call(self._pointer, address(X), n, address(B), n, 1, self._work()):
+                return X  # what most calls are; errors are found below
         if type(B) is not np.ndarray and is_sparse(B):
             if tuple(B.shape[:1]) != (self.n,) or len(B.shape) != 2:
                 raise ArgumentError("the right-hand side needs %d rows, and has the shape %s" %
                                     (self.n, B.shape))
-            rows, block = columns_of(B)
-            return self.local(rows, block, None)
+            return self._solve_sparse(B.tocsc() if hasattr(B, "tocsc") else B, rows)
+        if rows is not None:
+            return self.local(None, B, rows)
         dense = self._kind.dense(B, self.n, self.n)
         status = self._lib.sl_factor_solve(self._pointer, *dense.arguments(), self._work())
         if status:
@@ -42,24 +53,44 @@ class Solves:
 
     __call__ = solve
 
+    def _solve_sparse(self, B, rows):
+        """The same for a sparse B, some columns at a time."""
+        count = B.shape[1]
+        if count <= _COLUMNS:
+            return self.local(*columns_of(B), rows)
+        chosen = self._kind.set(rows)[0]  # read once
+        kept = None if rows is None else chosen[::self._kind.width] // self._kind.width
+        is_complex = self._kind is arrays.COMPLEX or np.asarray(B.data).dtype.kind == "c"
+        X = np.empty((self.n if kept is None else kept.size, count),
+                     complex if is_complex else float)
+        for k in range(0, count, _COLUMNS):
+            X[:, k:k + _COLUMNS] = self.local(*columns_of(B, k, k + _COLUMNS), kept)
+        return X
+
     def _check_consistent(self, status, dense, rows=None):
         """Raises InconsistentError with its size; B in the given rows, None: all."""
         if status != _INCONSISTENT:
             return
-        B, n = dense.right(), self.n * self._kind.width
-        right = np.zeros((n, B.shape[1]), order="F")
-        np.add.at(right, slice(None) if rows is None else rows, B)
-        defects = np.zeros((self.stats["factor"]["null"], right.shape[1]), order="F")
-        check(self._lib.sl_factor_defects(self._pointer, arrays.address(defects),
-                                          max(defects.shape[0], 1), arrays.address(right), n,
-                                          right.shape[1], self._work()))
-        sizes = abs(right).sum(axis=0)
-        worst = (abs(defects).max(axis=0) / np.where(sizes > 0, sizes, 1)).max()
+        worst = self._inconsistency(dense, rows)
         text = ("%s: |z' b| for a null vector z is %.2g of sum |b|"
                 % (lib.sl_status_string(status).decode(), worst))
         if self._consistency is not None:
             text += ", consistency_tolerance is %.2g" % self._consistency
-        raise InconsistentError(text, value=float(worst))
+        raise InconsistentError(text, value=worst)
+
+    def _inconsistency(self, dense, rows=None):
+        """The largest |z' b| / sum |b| of null vectors z of a singular A; 0: none is skipped."""
+        null = self.stats["factor"]["null"]
+        B, n = dense.right(), self.n * self._kind.width
+        right = np.zeros((n, B.shape[1]), order="F")
+        np.add.at(right, slice(None) if rows is None else rows, B)
+        defects = np.zeros((null, right.shape[1]), order="F")
+        check(self._lib.sl_factor_defects(self._pointer, arrays.address(defects),
+                                          max(defects.shape[0], 1), arrays.address(right), n,
+                                          right.shape[1], self._work()))
+        sizes = abs(right).sum(axis=0)
+        ratios = abs(defects).max(axis=0, initial=0.0) / np.where(sizes > 0, sizes, 1)
+        return float(ratios.max(initial=0.0))
 
     def local(self, bset, B, xset):
         """The rows xset of the solution for a B that is 0 outside the rows bset.

@@ -5,13 +5,13 @@
     y = system.local(values, [3], b[:1], [7, 8])
     l = system.logdet(values)
 
-All are differentiable by values and b; solves any number of times, logdet once. Gradients by values
-are those of sparse_local.gradients: where A stores both triangles, each value of a pair gets half
-of the derivative of the pair. Tensors of float32 are computed in float64; results are float64.
+All are differentiable by values and b; solves any number of times. A second derivative of logdet,
+and of local_solve, raises NotImplementedError. Gradients by values are those of
+sparse_local.gradients: where A stores both triangles, each value of a pair gets half of the
+derivative of the pair. Tensors of float32 are computed in float64; results are float64.
 """
 import numpy as np
 import torch
-from torch.autograd.function import once_differentiable
 
 from ._analysis import Analysis
 from ._errors import ArgumentError
@@ -102,7 +102,7 @@ class System:
 
 def local_solve(query, entries, b):
     """x on the x-set of a gradients.LocalGradient, differentiable by b and by its chosen entries of
-    A: nothing takes time proportional to n. Once differentiable.
+    A: nothing takes time proportional to n. Second derivatives raise NotImplementedError.
 
     entries  a tensor of the values of these entries in the factored matrix: only the gradient flows
              through it.
@@ -163,12 +163,28 @@ class _LogDet(torch.autograd.Function):
         return torch.tensor(factor.logdet()[1], dtype=torch.float64)
 
     @staticmethod
-    @once_differentiable
     def backward(ctx, g):
+        values, = ctx.saved_tensors  # an error of torch if values changed in place
         stored = ctx.system._stored
-        ctx.saved_tensors  # an error of torch if values changed in place
         entries = Selected(ctx.factor).entries(stored.rows, stored.columns)
-        return None, None, g * torch.from_numpy(2.0 * stored.weights * entries)
+        gradient = torch.from_numpy(2.0 * stored.weights * entries)
+        return None, None, g * _Once.apply("System.logdet", gradient, values)
+
+
+class _Once(torch.autograd.Function):
+    """A gradient that depends on inputs in a way that is not differentiated again: its own gradient
+    is an error, where torch would take it for a constant and its derivative for 0."""
+
+    @staticmethod
+    def forward(ctx, name, *tensors):
+        ctx.name = name
+        return tensors[0].clone()
+
+    @staticmethod
+    def backward(ctx, g):
+        raise NotImplementedError("sparse_local.autograd: no second derivatives of %s; gradients "
+                                  "of gradients, Hessians and Laplace approximations need them" %
+                                  ctx.name)
 
 
 class _Query(torch.autograd.Function):
@@ -176,10 +192,13 @@ class _Query(torch.autograd.Function):
     def forward(ctx, query, entries, b):
         x, kept = query.solve(_array(b))
         ctx.query, ctx.kept = query, kept
+        ctx.save_for_backward(entries, b)
         return torch.from_numpy(np.ascontiguousarray(x))
 
     @staticmethod
-    @once_differentiable
     def backward(ctx, g):
+        entries, b = ctx.saved_tensors
         by_b, by_entries = ctx.query.gradient(ctx.kept, _array(g))
-        return None, torch.from_numpy(by_entries), torch.from_numpy(np.ascontiguousarray(by_b))
+        return (None, _Once.apply("local_solve", torch.from_numpy(by_entries), entries, b, g),
+                _Once.apply("local_solve", torch.from_numpy(np.ascontiguousarray(by_b)), entries,
+                            b, g))

@@ -68,8 +68,7 @@ def _tried(call):
     try:
         return call()
     except PivotError as error:
-        raise RuntimeError("Error in matrix factorization: %s" % error) from error
+        raise RuntimeError("Error in matrix factorization: %s" % error.cause) from error
     except Error as error:
-        if isinstance(error, (ValueError, RuntimeError)):
-            raise
-        raise ValueError(str(error)) from error
+        kind = RuntimeError if isinstance(error, RuntimeError) else ValueError
+        raise kind(error.cause) from error

@@ -125,6 +125,49 @@ def test_an_optimization_finds_conductances():
     assert losses[-1] < 1e-3 * losses[0]
 
 
+def dense_of(A, values):
+    """The dense symmetric matrix of the values of a lower triangle."""
+    rows, columns = (torch.from_numpy(s.astype(np.int64)) for s in (A.tocoo().row, A.tocoo().col))
+    L = torch.zeros(A.shape, dtype=torch.float64).index_put((rows, columns), values)
+    return L + torch.tril(L, -1).T
+
+
+def test_second_derivatives_are_right_or_refused():
+    A = sp.tril(grid(3), format="csc")
+    system, b = autograd.System(A), torch.ones(9, dtype=torch.float64)
+    v = tensor(A.data)
+
+    def solved(values):
+        return (b * system.solve(values, b)).sum()
+
+    ours = torch.autograd.functional.hessian(solved, v)
+    right = torch.autograd.functional.hessian(
+        lambda values: (b * torch.linalg.solve(dense_of(A, values), b)).sum(), v)
+    assert torch.allclose(ours, right, rtol=1e-9, atol=1e-12)
+    for loss in (system.logdet, lambda values: system.logdet(values) + solved(values)):
+        first, = torch.autograd.grad(loss(v), v, create_graph=True)
+        assert first.requires_grad  # what is not differentiated again is not a constant
+        with pytest.raises(NotImplementedError, match="second derivatives of System.logdet"):
+            first.sum().backward()
+        with pytest.raises(NotImplementedError, match="logdet"):
+            torch.autograd.functional.hessian(loss, v)
+    with pytest.raises(NotImplementedError):
+        torch.autograd.gradgradcheck(system.logdet, (v,))
+    query = gradients.LocalGradient(sl.Factor(A), [1], [2], [3], [3])
+    for wanted in (0, 1):
+        inputs = (tensor([A[3, 3]]), tensor([1.0]))
+        first = torch.autograd.grad(autograd.local_solve(query, *inputs).square().sum(), inputs,
+                                    create_graph=True)[wanted]
+        with pytest.raises(NotImplementedError, match="second derivatives of local_solve"):
+            first.sum().backward()
+    local = torch.autograd.functional.hessian(
+        lambda values: system.local(values, [3], b[:1], [1]).square().sum(), v)
+    e, f = (torch.eye(9, dtype=torch.float64)[k] for k in (1, 3))
+    right = torch.autograd.functional.hessian(
+        lambda values: (e * torch.linalg.solve(dense_of(A, values), f)).sum().square(), v)
+    assert torch.allclose(local, right, rtol=1e-9, atol=1e-12)
+
+
 def test_refusals():
     A = sp.tril(grid(4), format="csc")
     system, values, b = autograd.System(A), tensor(A.data), vectors(16)
@@ -147,8 +190,6 @@ def test_refusals():
         both.solve(torch.rand(grid(4).nnz, dtype=torch.float64), b)
     with pytest.raises(sl.UnsupportedError):
         autograd.System(A, null_pivots="skip", mass=np.ones(16)).logdet(values)
-    with pytest.raises(RuntimeError):
-        torch.autograd.gradgradcheck(system.logdet, (values,))
     query = gradients.LocalGradient(sl.Factor(A), [1], [2], [3], [3])
     with pytest.raises(sl.ArgumentError):
         autograd.local_solve(query, values, b[:1])

@@ -18,7 +18,8 @@ BLOCKS = re.findall(r"```python\n(.*?)```", TEXT, re.S)
 def test_programs(k, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     A = grid(20)
-    names = {"A": A, "A2": 2 * A, "A3": 3 * A, "A4": 3 * A, "b": right_hand_sides(400)}
+    names = {"sparse_local": sparse_local, "F": sparse_local.Factor(A), "A": A, "A2": 2 * A,
+             "A3": 3 * A, "A4": 3 * A, "b": right_hand_sides(400)}
     if "torch" in BLOCKS[k]:
         torch = pytest.importorskip("torch", reason="torch is not installed")
         names.update(b=torch.tensor(names["b"]), wanted=torch.zeros(400, dtype=torch.float64))

@@ -59,7 +59,8 @@ def translated(factor=None):
     try:
         yield
     except ours.PivotError as error:
-        raise CholmodNotPositiveDefiniteError(str(error), error.row, factor) from error
+        raise CholmodNotPositiveDefiniteError("not positive definite: " + error.cause, error.row,
+                                              factor) from error
     except (ours.Error, TypeError) as error:
         kind = next(theirs for mine, theirs in _KINDS if isinstance(error, mine))
-        raise kind(str(error)) from error
+        raise kind(getattr(error, "cause", str(error))) from error

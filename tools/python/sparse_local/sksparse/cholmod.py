@@ -10,7 +10,11 @@ As there, only the lower triangle of A is read. Unlike there, these give a signa
 stores only its upper triangle (CholmodInvalidError), triangles that differ (CholmodWarning),
 negative pivots (CholmodWarning, or CholmodNotPositiveDefiniteError where D^(1/2) is needed), a
 pattern that is not the analyzed one, NaN and infinity. mode chooses no algorithm; 'supernodal'
-refuses matrices that are not positive definite at once. use_long has no meaning.
+refuses indefinite matrices at once. use_long has no meaning.
+
+A singular semidefinite matrix, such as the Laplacian of a closed mesh, has a null pivot in each
+component: x is 0 in its row, and D is 0. A right-hand side that has no solution is a
+CholmodWarning; the residual is then in these rows only.
 """
 import warnings
 
@@ -24,7 +28,7 @@ from ._errors import (CholmodError, CholmodGpuProblemError, CholmodInvalidError,
                       CholmodNotInstalledError, CholmodNotPositiveDefiniteError,
                       CholmodOutOfMemoryError, CholmodTooLargeError, CholmodTypeConversionWarning,
                       CholmodWarning, translated)
-from ._pattern import Pattern, checked, lower, product, product_pattern
+from ._pattern import Pattern, checked, product, product_pattern, readable, square
 
 __all__ = ["analyze", "analyze_AAt", "cholesky", "cholesky_AAt", "CholmodError",
            "CholmodGpuProblemError", "CholmodInvalidError", "CholmodNotInstalledError",
@@ -34,6 +38,7 @@ __all__ = ["analyze", "analyze_AAt", "cholesky", "cholesky_AAt", "CholmodError",
 _modes = {"simplicial": 0, "auto": 1, "supernodal": 2}
 _ordering_methods = {"natural": "natural", "amd": "mindeg", "metis": "nd", "nesdis": "nd",
                      "colamd": "mindeg", "default": "nd", "best": "nd"}
+_CONSISTENT = 1e-6  # |z' b| / sum |b| up to which b counts as consistent, as in sl_options
 _COLUMNS = 64  # of a sparse right-hand side that are solved at once
 _key = object()
 
@@ -47,36 +52,54 @@ class Factor:
     def __init__(self, key, *parts):
         if key is not _key:
             raise CholmodError("a Factor is made by analyze and cholesky")
-        self._analysis, self._pattern, self._mode, self._natural = parts
+        self._analysis, self._pattern, self._mode, self._shown = parts
         self._numbers = None
+        self._is_singular = False  # null pivots are skipped
         self._low = None  # the lower triangle that is factored
         self._order()
 
     def _order(self):
-        """What permutes between the order of the library and a natural order that it keeps in
-        effect but not in sequence."""
-        if self._natural:
-            self._from = np.argsort(self._analysis.perm)  # place k there for place r here
+        """Places in the order of the library, which keeps the order that is shown (a given one, or
+        the natural one) in effect but not in sequence. None: it is the order of the library."""
+        if self._shown is not None:
+            self._from = np.argsort(self._analysis.perm)[self._shown]
 
     # ---- factorization ----
 
     def cholesky_inplace(self, A, beta=0):
         """Factors A + beta I, whose pattern is in the analyzed one."""
-        self._factor(lower(A), beta)
+        self._factor(readable(A), beta)
 
     def cholesky_AAt_inplace(self, A, beta=0):
         """Factors A A^H + beta I."""
         self._factor(product(A), beta)
 
     def _factor(self, low, beta=0.0):
-        low = self._pattern.matrix(low, beta)
+        self._factor_in_pattern(self._pattern.matrix(low, beta))
+
+    def _factor_in_pattern(self, low):
         with translated(self):
-            if self._numbers is None:
-                self._numbers = self._analysis.factor(low)
-            else:
-                self._numbers.refactor(low)
+            try:
+                if self._numbers is None or self._is_singular:
+                    self._numbers = None
+                    self._numbers = self._analysis.factor(low)
+                else:
+                    self._numbers.refactor(low)
+                self._is_singular = False
+            except ours.PivotError as error:
+                self._numbers = self._without_null_pivots(low, error)
+                self._is_singular = True
         self._low = low
         self._judge()
+
+    def _without_null_pivots(self, low, error):
+        """A factor that skips null pivots of a semidefinite matrix; others raise the first error.
+        Solves check the right-hand side themselves: what has no solution is a warning."""
+        self._numbers = None
+        try:
+            return self._analysis.factor(low, null_pivots="skip", consistency_tolerance=-1.0)
+        except ours.Error:
+            raise error from None
 
     def _judge(self):
         negative = self._numbers.inertia[1]
@@ -91,8 +114,8 @@ class Factor:
 
     def copy(self):
         """A Factor with numbers of its own."""
-        other = Factor(_key, self._analysis, self._pattern, self._mode, self._natural)
-        other._low = self._low
+        other = Factor(_key, self._analysis, self._pattern, self._mode, self._shown)
+        other._low, other._is_singular = self._low, self._is_singular
         if self._numbers is not None:
             with translated(self):
                 other._numbers = _Numbers.from_bytes(self._numbers.to_bytes(),
@@ -102,13 +125,13 @@ class Factor:
 
     def cholesky(self, A, beta=0):
         """A new Factor of A + beta I with this analysis."""
-        other = Factor(_key, self._analysis, self._pattern, self._mode, self._natural)
+        other = Factor(_key, self._analysis, self._pattern, self._mode, self._shown)
         other.cholesky_inplace(A, beta)
         return other
 
     def cholesky_AAt(self, A, beta=0):
         """A new Factor of A A^H + beta I with this analysis."""
-        other = Factor(_key, self._analysis, self._pattern, self._mode, self._natural)
+        other = Factor(_key, self._analysis, self._pattern, self._mode, self._shown)
         other.cholesky_AAt_inplace(A, beta)
         return other
 
@@ -133,12 +156,12 @@ class Factor:
             self._factor(low)
         except CholmodInvalidError:
             self._pattern = Pattern(low)
-            low = self._pattern.matrix(low)
             with translated(self):
-                self._analysis = Analysis(low, perm=self.P())
+                self._shown = self.P()
+                self._analysis = Analysis(self._pattern.first, perm=self._shown)
                 self._numbers = None
                 self._order()
-            self._factor(low)
+            self._factor_in_pattern(self._pattern.first)
 
     # ---- the parts ----
 
@@ -149,18 +172,18 @@ class Factor:
 
     def P(self):
         """The order as n row numbers: A[P][:, P] is decomposed."""
-        return np.arange(self._analysis.n, dtype=np.int32) if self._natural else self._analysis.perm
+        return self._analysis.perm if self._shown is None else self._shown.copy()
 
     def D(self):
         """D as n numbers."""
         with translated(self):
             d = self._ready().pivots()[0]
-        return d[self._from] if self._natural else d
+        return d if self._shown is None else d[self._from]
 
     def _lower(self):
         with translated(self):
             L = self._ready().lower()
-        if self._natural:
+        if self._shown is not None:
             L = L[self._from][:, self._from].tocsc()
             L.sort_indices()
         return L
@@ -246,19 +269,31 @@ class Factor:
             raise CholmodError("the matrix is real, and b is complex")
         with translated(self):
             if parts is None:
-                return F.solve(b)
+                x = F.solve(b)
+                self._warn_if_inconsistent(b)
+                return x
             if parts in ("P", "PT"):
                 order = self.P() if parts == "P" else np.argsort(self.P())
                 return np.array(F._kind.dense(b, F.n, F.n).B[order])
-            if not self._natural:
+            if self._shown is None:
                 return F.solve_part(parts, b)
-            return F.solve_part(parts, b[self._analysis.perm])[self._from]
+            return F.solve_part(parts, b[np.argsort(self._from)])[self._from]
+
+    def _warn_if_inconsistent(self, b):
+        if not self._is_singular:
+            return
+        F = self._numbers
+        worst = F._inconsistency(F._kind.dense(b, F.n, F.n))
+        if worst > _CONSISTENT:
+            warnings.warn("the matrix is singular and b has no solution: |z' b| for a null vector "
+                          "z is %.2g of sum |b|" % worst, CholmodWarning, stacklevel=4)
 
     # ---- numbers of the whole matrix ----
 
     def logdet(self):
-        """log det A; CholmodNotPositiveDefiniteError: A is not positive definite."""
-        return float(2.0 * np.sum(np.log(self._roots())))
+        """log det A, -inf if A is singular; CholmodNotPositiveDefiniteError: a negative pivot."""
+        with np.errstate(divide="ignore"):
+            return float(2.0 * np.sum(np.log(self._roots())))
 
     def slogdet(self):
         """(1.0, log det A), as numpy.linalg.slogdet."""
@@ -287,10 +322,7 @@ def analyze_AAt(A, mode="auto", ordering_method="default", use_long=None):
 
 def cholesky(A, beta=0, mode="auto", ordering_method="default", use_long=None):
     """The Factor of A + beta I; only the lower triangle of A is read."""
-    low = lower(A)
-    factor = _analyze(low, mode, ordering_method)
-    factor._factor(low, beta)
-    return factor
+    return _made(readable(A), beta, mode, ordering_method)
 
 
 def cholesky_AAt(A, beta=0, mode="auto", ordering_method="default", use_long=None):
@@ -302,20 +334,30 @@ def cholesky_AAt(A, beta=0, mode="auto", ordering_method="default", use_long=Non
 
 def _entries(A):
     """The lower triangle, whose values are not looked at."""
-    A = checked(A)
-    if A.shape[0] != A.shape[1]:
-        raise CholmodError("a symmetric matrix is square, not %d x %d" % A.shape)
-    return sparse.tril(A, format="csc")
+    A = square(A)
+    return A if A.nnz and np.isfinite(A.data).all() else _with_zeros(A)
 
 
-def _analyze(low, mode, ordering_method):
+def _with_zeros(A):
+    return sparse.csc_matrix((np.zeros(A.data.size, A.dtype), A.indices, A.indptr), shape=A.shape)
+
+
+def _made(low, beta, mode, ordering_method):
+    """The Factor of low + beta I."""
+    factor = _analyze(low, mode, ordering_method, beta)
+    factor._factor_in_pattern(factor._pattern.first)
+    return factor
+
+
+def _analyze(low, mode, ordering_method, beta=0.0):
     if mode not in _modes:
         raise CholmodError("mode is one of %s, not %r" % (", ".join(_modes), mode))
     if ordering_method is not None and ordering_method not in _ordering_methods:
         raise CholmodError("ordering_method is one of %s, not %r" %
                            (", ".join(_ordering_methods), ordering_method))
-    pattern = Pattern(low)
+    pattern = Pattern(low, beta)
     with translated():
         ordering = _ordering_methods[ordering_method or "default"]
-        analysis = Analysis(pattern.matrix(low), ordering=ordering)
-    return Factor(_key, analysis, pattern, mode, ordering == "natural")
+        analysis = Analysis(pattern.first, ordering=ordering)
+    natural = np.arange(analysis.n, dtype=np.int32) if ordering == "natural" else None
+    return Factor(_key, analysis, pattern, mode, natural)
