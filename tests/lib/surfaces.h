@@ -4,7 +4,8 @@
 
 #include "test.h"
 
-#include "tools/mesh/disk_patch.h"
+#include "tools/mesh/adjacency.h"
+#include "tools/mesh/submesh.h"
 #include "tools/mesh/grid.h"
 #include "tools/geometry/laplacian.h"
 #include "tools/mesh/mesh.h"
@@ -108,14 +109,37 @@ static inline void mesh_factor_free(mesh_factor_t *w) {
     mesh_free(&w->m);
 }
 
-static inline disk_patch grown_disk(mesh_factor_t *w, sl_int start, sl_int count) {
-    disk_patch d;
-    char message[200] = "";
-    if (!disk_patch_grow(&d, &w->inc, start, count, NULL, message, sizeof message)) {
-        print_error("%s\n", message);
-        fail();
+/* The faces between the `count` vertices nearest to start by edges. */
+static inline submesh grown_patch(mesh_factor_t *w, sl_int start, sl_int count) {
+    const sl_int n = w->m.n_vertices;
+    sl_int *near = test_ints((size_t)n), *vertices = test_ints((size_t)n), n_vertices = 0;
+    sl_int *faces = test_ints((size_t)w->m.n_faces), n_faces = 0;
+    unsigned char *seen = calloc((size_t)n + 1, 1);
+    adjacency graph;
+    submesh p;
+    assert_true(adjacency_from_mesh(&graph, &w->m));
+    count = adjacency_bfs(near, count < n ? count : n, &graph, start, seen);
+    for (sl_int k = 0; k < count; k++) {
+        seen[near[k]] = 1;
     }
-    return d;
+    for (sl_int f = 0; f < w->m.n_faces; f++) {
+        const sl_int *v = w->m.faces + 3 * f;
+        if (seen[v[0]] && seen[v[1]] && seen[v[2]]) {
+            faces[n_faces++] = f;
+            for (int c = 0; c < 3; c++) {
+                vertices[n_vertices] = v[c];
+                n_vertices += seen[v[c]] == 1;
+                seen[v[c]] = 2; /* listed */
+            }
+        }
+    }
+    assert_true(submesh_from_faces(&p, &w->inc, vertices, n_vertices, faces, n_faces));
+    adjacency_free(&graph);
+    free(seen);
+    free(faces);
+    free(vertices);
+    free(near);
+    return p;
 }
 
 /* Largest difference between two columns of n entries after the mean difference is subtracted. */

@@ -142,7 +142,7 @@ least=1000 # with which the program is loaded
 while within $least --help 2>/dev/null && [ $status -ne 0 ] && [ $least -lt 200000 ]; do
     least=$((least + 500))
 done
-for command in heat adf hks pairs reach param arap scp geodesic vectors edit info; do
+for command in heat adf hks pairs reach unwrap geodesic vectors edit info; do
     for more in 0 1000 2000 4000 8000; do
         [ $least -lt 200000 ] || continue
         within $((least + more)) "$command" hills:60x60

@@ -143,7 +143,7 @@ limited l.csv hks sphere:3 --csv l.csv
 limited l.csv pairs sphere:3 --count 1000 --csv l.csv
 limited l.csv heat sphere:4 --csv l.csv
 limited l.csv reach sphere:4 --csv l.csv
-limited l.csv param sphere:4 --patch 2000 --csv l.csv
+limited l.csv unwrap sphere:4 --csv l.csv
 limited l.csv geodesic sphere:4 --csv l.csv
 limited l.csv geodesic sphere:4 --from 1,2,3 --each --csv l.csv
 limited l.csv deform sphere:4 --script "$dir/kept/moves" --csv l.csv

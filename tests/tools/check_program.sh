@@ -101,13 +101,9 @@ done
 
 gives 0 'entries read of the region.s inverse: [1-9]' heat grid:60x60 --from 1830 --at 1831,1890 \
     --region
-gives 0 '; [1-9][0-9]* of the region.s inverse$' param grid:60x60 --patch 200 --center 1830 \
-    --region --compare
-gives 0 'in the region, and without it' param grid:60x60 --patch 200 --center 1830 --region \
-    --compare --system patch
 gives 0 '; [1-9][0-9]* of the region.s inverse$' geodesic grid:60x60 --from 1830 --radius 0.1 \
     --region
-gives 0 '; [1-9][0-9]* of the region.s inverse$' arap grid:60x60 --patch 200 --center 1830 --region
+gives 2 'param is unwrap --method harmonic now' param grid:9x9
 gives 2 'only for distances within --radius' geodesic sphere:2 --region
 gives 0 'from each of 2 sources' geodesic grid:60x60 --from 1830,1835 --radius 0.1 --each --region \
     --csv "$dir/e.csv"
@@ -495,7 +491,7 @@ gives 2 'above 0' hks sphere:1 --first 0
 
 # What is wrong with an output is found before the mesh is read.
 
-for command in adf heat hks geodesic vectors param arap scp reach deform; do
+for command in adf heat hks geodesic vectors unwrap reach deform; do
     gives 1 'no/x.png: cannot be written' "$command" "$dir/no-such-file.obj" --png "$dir/no/x.png"
     gives 1 'Is a directory' "$command" "$dir/no-such-file.obj" --csv "$dir"
     gives 1 'must end in .obj, .ply' "$command" "$dir/no-such-file.obj" --out "$dir/x.off"
@@ -521,7 +517,7 @@ record $? "geodesic starts there too"
 
 # A picture says if auto chose z; it is the one that --up z gives.
 
-for command in adf heat hks geodesic vectors reach param arap scp; do
+for command in adf heat hks geodesic vectors reach unwrap; do
     gives 0 '^upward     z, because the mesh is a relief over the x-y plane' \
         "$command" hills:30x30 --png "$dir/auto.png"
     "$program" "$command" hills:30x30 --png "$dir/z.png" --up z >"$dir/out" 2>"$dir/err" &&

@@ -103,7 +103,7 @@ static void frames_are_drawn_in_one_scale(void **state) {
     command_says(command_deform,
                  line_of("deform hills:20x20 --script %s --frames %s --size 160x120 --png %s", "f",
                          "last.png"),
-                 0, "frames     4 of 10 iterations");
+                 0, "frames     4, with ");
     static const char *const names[] = {"f0000.png", "f0001.png", "f0002.png", "f0003.png",
                                         "last.png"};
     for (int k = 0; k < 5; k++) {
@@ -113,6 +113,14 @@ static void frames_are_drawn_in_one_scale(void **state) {
         assert_true(sscanf(text, "%d %d", &w, &h) == 2 && w == 160 && h == 120);
         free(text);
     }
+}
+
+/* Too few solves are an error. */
+static void unfinished_frames_are_reported(void **state) {
+    (void)state;
+    files_put_text("script.txt", script);
+    command_says(command_deform, line_of("deform star:3 --script %s --iterations 3", NULL, NULL), 1,
+                 "have not converged within 3 solves");
 }
 
 /* A bound that rounding exceeds fails, so that the check is one. */
@@ -169,6 +177,7 @@ static void malformed_options_are_refused(void **state) {
         {"deform sphere:1", "--script FILE is missing"},
         {"deform sphere:1 --method elastic", "expected arap or biharmonic"},
         {"deform sphere:1 --iterations 0", "expected 1 to 1000000"},
+        {"deform sphere:1 --tolerance -1", "--tolerance: expected 0 or more"},
         {"deform sphere:1 --at 3", "only with --method biharmonic"},
         {"deform sphere:1 --at 3 --method biharmonic --frames x", "computes no surface"},
         {"deform sphere:1 --at 3 --method biharmonic --png x", "computes no surface"},
@@ -257,6 +266,7 @@ int main(void) {
         cmocka_unit_test(scripts_move_handles),
         cmocka_unit_test(wanted_vertices_are_computed_alone),
         cmocka_unit_test(frames_are_drawn_in_one_scale),
+        cmocka_unit_test(unfinished_frames_are_reported),
         cmocka_unit_test(differences_beyond_the_bound_fail),
         cmocka_unit_test(malformed_scripts_are_refused),
         cmocka_unit_test(malformed_options_are_refused),

@@ -1,4 +1,4 @@
-/* test_layout_commands.c: the commands param, arap, scp, geodesic: files, output, refusals */
+/* test_layout_commands.c: the commands unwrap and geodesic: files, output, refusals */
 #define _POSIX_C_SOURCE 200809L
 #include "tests/lib/run_command.h"
 
@@ -46,22 +46,25 @@ static void assert_picture(const char *name, int width, int height) {
     free(text);
 }
 
-static void param_writes_texture_coordinates(void **state) {
+/* A closed surface: texture coordinates at each corner, the mesh as it is, and pictures. */
+static void unwrap_writes_texture_coordinates(void **state) {
     (void)state;
     size_t length;
     mesh m;
     char message[300];
     char *output =
-        output_of(command_param,
-                  "param --center 500 --patch 300 --csv @a.csv --out @a.obj --png @a.png --layout "
-                  "@b.png --close @c.png --size 200x150 sphere:4");
-    assert_true(number_after(output, "patch      ") == 300);
+        output_of(command_unwrap, "unwrap --csv @a.csv --out @a.obj --png @a.png --layout @b.png "
+                                  "--close @c.png --size 200x150 sphere:3");
+    assert_true(number_after(output, "surface    ") == 1280);
+    assert_true(number_after(output, "faces      ") == 0);
+    assert_true(number_after(output, "energy ") < 4.6);
+    assert_non_null(strstr(output, "result     good: "));
     free(output);
     char *text = files_get(files_path("a.obj"), &length);
-    assert_int_equal(lines_starting_with(text, "vt "), 300);
+    assert_int_equal(lines_starting_with(text, "vt "), 3 * 1280);
     const char *at = strstr(text, "vt ");
     /* All coordinates are in the unit square. */
-    for (int k = 0; k < 300; k++) {
+    for (int k = 0; k < 3 * 1280; k++) {
         double u = -1, v = -1;
         assert_int_equal(sscanf(at, "vt %lf %lf", &u, &v), 2);
         assert_true(u >= 0 && u <= 1 && v >= 0 && v <= 1);
@@ -69,51 +72,52 @@ static void param_writes_texture_coordinates(void **state) {
     }
     free(text);
     assert_true(mesh_read(&m, files_path("a.obj"), message, sizeof message));
-    assert_true(m.n_vertices == 300 && m.n_faces > 500);
+    assert_true(m.n_vertices == 642 && m.n_faces == 1280);
     mesh_free(&m);
     text = files_get(files_path("a.csv"), &length);
-    assert_int_equal(lines_starting_with(text, ""), 1 + 300 + 1);
+    assert_true(lines_starting_with(text, "") > 1 + 642 + 1); /* vertices of the cut twice */
     free(text);
     assert_picture("a.png", 200, 150);
     assert_picture("b.png", 200, 150);
     assert_picture("c.png", 200, 150);
 }
 
-/* The same patch grown and listed. The command checks its own comparison. */
-static void lists_and_comparisons_agree(void **state) {
+/* All methods end, on disks, closed surfaces and patches, and say how good the layout is. */
+static void every_method_reports(void **state) {
     (void)state;
-    (void)files_put_text("list.txt", "# a fan\n0 1\n2 20\n21 22 40 41 42\n");
-    command_says(command_param, expand_paths("param grid:20x20 --list-file @list.txt"), 0,
-                 "patch      9 vertices, 8 faces, 8 on its boundary");
-    command_says(command_param, "param grid:20x20 --list 0-2,20-22,40-42 --compare", 0,
-                 "refactorize the patch and solve");
-    command_says(command_param, "param torus:60x30 --center 40 --patch 200 --compare", 0,
-                 "  0 from the full solve");
-    command_says(command_param, "param grid:40x40 --center 820 --sweep 50,200", 0, "     200 ");
-    command_says(command_param, "param grid:20x20 --sweep 2", 1, "3 or more");
-    command_says(command_param, "param grid:20x20 --dirichlet", 0, "Dirichlet");
-    char *output = output_of(command_param, "param grid:30x30 --center 440 --patch 200 --boundary "
-                                            "unrolled --system patch");
-    /* A flat patch with its own boundary is neither bent, stretched nor turned over. */
-    assert_true(fabs(number_after(output, "Neumann")) <= 1e-12);
-    free(output);
-}
-
-static void layouts_lower_their_energy(void **state) {
-    (void)state;
-    static const char *const command_lines[] = {
-        "arap hills:40x40 --patch 500 --center 800",
-        "arap hills:40x40 --patch 500 --center 800 --own-factor",
-        "scp hills:40x40 --patch 500 --center 800",
-        "scp hills:40x40 --patch 500 --center 800 --descend 4"};
-    static const char *const ends[] = {"as rigid as possible", "as rigid as possible",
-                                       "spectral conformal", "conformal, by descent"};
-    for (int k = 0; k < 4; k++) {
-        char *output = output_of(k < 2 ? command_arap : command_scp, command_lines[k]);
-        assert_true(number_after(output, ends[k]) < 0.2 * number_after(output, "harmonic "));
+    static const char *const methods[] = {"slim", "arap", "scp", "lscm", "harmonic", "tutte"};
+    static const char *const surfaces[] = {"hills:20x20", "torus:30x12",
+                                           "star:4 --center 100 --patch 300"};
+    for (int k = 0; k < 18; k++) {
+        char line[200];
+        (void)snprintf(line, sizeof line, "unwrap %s --method %s", surfaces[k / 6], methods[k % 6]);
+        char *output = output_of(command_unwrap, line);
+        assert_non_null(strstr(output, "result     "));
+        if (k % 6 == 0 || k % 6 == 5) {
+            assert_true(number_after(output, "faces      ") == 0);
+        }
         free(output);
     }
-    command_says(command_arap, "arap --iterations 3 hills:30x30", 1, "not converged after 3 it");
+    command_says(command_unwrap, "unwrap hills:30x30 --iterations 1", 1, "have not converged");
+    command_says(command_unwrap, "unwrap torus:30x12 --method tutte", 0, "cut along 4");
+    command_says(command_unwrap, "unwrap star:5 --method harmonic", 0, "result     ");
+}
+
+/* Pins stay where they are, exactly with lscm. */
+static void pins_hold_vertices(void **state) {
+    (void)state;
+    size_t length;
+    (void)files_put_text("pins.csv", "vertex,u,v\n0,0,0\n19,1.25,0\n399,1.25,1\n");
+    free(output_of(command_unwrap,
+                   "unwrap hills:20x20 --method lscm --pins @pins.csv --csv @l.csv"));
+    char *text = files_get(files_path("l.csv"), &length);
+    assert_non_null(strstr(text, "\n0,0,0,0\n"));
+    assert_non_null(strstr(text, "\n19,1.25,0,0\n"));
+    assert_non_null(strstr(text, "\n399,1.25,1,0\n"));
+    free(text);
+    char *output = output_of(command_unwrap, "unwrap hills:20x20 --pins @pins.csv --csv @l.csv");
+    assert_true(number_after(output, "faces      ") == 0);
+    free(output);
 }
 
 static void geodesic_writes_distances_and_cells(void **state) {
@@ -160,27 +164,19 @@ static void help_is_shown_and_bad_input_refused(void **state) {
         int status;
         const char *text;
     } cases[] = {
-        {command_param, "param --help", 0, "usage: sparse-local param"},
-        {command_arap, "arap --help", 0, "usage: sparse-local arap"},
-        {command_scp, "scp --help", 0, "usage: sparse-local scp"},
         {command_geodesic, "geodesic --help", 0, "Approximate"},
-        {command_param, "param", 2, "MESH"},
-        {command_param, "param sphere:2 --list all", 1, "closed"},
-        {command_arap, "arap torus:20x10 --list 0-99", 1, "more than one boundary"},
-        {command_scp, "scp grid:9x9 --list 0,1,10,40", 1, "vertex 40"},
-        {command_scp, "scp grid:9x9 --list 0,1,10,0", 1, "vertex 0 is listed twice"},
-        {command_param, "param grid:9x9 --list 0-81", 1, "no vertex 81"},
-        {command_param, "param grid:9x9 --list 0 --list-file x", 2, "one of them"},
-        {command_param, "param grid:9x9 --list-file /nowhere/x", 1, "/nowhere/x"},
-        {command_param, "param grid:9x9 --center 81", 1, "vertex 81: the mesh has no such vertex"},
-        {command_param, "param grid:9x9 --patch 2", 1, "3 or more"},
-        {command_param, "param grid:9x9 --boundary square", 2, "circle or unrolled"},
-        {command_param, "param grid:9x9 --system half", 2, "mesh or patch"},
-        {command_param, "param grid:1x1", 1, "no faces"},
-        {command_param, "param /nowhere.obj", 1, "/nowhere.obj"},
-        {command_param, "param grid:9x9 --png /nowhere/x.png", 1, "/nowhere/x.png"},
-        {command_param, "param grid:9x9 --out /nowhere/x.obj", 1, "/nowhere/x.obj"},
-        {command_arap, "arap grid:9x9 --solves 0", 2, "--solves"},
+        {command_unwrap, "unwrap --help", 0, "usage: sparse-local unwrap"},
+        {command_unwrap, "unwrap", 2, "MESH"},
+        {command_unwrap, "unwrap grid:9x9 --method square", 2, "expected slim, arap"},
+        {command_unwrap, "unwrap grid:9x9 --list 0-81", 1, "no vertex 81"},
+        {command_unwrap, "unwrap grid:9x9 --list 0,40", 1, "no face with three"},
+        {command_unwrap, "unwrap grid:9x9 --center 81 --patch 9", 1, "no such vertex"},
+        {command_unwrap, "unwrap grid:9x9 --tolerance -1", 2, "--tolerance"},
+        {command_unwrap, "unwrap grid:9x9 --pins /nowhere.csv", 1, "/nowhere.csv"},
+        {command_unwrap, "unwrap grid:1x1", 1, "no faces"},
+        {command_unwrap, "unwrap /nowhere.obj", 1, "/nowhere.obj"},
+        {command_unwrap, "unwrap grid:9x9 --png /nowhere/x.png", 1, "/nowhere/x.png"},
+        {command_unwrap, "unwrap grid:9x9 --out /nowhere/x.obj", 1, "/nowhere/x.obj"},
         {command_geodesic, "geodesic grid:9x9 --from 81", 1, "no vertex 81"},
         {command_geodesic, "geodesic grid:9x9 --from random:99", 2, "1 to 81"},
         {command_geodesic, "geodesic grid:9x9 --radius -1", 2, "--radius"},
@@ -191,36 +187,27 @@ static void help_is_shown_and_bad_input_refused(void **state) {
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         command_says(cases[k].command, cases[k].words, cases[k].status, cases[k].text);
     }
-    (void)files_put_text("words.txt", "1 2 three\n");
-    command_says(command_param, expand_paths("param grid:9x9 --list-file @words.txt"), 1,
-                 "words.txt:1: not a vertex number");
     (void)files_put_text("point.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n");
     command_says(command_geodesic, expand_paths("geodesic @point.obj"), 1, "no length");
     /* Three faces at an edge, faces with a corner twice, an isolated vertex: where the mesh is not
-     * a surface, patches avoid it. */
+     * a surface, it is cut. */
     (void)files_put_text("fan.obj",
                          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 9 9 9\nf 1 2 3\nf 1 2 4\n"
                          "f 2 1 5\nf 1 1 2\nf 1 2 2\n");
-    command_says(command_param, expand_paths("param @fan.obj --compare --png @fan.png"), 0,
-                 "patch  ");
-    command_says(command_param, expand_paths("param @fan.obj --list 0-4"), 1, "has three faces");
-    command_says(command_param, expand_paths("param @fan.obj --center 5"), 1,
-                 "vertex 5: it has no face");
-    command_says(command_scp, expand_paths("scp @fan.obj"), 0, "spectral conformal");
+    command_says(command_unwrap, expand_paths("unwrap @fan.obj --png @fan.png"), 0, "3 parts");
     command_says(command_geodesic, expand_paths("geodesic @fan.obj --png @fan.png"), 0,
                  "those of 5 of 6 vertices");
     command_says(command_geodesic, expand_paths("geodesic @fan.obj --from 5"), 0,
                  "those of 1 of 6 vertices");
-    /* One face without area: its layout is arbitrary. */
-    command_says(command_param, expand_paths("param @point.obj"), 1, "3 vertices have no weights");
-    command_says(command_arap, expand_paths("arap @point.obj"), 0, "no area");
+    /* One face without area gets some. */
+    command_says(command_unwrap, expand_paths("unwrap @point.obj"), 0, "thinner than");
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(param_writes_texture_coordinates),
-        cmocka_unit_test(lists_and_comparisons_agree),
-        cmocka_unit_test(layouts_lower_their_energy),
+        cmocka_unit_test(unwrap_writes_texture_coordinates),
+        cmocka_unit_test(every_method_reports),
+        cmocka_unit_test(pins_hold_vertices),
         cmocka_unit_test(geodesic_writes_distances_and_cells),
         cmocka_unit_test(help_is_shown_and_bad_input_refused),
     };

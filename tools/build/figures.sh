@@ -32,11 +32,13 @@ patch="--patch ${PATCH:-2000} --center $center"
         --png "$folder/figure2_mesh.png" --separators "$folder/figure2_separators.png" \
         --tree "$folder/figure2_tree.svg" --graph "$folder/figure2_graph.svg" \
         --pattern "$folder/figure2_patterns.png" --csv "$folder/figure2.csv"
-    draw figure3 param "$surface" $patch --png "$folder/figure3_param.png" \
+    draw figure3 unwrap "$surface" $patch --method harmonic --png "$folder/figure3_param.png" \
         --layout "$folder/figure3_layout.png" --close "$folder/figure3_patch.png" \
         --out "$folder/figure3.obj" --csv "$folder/figure3.csv"
-    draw arap arap "$surface" $patch --png "$folder/arap.png" --layout "$folder/arap_layout.png"
-    draw scp scp "$surface" $patch --png "$folder/scp.png" --layout "$folder/scp_layout.png"
+    for method in arap scp slim; do
+        draw $method unwrap "$surface" $patch --method $method --png "$folder/$method.png" \
+            --layout "$folder/${method}_layout.png"
+    done
 }
 if [ -z "$mesh" ]; then # its vertices are those of one surface
     cat >"$folder/deform_script.txt" <<'END'
@@ -51,7 +53,7 @@ frame
 release 2
 frame
 END
-    draw deform deform star:5 --script "$folder/deform_script.txt" --iterations 100 --check \
+    draw deform deform star:5 --script "$folder/deform_script.txt" --check \
         --view 8,12 --size 480x400 --frames "$folder/deform" --steps "$folder/deform.csv"
 fi
 draw edit edit "${mesh:-hills:200x200}" --edits 500 --every 125 --svg "$folder/edit.svg" \

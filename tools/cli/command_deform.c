@@ -16,9 +16,9 @@ static const options_manual manual = {
     "Vertices that handles hold are pins on the factor of a singular matrix, the Laplacian L "
     "(arap) or L M^-1 L (biharmonic), which is factored once. Grabbing a handle takes a forward "
     "sweep for up to 8 of its vertices, and releasing it changes a small matrix only; more than "
-    "200 vertices are fixed in a factor of the others instead. A frame "
-    "takes full solves with three right-hand sides. As-rigid-as-possible deformations alternate "
-    "rotations of vertices with such solves. Biharmonic displacements need one solve; --at "
+    "200 vertices are fixed in a factor of the others instead. An as-rigid-as-possible frame takes "
+    "some 20 solves: steps with fixed rotations, then quasi-Newton steps with the factor of the "
+    "Hessian, until a step moves nothing any more. Biharmonic displacements need one solve; --at "
     "computes them near the wanted vertices only. A component without handles keeps its mean "
     "position (arap) or is at rest.\n"
     "The script has a step per line; # starts a comment:\n"
@@ -29,11 +29,12 @@ static const options_manual manual = {
     "release HANDLE\n"
     "frame: computes the surface, and draws it with --frames; dots are the vertices that are held, "
     "red where they have moved, else blue",
-    "Milliseconds of processor time: of the factor, of each pin, of each frame. --csv has the last "
+    "How many solves the frames took, the energy of the last one and how far its last step moved a "
+    "vertex; with --verbose milliseconds of processor time. --csv has the last "
     "positions and displacements; with --at only those vertices, which are then all that is "
     "computed. --steps has a row per step of the script. --check solves each frame again with a "
     "new factor without the rows that are held; exit status 1 if positions differ by more than "
-    "--bound.",
+    "--bound, or if a frame has not converged.",
     "star:5 --script bend.txt --frames bend --out bent.ply\n"
     "bunny.obj --script bend.txt --method biharmonic --check --steps steps.csv"};
 
@@ -41,18 +42,17 @@ static const options_manual manual = {
 static void report(deform_command *cmd, const script_step *step, const step_times *t) {
     cmd->total.pin += t->pin;
     cmd->total.release += t->release;
-    cmd->total.rotations += t->rotations;
+    cmd->total.solves += t->solves;
     cmd->total.solve += t->solve;
     cmd->total.fresh += t->fresh;
     cmd->worst = t->difference <= cmd->worst ? cmd->worst : t->difference; /* a NaN counts */
     if (cmd->table != NULL) {
-        fprintf(cmd->table, "%ld,%s,%d,%d,%.3f,%.3f,%.3f,%.3f", step->line,
-                script_word(step->action), (int)step->handle, (int)cmd->d.n_pins, t->pin,
-                t->release, t->rotations, t->solve);
+        fprintf(cmd->table, "%ld,%s,%d,%d,%.3f,%.3f,%d,%.3f", step->line, script_word(step->action),
+                (int)step->handle, (int)cmd->d.n_pins, t->pin, t->release, t->solves, t->solve);
         if (step->action == SCRIPT_FRAME) {
-            fprintf(cmd->table, ",%.17g", t->energy);
+            fprintf(cmd->table, ",%.17g,%.3g", t->energy, t->moved);
         } else {
-            fprintf(cmd->table, ",");
+            fprintf(cmd->table, ",,");
         }
         if (step->action == SCRIPT_FRAME && cmd->check) {
             fprintf(cmd->table, ",%.3f,%.3g\n", t->fresh, t->difference);
@@ -111,16 +111,25 @@ static void solve_frame(deform_command *cmd, step_times *t) {
         app_must(deformer_solve_watched(&cmd->d, cmd->near_positions), "local solve", NULL);
         t->solve = app_processor_ms() - began;
     }
-    /* with --at the full solve is the check */
-    const int steps = cmd->d.method == DEFORM_ARAP ? (int)cmd->iterations : 1;
-    for (int k = 0; k < steps && (cmd->at == NULL || cmd->check); k++) {
-        double began = app_processor_ms();
-        t->energy = deformer_rotations(&cmd->d);
-        t->rotations += app_processor_ms() - began;
-        began = app_processor_ms();
-        app_must(deformer_solve(&cmd->d), "solve", NULL);
-        t->solve += cmd->at == NULL ? app_processor_ms() - began : 0;
+    const double began = app_processor_ms();
+    if (cmd->d.method == DEFORM_ARAP) {
+        deformer_rest how;
+        app_must(deformer_relax(&cmd->d, cmd->tolerance, (int)cmd->iterations, &how), "deformation",
+                 NULL);
+        t->energy = how.energy;
+        t->solves = how.solves;
+        t->moved = how.moved;
+        cmd->unfinished += !how.converged;
+        cmd->last = how;
+        if (cmd->check) { /* of a global step */
+            (void)deformer_rotations(&cmd->d);
+        }
     }
+    /* with --at the full solve is the check */
+    if (cmd->check || (cmd->at == NULL && cmd->d.method == DEFORM_BIHARMONIC)) {
+        app_must(deformer_solve(&cmd->d), "deformation", NULL);
+    }
+    t->solve += cmd->at == NULL ? app_processor_ms() - began : 0;
     warn_of_refusal(cmd);
 }
 
@@ -185,6 +194,9 @@ static void check_options(const deform_command *cmd) {
     if (cmd->iterations < 1 || cmd->iterations > 1000000) {
         app_die_usage("--iterations: expected 1 to 1000000");
     }
+    if (!(cmd->tolerance >= 0)) {
+        app_die_usage("--tolerance: expected 0 or more");
+    }
     if (cmd->at != NULL && strcmp(cmd->method, "biharmonic") != 0) {
         app_die_usage("--at: only with --method biharmonic; rotations need all vertices");
     }
@@ -226,12 +238,14 @@ static void open_command(deform_command *cmd, const char *operand) {
         app_die("%s: all vertices are at one point, or too far apart", operand);
     }
     const sl_stats *s = &cmd->d.stats;
-    printf("mesh       %d vertices, %d faces, %d components; %s; prepared in %.1f ms\n",
-           (int)cmd->m.n_vertices, (int)cmd->m.n_faces, (int)cmd->d.n_components, cmd->method,
-           spent);
-    printf("factor     order and analyze %.1f ms, factor %.1f ms, %.3g entries of L\n",
-           1e3 * (s->symbolic.seconds_order + s->symbolic.seconds_analyze), 1e3 * s->factor.seconds,
-           (double)s->symbolic.nnz_panels);
+    printf("mesh       %d vertices, %d faces, %d components; %s.\n", (int)cmd->m.n_vertices,
+           (int)cmd->m.n_faces, (int)cmd->d.n_components, cmd->method);
+    if (cmd->verbose) {
+        printf("factor     order and analyze %.1f ms, factor %.1f ms, %.3g entries of L; prepared "
+               "in %.1f ms\n",
+               1e3 * (s->symbolic.seconds_order + s->symbolic.seconds_analyze),
+               1e3 * s->factor.seconds, (double)s->symbolic.nnz_panels, spent);
+    }
     accuracy_warn_poisson(&cmd->m, NULL, 1);
     if (s->factor.weak > 0) {
         app_warn("%d pivots are within rounding of 0: parts of the mesh are joined weakly",
@@ -258,14 +272,19 @@ int command_deform(int argc, char **argv) {
     const char *operand = NULL;
     memset(&cmd, 0, sizeof cmd);
     cmd.method = "arap";
-    cmd.iterations = 10;
+    cmd.iterations = 200;
+    cmd.tolerance = 1e-4;
     cmd.bound = 1e-6;
     const option options[] = {
         {OPTION_TEXT, "script", &cmd.script_path, "FILE", "steps of the handles: required"},
         {OPTION_TEXT, "method", &cmd.method, "arap|biharmonic",
          "as rigid as possible, or biharmonic displacements (arap)"},
         {OPTION_COUNT, "iterations", &cmd.iterations, "N",
-         "rotations and solves per frame, arap only (10)"},
+         "largest number of solves per frame, arap only (200)"},
+        {OPTION_REAL, "tolerance", &cmd.tolerance, "D",
+         "arap has converged when steps move no vertex by more than D diagonals of the bounding "
+         "box and lower the energy by no more than that part of it (1e-4)"},
+        {OPTION_FLAG, "verbose", &cmd.verbose, NULL, "print times of the factor and of pins, too"},
         {OPTION_TEXT, "at", &cmd.at, "VERTICES",
          "compute positions of these vertices only, by local solves, biharmonic only: "
          "3,17,100-200"},
@@ -283,7 +302,7 @@ int command_deform(int argc, char **argv) {
     open_command(&cmd, operand);
     if (cmd.steps != NULL) {
         cmd.table = app_create(cmd.steps);
-        fprintf(cmd.table, "line,action,handle,pins,pin_ms,release_ms,rotations_ms,solve_ms,energy,"
+        fprintf(cmd.table, "line,action,handle,pins,pin_ms,release_ms,solves,solve_ms,energy,moved,"
                            "fresh_ms,difference\n");
     }
     run_script(&cmd);
@@ -299,10 +318,16 @@ int command_deform(int argc, char **argv) {
     if (failed) {
         app_warn("positions differ from those of a new factor by more than --bound");
     }
+    if (cmd.unfinished > 0) {
+        app_warn("%d of %d frames have not converged within %d solves: the last step moved a "
+                 "vertex by %.1e diagonals; raise --iterations",
+                 (int)cmd.unfinished, (int)cmd.script.n_frames, (int)cmd.iterations,
+                 cmd.last.moved);
+    }
     handle_script_free(&cmd.script);
     deformer_free(&cmd.d);
     free(cmd.near_positions);
     free(cmd.watched);
     mesh_free(&cmd.m);
-    return failed;
+    return failed || cmd.unfinished > 0;
 }

@@ -4,20 +4,24 @@
 
 #include "app.h"
 #include "handle_script.h"
-#include "tools/geometry/deformer.h"
+#include "tools/geometry/deformer_relax.h"
 
 /* Milliseconds of a step of the script. */
 typedef struct step_times {
-    double pin, release, rotations, solve, fresh;
-    double energy;     /* before the last solve of a frame */
+    double pin, release, solve, fresh;
+    int solves;        /* ARAP: of a frame */
+    double energy;     /* ARAP: at its end */
+    double moved;      /* by its last step */
     double difference; /* of --check */
 } step_times;
 
 typedef struct deform_command {
     const char *script_path, *method, *frames, *steps, *at;
     sl_int iterations;
-    bool check;
-    double bound;
+    bool check, verbose;
+    double bound, tolerance;
+    deformer_rest last; /* of the last frame, ARAP */
+    sl_int unfinished;  /* frames that have not converged */
     app_output output;
     mesh m;
     deformer d;

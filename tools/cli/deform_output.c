@@ -105,7 +105,7 @@ void deform_print_free(const deform_command *cmd) {
 
 void deform_print_summary(const deform_command *cmd) {
     const double frames = cmd->script.n_frames > 0 ? (double)cmd->script.n_frames : 1;
-    if (cmd->pinned > 0) {
+    if (cmd->pinned > 0 && (cmd->verbose || cmd->d.refused)) {
         printf("pins       %d grabbed, %.4f ms each", (int)cmd->pinned,
                cmd->total.pin / (double)cmd->pinned);
         if (cmd->released > 0) {
@@ -117,12 +117,12 @@ void deform_print_summary(const deform_command *cmd) {
                                       : "");
     }
     printf("frames     %d", (int)cmd->script.n_frames);
-    if (cmd->d.method == DEFORM_ARAP) {
-        printf(" of %d iterations: rotations %.3f ms, solve %.3f ms per iteration\n",
-               (int)cmd->iterations, cmd->total.rotations / frames / (double)cmd->iterations,
-               cmd->total.solve / frames / (double)cmd->iterations);
+    if (cmd->d.method == DEFORM_ARAP && cmd->script.n_frames > 0) {
+        printf(", with %d solves, in %.3g ms each; the last has energy %.6g, and its last step "
+               "moved %.1e diagonals.\n",
+               cmd->total.solves, cmd->total.solve / frames, cmd->last.energy, cmd->last.moved);
     } else {
-        printf(": solve %.3f ms%s\n", cmd->total.solve / frames,
+        printf(": solve %.3f ms%s.\n", cmd->total.solve / frames,
                cmd->at != NULL ? " at the wanted vertices" : "");
     }
     if (cmd->check && cmd->script.n_frames > 0) {

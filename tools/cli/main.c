@@ -20,9 +20,7 @@ static const command commands[] = {
     {"hks", "heat kernel signatures: the auto-diffusion function at several times", command_hks},
     {"pairs", "heat exchanged by pairs of vertices, by three methods", command_pairs},
     {"reach", "the columns of L that a local solve visits, as pictures", command_reach},
-    {"param", "planar layout of a patch by harmonic coordinates", command_param},
-    {"arap", "planar layout of a patch, as rigid as possible", command_arap},
-    {"scp", "planar layout of a patch, spectral conformal", command_scp},
+    {"unwrap", "planar layout of a surface: texture coordinates", command_unwrap},
     {"geodesic", "distances on the surface by the heat method, Voronoi cells", command_geodesic},
     {"vectors", "tangent vectors carried over the surface, logarithmic map", command_vectors},
     {"deform", "a mesh deformed by handles that are grabbed, moved, released", command_deform},
@@ -53,7 +51,16 @@ static const command *command_named(const char *name) {
 }
 
 static int refuse_command(const char *name) {
+    static const char *const methods[][2] = {
+        {"param", "harmonic"}, {"arap", "arap"}, {"scp", "scp"}};
     const char *meant = NULL;
+    for (int k = 0; k < 3; k++) {
+        if (strcmp(name, methods[k][0]) == 0) {
+            (void)fprintf(stderr, "sparse-local: %s is unwrap --method %s now\n", name,
+                          methods[k][1]);
+            return 2;
+        }
+    }
     for (int k = 0; k < N_COMMANDS; k++) {
         meant = near_word(name, meant, commands[k].name);
     }

@@ -294,6 +294,17 @@ static double displacement(const deformer *d, size_t v, size_t c, double u) {
                : u;
 }
 
+/* Solves for displacements d->U with the right-hand side d->B and the displacements d->G of pins,
+ * which are all 0 if at_rest. */
+static sl_status solve_pinned(deformer *d, bool at_rest) {
+    const size_t n = (size_t)d->n;
+    sl_status status = SL_OK;
+    if (!d->anew) {
+        status = sl_constraints_solve(d->pins, NULL, d->U, n, d->B, n, d->G, n, 3, d->W);
+    }
+    return is_refused(d, status) ? deformer_solve_anew(d, at_rest) : status;
+}
+
 sl_status deformer_solve(deformer *d) {
     size_t n = (size_t)d->n;
     double range = 0;
@@ -304,13 +315,7 @@ sl_status deformer_solve(deformer *d) {
         }
     }
     gather_pins(d);
-    sl_status status = SL_OK;
-    if (!d->anew) {
-        status = sl_constraints_solve(d->pins, NULL, d->U, n, d->B, n, d->G, n, 3, d->W);
-    }
-    if (is_refused(d, status)) {
-        status = deformer_solve_anew(d);
-    }
+    const sl_status status = solve_pinned(d, false);
     if (status != SL_OK) {
         return status;
     }
@@ -326,6 +331,33 @@ sl_status deformer_solve(deformer *d) {
         d->Y[k] = d->rest[k] + d->U[k];
     }
     return SL_OK;
+}
+
+/* Subtracts the mean of U on components without held vertices. */
+static void remove_means(deformer *d) {
+    const size_t n = (size_t)d->n;
+    memset(d->mean, 0, 3 * (size_t)d->n_components * sizeof *d->mean);
+    for (size_t k = 0; k < 3 * n; k++) {
+        const size_t part = (size_t)d->component[k % n];
+        d->mean[3 * part + k / n] += d->U[k] / (double)d->sizes[part];
+    }
+    for (size_t k = 0; k < 3 * n; k++) {
+        const size_t part = (size_t)d->component[k % n];
+        d->U[k] -= d->n_held[part] == 0 ? d->mean[3 * part + k / n] : 0;
+    }
+}
+
+sl_status deformer_solve_step(deformer *d, double *X) {
+    const size_t n = (size_t)d->n;
+    memset(d->G, 0, 3 * n * sizeof *d->G);
+    const sl_status status = solve_pinned(d, true);
+    if (status == SL_OK) {
+        remove_means(d);
+    }
+    for (size_t k = 0; k < 3 * n && status == SL_OK; k++) {
+        X[k] = d->is_held[k % n] ? 0 : d->U[k];
+    }
+    return status;
 }
 
 sl_status deformer_watch(deformer *d, const sl_int *vertices, sl_int count) {
@@ -358,7 +390,7 @@ sl_status deformer_solve_watched(deformer *d, double *Y) {
         status = sl_constraints_solve(d->pins, d->near, Y, count, d->B, 0, d->G, n, 3, d->W);
     }
     if (is_refused(d, status)) {
-        status = deformer_solve_anew(d);
+        status = deformer_solve_anew(d, false);
         for (size_t k = 0; k < 3 * count && status == SL_OK; k++) {
             Y[k] = d->U[k / count * n + (size_t)d->watched[k % count]];
         }

@@ -90,6 +90,10 @@ double deformer_rotations(deformer *d);
  *  SL_ERR_NOT_FINITE: positions beyond the range of numbers, and d->Y is as before. */
 sl_status deformer_solve(deformer *d);
 
+/** X = K^-1 d->B with displacement 0 of held vertices; X (n x 3, column-major) has the mean 0 on
+ *  components without any. Returns as sl_constraints_solve. */
+sl_status deformer_solve_step(deformer *d, double *X);
+
 /** Prepares local solves at some vertices; DEFORM_BIHARMONIC only, where the right-hand side is 0.
  *
  *  vertices  [in]  count different ones; copied.

@@ -28,11 +28,11 @@ static sl_status create(sl_fixed **out, deformer *d, const sl_int *rows, sl_int 
     return sl_fixed_create(out, &K, rows, count, &opt, &d->stats);
 }
 
-/* U becomes the displacements. G: 3 n of scratch. */
+/* U becomes the displacements. G: 3 n of 0, scratch; it stays 0 if at_rest. */
 static sl_status solve(const deformer *d, const sl_fixed *D, const sl_int *rows, sl_int count,
-                       double *G, double *U) {
+                       double *G, double *U, bool at_rest) {
     const size_t n = (size_t)d->n, m = (size_t)count;
-    for (size_t k = 0; k < 3 * m; k++) {
+    for (size_t k = 0; k < 3 * m && !at_rest; k++) {
         const size_t v = (size_t)rows[k % m], at = k / m * n + v;
         G[k] = d->is_held[v]              ? d->target[3 * v + k / m] - d->rest[at]
                : d->method == DEFORM_ARAP ? d->Y[at] - d->rest[at]
@@ -41,9 +41,9 @@ static sl_status solve(const deformer *d, const sl_fixed *D, const sl_int *rows,
     return sl_fixed_solve(D, U, n, d->B, n, G, m, 3, d->W);
 }
 
-sl_status deformer_solve_anew(deformer *d) {
+sl_status deformer_solve_anew(deformer *d, bool at_rest) {
     const size_t n = (size_t)d->n;
-    double *G = (double *)malloc((3 * n + 1) * sizeof *G);
+    double *G = (double *)calloc(3 * n + 1, sizeof *G);
     sl_int *rows = (sl_int *)malloc((n + 1) * sizeof *rows);
     sl_status status = G != NULL && rows != NULL ? SL_OK : SL_ERR_MEMORY;
     if (status == SL_OK) {
@@ -51,7 +51,7 @@ sl_status deformer_solve_anew(deformer *d) {
         if (d->fixed == NULL) {
             status = create(&d->fixed, d, rows, count);
         }
-        status = status == SL_OK ? solve(d, d->fixed, rows, count, G, d->U) : status;
+        status = status == SL_OK ? solve(d, d->fixed, rows, count, G, d->U, at_rest) : status;
     }
     free(G);
     free(rows);
@@ -69,7 +69,7 @@ sl_status deformer_compare(deformer *d, double *difference, double *seconds) {
         count = list_fixed(d, rows);
         const clock_t began = clock();
         status = create(&D, d, rows, count);
-        status = status == SL_OK ? solve(d, D, rows, count, G, U) : status;
+        status = status == SL_OK ? solve(d, D, rows, count, G, U, false) : status;
         *seconds = (double)(clock() - began) / CLOCKS_PER_SEC;
     }
     for (size_t v = 0; v < n && status == SL_OK; v++) {

@@ -38,8 +38,6 @@ typedef struct patch_solver {
     sl_plan *patch_plan;     /* b and x on the patch */
     sl_plan *interface_plan; /* b on the interface, x on the patch; NULL without an interface */
     sl_region *region;       /* where the sweeps of the plans end; NULL: at the roots */
-    sl_symbolic *own_S; /* analysis and factor of N, once patch_solver_factor_patch was called; */
-    sl_factor *own_F;   /* else NULL */
     sl_work *work;
     sl_stats stats;  /* plan group: what a solve by patch_plan reads; region group: the region */
     double *scratch; /* 4 n PATCH_SOLVER_MAX_RHS */
@@ -96,48 +94,6 @@ sl_status patch_solver_solve_mesh(patch_solver *s, double *X, const double *B, s
  */
 sl_status patch_solver_solve_patch(patch_solver *s, double *X, const double *B, sl_int nrhs,
                                    double tolerance, int *solves);
-
-/* The estimated error of a solution that is accepted for its backward error. */
-#define PATCH_SOLVER_ERROR 1e-6
-
-/** How a solution of the patch problem was found, and how well it satisfies N x = b. */
-typedef struct patch_report {
-    int solves;      /* local solves with the factor of the mesh */
-    bool own_factor; /* the solution is by the patch's own factor */
-    /* residual <= 1e-10, or backward_error <= 1e-13; with the patch's own factor also if
-     * backward_error <= 1e-10 and error <= PATCH_SOLVER_ERROR */
-    bool solved;
-    double error;    /* the next correction, relative to the largest entry: what x may be off by */
-    double residual; /* the largest ||b - N x|| / ||b|| of the columns; ||b - N x|| if b = 0 */
-    double backward_error; /* the largest |b - N x|_i / (|N| |x| + |b|)_i */
-} patch_report;
-
-/** Solves the patch problem N x = b whatever the patch: by local solves where these converge, else
- *  by a factor of N itself with refinement.
- *
- *  The iteration is accepted if the residual is at most 1e-10 ||b|| and if the next correction
- *  would change x by 1e-10 of its size at most. It fails where N and L differ by much: along a
- *  seam, and where cotangents span many orders of magnitude. Each column of X has the mean 0.
- *
- *  X, B    as above, but different arrays.
- *  report  [out]  solved is false if b has no solution, or N has lost all accuracy; X then is the
- *                 best that was found.
- *  Returns  SL_OK, also if the report says that the system was not solved; as sl_plan_solve,
- *           sl_symbolic_create and sl_factor_create.
- *  Cost     up to 60 local solves; then one factor of the patch, which s keeps.
- *  Example  tests/tools/test_bad_layouts.c
- */
-sl_status patch_solver_solve_exact(patch_solver *s, double *X, const double *B, sl_int nrhs,
-                                   patch_report *report);
-
-/** Fills the residual and the backward error of a report for the solution X of N x = b; the other
- *  fields stay. Returns as sl_csc_residual. */
-sl_status patch_solver_measure(const patch_solver *s, patch_report *report, const double *X,
-                               const double *B, sl_int nrhs);
-
-/** Analyzes and factors N into s->own_S and s->own_F, unless they exist. Returns as
- *  sl_symbolic_create and sl_factor_create. */
-sl_status patch_solver_factor_patch(patch_solver *s);
 
 /** Y = N X, both n x nrhs, column-major without gaps.
  *
