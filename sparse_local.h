@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c8ee0f2a1fb3ec8d
+ * FNV-1a of the lines after this comment, without the license: 91aadf3e14b251d2
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -53,8 +53,8 @@
  *  31464 impl/ save: factors in files
  *  33443 impl/ batch: many solves and factorizations by one call, sums of matrices
  *  34129 impl/ complex: complex Hermitian systems over real factors
- *  34622 impl/ packs: the tables through which the core calls packs
- *  35047 impl/ templates: the header includes them from itself, once for each instruction set
+ *  34621 impl/ packs: the tables through which the core calls packs
+ *  35050 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4735,8 +4735,8 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
       keep);
 }
 
-SLI_TARGET("avx2,fma") SLI_INLINE int sli_single_round_avx2(float *to, const double *from,
-    ptrdiff_t count) {
+SLI_TARGET("avx2,fma")
+SLI_INLINE int sli_single_round_avx2(float *to, const double *from, ptrdiff_t count) {
   const __m256d sign = _mm256_set1_pd(-0.0), zero = _mm256_setzero_pd();
   const __m256d most = _mm256_set1_pd((double)FLT_MAX), least = _mm256_set1_pd((double)FLT_MIN);
   __m256d odd = zero;
@@ -13208,6 +13208,7 @@ struct sli_storage_type {
   const sli_storage_type *in_double;
 };
 
+static int sli_storage_is_known(sl_storage storage);
 static const sli_storage_type *sli_storage_type_of(sl_storage storage);
 static const char *sli_storage_needs(sl_storage storage);
 
@@ -14802,8 +14803,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
 static const char *sli_factor_choices_wrong(const sl_options *opt) {
   return (unsigned)opt->method > (unsigned)SL_METHOD_SUPERNODAL
          ? "options.method is not a value of sl_method"
-       : (unsigned)opt->storage > (unsigned)SL_STORAGE_COMPLEX
-         ? "options.storage is not a value of sl_storage"
+       : !sli_storage_is_known(opt->storage) ? "options.storage is not a value of sl_storage"
        : (unsigned)opt->pivots > (unsigned)SL_PIVOTS_SKIP_NULL
          ? "options.pivots is not a value of sl_pivots"
        : opt->null_tolerance != opt->null_tolerance ? "options.null_tolerance is NaN"
@@ -34217,8 +34217,7 @@ typedef struct sli_complex_kernels {
 #undef SLV_COMPLEX
 
 SLI_INLINE const sli_complex_kernels *sli_complex_kernels_of(sl_isa isa) {
-  static const sli_complex_kernels *const tables[] =
-    SLI_STORAGE_TABLES(sli_complex_kernels);
+  static const sli_complex_kernels *const tables[] = SLI_STORAGE_TABLES(sli_complex_kernels);
   return tables[isa];
 }
 
@@ -34641,6 +34640,10 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
   default: /* untested: the same */
     return NULL; /* untested: the same */
   }
+}
+
+static int sli_storage_is_known(sl_storage storage) {
+  return (unsigned)storage <= (unsigned)SL_STORAGE_COMPLEX;
 }
 
 static const char *sli_storage_needs(sl_storage storage) { /* untested: the same */

@@ -159,7 +159,7 @@ static void unknown_enum_values_are_refused(void **state) {
         SL_EXPECT(SL_ERR_ARGUMENT, option_factor(f, &opt));
         SL_EXPECT(SL_ERR_ARGUMENT, option_batch_factor(f, &opt));
         opt = options_none();
-        opt.storage = (sl_storage)unknown(k, SL_STORAGE_COMPLEX);
+        opt.storage = (sl_storage)unknown(k, STORAGE_LAST);
         SL_EXPECT(SL_ERR_ARGUMENT, option_factor(f, &opt));
         SL_EXPECT(SL_ERR_ARGUMENT, option_batch_factor(f, &opt));
         opt = options_none();

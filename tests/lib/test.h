@@ -285,6 +285,13 @@ static inline isa_list_t isas_present(void) {
     return list;
 }
 
+/* The last value of sl_storage, and those that serve any real matrix: the k-th one, in turn. */
+enum { STORAGE_LAST = SL_STORAGE_COMPLEX, STORAGES = 2 };
+static inline sl_storage storage_at(int k) {
+    static const sl_storage real[STORAGES] = {SL_STORAGE_DOUBLE, SL_STORAGE_FLOAT};
+    return real[k % STORAGES];
+}
+
 /* Does a factor keep L in float or as complex? Beside SIMD, plain C has no kernels for it. */
 static inline int isa_keeps_storage(sl_isa isa) {
     return isa != SL_ISA_SCALAR || isas_present().count == 1;

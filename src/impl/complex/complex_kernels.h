@@ -23,8 +23,7 @@ typedef struct sli_complex_kernels {
 
 /* The table of an instruction set; NULL: it has none, so that L is kept in double. */
 SLI_INLINE const sli_complex_kernels *sli_complex_kernels_of(sl_isa isa) {
-    static const sli_complex_kernels *const tables[] =
-        SLI_STORAGE_TABLES(sli_complex_kernels);
+    static const sli_complex_kernels *const tables[] = SLI_STORAGE_TABLES(sli_complex_kernels);
     return tables[isa];
 }
 

@@ -52,8 +52,8 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 
 /* to := from, `count` numbers, a multiple of 8. Returns whether one of them is beyond
  * the normal floats, and not 0. */
-SLI_TARGET("avx2,fma") SLI_INLINE int sli_single_round_avx2(float *to, const double *from,
-                                                            ptrdiff_t count) {
+SLI_TARGET("avx2,fma")
+SLI_INLINE int sli_single_round_avx2(float *to, const double *from, ptrdiff_t count) {
     const __m256d sign = _mm256_set1_pd(-0.0), zero = _mm256_setzero_pd();
     const __m256d most = _mm256_set1_pd((double)FLT_MAX), least = _mm256_set1_pd((double)FLT_MIN);
     __m256d odd = zero;
