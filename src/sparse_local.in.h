@@ -88,10 +88,8 @@ extern "C" {
 #include "impl/kernels/pairs.h"
 #include "impl/kernels/table.h"
 #include "impl/kernels/words/simd.h"
-#include "impl/kernels/words/simd_scalar.h"
 #include "impl/kernels/words/simd_avx2.h"
-#include "impl/kernels/words/simd_avx512.h"
-#include "impl/kernels/words/simd_neon.h"
+#include "impl/kernels/kernels.h"
 #include "impl/kernels/dispatch.h"
 /* matrix: sparse matrices of the caller and of the library */
 #include "impl/matrix/csc.h"

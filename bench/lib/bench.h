@@ -130,12 +130,12 @@ void bench_random_fill(uint64_t *state, double *x, size_t count);
 sl_threads bench_threads(sl_int count);
 void bench_threads_free(void);
 
-/* ---- instruction sets (isa.c) ---- */
+/* ---- instruction sets (peak.c) ---- */
 
 /** The name of an instruction set as the tables print it: "avx2". */
 const char *bench_isa_name(sl_isa isa);
 
-/** Whether this processor has it. */
+/** Whether it is compiled in and this processor has it. */
 int bench_isa_is_present(sl_isa isa);
 
 /* ---- the machine's limits (bandwidth.c, peak.c) ---- */

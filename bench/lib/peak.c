@@ -1,4 +1,4 @@
-/* peak.c: measures the floating-point rate of one core by instruction set */
+/* peak.c: instruction sets: their names, and the floating-point rate of one core with each */
 #include <math.h>
 #include <stdio.h>
 
@@ -15,7 +15,7 @@
  * can drop none; the results are compared with the same recurrence computed in scalar code. A
  * fused multiply-add counts as 2 operations. The flops of a factorization count alike: the sum
  * over columns of entries^2 is twice the number of multiply-adds. */
-enum { CHAINS = 12, MAX_LANES = 8, SAMPLES = 7, ROUNDS = 400000, CHECK_ROUNDS = 1000, ISAS = 5 };
+enum { CHAINS = 12, MAX_LANES = 8, SAMPLES = 7, ROUNDS = 400000, CHECK_ROUNDS = 1000 };
 
 static const double a_of_chains = 0.999755859375,
                     b_of_chains = 0.0009765625; /* the fixed point is 4 */
@@ -83,32 +83,48 @@ PEAK_LOOP(loop_neon, , float64x2_t, 2, vld1q_f64, vst1q_f64, vdupq_n_f64, FMA)
 #endif
 #endif
 
+/* Instruction sets by their sl_isa. Those of other processors have no loop. */
+static const struct {
+    const char *name;
+    void (*loop)(double *x, long rounds);
+    int lanes; /* doubles in a register */
+} isas[] = {
+    [SL_ISA_AUTO] = {"auto", NULL, 0},
+#if defined(__GNUC__) && defined(__x86_64__)
+    [SL_ISA_SCALAR] = {"scalar", loop_scalar, 2},
+    [SL_ISA_AVX2] = {"avx2", loop_avx2, 4},
+    [SL_ISA_AVX512] = {"avx512", loop_avx512, 8},
+#else
+    [SL_ISA_SCALAR] = {"scalar", loop_scalar, 1},
+    [SL_ISA_AVX2] = {"avx2", NULL, 0},
+    [SL_ISA_AVX512] = {"avx512", NULL, 0},
+#endif
+#if defined(__aarch64__)
+    [SL_ISA_NEON] = {"neon", loop_neon, 2},
+#else
+    [SL_ISA_NEON] = {"neon", NULL, 0},
+#endif
+};
+enum { ISAS = sizeof isas / sizeof *isas };
+
 static double peaks[ISAS];
 
-/* Returns the number of doubles in a register. */
-static int run_loop(sl_isa isa, double *x, long rounds) {
-#if defined(__GNUC__) && defined(__x86_64__)
-    if (isa == SL_ISA_AVX512) {
-        loop_avx512(x, rounds);
-        return 8;
-    }
-    if (isa == SL_ISA_AVX2) {
-        loop_avx2(x, rounds);
-        return 4;
-    }
-    loop_scalar(x, rounds);
-    return 2;
-#else
-#if defined(__aarch64__)
-    if (isa == SL_ISA_NEON) {
-        loop_neon(x, rounds);
-        return 2;
-    }
-#endif
-    (void)isa;
-    loop_scalar(x, rounds);
-    return 1;
-#endif
+const char *bench_isa_name(sl_isa isa) {
+    return (size_t)isa < ISAS ? isas[isa].name : "?";
+}
+
+int bench_isa_is_present(sl_isa isa) {
+    static const sl_int p[2] = {0, 1}, i[1] = {0};
+    static const double x[1] = {1.0};
+    const sl_csc one = {1, 1, p, i, x};
+    const sl_options options = {.isa = isa};
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    bench_must(sl_symbolic_create(&S, &one, NULL, NULL), "analysis of one row");
+    const sl_status status = sl_factor_create(&F, S, &one, &options, NULL);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    return status == SL_OK;
 }
 
 static void start_values(double *x) {
@@ -122,7 +138,8 @@ static void check_loop(bench_run *run, sl_isa isa) {
     double x[CHAINS * MAX_LANES], y[CHAINS * MAX_LANES], error = 0;
     start_values(x);
     start_values(y);
-    int count = CHAINS * run_loop(isa, x, CHECK_ROUNDS);
+    const int count = CHAINS * isas[isa].lanes;
+    isas[isa].loop(x, CHECK_ROUNDS);
     for (int k = 0; k < count; k++) {
         for (int round = 0; round < CHECK_ROUNDS; round++) {
             y[k] = y[k] * a_of_chains + b_of_chains;
@@ -134,24 +151,23 @@ static void check_loop(bench_run *run, sl_isa isa) {
 }
 
 void bench_peak_measure(bench_run *run) {
-    static const sl_isa isas[] = {SL_ISA_SCALAR, SL_ISA_AVX2, SL_ISA_AVX512, SL_ISA_NEON};
     const char *separator = "";
     printf("multiply-add rate of one core, registers only:");
-    for (size_t c = 0; c < sizeof isas / sizeof *isas; c++) {
+    for (size_t isa = SL_ISA_SCALAR; isa < ISAS; isa++) {
         double x[CHAINS * MAX_LANES], best = 0;
-        if (!bench_isa_is_present(isas[c])) {
+        if (!isas[isa].loop || !bench_isa_is_present((sl_isa)isa)) {
             continue;
         }
-        check_loop(run, isas[c]);
+        check_loop(run, (sl_isa)isa);
         for (int sample = 0; sample < SAMPLES; sample++) {
             start_values(x);
             double start = bench_now();
-            int lanes = run_loop(isas[c], x, ROUNDS);
-            double rate = 2.0 * CHAINS * lanes * ROUNDS / (bench_now() - start);
+            isas[isa].loop(x, ROUNDS);
+            double rate = 2.0 * CHAINS * isas[isa].lanes * ROUNDS / (bench_now() - start);
             best = rate > best ? rate : best;
         }
-        peaks[isas[c]] = best;
-        printf("%s %s %.1f", separator, bench_isa_name(isas[c]), best * 1e-9);
+        peaks[isa] = best;
+        printf("%s %s %.1f", separator, isas[isa].name, best * 1e-9);
         separator = ",";
     }
     printf(" GFlop/s\n");
@@ -159,10 +175,10 @@ void bench_peak_measure(bench_run *run) {
 
 double bench_peak(sl_isa isa) {
     double best = 0;
-    if (isa > SL_ISA_AUTO && (size_t)isa < ISAS) {
-        return peaks[isa];
+    if (isa > SL_ISA_AUTO) {
+        return (size_t)isa < ISAS ? peaks[isa] : 0;
     }
-    for (int c = 0; c < ISAS; c++) {
+    for (size_t c = 0; c < ISAS; c++) {
         best = peaks[c] > best ? peaks[c] : best;
     }
     return best;

@@ -349,7 +349,7 @@ static void assemble_table(bench_run *run, FILE *csv, const sli_kernels *kernels
 }
 
 void bench_front_kernels(bench_run *run) {
-    static const sl_isa isas[] = {SL_ISA_AVX512, SL_ISA_AVX2, SL_ISA_NEON, SL_ISA_SCALAR};
+    enum { ISAS_ASKED = 32 };
     char path[512];
     snprintf(path, sizeof path, "%s/front_kernels.csv", run->out_dir);
     FILE *csv = bench_create(path);
@@ -360,8 +360,8 @@ void bench_front_kernels(bench_run *run) {
            "data in the\n   second-level cache if several fronts fit into %d kB, else one front "
            "refilled before each call\n",
            (int)(ARENA * sizeof(double) / 1024));
-    for (size_t k = 0; k < sizeof isas / sizeof *isas; k++) {
-        const sli_kernels *kernels = sli_kernels_select(isas[k]);
+    for (int isa = ISAS_ASKED; isa >= SL_ISA_SCALAR; isa--) {
+        const sli_kernels *kernels = sli_kernels_select((sl_isa)isa);
         if (kernels) {
             front_table(run, csv, kernels);
             assemble_table(run, csv, kernels);

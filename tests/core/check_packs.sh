@@ -84,6 +84,18 @@ static int SLI_NAME(int a, int b) {
 #undef SLI_TERM
 C
 sed 's/sum/twice/; s/a + b/a * b/' src/impl/base/sum.inl.h >src/impl/base/twice.inl.h
+cat >src/impl/base/each.list.h <<'C'
+/* each.list.h: a list
+ * of what a macro names */
+
+#include SLI_FOR_EACH
+C
+mkdir -p src/impl/change
+cat >src/impl/change/change.list.h <<'C'
+/* change.list.h: templates of changes */
+
+#include "../base/twice.inl.h"
+C
 part impl/core/core.h 'bodies of the core' <<'C'
 #include "../base/base.h"
 typedef struct sli_table {
@@ -101,7 +113,9 @@ part impl/change/change.h 'bodies of changes' <<'C'
 #include "../core/core.h"
 #define SLI_NAME sli_double
 #define SLI_TERM 0
-#include "../base/twice.inl.h"
+#define SLI_FOR_EACH "../change/change.list.h"
+#include "../base/each.list.h"
+#undef SLI_FOR_EACH
 int sl_change(int a) {
     return sli_double(a, 2);
 }
@@ -246,10 +260,15 @@ check 'a table of contents with the conditions of public parts' '
     grep -q "save_change.h files of changes (SL_WITH_SAVE and SL_WITH_CHANGE)" small.h'
 check 'without comments of the implementation' '! grep -q "of the implementation,$" small.h'
 
+check 'a list of templates is one macro, its comments and names of lists stay behind' '
+    [ "$(grep -c "define SLI_INL_CHANGE$" small.h)" -eq 1 ] &&
+    [ "$(grep -c "define SLI_INL_TWICE$" small.h)" -eq 1 ] &&
+    ! grep -e SLI_FOR_EACH -e "a list" -e "templates of changes" small.h'
 check '--packs: the core' '$amalgamate --packs "" src/small.in.h core.h && runs core.h 3 &&
     grep -q "^ \* without packs" core.h && ! grep -q "if.*defined(SL_WITH" core.h'
 check '--packs: no bodies, headings or templates of other packs' '
-    ! grep -e sli_double -e SLI_INL_TWICE -e "(change:" -e "/\* change:" -e saved core.h &&
+    ! grep -e sli_double -e SLI_INL_TWICE -e SLI_INL_CHANGE core.h &&
+    ! grep -e "(change:" -e "/\* change:" -e saved core.h &&
     grep -q "SLI_INL_SUM" core.h'
 check '--packs: calls of other packs are errors that name the macro' '
     needs core.h "sl_change(1)" SL_WITH_CHANGE &&
@@ -287,6 +306,11 @@ manifest() {
 check 'a condition that has other macros' '
     manifest "s/^#if defined(SL_WITH_CHANGE)/& \&\& defined(SL_NO)/" &&
     refused "a condition of packs is" $amalgamate other/small.in.h x.h'
+check 'a list whose templates are in another order than before' '
+    manifest "" && echo "#include \"../base/sum.inl.h\"" >>other/impl/change/change.list.h &&
+    sed -i "s/^#include .*sum.inl.h.*/&\n#include \"..\/base\/twice.inl.h\"/" \
+        other/impl/core/core.h &&
+    refused "its templates are not in the order of other parts" $amalgamate other/small.in.h x.h'
 check 'a block within another one' '
     manifest "s/^#include .public.save_change.*/#ifdef SL_WITH_SAVE\n&\n#endif/" &&
     refused "do not nest" $amalgamate other/small.in.h x.h'

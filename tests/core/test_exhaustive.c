@@ -93,8 +93,8 @@ static void local_solves_are_right_for_every_pattern_and_every_set(void **state)
                 }
                 check_all_sets(S, F, n, Z, W, &tally);
                 if (tally.wrong) {
-                    print_error("n = %d, edges %u, %s, relaxation %d\n", (int)n, edges,
-                                isa_name(opt.isa), which % 2);
+                    print_error("n = %d, edges %u, isa %d, relaxation %d\n", (int)n, edges,
+                                (int)opt.isa, which % 2);
                     fail();
                 }
                 sl_factor_free(F);

@@ -159,7 +159,7 @@ static void unknown_enum_values_are_refused(void **state) {
         SL_EXPECT(SL_ERR_ARGUMENT, option_factor(f, &opt));
         SL_EXPECT(SL_ERR_ARGUMENT, option_batch_factor(f, &opt));
         opt = options_none();
-        opt.storage = (sl_storage)unknown(k, SL_STORAGE_COMPLEX);
+        opt.storage = (sl_storage)unknown(k, STORAGE_LAST);
         SL_EXPECT(SL_ERR_ARGUMENT, option_factor(f, &opt));
         SL_EXPECT(SL_ERR_ARGUMENT, option_batch_factor(f, &opt));
         opt = options_none();
@@ -167,7 +167,7 @@ static void unknown_enum_values_are_refused(void **state) {
         SL_EXPECT(SL_ERR_ARGUMENT, option_factor(f, &opt));
         SL_EXPECT(SL_ERR_ARGUMENT, option_batch_factor(f, &opt));
         opt = options_none();
-        opt.isa = (sl_isa)unknown(k, SL_ISA_NEON); /* like one that this processor does not have */
+        opt.isa = (sl_isa)unknown(k, ISAS_ASKED); /* like one that this processor does not have */
         SL_EXPECT(SL_ERR_UNSUPPORTED, option_factor(f, &opt));
         SL_EXPECT(SL_ERR_UNSUPPORTED, option_batch_factor(f, &opt));
         SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(&f->U, reading, Y, 25, X, 25, 1));

@@ -30,9 +30,9 @@ static gen_matrix_t separable(sl_int features, sl_int points, int style) {
  * of full ones, with every instruction set, storage and number of right-hand sides. */
 static void columns_are_kept_apart(void **state) {
     (void)state;
-    static const sl_storage storages[2] = {SL_STORAGE_DOUBLE, SL_STORAGE_FLOAT};
     const variant_list_t variants = variants_present();
-    for (int k = 0; k < 6 * variants.count; k++) {
+    for (int k = 0; k < 4 * STORAGES * variants.count; k++) {
+        const int way = k / STORAGES % 4;
         sl_options opt = options_none();
         sl_symbolic *S = NULL;
         sl_factor *F = NULL;
@@ -40,11 +40,11 @@ static void columns_are_kept_apart(void **state) {
         sl_stats stats;
         int calls = 0;
         memset(&stats, 0, sizeof stats);
-        options_set_variant(&opt, &variants, k / 6);
-        opt.purpose = k % 2 ? SL_PURPOSE_ONE_FACTOR : SL_PURPOSE_MANY_SOLVES;
-        opt.storage = storages[k % 3 > 0];
-        opt.threads.count = k % 4 == 3 ? 3 : 0;
-        opt.threads.run = k % 4 == 3 ? run_backwards : NULL;
+        options_set_variant(&opt, &variants, k / (4 * STORAGES));
+        opt.purpose = way % 2 ? SL_PURPOSE_ONE_FACTOR : SL_PURPOSE_MANY_SOLVES;
+        opt.storage = storage_at(k);
+        opt.threads.count = way == 3 ? 3 : 0;
+        opt.threads.run = way == 3 ? run_backwards : NULL;
         opt.threads.context = &calls;
         gen_matrix_t M = separable(12, 300, k % GEN_STYLES);
         SL_CHECK(sl_symbolic_create(&S, &M.view, FOR_ANALYSIS(&opt), &stats));

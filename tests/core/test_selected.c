@@ -44,8 +44,8 @@ static void entries_match_the_dense_inverse(void **state) {
                 SL_CHECK(sl_selected_create(&Z, y.F, NULL, SL_ALL, NULL, &stats));
                 const char *wrong = check_selected(Z, &r);
                 if (wrong) {
-                    print_error("%s, n = %d, %s: %s\n", gen_name((gen_kind_t)kind),
-                                (int)y.M.view.n_cols, isa_name(opt.isa), wrong);
+                    print_error("%s, n = %d, isa %d: %s\n", gen_name((gen_kind_t)kind),
+                                (int)y.M.view.n_cols, (int)opt.isa, wrong);
                     fail();
                 }
                 assert_int_equal(stats.selected.columns, y.M.view.n_cols);

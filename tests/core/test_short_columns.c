@@ -74,12 +74,12 @@ static void large_networks_have_few_zeros(void **state) {
  * pivot is replaced. */
 static void short_columns_are_right(void **state) {
     (void)state;
-    static const sl_storage storages[2] = {SL_STORAGE_DOUBLE, SL_STORAGE_FLOAT};
     const variant_list_t variants = variants_present();
     gen_list_t t = path_with_chords(400, 3);
     gen_matrix_t M = gen_store(&t, gen_style(0), 1);
     gen_list_free(&t);
-    for (int k = 0; k < 6 * variants.count; k++) {
+    for (int k = 0; k < 4 * STORAGES * variants.count; k++) {
+        const int way = k / STORAGES % 4;
         sl_options opt = options_none();
         sl_symbolic *S = NULL;
         sl_factor *F = NULL;
@@ -88,12 +88,12 @@ static void short_columns_are_right(void **state) {
         int calls = 0;
         const double keep = M.x[M.p[100]];
         memset(&stats, 0, sizeof stats);
-        options_set_variant(&opt, &variants, k / 6);
-        opt.storage = storages[k % 3 > 0];
-        opt.threads.count = k % 6 < 3 ? 0 : 3;
-        opt.threads.run = k % 6 < 3 ? NULL : run_backwards;
+        options_set_variant(&opt, &variants, k / (4 * STORAGES));
+        opt.storage = storage_at(k);
+        opt.threads.count = way < 2 ? 0 : 3;
+        opt.threads.run = way < 2 ? NULL : run_backwards;
         opt.threads.context = &calls;
-        opt.relaxation = k % 2 ? SL_RELAXATION_NONE : SL_RELAXATION_DEFAULT;
+        opt.relaxation = way % 2 ? SL_RELAXATION_NONE : SL_RELAXATION_DEFAULT;
         SL_CHECK(sl_symbolic_create(&S, &M.view, FOR_ANALYSIS(&opt), NULL));
         SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
         if (stats.factor.storage == SL_STORAGE_DOUBLE) {
@@ -141,17 +141,16 @@ static void tiny_entries_are_rounded(void **state) {
 /* The last pivot of a Laplacian is null, in whatever column of a path it is. */
 static void null_pivots_are_replaced(void **state) {
     (void)state;
-    static const sl_storage storages[2] = {SL_STORAGE_DOUBLE, SL_STORAGE_FLOAT};
     const variant_list_t variants = variants_present();
-    for (int k = 0; k < 3 * variants.count; k++) {
+    for (int k = 0; k < STORAGES * variants.count; k++) {
         sl_int components;
         gen_matrix_t M = laplacian(GEN_PATH, 200, k % GEN_STYLES, &components);
-        sl_options opt = options_skip_null(&variants, k / 3);
+        sl_options opt = options_skip_null(&variants, k / STORAGES);
         sl_symbolic *S = NULL;
         sl_factor *F = NULL;
         sl_stats stats;
         memset(&stats, 0, sizeof stats);
-        opt.storage = storages[k % 3 > 0];
+        opt.storage = storage_at(k);
         opt.relaxation = SL_RELAXATION_NONE;
         SL_CHECK(sl_symbolic_create(&S, &M.view, FOR_ANALYSIS(&opt), NULL));
         SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));

@@ -86,14 +86,13 @@ static sl_factor *factor_by_threads(sl_symbolic *S, const sl_csc *A, sl_int coun
 static void large_fronts_with_rows_below_give_the_same_bits(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
-    const sl_storage storages[] = {SL_STORAGE_DOUBLE, SL_STORAGE_FLOAT};
-    for (int k = 0; k < 2 * isas.count; k++) {
-        const sl_storage storage = storages[k % 2];
-        factored_t y = two_large_fronts(101, 150, isas.isa[k / 2], storage);
+    for (int k = 0; k < STORAGES * isas.count; k++) {
+        const sl_storage storage = storage_at(k);
+        const sl_isa isa = isas.isa[k / STORAGES];
+        factored_t y = two_large_fronts(101, 150, isa, storage);
         for (sl_int count = 2; count <= 5; count++) {
             int calls = 0;
-            sl_factor *F =
-                factor_by_threads(y.S, &y.M.view, count, isas.isa[k / 2], storage, &calls);
+            sl_factor *F = factor_by_threads(y.S, &y.M.view, count, isa, storage, &calls);
             assert_same_bits(F, y.F);
             sl_factor_free(F);
         }

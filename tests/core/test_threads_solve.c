@@ -251,10 +251,10 @@ static void large_vectors_give_the_same_bits(void **state) {
     (void)state;
     const isa_list_t isas = isas_present();
     for (int k = 0; k < isas.count; k++) {
-        for (sl_storage storage = SL_STORAGE_DOUBLE; storage <= SL_STORAGE_FLOAT; storage++) {
+        for (int which = 0; which < STORAGES; which++) {
             sl_options opt = options_none();
             opt.isa = isas.isa[k];
-            opt.storage = storage;
+            opt.storage = storage_at(which);
             factored_t y = factored_make(GEN_GRID2, 300, 0, 0, &opt);
             factored_t border = {bordered(), NULL, NULL};
             check_blocks(y.F, (size_t)y.M.view.n_cols);
@@ -262,7 +262,7 @@ static void large_vectors_give_the_same_bits(void **state) {
             SL_CHECK(sl_factor_create(&border.F, border.S, &border.M.view, &opt, NULL));
             check_blocks(border.F, (size_t)border.M.view.n_cols);
             factored_free(&border);
-            if (storage == SL_STORAGE_DOUBLE) { /* and as a complex matrix */
+            if (opt.storage == SL_STORAGE_DOUBLE) { /* and as a complex matrix */
                 const sl_int n = y.M.view.n_cols;
                 double *im = test_reals((size_t)y.M.view.p[n]);
                 memset(im, 0, (size_t)y.M.view.p[n] * sizeof *im);

@@ -248,11 +248,6 @@ static inline sl_symbolic *analyze_natural(const sl_csc *A, sl_relaxation relaxa
 
 /* ---- instruction sets ---- */
 
-static inline const char *isa_name(sl_isa isa) {
-    static const char *const names[] = {"auto", "scalar", "AVX2", "AVX-512", "NEON"};
-    return (unsigned)isa < 5 ? names[isa] : "?";
-}
-
 static inline int isa_is_present(sl_isa isa) {
     static const sl_int p[2] = {0, 1}, i[1] = {0};
     static const double x[1] = {2.0};
@@ -269,21 +264,32 @@ static inline int isa_is_present(sl_isa isa) {
     return status == SL_OK;
 }
 
+/* Values of sl_isa that are asked for, and at most how many of them a machine has. */
+enum { ISAS_ASKED = 32, ISAS_PRESENT = 6 };
+
 typedef struct isa_list_t {
     int count;
-    sl_isa isa[4];
+    sl_isa isa[ISAS_PRESENT];
 } isa_list_t;
 
 /* Those that this machine has. The first is always scalar, the last the best. */
 static inline isa_list_t isas_present(void) {
-    static const sl_isa all[4] = {SL_ISA_SCALAR, SL_ISA_NEON, SL_ISA_AVX2, SL_ISA_AVX512};
-    isa_list_t list = {0, {SL_ISA_AUTO, SL_ISA_AUTO, SL_ISA_AUTO, SL_ISA_AUTO}};
-    for (int k = 0; k < 4; k++) {
-        if (isa_is_present(all[k])) {
-            list.isa[list.count++] = all[k];
+    isa_list_t list;
+    memset(&list, 0, sizeof list);
+    for (int isa = SL_ISA_SCALAR; isa < ISAS_ASKED; isa++) {
+        if (isa_is_present((sl_isa)isa)) {
+            assert_true(list.count < ISAS_PRESENT);
+            list.isa[list.count++] = (sl_isa)isa;
         }
     }
     return list;
+}
+
+/* The last value of sl_storage, and those that serve any real matrix: the k-th one, in turn. */
+enum { STORAGE_LAST = SL_STORAGE_COMPLEX, STORAGES = 2 };
+static inline sl_storage storage_at(int k) {
+    static const sl_storage real[STORAGES] = {SL_STORAGE_DOUBLE, SL_STORAGE_FLOAT};
+    return real[k % STORAGES];
 }
 
 /* Does a factor keep L in float or as complex? Beside SIMD, plain C has no kernels for it. */
@@ -308,7 +314,7 @@ typedef struct variant_list_t {
     struct {
         sl_isa isa;
         sl_method method;
-    } variant[8];
+    } variant[2 * ISAS_PRESENT];
 } variant_list_t;
 
 static inline variant_list_t variants_present(void) {

@@ -24,6 +24,14 @@
  * each takes a compiler 50 ms. A template that another template includes is expanded in place; it
  * may be included only once.
  *
+ * A list is a file named *.list.h: includes of templates, and of other lists, that several parts or
+ * instruction sets share. Its lines are expanded at each include, as if they stood there, without
+ * its comments and empty lines. `#include SLI_X` includes the path that SLI_X was last defined as:
+ *
+ *     #define SLI_X "../folder/templates.list.h"
+ *
+ * relative to the file of the include, as for a compiler. Such definitions are not emitted.
+ *
  * Parts below impl/ are indented by two columns a level instead of four, and their comments and
  * the alignment of continued lines stay behind, because a header is read by its users and copied in
  * one piece: that makes OUT smaller by a fifth. Whoever reads the implementation reads it in the
@@ -168,6 +176,8 @@ int main(int argc, char **argv) {
     free(there.bytes);
     free(undefined.bytes);
     free(first.body.bytes);
+    free(first.list_macros.bytes);
+    free(j.list_macros.bytes);
     free(j.body.bytes);
     return status;
 }

@@ -168,6 +168,8 @@ static void include(job *j, const source *s, const char *target, size_t length) 
         } else {
             expand(j, path, depth + 1);
         }
+    } else if (is_list(path)) {
+        expand(j, path, depth + 1);
     } else if (!before) {
         if (depth > 0)
             fail(here, line, "includes a part that the manifest does not list before this one",
@@ -182,16 +184,28 @@ static void include(job *j, const source *s, const char *target, size_t length) 
     }
 }
 
-/* Emits the path of a part and checks that the part begins with its name. Returns what follows the
- * beginning of that comment. */
-static const char *begin_part(job *j, const char *path, const char *bytes) {
+/* Checks that a file begins with its name, and returns where that begins in the path. */
+static const char *check_name(const job *j, const char *path, const char *bytes) {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-    if (!find_entry(j, path)) enter(j, path, bytes);
     if (strncmp(bytes, "/* ", 3) != 0 || strncmp(bytes + 3, name, strlen(name)) != 0) {
         const source first = {path, 0, 1, {{0, 0, 0}}, 0, 0};
         fail_at(j, &first, "does not begin with its name",
                 "begin with: /* name.h: what it does */");
     }
+    return name;
+}
+
+/* Returns what follows the first line of a list, which is not emitted. */
+static const char *after_name(const job *j, const char *path, const char *bytes) {
+    check_name(j, path, bytes);
+    return bytes + strcspn(bytes, "\n") + 1;
+}
+
+/* Emits the path of a part and checks that the part begins with its name. Returns what follows the
+ * beginning of that comment. */
+static const char *begin_part(job *j, const char *path, const char *bytes) {
+    const char *name = check_name(j, path, bytes);
+    if (!find_entry(j, path)) enter(j, path, bytes);
     j->is_in_comment = 1;
     j->n_parentheses = 0;
     append_string(&j->body, "/* src/");
@@ -223,14 +237,22 @@ void expand(job *j, const char *path, int depth) {
     source s = {path, depth, 1, {{0, 0, 0}}, 0, 0};
     text part = {NULL, 0, 0};
     read_part(&part, j, path);
-    if (strncmp(path, "impl/", 5) == 0 && !j->keeps_comments) drop_comments(&part);
+    if (strncmp(path, "impl/", 5) == 0 && (is_list(path) || !j->keeps_comments))
+        drop_comments(&part);
     const guard g = find_guard(part.bytes);
-    const char *body = depth > 0 ? begin_part(j, path, part.bytes) : part.bytes;
-    int dropped = 0;
+    const int is_spliced = is_list(path);
+    const char *body = is_spliced  ? after_name(j, path, part.bytes)
+                       : depth > 0 ? begin_part(j, path, part.bytes)
+                                   : part.bytes;
+    int dropped = is_spliced;
     for (const char *line = body; *line; s.line++) {
         size_t length = strcspn(line, "\n") + 1, width;
-        const char *target = quoted_include(line, &width);
+        const char *target = included_path(j, line, &width);
         const int is_guard = depth > 0 && (line == g.ifndef || line == g.define || line == g.endif);
+        if (is_spliced && *line == '\n') {
+            line++;
+            continue;
+        }
         if (!target) self_include(j);
         if (!is_guard && follow_blocks(j, &s, line)) {
             char public_part[PATH_SIZE];
@@ -250,14 +272,18 @@ void expand(job *j, const char *path, int depth) {
             dropped = j->lines == lines;
         } else if (is_guard) {
             dropped = 0;
+        } else if (note_named_path(j, line)) {
+            dropped = 1;
         } else if (!(depth == 0 && s.line == 1) && !(dropped && *line == '\n')) {
             emit_other(j, &s, line, length);
             dropped = 0;
         }
         line += length;
     }
-    self_include(j);
-    if (depth > 1) {
+    const size_t templates = is_spliced && !j->is_flat ? templates_in_list(part.bytes) : 0;
+    if (templates > 0) close_list(j, path, templates);
+    if (!is_spliced) self_include(j);
+    if (depth > 1 && !is_spliced) {
         const char *slash = strrchr(path, '/');
         emit_format(j, "/* end of %s */\n", slash ? slash + 1 : path);
     }

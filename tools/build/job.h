@@ -5,7 +5,7 @@
 #include "packs.h"
 #include "part_text.h"
 
-enum { ENTRIES_MAX = 512, SECTIONS_MAX = 32, DEPTH_MAX = 16 };
+enum { ENTRIES_MAX = 512, SECTIONS_MAX = 32, DEPTH_MAX = 16, NAMED_MAX = 8 };
 
 /* One line of the table of contents. */
 typedef struct entry {
@@ -16,6 +16,11 @@ typedef struct entry {
     size_t line;                    /* in the body */
     int is_guarded;
 } entry;
+
+/* A macro that is a path in quotes. */
+typedef struct named_path {
+    char name[PATH_SIZE], path[PATH_SIZE];
+} named_path;
 
 typedef struct job {
     char folder[PATH_SIZE]; /* of the manifest, with a trailing slash; "" is the current folder */
@@ -32,7 +37,13 @@ typedef struct job {
     char sections[SECTIONS_MAX][PATH_SIZE]; /* templates that parts include */
     size_t n_sections;
     char batch[SECTIONS_MAX][PATH_SIZE]; /* those of the next self-inclusion, in this order */
+    size_t batch_list[SECTIONS_MAX];     /* 1 + the list that each comes from, or 0 */
     size_t n_batch;
+    char lists[SECTIONS_MAX][PATH_SIZE]; /* of templates alone, that have a macro */
+    size_t n_lists;
+    text list_macros; /* the lines that define the macros of their templates */
+    named_path named[NAMED_MAX];
+    size_t n_named;
     int has_self_inclusion, has_check; /* has_check: outside the blocks of packs */
     char version[4][16]; /* the numbers, and the suffix with its quotes */
 
@@ -80,6 +91,22 @@ void self_include(job *j);
  * that comes before the last of the batch begins another batch. A new one follows the last of the
  * batch; where it begins one, as the words of an instruction set do, it comes before all others. */
 void add_to_batch(job *j, const char *path);
+
+/* Makes one macro of the last `count` templates of the batch, which are those of a list. */
+void close_list(job *j, const char *path, size_t count);
+
+int is_list(const char *path);
+
+/* The number of templates in a list of nothing else; 0 if it is not such a list. */
+size_t templates_in_list(const char *bytes);
+
+/* Notes a macro SLI_ that is a path of a header in quotes. Returns whether the line defines or
+ * undefines such a macro: it is then not emitted. */
+int note_named_path(job *j, const char *line);
+
+/* Returns the target of an include in quotes or by the name of such a macro, and its length; NULL
+ * for any other line. */
+const char *included_path(job *j, const char *line, size_t *length);
 
 /* Emits the templates, each in a section of its own. Before them the header that includes itself,
  * SLI_SELF_INCLUSION, checks that SL_HEADER is not another version of it. */

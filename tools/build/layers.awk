@@ -6,7 +6,8 @@
 # src/: the manifest sparse_local.in.h is the first argument. It lists the parts (the other files of
 # src/) bottom up. A folder is a layer with its subfolders, and the manifest lists its parts one
 # after another. A part includes parts of lower layers and earlier parts of its own layer, and
-# nothing outside src/. A repeated part (*.inl.h) has no include guard and is not in the manifest.
+# nothing outside src/. A repeated part (*.inl.h, *.list.h) has no include guard and is not in the
+# manifest. A part that defines a macro as the path of a header includes it.
 # It takes the place of the first part that includes it.
 #
 # OTHER: C files of tools/, tests/ and bench/. A file includes files of its own folder, and
@@ -66,7 +67,8 @@ directive && (is_manifest || part == "public/packs.h") {
 }
 part == "public/packs.h" && /^[ \t]*#[ \t]*define[ \t]+SL_WITH_/ { note_implied($0) }
 
-/^[ \t]*#[ \t]*include[ \t]*"/ {
+/^[ \t]*#[ \t]*include[ \t]*"/ || \
+(in_src && /^[ \t]*#[ \t]*define[ \t]+SLI_[A-Z_]+[ \t]+"[^"]*\.h"/) {
     split($0, quoted, "\"")
     if (in_src) include_in_src(quoted[2])
     else include_outside_src(quoted[2])
@@ -186,7 +188,7 @@ function layer_in_manifest(dir) {
     return n_layers
 }
 
-function is_repeated(path) { return path ~ /\.inl\.h$/ }
+function is_repeated(path) { return path ~ /\.(inl|list)\.h$/ }
 
 # The part whose place in the manifest decides what a part may include.
 function representative(path, steps) {

@@ -55,7 +55,9 @@ void self_include(job *j) {
         emit_lines(j, "#endif\n#endif\n#define SLI_SELF_INCLUSION\n");
     }
     for (size_t k = 0; k < j->n_batch; k++) {
-        section_macro(macro, j->batch[k]);
+        const size_t list = j->batch_list[k];
+        if (list > 0 && k > 0 && j->batch_list[k - 1] == list) continue;
+        section_macro(macro, list > 0 ? j->lists[list - 1] : j->batch[k]);
         emit_format(j, "#define %s\n", macro);
     }
     if (checks) {
@@ -79,7 +81,32 @@ void add_to_batch(job *j, const char *path) {
     } else if (j->n_batch > 0 && at <= last) {
         self_include(j);
     }
+    j->batch_list[j->n_batch] = 0;
     copy_path(j->batch[j->n_batch++], path, strlen(path));
+}
+
+void close_list(job *j, const char *path, size_t count) {
+    char macro[PATH_SIZE + 16], line[2 * PATH_SIZE + 64];
+    size_t list = 0;
+    if (j->n_batch < count)
+        fail(path, 0, "its templates are not in the order of other parts", "reorder them");
+    while (list < j->n_lists && strcmp(j->lists[list], path) != 0)
+        list++;
+    if (list == SECTIONS_MAX) fail(path, 0, "too many lists", NULL);
+    const int is_new = list == j->n_lists;
+    if (is_new) copy_path(j->lists[j->n_lists++], path, strlen(path));
+    section_macro(macro, path);
+    if (is_new) {
+        snprintf(line, sizeof line, "#ifdef %s\n#undef %s\n", macro, macro);
+        append_string(&j->list_macros, line);
+    }
+    for (size_t k = j->n_batch - count; k < j->n_batch; k++) {
+        j->batch_list[k] = list + 1;
+        section_macro(macro, j->batch[k]);
+        snprintf(line, sizeof line, "#define %s\n", macro);
+        if (is_new) append_string(&j->list_macros, line);
+    }
+    if (is_new) append_string(&j->list_macros, "#endif\n");
 }
 
 void emit_sections(job *j) {
@@ -99,6 +126,7 @@ void emit_sections(job *j) {
     }
     emit_format(j, "#error \"%s: SL_HEADER names another version of the header\"\n", j->name);
     emit_lines(j, "#endif\n");
+    if (j->n_lists > 0) emit_lines(j, j->list_macros.bytes);
     for (size_t k = 0; k < j->n_sections; k++) {
         char macro[PATH_SIZE + 16];
         section_macro(macro, j->sections[k]);

@@ -61,6 +61,15 @@
 #endif
 #endif
 
+#if defined(SLI_X86) && !defined(SL_NO_AVX512)
+#define SLI_AVX512 1
+#endif
+
+/* Are there kernels beside plain C? */
+#if defined(SLI_X86) || defined(SLI_ARM)
+#define SLI_SIMD 1
+#endif
+
 #if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
 #define SLI_BIG_ENDIAN 1
 #endif

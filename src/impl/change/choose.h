@@ -22,7 +22,7 @@ typedef struct sli_change_choice {
 
 /* The cost of fronts with so many flops, of which all entries of A are looked at. */
 static double sli_choose_cost(const sl_factor *F, double fronts, double flops) {
-    return sli_cost_flop(F->kernels->isa) * flops + SLI_COST_FRONT * fronts +
+    return sli_cost_flop(F->kernels) * flops + SLI_COST_FRONT * fronts +
            SLI_COST_INPUT * (double)F->S->scatter_begin[F->S->n_supers];
 }
 
@@ -152,7 +152,7 @@ static sl_status sli_choose_reach(sli_change_choice *c, const sli_rank *q, const
  * and each vector changes them in a register and its pivots one by one. */
 static double sli_choose_update(const sli_rank *q, double entries, double pivots, double flops) {
     const double passes = q->has_trial || q->has_log ? 3.0 : 2.0;
-    return passes * entries + sli_cost_flop(q->u.F->kernels->isa) * flops + SLI_COST_PIVOT * pivots;
+    return passes * entries + sli_cost_flop(q->u.F->kernels) * flops + SLI_COST_PIVOT * pivots;
 }
 
 /* Estimates the rank-one changes with the path of the column in the middle: a vector for each seed

@@ -114,11 +114,12 @@ static int sli_rank_may_overflow(const sli_rank *q, double size) {
 
 /* Does a pass that may fail change a factor of which there is a copy, rather than after a trial?
  * Of one or two vectors a trial takes less time, but in plain C of one alone.
- * More than 4 do not fit in the registers, but for AVX-512, and a trial of them takes longer. */
+ * More than 4 do not fit in the registers unless each has 8 doubles, and a trial of them takes
+ * longer. */
 static int sli_rank_prefers_log(const sli_rank *q) {
-    const sl_isa isa = q->u.F->kernels->isa;
-    const sl_off times = q->count > 4 && isa != SL_ISA_AVX512 ? 8 : 1;
-    return q->count > (isa == SL_ISA_SCALAR ? 1 : 2) && q->whole.entries <= SLI_RANK_LOGGED * times;
+    const sl_int width = q->u.F->kernels->width;
+    const sl_off times = q->count > 4 && width < SLI_TILE ? 8 : 1;
+    return q->count > (width == 1 ? 1 : 2) && q->whole.entries <= SLI_RANK_LOGGED * times;
 }
 
 /* Lists the vectors of a pass, updates first, and its seeds. */

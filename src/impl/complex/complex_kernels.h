@@ -9,99 +9,22 @@ typedef struct sli_complex_kernels {
     sli_front_kernels front;
 } sli_complex_kernels;
 
-#if !defined(SLI_SIMD)
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 1
-#define SLW_NRHS 2
-#define SLW_GROUPS 64
-#include "../kernels/words/words_scalar.inl.h"
-#include "../kernels/words/lanes_scalar.inl.h"
-#include "../kernels/fronts/front.inl.h"
-#include "complex_small.inl.h"
-#include "complex_rows.inl.h"
-#include "complex_groups.inl.h"
-#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
-#include "complex_set.inl.h"
-#include "../kernels/words/lanes_undef.inl.h"
-#include "../kernels/words/words_undef.inl.h"
-#endif
-
-#if defined(SLI_X86)
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 1
-#define SLW_NRHS 4
-#define SLW_GROUPS 64
-#include "../kernels/words/words_avx2.inl.h"
-#include "../kernels/words/lanes_avx2.inl.h"
-#include "../kernels/fronts/front.inl.h"
-#include "complex_groups.inl.h"
-#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
-#include "../kernels/words/lanes_undef.inl.h"
-#define SLW_NRHS 2
-#define SLW_GROUPS 2
-#include "../kernels/words/lanes_avx2.inl.h"
-#include "../kernels/sweeps/copy_rows.inl.h"
-#include "complex_small.inl.h"
-#include "complex_rows.inl.h"
-#include "complex_groups.inl.h"
-#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
-#include "complex_set.inl.h"
-#include "../kernels/words/lanes_undef.inl.h"
-#include "../kernels/words/words_undef.inl.h"
-#endif
-
-#if defined(SLI_AVX512)
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 1
-#define SLW_NRHS 8
-#define SLW_GROUPS 8
-#include "../kernels/words/words_avx512.inl.h"
-#include "../kernels/words/lanes_avx512.inl.h"
-#include "../kernels/fronts/front.inl.h"
-#include "complex_groups.inl.h"
-#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
-#include "../kernels/words/lanes_undef.inl.h"
-#define SLW_NRHS 16
-#define SLW_GROUPS 64
-#include "../kernels/words/lanes_avx512.inl.h"
-#include "complex_small.inl.h"
-#include "complex_rows.inl.h"
-#include "complex_groups.inl.h"
-#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
-#include "complex_set.inl.h"
-#include "../kernels/words/lanes_undef.inl.h"
-#include "../kernels/words/words_undef.inl.h"
-#endif
-
-#if defined(SLI_ARM)
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 1
-#define SLW_NRHS 4
-#define SLW_GROUPS 64
-#include "../kernels/words/words_neon.inl.h"
-#include "../kernels/words/lanes_neon.inl.h"
-#include "../kernels/fronts/front.inl.h"
-#include "complex_groups.inl.h"
-#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
-#include "../kernels/words/lanes_undef.inl.h"
-#define SLW_NRHS 2
-#define SLW_GROUPS 2
-#include "../kernels/words/lanes_neon.inl.h"
-#include "../kernels/sweeps/copy_rows.inl.h"
-#include "complex_small.inl.h"
-#include "complex_rows.inl.h"
-#include "complex_groups.inl.h"
-#include "../kernels/sweeps/multi_rhs_tiles.inl.h"
-#include "complex_set.inl.h"
-#include "../kernels/words/lanes_undef.inl.h"
-#include "../kernels/words/words_undef.inl.h"
-#endif
+#define SLI_FOR_STORAGE
+#define SLI_FOR_ISA "../kernels/each_lanes.list.h"
+#define SLI_FOR_LANES "../complex/complex.list.h"
+#include "../kernels/each_isa.list.h"
+#undef SLI_FOR_ISA
+#undef SLI_FOR_LANES
+#undef SLI_FOR_STORAGE
+#undef SLV_SINGLE
+#undef SLV_COMPLEX
 
 /* The table of an instruction set; NULL: it has none, so that L is kept in double. */
 SLI_INLINE const sli_complex_kernels *sli_complex_kernels_of(sl_isa isa) {
-    static const sli_complex_kernels *const tables[SLI_ISAS] =
-        SLI_STORAGE_TABLES(sli_complex_kernels);
-    return tables[sli_isa_row(isa)];
+    static const sli_complex_kernels *const tables[] = SLI_STORAGE_TABLES(sli_complex_kernels);
+    return tables[isa];
 }
 
 #endif

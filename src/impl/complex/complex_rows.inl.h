@@ -1,6 +1,8 @@
 /* complex_rows.inl.h: sweeps over L of a complex Hermitian matrix, of which every other column is
  * stored */
 
+#if defined(SLW_LAST) /* once for each instruction set */
+
 /* Rows and columns come in pairs, the real and the imaginary part of a complex one. The second
  * column of a pair is i times the first: what it contributes is summed as if it were the first one,
  * and turned once for each row tile. L(rows, j) is at 8 (j / 2) of a tile, j even. */
@@ -219,3 +221,5 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const vo
 #undef SLI_UNIT_TRIANGLE
 #undef SLI_XT
 #undef SLI_SMALL
+
+#endif

@@ -1,5 +1,7 @@
 /* complex_small.inl.h: one right-hand side through a supernode of 1 to 4 complex columns */
 
+#if defined(SLW_LAST) /* once for each instruction set */
+
 /* As small_supernode.inl.h, with the storage of complex_rows.inl.h: the width is a constant in each
  * of 4 copies, and y or the sums of all columns stay in registers. */
 
@@ -194,3 +196,5 @@ SLV_NAME(complex_backward_small)(const sli_step *s, const sli_step *begin, const
 #undef SLI_EACH_WIDTH
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
+
+#endif

@@ -167,7 +167,7 @@ static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_
 static int sli_reuse_choose(sli_reuse *r) {
     const sl_symbolic *T = r->G->S;
     sl_reuse_info *info = &r->info;
-    const double flop = sli_cost_flop(r->G->kernels->isa);
+    const double flop = sli_cost_flop(r->G->kernels);
     sl_int s, supers = 0, visits = 0;
     double cost;
     info->flops = r->flops;

@@ -12,17 +12,14 @@
 
 /* A flop of a front. Its kernels do about as many in the time of an entry as a register has
  * doubles. */
-SLI_INLINE double sli_cost_flop(sl_isa isa) {
-    return isa == SL_ISA_AVX512   ? 1.0 / 8.0
-           : isa == SL_ISA_AVX2   ? 1.0 / 4.0
-           : isa == SL_ISA_SCALAR ? 1.0
-                                  : 1.0 / 2.0;
+SLI_INLINE double sli_cost_flop(const sli_kernels *kernels) {
+    return 1.0 / (double)kernels->width;
 }
 
-/* A sweep of some lanes reads an entry once, and computes with it in each of them. 8 lanes fill a
- * register of AVX-512. */
-SLI_INLINE double sli_cost_lanes(sl_isa isa, sl_int lanes) {
-    return isa == SL_ISA_AVX512 && lanes == 8 ? 2.1 : 0.7 + 0.3 * lanes;
+/* A sweep of some lanes reads an entry once, and computes with it in each of them, in one operation
+ * where 8 lanes fill a register. */
+SLI_INLINE double sli_cost_lanes(const sli_kernels *kernels, sl_int lanes) {
+    return kernels->width == 8 && lanes == 8 ? 2.1 : 0.7 + 0.3 * lanes;
 }
 
 #endif

@@ -12,8 +12,7 @@
 static const char *sli_factor_choices_wrong(const sl_options *opt) {
     return (unsigned)opt->method > (unsigned)SL_METHOD_SUPERNODAL
                ? "options.method is not a value of sl_method"
-           : (unsigned)opt->storage > (unsigned)SL_STORAGE_COMPLEX
-               ? "options.storage is not a value of sl_storage"
+           : !sli_storage_is_known(opt->storage) ? "options.storage is not a value of sl_storage"
            : (unsigned)opt->pivots > (unsigned)SL_PIVOTS_SKIP_NULL
                ? "options.pivots is not a value of sl_pivots"
            : opt->null_tolerance != opt->null_tolerance ? "options.null_tolerance is NaN"

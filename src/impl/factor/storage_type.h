@@ -46,8 +46,9 @@ struct sli_storage_type {
     const sli_storage_type *in_double;
 };
 
-/* The table of a storage; NULL: it is not compiled in, and what it needs. Both are defined where
- * all packs are known. */
+/* Is it a value of sl_storage? Its table; NULL: it is not compiled in, and what it needs. All are
+ * defined where all packs are known. */
+static int sli_storage_is_known(sl_storage storage);
 static const sli_storage_type *sli_storage_type_of(sl_storage storage);
 static const char *sli_storage_needs(sl_storage storage);
 

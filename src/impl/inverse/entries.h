@@ -65,7 +65,7 @@ static int sli_entries_are_in_pattern(const sli_entries *q) {
 static double sli_traversal_time(const sli_entries *q, sl_int *supers) {
     const sl_symbolic *S = q->F->S;
     const sli_requests *r = &q->requests;
-    const double flop = sli_cost_flop(q->F->kernels->isa);
+    const double flop = sli_cost_flop(q->F->kernels);
     double time = 0.0;
     sl_int k = 0, s, next;
     *supers = 0;

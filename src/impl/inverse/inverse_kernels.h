@@ -18,58 +18,16 @@ typedef struct sli_inverse_kernels {
 
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
-#define SLW_NRHS 8
-#include "../kernels/words/words_scalar.inl.h"
-#include "../kernels/words/lanes_scalar.inl.h"
-#include "products.inl.h"
-#include "inverse_front.inl.h"
-#include "inverse_set.inl.h"
-#include "../kernels/words/lanes_undef.inl.h"
-#include "../kernels/words/words_undef.inl.h"
-
-#if defined(SLI_X86)
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 0
-#define SLW_NRHS 8
-#include "../kernels/words/words_avx2.inl.h"
-#include "../kernels/words/lanes_avx2.inl.h"
-#include "products.inl.h"
-#include "inverse_front.inl.h"
-#include "inverse_set.inl.h"
-#include "../kernels/words/lanes_undef.inl.h"
-#include "../kernels/words/words_undef.inl.h"
-#endif
-
-#if defined(SLI_AVX512)
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 0
-#define SLW_NRHS 8
-#include "../kernels/words/words_avx512.inl.h"
-#include "../kernels/words/lanes_avx512.inl.h"
-#include "products.inl.h"
-#include "inverse_front.inl.h"
-#include "inverse_set.inl.h"
-#include "../kernels/words/lanes_undef.inl.h"
-#include "../kernels/words/words_undef.inl.h"
-#endif
-
-#if defined(SLI_ARM)
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 0
-#define SLW_NRHS 8
-#include "../kernels/words/words_neon.inl.h"
-#include "../kernels/words/lanes_neon.inl.h"
-#include "products.inl.h"
-#include "inverse_front.inl.h"
-#include "inverse_set.inl.h"
-#include "../kernels/words/lanes_undef.inl.h"
-#include "../kernels/words/words_undef.inl.h"
-#endif
+#define SLI_FOR_ISA "../inverse/inverse.list.h"
+#include "../kernels/each_isa.list.h"
+#undef SLI_FOR_ISA
+#undef SLV_SINGLE
+#undef SLV_COMPLEX
 
 /* The table of an instruction set. */
 SLI_INLINE const sli_inverse_kernels *sli_inverse_kernels_of(sl_isa isa) {
-    static const sli_inverse_kernels *const tables[SLI_ISAS] = SLI_ISA_TABLES(sli_inverse_kernels);
-    return tables[sli_isa_row(isa)];
+    static const sli_inverse_kernels *const tables[] = SLI_ISA_TABLES(sli_inverse_kernels);
+    return tables[isa];
 }
 
 #endif

@@ -49,7 +49,7 @@ static int sli_rhs_block_add(sli_rhs_block *block, sl_int column, const sl_symbo
 /* Requested entries of the inverse, and their partition into blocks of nearby ones. */
 typedef struct sli_requests {
     const sl_symbolic *S;
-    sl_isa isa;
+    const sli_kernels *kernels;
     /* count each, NULL: 0, 1, 2, ...; one array twice: columns or the diagonal of the inverse */
     const sl_int *rows, *columns;
     sl_int count;
@@ -65,7 +65,7 @@ static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, cons
     sli_requests r;
     SLI_CLEAR(r);
     r.S = F->S;
-    r.isa = F->kernels->isa;
+    r.kernels = F->kernels;
     r.rows = rows;
     r.columns = columns;
     r.count = count;
@@ -135,7 +135,7 @@ static sl_int sli_rhs_block_choose(const sli_requests *r, sl_int k, sli_rhs_bloc
     for (; k < r->count && k - from < SLI_BLOCK_REQUESTS_MAX &&
            sli_rhs_block_add_request(&block, r, k, r->S);
          k++) {
-        const double time = sli_cost_lanes(r->isa, 1 << sli_lanes_kind(block.count)) *
+        const double time = sli_cost_lanes(r->kernels, 1 << sli_lanes_kind(block.count)) *
                             (double)block.size.entries / (double)(k - from + 1);
         if (block_size == 0 || time <= least) {
             least = time;
@@ -184,7 +184,7 @@ static double sli_requests_partition_within(sli_requests *r, sli_capacity *capac
         const sl_int block_size = sli_rhs_block_choose(r, k, &block);
         const int kind = sli_lanes_kind(block.count);
         sli_capacity_add(capacity, &block.size, (sl_int)1 << kind);
-        time += sli_cost_lanes(r->isa, 1 << kind) * (double)block.size.entries;
+        time += sli_cost_lanes(r->kernels, 1 << kind) * (double)block.size.entries;
         r->block_size[r->n_blocks] = (uint64_t)block_size;
         k += block_size;
     }

@@ -2,10 +2,7 @@
 #ifndef SLI_KERNELS_DISPATCH_H
 #define SLI_KERNELS_DISPATCH_H
 
-#include "words/simd_avx2.h"
-#include "words/simd_avx512.h"
-#include "words/simd_neon.h"
-#include "words/simd_scalar.h"
+#include "kernels.h"
 
 #if defined(SLI_X86)
 /* What CPUID says of a leaf: eax, ebx, ecx, edx. Not by <cpuid.h>, which conflicts with <intrin.h>.
@@ -108,35 +105,25 @@ static const sli_kernels *sli_kernels_select(sl_isa isa) {
     return NULL;
 }
 
-/* The row of an instruction set in tables. */
-SLI_INLINE int sli_isa_row(sl_isa isa) {
-    return isa == SL_ISA_SCALAR ? 1
-           : isa == SL_ISA_AVX2 ? 2
-                                : (isa == SL_ISA_AVX512 ? 3 : 0); /* untested: NEON */
-}
-
-/* The tables of a pack in the order of these rows: one for each instruction set, NULL where it is
- * not compiled in. scalar: the table in plain C. */
-#define SLI_ISAS 4
+/* The tables of a pack by sl_isa, up to the last instruction set that is compiled in; NULL for one
+ * that is not. scalar: the table in plain C. */
 #if defined(SLI_AVX512)
 #define SLI_TABLES(name, scalar) \
     { NULL, scalar, &name##_avx2, &name##_avx512 }
 #elif defined(SLI_X86)
 #define SLI_TABLES(name, scalar) \
-    { NULL, scalar, &name##_avx2, NULL }
+    { NULL, scalar, &name##_avx2 }
 #elif defined(SLI_ARM)
 #define SLI_TABLES(name, scalar) \
-    { &name##_neon, scalar, NULL, NULL }
+    { NULL, scalar, NULL, NULL, &name##_neon }
 #else
 #define SLI_TABLES(name, scalar) \
-    { NULL, scalar, NULL, NULL }
+    { NULL, scalar }
 #endif
 #define SLI_ISA_TABLES(name) SLI_TABLES(name, &name##_scalar)
 
-/* The same of a pack that adds a storage of L: beside SIMD, plain C has no kernels for it, which
- * would be 60 kB of the object, and keeps L in double (factor_setup.h). */
-#if defined(SLI_X86) || defined(SLI_ARM)
-#define SLI_SIMD 1
+/* The same of a pack that adds a storage of L, with SLI_FOR_STORAGE (each_isa.list.h). */
+#if defined(SLI_SIMD)
 #define SLI_STORAGE_TABLES(name) SLI_TABLES(name, NULL)
 #else
 #define SLI_STORAGE_TABLES SLI_ISA_TABLES

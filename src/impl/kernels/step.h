@@ -52,7 +52,7 @@ SLI_ALWAYS_INLINE sli_rows sli_rows_of(const sl_int *index, sl_int count, sl_int
     return rows;
 }
 
-#if defined(SLI_X86) || defined(SLI_ARM)
+#if defined(SLI_SIMD)
 /* The rows of a tile, as rows of a vector. */
 static const sl_int sli_tile_rows[SLI_TILE] = {0, 1, 2, 3, 4, 5, 6, 7};
 #endif

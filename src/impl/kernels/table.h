@@ -14,10 +14,10 @@ typedef void (*sli_interleave_kernel)(double *v, sli_rows rows, const double *M,
                                       int is_streamed);
 typedef void (*sli_separate_kernel)(double *M, size_t ldm, const double *v, sli_rows rows);
 
-/* The kernels of the core. A pack has tables of its own, one for each instruction set, in the order
- * of sli_isa_row. */
+/* The kernels of the core. A pack has tables of its own, one for each instruction set. */
 typedef struct sli_kernels {
     sl_isa isa;
+    sl_int width;            /* doubles of a register; 1 in plain C */
     sli_sweeps sweeps;       /* over L in double */
     sli_front_kernels front; /* in double */
     sli_row_kernel row;

@@ -1,5 +1,7 @@
 /* front.inl.h: factors the panel of a front, computes its update matrix, assembles a front */
 
+#if SLW_PASS == 1 /* once for each instruction set */
+
 #include "product.inl.h"
 
 /* A column tile has 8 columns or, of a complex matrix, 4. Column k then has the pivot in lane 2k,
@@ -333,3 +335,5 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
         }
     }
 }
+
+#endif

@@ -1,5 +1,7 @@
 /* multi_rhs_tiles.inl.h: several right-hand sides through supernodes of any width, by row tiles */
 
+#if SLW_NRHS > 2 || defined(SLW_GROUPS) /* two have two_rhs.inl.h */
+
 /* multi_rhs.inl.h or complex_groups.inl.h has defined
  *
  *  SLI_PARTS              real columns that a column of L stands for: 2 of a complex matrix, or 1
@@ -326,3 +328,5 @@ SLI_GROUPED_KERNELS(64)
 #undef SLI_STRIDE_PARAMETER
 #undef SLI_SET_STRIDE
 #undef SLI_IS_DIRECT
+
+#endif

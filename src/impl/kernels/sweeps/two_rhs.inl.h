@@ -1,5 +1,7 @@
 /* two_rhs.inl.h: sweeps for two right-hand sides, vectorized over the 8 rows of a tile */
 
+#if defined(SLW_TWO)
+
 /* Row i of x has two values, so that a row tile is two vectors of 4 rows. Each entry of L is loaded
  * once and repeated. Supernodes of at most 8 columns, and the columns inside a tile, take the
  * kernels of multi_rhs_small.inl.h, which keep rows in registers: full solves of 1e3 to 1e6 rows
@@ -192,3 +194,5 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, co
 
 #undef SLI_TWO_AXPY
 #undef SLI_TWO_DOT
+
+#endif

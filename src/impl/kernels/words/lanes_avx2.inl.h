@@ -1,5 +1,25 @@
 /* lanes_avx2.inl.h: the vocabulary SLW_ in AVX2 and FMA, for SLW_NRHS right-hand sides */
 
+/* Four, then two, then eight and groups of eight. Of complex matrices all take groups. */
+#if SLW_PASS == 1
+#define SLW_NRHS 4
+#if SLV_COMPLEX
+#define SLW_GROUPS 64
+#endif
+#elif SLW_PASS == 2
+#define SLW_NRHS 2
+#if SLV_COMPLEX
+#define SLW_GROUPS 2
+#define SLW_LAST
+#else
+#define SLW_TWO
+#endif
+#elif SLW_PASS == 3
+#define SLW_NRHS 8
+#define SLW_GROUPS 64
+#define SLW_LAST
+#endif
+
 #if SLW_NRHS == 2 /* half a register */
 #define SLW_NAME(f) sli_##f##2_avx2
 #define SLW_ROWS 8

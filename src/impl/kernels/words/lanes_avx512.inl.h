@@ -1,5 +1,18 @@
 /* lanes_avx512.inl.h: the vocabulary SLW_ in AVX-512F, for SLW_NRHS right-hand sides */
 
+/* Eight, then 16 and groups of 16; four and two are those of AVX2. */
+#if SLW_PASS == 1
+#define SLW_NRHS 8
+#define SLW_TWO
+#if SLV_SINGLE || SLV_COMPLEX /* no copies by width, to keep the object small */
+#define SLW_GROUPS 8
+#endif
+#elif SLW_PASS == 2
+#define SLW_NRHS 16
+#define SLW_GROUPS 64
+#define SLW_LAST
+#endif
+
 #if SLW_NRHS == 8 /* one register */
 #define SLW_NAME(f) sli_##f##8_avx512
 #define SLW_ROWS 8

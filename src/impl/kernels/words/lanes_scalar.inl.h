@@ -1,5 +1,13 @@
 /* lanes_scalar.inl.h: the vocabulary SLW_ in plain C, for SLW_NRHS right-hand sides */
 
+/* One pass for all numbers of right-hand sides, in groups of two: arrays gain nothing from
+ * copies. */
+#if SLW_PASS == 1
+#define SLW_NRHS 2
+#define SLW_GROUPS 64
+#define SLW_LAST
+#endif
+
 #if SLW_NRHS == 2
 #define SLW_NAME(f) sli_##f##2_scalar
 #else

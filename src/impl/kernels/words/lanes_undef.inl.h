@@ -1,7 +1,12 @@
 /* lanes_undef.inl.h: undefines the SIMD vocabulary of one number of right-hand sides, and what
  * multi_rhs.inl.h or complex_groups.inl.h has defined */
 
+#include "words_undef.inl.h"
+
 #undef SLW_NAME
+#undef SLW_PASS
+#undef SLW_LAST
+#undef SLW_TWO
 #undef SLW_NRHS
 #undef SLW_HALF
 #undef SLW_GROUPS

@@ -6,15 +6,25 @@
 
 /* A template *.inl.h is compiled once for each instruction set. It uses two groups of words:
  * words_*.inl.h define SLV_, and lanes_*.inl.h define SLW_ for SLW_NRHS right-hand sides.
- * words_undef.inl.h and lanes_undef.inl.h undefine them, with the parameters. Who includes
- * templates defines the parameters before the words:
+ * lanes_undef.inl.h undefines them. Lists of templates, *.list.h, are included by each_isa.list.h.
+ * Who includes that defines the parameters before it, and undefines them:
  *
  *  SLV_SINGLE             1: L is in float; 0: double. All else is double
  *  SLV_COMPLEX            1: a column of a front is the first one of a pair of real columns; else 0
- *  SLW_NRHS               the number of right-hand sides of the lanes
+ *
+ * each_lanes.list.h compiles a list once for each number of right-hand sides that an instruction
+ * set has lanes for. lanes_*.inl.h say what these passes are:
+ *
+ *  SLW_PASS               1, 2 or 3, by each_lanes.list.h. Fronts and sweeps of one vector are
+ *                         compiled in pass 1
+ *  SLW_NRHS               the number of right-hand sides of the pass
  *  SLW_GROUPS             defined: sweeps take several groups of SLW_NRHS right-hand sides, up to
  *                         SLW_GROUPS in all: the largest SLW_NRHS of an instruction set, and those
  *                         of complex matrices
+ *  SLW_TWO                defined: two_rhs.inl.h is compiled in this pass
+ *  SLW_LAST               defined: this is the last pass, in which tables are filled
+ *
+ * A list without passes defines SLW_NRHS, if its templates use SLW_, and SLW_LAST.
  *
  * SLV_: a, b, c are vectors of 8 doubles, the lanes: one column of a row tile.
  *
@@ -22,9 +32,12 @@
  *  SLV_NAME_SHORT(f)      name of f where it gains nothing from longer registers: for 2 and 4
  *                         right-hand sides, supernodes of at most 8 columns, tiles of pivots
  *  SLV_OWN_SHORT          defined: this is SLV_NAME, and f is compiled for this instruction set
+ *  SLV_OWN_ROUND          defined: sli_single_round_ of this instruction set is in intrinsics, and
+ *                         not the plain C of float_set.inl.h
  *  SLV_PLAIN              defined: this is plain C
  *  SLV_ARRAYS             defined: vectors are arrays, and tiles of fronts are computed in loops
- *  SLV_ISA, SLV_FUNCTION  its sl_isa; the attributes of a function
+ *  SLV_ISA, SLV_WIDTH     its sl_isa; the doubles of a register, 1 in plain C
+ *  SLV_FUNCTION           the attributes of a function
  *  SLV_FNMA1(a, b, c)     scalars: c - a b, fused where the vectors are
  *  SLV_DECLARE(a)         declares a
  *  SLV_ZERO(a)            a = 0

@@ -1,9 +1,8 @@
-/* simd_avx2.h: the kernels in AVX2 and FMA */
+/* simd_avx2.h: the functions that the words of AVX2 call */
 #ifndef SLI_KERNELS_SIMD_AVX2_H
 #define SLI_KERNELS_SIMD_AVX2_H
 
 #include "simd.h"
-#include "../table.h"
 
 #if defined(SLI_X86)
 
@@ -51,33 +50,23 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
                          keep);
 }
 
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 0
-#define SLW_NRHS 4
-#include "words_avx2.inl.h"
-#include "lanes_avx2.inl.h"
-#include "../sweeps/copy_rows.inl.h"
-#include "../fronts/front.inl.h"
-#include "../sweeps/sweeps.inl.h"
-#include "../sweeps/multi_rhs.inl.h"
-#include "../sweeps/multi_rhs_tiles.inl.h"
-#include "lanes_undef.inl.h"
-
-#define SLW_NRHS 2
-#include "lanes_avx2.inl.h"
-#include "../sweeps/multi_rhs.inl.h"
-#include "../sweeps/two_rhs.inl.h"
-#include "lanes_undef.inl.h"
-
-#define SLW_NRHS 8
-#define SLW_GROUPS 64
-#include "lanes_avx2.inl.h"
-#include "../sweeps/copy_rows.inl.h"
-#include "../sweeps/multi_rhs.inl.h"
-#include "../sweeps/multi_rhs_tiles.inl.h"
-#include "../kernel_set.inl.h"
-#include "lanes_undef.inl.h"
-#include "words_undef.inl.h"
+/* to := from, `count` numbers, a multiple of 8. Returns whether one of them is beyond
+ * the normal floats, and not 0. */
+SLI_TARGET("avx2,fma")
+SLI_INLINE int sli_single_round_avx2(float *to, const double *from, ptrdiff_t count) {
+    const __m256d sign = _mm256_set1_pd(-0.0), zero = _mm256_setzero_pd();
+    const __m256d most = _mm256_set1_pd((double)FLT_MAX), least = _mm256_set1_pd((double)FLT_MIN);
+    __m256d odd = zero;
+    ptrdiff_t k;
+    for (k = 0; k < count; k += 4) {
+        const __m256d a = _mm256_load_pd(from + k), size = _mm256_andnot_pd(sign, a);
+        const __m256d is_small = _mm256_and_pd(_mm256_cmp_pd(size, least, _CMP_LT_OQ),
+                                               _mm256_cmp_pd(size, zero, _CMP_GT_OQ));
+        odd = _mm256_or_pd(odd, _mm256_or_pd(is_small, _mm256_cmp_pd(size, most, _CMP_GT_OQ)));
+        _mm_store_ps(to + k, _mm256_cvtpd_ps(a));
+    }
+    return _mm256_movemask_pd(odd) != 0;
+}
 
 #endif
 

@@ -2,6 +2,7 @@
 
 #define SLV_NAME(f) sli_##f##_avx2
 #define SLV_ISA SL_ISA_AVX2
+#define SLV_WIDTH 4
 #define SLV_FUNCTION SLI_TARGET("avx2,fma")
 #define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
 #define SLV_DECLARE(a) __m256d a##_0, a##_1;
@@ -135,3 +136,4 @@
 #define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
 #define SLV_NAME_SHORT SLV_NAME
 #define SLV_OWN_SHORT
+#define SLV_OWN_ROUND

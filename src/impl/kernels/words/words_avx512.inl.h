@@ -7,6 +7,7 @@
  * other's divisions, and a longer register divides half as fast. */
 #define SLV_NAME_SHORT(f) sli_##f##_avx2
 #define SLV_ISA SL_ISA_AVX512
+#define SLV_WIDTH 8
 #define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
 #define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
 #define SLV_DECLARE(a) __m512d a;

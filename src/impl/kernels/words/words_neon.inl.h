@@ -2,6 +2,7 @@
 
 #define SLV_NAME(f) sli_##f##_neon
 #define SLV_ISA SL_ISA_NEON
+#define SLV_WIDTH 2
 #define SLV_FUNCTION
 #define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
 #define SLV_DECLARE(a) float64x2_t a##_0, a##_1, a##_2, a##_3;

@@ -2,6 +2,7 @@
 
 #define SLV_NAME(f) sli_##f##_scalar
 #define SLV_ISA SL_ISA_SCALAR
+#define SLV_WIDTH 1
 #define SLV_FUNCTION
 #define SLV_FNMA1(a, b, c) ((c) - (a) * (b)) /* c - a b */
 #define SLV_DECLARE(a) double a[SLI_TILE];
@@ -82,6 +83,6 @@
 #define SLV_NAME_SHORT SLV_NAME
 #define SLV_OWN_SHORT
 #define SLV_PLAIN
-#if defined(SLI_X86) || defined(SLI_ARM) /* few processors there run plain C */
+#if defined(SLI_SIMD) /* few processors there run plain C */
 #define SLV_ARRAYS
 #endif

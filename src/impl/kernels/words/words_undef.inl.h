@@ -1,14 +1,15 @@
-/* words_undef.inl.h: undefines the SIMD vocabulary after the last template of a file simd_*.h */
+/* words_undef.inl.h: undefines the SIMD vocabulary after the last pass over the templates */
 
-#undef SLV_SINGLE
-#undef SLV_COMPLEX
+#if defined(SLW_LAST)
 
 #undef SLV_NAME
 #undef SLV_NAME_SHORT
 #undef SLV_OWN_SHORT
+#undef SLV_OWN_ROUND
 #undef SLV_PLAIN
 #undef SLV_ARRAYS
 #undef SLV_ISA
+#undef SLV_WIDTH
 #undef SLV_FUNCTION
 #undef SLV_DECLARE
 #undef SLV_ZERO
@@ -80,3 +81,5 @@
 #undef SLV_SPREAD_0
 #undef SLV_SPREAD_1
 #undef SLV_SPREAD
+
+#endif
