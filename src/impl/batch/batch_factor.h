@@ -122,7 +122,7 @@ static sl_int sli_factor_batch_create(sl_factor **out, sl_int count, const sl_sy
     }
     for (k = 0; k < count; k++) {
         const sl_status here =
-            sli_factor_new(&out[k], S, k < count / workers * workers ? &serial : opt, NULL);
+            sli_factor_new(&out[k], S, k < count / workers * workers ? &serial : opt, NULL, NULL);
         if (here != SL_OK && at == count) {
             at = k;
             *status = here;

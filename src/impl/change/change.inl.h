@@ -180,6 +180,22 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(change_rows)(const sli_ranks *u, const dou
     }
 }
 
+/* What a pivot is swept by, at most. y: of its column, by the old L. */
+SLV_FUNCTION SLI_INLINE double SLV_NAME(change_swept)(const sli_ranks *u, const double *y) {
+    double swept = 0.0, most = 0.0;
+    sl_int r;
+    for (r = 0; r < u->ranks; r++) {
+        double square = y[r] * y[r];
+        if (u->is_mixed) {
+            square *= u->unit[r];
+            most = most > square ? most : square;
+            square = most * u->square[r];
+        }
+        swept += fabs(u->alpha[r]) * square;
+    }
+    return swept;
+}
+
 /* See sli_ranks_kernel. Lanes are columns of the tile. f(r) is row r of U' Y'. Each vector changes
  * a pivot, and with it f and U, as in a rank-one change: f(r) -= q s, s += beta f(r). */
 SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l, sl_int columns,
@@ -195,19 +211,13 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
     SLV_DECLARE(p)
     SLV_NAME(change_rows)(u, l, columns, w, f, y);
     for (j = 0; j < columns; j++) {
-        double e = d[j], inverse = 1.0 / e, magnitude = fabs(e), swept = 0.0, most = 0.0;
+        double e = d[j], inverse = 1.0 / e, magnitude = fabs(e);
+        u->swept[j] = SLV_NAME(change_swept)(u, y + SLI_TILE * j);
         SLV_ZERO(s)
         SLV_ZERO(t)
         for (r = 0; r < ranks; r++) {
             const double before = e, g = f[SLI_TILE * r + j];
             const double beta = -u->alpha[r] * g, q = g * inverse;
-            double square = y[SLI_TILE * j + r] * y[SLI_TILE * j + r];
-            if (u->is_mixed) {
-                square *= u->unit[r];
-                most = most > square ? most : square;
-                square = most * u->square[r];
-            }
-            swept += fabs(u->alpha[r]) * square;
             if (g == 0.0) { /* not on the path of this vector */
                 continue;
             }
@@ -234,7 +244,6 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
         }
         u->e[j] = e;
         u->magnitude[j] = magnitude;
-        u->swept[j] = swept;
         if (!(fabs(e) > 0.0)) {
             return j + 1;
         }

@@ -308,7 +308,7 @@ SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_sy
     r.F = F;
     r.B = B;
     status = sli_pattern_check(S, B, 1);
-    status = status == SL_OK ? sli_factor_new(&r.G, S, opt, stats) : status;
+    status = status == SL_OK ? sli_factor_new(&r.G, S, opt, NULL, stats) : status;
     status = status == SL_OK ? sli_reuse_begin(&r, new_of, stats) : status;
     status = status == SL_OK ? sli_reuse_numbers(&r, stats) : status;
     if (r.G != NULL) {

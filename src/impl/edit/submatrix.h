@@ -109,7 +109,7 @@ static sl_status sli_submatrix_factor(sl_factor **out, const sl_symbolic *S, con
     if (F->type->keeps != NULL && !F->type->keeps(r->rows, r->R.count, S)) {
         opt.storage = SL_STORAGE_DOUBLE; /* A[R, R] is not complex, or not its order */
     }
-    status = sli_factor_new_with(&G, S, &opt, F->kernels, stats);
+    status = sli_factor_new(&G, S, &opt, F->kernels, stats);
     status = status == SL_OK ? sli_submatrix_numbers(G, F, r, stats) : status;
     if (status == SL_OK) {
         *out = G;

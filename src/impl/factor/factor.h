@@ -280,7 +280,7 @@ static sl_status sli_factor_create_from(sl_factor **out, const sl_symbolic *S,
                                         const sli_source *from, const sl_options *opt,
                                         sl_stats *stats) {
     sl_factor *F = NULL;
-    sl_status status = sli_factor_new(&F, S, opt, stats);
+    sl_status status = sli_factor_new(&F, S, opt, NULL, stats);
     if (status == SL_OK) {
         sli_factor_begin(F);
         status = sli_factor_numbers(F, from, sli_factor_clock(F->S), stats);

@@ -176,8 +176,8 @@ static void sli_factor_clear_gaps(sl_factor *F) {
 
 /* Creates a factor with its memory and its schedule, but without numbers. kernels: NULL: those of
  * the options, which take as long to choose under a hypervisor as a factor of 100 rows. */
-static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
-                                     const sli_kernels *kernels, sl_stats *stats) {
+static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
+                                const sli_kernels *kernels, sl_stats *stats) {
     const double started = sli_factor_clock(S);
     const sl_allocator a = sli_allocator(opt);
     const char *missing;
@@ -235,11 +235,6 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
         }
     }
     return status;
-}
-
-static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
-                                sl_stats *stats) {
-    return sli_factor_new_with(out, S, opt, NULL, stats);
 }
 
 #endif

@@ -11,29 +11,35 @@ typedef struct sli_mapping {
 } sli_mapping;
 
 static const char sli_no_file[] = "it is empty, or not an ordinary file";
-static const char sli_huge_file[] = "the file is larger than the address space";
 static const char sli_unmappable[] = "the system cannot map the file";
+
+#if defined(SLI_MMAP) || defined(SLI_MAP_VIEW)
+static sl_status sli_map_allows(int64_t size) {
+    if (size <= 0) {
+        return sli_refuse(SL_ERR_IO, sli_no_file);
+    }
+    return (uint64_t)size <= SIZE_MAX / 2 /* branch untested: on 32 bits only */
+               ? SL_OK
+               : sli_refuse(SL_ERR_TOO_LARGE, "the file is larger than the address space");
+}
+#endif
 
 /* Maps a file. An empty file cannot be mapped, and gives SL_ERR_IO like one that cannot be read. */
 static sl_status sli_map(const char *path, sli_mapping *out) {
-    sl_status status = SL_OK;
+    sl_status status;
     out->bytes = NULL;
     out->size = 0;
 #if defined(SLI_MMAP)
     {
         const int file = open(path, O_RDONLY);
         struct stat found;
-        void *bytes;
         if (file < 0) {
             return sli_file_fails("the file cannot be opened");
         }
-        if (fstat(file, &found) != 0 || !S_ISREG(found.st_mode) || found.st_size <= 0) {
-            status = sli_refuse(SL_ERR_IO, sli_no_file);
-        } else if ((uint64_t)found.st_size > SIZE_MAX / 2) {      /* untested: on 32 bits only */
-            status = sli_refuse(SL_ERR_TOO_LARGE, sli_huge_file); /* untested: the same */
-        }
+        status = sli_map_allows(
+            fstat(file, &found) == 0 && S_ISREG(found.st_mode) ? (int64_t)found.st_size : 0);
         if (status == SL_OK) {
-            bytes = mmap(NULL, (size_t)found.st_size, PROT_READ, MAP_SHARED, file, 0);
+            void *bytes = mmap(NULL, (size_t)found.st_size, PROT_READ, MAP_SHARED, file, 0);
             if (bytes == MAP_FAILED) {
                 status = errno == ENOMEM ? sli_no_memory() : sli_file_fails(sli_unmappable);
             } else {
@@ -52,11 +58,7 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
         if ((intptr_t)file == -1) { /* INVALID_HANDLE_VALUE */
             return sli_refuse(SL_ERR_IO, "the file cannot be opened");
         }
-        if (!GetFileSizeEx(file, (sli_windows_number)(void *)&size) || size <= 0) {
-            status = sli_refuse(SL_ERR_IO, sli_no_file);
-        } else if ((uint64_t)size > SIZE_MAX / 2) {
-            status = sli_refuse(SL_ERR_TOO_LARGE, sli_huge_file);
-        }
+        status = sli_map_allows(GetFileSizeEx(file, (sli_windows_number)(void *)&size) ? size : 0);
         section = status != SL_OK ? NULL : CreateFileMappingA(file, NULL, 2, 0, 0, NULL);
         if (section != NULL) { /* 2: PAGE_READONLY, 4: FILE_MAP_READ */
             out->bytes = MapViewOfFile(section, 4, 0, 0, 0);
