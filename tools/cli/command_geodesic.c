@@ -220,7 +220,7 @@ int command_geodesic(int argc, char **argv) {
          "distances from each source separately, with one set of plans in a ball around all"},
         {OPTION_FLAG, "raw", &cmd.raw, NULL,
          "keep distances and cells of the heat method as they are, without the comparison with "
-         "paths; it takes about 10 seconds for each million vertices and source"},
+         "paths; it takes about 10 seconds for each 100,000 vertices and source"},
         {OPTION_FLAG, "voronoi", &cmd.voronoi, NULL, "nearest site in place of the distance"},
         LAPLACIAN_OPTION(&cmd.laplacian),
         APP_OUTPUT_OPTIONS(&cmd.output),

