@@ -214,8 +214,8 @@ static sl_status factor(arap_hessian *h, const double *Y, sl_stats *stats) {
 sl_status arap_hessian_factor(arap_hessian *h, const double *Y) {
     sl_stats stats;
     sl_status status = factor(h, Y, &stats);
-    while (status == SL_OK && stats.factor.negative > 0 && h->soft < 1) {
-        h->soft = fmin(1, 2 * h->soft + 0.25);
+    if (status == SL_OK && stats.factor.negative > 0 && h->soft < 1) {
+        h->soft = 1;
         status = factor(h, Y, &stats);
     }
     return status;
