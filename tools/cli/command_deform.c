@@ -279,6 +279,15 @@ static void open_command(deform_command *cmd, const char *operand) {
     }
 }
 
+static void warn_of_unfinished(const deform_command *cmd) {
+    if (cmd->unfinished > 0) {
+        app_warn("%d of %d frames have not converged within %d solves: the last step moved a "
+                 "vertex by %.1e diagonals; raise --iterations",
+                 (int)cmd->unfinished, (int)cmd->script.n_frames, (int)cmd->iterations,
+                 cmd->last.moved);
+    }
+}
+
 int command_deform(int argc, char **argv) {
     deform_command cmd;
     const char *operand = NULL;
@@ -330,12 +339,7 @@ int command_deform(int argc, char **argv) {
     if (failed) {
         app_warn("positions differ from those of a new factor by more than --bound");
     }
-    if (cmd.unfinished > 0) {
-        app_warn("%d of %d frames have not converged within %d solves: the last step moved a "
-                 "vertex by %.1e diagonals; raise --iterations",
-                 (int)cmd.unfinished, (int)cmd.script.n_frames, (int)cmd.iterations,
-                 cmd.last.moved);
-    }
+    warn_of_unfinished(&cmd);
     handle_script_free(&cmd.script);
     deformer_free(&cmd.d);
     free(cmd.near_positions);
