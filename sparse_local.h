@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 882744dace8440bb
+ * FNV-1a of the lines after this comment, without the license: 8f7bcf009a359ea8
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -33,28 +33,28 @@
  *   2668 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   2732 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   2775 impl/ base: the compiler, status, memory, sorting, threads
- *   4077 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4977 impl/ matrix: sparse matrices of the caller and of the library
- *   5781 impl/ ordering: fill-reducing orderings of a graph
- *  10558 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12800 impl/ factor: the numbers of L and D
- *  15393 impl/ solve: full and local solves
- *  16900 impl/ singular: null spaces of semidefinite matrices
- *  18171 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20232 impl/ pivots: the order of the pivots by the values of a matrix
- *  20640 impl/ float: L in single precision
- *  20867 impl/ inverse: entries of the inverse, regions
- *  23779 impl/ change: a factor that follows changes of its matrix
- *  26057 impl/ constraints: rows held at values, on a factor that stays
- *  27404 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30144 impl/ fixed: rows fixed at given values
- *  30703 impl/ io: files that are replaced only when they are complete
- *  30921 impl/ files: Matrix Market files, 64-bit indices
- *  31477 impl/ save: factors in files
- *  33455 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34141 impl/ complex: complex Hermitian systems over real factors
- *  34626 impl/ packs: the tables through which the core calls packs
- *  35018 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4085 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4966 impl/ matrix: sparse matrices of the caller and of the library
+ *   5770 impl/ ordering: fill-reducing orderings of a graph
+ *  10547 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12789 impl/ factor: the numbers of L and D
+ *  15379 impl/ solve: full and local solves
+ *  16886 impl/ singular: null spaces of semidefinite matrices
+ *  18157 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20218 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20626 impl/ float: L in single precision
+ *  20809 impl/ inverse: entries of the inverse, regions
+ *  23717 impl/ change: a factor that follows changes of its matrix
+ *  25995 impl/ constraints: rows held at values, on a factor that stays
+ *  27342 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30082 impl/ fixed: rows fixed at given values
+ *  30641 impl/ io: files that are replaced only when they are complete
+ *  30859 impl/ files: Matrix Market files, 64-bit indices
+ *  31415 impl/ save: factors in files
+ *  33393 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34079 impl/ complex: complex Hermitian systems over real factors
+ *  34551 impl/ packs: the tables through which the core calls packs
+ *  34975 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2827,6 +2827,14 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_create_pivoted(sl_symbolic **out, co
 #endif
 #endif
 
+#if defined(SLI_X86) && !defined(SL_NO_AVX512)
+#define SLI_AVX512 1
+#endif
+
+#if defined(SLI_X86) || defined(SLI_ARM)
+#define SLI_SIMD 1
+#endif
+
 #if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
 #define SLI_BIG_ENDIAN 1
 #endif
@@ -4155,7 +4163,7 @@ SLI_ALWAYS_INLINE sli_rows sli_rows_of(const sl_int *index, sl_int count, sl_int
   return rows;
 }
 
-#if defined(SLI_X86) || defined(SLI_ARM)
+#if defined(SLI_SIMD)
 static const sl_int sli_tile_rows[SLI_TILE] = {0, 1, 2, 3, 4, 5, 6, 7};
 #endif
 
@@ -4591,6 +4599,7 @@ typedef void (*sli_separate_kernel)(double *M, size_t ldm, const double *v, sli_
 
 typedef struct sli_kernels {
   sl_isa isa;
+  sl_int width;
   sli_sweeps sweeps;
   sli_front_kernels front;
   sli_row_kernel row;
@@ -4687,35 +4696,7 @@ typedef struct sli_kernels {
 #define SLV_WIDE(v, columns) SLI_BY_TYPE(SLI_WIDE_, SLV_SINGLE)(v, columns)
 #define SLV_WIDEN(v, l, columns, rows) SLI_BY_TYPE(SLI_WIDEN_, SLV_SINGLE)(v, l, columns, rows)
 
-/* src/impl/kernels/words/simd_scalar.h: the kernels in plain C */
-
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 0
-#define SLW_NRHS 2
-#define SLW_GROUPS 64
-/* The header includes itself from here on: its templates, at the end, are compiled once for
- * each instruction set. SL_HEADER is the name of this file. */
-#if defined(__has_include)
-#if !__has_include(SL_HEADER)
-#error "sparse_local.h was renamed: define SL_HEADER as its new name, in quotes"
-#endif
-#endif
-#define SLI_SELF_INCLUSION
-#define SLI_INL_WORDS_SCALAR
-#define SLI_INL_LANES_SCALAR
-#define SLI_INL_COPY_ROWS
-#define SLI_INL_FRONT
-#define SLI_INL_SWEEPS
-#define SLI_INL_MULTI_RHS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_KERNEL_SET
-#define SLI_INL_LANES_UNDEF
-#define SLI_INL_WORDS_UNDEF
-#include SL_HEADER /* not found: define SL_HEADER, see above */
-#ifdef SLI_INL_WORDS_UNDEF
-#error "sparse_local.h: SL_HEADER names another file, not this one"
-#endif
-/* src/impl/kernels/words/simd_avx2.h: the kernels in AVX2 and FMA */
+/* src/impl/kernels/words/simd_avx2.h: the functions that the words of AVX2 call */
 
 #if defined(SLI_X86)
 
@@ -4756,101 +4737,117 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
       keep);
 }
 
+SLI_TARGET("avx2,fma")
+SLI_INLINE int sli_single_round_avx2(float *to, const double *from, ptrdiff_t count) {
+  const __m256d sign = _mm256_set1_pd(-0.0), zero = _mm256_setzero_pd();
+  const __m256d most = _mm256_set1_pd((double)FLT_MAX), least = _mm256_set1_pd((double)FLT_MIN);
+  __m256d odd = zero;
+  ptrdiff_t k;
+  for (k = 0; k < count; k += 4) {
+    const __m256d a = _mm256_load_pd(from + k), size = _mm256_andnot_pd(sign, a);
+    const __m256d is_small = _mm256_and_pd(_mm256_cmp_pd(size, least, _CMP_LT_OQ),
+        _mm256_cmp_pd(size, zero, _CMP_GT_OQ));
+    odd = _mm256_or_pd(odd, _mm256_or_pd(is_small, _mm256_cmp_pd(size, most, _CMP_GT_OQ)));
+    _mm_store_ps(to + k, _mm256_cvtpd_ps(a));
+  }
+  return _mm256_movemask_pd(odd) != 0;
+}
+
+#endif
+
+/* src/impl/kernels/kernels.h: the kernels of the core, for every instruction set */
+
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
-#define SLW_NRHS 4
+#if !defined(SLI_SIMD) || !defined(SLI_FOR_STORAGE)
+#define SLW_PASS 1
+/* The header includes itself from here on: its templates, at the end, are compiled once for
+ * each instruction set. SL_HEADER is the name of this file. */
+#if defined(__has_include)
+#if !__has_include(SL_HEADER)
+#error "sparse_local.h was renamed: define SL_HEADER as its new name, in quotes"
+#endif
+#endif
+#define SLI_SELF_INCLUSION
+#define SLI_INL_WORDS_SCALAR
+#define SLI_INL_LANES_SCALAR
+#define SLI_INL_KERNELS
+#include SL_HEADER /* not found: define SL_HEADER, see above */
+#ifdef SLI_INL_KERNELS
+#error "sparse_local.h: SL_HEADER names another file, not this one"
+#endif
+#if defined(SLV_NAME)
+#define SLW_PASS 2
+#define SLI_INL_LANES_SCALAR
+#define SLI_INL_KERNELS
+#include SL_HEADER
+#endif
+#if defined(SLV_NAME)
+#define SLW_PASS 3
+#define SLI_INL_LANES_SCALAR
+#define SLI_INL_KERNELS
+#include SL_HEADER
+#endif
+#endif
+#if defined(SLI_X86)
+#define SLW_PASS 1
 #define SLI_INL_WORDS_AVX2
 #define SLI_INL_LANES_AVX2
-#define SLI_INL_COPY_ROWS
-#define SLI_INL_FRONT
-#define SLI_INL_SWEEPS
-#define SLI_INL_MULTI_RHS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_LANES_UNDEF
+#define SLI_INL_KERNELS
 #include SL_HEADER
-#define SLW_NRHS 2
+#if defined(SLV_NAME)
+#define SLW_PASS 2
 #define SLI_INL_LANES_AVX2
-#define SLI_INL_MULTI_RHS
-#define SLI_INL_TWO_RHS
-#define SLI_INL_LANES_UNDEF
-#include SL_HEADER
-#define SLW_NRHS 8
-#define SLW_GROUPS 64
-#define SLI_INL_LANES_AVX2
-#define SLI_INL_COPY_ROWS
-#define SLI_INL_MULTI_RHS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_KERNEL_SET
-#define SLI_INL_LANES_UNDEF
-#define SLI_INL_WORDS_UNDEF
+#define SLI_INL_KERNELS
 #include SL_HEADER
 #endif
-
-/* src/impl/kernels/words/simd_avx512.h: the kernels in AVX-512F; some are those of AVX2 */
-
-#if defined(SLI_X86) && !defined(SL_NO_AVX512)
-
-#define SLI_AVX512 1
-
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 0
-#define SLW_NRHS 8
+#if defined(SLV_NAME)
+#define SLW_PASS 3
+#define SLI_INL_LANES_AVX2
+#define SLI_INL_KERNELS
+#include SL_HEADER
+#endif
+#endif
+#if defined(SLI_AVX512)
+#define SLW_PASS 1
 #define SLI_INL_WORDS_AVX512
 #define SLI_INL_LANES_AVX512
-#define SLI_INL_COPY_ROWS
-#define SLI_INL_FRONT
-#define SLI_INL_SWEEPS
-#define SLI_INL_TWO_RHS
+#define SLI_INL_KERNELS
 #include SL_HEADER
-#define SLI_INL_MULTI_RHS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_LANES_UNDEF
-#include SL_HEADER
-#define SLW_NRHS 16
-#define SLW_GROUPS 64
+#if defined(SLV_NAME)
+#define SLW_PASS 2
 #define SLI_INL_LANES_AVX512
-#define SLI_INL_COPY_ROWS
-#define SLI_INL_MULTI_RHS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_KERNEL_SET
-#define SLI_INL_LANES_UNDEF
-#define SLI_INL_WORDS_UNDEF
+#define SLI_INL_KERNELS
 #include SL_HEADER
 #endif
-
-/* src/impl/kernels/words/simd_neon.h: the kernels in NEON */
-
+#if defined(SLV_NAME)
+#define SLW_PASS 3
+#define SLI_INL_LANES_AVX512
+#define SLI_INL_KERNELS
+#include SL_HEADER
+#endif
+#endif
 #if defined(SLI_ARM)
-
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 0
-#define SLW_NRHS 4
+#define SLW_PASS 1
 #define SLI_INL_WORDS_NEON
 #define SLI_INL_LANES_NEON
-#define SLI_INL_COPY_ROWS
-#define SLI_INL_FRONT
-#define SLI_INL_SWEEPS
-#define SLI_INL_MULTI_RHS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_LANES_UNDEF
+#define SLI_INL_KERNELS
 #include SL_HEADER
-#define SLW_NRHS 2
+#if defined(SLV_NAME)
+#define SLW_PASS 2
 #define SLI_INL_LANES_NEON
-#define SLI_INL_MULTI_RHS
-#define SLI_INL_TWO_RHS
-#define SLI_INL_LANES_UNDEF
-#include SL_HEADER
-#define SLW_NRHS 8
-#define SLW_GROUPS 64
-#define SLI_INL_LANES_NEON
-#define SLI_INL_COPY_ROWS
-#define SLI_INL_MULTI_RHS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_KERNEL_SET
-#define SLI_INL_LANES_UNDEF
-#define SLI_INL_WORDS_UNDEF
+#define SLI_INL_KERNELS
 #include SL_HEADER
 #endif
+#if defined(SLV_NAME)
+#define SLW_PASS 3
+#define SLI_INL_LANES_NEON
+#define SLI_INL_KERNELS
+#include SL_HEADER
+#endif
+#endif
+#undef SLV_SINGLE
+#undef SLV_COMPLEX
 
 /* src/impl/kernels/dispatch.h: detects the instruction sets of this processor and selects a kernel table */
 
@@ -4944,30 +4941,22 @@ static const sli_kernels *sli_kernels_select(sl_isa isa) {
   return NULL;
 }
 
-SLI_INLINE int sli_isa_row(sl_isa isa) {
-  return isa == SL_ISA_SCALAR ? 1
-       : isa == SL_ISA_AVX2 ? 2
-                : (isa == SL_ISA_AVX512 ? 3 : 0); /* untested: NEON */
-}
-
-#define SLI_ISAS 4
 #if defined(SLI_AVX512)
 #define SLI_TABLES(name, scalar) \
   { NULL, scalar, &name##_avx2, &name##_avx512 }
 #elif defined(SLI_X86)
 #define SLI_TABLES(name, scalar) \
-  { NULL, scalar, &name##_avx2, NULL }
+  { NULL, scalar, &name##_avx2 }
 #elif defined(SLI_ARM)
 #define SLI_TABLES(name, scalar) \
-  { &name##_neon, scalar, NULL, NULL }
+  { NULL, scalar, NULL, NULL, &name##_neon }
 #else
 #define SLI_TABLES(name, scalar) \
-  { NULL, scalar, NULL, NULL }
+  { NULL, scalar }
 #endif
 #define SLI_ISA_TABLES(name) SLI_TABLES(name, &name##_scalar)
 
-#if defined(SLI_X86) || defined(SLI_ARM)
-#define SLI_SIMD 1
+#if defined(SLI_SIMD)
 #define SLI_STORAGE_TABLES(name) SLI_TABLES(name, NULL)
 #else
 #define SLI_STORAGE_TABLES SLI_ISA_TABLES
@@ -13109,6 +13098,7 @@ struct sli_storage_type {
   const sli_storage_type *in_double;
 };
 
+static int sli_storage_is_known(sl_storage storage);
 static const sli_storage_type *sli_storage_type_of(sl_storage storage);
 static const char *sli_storage_needs(sl_storage storage);
 
@@ -14681,8 +14671,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
 static const char *sli_factor_choices_wrong(const sl_options *opt) {
   return (unsigned)opt->method > (unsigned)SL_METHOD_SUPERNODAL
          ? "options.method is not a value of sl_method"
-       : (unsigned)opt->storage > (unsigned)SL_STORAGE_COMPLEX
-         ? "options.storage is not a value of sl_storage"
+       : !sli_storage_is_known(opt->storage) ? "options.storage is not a value of sl_storage"
        : (unsigned)opt->pivots > (unsigned)SL_PIVOTS_SKIP_NULL
          ? "options.pivots is not a value of sl_pivots"
        : opt->null_tolerance != opt->null_tolerance ? "options.null_tolerance is NaN"
@@ -15378,15 +15367,12 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
 #define SLI_COST_FRONT 4000.0
 #define SLI_COST_INPUT 20.0
 
-SLI_INLINE double sli_cost_flop(sl_isa isa) {
-  return isa == SL_ISA_AVX512 ? 1.0 / 8.0
-       : isa == SL_ISA_AVX2 ? 1.0 / 4.0
-       : isa == SL_ISA_SCALAR ? 1.0
-                  : 1.0 / 2.0;
+SLI_INLINE double sli_cost_flop(const sli_kernels *kernels) {
+  return 1.0 / (double)kernels->width;
 }
 
-SLI_INLINE double sli_cost_lanes(sl_isa isa, sl_int lanes) {
-  return isa == SL_ISA_AVX512 && lanes == 8 ? 2.1 : 0.7 + 0.3 * lanes;
+SLI_INLINE double sli_cost_lanes(const sli_kernels *kernels, sl_int lanes) {
+  return kernels->width == 8 && lanes == 8 ? 2.1 : 0.7 + 0.3 * lanes;
 }
 
 /* solve: full and local solves */
@@ -20646,137 +20632,93 @@ typedef struct sli_float_kernels {
   sli_round_kernel round;
 } sli_float_kernels;
 
-#define SLI_ROUND_PLAIN(name) \
-  static int name(float *to, const double *from, ptrdiff_t count) { \
-    ptrdiff_t k; \
-    int is_odd = 0; \
-    for (k = 0; k < count; k++) { \
-      const double size = fabs(from[k]); \
-      is_odd |= (size > (double)FLT_MAX) | ((size < (double)FLT_MIN) & (size > 0.0)); \
-      to[k] = (float)from[k]; \
-    } \
-    return is_odd; \
-  }
-
-#if !defined(SLI_SIMD)
-SLI_ROUND_PLAIN(sli_single_round_scalar)
 #define SLV_SINGLE 1
 #define SLV_COMPLEX 0
-#define SLW_NRHS 2
-#define SLW_GROUPS 64
+#define SLI_FOR_STORAGE
+#if !defined(SLI_SIMD) || !defined(SLI_FOR_STORAGE)
+#define SLW_PASS 1
 #define SLI_INL_WORDS_SCALAR
 #define SLI_INL_LANES_SCALAR
-#define SLI_INL_SWEEPS
-#define SLI_INL_MULTI_RHS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_FLOAT_SET
-#define SLI_INL_LANES_UNDEF
-#define SLI_INL_WORDS_UNDEF
+#define SLI_INL_FLOAT
+#include SL_HEADER
+#if defined(SLV_NAME)
+#define SLW_PASS 2
+#define SLI_INL_LANES_SCALAR
+#define SLI_INL_FLOAT
 #include SL_HEADER
 #endif
-
+#if defined(SLV_NAME)
+#define SLW_PASS 3
+#define SLI_INL_LANES_SCALAR
+#define SLI_INL_FLOAT
+#include SL_HEADER
+#endif
+#endif
 #if defined(SLI_X86)
-SLI_TARGET("avx2,fma")
-static int sli_single_round_avx2(float *to, const double *from, ptrdiff_t count) {
-  const __m256d sign = _mm256_set1_pd(-0.0), zero = _mm256_setzero_pd();
-  const __m256d most = _mm256_set1_pd((double)FLT_MAX), least = _mm256_set1_pd((double)FLT_MIN);
-  __m256d odd = zero;
-  ptrdiff_t k;
-  for (k = 0; k < count; k += 4) {
-    const __m256d a = _mm256_load_pd(from + k), size = _mm256_andnot_pd(sign, a);
-    const __m256d is_small = _mm256_and_pd(_mm256_cmp_pd(size, least, _CMP_LT_OQ),
-        _mm256_cmp_pd(size, zero, _CMP_GT_OQ));
-    odd = _mm256_or_pd(odd, _mm256_or_pd(is_small, _mm256_cmp_pd(size, most, _CMP_GT_OQ)));
-    _mm_store_ps(to + k, _mm256_cvtpd_ps(a));
-  }
-  return _mm256_movemask_pd(odd) != 0;
-}
-
-#define SLV_SINGLE 1
-#define SLV_COMPLEX 0
-#define SLW_NRHS 4
+#define SLW_PASS 1
 #define SLI_INL_WORDS_AVX2
 #define SLI_INL_LANES_AVX2
-#define SLI_INL_SWEEPS
-#define SLI_INL_MULTI_RHS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_LANES_UNDEF
+#define SLI_INL_FLOAT
 #include SL_HEADER
-#define SLW_NRHS 2
+#if defined(SLV_NAME)
+#define SLW_PASS 2
 #define SLI_INL_LANES_AVX2
-#define SLI_INL_MULTI_RHS
-#define SLI_INL_TWO_RHS
-#define SLI_INL_LANES_UNDEF
-#include SL_HEADER
-#define SLW_NRHS 8
-#define SLW_GROUPS 64
-#define SLI_INL_LANES_AVX2
-#define SLI_INL_MULTI_RHS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_FLOAT_SET
-#define SLI_INL_LANES_UNDEF
-#define SLI_INL_WORDS_UNDEF
+#define SLI_INL_FLOAT
 #include SL_HEADER
 #endif
-
+#if defined(SLV_NAME)
+#define SLW_PASS 3
+#define SLI_INL_LANES_AVX2
+#define SLI_INL_FLOAT
+#include SL_HEADER
+#endif
+#endif
 #if defined(SLI_AVX512)
-#define SLV_SINGLE 1
-#define SLV_COMPLEX 0
-#define SLW_NRHS 8
-#define SLW_GROUPS 8
+#define SLW_PASS 1
 #define SLI_INL_WORDS_AVX512
 #define SLI_INL_LANES_AVX512
-#define SLI_INL_SWEEPS
-#define SLI_INL_TWO_RHS
+#define SLI_INL_FLOAT
 #include SL_HEADER
-#define SLI_INL_MULTI_RHS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_LANES_UNDEF
-#include SL_HEADER
-#define SLW_NRHS 16
-#define SLW_GROUPS 64
+#if defined(SLV_NAME)
+#define SLW_PASS 2
 #define SLI_INL_LANES_AVX512
-#define SLI_INL_MULTI_RHS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_FLOAT_SET
-#define SLI_INL_LANES_UNDEF
-#define SLI_INL_WORDS_UNDEF
+#define SLI_INL_FLOAT
 #include SL_HEADER
 #endif
-
+#if defined(SLV_NAME)
+#define SLW_PASS 3
+#define SLI_INL_LANES_AVX512
+#define SLI_INL_FLOAT
+#include SL_HEADER
+#endif
+#endif
 #if defined(SLI_ARM)
-SLI_ROUND_PLAIN(sli_single_round_neon)
-#define SLV_SINGLE 1
-#define SLV_COMPLEX 0
-#define SLW_NRHS 4
+#define SLW_PASS 1
 #define SLI_INL_WORDS_NEON
 #define SLI_INL_LANES_NEON
-#define SLI_INL_SWEEPS
-#define SLI_INL_MULTI_RHS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_LANES_UNDEF
+#define SLI_INL_FLOAT
 #include SL_HEADER
-#define SLW_NRHS 2
+#if defined(SLV_NAME)
+#define SLW_PASS 2
 #define SLI_INL_LANES_NEON
-#define SLI_INL_MULTI_RHS
-#define SLI_INL_TWO_RHS
-#define SLI_INL_LANES_UNDEF
-#include SL_HEADER
-#define SLW_NRHS 8
-#define SLW_GROUPS 64
-#define SLI_INL_LANES_NEON
-#define SLI_INL_MULTI_RHS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_FLOAT_SET
-#define SLI_INL_LANES_UNDEF
-#define SLI_INL_WORDS_UNDEF
+#define SLI_INL_FLOAT
 #include SL_HEADER
 #endif
+#if defined(SLV_NAME)
+#define SLW_PASS 3
+#define SLI_INL_LANES_NEON
+#define SLI_INL_FLOAT
+#include SL_HEADER
+#endif
+#endif
+#undef SLI_FOR_STORAGE
+#undef SLV_SINGLE
+#undef SLV_COMPLEX
 
 SLI_INLINE const sli_float_kernels *sli_float_kernels_of(sl_isa isa) {
-  static const sli_float_kernels *const tables[SLI_ISAS] =
+  static const sli_float_kernels *const tables[] =
     SLI_STORAGE_TABLES(sli_float_kernels);
-  return tables[sli_isa_row(isa)];
+  return tables[isa];
 }
 
 /* src/impl/float/float_storage.h: L in float: panels that are rounded when their fronts are done */
@@ -20949,60 +20891,56 @@ typedef struct sli_inverse_kernels {
 
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
+#if !defined(SLI_SIMD) || !defined(SLI_FOR_STORAGE)
 #define SLW_NRHS 8
+#define SLW_LAST
 #define SLI_INL_WORDS_SCALAR
 #define SLI_INL_LANES_SCALAR
 #define SLI_INL_PRODUCTS
 #define SLI_INL_INVERSE_FRONT
 #define SLI_INL_INVERSE_SET
 #define SLI_INL_LANES_UNDEF
-#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
+#endif
 #if defined(SLI_X86)
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 0
 #define SLW_NRHS 8
+#define SLW_LAST
 #define SLI_INL_WORDS_AVX2
 #define SLI_INL_LANES_AVX2
 #define SLI_INL_PRODUCTS
 #define SLI_INL_INVERSE_FRONT
 #define SLI_INL_INVERSE_SET
 #define SLI_INL_LANES_UNDEF
-#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
-
 #if defined(SLI_AVX512)
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 0
 #define SLW_NRHS 8
+#define SLW_LAST
 #define SLI_INL_WORDS_AVX512
 #define SLI_INL_LANES_AVX512
 #define SLI_INL_PRODUCTS
 #define SLI_INL_INVERSE_FRONT
 #define SLI_INL_INVERSE_SET
 #define SLI_INL_LANES_UNDEF
-#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
-
 #if defined(SLI_ARM)
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 0
 #define SLW_NRHS 8
+#define SLW_LAST
 #define SLI_INL_WORDS_NEON
 #define SLI_INL_LANES_NEON
 #define SLI_INL_PRODUCTS
 #define SLI_INL_INVERSE_FRONT
 #define SLI_INL_INVERSE_SET
 #define SLI_INL_LANES_UNDEF
-#define SLI_INL_WORDS_UNDEF
 #include SL_HEADER
 #endif
+#undef SLV_SINGLE
+#undef SLV_COMPLEX
 
 SLI_INLINE const sli_inverse_kernels *sli_inverse_kernels_of(sl_isa isa) {
-  static const sli_inverse_kernels *const tables[SLI_ISAS] = SLI_ISA_TABLES(sli_inverse_kernels);
-  return tables[sli_isa_row(isa)];
+  static const sli_inverse_kernels *const tables[] = SLI_ISA_TABLES(sli_inverse_kernels);
+  return tables[isa];
 }
 
 /* src/impl/inverse/traversal.h: plan of a top-down traversal: its fronts, the tasks of workers, memory */
@@ -21551,7 +21489,7 @@ static int sli_rhs_block_add(sli_rhs_block *block, sl_int column, const sl_symbo
 
 typedef struct sli_requests {
   const sl_symbolic *S;
-  sl_isa isa;
+  const sli_kernels *kernels;
   const sl_int *rows, *columns;
   sl_int count;
   sl_int n_blocks;
@@ -21564,7 +21502,7 @@ static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, cons
   sli_requests r;
   SLI_CLEAR(r);
   r.S = F->S;
-  r.isa = F->kernels->isa;
+  r.kernels = F->kernels;
   r.rows = rows;
   r.columns = columns;
   r.count = count;
@@ -21625,7 +21563,7 @@ static sl_int sli_rhs_block_choose(const sli_requests *r, sl_int k, sli_rhs_bloc
   for (; k < r->count && k - from < SLI_BLOCK_REQUESTS_MAX &&
       sli_rhs_block_add_request(&block, r, k, r->S);
       k++) {
-    const double time = sli_cost_lanes(r->isa, 1 << sli_lanes_kind(block.count)) *
+    const double time = sli_cost_lanes(r->kernels, 1 << sli_lanes_kind(block.count)) *
               (double)block.size.entries / (double)(k - from + 1);
     if (block_size == 0 || time <= least) {
       least = time;
@@ -21667,7 +21605,7 @@ static double sli_requests_partition_within(sli_requests *r, sli_capacity *capac
     const sl_int block_size = sli_rhs_block_choose(r, k, &block);
     const int kind = sli_lanes_kind(block.count);
     sli_capacity_add(capacity, &block.size, (sl_int)1 << kind);
-    time += sli_cost_lanes(r->isa, 1 << kind) * (double)block.size.entries;
+    time += sli_cost_lanes(r->kernels, 1 << kind) * (double)block.size.entries;
     r->block_size[r->n_blocks] = (uint64_t)block_size;
     k += block_size;
   }
@@ -22021,7 +21959,7 @@ static int sli_entries_are_in_pattern(const sli_entries *q) {
 static double sli_traversal_time(const sli_entries *q, sl_int *supers) {
   const sl_symbolic *S = q->F->S;
   const sli_requests *r = &q->requests;
-  const double flop = sli_cost_flop(q->F->kernels->isa);
+  const double flop = sli_cost_flop(q->F->kernels);
   double time = 0.0;
   sl_int k = 0, s, next;
   *supers = 0;
@@ -23823,40 +23761,40 @@ typedef struct sli_change_kernels {
 
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
+#if !defined(SLI_SIMD) || !defined(SLI_FOR_STORAGE)
+#define SLW_LAST
 #define SLI_INL_WORDS_SCALAR
 #define SLI_INL_CHANGE
-#define SLI_INL_WORDS_UNDEF
+#define SLI_INL_LANES_UNDEF
 #include SL_HEADER
+#endif
 #if defined(SLI_X86)
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 0
+#define SLW_LAST
 #define SLI_INL_WORDS_AVX2
 #define SLI_INL_CHANGE
-#define SLI_INL_WORDS_UNDEF
+#define SLI_INL_LANES_UNDEF
 #include SL_HEADER
 #endif
-
 #if defined(SLI_AVX512)
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 0
+#define SLW_LAST
 #define SLI_INL_WORDS_AVX512
 #define SLI_INL_CHANGE
-#define SLI_INL_WORDS_UNDEF
+#define SLI_INL_LANES_UNDEF
 #include SL_HEADER
 #endif
-
 #if defined(SLI_ARM)
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 0
+#define SLW_LAST
 #define SLI_INL_WORDS_NEON
 #define SLI_INL_CHANGE
-#define SLI_INL_WORDS_UNDEF
+#define SLI_INL_LANES_UNDEF
 #include SL_HEADER
 #endif
+#undef SLV_SINGLE
+#undef SLV_COMPLEX
 
 SLI_INLINE const sli_change_kernels *sli_change_kernels_of(sl_isa isa) {
-  static const sli_change_kernels *const tables[SLI_ISAS] = SLI_ISA_TABLES(sli_change_kernels);
-  return tables[sli_isa_row(isa)];
+  static const sli_change_kernels *const tables[] = SLI_ISA_TABLES(sli_change_kernels);
+  return tables[isa];
 }
 
 /* src/impl/change/kept.h: supernodes whose numbers are kept in a factorization: copies them where they are those of */
@@ -25102,9 +25040,9 @@ static int sli_rank_may_overflow(const sli_rank *q, double size) {
 }
 
 static int sli_rank_prefers_log(const sli_rank *q) {
-  const sl_isa isa = q->u.F->kernels->isa;
-  const sl_off times = q->count > 4 && isa != SL_ISA_AVX512 ? 8 : 1;
-  return q->count > (isa == SL_ISA_SCALAR ? 1 : 2) && q->whole.entries <= SLI_RANK_LOGGED * times;
+  const sl_int width = q->u.F->kernels->width;
+  const sl_off times = q->count > 4 && width < SLI_TILE ? 8 : 1;
+  return q->count > (width == 1 ? 1 : 2) && q->whole.entries <= SLI_RANK_LOGGED * times;
 }
 
 SLI_NOINLINE static void sli_rank_group(const sli_rank *q, sl_int first, sl_int last, sl_int *group,
@@ -25779,7 +25717,7 @@ typedef struct sli_change_choice {
 } sli_change_choice;
 
 static double sli_choose_cost(const sl_factor *F, double fronts, double flops) {
-  return sli_cost_flop(F->kernels->isa) * flops + SLI_COST_FRONT * fronts +
+  return sli_cost_flop(F->kernels) * flops + SLI_COST_FRONT * fronts +
        SLI_COST_INPUT * (double)F->S->scatter_begin[F->S->n_supers];
 }
 
@@ -25899,7 +25837,7 @@ static sl_status sli_choose_reach(sli_change_choice *c, const sli_rank *q, const
 
 static double sli_choose_update(const sli_rank *q, double entries, double pivots, double flops) {
   const double passes = q->has_trial || q->has_log ? 3.0 : 2.0;
-  return passes * entries + sli_cost_flop(q->u.F->kernels->isa) * flops + SLI_COST_PIVOT * pivots;
+  return passes * entries + sli_cost_flop(q->u.F->kernels) * flops + SLI_COST_PIVOT * pivots;
 }
 
 static void sli_choose_estimate(sli_change_choice *c, const sli_rank *q) {
@@ -29984,7 +29922,7 @@ static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_
 static int sli_reuse_choose(sli_reuse *r) {
   const sl_symbolic *T = r->G->S;
   sl_reuse_info *info = &r->info;
-  const double flop = sli_cost_flop(r->G->kernels->isa);
+  const double flop = sli_cost_flop(r->G->kernels);
   sl_int s, supers = 0, visits = 0;
   double cost;
   info->flops = r->flops;
@@ -34145,105 +34083,92 @@ typedef struct sli_complex_kernels {
   sli_front_kernels front;
 } sli_complex_kernels;
 
-#if !defined(SLI_SIMD)
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 1
-#define SLW_NRHS 2
-#define SLW_GROUPS 64
+#define SLI_FOR_STORAGE
+#if !defined(SLI_SIMD) || !defined(SLI_FOR_STORAGE)
+#define SLW_PASS 1
 #define SLI_INL_WORDS_SCALAR
 #define SLI_INL_LANES_SCALAR
-#define SLI_INL_FRONT
-#define SLI_INL_COMPLEX_SMALL
-#define SLI_INL_COMPLEX_ROWS
-#define SLI_INL_COMPLEX_GROUPS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_COMPLEX_SET
-#define SLI_INL_LANES_UNDEF
-#define SLI_INL_WORDS_UNDEF
+#define SLI_INL_COMPLEX
+#include SL_HEADER
+#if defined(SLV_NAME)
+#define SLW_PASS 2
+#define SLI_INL_LANES_SCALAR
+#define SLI_INL_COMPLEX
 #include SL_HEADER
 #endif
-
+#if defined(SLV_NAME)
+#define SLW_PASS 3
+#define SLI_INL_LANES_SCALAR
+#define SLI_INL_COMPLEX
+#include SL_HEADER
+#endif
+#endif
 #if defined(SLI_X86)
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 1
-#define SLW_NRHS 4
-#define SLW_GROUPS 64
+#define SLW_PASS 1
 #define SLI_INL_WORDS_AVX2
 #define SLI_INL_LANES_AVX2
-#define SLI_INL_FRONT
-#define SLI_INL_COMPLEX_GROUPS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_LANES_UNDEF
+#define SLI_INL_COMPLEX
 #include SL_HEADER
-#define SLW_NRHS 2
-#define SLW_GROUPS 2
+#if defined(SLV_NAME)
+#define SLW_PASS 2
 #define SLI_INL_LANES_AVX2
-#define SLI_INL_COPY_ROWS
-#define SLI_INL_COMPLEX_SMALL
-#define SLI_INL_COMPLEX_ROWS
-#define SLI_INL_COMPLEX_GROUPS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_COMPLEX_SET
-#define SLI_INL_LANES_UNDEF
-#define SLI_INL_WORDS_UNDEF
+#define SLI_INL_COMPLEX
 #include SL_HEADER
 #endif
-
+#if defined(SLV_NAME)
+#define SLW_PASS 3
+#define SLI_INL_LANES_AVX2
+#define SLI_INL_COMPLEX
+#include SL_HEADER
+#endif
+#endif
 #if defined(SLI_AVX512)
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 1
-#define SLW_NRHS 8
-#define SLW_GROUPS 8
+#define SLW_PASS 1
 #define SLI_INL_WORDS_AVX512
 #define SLI_INL_LANES_AVX512
-#define SLI_INL_FRONT
-#define SLI_INL_COMPLEX_GROUPS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_LANES_UNDEF
+#define SLI_INL_COMPLEX
 #include SL_HEADER
-#define SLW_NRHS 16
-#define SLW_GROUPS 64
+#if defined(SLV_NAME)
+#define SLW_PASS 2
 #define SLI_INL_LANES_AVX512
-#define SLI_INL_COMPLEX_SMALL
-#define SLI_INL_COMPLEX_ROWS
-#define SLI_INL_COMPLEX_GROUPS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_COMPLEX_SET
-#define SLI_INL_LANES_UNDEF
-#define SLI_INL_WORDS_UNDEF
+#define SLI_INL_COMPLEX
 #include SL_HEADER
 #endif
-
+#if defined(SLV_NAME)
+#define SLW_PASS 3
+#define SLI_INL_LANES_AVX512
+#define SLI_INL_COMPLEX
+#include SL_HEADER
+#endif
+#endif
 #if defined(SLI_ARM)
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 1
-#define SLW_NRHS 4
-#define SLW_GROUPS 64
+#define SLW_PASS 1
 #define SLI_INL_WORDS_NEON
 #define SLI_INL_LANES_NEON
-#define SLI_INL_FRONT
-#define SLI_INL_COMPLEX_GROUPS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_LANES_UNDEF
+#define SLI_INL_COMPLEX
 #include SL_HEADER
-#define SLW_NRHS 2
-#define SLW_GROUPS 2
+#if defined(SLV_NAME)
+#define SLW_PASS 2
 #define SLI_INL_LANES_NEON
-#define SLI_INL_COPY_ROWS
-#define SLI_INL_COMPLEX_SMALL
-#define SLI_INL_COMPLEX_ROWS
-#define SLI_INL_COMPLEX_GROUPS
-#define SLI_INL_MULTI_RHS_TILES
-#define SLI_INL_COMPLEX_SET
-#define SLI_INL_LANES_UNDEF
-#define SLI_INL_WORDS_UNDEF
+#define SLI_INL_COMPLEX
 #include SL_HEADER
 #endif
+#if defined(SLV_NAME)
+#define SLW_PASS 3
+#define SLI_INL_LANES_NEON
+#define SLI_INL_COMPLEX
+#include SL_HEADER
+#endif
+#endif
+#undef SLI_FOR_STORAGE
+#undef SLV_SINGLE
+#undef SLV_COMPLEX
 
 SLI_INLINE const sli_complex_kernels *sli_complex_kernels_of(sl_isa isa) {
-  static const sli_complex_kernels *const tables[SLI_ISAS] =
-    SLI_STORAGE_TABLES(sli_complex_kernels);
-  return tables[sli_isa_row(isa)];
+  static const sli_complex_kernels *const tables[] = SLI_STORAGE_TABLES(sli_complex_kernels);
+  return tables[isa];
 }
 
 /* src/impl/complex/complex_storage.h: L of a complex matrix: every other column of its real factor, in double */
@@ -34647,6 +34572,10 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
   }
 }
 
+static int sli_storage_is_known(sl_storage storage) {
+  return (unsigned)storage <= (unsigned)SL_STORAGE_COMPLEX;
+}
+
 static const char *sli_storage_needs(sl_storage storage) { /* untested: the same */
   return storage == SL_STORAGE_COMPLEX /* untested: the same */
          ? "options.storage needs SL_WITH_COMPLEX"
@@ -34692,6 +34621,8 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_GNU
 #undef SLI_X86
 #undef SLI_ARM
+#undef SLI_AVX512
+#undef SLI_SIMD
 #undef SLI_BIG_ENDIAN
 #undef SLI_HUGE_PAGES
 #undef SLI_POPULATE
@@ -34793,12 +34724,9 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLV_WIDE
 #undef SLV_WIDEN
 #undef SLI_SELF_INCLUSION
-#undef SLI_AVX512
 #undef SLI_OSXSAVE
-#undef SLI_ISAS
 #undef SLI_TABLES
 #undef SLI_ISA_TABLES
-#undef SLI_SIMD
 #undef SLI_STORAGE_TABLES
 #undef SLI_PRODUCT_COLUMNS
 #undef SLI_ENTRY
@@ -34935,7 +34863,6 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_NORM_FLOOR
 #undef SLI_SQUARE_LEAST
 #undef SLI_PIVOT_THRESHOLD
-#undef SLI_ROUND_PLAIN
 #undef SLI_INVERSE_GROUP
 #undef SLI_INVERSE_COLUMNS
 #undef SLI_INVERSE_ROW
@@ -35011,6 +34938,36 @@ static const char *sli_singular_missing(const sl_options *opt) {
      SL_VERSION_MINOR != 0 || \
      SL_VERSION_PATCH != 0)
 #error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+#ifdef SLI_INL_KERNELS
+#undef SLI_INL_KERNELS
+#define SLI_INL_COPY_ROWS
+#define SLI_INL_FRONT
+#define SLI_INL_SWEEPS
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_TWO_RHS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_KERNEL_SET
+#define SLI_INL_LANES_UNDEF
+#endif
+#ifdef SLI_INL_FLOAT
+#undef SLI_INL_FLOAT
+#define SLI_INL_SWEEPS
+#define SLI_INL_MULTI_RHS
+#define SLI_INL_TWO_RHS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_FLOAT_SET
+#define SLI_INL_LANES_UNDEF
+#endif
+#ifdef SLI_INL_COMPLEX
+#undef SLI_INL_COMPLEX
+#define SLI_INL_FRONT
+#define SLI_INL_COMPLEX_SMALL
+#define SLI_INL_COMPLEX_ROWS
+#define SLI_INL_COMPLEX_GROUPS
+#define SLI_INL_MULTI_RHS_TILES
+#define SLI_INL_COMPLEX_SET
+#define SLI_INL_LANES_UNDEF
 #endif
 
 #ifdef SLI_INL_FRONTS
@@ -35535,6 +35492,7 @@ static const sli_fronts SLF_NAME(fronts) = {
 
 #define SLV_NAME(f) sli_##f##_neon
 #define SLV_ISA SL_ISA_NEON
+#define SLV_WIDTH 2
 #define SLV_FUNCTION
 #define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
 #define SLV_DECLARE(a) float64x2_t a##_0, a##_1, a##_2, a##_3;
@@ -35672,6 +35630,25 @@ static const sli_fronts SLF_NAME(fronts) = {
 #undef SLI_INL_LANES_NEON
 /* src/impl/kernels/words/lanes_neon.inl.h: the vocabulary SLW_ in NEON, for SLW_NRHS right-hand sides */
 
+#if SLW_PASS == 1
+#define SLW_NRHS 4
+#if SLV_COMPLEX
+#define SLW_GROUPS 64
+#endif
+#elif SLW_PASS == 2
+#define SLW_NRHS 2
+#if SLV_COMPLEX
+#define SLW_GROUPS 2
+#define SLW_LAST
+#else
+#define SLW_TWO
+#endif
+#elif SLW_PASS == 3
+#define SLW_NRHS 8
+#define SLW_GROUPS 64
+#define SLW_LAST
+#endif
+
 #if SLW_NRHS == 2
 #define SLW_NAME(f) sli_##f##2_neon
 #define SLW_ROWS 8
@@ -35749,6 +35726,7 @@ static const sli_fronts SLF_NAME(fronts) = {
 #define SLV_NAME(f) sli_##f##_avx512
 #define SLV_NAME_SHORT(f) sli_##f##_avx2
 #define SLV_ISA SL_ISA_AVX512
+#define SLV_WIDTH 8
 #define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
 #define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
 #define SLV_DECLARE(a) __m512d a;
@@ -35849,6 +35827,18 @@ static const sli_fronts SLF_NAME(fronts) = {
 #undef SLI_INL_LANES_AVX512
 /* src/impl/kernels/words/lanes_avx512.inl.h: the vocabulary SLW_ in AVX-512F, for SLW_NRHS right-hand sides */
 
+#if SLW_PASS == 1
+#define SLW_NRHS 8
+#define SLW_TWO
+#if SLV_SINGLE || SLV_COMPLEX
+#define SLW_GROUPS 8
+#endif
+#elif SLW_PASS == 2
+#define SLW_NRHS 16
+#define SLW_GROUPS 64
+#define SLW_LAST
+#endif
+
 #if SLW_NRHS == 8
 #define SLW_NAME(f) sli_##f##8_avx512
 #define SLW_ROWS 8
@@ -35893,6 +35883,7 @@ static const sli_fronts SLF_NAME(fronts) = {
 
 #define SLV_NAME(f) sli_##f##_avx2
 #define SLV_ISA SL_ISA_AVX2
+#define SLV_WIDTH 4
 #define SLV_FUNCTION SLI_TARGET("avx2,fma")
 #define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
 #define SLV_DECLARE(a) __m256d a##_0, a##_1;
@@ -36022,11 +36013,31 @@ static const sli_fronts SLF_NAME(fronts) = {
 #define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
 #define SLV_NAME_SHORT SLV_NAME
 #define SLV_OWN_SHORT
+#define SLV_OWN_ROUND
 #endif
 
 #ifdef SLI_INL_LANES_AVX2
 #undef SLI_INL_LANES_AVX2
 /* src/impl/kernels/words/lanes_avx2.inl.h: the vocabulary SLW_ in AVX2 and FMA, for SLW_NRHS right-hand sides */
+
+#if SLW_PASS == 1
+#define SLW_NRHS 4
+#if SLV_COMPLEX
+#define SLW_GROUPS 64
+#endif
+#elif SLW_PASS == 2
+#define SLW_NRHS 2
+#if SLV_COMPLEX
+#define SLW_GROUPS 2
+#define SLW_LAST
+#else
+#define SLW_TWO
+#endif
+#elif SLW_PASS == 3
+#define SLW_NRHS 8
+#define SLW_GROUPS 64
+#define SLW_LAST
+#endif
 
 #if SLW_NRHS == 2
 #define SLW_NAME(f) sli_##f##2_avx2
@@ -36087,6 +36098,7 @@ static const sli_fronts SLF_NAME(fronts) = {
 
 #define SLV_NAME(f) sli_##f##_scalar
 #define SLV_ISA SL_ISA_SCALAR
+#define SLV_WIDTH 1
 #define SLV_FUNCTION
 #define SLV_FNMA1(a, b, c) ((c) - (a) * (b))
 #define SLV_DECLARE(a) double a[SLI_TILE];
@@ -36167,7 +36179,7 @@ static const sli_fronts SLF_NAME(fronts) = {
 #define SLV_NAME_SHORT SLV_NAME
 #define SLV_OWN_SHORT
 #define SLV_PLAIN
-#if defined(SLI_X86) || defined(SLI_ARM)
+#if defined(SLI_SIMD)
 #define SLV_ARRAYS
 #endif
 #endif
@@ -36602,6 +36614,12 @@ static const sli_change_kernels SLV_NAME(change_kernels) = {
 #undef SLI_INL_LANES_SCALAR
 /* src/impl/kernels/words/lanes_scalar.inl.h: the vocabulary SLW_ in plain C, for SLW_NRHS right-hand sides */
 
+#if SLW_PASS == 1
+#define SLW_NRHS 2
+#define SLW_GROUPS 64
+#define SLW_LAST
+#endif
+
 #if SLW_NRHS == 2
 #define SLW_NAME(f) sli_##f##2_scalar
 #else
@@ -37031,6 +37049,8 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
 #ifdef SLI_INL_FRONT
 #undef SLI_INL_FRONT
 /* src/impl/kernels/fronts/front.inl.h: factors the panel of a front, computes its update matrix, assembles a front */
+
+#if SLW_PASS == 1
 
 /* src/impl/kernels/fronts/product.inl.h: C -= A D B' on tiles, the inner loop of the factorization */
 
@@ -37571,11 +37591,15 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
     }
   }
 }
+
+#endif
 #endif
 
 #ifdef SLI_INL_COMPLEX_SMALL
 #undef SLI_INL_COMPLEX_SMALL
 /* src/impl/complex/complex_small.inl.h: one right-hand side through a supernode of 1 to 4 complex columns */
+
+#if defined(SLW_LAST)
 
 #define SLI_XT(j, k) \
   { \
@@ -37762,11 +37786,15 @@ SLV_NAME(complex_backward_small)(const sli_step *s, const sli_step *begin, const
 #undef SLI_EACH_WIDTH
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
+
+#endif
 #endif
 
 #ifdef SLI_INL_COMPLEX_ROWS
 #undef SLI_INL_COMPLEX_ROWS
 /* src/impl/complex/complex_rows.inl.h: sweeps over L of a complex Hermitian matrix, of which every other column is */
+
+#if defined(SLW_LAST)
 
 #define SLI_HALF (SLI_TILE / 2)
 #if !defined(SLV_PLAIN)
@@ -37977,6 +38005,8 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const vo
 #undef SLI_UNIT_TRIANGLE
 #undef SLI_XT
 #undef SLI_SMALL
+
+#endif
 #endif
 
 #ifdef SLI_INL_COMPLEX_GROUPS
@@ -38071,6 +38101,8 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(const sli_reach *R, const vo
 #ifdef SLI_INL_SWEEPS
 #undef SLI_INL_SWEEPS
 /* src/impl/kernels/sweeps/sweeps.inl.h: the sweeps for one right-hand side, for one type of L */
+
+#if SLW_PASS == 1
 
 /* src/impl/kernels/sweeps/unit_triangle.inl.h: one right-hand side through the unit triangle of a diagonal tile */
 
@@ -38703,6 +38735,8 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(const sli_reach *R, const void *val
 #undef SLI_TAKE_SUM
 #undef SLI_FEW_STEPS
 /* end of single_rhs.inl.h */
+
+#endif
 #endif
 
 #ifdef SLI_INL_MULTI_RHS
@@ -38963,6 +38997,8 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sli_rows below,
 #undef SLI_INL_TWO_RHS
 /* src/impl/kernels/sweeps/two_rhs.inl.h: sweeps for two right-hand sides, vectorized over the 8 rows of a tile */
 
+#if defined(SLW_TWO)
+
 #define SLI_TWO_AXPY(v, l, p) \
   SLV_REPEAT(b, p) \
   SLV_REPEAT_ROWS(t, l, 0) \
@@ -39145,11 +39181,15 @@ SLI_AT_LINE SLV_FUNCTION static void SLV_SWEEP(backward2)(const sli_reach *R, co
 
 #undef SLI_TWO_AXPY
 #undef SLI_TWO_DOT
+
+#endif
 #endif
 
 #ifdef SLI_INL_MULTI_RHS_TILES
 #undef SLI_INL_MULTI_RHS_TILES
 /* src/impl/kernels/sweeps/multi_rhs_tiles.inl.h: several right-hand sides through supernodes of any width, by row tiles */
+
+#if SLW_NRHS > 2 || defined(SLW_GROUPS)
 
 #define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below.index[r] * stride)
 #define SLI_ZERO_ROW(r, unused) SLW_ZERO(a##r)
@@ -39453,11 +39493,15 @@ SLI_GROUPED_KERNELS(64)
 #undef SLI_STRIDE_PARAMETER
 #undef SLI_SET_STRIDE
 #undef SLI_IS_DIRECT
+
+#endif
 #endif
 
 #ifdef SLI_INL_COMPLEX_SET
 #undef SLI_INL_COMPLEX_SET
 /* src/impl/complex/complex_set.inl.h: the table of the kernels of complex matrices, for one instruction set */
+
+#if defined(SLW_LAST)
 
 static const sli_complex_kernels SLV_NAME(complex_kernels) = {
   {{SLV_NAME(complex_forward), SLV_NAME_SHORT(complex_forward2), SLV_NAME_SHORT(complex_forward4),
@@ -39468,11 +39512,28 @@ static const sli_complex_kernels SLV_NAME(complex_kernels) = {
     SLV_NAME(complex_backward32), SLV_NAME(complex_backward64)}},
   {SLV_NAME(complex_pivots), SLV_NAME(complex_rows), SLV_NAME(complex_update),
    SLV_NAME(complex_assemble)}};
+
+#endif
 #endif
 
 #ifdef SLI_INL_FLOAT_SET
 #undef SLI_INL_FLOAT_SET
 /* src/impl/float/float_set.inl.h: the table of the kernels of L in float, for one instruction set */
+
+#if defined(SLW_LAST)
+
+#if defined(SLV_OWN_SHORT) && !defined(SLV_OWN_ROUND)
+static int SLV_NAME(single_round)(float *to, const double *from, ptrdiff_t count) {
+  ptrdiff_t k;
+  int is_odd = 0;
+  for (k = 0; k < count; k++) {
+    const double size = fabs(from[k]);
+    is_odd |= (size > (double)FLT_MAX) | ((size < (double)FLT_MIN) & (size > 0.0));
+    to[k] = (float)from[k];
+  }
+  return is_odd;
+}
+#endif
 
 static const sli_float_kernels SLV_NAME(float_kernels) = {
   {{SLV_NAME(single_forward), SLV_NAME(single_forward2), SLV_NAME_SHORT(single_forward4),
@@ -39482,11 +39543,15 @@ static const sli_float_kernels SLV_NAME(float_kernels) = {
     SLV_NAME(single_backward8), SLV_NAME(single_backward16), SLV_NAME(single_backward32),
     SLV_NAME(single_backward64)}},
   SLV_NAME_SHORT(single_round)};
+
+#endif
 #endif
 
 #ifdef SLI_INL_KERNEL_SET
 #undef SLI_INL_KERNEL_SET
 /* src/impl/kernels/kernel_set.inl.h: the other kernels of one instruction set, and its table */
+
+#if defined(SLW_LAST)
 
 /* src/impl/kernels/fronts/row.inl.h: one row of L in the up-looking factorization */
 
@@ -39619,6 +39684,7 @@ SLV_FUNCTION static void SLV_NAME(separate)(double *M, size_t ldm, const double 
 
 static const sli_kernels SLV_NAME(kernels) = {
   SLV_ISA,
+  SLV_WIDTH,
   {{SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_SHORT(forward4), SLV_NAME(forward8),
     SLV_NAME(forward16), SLV_NAME(forward32), SLV_NAME(forward64)},
    {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME_SHORT(backward4), SLV_NAME(backward8),
@@ -39627,76 +39693,26 @@ static const sli_kernels SLV_NAME(kernels) = {
   SLV_NAME(row),
   SLV_NAME(interleave),
   SLV_NAME(separate)};
+
+#endif
 #endif
 
 #ifdef SLI_INL_LANES_UNDEF
 #undef SLI_INL_LANES_UNDEF
 /* src/impl/kernels/words/lanes_undef.inl.h: undefines the SIMD vocabulary of one number of right-hand sides, and what */
 
-#undef SLW_NAME
-#undef SLW_NRHS
-#undef SLW_HALF
-#undef SLW_GROUPS
-#undef SLW_EACH
-#undef SLW_EACH_AGAIN
-#undef SLW_HIGH
-#undef SLW_LOW
-#undef SLW_ROWS
-#undef SLW_DECLARE
-#undef SLW_ZERO
-#undef SLW_LOAD
-#undef SLW_STORE
-#undef SLW_FNMA
-#undef SLW_ADD
-#undef SLW_DIVIDE
+/* src/impl/kernels/words/words_undef.inl.h: undefines the SIMD vocabulary after the last pass over the templates */
 
-#undef SLI_DECLARE
-#undef SLI_LOAD
-#undef SLI_STORE
-#undef SLI_PARTS
-#undef SLI_KERNEL
-#undef SLI_TABLE
-#undef SLI_SMALL
-#undef SLI_PREPARE
-#undef SLI_COPIED
-#undef SLI_BLOCK
-#undef SLI_READ_BLOCK
-#undef SLI_APPLY
-#undef SLI_APPLY_COLUMN
-#undef SLI_GATHER
-#undef SLI_GATHER2
-#undef SLI_GATHER_COLUMN
-#undef SLI_DOWN
-#undef SLI_UP
-#undef SLI_COLUMN
-#undef SLI_ROW
-#undef SLI_TRIANGLE
-#undef SLI_TRIANGLE_UP
-#undef SLI_PAIRS
-#undef SLI_PAIRS_AGAIN
-#undef SLI_PAIRS_DOWN
-#undef SLI_NEGATE
-#undef SLI_SUBTRACT
-#undef SLI_BELOW
-#undef SLI_BEFORE
-#undef SLW_ENTRIES
-#undef SLW_ENTRY
-#undef SLW_SET_ENTRIES
-#endif
-
-#ifdef SLI_INL_WORDS_UNDEF
-#undef SLI_INL_WORDS_UNDEF
-/* src/impl/kernels/words/words_undef.inl.h: undefines the SIMD vocabulary after the last template of a file simd_*.h */
-
-#undef SLV_SINGLE
-#undef SLV_COMPLEX
+#if defined(SLW_LAST)
 
 #undef SLV_NAME
 #undef SLV_NAME_SHORT
 #undef SLV_OWN_SHORT
+#undef SLV_OWN_ROUND
 #undef SLV_PLAIN
 #undef SLV_ARRAYS
 #undef SLV_ISA
+#undef SLV_WIDTH
 #undef SLV_FUNCTION
 #undef SLV_DECLARE
 #undef SLV_ZERO
@@ -39768,6 +39784,62 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_SPREAD_0
 #undef SLV_SPREAD_1
 #undef SLV_SPREAD
+
+#endif
+/* end of words_undef.inl.h */
+
+#undef SLW_NAME
+#undef SLW_PASS
+#undef SLW_LAST
+#undef SLW_TWO
+#undef SLW_NRHS
+#undef SLW_HALF
+#undef SLW_GROUPS
+#undef SLW_EACH
+#undef SLW_EACH_AGAIN
+#undef SLW_HIGH
+#undef SLW_LOW
+#undef SLW_ROWS
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_FNMA
+#undef SLW_ADD
+#undef SLW_DIVIDE
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_PARTS
+#undef SLI_KERNEL
+#undef SLI_TABLE
+#undef SLI_SMALL
+#undef SLI_PREPARE
+#undef SLI_COPIED
+#undef SLI_BLOCK
+#undef SLI_READ_BLOCK
+#undef SLI_APPLY
+#undef SLI_APPLY_COLUMN
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_GATHER_COLUMN
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+#undef SLI_TRIANGLE
+#undef SLI_TRIANGLE_UP
+#undef SLI_PAIRS
+#undef SLI_PAIRS_AGAIN
+#undef SLI_PAIRS_DOWN
+#undef SLI_NEGATE
+#undef SLI_SUBTRACT
+#undef SLI_BELOW
+#undef SLI_BEFORE
+#undef SLW_ENTRIES
+#undef SLW_ENTRY
+#undef SLW_SET_ENTRIES
 #endif
 
 /*

@@ -215,7 +215,7 @@ record $? "vectors warns of faces that are not oriented alike"
 
 printf 'grab 0,5\ngrab 100\nmove 1 0 0.2 0\nframe\nrelease 0\nframe\n' >"$dir/moves"
 gives 0 'pins       3 grabbed, .* ms each; 2 released' deform sphere:2 --script "$dir/moves" \
-    --check --steps "$dir/steps.csv" --frames "$dir/frame"
+    --verbose --check --steps "$dir/steps.csv" --frames "$dir/frame"
 [ "$(wc -l <"$dir/steps.csv")" -eq 7 ] && [ -s "$dir/frame0000.png" ] && [ -s "$dir/frame0001.png" ]
 record $? "deform writes a row per step and a picture per frame"
 printf 'grab 0,5\nmove 0 0 0 0.1\n' >"$dir/moves"

@@ -143,12 +143,26 @@ static void what_is_no_surface_is_separated(void **state) {
     assert_false(sheet_create(&s, &m, NULL));
 }
 
+/* A tetrahedron with a third face at an edge stays closed, and the face is a part of its own. */
+static void slits_are_closed(void **state) {
+    (void)state;
+    sl_int faces[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3, 0, 1, 4};
+    double xyz[15] = {0};
+    mesh m = {5, 5, xyz, faces};
+    sheet s;
+    assert_true(sheet_create(&s, &m, NULL));
+    assert_is_sheet(&s);
+    assert_true(s.n_parts == 2 && s.m.n_vertices == 7 && count_loops(&s) == 1);
+    sheet_free(&s);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cuts_leave_disks_with_holes),
         cmocka_unit_test(cuts_reach_their_vertex),
         cmocka_unit_test(faces_are_oriented),
         cmocka_unit_test(what_is_no_surface_is_separated),
+        cmocka_unit_test(slits_are_closed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

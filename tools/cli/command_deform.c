@@ -105,17 +105,29 @@ static void move(deform_command *cmd, const script_handle *h, const script_step 
     free(points);
 }
 
+/* Dies unless a solve of `method` has succeeded. Biharmonic systems square the ratios of the faces,
+ * so that a badly shaped mesh can be beyond their digits. */
+static void must_solve(const deform_command *cmd, sl_status status) {
+    if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE || status == SL_ERR_NOT_FINITE ||
+        status == SL_ERR_INCONSISTENT) {
+        app_die("%s cannot be solved on this mesh: its faces are too thin, or too different in "
+                "size%s",
+                cmd->method,
+                cmd->d.method == DEFORM_BIHARMONIC ? "; --method arap needs half the digits" : "");
+    }
+    app_must(status, "deformation", NULL);
+}
+
 static void solve_frame(deform_command *cmd, step_times *t) {
     if (cmd->at != NULL) {
         const double began = app_processor_ms();
-        app_must(deformer_solve_watched(&cmd->d, cmd->near_positions), "local solve", NULL);
+        must_solve(cmd, deformer_solve_watched(&cmd->d, cmd->near_positions));
         t->solve = app_processor_ms() - began;
     }
     const double began = app_processor_ms();
     if (cmd->d.method == DEFORM_ARAP) {
         deformer_rest how;
-        app_must(deformer_relax(&cmd->d, cmd->tolerance, (int)cmd->iterations, &how), "deformation",
-                 NULL);
+        must_solve(cmd, deformer_relax(&cmd->d, cmd->tolerance, (int)cmd->iterations, &how));
         t->energy = how.energy;
         t->solves = how.solves;
         t->moved = how.moved;
@@ -127,7 +139,7 @@ static void solve_frame(deform_command *cmd, step_times *t) {
     }
     /* with --at the full solve is the check */
     if (cmd->check || (cmd->at == NULL && cmd->d.method == DEFORM_BIHARMONIC)) {
-        app_must(deformer_solve(&cmd->d), "deformation", NULL);
+        must_solve(cmd, deformer_solve(&cmd->d));
     }
     t->solve += cmd->at == NULL ? app_processor_ms() - began : 0;
     warn_of_refusal(cmd);
@@ -267,6 +279,15 @@ static void open_command(deform_command *cmd, const char *operand) {
     }
 }
 
+static void warn_of_unfinished(const deform_command *cmd) {
+    if (cmd->unfinished > 0) {
+        app_warn("%d of %d frames have not converged within %d solves: the last step moved a "
+                 "vertex by %.1e diagonals; raise --iterations",
+                 (int)cmd->unfinished, (int)cmd->script.n_frames, (int)cmd->iterations,
+                 cmd->last.moved);
+    }
+}
+
 int command_deform(int argc, char **argv) {
     deform_command cmd;
     const char *operand = NULL;
@@ -318,12 +339,7 @@ int command_deform(int argc, char **argv) {
     if (failed) {
         app_warn("positions differ from those of a new factor by more than --bound");
     }
-    if (cmd.unfinished > 0) {
-        app_warn("%d of %d frames have not converged within %d solves: the last step moved a "
-                 "vertex by %.1e diagonals; raise --iterations",
-                 (int)cmd.unfinished, (int)cmd.script.n_frames, (int)cmd.iterations,
-                 cmd.last.moved);
-    }
+    warn_of_unfinished(&cmd);
     handle_script_free(&cmd.script);
     deformer_free(&cmd.d);
     free(cmd.near_positions);

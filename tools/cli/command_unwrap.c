@@ -232,6 +232,15 @@ static void report(const unwrap_command *cmd, double seconds) {
                              : "no face is flipped or stretched by more than 10");
 }
 
+static void close_surface(unwrap_command *cmd) {
+    for (sl_int k = 0; k < cmd->n_parts; k++) {
+        unwrap_part_free(&cmd->parts[k]);
+    }
+    free(cmd->parts);
+    sheet_free(&cmd->s);
+    mesh_free(&cmd->m);
+}
+
 int command_unwrap(int argc, char **argv) {
     unwrap_command cmd;
     const char *method = "slim", *operand = NULL;
@@ -287,12 +296,7 @@ int command_unwrap(int argc, char **argv) {
     unwrap_write(&cmd);
     const summary all = summarize(&cmd);
     const bool keeps = cmd.method == UNWRAP_SLIM || cmd.method == UNWRAP_TUTTE;
-    for (sl_int k = 0; k < cmd.n_parts; k++) {
-        unwrap_part_free(&cmd.parts[k]);
-    }
-    free(cmd.parts);
-    sheet_free(&cmd.s);
+    close_surface(&cmd);
     field_table_free(&pins);
-    mesh_free(&cmd.m);
     return all.unfinished > 0 || (keeps && all.flipped > 0);
 }

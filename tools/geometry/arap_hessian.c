@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/matrix/sparse_product.h"
+
 /* The entries of a face: 9 between positions, then for each corner 6 of its rotation alone and 6
  * with the position of each corner. */
 enum { POSITIONS = 18, OF_CORNER = 24, PER_FACE = POSITIONS + 3 * OF_CORNER };
@@ -55,19 +57,6 @@ static void entries_of_face(sl_int rows[PER_FACE], sl_int cols[PER_FACE], const 
     }
 }
 
-static sl_int position_of(const sl_csc *A, sl_int row, sl_int col) {
-    sl_int low = A->p[col], high = A->p[col + 1] - 1;
-    while (low < high) {
-        const sl_int middle = low + (high - low) / 2;
-        if (A->i[middle] < row) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
-
 static sl_status make_pattern(arap_hessian *h) {
     const mesh *m = h->a->m;
     const size_t count = PER_FACE * (size_t)m->n_faces;
@@ -86,7 +75,7 @@ static sl_status make_pattern(arap_hessian *h) {
         h->values = (double *)malloc(((size_t)A.p[A.n_cols] + 1) * sizeof *h->values);
         status = h->values != NULL ? SL_OK : SL_ERR_MEMORY;
         for (size_t k = 0; k < count && status == SL_OK; k++) {
-            h->at[k] = position_of(&A, rows[k], cols[k]);
+            h->at[k] = csc_position(&A, rows[k], cols[k]);
         }
     }
     free(rows);
@@ -214,8 +203,8 @@ static sl_status factor(arap_hessian *h, const double *Y, sl_stats *stats) {
 sl_status arap_hessian_factor(arap_hessian *h, const double *Y) {
     sl_stats stats;
     sl_status status = factor(h, Y, &stats);
-    while (status == SL_OK && stats.factor.negative > 0 && h->soft < 1) {
-        h->soft = fmin(1, 2 * h->soft + 0.25);
+    if (status == SL_OK && stats.factor.negative > 0 && h->soft < 1) {
+        h->soft = 1;
         status = factor(h, Y, &stats);
     }
     return status;

@@ -39,7 +39,7 @@ sl_status arap_hessian_create(arap_hessian *out, const arap_surface *a,
 void arap_hessian_free(arap_hessian *h);
 
 /** Computes and factors the matrix for positions Y (n_vertices x 3, column-major) and the rotations
- *  of arap_surface_rotations there. While it is indefinite, h->soft grows, to 1 at most. Returns as
+ *  of arap_surface_rotations there. If it is indefinite, h->soft becomes 1. Returns as
  *  sl_fixed_create. */
 sl_status arap_hessian_factor(arap_hessian *h, const double *Y);
 

@@ -10,9 +10,9 @@
 enum { PAIRS = 8 }; /* of steps and changes of the gradient that are kept */
 
 /* After the start, so many steps are those with fixed rotations, which settles these; then the
- * Hessian has its turn. It is factored again after a step that moved a vertex by more than SETTLED
- * diagonals. */
-enum { EARLY = 3 };
+ * Hessian has its turn. It is factored again after RENEWED steps, if the last one moved a vertex by
+ * more than SETTLED diagonals. */
+enum { EARLY = 3, RENEWED = 2 };
 #define SETTLED 0.002
 
 typedef struct relaxation {
@@ -97,7 +97,7 @@ static bool advance(relaxation *r) {
                 change[k] = r->gradient[k] - change[k];
             }
             r->product[r->count % PAIRS] = dot(step, change, r->n3);
-            r->hessian.soft = t < 0.5 ? fmin(1, 2 * r->hessian.soft + 0.25) : r->hessian.soft / 2;
+            r->hessian.soft = t == 1 ? r->hessian.soft / 2 : fmin(1, 2 * r->hessian.soft + 0.25);
             return true;
         }
     }
@@ -142,7 +142,8 @@ static sl_status iterate(relaxation *r, double tolerance, int limit, deformer_re
     how->moved = 1;
     while (status == SL_OK && !how->converged && how->solves < limit) {
         const double before = r->energy;
-        if (how->solves > EARLY && how->moved > SETTLED && !again) {
+        if (how->solves > EARLY && how->moved > SETTLED && !again &&
+            (!r->has_hessian || how->solves % RENEWED == 0)) {
             status = renew(r);
         }
         status = status == SL_OK ? find_direction(r) : status;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "planar_triangle.h"
+#include "tools/matrix/sparse_product.h"
 
 void layout_free(layout *l) {
     sl_factor_free(l->F);
@@ -102,30 +103,16 @@ static void entries_of_face(sl_int rows[PER_FACE], sl_int cols[PER_FACE], const 
     }
 }
 
-static sl_int position_of(const layout *l, sl_int row, sl_int col) {
-    sl_int low = l->Ap[col], high = l->Ap[col + 1] - 1;
-    while (low < high) {
-        const sl_int middle = low + (high - low) / 2;
-        if (l->Ai[middle] < row) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
-
-static sl_status copy_pattern(layout *l, const sl_matrix *pattern) {
-    const sl_csc A = sl_matrix_view(pattern);
-    const size_t n = (size_t)A.n_cols, nnz = (size_t)A.p[n];
+static sl_status copy_pattern(layout *l, const sl_csc *A) {
+    const size_t n = (size_t)A->n_cols, nnz = (size_t)A->p[n];
     l->Ap = (sl_int *)malloc((n + 1) * sizeof *l->Ap);
     l->Ai = (sl_int *)malloc((nnz + 1) * sizeof *l->Ai);
     l->Ax = (double *)calloc(nnz + 1, sizeof *l->Ax);
     if (l->Ap == NULL || l->Ai == NULL || l->Ax == NULL) {
         return SL_ERR_MEMORY;
     }
-    memcpy(l->Ap, A.p, (n + 1) * sizeof *l->Ap);
-    memcpy(l->Ai, A.i, nnz * sizeof *l->Ai);
+    memcpy(l->Ap, A->p, (n + 1) * sizeof *l->Ap);
+    memcpy(l->Ai, A->i, nnz * sizeof *l->Ai);
     return SL_OK;
 }
 
@@ -142,9 +129,10 @@ static sl_status make_pattern(layout *l) {
         status = sl_matrix_from_triplets(&pattern, 2 * l->m->n_vertices, 2 * l->m->n_vertices,
                                          (sl_off)count, rows, cols, NULL, NULL, NULL);
     }
-    status = status == SL_OK ? copy_pattern(l, pattern) : status;
+    const sl_csc A = sl_matrix_view(pattern);
+    status = status == SL_OK ? copy_pattern(l, &A) : status;
     for (size_t k = 0; k < count && status == SL_OK; k++) {
-        l->at[k] = position_of(l, rows[k], cols[k]);
+        l->at[k] = csc_position(&A, rows[k], cols[k]);
     }
     sl_matrix_free(pattern);
     free(rows);
@@ -256,16 +244,17 @@ void layout_assemble(layout *l, const double *P, double turn) {
     }
 }
 
-void layout_add_diagonal(layout *l, sl_int vertex, double x) {
-    for (sl_int row = 2 * vertex; row < 2 * vertex + 2; row++) {
-        l->Ax[position_of(l, row, row)] += x;
-    }
-}
-
 static sl_csc system_of(const layout *l) {
     const sl_int n = 2 * l->m->n_vertices;
     const sl_csc A = {n, n, l->Ap, l->Ai, l->Ax};
     return A;
+}
+
+void layout_add_diagonal(layout *l, sl_int vertex, double x) {
+    const sl_csc A = system_of(l);
+    for (sl_int row = 2 * vertex; row < 2 * vertex + 2; row++) {
+        l->Ax[csc_position(&A, row, row)] += x;
+    }
 }
 
 sl_status layout_multiply(const layout *l, double *y, const double *x) {

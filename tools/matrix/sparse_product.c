@@ -99,3 +99,16 @@ bool csc_symmetric_part(sl_matrix **out, const sl_csc *C) {
     }
     return triplets_finish(out, C->n_rows, C->n_cols, &list, true) == SL_OK;
 }
+
+sl_int csc_position(const sl_csc *A, sl_int row, sl_int col) {
+    sl_int low = A->p[col], high = A->p[col + 1] - 1;
+    while (low < high) {
+        const sl_int middle = low + (high - low) / 2;
+        if (A->i[middle] < row) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}

@@ -34,4 +34,8 @@ bool csc_expand_symmetric(sl_matrix **out, const sl_csc *A);
  */
 bool csc_symmetric_part(sl_matrix **out, const sl_csc *C);
 
+/** The position of an entry in the arrays of A, whose rows ascend in each column; the entry must
+ *  exist. */
+sl_int csc_position(const sl_csc *A, sl_int row, sl_int col);
+
 #endif
