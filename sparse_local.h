@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 8f7bcf009a359ea8
+ * FNV-1a of the lines after this comment, without the license: 1804e955bedd7211
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,23 +38,23 @@
  *   5770 impl/ ordering: fill-reducing orderings of a graph
  *  10547 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12789 impl/ factor: the numbers of L and D
- *  15379 impl/ solve: full and local solves
- *  16886 impl/ singular: null spaces of semidefinite matrices
- *  18157 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20218 impl/ pivots: the order of the pivots by the values of a matrix
- *  20626 impl/ float: L in single precision
- *  20809 impl/ inverse: entries of the inverse, regions
- *  23717 impl/ change: a factor that follows changes of its matrix
- *  25995 impl/ constraints: rows held at values, on a factor that stays
- *  27342 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30082 impl/ fixed: rows fixed at given values
- *  30641 impl/ io: files that are replaced only when they are complete
- *  30859 impl/ files: Matrix Market files, 64-bit indices
- *  31415 impl/ save: factors in files
- *  33393 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34079 impl/ complex: complex Hermitian systems over real factors
- *  34551 impl/ packs: the tables through which the core calls packs
- *  34975 impl/ templates: the header includes them from itself, once for each instruction set
+ *  15374 impl/ solve: full and local solves
+ *  16881 impl/ singular: null spaces of semidefinite matrices
+ *  18152 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20213 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20621 impl/ float: L in single precision
+ *  20804 impl/ inverse: entries of the inverse, regions
+ *  23712 impl/ change: a factor that follows changes of its matrix
+ *  25990 impl/ constraints: rows held at values, on a factor that stays
+ *  27337 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30077 impl/ fixed: rows fixed at given values
+ *  30636 impl/ io: files that are replaced only when they are complete
+ *  30854 impl/ files: Matrix Market files, 64-bit indices
+ *  31410 impl/ save: factors in files
+ *  33390 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34076 impl/ complex: complex Hermitian systems over real factors
+ *  34548 impl/ packs: the tables through which the core calls packs
+ *  34972 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -14821,7 +14821,7 @@ static void sli_factor_clear_gaps(sl_factor *F) {
   }
 }
 
-static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
+static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
     const sli_kernels *kernels, sl_stats *stats) {
   const double started = sli_factor_clock(S);
   const sl_allocator a = sli_allocator(opt);
@@ -14880,11 +14880,6 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     }
   }
   return status;
-}
-
-static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
-    sl_stats *stats) {
-  return sli_factor_new_with(out, S, opt, NULL, stats);
 }
 
 /* src/impl/factor/symmetry.h: are the values of both triangles the same? */
@@ -15215,7 +15210,7 @@ static sl_status sli_factor_create_from(sl_factor **out, const sl_symbolic *S,
     const sli_source *from, const sl_options *opt,
     sl_stats *stats) {
   sl_factor *F = NULL;
-  sl_status status = sli_factor_new(&F, S, opt, stats);
+  sl_status status = sli_factor_new(&F, S, opt, NULL, stats);
   if (status == SL_OK) {
     sli_factor_begin(F);
     status = sli_factor_numbers(F, from, sli_factor_clock(F->S), stats);
@@ -28252,7 +28247,7 @@ static sl_status sli_submatrix_factor(sl_factor **out, const sl_symbolic *S, con
   if (F->type->keeps != NULL && !F->type->keeps(r->rows, r->R.count, S)) {
     opt.storage = SL_STORAGE_DOUBLE;
   }
-  status = sli_factor_new_with(&G, S, &opt, F->kernels, stats);
+  status = sli_factor_new(&G, S, &opt, F->kernels, stats);
   status = status == SL_OK ? sli_submatrix_numbers(G, F, r, stats) : status;
   if (status == SL_OK) {
     *out = G;
@@ -30057,7 +30052,7 @@ SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_sy
   r.F = F;
   r.B = B;
   status = sli_pattern_check(S, B, 1);
-  status = status == SL_OK ? sli_factor_new(&r.G, S, opt, stats) : status;
+  status = status == SL_OK ? sli_factor_new(&r.G, S, opt, NULL, stats) : status;
   status = status == SL_OK ? sli_reuse_begin(&r, new_of, stats) : status;
   status = status == SL_OK ? sli_reuse_numbers(&r, stats) : status;
   if (r.G != NULL) {
@@ -31420,28 +31415,34 @@ typedef struct sli_mapping {
 } sli_mapping;
 
 static const char sli_no_file[] = "it is empty, or not an ordinary file";
-static const char sli_huge_file[] = "the file is larger than the address space";
 static const char sli_unmappable[] = "the system cannot map the file";
 
+#if defined(SLI_MMAP) || defined(SLI_MAP_VIEW)
+static sl_status sli_map_allows(int64_t size) {
+  if (size <= 0) {
+    return sli_refuse(SL_ERR_IO, sli_no_file);
+  }
+  return (uint64_t)size <= SIZE_MAX / 2 /* branch untested: on 32 bits only */
+         ? SL_OK
+         : sli_refuse(SL_ERR_TOO_LARGE, "the file is larger than the address space");
+}
+#endif
+
 static sl_status sli_map(const char *path, sli_mapping *out) {
-  sl_status status = SL_OK;
+  sl_status status;
   out->bytes = NULL;
   out->size = 0;
 #if defined(SLI_MMAP)
   {
     const int file = open(path, O_RDONLY);
     struct stat found;
-    void *bytes;
     if (file < 0) {
       return sli_file_fails("the file cannot be opened");
     }
-    if (fstat(file, &found) != 0 || !S_ISREG(found.st_mode) || found.st_size <= 0) {
-      status = sli_refuse(SL_ERR_IO, sli_no_file);
-    } else if ((uint64_t)found.st_size > SIZE_MAX / 2) { /* untested: on 32 bits only */
-      status = sli_refuse(SL_ERR_TOO_LARGE, sli_huge_file); /* untested: the same */
-    }
+    status = sli_map_allows(
+        fstat(file, &found) == 0 && S_ISREG(found.st_mode) ? (int64_t)found.st_size : 0);
     if (status == SL_OK) {
-      bytes = mmap(NULL, (size_t)found.st_size, PROT_READ, MAP_SHARED, file, 0);
+      void *bytes = mmap(NULL, (size_t)found.st_size, PROT_READ, MAP_SHARED, file, 0);
       if (bytes == MAP_FAILED) {
         status = errno == ENOMEM ? sli_no_memory() : sli_file_fails(sli_unmappable);
       } else {
@@ -31459,11 +31460,7 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
     if ((intptr_t)file == -1) {
       return sli_refuse(SL_ERR_IO, "the file cannot be opened");
     }
-    if (!GetFileSizeEx(file, (sli_windows_number)(void *)&size) || size <= 0) {
-      status = sli_refuse(SL_ERR_IO, sli_no_file);
-    } else if ((uint64_t)size > SIZE_MAX / 2) {
-      status = sli_refuse(SL_ERR_TOO_LARGE, sli_huge_file);
-    }
+    status = sli_map_allows(GetFileSizeEx(file, (sli_windows_number)(void *)&size) ? size : 0);
     section = status != SL_OK ? NULL : CreateFileMappingA(file, NULL, 2, 0, 0, NULL);
     if (section != NULL) {
       out->bytes = MapViewOfFile(section, 4, 0, 0, 0);
@@ -33938,7 +33935,7 @@ static sl_int sli_factor_batch_create(sl_factor **out, sl_int count, const sl_sy
   }
   for (k = 0; k < count; k++) {
     const sl_status here =
-      sli_factor_new(&out[k], S, k < count / workers * workers ? &serial : opt, NULL);
+      sli_factor_new(&out[k], S, k < count / workers * workers ? &serial : opt, NULL, NULL);
     if (here != SL_OK && at == count) {
       at = k;
       *status = here;
@@ -36360,6 +36357,21 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(change_rows)(const sli_ranks *u, const dou
   }
 }
 
+SLV_FUNCTION SLI_INLINE double SLV_NAME(change_swept)(const sli_ranks *u, const double *y) {
+  double swept = 0.0, most = 0.0;
+  sl_int r;
+  for (r = 0; r < u->ranks; r++) {
+    double square = y[r] * y[r];
+    if (u->is_mixed) {
+      square *= u->unit[r];
+      most = most > square ? most : square;
+      square = most * u->square[r];
+    }
+    swept += fabs(u->alpha[r]) * square;
+  }
+  return swept;
+}
+
 SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l, sl_int columns,
     const double *d, const double *w, double *c) {
   SLI_ALIGNED(double f[SLI_TILE * SLI_TILE]);
@@ -36373,19 +36385,13 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
   SLV_DECLARE(p)
   SLV_NAME(change_rows)(u, l, columns, w, f, y);
   for (j = 0; j < columns; j++) {
-    double e = d[j], inverse = 1.0 / e, magnitude = fabs(e), swept = 0.0, most = 0.0;
+    double e = d[j], inverse = 1.0 / e, magnitude = fabs(e);
+    u->swept[j] = SLV_NAME(change_swept)(u, y + SLI_TILE * j);
     SLV_ZERO(s)
     SLV_ZERO(t)
     for (r = 0; r < ranks; r++) {
       const double before = e, g = f[SLI_TILE * r + j];
       const double beta = -u->alpha[r] * g, q = g * inverse;
-      double square = y[SLI_TILE * j + r] * y[SLI_TILE * j + r];
-      if (u->is_mixed) {
-        square *= u->unit[r];
-        most = most > square ? most : square;
-        square = most * u->square[r];
-      }
-      swept += fabs(u->alpha[r]) * square;
       if (g == 0.0) {
         continue;
       }
@@ -36412,7 +36418,6 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
     }
     u->e[j] = e;
     u->magnitude[j] = magnitude;
-    u->swept[j] = swept;
     if (!(fabs(e) > 0.0)) {
       return j + 1;
     }

@@ -737,7 +737,9 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
     double signDeterminant() const {
         return logdet().second;
     }
+    /** 0 if null pivots were skipped; the logarithms are then of the matrix without their rows. */
     Scalar determinant() const {
+        if (ready_ == SL_OK && sl_factor_view(factor_.get()).info.null > 0) return Scalar(0);
         return Scalar(RealScalar(logdet().second * std::exp(logdet().first)));
     }
     /** An estimate of 1 / (||A|| ||A^-1||) in the one-norm, of a complex matrix that of the real
