@@ -35,7 +35,8 @@
  *  SLV_OWN_ROUND          defined: sli_single_round_ of this instruction set is in intrinsics, and
  *                         not the plain C of float_set.inl.h
  *  SLV_PLAIN              defined: this is plain C
- *  SLV_ARRAYS             defined: vectors are arrays, and tiles of fronts are computed in loops
+ *  SLV_ARRAYS             defined: vectors are arrays, and tiles of fronts are computed in loops;
+ *                         not with SLV_COMPLEX 1
  *  SLV_ISA, SLV_WIDTH     its sl_isa; the doubles of a register, 1 in plain C
  *  SLV_FUNCTION           the attributes of a function
  *  SLV_FNMA1(a, b, c)     scalars: c - a b, fused where the vectors are
