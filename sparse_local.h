@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 1804e955bedd7211
+ * FNV-1a of the lines after this comment, without the license: 85dd02a222ac3dfa
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,25 +36,25 @@
  *   4085 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   4966 impl/ matrix: sparse matrices of the caller and of the library
  *   5770 impl/ ordering: fill-reducing orderings of a graph
- *  10547 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12789 impl/ factor: the numbers of L and D
- *  15374 impl/ solve: full and local solves
- *  16881 impl/ singular: null spaces of semidefinite matrices
- *  18152 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20213 impl/ pivots: the order of the pivots by the values of a matrix
- *  20621 impl/ float: L in single precision
- *  20804 impl/ inverse: entries of the inverse, regions
- *  23712 impl/ change: a factor that follows changes of its matrix
- *  25990 impl/ constraints: rows held at values, on a factor that stays
- *  27337 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30077 impl/ fixed: rows fixed at given values
- *  30636 impl/ io: files that are replaced only when they are complete
- *  30854 impl/ files: Matrix Market files, 64-bit indices
- *  31410 impl/ save: factors in files
- *  33390 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34076 impl/ complex: complex Hermitian systems over real factors
- *  34548 impl/ packs: the tables through which the core calls packs
- *  34972 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10544 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12786 impl/ factor: the numbers of L and D
+ *  15352 impl/ solve: full and local solves
+ *  16859 impl/ singular: null spaces of semidefinite matrices
+ *  18130 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20177 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20585 impl/ float: L in single precision
+ *  20768 impl/ inverse: entries of the inverse, regions
+ *  23669 impl/ change: a factor that follows changes of its matrix
+ *  25947 impl/ constraints: rows held at values, on a factor that stays
+ *  27294 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30034 impl/ fixed: rows fixed at given values
+ *  30593 impl/ io: files that are replaced only when they are complete
+ *  30811 impl/ files: Matrix Market files, 64-bit indices
+ *  31367 impl/ save: factors in files
+ *  33347 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34033 impl/ complex: complex Hermitian systems over real factors
+ *  34505 impl/ packs: the tables through which the core calls packs
+ *  34929 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -6360,10 +6360,6 @@ static void sli_range_run(sli_team *team, sl_int n, sl_int count, sli_range_body
   sli_team_loop(team, count, NULL, sli_range_item, &l);
 }
 
-SLI_INLINE sl_off *sli_shares_scratch(const sli_shares *r, sl_int worker) {
-  return r->scratch + (size_t)worker * (size_t)r->room;
-}
-
 typedef struct sli_contraction {
   const sli_level *g;
   const sli_clusters *clusters;
@@ -6419,7 +6415,8 @@ static void sli_contract_range(void *data, const sli_range *r) {
   const sli_level *g = t->g;
   const sli_clusters *clusters = t->clusters;
   sli_level *c = t->c;
-  sl_off e, count = t->begin[r->item], *at = sli_shares_scratch(t->ranges, r->worker);
+  sl_off e, count = t->begin[r->item];
+  sl_off *at = t->ranges->scratch + (size_t)r->worker * (size_t)t->ranges->room;
   const int bits =
     g->begin[g->n] >> 32 == 0 ? SLI_CONTRACT_BITS : 0; /* branches untested: 2^32 edges */
   const sl_off low = ((sl_off)1 << bits) - 1;
@@ -14510,37 +14507,23 @@ SLI_COLD static const char *sli_advice_null(sl_factor *F, const sli_source *from
          "options.pivots = SL_PIVOTS_SKIP_NULL";
 }
 
-SLI_COLD static const char *sli_advice_pivot(sl_factor *F, const sli_source *from,
-    const sli_failure *f) {
-  if (F->limits.is_definite && f->bound >= 0.0) {
-    return "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite";
-  }
-  if (f->bound < 0.0) {
-    return "there was no memory to judge whether the pivot is null";
-  }
-  if (sli_skips_nulls(F)) {
-    return f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
-                "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
-                : "A is indefinite, or options.null_vector or options.mass does not "
-                "suit its null vectors";
-  }
-  return sli_advice_null(F, from, f->pivot);
-}
-
 SLI_COLD static const char *sli_advice(sl_factor *F, const sli_source *from, const sli_failure *f) {
-  switch (f->status) {
-  case SL_ERR_PIVOT:
-    return sli_advice_pivot(F, from, f);
-  case SL_ERR_NOT_FINITE:
-    return "a pivot is not finite: numbers of A overflow";
-  case SL_ERR_UNSUPPORTED:
-    return "A has more null vectors than columns are given, options.null_vector_count";
-  default:
-    return F->stats.factor.growth <= F->limits.growth
-           ? "float cannot hold L: options.storage"
+  if (f->status != SL_ERR_PIVOT) {
+    return f->status == SL_ERR_NOT_FINITE ? "a pivot is not finite: numbers of A overflow"
+         : f->status == SL_ERR_UNSUPPORTED
+           ? "A has more null vectors than columns are given, options.null_vector_count"
+         : F->stats.factor.growth <= F->limits.growth ? "float cannot hold L: options.storage"
          : F->S->is_pivoted ? "pivot growth exceeds options.growth_limit"
                   : "sl_symbolic_create_pivoted avoids pivot growth";
   }
+  return F->limits.is_definite && f->bound >= 0.0
+         ? "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite"
+       : f->bound < 0.0 ? "there was no memory to judge whether the pivot is null"
+       : !sli_skips_nulls(F) ? sli_advice_null(F, from, f->pivot)
+       : f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
+                   "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
+                 : "A is indefinite, or options.null_vector or options.mass does "
+                   "not suit its null vectors";
 }
 
 /* src/impl/factor/factor_layout.h: the arrays of a factor, and memory for its factorizations */
@@ -15017,14 +15000,6 @@ static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {
   stats->error = F->stats.error;
 }
 
-static void sli_factor_outcome(sl_factor *F, const sli_source *from, const sli_failure *failure,
-    int has_pivots) {
-  if (!has_pivots) {
-    F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
-  }
-  sli_factor_report(F, from, failure, has_pivots);
-}
-
 static void sli_pairs_done(sl_factor *F) {
   sl_int k;
   F->identity = sli_hash_words(F->identity, F->E, F->S->n);
@@ -15049,7 +15024,10 @@ typedef struct sli_verdict {
 } sli_verdict;
 
 SLI_NOINLINE static void sli_verdict_report(const sli_verdict *v) {
-  sli_factor_outcome(v->F, v->from, v->failure, v->has_pivots);
+  if (!v->has_pivots) {
+    v->F->stats.factor.growth = v->F->stats.factor.entry_max = 0.0;
+  }
+  sli_factor_report(v->F, v->from, v->failure, v->has_pivots);
 }
 
 static void sli_judge_nulls(sli_verdict *v) {
@@ -19613,75 +19591,61 @@ SLI_HOT static void sli_probes_multiply(sli_probes *p) {
   }
 }
 
-SLI_HOT static void sli_probes_measure_tree(sli_probes *p, sl_int first, sl_int end, sl_int tree,
-    int is_first) {
-  double square[SLI_PROBES], size[SLI_PROBES];
-  double *before = p->norm + (ptrdiff_t)tree * SLI_PROBES;
-  const double *scale = p->scale + (ptrdiff_t)tree * SLI_PROBES;
-  sl_int k, c;
-  memset(square, 0, sizeof square);
-  memset(size, 0, sizeof size);
-  for (k = first; k < end; k++) {
-    const ptrdiff_t at = sli_probes_at(p, k);
-    for (c = 0; c < SLI_PROBES; c++) {
-      square[c] +=
-        p->v[at + c] * (p->product[2 * at + c] + p->product[2 * at + SLI_PROBES + c]);
-      size[c] += fabs(p->v[at + c]);
-    }
-  }
-  for (c = 0; c < SLI_PROBES; c++) {
-    const double norm = size[c] == 0.0 ? 0.0 : sqrt(square[c]);
-    if (size[c] != 0.0 && !(square[c] > 0.0)) {
-      p->eta = HUGE_VAL;
-    } else if (!is_first && before[c] > 0.0) {
-      p->eta = fmax(p->eta, norm * (scale[c] / before[c]));
-    }
-    before[c] = norm;
-  }
-}
-
-static void sli_probes_measure(sli_probes *p, int is_first) {
-  sl_int first, end, tree = 0;
-  for (first = 0; first < p->F->S->n; first = end) {
+SLI_HOT static void sli_probes_measure(sli_probes *p, int is_first) {
+  double *before = p->norm;
+  const double *scale = p->scale;
+  sl_int first, end, k, c;
+  for (first = 0; first < p->F->S->n; first = end, before += SLI_PROBES, scale += SLI_PROBES) {
+    double square[SLI_PROBES] = {0.0}, size[SLI_PROBES] = {0.0};
     end = sli_probes_end(p, first);
-    sli_probes_measure_tree(p, first, end, tree++, is_first);
-  }
-}
-
-SLI_HOT static void sli_probes_turn_tree(sli_probes *p, sl_int first, sl_int end, double *scale) {
-  double largest[SLI_PROBES];
-  sl_int k, c;
-  memset(largest, 0, sizeof largest);
-  for (k = first; k < end; k++) {
-    const ptrdiff_t at = sli_probes_at(p, k);
-    const int is_null = sli_is_skipped(p->F, p->F->S->iperm[at / SLI_PROBES]);
-    double *v = p->v + at;
-    const double *x = p->product + 2 * at;
-    for (c = 0; c < SLI_PROBES; c++) {
-      v[c] = is_null ? 0.0 : (v[c] - x[c]) - x[c + SLI_PROBES];
-      largest[c] = fmax(largest[c], fabs(v[c]));
+    for (k = first; k < end; k++) {
+      const ptrdiff_t at = sli_probes_at(p, k);
+      for (c = 0; c < SLI_PROBES; c++) {
+        square[c] +=
+          p->v[at + c] * (p->product[2 * at + c] + p->product[2 * at + SLI_PROBES + c]);
+        size[c] += fabs(p->v[at + c]);
+      }
     }
-  }
-  for (c = 0; c < SLI_PROBES; c++) {
-    int exponent = 0;
-    (void)frexp(largest[c], &exponent);
-    scale[c] = ldexp(1.0, exponent);
-  }
-  for (k = first; k < end; k++) {
-    double *v = p->v + sli_probes_at(p, k);
     for (c = 0; c < SLI_PROBES; c++) {
-      v[c] /= scale[c];
+      const double norm = size[c] == 0.0 ? 0.0 : sqrt(square[c]);
+      if (size[c] != 0.0 && !(square[c] > 0.0)) {
+        p->eta = HUGE_VAL;
+      } else if (!is_first && before[c] > 0.0) {
+        p->eta = fmax(p->eta, norm * (scale[c] / before[c]));
+      }
+      before[c] = norm;
     }
   }
 }
 
-static void sli_probes_turn(sli_probes *p) {
-  sl_int first, end;
+SLI_HOT static void sli_probes_turn(sli_probes *p) {
   double *scale = p->scale;
+  sl_int first, end, k, c;
   sli_probes_solve(p, p->product, 2 * SLI_PROBES);
   for (first = 0; first < p->F->S->n; first = end, scale += SLI_PROBES) {
+    double largest[SLI_PROBES] = {0.0};
     end = sli_probes_end(p, first);
-    sli_probes_turn_tree(p, first, end, scale);
+    for (k = first; k < end; k++) {
+      const ptrdiff_t at = sli_probes_at(p, k);
+      const int is_null = sli_is_skipped(p->F, p->F->S->iperm[at / SLI_PROBES]);
+      double *v = p->v + at;
+      const double *x = p->product + 2 * at;
+      for (c = 0; c < SLI_PROBES; c++) {
+        v[c] = is_null ? 0.0 : (v[c] - x[c]) - x[c + SLI_PROBES];
+        largest[c] = fmax(largest[c], fabs(v[c]));
+      }
+    }
+    for (c = 0; c < SLI_PROBES; c++) {
+      int exponent = 0;
+      (void)frexp(largest[c], &exponent);
+      scale[c] = ldexp(1.0, exponent);
+    }
+    for (k = first; k < end; k++) {
+      double *v = p->v + sli_probes_at(p, k);
+      for (c = 0; c < SLI_PROBES; c++) {
+        v[c] /= scale[c];
+      }
+    }
   }
 }
 
@@ -23034,14 +22998,6 @@ SLI_INLINE int sli_region_fits(const sl_region *R, const sl_factor *F) {
   return sli_numbers_are_of(&R->numbers, F);
 }
 
-SLI_INLINE uint64_t sli_region_vectors(const sl_region *R, sl_int lanes) {
-  return 3 * (uint64_t)R->extent.n_rows * (uint64_t)lanes;
-}
-
-SLI_INLINE size_t sli_region_scratch(const sl_region *R, sl_int lanes) {
-  return sli_sweep_scratch(SLI_REGION_COLUMNS + R->extent.n_rows, SLI_REGION_COLUMNS, lanes);
-}
-
 static void sli_region_apply(const sl_region *R, const sli_ending_use *boundary,
     const sli_kernels *kernels, int kind, const sli_vectors *v) {
   static const double sli_ones[SLI_REGION_COLUMNS] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
@@ -23393,11 +23349,12 @@ static int sli_region_holds(const sli_query *q, const sl_factor *F) {
 }
 
 static uint64_t sli_region_vectors_of(const sli_ending *e, sl_int lanes) {
-  return sli_region_vectors(sli_region_of(e), lanes);
+  return 3 * (uint64_t)sli_region_of(e)->extent.n_rows * (uint64_t)lanes;
 }
 
 static size_t sli_region_scratch_of(const sli_ending *e, sl_int lanes) {
-  return sli_region_scratch(sli_region_of(e), lanes);
+  return sli_sweep_scratch(SLI_REGION_COLUMNS + sli_region_of(e)->extent.n_rows,
+      SLI_REGION_COLUMNS, lanes);
 }
 
 static void sli_region_cross(const sl_factor *F, const sli_query *q, int kind,

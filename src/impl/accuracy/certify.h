@@ -147,80 +147,65 @@ SLI_HOT static void sli_probes_multiply(sli_probes *p) {
     }
 }
 
-/* Takes the norms of the probes in the tree of rows first .. end-1, the tree-th one. */
-SLI_HOT static void sli_probes_measure_tree(sli_probes *p, sl_int first, sl_int end, sl_int tree,
-                                            int is_first) {
-    double square[SLI_PROBES], size[SLI_PROBES];
-    double *before = p->norm + (ptrdiff_t)tree * SLI_PROBES;
-    const double *scale = p->scale + (ptrdiff_t)tree * SLI_PROBES;
-    sl_int k, c;
-    memset(square, 0, sizeof square);
-    memset(size, 0, sizeof size);
-    for (k = first; k < end; k++) {
-        const ptrdiff_t at = sli_probes_at(p, k);
-        for (c = 0; c < SLI_PROBES; c++) {
-            square[c] +=
-                p->v[at + c] * (p->product[2 * at + c] + p->product[2 * at + SLI_PROBES + c]);
-            size[c] += fabs(p->v[at + c]);
-        }
-    }
-    for (c = 0; c < SLI_PROBES; c++) {
-        const double norm = size[c] == 0.0 ? 0.0 : sqrt(square[c]);
-        if (size[c] != 0.0 && !(square[c] > 0.0)) { /* A is not definite, or not finite */
-            p->eta = HUGE_VAL;
-        } else if (!is_first && before[c] > 0.0) {
-            p->eta = fmax(p->eta, norm * (scale[c] / before[c]));
-        }
-        before[c] = norm;
-    }
-}
-
-/* Takes the norms of the probes. Those after the first are the errors of the ones before. */
-static void sli_probes_measure(sli_probes *p, int is_first) {
-    sl_int first, end, tree = 0;
-    for (first = 0; first < p->F->S->n; first = end) {
+/* Takes the norms of the probes in each tree. Those after the first are the errors of the ones
+ * before. */
+SLI_HOT static void sli_probes_measure(sli_probes *p, int is_first) {
+    double *before = p->norm;
+    const double *scale = p->scale;
+    sl_int first, end, k, c;
+    for (first = 0; first < p->F->S->n; first = end, before += SLI_PROBES, scale += SLI_PROBES) {
+        double square[SLI_PROBES] = {0.0}, size[SLI_PROBES] = {0.0};
         end = sli_probes_end(p, first);
-        sli_probes_measure_tree(p, first, end, tree++, is_first);
-    }
-}
-
-/* The errors of the solves become the probes of a tree, scaled by powers of 2. Null pivots have no
- * error: their x is 0 but for D, which is not infinite. */
-SLI_HOT static void sli_probes_turn_tree(sli_probes *p, sl_int first, sl_int end, double *scale) {
-    double largest[SLI_PROBES];
-    sl_int k, c;
-    memset(largest, 0, sizeof largest);
-    for (k = first; k < end; k++) {
-        const ptrdiff_t at = sli_probes_at(p, k);
-        const int is_null = sli_is_skipped(p->F, p->F->S->iperm[at / SLI_PROBES]);
-        double *v = p->v + at;
-        const double *x = p->product + 2 * at;
-        for (c = 0; c < SLI_PROBES; c++) {
-            v[c] = is_null ? 0.0 : (v[c] - x[c]) - x[c + SLI_PROBES];
-            largest[c] = fmax(largest[c], fabs(v[c]));
+        for (k = first; k < end; k++) {
+            const ptrdiff_t at = sli_probes_at(p, k);
+            for (c = 0; c < SLI_PROBES; c++) {
+                square[c] +=
+                    p->v[at + c] * (p->product[2 * at + c] + p->product[2 * at + SLI_PROBES + c]);
+                size[c] += fabs(p->v[at + c]);
+            }
         }
-    }
-    for (c = 0; c < SLI_PROBES; c++) {
-        int exponent = 0;
-        (void)frexp(largest[c], &exponent);
-        scale[c] = ldexp(1.0, exponent);
-    }
-    for (k = first; k < end; k++) {
-        double *v = p->v + sli_probes_at(p, k);
         for (c = 0; c < SLI_PROBES; c++) {
-            v[c] /= scale[c];
+            const double norm = size[c] == 0.0 ? 0.0 : sqrt(square[c]);
+            if (size[c] != 0.0 && !(square[c] > 0.0)) { /* A is not definite, or not finite */
+                p->eta = HUGE_VAL;
+            } else if (!is_first && before[c] > 0.0) {
+                p->eta = fmax(p->eta, norm * (scale[c] / before[c]));
+            }
+            before[c] = norm;
         }
     }
 }
 
-/* Solves for the products of the probes. */
-static void sli_probes_turn(sli_probes *p) {
-    sl_int first, end;
+/* The errors of the solves become the probes, scaled by powers of 2 in each tree. Null pivots have
+ * no error: their x is 0 but for D, which is not infinite. */
+SLI_HOT static void sli_probes_turn(sli_probes *p) {
     double *scale = p->scale;
+    sl_int first, end, k, c;
     sli_probes_solve(p, p->product, 2 * SLI_PROBES);
     for (first = 0; first < p->F->S->n; first = end, scale += SLI_PROBES) {
+        double largest[SLI_PROBES] = {0.0};
         end = sli_probes_end(p, first);
-        sli_probes_turn_tree(p, first, end, scale);
+        for (k = first; k < end; k++) {
+            const ptrdiff_t at = sli_probes_at(p, k);
+            const int is_null = sli_is_skipped(p->F, p->F->S->iperm[at / SLI_PROBES]);
+            double *v = p->v + at;
+            const double *x = p->product + 2 * at;
+            for (c = 0; c < SLI_PROBES; c++) {
+                v[c] = is_null ? 0.0 : (v[c] - x[c]) - x[c + SLI_PROBES];
+                largest[c] = fmax(largest[c], fabs(v[c]));
+            }
+        }
+        for (c = 0; c < SLI_PROBES; c++) {
+            int exponent = 0;
+            (void)frexp(largest[c], &exponent);
+            scale[c] = ldexp(1.0, exponent);
+        }
+        for (k = first; k < end; k++) {
+            double *v = p->v + sli_probes_at(p, k);
+            for (c = 0; c < SLI_PROBES; c++) {
+                v[c] /= scale[c];
+            }
+        }
     }
 }
 

@@ -30,7 +30,7 @@ SLI_COLD static const char *sli_advice_of_matrix(sl_factor *F, const sli_source 
     return what;
 }
 
-/* What helps where null pivots are refused. */
+/* What helps where pivot k was refused because it is null. */
 SLI_COLD static const char *sli_advice_null(sl_factor *F, const sli_source *from, sl_int k) {
     const char *what = sli_advice_of_matrix(F, from, k);
     return what != NULL ? what
@@ -46,39 +46,24 @@ SLI_COLD static const char *sli_advice_null(sl_factor *F, const sli_source *from
                  "options.pivots = SL_PIVOTS_SKIP_NULL";
 }
 
-/* What helps where a pivot was refused. */
-SLI_COLD static const char *sli_advice_pivot(sl_factor *F, const sli_source *from,
-                                             const sli_failure *f) {
-    if (F->limits.is_definite && f->bound >= 0.0) {
-        return "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite";
-    }
-    if (f->bound < 0.0) {
-        return "there was no memory to judge whether the pivot is null";
-    }
-    if (sli_skips_nulls(F)) {
-        return f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
-                                "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
-                              : "A is indefinite, or options.null_vector or options.mass does not "
-                                "suit its null vectors";
-    }
-    return sli_advice_null(F, from, f->pivot);
-}
-
 /* What helps where a factorization was refused at a pivot. */
 SLI_COLD static const char *sli_advice(sl_factor *F, const sli_source *from, const sli_failure *f) {
-    switch (f->status) {
-    case SL_ERR_PIVOT:
-        return sli_advice_pivot(F, from, f);
-    case SL_ERR_NOT_FINITE:
-        return "a pivot is not finite: numbers of A overflow";
-    case SL_ERR_UNSUPPORTED:
-        return "A has more null vectors than columns are given, options.null_vector_count";
-    default: /* SL_ERR_INACCURATE */
-        return F->stats.factor.growth <= F->limits.growth
-                   ? "float cannot hold L: options.storage"
+    if (f->status != SL_ERR_PIVOT) {
+        return f->status == SL_ERR_NOT_FINITE ? "a pivot is not finite: numbers of A overflow"
+               : f->status == SL_ERR_UNSUPPORTED
+                   ? "A has more null vectors than columns are given, options.null_vector_count"
+               : F->stats.factor.growth <= F->limits.growth ? "float cannot hold L: options.storage"
                : F->S->is_pivoted ? "pivot growth exceeds options.growth_limit"
                                   : "sl_symbolic_create_pivoted avoids pivot growth";
     }
+    return F->limits.is_definite && f->bound >= 0.0
+               ? "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite"
+           : f->bound < 0.0       ? "there was no memory to judge whether the pivot is null"
+           : !sli_skips_nulls(F) ? sli_advice_null(F, from, f->pivot)
+           : f->bound > 0.0      ? "the pivot has the wrong sign, beyond options.null_tolerance: "
+                                   "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
+                                 : "A is indefinite, or options.null_vector or options.mass does "
+                                   "not suit its null vectors";
 }
 
 #endif

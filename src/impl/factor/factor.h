@@ -69,15 +69,6 @@ static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {
     stats->error = F->stats.error;
 }
 
-/* Reports the pivots or a failure. Without all pivots there is no growth. */
-static void sli_factor_outcome(sl_factor *F, const sli_source *from, const sli_failure *failure,
-                               int has_pivots) {
-    if (!has_pivots) {
-        F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
-    }
-    sli_factor_report(F, from, failure, has_pivots);
-}
-
 /* Completes a factor with 2x2 pivots. The backward sweep does not divide by them. */
 static void sli_pairs_done(sl_factor *F) {
     sl_int k;
@@ -105,8 +96,12 @@ typedef struct sli_verdict {
     int has_pivots; /* the failure, if there is one, came after all pivots */
 } sli_verdict;
 
+/* Reports the pivots or a failure. Without all pivots there is no growth. */
 SLI_NOINLINE static void sli_verdict_report(const sli_verdict *v) {
-    sli_factor_outcome(v->F, v->from, v->failure, v->has_pivots);
+    if (!v->has_pivots) {
+        v->F->stats.factor.growth = v->F->stats.factor.entry_max = 0.0;
+    }
+    sli_factor_report(v->F, v->from, v->failure, v->has_pivots);
 }
 
 /* Null pivots that are skipped: finds them, and computes what solves need. */

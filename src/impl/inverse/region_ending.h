@@ -99,11 +99,12 @@ static int sli_region_holds(const sli_query *q, const sl_factor *F) {
 }
 
 static uint64_t sli_region_vectors_of(const sli_ending *e, sl_int lanes) {
-    return sli_region_vectors(sli_region_of(e), lanes);
+    return 3 * (uint64_t)sli_region_of(e)->extent.n_rows * (uint64_t)lanes;
 }
 
 static size_t sli_region_scratch_of(const sli_ending *e, sl_int lanes) {
-    return sli_region_scratch(sli_region_of(e), lanes);
+    return sli_sweep_scratch(SLI_REGION_COLUMNS + sli_region_of(e)->extent.n_rows,
+                             SLI_REGION_COLUMNS, lanes);
 }
 
 /* Applies the region's inverse: u is at the end of y, Z u goes to the end of x. */

@@ -90,14 +90,6 @@ SLI_INLINE int sli_region_fits(const sl_region *R, const sl_factor *F) {
 }
 
 /* Doubles of a product's vectors: u, the result, and u again. */
-SLI_INLINE uint64_t sli_region_vectors(const sl_region *R, sl_int lanes) {
-    return 3 * (uint64_t)R->extent.n_rows * (uint64_t)lanes;
-}
-
-SLI_INLINE size_t sli_region_scratch(const sl_region *R, sl_int lanes) {
-    return sli_sweep_scratch(SLI_REGION_COLUMNS + R->extent.n_rows, SLI_REGION_COLUMNS, lanes);
-}
-
 /* boundary: 1 for each chunk with a row that the forward sweep may change or the backward sweep
  * reads.
  *

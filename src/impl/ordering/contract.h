@@ -106,10 +106,6 @@ static void sli_range_run(sli_team *team, sl_int n, sl_int count, sli_range_body
     sli_team_loop(team, count, NULL, sli_range_item, &l);
 }
 
-SLI_INLINE sl_off *sli_shares_scratch(const sli_shares *r, sl_int worker) {
-    return r->scratch + (size_t)worker * (size_t)r->room;
-}
-
 /* A contraction of g to c. Each range writes its edges behind the room of those before it; then
  * they move together. */
 typedef struct sli_contraction {
@@ -176,7 +172,8 @@ static void sli_contract_range(void *data, const sli_range *r) {
     const sli_level *g = t->g;
     const sli_clusters *clusters = t->clusters;
     sli_level *c = t->c;
-    sl_off e, count = t->begin[r->item], *at = sli_shares_scratch(t->ranges, r->worker);
+    sl_off e, count = t->begin[r->item];
+    sl_off *at = t->ranges->scratch + (size_t)r->worker * (size_t)t->ranges->room;
     const int bits =
         g->begin[g->n] >> 32 == 0 ? SLI_CONTRACT_BITS : 0; /* branches untested: 2^32 edges */
     const sl_off low = ((sl_off)1 << bits) - 1;
