@@ -272,7 +272,7 @@ typedef struct isa_list_t {
     sl_isa isa[ISAS_PRESENT];
 } isa_list_t;
 
-/* Those that this machine has. The first is always scalar, the last the best. */
+/* Those that this machine has, ascending. The first is always scalar, the last the best. */
 static inline isa_list_t isas_present(void) {
     isa_list_t list;
     memset(&list, 0, sizeof list);
