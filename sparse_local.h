@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 85dd02a222ac3dfa
+ * FNV-1a of the lines after this comment, without the license: 757c77c22267db31
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,26 +35,26 @@
  *   2775 impl/ base: the compiler, status, memory, sorting, threads
  *   4085 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   4966 impl/ matrix: sparse matrices of the caller and of the library
- *   5770 impl/ ordering: fill-reducing orderings of a graph
- *  10544 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12786 impl/ factor: the numbers of L and D
- *  15352 impl/ solve: full and local solves
- *  16859 impl/ singular: null spaces of semidefinite matrices
- *  18130 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20177 impl/ pivots: the order of the pivots by the values of a matrix
- *  20585 impl/ float: L in single precision
- *  20768 impl/ inverse: entries of the inverse, regions
- *  23669 impl/ change: a factor that follows changes of its matrix
- *  25947 impl/ constraints: rows held at values, on a factor that stays
- *  27294 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30034 impl/ fixed: rows fixed at given values
- *  30593 impl/ io: files that are replaced only when they are complete
- *  30811 impl/ files: Matrix Market files, 64-bit indices
- *  31367 impl/ save: factors in files
- *  33347 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34033 impl/ complex: complex Hermitian systems over real factors
- *  34505 impl/ packs: the tables through which the core calls packs
- *  34929 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5799 impl/ ordering: fill-reducing orderings of a graph
+ *  10573 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12815 impl/ factor: the numbers of L and D
+ *  15377 impl/ solve: full and local solves
+ *  16884 impl/ singular: null spaces of semidefinite matrices
+ *  18155 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20202 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20610 impl/ float: L in single precision
+ *  20793 impl/ inverse: entries of the inverse, regions
+ *  23694 impl/ change: a factor that follows changes of its matrix
+ *  25972 impl/ constraints: rows held at values, on a factor that stays
+ *  27319 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30059 impl/ fixed: rows fixed at given values
+ *  30618 impl/ io: files that are replaced only when they are complete
+ *  30836 impl/ files: Matrix Market files, 64-bit indices
+ *  31392 impl/ save: factors in files
+ *  33372 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34058 impl/ complex: complex Hermitian systems over real factors
+ *  34530 impl/ packs: the tables through which the core calls packs
+ *  34954 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5399,33 +5399,56 @@ static void sli_dense_zero(double *to, sli_dense t, sl_int rows, sl_int columns)
 
 #define SLI_PRODUCT_COLUMNS 4
 
-SLI_ALWAYS_INLINE void sli_add_columns(const sl_csc *A, sl_triangle triangle, double sign,
-    double *Y, sli_dense to, const double *X, sli_dense from,
-    sl_int columns, int is_half) {
-  double x[SLI_PRODUCT_COLUMNS], y[SLI_PRODUCT_COLUMNS];
+typedef struct sli_product {
+  const sl_csc *A;
+  sl_triangle triangle;
+  double sign;
+  double *Y;
+  sli_dense to;
+  const double *X;
+  sli_dense from;
+} sli_product;
+
+SLI_INLINE sli_product sli_product_of(const sl_csc *A, double *Y, size_t ldy, const double *X,
+    size_t ldx) {
+  sli_product q;
+  q.A = A;
+  q.triangle = SL_TRIANGLE_NONE;
+  q.sign = 1.0;
+  q.Y = Y;
+  q.to = sli_dense_of(ldy);
+  q.X = X;
+  q.from = sli_dense_of(ldx);
+  return q;
+}
+
+SLI_ALWAYS_INLINE void sli_add_columns(const sli_product q, sl_int columns, int is_half) {
+  const sl_csc *A = q.A;
+  const double *X = q.X;
+  double *Y = q.Y, x[SLI_PRODUCT_COLUMNS], y[SLI_PRODUCT_COLUMNS];
   sl_int j, p, r;
   for (j = 0; j < A->n_cols; j++) {
     SLI_UNROLL
     for (r = 0; r < columns; r++) {
-      x[r] = X[(size_t)r * from.column + (size_t)j * from.row];
-      y[r] = is_half ? Y[(size_t)r * to.column + (size_t)j * to.row]
+      x[r] = X[(size_t)r * q.from.column + (size_t)j * q.from.row];
+      y[r] = is_half ? Y[(size_t)r * q.to.column + (size_t)j * q.to.row]
                : 0.0; /* branches untested: constant */
     }
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
       const sl_int i = A->i[p];
-      const double a = sign * A->x[p];
+      const double a = q.sign * A->x[p];
       if (is_half && i == j) { /* branches untested: the same */
         SLI_UNROLL
         for (r = 0; r < columns; r++) { /* branches untested: the same */
           y[r] += a * x[r];
         }
       } else if (!is_half || /* branches untested: the same */
-          sli_is_read(triangle, i, j)) {
+          sli_is_read(q.triangle, i, j)) {
         SLI_UNROLL
         for (r = 0; r < columns; r++) {
-          Y[(size_t)r * to.column + (size_t)i * to.row] += a * x[r];
+          Y[(size_t)r * q.to.column + (size_t)i * q.to.row] += a * x[r];
           if (is_half) { /* branches untested: the same */
-            y[r] += a * X[(size_t)r * from.column + (size_t)i * from.row];
+            y[r] += a * X[(size_t)r * q.from.column + (size_t)i * q.from.row];
           }
         }
       }
@@ -5433,41 +5456,44 @@ SLI_ALWAYS_INLINE void sli_add_columns(const sl_csc *A, sl_triangle triangle, do
     if (is_half) { /* branches untested: the same */
       SLI_UNROLL
       for (r = 0; r < columns; r++) { /* branches untested: the same */
-        Y[(size_t)r * to.column + (size_t)j * to.row] = y[r];
+        Y[(size_t)r * q.to.column + (size_t)j * q.to.row] = y[r];
       }
     }
   }
 }
 
-SLI_NOINLINE static void sli_add_strided(const sl_csc *A, sl_triangle triangle, double sign,
-    double *Y, sli_dense to, const double *X, sli_dense from) {
-  if (triangle != SL_TRIANGLE_NONE) {
-    sli_add_columns(A, triangle, sign, Y, to, X, from, 1, 1);
+SLI_NOINLINE static void sli_add_strided(const sli_product *q) {
+  if (q->triangle != SL_TRIANGLE_NONE) {
+    sli_add_columns(*q, 1, 1);
   } else {
-    sli_add_columns(A, triangle, sign, Y, to, X, from, 1, 0);
+    sli_add_columns(*q, 1, 0);
   }
 }
 
-SLI_HOT static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, double *Y,
-    sli_dense to, const double *X, sli_dense from, sl_int nrhs) {
-  const sli_dense y = sli_dense_by_columns(to.column), x = sli_dense_by_columns(from.column);
-  const int is_half = triangle != SL_TRIANGLE_NONE, by_columns = to.row == 1 && from.row == 1;
+SLI_HOT static void sli_add_product(const sli_product *given, sl_int nrhs) {
+  const int is_half = given->triangle != SL_TRIANGLE_NONE;
+  const int by_columns = given->to.row == 1 && given->from.row == 1;
+  sli_product q = *given, near = q;
   sl_int r, step;
+  near.to = sli_dense_by_columns(q.to.column);
+  near.from = sli_dense_by_columns(q.from.column);
   for (r = 0; r < nrhs; r += step) {
     step = by_columns && nrhs - r >= SLI_PRODUCT_COLUMNS ? SLI_PRODUCT_COLUMNS : 1;
+    near.X = q.X;
+    near.Y = q.Y;
     if (!by_columns) {
-      sli_add_strided(A, triangle, sign, Y, to, X, from);
+      sli_add_strided(&q);
     } else if (step == 1 && is_half) {
-      sli_add_columns(A, triangle, sign, Y, y, X, x, 1, 1);
+      sli_add_columns(near, 1, 1);
     } else if (step == 1) {
-      sli_add_columns(A, triangle, sign, Y, y, X, x, 1, 0);
+      sli_add_columns(near, 1, 0);
     } else if (is_half) {
-      sli_add_columns(A, triangle, sign, Y, y, X, x, SLI_PRODUCT_COLUMNS, 1);
+      sli_add_columns(near, SLI_PRODUCT_COLUMNS, 1);
     } else {
-      sli_add_columns(A, triangle, sign, Y, y, X, x, SLI_PRODUCT_COLUMNS, 0);
+      sli_add_columns(near, SLI_PRODUCT_COLUMNS, 0);
     }
-    Y += (size_t)step * to.column;
-    X += (size_t)step * from.column;
+    q.Y += (size_t)step * q.to.column;
+    q.X += (size_t)step * q.from.column;
   }
 }
 
@@ -5484,7 +5510,7 @@ static const char *sli_product_wrong(const sl_csc *A, sl_int nrhs, int is_square
 
 SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y, size_t ldy,
     const double *X, size_t ldx, sl_int nrhs) {
-  sl_triangle triangle;
+  sli_product q;
   sl_status status = sli_argument(reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED
       ? "reading is not a value of sl_reading"
       : sli_product_wrong(A, nrhs, reading == SL_AS_SYMMETRIC));
@@ -5502,9 +5528,10 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
   if (status != SL_OK) {
     return status;
   }
-  triangle = reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE;
-  sli_dense_zero(Y, sli_dense_of(ldy), A->n_rows, nrhs);
-  sli_add_product(A, triangle, 1.0, Y, sli_dense_of(ldy), X, sli_dense_of(ldx), nrhs);
+  q = sli_product_of(A, Y, ldy, X, ldx);
+  q.triangle = reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE;
+  sli_dense_zero(Y, q.to, A->n_rows, nrhs);
+  sli_add_product(&q, nrhs);
   return SL_OK;
 }
 
@@ -5551,7 +5578,7 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
   const sli_dense to = sli_dense_of(ldr), x = sli_dense_of(ldx), b = sli_dense_of(ldb);
   double norm = 0.0;
   sl_int r, n;
-  sl_triangle triangle;
+  sli_product q;
   sl_status status = sli_argument(sli_product_wrong(A, nrhs, 1));
   if (status != SL_OK) {
     return status;
@@ -5577,14 +5604,16 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
   if (status != SL_OK) {
     return status;
   }
-  triangle = sli_triangle_scan(A);
+  q = sli_product_of(A, R, ldr, X, ldx);
+  q.triangle = sli_triangle_scan(A);
+  q.sign = -1.0;
   if (backward_error != NULL) {
-    norm = sli_csc_norm(A, triangle, R, to.row);
+    norm = sli_csc_norm(A, q.triangle, R, to.row);
   }
   if (R != B) {
     sli_dense_copy(R, to, B, b, n, nrhs);
   }
-  sli_add_product(A, triangle, -1.0, R, to, X, x, nrhs);
+  sli_add_product(&q, nrhs);
   for (r = 0; r < nrhs && backward_error != NULL; r++) {
     const size_t c = (size_t)r;
     backward_error[r] = sli_backward_error(sli_largest(R + c * to.column, to.row, n), norm,
@@ -13627,10 +13656,6 @@ SLI_INLINE int sli_is_copied(const sl_factor *F, sl_int s) {
 
 SLI_INLINE sl_int sli_front_tiles(const sli_front *f) {
   return sli_tiles(f->width + f->below);
-}
-
-SLI_INLINE int sli_is_short(const sl_factor *F, sl_int s) {
-  return F->S->steps[s].width == 1 && F->S->steps[s].below < SLI_TILE;
 }
 
 SLI_INLINE void sli_front_clear_small(const sli_front *f) {
@@ -35403,7 +35428,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #if !SLF_HALF
     } else if (F->schedule.is_plain[s]) {
       status = sli_plain_factor(F, from, s, worker, failure);
-    } else if (sli_is_short(F, s)) {
+    } else if (F->S->steps[s].width == 1 && F->S->steps[s].below < SLI_TILE) {
       status = sli_short_factor(F, from, s, worker, failure);
 #endif
     } else {

@@ -214,7 +214,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #if !SLF_HALF
         } else if (F->schedule.is_plain[s]) {
             status = sli_plain_factor(F, from, s, worker, failure);
-        } else if (sli_is_short(F, s)) {
+        } else if (F->S->steps[s].width == 1 && F->S->steps[s].below < SLI_TILE) { /* in scalars */
             status = sli_short_factor(F, from, s, worker, failure);
 #endif
         } else {

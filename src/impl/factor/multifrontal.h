@@ -15,11 +15,6 @@ SLI_INLINE sl_int sli_front_tiles(const sli_front *f) {
     return sli_tiles(f->width + f->below);
 }
 
-/* Is supernode s a column that is factored in scalars? */
-SLI_INLINE int sli_is_short(const sl_factor *F, sl_int s) {
-    return F->S->steps[s].width == 1 && F->S->steps[s].below < SLI_TILE;
-}
-
 /* Clears what is used of a small front in double: a call of memset takes as long as a front. */
 SLI_INLINE void sli_front_clear_small(const sli_front *f) {
     double *update = f->update + SLI_TILE * (ptrdiff_t)f->width;

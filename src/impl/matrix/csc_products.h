@@ -8,36 +8,62 @@
 /* Columns that a pass over A multiplies. */
 #define SLI_PRODUCT_COLUMNS 4
 
+/* Y += sign A X. */
+typedef struct sli_product {
+    const sl_csc *A;
+    sl_triangle triangle; /* SL_TRIANGLE_NONE: every entry counts once, where it is; that is also
+                             right for a diagonal matrix */
+    double sign;
+    double *Y;
+    sli_dense to; /* strides of Y */
+    const double *X;
+    sli_dense from; /* strides of X */
+} sli_product;
+
+SLI_INLINE sli_product sli_product_of(const sl_csc *A, double *Y, size_t ldy, const double *X,
+                                      size_t ldx) {
+    sli_product q;
+    q.A = A;
+    q.triangle = SL_TRIANGLE_NONE;
+    q.sign = 1.0;
+    q.Y = Y;
+    q.to = sli_dense_of(ldy);
+    q.X = X;
+    q.from = sli_dense_of(ldx);
+    return q;
+}
+
 /* Y += sign A X for a constant number of columns, each of which is added up as it would be alone.
  * is_half, constant: an entry counts at its transposed place, too. Row j of Y is kept in variables
- * while column j passes: through memory, each sum would wait for the last one to be stored. */
-SLI_ALWAYS_INLINE void sli_add_columns(const sl_csc *A, sl_triangle triangle, double sign,
-                                       double *Y, sli_dense to, const double *X, sli_dense from,
-                                       sl_int columns, int is_half) {
-    double x[SLI_PRODUCT_COLUMNS], y[SLI_PRODUCT_COLUMNS];
+ * while column j passes: through memory, each sum would wait for the last one to be stored. q by
+ * value: what is stored to Y might change it. */
+SLI_ALWAYS_INLINE void sli_add_columns(const sli_product q, sl_int columns, int is_half) {
+    const sl_csc *A = q.A;
+    const double *X = q.X;
+    double *Y = q.Y, x[SLI_PRODUCT_COLUMNS], y[SLI_PRODUCT_COLUMNS];
     sl_int j, p, r;
     for (j = 0; j < A->n_cols; j++) {
         SLI_UNROLL
         for (r = 0; r < columns; r++) {
-            x[r] = X[(size_t)r * from.column + (size_t)j * from.row];
-            y[r] = is_half ? Y[(size_t)r * to.column + (size_t)j * to.row]
+            x[r] = X[(size_t)r * q.from.column + (size_t)j * q.from.row];
+            y[r] = is_half ? Y[(size_t)r * q.to.column + (size_t)j * q.to.row]
                            : 0.0; /* branches untested: constant */
         }
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
             const sl_int i = A->i[p];
-            const double a = sign * A->x[p];
+            const double a = q.sign * A->x[p];
             if (is_half && i == j) { /* branches untested: the same */
                 SLI_UNROLL
                 for (r = 0; r < columns; r++) { /* branches untested: the same */
                     y[r] += a * x[r];
                 }
             } else if (!is_half || /* branches untested: the same */
-                       sli_is_read(triangle, i, j)) {
+                       sli_is_read(q.triangle, i, j)) {
                 SLI_UNROLL
                 for (r = 0; r < columns; r++) {
-                    Y[(size_t)r * to.column + (size_t)i * to.row] += a * x[r];
+                    Y[(size_t)r * q.to.column + (size_t)i * q.to.row] += a * x[r];
                     if (is_half) { /* branches untested: the same */
-                        y[r] += a * X[(size_t)r * from.column + (size_t)i * from.row];
+                        y[r] += a * X[(size_t)r * q.from.column + (size_t)i * q.from.row];
                     }
                 }
             }
@@ -45,44 +71,47 @@ SLI_ALWAYS_INLINE void sli_add_columns(const sl_csc *A, sl_triangle triangle, do
         if (is_half) { /* branches untested: the same */
             SLI_UNROLL
             for (r = 0; r < columns; r++) { /* branches untested: the same */
-                Y[(size_t)r * to.column + (size_t)j * to.row] = y[r];
+                Y[(size_t)r * q.to.column + (size_t)j * q.to.row] = y[r];
             }
         }
     }
 }
 
 /* Y += sign A X for one column, whose rows are any strides apart. */
-SLI_NOINLINE static void sli_add_strided(const sl_csc *A, sl_triangle triangle, double sign,
-                                         double *Y, sli_dense to, const double *X, sli_dense from) {
-    if (triangle != SL_TRIANGLE_NONE) {
-        sli_add_columns(A, triangle, sign, Y, to, X, from, 1, 1);
+SLI_NOINLINE static void sli_add_strided(const sli_product *q) {
+    if (q->triangle != SL_TRIANGLE_NONE) {
+        sli_add_columns(*q, 1, 1);
     } else {
-        sli_add_columns(A, triangle, sign, Y, to, X, from, 1, 0);
+        sli_add_columns(*q, 1, 0);
     }
 }
 
-/* Y += sign A X. SL_TRIANGLE_NONE: every entry counts once, where it is; that is also right for a
- * diagonal matrix. Strides of rows that are constant, 1, save a sixth of the time of columns. */
-SLI_HOT static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, double *Y,
-                                    sli_dense to, const double *X, sli_dense from, sl_int nrhs) {
-    const sli_dense y = sli_dense_by_columns(to.column), x = sli_dense_by_columns(from.column);
-    const int is_half = triangle != SL_TRIANGLE_NONE, by_columns = to.row == 1 && from.row == 1;
+/* Y += sign A X for nrhs columns. Strides of rows that are constant, 1, save a sixth of the time of
+ * columns. */
+SLI_HOT static void sli_add_product(const sli_product *given, sl_int nrhs) {
+    const int is_half = given->triangle != SL_TRIANGLE_NONE;
+    const int by_columns = given->to.row == 1 && given->from.row == 1;
+    sli_product q = *given, near = q;
     sl_int r, step;
+    near.to = sli_dense_by_columns(q.to.column);
+    near.from = sli_dense_by_columns(q.from.column);
     for (r = 0; r < nrhs; r += step) {
         step = by_columns && nrhs - r >= SLI_PRODUCT_COLUMNS ? SLI_PRODUCT_COLUMNS : 1;
+        near.X = q.X;
+        near.Y = q.Y;
         if (!by_columns) {
-            sli_add_strided(A, triangle, sign, Y, to, X, from);
+            sli_add_strided(&q);
         } else if (step == 1 && is_half) {
-            sli_add_columns(A, triangle, sign, Y, y, X, x, 1, 1);
+            sli_add_columns(near, 1, 1);
         } else if (step == 1) {
-            sli_add_columns(A, triangle, sign, Y, y, X, x, 1, 0);
+            sli_add_columns(near, 1, 0);
         } else if (is_half) {
-            sli_add_columns(A, triangle, sign, Y, y, X, x, SLI_PRODUCT_COLUMNS, 1);
+            sli_add_columns(near, SLI_PRODUCT_COLUMNS, 1);
         } else {
-            sli_add_columns(A, triangle, sign, Y, y, X, x, SLI_PRODUCT_COLUMNS, 0);
+            sli_add_columns(near, SLI_PRODUCT_COLUMNS, 0);
         }
-        Y += (size_t)step * to.column;
-        X += (size_t)step * from.column;
+        q.Y += (size_t)step * q.to.column;
+        q.X += (size_t)step * q.from.column;
     }
 }
 
@@ -100,7 +129,7 @@ static const char *sli_product_wrong(const sl_csc *A, sl_int nrhs, int is_square
 
 SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y, size_t ldy,
                                  const double *X, size_t ldx, sl_int nrhs) {
-    sl_triangle triangle;
+    sli_product q;
     sl_status status = sli_argument(reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED
                                         ? "reading is not a value of sl_reading"
                                         : sli_product_wrong(A, nrhs, reading == SL_AS_SYMMETRIC));
@@ -118,9 +147,10 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
     if (status != SL_OK) {
         return status;
     }
-    triangle = reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE;
-    sli_dense_zero(Y, sli_dense_of(ldy), A->n_rows, nrhs);
-    sli_add_product(A, triangle, 1.0, Y, sli_dense_of(ldy), X, sli_dense_of(ldx), nrhs);
+    q = sli_product_of(A, Y, ldy, X, ldx);
+    q.triangle = reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE;
+    sli_dense_zero(Y, q.to, A->n_rows, nrhs);
+    sli_add_product(&q, nrhs);
     return SL_OK;
 }
 
@@ -174,7 +204,7 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
     const sli_dense to = sli_dense_of(ldr), x = sli_dense_of(ldx), b = sli_dense_of(ldb);
     double norm = 0.0;
     sl_int r, n;
-    sl_triangle triangle;
+    sli_product q;
     sl_status status = sli_argument(sli_product_wrong(A, nrhs, 1));
     if (status != SL_OK) {
         return status;
@@ -200,14 +230,16 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
     if (status != SL_OK) {
         return status;
     }
-    triangle = sli_triangle_scan(A);
+    q = sli_product_of(A, R, ldr, X, ldx);
+    q.triangle = sli_triangle_scan(A);
+    q.sign = -1.0;
     if (backward_error != NULL) {
-        norm = sli_csc_norm(A, triangle, R, to.row);
+        norm = sli_csc_norm(A, q.triangle, R, to.row);
     }
     if (R != B) {
         sli_dense_copy(R, to, B, b, n, nrhs);
     }
-    sli_add_product(A, triangle, -1.0, R, to, X, x, nrhs);
+    sli_add_product(&q, nrhs);
     for (r = 0; r < nrhs && backward_error != NULL; r++) {
         const size_t c = (size_t)r;
         backward_error[r] = sli_backward_error(sli_largest(R + c * to.column, to.row, n), norm,
