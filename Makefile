@@ -75,18 +75,19 @@ REPLAYS = $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/tests/replay_%)
 .DELETE_ON_ERROR:
 .SECONDARY:
 .PHONY: all help header check-header layers map style parts check-promises deps deps-png deps-cxx deps-clang always programs \
-	build-tests run-tests test test-clang test-cxx test-no-metis test-no-simd test-no-singular test-openmp test-pthreads sanitize run-bench bench format tidy clean
+	build-tests run-tests test quick test-clang test-cxx test-no-metis test-no-simd test-no-singular test-openmp test-pthreads sanitize run-bench bench format tidy clean
 
 all: check-header layers style parts test programs ## the checks, the tests, and the programs of tools/
 
 # The files with targets, the newcomer's first. The first line of each is the heading of its targets.
 MAKE_FILES = Makefile tools/docs/docs.mk tests/packs.mk tests/platforms.mk bench/peers.mk bench/last.mk tools/release.mk tools/packaging/packaging.mk tools/web/web.mk
 
+.DEFAULT_GOAL = help
+# head may close the pipe.
 help: ## this list
-	@awk -F ':.*## ' 'FNR == 1 { sub(/^# [^:]*: /, ""); sub(/;.*| [(]a part.*/, ""); print (NR == 1 ? "" : "\n") FILENAME ": " $$0 } \
-	/^[a-z-]+[a-z0-9-]*:.*## / { printf "  %-17s %s\n", $$1, $$2 }' $(MAKE_FILES)
-	@printf '\nVariables (make test CC=clang)\n'
-	@sed -n 's/^## /  /p' $(MAKE_FILES)
+	@trap '' PIPE; { awk -F ':.*## ' 'FNR == 1 { sub(/^# [^:]*: /, ""); sub(/;.*| [(]a part.*/, ""); print (NR == 1 ? "" : "\n") FILENAME ": " $$0 } \
+	/^[a-z-]+[a-z0-9-]*:.*## / { printf "  %-17s %s\n", $$1, $$2 }' $(MAKE_FILES); \
+	printf '\nVariables (make test CC=clang)\n'; sed -n 's/^## /  /p' $(MAKE_FILES); } 2>/dev/null || true
 
 # ---- the header ----
 
@@ -246,6 +247,12 @@ PROGRAM_CHECKS = tests/tools/check_program.sh tests/tools/check_output.sh tests/
 
 test: deps deps-png ## builds and runs every test on the generated header; ends in a line `N passed, N failed`
 	@+$(SUB_MAKE) run-tests ALSO='tests/core/check_header.sh $(PROGRAM_CHECKS)' PROGRAM=$(B)/sparse-local
+
+# The core, a test of each kind of call, and what most changes break first.
+QUICK = arguments csc factor factor_fail ordering plan solve symbolic null_pivots errors options out_of_memory inverse_use change_use constraints_use \
+	submatrix_use fixed save_use batch complex_use refine_local matrix_market pivots_rare
+quick: deps sparse_local.h ## what to run after each edit: the header without SIMD, and tests of each pack
+	@+$(SUB_MAKE) run-tests B=build/quick OPT='-O0 -DSL_NO_SIMD' REPLAYS= TEST_PROGRAMS='$(QUICK:%=build/quick/tests/core/test_%)'
 
 test-clang: deps deps-clang sparse_local.h ## the tests, built by clang
 	@+$(SUB_MAKE) run-tests B=build/clang CC=clang

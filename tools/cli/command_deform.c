@@ -252,7 +252,7 @@ static void open_command(deform_command *cmd, const char *operand) {
     const sl_stats *s = &cmd->d.stats;
     printf("mesh       %d vertices, %d faces, %d components; %s.\n", (int)cmd->m.n_vertices,
            (int)cmd->m.n_faces, (int)cmd->d.n_components, cmd->method);
-    if (cmd->verbose) {
+    if (options_verbose) {
         printf("factor     order and analyze %.1f ms, factor %.1f ms, %.3g entries of L; prepared "
                "in %.1f ms\n",
                1e3 * (s->symbolic.seconds_order + s->symbolic.seconds_analyze),
@@ -305,7 +305,6 @@ int command_deform(int argc, char **argv) {
         {OPTION_REAL, "tolerance", &cmd.tolerance, "D",
          "arap has converged when steps move no vertex by more than D diagonals of the bounding "
          "box and lower the energy by no more than that part of it (1e-4)"},
-        {OPTION_FLAG, "verbose", &cmd.verbose, NULL, "print times of the factor and of pins, too"},
         {OPTION_TEXT, "at", &cmd.at, "VERTICES",
          "compute positions of these vertices only, by local solves, biharmonic only: "
          "3,17,100-200"},

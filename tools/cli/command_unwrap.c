@@ -211,7 +211,7 @@ static void report(const unwrap_command *cmd, double seconds) {
            (int)cmd->n_parts, cmd->n_parts == 1 ? "" : "s", (int)all.loops,
            all.loops == 1 ? "" : "s", (int)all.cut);
     print_method(cmd, &all, seconds);
-    for (sl_int k = 0; k < cmd->n_parts && cmd->verbose; k++) {
+    for (sl_int k = 0; k < cmd->n_parts && options_verbose; k++) {
         const unwrap_part *p = &cmd->parts[k];
         printf("part       %d: %d faces, %d edges cut, %d iterations, energy %.9g; flipped %d, "
                "worst ratio %.4g, mean %.4g; conformal %.3g, lengths %.3g, areas %.3g\n",
@@ -277,7 +277,6 @@ int command_unwrap(int argc, char **argv) {
          "draw the faces that are laid out alone, with the checkerboard (.png)"},
         {OPTION_COUNT, "checks", &cmd.checks, "N",
          "squares of the checkerboard along the longer side of the layout (20)"},
-        {OPTION_FLAG, "verbose", &cmd.verbose, NULL, "print each iteration and each part"},
         APP_PICTURE_OPTIONS(&cmd.picture),
         APP_WELD_OPTION,
         {OPTION_END, NULL, NULL, NULL, NULL}};

@@ -18,7 +18,7 @@ typedef struct step_times {
 typedef struct deform_command {
     const char *script_path, *method, *frames, *steps, *at;
     sl_int iterations;
-    bool check, verbose;
+    bool check;
     double bound, tolerance;
     deformer_rest last; /* of the last frame, ARAP */
     sl_int unfinished;  /* frames that have not converged */

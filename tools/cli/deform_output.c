@@ -105,7 +105,7 @@ void deform_print_free(const deform_command *cmd) {
 
 void deform_print_summary(const deform_command *cmd) {
     const double frames = cmd->script.n_frames > 0 ? (double)cmd->script.n_frames : 1;
-    if (cmd->pinned > 0 && (cmd->verbose || cmd->d.refused)) {
+    if (cmd->pinned > 0 && (options_verbose || cmd->d.refused)) {
         printf("pins       %d grabbed, %.4f ms each", (int)cmd->pinned,
                cmd->total.pin / (double)cmd->pinned);
         if (cmd->released > 0) {

@@ -43,7 +43,6 @@ typedef struct unwrap_command {
     sl_int vertex, size; /* --center, --patch */
     sl_int iterations, checks;
     double tolerance;
-    bool verbose;
     app_output picture;
     /* the surface */
     mesh m;

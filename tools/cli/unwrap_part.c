@@ -156,8 +156,8 @@ static void by_scp(unwrap_part *p, int limit) {
 }
 
 static void show(const void *context, const layout_descent *now) {
-    const unwrap_command *cmd = (const unwrap_command *)context;
-    if (cmd->verbose) {
+    (void)context;
+    if (options_verbose) {
         printf("           %d: energy %.9g\n", now->iterations, now->last);
     }
     app_progress("iterations", (double)now->iterations / (double)now->limit);
