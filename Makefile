@@ -249,7 +249,7 @@ test: deps deps-png ## builds and runs every test on the generated header; ends 
 	@+$(SUB_MAKE) run-tests ALSO='tests/core/check_header.sh $(PROGRAM_CHECKS)' PROGRAM=$(B)/sparse-local
 
 # The core, a test of each kind of call, and what most changes break first.
-QUICK = arguments csc factor factor_fail ordering plan solve symbolic null_pivots errors options out_of_memory inverse_use change_use constraints_use \
+QUICK = arguments csc factor ordering solve symbolic null_pivots errors options out_of_memory inverse_diagonal change_use constraints_use \
 	submatrix_use fixed save_use batch complex_use refine_local matrix_market pivots_rare
 quick: deps sparse_local.h ## what to run after each edit: the header without SIMD, and tests of each pack
 	@+$(SUB_MAKE) run-tests B=build/quick OPT='-O0 -DSL_NO_SIMD' REPLAYS= TEST_PROGRAMS='$(QUICK:%=build/quick/tests/core/test_%)'
