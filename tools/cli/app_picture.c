@@ -159,7 +159,7 @@ static void warn_if_empty(const picture *p, const mesh *m, const render_style *s
         drawn += memcmp(&p->at[k], &p->at[0], sizeof *p->at) != 0;
     }
     for (size_t k = 0; k < 3 * (size_t)m->n_faces && known == 0; k++) {
-        known = isfinite(style->scalar[m->faces[k]]);
+        known = isfinite(style->scalar[m->faces[k]]) != 0;
     }
     if (1000 * drawn < count) {
         app_warn("there is almost nothing in the picture: the mesh covers %zu of %zu pixels", drawn,
