@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 757c77c22267db31
+ * FNV-1a of the lines after this comment, without the license: 99f2421a72ea2405
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,23 +38,23 @@
  *   5799 impl/ ordering: fill-reducing orderings of a graph
  *  10573 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12815 impl/ factor: the numbers of L and D
- *  15377 impl/ solve: full and local solves
- *  16884 impl/ singular: null spaces of semidefinite matrices
- *  18155 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20202 impl/ pivots: the order of the pivots by the values of a matrix
- *  20610 impl/ float: L in single precision
- *  20793 impl/ inverse: entries of the inverse, regions
- *  23694 impl/ change: a factor that follows changes of its matrix
- *  25972 impl/ constraints: rows held at values, on a factor that stays
- *  27319 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30059 impl/ fixed: rows fixed at given values
- *  30618 impl/ io: files that are replaced only when they are complete
- *  30836 impl/ files: Matrix Market files, 64-bit indices
- *  31392 impl/ save: factors in files
- *  33372 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34058 impl/ complex: complex Hermitian systems over real factors
- *  34530 impl/ packs: the tables through which the core calls packs
- *  34954 impl/ templates: the header includes them from itself, once for each instruction set
+ *  15383 impl/ solve: full and local solves
+ *  16890 impl/ singular: null spaces of semidefinite matrices
+ *  18161 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20208 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20616 impl/ float: L in single precision
+ *  20799 impl/ inverse: entries of the inverse, regions
+ *  23700 impl/ change: a factor that follows changes of its matrix
+ *  25978 impl/ constraints: rows held at values, on a factor that stays
+ *  27325 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30065 impl/ fixed: rows fixed at given values
+ *  30624 impl/ io: files that are replaced only when they are complete
+ *  30842 impl/ files: Matrix Market files, 64-bit indices
+ *  31398 impl/ save: factors in files
+ *  33378 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34064 impl/ complex: complex Hermitian systems over real factors
+ *  34536 impl/ packs: the tables through which the core calls packs
+ *  34960 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -14491,66 +14491,6 @@ SLI_COLD static sl_status sli_signs_judge(sl_factor *F, sli_failure *failure) {
   return failure->status;
 }
 
-/* src/impl/factor/advice.h: what helps where a factorization was refused, as text */
-
-SLI_COLD static const char *sli_advice_of_matrix(sl_factor *F, const sli_source *from, sl_int k) {
-  const sl_symbolic *S = F->S;
-  sli_null_row *rows =
-    (sli_null_row *)sli_judge_memory(F, S->n, sizeof(sli_null_row) + 2 * sizeof(double));
-  const char *what = NULL;
-  if (rows != NULL) {
-    double *most = (double *)(void *)(rows + S->n);
-    sl_int *last = (sl_int *)(void *)(most + S->n);
-    const sli_null_walk w = sli_null_walk_begin(S, 0, rows, NULL, NULL);
-    sli_null_add_map(&w, S, from, NULL);
-    sli_null_components(&w, S, NULL, last, most);
-    if (rows[k].size == 0.0) {
-      what = "the row is 0, as that of an isolated vertex. Set options.pivots = "
-           "SL_PIVOTS_SKIP_NULL, without sl_symbolic_create_pivoted: x is 0 there";
-    } else if (most[last[k]] == 0.0) {
-      what = "the rows of this connected part sum to 0, as in a Laplacian: x is unique up to "
-           "a constant. Set options.pivots = SL_PIVOTS_SKIP_NULL, without "
-           "sl_symbolic_create_pivoted, and options.mass if b does not sum to 0";
-    }
-  }
-  sli_free(&F->allocator, rows);
-  return what;
-}
-
-SLI_COLD static const char *sli_advice_null(sl_factor *F, const sli_source *from, sl_int k) {
-  const char *what = sli_advice_of_matrix(F, from, k);
-  return what != NULL ? what
-       : F->rule.null_tolerance > sli_null_tolerance(F->S->n)
-         ? "the pivot is within options.null_tolerance, which is above its default"
-       : F->S->is_pivoted
-         ? "A is singular to working precision: if it is semidefinite, options.pivots = "
-         "SL_PIVOTS_SKIP_NULL, without sl_symbolic_create_pivoted"
-       : sli_singular_of(1) == NULL /* untested: null spaces are there */
-         ? "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
-         "options.pivots, which SL_NO_SINGULAR leaves out" /* untested: the same */
-         : "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
-         "options.pivots = SL_PIVOTS_SKIP_NULL";
-}
-
-SLI_COLD static const char *sli_advice(sl_factor *F, const sli_source *from, const sli_failure *f) {
-  if (f->status != SL_ERR_PIVOT) {
-    return f->status == SL_ERR_NOT_FINITE ? "a pivot is not finite: numbers of A overflow"
-         : f->status == SL_ERR_UNSUPPORTED
-           ? "A has more null vectors than columns are given, options.null_vector_count"
-         : F->stats.factor.growth <= F->limits.growth ? "float cannot hold L: options.storage"
-         : F->S->is_pivoted ? "pivot growth exceeds options.growth_limit"
-                  : "sl_symbolic_create_pivoted avoids pivot growth";
-  }
-  return F->limits.is_definite && f->bound >= 0.0
-         ? "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite"
-       : f->bound < 0.0 ? "there was no memory to judge whether the pivot is null"
-       : !sli_skips_nulls(F) ? sli_advice_null(F, from, f->pivot)
-       : f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
-                   "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
-                 : "A is indefinite, or options.null_vector or options.mass does "
-                   "not suit its null vectors";
-}
-
 /* src/impl/factor/factor_layout.h: the arrays of a factor, and memory for its factorizations */
 
 static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
@@ -14888,6 +14828,72 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
     }
   }
   return status;
+}
+
+/* src/impl/factor/advice.h: what helps where a factorization was refused, as text */
+
+SLI_COLD static const char *sli_advice_of_matrix(sl_factor *F, const sli_source *from, sl_int k) {
+  const sl_symbolic *S = F->S;
+  const int fits = sli_null_suspect_fits(F);
+  void *room = fits ? F->values : sli_judge_memory(F, S->n, SLI_SUSPECT_ROW);
+  sli_null_row *rows = (sli_null_row *)room;
+  const char *what = NULL;
+  if (rows != NULL) {
+    double *most = (double *)(void *)(rows + S->n);
+    sl_int *last = (sl_int *)(void *)(most + S->n);
+    const sli_null_walk w = sli_null_walk_begin(S, 0, rows, NULL, NULL);
+    sli_null_add_map(&w, S, from, NULL);
+    sli_null_components(&w, S, NULL, last, most);
+    if (rows[k].size == 0.0) {
+      what = "the row is 0, as that of an isolated vertex. Set options.pivots = "
+           "SL_PIVOTS_SKIP_NULL, without sl_symbolic_create_pivoted: x is 0 there";
+    } else if (most[last[k]] == 0.0) {
+      what = "the rows of this connected part sum to 0, as in a Laplacian: x is unique up to "
+           "a constant. Set options.pivots = SL_PIVOTS_SKIP_NULL, without "
+           "sl_symbolic_create_pivoted, and options.mass if b does not sum to 0";
+    }
+  }
+  if (fits) {
+    sli_factor_clear_gaps(F);
+  } else {
+    sli_free(&F->allocator, room);
+  }
+  return what;
+}
+
+SLI_COLD static const char *sli_advice_null(sl_factor *F, const sli_source *from, sl_int k) {
+  const int can_skip = sli_singular_of(1) != NULL;
+  const char *what = can_skip ? sli_advice_of_matrix(F, from, k) : NULL;
+  return what != NULL ? what
+       : F->rule.null_tolerance > sli_null_tolerance(F->S->n)
+         ? "the pivot is within options.null_tolerance, which is above its default"
+       : !can_skip /* untested: null spaces are there */
+         ? "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
+         "options.pivots, which SL_NO_SINGULAR leaves out" /* untested: the same */
+       : F->S->is_pivoted
+         ? "A is singular to working precision: if it is semidefinite, options.pivots = "
+         "SL_PIVOTS_SKIP_NULL, without sl_symbolic_create_pivoted"
+         : "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
+         "options.pivots = SL_PIVOTS_SKIP_NULL";
+}
+
+SLI_COLD static const char *sli_advice(sl_factor *F, const sli_source *from, const sli_failure *f) {
+  if (f->status != SL_ERR_PIVOT) {
+    return f->status == SL_ERR_NOT_FINITE ? "a pivot is not finite: numbers of A overflow"
+         : f->status == SL_ERR_UNSUPPORTED
+           ? "A has more null vectors than columns are given, options.null_vector_count"
+         : F->stats.factor.growth <= F->limits.growth ? "float cannot hold L: options.storage"
+         : F->S->is_pivoted ? "pivot growth exceeds options.growth_limit"
+                  : "sl_symbolic_create_pivoted avoids pivot growth";
+  }
+  return F->limits.is_definite && f->bound >= 0.0
+         ? "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite"
+       : f->bound < 0.0 ? "there was no memory to judge whether the pivot is null"
+       : !sli_skips_nulls(F) ? sli_advice_null(F, from, f->pivot)
+       : f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
+                   "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
+                 : "A is indefinite, or options.null_vector or options.mass does "
+                   "not suit its null vectors";
 }
 
 /* src/impl/factor/symmetry.h: are the values of both triangles the same? */

@@ -2,14 +2,16 @@
 #ifndef SLI_FACTOR_ADVICE_H
 #define SLI_FACTOR_ADVICE_H
 
+#include "factor_setup.h"
 #include "pivot_suspects.h"
 
 /* Looks at A for the reason of a null pivot; NULL: none is found. A matrix of several connected
- * parts is judged by the one of the pivot. */
+ * parts is judged by the one of the pivot. Overwrites L, as long as it has room. */
 SLI_COLD static const char *sli_advice_of_matrix(sl_factor *F, const sli_source *from, sl_int k) {
     const sl_symbolic *S = F->S;
-    sli_null_row *rows =
-        (sli_null_row *)sli_judge_memory(F, S->n, sizeof(sli_null_row) + 2 * sizeof(double));
+    const int fits = sli_null_suspect_fits(F);
+    void *room = fits ? F->values : sli_judge_memory(F, S->n, SLI_SUSPECT_ROW);
+    sli_null_row *rows = (sli_null_row *)room;
     const char *what = NULL;
     if (rows != NULL) {
         double *most = (double *)(void *)(rows + S->n);
@@ -26,22 +28,27 @@ SLI_COLD static const char *sli_advice_of_matrix(sl_factor *F, const sli_source 
                    "sl_symbolic_create_pivoted, and options.mass if b does not sum to 0";
         }
     }
-    sli_free(&F->allocator, rows);
+    if (fits) {
+        sli_factor_clear_gaps(F);
+    } else {
+        sli_free(&F->allocator, room);
+    }
     return what;
 }
 
 /* What helps where pivot k was refused because it is null. */
 SLI_COLD static const char *sli_advice_null(sl_factor *F, const sli_source *from, sl_int k) {
-    const char *what = sli_advice_of_matrix(F, from, k);
+    const int can_skip = sli_singular_of(1) != NULL;
+    const char *what = can_skip ? sli_advice_of_matrix(F, from, k) : NULL;
     return what != NULL ? what
            : F->rule.null_tolerance > sli_null_tolerance(F->S->n)
                ? "the pivot is within options.null_tolerance, which is above its default"
+           : !can_skip /* untested: null spaces are there */
+               ? "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
+                 "options.pivots, which SL_NO_SINGULAR leaves out" /* untested: the same */
            : F->S->is_pivoted
                ? "A is singular to working precision: if it is semidefinite, options.pivots = "
                  "SL_PIVOTS_SKIP_NULL, without sl_symbolic_create_pivoted"
-           : sli_singular_of(1) == NULL /* untested: null spaces are there */
-               ? "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
-                 "options.pivots, which SL_NO_SINGULAR leaves out" /* untested: the same */
                : "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
                  "options.pivots = SL_PIVOTS_SKIP_NULL";
 }
