@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 99f2421a72ea2405
+ * FNV-1a of the lines after this comment, without the license: 72fa348eb462d74f
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -8,53 +8,53 @@
  *    248 config.h     macros that a user may define before the include, the version, and the integer types
  *    337 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    515 options.h    options of all calls, threads, and the allocator
- *    633 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    869 csc.h        sparse matrices: creation, checks, products, residuals
- *    963 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1036 factor.h     the numerical factorization P A P' = L D L'
- *   1162 solve.h      full solves, and the workspace of all solves
- *   1255 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1326 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1407 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1487 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1526 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1626 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1704 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1774 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1862 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1962 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2004 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2125 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2268 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2354 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
- *   2463 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
- *   2505 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
- *   2580 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2668 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2732 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2775 impl/ base: the compiler, status, memory, sorting, threads
- *   4085 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4966 impl/ matrix: sparse matrices of the caller and of the library
- *   5799 impl/ ordering: fill-reducing orderings of a graph
- *  10573 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12815 impl/ factor: the numbers of L and D
- *  15383 impl/ solve: full and local solves
- *  16890 impl/ singular: null spaces of semidefinite matrices
- *  18161 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20208 impl/ pivots: the order of the pivots by the values of a matrix
- *  20616 impl/ float: L in single precision
- *  20799 impl/ inverse: entries of the inverse, regions
- *  23700 impl/ change: a factor that follows changes of its matrix
- *  25978 impl/ constraints: rows held at values, on a factor that stays
- *  27325 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30065 impl/ fixed: rows fixed at given values
- *  30624 impl/ io: files that are replaced only when they are complete
- *  30842 impl/ files: Matrix Market files, 64-bit indices
- *  31398 impl/ save: factors in files
- *  33378 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34064 impl/ complex: complex Hermitian systems over real factors
- *  34536 impl/ packs: the tables through which the core calls packs
- *  34960 impl/ templates: the header includes them from itself, once for each instruction set
+ *    632 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    868 csc.h        sparse matrices: creation, checks, products, residuals
+ *    962 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1035 factor.h     the numerical factorization P A P' = L D L'
+ *   1161 solve.h      full solves, and the workspace of all solves
+ *   1254 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1325 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1406 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1486 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1525 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1625 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1703 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1773 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1861 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1961 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2003 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2124 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2267 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2353 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
+ *   2462 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
+ *   2504 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
+ *   2579 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2667 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2731 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2774 impl/ base: the compiler, status, memory, sorting, threads
+ *   4084 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4965 impl/ matrix: sparse matrices of the caller and of the library
+ *   5798 impl/ ordering: fill-reducing orderings of a graph
+ *  10572 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12814 impl/ factor: the numbers of L and D
+ *  15382 impl/ solve: full and local solves
+ *  16889 impl/ singular: null spaces of semidefinite matrices
+ *  18160 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20207 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20615 impl/ float: L in single precision
+ *  20798 impl/ inverse: entries of the inverse, regions
+ *  23699 impl/ change: a factor that follows changes of its matrix
+ *  25977 impl/ constraints: rows held at values, on a factor that stays
+ *  27324 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30064 impl/ fixed: rows fixed at given values
+ *  30623 impl/ io: files that are replaced only when they are complete
+ *  30841 impl/ files: Matrix Market files, 64-bit indices
+ *  31397 impl/ save: factors in files
+ *  33377 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34063 impl/ complex: complex Hermitian systems over real factors
+ *  34535 impl/ packs: the tables through which the core calls packs
+ *  34959 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -597,8 +597,7 @@ typedef struct sl_options {
     double consistency_tolerance;
     /* with SL_PIVOTS_NONZERO only: a null pivot, or one of the wrong sign, becomes sign * max(|d|,
      * regularization * (sum of the magnitudes it was computed from, 1 if that is 0)); 1e-8 suits
-     * refinement. Then L D L' = P (A + E) P', and what does not refine is about A + E; 0: no
-     * regularization */
+     * refinement. Then L D L' = P (A + E) P'; 0: no regularization */
     double regularization;
     /* n, copied: the sign that each row's pivot should have, 1 or -1, or 0 for either; NULL: all 1
      */
@@ -1707,8 +1706,8 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
  * the whole diagonal (stats.inverse.method). Results equal those of full solves up to rounding; the
  * last bits depend on the other requests of the same call, which may share sweeps. If null pivots
  * were skipped, the inverse is that of the matrix without their rows and columns, and 0 in these;
- * sl_factor_pseudo_inverse makes it the pseudo-inverse. If regularization changed pivots, it is
- * the inverse of A + E.
+ * sl_factor_pseudo_inverse makes it the pseudo-inverse. With regularized pivots it is that of
+ * A + E.
  *
  * If pivots have both signs, selected inversion may lose the square of stats.factor.growth, where
  * solves lose growth itself. A bound on the loss is computed first, from L. Beyond 1e-10, relative
@@ -2682,9 +2681,9 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *lo
  *  Returns  SL_OK; SL_ERR_IO: no such file, or malformed at error.line, also by a line of 65536
  *           bytes or more that is not a comment; SL_ERR_UNSUPPORTED: complex, array or
  *           skew-symmetric, which error.what names; SL_ERR_MALFORMED: a symmetric file with an
- *           entry (error.row, error.column) in both triangles; SL_ERR_TOO_LARGE: also if there
- *           are more than 2^20 rows or columns and fewer than one entry for 16 of them;
- *           SL_ERR_MEMORY. NaN and infinity are accepted here.
+ *           entry (error.row, error.column) in both triangles; SL_ERR_TOO_LARGE: also for more
+ *           than 2^20 rows or columns, if over 16 for each entry; SL_ERR_MEMORY. NaN and
+ *           infinity are accepted.
  *  Cost     O(file size + n_rows + n_cols). Memory grows with the entries read, so that a device
  *           without an end does not fill it.
  */
@@ -14868,11 +14867,11 @@ SLI_COLD static const char *sli_advice_null(sl_factor *F, const sli_source *from
        : F->rule.null_tolerance > sli_null_tolerance(F->S->n)
          ? "the pivot is within options.null_tolerance, which is above its default"
        : !can_skip /* untested: null spaces are there */
-         ? "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
-         "options.pivots, which SL_NO_SINGULAR leaves out" /* untested: the same */
+         ? "if A is regular, sl_symbolic_create_pivoted factors it; SL_NO_SINGULAR leaves "
+         "out options.pivots" /* untested: the same */
        : F->S->is_pivoted
-         ? "A is singular to working precision: if it is semidefinite, options.pivots = "
-         "SL_PIVOTS_SKIP_NULL, without sl_symbolic_create_pivoted"
+         ? "A is singular to working precision; if it is semidefinite, options.pivots = "
+         "SL_PIVOTS_SKIP_NULL without sl_symbolic_create_pivoted"
          : "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
          "options.pivots = SL_PIVOTS_SKIP_NULL";
 }
@@ -14888,7 +14887,7 @@ SLI_COLD static const char *sli_advice(sl_factor *F, const sli_source *from, con
   }
   return F->limits.is_definite && f->bound >= 0.0
          ? "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite"
-       : f->bound < 0.0 ? "there was no memory to judge whether the pivot is null"
+       : f->bound < 0.0 ? "there was no memory to judge the pivot"
        : !sli_skips_nulls(F) ? sli_advice_null(F, from, f->pivot)
        : f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
                    "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
@@ -31264,7 +31263,7 @@ static sl_status sli_check_empty(sli_reader *r, const sl_off *size) {
   if (rows / 16 <= SLI_ENTRIES_FIRST + size[2]) {
     return SL_OK;
   }
-  r->what = "more than a million rows or columns, and fewer than one entry for 16 of them";
+  r->what = "more than 2^20 rows or columns, and over 16 for each entry";
   return sli_refuse(SL_ERR_TOO_LARGE, r->what);
 }
 

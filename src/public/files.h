@@ -19,9 +19,9 @@
  *  Returns  SL_OK; SL_ERR_IO: no such file, or malformed at error.line, also by a line of 65536
  *           bytes or more that is not a comment; SL_ERR_UNSUPPORTED: complex, array or
  *           skew-symmetric, which error.what names; SL_ERR_MALFORMED: a symmetric file with an
- *           entry (error.row, error.column) in both triangles; SL_ERR_TOO_LARGE: also if there
- *           are more than 2^20 rows or columns and fewer than one entry for 16 of them;
- *           SL_ERR_MEMORY. NaN and infinity are accepted here.
+ *           entry (error.row, error.column) in both triangles; SL_ERR_TOO_LARGE: also for more
+ *           than 2^20 rows or columns, if over 16 for each entry; SL_ERR_MEMORY. NaN and
+ *           infinity are accepted.
  *  Cost     O(file size + n_rows + n_cols). Memory grows with the entries read, so that a device
  *           without an end does not fill it.
  */

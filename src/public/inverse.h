@@ -9,8 +9,8 @@
  * the whole diagonal (stats.inverse.method). Results equal those of full solves up to rounding; the
  * last bits depend on the other requests of the same call, which may share sweeps. If null pivots
  * were skipped, the inverse is that of the matrix without their rows and columns, and 0 in these;
- * sl_factor_pseudo_inverse makes it the pseudo-inverse. If regularization changed pivots, it is
- * the inverse of A + E.
+ * sl_factor_pseudo_inverse makes it the pseudo-inverse. With regularized pivots it is that of
+ * A + E.
  *
  * If pivots have both signs, selected inversion may lose the square of stats.factor.growth, where
  * solves lose growth itself. A bound on the loss is computed first, from L. Beyond 1e-10, relative

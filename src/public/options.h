@@ -87,8 +87,7 @@ typedef struct sl_options {
     double consistency_tolerance;
     /* with SL_PIVOTS_NONZERO only: a null pivot, or one of the wrong sign, becomes sign * max(|d|,
      * regularization * (sum of the magnitudes it was computed from, 1 if that is 0)); 1e-8 suits
-     * refinement. Then L D L' = P (A + E) P', and what does not refine is about A + E; 0: no
-     * regularization */
+     * refinement. Then L D L' = P (A + E) P'; 0: no regularization */
     double regularization;
     /* n, copied: the sign that each row's pivot should have, 1 or -1, or 0 for either; NULL: all 1
      */

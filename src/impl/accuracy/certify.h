@@ -51,8 +51,7 @@ static void sli_probes_layout(sli_probes *p, sli_block *b) {
     p->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(&q, 2 * SLI_PROBES, SLI_TILE), 1);
 }
 
-/* Where row k of the probes is that are walked tree by tree: one tree is walked in the order of the
- * caller. */
+/* Where row k of the probes is, by trees; one tree has the order of the caller. */
 SLI_INLINE ptrdiff_t sli_probes_at(const sli_probes *p, sl_int k) {
     const sl_symbolic *S = p->F->S;
     return (ptrdiff_t)(S->stats.symbolic.components == 1 ? k : S->perm[k]) * SLI_PROBES;

@@ -79,8 +79,7 @@ static sl_status sli_pin_new(sli_pin **out, const sl_constraints *P, sli_set *se
     return status;
 }
 
-/* Copies the rows and values of an equality in the order of its sorted rows, and scales them, so
- * that the squares of small ones are no zeros. */
+/* Copies an equality in the order of its sorted rows, scaled, so that squares are no zeros. */
 static void sli_pin_fill(sli_pin *pin, const sli_equality *e, const uint64_t *order) {
     double most = 0.0;
     sl_int k;

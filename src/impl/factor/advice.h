@@ -5,8 +5,7 @@
 #include "factor_setup.h"
 #include "pivot_suspects.h"
 
-/* Looks at A for the reason of a null pivot; NULL: none is found. A matrix of several connected
- * parts is judged by the one of the pivot. Overwrites L, as long as it has room. */
+/* Why pivot k is null, as its connected part of A shows; NULL: not known. May overwrite L. */
 SLI_COLD static const char *sli_advice_of_matrix(sl_factor *F, const sli_source *from, sl_int k) {
     const sl_symbolic *S = F->S;
     const int fits = sli_null_suspect_fits(F);
@@ -44,11 +43,11 @@ SLI_COLD static const char *sli_advice_null(sl_factor *F, const sli_source *from
            : F->rule.null_tolerance > sli_null_tolerance(F->S->n)
                ? "the pivot is within options.null_tolerance, which is above its default"
            : !can_skip /* untested: null spaces are there */
-               ? "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
-                 "options.pivots, which SL_NO_SINGULAR leaves out" /* untested: the same */
+               ? "if A is regular, sl_symbolic_create_pivoted factors it; SL_NO_SINGULAR leaves "
+                 "out options.pivots" /* untested: the same */
            : F->S->is_pivoted
-               ? "A is singular to working precision: if it is semidefinite, options.pivots = "
-                 "SL_PIVOTS_SKIP_NULL, without sl_symbolic_create_pivoted"
+               ? "A is singular to working precision; if it is semidefinite, options.pivots = "
+                 "SL_PIVOTS_SKIP_NULL without sl_symbolic_create_pivoted"
                : "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
                  "options.pivots = SL_PIVOTS_SKIP_NULL";
 }
@@ -65,7 +64,7 @@ SLI_COLD static const char *sli_advice(sl_factor *F, const sli_source *from, con
     }
     return F->limits.is_definite && f->bound >= 0.0
                ? "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite"
-           : f->bound < 0.0       ? "there was no memory to judge whether the pivot is null"
+           : f->bound < 0.0       ? "there was no memory to judge the pivot"
            : !sli_skips_nulls(F) ? sli_advice_null(F, from, f->pivot)
            : f->bound > 0.0      ? "the pivot has the wrong sign, beyond options.null_tolerance: "
                                    "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"

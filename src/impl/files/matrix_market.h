@@ -174,7 +174,7 @@ static sl_status sli_check_empty(sli_reader *r, const sl_off *size) {
     if (rows / 16 <= SLI_ENTRIES_FIRST + size[2]) {
         return SL_OK;
     }
-    r->what = "more than a million rows or columns, and fewer than one entry for 16 of them";
+    r->what = "more than 2^20 rows or columns, and over 16 for each entry";
     return sli_refuse(SL_ERR_TOO_LARGE, r->what);
 }
 

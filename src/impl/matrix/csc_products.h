@@ -35,8 +35,7 @@ SLI_INLINE sli_product sli_product_of(const sl_csc *A, double *Y, size_t ldy, co
 
 /* Y += sign A X for a constant number of columns, each of which is added up as it would be alone.
  * is_half, constant: an entry counts at its transposed place, too. Row j of Y is kept in variables
- * while column j passes: through memory, each sum would wait for the last one to be stored. q by
- * value: what is stored to Y might change it. */
+ * while column j passes: through memory, each sum would wait for the last one to be stored. */
 SLI_ALWAYS_INLINE void sli_add_columns(const sli_product q, sl_int columns, int is_half) {
     const sl_csc *A = q.A;
     const double *X = q.X;
