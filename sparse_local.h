@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 72fa348eb462d74f
+ * FNV-1a of the lines after this comment, without the license: 7d42f24ac9470c8c
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,22 +39,22 @@
  *  10572 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12814 impl/ factor: the numbers of L and D
  *  15382 impl/ solve: full and local solves
- *  16889 impl/ singular: null spaces of semidefinite matrices
- *  18160 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20207 impl/ pivots: the order of the pivots by the values of a matrix
- *  20615 impl/ float: L in single precision
- *  20798 impl/ inverse: entries of the inverse, regions
- *  23699 impl/ change: a factor that follows changes of its matrix
- *  25977 impl/ constraints: rows held at values, on a factor that stays
- *  27324 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30064 impl/ fixed: rows fixed at given values
- *  30623 impl/ io: files that are replaced only when they are complete
- *  30841 impl/ files: Matrix Market files, 64-bit indices
- *  31397 impl/ save: factors in files
- *  33377 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34063 impl/ complex: complex Hermitian systems over real factors
- *  34535 impl/ packs: the tables through which the core calls packs
- *  34959 impl/ templates: the header includes them from itself, once for each instruction set
+ *  16890 impl/ singular: null spaces of semidefinite matrices
+ *  18161 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20205 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20613 impl/ float: L in single precision
+ *  20796 impl/ inverse: entries of the inverse, regions
+ *  23697 impl/ change: a factor that follows changes of its matrix
+ *  25975 impl/ constraints: rows held at values, on a factor that stays
+ *  27322 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30058 impl/ fixed: rows fixed at given values
+ *  30617 impl/ io: files that are replaced only when they are complete
+ *  30835 impl/ files: Matrix Market files, 64-bit indices
+ *  31391 impl/ save: factors in files
+ *  33371 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34057 impl/ complex: complex Hermitian systems over real factors
+ *  34529 impl/ packs: the tables through which the core calls packs
+ *  34953 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -15662,14 +15662,18 @@ static sl_status sli_rhs_check(const sli_rhs *r, sl_int nx, sl_int nb) {
 
 #define SLI_ROWS_AHEAD 32
 
+SLI_ALWAYS_INLINE void sli_prefetch_row(const double *v, sli_rows rows, sl_int k) {
+  if (rows.lanes >= 4) { /* untested: constant */
+    const sl_int ahead = rows.index[sli_min(k + SLI_ROWS_AHEAD, rows.count - 1)];
+    SLI_PREFETCH(v + (ptrdiff_t)ahead * rows.lanes, 0);
+  }
+}
+
 SLI_ALWAYS_INLINE void sli_pack_rows(double *v, sli_rows rows, const double *M, sli_dense at,
     sl_int columns) {
   sl_int k, r;
   for (k = 0; k < rows.count; k++) {
-    if (rows.lanes >= 4) { /* untested: constant */
-      const sl_int ahead = rows.index[sli_min(k + SLI_ROWS_AHEAD, rows.count - 1)];
-      SLI_PREFETCH(v + (ptrdiff_t)ahead * rows.lanes, 0);
-    }
+    sli_prefetch_row(v, rows, k);
     SLI_UNROLL
     for (r = 0; r < columns; r++) {
       v[(ptrdiff_t)rows.index[k] * rows.lanes + r] =
@@ -15692,10 +15696,7 @@ SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v,
     sl_int columns) {
   sl_int k, r;
   for (k = 0; k < rows.count; k++) {
-    if (rows.lanes >= 4) { /* untested: constant */
-      const sl_int ahead = rows.index[sli_min(k + SLI_ROWS_AHEAD, rows.count - 1)];
-      SLI_PREFETCH(v + (ptrdiff_t)ahead * rows.lanes, 0);
-    }
+    sli_prefetch_row(v, rows, k);
     SLI_UNROLL
     for (r = 0; r < columns; r++) {
       M[(size_t)k * at.row + (size_t)r * at.column] =
@@ -19451,15 +19452,11 @@ SLI_HOT static double sli_guarantee_try(sli_guarantee_work *p, const sl_csc *A, 
               : 0.0;
 }
 
-static int sli_guarantee_fits(const sl_factor *F, const sl_csc *A) {
-  const sli_hash values = sli_hash_words(F->S->identity, A->x, sli_nnz(A));
-  return sli_hash_equals(F->identity, sli_hash_words(values, F->D, F->S->n));
-}
-
 static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
     sl_certificate_info *info) {
   sli_block b = {NULL, 0};
   sli_guarantee_work p;
+  sli_hash values;
   sl_status status;
   double shift, lowest = 0.0;
   int attempt;
@@ -19468,7 +19465,8 @@ static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
     return sli_refuse(SL_ERR_UNSUPPORTED, "SL_GUARANTEED with null pivots, L in float, "
         "duplicate entries of A or sl_factor_submatrix");
   }
-  if (!sli_guarantee_fits(F, A)) {
+  values = sli_hash_words(F->S->identity, A->x, sli_nnz(A));
+  if (!sli_hash_equals(F->identity, sli_hash_words(values, F->D, F->S->n))) {
     return sli_refuse(SL_ERR_MISMATCH, "A is not the matrix that F was computed from");
   }
   SLI_CLEAR(p);
@@ -29133,10 +29131,6 @@ static void sli_edit_mark(sli_edit *e) {
   }
 }
 
-SLI_INLINE int sli_edit_stays(const sli_edit *e, sl_int row, sl_int s) {
-  return row != -1 && e->node[row] == s;
-}
-
 static void sli_edit_append(sli_edit *e, sl_int s) {
   const sl_symbolic *S = e->S;
   sl_int k, row;
@@ -29146,7 +29140,7 @@ static void sli_edit_append(sli_edit *e, sl_int s) {
   for (k = s < S->n_supers ? S->super_first[s] : 0; s < S->n_supers && k < S->super_first[s + 1];
       k++) {
     row = e->new_of[S->perm[k]];
-    if (sli_edit_stays(e, row, s)) {
+    if (row != -1 && e->node[row] == s) {
       e->fresh[e->n_fresh++] = row;
     }
   }
@@ -35147,12 +35141,6 @@ SLI_INLINE void sli_plain_take(const sl_factor *F, sl_int c, sl_int worker, doub
   }
 }
 
-SLI_INLINE int sli_plain_runs(const sl_factor *F, const sli_source *from) {
-  return from->A != NULL && F->work.copied == NULL &&
-       F->history.marks != NULL && /* branches untested: of a restriction, none is direct */
-       !sli_skips_nulls(F);
-}
-
 SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl_int s,
     sl_int last) {
   const sl_symbolic *S = F->S;
@@ -35161,6 +35149,7 @@ SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl
   const sli_step *steps = S->steps;
   const signed char *const signs = F->rule.signs;
   double *const L = (double *)F->values, *const D = F->D, *const shifts = F->rule.shifts;
+  const sl_int *const ahead = S->scatter_from + S->scatter_begin[S->n_supers] - SLI_ENTRIES_AHEAD;
   sli_extent *extent = F->extents + s;
   for (; s <= last && F->schedule.is_plain[s] == SLI_PLAIN_DIRECT; s++, extent++) {
     const sli_step *step = &steps[s];
@@ -35168,6 +35157,10 @@ SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl
     double entry = magnitude;
     const sl_int *end = ++at + step->below;
     ptrdiff_t c;
+    if (at < ahead) {
+      SLI_PREFETCH(x + at[SLI_ENTRIES_AHEAD - 1], 0);
+      SLI_PREFETCH(x + at[SLI_ENTRIES_AHEAD], 0);
+    }
     for (c = (ptrdiff_t)s - 1; c >= low[s]; c = (ptrdiff_t)low[c] - 1) {
       const double own = L[steps[c].panel + 1], product = own * D[steps[c].column] * own;
       pivot -= product;
@@ -35421,7 +35414,10 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   sl_int s;
   for (s = first; s <= last && status == SL_OK; s++) {
 #if !SLF_HALF
-    if (F->schedule.is_plain[s] == SLI_PLAIN_DIRECT && sli_plain_runs(F, from)) {
+    if (F->schedule.is_plain[s] == SLI_PLAIN_DIRECT && from->A != NULL &&
+        F->work.copied == NULL &&
+        F->history.marks != NULL && /* branches untested: of a restriction, none is direct */
+        !sli_skips_nulls(F)) {
       s = sli_plain_run(F, from->A->x, s, last);
       if (s > last) {
         break;

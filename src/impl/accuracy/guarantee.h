@@ -231,16 +231,11 @@ SLI_HOT static double sli_guarantee_try(sli_guarantee_work *p, const sl_csc *A, 
                             : 0.0;
 }
 
-/* Is A the matrix whose values F was computed from? */
-static int sli_guarantee_fits(const sl_factor *F, const sl_csc *A) {
-    const sli_hash values = sli_hash_words(F->S->identity, A->x, sli_nnz(A));
-    return sli_hash_equals(F->identity, sli_hash_words(values, F->D, F->S->n));
-}
-
 static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
                                sl_certificate_info *info) {
     sli_block b = {NULL, 0};
     sli_guarantee_work p;
+    sli_hash values;
     sl_status status;
     double shift, lowest = 0.0;
     int attempt;
@@ -249,7 +244,8 @@ static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
         return sli_refuse(SL_ERR_UNSUPPORTED, "SL_GUARANTEED with null pivots, L in float, "
                                               "duplicate entries of A or sl_factor_submatrix");
     }
-    if (!sli_guarantee_fits(F, A)) {
+    values = sli_hash_words(F->S->identity, A->x, sli_nnz(A));
+    if (!sli_hash_equals(F->identity, sli_hash_words(values, F->D, F->S->n))) {
         return sli_refuse(SL_ERR_MISMATCH, "A is not the matrix that F was computed from");
     }
     SLI_CLEAR(p);

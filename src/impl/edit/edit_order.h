@@ -24,11 +24,6 @@ static void sli_edit_mark(sli_edit *e) {
     }
 }
 
-/* Does this column of S, of a row of B, stay in its node? */
-SLI_INLINE int sli_edit_stays(const sli_edit *e, sl_int row, sl_int s) {
-    return row != -1 && e->node[row] == s;
-}
-
 /* Appends the rows of node s to fresh: first those that came to it, so that they do not enter the
  * structure of the others without need. */
 static void sli_edit_append(sli_edit *e, sl_int s) {
@@ -40,7 +35,7 @@ static void sli_edit_append(sli_edit *e, sl_int s) {
     for (k = s < S->n_supers ? S->super_first[s] : 0; s < S->n_supers && k < S->super_first[s + 1];
          k++) {
         row = e->new_of[S->perm[k]];
-        if (sli_edit_stays(e, row, s)) {
+        if (row != -1 && e->node[row] == s) { /* it stays in its node */
             e->fresh[e->n_fresh++] = row;
         }
     }

@@ -202,7 +202,10 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
     sl_int s;
     for (s = first; s <= last && status == SL_OK; s++) {
 #if !SLF_HALF
-        if (F->schedule.is_plain[s] == SLI_PLAIN_DIRECT && sli_plain_runs(F, from)) {
+        if (F->schedule.is_plain[s] == SLI_PLAIN_DIRECT && from->A != NULL &&
+            F->work.copied == NULL &&
+            F->history.marks != NULL && /* branches untested: of a restriction, none is direct */
+            !sli_skips_nulls(F)) {
             s = sli_plain_run(F, from->A->x, s, last);
             if (s > last) {
                 break;

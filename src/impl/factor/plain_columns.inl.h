@@ -78,13 +78,6 @@ SLI_INLINE void sli_plain_take(const sl_factor *F, sl_int c, sl_int worker, doub
     }
 }
 
-/* Can a factorization take runs of plain columns? */
-SLI_INLINE int sli_plain_runs(const sl_factor *F, const sli_source *from) {
-    return from->A != NULL && F->work.copied == NULL &&
-           F->history.marks != NULL && /* branches untested: of a restriction, none is direct */
-           !sli_skips_nulls(F);
-}
-
 /* Computes plain columns from supernode s up to `last` while each is regular: direct, and there is
  * nothing to refuse and nothing to replace. Returns the supernode after them. What it leaves is
  * computed again from the start. */
@@ -96,6 +89,7 @@ SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl
     const sli_step *steps = S->steps;
     const signed char *const signs = F->rule.signs;
     double *const L = (double *)F->values, *const D = F->D, *const shifts = F->rule.shifts;
+    const sl_int *const ahead = S->scatter_from + S->scatter_begin[S->n_supers] - SLI_ENTRIES_AHEAD;
     sli_extent *extent = F->extents + s;
     for (; s <= last && F->schedule.is_plain[s] == SLI_PLAIN_DIRECT; s++, extent++) {
         const sli_step *step = &steps[s];
@@ -103,6 +97,10 @@ SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl
         double entry = magnitude;
         const sl_int *end = ++at + step->below;
         ptrdiff_t c;
+        if (at < ahead) { /* of most columns, the pivot and the entry below */
+            SLI_PREFETCH(x + at[SLI_ENTRIES_AHEAD - 1], 0);
+            SLI_PREFETCH(x + at[SLI_ENTRIES_AHEAD], 0);
+        }
         for (c = (ptrdiff_t)s - 1; c >= low[s]; c = (ptrdiff_t)low[c] - 1) {
             const double own = L[steps[c].panel + 1], product = own * D[steps[c].column] * own;
             pivot -= product;
