@@ -78,9 +78,8 @@ SLI_INLINE void sli_plain_take(const sl_factor *F, sl_int c, sl_int worker, doub
     }
 }
 
-/* Computes plain columns from supernode s up to `last` while each is regular: direct, and there is
- * nothing to refuse and nothing to replace. Returns the supernode after them. What it leaves is
- * computed again from the start. */
+/* Computes plain columns from supernode s up to `last` while each is direct, with nothing to refuse
+ * and nothing to replace. Returns the first supernode that it leaves. */
 SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl_int s,
                                          sl_int last) {
     const sl_symbolic *S = F->S;
@@ -97,7 +96,7 @@ SLI_NOINLINE static sl_int sli_plain_run(const sl_factor *F, const double *x, sl
         double entry = magnitude;
         const sl_int *end = ++at + step->below;
         ptrdiff_t c;
-        if (at < ahead) { /* of most columns, the pivot and the entry below */
+        if (at < ahead) { /* most have two entries */
             SLI_PREFETCH(x + at[SLI_ENTRIES_AHEAD - 1], 0);
             SLI_PREFETCH(x + at[SLI_ENTRIES_AHEAD], 0);
         }

@@ -212,9 +212,8 @@ static sl_status sli_rhs_check(const sli_rhs *r, sl_int nx, sl_int nb) {
                                 : "X is B, but ldx is not ldb");
 }
 
-/* How many rows ahead the loops below prefetch. The caller's order jumps about in the vector, which
- * matters only where a row fills a cache line: with 8 right-hand sides prefetching made packing at
- * n = 1e6 2 times faster; with one it costs 3 percent of a solve. */
+/* How many rows ahead the loops below prefetch. With 8 right-hand sides this doubled the speed of
+ * packing at n = 1e6; with one, whose rows share cache lines, it costs 3 percent of a solve. */
 #define SLI_ROWS_AHEAD 32
 
 SLI_ALWAYS_INLINE void sli_prefetch_row(const double *v, sli_rows rows, sl_int k) {
