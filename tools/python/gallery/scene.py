@@ -9,7 +9,7 @@ from scipy.spatial import ConvexHull
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "examples", "jobs"))
-from mesh import laplacian  # noqa: E402,F401  (the programs take it from here)
+from mesh import laplacian, surface  # noqa: E402,F401  (for the programs)
 
 PALETTE = np.array([[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]])
 ARMS = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0.3], [0, 0.2, 1]])
