@@ -172,8 +172,8 @@ build/python/installed: $(wildcard tools/python/*.* tools/python/sparse_local/* 
 
 test-python: deps-python sparse_local.h ## the package of tools/python, from its wheel, against SciPy, and its examples
 	@$(MAKE) --no-print-directory build/python/installed
-	@rm -rf build/python/source/tests build/python/source/examples
-	@cp -r tools/python/tests tools/python/examples tools/python/README.md build/python/source
+	@rm -rf build/python/source/tests build/python/source/examples build/python/source/gallery
+	@cp -r tools/python/tests tools/python/examples tools/python/gallery tools/python/README.md build/python/source
 	@cd build/python && PYTHONPATH=site $(PYTHON) -B -m pytest -q -p no:cacheprovider source/tests
 
 # The source distribution and the wheel by `build`, without a network; each is installed and runs the example, whose picture is kept.
