@@ -29,7 +29,7 @@ class FixedRows:
     def __init__(self, A, rows, **options):
         chosen, numbers = split(options)
         if chosen.pop("pivoted", False):
-            raise TypeError("pivoted is no option of Dirichlet problems")
+            raise TypeError("pivoted is no option of fixed rows")
         self._triangle = chosen.pop("triangle", None)
         matrix = self._checked(A)
         self._kind, self._is_turned = matrix.kind(), matrix.is_turned

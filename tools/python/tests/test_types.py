@@ -9,7 +9,7 @@ import subprocess
 import pytest
 
 import sparse_local
-from sparse_local import _options, gradients, linalg
+from sparse_local import _options, gradients, linalg, mesh
 
 PROGRAM = """
 import numpy as np
@@ -78,7 +78,7 @@ def compare(stub, function, place):
     assert got == wanted, place
 
 
-@pytest.mark.parametrize("module", [sparse_local, linalg, gradients])
+@pytest.mark.parametrize("module", [sparse_local, linalg, gradients, mesh])
 def test_stubs_are_those_of_the_modules(module):
     """Every public name, method and parameter, in both directions."""
     path = module.__file__ + "i"
@@ -108,5 +108,5 @@ def test_stubs_are_those_of_the_modules(module):
 
 def test_a_wheel_has_the_types():
     folder = os.path.dirname(os.path.abspath(sparse_local.__file__))
-    for name in ("py.typed", "__init__.pyi", "linalg.pyi", "gradients.pyi"):
+    for name in ("py.typed", "__init__.pyi", "linalg.pyi", "gradients.pyi", "mesh.pyi"):
         assert os.path.exists(os.path.join(folder, name))

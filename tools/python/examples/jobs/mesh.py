@@ -2,6 +2,8 @@
 import numpy as np
 import scipy.sparse as sp
 
+from sparse_local import mesh
+
 
 def surface(side=40):
     """(points, triangles): side * side vertices over a unit square."""
@@ -15,18 +17,7 @@ def surface(side=40):
 
 def laplacian(points, triangles):
     """(L, M): the positive semidefinite cotangent Laplacian, and the areas as a diagonal matrix."""
-    n = len(points)
-    L = sp.csc_matrix((n, n))
-    for k in range(3):
-        i, j, o = (triangles[:, (k + s) % 3] for s in (0, 1, 2))
-        a, b = points[i] - points[o], points[j] - points[o]
-        weight = (a * b).sum(axis=1) / np.linalg.norm(np.cross(a, b), axis=1) / 2
-        edges = sp.coo_matrix((weight, (i, j)), shape=(n, n))
-        L = L - edges - edges.T
-    L = (L - sp.diags(np.asarray(L.sum(axis=1)).ravel())).tocsc()
-    p = points[triangles]
-    areas = np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1) / 6
-    mass = np.bincount(triangles.ravel(), np.repeat(areas, 3), minlength=n)
+    L, mass = mesh.laplacian(points, triangles)
     return L, sp.diags(mass, format="csc")
 
 
