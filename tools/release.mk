@@ -39,14 +39,14 @@ release: check-header docs deps-python npm ## build/release: headers, tarball, m
 	@test -z "$$(git status --porcelain)" || { echo 'release: there are changes that are not committed'; exit 1; }
 	@case $(VERSION) in 0.*) ;; *) test -f tests/abi/sparse_local-$(VERSION).h || { echo 'release: make abi-record, and commit it'; exit 1; } ;; esac
 	@rm -rf build/release && mkdir -p build/release
-	@cp sparse_local.h build/release
+	@cp sparse_local.h tools/adapters/*.h tools/adapters/*.hpp build/release
 	@$(MAKE) --no-print-directory header-flat && cp build/sparse_local_flat.h build/release
 	@$(MAKE) --no-print-directory header PACKS=core && cp build/sparse_local_core.h build/release
 	@git archive --format=tar --prefix=sparse_local-$(FULL_VERSION)/ HEAD | gzip -9n >$(RELEASE).tar.gz
 	@tar --sort=name --owner=0 --group=0 --mtime="$$(git log -1 --format=@%ct)" -cf - -C build manual | gzip -9n >$(RELEASE)-manual.tar.gz
 	@$(MAKE) --no-print-directory build/python/installed && cp build/python/wheel/*.whl build/npm/*.tgz build/release
 	@tools/docs/release_notes.sh $(VERSION) >build/release/NOTES.md
-	@cd build/release && sha256sum *.h *.gz *.whl *.tgz >SHA256SUMS
+	@cd build/release && sha256sum *.h *.hpp *.gz *.whl *.tgz >SHA256SUMS
 	@ls -l build/release
 
 check-release: release ## the files of a release, each used by itself in an empty folder
