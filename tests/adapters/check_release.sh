@@ -28,14 +28,17 @@ check "the tarball" "tar -C source --strip-components 1 -xzf $release/sparse_loc
 awk '/^```c$/ { inside = 1; next } /^```/ { inside = 0 } inside' source/README.md >readme.c
 for header in sparse_local.h sparse_local_core.h; do
     check "$header: the README's program" \
-        "empty && cp $release/$header . &&
+        "empty && cp $release/$header $release/sparse_local_mesh.h . &&
          sed 's/sparse_local[.]h/$header/' ../readme.c >readme.c &&
-         $CC -O1 -DSL_NO_SIMD readme.c -o readme -lm && ./readme"
+         $CC -O1 -DSL_NO_SIMD readme.c -o readme -lm &&
+         ./readme <../source/tools/examples/hill.obj"
 done
 check "sparse_local_flat.h: pasted into the README's program" \
-    "empty && { echo '#define SPARSE_LOCAL_IMPLEMENTATION'; cat $release/sparse_local_flat.h
+    "empty && cp $release/sparse_local_mesh.h . &&
+     { echo '#define SPARSE_LOCAL_IMPLEMENTATION'; cat $release/sparse_local_flat.h
      sed '/sparse_local.h\"/d; /SPARSE_LOCAL_IMPLEMENTATION/d' ../readme.c; } >readme.c &&
-     $CC -O1 -DSL_NO_SIMD readme.c -o readme -lm && ./readme"
+     $CC -O1 -DSL_NO_SIMD readme.c -o readme -lm &&
+         ./readme <../source/tools/examples/hill.obj"
 
 # ---- the tarball ----
 

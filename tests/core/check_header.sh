@@ -423,7 +423,8 @@ if [ -f README.md ]; then
         grep -q 'int main' "$block" 2>/dev/null || continue
         name=$(basename "$block" .c)
         check "README.md: $name compiles and runs" \
-            "$cc $c99 $light $block -o $dir/$name $libs && (cd $dir && ./$name)"
+            "$cc $c99 $light -Itools/adapters $block -o $dir/$name $libs &&
+             $dir/$name <tools/examples/hill.obj"
     done
 fi
 

@@ -1,13 +1,13 @@
-/* sparse_local_mesh.h: stiffness and mass matrix of a triangle mesh; products of matrices
+/* sparse_local_mesh.h: mass and stiffness matrix of a triangle mesh, products of matrices
  *
  *     #include "sparse_local.h"
  *     #include "sparse_local_mesh.h"                     C99 or C++, no other file, no pack
  *
  *     sl_mesh mesh = {n_vertices, n_faces, xyz, 0, 0, faces, 0};
- *     status = sl_mesh_matrices(&L, &M, &mesh, NULL, &stats);
+ *     status = sl_mesh_matrix(&A, &mesh, 1, t, NULL, &stats);    M + t L
  *
- * sl_matrix_sum of SL_WITH_BATCH gives M + t L. Temporary memory is from malloc. Errors have a text
- * through stats only: sl_error_text(text, sizeof text, status, &stats). */
+ * Temporary memory is from malloc. Errors have a text through stats only: sl_error_text(text,
+ * sizeof text, status, &stats). */
 #ifndef SPARSE_LOCAL_MESH_H
 #define SPARSE_LOCAL_MESH_H
 
@@ -132,14 +132,12 @@ static inline sl_status sl_mesh_check(const sl_mesh *mesh, sl_stats *stats) {
     return SL_OK;
 }
 
-/* The entries of L: six of each face in i, j, x, then the diagonal; and the masses. */
-static inline sl_status sl_mesh_entries(const sl_mesh *mesh, sl_int *i, sl_int *j, double *x,
-                                        double *mass, sl_stats *stats) {
+/* The entries of m M + l L: six of each face in i, j, x, then the diagonal. */
+static inline sl_status sl_mesh_entries(const sl_mesh *mesh, double m, double l,
+                                        sl_int *const ij[2], double *x, double *mass,
+                                        sl_stats *stats) {
     const size_t n = (size_t)mesh->n_vertices, off = 6 * (size_t)mesh->n_faces;
     size_t count = 0;
-    for (size_t v = 0; v < n; v++) {
-        i[off + v] = j[off + v] = (sl_int)v;
-    }
     for (sl_int f = 0; f < mesh->n_faces; f++) {
         sl_int face[3];
         double weights[3];
@@ -154,63 +152,61 @@ static inline sl_status sl_mesh_entries(const sl_mesh *mesh, sl_int *i, sl_int *
             mass[face[k]] += area / 3;
             x[off + (size_t)u] += weights[k];
             x[off + (size_t)v] += weights[k];
-            i[count] = u, j[count] = v, x[count++] = -weights[k];
-            i[count] = v, j[count] = u, x[count++] = -weights[k];
+            ij[0][count] = u, ij[1][count] = v, x[count++] = -l * weights[k];
+            ij[0][count] = v, ij[1][count] = u, x[count++] = -l * weights[k];
         }
     }
     for (size_t v = 0; v < n; v++) {
-        mass[v] = mass[v] > 0 ? mass[v] : 1;
+        ij[0][off + v] = ij[1][off + v] = (sl_int)v;
+        x[off + v] = l * x[off + v] + m * (mass[v] > 0 ? mass[v] : 1);
     }
     return SL_OK;
 }
 
-/** Creates the cotangent Laplacian L, positive semidefinite, and the lumped mass matrix M.
+/** Creates m M + l L, with the lumped mass matrix M and the cotangent Laplacian L, which is
+ *  positive semidefinite: M with m = 1, l = 0; L with 0, 1; heat after the time t with 1, t.
  *
  *  Each row of L sums to 0. Entries at edges opposite to obtuse angles may be positive. A face that
  *  is flat, or names a vertex twice, adds its area but no cotangents; its edges stay in L.
  *  A vertex without area has mass 1, so that M + t L is positive definite for t >= 0.
  *
- *  L, M   [out]  n_vertices x n_vertices; L with both triangles, M diagonal. NULL on error.
- *  opt    [in]   allocator of L and M.
+ *  out    [out]  the matrix, n_vertices x n_vertices, both triangles; diagonal if l is 0. NULL on
+ *                error.
+ *  m, l   [in]   finite numbers.
+ *  opt    [in]   allocator of the matrix.
  *  stats  [out]  error.row: the vertex or the face that is refused.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, a negative count, a vertex out of range;
  *           SL_ERR_NOT_FINITE; SL_ERR_TOO_LARGE: 6 n_faces + n_vertices above 2^31 - 1;
  *           SL_ERR_MEMORY.
  *  Cost     O(n_vertices + n_faces).
  */
-static inline sl_status sl_mesh_matrices(sl_matrix **L, sl_matrix **M, const sl_mesh *mesh,
-                                         const sl_options *opt, sl_stats *stats) {
-    if (L == NULL || M == NULL) {
-        return sl_mesh_refuse(stats, SL_ERR_ARGUMENT, "L or M is NULL", -1);
+static inline sl_status sl_mesh_matrix(sl_matrix **out, const sl_mesh *mesh, double m, double l,
+                                       const sl_options *opt, sl_stats *stats) {
+    if (out == NULL || !(fabs(m) <= DBL_MAX && fabs(l) <= DBL_MAX)) {
+        return sl_mesh_refuse(stats, SL_ERR_ARGUMENT, "out is NULL, or m or l not finite", -1);
     }
-    *L = *M = NULL;
+    *out = NULL;
     sl_status status = sl_mesh_check(mesh, stats);
     if (status != SL_OK) {
         return status;
     }
     const sl_int n = mesh->n_vertices;
-    const sl_off off = 6 * (sl_off)mesh->n_faces, count = off + n;
-    sl_int *i = (sl_int *)sl_mesh_array(count, sizeof *i);
-    sl_int *j = (sl_int *)sl_mesh_array(count, sizeof *j);
+    const sl_off off = 6 * (sl_off)mesh->n_faces, count = off + n, skipped = l == 0 ? off : 0;
+    sl_int *const ij[2] = {(sl_int *)sl_mesh_array(count, sizeof(sl_int)),
+                           (sl_int *)sl_mesh_array(count, sizeof(sl_int))};
     double *x = (double *)sl_mesh_array(count, sizeof *x);
     double *mass = (double *)sl_mesh_array(n, sizeof *mass);
-    if (i == NULL || j == NULL || x == NULL || mass == NULL) {
+    if (ij[0] == NULL || ij[1] == NULL || x == NULL || mass == NULL) {
         status = sl_mesh_refuse(stats, SL_ERR_MEMORY, NULL, -1);
     } else {
-        status = sl_mesh_entries(mesh, i, j, x, mass, stats);
+        status = sl_mesh_entries(mesh, m, l, ij, x, mass, stats);
     }
     if (status == SL_OK) {
-        status = sl_matrix_from_triplets(L, n, n, count, i, j, x, opt, stats);
+        status = sl_matrix_from_triplets(out, n, n, count - skipped, ij[0] + skipped,
+                                         ij[1] + skipped, x + skipped, opt, stats);
     }
-    if (status == SL_OK) {
-        status = sl_matrix_from_triplets(M, n, n, n, i + off, j + off, mass, opt, stats);
-    }
-    if (status != SL_OK) {
-        sl_matrix_free(*L);
-        *L = NULL;
-    }
-    free(i);
-    free(j);
+    free(ij[0]);
+    free(ij[1]);
     free(x);
     free(mass);
     return status;
