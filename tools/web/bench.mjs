@@ -11,7 +11,7 @@ import {createRequire} from "node:module";
 import {pathToFileURL} from "node:url";
 
 const [folder, peer, given] = process.argv.slice(2), side = Number(given ?? 316), n = side * side;
-const {load} = await import(new URL("sparse_local.js", pathToFileURL(`${folder}/`)));
+const {load} = await import(new URL("node.js", pathToFileURL(`${folder}/`)));
 
 function time(body, count) {
     const times = [];

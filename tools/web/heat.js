@@ -1,5 +1,5 @@
 /* heat.js: heat on a grid of 316 x 316 unknowns: a full solve, one value, a change, held rows */
-import {load} from "./sparse_local.js";
+import {load} from "sparse-local";
 
 const side = 316, n = side * side, rows = [], columns = [], values = [];
 function add(row, column, value) {

@@ -1,5 +1,12 @@
 /* sparse_local.d.ts: the types of the npm package */
 
+/* For `using`: as in TypeScript's library since 5.2. */
+declare global {
+    interface SymbolConstructor {
+        readonly dispose: unique symbol;
+    }
+}
+
 /** Any array of numbers; typed arrays of the right type in the heap are used in place. */
 export type Numbers = ArrayLike<number> | HeapArray;
 /** Where a result is written: a HeapArray or Float64Array in the heap in place, others by a copy. */
@@ -53,6 +60,7 @@ export class SparseLocalError extends Error {
  *  more. */
 interface Owned {
     dispose(): void;
+    [Symbol.dispose](): void;
 }
 
 /** An array in the heap. `view` is a typed array over it; take it anew after each call that may
@@ -62,6 +70,7 @@ export class HeapArray<T extends Float64Array | Int32Array = Float64Array | Int3
     readonly length: number;
     readonly view: T;
     dispose(): void;
+    [Symbol.dispose](): void;
 }
 
 export class Matrix implements Owned {
@@ -71,6 +80,7 @@ export class Matrix implements Owned {
     readonly i: Int32Array;
     readonly x: Float64Array;
     dispose(): void;
+    [Symbol.dispose](): void;
 }
 
 export class Analysis implements Owned {
@@ -79,6 +89,7 @@ export class Analysis implements Owned {
     readonly perm: Int32Array; /* a copy */
     factor(A: MatrixArrays, options?: FactorOptions): Factor;
     dispose(): void;
+    [Symbol.dispose](): void;
 }
 
 export class Factor implements Owned {
@@ -100,6 +111,7 @@ export class Factor implements Owned {
     updateEntries(rows: Numbers, columns: Numbers, deltas: Numbers): this;
     constraints(rows?: Numbers): Constraints;
     dispose(): void;
+    [Symbol.dispose](): void;
 }
 
 export class Plan implements Owned {
@@ -110,6 +122,7 @@ export class Plan implements Owned {
     solve(b: Numbers): Float64Array;
     solve<X extends Result>(b: Numbers, x: X, factor?: Factor): X;
     dispose(): void;
+    [Symbol.dispose](): void;
 }
 
 export class Constraints implements Owned {
@@ -124,6 +137,7 @@ export class Constraints implements Owned {
     solve(values: Numbers, more?: {b?: Numbers | null, plan?: Plan | null}): Float64Array;
     solve<X extends Result>(values: Numbers, more: {b?: Numbers | null, x: X, plan?: Plan | null}): X;
     dispose(): void;
+    [Symbol.dispose](): void;
 }
 
 /** A module with a heap of its own, which all its objects share. */
@@ -139,6 +153,7 @@ export class SparseLocal {
     factor(A: MatrixArrays, options?: Options): Factor;
 }
 
-/** Makes an instance; source: nothing for the file of the package, or a module, its bytes, its URL. */
+/** Makes an instance; source: nothing for the file of the package, or a module, its bytes, its URL (as fetch
+ *  takes it). */
 export function load(source?: WebAssembly.Module | BufferSource | URL | string): Promise<SparseLocal>;
 export default load;

@@ -14,6 +14,22 @@ const statuses = ["OK", "ARGUMENT", "MEMORY", "PATTERN", "PIVOT", "NOT_FINITE", 
     "READ_ONLY"];
 const OUT_OF_MEMORY = 2;
 
+/* What sentences of the library call by its names in C. */
+const names = {
+    sl_constraints_refactor: "refactor() of the constraints",
+    SL_PIVOTS_SKIP_NULL: 'nullPivots: "skip"',
+    SL_PIVOTS_POSITIVE: "definite: true"
+};
+const optionNames = {mass: "mass", ordering: "ordering", perm: "perm", triangle: "triangle", purpose: "purpose",
+    block_size: "blockSize"};
+
+/* A sentence in the names of this package; what only C has is said to be there. */
+function inOwnNames(sentence) {
+    return sentence.replace(/options[.]pivots = /g, "")
+        .replace(/options[.](\w+)/g, (all, name) => optionNames[name] ?? `the C library's ${all}`)
+        .replace(/\b(?:sl|SL)_\w+/g, name => names[name] ?? `the C library's ${name}`);
+}
+
 /** What the library refuses: its own sentence, and where. */
 export class SparseLocalError extends Error {
     constructor(message, status, row = -1, column = -1, value = 0) {
@@ -158,7 +174,7 @@ class Heap {
         const bytes = new Uint8Array(this.memory.buffer, this.exports.web_text(status));
         let end = 0;
         while (bytes[end] !== 0) end++;
-        return new SparseLocalError(new TextDecoder().decode(bytes.slice(0, end)), status,
+        return new SparseLocalError(inOwnNames(new TextDecoder().decode(bytes.slice(0, end))), status,
             this.exports.web_error_row(), this.exports.web_error_column(), this.exports.web_error_value());
     }
 
@@ -474,21 +490,17 @@ export class SparseLocal {
     }
 }
 
-/* The bytes of the file beside this one. */
-async function moduleBytes(url) {
-    if (url.protocol === "file:" && globalThis.process?.versions?.node) {
-        return (await import("node:fs/promises")).readFile(url);
-    }
+async function fetched(url) {
     const answer = await fetch(url);
     if (!answer.ok) throw new Error(`${url}: ${answer.status} ${answer.statusText}`);
     return answer.arrayBuffer();
 }
 
 /** Makes an instance. source: a compiled module, its bytes or its URL; nothing: sparse_local.wasm
- *  beside this file. */
+ *  beside this file. Bundlers look for this very form of the URL, and copy the file. */
 export async function load(source = new URL("./sparse_local.wasm", import.meta.url)) {
     const isUrl = typeof source === "string" || source instanceof URL;
-    const given = isUrl ? await moduleBytes(new URL(source, import.meta.url)) : source;
+    const given = isUrl ? await fetched(source) : source;
     const module = given instanceof WebAssembly.Module ? given : await WebAssembly.compile(given);
     const imports = {};
     for (const {module: from, name} of WebAssembly.Module.imports(module)) {

@@ -1,6 +1,6 @@
 # web.mk: the npm package: WebAssembly, JavaScript, types; the kernel of live pages (a part of the Makefile)
 
-.PHONY: deps-npm deps-types npm live live-page test-npm test-live bench-npm
+.PHONY: deps-npm deps-types deps-bundlers npm live live-page test-npm test-live bench-npm
 
 deps-npm: ## clang, lld and a C library for WebAssembly, and node
 	@tools/build/deps.sh node=nodejs clang=clang wasm-ld=lld /usr/lib/wasm32-wasi/libc.a=wasi-libc \
@@ -9,6 +9,9 @@ deps-npm: ## clang, lld and a C library for WebAssembly, and node
 deps-types: ## tsc, which checks the types of the package
 	@tools/build/deps.sh tsc=node-typescript
 
+deps-bundlers: ## esbuild and webpack, which bundle the package for browsers
+	@tools/build/deps.sh esbuild=esbuild webpack=webpack
+
 # The module has at most so many bytes in gzip -9. Fewer functions are inlined and fewer loops unrolled than with -O2, which
 # gives a fifth of the bytes back and takes as long; -Os takes three times as long for a factorization.
 WEB_LIMIT = 150000
@@ -16,7 +19,7 @@ WEB_CC = clang --target=wasm32-wasi --sysroot=/usr
 WEB_OPT = -O2 -mllvm -inline-threshold=0 -fno-vectorize -mllvm -unroll-runtime=0 -mllvm -unroll-threshold=100
 WEB_LINK = -mexec-model=reactor -Wl,--strip-all -Wl,-z,stack-size=1048576 -Wl,--stack-first
 WEB_PACKAGE = build/npm/package
-WEB_FILES = sparse_local.js sparse_local.d.ts heat.js README.md
+WEB_FILES = sparse_local.js node.js sparse_local.d.ts heat.js README.md
 
 build/web/sparse_local.wasm: tools/web/sparse_local_web.c sparse_local.h tools/web/web.mk
 	@mkdir -p $(@D)
@@ -43,9 +46,11 @@ live-page: live ## build/manual/live.html: an example of a live page
 	@mkdir -p build/manual
 	@$(B)/sparse-local view star:5 --live --from 100 --out build/manual/live.html
 
-test-npm: npm ## the npm package under node, its types, and a page with it in headless Chromium where they can be installed
-	@for what in types chromium; do $(MAKE) --no-print-directory deps-$$what >/dev/null 2>&1 || true; done
-	@PACKAGE=$(WEB_PACKAGE) tests/lib/run.sh build/npm/log tests/web/check_package.sh
+## BUNDLERS  folder in which npm has installed esbuild, webpack with webpack-cli, vite, for test-npm
+BUNDLERS ?=
+test-npm: npm ## the npm package under node, its types, bundlers, and pages in headless Chromium where they can be installed
+	@for what in types bundlers chromium; do $(MAKE) --no-print-directory deps-$$what >/dev/null 2>&1 || true; done
+	@PACKAGE=$(WEB_PACKAGE) BUNDLERS='$(BUNDLERS)' tests/lib/run.sh build/npm/log tests/web/check_package.sh tests/web/check_bundlers.sh
 
 test-live: live ## pages of view --live in headless Chromium; LIVE_MESH=hills:318x318: frame times of 100 thousand vertices
 	@$(MAKE) --no-print-directory deps-chromium
