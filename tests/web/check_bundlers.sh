@@ -3,14 +3,15 @@
 #
 #     PACKAGE=build/npm/package [BUNDLERS=FOLDER] tests/web/check_bundlers.sh
 #
-# esbuild, webpack and vite are looked for in node_modules/.bin of BUNDLERS, then in the path; those that are
-# not there are skipped, and so are pages without Chromium. The last line is `N passed, N failed`.
+# esbuild, webpack and vite are looked for in node_modules/.bin of BUNDLERS, then in the path; those
+# that are not there are skipped, and so are pages without Chromium. The last line is
+# `N passed, N failed`.
 
 here=$(realpath "$(dirname "$0")")
 . "$here/../lib/checks.sh"
 checks_folder bundlers
 details() {
-    head -n 20 "$dir/out"
+    head -n 20 "$dir/out" | cut -c 1-200
 }
 [ -z "$BUNDLERS" ] || PATH=$(realpath "$BUNDLERS")/node_modules/.bin:$PATH
 wasm=$(realpath "$PACKAGE")/sparse_local.wasm
@@ -26,7 +27,8 @@ skip() {
 
 # page NAME FOLDER SCRIPT: the page of a bundle, if there is a browser.
 page() {
-    [ -f "$2/index.html" ] || echo "<body><script type=module src=\"./$3\"></script></body>" >"$2/index.html"
+    [ -f "$2/index.html" ] ||
+        echo "<body><script type=module src=\"./$3\"></script></body>" >"$2/index.html"
     if [ -n "$browser" ]; then
         node "$here/test_bundle.mjs" "$browser" "$2" >out 2>&1
         record $? "$1: its page solves"
@@ -37,7 +39,8 @@ page() {
 
 # bundled NAME FOLDER: code for browsers alone, and the module beside it.
 bundled() {
-    ! grep -rqF 'node:fs' "$2" && for file in $(find "$2" -name '*.wasm'); do cmp "$file" "$wasm"; done >out 2>&1
+    ! grep -rqF 'node:fs' "$2" && find "$2" -name '*.wasm' | grep -q . &&
+        find "$2" -name '*.wasm' ! -exec cmp -s "$wasm" {} \; -print >out && [ ! -s out ]
     record $? "$1: no module of node, and WebAssembly as in the package"
 }
 
@@ -49,7 +52,8 @@ if command -v esbuild >/dev/null 2>&1; then
     page esbuild es app.js
     { echo 'import bytes from "sparse-local/sparse_local.wasm";'
       echo 'globalThis.wasmBytes = bytes; await import("./app.mjs");'; } >inside.mjs
-    esbuild inside.mjs --bundle --format=esm --loader:.wasm=binary --outfile=inside/app.mjs >out 2>&1 &&
+    esbuild inside.mjs --bundle --format=esm --target=es2022 --loader:.wasm=binary \
+        --outfile=inside/app.mjs >out 2>&1 &&
         [ "$(node inside/app.mjs 2>>out)" = 'value 0.25' ]
     record $? 'esbuild with the module in the bundle'
     esbuild app.mjs --bundle --format=esm --platform=node --outfile=node/app.mjs >out 2>&1 &&
@@ -70,7 +74,8 @@ fi
 
 if command -v vite >/dev/null 2>&1; then
     echo '<body><script type="module" src="./app.mjs"></script></body>' >index.html
-    vite build --base ./ --outDir vt --assetsInlineLimit 0 --target esnext >out 2>&1 && ls vt/assets/*.wasm >>out 2>&1
+    vite build --base ./ --outDir vt --assetsInlineLimit 0 --target esnext >out 2>&1 &&
+        ls vt/assets/*.wasm >>out 2>&1
     record $? 'vite copies the module'
     bundled vite vt
     page vite vt

@@ -48,8 +48,8 @@ if command -v tsc >/dev/null 2>&1; then
     cp "$here/use.ts" "$dir/use.ts" && types
     record $? 'the types of the package'
     # a compiler older than `using` has no dispose of its own: this is what `using` calls
-    echo 'import {Factor} from "sparse-local"; export const end = (F: Factor): void => F[Symbol.dispose]();' \
-        >"$dir/use.ts" && types
+    { echo 'import {Factor} from "sparse-local";'
+      echo 'export const end = (F: Factor): void => F[Symbol.dispose]();'; } >"$dir/use.ts" && types
     record $? 'the types have Symbol.dispose'
     sed 's/F.solve(b)/F.solve("b")/' "$here/use.ts" >"$dir/use.ts"
     ! types && grep -q 'use.ts.*error TS' "$dir/out"
