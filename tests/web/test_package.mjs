@@ -274,7 +274,7 @@ test("calls of the same kind leave the heap as large as it was", () => {
 test("an error has the text of the library, its status and its place", () => {
     const error = thrown(() => sl.factor(sl.matrix(2, [0, 1, 1], [0, 0, 1], [1, 1, 1])));
     check(error instanceof SparseLocalError && error instanceof Error && error.name === "SparseLocalError");
-    check(error.status === "PIVOT" && error.row === 1 && error.message.includes("refused pivot"));
+    check(error.status === "PIVOT" && error.row === 1 && error.message.startsWith("refused pivot"));
     check(/nullPivots: "skip"/.test(error.message) && !/options[.]pivots|SL_/.test(error.message), error.message);
     const cases = [
         [() => sl.matrix(2, [0, 5], [0, 0], [1, 1]), "ARGUMENT", 5],

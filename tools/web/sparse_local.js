@@ -25,7 +25,7 @@ const optionNames = {mass: "mass", ordering: "ordering", perm: "perm", triangle:
 
 /* A sentence in the names of this package; what only C has is said to be there. */
 function inOwnNames(sentence) {
-    return sentence.replace(/options[.]pivots = /g, "")
+    return sentence.replace(/options[.]pivots = |, without sl_symbolic_create_pivoted/g, "")
         .replace(/options[.](\w+)/g, (all, name) => optionNames[name] ?? `the C library's ${all}`)
         .replace(/\b(?:sl|SL)_\w+/g, name => names[name] ?? `the C library's ${name}`);
 }
