@@ -34,7 +34,8 @@ include tools/web/web.mk
 RELEASE = build/release/sparse_local-$(FULL_VERSION)
 
 # The tarball is what git has of the last commit, and the generated header; owner and times are fixed, so that the same commit gives
-# the same bytes.
+# the same bytes. Nothing is installed: deps.sh says what is missing.
+release: export DEPS_INSTALL = no
 release: check-header docs deps-python npm ## build/release: headers, tarball, manual, wheel, npm package, notes and checksums
 	@test -z "$$(git status --porcelain)" || { echo 'release: there are changes that are not committed'; exit 1; }
 	@case $(VERSION) in 0.*) ;; *) test -f tests/abi/sparse_local-$(VERSION).h || { echo 'release: make abi-record, and commit it'; exit 1; } ;; esac

@@ -5,7 +5,7 @@
 #
 # WHAT is a header (metis.h), a command (g++) or the absolute path of a file (may contain *).
 # PACKAGE is the Debian package that contains it. Installs as root, or with sudo if that needs no
-# password; otherwise prints the command to run and fails.
+# password; otherwise, or with DEPS_INSTALL=no, prints the command to run and fails.
 
 # Only one instance runs at a time, even if make starts several.
 mkdir -p build && exec 9>build/deps.lock
@@ -28,8 +28,8 @@ if ! command -v apt-get >/dev/null 2>&1; then
     exit 1
 fi
 as_root=
-if [ "$(id -u)" -ne 0 ]; then
-    if ! sudo -n true 2>/dev/null; then
+if [ "$DEPS_INSTALL" = no ] || [ "$(id -u)" -ne 0 ]; then
+    if [ "$DEPS_INSTALL" = no ] || ! sudo -n true 2>/dev/null; then
         echo "missing:$missing" >&2
         echo "fix: run: sudo apt-get install$missing" >&2
         exit 1
