@@ -46,7 +46,7 @@ release: check-header docs deps-python npm ## build/release: headers, tarball, m
 	@git archive --format=tar --prefix=sparse_local-$(FULL_VERSION)/ HEAD | gzip -9n >$(RELEASE).tar.gz
 	@tar --sort=name --owner=0 --group=0 --mtime="$$(git log -1 --format=@%ct)" -cf - -C build manual | gzip -9n >$(RELEASE)-manual.tar.gz
 	@$(MAKE) --no-print-directory build/python/installed && cp build/python/wheel/*.whl build/npm/*.tgz build/release
-	@tools/docs/release_notes.sh $(VERSION) >build/release/NOTES.md
+	@tools/docs/release_notes.sh $(FULL_VERSION) >build/release/NOTES.md
 	@cd build/release && sha256sum *.h *.hpp *.gz *.whl *.tgz >SHA256SUMS
 	@ls -l build/release
 

@@ -16,12 +16,13 @@ empty() {
     rm -rf "$dir/use" && mkdir "$dir/use" && cd "$dir/use" || exit 1
 }
 
+tarball=$(find "$release" -name 'sparse_local-*.tar.gz' ! -name '*-manual*')
+version=$(basename "$tarball" .tar.gz | sed 's/^sparse_local-//')
 check "the checksums" "cd $release && sha256sum --check --strict SHA256SUMS"
 check "the notes are on this version" \
-    "head -n 1 $release/NOTES.md |
-     grep -F \"\$(basename $release/*[0-9].tar.gz .tar.gz | tr - ' ')\""
+    "head -n 1 $release/NOTES.md | grep -F 'sparse_local $version'"
 mkdir source
-check "the tarball" "tar -C source --strip-components 1 -xzf $release/sparse_local-*[0-9].tar.gz"
+check "the tarball" "tar -C source --strip-components 1 -xzf $tarball"
 
 # ---- headers: the program of the README ----
 
@@ -31,14 +32,14 @@ for header in sparse_local.h sparse_local_core.h; do
         "empty && cp $release/$header $release/sparse_local_mesh.h . &&
          sed 's/sparse_local[.]h/$header/' ../readme.c >readme.c &&
          $CC -O1 -DSL_NO_SIMD readme.c -o readme -lm &&
-         ./readme <../source/tools/examples/hill.obj"
+     ./readme <../source/tools/examples/hill.obj"
 done
 check "sparse_local_flat.h: pasted into the README's program" \
     "empty && cp $release/sparse_local_mesh.h . &&
      { echo '#define SPARSE_LOCAL_IMPLEMENTATION'; cat $release/sparse_local_flat.h
      sed '/sparse_local.h\"/d; /SPARSE_LOCAL_IMPLEMENTATION/d' ../readme.c; } >readme.c &&
      $CC -O1 -DSL_NO_SIMD readme.c -o readme -lm &&
-         ./readme <../source/tools/examples/hill.obj"
+     ./readme <../source/tools/examples/hill.obj"
 
 # ---- the tarball ----
 
