@@ -42,12 +42,12 @@ static inline void *sl_mesh_array(sl_off count, size_t size) {
     return (uint64_t)count < SIZE_MAX / size ? calloc((size_t)count + 1, size) : NULL;
 }
 
-static inline void sl_mesh_position(double xyz[3], const sl_mesh *mesh, sl_int vertex) {
-    const size_t size = mesh->positions_are_float ? sizeof(float) : sizeof(double);
-    const size_t stride = mesh->position_stride != 0 ? mesh->position_stride : 3 * size;
-    const char *from = (const char *)mesh->positions + stride * (size_t)vertex;
+static inline void sl_mesh_position(double xyz[3], const sl_mesh *surface, sl_int vertex) {
+    const size_t size = surface->positions_are_float ? sizeof(float) : sizeof(double);
+    const size_t stride = surface->position_stride != 0 ? surface->position_stride : 3 * size;
+    const char *from = (const char *)surface->positions + stride * (size_t)vertex;
     float narrow[3];
-    if (mesh->positions_are_float) {
+    if (surface->positions_are_float) {
         memcpy(narrow, from, sizeof narrow);
         for (int c = 0; c < 3; c++) {
             xyz[c] = (double)narrow[c];
@@ -57,9 +57,9 @@ static inline void sl_mesh_position(double xyz[3], const sl_mesh *mesh, sl_int v
     }
 }
 
-static inline void sl_mesh_face(sl_int face[3], const sl_mesh *mesh, sl_int f) {
-    const size_t stride = mesh->face_stride != 0 ? mesh->face_stride : 3 * sizeof *face;
-    memcpy(face, (const char *)mesh->faces + stride * (size_t)f, 3 * sizeof *face);
+static inline void sl_mesh_face(sl_int face[3], const sl_mesh *surface, sl_int f) {
+    const size_t stride = surface->face_stride != 0 ? surface->face_stride : 3 * sizeof *face;
+    memcpy(face, (const char *)surface->faces + stride * (size_t)f, 3 * sizeof *face);
 }
 
 static inline double sl_mesh_dot(const double *a, const double *b) {
@@ -68,10 +68,11 @@ static inline double sl_mesh_dot(const double *a, const double *b) {
 
 /* The area of a face, and half the cotangent at each corner: 0 if the face is too flat to have one.
  * Edges are scaled to components of at most 1: their squares neither overflow nor underflow. */
-static inline double sl_mesh_measure(double weights[3], const sl_mesh *mesh, const sl_int face[3]) {
+static inline double sl_mesh_measure(double weights[3], const sl_mesh *surface,
+                                     const sl_int face[3]) {
     double corner[3][3], edge[3][3], normal[3], scale = 0, longest = 0;
     for (int k = 0; k < 3; k++) {
-        sl_mesh_position(corner[k], mesh, face[k]);
+        sl_mesh_position(corner[k], surface, face[k]);
         weights[k] = 0;
     }
     for (int k = 0; k < 3; k++) { /* edge k is opposite to corner k */
@@ -100,29 +101,29 @@ static inline double sl_mesh_measure(double weights[3], const sl_mesh *mesh, con
     return 0.5 * twice_area * scale * scale;
 }
 
-static inline sl_status sl_mesh_check(const sl_mesh *mesh, sl_stats *stats) {
-    if (mesh == NULL || mesh->n_vertices < 0 || mesh->n_faces < 0 ||
-        (mesh->n_vertices > 0 && mesh->positions == NULL) ||
-        (mesh->n_faces > 0 && mesh->faces == NULL)) {
+static inline sl_status sl_mesh_check(const sl_mesh *surface, sl_stats *stats) {
+    if (surface == NULL || surface->n_vertices < 0 || surface->n_faces < 0 ||
+        (surface->n_vertices > 0 && surface->positions == NULL) ||
+        (surface->n_faces > 0 && surface->faces == NULL)) {
         return sl_mesh_refuse(stats, SL_ERR_ARGUMENT, "mesh: an array is NULL or a count negative",
                               -1);
     }
-    if (6 * (sl_off)mesh->n_faces + mesh->n_vertices > INT32_MAX) {
+    if (6 * (sl_off)surface->n_faces + surface->n_vertices > INT32_MAX) {
         return sl_mesh_refuse(stats, SL_ERR_TOO_LARGE, "mesh: 6 n_faces + n_vertices >= 2^31",
                               -1);
     }
-    for (sl_int v = 0; v < mesh->n_vertices; v++) {
+    for (sl_int v = 0; v < surface->n_vertices; v++) {
         double xyz[3];
-        sl_mesh_position(xyz, mesh, v);
+        sl_mesh_position(xyz, surface, v);
         if (!(fabs(xyz[0]) <= DBL_MAX && fabs(xyz[1]) <= DBL_MAX && fabs(xyz[2]) <= DBL_MAX)) {
             return sl_mesh_refuse(stats, SL_ERR_NOT_FINITE, "mesh: the position of a vertex", v);
         }
     }
-    for (sl_int f = 0; f < mesh->n_faces; f++) {
+    for (sl_int f = 0; f < surface->n_faces; f++) {
         sl_int face[3];
-        sl_mesh_face(face, mesh, f);
+        sl_mesh_face(face, surface, f);
         for (int k = 0; k < 3; k++) {
-            if (face[k] < 0 || face[k] >= mesh->n_vertices) {
+            if (face[k] < 0 || face[k] >= surface->n_vertices) {
                 return sl_mesh_refuse(
                     stats, SL_ERR_ARGUMENT,
                     "mesh: a face has a vertex outside 0..n_vertices-1; the row is the face", f);
@@ -133,16 +134,16 @@ static inline sl_status sl_mesh_check(const sl_mesh *mesh, sl_stats *stats) {
 }
 
 /* The entries of m M + l L: six of each face in i, j, x, then the diagonal. */
-static inline sl_status sl_mesh_entries(const sl_mesh *mesh, double m, double l,
+static inline sl_status sl_mesh_entries(const sl_mesh *surface, double m, double l,
                                         sl_int *const ij[2], double *x, double *mass,
                                         sl_stats *stats) {
-    const size_t n = (size_t)mesh->n_vertices, off = 6 * (size_t)mesh->n_faces;
+    const size_t n = (size_t)surface->n_vertices, off = 6 * (size_t)surface->n_faces;
     size_t count = 0;
-    for (sl_int f = 0; f < mesh->n_faces; f++) {
+    for (sl_int f = 0; f < surface->n_faces; f++) {
         sl_int face[3];
         double weights[3];
-        sl_mesh_face(face, mesh, f);
-        const double area = sl_mesh_measure(weights, mesh, face);
+        sl_mesh_face(face, surface, f);
+        const double area = sl_mesh_measure(weights, surface, face);
         if (!(area <= 1e290)) { /* the sum of 2^31 such areas is still finite */
             return sl_mesh_refuse(stats, SL_ERR_NOT_FINITE,
                                   "mesh: the area of a face overflows; the row is the face", f);
@@ -180,18 +181,18 @@ static inline sl_status sl_mesh_entries(const sl_mesh *mesh, double m, double l,
  *           SL_ERR_MEMORY.
  *  Cost     O(n_vertices + n_faces).
  */
-static inline sl_status sl_mesh_matrix(sl_matrix **out, const sl_mesh *mesh, double m, double l,
+static inline sl_status sl_mesh_matrix(sl_matrix **out, const sl_mesh *surface, double m, double l,
                                        const sl_options *opt, sl_stats *stats) {
     if (out == NULL || !(fabs(m) <= DBL_MAX && fabs(l) <= DBL_MAX)) {
         return sl_mesh_refuse(stats, SL_ERR_ARGUMENT, "out is NULL, or m or l not finite", -1);
     }
     *out = NULL;
-    sl_status status = sl_mesh_check(mesh, stats);
+    sl_status status = sl_mesh_check(surface, stats);
     if (status != SL_OK) {
         return status;
     }
-    const sl_int n = mesh->n_vertices;
-    const sl_off off = 6 * (sl_off)mesh->n_faces, count = off + n, skipped = l == 0 ? off : 0;
+    const sl_int n = surface->n_vertices;
+    const sl_off off = 6 * (sl_off)surface->n_faces, count = off + n, skipped = l == 0 ? off : 0;
     sl_int *const ij[2] = {(sl_int *)sl_mesh_array(count, sizeof(sl_int)),
                            (sl_int *)sl_mesh_array(count, sizeof(sl_int))};
     double *x = (double *)sl_mesh_array(count, sizeof *x);
@@ -199,7 +200,7 @@ static inline sl_status sl_mesh_matrix(sl_matrix **out, const sl_mesh *mesh, dou
     if (ij[0] == NULL || ij[1] == NULL || x == NULL || mass == NULL) {
         status = sl_mesh_refuse(stats, SL_ERR_MEMORY, NULL, -1);
     } else {
-        status = sl_mesh_entries(mesh, m, l, ij, x, mass, stats);
+        status = sl_mesh_entries(surface, m, l, ij, x, mass, stats);
     }
     if (status == SL_OK) {
         status = sl_matrix_from_triplets(out, n, n, count - skipped, ij[0] + skipped,
@@ -210,6 +211,10 @@ static inline sl_status sl_mesh_matrix(sl_matrix **out, const sl_mesh *mesh, dou
     free(x);
     free(mass);
     return status;
+}
+
+static inline int sl_mesh_has_values(const sl_csc *A) {
+    return A->n_cols == 0 || (A->p != NULL && (A->p[A->n_cols] == 0 || A->x != NULL));
 }
 
 /* The triplets of A diag(d) B, column by column; their number. With i = NULL they are counted.
@@ -264,7 +269,7 @@ static inline sl_status sl_matrix_product(sl_matrix **out, const sl_csc *A, cons
     if (status != SL_OK) {
         return status;
     }
-    if (A->n_cols != B->n_rows || A->x == NULL || B->x == NULL) {
+    if (A->n_cols != B->n_rows || !sl_mesh_has_values(A) || !sl_mesh_has_values(B)) {
         return sl_mesh_refuse(stats, SL_ERR_ARGUMENT,
                               "A and B: both need values, and A as many columns as B has rows", -1);
     }

@@ -5,63 +5,19 @@
 #include <stdlib.h>
 
 #include "planar_triangle.h"
+#include "tools/adapters/sparse_local_mesh.h"
 #include "tools/mesh/adjacency.h"
 #include "tools/matrix/triplets.h"
 
-#define FLATNESS_MIN 1.5e-8 /* twice the area / longest edge squared: sqrt(DBL_EPSILON) */
-#define AREA_MAX 1e290      /* the sum of 2^31 such areas is still finite */
-#define TIME_MAX 1e200      /* times a weight, plus a mass, is still finite */
+#define AREA_MAX 1e290 /* the sum of 2^31 such areas is still finite */
+#define TIME_MAX 1e200 /* times a weight, plus a mass, is still finite */
 
-static double dot(const double *a, const double *b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/* Cotangents do not depend on the scale, so edges are scaled to components of at most 1. Their
- * squares then neither overflow nor underflow. */
 laplacian_face laplacian_of_face(const mesh *m, const sl_int *face) {
-    laplacian_face result = {0, {0, 0, 0}};
-    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) {
-        return result;
-    }
-    double edge[3][3]; /* edge k, opposite to corner k, runs from corner k+1 to k+2 */
-    double scale = 0;
-    for (int k = 0; k < 3; k++) {
-        const double *from = m->xyz + 3 * (size_t)face[(k + 1) % 3];
-        const double *to = m->xyz + 3 * (size_t)face[(k + 2) % 3];
-        for (int c = 0; c < 3; c++) {
-            edge[k][c] = to[c] - from[c];
-            if (!isfinite(edge[k][c])) {
-                return result;
-            }
-            scale = fmax(scale, fabs(edge[k][c]));
-        }
-    }
-    if (scale == 0) {
-        return result;
-    }
-    double longest = 0;
-    for (int k = 0; k < 3; k++) {
-        for (int c = 0; c < 3; c++) {
-            edge[k][c] /= scale;
-        }
-        longest = fmax(longest, dot(edge[k], edge[k]));
-    }
-    double normal[3] = {edge[0][1] * edge[1][2] - edge[0][2] * edge[1][1],
-                        edge[0][2] * edge[1][0] - edge[0][0] * edge[1][2],
-                        edge[0][0] * edge[1][1] - edge[0][1] * edge[1][0]};
-    double twice_area = sqrt(dot(normal, normal));
-    double area = 0.5 * twice_area * scale * scale;
-    if (!(area <= AREA_MAX)) {
-        return result;
-    }
-    result.area = area;
-    if (twice_area > FLATNESS_MIN * longest) {
-        for (int k = 0; k < 3; k++) {
-            /* edge k+1 ends at corner k, edge k+2 starts there */
-            result.weight[k] = -0.5 * dot(edge[(k + 1) % 3], edge[(k + 2) % 3]) / twice_area;
-        }
-    }
-    return result;
+    const sl_mesh surface = {m->n_vertices, m->n_faces, m->xyz, 0, 0, m->faces, 0};
+    const laplacian_face none = {0, {0, 0, 0}};
+    laplacian_face result;
+    result.area = sl_mesh_measure(result.weight, &surface, face);
+    return result.area <= AREA_MAX ? result : none;
 }
 
 /* Half the cotangent at the corner opposite to an edge, from the lengths of the edges. */
