@@ -6,6 +6,8 @@ import numpy as np
 
 from ._errors import ArgumentError
 
+FLATNESS = 1.5e-8  # the square root of epsilon, as in sparse_local_mesh.h
+
 __all__ = ["laplacian", "boundary"]
 
 
@@ -27,20 +29,21 @@ def _checked(points, triangles):
 def laplacian(points, triangles):
     """(L, mass): the positive semidefinite cotangent Laplacian, n x n, and n areas.
 
-    Each vertex has a third of the area of its triangles. A flat triangle adds nothing. A vertex
-    without triangles has an empty row and no area: a factor needs a value for it, for example by
-    null_pivots="skip".
+    Each vertex has a third of the area of its triangles. A flat triangle, twice whose area is below
+    1.5e-8 times its longest edge squared, adds its area alone. A vertex without triangles has an
+    empty row and no area: a factor needs a value for it, for example by null_pivots="skip".
     """
     import scipy.sparse as sp
     points, triangles = _checked(points, triangles)
     n = len(points)
     p = points[triangles]
     twice = np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1)
+    longest = ((p - np.roll(p, 1, axis=1)) ** 2).sum(axis=2).max(axis=1)
     rows, columns, weights = [], [], []
     for k in range(3):
         i, j, o = (k + 1) % 3, (k + 2) % 3, k
         dots = ((p[:, i] - p[:, o]) * (p[:, j] - p[:, o])).sum(axis=1)
-        half = np.divide(dots, 2 * twice, out=np.zeros(len(p)), where=twice > 0)
+        half = np.divide(dots, 2 * twice, out=np.zeros(len(p)), where=twice > FLATNESS * longest)
         rows.append(triangles[:, i])
         columns.append(triangles[:, j])
         weights.append(half)

@@ -41,6 +41,14 @@ def test_flat_triangles_and_free_vertices_add_nothing():
     assert mass[4] == 0 and not L.toarray()[4].any() and np.isfinite(L.toarray()).all()
 
 
+def test_rounding_of_a_flat_triangle_adds_no_cotangents():
+    third = np.array([[0.1, 0.1], [0.2, 0.2], [0.3, 0.3 + 6e-17]])
+    L, mass = mesh.laplacian(third, [[0, 1, 2]])
+    assert not L.toarray().any() and mass.sum() < 1e-16
+    L, _ = mesh.laplacian([[0, 0], [1, 0], [0.5, 1e-6]], [[0, 1, 2]])  # thin, but not flat
+    assert np.linalg.eigvalsh(L.toarray())[0] > -1e-9 * abs(L).max() and abs(L).max() > 1e5
+
+
 @pytest.mark.parametrize("points, triangles, words", [
     (SQUARE, [[0, 1, 4]], "triangle 0"), (SQUARE, [[0, 1, 2], [0, -1, 2]], "triangle 1"),
     (SQUARE * np.nan, HALVES, "finite"), (SQUARE[:, 0], HALVES, "shape"),
