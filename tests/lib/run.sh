@@ -66,7 +66,8 @@ twice=$(printf '%s\n' "$@" | sed 's|.*/||' | sort | uniq -d)
 [ -z "$twice" ] || { echo "run.sh: two programs have one name and one log: $twice" && exit 1; }
 rm -rf "$logs"
 mkdir -p "$logs/tmp" || exit 1
-export TMPDIR="$logs/tmp" SL_TMP="$logs/tmp"
+TMPDIR=$(cd "$logs/tmp" && pwd) # a program may change its folder
+export TMPDIR SL_TMP="$TMPDIR"
 jobs=${TEST_JOBS:-$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)}
 printf '%s\n' "$@" | xargs -n 1 -P "$jobs" "$0" --one "$logs" || exit 1
 

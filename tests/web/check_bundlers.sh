@@ -13,9 +13,6 @@ checks_folder bundlers
 details() {
     head -n 20 "$dir/out" | cut -c 1-200
 }
-TMPDIR=$(realpath "${TMPDIR:-/tmp}") # of Chromium, which begins in another folder
-SL_TMP=$TMPDIR
-export TMPDIR SL_TMP
 [ -z "$BUNDLERS" ] || PATH=$(realpath "$BUNDLERS")/node_modules/.bin:$PATH
 wasm=$(realpath "$PACKAGE")/sparse_local.wasm
 mkdir -p "$dir/node_modules" && cp -r "$PACKAGE" "$dir/node_modules/sparse-local"

@@ -28,13 +28,11 @@ if ! command -v apt-get >/dev/null 2>&1; then
     exit 1
 fi
 as_root=
-if [ "$DEPS_INSTALL" = no ] || [ "$(id -u)" -ne 0 ]; then
-    if [ "$DEPS_INSTALL" = no ] || ! sudo -n true 2>/dev/null; then
-        echo "missing:$missing" >&2
-        echo "fix: run: sudo apt-get install$missing" >&2
-        exit 1
-    fi
-    as_root="sudo -n"
+[ "$(id -u)" -eq 0 ] || as_root='sudo -n'
+if [ "$DEPS_INSTALL" = no ] || ! $as_root true 2>/dev/null; then
+    echo "missing:$missing" >&2
+    echo "fix: run: sudo apt-get install$missing" >&2
+    exit 1
 fi
 
 echo "installing:$missing"

@@ -2,6 +2,7 @@
 import numpy as np
 import scipy.sparse as sp
 import sparse_local
+from sparse_local.mesh import boundary
 
 from scene import draw, laplacian, ring
 
@@ -10,10 +11,9 @@ n = len(points)
 L, M = laplacian(points, triangles)
 
 # Dirichlet energy less area. The area is a sum over the boundary edges, those with one face.
-edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+edges = boundary(triangles)
 E = sp.coo_matrix((np.ones(len(edges)), edges.T), shape=(n, n))
 A = ((E - E.T) / 2).tocsc()
-A.eliminate_zeros()
 K = sp.bmat([[L, -A], [A, L]], format="csc")
 
 pictures = [(points, triangles, points[:, 2])]

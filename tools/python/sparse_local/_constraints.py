@@ -16,8 +16,8 @@ class Constraints:
 
     Errors    UnsupportedError: pivots of both signs, 2x2 pivots; StateError: the factor has changed
               since (update); PivotError: a row is held already.
-    Cost      a forward sweep for each pin, a full solve for each solution; with more
-              than some two hundred rows FixedRows is cheaper.
+    Cost      a forward sweep for each pin, a full solve for each solution; with more than some two
+              hundred rows FixedRows is cheaper.
     Threads   add, release and update need the pins for themselves; solve does not.
     """
 
