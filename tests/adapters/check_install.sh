@@ -116,6 +116,7 @@ installed_by_make() {
     test -f "$dir/prefix/include/sparse_local_geometry_central.hpp"
     test -f "$dir/prefix/include/sparse_local_qdldl.h"
     test -f "$dir/prefix/include/sparse_local_mesh.h"
+    test -f "$dir/prefix/include/sparse_local_symmetric.h"
     test -f "$dir/prefix/share/man/man1/sparse-local.1"
     if echo '#include <png.h>' | "${CC:-cc}" -E -x c - >/dev/null 2>&1; then
         "$dir/prefix/bin/sparse-local" --version | grep -F "$VERSION"

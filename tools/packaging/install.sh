@@ -16,7 +16,7 @@ bin=$DESTDIR$PREFIX/bin
 pkgconfig="$lib/pkgconfig/sparse_local.pc $lib/pkgconfig/sparse_local_compiled.pc"
 headers="sparse_local.h tools/adapters/sparse_local.hpp tools/adapters/sparse_local_eigen.hpp
 tools/adapters/sparse_local_geometry_central.hpp tools/adapters/sparse_local_qdldl.h
-tools/adapters/sparse_local_mesh.h"
+tools/adapters/sparse_local_mesh.h tools/adapters/sparse_local_symmetric.h"
 
 if [ "$1" = uninstall ]; then
     for header in $headers; do
