@@ -18,7 +18,7 @@ SHARED_FLAGS ?=
 SHARED_LIBS ?=
 
 .PHONY: deps-eigen deps-packaging test-adapters test-clients test-osqp bench-osqp shared test-shared deps-abi abi abi-record \
-	install uninstall check-install deps-python deps-python-more deps-torch deps-wheels wheels old-debian test-wheels test-python test-python-build bench-python deps-octave octave test-octave
+	install uninstall check-install deps-python deps-python-more deps-torch deps-wheels wheels old-debian test-wheels test-home test-python test-python-build bench-python deps-octave octave test-octave
 
 deps-eigen: deps-cxx ## Eigen: the tests of its adapter
 	@tools/build/deps.sh /usr/include/eigen3/Eigen/Sparse=libeigen3-dev
@@ -137,7 +137,7 @@ install: shared ## header, adapters, libraries, pkg-config and CMake files, prog
 	@echo '#include <png.h>' | $(CC) $(CPPFLAGS) -E -x c - >/dev/null 2>&1 && $(MAKE) --no-print-directory programs || \
 	echo 'sparse-local is not built: it needs libpng-dev and zlib1g-dev'
 	@VERSION=$(VERSION) SOVERSION=$(SOVERSION) PREFIX='$(PREFIX)' LIBDIR='$(LIBDIR)' INCLUDEDIR='$(INCLUDEDIR)' \
-	DESTDIR='$(DESTDIR)' PRIVATE_LIBS='$(SHARED_LIBS)' PROGRAM='$(B)/sparse-local' tools/packaging/install.sh install
+	DESTDIR='$(DESTDIR)' HOME_URL='$(HOME_URL)' PRIVATE_LIBS='$(SHARED_LIBS)' PROGRAM='$(B)/sparse-local' tools/packaging/install.sh install
 
 uninstall: ## removes what install put there
 	@VERSION=$(VERSION) SOVERSION=$(SOVERSION) PREFIX='$(PREFIX)' LIBDIR='$(LIBDIR)' INCLUDEDIR='$(INCLUDEDIR)' \
@@ -145,6 +145,9 @@ uninstall: ## removes what install put there
 
 check-install: deps-packaging deps-cxx sparse_local.h ## strangers' projects by pkg-config, CMake and meson, outside the tree
 	@CC='$(CC)' CXX='$(CXX)' VERSION=$(VERSION) FULL_VERSION=$(FULL_VERSION) tests/adapters/check_install.sh $(INSTALL_PARTS)
+
+test-home: sparse_local.h ## does HOME_URL reach the header, the packages and the manual?
+	@CC='$(CC)' PYTHON='$(PYTHON)' tests/adapters/check_home.sh
 
 # ---- Python ----
 
