@@ -21,7 +21,8 @@ version=$(basename "$tarball" .tar.gz | sed 's/^sparse_local-//')
 check "the checksums" "cd $release && sha256sum --check --strict SHA256SUMS"
 check "the contents name each file with its license and checksum" \
     "cd $release && find * -type f ! -name SHA256SUMS ! -name CONTENTS.md | sort >$dir/files &&
-     sed -n 's/^| \([^ ]*[.][^ ]*\) .* MIT.* | [0-9]* | \([0-9a-f]*\) |\$/\2  \1/p' CONTENTS.md >$dir/sums &&
+     sed -n 's/^| \([^ ]*[.][^ ]*\) .* MIT.* | [0-9]* | \([0-9a-f]*\) |\$/\2  \1/p' \
+         CONTENTS.md >$dir/sums &&
      cut -c 67- $dir/sums | cmp - $dir/files && sha256sum --check --strict $dir/sums"
 check "the notes are on this version" \
     "head -n 1 $release/NOTES.md | grep -F 'sparse_local $version'"

@@ -3,9 +3,10 @@
 #
 #     tests/adapters/check_wheels.sh FOLDER [CHROOT]      (make test-wheels)
 #
-# FOLDER has what make wheels made. Where a compiler for a platform is missing, or Wine, its library is not run. CHROOT is
-# an older Debian with NumPy and pip (make old-debian): pip there installs the wheel and solves. CC, PYTHON and WINE come from the
-# Makefile. The last line is `N passed, N failed`.
+# FOLDER has what make wheels made. Where a compiler for a platform is missing, or Wine, its
+# library is not run. CHROOT is an older Debian with NumPy and pip (make old-debian): pip there
+# installs the wheel and solves. CC, PYTHON and WINE come from the Makefile. The last line is `N
+# passed, N failed`.
 
 wheels=$(cd "$1" && pwd) || exit 1
 chroot=$2
@@ -65,9 +66,9 @@ check "a newer system's tag is accepted, an older one's is not" \
 linux=manylinux/sparse_local/libsparse_local.so
 musl=musllinux/sparse_local/libsparse_local.so
 windows=win_amd64/sparse_local/sparse_local.dll
-# Calls that the header declares, as sl_NAME( after SL_API, which may be on the line before; and names that a library exports.
+# Calls that the header declares, as sl_NAME( after SL_API, which may be on the line before
 awk '/^SL_API/ || after { after = /^SL_API/; if (match($0, /sl_[a-z0-9_]+\(/)) {
-        print substr($0, RSTART, RLENGTH - 1); after = 0 } }' "$root/sparse_local.h" | sort -u >declared
+    print substr($0, RSTART, RLENGTH - 1); after = 0 } }' "$root/sparse_local.h" | sort -u >declared
 exported() {
     case $1 in
     *.dll) objdump -p "$1" ;;

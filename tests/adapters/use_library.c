@@ -1,9 +1,9 @@
-/* use_library.c: solves on a compiled library that is loaded by its path, as ctypes does; glibc, musl and Windows
+/* use_library.c: solves on a library that is loaded by its path; for glibc, musl and Windows
  *
  *     use_library LIBRARY SAVED
  *
- * The matrix is that of a chain of springs. A factor is saved to the file SAVED, and loaded and mapped from it. Ends with 0
- * if all solutions have small residuals and the same bits.
+ * The matrix is that of a chain of springs. A factor is saved to the file SAVED, and loaded and
+ * mapped from it. Ends with 0 if the residual is small and all solutions have the same bits.
  */
 #define SL_WITH_ALL
 #include "sparse_local.h"
@@ -95,7 +95,7 @@ int main(int argc, char **argv) {
     for (unsigned flags = 0; flags <= SL_LOAD_MAPPED && !status; flags += SL_LOAD_MAPPED) {
         status = sl_load_(&loaded, saved, NULL, 0, flags, NULL);
         if (!status) status = sl_factor_solve_(loaded.factor, y, N, b, N, 1, NULL);
-        if (!status && memcmp(x, y, sizeof x) != 0) return puts("the loaded factor has other bits"), 1;
+        if (!status && memcmp(x, y, sizeof x) != 0) return puts("loaded: other bits"), 1;
         sl_saved_set_free_(&loaded);
     }
     char text[300];

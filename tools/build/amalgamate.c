@@ -1,6 +1,7 @@
 /* amalgamate.c: writes the single header sparse_local.h from the parts that the manifest lists
  *
- *     amalgamate [--check] [--flat] [--comments] [--packs "change save"] [--home URL] MANIFEST OUT [LICENSE]
+ *     amalgamate [--check] [--flat] [--comments] [--packs "change save"] [--home URL]
+ *                MANIFEST OUT [LICENSE]
  *
  * --check   compares OUT with what would be written and writes nothing.
  * --flat    expands a template at each of its includes; the result does not include itself.

@@ -1,10 +1,11 @@
 #!/bin/sh
-# home.sh: writes the address of the home to the files of packages that state it, or checks that they do
+# home.sh: writes the address of the home to the files of packages, or checks that it is there
 #
 #     tools/packaging/home.sh [--check] URL          (make header, make check-header)
 #
-# URL is HOME_URL of the Makefile. If it is empty, none of these files has an address. Other packages are filled in when they
-# are made: pkg-config files, package.json, the manual, the list of a release.
+# URL is HOME_URL of the Makefile. If it is empty, none of these files has an address. Other
+# packages are filled in when they are made: pkg-config files, package.json, the manual, the list
+# of a release.
 
 check=
 if [ "$1" = --check ]; then
@@ -42,8 +43,10 @@ home_in() {
 }
 
 status=0
-home_in tools/packaging/vcpkg/vcpkg.json '/^  "homepage": /d' "/^  \"license\": /i\\  \"homepage\": \"$url\","
-home_in tools/packaging/conan/conanfile.py '/^    homepage = /d' "/^    license = /a\\    homepage = \"$url\""
+home_in tools/packaging/vcpkg/vcpkg.json '/^  "homepage": /d' \
+    "/^  \"license\": /i\\  \"homepage\": \"$url\","
+home_in tools/packaging/conan/conanfile.py '/^    homepage = /d' \
+    "/^    license = /a\\    homepage = \"$url\""
 home_in tools/python/pyproject.toml '/^urls = /d' "/^license = /a\\urls = { Homepage = \"$url\" }"
 home_in CMakeLists.txt 's/^\(project(sparse_local .*\) HOMEPAGE_URL ".*" /\1 /' \
     "s|^\(project(sparse_local .*\) LANGUAGES|\1 HOMEPAGE_URL \"$url\" LANGUAGES|"

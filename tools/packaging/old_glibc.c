@@ -1,8 +1,9 @@
-/* old_glibc.c: log, stat and fstat by versions that every glibc has, for wheels that run on old systems
+/* old_glibc.c: log, stat and fstat as every glibc has them, for wheels that run on old systems
  *
- * glibc gave log a new version in 2.29, without the error handler of SVID, and stat and fstat became functions of their
- * own in 2.33. A library that is linked on a newer system needs that one or a newer one, for these three names alone. Linked with this
- * object it calls the functions that glibc keeps for old programs, which compute the same.
+ * glibc gave log a new version in 2.29, without the error handler of SVID, and stat and fstat
+ * became functions of their own in 2.33. A library that is linked on a newer system needs that
+ * one or a newer one, for these three names alone. Linked with this object it calls the functions
+ * that glibc keeps for old programs, which compute the same.
  */
 #include <features.h>
 

@@ -1,10 +1,11 @@
 #!/bin/bash
-# release_contents.sh: prints what a release contains, as a table: file, what it is, licences, bytes, SHA-256
+# release_contents.sh: what a release contains: file, what it is, licences, bytes, SHA-256
 #
 #     tools/packaging/release_contents.sh FOLDER          (make release)
 #
-# The license of a file is that of LICENSE; beside it stand those of libraries that a compiler has linked into it. Ends with
-# 1 if it does not know a file, so that none is published without being looked at. HOME_URL comes from the Makefile.
+# The license of a file is that of LICENSE; beside it stand those of libraries that a compiler has
+# linked into it. Ends with 1 if it does not know a file, so that none is published without being
+# looked at. HOME_URL comes from the Makefile.
 
 cd "$1" || exit 1
 license=$(head -n 1 "$OLDPWD/LICENSE" | cut -d' ' -f1)
@@ -21,14 +22,16 @@ describe() {
     python/*musllinux*.whl) what='the Python package for Linux with musl' ;;
     python/*win*.whl)
         what='the Python package for 64-bit Windows'
-        linked='; MinGW-w64 runtime: ZPL-2.1 and permissive ones; libgcc: GPL-3.0 with the GCC Runtime Library Exception'
+        linked='; MinGW-w64 runtime: ZPL-2.1 and permissive ones'
+        linked+='; libgcc: GPL-3.0 with the GCC Runtime Library Exception'
         ;;
     python/*.tar.gz) what='the source distribution of the Python package' ;;
     *-manual.tar.gz) what='the manual; begin with manual/index.html' ;;
     *.tar.gz) what='the repository' ;;
     *.tgz)
         what='the npm package'
-        linked='; wasi-libc: MIT and other permissive ones; compiler-rt: Apache-2.0 with LLVM exceptions'
+        linked='; wasi-libc: MIT and other permissive ones'
+        linked+='; compiler-rt: Apache-2.0 with LLVM exceptions'
         ;;
     NOTES.md) what='what is new' ;;
     *)
@@ -43,6 +46,7 @@ echo "# What this release contains"
 printf '\n| file | what it is | license | bytes | SHA-256 |\n|---|---|---|---|---|\n'
 for file in $(find . -type f ! -name SHA256SUMS ! -name CONTENTS.md | sed 's/^..//' | sort); do
     describe "$file"
-    echo "| $file | $what | $license$linked | $(wc -c <"$file") | $(sha256sum "$file" | cut -d' ' -f1) |"
+    sum=$(sha256sum "$file" | cut -d' ' -f1)
+    echo "| $file | $what | $license$linked | $(wc -c <"$file") | $sum |"
 done
 exit $status

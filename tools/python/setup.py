@@ -49,7 +49,8 @@ class Build(build_py):
         compiled = target + ".o"
         compiler = COMPILER + shlex.split(os.environ.get("CFLAGS", ""))
         more = shlex.split(os.environ.get("LDFLAGS", ""))
-        # A DLL needs no flag for its addresses, nor -lm. Without -static-libgcc it may need a DLL of the compiler.
+        # A DLL needs no flag for its addresses, nor -lm; without -static-libgcc it may need a DLL
+        # of the compiler.
         kind, libraries = ["-fPIC", "-fvisibility=hidden"], ["-lm"]
         if system == "windows":
             kind, libraries = ["-DSL_SHARED"], ["-static-libgcc"]

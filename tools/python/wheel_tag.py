@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""wheel_tag.py: gives wheels the platform tag that their library allows, or checks that they have it
+"""wheel_tag.py: gives wheels the platform tag that their library allows, or checks it
 
     wheel_tag.py WHEEL ...            renames each wheel to its tag, and prints the name
     wheel_tag.py --check WHEEL ...    ends with 1 if a wheel has another tag, or a damaged RECORD
@@ -11,7 +11,8 @@ The tag is what pip compares with the system. It follows from the library inside
     win_amd64             a DLL for 64-bit Windows
 
 A library is refused if it needs another one that not every system of the tag has, if it has a path
-for libraries, or if it exports a name that libsparse_local.map does not. objdump (OBJDUMP) reads it.
+for libraries, or if it exports a name that libsparse_local.map does not. It is read by objdump
+(OBJDUMP).
 """
 import base64
 import fnmatch

@@ -1,12 +1,13 @@
 #!/bin/bash
-# wheels.sh: the source distribution, and of it a wheel for each platform, with the tag that its library allows
+# wheels.sh: the source distribution, and of it a wheel for each platform, with its tag
 #
 #     tools/python/wheels.sh SOURCE OUTPUT PLATFORM ...      (make wheels)
 #
-# SOURCE is a copy of tools/python with csrc. A PLATFORM is manylinux, musllinux or windows. CC, for manylinux,
-# PYTHON and SOURCE_DATE_EPOCH come from the Makefile; ccache, if it is in CC, serves all. manylinux: old_glibc.c lets the library run with glibc 2.14.
-# windows: clang, since the kernels for AVX are left out by gcc of MinGW, with the libraries of MinGW's gcc.
-# Each library is stripped. METIS is in none.
+# SOURCE is a copy of tools/python with csrc. A PLATFORM is manylinux, musllinux or windows. CC,
+# for manylinux, PYTHON and SOURCE_DATE_EPOCH come from the Makefile; ccache, if it is in CC,
+# serves all. manylinux: old_glibc.c lets the library run with glibc 2.14. windows: clang, since
+# the kernels for AVX are left out by gcc of MinGW, with the libraries of MinGW's gcc. Each
+# library is stripped. METIS is in none.
 
 set -e
 here=$(cd "$(dirname "$0")" && pwd)
@@ -30,7 +31,7 @@ quietly() {
 }
 
 cd "$source"
-quietly $PYTHON -c 'import sys; from setuptools import build_meta; build_meta.build_sdist(sys.argv[1])' "$out"
+quietly $PYTHON -c 'import sys, setuptools.build_meta as b; b.build_sdist(sys.argv[1])' "$out"
 sdist=$(echo "$out"/*.tar.gz)
 echo "$sdist"
 for platform in "$@"; do
