@@ -5,8 +5,8 @@
 #
 # FOLDER has what make wheels made. Where a compiler for a platform is missing, or Wine, its
 # library is not run. CHROOT is an older Debian with NumPy and pip (make old-debian): pip there
-# installs the wheel and solves. CC, PYTHON and WINE come from the Makefile. The last line is `N
-# passed, N failed`.
+# installs the wheel and solves. CC, PYTHON, WINE and SOURCE_DATE_EPOCH come from the Makefile. The
+# last line is `N passed, N failed`.
 
 wheels=$(cd "$1" && pwd) || exit 1
 chroot=$2
@@ -92,6 +92,10 @@ if command -v x86_64-w64-mingw32-gcc >/dev/null && $WINE wineboot -i >/dev/null 
 fi
 
 # ---- Python ----
+
+check "the same files give the same source distribution" \
+    "cp -r $wheels-source again && find again -exec touch {} + &&
+     $root/tools/python/wheels.sh again $dir/sdist && cmp sdist/*.tar.gz $wheels/*.tar.gz"
 
 check "a fresh environment: pip installs the wheel by its tag, and it solves" \
     "$PYTHON -m venv --without-pip --system-site-packages fresh &&

@@ -190,14 +190,14 @@ wheels: deps-wheels sparse_local.h ## build/wheels: the source distribution, and
 
 build/wheels/flags: always
 	@mkdir -p $(@D)
-	@echo '$(CC) $(PYTHON) $(WHEELS)' | cmp -s - $@ || echo '$(CC) $(PYTHON) $(WHEELS)' >$@
+	@echo '$(CC) $(PYTHON) $(WHEELS) $(COMMIT_TIME)' | cmp -s - $@ || echo '$(CC) $(PYTHON) $(WHEELS) $(COMMIT_TIME)' >$@
 
 # Times in wheels are those of the last commit, so that one commit gives the same bytes.
+COMMIT_TIME = $(shell git log -1 --format=%ct 2>/dev/null || echo 1767225600)
 build/wheels/made: $(PYTHON_SOURCES) tools/packaging/old_glibc.c tools/packaging/libsparse_local.map build/wheels/flags
 	@$(call python_copy,build/wheels-source)
 	$(call say,PIP )
-	$(Q)CC='$(CC)' PYTHON='$(PYTHON)' SOURCE_DATE_EPOCH=$$(git log -1 --format=%ct 2>/dev/null || echo 1767225600) \
-	tools/python/wheels.sh build/wheels-source build/wheels $(WHEELS)
+	$(Q)CC='$(CC)' PYTHON='$(PYTHON)' SOURCE_DATE_EPOCH=$(COMMIT_TIME) tools/python/wheels.sh build/wheels-source build/wheels $(WHEELS)
 	@touch $@
 
 ## OLD_DEBIAN  folder of an older Debian, made by make old-debian, in which test-wheels installs the wheel, too
@@ -207,7 +207,7 @@ old-debian: ## build/old_debian: Debian 11 with NumPy and pip, 500 MB
 	@test -f build/old_debian/usr/bin/pip3 || debootstrap --variant=minbase --include=python3-pip,python3-numpy bullseye build/old_debian
 
 test-wheels: wheels ## each wheel: its tag, pip, exports; libraries loaded under glibc, musl and Wine; the source distribution
-	@CC='$(CC)' PYTHON='$(PYTHON)' WINE='$(WINE)' tests/adapters/check_wheels.sh build/wheels $(abspath $(OLD_DEBIAN))
+	@CC='$(CC)' PYTHON='$(PYTHON)' WINE='$(WINE)' SOURCE_DATE_EPOCH=$(COMMIT_TIME) tests/adapters/check_wheels.sh build/wheels $(abspath $(OLD_DEBIAN))
 
 test-python: deps-python sparse_local.h ## the package of tools/python, from its wheel, against SciPy, and its examples
 	@$(MAKE) --no-print-directory build/python/installed

@@ -32,7 +32,12 @@ quietly() {
 
 cd "$source"
 quietly $PYTHON -c 'import sys, setuptools.build_meta as b; b.build_sdist(sys.argv[1])' "$out"
+# Times and owner in it are fixed, so that the same files give the same bytes.
 sdist=$(echo "$out"/*.tar.gz)
+tar -C "$work" -xzf "$sdist"
+(cd "$work" && tar --sort=name --owner=0 --group=0 --numeric-owner --mode=u=rwX,go=rX \
+    --mtime="@$SOURCE_DATE_EPOCH" -cf - sparse_local-*) | gzip -9n >"$work/sdist"
+mv "$work/sdist" "$sdist"
 echo "$sdist"
 for platform in "$@"; do
     unset CFLAGS
@@ -46,7 +51,8 @@ for platform in "$@"; do
     musllinux) compiler="$ccache musl-gcc" ;;
     windows)
         compiler="$ccache clang --target=x86_64-w64-mingw32"
-        LDFLAGS="-s -L$(dirname "$(x86_64-w64-mingw32-gcc -print-libgcc-file-name)")"
+        libgcc=$(x86_64-w64-mingw32-gcc -print-libgcc-file-name)
+        LDFLAGS="-s -Wl,--no-insert-timestamp -L$(dirname "$libgcc")"
         ;;
     *)
         echo "wheels.sh: no platform $platform"

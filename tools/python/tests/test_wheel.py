@@ -1,5 +1,6 @@
 """The installed wheel: the compiled library is inside, NumPy is all that it needs, and its tag is
 that of the library. make test-wheels looks at the wheels of a release."""
+import codecs
 import glob
 import os
 import re
@@ -85,6 +86,30 @@ def test_the_library_is_inside():
     name = "sparse_local/" + os.path.basename(sl.library_path())
     assert any(line.startswith(name + ",sha256=") for line in metadata("RECORD").splitlines())
     assert "sparse_local/sksparse/cholmod.py" in metadata("RECORD")
+
+
+# ---- Windows, whose DLL make test-wheels loads ----
+
+def test_paths_on_windows_are_in_its_code_page(monkeypatch):
+    from sparse_local import _files
+    page = codecs.lookup("cp1252")
+    codecs.register(lambda name: page if name == "mbcs" else None)  # Python has it on Windows alone
+    assert _files.encoded("fl\u00e4che") == "fl\u00e4che".encode()
+    monkeypatch.setattr(_files.sys, "platform", "win32")
+    assert _files.encoded("fl\u00e4che") == b"fl\xe4che"
+    assert _files.encoded("fl\u00e4che".encode()) == b"fl\xe4che"
+    with pytest.raises(sl.ArgumentError, match="code page"):
+        _files.encoded("\u9762.slf")
+
+
+def test_the_dll_has_its_name_there(monkeypatch):
+    from sparse_local import _library
+    for platform, name in (("win32", "sparse_local.dll"), ("darwin", "libsparse_local.dylib"),
+                           ("linux", "libsparse_local.so")):
+        monkeypatch.setattr(_library.sys, "platform", platform)
+        monkeypatch.setattr(_library.os.path, "exists", lambda path: True)
+        monkeypatch.delenv("SPARSE_LOCAL_LIBRARY", raising=False)
+        assert _library.library_path() == os.path.join(PACKAGE, name)
 
 
 # ---- tags ----
