@@ -107,6 +107,13 @@ check "the source distribution: pip builds and installs it, without any other fi
      CC='$CC' CFLAGS='-O0 -DSL_NO_SIMD' built/bin/python -m pip install --quiet --no-index \
          --no-deps --no-build-isolation $wheels/*.tar.gz &&
      built/bin/python -B solve.py saved | grep -F $dir/built/"
+for compiler in x86_64-w64-mingw32-gcc-win32 x86_64-w64-mingw32-gcc-posix; do
+    command -v $compiler >/dev/null || continue
+    check "the source distribution: $compiler makes a wheel for Windows" \
+        "CC=$compiler CFLAGS='-O0 -DSL_NO_SIMD' $pip wheel --quiet --no-index --no-deps \
+             --no-build-isolation --wheel-dir $compiler $wheels/*.tar.gz &&
+         $tag $compiler/*.whl | grep win_amd64"
+done
 if [ -n "$chroot" ]; then
     # the library saves by /proc
     enter="unshare --mount --pid --fork chroot $chroot sh -ec"

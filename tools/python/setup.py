@@ -49,11 +49,11 @@ class Build(build_py):
         compiled = target + ".o"
         compiler = COMPILER + shlex.split(os.environ.get("CFLAGS", ""))
         more = shlex.split(os.environ.get("LDFLAGS", ""))
-        # A DLL needs no flag for its addresses, nor -lm; without -static-libgcc it may need a DLL
-        # of the compiler.
+        # A DLL needs no flag for its addresses, nor -lm; without -static it may need DLLs of the
+        # compiler, which are not beside it.
         kind, libraries = ["-fPIC", "-fvisibility=hidden"], ["-lm"]
         if system == "windows":
-            kind, libraries = ["-DSL_SHARED"], ["-static-libgcc"]
+            kind, libraries = ["-DSL_SHARED"], ["-static"]
         # in two steps, of which ccache remembers the first
         for command in (["-std=c99"] + kind + ["-I", os.path.dirname(source("sparse_local.h")),
                          "-c", source("sparse_local.c"), "-o", compiled],
