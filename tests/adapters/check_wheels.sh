@@ -107,6 +107,17 @@ check "the source distribution: pip builds and installs it, without any other fi
      CC='$CC' CFLAGS='-O0 -DSL_NO_SIMD' built/bin/python -m pip install --quiet --no-index \
          --no-deps --no-build-isolation $wheels/*.tar.gz &&
      built/bin/python -B solve.py saved | grep -F $dir/built/"
+if echo '#include <metis.h>' | $CC -E -x c - >/dev/null 2>&1; then
+    check "the source distribution: METIS by CFLAGS and LDFLAGS, which no tag allows" \
+        "CC='$CC' CFLAGS='-O0 -DSL_NO_SIMD -DSL_METIS' LDFLAGS=-lmetis $pip wheel --quiet \
+             --no-index --no-deps --no-build-isolation --wheel-dir metis $wheels/*.tar.gz &&
+         ! $tag metis/*.whl && $install --target with_metis metis/*.whl &&
+         PYTHONPATH=with_metis $PYTHON -B -c 'if True:
+             import numpy as np, sparse_local as sl
+             k = np.arange(9)
+             F = sl.Factor(sl.from_triplets(k, k, k + 1.0, 9), ordering=\"metis\")
+             assert (F.solve(k + 1.0) == 1).all()'"
+fi
 for compiler in x86_64-w64-mingw32-gcc-win32 x86_64-w64-mingw32-gcc-posix; do
     command -v $compiler >/dev/null || continue
     check "the source distribution: $compiler makes a wheel for Windows" \
