@@ -20,6 +20,9 @@ MESH ?=
 OPENMP ?= -fopenmp
 ## B        folder of objects, test programs and the bench; what is the same for all of them stays in build
 B ?= build
+## HOME_URL where this is published, if it is; make header writes it to the header and the files of packages
+HOME_URL ?=
+AMALGAMATE = build/amalgamate $(if $(HOME_URL),--home '$(HOME_URL)')
 ## PACKS    what `make header` selects: "core", "core change save", ...; nothing: everything, in sparse_local.h
 PACKS ?=
 ## V        1 shows every command
@@ -92,15 +95,17 @@ help: ## this list
 # ---- the header ----
 
 header: build/amalgamate ## makes sparse_local.h from src/; with PACKS a header of the core and these packs, in build
-	build/amalgamate $(if $(strip $(PACKS)),$(SELECTION),src/sparse_local.in.h sparse_local.h) LICENSE
+	@tools/packaging/home.sh '$(HOME_URL)'
+	$(AMALGAMATE) $(if $(strip $(PACKS)),$(SELECTION),src/sparse_local.in.h sparse_local.h) LICENSE
 
 sparse_local.h: build/amalgamate $(SRC) LICENSE
 	$(call say,MAKE)
-	$(Q)build/amalgamate src/sparse_local.in.h $@ LICENSE
+	$(Q)$(AMALGAMATE) src/sparse_local.in.h $@ LICENSE
 	@touch $@
 
 check-header: build/amalgamate ## is sparse_local.h what src/ makes?
-	@build/amalgamate --check src/sparse_local.in.h sparse_local.h LICENSE
+	@$(AMALGAMATE) --check src/sparse_local.in.h sparse_local.h LICENSE
+	@tools/packaging/home.sh --check '$(HOME_URL)'
 	@echo 'check-header: sparse_local.h is what src/ makes'
 
 build/amalgamate: $(wildcard tools/build/*.[ch])

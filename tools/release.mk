@@ -3,7 +3,7 @@
 .PHONY: header-flat size marginal test-figures test-page release check-release
 
 header-flat: build/amalgamate ## writes build/sparse_local_flat.h: the header without self-inclusion, for pasting
-	build/amalgamate --flat src/sparse_local.in.h build/sparse_local_flat.h LICENSE
+	$(AMALGAMATE) --flat src/sparse_local.in.h build/sparse_local_flat.h LICENSE
 
 size: sparse_local.h build/amalgamate build/deps.ok ## sizes and compile times of the core and of all; with SIZE=full of each pack; fails above the limits
 	@tools/build/size.sh
@@ -36,7 +36,7 @@ RELEASE = build/release/sparse_local-$(FULL_VERSION)
 # The tarball is what git has of the last commit, and the generated header; owner and times are fixed, so that the same commit gives
 # the same bytes. Nothing is installed: deps.sh says what is missing.
 release: export DEPS_INSTALL = no
-release: check-header docs deps-python npm ## build/release: headers, tarball, manual, wheel, npm package, notes and checksums
+release: check-header docs npm wheels ## build/release: headers, tarball, manual, wheels, npm package, notes, and a list with licences and checksums
 	@test -z "$$(git status --porcelain)" || { echo 'release: there are changes that are not committed'; exit 1; }
 	@case $(VERSION) in 0.*) ;; *) test -f tests/abi/sparse_local-$(VERSION).h || { echo 'release: make abi-record, and commit it'; exit 1; } ;; esac
 	@rm -rf build/release && mkdir -p build/release
@@ -45,10 +45,11 @@ release: check-header docs deps-python npm ## build/release: headers, tarball, m
 	@$(MAKE) --no-print-directory header PACKS=core && cp build/sparse_local_core.h build/release
 	@git archive --format=tar --prefix=sparse_local-$(FULL_VERSION)/ HEAD | gzip -9n >$(RELEASE).tar.gz
 	@tar --sort=name --owner=0 --group=0 --mtime="$$(git log -1 --format=@%ct)" -cf - -C build manual | gzip -9n >$(RELEASE)-manual.tar.gz
-	@$(MAKE) --no-print-directory build/python/installed && cp build/python/wheel/*.whl build/npm/*.tgz build/release
+	@mkdir build/release/python && cp build/wheels/*.whl build/wheels/*.tar.gz build/release/python && cp build/npm/*.tgz build/release
 	@tools/docs/release_notes.sh $(FULL_VERSION) >build/release/NOTES.md
-	@cd build/release && sha256sum *.h *.hpp *.gz *.whl *.tgz >SHA256SUMS
-	@ls -l build/release
+	@HOME_URL='$(HOME_URL)' tools/packaging/release_contents.sh build/release >build/CONTENTS.md && mv build/CONTENTS.md build/release
+	@cd build/release && sha256sum $$(find * -type f | sort) >../SHA256SUMS && mv ../SHA256SUMS .
+	@ls -l build/release build/release/python
 
 check-release: release ## the files of a release, each used by itself in an empty folder
 	@CC='$(CC)' PYTHON='$(PYTHON)' tests/adapters/check_release.sh build/release

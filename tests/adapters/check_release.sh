@@ -16,9 +16,14 @@ empty() {
     rm -rf "$dir/use" && mkdir "$dir/use" && cd "$dir/use" || exit 1
 }
 
-tarball=$(find "$release" -name 'sparse_local-*.tar.gz' ! -name '*-manual*')
+tarball=$(find "$release" -maxdepth 1 -name 'sparse_local-*.tar.gz' ! -name '*-manual*')
 version=$(basename "$tarball" .tar.gz | sed 's/^sparse_local-//')
 check "the checksums" "cd $release && sha256sum --check --strict SHA256SUMS"
+check "the contents name each file with its license and checksum" \
+    "cd $release && find * -type f ! -name SHA256SUMS ! -name CONTENTS.md | sort >$dir/files &&
+     sed -n 's/^| \([^ ]*[.][^ ]*\) .* MIT.* | [0-9]* | \([0-9a-f]*\) |\$/\2  \1/p' \
+         CONTENTS.md >$dir/sums &&
+     cut -c 67- $dir/sums | cmp - $dir/files && sha256sum --check --strict $dir/sums"
 check "the notes are on this version" \
     "head -n 1 $release/NOTES.md | grep -F 'sparse_local $version'"
 mkdir source
@@ -56,9 +61,12 @@ check "a test from the tarball" \
 check "the manual has its pages" \
     "empty && tar -xzf $release/*-manual.tar.gz && grep -q '<h1' manual/index.html &&
      test -f manual/api.html -a -f manual/errors.html -a -f manual/search.js"
-check "the wheel, with NumPy and SciPy of the system" \
+check "the tags of the wheels" \
+    "$PYTHON -B $PWD/source/tools/python/wheel_tag.py --check $release/python/*.whl"
+check "the wheel for this system, with NumPy and SciPy of the system" \
     "empty && $PYTHON -m pip install --quiet --root-user-action=ignore --no-index --no-deps \
-         --disable-pip-version-check --target site $release/*.whl &&
+         --disable-pip-version-check --only-binary=:all: --find-links $release/python \
+         --target site sparse_local &&
      PYTHONPATH=site $PYTHON -B -c 'if True:
          import numpy as np, scipy.sparse as sp, sparse_local
          A = sp.diags([-np.ones(9), 2.1 * np.ones(10), -np.ones(9)], [-1, 0, 1], format=\"csc\")

@@ -1,11 +1,13 @@
 /* amalgamate.c: writes the single header sparse_local.h from the parts that the manifest lists
  *
- *     amalgamate [--check] [--flat] [--comments] [--packs "change save"] MANIFEST OUT [LICENSE]
+ *     amalgamate [--check] [--flat] [--comments] [--packs "change save"] [--home URL]
+ *                MANIFEST OUT [LICENSE]
  *
  * --check   compares OUT with what would be written and writes nothing.
  * --flat    expands a template at each of its includes; the result does not include itself.
  * --comments  keeps the comments of the implementation.
  * --packs   the header has the core and these packs only; "" is the core.
+ * --home    an address, in the first lines of the header; "" is none.
  * MANIFEST  the ordered list of parts; its other lines (guards, headings) are copied unchanged.
  * OUT       the header; written only if its bytes change.
  * LICENSE   a text file, appended as a comment, because a header is often copied by itself.
@@ -65,7 +67,7 @@
 #include <string.h>
 
 static const char usage[] = "amalgamate [--check] [--flat] [--comments] [--packs \"change save\"] "
-                            "MANIFEST OUT [LICENSE]";
+                            "[--home URL] MANIFEST OUT [LICENSE]";
 
 static void append_license(text *out, const char *path) {
     text license = {NULL, 0, 0};
@@ -139,6 +141,8 @@ int main(int argc, char **argv) {
             j.keeps_comments = 1;
         else if (strcmp(*args, "--packs") == 0 && n_args > 1)
             packs = *++args, n_args--;
+        else if (strcmp(*args, "--home") == 0 && n_args > 1)
+            j.home = *++args, n_args--;
         else
             fail(*args, 0, "unknown option", NULL);
     }
@@ -148,6 +152,7 @@ int main(int argc, char **argv) {
     const char *slash = strrchr(args[0], '/');
     const char *manifest = slash ? slash + 1 : args[0];
     copy_path(j.folder, args[0], (size_t)(manifest - args[0]));
+    if (j.home && strstr(j.home, "*/")) fail(j.home, 0, "contains the end of a comment", NULL);
     slash = strrchr(args[1], '/');
     j.name = slash ? slash + 1 : args[1];
     find_packs(&j, args[0], packs);

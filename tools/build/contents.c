@@ -142,6 +142,12 @@ size_t banner(text *out, const job *j, size_t shift) {
              (unsigned long)(h >> 32), (unsigned long)(h & 0xffffffffu));
     append_string(out, line);
     lines += 2;
+    if (j->home && *j->home) {
+        append_string(out, " * Home: ");
+        append_string(out, j->home);
+        append_string(out, "\n");
+        lines++;
+    }
     if (j->is_selection) {
         append_string(out, j->on.count ? " * with: " : " * without packs");
         append_packs(out, &j->on, &j->known);

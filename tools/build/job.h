@@ -25,6 +25,7 @@ typedef struct named_path {
 typedef struct job {
     char folder[PATH_SIZE]; /* of the manifest, with a trailing slash; "" is the current folder */
     const char *name;       /* of the header, without its folder */
+    const char *home;       /* an address, or NULL */
     int is_flat;
     int keeps_comments;
     int is_in_comment; /* the next line of the implementation begins there, */

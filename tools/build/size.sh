@@ -68,7 +68,7 @@ row() {
         }'
 }
 
-header=$(wc -c <sparse_local.h)
+header=$(grep -v "^ \* Home: " sparse_local.h | wc -c) # HOME_URL is the publisher's
 core_header=$(selection --packs '')
 read_header=$(selection --comments --packs '')
 rm -f $dir/bodies.ci

@@ -4,7 +4,7 @@
 
 docs: ## build/manual/index.html: tutorial, tasks, API, background; fails if a link leads nowhere or there are too many words
 	@rm -rf build/manual
-	@python3 -B tools/docs/manual.py build/manual
+	@HOME_URL='$(HOME_URL)' python3 -B tools/docs/manual.py build/manual
 
 pictures: programs test-examples ## the pictures of the manual, by the commands in its pages
 	@PROGRAM=$(B)/sparse-local tools/docs/pictures.sh

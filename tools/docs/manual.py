@@ -7,7 +7,8 @@ The index leads to four parts: Learn, Do, Look up, Why. A page is a Markdown fil
 tools/docs, or do/NAME.md. The API has a page for each public file; a contract is followed by a use
 of its call. A link in a line of its own shows a program, or a section of one. The field at the top
 of each page leads to a name. Names of the API become links, and so do pages that a comment names as
-tools/docs/NAME.md. Programs are written as whole files too, examples/NAME.c.
+tools/docs/NAME.md. Programs are written as whole files too, examples/NAME.c. HOME_URL, if it is
+set, is the address of one more link at the top.
 
 Ends with 1 if a link leads nowhere, the index does not lead to a page, no page leads to a program,
 a program is shown twice, a contract has no comment or no use, or the pages have too many words.
@@ -216,10 +217,13 @@ class Manual:
             PROBLEMS.append("the pages have %d words, at most %d" % (self.words(), MOST_WORDS))
 
     def write(self, output):
+        home = html.escape(os.environ.get("HOME_URL", ""))
+        home = ' &middot; <a href="%s">home</a>' % home if home else ""
         nav = '<nav><a href="index.html">sparse_local.h</a>: %s &middot; <input id="name" ' \
               'list="names" placeholder="a name of the API" autocomplete="off">' \
-              '<datalist id="names"></datalist></nav>' % " &middot; ".join(
-                  '<a href="index.html#%s">%s</a>' % (anchor(part), part) for part in PARTS)
+              '<datalist id="names"></datalist></nav>' % (" &middot; ".join(
+                  '<a href="index.html#%s">%s</a>' % (anchor(part), part)
+                  for part in PARTS) + home)
         for name, body in self.pages.items():
             write(output, name + ".html",
                   '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'

@@ -5,7 +5,7 @@
 #
 # Run in the root of the repository after `make shared`. Read from the environment: VERSION,
 # SOVERSION, PREFIX, LIBDIR, INCLUDEDIR; DESTDIR, put before all of them; PRIVATE_LIBS, what a
-# static link needs besides -lm; PROGRAM, installed if it exists.
+# static link needs besides -lm; HOME_URL, as in the Makefile; PROGRAM, installed if it exists.
 
 set -e
 include=$DESTDIR$INCLUDEDIR
@@ -30,11 +30,12 @@ if [ "$1" = uninstall ]; then
     exit 0
 fi
 
+url=$(printf '%s' "$HOME_URL" | sed 's/[&|]/\\&/g')
 # Fills in the variables of a template.
 fill() {
     sed -e "s|@PREFIX@|$PREFIX|g" -e "s|@LIBDIR@|$LIBDIR|g" -e "s|@INCLUDEDIR@|$INCLUDEDIR|g" \
         -e "s|@VERSION@|$VERSION|g" -e "s|@SOVERSION@|$SOVERSION|g" \
-        -e "s|@PRIVATE_LIBS@|$PRIVATE_LIBS|g" "$1"
+        -e "s|@PRIVATE_LIBS@|$PRIVATE_LIBS|g" -e "s|@HOME_URL@|$url|; /^URL: \$/d" "$1"
 }
 
 mkdir -p "$include" "$lib/pkgconfig" "$cmake" "$man"

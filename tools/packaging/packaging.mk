@@ -11,12 +11,14 @@ ADAPTER_STD ?= 11 17
 PYTHON ?= $(shell python3 -c 'import numpy, pytest, scipy' 2>/dev/null && echo python3 || echo /usr/bin/python3)
 ## INSTALL_PARTS  what check-install checks, as in check_install.sh; nothing: all
 INSTALL_PARTS ?=
+## WHEELS   platforms of make wheels
+WHEELS ?= manylinux musllinux windows
 ## SHARED_FLAGS, SHARED_LIBS  more for the compiled library: -DSL_METIS and -lmetis, -fopenmp
 SHARED_FLAGS ?=
 SHARED_LIBS ?=
 
 .PHONY: deps-eigen deps-packaging test-adapters test-clients test-osqp bench-osqp shared test-shared deps-abi abi abi-record \
-	install uninstall check-install deps-python deps-python-more deps-torch test-python test-python-build bench-python deps-octave octave test-octave
+	install uninstall check-install deps-python deps-python-more deps-torch deps-wheels wheels old-debian test-wheels test-home test-python test-python-build bench-python deps-octave octave test-octave
 
 deps-eigen: deps-cxx ## Eigen: the tests of its adapter
 	@tools/build/deps.sh /usr/include/eigen3/Eigen/Sparse=libeigen3-dev
@@ -135,7 +137,7 @@ install: shared ## header, adapters, libraries, pkg-config and CMake files, prog
 	@echo '#include <png.h>' | $(CC) $(CPPFLAGS) -E -x c - >/dev/null 2>&1 && $(MAKE) --no-print-directory programs || \
 	echo 'sparse-local is not built: it needs libpng-dev and zlib1g-dev'
 	@VERSION=$(VERSION) SOVERSION=$(SOVERSION) PREFIX='$(PREFIX)' LIBDIR='$(LIBDIR)' INCLUDEDIR='$(INCLUDEDIR)' \
-	DESTDIR='$(DESTDIR)' PRIVATE_LIBS='$(SHARED_LIBS)' PROGRAM='$(B)/sparse-local' tools/packaging/install.sh install
+	DESTDIR='$(DESTDIR)' HOME_URL='$(HOME_URL)' PRIVATE_LIBS='$(SHARED_LIBS)' PROGRAM='$(B)/sparse-local' tools/packaging/install.sh install
 
 uninstall: ## removes what install put there
 	@VERSION=$(VERSION) SOVERSION=$(SOVERSION) PREFIX='$(PREFIX)' LIBDIR='$(LIBDIR)' INCLUDEDIR='$(INCLUDEDIR)' \
@@ -143,6 +145,9 @@ uninstall: ## removes what install put there
 
 check-install: deps-packaging deps-cxx sparse_local.h ## strangers' projects by pkg-config, CMake and meson, outside the tree
 	@CC='$(CC)' CXX='$(CXX)' VERSION=$(VERSION) FULL_VERSION=$(FULL_VERSION) tests/adapters/check_install.sh $(INSTALL_PARTS)
+
+test-home: sparse_local.h ## does HOME_URL reach the header, the packages and the manual?
+	@CC='$(CC)' PYTHON='$(PYTHON)' tests/adapters/check_home.sh
 
 # ---- Python ----
 
@@ -158,17 +163,51 @@ deps-python-more: ## joblib, Dask and mypy: tests of the Python package that are
 deps-torch: ## torch, for the derivatives of the Python package
 	@$(PYTHON) -c 'import torch' 2>/dev/null || tools/build/deps.sh $(DIST)/torch=python3-torch
 
-# A wheel, once, from a copy, as from a source distribution: pip leaves files beside pyproject.toml.
-build/python/installed: $(wildcard tools/python/*.* tools/python/sparse_local/* tools/python/sparse_local/*/*.py) $(SHARED_SOURCE) sparse_local.h
-	@rm -rf build/python && mkdir -p build/python
-	@cp -r tools/python build/python/source && rm -rf build/python/source/build build/python/source/*.egg-info
-	@mkdir -p build/python/source/csrc && cp sparse_local.h LICENSE $(SHARED_SOURCE) build/python/source/csrc
+# From a copy, as from a source distribution: pip leaves files beside pyproject.toml.
+PYTHON_SOURCES = $(filter-out %/__pycache__,$(wildcard tools/python/*.* tools/python/sparse_local/* tools/python/sparse_local/*/*.py)) \
+	$(SHARED_SOURCE) sparse_local.h LICENSE
+define python_copy
+rm -rf $(1) && mkdir -p $(dir $(1)) && cp -r tools/python $(1) && rm -rf $(1)/build $(1)/*.egg-info && \
+mkdir -p $(1)/csrc && cp sparse_local.h LICENSE $(SHARED_SOURCE) tools/packaging/libsparse_local.map $(1)/csrc
+endef
+
+# The wheel of this machine, once.
+build/python/installed: $(PYTHON_SOURCES)
+	@rm -rf build/python
+	@$(call python_copy,build/python/source)
 	$(call say,PIP )
 	$(Q)$(PYTHON) -m pip wheel --quiet --no-index --no-deps --no-build-isolation --disable-pip-version-check \
 	--wheel-dir build/python/wheel build/python/source
 	$(Q)$(PYTHON) -m pip install --quiet --root-user-action=ignore --no-index --no-deps --disable-pip-version-check \
 	--target build/python/site build/python/wheel/*.whl
 	@touch $@
+
+deps-wheels: deps-python deps-mingw deps-clang ## musl, MinGW and clang: wheels for other systems, and Wine, which loads the DLL
+	@tools/build/deps.sh musl-gcc=musl-tools objdump=binutils
+
+wheels: deps-wheels sparse_local.h ## build/wheels: the source distribution, and wheels for Linux (glibc, musl) and Windows, with tags that are checked
+	@$(MAKE) --no-print-directory build/wheels/made
+
+build/wheels/flags: always
+	@mkdir -p $(@D)
+	@echo '$(CC) $(PYTHON) $(WHEELS) $(COMMIT_TIME)' | cmp -s - $@ || echo '$(CC) $(PYTHON) $(WHEELS) $(COMMIT_TIME)' >$@
+
+# Times in wheels are those of the last commit, so that one commit gives the same bytes.
+COMMIT_TIME = $(shell git log -1 --format=%ct 2>/dev/null || echo 1767225600)
+build/wheels/made: $(PYTHON_SOURCES) tools/packaging/old_glibc.c tools/packaging/libsparse_local.map build/wheels/flags
+	@$(call python_copy,build/wheels-source)
+	$(call say,PIP )
+	$(Q)CC='$(CC)' PYTHON='$(PYTHON)' SOURCE_DATE_EPOCH=$(COMMIT_TIME) tools/python/wheels.sh build/wheels-source build/wheels $(WHEELS)
+	@touch $@
+
+## OLD_DEBIAN  folder of an older Debian, made by make old-debian, in which test-wheels installs the wheel, too
+OLD_DEBIAN ?=
+old-debian: ## build/old_debian: Debian 11 with NumPy and pip, 500 MB
+	@tools/build/deps.sh debootstrap=debootstrap
+	@test -f build/old_debian/usr/bin/pip3 || debootstrap --variant=minbase --include=python3-pip,python3-numpy bullseye build/old_debian
+
+test-wheels: wheels ## each wheel: its tag, pip, exports; libraries loaded under glibc, musl and Wine; the source distribution
+	@CC='$(CC)' PYTHON='$(PYTHON)' WINE='$(WINE)' SOURCE_DATE_EPOCH=$(COMMIT_TIME) tests/adapters/check_wheels.sh build/wheels $(abspath $(OLD_DEBIAN))
 
 test-python: deps-python sparse_local.h ## the package of tools/python, from its wheel, against SciPy, and its examples
 	@$(MAKE) --no-print-directory build/python/installed
@@ -179,9 +218,8 @@ test-python: deps-python sparse_local.h ## the package of tools/python, from its
 # The source distribution and the wheel by `build`, without a network; each is installed and runs the example, whose picture is kept.
 test-python-build: deps-python sparse_local.h ## python3 -m build, offline: both distributions are installed and draw a picture
 	@tools/build/deps.sh $(DIST)/build=python3-build $(DIST)/matplotlib=python3-matplotlib
-	@rm -rf build/python-dist && mkdir -p build/python-dist
-	@cp -r tools/python build/python-dist/source && rm -rf build/python-dist/source/build build/python-dist/source/*.egg-info
-	@mkdir build/python-dist/source/csrc && cp sparse_local.h LICENSE $(SHARED_SOURCE) build/python-dist/source/csrc
+	@rm -rf build/python-dist
+	@$(call python_copy,build/python-dist/source)
 	@$(PYTHON) -m build --no-isolation --skip-dependency-check --outdir build/python-dist/out build/python-dist/source >build/python-dist/log 2>&1 || \
 	{ tail -n 40 build/python-dist/log; exit 1; }
 	@for file in build/python-dist/out/*; do \

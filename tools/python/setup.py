@@ -1,6 +1,8 @@
 """setup.py: compiles sparse_local.h to the shared library inside the package.
 
-CC and CFLAGS are read from the environment; CFLAGS come after -O2.
+CC, CFLAGS and LDFLAGS are read from the environment; CFLAGS come after -O2. The system of the
+library is that of the compiler: CC=x86_64-w64-mingw32-gcc makes a DLL. wheel_tag.py gives a wheel
+the tag that its library allows.
 """
 import os
 import shlex
@@ -15,7 +17,19 @@ from setuptools.dist import Distribution
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SOURCES = {"sparse_local.h": "../..", "sparse_local.c": "../packaging", "LICENSE": "../.."}
-LIBRARY = "libsparse_local.dylib" if sys.platform == "darwin" else "libsparse_local.so"
+COMPILER = shlex.split(os.environ.get("CC", "cc")) + ["-O2"]
+
+
+def target_system():
+    """windows, darwin, or another system, by the words of the compiler."""
+    try:
+        said = subprocess.run(COMPILER + ["-dumpmachine"], capture_output=True, text=True).stdout
+    except OSError:
+        sys.exit("setup.py: there is no compiler %s; CC=gcc or CC=clang chooses one" % COMPILER[0])
+    for system in ("windows", "mingw", "darwin", "linux"):
+        if system in said:
+            return system.replace("mingw", "windows")
+    return sys.platform.replace("win32", "windows")
 
 
 def source(name):
@@ -27,15 +41,23 @@ def source(name):
 class Build(build_py):
     def run(self):
         super().run()
-        target = os.path.join(self.build_lib, "sparse_local", LIBRARY)
+        system = target_system()
+        name = {"windows": "sparse_local.dll", "darwin": "libsparse_local.dylib"}
+        target = os.path.join(self.build_lib, "sparse_local",
+                              name.get(system, "libsparse_local.so"))
         os.makedirs(os.path.dirname(target), exist_ok=True)
-        compiler = shlex.split(os.environ.get("CC", "cc")) + ["-O2"]
-        compiler += shlex.split(os.environ.get("CFLAGS", ""))
         compiled = target + ".o"
+        compiler = COMPILER + shlex.split(os.environ.get("CFLAGS", ""))
+        more = shlex.split(os.environ.get("LDFLAGS", ""))
+        # A DLL needs no flag for its addresses, nor -lm; without -static it may need DLLs of the
+        # compiler, which are not beside it.
+        kind, libraries = ["-fPIC", "-fvisibility=hidden"], ["-lm"]
+        if system == "windows":
+            kind, libraries = ["-DSL_SHARED"], ["-static"]
         # in two steps, of which ccache remembers the first
-        for command in (["-std=c99", "-fPIC", "-fvisibility=hidden", "-I",
-                         os.path.dirname(source("sparse_local.h")), "-c", source("sparse_local.c"),
-                         "-o", compiled], ["-shared", compiled, "-o", target, "-lm"]):
+        for command in (["-std=c99"] + kind + ["-I", os.path.dirname(source("sparse_local.h")),
+                         "-c", source("sparse_local.c"), "-o", compiled],
+                        ["-shared", compiled, "-o", target] + more + libraries):
             print(" ".join(compiler + command))
             subprocess.check_call(compiler + command)
         os.remove(compiled)

@@ -29,11 +29,16 @@ build/web/sparse_local.wasm: tools/web/sparse_local_web.c sparse_local.h tools/w
 	@bytes=$$(gzip -9 -c $@ | wc -c); echo "sparse_local.wasm: $$(wc -c <$@) bytes, $$bytes in gzip, of which $(WEB_LIMIT) are allowed"; \
 	[ $$bytes -le $(WEB_LIMIT) ] || { rm $@; exit 1; }
 
+fill_package_json = sed 's/@VERSION@/$(FULL_VERSION)/; s/@LICENSE@/$(firstword $(shell head -n 1 LICENSE))/; \
+	$(if $(HOME_URL),s|@HOME_URL@|$(subst &,\&,$(HOME_URL))|,/@HOME_URL@/d)' tools/web/package.json
+build/npm/package.json: always
+	@mkdir -p $(@D) && $(fill_package_json) >$@
+
 npm: deps-npm ## build/npm/sparse-local-VERSION.tgz and its folder, build/npm/package: WebAssembly, JavaScript, types
 	@$(MAKE) --no-print-directory build/web/sparse_local.wasm
 	@rm -rf $(WEB_PACKAGE) && mkdir -p $(WEB_PACKAGE)
 	@cp build/web/sparse_local.wasm LICENSE $(WEB_FILES:%=tools/web/%) $(WEB_PACKAGE)
-	@sed 's/@VERSION@/$(FULL_VERSION)/; s/@LICENSE@/$(firstword $(shell head -n 1 LICENSE))/' tools/web/package.json >$(WEB_PACKAGE)/package.json
+	@$(fill_package_json) >$(WEB_PACKAGE)/package.json
 	@tar -cf - -C build/npm --mtime='UTC 1985-10-26' --owner=0 --group=0 --numeric-owner --sort=name package | \
 	gzip -9n >build/npm/sparse-local-$(FULL_VERSION).tgz
 	@echo "build/npm/sparse-local-$(FULL_VERSION).tgz: $$(wc -c <build/npm/sparse-local-$(FULL_VERSION).tgz) bytes"

@@ -1,6 +1,7 @@
 """Factors in files, in memory that processes share, and in pickles."""
 import ctypes
 import os
+import sys
 import pickle
 
 import numpy as np
@@ -100,8 +101,13 @@ class Files:
 
 
 def encoded(path):
-    """A path as the bytes that the library opens."""
+    """A path as the bytes that the library opens: on Windows in the code page of the system."""
     name = os.fsencode(path)
+    if sys.platform == "win32":
+        try:
+            name = os.fsdecode(name).encode("mbcs")
+        except UnicodeEncodeError as error:
+            raise ArgumentError("a path in the code page of the system is needed") from error
     if b"\0" in name:
         raise ArgumentError("a path without zero bytes is needed")
     return name

@@ -86,7 +86,8 @@ def library_path():
     chosen = os.environ.get("SPARSE_LOCAL_LIBRARY")
     if chosen:
         return chosen
-    name = "libsparse_local.dylib" if sys.platform == "darwin" else "libsparse_local.so"
+    name = {"win32": "sparse_local.dll", "darwin": "libsparse_local.dylib"}.get(
+        sys.platform, "libsparse_local.so")
     inside = os.path.join(os.path.dirname(os.path.abspath(__file__)), name)
     if os.path.exists(inside):
         return inside
