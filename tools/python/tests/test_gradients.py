@@ -126,6 +126,22 @@ def test_variances_of_many_rows(A, F):
     assert np.allclose(got, wanted, rtol=1e-8, atol=1e-8 * abs(wanted).max())
 
 
+def test_entries_of_a_regularized_inverse(monkeypatch):
+    """Those of A + E: by solves, since a factor of twice the size would have another E."""
+    monkeypatch.setattr(gradients, "_SOLVED", 0)
+    A = grid(4, 0.0)  # singular
+    F = sl.Factor(A, regularization=1e-3)
+    rows, shifts = F.pivot_rows("regularized")
+    assert rows.size == 1
+    E = np.zeros(16)
+    E[rows] = shifts
+    inverse, g = np.linalg.inv(A.toarray() + np.diag(E)), np.cos(np.arange(16.0))
+    stored = gradients.Stored(A)
+    wanted = -2.0 * stored.weights * ((inverse * g) @ inverse)[stored.rows, stored.columns]
+    got = gradients.entries_gradient(F, A, range(16), range(16), g)
+    assert np.allclose(got, wanted, rtol=1e-11, atol=1e-12 * abs(wanted).max())
+
+
 def test_entries_that_are_refused():
     A = grid(4)
     F = sl.Factor(A)

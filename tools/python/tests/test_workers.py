@@ -18,6 +18,8 @@ import workers  # noqa: E402
 PROGRAM = os.path.join(FOLDER, "workers.py")
 PAIRS = ["--size", "200", "--pairs", "40000"]
 MPI = ["-m", "mpi4py.futures"]
+needs_maps = pytest.mark.skipif(not os.path.exists("/proc/self/smaps"),
+                                reason="this system does not say what processes map")
 
 
 @pytest.fixture(scope="module")
@@ -123,6 +125,7 @@ def serial(tmp_path_factory):
     return run("serial", tmp_path_factory.mktemp("serial"), *PAIRS)[1]
 
 
+@needs_maps
 def test_a_killed_worker_of_dask(tmp_path, serial):
     program = start("dask", tmp_path, *PAIRS)
     assert kill_a_worker(program, tmp_path) < 81
@@ -131,6 +134,7 @@ def test_a_killed_worker_of_dask(tmp_path, serial):
     assert np.array_equal(np.load(tmp_path / "resistances.npy"), serial)
 
 
+@needs_maps
 @pytest.mark.parametrize("engine", ["processes", "mpi"])
 def test_a_killed_worker_of_others(engine, tmp_path, serial, request):
     mpi = request.getfixturevalue("mpi") if engine == "mpi" else ()
@@ -147,6 +151,7 @@ def test_a_killed_worker_of_others(engine, tmp_path, serial, request):
     assert np.array_equal(R, serial)
 
 
+@needs_maps
 def test_one_copy_in_memory(tmp_path):
     """What three processes have of the file is in memory once."""
     out = run("processes", tmp_path, *PAIRS)[0]
