@@ -8,8 +8,8 @@ JUDGE_SEED ?= 1
 ## FUZZ_SEED  the seed of the fuzzers' random numbers; 0 chooses one
 FUZZ_SEED ?= 0
 
-.PHONY: deps-locales deps-tcc deps-mingw deps-wasm deps-cov deps-chromium deps-mpi test-exchange test-tcc deps-compilers test-compilers platforms platform-table \
-	races valgrind test-stack test-msan test-mingw test-mingw-clang test-wasm cov mcdc fuzz run-fuzz judge evidence test-view cluster test-cluster
+.PHONY: deps-locales deps-tcc deps-mingw deps-wasm deps-cov deps-chromium test-exchange test-tcc deps-compilers test-compilers platforms platform-table \
+	races valgrind test-stack test-msan test-mingw test-mingw-clang test-wasm cov mcdc fuzz run-fuzz judge evidence test-view
 
 # ---- packages ----
 
@@ -31,9 +31,6 @@ deps-cov: ## gcovr
 
 deps-chromium: ## the browser that test-view runs
 	@tools/build/deps.sh chromium=chromium
-
-deps-mpi: ## an implementation of MPI
-	@tools/build/deps.sh $(MPICC)=libmpich-dev mpiexec=mpich
 
 # ---- platforms: the tests on other processors, C libraries and compilers ----
 
@@ -256,21 +253,7 @@ judge: deps $(B)/tests/core/test_judge ## JUDGE_COUNT random systems from JUDGE_
 evidence: ## what tests/README.md says of a release: all of its targets beside fuzzers of two hours each, then make test-page
 	@+tests/lib/evidence.sh 7200
 
-# ---- a browser, a cluster ----
+# ---- a browser ----
 
 test-view: deps-chromium deps-png ## the page of sparse-local view in a headless browser: it draws, turns and answers a click
 	@+$(SUB_MAKE) run-tests TEST_PROGRAMS= REPLAYS= ALSO=tests/tools/check_view.sh PROGRAM=$(B)/sparse-local
-
-# Where Debian has two implementations, mpicc may be that of the one without headers.
-MPICC ?= $(if $(wildcard /etc/debian_version),mpicc.mpich,mpicc)
-export MPIEXEC ?= $(patsubst mpicc%,mpiexec%,$(MPICC))
-
-$(B)/cluster-mpi: tools/cluster/cluster_mpi.c $(call object,$(NEED_PNG:.c=)) $(LIBRARY) $(IMPL) $(B)/flags
-	$(call say,MPI )
-	$(Q)$(MPICC) $(C_FLAGS) -o $@ $(filter-out $(B)/flags,$^) $(LIBS) -lpng
-
-cluster: deps-mpi deps-png ## build/cluster-mpi: many queries on one saved factor by the ranks of an MPI job
-	@$(MAKE) --no-print-directory $(B)/cluster-mpi
-
-test-cluster: deps-mpi deps-png ## build/cluster-mpi with 1 to 4 ranks, one of them killed
-	@+$(SUB_MAKE) run-tests TEST_PROGRAMS= REPLAYS= ALSO=tests/tools/check_cluster.sh PROGRAM='$(B)/cluster-mpi $(B)/sparse-local'

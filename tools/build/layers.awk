@@ -12,7 +12,7 @@
 #
 # OTHER: C files of tools/, tests/ and bench/. A file includes files of its own folder, and
 #     tools/X      of the tools folders below X: adapters < matrix < io < mesh < geometry < draw <
-#                  cli < cluster
+#                  cli
 #     tests/X      of tools/ and tests/lib
 #     bench/X      of tools/ and bench/lib
 # All of them include sparse_local.h, but nothing of src/.
@@ -28,7 +28,7 @@
 # Each violation is printed as file:line, rule and fix. Any violation makes the exit status 1.
 
 BEGIN {
-    n_tools = split("adapters matrix io mesh geometry draw cli cluster", folder_name, " ")
+    n_tools = split("adapters matrix io mesh geometry draw cli", folder_name, " ")
     for (k = 1; k <= n_tools; k++) tools_rank["tools/" folder_name[k] "/"] = k
 }
 

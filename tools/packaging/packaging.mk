@@ -18,7 +18,7 @@ SHARED_FLAGS ?=
 SHARED_LIBS ?=
 
 .PHONY: deps-eigen deps-packaging test-adapters test-clients test-osqp bench-osqp shared test-shared deps-abi abi abi-record \
-	install uninstall check-install deps-python deps-python-more deps-torch deps-wheels wheels old-debian test-wheels test-home test-python test-python-build bench-python deps-octave octave test-octave
+	install uninstall check-install deps-python deps-python-more deps-torch deps-wheels wheels old-debian test-wheels test-home test-python test-workers test-python-build bench-python deps-octave octave test-octave
 
 deps-eigen: deps-cxx ## Eigen: the tests of its adapter
 	@tools/build/deps.sh /usr/include/eigen3/Eigen/Sparse=libeigen3-dev
@@ -157,8 +157,9 @@ deps-python: ## NumPy, SciPy, pytest, pip and setuptools
 	$(DIST)/numpy=python3-numpy $(DIST)/scipy=python3-scipy $(DIST)/pytest=python3-pytest \
 	$(DIST)/pip=python3-pip $(DIST)/setuptools=python3-setuptools $(DIST)/wheel=python3-wheel
 
-deps-python-more: ## joblib, Dask and mypy: tests of the Python package that are skipped without them
-	@tools/build/deps.sh $(DIST)/joblib=python3-joblib $(DIST)/distributed=python3-distributed /usr/bin/mypy=mypy
+deps-python-more: ## joblib, Dask, MPI and mypy: tests of the Python package that are skipped without them
+	@tools/build/deps.sh $(DIST)/joblib=python3-joblib $(DIST)/distributed=python3-distributed /usr/bin/mypy=mypy \
+	$(DIST)/mpi4py=python3-mpi4py mpiexec.openmpi=openmpi-bin
 
 deps-torch: ## torch, for the derivatives of the Python package
 	@$(PYTHON) -c 'import torch' 2>/dev/null || tools/build/deps.sh $(DIST)/torch=python3-torch
@@ -213,7 +214,10 @@ test-python: deps-python sparse_local.h ## the package of tools/python, from its
 	@$(MAKE) --no-print-directory build/python/installed
 	@rm -rf build/python/source/tests build/python/source/examples build/python/source/gallery
 	@cp -r tools/python/tests tools/python/examples tools/python/gallery tools/python/README.md build/python/source
-	@cd build/python && PYTHONPATH=site $(PYTHON) -B -m pytest -q -p no:cacheprovider source/tests
+	@cd build/python && PYTHONPATH=site $(PYTHON) -B -m pytest -q -p no:cacheprovider $(if $(PYTHON_TESTS),$(PYTHON_TESTS:%=source/tests/%),source/tests)
+
+test-workers: deps-python-more ## of these the tests of workers: processes, joblib, Dask and MPI on one factor
+	@$(MAKE) --no-print-directory test-python PYTHON_TESTS='test_shared.py test_workers.py'
 
 # The source distribution and the wheel by `build`, without a network; each is installed and runs the example, whose picture is kept.
 test-python-build: deps-python sparse_local.h ## python3 -m build, offline: both distributions are installed and draw a picture

@@ -144,15 +144,22 @@ def test_second_derivatives_are_right_or_refused():
     right = torch.autograd.functional.hessian(
         lambda values: (b * torch.linalg.solve(dense_of(A, values), b)).sum(), v)
     assert torch.allclose(ours, right, rtol=1e-9, atol=1e-12)
-    for loss in (system.logdet, lambda values: system.logdet(values) + solved(values)):
-        first, = torch.autograd.grad(loss(v), v, create_graph=True)
+    ours = torch.autograd.functional.hessian(system.logdet, v)
+    right = torch.autograd.functional.hessian(lambda values: torch.logdet(dense_of(A, values)), v)
+    assert torch.allclose(ours, right, rtol=1e-9, atol=1e-12)
+    assert torch.autograd.gradgradcheck(system.logdet, (v,))
+    third = torch.autograd.functional.hessian(system.logdet, v, create_graph=True)
+    with pytest.raises(NotImplementedError, match="of the gradient of System.logdet"):
+        third.sum().backward()
+    for name, loss in (("diagonal", lambda values: system.diagonal(values)),
+                       ("entries", lambda values: system.entries(values, [1, 2], [3, 2])),
+                       ("inverse", lambda values: system.inverse(values))):
+        first, = torch.autograd.grad(loss(v).square().sum(), v, create_graph=True)
         assert first.requires_grad  # what is not differentiated again is not a constant
-        with pytest.raises(NotImplementedError, match="second derivatives of System.logdet"):
+        with pytest.raises(NotImplementedError, match="second derivatives of System.%s" % name):
             first.sum().backward()
-        with pytest.raises(NotImplementedError, match="logdet"):
-            torch.autograd.functional.hessian(loss, v)
-    with pytest.raises(NotImplementedError):
-        torch.autograd.gradgradcheck(system.logdet, (v,))
+        with pytest.raises(NotImplementedError, match="System.%s" % name):
+            torch.autograd.functional.hessian(lambda values: loss(values).sum(), v)
     query = gradients.LocalGradient(sl.Factor(A), [1], [2], [3], [3])
     for wanted in (0, 1):
         inputs = (tensor([A[3, 3]]), tensor([1.0]))
@@ -168,11 +175,207 @@ def test_second_derivatives_are_right_or_refused():
     assert torch.allclose(local, right, rtol=1e-9, atol=1e-12)
 
 
+def inverse_of(A, values):
+    return torch.linalg.inv(dense_of(A, values))
+
+
+@pytest.mark.parametrize("turn", ["tocsc", "tocsr"])
+def test_entries_of_the_inverse(turn):
+    A = getattr(sp.tril(grid(3)), turn)()
+    system, v = autograd.System(A), tensor(A.data)
+    i, j = (s.astype(int) for s in (A.tocoo().row, A.tocoo().col))
+    for ours, right in ((system.diagonal, lambda Z: Z.diagonal()),
+                        (lambda v: system.diagonal(v, [4, 4]), lambda Z: Z[[4, 4], [4, 4]]),
+                        (lambda v: system.entries(v, [8, 1], [0, 2]), lambda Z: Z[[8, 1], [0, 2]]),
+                        (system.inverse, lambda Z: Z[i, j])):
+        assert torch.allclose(ours(v), right(inverse_of(A, v)), rtol=1e-12)
+        assert torch.autograd.gradcheck(ours, (v,))
+    B = grid(3)
+    both, w = autograd.System(B), tensor(B.data)
+    got, = torch.autograd.grad(both.diagonal(w).square().sum(), w)
+    half, = torch.autograd.grad(system.diagonal(v).square().sum(), v)
+    got, half = (sp.coo_matrix((g, (M.tocoo().row, M.tocoo().col))).toarray()
+                 for g, M in ((got, B), (half, A)))
+    assert np.allclose(np.tril(got) + np.triu(got, 1).T, half)
+
+
+def test_a_gaussian_likelihood_with_marginals():
+    """Poisson counts with a random field: log-likelihood by its mode's curvature, and the penalty
+    of marginal variances, against dense torch; more rows than are solved at once."""
+    A = sp.tril(grid(17), format="csc")
+    n = A.shape[0]
+    system, counts = autograd.System(A), torch.from_numpy(np.random.default_rng(4).poisson(2.0, n))
+    on_diagonal = torch.from_numpy((A.indices == np.repeat(range(n), np.diff(A.indptr))) * 1.0)
+
+    def loss(parameters, solve, logdet, diagonal):
+        values = torch.exp(parameters[0]) * (torch.tensor(A.data) +
+                                             torch.exp(parameters[1]) * on_diagonal)
+        mean, variance = solve(values, counts - 2.0), diagonal(values)
+        expected = torch.exp(0.1 * mean + 0.5 * variance)
+        return (counts * mean - expected).sum() + 0.5 * logdet(values) + variance.log().sum()
+
+    parameters = tensor([0.3, -1.0])
+    ours = loss(parameters, system.solve, system.logdet, system.diagonal)
+    right = loss(parameters, lambda v, b: torch.linalg.solve(dense_of(A, v), b.double()),
+                 lambda v: torch.logdet(dense_of(A, v)), lambda v: inverse_of(A, v).diagonal())
+    assert torch.allclose(ours, right, rtol=1e-12)
+    ours, right = (torch.autograd.grad(f, parameters)[0] for f in (ours, right))
+    assert torch.allclose(ours, right, rtol=1e-9)
+
+
+@pytest.mark.parametrize("batch", [(3,), (2, 2), (1,)])
+@pytest.mark.parametrize("shape", [(9,), (9, 2)])
+def test_batches(batch, shape):
+    A = sp.tril(grid(3), format="csc")
+    system = autograd.System(A)
+    scale = 1.0 + torch.rand(batch + (1,), dtype=torch.float64)
+    values = (scale * torch.tensor(A.data)).requires_grad_(True)
+    b = vectors(*batch, *shape)
+    for values, b in ((values, b), (values, b[(0,) * len(batch)].detach().requires_grad_(True))):
+        x = system.solve(values, b)
+        assert x.shape == batch + shape
+        for k in np.ndindex(batch):
+            alone = system.solve(values[k], b[k] if b.dim() > len(shape) else b)
+            assert torch.equal(x[k], alone)
+        assert torch.autograd.gradcheck(system.solve, (values, b))
+    assert torch.autograd.gradgradcheck(system.solve, (values, b))
+    assert torch.autograd.gradcheck(lambda v, b: system.local(v, range(9), b, [3, 1]), (values, b))
+    assert torch.autograd.gradcheck(system.logdet, (values,))
+    assert torch.autograd.gradcheck(lambda v: system.diagonal(v, [1, 2, 3]), (values,))
+    assert system.logdet(values).shape == batch and system.inverse(values).shape == values.shape
+    factors = [pair[1] for pair in system._last]
+    system.solve(values, b)  # equal values: no new factorization
+    assert len(factors) == np.prod(batch)
+    assert all(a is pair[1] for a, pair in zip(factors, system._last))
+
+
+def test_batches_of_b():
+    A = sp.tril(grid(3), format="csc")
+    system, values, b = autograd.System(A), tensor(A.data), vectors(2, 3, 9, 2)
+    x = system.solve(values, b)
+    right = torch.linalg.solve(dense_of(A, values), b)
+    assert x.shape == b.shape and torch.allclose(x, right, rtol=1e-12)
+    assert torch.autograd.gradcheck(system.solve, (values, b))
+    y = system.local(values.detach(), [4, 2], b[:, :, :2], [0, 1, 2])
+    whole = torch.zeros_like(b).index_add(2, torch.tensor([4, 2]), b[:, :, :2])
+    assert torch.allclose(y, torch.linalg.solve(dense_of(A, values), whole)[:, :, :3])
+
+
+def sparse_like(A, layout):
+    """What makes a sparse tensor with the pattern of A, by rows, of values."""
+    if layout == torch.sparse_csr:
+        return lambda v: torch.sparse_csr_tensor(A.indptr, A.indices, v, A.shape)
+    places = np.stack([A.tocoo().row, A.tocoo().col])
+    return lambda v: torch.sparse_coo_tensor(places, v, A.shape).coalesce()
+
+
+def values_of(tensor):
+    """The values of a sparse tensor, differentiable in either layout."""
+    return autograd._Stored.apply(tensor)
+
+
+@pytest.mark.filterwarnings("ignore:Sparse CSR")
+@pytest.mark.parametrize("layout", [torch.sparse_coo, torch.sparse_csr])
+@pytest.mark.parametrize("part", [sp.tril, sp.triu, lambda A: A])
+def test_sparse_tensors(layout, part):
+    """The gradients and inverses have the layout, and the values that a vector has."""
+    A = part(grid(3)).tocsr()
+    A.sort_indices()
+    make, b, vector = sparse_like(A, layout), vectors(9, 2), tensor(A.data)
+    dense = autograd.System(A)
+    for pattern in (A, A.tocsc(), make(torch.tensor(A.data))):
+        system, sparse = autograd.System(pattern), make(torch.tensor(A.data)).requires_grad_(True)
+        for call, *more in (("solve", b), ("logdet",), ("diagonal",), ("inverse",)):
+            found = getattr(system, call)(sparse, *more)
+            right = getattr(dense, call)(vector, *more)
+            if call == "inverse":
+                assert found.layout == layout and found.shape == A.shape
+                found = values_of(found)
+            assert torch.allclose(found, right, rtol=1e-12)
+            g, = torch.autograd.grad(found.square().sum(), sparse)
+            h, = torch.autograd.grad(right.square().sum(), vector)
+            assert g.layout == layout and g.shape == A.shape
+            assert torch.allclose(g.values(), h, rtol=1e-9, atol=1e-12)
+        system.solve(sparse, b).sum().backward()
+        assert sparse.grad.layout == layout
+    weights = torch.linspace(1, 2, A.nnz, dtype=torch.float64)
+    g, = torch.autograd.grad(dense.solve(vector, b).square().sum(), vector, create_graph=True)
+    g, = torch.autograd.grad((weights * g).sum(), vector)
+    h, = torch.autograd.grad(system.solve(sparse, b).square().sum(), sparse, create_graph=True)
+    h, = torch.autograd.grad((weights * values_of(h)).sum(), sparse)
+    assert torch.allclose(h.values(), g, rtol=1e-9, atol=1e-12)
+
+
+def test_a_gradient_of_another_pattern():
+    """What flows into a sparse inverse from dense tensors, and from fewer places."""
+    A = sp.tril(grid(3), format="csr")
+    make, vector = sparse_like(A, torch.sparse_coo), tensor(A.data)
+    dense, sparse = autograd.System(A), make(torch.tensor(A.data)).requires_grad_(True)
+    entries = dense.inverse(vector)
+    weights = torch.linspace(1, 2, 81, dtype=torch.float64).reshape(9, 9)
+    places = A.nonzero()
+    want, = torch.autograd.grad((weights[places] * entries).sum(), vector, retain_graph=True)
+    got, = torch.autograd.grad((weights * dense.inverse(sparse).to_dense()).sum(), sparse)
+    assert torch.allclose(got.values(), want, rtol=1e-9)
+    few = torch.sparse_coo_tensor([[8, 8], [8, 5]], [2.0, 3.0], (9, 9), dtype=torch.float64)
+    at = [int(np.flatnonzero((places[0] == 8) & (places[1] == j))[0]) for j in (8, 5)]
+    want, = torch.autograd.grad(2.0 * entries[at[0]] + 3.0 * entries[at[1]], vector)
+    got, = torch.autograd.grad(dense.inverse(sparse), sparse, few)
+    assert torch.allclose(got.values(), want, rtol=1e-9)
+
+
+@pytest.mark.filterwarnings("ignore:Sparse CSR")
+@pytest.mark.parametrize("layout", ["to_sparse", "to_sparse_csr"])
+def test_sparse_right_hand_sides(layout):
+    A = sp.tril(grid(3), format="csc")
+    system, values = autograd.System(A), tensor(A.data)
+    dense = torch.zeros(9, 3, dtype=torch.float64)
+    dense[[0, 4, 4, 8], [0, 0, 2, 1]] = torch.tensor([1.0, -2.0, 3.0, 0.5], dtype=torch.float64)
+    b = getattr(dense, layout)().requires_grad_(True)
+    x = system.solve(values, b)
+    assert torch.equal(x, system.solve(values, dense))
+    g, by_values = torch.autograd.grad(x.square().sum(), (b, values))
+    full = dense.clone().requires_grad_(True)
+    h, wanted = torch.autograd.grad(system.solve(values, full).square().sum(), (full, values))
+    assert g.layout == b.layout and torch.allclose(by_values, wanted)
+    assert torch.allclose(g.to_dense(), h * (dense != 0))
+
+
+def test_refusals_of_batches_and_sparse_tensors():
+    A = sp.tril(grid(3), format="csc")
+    system, values = autograd.System(A), torch.tensor(A.data)
+    two = torch.stack([values, values])
+    for v, b in ((two, vectors(3, 9)), (two, vectors(3, 9, 1)), (values, vectors(2, 8, 1)),
+                 (two[:, :-1], vectors(2, 9)), (two[:0], vectors(9)), (values, vectors())):
+        with pytest.raises(sl.ArgumentError):
+            system.solve(v, b)
+    b = vectors(9)
+    other = sp.tril(grid(3) + sp.diags([np.ones(3)] * 2, [-6, 6])).tocoo()
+    with pytest.raises(sl.PatternError, match="pattern"):
+        system.solve(torch.sparse_coo_tensor(np.stack([other.row, other.col]), other.data,
+                                             other.shape).coalesce(), b)
+    with pytest.raises(TypeError, match="coalesced"):
+        C = A.tocoo()
+        system.solve(torch.sparse_coo_tensor(np.stack([C.row, C.col]), C.data, C.shape), b)
+    for wrong in (dict(rows=[9], columns=[0]), dict(rows=[0, 1], columns=[0])):
+        with pytest.raises(sl.ArgumentError):
+            system.entries(values, **wrong)
+    L = sp.tril(grid(3, 0.0), format="csc")
+    singular, v = autograd.System(L, null_pivots="skip"), tensor(L.data)
+    first, = torch.autograd.grad(singular.logdet(v), v, create_graph=True)
+    assert torch.isfinite(first).all()
+    with pytest.raises(sl.UnsupportedError, match="pseudo-inverse"):
+        first.sum().backward()
+    with pytest.raises(sl.UnsupportedError, match="pseudo-inverse"):
+        singular.diagonal(v).sum().backward()
+
+
 def test_refusals():
     A = sp.tril(grid(4), format="csc")
     system, values, b = autograd.System(A), tensor(A.data), vectors(16)
     assert system.solve(values.float(), b.float()).dtype == torch.float64
-    for wrong in (values.detach().numpy(), values + 0j, values.to_sparse(), values > 0):
+    for wrong in (values.detach().numpy(), values + 0j, values.to_sparse(), values > 0,
+                  torch.diag(values).to_sparse_csc()):
         with pytest.raises(TypeError):
             system.solve(wrong, b)
     with pytest.raises(sl.ArgumentError):

@@ -81,6 +81,81 @@ def test_local_solves(count):
         Q.gradient(kept, g[:2])
 
 
+@pytest.mark.parametrize("turn", ["tocsc", "tocsr", "tocoo"])
+@pytest.mark.parametrize("part", [sp.tril, sp.triu, lambda A: A])
+def test_entries_of_the_inverse(turn, part, monkeypatch):
+    """By solves and by the factor of twice the size, against dense algebra and differences."""
+    A = getattr(part(grid(4)), turn)()
+    full = grid(4).toarray()
+    F, inverse = sl.Factor(A), np.linalg.inv(full)
+    stored = gradients.Stored(A)
+    near = grid(4).tocoo()
+    cases = [(np.arange(16), np.arange(16)), ([3, 9, 3], [3, 12, 3]), (np.arange(16), [5] * 16),
+             ([7] * 16, np.arange(16)), (near.row, near.col), ([], []), ([1, 2], [2, 1])]
+    for rows, columns in cases:
+        g = np.cos(np.arange(len(rows)) + 1.0) * 1e3
+        G = np.zeros((16, 16))
+        np.add.at(G, (np.asarray(rows, int), np.asarray(columns, int)), g)
+        G = 0.5 * (G + G.T)
+        wanted = -2.0 * (inverse @ G @ inverse)[stored.rows, stored.columns] * stored.weights
+        for solved in (256, 0):
+            monkeypatch.setattr(gradients, "_SOLVED", solved)
+            got = gradients.entries_gradient(F, A, rows, columns, g)
+            assert np.allclose(got, wanted, rtol=1e-12, atol=1e-13 * abs(wanted).max(initial=1))
+    monkeypatch.setattr(gradients, "_SOLVED", 0)
+    if part is sp.tril and turn == "tocsc":
+        g = np.sin(np.arange(16.0))
+        wanted = differences(lambda d: g @ sl.Factor(with_values(A, d)).diagonal(), A.data)
+        got = gradients.entries_gradient(F, A, range(16), range(16), g)
+        assert np.allclose(got, wanted, rtol=1e-7, atol=1e-7)
+
+
+def test_variances_of_many_rows(A, F):
+    """More columns than are solved at once, both ways."""
+    g = np.cos(np.arange(400.0))
+    twins = gradients.entries_gradient(F, A, range(400), range(400), g)
+    few = [gradients.entries_gradient(F, A, rows, rows, g[rows])
+           for rows in (np.arange(200), np.arange(200, 400))]
+    assert np.allclose(twins, few[0] + few[1], rtol=1e-12, atol=1e-13)
+    H = A - 5.0 * sp.identity(400)  # indefinite
+    indefinite = sl.Factor(H)
+    assert min(indefinite.inertia[:2]) > 20
+    inverse = np.linalg.inv(H.toarray())
+    wanted = -((inverse * g) @ inverse)[gradients.Stored(H).rows, gradients.Stored(H).columns]
+    got = gradients.entries_gradient(indefinite, H, range(400), range(400), g)
+    assert np.allclose(got, wanted, rtol=1e-8, atol=1e-8 * abs(wanted).max())
+
+
+def test_entries_of_a_regularized_inverse(monkeypatch):
+    """Those of A + E: by solves, since a factor of twice the size would have another E."""
+    monkeypatch.setattr(gradients, "_SOLVED", 0)
+    A = grid(4, 0.0)  # singular
+    F = sl.Factor(A, regularization=1e-3)
+    rows, shifts = F.pivot_rows("regularized")
+    assert rows.size == 1
+    E = np.zeros(16)
+    E[rows] = shifts
+    inverse, g = np.linalg.inv(A.toarray() + np.diag(E)), np.cos(np.arange(16.0))
+    stored = gradients.Stored(A)
+    wanted = -2.0 * stored.weights * ((inverse * g) @ inverse)[stored.rows, stored.columns]
+    got = gradients.entries_gradient(F, A, range(16), range(16), g)
+    assert np.allclose(got, wanted, rtol=1e-11, atol=1e-12 * abs(wanted).max())
+
+
+def test_entries_that_are_refused():
+    A = grid(4)
+    F = sl.Factor(A)
+    for rows, columns, g in (([1], [1, 2], [1.0]), ([16], [1], [1.0]), ([-1], [1], [1.0]),
+                             (None, None, np.ones(16)), ([1], [1], [1.0, 2.0])):
+        with pytest.raises(sl.ArgumentError):
+            gradients.entries_gradient(F, A, rows, columns, g)
+    L = grid(4, 0.0)
+    with pytest.raises(sl.UnsupportedError, match="pseudo-inverse"):
+        gradients.entries_gradient(sl.Factor(L, null_pivots="skip"), L, [1], [1], [1.0])
+    with pytest.raises(sl.NotFiniteError):
+        gradients.entries_gradient(F, A, [1], [1], [np.nan])
+
+
 def test_what_has_no_such_derivative_is_refused():
     L = grid(4, 0.0)
     weighted = sl.Factor(L, null_pivots="skip", mass=np.ones(16))

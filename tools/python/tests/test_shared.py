@@ -129,8 +129,9 @@ def test_dask(path):
     """In a process of its own, since Dask starts threads and servers."""
     pytest.importorskip("distributed", reason="apt-get install python3-distributed")
     code = """
-import sys, numpy as np, sparse_local as sl
+import os, sys, numpy as np, sparse_local as sl
 from distributed import Client
+from systems import grid
 if __name__ == "__main__":
     F = sl.Factor.load(sys.argv[1], map=True)
     with Client(n_workers=2, threads_per_worker=1, dashboard_address=None) as client:
@@ -140,10 +141,21 @@ if __name__ == "__main__":
         P = F.plan([5], [7])
         got = client.gather(client.map(P.solve, [[1.0], [3.0]], pure=False))
         assert np.array_equal(got, [P.solve([1.0]), P.solve([3.0])])
+        new = sys.argv[1] + ".new"
+        F.save(new)
+        G = sl.Factor.load(new, map=True)  # which no worker has opened
+        sl.Factor.load(sys.argv[1]).refactor(2.0 * grid(30)).save(new)
+        error = client.submit(G.diagonal, [0], pure=False, retries=0).exception()
+        assert isinstance(error, sl.StateError) and "has changed" in str(error), error
+        os.remove(new)
+        error = client.submit(G.diagonal, [1], pure=False, retries=0).exception()
+        assert isinstance(error, sl.Error) and "No such file" in str(error), error
     print("done")
 """
     script = path.parent / "script.py"
     script.write_text(code)
-    out = subprocess.run([sys.executable, "-W", "ignore", str(script), str(path)],
-                         capture_output=True, text=True, timeout=120)
+    here = os.path.dirname(os.path.abspath(__file__))
+    environment = dict(os.environ, PYTHONPATH=os.pathsep.join(sys.path + [here]))
+    out = subprocess.run([sys.executable, "-W", "ignore", str(script), str(path)], text=True,
+                         capture_output=True, timeout=120, env=environment)
     assert out.stdout == "done\n", out.stderr[-2000:]
