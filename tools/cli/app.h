@@ -165,9 +165,10 @@ bool app_is_saved(const char *operand);
 /** Dies if --weld is given with a file of sparse-local save. */
 void app_refuse_weld(const char *operand);
 
-/** Parses a list of vertices: "3,17,100-200", "all" or "random:5" (5 distinct vertices, whose
- *  numbers are printed). After --weld, numbers are those of the file, and the list has what these
- *  vertices have become, each once. Dies if the list is malformed or a vertex is not below n.
+/** Parses a list of vertices: "3,17,100-200", "all", "random:5" (5 distinct vertices, whose numbers
+ *  are printed) or "@FILE" (app_list_text). After --weld, numbers are those of the file, and the
+ *  list has what these vertices have become, each once. Dies if the list is malformed or a vertex
+ *  is not below n.
  *
  *  count  [out]  length of the list.
  *  Returns  the list in the order given, including repetitions; local solves refuse those, see
@@ -175,6 +176,14 @@ void app_refuse_weld(const char *operand);
  */
 sl_int *app_vertices(const char *option_name, const char *text, sl_int n, uint64_t seed,
                      sl_int *count);
+
+/** The same without random vertices and with all repetitions, also after --weld. */
+sl_int *app_vertices_in_order(const char *option_name, const char *text, sl_int n, sl_int *count);
+
+/** A copy of the text; of "@FILE" the content of the file, as a list of what blanks, commas and
+ *  ends of lines separate, with a semicolon between lines. # starts a comment. Dies if the file
+ *  cannot be read. Release with free. */
+char *app_list_text(const char *option_name, const char *text);
 
 /** Parses a list of vertices: "3,17,100-200" or "all".
  *
