@@ -219,6 +219,15 @@ gives 0 'pins       3 grabbed, .* ms each; 2 released' deform sphere:2 --script 
 [ "$(wc -l <"$dir/steps.csv")" -eq 7 ] && [ -s "$dir/frame0000.png" ] && [ -s "$dir/frame0001.png" ]
 record $? "deform writes a row per step and a picture per frame"
 printf 'grab 0,5\nmove 0 0 0 0.1\n' >"$dir/moves"
+# Near a vertex two others, at 1e-7 of the edges: the squared system of biharmonic has no digits.
+"$program" geodesic sphere:2 --from face:40,1e-7,1e-7 --out "$dir/thin.obj" >/dev/null 2>&1
+"$program" geodesic "$dir/thin.obj" --from face:40,1e-7,5e-8 --out "$dir/thin.obj" >/dev/null 2>&1
+printf 'grab 0-3\ngrab 9\nmove 1 0.1 0.2 0\nframe\n' >"$dir/pull"
+"$program" deform "$dir/thin.obj" --script "$dir/pull" --method biharmonic --check \
+    >"$dir/out" 2>"$dir/err"
+record $? "a new factor agrees with biharmonic displacements of thin faces"
+grep -q '^system     The squared system has too few digits' "$dir/out"
+record $? "thin faces take the mixed system"
 gives 0 '^upward     z, because' deform hills:9x9 --script "$dir/moves" --png "$dir/deform.png"
 
 # Edits (test_edit.c).
