@@ -33,7 +33,8 @@ APP_NORETURN APP_PRINTF void app_die_usage(const char *format, ...);
 /** Prints "sparse-local: warning: ..." to standard error: the results may be of no use. */
 APP_PRINTF void app_warn(const char *format, ...);
 
-/** The sentence of sl_error_text, in which rows are vertices; static storage. */
+/** The sentence of sl_error_text, in which rows are vertices, without names of the header; static
+ *  storage. */
 const char *app_error_text(sl_status status, const sl_stats *stats);
 
 /** Dies unless status is SL_OK. The message names the operation `what` and the reason, of stats or,

@@ -92,7 +92,9 @@ static void pin_two(unwrap_part *p) {
     }
 }
 
-static void by_lscm(unwrap_part *p, sl_int n_pinned) {
+/* Returns a vertex at which the digits do not suffice, because the conformal layout shrinks there
+ * too much; -1: there is none. */
+static sl_int find_lscm(unwrap_part *p, sl_int n_pinned) {
     const size_t n = (size_t)p->s.m.n_vertices;
     memset(p->uv, 0, 2 * n * sizeof *p->uv);
     memset(p->l.fixed, 0, n);
@@ -103,8 +105,21 @@ static void by_lscm(unwrap_part *p, sl_int n_pinned) {
     if (n_pinned < 2) {
         pin_two(p);
     }
-    app_must(layout_lscm(&p->l, p->uv), "factor of the conformal energy", &p->l.stats);
+    const sl_status status = layout_lscm(&p->l, p->uv);
     p->converged = true;
+    if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE || status == SL_ERR_NOT_FINITE) {
+        const sl_int row = p->l.stats.error.row;
+        return row >= 0 && row < 2 * p->s.m.n_vertices ? row / 2 : 0;
+    }
+    app_must(status, "factor of the conformal energy", &p->l.stats);
+    return -1;
+}
+
+static void by_lscm(unwrap_part *p, sl_int n_pinned) {
+    if (find_lscm(p, n_pinned) >= 0) {
+        app_die("a conformal layout of this surface shrinks parts of it beyond the digits of "
+                "numbers; --method slim does not");
+    }
 }
 
 /* ---- cuts ---- */
@@ -132,9 +147,12 @@ static void cut_open(unwrap_part *p, int most) {
     for (int k = 0; k == 0 || more > 0; k++) {
         p->cut += more;
         prepare(p);
-        by_lscm(p, 0);
+        sl_int far = find_lscm(p, 0);
+        if (far >= 0 && k == most) {
+            lay_on_circle(p);
+        }
         layout_normalize(&p->l, p->uv);
-        const sl_int far = k < most ? most_shrunk(p) : -1;
+        far = k == most ? -1 : far >= 0 ? far : most_shrunk(p);
         more = 0;
         if (far >= 0 && !sheet_cut_to(&p->s, far, &more)) {
             app_die("out of memory for the cuts of %d faces", (int)p->s.m.n_faces);
