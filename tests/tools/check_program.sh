@@ -219,6 +219,15 @@ gives 0 'pins       3 grabbed, .* ms each; 2 released' deform sphere:2 --script 
 [ "$(wc -l <"$dir/steps.csv")" -eq 7 ] && [ -s "$dir/frame0000.png" ] && [ -s "$dir/frame0001.png" ]
 record $? "deform writes a row per step and a picture per frame"
 printf 'grab 0,5\nmove 0 0 0 0.1\n' >"$dir/moves"
+# Near a vertex two others, at 1e-7 of the edges: the squared system of biharmonic has no digits.
+"$program" geodesic sphere:2 --from face:40,1e-7,1e-7 --out "$dir/thin.obj" >/dev/null 2>&1
+"$program" geodesic "$dir/thin.obj" --from face:40,1e-7,5e-8 --out "$dir/thin.obj" >/dev/null 2>&1
+printf 'grab 0-3\ngrab 9\nmove 1 0.1 0.2 0\nframe\n' >"$dir/pull"
+"$program" deform "$dir/thin.obj" --script "$dir/pull" --method biharmonic --check \
+    >"$dir/out" 2>"$dir/err"
+record $? "a new factor agrees with biharmonic displacements of thin faces"
+grep -q '^system     The squared system has too few digits' "$dir/out"
+record $? "thin faces take the mixed system"
 gives 0 '^upward     z, because' deform hills:9x9 --script "$dir/moves" --png "$dir/deform.png"
 
 # Edits (test_edit.c).
@@ -417,6 +426,35 @@ gives 1 'there is no such face; the last one is 721' geodesic grid:20x20 --from 
 gives 2 'U and V are 0 or more' geodesic grid:20x20 --from face:8,0.7,0.7
 gives 2 'expected face:F,U,V or point:X,Y,Z' geodesic grid:20x20 --from face:8,0.7
 gives 2 'expected face:F,U,V or point:X,Y,Z' geodesic grid:20x20 --from point:1,2,3x
+
+# Curves along edges, and lists from files.
+
+printf '3 5,7 # three\n\n9-11' >"$dir/list"
+"$program" geodesic grid:20x20 --from "@$dir/list" --csv "$dir/listed.csv" >/dev/null 2>&1
+"$program" geodesic grid:20x20 --from 3,5,7,9-11 --csv "$dir/typed.csv" >/dev/null 2>&1
+cmp -s "$dir/listed.csv" "$dir/typed.csv"
+record $? "--from @FILE is the list in the file"
+gives 1 'none: ' geodesic grid:20x20 --from "@$dir/none"
+gives 2 'not a list of vertices' geodesic grid:20x20 --from "curve:3,x"
+gives 2 'a curve is one source' geodesic grid:20x20 --from curve:3,5 --each
+gives 1 'no path along edges joins vertex 3 to' geodesic "$dir/two.obj" --from curve:3,100
+gives 2 'no mesh for --radius and curves' heat "$dir/f.slf" --from curve:3,5
+gives 0 '^curve      of 3 edges through 5 vertices' geodesic grid:20x20 --from 'curve:0,1,2;60,61'
+# A curve of some 20 edges of length 0.15 passes nearer to the vertices beside it than its own do.
+"$program" geodesic sphere:3 --from curve:3,400,600 --verbose --csv "$dir/curve.csv" >"$dir/out"
+"$program" geodesic sphere:3 --from "$(awk -F, '$2 == 0 { printf "%s%d", n++ ? "," : "", $1 }' \
+    "$dir/curve.csv")" --csv "$dir/dots.csv" >/dev/null
+awk -F, 'FNR == 1 { next } FNR == NR { dots[$1] = $2; next }
+    { over = $2 - dots[$1]; bad = bad || over > 0.05 * 0.15; less += over < -0.05 * 0.15 }
+    END { exit bad || less < 10 }' "$dir/dots.csv" "$dir/curve.csv"
+record $? "distances from a curve are shorter than those from its vertices"
+# An edge gives off its length, one half at each end.
+"$program" heat grid:20x20 --from curve:60,61 --csv "$dir/edge.csv" >/dev/null 2>&1
+"$program" heat grid:20x20 --from 60,61 --csv "$dir/ends.csv" >/dev/null 2>&1
+awk -F, 'FNR == 1 { next } FNR == NR { ends[$1] = $2; next } { r = $2 / ends[$1] }
+    FNR == 2 { ratio = r } { bad = bad || r / ratio > 1 + 1e-12 || r / ratio < 1 - 1e-12 }
+    END { exit bad || ratio < 0.4 / 19 || ratio > 0.6 / 19 }' "$dir/ends.csv" "$dir/edge.csv"
+record $? "the heat of a curve is its length"
 
 # On a sphere the logarithm of a vertex far away has the length of the way to it.
 

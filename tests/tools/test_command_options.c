@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "tests/lib/test.h"
 
+#include "tools/cli/app.h"
 #include "tools/cli/options.h"
 
 typedef struct read_t {
@@ -92,10 +93,36 @@ static void bad_options_are_refused(void **state) {
     assert_true(parse(&r, 1, "--flag") == OPTIONS_BAD && strstr(r.message, "needs ONE"));
 }
 
+/* Reasons end before the advice to a C program, and keep what comes before it. */
+static void errors_name_nothing_of_the_header(void **state) {
+    (void)state;
+    static const char *const whats[] = {
+        NULL,
+        "the rows sum to 0: x is unique up to a constant. Set options.pivots = SL_PIVOTS_SKIP_NULL",
+        "the free rows are singular: fix a row, or see sl_symbolic_create_pivoted"};
+    for (int k = 0; k < 3; k++) {
+        for (int status = SL_OK + 1; status <= SL_ERR_READ_ONLY; status++) {
+            sl_stats stats;
+            memset(&stats, 0, sizeof stats);
+            stats.error.row = 17;
+            stats.error.what = whats[k];
+            const char *text = app_error_text((sl_status)status, k == 0 ? NULL : &stats);
+            assert_true(strlen(text) > 5);
+            assert_true(strstr(text, "sl_") == NULL && strstr(text, "SL_") == NULL);
+            assert_true(strstr(text, "options.") == NULL);
+            if (k > 0 && status == SL_ERR_PIVOT) {
+                assert_non_null(strstr(text, k == 1 ? "unique up to a constant" : "fix a row"));
+                assert_non_null(strstr(text, " (vertex 17)"));
+            }
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(options_are_read),
         cmocka_unit_test(bad_options_are_refused),
+        cmocka_unit_test(errors_name_nothing_of_the_header),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

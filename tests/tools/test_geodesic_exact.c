@@ -169,8 +169,8 @@ static void many_sources_are_all_at_zero(void **state) {
             assert_true(pass == 0 || f.distance[k] >= exact * (1 - 2e-12));
             worst[pass] = fmax(worst[pass], fabs(f.distance[k] - exact));
         }
-        const sl_int raised =
-            straight_lines_raise(f.distance, &y.m, f.vertices, f.n, sources, count, &largest);
+        const sl_int raised = straight_lines_raise(f.distance, &y.m, f.vertices, f.n, sources,
+                                                   count, NULL, 0, &largest);
         assert_true(pass == 0 ? raised > 0 : raised == 0);
     }
     print_message("%d sources: largest error %.4f, with straight lines %.4f\n", (int)count,
@@ -185,7 +185,8 @@ static void many_sources_are_all_at_zero(void **state) {
     SL_CHECK(heat_distance(&f, &y.s, sources, 1, NULL));
     assert_false(f.pinned);
     f.distance[0] = NAN;
-    assert_true(straight_lines_raise(f.distance, &y.m, f.vertices, 1, sources, 1, &largest) == 0);
+    assert_true(
+        straight_lines_raise(f.distance, &y.m, f.vertices, 1, sources, 1, NULL, 0, &largest) == 0);
     heat_field_free(&f);
     heat_mesh_free(&y);
 }

@@ -92,7 +92,8 @@ static layout_descent descent(layout_energy energy, double tolerance) {
 
 /* From a layout on a circle, with and without holes, on closed surfaces and disks: no face is
  * flipped at any time, the energy falls in each step, and it is that of the singular values. At the
- * end no direction leads down. */
+ * end no direction leads down; without Newton's steps it takes 27 to 662 iterations. With the
+ * tolerance of the command the energy is that to a thousandth. */
 static void slim_flips_nothing_and_falls(void **state) {
     (void)state;
     static const char *const names[] = {"sphere:3", "torus:24x12", "hills:20x20", "star:3"};
@@ -106,8 +107,16 @@ static void slim_flips_nothing_and_falls(void **state) {
             scene_make(&c, m, taken, WEIGHTS_POSITIVE);
             assert_int_equal(layout_flipped(&c.l, c.uv), 0);
             layout_descent d = descent(LAYOUT_SLIM, 1e-9);
+            layout_descent rough = descent(LAYOUT_SLIM, 1e-5);
+            double *start = test_reals(2 * (size_t)c.s.m.n_vertices);
+            memcpy(start, c.uv, 2 * (size_t)c.s.m.n_vertices * sizeof *start);
+            SL_CHECK(layout_descend(&c.l, start, &rough));
+            free(start);
+            d = descent(LAYOUT_SLIM, 1e-9);
             SL_CHECK(layout_descend(&c.l, c.uv, &d));
+            assert_true(rough.last <= 1.001 * d.last && rough.last >= d.last * (1 - 1e-9));
             print_message("%s: %d iterations, %.6f\n", names[k], d.iterations, d.last);
+            assert_true(d.iterations <= 80 && (k != 1 || d.iterations <= 20));
             assert_true(d.converged && rises == 0 && d.last < d.first && d.last >= 4);
             assert_int_equal(layout_flipped(&c.l, c.uv), 0);
             assert_true(fabs(d.last - energy_from_gram(&c)) <= 1e-9 * d.last);

@@ -87,6 +87,58 @@ static void cuts_leave_disks_with_holes(void **state) {
 }
 
 /* A cut to a vertex inside reaches it: it is on the boundary then, and the part stays connected. */
+/* How many faces are reached from face 0 over glued sides. */
+static sl_int reached(const sheet *s) {
+    sl_int *queue = test_ints((size_t)s->m.n_faces + 1), count = 0;
+    unsigned char *seen = test_array((size_t)s->m.n_faces + 1, 1);
+    seen[0] = 1;
+    queue[count++] = 0;
+    for (sl_int k = 0; k < count; k++) {
+        for (sl_int side = 3 * queue[k]; side < 3 * queue[k] + 3; side++) {
+            const sl_int other = s->mate[side] >= 0 ? s->mate[side] / 3 : queue[k];
+            if (!seen[other]) {
+                seen[other] = 1;
+                queue[count++] = other;
+            }
+        }
+    }
+    free(queue);
+    free(seen);
+    return count;
+}
+
+/* Loops that pass many holes take no face off: all faces of a torus with random holes remain
+ * joined, and it becomes a disk with holes. */
+static void cuts_beside_holes_keep_the_sheet_whole(void **state) {
+    (void)state;
+    for (uint64_t seed = 1; seed <= 200; seed++) {
+        mesh m = generated("torus:16x10");
+        unsigned char *taken = test_array((size_t)m.n_faces, 1);
+        double *x = test_reals((size_t)m.n_faces);
+        sheet all, s;
+        sl_int *sizes = test_ints((size_t)m.n_faces), largest = 0, cut = 0;
+        gen_reals(x, (size_t)m.n_faces, seed);
+        for (sl_int f = 0; f < m.n_faces; f++) {
+            taken[f] = fabs(x[f]) > 0.02 * (double)(1 + seed % 10);
+        }
+        assert_true(sheet_create(&all, &m, taken));
+        for (sl_int f = 0; f < all.m.n_faces; f++) {
+            sizes[all.part[f]]++;
+            largest = sizes[all.part[f]] > sizes[largest] ? all.part[f] : largest;
+        }
+        assert_true(sheet_take_part(&s, &all, largest) && sheet_open(&s, &cut));
+        assert_is_sheet(&s);
+        assert_int_equal(reached(&s), s.m.n_faces);
+        assert_int_equal(euler(&s) + count_loops(&s), 2);
+        sheet_free(&s);
+        sheet_free(&all);
+        free(sizes);
+        free(x);
+        free(taken);
+        mesh_free(&m);
+    }
+}
+
 static void cuts_reach_their_vertex(void **state) {
     (void)state;
     mesh m = generated("grid:9x9");
@@ -159,6 +211,7 @@ static void slits_are_closed(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cuts_leave_disks_with_holes),
+        cmocka_unit_test(cuts_beside_holes_keep_the_sheet_whole),
         cmocka_unit_test(cuts_reach_their_vertex),
         cmocka_unit_test(faces_are_oriented),
         cmocka_unit_test(what_is_no_surface_is_separated),

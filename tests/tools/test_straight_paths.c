@@ -2,7 +2,9 @@
 #define _POSIX_C_SOURCE 200809L
 #include "tests/lib/heat_mesh.h"
 
+#include "tools/geometry/edge_curve.h"
 #include "tools/geometry/laplacian.h"
+#include "tools/geometry/straight_lines.h"
 #include "tools/geometry/surface_paths.h"
 #include "tools/mesh/surface_generator.h"
 
@@ -112,6 +114,77 @@ static void paths_in_a_plane_are_straight(void **state) {
     }
 }
 
+static double to_segment(const double *p, const double *a, const double *b) {
+    const double x = b[0] - a[0], y = b[1] - a[1];
+    const double along = ((p[0] - a[0]) * x + (p[1] - a[1]) * y) / (x * x + y * y);
+    const double share = fmin(1, fmax(0, along));
+    return hypot(p[0] - a[0] - share * x, p[1] - a[1] - share * y);
+}
+
+/* In a plane of uneven triangles, paths from a curve start anywhere on its edges: they are the line
+ * to the nearest point of it, which vertices alone miss by ten times as much near it. The lines of
+ * straight_lines_raise are those. The curve goes around two corners, and between given vertices
+ * along shortest paths; none leads to another part. */
+static void curves_are_sources_everywhere(void **state) {
+    (void)state;
+    enum { SIDE = 31 };
+    mesh m = flat_grid(SIDE, 0.3);
+    edge_curve curve = {{NULL, 0, 0}, {NULL, 0, 0}};
+    const sl_int through[4] = {5 * SIDE + 5, 5 * SIDE + 20, 20 * SIDE + 20, 20 * SIDE + 21};
+    const sl_int nowhere[2] = {5 * SIDE + 5, m.n_vertices - 1};
+    sl_int gap = 0;
+    assert_true(edge_curve_add(&curve, &m, through, 4, &gap) && gap == -1);
+    assert_true(edge_curve_add(&curve, &m, through, 1, &gap)); /* adds nothing new */
+    const sl_int n_edges = (sl_int)(curve.ends.count / 2), n = m.n_vertices;
+    assert_true(n_edges >= 31 && curve.vertices.count == (size_t)n_edges + 1);
+    double *lines = test_reals((size_t)n), largest = 0, worst = 0, mean = 0, vertices = 0;
+    const double edge = mesh_mean_edge_length(&m);
+    searches s;
+    assert_true(incidence_create(&s.inc, &m) && surface_search_create(&s.three, &s.inc, 3));
+    assert_true(surface_search_set_curve(s.three, curve.ends.at, n_edges));
+    assert_false(surface_search_set_curve(s.three, nowhere, 1)); /* no edge */
+    assert_true(surface_search_set_curve(s.three, curve.ends.at, n_edges));
+    assert_true(surface_search_run(s.three, curve.vertices.at, n_edges + 1, INFINITY));
+    s.all = test_ints((size_t)n);
+    for (sl_int v = 0; v < n; v++) {
+        s.all[v] = v;
+        lines[v] = 0;
+    }
+    s.straight = surface_search_straighten(s.three, s.all, n);
+    assert_true(straight_lines_raise(lines, &m, s.all, n, curve.vertices.at, n_edges + 1,
+                                     curve.ends.at, n_edges, &largest) == n - n_edges - 1);
+    for (sl_int v = 0; v < n; v++) {
+        double best = INFINITY, near = INFINITY;
+        for (sl_int k = 0; k < 2 * n_edges; k += 2) {
+            const double *a = m.xyz + 3 * curve.ends.at[k], *b = m.xyz + 3 * curve.ends.at[k + 1];
+            best = fmin(best, to_segment(m.xyz + 3 * v, a, b));
+            near = fmin(near, hypot(m.xyz[3 * v] - a[0], m.xyz[3 * v + 1] - a[1]));
+            near = fmin(near, hypot(m.xyz[3 * v] - b[0], m.xyz[3 * v + 1] - b[1]));
+        }
+        assert_true(fabs(lines[v] - best) <= 1e-14 && s.straight[v] >= best - 1e-12);
+        worst = fmax(worst, s.straight[v] - best);
+        mean += best < 1.5 * edge ? s.straight[v] - best : 0;
+        vertices += best < 1.5 * edge ? near - best : 0;
+    }
+    print_message("from a curve: off by %.4f edges; those of its vertices near it %.0f times\n",
+                  worst / edge, vertices / mean);
+    assert_true(worst < 0.1 * edge && mean < 0.1 * vertices);
+    mesh two = m; /* without the faces at the last vertex */
+    for (sl_int f = two.n_faces = 0; f < m.n_faces; f++) {
+        const sl_int *c = m.faces + 3 * f;
+        if (c[0] != n - 1 && c[1] != n - 1 && c[2] != n - 1) {
+            memmove(two.faces + 3 * two.n_faces++, c, 3 * sizeof *c);
+        }
+    }
+    assert_true(!edge_curve_add(&curve, &two, nowhere, 2, &gap) && gap == 0);
+    edge_curve_free(&curve);
+    free(lines);
+    free(s.all);
+    surface_search_free(s.three);
+    incidence_free(&s.inc);
+    mesh_free(&m);
+}
+
 /* What no path reaches has no length, and faces that are not a surface end no program: repeated
  * vertices, three faces at an edge, no area, all of it upside down. */
 static void bad_meshes_have_lengths(void **state) {
@@ -146,6 +219,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(paths_are_nearly_the_shortest),
         cmocka_unit_test(paths_in_a_plane_are_straight),
+        cmocka_unit_test(curves_are_sources_everywhere),
         cmocka_unit_test(bad_meshes_have_lengths),
         cmocka_unit_test(distances_are_corrected),
     };

@@ -45,17 +45,35 @@ void app_die_usage(const char *format, ...) {
     exit(2);
 }
 
+/* Ends a text before the advice to a C program: at the end of the sentence, or of the part of one,
+ * that comes before the first name of the header. */
+static size_t without_names(char *text) {
+    static const char *const names[] = {"sl_", "SL_", "options.", "stats."};
+    size_t length = strlen(text);
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        const char *at = strstr(text, names[k]);
+        length = at != NULL && (size_t)(at - text) < length ? (size_t)(at - text) : length;
+    }
+    while (text[length] != '\0' && length > 0 && strchr(".,;:", text[length]) == NULL) {
+        length--;
+    }
+    text[length] = '\0';
+    return length;
+}
+
 const char *app_error_text(sl_status status, const sl_stats *stats) {
     static char text[400];
-    size_t length = sizeof text;
+    size_t length;
     sl_stats found;
     if (stats == NULL) {
         (void)sl_error_text(text, sizeof text, status, NULL);
+        (void)without_names(text);
         return text;
     }
     found = *stats;
     found.error.row = -1; /* rows are vertices here */
-    length = sl_error_text(text, sizeof text, status, &found);
+    (void)sl_error_text(text, sizeof text, status, &found);
+    length = without_names(text);
     if (stats->error.row >= 0 && status != SL_ERR_MEMORY && length < sizeof text) {
         (void)snprintf(text + length, sizeof text - length, " (vertex %d)", (int)stats->error.row);
     }

@@ -33,7 +33,8 @@ APP_NORETURN APP_PRINTF void app_die_usage(const char *format, ...);
 /** Prints "sparse-local: warning: ..." to standard error: the results may be of no use. */
 APP_PRINTF void app_warn(const char *format, ...);
 
-/** The sentence of sl_error_text, in which rows are vertices; static storage. */
+/** The sentence of sl_error_text, in which rows are vertices, without names of the header; static
+ *  storage. */
 const char *app_error_text(sl_status status, const sl_stats *stats);
 
 /** Dies unless status is SL_OK. The message names the operation `what` and the reason, of stats or,
@@ -165,9 +166,10 @@ bool app_is_saved(const char *operand);
 /** Dies if --weld is given with a file of sparse-local save. */
 void app_refuse_weld(const char *operand);
 
-/** Parses a list of vertices: "3,17,100-200", "all" or "random:5" (5 distinct vertices, whose
- *  numbers are printed). After --weld, numbers are those of the file, and the list has what these
- *  vertices have become, each once. Dies if the list is malformed or a vertex is not below n.
+/** Parses a list of vertices: "3,17,100-200", "all", "random:5" (5 distinct vertices, whose numbers
+ *  are printed) or "@FILE" (app_list_text). After --weld, numbers are those of the file, and the
+ *  list has what these vertices have become, each once. Dies if the list is malformed or a vertex
+ *  is not below n.
  *
  *  count  [out]  length of the list.
  *  Returns  the list in the order given, including repetitions; local solves refuse those, see
@@ -175,6 +177,14 @@ void app_refuse_weld(const char *operand);
  */
 sl_int *app_vertices(const char *option_name, const char *text, sl_int n, uint64_t seed,
                      sl_int *count);
+
+/** The same without random vertices and with all repetitions, also after --weld. */
+sl_int *app_vertices_in_order(const char *option_name, const char *text, sl_int n, sl_int *count);
+
+/** A copy of the text; of "@FILE" the content of the file, as a list of what blanks, commas and
+ *  ends of lines separate, with a semicolon between lines. # starts a comment. Dies if the file
+ *  cannot be read. Release with free. */
+char *app_list_text(const char *option_name, const char *text);
 
 /** Parses a list of vertices: "3,17,100-200" or "all".
  *

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "tools/geometry/laplacian.h"
+#include "tools/io/input.h"
 #include "tools/io/output_file.h"
 #include "tools/mesh/coincident.h"
 #include "tools/mesh/int_list.h"
@@ -223,6 +224,51 @@ sl_int *app_vertices(const char *option_name, const char *text, sl_int n, uint64
     if (strncmp(text, "random:", 7) == 0) {
         return random_vertices(option_name, text + 7, n, seed, count);
     }
+    char *copy = app_list_text(option_name, text);
+    for (char *c = copy; text[0] == '@' && *c != '\0'; c++) {
+        *c = *c == ';' ? ',' : *c;
+    }
+    sl_int *list = app_vertices_in_order(option_name, copy, n, count);
+    const bool is_mapped = welded.map != NULL && n == welded.n && strcmp(copy, "all") != 0;
+    *count = is_mapped ? app_distinct(list, *count, n) : *count;
+    free(copy);
+    return list;
+}
+
+char *app_list_text(const char *option_name, const char *text) {
+    char message[512] = "";
+    input in;
+    if (text[0] != '@') {
+        const size_t size = strlen(text) + 1;
+        char *copy = app_alloc(size, 1);
+        memcpy(copy, text, size);
+        return copy;
+    }
+    if (!input_open(&in, text + 1, message, sizeof message)) {
+        app_die("--%s: %s", option_name, message);
+    }
+    char *list = app_alloc((size_t)(in.end - in.data) + 1, 1), *to = list;
+    bool in_comment = false;
+    for (const char *c = in.data; c < in.end; c++) {
+        const bool is_end = *c == '\n' || *c == '\r';
+        in_comment = !is_end && (in_comment || *c == '#');
+        if (!in_comment && strchr(" \t\n\r,", *c) == NULL) {
+            *to++ = *c;
+        } else if (is_end && to > list) {
+            to -= strchr(",;", to[-1]) != NULL;
+            *to++ = ';';
+        } else if (to > list && strchr(",;", to[-1]) == NULL) {
+            *to++ = ',';
+        }
+    }
+    while (to > list && strchr(",;", to[-1]) != NULL) {
+        *--to = '\0';
+    }
+    input_close(&in);
+    return list;
+}
+
+sl_int *app_vertices_in_order(const char *option_name, const char *text, sl_int n, sl_int *count) {
     char message[512];
     sl_int *list;
     const bool is_mapped = welded.map != NULL && n == welded.n && strcmp(text, "all") != 0;
@@ -237,7 +283,6 @@ sl_int *app_vertices(const char *option_name, const char *text, sl_int n, uint64
     for (sl_int k = 0; k < *count && is_mapped; k++) {
         list[k] = welded.map[list[k]];
     }
-    *count = is_mapped ? app_distinct(list, *count, n) : *count;
     return list;
 }
 

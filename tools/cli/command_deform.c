@@ -105,15 +105,13 @@ static void move(deform_command *cmd, const script_handle *h, const script_step 
     free(points);
 }
 
-/* Dies unless a solve of `method` has succeeded. Biharmonic systems square the ratios of the faces,
- * so that a badly shaped mesh can be beyond their digits. */
+/* Dies unless a solve of `method` has succeeded. A badly shaped mesh can be beyond the digits. */
 static void must_solve(const deform_command *cmd, sl_status status) {
     if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE || status == SL_ERR_NOT_FINITE ||
         status == SL_ERR_INCONSISTENT) {
-        app_die("%s cannot be solved on this mesh: its faces are too thin, or too different in "
-                "size%s",
-                cmd->method,
-                cmd->d.method == DEFORM_BIHARMONIC ? "; --method arap needs half the digits" : "");
+        app_die(
+            "%s cannot be solved on this mesh: its faces are too thin, or too different in size",
+            cmd->method);
     }
     app_must(status, "deformation", NULL);
 }
@@ -147,7 +145,7 @@ static void solve_frame(deform_command *cmd, step_times *t) {
 
 static void check_frame(deform_command *cmd, step_times *t) {
     size_t n = (size_t)cmd->d.n, count = (size_t)cmd->n_watched;
-    app_must(deformer_compare(&cmd->d, &t->difference, &t->fresh), "new factor", &cmd->d.stats);
+    must_solve(cmd, deformer_compare(&cmd->d, &t->difference, &t->fresh));
     t->fresh *= 1e3;
     for (size_t k = 0; k < count && cmd->at != NULL; k++) {
         double distance = 0;
@@ -242,8 +240,7 @@ static void open_command(deform_command *cmd, const char *operand) {
     app_stage("factoring");
     const double began = app_processor_ms();
     const bool is_arap = strcmp(cmd->method, "arap") == 0;
-    app_must(deformer_create(&cmd->d, &cmd->m, is_arap ? DEFORM_ARAP : DEFORM_BIHARMONIC), "factor",
-             &cmd->d.stats);
+    must_solve(cmd, deformer_create(&cmd->d, &cmd->m, is_arap ? DEFORM_ARAP : DEFORM_BIHARMONIC));
     const double spent = app_processor_ms() - began;
     app_progress_end();
     if (!(cmd->d.diameter > 0) || !isfinite(cmd->d.diameter)) {

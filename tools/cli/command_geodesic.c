@@ -100,23 +100,17 @@ static sl_int place_source(const char *from, mesh *m) {
     return vertex;
 }
 
-/* The vertices of --from without repetitions. */
-static sl_int *sources_of(const char *from, mesh *m, sl_int *count) {
-    if (from != NULL && (strncmp(from, "face:", 5) == 0 || strncmp(from, "point:", 6) == 0)) {
-        sl_int *one = app_alloc(1, sizeof *one);
-        one[0] = place_source(from, m);
-        *count = 1;
-        return one;
+static void find_sources(geodesic_command *cmd) {
+    const char *from = cmd->from;
+    const bool is_point =
+        from != NULL && (strncmp(from, "face:", 5) == 0 || strncmp(from, "point:", 6) == 0);
+    const sl_int vertex = is_point ? place_source(from, &cmd->m) : 0;
+    source_list_read(&cmd->from_list, "from", is_point ? NULL : from, &cmd->m);
+    cmd->sources = cmd->from_list.vertices;
+    cmd->n_sources = cmd->from_list.count;
+    if (is_point) {
+        cmd->sources[0] = vertex;
     }
-    if (from != NULL) {
-        sl_int *list = app_vertices("from", from, m->n_vertices, 1, count);
-        *count = app_distinct(list, *count, m->n_vertices);
-        return list;
-    }
-    sl_int *first = app_alloc(1, sizeof *first);
-    first[0] = app_default_vertex(m);
-    *count = 1;
-    return first;
 }
 
 /* Reads the mesh, finds the sources, gets both factors and aims the camera. */
@@ -124,7 +118,7 @@ static void open_command(geodesic_command *cmd, const char *operand) {
     double time = cmd->time, scaled = cmd->scaled_time;
     app_mesh(&cmd->m, operand, true);
     app_set_up(&cmd->output, &cmd->m, cmd->output.png != NULL);
-    cmd->sources = sources_of(cmd->from, &cmd->m, &cmd->n_sources);
+    find_sources(cmd);
     double edge = app_mean_edge_length(&cmd->m);
     const bool at_once = cmd->n_sources > 1 && !cmd->each && !cmd->voronoi && !cmd->cut;
     const double first = at_once ? HEAT_FACTORS_SEVERAL : HEAT_FACTORS_FIRST;
@@ -170,6 +164,12 @@ static void check_options(const geodesic_command *cmd) {
                       cmd->output.png != NULL)) {
         app_die_usage("--each: writes only --csv");
     }
+    if ((cmd->each || cmd->voronoi || cmd->exact != NULL) && cmd->from != NULL &&
+        strncmp(cmd->from, "curve:", 6) == 0) {
+        app_die_usage(
+            "--from %.20s: a curve is one source, and not for --each, --voronoi and --exact",
+            cmd->from);
+    }
     if (cmd->exact != NULL && strcmp(cmd->exact, "plane") != 0 &&
         strcmp(cmd->exact, "sphere") != 0) {
         app_die_usage("--exact %s: expected plane or sphere", cmd->exact);
@@ -193,9 +193,10 @@ int command_geodesic(int argc, char **argv) {
     cmd.solves = HEAT_SOLVES;
     const option options[] = {
         {OPTION_TEXT, "from", &cmd.from, "VERTICES",
-         "sources or sites: 3,17,100-200 or random:5 (the first vertex of a face with an area); or "
-         "one point of the surface, which becomes a vertex: face:F,U,V, (1-U-V, U, V) of the "
-         "corners of face F, or point:X,Y,Z, the nearest one to a point in space"},
+         "sources or sites: " SOURCE_LIST_HELP
+         "; or one point of the surface, which becomes a vertex: face:F,U,V, (1-U-V, U, V) of the "
+         "corners of face F, or point:X,Y,Z, the nearest one to a point in space (the first vertex "
+         "of a face with an area)"},
         {OPTION_ABOVE_0, "radius", &cmd.radius, "R", "largest distance wanted (unlimited)"},
         {OPTION_REAL, "margin", &cmd.margin, "F",
          "radius of the ball along edges, in units of --radius (1.5)"},
@@ -242,7 +243,7 @@ int command_geodesic(int argc, char **argv) {
     } else {
         geodesic_distances(&cmd);
     }
-    free(cmd.sources);
+    source_list_free(&cmd.from_list);
     heat_solver_free(&cmd.s);
     intrinsic_free(&cmd.surface);
     mesh_free(&cmd.m);

@@ -5,6 +5,7 @@
 
 #include "app.h"
 #include "command.h"
+#include "source_list.h"
 #include "tools/cli/heat_system.h"
 
 static const options_usage usage = {
@@ -12,7 +13,8 @@ static const options_usage usage = {
     "Diffuses heat from source vertices and solves for it only at the wanted vertices."};
 
 static const options_manual manual = {
-    "Each source has one unit of heat; (M + t L) x = b is one implicit Euler step of length t with "
+    "Each source has one unit of heat, and a curve one for each unit of its length; (M + t L) x = "
+    "b is one implicit Euler step of length t with "
     "the lumped mass M and the cotangent Laplacian L. x is exact at the wanted vertices and is not "
     "computed elsewhere: the forward sweep visits the paths in the elimination tree from the "
     "sources to the root, the backward sweep those from the wanted vertices. MESH may also be a "
@@ -59,14 +61,24 @@ static sl_region *create_region(const heat_system *h, const sl_int *sources, sl_
     return R;
 }
 
-/* Plans and solves for x at the wanted vertices, and times it: one plan serves any number of
- * solves. */
-static void solve(double *x, const heat_system *h, const sl_int *sources, sl_int n_sources,
-                  const sl_int *wanted, sl_int n_wanted, bool in_region) {
-    double *heat = app_alloc((size_t)n_sources, sizeof *heat);
-    for (sl_int k = 0; k < n_sources; k++) {
+/* What each source gives off: 1, or the length of the curve at it. */
+static double *heat_of(const source_list *from, const mesh *m) {
+    double *heat = app_alloc((size_t)from->count, sizeof *heat);
+    for (sl_int k = 0; k < from->count; k++) {
         heat[k] = 1;
     }
+    if (from->curve.ends.count > 0) {
+        sl_int *place = app_alloc((size_t)m->n_vertices, sizeof *place);
+        edge_curve_lengths(heat, place, &from->curve, m);
+        free(place);
+    }
+    return heat;
+}
+
+/* Plans and solves for x at the wanted vertices, and times it: one plan serves any number of
+ * solves. */
+static void solve(double *x, const heat_system *h, const sl_int *sources, const double *heat,
+                  sl_int n_sources, const sl_int *wanted, sl_int n_wanted, bool in_region) {
     sl_plan *P = NULL;
     sl_work *W = NULL;
     sl_options opt;
@@ -101,7 +113,6 @@ static void solve(double *x, const heat_system *h, const sl_int *sources, sl_int
     sl_work_free(W);
     sl_plan_free(P);
     sl_region_free(R);
-    free(heat);
 }
 
 static void write_csv(const char *path, const double *x, const sl_int *wanted, sl_int n_wanted) {
@@ -162,7 +173,7 @@ int command_heat(int argc, char **argv) {
     memset(&output, 0, sizeof output);
     const option options[] = {
         {OPTION_TEXT, "from", &from, "VERTICES",
-         "source vertices: 3,17,100-200 or random:5 (the first vertex of a face with an area)"},
+         "sources: " SOURCE_LIST_HELP " (the first vertex of a face with an area)"},
         {OPTION_TEXT, "at", &at, "VERTICES", "wanted vertices: a list or all (all)"},
         {OPTION_ABOVE_0, "radius", &radius, "R",
          "wanted vertices: those within the Euclidean distance R of a source"},
@@ -180,25 +191,24 @@ int command_heat(int argc, char **argv) {
     app_check_output(&output, output.out);
     mesh m;
     heat_system h;
-    char vertex[16];
-    if (radius > 0 && app_is_saved(operand)) {
-        app_die_usage("%s: a saved factor has no mesh for --radius", operand);
+    if ((radius > 0 || (from != NULL && strncmp(from, "curve:", 6) == 0)) &&
+        app_is_saved(operand)) {
+        app_die_usage("%s: a saved factor has no mesh for --radius and curves", operand);
     }
     heat_system_open(&h, &m, operand, &time, 0, &output);
     app_set_up(&output, &m, output.png != NULL);
-    sl_int n_sources = 0, n_wanted = 0;
-    if (from == NULL) {
-        (void)snprintf(vertex, sizeof vertex, "%d", (int)app_default_vertex(&m));
-        from = vertex;
-    }
-    sl_int *sources = app_vertices("from", from, m.n_vertices, 1, &n_sources);
-    n_sources = app_distinct(sources, n_sources, m.n_vertices);
+    sl_int n_wanted = 0;
+    source_list from_list;
+    source_list_read(&from_list, "from", from, &m);
+    const sl_int *sources = from_list.vertices, n_sources = from_list.count;
     sl_int *wanted = radius > 0
                          ? within(&m, sources, n_sources, radius, &n_wanted)
                          : app_vertices("at", at != NULL ? at : "all", m.n_vertices, 2, &n_wanted);
     n_wanted = app_distinct(wanted, n_wanted, m.n_vertices);
     double *x = app_alloc((size_t)n_wanted, sizeof *x), least = INFINITY, most = -INFINITY;
-    solve(x, &h, sources, n_sources, wanted, n_wanted, in_region);
+    double *heat = heat_of(&from_list, &m);
+    solve(x, &h, sources, heat, n_sources, wanted, n_wanted, in_region);
+    free(heat);
     for (sl_int k = 0; k < n_wanted; k++) {
         least = fmin(least, x[k]);
         most = fmax(most, x[k]);
@@ -217,7 +227,7 @@ int command_heat(int argc, char **argv) {
     write_mesh(&output, &m, h.t, x, wanted, n_wanted, sources, n_sources);
     free(x);
     free(wanted);
-    free(sources);
+    source_list_free(&from_list);
     heat_system_free(&h);
     mesh_free(&m);
     return 0;

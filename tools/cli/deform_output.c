@@ -125,6 +125,11 @@ void deform_print_summary(const deform_command *cmd) {
         printf(": solve %.3f ms%s.\n", cmd->total.solve / frames,
                cmd->at != NULL ? " at the wanted vertices" : "");
     }
+    if (cmd->d.method == DEFORM_BIHARMONIC && !cmd->d.squared) {
+        printf(
+            "system     The squared system has too few digits for these faces: each set of handles "
+            "has a factor of the mixed one.\n");
+    }
     if (cmd->check && cmd->script.n_frames > 0) {
         printf("check      a new factor and its solve take %.3f ms per frame; positions differ by "
                "at most %.3g diameters, bound %.3g\n",

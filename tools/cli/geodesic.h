@@ -3,6 +3,7 @@
 #define TOOLS_GEODESIC_H
 
 #include "app.h"
+#include "source_list.h"
 #include "tools/geometry/heat_distance.h"
 #include "tools/geometry/intrinsic.h"
 
@@ -19,6 +20,7 @@ typedef struct geodesic_command {
     intrinsic surface; /* all zero: the mesh as it is */
     heat_solver s;
     sl_int *sources, n_sources;
+    source_list from_list; /* has them, unless they are one point of the surface */
     heat_options heat;
 } geodesic_command;
 

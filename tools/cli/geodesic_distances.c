@@ -92,6 +92,7 @@ void geodesic_distances(geodesic_command *cmd) {
         path_check check;
         app_stage("comparing with paths");
         path_check_open(&check, &cmd->m);
+        path_check_set_curve(&check, &cmd->from_list.curve);
         path_check_distances(&check, &f, cmd->sources, cmd->n_sources, cmd->heat.radius,
                              heat_options_patch_radius(&cmd->heat));
         app_progress_end();

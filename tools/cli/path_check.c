@@ -24,6 +24,13 @@ void path_check_open(path_check *check, const mesh *m) {
     check->seconds = app_now() - began;
 }
 
+void path_check_set_curve(path_check *check, const edge_curve *curve) {
+    check->curve = curve;
+    if (!surface_search_set_curve(check->three, curve->ends.at, (sl_int)(curve->ends.count / 2))) {
+        app_die("out of memory for the curve");
+    }
+}
+
 void path_check_close(path_check *check) {
     surface_search_free(check->three);
     incidence_free(&check->inc);
@@ -57,7 +64,10 @@ static void move_distances(path_check *check, heat_field *f, const double *strai
         surface_paths_correct(f->distance, f->vertices, f->n, straight, check->slack * check->edge);
     memcpy(before, f->distance, (size_t)f->n * sizeof *before);
     check->largest = fmax(check->largest, c.largest);
+    const edge_curve *curve = check->curve;
     if (straight_lines_raise(f->distance, check->m, f->vertices, f->n, sources, count,
+                             curve != NULL ? curve->ends.at : NULL,
+                             curve != NULL ? (sl_int)(curve->ends.count / 2) : 0,
                              &check->largest) < 0) {
         app_die("out of memory for straight lines");
     }

@@ -4,6 +4,7 @@
 
 #include "app.h"
 #include "tools/geometry/cell_paths.h"
+#include "tools/geometry/edge_curve.h"
 #include "tools/geometry/heat_patch.h"
 
 /** Searches on one mesh, and what they found so far. Like all functions of this folder, those below
@@ -11,9 +12,10 @@
 typedef struct path_check {
     const mesh *m; /* borrowed */
     incidence inc;
-    surface_search *three; /* through 3 points of each edge */
-    double edge;           /* the mean length */
-    double slack;          /* what a distance may fall short of a path in any case, in mean edges */
+    surface_search *three;   /* through 3 points of each edge */
+    const edge_curve *curve; /* whose edges are sources too, borrowed; NULL: none */
+    double edge;             /* the mean length */
+    double slack; /* what a distance may fall short of a path in any case, in mean edges */
     double seconds;
     sl_off kept, paths, lines; /* distances that stayed, are lengths of paths or straight lines, */
     sl_off others;             /* have no path: their sum is that of all distances */
@@ -23,6 +25,10 @@ typedef struct path_check {
 
 /** Prepares the searches; release with path_check_close. m must outlive it. */
 void path_check_open(path_check *check, const mesh *m);
+
+/** From now on, distances are those from all points of these curves, whose vertices are among the
+ *  sources. */
+void path_check_set_curve(path_check *check, const edge_curve *curve);
 
 /** Moves distances that cannot be right (surface_paths_correct), and counts which are which.
  *

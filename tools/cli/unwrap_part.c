@@ -92,7 +92,9 @@ static void pin_two(unwrap_part *p) {
     }
 }
 
-static void by_lscm(unwrap_part *p, sl_int n_pinned) {
+/* Returns a vertex at which the digits do not suffice, because the conformal layout shrinks there
+ * too much; -1: there is none. */
+static sl_int find_lscm(unwrap_part *p, sl_int n_pinned) {
     const size_t n = (size_t)p->s.m.n_vertices;
     memset(p->uv, 0, 2 * n * sizeof *p->uv);
     memset(p->l.fixed, 0, n);
@@ -103,8 +105,21 @@ static void by_lscm(unwrap_part *p, sl_int n_pinned) {
     if (n_pinned < 2) {
         pin_two(p);
     }
-    app_must(layout_lscm(&p->l, p->uv), "factor of the conformal energy", &p->l.stats);
+    const sl_status status = layout_lscm(&p->l, p->uv);
     p->converged = true;
+    if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE || status == SL_ERR_NOT_FINITE) {
+        const sl_int row = p->l.stats.error.row;
+        return row >= 0 && row < 2 * p->s.m.n_vertices ? row / 2 : 0;
+    }
+    app_must(status, "factor of the conformal energy", &p->l.stats);
+    return -1;
+}
+
+static void by_lscm(unwrap_part *p, sl_int n_pinned) {
+    if (find_lscm(p, n_pinned) >= 0) {
+        app_die("a conformal layout of this surface shrinks parts of it beyond the digits of "
+                "numbers; --method slim does not");
+    }
 }
 
 /* ---- cuts ---- */
@@ -123,8 +138,8 @@ static sl_int most_shrunk(const unwrap_part *p) {
     return found;
 }
 
-/* Leaves the conformal layout of the sheet that is cut open. */
-static void cut_open(unwrap_part *p) {
+/* Leaves the conformal layout of the sheet that is cut open, and then further, at most so often. */
+static void cut_open(unwrap_part *p, int most) {
     sl_int more = 0;
     if (!sheet_open(&p->s, &p->cut)) {
         app_die("out of memory for the cuts of %d faces", (int)p->s.m.n_faces);
@@ -132,9 +147,12 @@ static void cut_open(unwrap_part *p) {
     for (int k = 0; k == 0 || more > 0; k++) {
         p->cut += more;
         prepare(p);
-        by_lscm(p, 0);
+        sl_int far = find_lscm(p, 0);
+        if (far >= 0 && k == most) {
+            lay_on_circle(p);
+        }
         layout_normalize(&p->l, p->uv);
-        const sl_int far = k < FURTHER_CUTS ? most_shrunk(p) : -1;
+        far = k == most ? -1 : far >= 0 ? far : most_shrunk(p);
         more = 0;
         if (far >= 0 && !sheet_cut_to(&p->s, far, &more)) {
             app_die("out of memory for the cuts of %d faces", (int)p->s.m.n_faces);
@@ -163,44 +181,82 @@ static void show(const void *context, const layout_descent *now) {
     app_progress("iterations", (double)now->iterations / (double)now->limit);
 }
 
-/* Starts from the conformal layout: one with pins, if there are at least two. For slim it is
- * replaced by the layout on a circle if it flips a face. */
-static void by_descent(const unwrap_command *cmd, unwrap_part *p) {
+/* Descends from the layout as it is. */
+static void descend(const unwrap_command *cmd, unwrap_part *p, int limit) {
     const layout_pins pins = {p->n_pinned, p->pinned, p->place};
     layout_descent d;
     memset(&d, 0, sizeof d);
     d.energy = cmd->method == UNWRAP_SLIM ? LAYOUT_SLIM : LAYOUT_ARAP;
-    d.limit = (int)cmd->iterations;
+    d.limit = limit;
     d.tolerance = cmd->tolerance;
     d.pins = p->n_pinned > 0 ? &pins : NULL;
     d.each = show;
     d.context = cmd;
-    if (p->n_pinned >= 2) {
-        by_lscm(p, p->n_pinned);
-    }
-    if (d.energy == LAYOUT_SLIM && layout_flipped(&p->l, p->uv) > 0) {
-        p->from_tutte = true;
-        lay_on_circle(p);
-    }
-    if (d.energy == LAYOUT_SLIM && layout_flipped(&p->l, p->uv) > 0) {
-        p->converged = false; /* digits do not suffice, or edges with the same two ends */
-        return;
-    }
     app_must(layout_descend(&p->l, p->uv, &d), "factor of the layout", &p->l.stats);
     app_progress_end();
     p->energy = d.last;
-    p->iterations = d.iterations;
+    p->iterations += d.iterations;
     p->converged = d.converged;
 }
 
+/* Starts from the conformal layout: one with pins, if there are at least two. For slim it is
+ * replaced by the layout on a circle if it flips a face. */
+static void by_descent(const unwrap_command *cmd, unwrap_part *p, int limit) {
+    const bool is_slim = cmd->method == UNWRAP_SLIM;
+    if (p->n_pinned >= 2) {
+        by_lscm(p, p->n_pinned);
+    }
+    if (is_slim && layout_flipped(&p->l, p->uv) > 0) {
+        p->from_tutte = true;
+        lay_on_circle(p);
+    }
+    if (is_slim && layout_flipped(&p->l, p->uv) > 0) {
+        p->converged = false; /* digits do not suffice, or edges with the same two ends */
+        p->energy = INFINITY;
+        return;
+    }
+    descend(cmd, p, limit);
+}
+
+/* A disk, with holes or without, that slim has laid out with cuts of its own is laid out without
+ * them too, and keeps this layout unless its energy is higher by more than a hundredth. */
+static void try_uncut(const unwrap_command *cmd, unwrap_part *p, sheet *uncut) {
+    const double slack = 1.01;
+    const int first = p->iterations + 20, limit = (int)cmd->iterations;
+    unwrap_part other;
+    memset(&other, 0, sizeof other);
+    other.s = *uncut;
+    memset(uncut, 0, sizeof *uncut);
+    cut_open(&other, 0);
+    if (other.cut == 0) {
+        by_descent(cmd, &other, first < limit ? first : limit);
+        if (other.energy < slack * p->energy && !other.converged && other.iterations < limit) {
+            descend(cmd, &other, limit - other.iterations);
+        }
+    }
+    if (other.cut == 0 && other.energy < slack * p->energy) {
+        unwrap_part_free(p);
+        *p = other;
+    } else {
+        unwrap_part_free(&other);
+    }
+}
+
 void unwrap_lay_out(const unwrap_command *cmd, unwrap_part *p) {
-    cut_open(p);
+    sheet uncut;
+    if (!sheet_take_part(&uncut, &p->s, 0)) {
+        app_die("out of memory for %d faces", (int)p->s.m.n_faces);
+    }
+    cut_open(p, FURTHER_CUTS);
     find_pins(cmd, p);
     p->converged = true;
     switch (cmd->method) {
     case UNWRAP_SLIM:
     case UNWRAP_ARAP:
-        by_descent(cmd, p);
+        by_descent(cmd, p, (int)cmd->iterations);
+        if (cmd->method == UNWRAP_SLIM && p->n_pinned == 0 && p->cut > 0) {
+            try_uncut(cmd, p, &uncut);
+        }
         break;
     case UNWRAP_SCP:
         by_scp(p, (int)cmd->iterations);
@@ -216,6 +272,7 @@ void unwrap_lay_out(const unwrap_command *cmd, unwrap_part *p) {
         lay_on_circle(p);
         break;
     }
+    sheet_free(&uncut);
     if (p->n_pinned == 0) {
         layout_normalize(&p->l, p->uv);
     }

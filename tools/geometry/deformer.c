@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "deformer_anew.h"
+#include "deformer_mixed.h"
 #include "laplacian.h"
 #include "polyharmonic.h"
 #include "tools/matrix/triplets.h"
@@ -19,6 +20,9 @@ void deformer_free(deformer *d) {
     sl_symbolic_free(d->S);
     sl_work_free(d->W);
     sl_matrix_free(d->K);
+    sl_matrix_free(d->L);
+    deformer_mixed_free(d->mixed);
+    free(d->mass);
     arap_surface_free(&d->arap);
     free(d->rest);
     free(d->Y);
@@ -141,12 +145,24 @@ sl_status deformer_create(deformer *out, const mesh *m, deform_method method) {
     out->n = m->n_vertices;
     bool ok = method == DEFORM_ARAP
                   ? laplacian_cotangent(&out->K, m) && arap_surface_create(&out->arap, m)
-                  : polyharmonic_energy(&out->K, m, 2);
+                  : polyharmonic_energy(&out->K, m, 2) && laplacian_cotangent(&out->L, m);
+    if (ok && method == DEFORM_BIHARMONIC) {
+        out->mass = reals((size_t)out->n);
+        ok = out->mass != NULL;
+    }
+    if (ok && method == DEFORM_BIHARMONIC) {
+        laplacian_mass(out->mass, m);
+    }
     ok = ok && allocate(out) && find_components(out);
     sl_status status = SL_ERR_MEMORY;
     if (ok) {
         measure(out);
         status = factor(out);
+        out->squared = status == SL_OK;
+    }
+    if (method == DEFORM_BIHARMONIC && deformer_is_refusal(status)) {
+        out->anew = true; /* the mixed system alone */
+        status = out->W != NULL ? SL_OK : sl_work_create(&out->W, NULL);
     }
     if (status != SL_OK) {
         sl_stats stats = out->stats;
@@ -170,6 +186,9 @@ enum { MANY_PINS = 200 };
 static void forget_fixed(deformer *d) {
     sl_fixed_free(d->fixed);
     d->fixed = NULL;
+    deformer_mixed_free(d->mixed);
+    d->mixed = NULL;
+    d->accurate = false;
 }
 
 /* Whether pins have lost all digits, as they do in parts of the mesh that are nearly degenerate. If
@@ -305,6 +324,26 @@ static sl_status solve_pinned(deformer *d, bool at_rest) {
     return is_refused(d, status) ? deformer_solve_anew(d, at_rest) : status;
 }
 
+static sl_status step_pinned(void *context, deformer *d, double *X) {
+    (void)context;
+    return deformer_solve_step(d, X);
+}
+
+/* Biharmonic displacements d->U: by the factor of K and corrections, or by the mixed system where K
+ * has too few digits, with these handles and then with all others. */
+static sl_status solve_biharmonic(deformer *d) {
+    sl_status status = SL_OK;
+    if (d->squared) {
+        bool good = false;
+        double first = INFINITY;
+        status = solve_pinned(d, false);
+        status = status == SL_OK ? deformer_correct(d, step_pinned, NULL, &first, &good) : status;
+        d->squared = good || (status != SL_OK && !deformer_is_refusal(status));
+        d->accurate = d->squared && first <= 1e-6;
+    }
+    return d->squared ? status : deformer_solve_mixed(d, false);
+}
+
 sl_status deformer_solve(deformer *d) {
     size_t n = (size_t)d->n;
     double range = 0;
@@ -315,7 +354,8 @@ sl_status deformer_solve(deformer *d) {
         }
     }
     gather_pins(d);
-    const sl_status status = solve_pinned(d, false);
+    const sl_status status =
+        d->method == DEFORM_BIHARMONIC ? solve_biharmonic(d) : solve_pinned(d, false);
     if (status != SL_OK) {
         return status;
     }
@@ -385,12 +425,15 @@ sl_status deformer_watch(deformer *d, const sl_int *vertices, sl_int count) {
 sl_status deformer_solve_watched(deformer *d, double *Y) {
     size_t n = (size_t)d->n, count = (size_t)d->n_watched;
     gather_pins(d);
-    sl_status status = SL_OK;
-    if (!d->anew) {
+    /* whether K has the digits is seen once, by a solution everywhere */
+    sl_status status = d->accurate ? SL_OK : solve_biharmonic(d);
+    const bool is_full = !d->accurate;
+    gather_pins(d);
+    if (status == SL_OK && !d->anew && !is_full) {
         status = sl_constraints_solve(d->pins, d->near, Y, count, d->B, 0, d->G, n, 3, d->W);
     }
-    if (is_refused(d, status)) {
-        status = deformer_solve_anew(d, false);
+    if (is_full || is_refused(d, status)) {
+        status = is_full ? status : deformer_solve_anew(d, false);
         for (size_t k = 0; k < 3 * count && status == SL_OK; k++) {
             Y[k] = d->U[k / count * n + (size_t)d->watched[k % count]];
         }

@@ -15,7 +15,8 @@ typedef enum deform_method {
  * its mean position (ARAP) or is at rest.
  *
  * Unknowns are displacements: K u = b(R) - K x with the positions x at rest; b(R) - K x = 0 for
- * DEFORM_BIHARMONIC. A step of the deformation is
+ * DEFORM_BIHARMONIC, whose solutions are those of the system that is not squared
+ * (deformer_mixed.h). A step of the deformation is
  *
  *  deformer_rotations    ARAP only: the best rotations for the present positions
  *  deformer_solve        the best positions for these rotations
@@ -30,15 +31,21 @@ typedef struct deformer {
     sl_constraints *pins;
     sl_fixed *fixed; /* of deformer_solve_anew; NULL: not made for these handles yet */
     sl_work *W;
-    sl_stats stats;    /* of analysis and factorization */
-    arap_surface arap; /* DEFORM_ARAP */
-    double *rest;      /* n x 3, column-major, as all below */
-    double *Y;         /* n x 3: present positions */
-    double *balance;   /* n x 3: K x */
-    double *B;         /* n x 3: right-hand side of the last solve */
-    double *U;         /* n x 3: scratch */
-    double *G;         /* n x 3: displacements of the pins, leading dimension n */
-    sl_int *held;      /* n_pins vertices that are pins, in their order */
+    sl_stats stats; /* of analysis and factorization */
+    /* DEFORM_BIHARMONIC, see deformer_mixed.h */
+    sl_matrix *L;                 /* lower triangle */
+    double *mass;                 /* n */
+    struct deformer_mixed *mixed; /* NULL: not made for these handles */
+    bool squared;                 /* K has a factor and, as far as is known, enough digits */
+    bool accurate;                /* with these handles, corrections are below 1e-6 */
+    arap_surface arap;            /* DEFORM_ARAP */
+    double *rest;                 /* n x 3, column-major, as all below */
+    double *Y;                    /* n x 3: present positions */
+    double *balance;              /* n x 3: K x */
+    double *B;                    /* n x 3: right-hand side of the last solve */
+    double *U;                    /* n x 3: scratch */
+    double *G;                    /* n x 3: displacements of the pins, leading dimension n */
+    sl_int *held;                 /* n_pins vertices that are pins, in their order */
     sl_int n_pins;
     double *target; /* 3 n: where each held vertex is held */
     unsigned char *is_held;
@@ -59,7 +66,7 @@ typedef struct deformer {
  *
  *  out  [out]  release with deformer_free; all zero on error.
  *  m    [in]   borrowed, must outlive out.
- *  Returns  SL_OK; SL_ERR_MEMORY; as sl_symbolic_create and sl_factor_create.
+ *  Returns  SL_OK; SL_ERR_MEMORY; as sl_symbolic_create and, for DEFORM_ARAP, sl_factor_create.
  *  Example  tests/tools/test_deformer.c
  */
 sl_status deformer_create(deformer *out, const mesh *m, deform_method method);
@@ -112,6 +119,7 @@ sl_status deformer_solve_watched(deformer *d, double *Y);
  *                     the bounding box at rest.
  *  seconds     [out]  of order, analysis, factorization and solve.
  *  Returns  SL_OK; SL_ERR_MEMORY; as sl_symbolic_create, sl_factor_create and sl_factor_solve.
+ *           Biharmonic ones are corrected, or a new factor of the mixed system takes their place.
  */
 sl_status deformer_compare(deformer *d, double *difference, double *seconds);
 

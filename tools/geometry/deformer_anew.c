@@ -1,6 +1,7 @@
 /* deformer_anew.c: positions by a factor of K without the rows that are held: a check of pins, and
  * what takes their place where they are many or refused */
 #include "deformer_anew.h"
+#include "deformer_mixed.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -58,9 +59,38 @@ sl_status deformer_solve_anew(deformer *d, bool at_rest) {
     return status;
 }
 
+/* A new factor of K, for corrections of what it gives. */
+typedef struct fresh {
+    const sl_fixed *D;
+    const sl_int *rows;
+    sl_int count;
+    double *G; /* 3 n of 0 */
+} fresh;
+
+static sl_status step_fresh(void *context, deformer *d, double *X) {
+    const fresh *f = (const fresh *)context;
+    return solve(d, f->D, f->rows, f->count, f->G, X, true);
+}
+
+/* Biharmonic displacements U without what the last solve has used. d->U is scratch. */
+static sl_status solve_fresh(deformer *d, const fresh *f, double *U, sl_status status) {
+    bool good = false;
+    double first;
+    memset(f->G, 0, 3 * (size_t)d->n * sizeof *f->G);
+    memcpy(d->U, U, 3 * (size_t)d->n * sizeof *U);
+    if (status == SL_OK && d->squared) {
+        status = deformer_correct(d, step_fresh, (void *)f, &first, &good);
+    }
+    if (deformer_is_refusal(status) || (status == SL_OK && !good)) {
+        status = deformer_solve_mixed(d, true);
+    }
+    memcpy(U, d->U, 3 * (size_t)d->n * sizeof *U);
+    return status;
+}
+
 sl_status deformer_compare(deformer *d, double *difference, double *seconds) {
     const size_t n = (size_t)d->n;
-    double *G = (double *)malloc((6 * n + 1) * sizeof *G), *U = G + 3 * n;
+    double *G = (double *)calloc(9 * n + 1, sizeof *G), *U = G + 3 * n, *kept = G + 6 * n;
     sl_int *rows = (sl_int *)malloc((n + 1) * sizeof *rows), count = 0;
     sl_fixed *D = NULL;
     sl_status status = G != NULL && rows != NULL ? SL_OK : SL_ERR_MEMORY;
@@ -68,8 +98,15 @@ sl_status deformer_compare(deformer *d, double *difference, double *seconds) {
     if (status == SL_OK) {
         count = list_fixed(d, rows);
         const clock_t began = clock();
-        status = create(&D, d, rows, count);
+        status = d->method == DEFORM_BIHARMONIC && !d->squared ? SL_ERR_PIVOT
+                                                               : create(&D, d, rows, count);
         status = status == SL_OK ? solve(d, D, rows, count, G, U, false) : status;
+        if (d->method == DEFORM_BIHARMONIC) {
+            const fresh f = {D, rows, count, G};
+            memcpy(kept, d->U, 3 * n * sizeof *kept);
+            status = solve_fresh(d, &f, U, status);
+            memcpy(d->U, kept, 3 * n * sizeof *kept);
+        }
         *seconds = (double)(clock() - began) / CLOCKS_PER_SEC;
     }
     for (size_t v = 0; v < n && status == SL_OK; v++) {

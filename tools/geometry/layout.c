@@ -244,6 +244,37 @@ void layout_assemble(layout *l, const double *P, double turn) {
     }
 }
 
+/* The block of two corners with the gradients g and h: C(c, d) = sum of g(e) H(c e, d f) h(f). */
+static void block_of(double C[4], const double *H, const double *g, const double *h) {
+    for (int k = 0; k < 4; k++) {
+        const double *row = H + 8 * (k / 2) + 2 * (k % 2);
+        C[k] = g[0] * (row[0] * h[0] + row[1] * h[1]) + g[1] * (row[4] * h[0] + row[5] * h[1]);
+    }
+}
+
+void layout_assemble_hessian(layout *l, const double *H) {
+    double C[4];
+    memset(l->Ax, 0, (size_t)l->Ap[2 * l->m->n_vertices] * sizeof *l->Ax);
+    for (size_t f = 0; f < (size_t)l->m->n_faces; f++) {
+        const double *g = l->grad + 6 * f, w = l->area[f];
+        const sl_int *at = l->at + PER_FACE * f, *v = l->m->faces + 3 * f;
+        for (int i = 0; i < 3; i++) {
+            block_of(C, H + 16 * f, g + 2 * i, g + 2 * i);
+            l->Ax[*at++] += w * C[0];
+            l->Ax[*at++] += w * C[2];
+            l->Ax[*at++] += w * C[3];
+        }
+        for (int i = 0; i < 3; i++) {
+            const int j = (i + 1) % 3, k = (i + 2) % 3;
+            const int row = v[j] > v[k] ? j : k, column = v[j] > v[k] ? k : j;
+            block_of(C, H + 16 * f, g + 2 * row, g + 2 * column);
+            for (int e = 0; e < 4; e++) {
+                l->Ax[*at++] += w * C[e];
+            }
+        }
+    }
+}
+
 static sl_csc system_of(const layout *l) {
     const sl_int n = 2 * l->m->n_vertices;
     const sl_csc A = {n, n, l->Ap, l->Ai, l->Ax};

@@ -62,6 +62,13 @@ void layout_scatter(double *g, const layout *l, const double G[4], sl_int f);
  */
 void layout_assemble(layout *l, const double *P, double turn);
 
+/** The same for a quadratic form of the maps of faces.
+ *
+ *  H  [in]  16 n_faces: for each face a symmetric 4 x 4 matrix, which the entries of J, by rows,
+ *           have on both sides.
+ */
+void layout_assemble_hessian(layout *l, const double *H);
+
 /** Adds a number to the two diagonal entries of a vertex. */
 void layout_add_diagonal(layout *l, sl_int vertex, double x);
 

@@ -8,6 +8,12 @@
 /* Of the springs of pins; the stiffness of a good mesh at a vertex is about 1. */
 #define SPRING 1e3
 
+/* An iteration that lowers the energy by less than this part of it is followed by one of Newton. */
+#define NEWTON_BELOW 0.1
+
+/* Of the eigenvalue of a face's turn; the layout as a whole turns freely. */
+#define LEAST_TURN 1e-6
+
 /* ---- the energy of a face ---- */
 
 /* The singular values a >= |b| of J, and the matrices Q, R with J = Q diag(a, b) Q' R. */
@@ -63,6 +69,32 @@ static void local_step(double G[4], double P[3], const double J[4], double det,
     G[3] = -xy * rs + yy * rc;
 }
 
+/* Half the Hessian of the symmetric Dirichlet energy by J, 4 x 4, without its negative part: three
+ * eigenvalues are positive, and that of the turn is raised to LEAST_TURN. */
+static void hessian_of(double H[16], const double J[4], double det) {
+    const polar f = polar_of(J, det);
+    const double c = f.cosine, s = f.sine, half = sqrt(0.5), a = f.a, b = f.b;
+    const double a3 = 1 / (a * a * a), b3 = 1 / (b * b * b);
+    const double value[4] = {1 + 3 * a3 / a, 1 + 3 * b3 / b,
+                             fmax(LEAST_TURN, 1 - (a3 + b3) / (a + b)),
+                             1 + (a * a + a * b + b * b) * a3 * b3};
+    /* eigenvectors are these matrices times R: two stretches, a turn, a shear */
+    const double S[4][4] = {
+        {c * c, c * s, c * s, s * s},
+        {s * s, -c * s, -c * s, c * c},
+        {0, -half, half, 0},
+        {-2 * c * s * half, (c * c - s * s) * half, (c * c - s * s) * half, 2 * c * s * half}};
+    memset(H, 0, 16 * sizeof *H);
+    for (int k = 0; k < 4; k++) {
+        const double rc = f.rotation[0], rs = f.rotation[1];
+        const double e[4] = {S[k][0] * rc + S[k][1] * rs, S[k][1] * rc - S[k][0] * rs,
+                             S[k][2] * rc + S[k][3] * rs, S[k][3] * rc - S[k][2] * rs};
+        for (int i = 0; i < 16; i++) {
+            H[i] += value[k] * e[i / 4] * e[i % 4];
+        }
+    }
+}
+
 /* ---- the energy of a layout ---- */
 
 double layout_energy_of(const layout *l, const double *uv, layout_energy energy) {
@@ -108,15 +140,21 @@ double layout_longest_step(const layout *l, const double *uv, const double *step
     return fmin(1, 0.9 * longest);
 }
 
-/* The step of the local and the global phase, and the slope of the energy along it. */
+/* The step of the local and the global phase, or that of Newton, and the slope of the energy along
+ * it. P: 16 n_faces, scratch. */
 static sl_status find_step(layout *l, const double *uv, layout_descent *d, double *P, double *step,
                            double *slope) {
     const size_t n = 2 * (size_t)l->m->n_vertices;
-    double *g = step + n, J[4], G[4];
+    const bool is_newton =
+        d->energy == LAYOUT_SLIM && d->iterations > 0 && d->lowered < NEWTON_BELOW;
+    double *g = step + n, J[4], G[4], weights[3];
     memset(g, 0, n * sizeof *g);
     for (sl_int f = 0; f < l->m->n_faces; f++) {
         const double det = layout_jacobian(J, l, uv, f);
-        local_step(G, P + 3 * (size_t)f, J, det, d->energy);
+        local_step(G, is_newton ? weights : P + 3 * (size_t)f, J, det, d->energy);
+        if (is_newton) {
+            hessian_of(P + 16 * (size_t)f, J, det);
+        }
         for (int k = 0; k < 4; k++) {
             G[k] *= l->area[f];
         }
@@ -128,7 +166,11 @@ static sl_status find_step(layout *l, const double *uv, layout_descent *d, doubl
     }
     sl_status status = SL_OK;
     if (l->F == NULL || d->energy == LAYOUT_SLIM) {
-        layout_assemble(l, P, 0);
+        if (is_newton) {
+            layout_assemble_hessian(l, P);
+        } else {
+            layout_assemble(l, P, 0);
+        }
         for (sl_int k = 0; d->pins != NULL && k < d->pins->count; k++) {
             layout_add_diagonal(l, d->pins->vertex[k], SPRING);
         }
@@ -165,7 +207,7 @@ static double search(const layout *l, double *uv, const double *step, double *tr
 
 sl_status layout_descend(layout *l, double *uv, layout_descent *d) {
     const size_t n = 2 * (size_t)l->m->n_vertices, nf = (size_t)l->m->n_faces;
-    double *work = (double *)malloc((3 * n + 3 * nf + 1) * sizeof *work);
+    double *work = (double *)malloc((3 * n + 16 * nf + 1) * sizeof *work);
     sl_status status = work != NULL ? SL_OK : SL_ERR_MEMORY;
     d->iterations = 0;
     d->lowered = 0;

@@ -13,13 +13,16 @@
  *  LAYOUT_SLIM  a^2 + b^2 + 1/a^2 + 1/b^2, at least 4, and infinite where a face loses its area.
  *               The local step finds weights of each face with which the quadratic energy of the
  *               rotations has the gradient of this one; the matrix has new values in each
- *               iteration and is refactored. A step is shortened before the
+ *               iteration and is refactored. Once a step lowers the energy by little, the matrix is
+ *               the Hessian of this energy, whose negative part each face leaves out: Newton's
+ *               method, which ends in a tenth of the iterations. A step is shortened before the
  *               first face that it would flip, and until the energy falls: from a start without
  *               flipped faces none ever is.
  *
  *  Sources  Liu, Zhang, Xu, Gotsman, Gortler: A local/global approach to mesh parameterization,
  *           2008. Rabinovich, Poranne, Panozzo, Sorkine-Hornung: Scalable locally injective
  *           mappings, 2017. Smith, Schaefer: Bijective parameterization with free boundaries, 2015.
+ *           Smith, de Goes, Kim: Analytic eigensystems for isotropic distortion energies, 2019.
  */
 typedef enum layout_energy { LAYOUT_ARAP, LAYOUT_SLIM } layout_energy;
 

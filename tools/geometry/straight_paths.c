@@ -32,6 +32,9 @@ typedef struct straightener {
     sl_int n_corners, end[2], apex;
     int64_t *points; /* of the path, from its end */
     size_t n_points, points_room;
+    sl_int start;      /* where the strip starts: a vertex, or -1: within an edge of the curve */
+    sl_int segment[2]; /* the ends of that edge */
+    double from[3];    /* the start then */
 } straightener;
 
 /* ---- strips ---- */
@@ -170,11 +173,21 @@ static size_t make_strip(straightener *w, size_t first) {
     return 0;
 }
 
+/* Whether a face has the start on its border. */
+static bool has_start(const straightener *w, sl_int face) {
+    const mesh *m = w->s->inc->m;
+    return w->start >= 0
+               ? corner_of(m, face, w->start) >= 0
+               : corner_of(m, face, w->segment[0]) >= 0 && corner_of(m, face, w->segment[1]) >= 0;
+}
+
 /* Drops triangles at both ends that the path need not enter: those before the last one of a run at
  * its start, and after the first one of a run at its end. */
-static void trim(const mesh *m, strip *t, sl_int start, sl_int end) {
+static void trim(straightener *w, sl_int end) {
+    const mesh *m = w->s->inc->m;
+    strip *t = &w->now;
     size_t skipped = 0, kept = t->count;
-    while (skipped + 1 < t->count && corner_of(m, t->at[skipped + 1].face, start) >= 0) {
+    while (skipped + 1 < t->count && has_start(w, t->at[skipped + 1].face)) {
         skipped++;
     }
     while (kept > skipped + 1 && corner_of(m, t->at[kept - 2].face, end) >= 0) {
@@ -186,8 +199,13 @@ static void trim(const mesh *m, strip *t, sl_int start, sl_int end) {
 
 /* ---- the funnel ---- */
 
-static double apart(const mesh *m, sl_int a, sl_int b) {
-    const double *p = m->xyz + 3 * (size_t)a, *q = m->xyz + 3 * (size_t)b;
+/* Where a vertex is, or, for -1, the start. */
+static const double *spot(const straightener *w, sl_int v) {
+    return v >= 0 ? w->s->inc->m->xyz + 3 * (size_t)v : w->from;
+}
+
+static double apart(const straightener *w, sl_int a, sl_int b) {
+    const double *p = spot(w, a), *q = spot(w, b);
     const double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
     return sqrt(x * x + y * y + z * z);
 }
@@ -229,10 +247,9 @@ static void extend_funnel(straightener *w, int side, sl_int c) {
 /* Where the third vertex of a triangle is in the plane, beyond the edge from corner a to corner b,
  * which has it on its right. */
 static sl_int unfold(straightener *w, sl_int a, sl_int b, sl_int vertex, size_t link_after) {
-    const mesh *m = w->s->inc->m;
     const corner p = w->corners[a], q = w->corners[b];
-    const double edge = apart(m, p.vertex, q.vertex), to_a = apart(m, p.vertex, vertex);
-    const double to_b = apart(m, q.vertex, vertex);
+    const double edge = apart(w, p.vertex, q.vertex), to_a = apart(w, p.vertex, vertex);
+    const double to_b = apart(w, q.vertex, vertex);
     const double ux = edge > 0 ? (q.x - p.x) / edge : 1, uy = edge > 0 ? (q.y - p.y) / edge : 0;
     const double along = edge > 0 ? 0.5 * (edge + (to_a - to_b) * ((to_a + to_b) / edge)) : 0;
     const double up = sqrt(fmax(0, (to_a - along) * (to_a + along)));
@@ -251,13 +268,13 @@ static sl_int third_of(const mesh *m, const link *l) {
 
 /* Unfolds the strip and finds the shortest path in it; the end of the path is the last corner.
  * Returns its length; NAN: out of memory, or not a strip. */
-static double run_funnel(straightener *w, sl_int start, sl_int end) {
+static double run_funnel(straightener *w, sl_int end) {
     const mesh *m = w->s->inc->m;
     const strip *t = &w->now;
     sl_int at[2]; /* the corners of the current edge, left and right */
     if (t->count == 1) {
         w->n_corners = 0;
-        return apart(m, start, end);
+        return apart(w, w->start, end);
     }
     if (t->count + 4 > w->room) {
         w->room = 2 * t->count + 64;
@@ -272,9 +289,9 @@ static double run_funnel(straightener *w, sl_int start, sl_int end) {
     }
     w->n_corners = 0;
     w->apex = w->end[0] = w->end[1] = (sl_int)w->room;
-    w->queue[w->apex] = add_corner(w, 0, 0, start, 0);
+    w->queue[w->apex] = add_corner(w, 0, 0, w->start, 0);
     const sl_int *ends = t->at[1].ends;
-    at[1] = add_corner(w, apart(m, start, ends[1]), 0, ends[1], 1);
+    at[1] = add_corner(w, apart(w, w->start, ends[1]), 0, ends[1], 1);
     /* the left one is seen from the right one and the start, so that it is counterclockwise */
     at[0] = unfold(w, at[1], 0, ends[0], 1);
     extend_funnel(w, 0, at[0]);
@@ -360,15 +377,99 @@ static bool go_around(straightener *w) {
 
 /* ---- paths ---- */
 
+/* ---- starts on a curve ---- */
+
+/* Finds where the strip of points[k] starts. At a source in an edge of the curve, or at the end of
+ * one in the first triangle, the start may slide along that edge. */
+static void find_start(straightener *w, size_t k) {
+    const surface_search *s = w->s;
+    const int64_t at = w->points[k];
+    const sl_int n = s->inc->m->n_vertices, face = s->across[w->points[k - 1]];
+    w->start = at < n ? (sl_int)at : -1;
+    if (at >= n) {
+        surface_search_ends(w->segment, s, (sl_int)((at - n) / s->points));
+        surface_search_place(w->from, s, at);
+    }
+    for (int c = 0; c < 3 && w->start >= 0 && s->is_curve != NULL && s->length[at] == 0; c++) {
+        const sl_int edge = s->edge_of[3 * face + c];
+        surface_search_ends(w->segment, s, edge);
+        if (s->is_curve[edge] && (w->segment[0] == at || w->segment[1] == at)) {
+            memcpy(w->from, spot(w, w->start), sizeof w->from);
+            w->start = -1;
+        }
+    }
+}
+
+/* The point of the edge of the curve, as a share of the way from its first end to its second, that
+ * is nearest to the first corner of the path, or to its end in the first triangle. NAN: unknown. */
+static double foot(const straightener *w, sl_int end) {
+    const double *a = spot(w, w->segment[0]), *b = spot(w, w->segment[1]);
+    double along = 0, square = 0;
+    for (int d = 0; d < 3; d++) {
+        along += (w->from[d] - a[d]) * (b[d] - a[d]);
+        square += (b[d] - a[d]) * (b[d] - a[d]);
+    }
+    if (w->n_corners == 0) {
+        const double *x = spot(w, end);
+        along = 0;
+        for (int d = 0; d < 3; d++) {
+            along += (x[d] - a[d]) * (b[d] - a[d]);
+        }
+        return fmin(1, fmax(0, along / square));
+    }
+    sl_int first = w->n_corners - 1;
+    while (w->corners[first].before > 0) {
+        first = w->corners[first].before;
+    }
+    /* the start is the origin of the plane; corners 1 and 2 are those of the edge that is crossed
+     * first, of which one is an end of the curve's */
+    const corner *c = w->corners + first, *e = w->corners + 1;
+    if (e->vertex != w->segment[0] && e->vertex != w->segment[1]) {
+        e++;
+    }
+    const double length = sqrt(e->x * e->x + e->y * e->y);
+    if (e->vertex == w->segment[0]) {
+        along -= sqrt(square) * (c->x * e->x + c->y * e->y) / length;
+    } else if (e->vertex == w->segment[1]) {
+        along += sqrt(square) * (c->x * e->x + c->y * e->y) / length;
+    } else {
+        return NAN;
+    }
+    return length > 0 ? fmin(1, fmax(0, along / square)) : e->vertex == w->segment[1];
+}
+
+/* Moves the start along its edge of the curve to where the path is at a right angle to it, as far
+ * as the edge goes. Returns whether it moved by more than a hundredth of the edge. */
+static bool slide(straightener *w, sl_int end) {
+    const double share = w->start < 0 ? foot(w, end) : NAN;
+    const double *a = spot(w, w->segment[0]), *b = spot(w, w->segment[1]);
+    double moved = 0, square = 0;
+    if (isnan(share)) {
+        return false;
+    }
+    for (int d = 0; d < 3; d++) {
+        const double x = a[d] + share * (b[d] - a[d]);
+        moved += (x - w->from[d]) * (x - w->from[d]);
+        square += (b[d] - a[d]) * (b[d] - a[d]);
+        w->from[d] = x;
+    }
+    w->start = share == 0 ? w->segment[0] : share == 1 ? w->segment[1] : -1;
+    return w->start >= 0 || moved > 1e-4 * square;
+}
+
 /* The length of the straightened path from start to end, in the strip. It ends with the round that
  * takes off less than a fiftieth of a triangle. */
-static double straighten_strip(straightener *w, sl_int start, sl_int end) {
-    enum { ROUNDS = 8 };
+static double straighten_strip(straightener *w, sl_int end) {
+    enum { ROUNDS = 8, SLIDES = 3 };
     const double least = 0.02;
     double shortest = INFINITY, before = INFINITY;
     for (int round = 0; round < ROUNDS; round++) {
-        trim(w->s->inc->m, &w->now, start, end);
-        const double length = run_funnel(w, start, end);
+        trim(w, end);
+        double length = run_funnel(w, end);
+        for (int k = 0; k < SLIDES && isfinite(length) && slide(w, end); k++) {
+            trim(w, end);
+            length = run_funnel(w, end);
+        }
         before = shortest;
         shortest = length < shortest ? length : shortest;
         if (!(length < before - least * length / (double)w->now.count) || w->n_corners == 0 ||
@@ -413,7 +514,8 @@ static double straighten_path(straightener *w, sl_int v) {
         if (last == SIZE_MAX) {
             return s->length[v];
         }
-        const double length = straighten_strip(w, (sl_int)w->points[k], (sl_int)w->points[last]);
+        find_start(w, k);
+        const double length = straighten_strip(w, (sl_int)w->points[last]);
         const double before = s->length[w->points[last]] - s->length[w->points[k]];
         sum += length < before ? length : before;
         k = last;

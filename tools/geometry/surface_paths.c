@@ -118,6 +118,11 @@ bool surface_search_run(surface_search *s, const sl_int *sources, sl_int count, 
         const path_end start = {0, sources[k]};
         ok = s->length[sources[k]] == 0 || reach(s, start, k, -1, -1);
     }
+    for (size_t k = 0; k < s->curve.count * (size_t)s->points && ok; k++) {
+        const int64_t edge = s->curve.at[k / (size_t)s->points];
+        const path_end start = {0, n + edge * s->points + (int64_t)(k % (size_t)s->points)};
+        ok = reach(s, start, 0, -1, -1);
+    }
     while (ok && s->heap.count > 0) {
         path_end e = path_heap_pop(&s->heap);
         if (e.length > s->length[e.point]) {
@@ -171,6 +176,43 @@ bool surface_search_create(surface_search **out, const incidence *inc, int point
     return true;
 }
 
+bool surface_search_set_curve(surface_search *s, const sl_int *ends, sl_int count) {
+    s->curve.count = 0;
+    free(s->is_curve);
+    s->is_curve = (unsigned char *)calloc((size_t)s->n_edges + 1, 1);
+    bool ok = s->is_curve != NULL;
+    for (sl_int k = 0; k < count && ok; k++) {
+        const sl_int edge = surface_search_edge(s, ends[2 * k], ends[2 * k + 1]);
+        ok = edge >= 0 && (s->is_curve[edge] || int_list_add(&s->curve, edge));
+        if (ok) {
+            s->is_curve[edge] = 1;
+        }
+    }
+    return ok;
+}
+
+sl_int surface_search_edge(const surface_search *s, sl_int a, sl_int b) {
+    const incidence *inc = s->inc;
+    for (sl_off p = inc->begin[a]; p < inc->begin[a + 1]; p++) {
+        for (int k = 0; k < 3; k++) {
+            sl_int ends[2];
+            ends_of(ends, inc->m, 3 * inc->face[p] + k);
+            if (ends[0] == (a < b ? a : b) && ends[1] == (a < b ? b : a)) {
+                return s->edge_of[3 * inc->face[p] + k];
+            }
+        }
+    }
+    return -1;
+}
+
+void surface_search_ends(sl_int ends[2], const surface_search *s, sl_int edge) {
+    ends_of(ends, s->inc->m, s->side[s->begin[edge]]);
+}
+
+void surface_search_place(double x[3], const surface_search *s, int64_t point) {
+    place(x, s, point);
+}
+
 const double *surface_search_lengths(const surface_search *s) {
     return s->length;
 }
@@ -181,6 +223,8 @@ const sl_int *surface_search_origins(const surface_search *s) {
 
 void surface_search_free(surface_search *s) {
     if (s != NULL) {
+        free(s->is_curve);
+        free(s->curve.at);
         free(s->straight);
         free(s->angle);
         free(s->across);

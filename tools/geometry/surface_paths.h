@@ -29,6 +29,14 @@ bool surface_search_create(surface_search **out, const incidence *inc, int point
  */
 bool surface_search_run(surface_search *s, const sl_int *sources, sl_int count, double limit);
 
+/** Makes all points of some edges sources of the searches that follow, beside their sources. The
+ *  origin of a path that starts between the ends of an edge is 0.
+ *
+ *  ends  [in]  count pairs of vertices.
+ *  Returns  true; false: two vertices are not joined by an edge, out of memory.
+ */
+bool surface_search_set_curve(surface_search *s, const sl_int *ends, sl_int count);
+
 /** The lengths of the last search by vertex of the mesh; INFINITY where no path leads. */
 const double *surface_search_lengths(const surface_search *s);
 

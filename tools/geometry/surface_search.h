@@ -4,6 +4,7 @@
 
 #include "surface_paths.h"
 
+#include "tools/mesh/int_list.h"
 #include "tools/mesh/path_heap.h"
 
 /* Points are the vertices, then `points` of each edge, from its lower to its higher vertex. */
@@ -21,10 +22,21 @@ struct surface_search {
     int64_t *found;  /* the points with a path, in the order of discovery */
     size_t n_found;
     double limit;
+    int_list curve;          /* edges whose points are sources */
+    unsigned char *is_curve; /* n_edges; NULL: no curve */
     path_heap heap;
     /* of surface_search_straighten, n_vertices each; NULL: not needed yet */
     double *angle;    /* the sum of the angles around a vertex; INFINITY on the border */
     double *straight; /* lengths; INFINITY where no path leads */
 };
+
+/* The edge from a to b; -1: there is none. */
+sl_int surface_search_edge(const surface_search *s, sl_int a, sl_int b);
+
+/* The ends of an edge, the lower one first. */
+void surface_search_ends(sl_int ends[2], const surface_search *s, sl_int edge);
+
+/* Where a point is. */
+void surface_search_place(double x[3], const surface_search *s, int64_t point);
 
 #endif

@@ -113,8 +113,42 @@ static sl_int mark_path(paths *p, sl_int v) {
     return count;
 }
 
+static sl_int root_of(sl_int *parent, sl_int k) {
+    while (parent[k] != k) {
+        parent[k] = parent[parent[k]];
+        k = parent[k];
+    }
+    return k;
+}
+
+/* Takes back the cuts that would divide the sheet: loops are found as if holes were filled, and a
+ * loop that passes a hole can have all edges of a few faces beside it. */
+static bool keep_whole(paths *p) {
+    const sheet *s = p->s;
+    sl_int *parent = (sl_int *)malloc(((size_t)s->m.n_faces + 1) * sizeof *parent);
+    for (sl_int f = 0; f < s->m.n_faces && parent != NULL; f++) {
+        parent[f] = f;
+    }
+    for (int pass = 0; pass < 2 && parent != NULL; pass++) { /* uncut edges, then the others */
+        for (sl_int e = 0; e < 3 * s->m.n_faces; e++) {
+            const sl_int a = root_of(parent, e / 3);
+            const sl_int b = s->mate[e] >= 0 ? root_of(parent, s->mate[e] / 3) : a;
+            const bool is_cut = p->cut[e] || (s->mate[e] >= 0 && p->cut[s->mate[e]]);
+            if (a != b && is_cut == (pass == 1)) {
+                parent[a] = b;
+                p->cut[e] = p->cut[s->mate[e]] = 0;
+            }
+        }
+    }
+    free(parent);
+    return parent != NULL;
+}
+
 /* Separates the marked edges and numbers the vertices anew. */
-static bool separate(sheet *s, const paths *p, sl_int *edges) {
+static bool separate(sheet *s, paths *p, sl_int *edges) {
+    if (!keep_whole(p)) {
+        return false;
+    }
     for (sl_int e = 0; e < 3 * s->m.n_faces; e++) {
         if (p->cut[e] && s->mate[e] >= 0) {
             s->mate[s->mate[e]] = -1;
@@ -143,14 +177,6 @@ static sl_int number_holes(const sheet *s, sl_int *hole) {
         count++;
     }
     return count;
-}
-
-static sl_int root_of(sl_int *parent, sl_int k) {
-    while (parent[k] != k) {
-        parent[k] = parent[parent[k]];
-        k = parent[k];
-    }
-    return k;
 }
 
 static int longest_first(const void *a, const void *b) {
