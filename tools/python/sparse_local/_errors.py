@@ -4,7 +4,7 @@
 class Error(Exception):
     """A failed call. row and column are those of the matrix (of its transpose for CSR), or None."""
 
-    def __init__(self, text, row=None, column=None, value=0.0):
+    def __init__(self, text, row=None, column=None, value=0.0, advice=None):
         self.row = row
         self.column = column
         self.value = value
@@ -12,7 +12,7 @@ class Error(Exception):
             text += ", row %d" % row
         if column is not None:
             text += ", column %d" % column
-        super().__init__(text)
+        super().__init__(text if advice is None else "%s; %s" % (text, advice))
         self.cause = text  # without advice on options, for doors that do not take them
 
 

@@ -8,6 +8,7 @@ import os
 import sys
 
 from ._errors import BY_STATUS, Error, PivotError, StateError
+from ._names import in_own_names, names_c
 from ._structs import (ENUM, INT, OFF, PTR, REAL, SIZE, Csc, Csc64, FixedArrays,
                        FactorArrays, Hermitian, Options, PseudoInverse, RegionArrays,
                        Request, SavedSet, SelectedArrays, Stats, SymbolicArrays)
@@ -172,18 +173,17 @@ def check(status, stats=None, width=1, path=None):
         stats.error.row, stats.error.column = (-1 if k is None else k for k in (row, column))
     buffer = ctypes.create_string_buffer(1000)
     lib.sl_error_text(buffer, len(buffer), status, None if stats is None else ctypes.byref(stats))
-    text = buffer.value.decode()
-    bound = ""
+    said, plain = buffer.value.decode(), lib.sl_status_string(status).decode()
+    text, bound = in_own_names(said, plain), ""
     if stats is not None and kind is PivotError and stats.factor.null_bound > 0:
         bound = ", pivot %.3g, null up to %.3g" % (value, stats.factor.null_bound)
     text += bound
-    text = text.replace("sl_symbolic_create_pivoted", "pivoted=True (sl_symbolic_create_pivoted)")
     if path is not None:
         text += ", %s" % os.fsdecode(path)
     error = kind(text)  # which has the place already
     error.row, error.column, error.value = row, column, value
-    if "sl_" in text or "options." in text:
-        error.cause = str(kind(lib.sl_status_string(status).decode() + bound, row, column))
+    if names_c(said):
+        error.cause = str(kind(plain + bound, row, column))
     raise error
 
 

@@ -140,8 +140,8 @@ class Matrix:
         differs = ~(np.abs(stored - mirrored) <= 1e-9 * scale)
         if differs.any():
             row = int(np.argmax(differs)) // width
-            raise PatternError("the two triangles differ; pass triangle='lower' or 'upper' to read "
-                               "one of them", row)
+            raise PatternError("the two triangles differ", row,
+                               advice="pass triangle='lower' or 'upper' to read one of them")
 
 
 def _is_out_of_order(A):
