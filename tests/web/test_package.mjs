@@ -7,7 +7,7 @@ import {pathToFileURL} from "node:url";
 import {test, check, near, thrown, end} from "./harness.mjs";
 
 const folder = pathToFileURL(`${process.argv[2]}/`);
-const {load, default: loadToo, SparseLocalError, HeapArray, Matrix, Factor} =
+const {load, default: loadToo, SparseLocalError, HeapArray, Matrix, Factor, inOwnNames} =
     await import(new URL("node.js", folder));
 const bytes = readFileSync(new URL("sparse_local.wasm", folder));
 const sl = await load();
@@ -298,6 +298,59 @@ test("an error has the text of the library, its status and its place", () => {
     near(F.solve(b), x); /* and the factor is as before */
 });
 
+/* The header without comments, from the folder of the project. */
+const header = readFileSync(new URL("../../sparse_local.h", import.meta.url), "utf8")
+    .replace(/\/[*].*?[*]\//gs, "");
+/* Names with a prefix, options, pointers and the fields of structs that JavaScript has not. */
+const ofC = /\b(?:sl|SL|sli|SLI)_|\bMETIS_|\b(?:options|stats|set|threads)[.]|\b(?:options|set) is not|\bNULL\b|\bsize_t\b|\bld[a-z]\b|\w_\w|\b[A-Z][.](?:im|columns)\b/;
+
+test("no sentence of the library keeps a name of C", () => {
+    const texts = new Set([...header.matchAll(/"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*/g)]
+        .map(([text]) => text.replace(/"\s*"|^"|"$/g, ""))
+        .filter(text => text.includes(" ") && !text.includes("%") && !text.startsWith("sparse_local.h")));
+    check(texts.size > 250 && texts.has("A is not square"));
+    let named = 0;
+    for (const text of texts) {
+        const ours = inOwnNames(`status: ${text} (row 3)`);
+        named += ofC.test(text);
+        check(!ofC.test(ours) && /^status.* [(]row 3[)]$/s.test(ours), ours);
+        check(ofC.test(text) || ours === `status: ${text} (row 3)`, ours);
+    }
+    check(named > 100);
+});
+
+test("wrong uses are refused in names of JavaScript", () => {
+    const s = 6, L = matrixOf(grid(s, s, 0)), B = matrixOf(grid(s, s)), m = s * s, ones = new Float64Array(m).fill(1);
+    const S = sl.factor(L, {nullPivots: "skip"}), G = sl.factor(B), C = G.constraints([3]), other = sl.factor(B);
+    const failed = sl.factor(B), closed = sl.factor(B), indefinite = sl.matrix(2, [0, 1], [0, 1], [1, -1]);
+    const triangle = {n: 2, p: [0, 2, 4], i: [0, 1, 0, 1]};
+    thrown(() => failed.refactor({n: m, p: B.p.slice(), i: B.i.slice(), x: new Float64Array(B.x.length)}));
+    closed.dispose();
+    G.refactor(B);
+    const cases = [() => sl.factor(L), () => sl.factor(sl.matrix(2, [0], [0], [1])),
+        () => sl.factor(sl.matrix(3, [1, 2, 2], [0, 0, 1], [1, 2, 3])), () => sl.factor(indefinite, {definite: true}),
+        () => sl.factor({...triangle, x: [2, 1, 7, 2]}),
+        () => sl.factor({...triangle, x: [2, NaN, NaN, 2]}), () => sl.factor({n: 2, p: [0, 2, 1], i: [0, 1], x: [1, 1]}),
+        () => sl.factor({n: 2, p: [1, 1, 2], i: [0, 1], x: [1, 1]}), () => sl.factor(B, {blockSize: 5}),
+        () => sl.factor(B, {blockSize: -1}), () => sl.factor(B, {perm: new Int32Array(m)}),
+        () => sl.factor(L, {nullPivots: "skip", mass: ones.map(() => NaN)}),
+        () => S.solve(ones), () => S.localSolve([3], [4], [1]), () => G.solve(ones.map(() => NaN)),
+        () => G.plan([m], [0]), () => G.plan([0], [-1]), () => G.constraints([m]), () => G.constraints([3, 3]),
+        () => sl.factor(indefinite).constraints([0]), () => C.solve([1]), () => C.release([4]),
+        () => G.refactor(L.n === m ? indefinite : L), () => G.updateEntries([0], [m - 1], [1]),
+        () => G.updateEntries([0], [0], [-1e6]), () => G.updateEntries([0], [0], [NaN]),
+        () => S.updateEntries([0], [0], [1]), () => G.update({p: [0, 1], i: [m], x: [1]}),
+        () => G.update({p: [0, 1], i: [0], x: [NaN]}), () => G.plan([0], [1]).solve([1], null, other),
+        () => failed.solve(ones), () => closed.solve(ones), () => closed.stats, () => sl.matrix(2, [0, 5], [0, 0], [1, 1])];
+    const said = new Set();
+    cases.forEach((body, k) => {
+        const {message} = thrown(body);
+        check(!ofC.test(message) && message.length > 8, `case ${k}: ${message}`);
+        said.add(message);
+    });
+    check(said.size > 25, `${said.size}`);
+});
+
 test("arguments that the library would read beyond their ends", () => {
     const short = new Float64Array(n - 1), cases = [
         [() => F.solve(short), /62 numbers are not a multiple of 63 rows/],
@@ -319,6 +372,7 @@ test("arguments that the library would read beyond their ends", () => {
         [() => sl.factor(5), /a matrix/],
         [() => sl.factor(A, {order: "natural"}), /order is none of triangle/],
         [() => sl.factor(A, {ordering: "metis"}), /ordering: metis is none of dissection/],
+        [() => sl.factor(A, {ordering: "given"}), /needs perm/],
         [() => sl.factor(A, {mass: short}), /mass: 63/],
         [() => sl.matrix(2, [0, 1], [0], [1, 1]), /columns: 2 numbers/],
         [() => sl.float64(-1), /length: -1/],

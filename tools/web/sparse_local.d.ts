@@ -56,6 +56,9 @@ export class SparseLocalError extends Error {
     readonly value: number;
 }
 
+/** A sentence of the C library in the names of this package, as the errors above have it. */
+export function inOwnNames(sentence: string): string;
+
 /** Objects in the heap are released by dispose(), in any order, or when nobody can reach them any
  *  more. */
 interface Owned {

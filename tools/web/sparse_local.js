@@ -14,20 +14,40 @@ const statuses = ["OK", "ARGUMENT", "MEMORY", "PATTERN", "PIVOT", "NOT_FINITE", 
     "READ_ONLY"];
 const OUT_OF_MEMORY = 2;
 
-/* What sentences of the library call by its names in C. */
+/* What sentences of the library call by its names in C, and what that is here. A name that begins with
+ * another one stands before it. */
 const names = {
-    sl_constraints_refactor: "refactor() of the constraints",
+    "options.pivots = SL_PIVOTS_SKIP_NULL": 'nullPivots: "skip"',
     SL_PIVOTS_SKIP_NULL: 'nullPivots: "skip"',
-    SL_PIVOTS_POSITIVE: "definite: true"
+    SL_PIVOTS_POSITIVE: "definite: true",
+    ", without sl_symbolic_create_pivoted": "",
+    " without sl_symbolic_create_pivoted": "",
+    "sl_symbolic_create_pivoted factors it": "the C library factors it by 2x2 pivots",
+    "sl_symbolic_create_pivoted avoids pivot growth": "2x2 pivots, which the C library has, avoid pivot growth",
+    "options.null_vector or options.mass does": "mass does",
+    "options.mass": "mass",
+    "options.perm": "perm",
+    "options.triangle": "triangle",
+    "options.block_size": "blockSize",
+    "beyond options.null_tolerance": "beyond rounding",
+    "above options.error_limit": "above its limit",
+    "exceeds options.growth_limit": "exceeds its limit",
+    "of this row: options.null_vector": "of this row",
+    sl_constraints_refactor: "refactor() of the constraints",
+    "size_t counts": "the heap can hold"
 };
-const optionNames = {mass: "mass", ordering: "ordering", perm: "perm", triangle: "triangle", purpose: "purpose",
-    block_size: "blockSize"};
+const known = new RegExp(Object.keys(names)
+    .map(name => `${/^\w/.test(name) ? "\\b" : ""}${name.replace(/[.]/g, "[.]")}\\b`).join("|"), "g");
+/* What only C has: what names it gives way to the text of the status. */
+const ofC = new RegExp("\\b(?:sl|SL)_|\\bMETIS_|\\b(?:options|stats|set|threads)[.]|\\b(?:options|set) is not|" +
+    "\\b[A-Z][.](?:im|columns)\\b|\\bNULL\\b|\\bsize_t\\b|\\bld[a-z]\\b|[a-z]_[a-z]");
 
-/* A sentence in the names of this package; what only C has is said to be there. */
-function inOwnNames(sentence) {
-    return sentence.replace(/options[.]pivots = |, without sl_symbolic_create_pivoted/g, "")
-        .replace(/options[.](\w+)/g, (all, name) => optionNames[name] ?? `the C library's ${all}`)
-        .replace(/\b(?:sl|SL)_\w+/g, name => names[name] ?? `the C library's ${name}`);
+/** A sentence of the library in the names of this package, as its errors have it. */
+export function inOwnNames(sentence) {
+    const text = sentence.replace(known, name => names[name]);
+    if (!ofC.test(text)) return text;
+    const place = / \((?:row|column|line|value|errno) [^()]*\)$/.exec(text);
+    return text.split(": ")[0] + (place ? place[0] : "");
 }
 
 /** What the library refuses: its own sentence, and where. */
@@ -251,6 +271,7 @@ function setOptions(heap, options, n) {
     const skips = choice(nullPivots, options.nullPivots, "nullPivots") === 1;
     if (skips && options.definite) throw new RangeError('options: definite excludes nullPivots "skip"');
     const given = options.perm !== undefined && options.ordering === undefined ? "given" : options.ordering;
+    if (given === "given" && !options.perm) throw new RangeError('options: ordering "given" needs perm');
     heap.exports.web_options(choice(triangles, options.triangle, "triangle"),
         choice(orderings, given, "ordering"), heap.put(options.perm, Int32Array, n, "perm"),
         options.blockSize ?? 0, choice(purposes, options.purpose, "purpose"),
