@@ -278,7 +278,7 @@ test("an error has the text of the library, its status and its place", () => {
     check(/nullPivots: "skip"/.test(error.message) && !/options[.]pivots|SL_/.test(error.message), error.message);
     const cases = [
         [() => sl.matrix(2, [0, 5], [0, 0], [1, 1]), "ARGUMENT", 5],
-        [() => sl.factor({n: 2, p: [0, 1, 2], i: [0, 7], x: [1, 1]}), "PATTERN", 7],
+        [() => sl.factor({n: 2, p: [0, 1, 2], i: [0, 7], x: [1, 1]}), "MALFORMED", 7],
         [() => sl.factor({n: 2, p: [0, 1, 2], i: [0, 1], x: [1, NaN]}), "NOT_FINITE", 1],
         [() => sl.factor({n: 2, p: [0, 1, 2], i: [0, 1], x: [1, -1]}, {definite: true}), "PIVOT", 1],
         [() => F.refactor({n, p: [0, ...new Array(n).fill(1)], i: [0], x: [1]}), "OTHER_PATTERN", -1],
@@ -287,7 +287,7 @@ test("an error has the text of the library, its status and its place", () => {
         [() => F.updateEntries([0], [n], [1]), "ARGUMENT", 0],
         [() => F.updateEntries([0], [n - 1], [1]), "OTHER_PATTERN", -2],
         [() => sl.factor(A, {perm: new Int32Array(n)}), "ARGUMENT", -2],
-        [() => sl.factor(A).plan([0], null).solve([1], new Float64Array(n), sl.factor(A)), "STATE", -1],
+        [() => sl.factor(A).plan([0], null).solve([1], new Float64Array(n), sl.factor(A)), "MISMATCH", -1],
         [() => F.solve(b.map(() => NaN)), "NOT_FINITE", -1]];
     cases.forEach(([body, status, row], k) => {
         const e = thrown(body);
@@ -303,6 +303,16 @@ const header = readFileSync(new URL("../../sparse_local.h", import.meta.url), "u
     .replace(/\/[*].*?[*]\//gs, "");
 /* Names with a prefix, options, pointers and the fields of structs that JavaScript has not. */
 const ofC = /\b(?:sl|SL|sli|SLI)_|\bMETIS_|\b(?:options|stats|set|threads)[.]|\b(?:options|set) is not|\bNULL\b|\bsize_t\b|\bld[a-z]\b|\w_\w|\b[A-Z][.](?:im|columns)\b/;
+
+test("statuses are those of the header, also in the types", () => {
+    const names = [...header.match(/typedef enum sl_status \{(.*?)\} sl_status;/s)[1].matchAll(/\bSL_(?:ERR_)?(\w+)/g)]
+        .map(([, name]) => name);
+    check(names.length === 16 && names[0] === "OK");
+    names.forEach((name, k) => check(new SparseLocalError("", k).status === name, name));
+    const types = readFileSync(new URL("sparse_local.d.ts", folder), "utf8");
+    const typed = /readonly status: (.*?);/s.exec(types)[1].match(/\w+/g);
+    check(typed.join() === names.slice(1).join(), typed.join());
+});
 
 test("no sentence of the library keeps a name of C", () => {
     const texts = new Set([...header.matchAll(/"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*/g)]

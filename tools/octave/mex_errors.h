@@ -120,17 +120,30 @@ static void in_own_names(char *out, size_t size, const char *text, sl_status sta
     count_from_one(out, size, "column ");
 }
 
+/* The end of the identifier of each status, which is that of C in lower case. */
+static const char *const ids[] = {"ok",         "argument",      "memory",    "malformed",
+                                  "pivot",      "not_finite",    "too_large", "unsupported",
+                                  "io",         "ordering",      "mismatch",  "inconsistent",
+                                  "inaccurate", "other_pattern", "stale",     "read_only"};
+
 /* Raises the error of a status. */
 static void fail(sl_status status) {
-    static const char *const ids[] = {"ok",         "argument",      "memory",    "pattern",
-                                      "pivot",      "not_finite",    "too_large", "unsupported",
-                                      "io",         "ordering",      "state",     "inconsistent",
-                                      "inaccurate", "other_pattern", "stale",     "read_only"};
     char id[64], said[600], text[1000];
     (void)sl_error_text(said, sizeof said, status, NULL);
     in_own_names(text, sizeof text, said, status);
     (void)snprintf(id, sizeof id, "sparse_local:%s", ids[status]);
     mexErrMsgIdAndTxt(id, "%s", text);
+}
+
+/* list = statuses(): the ends of all identifiers, for tests */
+static sl_status statuses(call *c) {
+    const size_t count = sizeof ids / sizeof ids[0];
+    size_t k;
+    c->out[0] = mxCreateCellMatrix(1, (mwSize)count);
+    for (k = 0; k < count; k++) {
+        mxSetCell(c->out[0], (mwIndex)k, mxCreateString(ids[k]));
+    }
+    return SL_OK;
 }
 
 /* text = own_names(text): a sentence as an error would have it, for tests */

@@ -69,6 +69,7 @@ static const struct {
     {"free", free_object, 1, 0},
     {"live", live, 0, 1},
     {"own_names", own_names, 1, 1},
+    {"statuses", statuses, 0, 1},
 };
 
 void mexFunction(int n_out, mxArray **out, int n_in, const mxArray **in) {

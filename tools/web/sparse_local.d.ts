@@ -49,8 +49,8 @@ export interface FactorStats {
 
 /** What the library refuses: its own sentence, and the row, column and value where there is one. */
 export class SparseLocalError extends Error {
-    readonly status: "ARGUMENT" | "MEMORY" | "PATTERN" | "PIVOT" | "NOT_FINITE" | "TOO_LARGE" | "UNSUPPORTED" |
-        "IO" | "ORDERING" | "STATE" | "INCONSISTENT" | "INACCURATE" | "OTHER_PATTERN" | "STALE" | "READ_ONLY";
+    readonly status: "ARGUMENT" | "MEMORY" | "MALFORMED" | "PIVOT" | "NOT_FINITE" | "TOO_LARGE" | "UNSUPPORTED" |
+        "IO" | "ORDERING" | "MISMATCH" | "INCONSISTENT" | "INACCURATE" | "OTHER_PATTERN" | "STALE" | "READ_ONLY";
     readonly row: number; /* -1: none */
     readonly column: number; /* -1: none */
     readonly value: number;

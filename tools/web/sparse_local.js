@@ -9,8 +9,8 @@ const triangles = {auto: 0, lower: 1, upper: 2, both: 3};
 const orderings = {dissection: 0, given: 3, natural: 4, "minimum-degree": 5};
 const purposes = {"many-solves": 0, "one-factor": 1};
 const nullPivots = {refuse: 0, skip: 1};
-const statuses = ["OK", "ARGUMENT", "MEMORY", "PATTERN", "PIVOT", "NOT_FINITE", "TOO_LARGE",
-    "UNSUPPORTED", "IO", "ORDERING", "STATE", "INCONSISTENT", "INACCURATE", "OTHER_PATTERN", "STALE",
+const statuses = ["OK", "ARGUMENT", "MEMORY", "MALFORMED", "PIVOT", "NOT_FINITE", "TOO_LARGE",
+    "UNSUPPORTED", "IO", "ORDERING", "MISMATCH", "INCONSISTENT", "INACCURATE", "OTHER_PATTERN", "STALE",
     "READ_ONLY"];
 const OUT_OF_MEMORY = 2;
 

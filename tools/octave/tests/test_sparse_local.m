@@ -313,8 +313,8 @@ function messages()
     refused('argument', '(column 200)', @() F.entries([1, 3], [2, 200]));
     refused('argument', 'whole numbers from 1 on, not 0', @() F.local(0, 1, 1));
     refused('argument', 'not 1.5', @() F.plan(1, 1.5));
-    refused('pattern', '(row 5, column 7)', @() sparse_local(A + sparse(5, 7, 1, n, n)));
-    refused('pattern', '(row 5, column 6', @() sparse_local(A + sparse(5, 6, 2, n, n)));
+    refused('malformed', '(row 5, column 7)', @() sparse_local(A + sparse(5, 7, 1, n, n)));
+    refused('malformed', '(row 5, column 6', @() sparse_local(A + sparse(5, 6, 2, n, n)));
     refused('not_finite', '(row 3, column 3', @() sparse_local(A + sparse(3, 3, Inf, n, n)));
     refused('argument', 'square', @() sparse_local(sparse(3, 4)));
     refused('argument', 'complex', @() sparse_local(A * 1i));
@@ -326,7 +326,7 @@ function messages()
     refused('argument', 'a set of rows', @() F.constraints(':'));
     G = sparse_local(grid_laplacian(9, 0.1));
     P = G.plan(1, 1);
-    refused('state', '', @() sparse_local_mex('plan_solve', F.id, P.id, 1));
+    refused('mismatch', '', @() sparse_local_mex('plan_solve', F.id, P.id, 1));
     F.close();
     F.close();
     refused('argument', 'closed', @() F.solve(1));
@@ -337,6 +337,9 @@ function names()
     % Nothing of C is in any sentence of the library, nor in the errors of wrong uses.
     header = fileread('sparse_local.h');
     header = regexprep(header, '/\*.*?\*/', '', 'dotall');
+    enum = regexp(header, 'typedef enum sl_status \{(.*?)\} sl_status;', 'tokens', 'once');
+    ids = regexp(enum{1}, '\<SL_(?:ERR_)?(\w+)', 'tokens');
+    assert(isequal(sparse_local_mex('statuses'), lower([ids{:}])));
     literals = regexp(header, '"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*', 'match');
     literals = unique(regexprep(literals, '"\s*"|^"|"$', ''));
     literals = literals(cellfun(@(s) any(s == ' ') && ~any(s == '%') && ...

@@ -7,7 +7,7 @@ import ctypes.util
 import os
 import sys
 
-from ._errors import BY_STATUS, Error, PivotError, StateError
+from ._errors import BY_STATUS, Error, PivotError, StaleError
 from ._names import in_own_names, names_c
 from ._structs import (ENUM, INT, OFF, PTR, REAL, SIZE, Csc, Csc64, FixedArrays,
                        FactorArrays, Hermitian, Options, PseudoInverse, RegionArrays,
@@ -202,7 +202,7 @@ class Handle:
     @property
     def pointer(self):
         if self._pointer is None:
-            raise StateError("this %s is closed" % self._name)
+            raise StaleError("this %s is closed" % self._name)
         return self._pointer
 
     def close(self):
