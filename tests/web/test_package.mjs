@@ -394,6 +394,49 @@ test("arguments that the library would read beyond their ends", () => {
     near(F.solve(b), x);
 });
 
+/* ---- files ---- */
+
+const marketOf = (sizes, symmetry = "symmetric", field = "real") =>
+    `%%MatrixMarket matrix coordinate ${field} ${symmetry}\n${sizes}`;
+
+test("a Matrix Market file is the matrix that it holds", () => {
+    const lines = Array.from(g.rows, (i, k) => `${i + 1} ${g.columns[k] + 1} ${g.values[k]}`);
+    const text = marketOf(`% a comment\n%${"x".repeat(100000)}\n\n ${n} ${n} ${lines.length} \r\n${lines.join("\r\n")}\n`);
+    for (const source of [text, new TextEncoder().encode(text), new TextEncoder().encode(text).buffer, "\uFEFF" + text]) {
+        const M = sl.readMatrix(source, {maxRows: n, maxEntries: lines.length, maxBytes: 1e6});
+        near(sl.factor(M).solve(b), x);
+    }
+    near(sl.factor(sl.readMatrix(marketOf("2 2 3\n1 1 4\n1 2 1D0\n2 2 4e0"))).solve([5, 5]), [1, 1]);
+    near(sl.factor(sl.readMatrix(marketOf("2 2 4\n1 1 4\n1 2 1\n2 1 1\n2 2 4\n", "general", "integer"))).solve([5, 5]),
+        [1, 1]);
+    check(sl.readMatrix(marketOf("0 0 0\n")).n === 0);
+});
+
+test("what a file claims is refused before memory is allocated", () => {
+    const hostile = marketOf("2000000000 2000000000 1\n1 1 1.0\n", "general");
+    check(hostile.length === 78);
+    const before = [sl.bytes, process.memoryUsage().rss];
+    const cases = [[hostile, {}, "TOO_LARGE"], [marketOf("9 9 2000000000\n1 1 1\n"), {}, "IO"],
+        [hostile, {maxBytes: 77}, "TOO_LARGE"], [marketOf("9 9 1\n1 1 1\n"), {maxRows: 8}, "TOO_LARGE"],
+        [marketOf("9 9 2\n1 1 1\n2 2 1\n"), {maxEntries: 1}, "TOO_LARGE"],
+        [marketOf("9 9 1e99\n1 1 1\n"), {}, "IO"], [marketOf("3 4 1\n1 1 1\n"), {}, "ARGUMENT"],
+        [marketOf("2 2 2\n1 1 1\n"), {}, "IO"], [marketOf("2 2 1\n1 1 1\n2 2 1\n"), {}, "IO"],
+        [marketOf("2 2 1\n3 1 1\n"), {}, "IO"], [marketOf("2 2 1\n1 1.5 1\n"), {}, "IO"],
+        [marketOf("2 2 1\n1 1 x\n"), {}, "IO"], [marketOf("2 2 1\n1 1 1 1\n"), {}, "IO"],
+        [marketOf("2 2\n"), {}, "IO"], [marketOf(""), {}, "IO"], ["", {}, "IO"], ["x".repeat(100), {}, "IO"],
+        [marketOf("y".repeat(100000)), {}, "IO"],
+        [marketOf("2 2 2\n1 2 1\n2 1 1\n"), {}, "MALFORMED"], [marketOf("1 1 1\n1 1\n", "general", "pattern"), {},
+            "UNSUPPORTED"], [marketOf("1 1 1\n1 1 0\n", "skew-symmetric"), {}, "UNSUPPORTED"]];
+    cases.forEach(([text, limits, status], k) => {
+        const e = thrown(() => sl.readMatrix(text, limits));
+        check(e instanceof SparseLocalError && e.status === status, `case ${k}: ${e.status} ${e.message}`);
+    });
+    check(sl.bytes === before[0] && process.memoryUsage().rss - before[1] < 5e7);
+    check(thrown(() => sl.readMatrix(5)) instanceof TypeError);
+    check(thrown(() => sl.readMatrix("", {rows: 5})) instanceof RangeError);
+    check(thrown(() => sl.readMatrix("", {maxBytes: -1})) instanceof RangeError);
+});
+
 test("an empty system", () => {
     const E = sl.factor(sl.matrix(0, [], [], []));
     check(E.solve([]).length === 0 && E.n === 0 && E.stats.positive === 0);

@@ -143,6 +143,14 @@ export class Constraints implements Owned {
     [Symbol.dispose](): void;
 }
 
+/** What a file of a stranger may claim; by default what its length allows: four bytes for an entry, 2^20
+ *  rows and 16 for each entry. Above: SparseLocalError with the status TOO_LARGE. */
+export interface Limits {
+    maxRows?: number;
+    maxEntries?: number;
+    maxBytes?: number;
+}
+
 /** A module with a heap of its own, which all its objects share. */
 export class SparseLocal {
     private constructor();
@@ -152,6 +160,9 @@ export class SparseLocal {
     int32(length: number): HeapArray<Int32Array>;
     /** A matrix from triplets; equal positions are summed. */
     matrix(n: number, rows: Numbers, columns: Numbers, values: Numbers): Matrix;
+    /** The matrix of a Matrix Market file: square, coordinate, real or integer; a symmetric one gives its
+     *  lower triangle. Sizes are compared with the limits before memory is allocated. */
+    readMatrix(source: string | BufferSource, limits?: Limits): Matrix;
     analyze(A: MatrixArrays, options?: AnalysisOptions): Analysis;
     factor(A: MatrixArrays, options?: Options): Factor;
 }

@@ -278,6 +278,77 @@ function setOptions(heap, options, n) {
         skips ? 2 : options.definite ? 1 : 0, heap.put(options.mass, Float64Array, n, "mass"));
 }
 
+/* ---- files of strangers ---- */
+
+/* An error that this package finds itself. */
+function refused(text, status) {
+    return new SparseLocalError(text, statuses.indexOf(status));
+}
+
+/* Refuses a count above a limit; undefined: there is none. */
+function checkLimit(count, most, what) {
+    if (most !== undefined && count > integer(most, what)) {
+        throw refused(`too large: ${count} is above ${what}, ${most}`, "TOO_LARGE");
+    }
+}
+
+/* The next line of a text from `at` on that has words and is no comment, and where it ends. */
+function nextLine(text, at) {
+    while (at < text.length) {
+        const found = text.indexOf("\n", at), end = found < 0 ? text.length : found;
+        const words = text[at] === "%" ? "" : text.slice(at, Math.min(end, at + LINE)).trim();
+        if (end - at > LINE && words !== "") throw refused("a line is too long", "IO");
+        at = end + 1;
+        if (words !== "") return {words: words.split(/\s+/), at};
+    }
+    return {words: [], at};
+}
+const LINE = 65536;
+
+/* The triplets of a Matrix Market file of a square matrix. Sizes that its line of sizes claims are
+ * compared with the limits, and with the length of the text, before arrays are made for them. */
+function triplets(text, {maxRows, maxEntries}) {
+    const banner = /^\uFEFF?%%MatrixMarket\s+matrix\s+(\S+)\s+(\S+)\s+(\S+)[ \t\r]*(?=\n)/i.exec(text);
+    if (banner === null) throw refused("not a Matrix Market file of a matrix", "IO");
+    const [format, field, symmetry] = banner.slice(1).map(word => word.toLowerCase());
+    if (format !== "coordinate" || !["real", "integer"].includes(field) ||
+        !["general", "symmetric", "hermitian"].includes(symmetry)) {
+        throw refused(`not supported: a file of ${format} ${field} ${symmetry}`, "UNSUPPORTED");
+    }
+    let {words, at} = nextLine(text, banner[0].length);
+    const [n, columns, count] = words.map(Number);
+    if (words.length !== 3 || ![n, columns, count].every(size => Number.isSafeInteger(size) && size >= 0)) {
+        throw refused("the line of sizes is malformed", "IO");
+    }
+    checkLimit(Math.max(n, columns), maxRows, "maxRows");
+    checkLimit(count, maxEntries, "maxEntries");
+    if (n !== columns) throw refused(`A is not square: ${n} x ${columns}`, "ARGUMENT");
+    if (n > 0x7ffffff7 || n / 16 > 65536 + count) {
+        throw refused("too large: more than 2^20 rows, and over 16 for each entry", "TOO_LARGE");
+    }
+    if (count > (text.length - at) / 4 + 1) throw refused("fewer entries than the file says", "IO");
+    const rows = new Int32Array(count), cols = new Int32Array(count), values = new Float64Array(count);
+    let below = false, above = false;
+    for (let k = 0; k < count; k++) {
+        ({words, at} = nextLine(text, at));
+        const [i, j, value] = [words[0], words[1], words[2]?.replace(/d/i, "e")].map(Number);
+        if (words.length !== 3 || !(i >= 1 && i <= n && j >= 1 && j <= n) || i % 1 + j % 1 !== 0 || Number.isNaN(value)) {
+            throw refused(`entry ${k + 1} is missing, malformed or out of range; rows count from 1`, "IO");
+        }
+        const swaps = symmetry !== "general" && i < j;
+        below ||= i > j;
+        above ||= i < j;
+        rows[k] = (swaps ? j : i) - 1;
+        cols[k] = (swaps ? i : j) - 1;
+        values[k] = value;
+    }
+    if (nextLine(text, at).words.length > 0) throw refused("more entries than the file says", "IO");
+    if (symmetry !== "general" && below && above) {
+        throw refused("both triangles of a symmetric matrix", "MALFORMED");
+    }
+    return {n, rows, cols, values};
+}
+
 /* ---- objects ---- */
 
 class Owned {
@@ -492,6 +563,21 @@ export class SparseLocal {
         return heap.call(() => heap.exports.web_triplets(integer(n, "n"), count,
             heap.put(rows, Int32Array, count, "rows"), heap.put(columns, Int32Array, count, "columns"),
             heap.put(values, Float64Array, count, "values")), () => new Matrix(heap, n));
+    }
+    /** The matrix of a Matrix Market file, as text or bytes: square, coordinate, real or integer. A
+     *  symmetric file gives its lower triangle. Without limits the file may claim what its length allows. */
+    readMatrix(source, limits = {}) {
+        const known = ["maxRows", "maxEntries", "maxBytes"];
+        for (const key of Object.keys(limits)) {
+            if (!known.includes(key)) throw new RangeError(`limits: ${key} is none of ${known.join(", ")}`);
+        }
+        const isText = typeof source === "string";
+        if (!isText && !ArrayBuffer.isView(source) && !(source instanceof ArrayBuffer)) {
+            throw new TypeError("source: a text or bytes are wanted");
+        }
+        checkLimit(isText ? source.length : source.byteLength, limits.maxBytes, "maxBytes");
+        const {n, rows, cols, values} = triplets(isText ? source : new TextDecoder().decode(source), limits);
+        return this.matrix(n, rows, cols, values);
     }
     analyze(A, options = {}) {
         const heap = this.#heap;

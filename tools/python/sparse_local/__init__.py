@@ -21,6 +21,7 @@ from ._library import library_path, version
 from ._matrix import CscArrays, from_triplets
 from ._constraints import Constraints
 from ._plan import Plan, Region
+from ._read import read_matrix
 from ._saved_set import Selected, load_set, save_set
 from ._several import Sum, solve_batch
 from ._stand_in import stand_in
@@ -28,7 +29,8 @@ from ._stand_in import stand_in
 __version__ = version()
 __all__ = ["Factor", "cholesky", "Analysis", "analyze", "Plan", "Region", "Constraints",
            "FixedRows", "Selected", "Sum", "solve_batch", "stand_in", "save_set",
-           "load_set", "from_triplets", "CscArrays", "Error", "ArgumentError", "OutOfMemoryError",
+           "load_set", "read_matrix", "from_triplets", "CscArrays", "Error", "ArgumentError",
+           "OutOfMemoryError",
            "PatternError", "MalformedError", "OtherPatternError", "PivotError", "NotFiniteError",
            "TooLargeError", "UnsupportedError", "IoError", "OrderingError", "InconsistentError",
            "InaccurateError", "StateError", "MismatchError", "StaleError", "ReadOnlyError",

@@ -23,6 +23,7 @@ _CALLS = {
     "csc_multiply": [_CSC, ENUM, PTR, SIZE, PTR, SIZE, INT],
     "matrix_from_triplets": [_OUT, INT, INT, OFF, PTR, PTR, PTR, _OPT, _STATS],
     "matrix_from_hermitian": [_OUT, ctypes.POINTER(Hermitian), _OPT, _STATS],
+    "matrix_read": [_OUT, ctypes.c_char_p, _OPT, _STATS],
     "matrix_sum": [_OUT, PTR, _CSC, INT, _OPT, _STATS],
     "matrix_from_csc64": [_OUT, ctypes.POINTER(Csc64), _OPT, _STATS],
     "symbolic_create": [_OUT, _CSC, _OPT, _STATS],
