@@ -7,7 +7,7 @@ import {pathToFileURL} from "node:url";
 import {test, check, near, thrown, end} from "./harness.mjs";
 
 const folder = pathToFileURL(`${process.argv[2]}/`);
-const {load, default: loadToo, SparseLocalError, HeapArray, Matrix, Factor} =
+const {load, default: loadToo, SparseLocalError, HeapArray, Matrix, Factor, inOwnNames} =
     await import(new URL("node.js", folder));
 const bytes = readFileSync(new URL("sparse_local.wasm", folder));
 const sl = await load();
@@ -278,7 +278,7 @@ test("an error has the text of the library, its status and its place", () => {
     check(/nullPivots: "skip"/.test(error.message) && !/options[.]pivots|SL_/.test(error.message), error.message);
     const cases = [
         [() => sl.matrix(2, [0, 5], [0, 0], [1, 1]), "ARGUMENT", 5],
-        [() => sl.factor({n: 2, p: [0, 1, 2], i: [0, 7], x: [1, 1]}), "PATTERN", 7],
+        [() => sl.factor({n: 2, p: [0, 1, 2], i: [0, 7], x: [1, 1]}), "MALFORMED", 7],
         [() => sl.factor({n: 2, p: [0, 1, 2], i: [0, 1], x: [1, NaN]}), "NOT_FINITE", 1],
         [() => sl.factor({n: 2, p: [0, 1, 2], i: [0, 1], x: [1, -1]}, {definite: true}), "PIVOT", 1],
         [() => F.refactor({n, p: [0, ...new Array(n).fill(1)], i: [0], x: [1]}), "OTHER_PATTERN", -1],
@@ -287,7 +287,7 @@ test("an error has the text of the library, its status and its place", () => {
         [() => F.updateEntries([0], [n], [1]), "ARGUMENT", 0],
         [() => F.updateEntries([0], [n - 1], [1]), "OTHER_PATTERN", -2],
         [() => sl.factor(A, {perm: new Int32Array(n)}), "ARGUMENT", -2],
-        [() => sl.factor(A).plan([0], null).solve([1], new Float64Array(n), sl.factor(A)), "STATE", -1],
+        [() => sl.factor(A).plan([0], null).solve([1], new Float64Array(n), sl.factor(A)), "MISMATCH", -1],
         [() => F.solve(b.map(() => NaN)), "NOT_FINITE", -1]];
     cases.forEach(([body, status, row], k) => {
         const e = thrown(body);
@@ -296,6 +296,69 @@ test("an error has the text of the library, its status and its place", () => {
         check(e.message.length > 10, `case ${k}: ${e.message}`);
     });
     near(F.solve(b), x); /* and the factor is as before */
+});
+
+/* The header without comments, from the folder of the project. */
+const header = readFileSync(new URL("../../sparse_local.h", import.meta.url), "utf8")
+    .replace(/\/[*].*?[*]\//gs, "");
+/* Names with a prefix, options, pointers and the fields of structs that JavaScript has not. */
+const ofC = /\b(?:sl|SL|sli|SLI)_|\bMETIS_|\b(?:options|stats|set|threads)[.]|\b(?:options|set) is not|\bNULL\b|\bsize_t\b|\bld[a-z]\b|\w_\w|\b[A-Z][.](?:im|columns)\b/;
+
+test("statuses are those of the header, also in the types", () => {
+    const names = [...header.match(/typedef enum sl_status \{(.*?)\} sl_status;/s)[1].matchAll(/\bSL_(?:ERR_)?(\w+)/g)]
+        .map(([, name]) => name);
+    check(names.length === 16 && names[0] === "OK");
+    names.forEach((name, k) => check(new SparseLocalError("", k).status === name, name));
+    const types = readFileSync(new URL("sparse_local.d.ts", folder), "utf8");
+    const typed = /readonly status: (.*?);/s.exec(types)[1].match(/\w+/g);
+    check(typed.join() === names.slice(1).join(), typed.join());
+});
+
+test("no sentence of the library keeps a name of C", () => {
+    const texts = new Set([...header.matchAll(/"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*/g)]
+        .map(([text]) => text.replace(/"\s*"|^"|"$/g, ""))
+        .filter(text => text.includes(" ") && !text.includes("%") && !text.startsWith("sparse_local.h")));
+    check(texts.size > 250 && texts.has("A is not square"));
+    let named = 0;
+    for (const text of texts) {
+        const ours = inOwnNames(`status: ${text} (row 3)`);
+        named += ofC.test(text);
+        check(!ofC.test(ours) && /^status.* [(]row 3[)]$/s.test(ours), ours);
+        check(ofC.test(text) || ours === `status: ${text} (row 3)`, ours);
+    }
+    check(named > 100);
+});
+
+test("wrong uses are refused in names of JavaScript", () => {
+    const s = 6, L = matrixOf(grid(s, s, 0)), B = matrixOf(grid(s, s)), m = s * s, ones = new Float64Array(m).fill(1);
+    const S = sl.factor(L, {nullPivots: "skip"}), G = sl.factor(B), C = G.constraints([3]), other = sl.factor(B);
+    const failed = sl.factor(B), closed = sl.factor(B), indefinite = sl.matrix(2, [0, 1], [0, 1], [1, -1]);
+    const triangle = {n: 2, p: [0, 2, 4], i: [0, 1, 0, 1]};
+    thrown(() => failed.refactor({n: m, p: B.p.slice(), i: B.i.slice(), x: new Float64Array(B.x.length)}));
+    closed.dispose();
+    G.refactor(B);
+    const cases = [() => sl.factor(L), () => sl.factor(sl.matrix(2, [0], [0], [1])),
+        () => sl.factor(sl.matrix(3, [1, 2, 2], [0, 0, 1], [1, 2, 3])), () => sl.factor(indefinite, {definite: true}),
+        () => sl.factor({...triangle, x: [2, 1, 7, 2]}),
+        () => sl.factor({...triangle, x: [2, NaN, NaN, 2]}), () => sl.factor({n: 2, p: [0, 2, 1], i: [0, 1], x: [1, 1]}),
+        () => sl.factor({n: 2, p: [1, 1, 2], i: [0, 1], x: [1, 1]}), () => sl.factor(B, {blockSize: 5}),
+        () => sl.factor(B, {blockSize: -1}), () => sl.factor(B, {perm: new Int32Array(m)}),
+        () => sl.factor(L, {nullPivots: "skip", mass: ones.map(() => NaN)}),
+        () => S.solve(ones), () => S.localSolve([3], [4], [1]), () => G.solve(ones.map(() => NaN)),
+        () => G.plan([m], [0]), () => G.plan([0], [-1]), () => G.constraints([m]), () => G.constraints([3, 3]),
+        () => sl.factor(indefinite).constraints([0]), () => C.solve([1]), () => C.release([4]),
+        () => G.refactor(L.n === m ? indefinite : L), () => G.updateEntries([0], [m - 1], [1]),
+        () => G.updateEntries([0], [0], [-1e6]), () => G.updateEntries([0], [0], [NaN]),
+        () => S.updateEntries([0], [0], [1]), () => G.update({p: [0, 1], i: [m], x: [1]}),
+        () => G.update({p: [0, 1], i: [0], x: [NaN]}), () => G.plan([0], [1]).solve([1], null, other),
+        () => failed.solve(ones), () => closed.solve(ones), () => closed.stats, () => sl.matrix(2, [0, 5], [0, 0], [1, 1])];
+    const said = new Set();
+    cases.forEach((body, k) => {
+        const {message} = thrown(body);
+        check(!ofC.test(message) && message.length > 8, `case ${k}: ${message}`);
+        said.add(message);
+    });
+    check(said.size > 25, `${said.size}`);
 });
 
 test("arguments that the library would read beyond their ends", () => {
@@ -319,6 +382,7 @@ test("arguments that the library would read beyond their ends", () => {
         [() => sl.factor(5), /a matrix/],
         [() => sl.factor(A, {order: "natural"}), /order is none of triangle/],
         [() => sl.factor(A, {ordering: "metis"}), /ordering: metis is none of dissection/],
+        [() => sl.factor(A, {ordering: "given"}), /needs perm/],
         [() => sl.factor(A, {mass: short}), /mass: 63/],
         [() => sl.matrix(2, [0, 1], [0], [1, 1]), /columns: 2 numbers/],
         [() => sl.float64(-1), /length: -1/],
@@ -328,6 +392,49 @@ test("arguments that the library would read beyond their ends", () => {
         check((e instanceof RangeError || e instanceof TypeError) && text.test(e.message), `case ${k}: ${e.message}`);
     });
     near(F.solve(b), x);
+});
+
+/* ---- files ---- */
+
+const marketOf = (sizes, symmetry = "symmetric", field = "real") =>
+    `%%MatrixMarket matrix coordinate ${field} ${symmetry}\n${sizes}`;
+
+test("a Matrix Market file is the matrix that it holds", () => {
+    const lines = Array.from(g.rows, (i, k) => `${i + 1} ${g.columns[k] + 1} ${g.values[k]}`);
+    const text = marketOf(`% a comment\n%${"x".repeat(100000)}\n\n ${n} ${n} ${lines.length} \r\n${lines.join("\r\n")}\n`);
+    for (const source of [text, new TextEncoder().encode(text), new TextEncoder().encode(text).buffer, "\uFEFF" + text]) {
+        const M = sl.readMatrix(source, {maxRows: n, maxEntries: lines.length, maxBytes: 1e6});
+        near(sl.factor(M).solve(b), x);
+    }
+    near(sl.factor(sl.readMatrix(marketOf("2 2 3\n1 1 4\n1 2 1D0\n2 2 4e0"))).solve([5, 5]), [1, 1]);
+    near(sl.factor(sl.readMatrix(marketOf("2 2 4\n1 1 4\n1 2 1\n2 1 1\n2 2 4\n", "general", "integer"))).solve([5, 5]),
+        [1, 1]);
+    check(sl.readMatrix(marketOf("0 0 0\n")).n === 0);
+});
+
+test("what a file claims is refused before memory is allocated", () => {
+    const hostile = marketOf("2000000000 2000000000 1\n1 1 1.0\n", "general");
+    check(hostile.length === 78);
+    const before = [sl.bytes, process.memoryUsage().rss];
+    const cases = [[hostile, {}, "TOO_LARGE"], [marketOf("9 9 2000000000\n1 1 1\n"), {}, "IO"],
+        [hostile, {maxBytes: 77}, "TOO_LARGE"], [marketOf("9 9 1\n1 1 1\n"), {maxRows: 8}, "TOO_LARGE"],
+        [marketOf("9 9 2\n1 1 1\n2 2 1\n"), {maxEntries: 1}, "TOO_LARGE"],
+        [marketOf("9 9 1e99\n1 1 1\n"), {}, "IO"], [marketOf("3 4 1\n1 1 1\n"), {}, "ARGUMENT"],
+        [marketOf("2 2 2\n1 1 1\n"), {}, "IO"], [marketOf("2 2 1\n1 1 1\n2 2 1\n"), {}, "IO"],
+        [marketOf("2 2 1\n3 1 1\n"), {}, "IO"], [marketOf("2 2 1\n1 1.5 1\n"), {}, "IO"],
+        [marketOf("2 2 1\n1 1 x\n"), {}, "IO"], [marketOf("2 2 1\n1 1 1 1\n"), {}, "IO"],
+        [marketOf("2 2\n"), {}, "IO"], [marketOf(""), {}, "IO"], ["", {}, "IO"], ["x".repeat(100), {}, "IO"],
+        [marketOf("y".repeat(100000)), {}, "IO"],
+        [marketOf("2 2 2\n1 2 1\n2 1 1\n"), {}, "MALFORMED"], [marketOf("1 1 1\n1 1\n", "general", "pattern"), {},
+            "UNSUPPORTED"], [marketOf("1 1 1\n1 1 0\n", "skew-symmetric"), {}, "UNSUPPORTED"]];
+    cases.forEach(([text, limits, status], k) => {
+        const e = thrown(() => sl.readMatrix(text, limits));
+        check(e instanceof SparseLocalError && e.status === status, `case ${k}: ${e.status} ${e.message}`);
+    });
+    check(sl.bytes === before[0] && process.memoryUsage().rss - before[1] < 5e7);
+    check(thrown(() => sl.readMatrix(5)) instanceof TypeError);
+    check(thrown(() => sl.readMatrix("", {rows: 5})) instanceof RangeError);
+    check(thrown(() => sl.readMatrix("", {maxBytes: -1})) instanceof RangeError);
 });
 
 test("an empty system", () => {

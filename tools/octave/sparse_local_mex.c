@@ -9,6 +9,7 @@
  * one file to compile: its commands are in headers beside it. */
 #include "mex_factors.h"
 #include "mex_constraints.h"
+#include "mex_errors.h"
 #include "mex_queries.h"
 
 /* ---- commands of all objects ---- */
@@ -67,32 +68,9 @@ static const struct {
     {"constraints_solve", constraints_solve, 6, 1},
     {"free", free_object, 1, 0},
     {"live", live, 0, 1},
+    {"own_names", own_names, 1, 1},
+    {"statuses", statuses, 0, 1},
 };
-
-/* Adds 1 to the number behind a word of the place at the end of a message, as in (row 4). */
-static void count_from_one(char *text, size_t size, const char *word) {
-    char *place = strrchr(text, '('), *at = place == NULL ? NULL : strstr(place, word), *end;
-    char rest[200];
-    long number;
-    if (at == NULL) return;
-    at += strlen(word);
-    number = strtol(at, &end, 10);
-    (void)snprintf(rest, sizeof rest, "%ld%s", number + 1, end);
-    (void)snprintf(at, size - (size_t)(at - text), "%s", rest);
-}
-
-static void fail(sl_status status) {
-    static const char *const names[] = {"ok",         "argument",      "memory",    "pattern",
-                                        "pivot",      "not_finite",    "too_large", "unsupported",
-                                        "io",         "ordering",      "state",     "inconsistent",
-                                        "inaccurate", "other_pattern", "stale",     "read_only"};
-    char id[64], text[500];
-    (void)sl_error_text(text, sizeof text - 4, status, NULL);
-    count_from_one(text, sizeof text, "row ");
-    count_from_one(text, sizeof text, "column ");
-    (void)snprintf(id, sizeof id, "sparse_local:%s", names[status]);
-    mexErrMsgIdAndTxt(id, "%s", text);
-}
 
 void mexFunction(int n_out, mxArray **out, int n_in, const mxArray **in) {
     char name[32] = "";

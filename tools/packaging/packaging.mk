@@ -231,7 +231,7 @@ test-python-build: deps-python sparse_local.h ## python3 -m build, offline: both
 	--target $$file.site $$file && PYTHONPATH=$$file.site $(PYTHON) -B tools/python/examples/heat.py $$file.png || exit 1; done
 
 bench-python: test-python ## times the package against scipy.sparse.linalg.splu
-	@PYTHONPATH=build/python/site $(PYTHON) -B tools/python/bench.py
+	@cp tools/python/bench.py build/python && PYTHONPATH=build/python/site $(PYTHON) -B build/python/bench.py
 
 # ---- Octave ----
 

@@ -49,12 +49,15 @@ export interface FactorStats {
 
 /** What the library refuses: its own sentence, and the row, column and value where there is one. */
 export class SparseLocalError extends Error {
-    readonly status: "ARGUMENT" | "MEMORY" | "PATTERN" | "PIVOT" | "NOT_FINITE" | "TOO_LARGE" | "UNSUPPORTED" |
-        "IO" | "ORDERING" | "STATE" | "INCONSISTENT" | "INACCURATE" | "OTHER_PATTERN" | "STALE" | "READ_ONLY";
+    readonly status: "ARGUMENT" | "MEMORY" | "MALFORMED" | "PIVOT" | "NOT_FINITE" | "TOO_LARGE" | "UNSUPPORTED" |
+        "IO" | "ORDERING" | "MISMATCH" | "INCONSISTENT" | "INACCURATE" | "OTHER_PATTERN" | "STALE" | "READ_ONLY";
     readonly row: number; /* -1: none */
     readonly column: number; /* -1: none */
     readonly value: number;
 }
+
+/** A sentence of the C library in the names of this package, as the errors above have it. */
+export function inOwnNames(sentence: string): string;
 
 /** Objects in the heap are released by dispose(), in any order, or when nobody can reach them any
  *  more. */
@@ -140,6 +143,14 @@ export class Constraints implements Owned {
     [Symbol.dispose](): void;
 }
 
+/** What a file of a stranger may claim; by default what its length allows: four bytes for an entry, 2^20
+ *  rows and 16 for each entry. Above: SparseLocalError with the status TOO_LARGE. */
+export interface Limits {
+    maxRows?: number;
+    maxEntries?: number;
+    maxBytes?: number;
+}
+
 /** A module with a heap of its own, which all its objects share. */
 export class SparseLocal {
     private constructor();
@@ -149,6 +160,9 @@ export class SparseLocal {
     int32(length: number): HeapArray<Int32Array>;
     /** A matrix from triplets; equal positions are summed. */
     matrix(n: number, rows: Numbers, columns: Numbers, values: Numbers): Matrix;
+    /** The matrix of a Matrix Market file: square, coordinate, real or integer; a symmetric one gives its
+     *  lower triangle. Sizes are compared with the limits before memory is allocated. */
+    readMatrix(source: string | BufferSource, limits?: Limits): Matrix;
     analyze(A: MatrixArrays, options?: AnalysisOptions): Analysis;
     factor(A: MatrixArrays, options?: Options): Factor;
 }

@@ -9,25 +9,45 @@ const triangles = {auto: 0, lower: 1, upper: 2, both: 3};
 const orderings = {dissection: 0, given: 3, natural: 4, "minimum-degree": 5};
 const purposes = {"many-solves": 0, "one-factor": 1};
 const nullPivots = {refuse: 0, skip: 1};
-const statuses = ["OK", "ARGUMENT", "MEMORY", "PATTERN", "PIVOT", "NOT_FINITE", "TOO_LARGE",
-    "UNSUPPORTED", "IO", "ORDERING", "STATE", "INCONSISTENT", "INACCURATE", "OTHER_PATTERN", "STALE",
+const statuses = ["OK", "ARGUMENT", "MEMORY", "MALFORMED", "PIVOT", "NOT_FINITE", "TOO_LARGE",
+    "UNSUPPORTED", "IO", "ORDERING", "MISMATCH", "INCONSISTENT", "INACCURATE", "OTHER_PATTERN", "STALE",
     "READ_ONLY"];
 const OUT_OF_MEMORY = 2;
 
-/* What sentences of the library call by its names in C. */
+/* What sentences of the library call by its names in C, and what that is here. A name that begins with
+ * another one stands before it. */
 const names = {
-    sl_constraints_refactor: "refactor() of the constraints",
+    "options.pivots = SL_PIVOTS_SKIP_NULL": 'nullPivots: "skip"',
     SL_PIVOTS_SKIP_NULL: 'nullPivots: "skip"',
-    SL_PIVOTS_POSITIVE: "definite: true"
+    SL_PIVOTS_POSITIVE: "definite: true",
+    ", without sl_symbolic_create_pivoted": "",
+    " without sl_symbolic_create_pivoted": "",
+    "sl_symbolic_create_pivoted factors it": "the C library factors it by 2x2 pivots",
+    "sl_symbolic_create_pivoted avoids pivot growth": "2x2 pivots, which the C library has, avoid pivot growth",
+    "options.null_vector or options.mass does": "mass does",
+    "options.mass": "mass",
+    "options.perm": "perm",
+    "options.triangle": "triangle",
+    "options.block_size": "blockSize",
+    "beyond options.null_tolerance": "beyond rounding",
+    "above options.error_limit": "above its limit",
+    "exceeds options.growth_limit": "exceeds its limit",
+    "of this row: options.null_vector": "of this row",
+    sl_constraints_refactor: "refactor() of the constraints",
+    "size_t counts": "the heap can hold"
 };
-const optionNames = {mass: "mass", ordering: "ordering", perm: "perm", triangle: "triangle", purpose: "purpose",
-    block_size: "blockSize"};
+const known = new RegExp(Object.keys(names)
+    .map(name => `${/^\w/.test(name) ? "\\b" : ""}${name.replace(/[.]/g, "[.]")}\\b`).join("|"), "g");
+/* What only C has: what names it gives way to the text of the status. */
+const ofC = new RegExp("\\b(?:sl|SL)_|\\bMETIS_|\\b(?:options|stats|set|threads)[.]|\\b(?:options|set) is not|" +
+    "\\b[A-Z][.](?:im|columns)\\b|\\bNULL\\b|\\bsize_t\\b|\\bld[a-z]\\b|[a-z]_[a-z]");
 
-/* A sentence in the names of this package; what only C has is said to be there. */
-function inOwnNames(sentence) {
-    return sentence.replace(/options[.]pivots = |, without sl_symbolic_create_pivoted/g, "")
-        .replace(/options[.](\w+)/g, (all, name) => optionNames[name] ?? `the C library's ${all}`)
-        .replace(/\b(?:sl|SL)_\w+/g, name => names[name] ?? `the C library's ${name}`);
+/** A sentence of the library in the names of this package, as its errors have it. */
+export function inOwnNames(sentence) {
+    const text = sentence.replace(known, name => names[name]);
+    if (!ofC.test(text)) return text;
+    const place = / \((?:row|column|line|value|errno) [^()]*\)$/.exec(text);
+    return text.split(": ")[0] + (place ? place[0] : "");
 }
 
 /** What the library refuses: its own sentence, and where. */
@@ -251,10 +271,82 @@ function setOptions(heap, options, n) {
     const skips = choice(nullPivots, options.nullPivots, "nullPivots") === 1;
     if (skips && options.definite) throw new RangeError('options: definite excludes nullPivots "skip"');
     const given = options.perm !== undefined && options.ordering === undefined ? "given" : options.ordering;
+    if (given === "given" && !options.perm) throw new RangeError('options: ordering "given" needs perm');
     heap.exports.web_options(choice(triangles, options.triangle, "triangle"),
         choice(orderings, given, "ordering"), heap.put(options.perm, Int32Array, n, "perm"),
         options.blockSize ?? 0, choice(purposes, options.purpose, "purpose"),
         skips ? 2 : options.definite ? 1 : 0, heap.put(options.mass, Float64Array, n, "mass"));
+}
+
+/* ---- files of strangers ---- */
+
+/* An error that this package finds itself. */
+function refused(text, status) {
+    return new SparseLocalError(text, statuses.indexOf(status));
+}
+
+/* Refuses a count above a limit; undefined: there is none. */
+function checkLimit(count, most, what) {
+    if (most !== undefined && count > integer(most, what)) {
+        throw refused(`too large: ${count} is above ${what}, ${most}`, "TOO_LARGE");
+    }
+}
+
+/* The next line of a text from `at` on that has words and is no comment, and where it ends. */
+function nextLine(text, at) {
+    while (at < text.length) {
+        const found = text.indexOf("\n", at), end = found < 0 ? text.length : found;
+        const words = text[at] === "%" ? "" : text.slice(at, Math.min(end, at + LINE)).trim();
+        if (end - at > LINE && words !== "") throw refused("a line is too long", "IO");
+        at = end + 1;
+        if (words !== "") return {words: words.split(/\s+/), at};
+    }
+    return {words: [], at};
+}
+const LINE = 65536;
+
+/* The triplets of a Matrix Market file of a square matrix. Sizes that its line of sizes claims are
+ * compared with the limits, and with the length of the text, before arrays are made for them. */
+function triplets(text, {maxRows, maxEntries}) {
+    const banner = /^\uFEFF?%%MatrixMarket\s+matrix\s+(\S+)\s+(\S+)\s+(\S+)[ \t\r]*(?=\n)/i.exec(text);
+    if (banner === null) throw refused("not a Matrix Market file of a matrix", "IO");
+    const [format, field, symmetry] = banner.slice(1).map(word => word.toLowerCase());
+    if (format !== "coordinate" || !["real", "integer"].includes(field) ||
+        !["general", "symmetric", "hermitian"].includes(symmetry)) {
+        throw refused(`not supported: a file of ${format} ${field} ${symmetry}`, "UNSUPPORTED");
+    }
+    let {words, at} = nextLine(text, banner[0].length);
+    const [n, columns, count] = words.map(Number);
+    if (words.length !== 3 || ![n, columns, count].every(size => Number.isSafeInteger(size) && size >= 0)) {
+        throw refused("the line of sizes is malformed", "IO");
+    }
+    checkLimit(Math.max(n, columns), maxRows, "maxRows");
+    checkLimit(count, maxEntries, "maxEntries");
+    if (n !== columns) throw refused(`A is not square: ${n} x ${columns}`, "ARGUMENT");
+    if (n > 0x7ffffff7 || n / 16 > 65536 + count) {
+        throw refused("too large: more than 2^20 rows, and over 16 for each entry", "TOO_LARGE");
+    }
+    if (count > (text.length - at) / 4 + 1) throw refused("fewer entries than the file says", "IO");
+    const rows = new Int32Array(count), cols = new Int32Array(count), values = new Float64Array(count);
+    let below = false, above = false;
+    for (let k = 0; k < count; k++) {
+        ({words, at} = nextLine(text, at));
+        const [i, j, value] = [words[0], words[1], words[2]?.replace(/d/i, "e")].map(Number);
+        if (words.length !== 3 || !(i >= 1 && i <= n && j >= 1 && j <= n) || i % 1 + j % 1 !== 0 || Number.isNaN(value)) {
+            throw refused(`entry ${k + 1} is missing, malformed or out of range; rows count from 1`, "IO");
+        }
+        const swaps = symmetry !== "general" && i < j;
+        below ||= i > j;
+        above ||= i < j;
+        rows[k] = (swaps ? j : i) - 1;
+        cols[k] = (swaps ? i : j) - 1;
+        values[k] = value;
+    }
+    if (nextLine(text, at).words.length > 0) throw refused("more entries than the file says", "IO");
+    if (symmetry !== "general" && below && above) {
+        throw refused("both triangles of a symmetric matrix", "MALFORMED");
+    }
+    return {n, rows, cols, values};
 }
 
 /* ---- objects ---- */
@@ -471,6 +563,21 @@ export class SparseLocal {
         return heap.call(() => heap.exports.web_triplets(integer(n, "n"), count,
             heap.put(rows, Int32Array, count, "rows"), heap.put(columns, Int32Array, count, "columns"),
             heap.put(values, Float64Array, count, "values")), () => new Matrix(heap, n));
+    }
+    /** The matrix of a Matrix Market file, as text or bytes: square, coordinate, real or integer. A
+     *  symmetric file gives its lower triangle. Without limits the file may claim what its length allows. */
+    readMatrix(source, limits = {}) {
+        const known = ["maxRows", "maxEntries", "maxBytes"];
+        for (const key of Object.keys(limits)) {
+            if (!known.includes(key)) throw new RangeError(`limits: ${key} is none of ${known.join(", ")}`);
+        }
+        const isText = typeof source === "string";
+        if (!isText && !ArrayBuffer.isView(source) && !(source instanceof ArrayBuffer)) {
+            throw new TypeError("source: a text or bytes are wanted");
+        }
+        checkLimit(isText ? source.length : source.byteLength, limits.maxBytes, "maxBytes");
+        const {n, rows, cols, values} = triplets(isText ? source : new TextDecoder().decode(source), limits);
+        return this.matrix(n, rows, cols, values);
     }
     analyze(A, options = {}) {
         const heap = this.#heap;

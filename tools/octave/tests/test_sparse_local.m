@@ -4,7 +4,7 @@ function test_sparse_local(varargin)
 %   Prints each test, and at the end `N passed, N failed`; fails if a test did. make test-octave
 
     tests = {@full_solves, @local_solves, @entries_of_the_inverse, @parts_of_the_factor, ...
-             @other_numbers, @changes, @rows_held, @indefinite, @singular, @options, @messages, ...
+             @other_numbers, @changes, @rows_held, @indefinite, @singular, @options, @messages, @names, ...
              @wrong_arguments, @lifetimes, @quadratic_energies, @help_texts, @readme, ...
              @heat_example};
     passed = 0;
@@ -223,7 +223,7 @@ function rows_held()
     near(P.solve([0; 0], 4, Q), 4 * z([71, 70]) / z(70), 1e-12);
     refused('pivot', '(row 70)', @() P.add(70));
     F.refactor(2 * A);
-    refused('stale', 'constraints', @() P.solve(b, 3));
+    refused('stale', 'P.refactor()', @() P.solve(b, 3));
     P.refactor();
     y = P.solve(2 * b, 3);
     near(y, x(:, 1), 1e-12);
@@ -313,8 +313,8 @@ function messages()
     refused('argument', '(column 200)', @() F.entries([1, 3], [2, 200]));
     refused('argument', 'whole numbers from 1 on, not 0', @() F.local(0, 1, 1));
     refused('argument', 'not 1.5', @() F.plan(1, 1.5));
-    refused('pattern', '(row 5, column 7)', @() sparse_local(A + sparse(5, 7, 1, n, n)));
-    refused('pattern', '(row 5, column 6', @() sparse_local(A + sparse(5, 6, 2, n, n)));
+    refused('malformed', '(row 5, column 7)', @() sparse_local(A + sparse(5, 7, 1, n, n)));
+    refused('malformed', '(row 5, column 6', @() sparse_local(A + sparse(5, 6, 2, n, n)));
     refused('not_finite', '(row 3, column 3', @() sparse_local(A + sparse(3, 3, Inf, n, n)));
     refused('argument', 'square', @() sparse_local(sparse(3, 4)));
     refused('argument', 'complex', @() sparse_local(A * 1i));
@@ -326,11 +326,114 @@ function messages()
     refused('argument', 'a set of rows', @() F.constraints(':'));
     G = sparse_local(grid_laplacian(9, 0.1));
     P = G.plan(1, 1);
-    refused('state', '', @() sparse_local_mex('plan_solve', F.id, P.id, 1));
+    refused('mismatch', '', @() sparse_local_mex('plan_solve', F.id, P.id, 1));
     F.close();
     F.close();
     refused('argument', 'closed', @() F.solve(1));
     refused('argument', 'closed', @() F.info());
+end
+
+function names()
+    % Nothing of C is in any sentence of the library, nor in the errors of wrong uses.
+    header = fileread('sparse_local.h');
+    header = regexprep(header, '/\*.*?\*/', '', 'dotall');
+    enum = regexp(header, 'typedef enum sl_status \{(.*?)\} sl_status;', 'tokens', 'once');
+    ids = regexp(enum{1}, '\<SL_(?:ERR_)?(\w+)', 'tokens');
+    assert(isequal(sparse_local_mex('statuses'), lower([ids{:}])));
+    literals = regexp(header, '"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*', 'match');
+    literals = unique(regexprep(literals, '"\s*"|^"|"$', ''));
+    literals = literals(cellfun(@(s) any(s == ' ') && ~any(s == '%') && ...
+                                isempty(strfind(s, 'sparse_local.h')), literals));
+    assert(numel(literals) > 250 && any(strcmp(literals, 'A is not square')));
+    impossible = ['NULL|\<ld[a-z] |size|is below 0|is not a value of|^R is B|P\.columns|isa|', ...
+                  'allocator|set\.|sl_load|SL_LOAD|a reserved|SL_PART|SL_METIS|SL_GUARANT|', ...
+                  'H\.|new_of|region|sl_factor_|sl_selected|sl_fixed|weak'];
+    for k = 1:numel(literals)
+        own = sparse_local_mex('own_names', [literals{k}, ' (row 3, column 4)']);
+        assert(~of_c(own), own);
+        assert(strcmp(own(end - 17:end), ' (row 4, column 5)'), own);
+        if strcmp(own, 'invalid argument (row 4, column 5)') && ~strcmp(literals{k}, 'invalid argument')
+            assert(~isempty(regexp(literals{k}, impossible, 'once')), literals{k});
+        end
+    end
+    assert(of_c('options.mass') && of_c('ldx is short') && of_c('of sl_x') && ~of_c("'mass'"));
+    wrong = wrong_uses();
+    said = {};
+    for k = 1:numel(wrong)
+        try
+            wrong{k}();
+        catch e
+            assert(~of_c(e.message), e.message);
+            assert(strncmp(e.identifier, 'sparse_local:', 13), [e.identifier, ': ', e.message]);
+            said{end + 1} = e.message;
+            continue;
+        end
+        error('test:success', 'wrong use %d succeeds', k);
+    end
+    assert(numel(unique(said)) > 30);
+end
+
+function found = of_c(text)
+    found = ~isempty(regexp(text, ['\<(sl|SL|sli|SLI)_\w|\<options\.|\<stats\.|\<NULL\>|', ...
+        '\<size_t\>|\<ld[a-z]\>|\<[A-Z]\.(p|i|x|im|columns)\>|\<n_(rows|cols|columns)\>|', ...
+        '\<null_vector_count\>|count from 0'], 'once'));
+end
+
+function calls = wrong_uses()
+    A = grid_laplacian(6, 0.1);
+    n = size(A, 1);
+    F = sparse_local(A);
+    L = grid_laplacian(6, 0);
+    S = sparse_local(L, 'null_pivots', 'skip');
+    K = sparse([0, 1, 2; 1, 0, 3; 2, 3, 0]);
+    Q = sparse_local(K, 'pivoted', true);
+    B = A;
+    B(7, 7) = -50;
+    I = sparse_local(B);
+    Z = A;
+    Z(3, :) = 0;
+    Z(:, 3) = 0;
+    Z(3, 3) = 1;
+    Z(3, 3) = 0;
+    C = sparse_local(A);
+    P = C.constraints(3);
+    C.refactor(2 * A);
+    other = sparse_local(grid_laplacian(5, 1));
+    R = other.plan(1, 1);
+    E = A;
+    E(1, 20) = 0.25;
+    E(20, 1) = 0.25;
+    closed = sparse_local(A);
+    closed.close();
+    b = ones(n, 1);
+    late = b;
+    late(4) = NaN;
+    calls = {@() sparse_local(A(:, 1:5)), @() sparse_local(L), @() sparse_local(tril(L)), ...
+        @() sparse_local(L, 'pivoted', true), @() sparse_local(K), @() sparse_local(Z), ...
+        @() sparse_local(B, 'definite', true), @() sparse_local(B, 'null_pivots', 'skip'), ...
+        @() sparse_local(A, 'null_tolerance', 100), @() sparse_local(A, 'null_tolerance', NaN), ...
+        @() sparse_local(K + 1e-9 * speye(3), 'growth_limit', 10), ...
+        @() sparse_local(K, 'pivoted', true, 'null_pivots', 'skip'), ...
+        @() sparse_local(A, 'regularization', 1e-8, 'null_pivots', 'skip'), ...
+        @() sparse_local(A, 'regularization', -1), @() sparse_local(A, 'growth_limit', NaN), ...
+        @() sparse_local(A, 'error_limit', NaN), @() sparse_local(A, 'block_size', 5), ...
+        @() sparse_local(A, 'consistency_tolerance', NaN), @() sparse_local(A, 'perm', ones(n, 1)), ...
+        @() sparse_local(L, 'null_pivots', 'skip', 'mass', NaN(n, 1)), ...
+        @() sparse_local(L, 'null_pivots', 'skip', 'mass', ones(3, 1)), ...
+        @() sparse_local(L, 'null_pivots', 'skip', 'null_vector', ones(n, 33)), ...
+        @() sparse_local(L, 'null_pivots', 'skip', 'null_vector', NaN(n, 1)), ...
+        @() sparse_local(A * NaN), @() sparse_local(A + sparse(2, 1, 7, n, n)), ...
+        @() sparse_local(A, 'ordering', 'no'), @() F.solve(ones(n + 1, 1)), @() F.solve(late), ...
+        @() F.local(3, NaN, 4), @() F.local(n + 1, 1, 1), @() F.plan(0, 1), @() S.solve(b), ...
+        @() S.local(3, 1, 4), @() F.diagonal(n + 1), @() F.entries(1, n + 1), ...
+        @() F.block(1, n + 1), @() Q.diagonal(1), @() F.refactor(E), @() F.refactor(K), ...
+        @() sparse_local_mex('plan_solve', F.id, R.id, 1), @() P.solve(b, 1), ...
+        @() F.constraints([3, 3]), @() F.constraints(n + 1), @() I.constraints(1), ...
+        @() Q.constraints(1), @() F.update(sparse([1, n], [1, 1], [1, 1], n, 1)), ...
+        @() F.update(sparse(n + 1, 1)), @() S.update(sparse(1, 1, 1, n, 1)), ...
+        @() Q.update(sparse(1, 1, 1, 3, 1)), @() F.change(E, A), @() F.rcond(K), ...
+        @() F.refine(A, late), @() F.refine(A, b, -1), @() closed.solve(b), @() closed.info(), ...
+        @() F.downdate(1e3 * sparse(1, 1, 1, n, 1))};
 end
 
 function wrong_arguments()

@@ -12,14 +12,16 @@ sparse_local.h contains the method and the contracts of all calls.
 """
 from ._analysis import Analysis, analyze
 from ._fixed import FixedRows
-from ._errors import (ArgumentError, Error, InaccurateError, InconsistentError, NotFiniteError,
-                      OutOfMemoryError, PatternError, PivotError, StateError, TooLargeError,
-                      UnsupportedError)
+from ._errors import (ArgumentError, Error, InaccurateError, InconsistentError, IoError,
+                      MalformedError, MismatchError, NotFiniteError, OrderingError,
+                      OtherPatternError, OutOfMemoryError, PatternError, PivotError, ReadOnlyError,
+                      StaleError, StateError, TooLargeError, UnsupportedError)
 from ._factor import Factor, cholesky
 from ._library import library_path, version
 from ._matrix import CscArrays, from_triplets
 from ._constraints import Constraints
 from ._plan import Plan, Region
+from ._read import read_matrix
 from ._saved_set import Selected, load_set, save_set
 from ._several import Sum, solve_batch
 from ._stand_in import stand_in
@@ -27,6 +29,9 @@ from ._stand_in import stand_in
 __version__ = version()
 __all__ = ["Factor", "cholesky", "Analysis", "analyze", "Plan", "Region", "Constraints",
            "FixedRows", "Selected", "Sum", "solve_batch", "stand_in", "save_set",
-           "load_set", "from_triplets", "CscArrays", "Error", "ArgumentError", "PatternError",
-           "PivotError", "NotFiniteError", "InconsistentError", "InaccurateError", "StateError",
-           "TooLargeError", "UnsupportedError", "OutOfMemoryError", "library_path", "version"]
+           "load_set", "read_matrix", "from_triplets", "CscArrays", "Error", "ArgumentError",
+           "OutOfMemoryError",
+           "PatternError", "MalformedError", "OtherPatternError", "PivotError", "NotFiniteError",
+           "TooLargeError", "UnsupportedError", "IoError", "OrderingError", "InconsistentError",
+           "InaccurateError", "StateError", "MismatchError", "StaleError", "ReadOnlyError",
+           "library_path", "version"]

@@ -47,6 +47,8 @@ def index_array(array, what):
     if is_plain(array, INDEX):
         return array
     array = np.asarray(array)
+    if array.size == 0:
+        array = array.astype(INDEX)  # an empty list has no type of its own
     if array.dtype.kind not in "iu":
         raise TypeError("%s must be integers, not %s" % (what, array.dtype))
     if array.size and (array.max() > LIMIT or array.min() < -LIMIT):

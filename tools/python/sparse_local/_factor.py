@@ -7,7 +7,7 @@ from . import _arrays as arrays
 from ._analysis import Analysis
 from ._changes import Changes
 from ._entries import Entries
-from ._errors import PivotError, StateError
+from ._errors import PivotError, StaleError
 from ._files import Files
 from ._library import Handle, Stats, as_dict, check, lib
 from ._matrix import Matrix
@@ -132,7 +132,7 @@ class Factor(Solves, Entries, Changes, Files):
     def _pointer(self):
         """The factor for a call that reads its numbers."""
         if self._refused is not None:
-            raise StateError(self._refused)
+            raise StaleError(self._refused)
         return self._factor._pointer or self._factor.pointer
 
     @property

@@ -9,7 +9,7 @@ import numpy as np
 from . import _arrays as arrays
 from . import _shared
 from ._analysis import Analysis
-from ._errors import ArgumentError
+from ._errors import ArgumentError, TooLargeError
 from ._library import SavedSet, check, lib, new_options
 from ._matrix import check_triangle
 from ._options import choice
@@ -30,14 +30,17 @@ class Files:
 
     @classmethod
     def load(cls, path, *, map=False, checks="checked", triangle=None, threads=None,
-             is_complex=False, definite=False):
+             is_complex=False, definite=False, max_bytes=None):
         """A factor from a file that save has written; its solves have the same bits.
 
         map         True: maps the file, which processes then share; refactor raises StateError.
         checks      'checked': any bytes are safe; 'verified': checksums too; 'trusted': none.
         triangle, threads, definite  as for Factor, for later refactors.
         is_complex  True: a factor of a complex matrix.
+        max_bytes   of the file: TooLargeError before anything is read; None: any size. Whatever the
+                    file claims, memory is allocated for what is in it.
         """
+        check_bytes(path, max_bytes)
         flags = choice(CHECKS, checks, "checks") | (MAPPED if map else 0)
         if not map:
             return cls._loaded((encoded(path), None, 0, flags), triangle, threads, is_complex,
@@ -111,6 +114,17 @@ def encoded(path):
     if b"\0" in name:
         raise ArgumentError("a path without zero bytes is needed")
     return name
+
+
+def check_bytes(path, most):
+    """Raises TooLargeError for a file with more bytes than these; None: any."""
+    if most is None:
+        return
+    if isinstance(most, bool) or int(most) != most or most < 0:
+        raise ArgumentError("max_bytes is a whole number, not %r" % (most,))
+    if os.path.isfile(path) and os.path.getsize(path) > most:
+        raise TooLargeError("%d bytes, of which %d are allowed, %s" %
+                            (os.path.getsize(path), most, os.fsdecode(path)))
 
 
 def mapped(path, load, arguments):

@@ -7,7 +7,8 @@ import ctypes.util
 import os
 import sys
 
-from ._errors import BY_STATUS, Error, PivotError, StateError
+from ._errors import BY_STATUS, Error, PivotError, StaleError
+from ._names import in_own_names, names_c
 from ._structs import (ENUM, INT, OFF, PTR, REAL, SIZE, Csc, Csc64, FixedArrays,
                        FactorArrays, Hermitian, Options, PseudoInverse, RegionArrays,
                        Request, SavedSet, SelectedArrays, Stats, SymbolicArrays)
@@ -22,6 +23,7 @@ _CALLS = {
     "csc_multiply": [_CSC, ENUM, PTR, SIZE, PTR, SIZE, INT],
     "matrix_from_triplets": [_OUT, INT, INT, OFF, PTR, PTR, PTR, _OPT, _STATS],
     "matrix_from_hermitian": [_OUT, ctypes.POINTER(Hermitian), _OPT, _STATS],
+    "matrix_read": [_OUT, ctypes.c_char_p, _OPT, _STATS],
     "matrix_sum": [_OUT, PTR, _CSC, INT, _OPT, _STATS],
     "matrix_from_csc64": [_OUT, ctypes.POINTER(Csc64), _OPT, _STATS],
     "symbolic_create": [_OUT, _CSC, _OPT, _STATS],
@@ -173,18 +175,17 @@ def check(status, stats=None, width=1, path=None):
         stats.error.row, stats.error.column = (-1 if k is None else k for k in (row, column))
     buffer = ctypes.create_string_buffer(1000)
     lib.sl_error_text(buffer, len(buffer), status, None if stats is None else ctypes.byref(stats))
-    text = buffer.value.decode()
-    bound = ""
+    said, plain = buffer.value.decode(), lib.sl_status_string(status).decode()
+    text, bound = in_own_names(said, plain), ""
     if stats is not None and kind is PivotError and stats.factor.null_bound > 0:
         bound = ", pivot %.3g, null up to %.3g" % (value, stats.factor.null_bound)
     text += bound
-    text = text.replace("sl_symbolic_create_pivoted", "pivoted=True (sl_symbolic_create_pivoted)")
     if path is not None:
         text += ", %s" % os.fsdecode(path)
     error = kind(text)  # which has the place already
     error.row, error.column, error.value = row, column, value
-    if "sl_" in text or "options." in text:
-        error.cause = str(kind(lib.sl_status_string(status).decode() + bound, row, column))
+    if names_c(said):
+        error.cause = str(kind(plain + bound, row, column))
     raise error
 
 
@@ -203,7 +204,7 @@ class Handle:
     @property
     def pointer(self):
         if self._pointer is None:
-            raise StateError("this %s is closed" % self._name)
+            raise StaleError("this %s is closed" % self._name)
         return self._pointer
 
     def close(self):

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import _arrays as arrays
 from ._arrays import DOUBLE, INDEX, address, is_plain
-from ._errors import ArgumentError, NotFiniteError, PatternError, TooLargeError
+from ._errors import ArgumentError, MalformedError, NotFiniteError, TooLargeError
 from ._library import Csc, Csc64, Handle, Hermitian, Stats, check, lib, new_options
 
 _AS_SYMMETRIC, _AS_STORED = 0, 1
@@ -51,10 +51,10 @@ class Matrix:
             raise TooLargeError("a matrix of %d x %d" % (rows, columns))
         self.p, self.i, self.x, is_wide = _as_wanted(A.indptr, A.indices, A.data)
         if self.p.shape != (columns + 1,):
-            raise PatternError("indptr needs one entry for each column and one more")
+            raise MalformedError("indptr needs one entry for each column and one more")
         count = self.p.item(columns)
         if self.p.item(0) != 0 or count > self.i.size or count > self.x.size:
-            raise PatternError("positions do not fit the arrays of indices and values")
+            raise MalformedError("positions do not fit the arrays of indices and values")
         self.n = rows
         self.is_complex = self.x.dtype.kind == "c"
         if is_wide:
@@ -140,8 +140,8 @@ class Matrix:
         differs = ~(np.abs(stored - mirrored) <= 1e-9 * scale)
         if differs.any():
             row = int(np.argmax(differs)) // width
-            raise PatternError("the two triangles differ; pass triangle='lower' or 'upper' to read "
-                               "one of them", row)
+            raise MalformedError("the two triangles differ", row,
+                               advice="pass triangle='lower' or 'upper' to read one of them")
 
 
 def _is_out_of_order(A):

@@ -7,7 +7,7 @@ import numpy as np
 from . import _arrays as arrays
 from ._arrays import DOUBLE, address, is_plain
 from ._library import Handle, Stats, as_dict, check, lib, new_options
-from ._errors import StateError
+from ._errors import MismatchError
 from ._options import choice
 
 _PARTS = {"P": 1, "L": 2, "D": 4, "sqrtD": 8, "LT": 16, "PT": 32}
@@ -89,7 +89,7 @@ class Plan:
     def on(self, factor):
         """This plan for another factor of the same analysis; nothing is computed."""
         if factor._symbolic is not self._factor._symbolic:
-            raise StateError("a factor of another analysis than the plan's")
+            raise MismatchError("a factor of another analysis than the plan's")
         other = Plan.__new__(Plan)
         other.__dict__.update(self.__dict__)
         other._factor, other._scales = factor, threading.local()

@@ -7,7 +7,7 @@ import numpy as np
 from . import _arrays as arrays
 from ._errors import ArgumentError
 from ._factor import Factor
-from ._files import CHECKS, MAPPED, encoded, mapped
+from ._files import CHECKS, MAPPED, check_bytes, encoded, mapped
 from ._library import Handle, SavedSet, Stats, as_dict, check, lib, new_options
 from ._matrix import check_triangle
 from ._options import choice
@@ -101,13 +101,14 @@ def save_set(path, factor, selected=None, regions=()):
 
 
 def load_set(path, *, map=False, checks="checked", triangle=None, threads=None, is_complex=False,
-             definite=False):
+             definite=False, max_bytes=None):
     """(factor, selected, regions) of a file; selected is None if it has none, regions is a list.
 
     The arguments are those of Factor.load. Plans in the regions solve with the factor at once.
     With map=True all of them are immutable, and processes share one copy in memory.
     """
     check_triangle(triangle)
+    check_bytes(path, max_bytes)
     flags = choice(CHECKS, checks, "checks") | (MAPPED if map else 0)
     loaded, options = SavedSet(), new_options()
     set_threads(options, threads)

@@ -4,7 +4,7 @@ import threading
 import weakref
 from collections import OrderedDict
 
-from ._errors import Error, StateError
+from ._errors import IoError, StaleError, UnsupportedError
 
 _HEADER = 64  # bytes of a saved file; its size and the checksum of all are in 24..40
 _KEPT = 16  # files that a process keeps open for factors that come again
@@ -20,10 +20,10 @@ def identity(path):
         with open(path, "rb") as file:
             header = file.read(_HEADER)
     except OSError as error:
-        raise Error("the file of a mapped factor cannot be read: %s, %s" %
+        raise IoError("the file of a mapped factor cannot be read: %s, %s" %
                     (error.strerror, os.fsdecode(path))) from error
     if len(header) < _HEADER:
-        raise Error("not a saved factor: %s" % os.fsdecode(path))
+        raise UnsupportedError("not a saved factor: %s" % os.fsdecode(path))
     return header[24:40].hex()
 
 
@@ -54,7 +54,7 @@ def opened(load, source):
         if factor is None or factor._factor._pointer is None:
             found = identity(source.path)
             if found != source.identity:
-                raise StateError("the file of a mapped factor has changed since it was mapped: %s" %
+                raise StaleError("the file of a mapped factor has changed since it was mapped: %s" %
                                  os.fsdecode(source.path))
             factor = load(source.path, map=True, **source.arguments)
         _kept[source.key()] = factor

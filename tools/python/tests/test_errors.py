@@ -1,4 +1,7 @@
 """Exceptions: singular, indefinite, malformed and empty input."""
+import os
+import re
+
 import numpy as np
 import pytest
 import scipy.sparse as sp
@@ -28,7 +31,7 @@ def test_singular_and_indefinite():
 
 def test_chosen_pivots():
     A = sp.csc_matrix(np.array([[0, 1, 2.0], [1, 0, 3], [2, 3, 0]]))
-    with pytest.raises(sl.PivotError, match="create_pivoted"):
+    with pytest.raises(sl.PivotError, match="pivoted=True"):
         sl.Factor(A)
     F = sl.Factor(A, pivoted=True)
     b = np.array([1.0, 2, 3])
@@ -166,3 +169,46 @@ def test_texts_name_the_reason(tmp_path):
     F = sl.Factor(grid(6))
     with pytest.raises(sl.PatternError, match="another size than the analyzed matrix"):
         F.refactor(grid(5))
+
+
+def test_exceptions_are_named_as_the_statuses_of_the_header():
+    from sparse_local import _errors
+    header = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "csrc",
+                          "sparse_local.h")
+    if not os.path.exists(header):
+        pytest.skip("no header beside the package")
+    with open(header) as file:
+        enum = re.search(r"typedef enum sl_status \{(.*?)\} sl_status;", file.read(), re.DOTALL)
+    names = re.findall(r"\bSL_ERR_(\w+)(?=,|\n)", re.sub(r"/\*.*?\*/", "", enum.group(1),
+                                                        flags=re.DOTALL))
+    assert len(names) == 15 and names[-1] == "READ_ONLY"
+    assert [kind.status for kind in _errors.BY_STATUS] == names
+    for kind, name in zip(_errors.BY_STATUS, names):
+        camel = name.title().replace("_", "") + "Error"
+        assert kind.__name__ == {"MemoryError": "OutOfMemoryError"}.get(camel, camel)
+        assert getattr(sl, kind.__name__) is kind and kind.__name__ in sl.__all__
+    assert issubclass(sl.MalformedError, sl.PatternError)
+    assert issubclass(sl.OtherPatternError, sl.PatternError)
+    for kind in (sl.MismatchError, sl.StaleError, sl.ReadOnlyError):
+        assert issubclass(kind, sl.StateError)
+
+
+def test_each_status_is_its_own_class(A, F, tmp_path):
+    with pytest.raises(sl.OtherPatternError):
+        F.refactor(grid(5))
+    bad = A.copy()
+    bad.indices[5] = 400
+    with pytest.raises(sl.MalformedError):
+        sl.Factor(bad)
+    with pytest.raises(sl.MismatchError):
+        sl.Factor(A).plan([0], [1]).on(F)
+    with pytest.raises(sl.IoError):
+        sl.Factor.load(str(tmp_path / "none.slf"))
+    F.save(str(tmp_path / "f.slf"))
+    mapped = sl.Factor.load(str(tmp_path / "f.slf"), map=True)
+    with pytest.raises(sl.ReadOnlyError):
+        mapped.refactor(A)
+    mapped.close()
+    with pytest.raises(sl.StaleError) as caught:
+        mapped.solve(np.ones(400))
+    assert caught.value.status == "STALE"

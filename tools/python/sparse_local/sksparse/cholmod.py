@@ -158,7 +158,8 @@ class Factor:
             self._pattern = Pattern(low)
             with translated(self):
                 self._shown = self.P()
-                self._analysis = Analysis(self._pattern.first, perm=self._shown)
+                self._analysis = Analysis(self._pattern.first, triangle="lower",
+                                          perm=self._shown)
                 self._numbers = None
                 self._order()
             self._factor_in_pattern(self._pattern.first)
@@ -358,6 +359,6 @@ def _analyze(low, mode, ordering_method, beta=0.0):
     pattern = Pattern(low, beta)
     with translated():
         ordering = _ordering_methods[ordering_method or "default"]
-        analysis = Analysis(pattern.first, ordering=ordering)
+        analysis = Analysis(pattern.first, triangle="lower", ordering=ordering)
     natural = np.arange(analysis.n, dtype=np.int32) if ordering == "natural" else None
     return Factor(_key, analysis, pattern, mode, natural)

@@ -88,7 +88,7 @@ class CholeskyFactor:
 
     def _analyze(self, pattern, chosen, shown):
         with translated():
-            analysis = Analysis(pattern.first, **chosen)
+            analysis = Analysis(pattern.first, triangle="lower", **chosen)
         self._f = _Numbers(_old._key, analysis, pattern, "auto", shown)
 
     @classmethod
