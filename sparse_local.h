@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7d42f24ac9470c8c
+ * FNV-1a of the lines after this comment, without the license: a0c2a7cb21be294e
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,25 +36,25 @@
  *   4084 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   4965 impl/ matrix: sparse matrices of the caller and of the library
  *   5798 impl/ ordering: fill-reducing orderings of a graph
- *  10572 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12814 impl/ factor: the numbers of L and D
- *  15382 impl/ solve: full and local solves
- *  16890 impl/ singular: null spaces of semidefinite matrices
- *  18161 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20205 impl/ pivots: the order of the pivots by the values of a matrix
- *  20613 impl/ float: L in single precision
- *  20796 impl/ inverse: entries of the inverse, regions
- *  23697 impl/ change: a factor that follows changes of its matrix
- *  25975 impl/ constraints: rows held at values, on a factor that stays
- *  27322 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30058 impl/ fixed: rows fixed at given values
- *  30617 impl/ io: files that are replaced only when they are complete
- *  30835 impl/ files: Matrix Market files, 64-bit indices
- *  31391 impl/ save: factors in files
- *  33371 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34057 impl/ complex: complex Hermitian systems over real factors
- *  34529 impl/ packs: the tables through which the core calls packs
- *  34953 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10575 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12817 impl/ factor: the numbers of L and D
+ *  15385 impl/ solve: full and local solves
+ *  16893 impl/ singular: null spaces of semidefinite matrices
+ *  18164 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20208 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20616 impl/ float: L in single precision
+ *  20799 impl/ inverse: entries of the inverse, regions
+ *  23700 impl/ change: a factor that follows changes of its matrix
+ *  25978 impl/ constraints: rows held at values, on a factor that stays
+ *  27325 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30061 impl/ fixed: rows fixed at given values
+ *  30620 impl/ io: files that are replaced only when they are complete
+ *  30838 impl/ files: Matrix Market files, 64-bit indices
+ *  31394 impl/ save: factors in files
+ *  33374 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34060 impl/ complex: complex Hermitian systems over real factors
+ *  34532 impl/ packs: the tables through which the core calls packs
+ *  34956 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -8225,6 +8225,9 @@ static sl_int sli_dissect_split(sli_dissection *d, sl_int most,
   if (split > 0) {
     d->bisect = bisect;
     sli_team_loop(d->team, split, d->nodes, sli_dissect_split_item, d);
+    for (node = nodes; node < d->tree.count; node++) {
+      split -= d->tree.weight[node] == 0;
+    }
     sli_label_tree_number(&d->tree, d->levels[d->level].n, d->label);
   }
   return split;

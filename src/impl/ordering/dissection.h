@@ -160,7 +160,7 @@ static void sli_dissect_split_item(void *data, sl_int node, sl_int worker) {
 }
 
 /* Bisects each leaf that has more than `most` vertices on this level and more than leaf_size on the
- * finest. Returns the number of leaves bisected. */
+ * finest. Returns how many have two sides now. */
 static sl_int sli_dissect_split(sli_dissection *d, sl_int most,
                                 void (*bisect)(sli_subgraph *sub, int is_first)) {
     const sl_int nodes = d->tree.count;
@@ -176,6 +176,9 @@ static sl_int sli_dissect_split(sli_dissection *d, sl_int most,
     if (split > 0) {
         d->bisect = bisect;
         sli_team_loop(d->team, split, d->nodes, sli_dissect_split_item, d);
+        for (node = nodes; node < d->tree.count; node++) { /* one of two leaves may be empty */
+            split -= d->tree.weight[node] == 0;
+        }
         sli_label_tree_number(&d->tree, d->levels[d->level].n, d->label);
     }
     return split;
