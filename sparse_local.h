@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7d42f24ac9470c8c
+ * FNV-1a of the lines after this comment, without the license: 244a4934b89bbcd9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -9,52 +9,52 @@
  *    337 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    515 options.h    options of all calls, threads, and the allocator
  *    632 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    868 csc.h        sparse matrices: creation, checks, products, residuals
- *    962 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1035 factor.h     the numerical factorization P A P' = L D L'
+ *    869 csc.h        sparse matrices: creation, checks, products, residuals
+ *    963 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1036 factor.h     the numerical factorization P A P' = L D L'
  *   1161 solve.h      full solves, and the workspace of all solves
- *   1254 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1325 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1406 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1486 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1525 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1625 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1703 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1773 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1861 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1961 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2003 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2124 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2267 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2353 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
- *   2462 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
- *   2504 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
- *   2579 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2667 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2731 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2774 impl/ base: the compiler, status, memory, sorting, threads
+ *   1253 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1324 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1405 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1485 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1524 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1624 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1702 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1772 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1860 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1960 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2002 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2123 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2265 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2351 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
+ *   2460 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
+ *   2502 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
+ *   2577 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2665 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2729 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2772 impl/ base: the compiler, status, memory, sorting, threads
  *   4084 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   4965 impl/ matrix: sparse matrices of the caller and of the library
- *   5798 impl/ ordering: fill-reducing orderings of a graph
- *  10572 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12814 impl/ factor: the numbers of L and D
- *  15382 impl/ solve: full and local solves
- *  16890 impl/ singular: null spaces of semidefinite matrices
- *  18161 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20205 impl/ pivots: the order of the pivots by the values of a matrix
- *  20613 impl/ float: L in single precision
- *  20796 impl/ inverse: entries of the inverse, regions
- *  23697 impl/ change: a factor that follows changes of its matrix
- *  25975 impl/ constraints: rows held at values, on a factor that stays
- *  27322 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30058 impl/ fixed: rows fixed at given values
- *  30617 impl/ io: files that are replaced only when they are complete
- *  30835 impl/ files: Matrix Market files, 64-bit indices
- *  31391 impl/ save: factors in files
- *  33371 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *   5828 impl/ ordering: fill-reducing orderings of a graph
+ *  10591 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12833 impl/ factor: the numbers of L and D
+ *  15401 impl/ solve: full and local solves
+ *  16909 impl/ singular: null spaces of semidefinite matrices
+ *  18180 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20221 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20625 impl/ float: L in single precision
+ *  20808 impl/ inverse: entries of the inverse, regions
+ *  23710 impl/ change: a factor that follows changes of its matrix
+ *  25980 impl/ constraints: rows held at values, on a factor that stays
+ *  27331 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30063 impl/ fixed: rows fixed at given values
+ *  30619 impl/ io: files that are replaced only when they are complete
+ *  30837 impl/ files: Matrix Market files, 64-bit indices
+ *  31393 impl/ save: factors in files
+ *  33373 impl/ batch: many solves and factorizations by one call, sums of matrices
  *  34057 impl/ complex: complex Hermitian systems over real factors
- *  34529 impl/ packs: the tables through which the core calls packs
- *  34953 impl/ templates: the header includes them from itself, once for each instruction set
+ *  34522 impl/ packs: the tables through which the core calls packs
+ *  34946 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -130,10 +130,10 @@
  *              workspace: the call then allocates one for itself. Each kind of object has a call
  *              that releases it, such as sl_factor_free, which accepts NULL. Dense arguments are
  *              column-major with a leading dimension in elements, or row-major by SL_ROWS(ld).
- *              Row numbers are the caller's, also in errors. The rows of b come before
- *              the rows of x, and each array before its length. A list of rows that is NULL means
- *              all rows with the length SL_ALL or n, and no row with 0; any other length is
- *              refused. SL_ALL needs NULL. The library never prints or aborts.
+ *              Row numbers are the caller's, also in errors. The rows of b come before the rows of
+ *              x, and each array before its length. A list of rows that is NULL means all rows with
+ *              the length SL_ALL, which needs NULL, or n, and no row with 0; any other length is
+ *              refused. The library never prints or aborts.
  *              Threads share no mutable globals: each keeps its last error, and with
  *              SL_NO_THREAD_LOCAL nothing. For METIS, an option, see sl_symbolic_create. What is
  *              marked EXPERIMENTAL may change in any version; all else keeps its promises from 1.0
@@ -636,8 +636,9 @@ SL_API void sl_options_init(sl_options *opt, size_t size);
 typedef struct sl_error {
     sl_int row;    /* -1: does not apply */
     sl_int column; /* -1: does not apply */
-    sl_off line;   /* of a file, 1-based; -1: does not apply */
-    double value;  /* the pivot or entry that was refused; of SL_ERR_IO errno; 0 if none */
+    sl_off line;   /* of a file, 1-based; of a leading dimension the least; -1: does not apply */
+    double value;  /* what was refused: a pivot, an entry, also a negative row; of SL_ERR_IO errno;
+                    * 0 if none */
     /* static text: the argument, the option or the reason, and what helps where a factorization was
      * refused; NULL: no error */
     const char *what;
@@ -985,7 +986,7 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
  *  Source   [George73] nested dissection; [KK98] multilevel graphs; [FM82] refinement of
  *           separators; [FF56] minimum vertex cuts; [ADD96] minimum degree; [MR85] trees;
  *           [Liu90] elimination tree, structures of columns; [AG89] relaxed supernodes.
- *  Manual   tools/docs/ordering.md: the orderings, what METIS does to a process
+ *  Manual   tools/docs/ordering.md
  *  Example  tests/core/test_symbolic.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
@@ -1068,8 +1069,7 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *           pool, with gcc, clang and MSVC. L has the same bits for any number of threads.
  *  Source   supernodal: multifrontal [DR83] [Liu92] on row tiles; up-looking: [LDL05], [Davis06]
  *           4.7; growth: [Hi02] 11.1.
- *  Manual   tools/docs/singular.md: null pivots, null vectors, weights; tools/docs/indefinite.md:
- *           growth, regularization, KKT systems; tools/docs/float.md: L in float, its accuracy
+ *  Manual   tools/docs/singular.md; tools/docs/indefinite.md; tools/docs/float.md
  *  Example  tests/core/test_factor.c, test_growth.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S,
@@ -1170,8 +1170,7 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
  *
  *  ld must be at least the number of right-hand sides. Its two top bits, one of which says the
  *  layout, must be clear. Blocks of a call may have different layouts, unless they are one array.
- *  The results have the same bits in any layout. For several right-hand sides solves are fastest by
- *  rows: gathering and scattering 8 separate columns takes about a fifth of a solve.
+ *  The results have the same bits in any layout. Several right-hand sides are fastest by rows.
  */
 #define SL_ROWS(ld) ((size_t)(ld) | SL_ROW_MAJOR)
 
@@ -1309,7 +1308,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor 
 
 /** One local solve without a plan: sl_plan_create and sl_plan_solve in the caller's workspace.
  *
- *  F, bset, nb, xset, nx, X, ldx, B, ldb, nrhs, W as in these two calls; no region.
+ *  The other arguments as in these two calls; no region.
  *  stats  [out]  plan (bytes is 0); error.row: an index out of range.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_INCONSISTENT, _NOT_FINITE: as in
  *           sl_plan_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
@@ -1565,7 +1564,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
  *  steps  [in]   maximum number of corrections per column, 0 or more; 0 only measures.
  *  stats  [out]  refine, with backward_error = max |E (x - previous x)| / max |b|, or that of
  *                rounding where it is larger; error.row with SL_ERR_ARGUMENT: a regularized row
- *                outside the reaches.
+ *                outside the reaches. sl_factor_pivot_rows lists all.
  *  Returns  as sl_plan_solve; SL_ERR_INACCURATE: this backward error is above options.error_limit
  *           of the factor after one or more steps, and X is written; SL_ERR_UNSUPPORTED: a plan in
  *           a region and a factor with regularized rows.
@@ -1903,7 +1902,7 @@ SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z);
  *           binary search per entry of Z. Keeps 4 (boundary)^2 bytes and about 100 per row of the
  *           boundary.
  *  Threads  reads F and Z.
- *  Source   [HDA17] 3 for the sweeps; (A^-1)_SS inverts the Schur complement of the rest.
+ *  Source   [HDA17] 3
  *  Example  tests/core/test_region.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_factor *F,
@@ -2030,7 +2029,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
  *                       factorization reads them. Entries whose sum is 0 stay in the pattern.
  *  opt           [in]   allocator, triangle.
  *  stats         [out]  error.row, error.column: a malformed entry.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: different sizes, no term, no values; SL_ERR_MALFORMED;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MALFORMED;
  *           SL_ERR_TOO_LARGE: 2^31 or more entries in total; SL_ERR_MEMORY.
  *  Cost     O(n + entries of all terms).
  *  Threads  any number with different outputs.
@@ -2197,11 +2196,10 @@ typedef enum sl_load_flag {
  *                    be NULL with a path.
  *  set     [in]      an analysis and what belongs to it. A selected inverse may be saved without a
  *                    factor; regions may not. The same region may be given more than once.
- *  opt     [in]      allocator; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: path and memory are both given, memory is too small, bytes, set
- *           or an object of it is NULL, n_regions is below 0, a reserved field is set, or regions
- *           without a factor; SL_ERR_STALE: a failed factor, or a selected inverse or region that
- *           is not of its present numbers; SL_ERR_MISMATCH: objects of different analyses, or from
+ *  opt     [in]      allocator.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also memory that is too small, and regions without a factor;
+ *           SL_ERR_STALE: a failed factor, or a selected inverse or region that is not of its
+ *           present numbers; SL_ERR_MISMATCH: objects of different analyses, or from
  *           a file that a newer version has written and this one reads in part;
  *           SL_ERR_UNSUPPORTED: SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds;
  *           SL_ERR_IO; SL_ERR_MEMORY: of a file.
@@ -2229,7 +2227,7 @@ SL_API SL_WARN_UNUSED sl_status sl_save(const char *path, void *memory, size_t *
  *  memory  [in]      NULL, or what sl_save wrote, of any alignment; aligned to 64 bytes if mapped.
  *  bytes   [in]      the size that was saved in memory, exactly; not read with a path.
  *  flags   [in]      any of sl_load_flag, but not both SL_LOAD_TRUSTED and SL_LOAD_VERIFIED.
- *  opt     [in]      allocator, threads, isa; may be NULL. threads are those of refactorizations;
+ *  opt     [in]      allocator, threads, isa. threads are those of refactorizations;
  *                    of mapped objects those of the inverse.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also if path and memory are both given or both NULL;
  *           SL_ERR_UNSUPPORTED: not a saved factor, one that this version cannot read, the isa, or
@@ -2244,7 +2242,7 @@ SL_API SL_WARN_UNUSED sl_status sl_save(const char *path, void *memory, size_t *
  *           boundary) for each region. Keeps less than 4 KB, and for each region 500 bytes and 16
  *           for each row of the boundary and each subtree.
  *  Threads  any number of calls at once.
- *  Example  tests/core/test_save.c, test_saved_set.c, test_save_file.c
+ *  Example  tests/core/test_save.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_load(sl_saved_set *set, const char *path, const void *memory,
                                         size_t bytes, unsigned flags, const sl_options *opt);
@@ -3071,10 +3069,6 @@ SLI_INLINE void sli_shared_write(sl_int *a, sl_int value) {
 
 #define SLI_ROWS_MAX (INT32_MAX - 7)
 
-SLI_INLINE int sli_is_ld(size_t ld, sl_int rows) {
-  return ld >= (size_t)rows && ld <= SIZE_MAX / 2;
-}
-
 SLI_INLINE sl_int sli_min(sl_int a, sl_int b) {
   return a < b ? a : b;
 }
@@ -3225,6 +3219,11 @@ SLI_COLD static sl_status sli_refuse(sl_status status, const char *what) {
   return sli_fail_at(NULL, status, -1, -1, 0.0, what);
 }
 
+SLI_COLD static sl_status sli_refuse_row(sl_stats *stats, sl_int row) {
+  return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, row < 0 ? row : 0.0,
+      "a row is out of range");
+}
+
 SLI_COLD static sl_status sli_no_memory(void) {
   return sli_refuse(SL_ERR_MEMORY, "the allocator returned NULL");
 }
@@ -3317,7 +3316,8 @@ SLI_COLD static sl_status sli_file_fails(const char *what) {
 }
 
 static int sli_error_place(char *place, size_t size, sl_status status, const sl_error *e) {
-  const char *const names[4] = {"row", "column", "line", status == SL_ERR_IO ? "errno" : "value"};
+  const char *const names[4] = {"row", "column", status == SL_ERR_ARGUMENT ? "least" : "line",
+                  status == SL_ERR_IO ? "errno" : "value"};
   const double numbers[4] = {(double)e->row, (double)e->column, (double)e->line, e->value};
   int k, length = 0;
   for (k = 0; k < 4; k++) {
@@ -5018,7 +5018,7 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
   for (j = 0; beyond; j++) {
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
       if (A->i[p] < 0 || A->i[p] >= A->n_rows) {
-        return sli_fail_at(stats, SL_ERR_MALFORMED, A->i[p], j, 0.0,
+        return sli_fail_at(stats, SL_ERR_MALFORMED, A->i[p], j, sli_min(A->i[p], 0),
             "a row of A is out of range; rows count from 0");
       }
     }
@@ -5240,8 +5240,9 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
   }
   for (k = 0; k < count; k++) {
     if (i[k] < 0 || i[k] >= n_rows || j[k] < 0 || j[k] >= n_cols) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, i[k], j[k], (double)k,
-          "a triplet is out of range; rows count from 0");
+      return sli_fail_at(
+          stats, SL_ERR_ARGUMENT, i[k], j[k], (double)k,
+          "the triplet of this number, value, is out of range; rows count from 0");
     }
   }
   t.n_rows = n_rows;
@@ -5363,11 +5364,38 @@ SLI_INLINE sli_dense sli_dense_of(size_t ld) {
   return ld & SL_ROW_MAJOR ? sli_dense_by_rows(ld & ~SL_ROW_MAJOR) : sli_dense_by_columns(ld);
 }
 
-SLI_INLINE int sli_dense_spans(size_t ld, sl_int rows, sl_int columns) {
+SLI_NOINLINE static sl_status sli_dense_check(const char *wrong, size_t ld, sl_int rows,
+    sl_int columns) {
   const size_t elements = ld & ~SL_ROW_MAJOR;
-  return elements < SL_ROW_MAJOR / 2 &&
-       elements >= (size_t)(ld & SL_ROW_MAJOR ? columns : rows);
+  const sl_int least = ld & SL_ROW_MAJOR ? columns : rows;
+  sl_status status = SL_OK;
+  if (rows > 0 && (elements < (size_t)least ||
+      elements >= SL_ROW_MAJOR / 2)) {
+    status = sli_fail_at(NULL, SL_ERR_ARGUMENT, -1, -1, (double)elements, wrong);
+    sli_error_line(NULL, least);
+  }
+  return status;
 }
+
+SLI_COLD static sl_status sli_dense_finite(const char *wrong, const double *M, size_t ld,
+    sl_int rows, sl_int columns) {
+  const sli_dense at = sli_dense_of(ld);
+  sl_int i, r;
+  for (r = 0; r < columns; r++) {
+    for (i = 0; i < rows; i++) {
+      const double x = M[(size_t)i * at.row + (size_t)r * at.column];
+      if (!sli_is_finite(x)) {
+        return sli_fail_at(NULL, SL_ERR_NOT_FINITE, i, r, x, wrong);
+      }
+    }
+  }
+  return SL_OK;
+}
+
+static const char sli_small_ldx[] = "ldx is below the rows of X, or nrhs with SL_ROWS";
+static const char sli_small_ldb[] = "ldb is below the rows of B, or nrhs with SL_ROWS";
+
+static const char sli_bad_g[] = "this value of G is not finite";
 
 static void sli_dense_copy(double *to, sli_dense t, const double *from, sli_dense f, sl_int rows,
     sl_int columns) {
@@ -5519,11 +5547,11 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
   status = sli_argument(Y == NULL ? "Y is NULL"
       : A->n_cols > 0 && X == NULL ? "X is NULL"
       : A->n_cols > 0 && X == Y ? "X is Y"
-      : !sli_dense_spans(ldy, A->n_rows, nrhs)
-      ? "ldy is below the rows of A (nrhs with SL_ROWS), or too large"
-      : A->n_cols > 0 && !sli_dense_spans(ldx, A->n_cols, nrhs)
-      ? "ldx is below the columns of A (nrhs with SL_ROWS), or too large"
       : NULL);
+  status = status == SL_OK ? sli_dense_check("ldy is below the rows of Y, or nrhs with SL_ROWS",
+      ldy, A->n_rows, nrhs)
+               : status;
+  status = status == SL_OK ? sli_dense_check(sli_small_ldx, ldx, A->n_cols, nrhs) : status;
   if (status != SL_OK) {
     return status;
   }
@@ -5534,7 +5562,7 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
   return SL_OK;
 }
 
-static double sli_largest(const double *x, size_t step, sl_int n) {
+SLI_NOINLINE static double sli_largest(const double *x, size_t step, sl_int n) {
   uint64_t largest = 0;
   double found;
   sl_int i;
@@ -5593,13 +5621,15 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
     sli_argument(B == NULL ? "B is NULL"
         : R == NULL ? "R is NULL"
         : X == NULL ? "X is NULL"
-        : !sli_dense_spans(ldb, n, nrhs) ? "ldb is below n (nrhs with SL_ROWS)"
-        : !sli_dense_spans(ldr, n, nrhs) ? "ldr is below n (nrhs with SL_ROWS)"
-        : !sli_dense_spans(ldx, n, nrhs) ? "ldx is below n (nrhs with SL_ROWS)"
         : R == X ? "R is X"
         : R == B && ldr != ldb ? "R is B with another leading dimension"
         : R == B && backward_error != NULL ? "R is B, and backward_error is wanted"
         : NULL);
+  status = status == SL_OK ? sli_dense_check(sli_small_ldb, ldb, n, nrhs) : status;
+  status = status == SL_OK
+         ? sli_dense_check("ldr is below the rows of R, or nrhs with SL_ROWS", ldr, n, nrhs)
+         : status;
+  status = status == SL_OK ? sli_dense_check(sli_small_ldx, ldx, n, nrhs) : status;
   if (status != SL_OK) {
     return status;
   }
@@ -5725,7 +5755,7 @@ static sl_status sli_columns_check(sli_submatrix *s, const sl_int *rows, uint64_
   sl_off total = 0;
   for (k = 0; k < s->count; k++) {
     if (rows[k] < 0 || rows[k] >= A->n_cols) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0, "a row is out of range");
+      return sli_refuse_row(stats, rows[k]);
     }
     s->sorted[k] = sli_keyed(rows[k], k);
   }
@@ -5743,7 +5773,7 @@ static sl_status sli_columns_check(sli_submatrix *s, const sl_int *rows, uint64_
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
       const sl_int i = A->i[p];
       if (i < 0 || i >= A->n_rows) {
-        return sli_fail_at(stats, SL_ERR_MALFORMED, i, j, 0.0,
+        return sli_fail_at(stats, SL_ERR_MALFORMED, i, j, sli_min(i, 0),
             "a row of A is out of range; rows count from 0");
       }
       if (i != j && sli_submatrix_position(s, i) >= 0) {
@@ -8494,14 +8524,6 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
   return status;
 }
 
-static void sli_dissect_free_levels(sli_dissection *d) {
-  int k;
-  for (k = 1; k < d->n_levels; k++) {
-    sli_free(d->a, d->levels[k].block);
-  }
-  d->n_levels = 1;
-}
-
 static sl_status sli_dissect_levels(sli_dissection *d) {
   int working;
   const sl_status status = sli_dissect_coarsen(d, &working);
@@ -8539,7 +8561,9 @@ static sl_status sli_dissect_multilevel(sli_dissection *d) {
   while (status == SL_OK && d->level > 0) {
     sli_dissect_project(d);
   }
-  sli_dissect_free_levels(d);
+  for (; d->n_levels > 1; d->n_levels--) {
+    sli_free(d->a, d->levels[d->n_levels - 1].block);
+  }
   return status;
 }
 
@@ -10354,12 +10378,6 @@ static sl_status sli_order_quickly(const sli_order_job *job) {
   return sli_order_mindeg(job, job->scratch, &cost);
 }
 
-static sl_status sli_order_by_mindeg(const sli_order_job *job, sli_graph_facts *f) {
-  const sl_status status = sli_order_mindeg(job, job->scratch, &f->cost);
-  sli_graph_describe_mindeg(job, f);
-  return status;
-}
-
 static sl_status sli_order_compressed(const sli_order_job *job,
     sl_status (*order)(const sli_order_job *)) {
   sli_order_job inner;
@@ -10391,7 +10409,8 @@ static sl_status sli_order_chosen(const sli_order_job *job) {
       f.bits |= job->weight == NULL && sli_order_levels(job) ? SLI_IS_NARROW : 0;
       break;
     case SLI_TRY_MINDEG:
-      status = sli_order_by_mindeg(job, &f);
+      status = sli_order_mindeg(job, job->scratch, &f.cost);
+      sli_graph_describe_mindeg(job, &f);
       break;
     case SLI_BY_LEVELS:
       return SL_OK;
@@ -15405,7 +15424,7 @@ SLI_INLINE sl_status sli_work_grow(sl_work *W, size_t bytes) {
   return bytes <= W->size ? SL_OK : sli_work_enlarge(W, bytes);
 }
 
-static sl_work sli_work_own(const sl_allocator *a) {
+SLI_NOINLINE static sl_work sli_work_own(const sl_allocator *a) {
   sl_work own;
   memset(&own, 0, sizeof own);
   own.allocator = *a;
@@ -15646,18 +15665,19 @@ SLI_INLINE sli_rhs sli_rhs_part(const sli_rhs *all, sl_int first, sl_int count) 
 }
 
 static sl_status sli_rhs_check(const sli_rhs *r, sl_int nx, sl_int nb) {
-  const int bad_x = nx > 0 && (r->X == NULL || !sli_dense_spans(r->ldx, nx, r->nrhs));
-  const int bad_b = nb > 0 && (r->B == NULL || !sli_dense_spans(r->ldb, nb, r->nrhs));
-  const int is_misaligned = r->X == r->B && r->ldx != r->ldb && nx > 0 && nb > 0;
-  if (r->nrhs == 0 || (r->nrhs > 0 && !bad_x && !bad_b && !is_misaligned)) {
+  sl_status status;
+  if (r->nrhs == 0) {
     return SL_OK;
   }
-  return sli_argument(r->nrhs < 0 ? "nrhs is below 0"
-      : bad_x && r->X == NULL ? "X is NULL"
-      : bad_x ? "ldx is below the rows of X (nrhs with SL_ROWS), or too large"
-      : bad_b && r->B == NULL ? "B is NULL"
-      : bad_b ? "ldb is below the rows of B (nrhs with SL_ROWS), or too large"
-      : "X is B, but ldx is not ldb");
+  status = sli_argument(r->nrhs < 0 ? "nrhs is below 0"
+      : nx > 0 && r->X == NULL ? "X is NULL"
+      : nb > 0 && r->B == NULL ? "B is NULL"
+      : NULL);
+  status = status == SL_OK ? sli_dense_check(sli_small_ldx, r->ldx, nx, r->nrhs) : status;
+  status = status == SL_OK ? sli_dense_check(sli_small_ldb, r->ldb, nb, r->nrhs) : status;
+  return status == SL_OK && r->X == r->B && r->ldx != r->ldb && nx > 0 && nb > 0
+         ? sli_argument("X is B, but ldx is not ldb")
+         : status;
 }
 
 #define SLI_ROWS_AHEAD 32
@@ -16439,9 +16459,12 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
   sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }
 
-SLI_COLD static sl_status sli_not_finite(void) {
-  return sli_refuse(SL_ERR_NOT_FINITE,
-      "a right-hand side or a given value is not finite, or x overflows");
+SLI_COLD static sl_status sli_not_finite(const sli_rhs *rhs, sl_int nb) {
+  const sl_status status = sli_dense_finite("this number of B is not finite", rhs->B, rhs->ldb,
+      rhs->B == rhs->X ? 0 : nb, rhs->nrhs);
+  return status != SL_OK
+         ? status
+         : sli_refuse(SL_ERR_NOT_FINITE, "a right-hand side is not finite, or x overflows");
 }
 
 SLI_COLD static sl_status sli_inconsistent(void) {
@@ -16464,8 +16487,7 @@ static int sli_sweep_is_finite(const sl_factor *F, const sli_query *q, const dou
 
 static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
     void *memory) {
-  sl_status status = SL_OK;
-  sl_int r, count;
+  sl_int r, count, is_finite = 1;
   for (r = 0; r < rhs->nrhs; r += count) {
     sli_rhs block;
     sli_vectors v;
@@ -16477,11 +16499,9 @@ static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, const 
     }
     sli_sweep_backward(F, q, &v, count);
     sli_unpack(F, q, &block, v.x);
-    if (!sli_sweep_is_finite(F, q, v.x, (sl_int)1 << sli_lanes_kind(count))) {
-      status = sli_not_finite();
-    }
+    is_finite &= sli_sweep_is_finite(F, q, v.x, (sl_int)1 << sli_lanes_kind(count));
   }
-  return status;
+  return is_finite ? SL_OK : sli_not_finite(rhs, q->nb);
 }
 
 static sl_status sli_sweep(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
@@ -16515,7 +16535,7 @@ static sl_status sli_query_run(sli_sweep_tasks *t, const sl_factor *F, const sli
     const sli_rhs *rhs, sl_work *W) {
   if (t->workers > 1) {
     sli_sweep_tasks_run(t, &W->threads, W->block, sli_sweep_tasks_block);
-    return sli_atomic_read(&t->has_failed) ? sli_not_finite() : SL_OK;
+    return sli_atomic_read(&t->has_failed) ? sli_not_finite(rhs, q->nb) : SL_OK;
   }
   return sli_sweep(F, q, rhs, W->block);
 }
@@ -16604,8 +16624,7 @@ static sl_status sli_set_sort(const sl_symbolic *S, sli_set *set, sl_stats *stat
   for (k = 0; k < set->count; k++) {
     const sl_int i = set->rows[k];
     if (i < 0 || i >= S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, 0.0,
-          "a row of bset or xset is out of range");
+      return sli_refuse_row(stats, i);
     }
     set->seeds[k] = sli_keyed(S->iperm[i], k);
   }
@@ -18979,7 +18998,7 @@ static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, s
   c = sli_local_refinement_find(f);
   if (c != -1) {
     return sli_fail_at(stats, SL_ERR_ARGUMENT, f->F->S->perm[c], -1, f->F->rule.shifts[c],
-        "xset lacks this row, whose pivot was regularized");
+        "a set lacks this regularized row; sl_factor_pivot_rows lists all");
   }
   for (r = 0; r < rhs->nrhs; r += sli_min(8, rhs->nrhs - r)) {
     const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
@@ -18989,7 +19008,7 @@ static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, s
     }
   }
   if (f->not_finite || !sli_is_finite(worst)) {
-    return sli_not_finite();
+    return sli_not_finite(rhs, f->q->nb);
   }
   worst = sli_max_error(sli_local_rounding(f->F), worst);
   return sli_refine_done(f->F, stats, steps, f->steps, worst);
@@ -20113,8 +20132,7 @@ static void sli_bounds_write(const sli_bounds *p, double *to, const sli_rhs *X) 
 }
 
 static sl_status sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, double *bounds) {
-  sl_status status = SL_OK;
-  sl_int r, count;
+  sl_int r, count, is_finite = 1;
   for (r = 0; r < rhs->nrhs; r += count) {
     sli_rhs block;
     sli_vectors v;
@@ -20124,13 +20142,11 @@ static sl_status sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, doub
     (void)sli_sweep_load(p->F, p->q, &v, &block);
     sli_bounds_norms(p, v.y, count);
     sli_sweep_backward(p->F, p->q, &v, count);
-    if (!sli_sweep_is_finite(p->F, p->q, v.x, (sl_int)1 << sli_lanes_kind(count))) {
-      status = sli_not_finite();
-    }
+    is_finite &= sli_sweep_is_finite(p->F, p->q, v.x, (sl_int)1 << sli_lanes_kind(count));
     sli_unpack(p->F, p->q, &block, v.x);
     sli_bounds_write(p, bounds + (size_t)r * sli_dense_of(rhs->ldx).column, &block);
   }
-  return status;
+  return is_finite ? SL_OK : sli_not_finite(rhs, p->q->nb);
 }
 
 static sl_status sli_bounds_run(sli_bounds *p, const sli_rhs *rhs, double *bounds, sl_work *W) {
@@ -20524,13 +20540,6 @@ SLI_HOT static sl_status sli_search_supernode(sli_pivot_search *p, const sl_csc 
   return SL_OK;
 }
 
-static void sli_search_layout(sli_pivot_search *p, sli_block *b) {
-  p->contributions = SLI_TAKE(b, sli_contribution, p->S->n_supers);
-  p->local = SLI_TAKE(b, sl_int, p->S->n);
-  p->order = SLI_TAKE(b, sl_int, p->S->n);
-  p->is_first = SLI_TAKE(b, unsigned char, p->S->n);
-}
-
 static sl_status sli_search_run(sli_pivot_search *p, const sl_csc *A, sl_stats *stats) {
   sl_status status = SL_OK;
   sl_int s;
@@ -20597,7 +20606,10 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
   started = sli_seconds();
   status = sli_argument(A->x == NULL && sli_nnz(A) > 0 ? "A.x is NULL" : NULL);
   SLI_LAYOUT(&b, &p.allocator, status) {
-    sli_search_layout(&p, &b);
+    p.contributions = SLI_TAKE(&b, sli_contribution, S->n_supers);
+    p.local = SLI_TAKE(&b, sl_int, S->n);
+    p.order = SLI_TAKE(&b, sl_int, S->n);
+    p.is_first = SLI_TAKE(&b, unsigned char, S->n);
   }
   status = status == SL_OK ? sli_search_run(&p, A, stats) : status;
   S->stats.symbolic.seconds_analyze += sli_seconds() - started;
@@ -21407,16 +21419,17 @@ static sl_status sli_check_rows(const sl_symbolic *S, const sl_int *rows, sl_int
   sl_int k;
   for (k = 0; k < count && rows != NULL; k++) {
     if (rows[k] < 0 || rows[k] >= S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, is_column ? -1 : rows[k],
-          is_column ? rows[k] : -1, 0.0,
-          is_column ? "a column is out of range" : "a row is out of range");
+      return !is_column ? sli_refuse_row(stats, rows[k])
+                : sli_fail_at(stats, SL_ERR_ARGUMENT, -1, rows[k],
+                    sli_min(rows[k], 0), "a column is out of range");
     }
   }
   return SL_OK;
 }
 
-static sl_status sli_check_entries(const sl_factor *F, const sl_int *rows, sl_int n_rows,
-    const sl_int *columns, sl_int n_columns, sl_stats *stats) {
+SLI_NOINLINE static sl_status sli_check_entries(const sl_factor *F, const sl_int *rows,
+    sl_int n_rows, const sl_int *columns,
+    sl_int n_columns, sl_stats *stats) {
   sl_status status = sli_inverse_check(F);
   status = status == SL_OK ? sli_check_rows(F->S, rows, n_rows, 0, stats) : status;
   return status == SL_OK ? sli_check_rows(F->S, columns, n_columns, 1, stats) : status;
@@ -22186,13 +22199,10 @@ static const sli_stage sli_entries_judged_stages[5] = {
   {sli_entries_layout_sweeps, sli_entries_partition},
   {sli_entries_layout_run, NULL}};
 
-static sl_status sli_entries_prepare(sli_entries *q, sl_work *W) {
-  return sli_has_both_signs(q->F) ? sli_work_stages(W, sli_entries_judged_stages, 5, q)
-                  : sli_work_stages(W, sli_entries_stages, 3, q);
-}
-
 SLI_NOINLINE static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
-  const sl_status status = sli_entries_prepare(q, W);
+  const sl_status status = sli_has_both_signs(q->F)
+                 ? sli_work_stages(W, sli_entries_judged_stages, 5, q)
+                 : sli_work_stages(W, sli_entries_stages, 3, q);
   if (status != SL_OK) {
     return status;
   }
@@ -22538,8 +22548,11 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
       : n_rows > 0 && rows == NULL ? "rows is NULL"
       : n_columns > 0 && columns == NULL ? "columns is NULL"
       : !is_empty && Z == NULL ? "Z is NULL"
-      : !is_empty && !sli_is_ld(ldz, n_rows) ? "ldz is below n_rows"
+      : !is_empty && (ldz & SL_ROW_MAJOR) != 0 ? "ldz is one of SL_ROWS"
       : NULL);
+  if (status == SL_OK && !is_empty) {
+    status = sli_dense_check("ldz is below n_rows", ldz, n_rows, n_columns);
+  }
   status =
     status == SL_OK ? sli_check_entries(F, rows, n_rows, columns, n_columns, stats) : status;
   if (status != SL_OK) {
@@ -22892,8 +22905,8 @@ static sl_status sli_selected_read(const sl_selected *Z, double *out, const sl_i
       const sl_int i = rows == NULL ? k : rows[k], j = columns == NULL ? i : columns[k];
       sl_off at;
       if (pass == 0 && (i < 0 || i >= S->n || j < 0 || j >= S->n)) {
-        return sli_fail_at(stats, SL_ERR_ARGUMENT, i, columns == NULL ? -1 : j, 0.0,
-            "a row or column is out of range");
+        return sli_fail_at(stats, SL_ERR_ARGUMENT, i, columns == NULL ? -1 : j,
+            sli_min(sli_min(i, j), 0), "a row or column is out of range");
       }
       at = sli_selected_position(Z, S->iperm[i], S->iperm[j]);
       if (at == -1) {
@@ -24100,7 +24113,7 @@ static sl_status sli_changes_check(const sl_factor *F, const sl_csc *A, const sl
   }
   for (k = 0, *entries = 0; k < c->count; k++) {
     if (c->columns[k] < 0 || c->columns[k] >= F->S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, c->columns[k], -1, 0.0,
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, c->columns[k], -1, sli_min(c->columns[k], 0),
           "a column is out of range");
     }
     *entries += (uint64_t)(A->p[c->columns[k] + 1] - A->p[c->columns[k]]);
@@ -25663,7 +25676,8 @@ static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const s
   }
   for (k = 0; k < count; k++) {
     if (rows[k] < 0 || rows[k] >= F->S->n || columns[k] < 0 || columns[k] >= F->S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], columns[k], deltas[k],
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], columns[k],
+          sli_min(sli_min(rows[k], columns[k]), 0),
           "a row or column is out of range");
     }
     if (!sli_is_finite(deltas[k])) {
@@ -25672,14 +25686,6 @@ static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const s
     }
   }
   return SL_OK;
-}
-
-static void sli_edges_begin(sli_rank *q, const sl_int *rows, const sl_int *columns,
-    const double *deltas, sl_int count) {
-  q->entry_rows = rows;
-  q->entry_columns = columns;
-  q->deltas = deltas;
-  q->n_entries = count;
 }
 
 /* src/impl/change/choose.h: sl_factor_change_entries: rank-one changes, the reach of the change, or all of L */
@@ -25836,13 +25842,6 @@ static void sli_choose_estimate(sli_change_choice *c, const sli_rank *q) {
       (double)SLI_TILE * passes * R.columns, c->flops_update);
 }
 
-static sl_status sli_choose_count(sli_change_choice *c, sli_rank *q, sl_work *W) {
-  const sl_status status = sli_work_stages(W, sli_edges_stages, 3, q);
-  c->flops_update = q->flops;
-  c->update = sli_choose_update(q, (double)q->entries, q->pivots, q->flops);
-  return status == SL_OK ? q->status : status;
-}
-
 static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc *A, sl_work *W,
     sl_change_method *method) {
   sl_factor *F = q->u.F;
@@ -25855,10 +25854,13 @@ static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc 
   }
   *method = q->n_entries == 0 && F->is_valid ? SL_CHANGE_NONE : sli_choose_make(c, F, can_update);
   if (*method == SL_CHANGE_UPDATE) {
-    status = sli_choose_count(c, q, W);
+    status = sli_work_stages(W, sli_edges_stages, 3, q);
+    status = status == SL_OK ? q->status : status;
     if (status != SL_OK) {
       return status;
     }
+    c->flops_update = q->flops;
+    c->update = sli_choose_update(q, (double)q->entries, q->pivots, q->flops);
     *method = sli_choose_make(c, F, 1);
   }
   if (*method == SL_CHANGE_UPDATE) {
@@ -25958,7 +25960,10 @@ SL_API sl_status sl_factor_change_entries(sl_factor *F, const sl_csc *A, const s
     return sli_report(stats, status);
   }
   sli_rank_begin(&q, F, stats);
-  sli_edges_begin(&q, rows, columns, deltas, count);
+  q.entry_rows = rows;
+  q.entry_columns = columns;
+  q.deltas = deltas;
+  q.n_entries = count;
   if (A != NULL) {
     return sli_report(stats, sli_choose_cheapest(&q, A, W, started));
   }
@@ -26914,7 +26919,7 @@ static sl_status sli_constraints_check_rows(const sl_constraints *P, const sl_in
   }
   for (k = 0; k < count && status == SL_OK; k++) {
     if (rows[k] < 0 || rows[k] >= P->F->S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0, "a row is out of range");
+      return sli_refuse_row(stats, rows[k]);
     }
     if (values != NULL && !sli_is_finite(values[k])) {
       return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k],
@@ -27260,7 +27265,7 @@ SLI_HOT static sl_status sli_constraints_block(sli_constraints_solve *w) {
   }
   sli_constraints_set(w, v.x);
   sli_unpack(F, q, &w->rhs, v.x);
-  return sli_sweep_is_finite(F, q, v.x, lanes) ? SL_OK : sli_not_finite();
+  return sli_sweep_is_finite(F, q, v.x, lanes) ? SL_OK : sli_not_finite(&w->rhs, q->nb);
 }
 
 SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *plan, double *X,
@@ -27280,10 +27285,10 @@ SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *pl
   all = sli_query_all(P->F->S);
   status = sli_rhs_check(&rhs, q->nx, q->nb);
   if (status == SL_OK && nrhs > 0 && P->n_pins > 0) {
-    status = sli_argument(G == NULL ? "G is NULL"
-        : !sli_dense_spans(ldg, P->n_pins, nrhs)
-        ? "ldg is below the number of pins (nrhs with SL_ROWS)"
-        : NULL);
+    status = G == NULL
+           ? sli_argument("G is NULL")
+           : sli_dense_check("ldg is below the number of pins, or nrhs with SL_ROWS", ldg,
+               P->n_pins, nrhs);
   }
   status = status == SL_OK ? sli_constraints_are_current(P) : status;
   status = status == SL_OK ? sli_query_check(q, P->F) : status;
@@ -27310,6 +27315,10 @@ SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *pl
       w.rhs = sli_rhs_part(&rhs, r, sli_min(8, nrhs - r));
       w.G = P->n_pins == 0 ? G : G + (size_t)r * w.g.column;
       status = sli_constraints_block(&w);
+    }
+    if (status == SL_ERR_NOT_FINITE) {
+      status = sli_dense_finite(sli_bad_g, G, ldg, P->n_pins, nrhs);
+      status = status == SL_OK ? sli_not_finite(&rhs, q->nb) : status;
     }
   }
   sli_free(&own.allocator, own.block);
@@ -27434,7 +27443,7 @@ SLI_HOT static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, co
     const sl_int row = rows[k];
     const sl_int ahead = rows[sli_min(k + SLI_SUBSET_AHEAD, R->count - 1)];
     if (row < 0 || row >= S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, 0.0, "a row is out of range");
+      return sli_refuse_row(stats, row);
     }
     if (ahead >= 0 && ahead < S->n) {
       SLI_PREFETCH(S->iperm + ahead, 0);
@@ -27540,10 +27549,6 @@ static void sli_restriction_done(sli_restriction *r, const sl_allocator *a) {
     sli_free(a, r->blocks[k]);
     r->blocks[k] = NULL;
   }
-}
-
-SLI_INLINE sl_int sli_restriction_size(const sli_restriction *r, sl_int root) {
-  return r->kept[root] - r->S->first_descendant[r->kept[root]] + 1;
 }
 
 SLI_INLINE int sli_restriction_is_root(const sli_restriction *r, sl_int q) {
@@ -27742,8 +27747,8 @@ SLI_HOT static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *sta
       const sl_int i = A->i[p];
       sl_int other = own, is_there;
       if (i < 0 || i >= A->n_rows) {
-        return sli_fail_at(stats, SL_ERR_MALFORMED, i, j, 0.0,
-            "a row of A is out of range");
+        return sli_fail_at(stats, SL_ERR_MALFORMED, i, j, sli_min(i, 0),
+            "a row of A is out of range; rows count from 0");
       }
       is_there = sli_is_read(triangle, i, j);
       others |= !is_there;
@@ -27970,7 +27975,7 @@ static void sli_joint_add(sli_joint *j, sl_int width, sl_off below) {
 SLI_HOT static void sli_joint_add_kept(sli_joint *j, sli_restriction *r, sl_int root) {
   for (; root != -1; root = r->next[root]) {
     sl_int q, k;
-    for (q = root + 1 - sli_restriction_size(r, root); q <= root; q++) {
+    for (q = root + r->S->first_descendant[r->kept[root]] - r->kept[root]; q <= root; q++) {
       const sl_int s = r->kept[q], width = r->S->super_first[s + 1] - r->S->super_first[s];
       for (k = 0; k < width; k++) {
         r->column_of[r->first_rank[q] + k] = j->column + k;
@@ -30306,7 +30311,7 @@ static sl_status sli_fixed_new(sl_fixed **out, const sl_csc *A, const sl_int *ro
   sl_int k, free_row = 0;
   const sl_int bad = sli_rows_invert(rows, draft->n_fixed, draft->n, where);
   if (bad >= 0) {
-    return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0,
+    return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, sli_min(rows[bad], 0),
         "a row is out of range or given twice");
   }
   for (k = 0; k < draft->n; k++) {
@@ -30499,8 +30504,7 @@ static sl_status sli_fixed_blocks(const sl_fixed *D, const sli_rhs *rhs, const d
   const sl_factor *F = D->F;
   const sli_dense g = sli_dense_of(ldg);
   sli_query q = sli_query_all(D->S);
-  sl_status status = SL_OK;
-  sl_int k, i = 0, r, c, count;
+  sl_int k, i = 0, r, c, count, is_finite = 1;
   for (k = 0; k < D->n_free; k++) {
     for (; i <= D->free_rows[k]; i++) {
       index[i] = D->S->iperm[k];
@@ -30531,11 +30535,9 @@ static sl_status sli_fixed_blocks(const sl_fixed *D, const sli_rhs *rhs, const d
     sli_sweep_forward(F, &q, &v, count);
     sli_sweep_backward(F, &q, &v, count);
     sli_unpack(F, &q, &block, v.x);
-    if (!sli_sweep_is_finite(F, &q, v.x, lanes)) {
-      status = sli_not_finite();
-    }
+    is_finite &= sli_sweep_is_finite(F, &q, v.x, lanes);
   }
-  return status;
+  return is_finite ? SL_OK : sli_not_finite(rhs, rhs->B == NULL ? 0 : i);
 }
 
 static sl_status sli_fixed_run(const sl_fixed *D, const sli_rhs *rhs, const double *G, size_t ldg,
@@ -30572,14 +30574,14 @@ SL_API sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx, const 
   sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sl_work own;
   sl_status status;
-  if (D == NULL ||
-      (nrhs > 0 && D->n_fixed > 0 && (G == NULL || !sli_dense_spans(ldg, D->n_fixed, nrhs)))) {
-    return sli_argument(D == NULL ? "D is NULL"
-        : G == NULL ? "G is NULL"
-        : "ldg is below the number of fixed rows, or with SL_ROWS "
-        "nrhs");
-  }
-  status = sli_rhs_check(&rhs, D->n, B == NULL ? 0 : D->n);
+  status = sli_argument(D == NULL ? "D is NULL"
+      : nrhs > 0 && D->n_fixed > 0 && G == NULL ? "G is NULL"
+      : NULL);
+  status = status == SL_OK && nrhs > 0
+         ? sli_dense_check("ldg is below the number of fixed rows, or nrhs with SL_ROWS",
+             ldg, D->n_fixed, nrhs)
+         : status;
+  status = status == SL_OK ? sli_rhs_check(&rhs, D->n, B == NULL ? 0 : D->n) : status;
   if (status != SL_OK || nrhs == 0 || D->n == 0) {
     return status;
   }
@@ -30590,8 +30592,8 @@ SL_API sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx, const 
   W = W == NULL ? &own : W;
   status = sli_fixed_run(D, &rhs, G, ldg, W);
   sli_free(&own.allocator, own.block);
-  if (status == SL_OK && !sli_fixed_set_fixed(D, &rhs, G, ldg)) {
-    status = sli_refuse(SL_ERR_NOT_FINITE, "a value of G is not finite");
+  if ((status == SL_OK || status == SL_ERR_NOT_FINITE) && !sli_fixed_set_fixed(D, &rhs, G, ldg)) {
+    status = sli_dense_finite(sli_bad_g, G, ldg, D->n_fixed, nrhs);
   }
   return status;
 }
@@ -30865,7 +30867,7 @@ static sl_status sli_csc64_copy(const sl_csc64 *A, sl_matrix *M, sl_stats *stats
       const int64_t i = A->i[p];
       if (i < 0 || i >= A->n_rows) {
         const sl_int row = i < INT32_MIN || i > INT32_MAX ? -1 : (sl_int)i;
-        return sli_fail_at(stats, SL_ERR_MALFORMED, row, j, 0.0,
+        return sli_fail_at(stats, SL_ERR_MALFORMED, row, j, row < 0 ? (double)i : 0.0,
             "a row of A is out of range; rows count from 0");
       }
       M->i[p] = (sl_int)i;
@@ -33695,7 +33697,12 @@ static sl_status sli_solve_batch_run(sli_solve_batch *b, const sl_threads *threa
     memcpy(&failed, sli_solve_batch_memory(b, k), sizeof failed);
     *at = failed;
   }
-  return *at == -1 ? SL_OK : b->only_checks ? sli_inconsistent() : sli_not_finite();
+  if (*at != -1 && !b->only_checks) {
+    const sl_request *r = &b->requests[*at];
+    const sli_rhs rhs = sli_rhs_of(r->X, r->ldx, r->B, r->ldb, r->nrhs);
+    return sli_not_finite(&rhs, sli_request_query(sli_request_factor(b, r), r).nb);
+  }
+  return *at == -1 ? SL_OK : sli_inconsistent();
 }
 
 static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
@@ -34003,16 +34010,6 @@ static sl_status sli_factor_batch_check(sl_factor *const *factors, sl_int count,
   return SL_OK;
 }
 
-static sl_status sli_factor_batch_prepare(sl_factor *const *factors, sl_int count, sl_int *at) {
-  sl_status status = SL_OK;
-  sl_int k;
-  for (k = 0; k < count && status == SL_OK; k++) {
-    status = sli_factor_prepare(factors[k]);
-    *at = status == SL_OK ? -1 : k;
-  }
-  return status;
-}
-
 SL_API sl_status sl_factor_refactor_sums(sl_factor *const *factors, sl_int count,
     const double *coefficients, const double *const *values,
     sl_int terms, const sl_options *opt, sl_int *failed,
@@ -34034,7 +34031,10 @@ SL_API sl_status sl_factor_refactor_sums(sl_factor *const *factors, sl_int count
   if (status == SL_OK && count > 0) {
     status = sli_source_of_sum(factors[0]->S, coefficients, values, terms, &f.source);
   }
-  status = status == SL_OK ? sli_factor_batch_prepare(factors, count, &at) : status;
+  for (k = 0; k < count && status == SL_OK; k++) {
+    status = sli_factor_prepare(factors[k]);
+    at = status == SL_OK ? -1 : k;
+  }
   if (status == SL_OK && count > 0) {
     f.factors = factors;
     f.count = count;
@@ -34426,18 +34426,6 @@ static void sli_complex_layout(sli_complex_set *set, sli_block *b) {
   set->real = SLI_TAKE(b, sl_int, set->rows == NULL ? 0 : 2 * (size_t)set->count);
 }
 
-static sl_int sli_complex_expand(const sl_int *rows, sl_int count, sl_int n, sl_int *real) {
-  sl_int k;
-  for (k = 0; k < count; k++) {
-    if (rows[k] < 0 || rows[k] >= n) {
-      return k;
-    }
-    real[2 * (size_t)k] = 2 * rows[k];
-    real[2 * (size_t)k + 1] = 2 * rows[k] + 1;
-  }
-  return -1;
-}
-
 typedef struct sli_complex_sets {
   sli_complex_set first, second;
   unsigned char *memory;
@@ -34455,11 +34443,16 @@ static sli_complex_sets sli_complex_sets_of(const sl_int *first, sl_int n_first,
 }
 
 static sl_status sli_complex_fill(const sli_complex_set *set, sl_int n, sl_stats *stats) {
-  const sl_int bad =
-    set->rows == NULL ? -1 : sli_complex_expand(set->rows, set->count, n, set->real);
-  return bad == -1 ? SL_OK
-           : sli_fail_at(stats, SL_ERR_ARGUMENT, set->rows[bad], -1, 0.0,
-               "a row is out of range");
+  sl_int k;
+  for (k = 0; k < set->count && set->rows != NULL; k++) {
+    const sl_int row = set->rows[k];
+    if (row < 0 || row >= n) {
+      return sli_refuse_row(stats, row);
+    }
+    set->real[2 * (size_t)k] = 2 * row;
+    set->real[2 * (size_t)k + 1] = 2 * row + 1;
+  }
+  return SL_OK;
 }
 
 static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n, const sl_allocator *a,

@@ -29,7 +29,7 @@
  *  Source   [George73] nested dissection; [KK98] multilevel graphs; [FM82] refinement of
  *           separators; [FF56] minimum vertex cuts; [ADD96] minimum degree; [MR85] trees;
  *           [Liu90] elimination tree, structures of columns; [AG89] relaxed supernodes.
- *  Manual   tools/docs/ordering.md: the orderings, what METIS does to a process
+ *  Manual   tools/docs/ordering.md
  *  Example  tests/core/test_symbolic.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,

@@ -39,8 +39,7 @@
  *           pool, with gcc, clang and MSVC. L has the same bits for any number of threads.
  *  Source   supernodal: multifrontal [DR83] [Liu92] on row tiles; up-looking: [LDL05], [Davis06]
  *           4.7; growth: [Hi02] 11.1.
- *  Manual   tools/docs/singular.md: null pivots, null vectors, weights; tools/docs/indefinite.md:
- *           growth, regularization, KKT systems; tools/docs/float.md: L in float, its accuracy
+ *  Manual   tools/docs/singular.md; tools/docs/indefinite.md; tools/docs/float.md
  *  Example  tests/core/test_factor.c, test_growth.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S,

@@ -48,7 +48,7 @@
  *           binary search per entry of Z. Keeps 4 (boundary)^2 bytes and about 100 per row of the
  *           boundary.
  *  Threads  reads F and Z.
- *  Source   [HDA17] 3 for the sweeps; (A^-1)_SS inverts the Schur complement of the rest.
+ *  Source   [HDA17] 3
  *  Example  tests/core/test_region.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_factor *F,
