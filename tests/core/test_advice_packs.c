@@ -6,16 +6,22 @@
 
 static const sl_int ends[] = {0, N - 1};
 
-static sl_factor *factor_of(const sl_symbolic *S, const sl_csc *A, const sl_options *opt) {
-    sl_factor *F = NULL;
-    SL_CHECK(sl_factor_create(&F, S, A, opt, NULL));
-    return F;
-}
-
-static sl_options skipping(void) {
+/* Solves in a region, if it was made. Releases it and F. */
+static sl_status in_region(sl_factor *F, sl_region *R, sl_status status) {
+    const double two[] = {1.0, -1.0};
+    double local[2];
     sl_options opt = options_none();
-    opt.pivots = SL_PIVOTS_SKIP_NULL;
-    return opt;
+    sl_plan *P = NULL;
+    opt.region = R;
+    if (status == SL_OK) {
+        SL_CHECK(sl_plan_create(&P, grid.S, ends, 2, ends, 2, &opt, NULL));
+        status = sl_plan_solve(P, F, local, 2, two, 2, 1, NULL);
+    }
+    status = as_in_full(F, local, status);
+    sl_plan_free(P);
+    sl_region_free(R);
+    sl_factor_free(F);
+    return status;
 }
 
 /* ---- objects of older numbers ---- */
@@ -70,8 +76,7 @@ static sl_status uncertified(int heeds) {
     if (heeds) {
         SL_CHECK(sl_factor_certify(F, &grid.M.view, SL_ESTIMATED, NULL, NULL));
     }
-    const sl_status status =
-        sl_plan_solve_bounded(P, F, x, N, bounds, b, N, 1, NULL, NULL, NULL);
+    const sl_status status = sl_plan_solve_bounded(P, F, x, N, bounds, b, N, 1, NULL, NULL, NULL);
     sl_plan_free(P);
     sl_factor_free(F);
     return judged(&grid.M.view, -1, status);
@@ -156,8 +161,8 @@ static sl_status regularized_rows(int heeds) {
         }
     }
     SL_CHECK(sl_plan_create(&P, k.S, set, all, set, all, NULL, NULL));
-    const sl_status status = sl_plan_solve_regularized(P, F, local, (size_t)all, two, (size_t)all,
-                                                       1, 20, NULL, NULL);
+    const sl_status status =
+        sl_plan_solve_regularized(P, F, local, (size_t)all, two, (size_t)all, 1, 20, NULL, NULL);
     if (status == SL_OK) {
         sl_symbolic *S = NULL;
         SL_CHECK(sl_symbolic_create_pivoted(&S, &k.M.view, NULL, NULL));
@@ -235,8 +240,7 @@ static sl_status unknown_part(int heeds) {
     sl_plan *P = NULL;
     sl_int count = 0;
     SL_CHECK(sl_plan_create(&P, grid.S, ends, 2, ends, 2, NULL, NULL));
-    const sl_status status =
-        sl_plan_columns(P, heeds ? SL_PART_LT : SL_PART_D, NULL, 0, &count);
+    const sl_status status = sl_plan_columns(P, heeds ? SL_PART_LT : SL_PART_D, NULL, 0, &count);
     assert_true(status != SL_OK || count > 0);
     sl_plan_free(P);
     return status;
@@ -394,64 +398,6 @@ static sl_status unfixed_component(int heeds) {
     return status;
 }
 
-/* ---- files ---- */
-
-static sl_status mapped_factor(int heeds) {
-    sl_saved_set set, got;
-    size_t bytes = 0;
-    memset(&set, 0, sizeof set);
-    memset(&got, 0, sizeof got);
-    set.symbolic = grid.S;
-    set.factor = grid.F;
-    SL_CHECK(sl_save(NULL, NULL, &bytes, &set, NULL));
-    unsigned char *room = (unsigned char *)test_array(bytes + 64, 1);
-    unsigned char *memory = room + (64 - (uintptr_t)room % 64);
-    SL_CHECK(sl_save(NULL, memory, &bytes, &set, NULL));
-    SL_CHECK(sl_load(&got, NULL, memory, bytes, heeds ? SL_LOAD_CHECKED : SL_LOAD_MAPPED, NULL));
-    sl_status status = sl_factor_refactor(got.factor, &grid.M.view, NULL);
-    status = status == SL_OK ? sl_factor_solve(got.factor, x, N, b, N, 1, NULL) : status;
-    sl_saved_set_free(&got);
-    free(room);
-    return judged(&grid.M.view, -1, status);
-}
-
-static sl_status submatrix_saved(int heeds) {
-    sl_saved_set set;
-    size_t bytes = 0;
-    memset(&set, 0, sizeof set);
-    SL_CHECK(sl_factor_submatrix(&set.symbolic, &set.factor, grid.F, &grid.M.view, ends, 2, NULL, NULL));
-    sl_symbolic *S = set.symbolic;
-    sl_factor *G = set.factor;
-    set.symbolic = heeds ? grid.S : S;
-    set.factor = heeds ? grid.F : G;
-    const sl_status status = sl_save(NULL, NULL, &bytes, &set, NULL);
-    sl_factor_free(G);
-    sl_symbolic_free(S);
-    return status;
-}
-
-static sl_status complex_saved(int heeds) {
-    static const sl_int p[] = {0, 2, 3}, i[] = {0, 1, 1};
-    static const double values[] = {4, 0, 1, 1, 3, 0};
-    const sl_hermitian H = {2, p, i, values, NULL};
-    sl_options blocks = options_none(), half = options_none();
-    sl_saved_set set;
-    sl_matrix *M = NULL;
-    size_t bytes = 0;
-    memset(&set, 0, sizeof set);
-    SL_CHECK(sl_matrix_from_hermitian(&M, &H, NULL, NULL));
-    const sl_csc A = sl_matrix_view(M);
-    blocks.block_size = 2;
-    SL_CHECK(sl_symbolic_create(&set.symbolic, &A, &blocks, NULL));
-    half.storage = heeds ? SL_STORAGE_DOUBLE : SL_STORAGE_COMPLEX;
-    set.factor = factor_of(set.symbolic, &A, &half);
-    const sl_status status = sl_save(NULL, NULL, &bytes, &set, NULL);
-    sl_factor_free(set.factor);
-    sl_symbolic_free(set.symbolic);
-    sl_matrix_free(M);
-    return status;
-}
-
 /* ---- edits ---- */
 
 static sl_status edited(const sl_symbolic *S, const sl_csc *A, sl_symbolic *own) {
@@ -519,11 +465,6 @@ static const advice_t advices[] = {
     {"the free rows are singular: fix a row of this component, or see options.pivots and "
      "sl_symbolic_create_pivoted",
      unfixed_component},
-    {"it is mapped (sl_load copies without SL_LOAD_MAPPED), of sl_factor_submatrix, or saved by a "
-     "newer version",
-     mapped_factor},
-    {"an analysis of sl_factor_submatrix, or from a file of a newer version", submatrix_saved},
-    {"SL_STORAGE_COMPLEX is not saved", complex_saved},
     {"an analysis of sl_symbolic_create_pivoted", edit_of_pivoted},
     {"an analysis of sl_factor_submatrix", edit_of_submatrix},
 };

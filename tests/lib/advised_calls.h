@@ -23,6 +23,18 @@ static inline int advice_tear_down(void **state) {
     return 0;
 }
 
+static inline sl_factor *factor_of(const sl_symbolic *S, const sl_csc *A, const sl_options *opt) {
+    sl_factor *F = NULL;
+    SL_CHECK(sl_factor_create(&F, S, A, opt, NULL));
+    return F;
+}
+
+static inline sl_options skipping(void) {
+    sl_options opt = options_none();
+    opt.pivots = SL_PIVOTS_SKIP_NULL;
+    return opt;
+}
+
 /* A status; with SL_OK, |b - A x| has to be small in all rows but one that is held, or -1. */
 static inline sl_status judged(const sl_csc *A, sl_int held, sl_status status) {
     if (status == SL_OK) {
@@ -47,25 +59,6 @@ static inline sl_status as_in_full(const sl_factor *F, const double *local, sl_s
         SL_CHECK(sl_factor_solve(F, whole, N, whole, N, 1, NULL));
         assert_true(fabs(local[0] - whole[0]) + fabs(local[1] - whole[N - 1]) <= 1e-12);
     }
-    return status;
-}
-
-/* Solves in a region, if it was made. Releases it and F. */
-static inline sl_status in_region(sl_factor *F, sl_region *R, sl_status status) {
-    static const sl_int rows[] = {0, N - 1};
-    const double two[] = {1.0, -1.0};
-    double local[2];
-    sl_options opt = options_none();
-    sl_plan *P = NULL;
-    opt.region = R;
-    if (status == SL_OK) {
-        SL_CHECK(sl_plan_create(&P, grid.S, rows, 2, rows, 2, &opt, NULL));
-        status = sl_plan_solve(P, F, local, 2, two, 2, 1, NULL);
-    }
-    status = as_in_full(F, local, status);
-    sl_plan_free(P);
-    sl_region_free(R);
-    sl_factor_free(F);
     return status;
 }
 
