@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 244a4934b89bbcd9
+ * FNV-1a of the lines after this comment, without the license: e932d966f69b70b7
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -12,49 +12,49 @@
  *    869 csc.h        sparse matrices: creation, checks, products, residuals
  *    963 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
  *   1036 factor.h     the numerical factorization P A P' = L D L'
- *   1161 solve.h      full solves, and the workspace of all solves
- *   1253 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1324 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1405 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1485 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1524 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1624 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1702 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1772 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1860 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1960 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2002 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2123 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2265 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2351 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
- *   2460 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
- *   2502 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
- *   2577 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2665 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2729 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2772 impl/ base: the compiler, status, memory, sorting, threads
- *   4084 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4965 impl/ matrix: sparse matrices of the caller and of the library
- *   5828 impl/ ordering: fill-reducing orderings of a graph
- *  10591 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12833 impl/ factor: the numbers of L and D
- *  15401 impl/ solve: full and local solves
- *  16909 impl/ singular: null spaces of semidefinite matrices
- *  18180 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20221 impl/ pivots: the order of the pivots by the values of a matrix
- *  20625 impl/ float: L in single precision
- *  20808 impl/ inverse: entries of the inverse, regions
- *  23710 impl/ change: a factor that follows changes of its matrix
- *  25980 impl/ constraints: rows held at values, on a factor that stays
- *  27331 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30063 impl/ fixed: rows fixed at given values
- *  30619 impl/ io: files that are replaced only when they are complete
- *  30837 impl/ files: Matrix Market files, 64-bit indices
- *  31393 impl/ save: factors in files
- *  33373 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34057 impl/ complex: complex Hermitian systems over real factors
- *  34522 impl/ packs: the tables through which the core calls packs
- *  34946 impl/ templates: the header includes them from itself, once for each instruction set
+ *   1162 solve.h      full solves, and the workspace of all solves
+ *   1254 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1325 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1406 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1486 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1525 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1625 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1703 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1773 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1861 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1961 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2003 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2124 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2266 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2352 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
+ *   2461 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
+ *   2503 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
+ *   2578 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2666 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2730 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2773 impl/ base: the compiler, status, memory, sorting, threads
+ *   4085 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4966 impl/ matrix: sparse matrices of the caller and of the library
+ *   5829 impl/ ordering: fill-reducing orderings of a graph
+ *  10592 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12834 impl/ factor: the numbers of L and D
+ *  15402 impl/ solve: full and local solves
+ *  16910 impl/ singular: null spaces of semidefinite matrices
+ *  18181 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20222 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20626 impl/ float: L in single precision
+ *  20809 impl/ inverse: entries of the inverse, regions
+ *  23711 impl/ change: a factor that follows changes of its matrix
+ *  25981 impl/ constraints: rows held at values, on a factor that stays
+ *  27332 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30064 impl/ fixed: rows fixed at given values
+ *  30620 impl/ io: files that are replaced only when they are complete
+ *  30838 impl/ files: Matrix Market files, 64-bit indices
+ *  31394 impl/ save: factors in files
+ *  33374 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34058 impl/ complex: complex Hermitian systems over real factors
+ *  34523 impl/ packs: the tables through which the core calls packs
+ *  34947 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -995,7 +995,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_c
 /** Releases an analysis. Objects made from it keep it as long as they need it. */
 SL_API void sl_symbolic_free(sl_symbolic *S);
 
-/** Arrays of an analysis; valid as long as the analysis.
+/** Arrays of an analysis.
  *
  *  Supernode s has columns super_first[s] .. super_first[s+1]-1 of L, stored as one dense panel:
  *  the rows of these columns, then rows rows[rows_begin[s]] .. rows[rows_begin[s+1]-1] below them,
@@ -1030,7 +1030,7 @@ typedef struct sl_symbolic_arrays {
     const void *reserved[2];    /* NULL; new fields take their place */
 } sl_symbolic_arrays;
 
-/** The arrays and statistics of S; all 0 if S is NULL. */
+/** The statistics of S, and its arrays, valid as long as S; all 0 if S is NULL. */
 SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
 
 /* src/public/factor.h: the numerical factorization P A P' = L D L' */
@@ -1143,7 +1143,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log
 SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F,
                                                 const sl_options *opt);
 
-/** Arrays of a factor; valid as long as the factor. */
+/** Arrays of a factor. */
 typedef struct sl_factor_arrays {
     sl_factor_info info; /* of the present numbers, or of the factorization that failed */
     const sl_symbolic *symbolic;
@@ -1155,7 +1155,8 @@ typedef struct sl_factor_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_factor_arrays;
 
-/** The arrays and statistics of F; all 0 if F is NULL. */
+/** The statistics of F, and its arrays, valid as long as F, with its present numbers; all 0 if F is
+ *  NULL. */
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
 
 /* src/public/solve.h: full solves, and the workspace of all solves */
@@ -1380,8 +1381,7 @@ SL_API SL_WARN_UNUSED sl_status sl_fixed_solve(const sl_fixed *D, double *X, siz
                                                const double *B, size_t ldb, const double *G,
                                                size_t ldg, sl_int nrhs, sl_work *W);
 
-/** What the object is made of, for local solves on plans and for all other calls on a factor: row k
- *  of its system is row free_rows[k] of A. Valid until sl_fixed_refactor or _free. */
+/** Parts of the object: row k of its system is row free_rows[k] of A. */
 typedef struct sl_fixed_arrays {
     sl_int n_free, n_fixed;
     const sl_int *free_rows;     /* n_free: ascending */
@@ -1392,6 +1392,7 @@ typedef struct sl_fixed_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_fixed_arrays;
 
+/** The parts of D, for calls on a factor. Valid until sl_fixed_refactor or _free. */
 SL_API sl_fixed_arrays sl_fixed_view(const sl_fixed *D);
 
 #else
@@ -1838,7 +1839,7 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_entries(const sl_selected *Z, double
                                                     const sl_int *rows, const sl_int *columns,
                                                     sl_int count, sl_stats *stats);
 
-/** Arrays of a selected inverse; valid as long as the object.
+/** Arrays of a selected inverse.
  *
  *  The panel of supernode supers[k] begins at Z[begin[k]] and has the layout of the panels of L,
  *  described at sl_symbolic_arrays. Unlike there, the diagonal is stored; entries above it within a
@@ -1854,7 +1855,7 @@ typedef struct sl_selected_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_selected_arrays;
 
-/** The arrays and statistics of Z; all 0 if Z is NULL. */
+/** The statistics of Z, and its arrays, valid as long as Z; all 0 if Z is NULL. */
 SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z);
 
 /* src/public/region.h: regions, inside which the cost of local solves does not depend on the whole matrix */
@@ -1928,7 +1929,7 @@ SL_API SL_WARN_UNUSED sl_status sl_region_refactor(sl_region *R, const sl_factor
 /** Releases a region. */
 SL_API void sl_region_free(sl_region *R);
 
-/** Arrays of a region; valid as long as the object. Cost: O(subtrees). */
+/** Arrays of a region. */
 typedef struct sl_region_arrays {
     sl_region_info info;
     const sl_symbolic *symbolic;
@@ -1939,7 +1940,7 @@ typedef struct sl_region_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_region_arrays;
 
-/** The arrays and statistics of R; all 0 if R is NULL. */
+/** The statistics of R, and its arrays, valid as long as R; all 0 if R is NULL. O(subtrees). */
 SL_API sl_region_arrays sl_region_view(const sl_region *R);
 
 #else

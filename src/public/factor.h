@@ -113,7 +113,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log
 SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F,
                                                 const sl_options *opt);
 
-/** Arrays of a factor; valid as long as the factor. */
+/** Arrays of a factor. */
 typedef struct sl_factor_arrays {
     sl_factor_info info; /* of the present numbers, or of the factorization that failed */
     const sl_symbolic *symbolic;
@@ -125,7 +125,8 @@ typedef struct sl_factor_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_factor_arrays;
 
-/** The arrays and statistics of F; all 0 if F is NULL. */
+/** The statistics of F, and its arrays, valid as long as F, with its present numbers; all 0 if F is
+ *  NULL. */
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
 
 #endif
