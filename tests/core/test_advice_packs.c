@@ -182,16 +182,6 @@ static sl_status regularized_rows(int heeds) {
 
 /* ---- bounds, refinement, parts ---- */
 
-static sl_status guaranteed_in_float(int heeds) {
-    sl_options opt = options_none();
-    opt.storage = SL_STORAGE_FLOAT;
-    sl_factor *F = factor_of(grid.S, &grid.M.view, &opt);
-    const sl_status status =
-        sl_factor_certify(F, &grid.M.view, heeds ? SL_ESTIMATED : SL_GUARANTEED, NULL, NULL);
-    sl_factor_free(F);
-    return status;
-}
-
 static sl_status neither_certainty(int heeds) {
     sl_factor *F = factor_of(grid.S, &grid.M.view, NULL);
     const sl_certainty which = heeds ? SL_GUARANTEED : SL_UNCERTIFIED;
@@ -446,8 +436,6 @@ static const advice_t advices[] = {
     {"options.region is a region of another analysis", foreign_region},
     {"a region with options.mass", region_with_mass},
     {"a set lacks this regularized row; sl_factor_pivot_rows lists all", regularized_rows},
-    {"SL_GUARANTEED with null pivots, L in float, duplicate entries of A or sl_factor_submatrix",
-     guaranteed_in_float},
     {"certainty is neither SL_ESTIMATED nor SL_GUARANTEED", neither_certainty},
     {"the backward error is above options.error_limit", limit_of_errors},
     {"SL_PART_SQRT_D with a pivot below 0", root_of_negative},

@@ -62,6 +62,16 @@ static inline sl_status as_in_full(const sl_factor *F, const double *local, sl_s
     return status;
 }
 
+/* Does this processor keep L in float? With SIMD compiled in, plain C keeps it in double. */
+static inline int keeps_float(void) {
+    sl_options opt = options_none();
+    opt.storage = SL_STORAGE_FLOAT;
+    sl_factor *F = factor_of(grid.S, &grid.M.view, &opt);
+    const int keeps = sl_factor_view(F).info.storage == SL_STORAGE_FLOAT;
+    sl_factor_free(F);
+    return keeps;
+}
+
 /* A text, and a call that is refused with it, or with `heeds` does what it says. */
 typedef struct advice_t {
     const char *text;
