@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e932d966f69b70b7
+ * FNV-1a of the lines after this comment, without the license: 21411d53b9896c95
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -7,54 +7,54 @@
  *    194 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
  *    248 config.h     macros that a user may define before the include, the version, and the integer types
  *    337 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    515 options.h    options of all calls, threads, and the allocator
- *    632 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    869 csc.h        sparse matrices: creation, checks, products, residuals
- *    963 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1036 factor.h     the numerical factorization P A P' = L D L'
- *   1162 solve.h      full solves, and the workspace of all solves
- *   1254 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1325 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1406 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1486 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1525 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1625 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1703 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1773 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1861 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1961 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2003 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2124 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2266 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2352 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
- *   2461 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
- *   2503 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
- *   2578 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2666 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2730 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2773 impl/ base: the compiler, status, memory, sorting, threads
- *   4085 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4966 impl/ matrix: sparse matrices of the caller and of the library
- *   5829 impl/ ordering: fill-reducing orderings of a graph
- *  10592 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12834 impl/ factor: the numbers of L and D
- *  15402 impl/ solve: full and local solves
- *  16910 impl/ singular: null spaces of semidefinite matrices
- *  18181 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20222 impl/ pivots: the order of the pivots by the values of a matrix
- *  20626 impl/ float: L in single precision
- *  20809 impl/ inverse: entries of the inverse, regions
- *  23711 impl/ change: a factor that follows changes of its matrix
- *  25981 impl/ constraints: rows held at values, on a factor that stays
- *  27332 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30064 impl/ fixed: rows fixed at given values
- *  30620 impl/ io: files that are replaced only when they are complete
- *  30838 impl/ files: Matrix Market files, 64-bit indices
- *  31394 impl/ save: factors in files
- *  33374 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34058 impl/ complex: complex Hermitian systems over real factors
- *  34523 impl/ packs: the tables through which the core calls packs
- *  34947 impl/ templates: the header includes them from itself, once for each instruction set
+ *    514 options.h    options of all calls, threads, and the allocator
+ *    631 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    868 csc.h        sparse matrices: creation, checks, products, residuals
+ *    962 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1035 factor.h     the numerical factorization P A P' = L D L'
+ *   1161 solve.h      full solves, and the workspace of all solves
+ *   1253 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1324 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1405 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1485 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1524 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1624 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1702 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1772 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1860 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1960 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2002 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2123 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2265 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2351 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
+ *   2460 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
+ *   2502 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
+ *   2577 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2665 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2729 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2772 impl/ base: the compiler, status, memory, sorting, threads
+ *   4084 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4965 impl/ matrix: sparse matrices of the caller and of the library
+ *   5826 impl/ ordering: fill-reducing orderings of a graph
+ *  10589 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12831 impl/ factor: the numbers of L and D
+ *  15399 impl/ solve: full and local solves
+ *  16911 impl/ singular: null spaces of semidefinite matrices
+ *  18182 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20223 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20627 impl/ float: L in single precision
+ *  20810 impl/ inverse: entries of the inverse, regions
+ *  23712 impl/ change: a factor that follows changes of its matrix
+ *  25982 impl/ constraints: rows held at values, on a factor that stays
+ *  27333 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30065 impl/ fixed: rows fixed at given values
+ *  30621 impl/ io: files that are replaced only when they are complete
+ *  30839 impl/ files: Matrix Market files, 64-bit indices
+ *  31395 impl/ save: factors in files
+ *  33375 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34059 impl/ complex: complex Hermitian systems over real factors
+ *  34524 impl/ packs: the tables through which the core calls packs
+ *  34948 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -377,8 +377,7 @@ typedef enum sl_status {
     SL_ERR_READ_ONLY
 } sl_status;
 
-/** A short description of a status; static storage. Any value is accepted. sl_error_text (stats.h)
- *  says more. */
+/** A short description of a status, static storage, for any value. sl_error_text says more. */
 SL_API const char *sl_status_string(sl_status status);
 
 /** The count of a list of rows that is NULL: all n rows. */
@@ -5395,8 +5394,6 @@ SLI_COLD static sl_status sli_dense_finite(const char *wrong, const double *M, s
 
 static const char sli_small_ldx[] = "ldx is below the rows of X, or nrhs with SL_ROWS";
 static const char sli_small_ldb[] = "ldb is below the rows of B, or nrhs with SL_ROWS";
-
-static const char sli_bad_g[] = "this value of G is not finite";
 
 static void sli_dense_copy(double *to, sli_dense t, const double *from, sli_dense f, sl_int rows,
     sl_int columns) {
@@ -16549,11 +16546,15 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, const s
   if (rhs->nrhs == 0 || q->nx == 0) {
     return SL_OK;
   }
-  own = sli_work_own(&F->allocator);
-  W = W == NULL ? &own : W;
+  if (W == NULL) {
+    own = sli_work_own(&F->allocator);
+    W = &own;
+  }
   status = sli_query_prepare(&t, F, q, rhs, W);
   status = status == SL_OK ? sli_query_run(&t, F, q, rhs, W) : status;
-  sli_free(&own.allocator, own.block);
+  if (W == &own) {
+    sli_free(&own.allocator, own.block);
+  }
   return status;
 }
 
@@ -27318,7 +27319,7 @@ SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *pl
       status = sli_constraints_block(&w);
     }
     if (status == SL_ERR_NOT_FINITE) {
-      status = sli_dense_finite(sli_bad_g, G, ldg, P->n_pins, nrhs);
+      status = sli_dense_finite("this value of G is not finite", G, ldg, P->n_pins, nrhs);
       status = status == SL_OK ? sli_not_finite(&rhs, q->nb) : status;
     }
   }
@@ -30594,7 +30595,7 @@ SL_API sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx, const 
   status = sli_fixed_run(D, &rhs, G, ldg, W);
   sli_free(&own.allocator, own.block);
   if ((status == SL_OK || status == SL_ERR_NOT_FINITE) && !sli_fixed_set_fixed(D, &rhs, G, ldg)) {
-    status = sli_dense_finite(sli_bad_g, G, ldg, D->n_fixed, nrhs);
+    status = sli_dense_finite("this value of G is not finite", G, ldg, D->n_fixed, nrhs);
   }
   return status;
 }

@@ -283,7 +283,7 @@ SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *pl
             status = sli_constraints_block(&w);
         }
         if (status == SL_ERR_NOT_FINITE) {
-            status = sli_dense_finite(sli_bad_g, G, ldg, P->n_pins, nrhs);
+            status = sli_dense_finite("this value of G is not finite", G, ldg, P->n_pins, nrhs);
             status = status == SL_OK ? sli_not_finite(&rhs, q->nb) : status;
         }
     }

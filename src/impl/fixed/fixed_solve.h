@@ -160,7 +160,7 @@ SL_API sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx, const 
     status = sli_fixed_run(D, &rhs, G, ldg, W);
     sli_free(&own.allocator, own.block);
     if ((status == SL_OK || status == SL_ERR_NOT_FINITE) && !sli_fixed_set_fixed(D, &rhs, G, ldg)) {
-        status = sli_dense_finite(sli_bad_g, G, ldg, D->n_fixed, nrhs);
+        status = sli_dense_finite("this value of G is not finite", G, ldg, D->n_fixed, nrhs);
     }
     return status;
 }

@@ -62,8 +62,6 @@ SLI_COLD static sl_status sli_dense_finite(const char *wrong, const double *M, s
 static const char sli_small_ldx[] = "ldx is below the rows of X, or nrhs with SL_ROWS";
 static const char sli_small_ldb[] = "ldb is below the rows of B, or nrhs with SL_ROWS";
 
-static const char sli_bad_g[] = "this value of G is not finite";
-
 /* Copies one block to another. */
 static void sli_dense_copy(double *to, sli_dense t, const double *from, sli_dense f, sl_int rows,
                            sl_int columns) {

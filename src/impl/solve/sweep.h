@@ -157,11 +157,15 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, const s
     if (rhs->nrhs == 0 || q->nx == 0) {
         return SL_OK;
     }
-    own = sli_work_own(&F->allocator);
-    W = W == NULL ? &own : W;
+    if (W == NULL) {
+        own = sli_work_own(&F->allocator);
+        W = &own;
+    }
     status = sli_query_prepare(&t, F, q, rhs, W);
     status = status == SL_OK ? sli_query_run(&t, F, q, rhs, W) : status;
-    sli_free(&own.allocator, own.block);
+    if (W == &own) {
+        sli_free(&own.allocator, own.block);
+    }
     return status;
 }
 
