@@ -119,9 +119,10 @@ layers: ## do all includes go downward, and do the names of src/ have their pref
 map: ## what is in each file of src, tests, tools and bench, by its first comment
 	@tools/build/map.sh
 
-style: ## are all lines short enough, is the wording of the public headers plain, and has every error a reason?
+style: ## are all lines short enough, is the wording of the public headers plain, has every error a reason, and is advice tested?
 	@tools/build/check_style.sh
 	@awk -f tools/build/errors.awk $(filter src/impl/%,$(PARTS))
+	@awk -f tools/build/advice.awk $(wildcard tests/core/test_advice*.c) $(filter src/impl/%,$(PARTS))
 
 parts: $(patsubst src/%,build/parts/%.ok,$(filter-out %.inl.h %.list.h,$(PARTS))) ## does every part compile alone?
 	@echo 'parts: each of $(words $^) compiles alone'
@@ -279,7 +280,7 @@ test-no-simd: deps sparse_local.h ## tests of kernels and of choices by their co
 # those of regular systems
 NO_SINGULAR = test_no_singular test_factor_overflow test_solve test_plan test_supernodal test_small test_growth test_null_judge \
 	test_result_hashes test_threads test_change_several test_constraints_use test_submatrix test_inverse_use test_region_use \
-	test_selected_use test_complex_use test_parts_use test_refine_local
+	test_selected_use test_complex_use test_parts_use test_refine_local test_advice_calls
 
 test-no-singular: deps sparse_local.h ## tests of regular systems, built with -DSL_NO_SINGULAR
 	@+$(SUB_MAKE) run-tests B=build/no_singular CFLAGS='-DSL_NO_SINGULAR $(CFLAGS)' REPLAYS= \

@@ -35,7 +35,7 @@ build/packs/small.ok: tests/core/check_packs.sh tools/build/layers.awk build/ama
 
 # The core and each pack, with -DSL_NO_SIMD: which kernels run is not what these tests are about. A pack is alone but for those of
 # PACK_ALSO, which its tests use. Of tools they have only the list of a folder's files. Tests of many packs are left to `make test`.
-PACK_TESTS_core = checks csc csc_products csc_triplets factor factor_fail factor_overflow levels mindeg order_hashes order_kkt ordering peel plan \
+PACK_TESTS_core = advice_calls checks csc csc_products csc_triplets factor factor_fail factor_overflow levels mindeg order_hashes order_kkt ordering peel plan \
 	relaxation rigid_mass_cases small solve subnormal symbolic symbolic_order zero_mean_cases
 PACK_TESTS_inverse = inverse inverse_diagonal region selected selected_use stats
 PACK_TESTS_change = change change_columns change_drift change_rare change_scaled change_several supernodal

@@ -29,7 +29,7 @@
  *  Source   [George73] nested dissection; [KK98] multilevel graphs; [FM82] refinement of
  *           separators; [FF56] minimum vertex cuts; [ADD96] minimum degree; [MR85] trees;
  *           [Liu90] elimination tree, structures of columns; [AG89] relaxed supernodes.
- *  Manual   tools/docs/ordering.md: the orderings, what METIS does to a process
+ *  Manual   tools/docs/ordering.md
  *  Example  tests/core/test_symbolic.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
@@ -38,7 +38,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_c
 /** Releases an analysis. Objects made from it keep it as long as they need it. */
 SL_API void sl_symbolic_free(sl_symbolic *S);
 
-/** Arrays of an analysis; valid as long as the analysis.
+/** Arrays of an analysis.
  *
  *  Supernode s has columns super_first[s] .. super_first[s+1]-1 of L, stored as one dense panel:
  *  the rows of these columns, then rows rows[rows_begin[s]] .. rows[rows_begin[s+1]-1] below them,
@@ -73,7 +73,7 @@ typedef struct sl_symbolic_arrays {
     const void *reserved[2];    /* NULL; new fields take their place */
 } sl_symbolic_arrays;
 
-/** The arrays and statistics of S; all 0 if S is NULL. */
+/** The statistics of S, and its arrays, valid as long as S; all 0 if S is NULL. */
 SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
 
 #endif

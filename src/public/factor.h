@@ -39,8 +39,7 @@
  *           pool, with gcc, clang and MSVC. L has the same bits for any number of threads.
  *  Source   supernodal: multifrontal [DR83] [Liu92] on row tiles; up-looking: [LDL05], [Davis06]
  *           4.7; growth: [Hi02] 11.1.
- *  Manual   tools/docs/singular.md: null pivots, null vectors, weights; tools/docs/indefinite.md:
- *           growth, regularization, KKT systems; tools/docs/float.md: L in float, its accuracy
+ *  Manual   tools/docs/singular.md; tools/docs/indefinite.md; tools/docs/float.md
  *  Example  tests/core/test_factor.c, test_growth.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S,
@@ -114,7 +113,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log
 SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F,
                                                 const sl_options *opt);
 
-/** Arrays of a factor; valid as long as the factor. */
+/** Arrays of a factor. */
 typedef struct sl_factor_arrays {
     sl_factor_info info; /* of the present numbers, or of the factorization that failed */
     const sl_symbolic *symbolic;
@@ -126,7 +125,8 @@ typedef struct sl_factor_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_factor_arrays;
 
-/** The arrays and statistics of F; all 0 if F is NULL. */
+/** The statistics of F, and its arrays, valid as long as F, with its present numbers; all 0 if F is
+ *  NULL. */
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
 
 #endif

@@ -61,8 +61,7 @@ SL_API SL_WARN_UNUSED sl_status sl_fixed_solve(const sl_fixed *D, double *X, siz
                                                const double *B, size_t ldb, const double *G,
                                                size_t ldg, sl_int nrhs, sl_work *W);
 
-/** What the object is made of, for local solves on plans and for all other calls on a factor: row k
- *  of its system is row free_rows[k] of A. Valid until sl_fixed_refactor or _free. */
+/** Parts of the object: row k of its system is row free_rows[k] of A. */
 typedef struct sl_fixed_arrays {
     sl_int n_free, n_fixed;
     const sl_int *free_rows;     /* n_free: ascending */
@@ -73,6 +72,7 @@ typedef struct sl_fixed_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_fixed_arrays;
 
+/** The parts of D, for calls on a factor. Valid until sl_fixed_refactor or _free. */
 SL_API sl_fixed_arrays sl_fixed_view(const sl_fixed *D);
 
 #endif

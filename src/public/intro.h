@@ -71,10 +71,10 @@
  *              workspace: the call then allocates one for itself. Each kind of object has a call
  *              that releases it, such as sl_factor_free, which accepts NULL. Dense arguments are
  *              column-major with a leading dimension in elements, or row-major by SL_ROWS(ld).
- *              Row numbers are the caller's, also in errors. The rows of b come before
- *              the rows of x, and each array before its length. A list of rows that is NULL means
- *              all rows with the length SL_ALL or n, and no row with 0; any other length is
- *              refused. SL_ALL needs NULL. The library never prints or aborts.
+ *              Row numbers are the caller's, also in errors. The rows of b come before the rows of
+ *              x, and each array before its length. A list of rows that is NULL means all rows with
+ *              the length SL_ALL, which needs NULL, or n, and no row with 0; any other length is
+ *              refused. The library never prints or aborts.
  *              Threads share no mutable globals: each keeps its last error, and with
  *              SL_NO_THREAD_LOCAL nothing. For METIS, an option, see sl_symbolic_create. What is
  *              marked EXPERIMENTAL may change in any version; all else keeps its promises from 1.0

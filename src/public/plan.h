@@ -60,7 +60,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor 
 
 /** One local solve without a plan: sl_plan_create and sl_plan_solve in the caller's workspace.
  *
- *  F, bset, nb, xset, nx, X, ldx, B, ldb, nrhs, W as in these two calls; no region.
+ *  The other arguments as in these two calls; no region.
  *  stats  [out]  plan (bytes is 0); error.row: an index out of range.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_INCONSISTENT, _NOT_FINITE: as in
  *           sl_plan_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.

@@ -48,7 +48,7 @@
  *           binary search per entry of Z. Keeps 4 (boundary)^2 bytes and about 100 per row of the
  *           boundary.
  *  Threads  reads F and Z.
- *  Source   [HDA17] 3 for the sweeps; (A^-1)_SS inverts the Schur complement of the rest.
+ *  Source   [HDA17] 3
  *  Example  tests/core/test_region.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_factor *F,
@@ -74,7 +74,7 @@ SL_API SL_WARN_UNUSED sl_status sl_region_refactor(sl_region *R, const sl_factor
 /** Releases a region. */
 SL_API void sl_region_free(sl_region *R);
 
-/** Arrays of a region; valid as long as the object. Cost: O(subtrees). */
+/** Arrays of a region. */
 typedef struct sl_region_arrays {
     sl_region_info info;
     const sl_symbolic *symbolic;
@@ -85,7 +85,7 @@ typedef struct sl_region_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_region_arrays;
 
-/** The arrays and statistics of R; all 0 if R is NULL. */
+/** The statistics of R, and its arrays, valid as long as R; all 0 if R is NULL. O(subtrees). */
 SL_API sl_region_arrays sl_region_view(const sl_region *R);
 
 #endif

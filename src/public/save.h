@@ -78,11 +78,10 @@ typedef enum sl_load_flag {
  *                    be NULL with a path.
  *  set     [in]      an analysis and what belongs to it. A selected inverse may be saved without a
  *                    factor; regions may not. The same region may be given more than once.
- *  opt     [in]      allocator; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: path and memory are both given, memory is too small, bytes, set
- *           or an object of it is NULL, n_regions is below 0, a reserved field is set, or regions
- *           without a factor; SL_ERR_STALE: a failed factor, or a selected inverse or region that
- *           is not of its present numbers; SL_ERR_MISMATCH: objects of different analyses, or from
+ *  opt     [in]      allocator.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also memory that is too small, and regions without a factor;
+ *           SL_ERR_STALE: a failed factor, or a selected inverse or region that is not of its
+ *           present numbers; SL_ERR_MISMATCH: objects of different analyses, or from
  *           a file that a newer version has written and this one reads in part;
  *           SL_ERR_UNSUPPORTED: SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds;
  *           SL_ERR_IO; SL_ERR_MEMORY: of a file.
@@ -110,7 +109,7 @@ SL_API SL_WARN_UNUSED sl_status sl_save(const char *path, void *memory, size_t *
  *  memory  [in]      NULL, or what sl_save wrote, of any alignment; aligned to 64 bytes if mapped.
  *  bytes   [in]      the size that was saved in memory, exactly; not read with a path.
  *  flags   [in]      any of sl_load_flag, but not both SL_LOAD_TRUSTED and SL_LOAD_VERIFIED.
- *  opt     [in]      allocator, threads, isa; may be NULL. threads are those of refactorizations;
+ *  opt     [in]      allocator, threads, isa. threads are those of refactorizations;
  *                    of mapped objects those of the inverse.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also if path and memory are both given or both NULL;
  *           SL_ERR_UNSUPPORTED: not a saved factor, one that this version cannot read, the isa, or
@@ -125,7 +124,7 @@ SL_API SL_WARN_UNUSED sl_status sl_save(const char *path, void *memory, size_t *
  *           boundary) for each region. Keeps less than 4 KB, and for each region 500 bytes and 16
  *           for each row of the boundary and each subtree.
  *  Threads  any number of calls at once.
- *  Example  tests/core/test_save.c, test_saved_set.c, test_save_file.c
+ *  Example  tests/core/test_save.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_load(sl_saved_set *set, const char *path, const void *memory,
                                         size_t bytes, unsigned flags, const sl_options *opt);

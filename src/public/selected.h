@@ -72,7 +72,7 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_entries(const sl_selected *Z, double
                                                     const sl_int *rows, const sl_int *columns,
                                                     sl_int count, sl_stats *stats);
 
-/** Arrays of a selected inverse; valid as long as the object.
+/** Arrays of a selected inverse.
  *
  *  The panel of supernode supers[k] begins at Z[begin[k]] and has the layout of the panels of L,
  *  described at sl_symbolic_arrays. Unlike there, the diagonal is stored; entries above it within a
@@ -88,7 +88,7 @@ typedef struct sl_selected_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_selected_arrays;
 
-/** The arrays and statistics of Z; all 0 if Z is NULL. */
+/** The statistics of Z, and its arrays, valid as long as Z; all 0 if Z is NULL. */
 SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z);
 
 #endif

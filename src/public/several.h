@@ -33,7 +33,7 @@
  *                       factorization reads them. Entries whose sum is 0 stay in the pattern.
  *  opt           [in]   allocator, triangle.
  *  stats         [out]  error.row, error.column: a malformed entry.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: different sizes, no term, no values; SL_ERR_MALFORMED;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MALFORMED;
  *           SL_ERR_TOO_LARGE: 2^31 or more entries in total; SL_ERR_MEMORY.
  *  Cost     O(n + entries of all terms).
  *  Threads  any number with different outputs.

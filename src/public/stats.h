@@ -9,8 +9,9 @@
 typedef struct sl_error {
     sl_int row;    /* -1: does not apply */
     sl_int column; /* -1: does not apply */
-    sl_off line;   /* of a file, 1-based; -1: does not apply */
-    double value;  /* the pivot or entry that was refused; of SL_ERR_IO errno; 0 if none */
+    sl_off line;   /* of a file, 1-based; of a leading dimension the least; -1: does not apply */
+    double value;  /* what was refused: a pivot, an entry, also a negative row; of SL_ERR_IO errno;
+                    * 0 if none */
     /* static text: the argument, the option or the reason, and what helps where a factorization was
      * refused; NULL: no error */
     const char *what;

@@ -45,8 +45,7 @@ typedef enum sl_status {
     SL_ERR_READ_ONLY
 } sl_status;
 
-/** A short description of a status; static storage. Any value is accepted. sl_error_text (stats.h)
- *  says more. */
+/** A short description of a status, static storage, for any value. sl_error_text says more. */
 SL_API const char *sl_status_string(sl_status status);
 
 /** The count of a list of rows that is NULL: all n rows. */

@@ -292,6 +292,33 @@ static void counts_do_not_overflow(void **state) {
     largest_int = limit;
 }
 
+/* The types of SCS, by its macros where it sets them. Its arrays go to the calls without a cast. */
+#if defined(DLONG) || defined(QDLDL_LONG)
+typedef long long scs_int;
+#else
+typedef int scs_int;
+#endif
+#if defined(SFLOAT) || defined(QDLDL_FLOAT)
+typedef float scs_float;
+#else
+typedef double scs_float;
+#endif
+
+static void arrays_of_scs_are_taken(void **state) {
+    const scs_int p[] = {0, 1, 3}, i[] = {0, 0, 1};
+    const scs_float a[] = {2, 4, 3};
+    scs_int work[2], counts[2], etree[2], Lp[3], Li[1], iwork[6];
+    scs_float Lx[1], D[2], Dinv[2], fwork[2], x[] = {10, 11};
+    QDLDL_bool bwork[2];
+    (void)state;
+    assert_true(QDLDL_etree(2, p, i, work, counts, etree) == 1);
+    assert_true(QDLDL_factor(2, p, i, a, Lp, Li, Lx, D, Dinv, counts, etree, bwork, iwork,
+                             fwork) == 1);
+    QDLDL_solve(2, Lp, Li, Lx, Dinv, x);
+    assert_true(fabs((double)x[0] - 1.4) <= 8 * epsilon);
+    assert_true(fabs((double)x[1] - 1.8) <= 8 * epsilon);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(factors_are_right),
@@ -299,6 +326,7 @@ int main(void) {
         cmocka_unit_test(wrong_matrices_are_refused),
         cmocka_unit_test(diagonal_entries_may_be_missing),
         cmocka_unit_test(counts_do_not_overflow),
+        cmocka_unit_test(arrays_of_scs_are_taken),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -66,9 +66,114 @@ WRONG(in_place) {
     return sl_factor_solve(w.y.F, w.x, N, w.x, N + 1, 1, NULL);
 }
 
+/* By rows ldx spans the right-hand sides. */
+WRONG(small_ldx_of_rows) {
+    (void)stats;
+    return sl_factor_solve(w.y.F, w.x, SL_ROWS(1), w.b, N, 2, NULL);
+}
+
+WRONG(small_ldy) {
+    (void)stats;
+    return sl_csc_multiply(&w.y.M.view, SL_AS_SYMMETRIC, w.x, 3, w.b, N, 1);
+}
+
+WRONG(small_ldr) {
+    double r[N];
+    (void)stats;
+    return sl_csc_residual(&w.y.M.view, r, 0, NULL, w.x, N, w.b, N, 1);
+}
+
 WRONG(no_such_row) {
     const sl_int row = N;
     return sl_local_solve(w.y.F, &row, 1, &row, 1, w.x, 1, w.b, 1, 1, NULL, stats);
+}
+
+WRONG(row_below_0) {
+    const sl_int row = -1;
+    sl_plan *P = NULL;
+    return sl_plan_create(&P, w.y.S, &row, 1, &row, 1, NULL, stats);
+}
+
+WRONG(column_below_0) {
+    const sl_int row = 3, column = -1;
+    double z;
+    return sl_inverse_block(w.y.F, &z, 1, &row, 1, &column, 1, NULL, stats);
+}
+
+WRONG(entry_below_0) {
+    const sl_int row = 3, column = -2;
+    const double delta = 1;
+    return sl_factor_change_entries(w.y.F, NULL, &row, &column, &delta, 1, NULL, stats);
+}
+
+WRONG(triplet_from_1) {
+    const sl_int i[] = {0, 2}, j[] = {0, 1};
+    sl_matrix *M = NULL;
+    return sl_matrix_from_triplets(&M, 2, 2, 2, i, j, w.b, NULL, stats);
+}
+
+/* Number 1 of the second right-hand side of a plan is infinite. */
+WRONG(infinite_b) {
+    const sl_int rows[] = {5, 8};
+    const double b[] = {1, 2, 3, (double)INFINITY};
+    sl_plan *P = NULL;
+    (void)stats;
+    SL_CHECK(sl_plan_create(&P, w.y.S, rows, 2, rows, 2, NULL, NULL));
+    const sl_status status = sl_plan_solve(P, w.y.F, w.x, 2, b, 2, 2, NULL);
+    sl_plan_free(P);
+    return status;
+}
+
+/* By rows, in a full solve of more right-hand sides than a block has. */
+WRONG(infinite_b_of_rows) {
+    enum { COLUMNS = 70 };
+    double *X = test_reals(N * COLUMNS), *B = test_reals(N * COLUMNS);
+    (void)stats;
+    B[7 * COLUMNS + 66] = -(double)INFINITY;
+    const sl_status status =
+        sl_factor_solve(w.y.F, X, SL_ROWS(COLUMNS), B, SL_ROWS(COLUMNS), COLUMNS, NULL);
+    free(X);
+    free(B);
+    return status;
+}
+
+/* b is lost. */
+WRONG(infinite_in_place) {
+    double b[N] = {(double)INFINITY};
+    (void)stats;
+    return sl_factor_solve(w.y.F, b, N, b, N, 1, NULL);
+}
+
+WRONG(infinite_in_batch) {
+    double b[2 * N] = {0};
+    sl_request requests[2] = {{NULL, w.x, N, w.b, N, 1, NULL}, {NULL, w.x + N, N, b, N, 1, NULL}};
+    (void)stats;
+    b[9] = (double)INFINITY;
+    return sl_batch_solve(w.y.F, requests, 2, NULL, NULL, NULL);
+}
+
+/* G of fixed rows, of which A has couplings, and of pins. */
+WRONG(infinite_fixed) {
+    const sl_int row = 5;
+    const double g[] = {1, (double)INFINITY};
+    sl_fixed *D = NULL;
+    (void)stats;
+    SL_CHECK(sl_fixed_create(&D, &w.y.M.view, &row, 1, NULL, NULL));
+    const sl_status status = sl_fixed_solve(D, w.x, N, w.b, N, g, 1, 2, NULL);
+    sl_fixed_free(D);
+    return status;
+}
+
+WRONG(infinite_pin) {
+    const sl_int rows[] = {5, 50};
+    const double g[] = {1, (double)INFINITY};
+    sl_constraints *P = NULL;
+    (void)stats;
+    SL_CHECK(sl_constraints_create(&P, w.y.F, NULL));
+    SL_CHECK(sl_constraints_add(P, rows, NULL, 2, NULL));
+    const sl_status status = sl_constraints_solve(P, NULL, w.x, N, w.b, N, g, 2, 1, NULL);
+    sl_constraints_free(P);
+    return status;
 }
 
 WRONG(no_numbers) {
@@ -191,6 +296,13 @@ WRONG(counted_from_1) {
     const sl_csc A = {2, 2, p, i, x};
     sl_symbolic *S = NULL;
     return sl_symbolic_create(&S, &A, NULL, stats);
+}
+
+WRONG(negative_row_of_a) {
+    const sl_int p[] = {0, 1, 2}, i[] = {0, -1};
+    const double x[] = {1, 1};
+    const sl_csc A = {2, 2, p, i, x};
+    return sl_csc_check(&A, stats);
 }
 
 WRONG(other_triangle) {

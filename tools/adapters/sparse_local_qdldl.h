@@ -7,7 +7,8 @@
  *
  * Programs that include qdldl.h then compile without a changed line. They are linked with the
  * bodies of sparse_local.h, of which the core suffices. With QDLDL_LONG QDLDL_int is a long long,
- * with QDLDL_FLOAT QDLDL_float is a float, as in QDLDL.
+ * with QDLDL_FLOAT QDLDL_float is a float, as in QDLDL; so they are with DLONG and with SFLOAT or
+ * DFLOAT, by which SCS and older programs choose the types of their own arrays.
  *
  * A is given by its upper triangle in compressed columns, without duplicates. It is factored in its
  * own order: choose one of little fill. L, D and 1/D are written to arrays of the caller. L is
@@ -24,7 +25,7 @@
 
 #include <limits.h>
 
-#ifdef QDLDL_LONG
+#if defined(QDLDL_LONG) || defined(DLONG)
 typedef long long QDLDL_int;
 #define QDLDL_INT_MAX LLONG_MAX
 #else
@@ -32,7 +33,7 @@ typedef int QDLDL_int;
 #define QDLDL_INT_MAX INT_MAX
 #endif
 
-#ifdef QDLDL_FLOAT
+#if defined(QDLDL_FLOAT) || defined(SFLOAT) || defined(DFLOAT)
 typedef float QDLDL_float;
 #else
 typedef double QDLDL_float;

@@ -90,7 +90,7 @@ FNR == 1 {
     }
     gsub(/\\"/, "", text)
     gsub(/"[^"]*"/, "\"\"", text)
-    gsub(/\/\*[^*]*\*\//, "", text)
+    gsub(/\/\*([^*]|\*+[^*\/])*\*+\//, "", text)
     if (sub(/\/\*.*$/, "", text)) in_comment = 1
     whole = whole "\n" text
 }

@@ -143,8 +143,10 @@ static void use_plans(void) {
 }
 
 static void use_accuracy(void) {
-    sl_plan *P = NULL;
-    double rcond, x[3], bounds[3], scales[4 * 3 + 2] = {0.0};
+    sl_plan *P = NULL, *Q = NULL;
+    sl_int both[N + 1], m;
+    double rcond, x[3], bounds[3], scales[4 * 3 + 2] = {0.0}, f[N + 1] = {1}, z[N + 1];
+    both[0] = rows[0];
     /* ---- sl_factor_refine ---- */
     ok(sl_factor_refine(F, &A, X, n, B, n, 3, 2, NULL, &stats)); /* at most 2 steps */
     printf("backward error %.1e\n", stats.refine.backward_error);
@@ -159,9 +161,14 @@ static void use_accuracy(void) {
     ok(sl_plan_solve_bounded(P, F, x, 3, bounds, &one, 1, 1, scales, NULL, NULL));
     printf("x = %g +- %.1e\n", x[0], bounds[0]);
     /* ---- sl_plan_solve_regularized ---- */
-    ok(sl_plan_solve_regularized(P, F, x, 3, &one, 1, 1, 2, NULL, &stats));
+    ok(sl_factor_pivot_rows(F, SL_PIVOT_REGULARIZED, both + 1, NULL, N, &m)); /* after both[0] */
+    ok(sl_plan_create(&Q, S, both, m + 1, both, m + 1, NULL, NULL));
+    ok(sl_plan_solve_regularized(Q, F, z, N + 1, f, N + 1, 1, 2, NULL, &stats)); /* f[0], z[0] */
     /* ---- end ---- */
+    ok(sl_local_solve(F, rows, 1, rows, 1, x, 1, &one, 1, 1, NULL, NULL));
+    sl_plan_free(Q);
     sl_plan_free(P);
+    if (m != 0 || fabs(z[0] - x[0]) > 1e-12) exit(1);
 }
 
 static void use_parts(void) {

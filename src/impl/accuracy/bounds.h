@@ -301,8 +301,7 @@ static void sli_bounds_write(const sli_bounds *p, double *to, const sli_rhs *X) 
 
 /* sli_sweep_blocks with bounds. */
 static sl_status sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, double *bounds) {
-    sl_status status = SL_OK;
-    sl_int r, count;
+    sl_int r, count, is_finite = 1;
     for (r = 0; r < rhs->nrhs; r += count) {
         sli_rhs block;
         sli_vectors v;
@@ -312,13 +311,11 @@ static sl_status sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, doub
         (void)sli_sweep_load(p->F, p->q, &v, &block);
         sli_bounds_norms(p, v.y, count);
         sli_sweep_backward(p->F, p->q, &v, count);
-        if (!sli_sweep_is_finite(p->F, p->q, v.x, (sl_int)1 << sli_lanes_kind(count))) {
-            status = sli_not_finite();
-        }
+        is_finite &= sli_sweep_is_finite(p->F, p->q, v.x, (sl_int)1 << sli_lanes_kind(count));
         sli_unpack(p->F, p->q, &block, v.x);
         sli_bounds_write(p, bounds + (size_t)r * sli_dense_of(rhs->ldx).column, &block);
     }
-    return status;
+    return is_finite ? SL_OK : sli_not_finite(rhs, p->q->nb);
 }
 
 /* Solves in a workspace. */

@@ -173,7 +173,7 @@ static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, s
     c = sli_local_refinement_find(f);
     if (c != -1) {
         return sli_fail_at(stats, SL_ERR_ARGUMENT, f->F->S->perm[c], -1, f->F->rule.shifts[c],
-                           "xset lacks this row, whose pivot was regularized");
+                           "a set lacks this regularized row; sl_factor_pivot_rows lists all");
     }
     for (r = 0; r < rhs->nrhs; r += sli_min(8, rhs->nrhs - r)) {
         const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
@@ -183,7 +183,7 @@ static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, s
         }
     }
     if (f->not_finite || !sli_is_finite(worst)) {
-        return sli_not_finite();
+        return sli_not_finite(rhs, f->q->nb);
     }
     worst = sli_max_error(sli_local_rounding(f->F), worst);
     return sli_refine_done(f->F, stats, steps, f->steps, worst);

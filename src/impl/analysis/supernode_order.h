@@ -7,10 +7,8 @@
 
 /* Where a supernode has so many children that are one column or a tall leaf, these follow the
  * others, by their numbers of rows below, up to SLI_SORTED_ROWS: sweeps and assembly then foresee
- * the ends of their loops. In the nearly diagonal KKT systems of lasso, support vectors and Huber
- * fitting with 6000 points solves take 0.6 of the time. And the update matrices of leaves do not
- * wait for the subtrees of siblings: in bundle adjustment, those of all points would wait for a
- * chain of cameras. A factor takes 0.36 of the memory then, with 10 cameras a point. */
+ * the ends of their loops. And the update matrices of leaves do not wait for the subtrees of
+ * siblings: in bundle adjustment, those of all points would wait for a chain of cameras. */
 #define SLI_SORTED_CHILDREN 64
 #define SLI_SORTED_ROWS 255
 #define SLI_SORTED_LEAF 24 /* fewest rows below a tall leaf */

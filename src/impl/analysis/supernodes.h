@@ -103,8 +103,7 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
 /* From so many entries of L on, memory limits solves. Where columns have few entries in the mean,
  * as in paths, networks and control problems, supernodes then have fewer zeros, least of all those
  * of single columns, which cost little, and short columns are kept apart where that costs less,
- * even if they are not plain. On a path L has a fifth of the numbers, a refactorization takes 0.7
- * and a solve 0.5 of the time. Meshes would have 0.95 of the numbers in up to 1.05 of the time. */
+ * even if they are not plain. On a path a solve takes half of the time; meshes gain nothing. */
 #define SLI_LARGE_ENTRIES 200000
 #define SLI_LARGE_COLUMN 16
 #define SLI_ZEROS_MOST_LARGE 40
@@ -130,8 +129,7 @@ SLI_INLINE sl_off sli_zeros_most(const sli_amalgamation *g, sl_int c) {
 /* What a solve spends on a supernode besides reading its panel, in the entries that it reads in the
  * same time: for each row below, for each supernode, and for one of more than 8 columns, which the
  * kernels of small supernodes do not take. Fitted to solves and factorizations on 2D and 3D grids
- * and KKT systems. For one factor, fewer fronts count more than fewer entries: 11 to 30 % less time
- * on grids and on KKT systems with short horizons, and solves take 8 to 30 % longer. */
+ * and KKT systems. For one factor, fewer fronts count more than fewer entries. */
 #define SLI_COST_ROW 4
 #define SLI_COST_SUPER 100
 #define SLI_COST_WIDE 200

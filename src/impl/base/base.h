@@ -339,11 +339,6 @@ SLI_INLINE void sli_shared_write(sl_int *a, sl_int value) {
  * so does the n + 1 after a loop that includes n. */
 #define SLI_ROWS_MAX (INT32_MAX - 7)
 
-/* Is ld a leading dimension of columns of so many rows? The top bit is that of SL_ROWS. */
-SLI_INLINE int sli_is_ld(size_t ld, sl_int rows) {
-    return ld >= (size_t)rows && ld <= SIZE_MAX / 2;
-}
-
 SLI_INLINE sl_int sli_min(sl_int a, sl_int b) {
     return a < b ? a : b;
 }

@@ -95,6 +95,12 @@ SLI_COLD static sl_status sli_refuse(sl_status status, const char *what) {
     return sli_fail_at(NULL, status, -1, -1, 0.0, what);
 }
 
+/* Refuses a row. As -1 is no row in stats, a negative one is the value, too. */
+SLI_COLD static sl_status sli_refuse_row(sl_stats *stats, sl_int row) {
+    return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, row < 0 ? row : 0.0,
+                       "a row is out of range");
+}
+
 SLI_COLD static sl_status sli_no_memory(void) {
     return sli_refuse(SL_ERR_MEMORY, "the allocator returned NULL");
 }
@@ -202,7 +208,8 @@ SLI_COLD static sl_status sli_file_fails(const char *what) {
 
 /* What the text of an error says of its place, as " (row 3, value 0.5"; returns its length. */
 static int sli_error_place(char *place, size_t size, sl_status status, const sl_error *e) {
-    const char *const names[4] = {"row", "column", "line", status == SL_ERR_IO ? "errno" : "value"};
+    const char *const names[4] = {"row", "column", status == SL_ERR_ARGUMENT ? "least" : "line",
+                                  status == SL_ERR_IO ? "errno" : "value"};
     const double numbers[4] = {(double)e->row, (double)e->column, (double)e->line, e->value};
     int k, length = 0;
     for (k = 0; k < 4; k++) {

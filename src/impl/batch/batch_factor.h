@@ -210,17 +210,6 @@ static sl_status sli_factor_batch_check(sl_factor *const *factors, sl_int count,
     return SL_OK;
 }
 
-/* Gives loaded factors their scratch. *at: the one at fault; -1 for none. */
-static sl_status sli_factor_batch_prepare(sl_factor *const *factors, sl_int count, sl_int *at) {
-    sl_status status = SL_OK;
-    sl_int k;
-    for (k = 0; k < count && status == SL_OK; k++) {
-        status = sli_factor_prepare(factors[k]);
-        *at = status == SL_OK ? -1 : k;
-    }
-    return status;
-}
-
 SL_API sl_status sl_factor_refactor_sums(sl_factor *const *factors, sl_int count,
                                          const double *coefficients, const double *const *values,
                                          sl_int terms, const sl_options *opt, sl_int *failed,
@@ -242,7 +231,10 @@ SL_API sl_status sl_factor_refactor_sums(sl_factor *const *factors, sl_int count
     if (status == SL_OK && count > 0) {
         status = sli_source_of_sum(factors[0]->S, coefficients, values, terms, &f.source);
     }
-    status = status == SL_OK ? sli_factor_batch_prepare(factors, count, &at) : status;
+    for (k = 0; k < count && status == SL_OK; k++) { /* loaded factors need scratch */
+        status = sli_factor_prepare(factors[k]);
+        at = status == SL_OK ? -1 : k;
+    }
     if (status == SL_OK && count > 0) {
         f.factors = factors;
         f.count = count;

@@ -92,7 +92,12 @@ static sl_status sli_solve_batch_run(sli_solve_batch *b, const sl_threads *threa
         memcpy(&failed, sli_solve_batch_memory(b, k), sizeof failed);
         *at = failed;
     }
-    return *at == -1 ? SL_OK : b->only_checks ? sli_inconsistent() : sli_not_finite();
+    if (*at != -1 && !b->only_checks) {
+        const sl_request *r = &b->requests[*at];
+        const sli_rhs rhs = sli_rhs_of(r->X, r->ldx, r->B, r->ldb, r->nrhs);
+        return sli_not_finite(&rhs, sli_request_query(sli_request_factor(b, r), r).nb);
+    }
+    return *at == -1 ? SL_OK : sli_inconsistent();
 }
 
 /* Checks every request, sums the weights, and finds the size of the scratch; *at: the request at

@@ -173,14 +173,6 @@ static void sli_choose_estimate(sli_change_choice *c, const sli_rank *q) {
                                   (double)SLI_TILE * passes * R.columns, c->flops_update);
 }
 
-/* Sorts the vectors of q, for their number and their cost, and prepares their passes. */
-static sl_status sli_choose_count(sli_change_choice *c, sli_rank *q, sl_work *W) {
-    const sl_status status = sli_work_stages(W, sli_edges_stages, 3, q);
-    c->flops_update = q->flops;
-    c->update = sli_choose_update(q, (double)q->entries, q->pivots, q->flops);
-    return status == SL_OK ? q->status : status;
-}
-
 static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc *A, sl_work *W,
                                 sl_change_method *method) {
     sl_factor *F = q->u.F;
@@ -193,10 +185,14 @@ static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc 
     }
     *method = q->n_entries == 0 && F->is_valid ? SL_CHANGE_NONE : sli_choose_make(c, F, can_update);
     if (*method == SL_CHANGE_UPDATE) {
-        status = sli_choose_count(c, q, W);
+        /* sorts the vectors, for their number and their cost, and prepares their passes */
+        status = sli_work_stages(W, sli_edges_stages, 3, q);
+        status = status == SL_OK ? q->status : status;
         if (status != SL_OK) {
             return status;
         }
+        c->flops_update = q->flops;
+        c->update = sli_choose_update(q, (double)q->entries, q->pivots, q->flops);
         *method = sli_choose_make(c, F, 1);
     }
     if (*method == SL_CHANGE_UPDATE) {
@@ -298,7 +294,10 @@ SL_API sl_status sl_factor_change_entries(sl_factor *F, const sl_csc *A, const s
         return sli_report(stats, status);
     }
     sli_rank_begin(&q, F, stats);
-    sli_edges_begin(&q, rows, columns, deltas, count);
+    q.entry_rows = rows;
+    q.entry_columns = columns;
+    q.deltas = deltas;
+    q.n_entries = count;
     if (A != NULL) {
         return sli_report(stats, sli_choose_cheapest(&q, A, W, started));
     }

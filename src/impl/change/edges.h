@@ -164,7 +164,8 @@ static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const s
     }
     for (k = 0; k < count; k++) {
         if (rows[k] < 0 || rows[k] >= F->S->n || columns[k] < 0 || columns[k] >= F->S->n) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], columns[k], deltas[k],
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], columns[k],
+                               sli_min(sli_min(rows[k], columns[k]), 0),
                                "a row or column is out of range");
         }
         if (!sli_is_finite(deltas[k])) {
@@ -173,15 +174,6 @@ static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const s
         }
     }
     return SL_OK;
-}
-
-/* Gives a change that has begun its entries. */
-static void sli_edges_begin(sli_rank *q, const sl_int *rows, const sl_int *columns,
-                            const double *deltas, sl_int count) {
-    q->entry_rows = rows;
-    q->entry_columns = columns;
-    q->deltas = deltas;
-    q->n_entries = count;
 }
 
 #endif

@@ -77,7 +77,7 @@ static sl_status sli_changes_check(const sl_factor *F, const sl_csc *A, const sl
     }
     for (k = 0, *entries = 0; k < c->count; k++) {
         if (c->columns[k] < 0 || c->columns[k] >= F->S->n) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, c->columns[k], -1, 0.0,
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, c->columns[k], -1, sli_min(c->columns[k], 0),
                                "a column is out of range");
         }
         *entries += (uint64_t)(A->p[c->columns[k] + 1] - A->p[c->columns[k]]);

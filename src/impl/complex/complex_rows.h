@@ -26,19 +26,6 @@ static void sli_complex_layout(sli_complex_set *set, sli_block *b) {
     set->real = SLI_TAKE(b, sl_int, set->rows == NULL ? 0 : 2 * (size_t)set->count);
 }
 
-/* Returns the index of the first row out of range 0..n-1, or -1. */
-static sl_int sli_complex_expand(const sl_int *rows, sl_int count, sl_int n, sl_int *real) {
-    sl_int k;
-    for (k = 0; k < count; k++) {
-        if (rows[k] < 0 || rows[k] >= n) {
-            return k;
-        }
-        real[2 * (size_t)k] = 2 * rows[k];
-        real[2 * (size_t)k + 1] = 2 * rows[k] + 1;
-    }
-    return -1;
-}
-
 /* Two sets of complex rows. */
 typedef struct sli_complex_sets {
     sli_complex_set first, second;
@@ -58,11 +45,16 @@ static sli_complex_sets sli_complex_sets_of(const sl_int *first, sl_int n_first,
 
 /* Checks and expands one of the sets of a system of n complex rows. */
 static sl_status sli_complex_fill(const sli_complex_set *set, sl_int n, sl_stats *stats) {
-    const sl_int bad =
-        set->rows == NULL ? -1 : sli_complex_expand(set->rows, set->count, n, set->real);
-    return bad == -1 ? SL_OK
-                     : sli_fail_at(stats, SL_ERR_ARGUMENT, set->rows[bad], -1, 0.0,
-                                   "a row is out of range");
+    sl_int k;
+    for (k = 0; k < set->count && set->rows != NULL; k++) {
+        const sl_int row = set->rows[k];
+        if (row < 0 || row >= n) {
+            return sli_refuse_row(stats, row);
+        }
+        set->real[2 * (size_t)k] = 2 * row;
+        set->real[2 * (size_t)k + 1] = 2 * row + 1;
+    }
+    return SL_OK;
 }
 
 /* Allocates and expands the sets, whose rows are those of a real system of n rows. */

@@ -119,7 +119,7 @@ static sl_status sli_constraints_check_rows(const sl_constraints *P, const sl_in
     }
     for (k = 0; k < count && status == SL_OK; k++) {
         if (rows[k] < 0 || rows[k] >= P->F->S->n) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0, "a row is out of range");
+            return sli_refuse_row(stats, rows[k]);
         }
         if (values != NULL && !sli_is_finite(values[k])) {
             return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k],

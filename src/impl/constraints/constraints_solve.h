@@ -231,7 +231,7 @@ SLI_HOT static sl_status sli_constraints_block(sli_constraints_solve *w) {
     }
     sli_constraints_set(w, v.x);
     sli_unpack(F, q, &w->rhs, v.x);
-    return sli_sweep_is_finite(F, q, v.x, lanes) ? SL_OK : sli_not_finite();
+    return sli_sweep_is_finite(F, q, v.x, lanes) ? SL_OK : sli_not_finite(&w->rhs, q->nb);
 }
 
 SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *plan, double *X,
@@ -251,10 +251,10 @@ SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *pl
     all = sli_query_all(P->F->S);
     status = sli_rhs_check(&rhs, q->nx, q->nb);
     if (status == SL_OK && nrhs > 0 && P->n_pins > 0) {
-        status = sli_argument(G == NULL ? "G is NULL"
-                              : !sli_dense_spans(ldg, P->n_pins, nrhs)
-                                  ? "ldg is below the number of pins (nrhs with SL_ROWS)"
-                                  : NULL);
+        status = G == NULL
+                     ? sli_argument("G is NULL")
+                     : sli_dense_check("ldg is below the number of pins, or nrhs with SL_ROWS", ldg,
+                                       P->n_pins, nrhs);
     }
     status = status == SL_OK ? sli_constraints_are_current(P) : status;
     status = status == SL_OK ? sli_query_check(q, P->F) : status;
@@ -281,6 +281,10 @@ SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *pl
             w.rhs = sli_rhs_part(&rhs, r, sli_min(8, nrhs - r));
             w.G = P->n_pins == 0 ? G : G + (size_t)r * w.g.column;
             status = sli_constraints_block(&w);
+        }
+        if (status == SL_ERR_NOT_FINITE) {
+            status = sli_dense_finite("this value of G is not finite", G, ldg, P->n_pins, nrhs);
+            status = status == SL_OK ? sli_not_finite(&rhs, q->nb) : status;
         }
     }
     sli_free(&own.allocator, own.block);

@@ -84,8 +84,8 @@ SLI_HOT static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *sta
             const sl_int i = A->i[p];
             sl_int other = own, is_there;
             if (i < 0 || i >= A->n_rows) {
-                return sli_fail_at(stats, SL_ERR_MALFORMED, i, j, 0.0,
-                                   "a row of A is out of range");
+                return sli_fail_at(stats, SL_ERR_MALFORMED, i, j, sli_min(i, 0),
+                                   "a row of A is out of range; rows count from 0");
             }
             is_there = sli_is_read(triangle, i, j);
             others |= !is_there;

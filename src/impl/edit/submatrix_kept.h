@@ -86,11 +86,6 @@ static void sli_restriction_done(sli_restriction *r, const sl_allocator *a) {
     }
 }
 
-/* The number of supernodes in the subtree with this kept root. */
-SLI_INLINE sl_int sli_restriction_size(const sli_restriction *r, sl_int root) {
-    return r->kept[root] - r->S->first_descendant[r->kept[root]] + 1;
-}
-
 /* Is this supernode the root of a subtree of kept ones? */
 SLI_INLINE int sli_restriction_is_root(const sli_restriction *r, sl_int q) {
     return r->limit[q] == r->S->super_first[r->kept[q] + 1];

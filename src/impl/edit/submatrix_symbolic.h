@@ -61,7 +61,7 @@ static void sli_joint_add(sli_joint *j, sl_int width, sl_off below) {
 SLI_HOT static void sli_joint_add_kept(sli_joint *j, sli_restriction *r, sl_int root) {
     for (; root != -1; root = r->next[root]) {
         sl_int q, k;
-        for (q = root + 1 - sli_restriction_size(r, root); q <= root; q++) {
+        for (q = root + r->S->first_descendant[r->kept[root]] - r->kept[root]; q <= root; q++) {
             const sl_int s = r->kept[q], width = r->S->super_first[s + 1] - r->S->super_first[s];
             for (k = 0; k < width; k++) {
                 r->column_of[r->first_rank[q] + k] = j->column + k;

@@ -132,7 +132,7 @@ SLI_HOT static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, co
         const sl_int row = rows[k];
         const sl_int ahead = rows[sli_min(k + SLI_SUBSET_AHEAD, R->count - 1)];
         if (row < 0 || row >= S->n) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, 0.0, "a row is out of range");
+            return sli_refuse_row(stats, row);
         }
         if (ahead >= 0 && ahead < S->n) {
             SLI_PREFETCH(S->iperm + ahead, 0);

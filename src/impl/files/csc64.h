@@ -38,7 +38,7 @@ static sl_status sli_csc64_copy(const sl_csc64 *A, sl_matrix *M, sl_stats *stats
             const int64_t i = A->i[p];
             if (i < 0 || i >= A->n_rows) {
                 const sl_int row = i < INT32_MIN || i > INT32_MAX ? -1 : (sl_int)i;
-                return sli_fail_at(stats, SL_ERR_MALFORMED, row, j, 0.0,
+                return sli_fail_at(stats, SL_ERR_MALFORMED, row, j, row < 0 ? (double)i : 0.0,
                                    "a row of A is out of range; rows count from 0");
             }
             M->i[p] = (sl_int)i;

@@ -113,7 +113,7 @@ static sl_status sli_fixed_new(sl_fixed **out, const sl_csc *A, const sl_int *ro
     sl_int k, free_row = 0;
     const sl_int bad = sli_rows_invert(rows, draft->n_fixed, draft->n, where);
     if (bad >= 0) {
-        return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0,
+        return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, sli_min(rows[bad], 0),
                            "a row is out of range or given twice");
     }
     for (k = 0; k < draft->n; k++) {

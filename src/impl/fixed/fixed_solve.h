@@ -70,8 +70,7 @@ static sl_status sli_fixed_blocks(const sl_fixed *D, const sli_rhs *rhs, const d
     const sl_factor *F = D->F;
     const sli_dense g = sli_dense_of(ldg);
     sli_query q = sli_query_all(D->S);
-    sl_status status = SL_OK;
-    sl_int k, i = 0, r, c, count;
+    sl_int k, i = 0, r, c, count, is_finite = 1;
     for (k = 0; k < D->n_free; k++) {
         for (; i <= D->free_rows[k]; i++) {
             index[i] = D->S->iperm[k];
@@ -102,11 +101,9 @@ static sl_status sli_fixed_blocks(const sl_fixed *D, const sli_rhs *rhs, const d
         sli_sweep_forward(F, &q, &v, count);
         sli_sweep_backward(F, &q, &v, count);
         sli_unpack(F, &q, &block, v.x);
-        if (!sli_sweep_is_finite(F, &q, v.x, lanes)) {
-            status = sli_not_finite();
-        }
+        is_finite &= sli_sweep_is_finite(F, &q, v.x, lanes);
     }
-    return status;
+    return is_finite ? SL_OK : sli_not_finite(rhs, rhs->B == NULL ? 0 : i);
 }
 
 /* Solves by the factor of the free rows, in place in X if it is singular or by several workers. */
@@ -144,14 +141,14 @@ SL_API sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx, const 
     sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
     sl_work own;
     sl_status status;
-    if (D == NULL ||
-        (nrhs > 0 && D->n_fixed > 0 && (G == NULL || !sli_dense_spans(ldg, D->n_fixed, nrhs)))) {
-        return sli_argument(D == NULL   ? "D is NULL"
-                            : G == NULL ? "G is NULL"
-                                        : "ldg is below the number of fixed rows, or with SL_ROWS "
-                                          "nrhs");
-    }
-    status = sli_rhs_check(&rhs, D->n, B == NULL ? 0 : D->n);
+    status = sli_argument(D == NULL                                 ? "D is NULL"
+                          : nrhs > 0 && D->n_fixed > 0 && G == NULL ? "G is NULL"
+                                                                    : NULL);
+    status = status == SL_OK && nrhs > 0
+                 ? sli_dense_check("ldg is below the number of fixed rows, or nrhs with SL_ROWS",
+                                   ldg, D->n_fixed, nrhs)
+                 : status;
+    status = status == SL_OK ? sli_rhs_check(&rhs, D->n, B == NULL ? 0 : D->n) : status;
     if (status != SL_OK || nrhs == 0 || D->n == 0) {
         return status;
     }
@@ -162,8 +159,8 @@ SL_API sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx, const 
     W = W == NULL ? &own : W;
     status = sli_fixed_run(D, &rhs, G, ldg, W);
     sli_free(&own.allocator, own.block);
-    if (status == SL_OK && !sli_fixed_set_fixed(D, &rhs, G, ldg)) {
-        status = sli_refuse(SL_ERR_NOT_FINITE, "a value of G is not finite");
+    if ((status == SL_OK || status == SL_ERR_NOT_FINITE) && !sli_fixed_set_fixed(D, &rhs, G, ldg)) {
+        status = sli_dense_finite("this value of G is not finite", G, ldg, D->n_fixed, nrhs);
     }
     return status;
 }

@@ -226,14 +226,17 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
     sli_inverse_block q;
     sl_status status;
     sli_stats_clear_error(stats);
-    status = sli_argument(F == NULL                              ? "F is NULL"
-                          : n_rows < 0                           ? "n_rows is below 0"
-                          : n_columns < 0                        ? "n_columns is below 0"
-                          : n_rows > 0 && rows == NULL           ? "rows is NULL"
-                          : n_columns > 0 && columns == NULL     ? "columns is NULL"
-                          : !is_empty && Z == NULL               ? "Z is NULL"
-                          : !is_empty && !sli_is_ld(ldz, n_rows) ? "ldz is below n_rows"
-                                                                 : NULL);
+    status = sli_argument(F == NULL                                ? "F is NULL"
+                          : n_rows < 0                             ? "n_rows is below 0"
+                          : n_columns < 0                          ? "n_columns is below 0"
+                          : n_rows > 0 && rows == NULL             ? "rows is NULL"
+                          : n_columns > 0 && columns == NULL       ? "columns is NULL"
+                          : !is_empty && Z == NULL                 ? "Z is NULL"
+                          : !is_empty && (ldz & SL_ROW_MAJOR) != 0 ? "ldz is one of SL_ROWS"
+                                                                   : NULL);
+    if (status == SL_OK && !is_empty) {
+        status = sli_dense_check("ldz is below n_rows", ldz, n_rows, n_columns);
+    }
     status =
         status == SL_OK ? sli_check_entries(F, rows, n_rows, columns, n_columns, stats) : status;
     if (status != SL_OK) {

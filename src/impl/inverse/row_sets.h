@@ -12,17 +12,18 @@ static sl_status sli_check_rows(const sl_symbolic *S, const sl_int *rows, sl_int
     sl_int k;
     for (k = 0; k < count && rows != NULL; k++) {
         if (rows[k] < 0 || rows[k] >= S->n) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, is_column ? -1 : rows[k],
-                               is_column ? rows[k] : -1, 0.0,
-                               is_column ? "a column is out of range" : "a row is out of range");
+            return !is_column ? sli_refuse_row(stats, rows[k])
+                              : sli_fail_at(stats, SL_ERR_ARGUMENT, -1, rows[k],
+                                            sli_min(rows[k], 0), "a column is out of range");
         }
     }
     return SL_OK;
 }
 
 /* May entries of the inverse of F in these rows and columns be computed? */
-static sl_status sli_check_entries(const sl_factor *F, const sl_int *rows, sl_int n_rows,
-                                   const sl_int *columns, sl_int n_columns, sl_stats *stats) {
+SLI_NOINLINE static sl_status sli_check_entries(const sl_factor *F, const sl_int *rows,
+                                                sl_int n_rows, const sl_int *columns,
+                                                sl_int n_columns, sl_stats *stats) {
     sl_status status = sli_inverse_check(F);
     status = status == SL_OK ? sli_check_rows(F->S, rows, n_rows, 0, stats) : status;
     return status == SL_OK ? sli_check_rows(F->S, columns, n_columns, 1, stats) : status;

@@ -34,8 +34,8 @@ static sl_status sli_selected_read(const sl_selected *Z, double *out, const sl_i
             const sl_int i = rows == NULL ? k : rows[k], j = columns == NULL ? i : columns[k];
             sl_off at;
             if (pass == 0 && (i < 0 || i >= S->n || j < 0 || j >= S->n)) {
-                return sli_fail_at(stats, SL_ERR_ARGUMENT, i, columns == NULL ? -1 : j, 0.0,
-                                   "a row or column is out of range");
+                return sli_fail_at(stats, SL_ERR_ARGUMENT, i, columns == NULL ? -1 : j,
+                                   sli_min(sli_min(i, j), 0), "a row or column is out of range");
             }
             at = sli_selected_position(Z, S->iperm[i], S->iperm[j]);
             if (at == -1) {

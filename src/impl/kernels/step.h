@@ -125,8 +125,8 @@ SLI_INLINE size_t sli_sweep_scratch_up_to(sl_int height, sl_int width, sl_int nr
 /* Rows of x are whole cache lines in sweeps of 8 and more right-hand sides, and the hardware does
  * not foresee where the next ones are. The lists of rows say it: while a step is computed, the rows
  * of the step SLI_STEPS_AHEAD from it are prefetched, up to SLI_ROWS_FETCHED of each kind. With
- * more, a step takes long enough to hide most misses. At n = 1e6 in 2D the sweeps take 0.6 of the
- * time. It costs 10 percent if x is in the cache anyway: below SLI_FETCHED_BYTES. */
+ * more, a step takes long enough to hide most misses. It costs a tenth if x is in the cache anyway:
+ * below SLI_FETCHED_BYTES. */
 #define SLI_STEPS_AHEAD 2
 #define SLI_ROWS_FETCHED 24
 #if defined(SLI_SMALL_TASKS)

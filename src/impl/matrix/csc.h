@@ -63,7 +63,7 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
     for (j = 0; beyond; j++) {
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
             if (A->i[p] < 0 || A->i[p] >= A->n_rows) {
-                return sli_fail_at(stats, SL_ERR_MALFORMED, A->i[p], j, 0.0,
+                return sli_fail_at(stats, SL_ERR_MALFORMED, A->i[p], j, sli_min(A->i[p], 0),
                                    "a row of A is out of range; rows count from 0");
             }
         }

@@ -138,11 +138,11 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
     status = sli_argument(Y == NULL                    ? "Y is NULL"
                           : A->n_cols > 0 && X == NULL ? "X is NULL"
                           : A->n_cols > 0 && X == Y    ? "X is Y"
-                          : !sli_dense_spans(ldy, A->n_rows, nrhs)
-                              ? "ldy is below the rows of A (nrhs with SL_ROWS), or too large"
-                          : A->n_cols > 0 && !sli_dense_spans(ldx, A->n_cols, nrhs)
-                              ? "ldx is below the columns of A (nrhs with SL_ROWS), or too large"
-                              : NULL);
+                                                       : NULL);
+    status = status == SL_OK ? sli_dense_check("ldy is below the rows of Y, or nrhs with SL_ROWS",
+                                               ldy, A->n_rows, nrhs)
+                             : status;
+    status = status == SL_OK ? sli_dense_check(sli_small_ldx, ldx, A->n_cols, nrhs) : status;
     if (status != SL_OK) {
         return status;
     }
@@ -155,7 +155,7 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
 
 /* The largest magnitude of n numbers, step elements apart; NaN if one of them is. As integers,
  * magnitudes are in their order, and NaN is the largest. */
-static double sli_largest(const double *x, size_t step, sl_int n) {
+SLI_NOINLINE static double sli_largest(const double *x, size_t step, sl_int n) {
     uint64_t largest = 0;
     double found;
     sl_int i;
@@ -219,13 +219,15 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
         sli_argument(B == NULL                          ? "B is NULL"
                      : R == NULL                        ? "R is NULL"
                      : X == NULL                        ? "X is NULL"
-                     : !sli_dense_spans(ldb, n, nrhs)   ? "ldb is below n (nrhs with SL_ROWS)"
-                     : !sli_dense_spans(ldr, n, nrhs)   ? "ldr is below n (nrhs with SL_ROWS)"
-                     : !sli_dense_spans(ldx, n, nrhs)   ? "ldx is below n (nrhs with SL_ROWS)"
                      : R == X                           ? "R is X"
                      : R == B && ldr != ldb             ? "R is B with another leading dimension"
                      : R == B && backward_error != NULL ? "R is B, and backward_error is wanted"
                                                         : NULL);
+    status = status == SL_OK ? sli_dense_check(sli_small_ldb, ldb, n, nrhs) : status;
+    status = status == SL_OK
+                 ? sli_dense_check("ldr is below the rows of R, or nrhs with SL_ROWS", ldr, n, nrhs)
+                 : status;
+    status = status == SL_OK ? sli_dense_check(sli_small_ldx, ldx, n, nrhs) : status;
     if (status != SL_OK) {
         return status;
     }

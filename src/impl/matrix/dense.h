@@ -29,12 +29,38 @@ SLI_INLINE sli_dense sli_dense_of(size_t ld) {
     return ld & SL_ROW_MAJOR ? sli_dense_by_rows(ld & ~SL_ROW_MAJOR) : sli_dense_by_columns(ld);
 }
 
-/* Does a leading dimension span the rows of a column or, by rows, the columns of a row? */
-SLI_INLINE int sli_dense_spans(size_t ld, sl_int rows, sl_int columns) {
+/* Refuses a leading dimension below the rows or, by rows, the columns. */
+SLI_NOINLINE static sl_status sli_dense_check(const char *wrong, size_t ld, sl_int rows,
+                                              sl_int columns) {
     const size_t elements = ld & ~SL_ROW_MAJOR;
-    return elements < SL_ROW_MAJOR / 2 && /* that bit is for later layouts */
-           elements >= (size_t)(ld & SL_ROW_MAJOR ? columns : rows);
+    const sl_int least = ld & SL_ROW_MAJOR ? columns : rows;
+    sl_status status = SL_OK;
+    if (rows > 0 && (elements < (size_t)least ||
+                     elements >= SL_ROW_MAJOR / 2)) { /* that bit is for later layouts */
+        status = sli_fail_at(NULL, SL_ERR_ARGUMENT, -1, -1, (double)elements, wrong);
+        sli_error_line(NULL, least);
+    }
+    return status;
 }
+
+/* Names the first number of a block that is not finite. */
+SLI_COLD static sl_status sli_dense_finite(const char *wrong, const double *M, size_t ld,
+                                           sl_int rows, sl_int columns) {
+    const sli_dense at = sli_dense_of(ld);
+    sl_int i, r;
+    for (r = 0; r < columns; r++) {
+        for (i = 0; i < rows; i++) {
+            const double x = M[(size_t)i * at.row + (size_t)r * at.column];
+            if (!sli_is_finite(x)) {
+                return sli_fail_at(NULL, SL_ERR_NOT_FINITE, i, r, x, wrong);
+            }
+        }
+    }
+    return SL_OK;
+}
+
+static const char sli_small_ldx[] = "ldx is below the rows of X, or nrhs with SL_ROWS";
+static const char sli_small_ldb[] = "ldb is below the rows of B, or nrhs with SL_ROWS";
 
 /* Copies one block to another. */
 static void sli_dense_copy(double *to, sli_dense t, const double *from, sli_dense f, sl_int rows,

@@ -115,7 +115,7 @@ static sl_status sli_columns_check(sli_submatrix *s, const sl_int *rows, uint64_
     sl_off total = 0;
     for (k = 0; k < s->count; k++) {
         if (rows[k] < 0 || rows[k] >= A->n_cols) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0, "a row is out of range");
+            return sli_refuse_row(stats, rows[k]);
         }
         s->sorted[k] = sli_keyed(rows[k], k);
     }
@@ -133,7 +133,7 @@ static sl_status sli_columns_check(sli_submatrix *s, const sl_int *rows, uint64_
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
             const sl_int i = A->i[p];
             if (i < 0 || i >= A->n_rows) {
-                return sli_fail_at(stats, SL_ERR_MALFORMED, i, j, 0.0,
+                return sli_fail_at(stats, SL_ERR_MALFORMED, i, j, sli_min(i, 0),
                                    "a row of A is out of range; rows count from 0");
             }
             if (i != j && sli_submatrix_position(s, i) >= 0) {

@@ -213,8 +213,7 @@ static double sli_graph_entries(const sli_order_job *job) {
  * constraints are eliminated for nearly nothing, up to one dense block.
  *
  * There is next to no fill where L has an eighth more entries than A, and paths are little longer
- * than those within the largest fronts: programs of lasso, Huber and portfolio problems have paths
- * 1.0 to 1.2 times as long.
+ * than those within the largest fronts.
  *
  * The entries on a mean path relative to flops^(2/3): those of one dense block are 1.1 of it, in a
  * balanced tree fewer. Minimum degree has 0.5 to 0.6 of it on plane grids, 0.7 in volumes, and 2

@@ -248,14 +248,6 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
     return status;
 }
 
-static void sli_dissect_free_levels(sli_dissection *d) {
-    int k;
-    for (k = 1; k < d->n_levels; k++) {
-        sli_free(d->a, d->levels[k].block);
-    }
-    d->n_levels = 1;
-}
-
 /* Builds the separator tree on the finest level that has few enough vertices, in addition to the
  * levels that there are: each leaf is bisected on the coarsest level on which it is large enough,
  * and its border is then refined from level to level. */
@@ -298,7 +290,9 @@ static sl_status sli_dissect_multilevel(sli_dissection *d) {
     while (status == SL_OK && d->level > 0) {
         sli_dissect_project(d);
     }
-    sli_dissect_free_levels(d);
+    for (; d->n_levels > 1; d->n_levels--) {
+        sli_free(d->a, d->levels[d->n_levels - 1].block);
+    }
     return status;
 }
 

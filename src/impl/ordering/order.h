@@ -43,14 +43,6 @@ static sl_status sli_order_quickly(const sli_order_job *job) {
     return sli_order_mindeg(job, job->scratch, &cost);
 }
 
-/* Orders the graph of a job by minimum degree, and adds to the facts what that costs. The scratch
- * then has the vertices of each pivot. */
-static sl_status sli_order_by_mindeg(const sli_order_job *job, sli_graph_facts *f) {
-    const sl_status status = sli_order_mindeg(job, job->scratch, &f->cost);
-    sli_graph_describe_mindeg(job, f);
-    return status;
-}
-
 /* Orders the graph of a job, with indistinguishable rows as one vertex if that is worthwhile.
  * Nobody looks for them in a graph twice. */
 static sl_status sli_order_compressed(const sli_order_job *job,
@@ -85,7 +77,8 @@ static sl_status sli_order_chosen(const sli_order_job *job) {
             f.bits |= job->weight == NULL && sli_order_levels(job) ? SLI_IS_NARROW : 0;
             break;
         case SLI_TRY_MINDEG:
-            status = sli_order_by_mindeg(job, &f);
+            status = sli_order_mindeg(job, job->scratch, &f.cost);
+            sli_graph_describe_mindeg(job, &f); /* the scratch has the vertices of each pivot */
             break;
         case SLI_BY_LEVELS: /* perm has it already */
             return SL_OK;

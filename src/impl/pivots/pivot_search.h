@@ -349,13 +349,6 @@ SLI_HOT static sl_status sli_search_supernode(sli_pivot_search *p, const sl_csc 
     return SL_OK;
 }
 
-static void sli_search_layout(sli_pivot_search *p, sli_block *b) {
-    p->contributions = SLI_TAKE(b, sli_contribution, p->S->n_supers);
-    p->local = SLI_TAKE(b, sl_int, p->S->n);
-    p->order = SLI_TAKE(b, sl_int, p->S->n);
-    p->is_first = SLI_TAKE(b, unsigned char, p->S->n);
-}
-
 /* Selects all pivots of a matrix that has the analyzed pattern. p has its memory. */
 static sl_status sli_search_run(sli_pivot_search *p, const sl_csc *A, sl_stats *stats) {
     sl_status status = SL_OK;

@@ -56,7 +56,10 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
     started = sli_seconds();
     status = sli_argument(A->x == NULL && sli_nnz(A) > 0 ? "A.x is NULL" : NULL);
     SLI_LAYOUT(&b, &p.allocator, status) {
-        sli_search_layout(&p, &b);
+        p.contributions = SLI_TAKE(&b, sli_contribution, S->n_supers);
+        p.local = SLI_TAKE(&b, sl_int, S->n);
+        p.order = SLI_TAKE(&b, sl_int, S->n);
+        p.is_first = SLI_TAKE(&b, unsigned char, S->n);
     }
     status = status == SL_OK ? sli_search_run(&p, A, stats) : status;
     S->stats.symbolic.seconds_analyze += sli_seconds() - started;

@@ -59,8 +59,7 @@ static sl_status sli_set_sort(const sl_symbolic *S, sli_set *set, sl_stats *stat
     for (k = 0; k < set->count; k++) {
         const sl_int i = set->rows[k];
         if (i < 0 || i >= S->n) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, 0.0,
-                               "a row of bset or xset is out of range");
+            return sli_refuse_row(stats, i);
         }
         set->seeds[k] = sli_keyed(S->iperm[i], k);
     }

@@ -57,9 +57,13 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
     sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }
 
-SLI_COLD static sl_status sli_not_finite(void) {
-    return sli_refuse(SL_ERR_NOT_FINITE,
-                      "a right-hand side or a given value is not finite, or x overflows");
+/* Refuses a solution that is not finite: names the number of b, if b is still there. */
+SLI_COLD static sl_status sli_not_finite(const sli_rhs *rhs, sl_int nb) {
+    const sl_status status = sli_dense_finite("this number of B is not finite", rhs->B, rhs->ldb,
+                                              rhs->B == rhs->X ? 0 : nb, rhs->nrhs);
+    return status != SL_OK
+               ? status
+               : sli_refuse(SL_ERR_NOT_FINITE, "a right-hand side is not finite, or x overflows");
 }
 
 SLI_COLD static sl_status sli_inconsistent(void) {
@@ -87,8 +91,7 @@ static int sli_sweep_is_finite(const sl_factor *F, const sli_query *q, const dou
  * solution is not finite. */
 static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
                                   void *memory) {
-    sl_status status = SL_OK;
-    sl_int r, count;
+    sl_int r, count, is_finite = 1;
     for (r = 0; r < rhs->nrhs; r += count) {
         sli_rhs block;
         sli_vectors v;
@@ -100,11 +103,9 @@ static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, const 
         }
         sli_sweep_backward(F, q, &v, count);
         sli_unpack(F, q, &block, v.x);
-        if (!sli_sweep_is_finite(F, q, v.x, (sl_int)1 << sli_lanes_kind(count))) {
-            status = sli_not_finite();
-        }
+        is_finite &= sli_sweep_is_finite(F, q, v.x, (sl_int)1 << sli_lanes_kind(count));
     }
-    return status;
+    return is_finite ? SL_OK : sli_not_finite(rhs, q->nb);
 }
 
 /* Like sli_sweep_blocks, but writes nothing to X unless all blocks are consistent. */
@@ -142,7 +143,7 @@ static sl_status sli_query_run(sli_sweep_tasks *t, const sl_factor *F, const sli
                                const sli_rhs *rhs, sl_work *W) {
     if (t->workers > 1) {
         sli_sweep_tasks_run(t, &W->threads, W->block, sli_sweep_tasks_block);
-        return sli_atomic_read(&t->has_failed) ? sli_not_finite() : SL_OK;
+        return sli_atomic_read(&t->has_failed) ? sli_not_finite(rhs, q->nb) : SL_OK;
     }
     return sli_sweep(F, q, rhs, W->block);
 }
@@ -156,11 +157,15 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, const s
     if (rhs->nrhs == 0 || q->nx == 0) {
         return SL_OK;
     }
-    own = sli_work_own(&F->allocator);
-    W = W == NULL ? &own : W;
+    if (W == NULL) {
+        own = sli_work_own(&F->allocator);
+        W = &own;
+    }
     status = sli_query_prepare(&t, F, q, rhs, W);
     status = status == SL_OK ? sli_query_run(&t, F, q, rhs, W) : status;
-    sli_free(&own.allocator, own.block);
+    if (W == &own) {
+        sli_free(&own.allocator, own.block);
+    }
     return status;
 }
 

@@ -31,7 +31,7 @@ SLI_INLINE sl_status sli_work_grow(sl_work *W, size_t bytes) {
 }
 
 /* An empty workspace for one call. The caller releases its block. */
-static sl_work sli_work_own(const sl_allocator *a) {
+SLI_NOINLINE static sl_work sli_work_own(const sl_allocator *a) {
     sl_work own;
     memset(&own, 0, sizeof own);
     own.allocator = *a;

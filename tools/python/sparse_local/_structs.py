@@ -1,4 +1,9 @@
-"""The structs of sparse_local.h, member by member; tests/test_structs.py compares them."""
+"""The structs of sparse_local.h, member by member; tests/test_structs.py compares them.
+
+The calls named _view return one by value: restype is the struct (_library.py), and ctypes knows how
+the platform returns it. tools/packaging/sparse_local.c says how a language without structs calls
+them. Pointers in a view are those of the object and end with it: copy arrays, or keep the object.
+"""
 import ctypes
 
 INT, OFF, REAL, SIZE, PTR = (ctypes.c_int32, ctypes.c_int64, ctypes.c_double,

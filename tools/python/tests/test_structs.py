@@ -1,12 +1,16 @@
 """The structs of the package against those that a C compiler sees."""
 import ctypes
 import os
+import platform
 import re
 import subprocess
 
 import pytest
+import scipy.sparse
 
+import sparse_local as sl
 from sparse_local import _structs
+from sparse_local._library import lib
 
 
 # members of a struct in the struct of C, which is no struct here
@@ -44,6 +48,21 @@ def test_structs_are_those_of_the_header(tmp_path, name):
     assert [int(text) for text in numbers[1:]] == list(ours.values())
     assert [path.split(".")[-1] for path in theirs] == [
         RENAMED.get(path.split(".")[-1], path.split(".")[-1]) for path in ours]
+
+
+@pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="the ABI of x86-64")
+def test_views_are_returned_through_a_first_argument():
+    """As tools/packaging/sparse_local.c tells bindings that cannot declare structs."""
+    F = sl.Factor(scipy.sparse.diags([2.0, 3.0, 4.0], format="csc"))
+    views = {"symbolic": F._symbolic.pointer, "factor": F._pointer}
+    for kind, pointer in views.items():
+        struct = getattr(_structs, kind.capitalize() + "Arrays")
+        call = ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)(
+            ctypes.cast(getattr(lib, "sl_%s_view" % kind), ctypes.c_void_p).value)
+        result = struct()
+        assert call(ctypes.addressof(result), pointer) == ctypes.addressof(result)
+        assert bytes(result) == bytes(getattr(lib, "sl_%s_view" % kind)(pointer))
+        assert ctypes.sizeof(struct) > 16
 
 
 def leaves(struct, prefix="", start=0):
