@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7d42f24ac9470c8c
+ * FNV-1a of the lines after this comment, without the license: 5a9325b4badae1d0
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,25 +36,25 @@
  *   4084 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   4965 impl/ matrix: sparse matrices of the caller and of the library
  *   5798 impl/ ordering: fill-reducing orderings of a graph
- *  10572 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12814 impl/ factor: the numbers of L and D
- *  15382 impl/ solve: full and local solves
- *  16890 impl/ singular: null spaces of semidefinite matrices
- *  18161 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20205 impl/ pivots: the order of the pivots by the values of a matrix
- *  20613 impl/ float: L in single precision
- *  20796 impl/ inverse: entries of the inverse, regions
- *  23697 impl/ change: a factor that follows changes of its matrix
- *  25975 impl/ constraints: rows held at values, on a factor that stays
- *  27322 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30058 impl/ fixed: rows fixed at given values
- *  30617 impl/ io: files that are replaced only when they are complete
- *  30835 impl/ files: Matrix Market files, 64-bit indices
- *  31391 impl/ save: factors in files
- *  33371 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34057 impl/ complex: complex Hermitian systems over real factors
- *  34529 impl/ packs: the tables through which the core calls packs
- *  34953 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10567 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12809 impl/ factor: the numbers of L and D
+ *  15377 impl/ solve: full and local solves
+ *  16885 impl/ singular: null spaces of semidefinite matrices
+ *  18156 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20200 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20608 impl/ float: L in single precision
+ *  20791 impl/ inverse: entries of the inverse, regions
+ *  23692 impl/ change: a factor that follows changes of its matrix
+ *  25970 impl/ constraints: rows held at values, on a factor that stays
+ *  27317 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30055 impl/ fixed: rows fixed at given values
+ *  30614 impl/ io: files that are replaced only when they are complete
+ *  30832 impl/ files: Matrix Market files, 64-bit indices
+ *  31388 impl/ save: factors in files
+ *  33359 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34045 impl/ complex: complex Hermitian systems over real factors
+ *  34517 impl/ packs: the tables through which the core calls packs
+ *  34941 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -10333,12 +10333,7 @@ static void sli_order_natural(sl_int n, sl_int *perm) {
 
 static sl_status sli_order_given(const sli_order_job *job) {
   const sl_int *given = job->opt->perm, n = job->A->n_cols;
-  sl_int bad;
-  if (given == NULL && n > 0) {
-    return sli_order_refuse(job, SL_ERR_ARGUMENT,
-        "options.perm is NULL though ordering is GIVEN");
-  }
-  bad = sli_rows_invert(given, n, n, job->scratch);
+  const sl_int bad = sli_rows_invert(given, n, n, job->scratch);
   if (bad >= 0) {
     return sli_fail_at(job->stats, SL_ERR_ARGUMENT, bad, -1, given[bad],
         "options.perm has a row out of range or twice at this position");
@@ -10417,12 +10412,11 @@ static const struct sli_graph_ordering {
                {SL_ORDERING_MINDEG, 1, sli_order_quickly}};
 
 static const struct sli_graph_ordering *sli_graph_ordering_of(sl_ordering ordering) {
-  const size_t count = sizeof sli_graph_orderings / sizeof *sli_graph_orderings;
   size_t k = 0;
-  while (k < count && sli_graph_orderings[k].ordering != ordering) {
+  while (sli_graph_orderings[k].ordering != ordering) {
     k++;
   }
-  return k < count ? &sli_graph_orderings[k] : NULL;
+  return &sli_graph_orderings[k];
 }
 
 static sl_status sli_order_rest(const sli_order_job *job) {
@@ -10508,6 +10502,10 @@ static const char *sli_order_options_wrong(const sl_options *opt, sl_int n) {
   return opt == NULL ? NULL
        : (unsigned)opt->purpose > (unsigned)SL_PURPOSE_ONE_FACTOR
          ? "options.purpose is not a value of sl_purpose"
+       : (unsigned)opt->ordering > (unsigned)SL_ORDERING_MINDEG || (int)opt->ordering == 2
+         ? "options.ordering is not a value of sl_ordering"
+       : opt->ordering == SL_ORDERING_GIVEN && opt->perm == NULL && n > 0
+         ? "options.perm is NULL though ordering is GIVEN"
        : opt->block_size < 0 ? "options.block_size is below 0"
        : opt->block_size > 1 && n % opt->block_size != 0
          ? "options.block_size does not divide n"
@@ -10561,10 +10559,7 @@ static sl_status sli_order(sli_order_job *job) {
       job->choice->has_tree = 1;
       return SL_OK;
     }
-    return sli_graph_ordering_of(job->ordering) != NULL
-           ? sli_order_by_graph(job)
-           : sli_order_refuse(job, SL_ERR_ARGUMENT,
-               "options.ordering is not a value of sl_ordering");
+    return sli_order_by_graph(job);
   }
 }
 
@@ -29729,8 +29724,9 @@ SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const
   status = sli_begin(out);
   status = status == SL_OK ? sli_edit_arguments(S, A, B, new_of, opt) : status;
   status = status == SL_OK ? sl_csc_check(B, stats) : status;
-  if (status == SL_OK && B->n_rows != B->n_cols) {
-    status = sli_argument("B is not square");
+  if (status == SL_OK) {
+    status = sli_argument(B->n_rows != B->n_cols ? "B is not square"
+        : sli_order_options_wrong(opt, B->n_cols));
   }
   SLI_CLEAR(e);
   if (status == SL_OK) {
@@ -29805,8 +29801,9 @@ static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *s
 static int sli_reuse_is_suited(const sl_factor *F, const sl_factor *G) {
   const double a = F->rule.null_tolerance, b = G->rule.null_tolerance;
   return F->history.marks != NULL && G->history.marks != NULL && F->E == NULL && G->E == NULL &&
-       G->type->accepts == NULL && F->null.calls == G->null.calls && F->null.vectors == 1 &&
-       G->null.vectors == 1 && F->rule.regularization == G->rule.regularization &&
+       F->type == G->type && G->type->accepts == NULL && F->null.calls == G->null.calls &&
+       F->null.vectors == 1 && G->null.vectors == 1 &&
+       F->rule.regularization == G->rule.regularization &&
        (a == b || (sli_tolerance_is_default(F) && sli_tolerance_is_default(G)));
 }
 
@@ -32408,44 +32405,35 @@ typedef struct sli_sink {
   int has_failed;
 } sli_sink;
 
-static void sli_put(sli_sink *to, const void *data, size_t bytes) {
-  if (bytes == 0 || to->has_failed) {
+static void sli_put(sli_sink *to, sli_checksum *sum, const void *data, uint64_t bytes) {
+  if (to == NULL) {
+    sli_checksum_add(sum, data, (size_t)bytes);
+  } else if (bytes == 0 || to->has_failed) {
     return;
-  }
-  if (to->file != NULL) {
-    to->has_failed = fwrite(data, 1, bytes, to->file) != bytes;
+  } else if (to->file != NULL) {
+    to->has_failed = fwrite(data, 1, (size_t)bytes, to->file) != bytes;
   } else {
-    memcpy(to->memory, data, bytes);
+    memcpy(to->memory, data, (size_t)bytes);
     to->memory += bytes;
   }
 }
 
 SLI_HOT static void sli_put_filled(sli_sink *to, sli_checksum *sum, const void *data, uint64_t used,
     uint64_t bytes) {
-  static const unsigned char zeros[1024] = {0};
-  uint64_t left = bytes - used;
-  if (to == NULL) {
-    sli_checksum_add(sum, data, (size_t)used);
-    left = bytes - sum->bytes;
-  } else {
-    sli_put(to, data, (size_t)used);
-  }
-  while (left > 0) {
-    const size_t piece = left < sizeof zeros ? (size_t)left : sizeof zeros;
-    if (to == NULL) {
-      sli_checksum_add(sum, zeros, piece);
-    } else {
-      sli_put(to, zeros, piece);
-    }
-    left -= piece;
+  static const unsigned char zeros[128] = {0};
+  uint64_t left, piece;
+  sli_put(to, sum, data, used);
+  for (left = bytes - (to == NULL ? sum->bytes : used); left > 0; left -= piece) {
+    piece = left < sizeof zeros ? left : sizeof zeros;
+    sli_put(to, sum, zeros, piece);
   }
 }
 
 static void sli_put_piece(sli_sink *to, sli_checksum *sum, const void *data, uint64_t bytes) {
   if (to == NULL) {
-    sli_checksum_add(sum, data, (size_t)bytes);
+    sli_put(to, sum, data, bytes);
   } else {
-    sli_put_filled(to, NULL, data, bytes, sli_round_up(bytes));
+    sli_put_filled(to, sum, data, bytes, sli_round_up(bytes));
   }
 }
 
@@ -32573,7 +32561,7 @@ SLI_COLD static void sli_save_write(sli_saved *f, sli_sink *to) {
   memcpy(prefix + sizeof f->header, f->table, f->header.sections * sizeof(sli_section));
   f->header.checksum = sli_prefix_checksum(prefix, size);
   memcpy(prefix, &f->header, sizeof f->header);
-  sli_put(to, prefix, size);
+  sli_put(to, NULL, prefix, size);
   for (k = 0; k < f->header.sections; k++) {
     sli_put_section(f, k, to, NULL);
   }
