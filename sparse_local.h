@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 5a9325b4badae1d0
+ * FNV-1a of the lines after this comment, without the license: 913675ed6238dfeb
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -30,31 +30,31 @@
  *   2462 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
  *   2504 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
  *   2579 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2667 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2731 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2774 impl/ base: the compiler, status, memory, sorting, threads
- *   4084 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4965 impl/ matrix: sparse matrices of the caller and of the library
- *   5798 impl/ ordering: fill-reducing orderings of a graph
- *  10567 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12809 impl/ factor: the numbers of L and D
- *  15377 impl/ solve: full and local solves
- *  16885 impl/ singular: null spaces of semidefinite matrices
- *  18156 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20200 impl/ pivots: the order of the pivots by the values of a matrix
- *  20608 impl/ float: L in single precision
- *  20791 impl/ inverse: entries of the inverse, regions
- *  23692 impl/ change: a factor that follows changes of its matrix
- *  25970 impl/ constraints: rows held at values, on a factor that stays
- *  27317 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30055 impl/ fixed: rows fixed at given values
- *  30614 impl/ io: files that are replaced only when they are complete
- *  30832 impl/ files: Matrix Market files, 64-bit indices
- *  31388 impl/ save: factors in files
- *  33359 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34045 impl/ complex: complex Hermitian systems over real factors
- *  34517 impl/ packs: the tables through which the core calls packs
- *  34941 impl/ templates: the header includes them from itself, once for each instruction set
+ *   2669 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2733 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2776 impl/ base: the compiler, status, memory, sorting, threads
+ *   4086 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4967 impl/ matrix: sparse matrices of the caller and of the library
+ *   5800 impl/ ordering: fill-reducing orderings of a graph
+ *  10565 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12807 impl/ factor: the numbers of L and D
+ *  15393 impl/ solve: full and local solves
+ *  16901 impl/ singular: null spaces of semidefinite matrices
+ *  18152 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20194 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20602 impl/ float: L in single precision
+ *  20785 impl/ inverse: entries of the inverse, regions
+ *  23683 impl/ change: a factor that follows changes of its matrix
+ *  25956 impl/ constraints: rows held at values, on a factor that stays
+ *  27303 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30032 impl/ fixed: rows fixed at given values
+ *  30591 impl/ io: files that are replaced only when they are complete
+ *  30809 impl/ files: Matrix Market files, 64-bit indices
+ *  31365 impl/ save: factors in files
+ *  33336 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34022 impl/ complex: complex Hermitian systems over real factors
+ *  34497 impl/ packs: the tables through which the core calls packs
+ *  34921 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2604,7 +2604,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor 
  * [a -b; b a] as well, and SL_STORAGE_COMPLEX (EXPERIMENTAL) computes and keeps the first column of
  * each: half the operations and half the memory. Solves read half as much, and share each read of L
  * as those of real matrices do: up to 32 right-hand sides. Every call on factors takes both
- * storages, except that L as complex is not changed in place or saved. */
+ * storages, except that L as complex is not changed in place or saved.
+ *
+ * A null vector z of H is two of the real matrix, z and i z: options.null_vector_count 2. */
 
 /** View of a complex Hermitian matrix in compressed columns: one triangle or both, entries and
  *  duplicates as in sl_csc. The imaginary parts of diagonal entries are 0. */
@@ -7990,10 +7992,6 @@ SLI_TARGET("avx2,popcnt") static void sli_mindeg_run_avx2(sli_mindeg *m, sl_int 
 }
 #endif
 
-static int sli_mindeg_is_wide(sl_int n) {
-  return n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
-}
-
 static sl_int sli_mindeg_number(const sli_mindeg *m, const sli_level *g, const sl_int *vertices,
     sl_int count) {
   sl_int k, bits = count, *local = m->local, *bit = m->bit, *halo = m->order;
@@ -9115,7 +9113,7 @@ static sl_status sli_order_nd(const sli_order_job *job) {
     sli_nd_layout(&w, &b);
   }
   if (status == SL_OK) {
-    const int has_avx2 = sli_mindeg_is_wide(w.G->n);
+    const int has_avx2 = w.G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: none */
     for (k = 0; k < job->team->workers; k++) {
       w.d.workers[k].mindeg.has_avx2 = has_avx2;
     }
@@ -13183,6 +13181,26 @@ static void sli_source_sum(const sli_source *from, sl_off first, sl_int count, d
   }
 }
 
+SLI_COLD static void sli_entries_finite_check(const sl_symbolic *S, const sli_source *from,
+    sli_failure *failure) {
+  sl_off m;
+  sl_int s;
+  for (s = 0; s < S->n_supers; s++) {
+    for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
+      double a;
+      if (from->A != NULL) {
+        a = from->A->x[S->scatter_from[m]];
+      } else {
+        sli_source_sum(from, m, 1, &a);
+      }
+      if (!sli_is_finite(a)) {
+        (void)sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
+        return;
+      }
+    }
+  }
+}
+
 typedef struct sli_loading {
   const double *x;
   const sl_int *scatter_from;
@@ -14259,18 +14277,14 @@ typedef struct sli_judge {
   double error;
 } sli_judge;
 
-static double sli_judge_size(const sl_factor *F, sl_int c) {
-  const double size = fabs(F->D[c]);
-  return F->E == NULL ? size : size + fabs(F->E[F->S->pairs[c] == SLI_PAIR_SECOND ? c - 1 : c]);
-}
-
 SLI_INLINE sl_int sli_judge_row(const sl_symbolic *S, sl_int s, sl_int r) {
   const sli_step *step = &S->steps[s];
   return r < step->width ? step->column + r : S->rows[S->rows_begin[s] + r - step->width];
 }
 
 SLI_COLD static void sli_judge_weigh(const sli_judge *judge, sl_int first, sl_int last) {
-  const sl_symbolic *S = judge->F->S;
+  const sl_factor *F = judge->F;
+  const sl_symbolic *S = F->S;
   const sl_int begin = S->super_first[first], end = S->super_first[last + 1];
   sl_int s, j, r;
   for (j = begin; j < end; j++) {
@@ -14280,15 +14294,19 @@ SLI_COLD static void sli_judge_weigh(const sli_judge *judge, sl_int first, sl_in
   for (s = first; s <= last; s++) {
     const sli_step *step = &S->steps[s];
     for (j = 0; j < step->width; j++) {
-      const double size = sli_judge_size(judge->F, step->column + j);
-      judge->t[step->column + j] += size;
+      const sl_int c = step->column + j;
+      double size = fabs(F->D[c]);
+      if (F->E != NULL) {
+        size += fabs(F->E[S->pairs[c] == SLI_PAIR_SECOND ? c - 1 : c]);
+      }
+      judge->t[c] += size;
       for (r = j + 1; r < step->width + step->below; r++) {
         const sl_int row = sli_judge_row(S, s, r);
         double l;
         if (row >= end) {
           break;
         }
-        l = sli_entry(judge->F, step->panel + sli_panel_at(step->width, r, j));
+        l = sli_entry(F, step->panel + sli_panel_at(step->width, r, j));
         judge->t[row] += 2.0 * l * l * size;
         judge->z[row] += 1.0;
       }
@@ -14340,8 +14358,7 @@ SLI_COLD static int sli_judge_is_null(sli_judge *judge, sl_int k) {
     sum += square * (judge->bias[j] / size);
     squares += t * t;
   }
-  judge->error =
-    DBL_EPSILON * (SLI_JUDGE_RANDOM * sqrt(squares) + SLI_JUDGE_BIASED * sum) * size;
+  judge->error = DBL_EPSILON * (SLI_JUDGE_RANDOM * sqrt(squares) + SLI_JUDGE_BIASED * sum) * size;
   return !(judge->error < size);
 }
 
@@ -14428,8 +14445,7 @@ static int sli_judge_last(sli_judge *judge, sl_int last) {
   for (k = first; k < last && !is_null; k++) {
     const double size = fabs(F->D[k]);
     most = size > most ? size : most;
-    is_null = size <= sli_null_rounding(k - first + 1) * most &&
-          sli_judge_is_null(judge, k);
+    is_null = size <= sli_null_rounding(k - first + 1) * most && sli_judge_is_null(judge, k);
   }
   return is_null;
 }
@@ -14795,7 +14811,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
       ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_PIVOTS_SKIP_NULL with an analysis for 2x2 pivots")
     : draft.type->suits != NULL && !draft.type->suits(&draft)
       ? sli_refuse(SL_ERR_UNSUPPORTED,
-          "options.storage does not suit the analysis or options")
+          "SL_STORAGE_COMPLEX: block_size 2, null_vector_count 2, not regularized")
       : sli_factor_use(&draft, opt);
   SLI_LAYOUT(&b, &a, status) {
     (void)sli_take(&b, 1, sizeof(sl_factor));
@@ -17222,7 +17238,9 @@ SLI_COLD static void sli_null_anchors(const sli_null_part *p, sl_int *anchors) {
       distance = sli_null_distance(p, k, q, v, x);
       most = distance > most ? distance : most;
     }
-    k = p->last;
+    k = v % 2 > 0 && p->F->type->half > 0 && p->F->null.last[anchors[v - 1] ^ 1] == p->last
+        ? anchors[v - 1] ^ 1
+        : p->last;
     while ((distance = sli_null_distance(p, k, q, v, x)) < SLI_NULL_ANCHOR * most) {
       k = p->F->null.chain[k];
     }
@@ -17373,8 +17391,7 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
     sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const int is_one = F->null.vectors == 1;
-  const double rounding = sli_null_rounding(S->n),
-         *z = is_one ? F->null.z : NULL;
+  const double rounding = sli_null_rounding(S->n), *z = is_one ? F->null.z : NULL;
   double *diagonal =
     is_one ? F->null.g : F->null.products + ((size_t)F->null.vectors + 1) * (size_t)S->n;
   const sli_null_walk w = sli_null_product(F, from, z, diagonal);
@@ -18110,33 +18127,12 @@ static sl_status sli_null_fill(sl_factor *F, const sl_options *opt, sl_stats *st
   return F->null.mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
 }
 
-SLI_COLD static void sli_null_finite_check(const sl_factor *F, const sli_source *from,
-    sli_failure *failure) {
-  const sl_symbolic *S = F->S;
-  sl_off m;
-  sl_int s;
-  for (s = 0; s < S->n_supers; s++) {
-    for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
-      double a;
-      if (from->A != NULL) {
-        a = from->A->x[S->scatter_from[m]];
-      } else {
-        sli_source_sum(from, m, 1, &a);
-      }
-      if (!sli_is_finite(a)) {
-        (void)sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
-        return;
-      }
-    }
-  }
-}
-
 static sl_status sli_null_finish(sl_factor *F, const sli_source *from, sli_failure *failure) {
   if (failure->status == SL_OK) {
     (void)sli_nulls_find(F, from, failure);
   }
   if (failure->status == SL_ERR_PIVOT) {
-    sli_null_finite_check(F, from, failure);
+    sli_entries_finite_check(F->S, from, failure);
   }
   return failure->status;
 }
@@ -18203,17 +18199,15 @@ static void sli_parts_fill(sli_parts *p) {
   p->q.x_index = p->q.x_index == NULL ? p->identity : p->q.x_index;
 }
 
-static double sli_parts_pivot(const sli_parts *p, sl_int k) {
-  return p->parts & SL_PART_SQRT_D ? sqrt(p->F->D[k]) : p->F->D[k];
-}
-
 static void sli_parts_scale_step(const sli_parts *p, const sli_step *step, double *row,
     sl_int lanes) {
   const sl_factor *F = p->F;
   sl_int k, r;
   for (k = step->column; k < step->column + sli_step_columns(step); k++, row += lanes) {
     const int pair = F->E == NULL ? (int)SLI_PAIR_NONE : F->S->pairs[k];
-    const double d = pair == SLI_PAIR_NONE ? sli_parts_pivot(p, k) : 1.0;
+    const double d = pair != SLI_PAIR_NONE ? 1.0
+             : p->parts & SL_PART_SQRT_D ? sqrt(F->D[k])
+                           : F->D[k];
     const int is_null = sli_is_skipped(F, k);
     for (r = 0; r < lanes; r++) {
       if (is_null) {
@@ -22181,13 +22175,10 @@ static const sli_stage sli_entries_judged_stages[5] = {
   {sli_entries_layout_sweeps, sli_entries_partition},
   {sli_entries_layout_run, NULL}};
 
-static sl_status sli_entries_prepare(sli_entries *q, sl_work *W) {
-  return sli_has_both_signs(q->F) ? sli_work_stages(W, sli_entries_judged_stages, 5, q)
-                  : sli_work_stages(W, sli_entries_stages, 3, q);
-}
-
 SLI_NOINLINE static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
-  const sl_status status = sli_entries_prepare(q, W);
+  const sl_status status = sli_has_both_signs(q->F)
+                 ? sli_work_stages(W, sli_entries_judged_stages, 5, q)
+                 : sli_work_stages(W, sli_entries_stages, 3, q);
   if (status != SL_OK) {
     return status;
   }
@@ -25669,14 +25660,6 @@ static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const s
   return SL_OK;
 }
 
-static void sli_edges_begin(sli_rank *q, const sl_int *rows, const sl_int *columns,
-    const double *deltas, sl_int count) {
-  q->entry_rows = rows;
-  q->entry_columns = columns;
-  q->deltas = deltas;
-  q->n_entries = count;
-}
-
 /* src/impl/change/choose.h: sl_factor_change_entries: rank-one changes, the reach of the change, or all of L */
 
 #define SLI_COST_PIVOT 50.0
@@ -25953,7 +25936,10 @@ SL_API sl_status sl_factor_change_entries(sl_factor *F, const sl_csc *A, const s
     return sli_report(stats, status);
   }
   sli_rank_begin(&q, F, stats);
-  sli_edges_begin(&q, rows, columns, deltas, count);
+  q.entry_rows = rows;
+  q.entry_columns = columns;
+  q.deltas = deltas;
+  q.n_entries = count;
   if (A != NULL) {
     return sli_report(stats, sli_choose_cheapest(&q, A, W, started));
   }
@@ -27334,13 +27320,6 @@ static void sli_fill_relative_of(const sl_symbolic *S, sl_int s, sl_int *local) 
   }
 }
 
-static void sli_fill_relative(sl_symbolic *S, sl_int *local) {
-  sl_int s;
-  for (s = 0; s < S->n_supers; s++) {
-    sli_fill_relative_of(S, s, local);
-  }
-}
-
 #define SLI_SUBSET_BITS 64
 #define SLI_SUBSET_WORDS 2
 
@@ -28056,9 +28035,12 @@ static void sli_joint_fill_fresh(sl_symbolic *S, const sli_restriction *r, sl_in
 }
 
 static void sli_joint_complete(sl_symbolic *S, sl_int *scratch, sl_stats *stats) {
+  sl_int s;
   sli_fill_steps(S);
   sli_fill_descendants(S);
-  sli_fill_relative(S, scratch);
+  for (s = 0; s < S->n_supers; s++) {
+    sli_fill_relative_of(S, s, scratch);
+  }
   sli_fill_identity(S, stats->symbolic.triangle);
   stats->symbolic.nnz_a = S->scatter_begin[S->n_supers];
   sli_analyze_stats(S, scratch, stats);
@@ -29802,7 +29784,6 @@ static int sli_reuse_is_suited(const sl_factor *F, const sl_factor *G) {
   const double a = F->rule.null_tolerance, b = G->rule.null_tolerance;
   return F->history.marks != NULL && G->history.marks != NULL && F->E == NULL && G->E == NULL &&
        F->type == G->type && G->type->accepts == NULL && F->null.calls == G->null.calls &&
-       F->null.vectors == 1 && G->null.vectors == 1 &&
        F->rule.regularization == G->rule.regularization &&
        (a == b || (sli_tolerance_is_default(F) && sli_tolerance_is_default(G)));
 }
@@ -29918,20 +29899,16 @@ static int sli_reuse_choose(sli_reuse *r) {
   return cost < SLI_REUSE_SHARE * (flop * r->flops_anew + SLI_COST_FRONT * (double)T->n_supers);
 }
 
-static void sli_reuse_drop(sli_reuse *r, sl_int s) {
-  for (; s != -1 && r->from[s] != -1; s = r->G->S->super_parent[s]) {
-    r->from[s] = -1;
-    r->flops += sli_front_flops(&r->G->S->steps[s]);
-  }
-}
-
 SLI_HOT static void sli_reuse_compare(sli_reuse *r, sl_int s) {
   int is_moved;
   const sl_int there = sli_reuse_candidate(r, s, &is_moved);
   if (there != -1 && sli_reuse_is_same(r, s, there, is_moved)) {
     r->from[s] = there;
-  } else {
-    sli_reuse_drop(r, s);
+    return;
+  }
+  for (; s != -1 && r->from[s] != -1; s = r->G->S->super_parent[s]) {
+    r->from[s] = -1;
+    r->flops += sli_front_flops(&r->G->S->steps[s]);
   }
 }
 
@@ -34049,6 +34026,13 @@ typedef struct sli_complex_kernels {
   sli_front_kernels front;
 } sli_complex_kernels;
 
+SLI_NOINLINE static double sli_complex_by_rule(const sli_pivot_rule *rule, sl_int k, double d,
+    double magnitude) {
+  const double first = sli_pivot_by_rule(rule, k, d, magnitude),
+         second = sli_pivot_by_rule(rule, k + 1, d, magnitude);
+  return first < second || first > second ? 0.0 : first;
+}
+
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 1
 #define SLI_FOR_STORAGE
@@ -34145,6 +34129,12 @@ static double sli_complex_entry(const void *values, sl_off at) {
   return at / SLI_TILE % 2 == 0 ? l[lane] : lane % 2 == 0 ? -l[lane + 1] : l[lane - 1];
 }
 
+static void sli_complex_entry_clear(void *values, sl_off at) {
+  if (at / SLI_TILE % 2 == 0) {
+    ((double *)values)[at / (2 * SLI_TILE) * SLI_TILE + at % SLI_TILE] = 0.0;
+  }
+}
+
 static int sli_are_pairs(const sl_int *rows, sl_int count) {
   sl_int k;
   for (k = 0; k + 1 < count; k += 2) {
@@ -34195,7 +34185,8 @@ static int sli_matrix_is_complex(const sl_csc *A) {
 }
 
 static int sli_complex_suits(const sl_factor *F) {
-  return !F->S->is_pivoted && !F->rule.replaces && sli_rows_are_paired(F->S);
+  return !F->S->is_pivoted && F->rule.regularization == 0.0 &&
+       (!F->rule.replaces || F->null.vectors % 2 == 0) && sli_rows_are_paired(F->S);
 }
 
 static int sli_complex_keeps(const sl_int *rows, sl_int count, const sl_symbolic *S) {
@@ -34203,22 +34194,11 @@ static int sli_complex_keeps(const sl_int *rows, sl_int count, const sl_symbolic
        sli_rows_are_paired(S); /* untested: the same */
 }
 
-static void sli_complex_accepts(const sl_symbolic *S, const sli_source *from,
+SLI_COLD static void sli_complex_accepts(const sl_symbolic *S, const sli_source *from,
     sli_failure *failure) {
-  sl_int s;
-  sl_off m;
-  if (from->A != NULL && sli_matrix_is_complex(from->A)) {
-    return;
-  }
-  (void)sli_fail(failure, SL_ERR_UNSUPPORTED, 0, -1, -1, 0.0);
-  for (s = 0; from->A != NULL && s < S->n_supers && failure->status != SL_ERR_NOT_FINITE; s++) {
-    for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
-      const double a = from->A->x[S->scatter_from[m]];
-      if (!sli_is_finite(a)) {
-        (void)sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
-        break;
-      }
-    }
+  if (from->A == NULL || !sli_matrix_is_complex(from->A)) {
+    (void)sli_fail(failure, SL_ERR_UNSUPPORTED, 0, -1, -1, 0.0);
+    sli_entries_finite_check(S, from, failure);
   }
 }
 
@@ -34258,7 +34238,7 @@ static const sli_storage_type sli_storage_complex = {
   sli_complex_own,
   NULL,
   sli_complex_entry,
-  NULL,
+  sli_complex_entry_clear,
   sli_complex_suits,
   sli_complex_accepts,
   sli_complex_keeps,
@@ -37310,7 +37290,11 @@ SLV_FUNCTION static void SLV_FRONT(product)(const double *panel, sl_int w, const
     SLV_BROADCAST(b, x + SLI_TILE * (k) + 2 * (i) + 1) \
     SLV_FNMA(a##i, e0, b) \
   }
-#define SLI_BY_RULE(k)
+#define SLI_BY_RULE(k) \
+  if (rule != NULL) { \
+    d = sli_complex_by_rule(rule, column + 2 * (k), d, sums[2 * (k)] + sums[2 * (k) + 1]); \
+    SLV_BROADCAST(b, &d) \
+  }
 #define SLI_TAKE_PIVOT(k, d) \
   D[2 * (k)] = D[2 * (k) + 1] = d; \
   magnitude[2 * (k)] = magnitude[2 * (k) + 1] = sums[2 * (k)] + sums[2 * (k) + 1];
@@ -37389,10 +37373,8 @@ SLV_FUNCTION static void SLV_FRONT(product)(const double *panel, sl_int w, const
 SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c, double *reciprocals) {
   const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first) / SLV_PARTS;
   const sl_int all = columns + (f->is_small ? f->below : 0);
-#if !SLV_COMPLEX
   const sl_int column = f->column + first;
   const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
-#endif
   double *p = f->panel + sli_tile_offset(f->width, c) / SLV_PARTS +
         SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
   double *update = f->update;

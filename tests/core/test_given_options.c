@@ -220,11 +220,31 @@ static void a_restriction_has_the_options_of_its_factor(void **state) {
     assert_true(answered > 8000);
 }
 
+/* Growth beyond the default limit, which F allows. */
+static void a_restriction_keeps_the_limit_of_growth(void **state) {
+    (void)state;
+    static const sl_int p[4] = {0, 2, 3, 4}, i[4] = {0, 1, 1, 2}, rows[2] = {0, 1};
+    static const double x[4] = {1e-20, 1.0, 1.0, 1.0};
+    const sl_csc A = {3, 3, p, i, x};
+    sl_options opt = options_none();
+    sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT), *T = NULL;
+    sl_factor *F = NULL, *G = NULL;
+    SL_EXPECT(SL_ERR_INACCURATE, sl_factor_create(&F, S, &A, &opt, NULL));
+    opt.growth_limit = -1.0;
+    SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
+    SL_CHECK(sl_factor_submatrix(&T, &G, F, &A, rows, 2, NULL, NULL));
+    sl_factor_free(G);
+    sl_factor_free(F);
+    sl_symbolic_free(T);
+    sl_symbolic_free(S);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_factor_answers_as_a_new_one),
         cmocka_unit_test(a_factor_follows_any_other),
         cmocka_unit_test(a_restriction_has_the_options_of_its_factor),
+        cmocka_unit_test(a_restriction_keeps_the_limit_of_growth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -298,7 +298,10 @@ SL_API sl_status sl_factor_change_entries(sl_factor *F, const sl_csc *A, const s
         return sli_report(stats, status);
     }
     sli_rank_begin(&q, F, stats);
-    sli_edges_begin(&q, rows, columns, deltas, count);
+    q.entry_rows = rows;
+    q.entry_columns = columns;
+    q.deltas = deltas;
+    q.n_entries = count;
     if (A != NULL) {
         return sli_report(stats, sli_choose_cheapest(&q, A, W, started));
     }

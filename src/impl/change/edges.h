@@ -175,13 +175,4 @@ static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const s
     return SL_OK;
 }
 
-/* Gives a change that has begun its entries. */
-static void sli_edges_begin(sli_rank *q, const sl_int *rows, const sl_int *columns,
-                            const double *deltas, sl_int count) {
-    q->entry_rows = rows;
-    q->entry_columns = columns;
-    q->deltas = deltas;
-    q->n_entries = count;
-}
-
 #endif

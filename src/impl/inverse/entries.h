@@ -320,14 +320,10 @@ static const sli_stage sli_entries_judged_stages[5] = {
     {sli_entries_layout_sweeps, sli_entries_partition},
     {sli_entries_layout_run, NULL}};
 
-/* Chooses the method and lays out all arrays. Only W is written; it may grow. */
-static sl_status sli_entries_prepare(sli_entries *q, sl_work *W) {
-    return sli_has_both_signs(q->F) ? sli_work_stages(W, sli_entries_judged_stages, 5, q)
-                                    : sli_work_stages(W, sli_entries_stages, 3, q);
-}
-
 SLI_NOINLINE static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
-    const sl_status status = sli_entries_prepare(q, W);
+    const sl_status status = sli_has_both_signs(q->F)
+                                 ? sli_work_stages(W, sli_entries_judged_stages, 5, q)
+                                 : sli_work_stages(W, sli_entries_stages, 3, q);
     if (status != SL_OK) {
         return status;
     }
