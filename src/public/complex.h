@@ -31,7 +31,9 @@
  * [a -b; b a] as well, and SL_STORAGE_COMPLEX (EXPERIMENTAL) computes and keeps the first column of
  * each: half the operations and half the memory. Solves read half as much, and share each read of L
  * as those of real matrices do: up to 32 right-hand sides. Every call on factors takes both
- * storages, except that L as complex is not changed in place or saved. */
+ * storages, except that L as complex is not changed in place or saved.
+ *
+ * A null vector z of H is two of the real matrix, z and i z: options.null_vector_count 2. */
 
 /** View of a complex Hermitian matrix in compressed columns: one triangle or both, entries and
  *  duplicates as in sl_csc. The imaginary parts of diagonal entries are 0. */

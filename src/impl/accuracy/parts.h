@@ -57,11 +57,6 @@ static void sli_parts_fill(sli_parts *p) {
     p->q.x_index = p->q.x_index == NULL ? p->identity : p->q.x_index;
 }
 
-/* The pivot k or its root, whichever D stands for. */
-static double sli_parts_pivot(const sli_parts *p, sl_int k) {
-    return p->parts & SL_PART_SQRT_D ? sqrt(p->F->D[k]) : p->F->D[k];
-}
-
 /* x := D x or D^-1 x in the columns of one step; solves have applied 2x2 pivots already. */
 static void sli_parts_scale_step(const sli_parts *p, const sli_step *step, double *row,
                                  sl_int lanes) {
@@ -69,7 +64,9 @@ static void sli_parts_scale_step(const sli_parts *p, const sli_step *step, doubl
     sl_int k, r;
     for (k = step->column; k < step->column + sli_step_columns(step); k++, row += lanes) {
         const int pair = F->E == NULL ? (int)SLI_PAIR_NONE : F->S->pairs[k];
-        const double d = pair == SLI_PAIR_NONE ? sli_parts_pivot(p, k) : 1.0;
+        const double d = pair != SLI_PAIR_NONE       ? 1.0
+                         : p->parts & SL_PART_SQRT_D ? sqrt(F->D[k])
+                                                     : F->D[k];
         const int is_null = sli_is_skipped(F, k);
         for (r = 0; r < lanes; r++) {
             if (is_null) {

@@ -9,6 +9,14 @@ typedef struct sli_complex_kernels {
     sli_front_kernels front;
 } sli_complex_kernels;
 
+/* The pivot of both columns k, k+1 of a pair; 0, which is refused, if only one of them is null. */
+SLI_NOINLINE static double sli_complex_by_rule(const sli_pivot_rule *rule, sl_int k, double d,
+                                               double magnitude) {
+    const double first = sli_pivot_by_rule(rule, k, d, magnitude),
+                 second = sli_pivot_by_rule(rule, k + 1, d, magnitude);
+    return first < second || first > second ? 0.0 : first;
+}
+
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 1
 #define SLI_FOR_STORAGE

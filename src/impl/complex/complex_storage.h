@@ -16,6 +16,13 @@ static double sli_complex_entry(const void *values, sl_off at) {
     return at / SLI_TILE % 2 == 0 ? l[lane] : lane % 2 == 0 ? -l[lane + 1] : l[lane - 1];
 }
 
+/* The second columns of pairs are not there. */
+static void sli_complex_entry_clear(void *values, sl_off at) {
+    if (at / SLI_TILE % 2 == 0) {
+        ((double *)values)[at / (2 * SLI_TILE) * SLI_TILE + at % SLI_TILE] = 0.0;
+    }
+}
+
 /* Are these rows whole pairs 2a, 2a + 1, one after the other? */
 static int sli_are_pairs(const sl_int *rows, sl_int count) {
     sl_int k;
@@ -70,7 +77,8 @@ static int sli_matrix_is_complex(const sl_csc *A) {
 
 /* Both columns of a pair are treated alike. */
 static int sli_complex_suits(const sl_factor *F) {
-    return !F->S->is_pivoted && !F->rule.replaces && sli_rows_are_paired(F->S);
+    return !F->S->is_pivoted && F->rule.regularization == 0.0 &&
+           (!F->rule.replaces || F->null.vectors % 2 == 0) && sli_rows_are_paired(F->S);
 }
 
 static int sli_complex_keeps(const sl_int *rows, sl_int count, const sl_symbolic *S) {
@@ -79,22 +87,11 @@ static int sli_complex_keeps(const sl_int *rows, sl_int count, const sl_symbolic
 }
 
 /* A number that is not finite has no equal: it is refused as with other storages. */
-static void sli_complex_accepts(const sl_symbolic *S, const sli_source *from,
-                                sli_failure *failure) {
-    sl_int s;
-    sl_off m;
-    if (from->A != NULL && sli_matrix_is_complex(from->A)) {
-        return;
-    }
-    (void)sli_fail(failure, SL_ERR_UNSUPPORTED, 0, -1, -1, 0.0);
-    for (s = 0; from->A != NULL && s < S->n_supers && failure->status != SL_ERR_NOT_FINITE; s++) {
-        for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
-            const double a = from->A->x[S->scatter_from[m]];
-            if (!sli_is_finite(a)) {
-                (void)sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
-                break;
-            }
-        }
+SLI_COLD static void sli_complex_accepts(const sl_symbolic *S, const sli_source *from,
+                                         sli_failure *failure) {
+    if (from->A == NULL || !sli_matrix_is_complex(from->A)) {
+        (void)sli_fail(failure, SL_ERR_UNSUPPORTED, 0, -1, -1, 0.0);
+        sli_entries_finite_check(S, from, failure);
     }
 }
 
@@ -113,32 +110,32 @@ static sli_own_kernels sli_complex_own(const sli_kernels *kernels) {
 
 /* The same in double: of the same matrices. */
 static const sli_storage_type sli_storage_complex_in_double = {
-    SL_STORAGE_DOUBLE, /* storage */
-    sizeof(double), /* value_bytes */
-    0, /* half */
-    &sli_double_fronts, /* fronts */
-    sli_double_own, /* kernels */
-    NULL, /* store */
-    NULL, /* entry */
-    NULL, /* entry_clear */
-    sli_complex_suits, /* suits */
+    SL_STORAGE_DOUBLE,   /* storage */
+    sizeof(double),      /* value_bytes */
+    0,                   /* half */
+    &sli_double_fronts,  /* fronts */
+    sli_double_own,      /* kernels */
+    NULL,                /* store */
+    NULL,                /* entry */
+    NULL,                /* entry_clear */
+    sli_complex_suits,   /* suits */
     sli_complex_accepts, /* accepts */
-    sli_complex_keeps, /* keeps */
-    NULL /* in_double */
+    sli_complex_keeps,   /* keeps */
+    NULL                 /* in_double */
 };
 
 static const sli_storage_type sli_storage_complex = {
-    SL_STORAGE_COMPLEX, /* storage */
-    sizeof(double), /* value_bytes */
-    1, /* half */
-    &sli_complex_fronts, /* fronts */
-    sli_complex_own, /* kernels */
-    NULL, /* store */
-    sli_complex_entry, /* entry */
-    NULL, /* entry_clear */
-    sli_complex_suits, /* suits */
-    sli_complex_accepts, /* accepts */
-    sli_complex_keeps, /* keeps */
+    SL_STORAGE_COMPLEX,            /* storage */
+    sizeof(double),                /* value_bytes */
+    1,                             /* half */
+    &sli_complex_fronts,           /* fronts */
+    sli_complex_own,               /* kernels */
+    NULL,                          /* store */
+    sli_complex_entry,             /* entry */
+    sli_complex_entry_clear,       /* entry_clear */
+    sli_complex_suits,             /* suits */
+    sli_complex_accepts,           /* accepts */
+    sli_complex_keeps,             /* keeps */
     &sli_storage_complex_in_double /* in_double */
 };
 

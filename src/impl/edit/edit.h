@@ -138,8 +138,9 @@ SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const
     status = sli_begin(out);
     status = status == SL_OK ? sli_edit_arguments(S, A, B, new_of, opt) : status;
     status = status == SL_OK ? sl_csc_check(B, stats) : status;
-    if (status == SL_OK && B->n_rows != B->n_cols) {
-        status = sli_argument("B is not square");
+    if (status == SL_OK) {
+        status = sli_argument(B->n_rows != B->n_cols ? "B is not square"
+                                                     : sli_order_options_wrong(opt, B->n_cols));
     }
     SLI_CLEAR(e);
     if (status == SL_OK) {

@@ -66,8 +66,8 @@ static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *s
 static int sli_reuse_is_suited(const sl_factor *F, const sl_factor *G) {
     const double a = F->rule.null_tolerance, b = G->rule.null_tolerance;
     return F->history.marks != NULL && G->history.marks != NULL && F->E == NULL && G->E == NULL &&
-           G->type->accepts == NULL && F->null.calls == G->null.calls && F->null.vectors == 1 &&
-           G->null.vectors == 1 && F->rule.regularization == G->rule.regularization &&
+           F->type == G->type && G->type->accepts == NULL && F->null.calls == G->null.calls &&
+           F->rule.regularization == G->rule.regularization &&
            (a == b || (sli_tolerance_is_default(F) && sli_tolerance_is_default(G)));
 }
 
@@ -191,22 +191,17 @@ static int sli_reuse_choose(sli_reuse *r) {
     return cost < SLI_REUSE_SHARE * (flop * r->flops_anew + SLI_COST_FRONT * (double)T->n_supers);
 }
 
-/* Supernode s is not kept, nor are its ancestors. */
-static void sli_reuse_drop(sli_reuse *r, sl_int s) {
-    for (; s != -1 && r->from[s] != -1; s = r->G->S->super_parent[s]) {
-        r->from[s] = -1;
-        r->flops += sli_front_flops(&r->G->S->steps[s]);
-    }
-}
-
 /* Compares supernode s with that of F, but not its children. */
 SLI_HOT static void sli_reuse_compare(sli_reuse *r, sl_int s) {
     int is_moved;
     const sl_int there = sli_reuse_candidate(r, s, &is_moved);
     if (there != -1 && sli_reuse_is_same(r, s, there, is_moved)) {
         r->from[s] = there;
-    } else {
-        sli_reuse_drop(r, s);
+        return;
+    }
+    for (; s != -1 && r->from[s] != -1; s = r->G->S->super_parent[s]) { /* nor are its ancestors */
+        r->from[s] = -1;
+        r->flops += sli_front_flops(&r->G->S->steps[s]);
     }
 }
 

@@ -158,9 +158,12 @@ static void sli_joint_fill_fresh(sl_symbolic *S, const sli_restriction *r, sl_in
 
 /* Fills what follows from the supernodes, their rows and the map of entries. scratch: n */
 static void sli_joint_complete(sl_symbolic *S, sl_int *scratch, sl_stats *stats) {
+    sl_int s;
     sli_fill_steps(S);
     sli_fill_descendants(S);
-    sli_fill_relative(S, scratch);
+    for (s = 0; s < S->n_supers; s++) {
+        sli_fill_relative_of(S, s, scratch);
+    }
     sli_fill_identity(S, stats->symbolic.triangle);
     stats->symbolic.nnz_a = S->scatter_begin[S->n_supers];
     sli_analyze_stats(S, scratch, stats);

@@ -26,14 +26,6 @@ static void sli_fill_relative_of(const sl_symbolic *S, sl_int s, sl_int *local) 
     }
 }
 
-/* Fills the relative indices of all supernodes in their parents' fronts. local: n of scratch. */
-static void sli_fill_relative(sl_symbolic *S, sl_int *local) {
-    sl_int s;
-    for (s = 0; s < S->n_supers; s++) {
-        sli_fill_relative_of(S, s, local);
-    }
-}
-
 /* The rank of a column is its position in the sorted list. The set is a bitmap of the columns, in
  * words of 64, and for each word the rank of its first column. Time and memory go by the size of
  * the set, not by n: where it is small, only words that have a column are stored, and a hash table

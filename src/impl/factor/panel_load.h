@@ -33,6 +33,27 @@ static void sli_source_sum(const sli_source *from, sl_off first, sl_int count, d
     }
 }
 
+/* After a refusal: reports the first entry that is not finite instead, if there is one. */
+SLI_COLD static void sli_entries_finite_check(const sl_symbolic *S, const sli_source *from,
+                                              sli_failure *failure) {
+    sl_off m;
+    sl_int s;
+    for (s = 0; s < S->n_supers; s++) {
+        for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
+            double a;
+            if (from->A != NULL) {
+                a = from->A->x[S->scatter_from[m]];
+            } else {
+                sli_source_sum(from, m, 1, &a);
+            }
+            if (!sli_is_finite(a)) {
+                (void)sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
+                return;
+            }
+        }
+    }
+}
+
 /* Entries of the scatter map to add to a panel: entry m, first <= m < last, has the value
  * x[scatter_from[m]] or, if that is NULL, x[m - first]. */
 typedef struct sli_loading {

@@ -40,12 +40,6 @@ typedef struct sli_judge {
     double error;         /* of the pivot that was judged last; 0: not known */
 } sli_judge;
 
-/* |d| of column c; of a 2x2 pivot, the sum of a row of its block. */
-static double sli_judge_size(const sl_factor *F, sl_int c) {
-    const double size = fabs(F->D[c]);
-    return F->E == NULL ? size : size + fabs(F->E[F->S->pairs[c] == SLI_PAIR_SECOND ? c - 1 : c]);
-}
-
 /* Row r of the front of supernode s, as a column of L. */
 SLI_INLINE sl_int sli_judge_row(const sl_symbolic *S, sl_int s, sl_int r) {
     const sli_step *step = &S->steps[s];
@@ -54,7 +48,8 @@ SLI_INLINE sl_int sli_judge_row(const sl_symbolic *S, sl_int s, sl_int r) {
 
 /* Computes t of the columns of supernodes first .. last, whose descendants are among them. */
 SLI_COLD static void sli_judge_weigh(const sli_judge *judge, sl_int first, sl_int last) {
-    const sl_symbolic *S = judge->F->S;
+    const sl_factor *F = judge->F;
+    const sl_symbolic *S = F->S;
     const sl_int begin = S->super_first[first], end = S->super_first[last + 1];
     sl_int s, j, r;
     for (j = begin; j < end; j++) {
@@ -64,15 +59,19 @@ SLI_COLD static void sli_judge_weigh(const sli_judge *judge, sl_int first, sl_in
     for (s = first; s <= last; s++) {
         const sli_step *step = &S->steps[s];
         for (j = 0; j < step->width; j++) {
-            const double size = sli_judge_size(judge->F, step->column + j);
-            judge->t[step->column + j] += size;
+            const sl_int c = step->column + j;
+            double size = fabs(F->D[c]);
+            if (F->E != NULL) { /* of a 2x2 pivot, the sum of a row of its block */
+                size += fabs(F->E[S->pairs[c] == SLI_PAIR_SECOND ? c - 1 : c]);
+            }
+            judge->t[c] += size;
             for (r = j + 1; r < step->width + step->below; r++) {
                 const sl_int row = sli_judge_row(S, s, r);
                 double l;
                 if (row >= end) {
                     break;
                 }
-                l = sli_entry(judge->F, step->panel + sli_panel_at(step->width, r, j));
+                l = sli_entry(F, step->panel + sli_panel_at(step->width, r, j));
                 judge->t[row] += 2.0 * l * l * size;
                 judge->z[row] += 1.0;
             }
@@ -126,8 +125,7 @@ SLI_COLD static int sli_judge_is_null(sli_judge *judge, sl_int k) {
         sum += square * (judge->bias[j] / size);
         squares += t * t;
     }
-    judge->error =
-        DBL_EPSILON * (SLI_JUDGE_RANDOM * sqrt(squares) + SLI_JUDGE_BIASED * sum) * size;
+    judge->error = DBL_EPSILON * (SLI_JUDGE_RANDOM * sqrt(squares) + SLI_JUDGE_BIASED * sum) * size;
     return !(judge->error < size);
 }
 
@@ -222,8 +220,7 @@ static int sli_judge_last(sli_judge *judge, sl_int last) {
     for (k = first; k < last && !is_null; k++) {
         const double size = fabs(F->D[k]);
         most = size > most ? size : most;
-        is_null = size <= sli_null_rounding(k - first + 1) * most &&
-                  sli_judge_is_null(judge, k);
+        is_null = size <= sli_null_rounding(k - first + 1) * most && sli_judge_is_null(judge, k);
     }
     return is_null;
 }

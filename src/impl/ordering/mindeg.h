@@ -139,12 +139,6 @@ SLI_TARGET("avx2,popcnt") static void sli_mindeg_run_avx2(sli_mindeg *m, sl_int 
 }
 #endif
 
-/* Are leaves of a graph of n vertices ordered by AVX2? To ask takes longer than what that saves in
- * a small graph. */
-static int sli_mindeg_is_wide(sl_int n) {
-    return n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
-}
-
 /* Numbers the vertices of a leaf, and after them those of its halo. m->bit := the numbers of all
  * neighbors, one vertex after the other; m->order := the vertices of the halo. Returns how many
  * vertices have numbers. */

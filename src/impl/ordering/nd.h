@@ -295,7 +295,8 @@ static sl_status sli_order_nd(const sli_order_job *job) {
         sli_nd_layout(&w, &b);
     }
     if (status == SL_OK) {
-        const int has_avx2 = sli_mindeg_is_wide(w.G->n);
+        /* to ask takes longer than what that saves in a small graph */
+        const int has_avx2 = w.G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: none */
         for (k = 0; k < job->team->workers; k++) {
             w.d.workers[k].mindeg.has_avx2 = has_avx2;
         }

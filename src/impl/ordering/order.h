@@ -21,12 +21,7 @@ static void sli_order_natural(sl_int n, sl_int *perm) {
 /* Copies a given order after a check that it is a permutation. */
 static sl_status sli_order_given(const sli_order_job *job) {
     const sl_int *given = job->opt->perm, n = job->A->n_cols;
-    sl_int bad;
-    if (given == NULL && n > 0) {
-        return sli_order_refuse(job, SL_ERR_ARGUMENT,
-                                "options.perm is NULL though ordering is GIVEN");
-    }
-    bad = sli_rows_invert(given, n, n, job->scratch);
+    const sl_int bad = sli_rows_invert(given, n, n, job->scratch);
     if (bad >= 0) {
         return sli_fail_at(job->stats, SL_ERR_ARGUMENT, bad, -1, given[bad],
                            "options.perm has a row out of range or twice at this position");
@@ -105,14 +100,13 @@ static const struct sli_graph_ordering {
 #endif
                            {SL_ORDERING_MINDEG, 1, sli_order_quickly}};
 
-/* The one that the options name, or NULL. */
+/* The one that the options name; GIVEN and NATURAL need no graph. */
 static const struct sli_graph_ordering *sli_graph_ordering_of(sl_ordering ordering) {
-    const size_t count = sizeof sli_graph_orderings / sizeof *sli_graph_orderings;
     size_t k = 0;
-    while (k < count && sli_graph_orderings[k].ordering != ordering) {
+    while (sli_graph_orderings[k].ordering != ordering) {
         k++;
     }
-    return k < count ? &sli_graph_orderings[k] : NULL;
+    return &sli_graph_orderings[k];
 }
 
 /* Orders what is left of the graph. Minimum degree finds indistinguishable rows as it goes, but
@@ -200,11 +194,15 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
     return status;
 }
 
-/* What is wrong with purpose and block size for n rows, or NULL. */
+/* What is wrong with the options of an order of n rows, or NULL. */
 static const char *sli_order_options_wrong(const sl_options *opt, sl_int n) {
     return opt == NULL ? NULL
            : (unsigned)opt->purpose > (unsigned)SL_PURPOSE_ONE_FACTOR
                ? "options.purpose is not a value of sl_purpose"
+           : (unsigned)opt->ordering > (unsigned)SL_ORDERING_MINDEG || (int)opt->ordering == 2
+               ? "options.ordering is not a value of sl_ordering"
+           : opt->ordering == SL_ORDERING_GIVEN && opt->perm == NULL && n > 0
+               ? "options.perm is NULL though ordering is GIVEN"
            : opt->block_size < 0 ? "options.block_size is below 0"
            : opt->block_size > 1 && n % opt->block_size != 0
                ? "options.block_size does not divide n"
@@ -264,10 +262,7 @@ static sl_status sli_order(sli_order_job *job) {
             job->choice->has_tree = 1;
             return SL_OK;
         }
-        return sli_graph_ordering_of(job->ordering) != NULL
-                   ? sli_order_by_graph(job)
-                   : sli_order_refuse(job, SL_ERR_ARGUMENT,
-                                      "options.ordering is not a value of sl_ordering");
+        return sli_order_by_graph(job);
     }
 }
 

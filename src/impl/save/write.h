@@ -85,48 +85,38 @@ typedef struct sli_sink {
     int has_failed;
 } sli_sink;
 
-static void sli_put(sli_sink *to, const void *data, size_t bytes) {
-    if (bytes == 0 || to->has_failed) {
+/* Writes bytes; if to is NULL, adds them to a checksum instead. */
+static void sli_put(sli_sink *to, sli_checksum *sum, const void *data, uint64_t bytes) {
+    if (to == NULL) {
+        sli_checksum_add(sum, data, (size_t)bytes);
+    } else if (bytes == 0 || to->has_failed) {
         return;
-    }
-    if (to->file != NULL) {
-        to->has_failed = fwrite(data, 1, bytes, to->file) != bytes;
+    } else if (to->file != NULL) {
+        to->has_failed = fwrite(data, 1, (size_t)bytes, to->file) != bytes;
     } else {
-        memcpy(to->memory, data, bytes);
+        memcpy(to->memory, data, (size_t)bytes);
         to->memory += bytes;
     }
 }
 
-/* Writes `bytes` bytes, of which `used` are data and the others 0. If to is NULL, adds them to a
- * checksum instead. */
+/* Puts `bytes` bytes, of which `used` are data and the others 0. */
 SLI_HOT static void sli_put_filled(sli_sink *to, sli_checksum *sum, const void *data, uint64_t used,
                                    uint64_t bytes) {
-    static const unsigned char zeros[1024] = {0};
-    uint64_t left = bytes - used;
-    if (to == NULL) {
-        sli_checksum_add(sum, data, (size_t)used);
-        left = bytes - sum->bytes;
-    } else {
-        sli_put(to, data, (size_t)used);
-    }
-    while (left > 0) {
-        const size_t piece = left < sizeof zeros ? (size_t)left : sizeof zeros;
-        if (to == NULL) {
-            sli_checksum_add(sum, zeros, piece);
-        } else {
-            sli_put(to, zeros, piece);
-        }
-        left -= piece;
+    static const unsigned char zeros[128] = {0};
+    uint64_t left, piece;
+    sli_put(to, sum, data, used);
+    for (left = bytes - (to == NULL ? sum->bytes : used); left > 0; left -= piece) {
+        piece = left < sizeof zeros ? left : sizeof zeros;
+        sli_put(to, sum, zeros, piece);
     }
 }
 
-/* Writes a piece of a section and zeros up to the next multiple of 64 bytes, or adds both to a
- * checksum. */
+/* Puts a piece of a section, and zeros up to the next multiple of 64 bytes where it is written. */
 static void sli_put_piece(sli_sink *to, sli_checksum *sum, const void *data, uint64_t bytes) {
     if (to == NULL) {
-        sli_checksum_add(sum, data, (size_t)bytes);
+        sli_put(to, sum, data, bytes);
     } else {
-        sli_put_filled(to, NULL, data, bytes, sli_round_up(bytes));
+        sli_put_filled(to, sum, data, bytes, sli_round_up(bytes));
     }
 }
 
@@ -259,7 +249,7 @@ SLI_COLD static void sli_save_write(sli_saved *f, sli_sink *to) {
     memcpy(prefix + sizeof f->header, f->table, f->header.sections * sizeof(sli_section));
     f->header.checksum = sli_prefix_checksum(prefix, size);
     memcpy(prefix, &f->header, sizeof f->header);
-    sli_put(to, prefix, size);
+    sli_put(to, NULL, prefix, size);
     for (k = 0; k < f->header.sections; k++) {
         sli_put_section(f, k, to, NULL);
     }

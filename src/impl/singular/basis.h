@@ -2,6 +2,7 @@
 #ifndef SLI_SINGULAR_BASIS_H
 #define SLI_SINGULAR_BASIS_H
 
+#include "../factor/storage_type.h"
 #include "dense.h"
 #include "product.h"
 
@@ -242,7 +243,9 @@ SLI_COLD static void sli_null_anchors(const sli_null_part *p, sl_int *anchors) {
             distance = sli_null_distance(p, k, q, v, x);
             most = distance > most ? distance : most;
         }
-        k = p->last;
+        k = v % 2 > 0 && p->F->type->half > 0 && p->F->null.last[anchors[v - 1] ^ 1] == p->last
+                ? anchors[v - 1] ^ 1 /* the other row of the same complex one */
+                : p->last;
         while ((distance = sli_null_distance(p, k, q, v, x)) < SLI_NULL_ANCHOR * most) {
             k = p->F->null.chain[k];
         }

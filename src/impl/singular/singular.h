@@ -79,36 +79,13 @@ static sl_status sli_null_fill(sl_factor *F, const sl_options *opt, sl_stats *st
     return F->null.mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
 }
 
-/* After a pivot was refused: reports the first entry that is not finite instead, if there is one.
- * The kinds and the signs of other pivots depend on it. */
-SLI_COLD static void sli_null_finite_check(const sl_factor *F, const sli_source *from,
-                                           sli_failure *failure) {
-    const sl_symbolic *S = F->S;
-    sl_off m;
-    sl_int s;
-    for (s = 0; s < S->n_supers; s++) {
-        for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
-            double a;
-            if (from->A != NULL) {
-                a = from->A->x[S->scatter_from[m]];
-            } else {
-                sli_source_sum(from, m, 1, &a);
-            }
-            if (!sli_is_finite(a)) {
-                (void)sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
-                return;
-            }
-        }
-    }
-}
-
 /* Ends a factorization. */
 static sl_status sli_null_finish(sl_factor *F, const sli_source *from, sli_failure *failure) {
     if (failure->status == SL_OK) {
         (void)sli_nulls_find(F, from, failure);
     }
     if (failure->status == SL_ERR_PIVOT) {
-        sli_null_finite_check(F, from, failure);
+        sli_entries_finite_check(F->S, from, failure); /* kinds and signs of pivots depend on it */
     }
     return failure->status;
 }

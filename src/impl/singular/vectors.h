@@ -71,8 +71,7 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
                                         sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const int is_one = F->null.vectors == 1;
-    const double rounding = sli_null_rounding(S->n),
-                 *z = is_one ? F->null.z : NULL;
+    const double rounding = sli_null_rounding(S->n), *z = is_one ? F->null.z : NULL;
     double *diagonal =
         is_one ? F->null.g : F->null.products + ((size_t)F->null.vectors + 1) * (size_t)S->n;
     const sli_null_walk w = sli_null_product(F, from, z, diagonal);

@@ -66,7 +66,11 @@
         SLV_BROADCAST(b, x + SLI_TILE * (k) + 2 * (i) + 1) \
         SLV_FNMA(a##i, e0, b) \
     }
-#define SLI_BY_RULE(k) /* no pivot is replaced */
+#define SLI_BY_RULE(k) \
+    if (rule != NULL) { \
+        d = sli_complex_by_rule(rule, column + 2 * (k), d, sums[2 * (k)] + sums[2 * (k) + 1]); \
+        SLV_BROADCAST(b, &d) \
+    }
 /* The magnitudes of both rows of a pair: the sum of those of the real and of the imaginary part. */
 #define SLI_TAKE_PIVOT(k, d) \
     D[2 * (k)] = D[2 * (k) + 1] = d; \
@@ -151,10 +155,8 @@
 SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c, double *reciprocals) {
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first) / SLV_PARTS;
     const sl_int all = columns + (f->is_small ? f->below : 0);
-#if !SLV_COMPLEX
     const sl_int column = f->column + first;
     const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
-#endif
     double *p = f->panel + sli_tile_offset(f->width, c) / SLV_PARTS +
                 SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
     double *update = f->update;
