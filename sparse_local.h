@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a0c2a7cb21be294e
+ * FNV-1a of the lines after this comment, without the license: 3ab638d271fe2e47
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -7,54 +7,54 @@
  *    194 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
  *    248 config.h     macros that a user may define before the include, the version, and the integer types
  *    337 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    515 options.h    options of all calls, threads, and the allocator
- *    632 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    514 options.h    options of all calls, threads, and the allocator
+ *    631 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
  *    868 csc.h        sparse matrices: creation, checks, products, residuals
  *    962 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
  *   1035 factor.h     the numerical factorization P A P' = L D L'
  *   1161 solve.h      full solves, and the workspace of all solves
- *   1254 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1325 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
- *   1406 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1486 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1525 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1625 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1703 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1773 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1861 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1961 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2003 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2124 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2267 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2353 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
- *   2462 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
- *   2504 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
- *   2579 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   1253 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1324 fixed.h      rows fixed at given values, of a matrix that need not be factored as a whole (SL_WITH_FIXED)
+ *   1405 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1485 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1524 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1624 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1702 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1772 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1860 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1960 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2002 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2123 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2265 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2351 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
+ *   2460 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
+ *   2502 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
+ *   2577 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
  *   2667 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   2731 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   2774 impl/ base: the compiler, status, memory, sorting, threads
- *   4084 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4965 impl/ matrix: sparse matrices of the caller and of the library
- *   5798 impl/ ordering: fill-reducing orderings of a graph
- *  10575 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12817 impl/ factor: the numbers of L and D
- *  15385 impl/ solve: full and local solves
- *  16893 impl/ singular: null spaces of semidefinite matrices
- *  18164 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20208 impl/ pivots: the order of the pivots by the values of a matrix
- *  20616 impl/ float: L in single precision
- *  20799 impl/ inverse: entries of the inverse, regions
- *  23700 impl/ change: a factor that follows changes of its matrix
- *  25978 impl/ constraints: rows held at values, on a factor that stays
+ *   4086 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4967 impl/ matrix: sparse matrices of the caller and of the library
+ *   5828 impl/ ordering: fill-reducing orderings of a graph
+ *  10585 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12827 impl/ factor: the numbers of L and D
+ *  15413 impl/ solve: full and local solves
+ *  16925 impl/ singular: null spaces of semidefinite matrices
+ *  18176 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20215 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20619 impl/ float: L in single precision
+ *  20802 impl/ inverse: entries of the inverse, regions
+ *  23704 impl/ change: a factor that follows changes of its matrix
+ *  25974 impl/ constraints: rows held at values, on a factor that stays
  *  27325 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30061 impl/ fixed: rows fixed at given values
- *  30620 impl/ io: files that are replaced only when they are complete
- *  30838 impl/ files: Matrix Market files, 64-bit indices
- *  31394 impl/ save: factors in files
- *  33374 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34060 impl/ complex: complex Hermitian systems over real factors
- *  34532 impl/ packs: the tables through which the core calls packs
- *  34956 impl/ templates: the header includes them from itself, once for each instruction set
+ *  30050 impl/ fixed: rows fixed at given values
+ *  30606 impl/ io: files that are replaced only when they are complete
+ *  30824 impl/ files: Matrix Market files, 64-bit indices
+ *  31380 impl/ save: factors in files
+ *  33351 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34035 impl/ complex: complex Hermitian systems over real factors
+ *  34503 impl/ packs: the tables through which the core calls packs
+ *  34927 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -130,10 +130,10 @@
  *              workspace: the call then allocates one for itself. Each kind of object has a call
  *              that releases it, such as sl_factor_free, which accepts NULL. Dense arguments are
  *              column-major with a leading dimension in elements, or row-major by SL_ROWS(ld).
- *              Row numbers are the caller's, also in errors. The rows of b come before
- *              the rows of x, and each array before its length. A list of rows that is NULL means
- *              all rows with the length SL_ALL or n, and no row with 0; any other length is
- *              refused. SL_ALL needs NULL. The library never prints or aborts.
+ *              Row numbers are the caller's, also in errors. The rows of b come before the rows of
+ *              x, and each array before its length. A list of rows that is NULL means all rows with
+ *              the length SL_ALL, which needs NULL, or n, and no row with 0; any other length is
+ *              refused. The library never prints or aborts.
  *              Threads share no mutable globals: each keeps its last error, and with
  *              SL_NO_THREAD_LOCAL nothing. For METIS, an option, see sl_symbolic_create. What is
  *              marked EXPERIMENTAL may change in any version; all else keeps its promises from 1.0
@@ -377,8 +377,7 @@ typedef enum sl_status {
     SL_ERR_READ_ONLY
 } sl_status;
 
-/** A short description of a status; static storage. Any value is accepted. sl_error_text (stats.h)
- *  says more. */
+/** A short description of a status, static storage, for any value. sl_error_text says more. */
 SL_API const char *sl_status_string(sl_status status);
 
 /** The count of a list of rows that is NULL: all n rows. */
@@ -636,8 +635,9 @@ SL_API void sl_options_init(sl_options *opt, size_t size);
 typedef struct sl_error {
     sl_int row;    /* -1: does not apply */
     sl_int column; /* -1: does not apply */
-    sl_off line;   /* of a file, 1-based; -1: does not apply */
-    double value;  /* the pivot or entry that was refused; of SL_ERR_IO errno; 0 if none */
+    sl_off line;   /* of a file, 1-based; of a leading dimension the least; -1: does not apply */
+    double value;  /* what was refused: a pivot, an entry, also a negative row; of SL_ERR_IO errno;
+                    * 0 if none */
     /* static text: the argument, the option or the reason, and what helps where a factorization was
      * refused; NULL: no error */
     const char *what;
@@ -825,7 +825,7 @@ typedef struct sl_fixed_info {
 
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
  *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
- *  Seconds are processor time, the sum over all threads.
+ *  Seconds are processor time of all threads.
  */
 typedef struct sl_stats {
     sl_error error;
@@ -985,7 +985,7 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
  *  Source   [George73] nested dissection; [KK98] multilevel graphs; [FM82] refinement of
  *           separators; [FF56] minimum vertex cuts; [ADD96] minimum degree; [MR85] trees;
  *           [Liu90] elimination tree, structures of columns; [AG89] relaxed supernodes.
- *  Manual   tools/docs/ordering.md: the orderings, what METIS does to a process
+ *  Manual   tools/docs/ordering.md
  *  Example  tests/core/test_symbolic.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
@@ -994,7 +994,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_c
 /** Releases an analysis. Objects made from it keep it as long as they need it. */
 SL_API void sl_symbolic_free(sl_symbolic *S);
 
-/** Arrays of an analysis; valid as long as the analysis.
+/** Arrays of an analysis.
  *
  *  Supernode s has columns super_first[s] .. super_first[s+1]-1 of L, stored as one dense panel:
  *  the rows of these columns, then rows rows[rows_begin[s]] .. rows[rows_begin[s+1]-1] below them,
@@ -1029,7 +1029,7 @@ typedef struct sl_symbolic_arrays {
     const void *reserved[2];    /* NULL; new fields take their place */
 } sl_symbolic_arrays;
 
-/** The arrays and statistics of S; all 0 if S is NULL. */
+/** The statistics of S, and its arrays, valid as long as S; all 0 if S is NULL. */
 SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
 
 /* src/public/factor.h: the numerical factorization P A P' = L D L' */
@@ -1068,8 +1068,7 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *           pool, with gcc, clang and MSVC. L has the same bits for any number of threads.
  *  Source   supernodal: multifrontal [DR83] [Liu92] on row tiles; up-looking: [LDL05], [Davis06]
  *           4.7; growth: [Hi02] 11.1.
- *  Manual   tools/docs/singular.md: null pivots, null vectors, weights; tools/docs/indefinite.md:
- *           growth, regularization, KKT systems; tools/docs/float.md: L in float, its accuracy
+ *  Manual   tools/docs/singular.md; tools/docs/indefinite.md; tools/docs/float.md
  *  Example  tests/core/test_factor.c, test_growth.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S,
@@ -1143,7 +1142,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log
 SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F,
                                                 const sl_options *opt);
 
-/** Arrays of a factor; valid as long as the factor. */
+/** Arrays of a factor. */
 typedef struct sl_factor_arrays {
     sl_factor_info info; /* of the present numbers, or of the factorization that failed */
     const sl_symbolic *symbolic;
@@ -1155,7 +1154,8 @@ typedef struct sl_factor_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_factor_arrays;
 
-/** The arrays and statistics of F; all 0 if F is NULL. */
+/** The statistics of F, and its arrays, valid as long as F, with its present numbers; all 0 if F is
+ *  NULL. */
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
 
 /* src/public/solve.h: full solves, and the workspace of all solves */
@@ -1170,8 +1170,7 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
  *
  *  ld must be at least the number of right-hand sides. Its two top bits, one of which says the
  *  layout, must be clear. Blocks of a call may have different layouts, unless they are one array.
- *  The results have the same bits in any layout. For several right-hand sides solves are fastest by
- *  rows: gathering and scattering 8 separate columns takes about a fifth of a solve.
+ *  The results have the same bits in any layout. Several right-hand sides are fastest by rows.
  */
 #define SL_ROWS(ld) ((size_t)(ld) | SL_ROW_MAJOR)
 
@@ -1309,7 +1308,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor 
 
 /** One local solve without a plan: sl_plan_create and sl_plan_solve in the caller's workspace.
  *
- *  F, bset, nb, xset, nx, X, ldx, B, ldb, nrhs, W as in these two calls; no region.
+ *  The other arguments as in these two calls; no region.
  *  stats  [out]  plan (bytes is 0); error.row: an index out of range.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STALE; SL_ERR_INCONSISTENT, _NOT_FINITE: as in
  *           sl_plan_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
@@ -1381,8 +1380,7 @@ SL_API SL_WARN_UNUSED sl_status sl_fixed_solve(const sl_fixed *D, double *X, siz
                                                const double *B, size_t ldb, const double *G,
                                                size_t ldg, sl_int nrhs, sl_work *W);
 
-/** What the object is made of, for local solves on plans and for all other calls on a factor: row k
- *  of its system is row free_rows[k] of A. Valid until sl_fixed_refactor or _free. */
+/** Parts of the object: row k of its system is row free_rows[k] of A. */
 typedef struct sl_fixed_arrays {
     sl_int n_free, n_fixed;
     const sl_int *free_rows;     /* n_free: ascending */
@@ -1393,6 +1391,7 @@ typedef struct sl_fixed_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_fixed_arrays;
 
+/** The parts of D, for calls on a factor. Valid until sl_fixed_refactor or _free. */
 SL_API sl_fixed_arrays sl_fixed_view(const sl_fixed *D);
 
 #else
@@ -1565,7 +1564,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
  *  steps  [in]   maximum number of corrections per column, 0 or more; 0 only measures.
  *  stats  [out]  refine, with backward_error = max |E (x - previous x)| / max |b|, or that of
  *                rounding where it is larger; error.row with SL_ERR_ARGUMENT: a regularized row
- *                outside the reaches.
+ *                outside the reaches. sl_factor_pivot_rows lists all.
  *  Returns  as sl_plan_solve; SL_ERR_INACCURATE: this backward error is above options.error_limit
  *           of the factor after one or more steps, and X is written; SL_ERR_UNSUPPORTED: a plan in
  *           a region and a factor with regularized rows.
@@ -1839,7 +1838,7 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_entries(const sl_selected *Z, double
                                                     const sl_int *rows, const sl_int *columns,
                                                     sl_int count, sl_stats *stats);
 
-/** Arrays of a selected inverse; valid as long as the object.
+/** Arrays of a selected inverse.
  *
  *  The panel of supernode supers[k] begins at Z[begin[k]] and has the layout of the panels of L,
  *  described at sl_symbolic_arrays. Unlike there, the diagonal is stored; entries above it within a
@@ -1855,7 +1854,7 @@ typedef struct sl_selected_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_selected_arrays;
 
-/** The arrays and statistics of Z; all 0 if Z is NULL. */
+/** The statistics of Z, and its arrays, valid as long as Z; all 0 if Z is NULL. */
 SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z);
 
 /* src/public/region.h: regions, inside which the cost of local solves does not depend on the whole matrix */
@@ -1903,7 +1902,7 @@ SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z);
  *           binary search per entry of Z. Keeps 4 (boundary)^2 bytes and about 100 per row of the
  *           boundary.
  *  Threads  reads F and Z.
- *  Source   [HDA17] 3 for the sweeps; (A^-1)_SS inverts the Schur complement of the rest.
+ *  Source   [HDA17] 3
  *  Example  tests/core/test_region.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_factor *F,
@@ -1929,7 +1928,7 @@ SL_API SL_WARN_UNUSED sl_status sl_region_refactor(sl_region *R, const sl_factor
 /** Releases a region. */
 SL_API void sl_region_free(sl_region *R);
 
-/** Arrays of a region; valid as long as the object. Cost: O(subtrees). */
+/** Arrays of a region. */
 typedef struct sl_region_arrays {
     sl_region_info info;
     const sl_symbolic *symbolic;
@@ -1940,7 +1939,7 @@ typedef struct sl_region_arrays {
     const void *reserved[2]; /* NULL; new fields take their place */
 } sl_region_arrays;
 
-/** The arrays and statistics of R; all 0 if R is NULL. */
+/** The statistics of R, and its arrays, valid as long as R; all 0 if R is NULL. O(subtrees). */
 SL_API sl_region_arrays sl_region_view(const sl_region *R);
 
 #else
@@ -2030,7 +2029,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
  *                       factorization reads them. Entries whose sum is 0 stay in the pattern.
  *  opt           [in]   allocator, triangle.
  *  stats         [out]  error.row, error.column: a malformed entry.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: different sizes, no term, no values; SL_ERR_MALFORMED;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MALFORMED;
  *           SL_ERR_TOO_LARGE: 2^31 or more entries in total; SL_ERR_MEMORY.
  *  Cost     O(n + entries of all terms).
  *  Threads  any number with different outputs.
@@ -2197,11 +2196,10 @@ typedef enum sl_load_flag {
  *                    be NULL with a path.
  *  set     [in]      an analysis and what belongs to it. A selected inverse may be saved without a
  *                    factor; regions may not. The same region may be given more than once.
- *  opt     [in]      allocator; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: path and memory are both given, memory is too small, bytes, set
- *           or an object of it is NULL, n_regions is below 0, a reserved field is set, or regions
- *           without a factor; SL_ERR_STALE: a failed factor, or a selected inverse or region that
- *           is not of its present numbers; SL_ERR_MISMATCH: objects of different analyses, or from
+ *  opt     [in]      allocator.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also memory that is too small, and regions without a factor;
+ *           SL_ERR_STALE: a failed factor, or a selected inverse or region that is not of its
+ *           present numbers; SL_ERR_MISMATCH: objects of different analyses, or from
  *           a file that a newer version has written and this one reads in part;
  *           SL_ERR_UNSUPPORTED: SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds;
  *           SL_ERR_IO; SL_ERR_MEMORY: of a file.
@@ -2229,7 +2227,7 @@ SL_API SL_WARN_UNUSED sl_status sl_save(const char *path, void *memory, size_t *
  *  memory  [in]      NULL, or what sl_save wrote, of any alignment; aligned to 64 bytes if mapped.
  *  bytes   [in]      the size that was saved in memory, exactly; not read with a path.
  *  flags   [in]      any of sl_load_flag, but not both SL_LOAD_TRUSTED and SL_LOAD_VERIFIED.
- *  opt     [in]      allocator, threads, isa; may be NULL. threads are those of refactorizations;
+ *  opt     [in]      allocator, threads, isa. threads are those of refactorizations;
  *                    of mapped objects those of the inverse.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also if path and memory are both given or both NULL;
  *           SL_ERR_UNSUPPORTED: not a saved factor, one that this version cannot read, the isa, or
@@ -2244,7 +2242,7 @@ SL_API SL_WARN_UNUSED sl_status sl_save(const char *path, void *memory, size_t *
  *           boundary) for each region. Keeps less than 4 KB, and for each region 500 bytes and 16
  *           for each row of the boundary and each subtree.
  *  Threads  any number of calls at once.
- *  Example  tests/core/test_save.c, test_saved_set.c, test_save_file.c
+ *  Example  tests/core/test_save.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_load(sl_saved_set *set, const char *path, const void *memory,
                                         size_t bytes, unsigned flags, const sl_options *opt);
@@ -2604,7 +2602,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor 
  * [a -b; b a] as well, and SL_STORAGE_COMPLEX (EXPERIMENTAL) computes and keeps the first column of
  * each: half the operations and half the memory. Solves read half as much, and share each read of L
  * as those of real matrices do: up to 32 right-hand sides. Every call on factors takes both
- * storages, except that L as complex is not changed in place or saved. */
+ * storages, except that L as complex is not changed in place or saved.
+ *
+ * A null vector z of H is two of the real matrix, z and i z: options.null_vector_count 2. */
 
 /** View of a complex Hermitian matrix in compressed columns: one triangle or both, entries and
  *  duplicates as in sl_csc. The imaginary parts of diagonal entries are 0. */
@@ -3071,10 +3071,6 @@ SLI_INLINE void sli_shared_write(sl_int *a, sl_int value) {
 
 #define SLI_ROWS_MAX (INT32_MAX - 7)
 
-SLI_INLINE int sli_is_ld(size_t ld, sl_int rows) {
-  return ld >= (size_t)rows && ld <= SIZE_MAX / 2;
-}
-
 SLI_INLINE sl_int sli_min(sl_int a, sl_int b) {
   return a < b ? a : b;
 }
@@ -3225,6 +3221,11 @@ SLI_COLD static sl_status sli_refuse(sl_status status, const char *what) {
   return sli_fail_at(NULL, status, -1, -1, 0.0, what);
 }
 
+SLI_COLD static sl_status sli_refuse_row(sl_stats *stats, sl_int row) {
+  return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, row < 0 ? row : 0.0,
+      "a row is out of range");
+}
+
 SLI_COLD static sl_status sli_no_memory(void) {
   return sli_refuse(SL_ERR_MEMORY, "the allocator returned NULL");
 }
@@ -3317,7 +3318,8 @@ SLI_COLD static sl_status sli_file_fails(const char *what) {
 }
 
 static int sli_error_place(char *place, size_t size, sl_status status, const sl_error *e) {
-  const char *const names[4] = {"row", "column", "line", status == SL_ERR_IO ? "errno" : "value"};
+  const char *const names[4] = {"row", "column", status == SL_ERR_ARGUMENT ? "least" : "line",
+                  status == SL_ERR_IO ? "errno" : "value"};
   const double numbers[4] = {(double)e->row, (double)e->column, (double)e->line, e->value};
   int k, length = 0;
   for (k = 0; k < 4; k++) {
@@ -5018,7 +5020,7 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
   for (j = 0; beyond; j++) {
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
       if (A->i[p] < 0 || A->i[p] >= A->n_rows) {
-        return sli_fail_at(stats, SL_ERR_MALFORMED, A->i[p], j, 0.0,
+        return sli_fail_at(stats, SL_ERR_MALFORMED, A->i[p], j, sli_min(A->i[p], 0),
             "a row of A is out of range; rows count from 0");
       }
     }
@@ -5240,8 +5242,9 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
   }
   for (k = 0; k < count; k++) {
     if (i[k] < 0 || i[k] >= n_rows || j[k] < 0 || j[k] >= n_cols) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, i[k], j[k], (double)k,
-          "a triplet is out of range; rows count from 0");
+      return sli_fail_at(
+          stats, SL_ERR_ARGUMENT, i[k], j[k], (double)k,
+          "the triplet of this number, value, is out of range; rows count from 0");
     }
   }
   t.n_rows = n_rows;
@@ -5363,11 +5366,36 @@ SLI_INLINE sli_dense sli_dense_of(size_t ld) {
   return ld & SL_ROW_MAJOR ? sli_dense_by_rows(ld & ~SL_ROW_MAJOR) : sli_dense_by_columns(ld);
 }
 
-SLI_INLINE int sli_dense_spans(size_t ld, sl_int rows, sl_int columns) {
+SLI_NOINLINE static sl_status sli_dense_check(const char *wrong, size_t ld, sl_int rows,
+    sl_int columns) {
   const size_t elements = ld & ~SL_ROW_MAJOR;
-  return elements < SL_ROW_MAJOR / 2 &&
-       elements >= (size_t)(ld & SL_ROW_MAJOR ? columns : rows);
+  const sl_int least = ld & SL_ROW_MAJOR ? columns : rows;
+  sl_status status = SL_OK;
+  if (rows > 0 && (elements < (size_t)least ||
+      elements >= SL_ROW_MAJOR / 2)) {
+    status = sli_fail_at(NULL, SL_ERR_ARGUMENT, -1, -1, (double)elements, wrong);
+    sli_error_line(NULL, least);
+  }
+  return status;
 }
+
+SLI_COLD static sl_status sli_dense_finite(const char *wrong, const double *M, size_t ld,
+    sl_int rows, sl_int columns) {
+  const sli_dense at = sli_dense_of(ld);
+  sl_int i, r;
+  for (r = 0; r < columns; r++) {
+    for (i = 0; i < rows; i++) {
+      const double x = M[(size_t)i * at.row + (size_t)r * at.column];
+      if (!sli_is_finite(x)) {
+        return sli_fail_at(NULL, SL_ERR_NOT_FINITE, i, r, x, wrong);
+      }
+    }
+  }
+  return SL_OK;
+}
+
+static const char sli_small_ldx[] = "ldx is below the rows of X, or nrhs with SL_ROWS";
+static const char sli_small_ldb[] = "ldb is below the rows of B, or nrhs with SL_ROWS";
 
 static void sli_dense_copy(double *to, sli_dense t, const double *from, sli_dense f, sl_int rows,
     sl_int columns) {
@@ -5519,11 +5547,11 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
   status = sli_argument(Y == NULL ? "Y is NULL"
       : A->n_cols > 0 && X == NULL ? "X is NULL"
       : A->n_cols > 0 && X == Y ? "X is Y"
-      : !sli_dense_spans(ldy, A->n_rows, nrhs)
-      ? "ldy is below the rows of A (nrhs with SL_ROWS), or too large"
-      : A->n_cols > 0 && !sli_dense_spans(ldx, A->n_cols, nrhs)
-      ? "ldx is below the columns of A (nrhs with SL_ROWS), or too large"
       : NULL);
+  status = status == SL_OK ? sli_dense_check("ldy is below the rows of Y, or nrhs with SL_ROWS",
+      ldy, A->n_rows, nrhs)
+               : status;
+  status = status == SL_OK ? sli_dense_check(sli_small_ldx, ldx, A->n_cols, nrhs) : status;
   if (status != SL_OK) {
     return status;
   }
@@ -5534,7 +5562,7 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
   return SL_OK;
 }
 
-static double sli_largest(const double *x, size_t step, sl_int n) {
+SLI_NOINLINE static double sli_largest(const double *x, size_t step, sl_int n) {
   uint64_t largest = 0;
   double found;
   sl_int i;
@@ -5593,13 +5621,15 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
     sli_argument(B == NULL ? "B is NULL"
         : R == NULL ? "R is NULL"
         : X == NULL ? "X is NULL"
-        : !sli_dense_spans(ldb, n, nrhs) ? "ldb is below n (nrhs with SL_ROWS)"
-        : !sli_dense_spans(ldr, n, nrhs) ? "ldr is below n (nrhs with SL_ROWS)"
-        : !sli_dense_spans(ldx, n, nrhs) ? "ldx is below n (nrhs with SL_ROWS)"
         : R == X ? "R is X"
         : R == B && ldr != ldb ? "R is B with another leading dimension"
         : R == B && backward_error != NULL ? "R is B, and backward_error is wanted"
         : NULL);
+  status = status == SL_OK ? sli_dense_check(sli_small_ldb, ldb, n, nrhs) : status;
+  status = status == SL_OK
+         ? sli_dense_check("ldr is below the rows of R, or nrhs with SL_ROWS", ldr, n, nrhs)
+         : status;
+  status = status == SL_OK ? sli_dense_check(sli_small_ldx, ldx, n, nrhs) : status;
   if (status != SL_OK) {
     return status;
   }
@@ -5725,7 +5755,7 @@ static sl_status sli_columns_check(sli_submatrix *s, const sl_int *rows, uint64_
   sl_off total = 0;
   for (k = 0; k < s->count; k++) {
     if (rows[k] < 0 || rows[k] >= A->n_cols) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0, "a row is out of range");
+      return sli_refuse_row(stats, rows[k]);
     }
     s->sorted[k] = sli_keyed(rows[k], k);
   }
@@ -5743,7 +5773,7 @@ static sl_status sli_columns_check(sli_submatrix *s, const sl_int *rows, uint64_
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
       const sl_int i = A->i[p];
       if (i < 0 || i >= A->n_rows) {
-        return sli_fail_at(stats, SL_ERR_MALFORMED, i, j, 0.0,
+        return sli_fail_at(stats, SL_ERR_MALFORMED, i, j, sli_min(i, 0),
             "a row of A is out of range; rows count from 0");
       }
       if (i != j && sli_submatrix_position(s, i) >= 0) {
@@ -7990,10 +8020,6 @@ SLI_TARGET("avx2,popcnt") static void sli_mindeg_run_avx2(sli_mindeg *m, sl_int 
 }
 #endif
 
-static int sli_mindeg_is_wide(sl_int n) {
-  return n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
-}
-
 static sl_int sli_mindeg_number(const sli_mindeg *m, const sli_level *g, const sl_int *vertices,
     sl_int count) {
   sl_int k, bits = count, *local = m->local, *bit = m->bit, *halo = m->order;
@@ -8497,14 +8523,6 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
   return status;
 }
 
-static void sli_dissect_free_levels(sli_dissection *d) {
-  int k;
-  for (k = 1; k < d->n_levels; k++) {
-    sli_free(d->a, d->levels[k].block);
-  }
-  d->n_levels = 1;
-}
-
 static sl_status sli_dissect_levels(sli_dissection *d) {
   int working;
   const sl_status status = sli_dissect_coarsen(d, &working);
@@ -8542,7 +8560,9 @@ static sl_status sli_dissect_multilevel(sli_dissection *d) {
   while (status == SL_OK && d->level > 0) {
     sli_dissect_project(d);
   }
-  sli_dissect_free_levels(d);
+  for (; d->n_levels > 1; d->n_levels--) {
+    sli_free(d->a, d->levels[d->n_levels - 1].block);
+  }
   return status;
 }
 
@@ -9118,7 +9138,7 @@ static sl_status sli_order_nd(const sli_order_job *job) {
     sli_nd_layout(&w, &b);
   }
   if (status == SL_OK) {
-    const int has_avx2 = sli_mindeg_is_wide(w.G->n);
+    const int has_avx2 = w.G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: none */
     for (k = 0; k < job->team->workers; k++) {
       w.d.workers[k].mindeg.has_avx2 = has_avx2;
     }
@@ -10336,12 +10356,7 @@ static void sli_order_natural(sl_int n, sl_int *perm) {
 
 static sl_status sli_order_given(const sli_order_job *job) {
   const sl_int *given = job->opt->perm, n = job->A->n_cols;
-  sl_int bad;
-  if (given == NULL && n > 0) {
-    return sli_order_refuse(job, SL_ERR_ARGUMENT,
-        "options.perm is NULL though ordering is GIVEN");
-  }
-  bad = sli_rows_invert(given, n, n, job->scratch);
+  const sl_int bad = sli_rows_invert(given, n, n, job->scratch);
   if (bad >= 0) {
     return sli_fail_at(job->stats, SL_ERR_ARGUMENT, bad, -1, given[bad],
         "options.perm has a row out of range or twice at this position");
@@ -10355,12 +10370,6 @@ static sl_status sli_order_given(const sli_order_job *job) {
 static sl_status sli_order_quickly(const sli_order_job *job) {
   sli_order_cost cost;
   return sli_order_mindeg(job, job->scratch, &cost);
-}
-
-static sl_status sli_order_by_mindeg(const sli_order_job *job, sli_graph_facts *f) {
-  const sl_status status = sli_order_mindeg(job, job->scratch, &f->cost);
-  sli_graph_describe_mindeg(job, f);
-  return status;
 }
 
 static sl_status sli_order_compressed(const sli_order_job *job,
@@ -10394,7 +10403,8 @@ static sl_status sli_order_chosen(const sli_order_job *job) {
       f.bits |= job->weight == NULL && sli_order_levels(job) ? SLI_IS_NARROW : 0;
       break;
     case SLI_TRY_MINDEG:
-      status = sli_order_by_mindeg(job, &f);
+      status = sli_order_mindeg(job, job->scratch, &f.cost);
+      sli_graph_describe_mindeg(job, &f);
       break;
     case SLI_BY_LEVELS:
       return SL_OK;
@@ -10420,12 +10430,11 @@ static const struct sli_graph_ordering {
                {SL_ORDERING_MINDEG, 1, sli_order_quickly}};
 
 static const struct sli_graph_ordering *sli_graph_ordering_of(sl_ordering ordering) {
-  const size_t count = sizeof sli_graph_orderings / sizeof *sli_graph_orderings;
   size_t k = 0;
-  while (k < count && sli_graph_orderings[k].ordering != ordering) {
+  while (sli_graph_orderings[k].ordering != ordering) {
     k++;
   }
-  return k < count ? &sli_graph_orderings[k] : NULL;
+  return &sli_graph_orderings[k];
 }
 
 static sl_status sli_order_rest(const sli_order_job *job) {
@@ -10511,6 +10520,10 @@ static const char *sli_order_options_wrong(const sl_options *opt, sl_int n) {
   return opt == NULL ? NULL
        : (unsigned)opt->purpose > (unsigned)SL_PURPOSE_ONE_FACTOR
          ? "options.purpose is not a value of sl_purpose"
+       : (unsigned)opt->ordering > (unsigned)SL_ORDERING_MINDEG || (int)opt->ordering == 2
+         ? "options.ordering is not a value of sl_ordering"
+       : opt->ordering == SL_ORDERING_GIVEN && opt->perm == NULL && n > 0
+         ? "options.perm is NULL though ordering is GIVEN"
        : opt->block_size < 0 ? "options.block_size is below 0"
        : opt->block_size > 1 && n % opt->block_size != 0
          ? "options.block_size does not divide n"
@@ -10564,10 +10577,7 @@ static sl_status sli_order(sli_order_job *job) {
       job->choice->has_tree = 1;
       return SL_OK;
     }
-    return sli_graph_ordering_of(job->ordering) != NULL
-           ? sli_order_by_graph(job)
-           : sli_order_refuse(job, SL_ERR_ARGUMENT,
-               "options.ordering is not a value of sl_ordering");
+    return sli_order_by_graph(job);
   }
 }
 
@@ -13191,6 +13201,26 @@ static void sli_source_sum(const sli_source *from, sl_off first, sl_int count, d
   }
 }
 
+SLI_COLD static void sli_entries_finite_check(const sl_symbolic *S, const sli_source *from,
+    sli_failure *failure) {
+  sl_off m;
+  sl_int s;
+  for (s = 0; s < S->n_supers; s++) {
+    for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
+      double a;
+      if (from->A != NULL) {
+        a = from->A->x[S->scatter_from[m]];
+      } else {
+        sli_source_sum(from, m, 1, &a);
+      }
+      if (!sli_is_finite(a)) {
+        (void)sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
+        return;
+      }
+    }
+  }
+}
+
 typedef struct sli_loading {
   const double *x;
   const sl_int *scatter_from;
@@ -14267,18 +14297,14 @@ typedef struct sli_judge {
   double error;
 } sli_judge;
 
-static double sli_judge_size(const sl_factor *F, sl_int c) {
-  const double size = fabs(F->D[c]);
-  return F->E == NULL ? size : size + fabs(F->E[F->S->pairs[c] == SLI_PAIR_SECOND ? c - 1 : c]);
-}
-
 SLI_INLINE sl_int sli_judge_row(const sl_symbolic *S, sl_int s, sl_int r) {
   const sli_step *step = &S->steps[s];
   return r < step->width ? step->column + r : S->rows[S->rows_begin[s] + r - step->width];
 }
 
 SLI_COLD static void sli_judge_weigh(const sli_judge *judge, sl_int first, sl_int last) {
-  const sl_symbolic *S = judge->F->S;
+  const sl_factor *F = judge->F;
+  const sl_symbolic *S = F->S;
   const sl_int begin = S->super_first[first], end = S->super_first[last + 1];
   sl_int s, j, r;
   for (j = begin; j < end; j++) {
@@ -14288,15 +14314,19 @@ SLI_COLD static void sli_judge_weigh(const sli_judge *judge, sl_int first, sl_in
   for (s = first; s <= last; s++) {
     const sli_step *step = &S->steps[s];
     for (j = 0; j < step->width; j++) {
-      const double size = sli_judge_size(judge->F, step->column + j);
-      judge->t[step->column + j] += size;
+      const sl_int c = step->column + j;
+      double size = fabs(F->D[c]);
+      if (F->E != NULL) {
+        size += fabs(F->E[S->pairs[c] == SLI_PAIR_SECOND ? c - 1 : c]);
+      }
+      judge->t[c] += size;
       for (r = j + 1; r < step->width + step->below; r++) {
         const sl_int row = sli_judge_row(S, s, r);
         double l;
         if (row >= end) {
           break;
         }
-        l = sli_entry(judge->F, step->panel + sli_panel_at(step->width, r, j));
+        l = sli_entry(F, step->panel + sli_panel_at(step->width, r, j));
         judge->t[row] += 2.0 * l * l * size;
         judge->z[row] += 1.0;
       }
@@ -14348,8 +14378,7 @@ SLI_COLD static int sli_judge_is_null(sli_judge *judge, sl_int k) {
     sum += square * (judge->bias[j] / size);
     squares += t * t;
   }
-  judge->error =
-    DBL_EPSILON * (SLI_JUDGE_RANDOM * sqrt(squares) + SLI_JUDGE_BIASED * sum) * size;
+  judge->error = DBL_EPSILON * (SLI_JUDGE_RANDOM * sqrt(squares) + SLI_JUDGE_BIASED * sum) * size;
   return !(judge->error < size);
 }
 
@@ -14436,8 +14465,7 @@ static int sli_judge_last(sli_judge *judge, sl_int last) {
   for (k = first; k < last && !is_null; k++) {
     const double size = fabs(F->D[k]);
     most = size > most ? size : most;
-    is_null = size <= sli_null_rounding(k - first + 1) * most &&
-          sli_judge_is_null(judge, k);
+    is_null = size <= sli_null_rounding(k - first + 1) * most && sli_judge_is_null(judge, k);
   }
   return is_null;
 }
@@ -14803,7 +14831,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
       ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_PIVOTS_SKIP_NULL with an analysis for 2x2 pivots")
     : draft.type->suits != NULL && !draft.type->suits(&draft)
       ? sli_refuse(SL_ERR_UNSUPPORTED,
-          "options.storage does not suit the analysis or options")
+          "SL_STORAGE_COMPLEX: block_size 2, null_vector_count 2, not regularized")
       : sli_factor_use(&draft, opt);
   SLI_LAYOUT(&b, &a, status) {
     (void)sli_take(&b, 1, sizeof(sl_factor));
@@ -15408,7 +15436,7 @@ SLI_INLINE sl_status sli_work_grow(sl_work *W, size_t bytes) {
   return bytes <= W->size ? SL_OK : sli_work_enlarge(W, bytes);
 }
 
-static sl_work sli_work_own(const sl_allocator *a) {
+SLI_NOINLINE static sl_work sli_work_own(const sl_allocator *a) {
   sl_work own;
   memset(&own, 0, sizeof own);
   own.allocator = *a;
@@ -15649,18 +15677,19 @@ SLI_INLINE sli_rhs sli_rhs_part(const sli_rhs *all, sl_int first, sl_int count) 
 }
 
 static sl_status sli_rhs_check(const sli_rhs *r, sl_int nx, sl_int nb) {
-  const int bad_x = nx > 0 && (r->X == NULL || !sli_dense_spans(r->ldx, nx, r->nrhs));
-  const int bad_b = nb > 0 && (r->B == NULL || !sli_dense_spans(r->ldb, nb, r->nrhs));
-  const int is_misaligned = r->X == r->B && r->ldx != r->ldb && nx > 0 && nb > 0;
-  if (r->nrhs == 0 || (r->nrhs > 0 && !bad_x && !bad_b && !is_misaligned)) {
+  sl_status status;
+  if (r->nrhs == 0) {
     return SL_OK;
   }
-  return sli_argument(r->nrhs < 0 ? "nrhs is below 0"
-      : bad_x && r->X == NULL ? "X is NULL"
-      : bad_x ? "ldx is below the rows of X (nrhs with SL_ROWS), or too large"
-      : bad_b && r->B == NULL ? "B is NULL"
-      : bad_b ? "ldb is below the rows of B (nrhs with SL_ROWS), or too large"
-      : "X is B, but ldx is not ldb");
+  status = sli_argument(r->nrhs < 0 ? "nrhs is below 0"
+      : nx > 0 && r->X == NULL ? "X is NULL"
+      : nb > 0 && r->B == NULL ? "B is NULL"
+      : NULL);
+  status = status == SL_OK ? sli_dense_check(sli_small_ldx, r->ldx, nx, r->nrhs) : status;
+  status = status == SL_OK ? sli_dense_check(sli_small_ldb, r->ldb, nb, r->nrhs) : status;
+  return status == SL_OK && r->X == r->B && r->ldx != r->ldb && nx > 0 && nb > 0
+         ? sli_argument("X is B, but ldx is not ldb")
+         : status;
 }
 
 #define SLI_ROWS_AHEAD 32
@@ -16442,9 +16471,12 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
   sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }
 
-SLI_COLD static sl_status sli_not_finite(void) {
-  return sli_refuse(SL_ERR_NOT_FINITE,
-      "a right-hand side or a given value is not finite, or x overflows");
+SLI_COLD static sl_status sli_not_finite(const sli_rhs *rhs, sl_int nb) {
+  const sl_status status = sli_dense_finite("this number of B is not finite", rhs->B, rhs->ldb,
+      rhs->B == rhs->X ? 0 : nb, rhs->nrhs);
+  return status != SL_OK
+         ? status
+         : sli_refuse(SL_ERR_NOT_FINITE, "a right-hand side is not finite, or x overflows");
 }
 
 SLI_COLD static sl_status sli_inconsistent(void) {
@@ -16467,8 +16499,7 @@ static int sli_sweep_is_finite(const sl_factor *F, const sli_query *q, const dou
 
 static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
     void *memory) {
-  sl_status status = SL_OK;
-  sl_int r, count;
+  sl_int r, count, is_finite = 1;
   for (r = 0; r < rhs->nrhs; r += count) {
     sli_rhs block;
     sli_vectors v;
@@ -16480,11 +16511,9 @@ static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, const 
     }
     sli_sweep_backward(F, q, &v, count);
     sli_unpack(F, q, &block, v.x);
-    if (!sli_sweep_is_finite(F, q, v.x, (sl_int)1 << sli_lanes_kind(count))) {
-      status = sli_not_finite();
-    }
+    is_finite &= sli_sweep_is_finite(F, q, v.x, (sl_int)1 << sli_lanes_kind(count));
   }
-  return status;
+  return is_finite ? SL_OK : sli_not_finite(rhs, q->nb);
 }
 
 static sl_status sli_sweep(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
@@ -16518,7 +16547,7 @@ static sl_status sli_query_run(sli_sweep_tasks *t, const sl_factor *F, const sli
     const sli_rhs *rhs, sl_work *W) {
   if (t->workers > 1) {
     sli_sweep_tasks_run(t, &W->threads, W->block, sli_sweep_tasks_block);
-    return sli_atomic_read(&t->has_failed) ? sli_not_finite() : SL_OK;
+    return sli_atomic_read(&t->has_failed) ? sli_not_finite(rhs, q->nb) : SL_OK;
   }
   return sli_sweep(F, q, rhs, W->block);
 }
@@ -16531,11 +16560,15 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, const s
   if (rhs->nrhs == 0 || q->nx == 0) {
     return SL_OK;
   }
-  own = sli_work_own(&F->allocator);
-  W = W == NULL ? &own : W;
+  if (W == NULL) {
+    own = sli_work_own(&F->allocator);
+    W = &own;
+  }
   status = sli_query_prepare(&t, F, q, rhs, W);
   status = status == SL_OK ? sli_query_run(&t, F, q, rhs, W) : status;
-  sli_free(&own.allocator, own.block);
+  if (W == &own) {
+    sli_free(&own.allocator, own.block);
+  }
   return status;
 }
 
@@ -16607,8 +16640,7 @@ static sl_status sli_set_sort(const sl_symbolic *S, sli_set *set, sl_stats *stat
   for (k = 0; k < set->count; k++) {
     const sl_int i = set->rows[k];
     if (i < 0 || i >= S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, 0.0,
-          "a row of bset or xset is out of range");
+      return sli_refuse_row(stats, i);
     }
     set->seeds[k] = sli_keyed(S->iperm[i], k);
   }
@@ -17230,7 +17262,9 @@ SLI_COLD static void sli_null_anchors(const sli_null_part *p, sl_int *anchors) {
       distance = sli_null_distance(p, k, q, v, x);
       most = distance > most ? distance : most;
     }
-    k = p->last;
+    k = v % 2 > 0 && p->F->type->half > 0 && p->F->null.last[anchors[v - 1] ^ 1] == p->last
+        ? anchors[v - 1] ^ 1
+        : p->last;
     while ((distance = sli_null_distance(p, k, q, v, x)) < SLI_NULL_ANCHOR * most) {
       k = p->F->null.chain[k];
     }
@@ -17381,8 +17415,7 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
     sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const int is_one = F->null.vectors == 1;
-  const double rounding = sli_null_rounding(S->n),
-         *z = is_one ? F->null.z : NULL;
+  const double rounding = sli_null_rounding(S->n), *z = is_one ? F->null.z : NULL;
   double *diagonal =
     is_one ? F->null.g : F->null.products + ((size_t)F->null.vectors + 1) * (size_t)S->n;
   const sli_null_walk w = sli_null_product(F, from, z, diagonal);
@@ -18118,33 +18151,12 @@ static sl_status sli_null_fill(sl_factor *F, const sl_options *opt, sl_stats *st
   return F->null.mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
 }
 
-SLI_COLD static void sli_null_finite_check(const sl_factor *F, const sli_source *from,
-    sli_failure *failure) {
-  const sl_symbolic *S = F->S;
-  sl_off m;
-  sl_int s;
-  for (s = 0; s < S->n_supers; s++) {
-    for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
-      double a;
-      if (from->A != NULL) {
-        a = from->A->x[S->scatter_from[m]];
-      } else {
-        sli_source_sum(from, m, 1, &a);
-      }
-      if (!sli_is_finite(a)) {
-        (void)sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
-        return;
-      }
-    }
-  }
-}
-
 static sl_status sli_null_finish(sl_factor *F, const sli_source *from, sli_failure *failure) {
   if (failure->status == SL_OK) {
     (void)sli_nulls_find(F, from, failure);
   }
   if (failure->status == SL_ERR_PIVOT) {
-    sli_null_finite_check(F, from, failure);
+    sli_entries_finite_check(F->S, from, failure);
   }
   return failure->status;
 }
@@ -18211,17 +18223,15 @@ static void sli_parts_fill(sli_parts *p) {
   p->q.x_index = p->q.x_index == NULL ? p->identity : p->q.x_index;
 }
 
-static double sli_parts_pivot(const sli_parts *p, sl_int k) {
-  return p->parts & SL_PART_SQRT_D ? sqrt(p->F->D[k]) : p->F->D[k];
-}
-
 static void sli_parts_scale_step(const sli_parts *p, const sli_step *step, double *row,
     sl_int lanes) {
   const sl_factor *F = p->F;
   sl_int k, r;
   for (k = step->column; k < step->column + sli_step_columns(step); k++, row += lanes) {
     const int pair = F->E == NULL ? (int)SLI_PAIR_NONE : F->S->pairs[k];
-    const double d = pair == SLI_PAIR_NONE ? sli_parts_pivot(p, k) : 1.0;
+    const double d = pair != SLI_PAIR_NONE ? 1.0
+             : p->parts & SL_PART_SQRT_D ? sqrt(F->D[k])
+                           : F->D[k];
     const int is_null = sli_is_skipped(F, k);
     for (r = 0; r < lanes; r++) {
       if (is_null) {
@@ -18982,7 +18992,7 @@ static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, s
   c = sli_local_refinement_find(f);
   if (c != -1) {
     return sli_fail_at(stats, SL_ERR_ARGUMENT, f->F->S->perm[c], -1, f->F->rule.shifts[c],
-        "xset lacks this row, whose pivot was regularized");
+        "a set lacks this regularized row; sl_factor_pivot_rows lists all");
   }
   for (r = 0; r < rhs->nrhs; r += sli_min(8, rhs->nrhs - r)) {
     const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
@@ -18992,7 +19002,7 @@ static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, s
     }
   }
   if (f->not_finite || !sli_is_finite(worst)) {
-    return sli_not_finite();
+    return sli_not_finite(rhs, f->q->nb);
   }
   worst = sli_max_error(sli_local_rounding(f->F), worst);
   return sli_refine_done(f->F, stats, steps, f->steps, worst);
@@ -20116,8 +20126,7 @@ static void sli_bounds_write(const sli_bounds *p, double *to, const sli_rhs *X) 
 }
 
 static sl_status sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, double *bounds) {
-  sl_status status = SL_OK;
-  sl_int r, count;
+  sl_int r, count, is_finite = 1;
   for (r = 0; r < rhs->nrhs; r += count) {
     sli_rhs block;
     sli_vectors v;
@@ -20127,13 +20136,11 @@ static sl_status sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, doub
     (void)sli_sweep_load(p->F, p->q, &v, &block);
     sli_bounds_norms(p, v.y, count);
     sli_sweep_backward(p->F, p->q, &v, count);
-    if (!sli_sweep_is_finite(p->F, p->q, v.x, (sl_int)1 << sli_lanes_kind(count))) {
-      status = sli_not_finite();
-    }
+    is_finite &= sli_sweep_is_finite(p->F, p->q, v.x, (sl_int)1 << sli_lanes_kind(count));
     sli_unpack(p->F, p->q, &block, v.x);
     sli_bounds_write(p, bounds + (size_t)r * sli_dense_of(rhs->ldx).column, &block);
   }
-  return status;
+  return is_finite ? SL_OK : sli_not_finite(rhs, p->q->nb);
 }
 
 static sl_status sli_bounds_run(sli_bounds *p, const sli_rhs *rhs, double *bounds, sl_work *W) {
@@ -20527,13 +20534,6 @@ SLI_HOT static sl_status sli_search_supernode(sli_pivot_search *p, const sl_csc 
   return SL_OK;
 }
 
-static void sli_search_layout(sli_pivot_search *p, sli_block *b) {
-  p->contributions = SLI_TAKE(b, sli_contribution, p->S->n_supers);
-  p->local = SLI_TAKE(b, sl_int, p->S->n);
-  p->order = SLI_TAKE(b, sl_int, p->S->n);
-  p->is_first = SLI_TAKE(b, unsigned char, p->S->n);
-}
-
 static sl_status sli_search_run(sli_pivot_search *p, const sl_csc *A, sl_stats *stats) {
   sl_status status = SL_OK;
   sl_int s;
@@ -20600,7 +20600,10 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
   started = sli_seconds();
   status = sli_argument(A->x == NULL && sli_nnz(A) > 0 ? "A.x is NULL" : NULL);
   SLI_LAYOUT(&b, &p.allocator, status) {
-    sli_search_layout(&p, &b);
+    p.contributions = SLI_TAKE(&b, sli_contribution, S->n_supers);
+    p.local = SLI_TAKE(&b, sl_int, S->n);
+    p.order = SLI_TAKE(&b, sl_int, S->n);
+    p.is_first = SLI_TAKE(&b, unsigned char, S->n);
   }
   status = status == SL_OK ? sli_search_run(&p, A, stats) : status;
   S->stats.symbolic.seconds_analyze += sli_seconds() - started;
@@ -21410,16 +21413,17 @@ static sl_status sli_check_rows(const sl_symbolic *S, const sl_int *rows, sl_int
   sl_int k;
   for (k = 0; k < count && rows != NULL; k++) {
     if (rows[k] < 0 || rows[k] >= S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, is_column ? -1 : rows[k],
-          is_column ? rows[k] : -1, 0.0,
-          is_column ? "a column is out of range" : "a row is out of range");
+      return !is_column ? sli_refuse_row(stats, rows[k])
+                : sli_fail_at(stats, SL_ERR_ARGUMENT, -1, rows[k],
+                    sli_min(rows[k], 0), "a column is out of range");
     }
   }
   return SL_OK;
 }
 
-static sl_status sli_check_entries(const sl_factor *F, const sl_int *rows, sl_int n_rows,
-    const sl_int *columns, sl_int n_columns, sl_stats *stats) {
+SLI_NOINLINE static sl_status sli_check_entries(const sl_factor *F, const sl_int *rows,
+    sl_int n_rows, const sl_int *columns,
+    sl_int n_columns, sl_stats *stats) {
   sl_status status = sli_inverse_check(F);
   status = status == SL_OK ? sli_check_rows(F->S, rows, n_rows, 0, stats) : status;
   return status == SL_OK ? sli_check_rows(F->S, columns, n_columns, 1, stats) : status;
@@ -22189,13 +22193,10 @@ static const sli_stage sli_entries_judged_stages[5] = {
   {sli_entries_layout_sweeps, sli_entries_partition},
   {sli_entries_layout_run, NULL}};
 
-static sl_status sli_entries_prepare(sli_entries *q, sl_work *W) {
-  return sli_has_both_signs(q->F) ? sli_work_stages(W, sli_entries_judged_stages, 5, q)
-                  : sli_work_stages(W, sli_entries_stages, 3, q);
-}
-
 SLI_NOINLINE static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
-  const sl_status status = sli_entries_prepare(q, W);
+  const sl_status status = sli_has_both_signs(q->F)
+                 ? sli_work_stages(W, sli_entries_judged_stages, 5, q)
+                 : sli_work_stages(W, sli_entries_stages, 3, q);
   if (status != SL_OK) {
     return status;
   }
@@ -22541,8 +22542,11 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
       : n_rows > 0 && rows == NULL ? "rows is NULL"
       : n_columns > 0 && columns == NULL ? "columns is NULL"
       : !is_empty && Z == NULL ? "Z is NULL"
-      : !is_empty && !sli_is_ld(ldz, n_rows) ? "ldz is below n_rows"
+      : !is_empty && (ldz & SL_ROW_MAJOR) != 0 ? "ldz is one of SL_ROWS"
       : NULL);
+  if (status == SL_OK && !is_empty) {
+    status = sli_dense_check("ldz is below n_rows", ldz, n_rows, n_columns);
+  }
   status =
     status == SL_OK ? sli_check_entries(F, rows, n_rows, columns, n_columns, stats) : status;
   if (status != SL_OK) {
@@ -22895,8 +22899,8 @@ static sl_status sli_selected_read(const sl_selected *Z, double *out, const sl_i
       const sl_int i = rows == NULL ? k : rows[k], j = columns == NULL ? i : columns[k];
       sl_off at;
       if (pass == 0 && (i < 0 || i >= S->n || j < 0 || j >= S->n)) {
-        return sli_fail_at(stats, SL_ERR_ARGUMENT, i, columns == NULL ? -1 : j, 0.0,
-            "a row or column is out of range");
+        return sli_fail_at(stats, SL_ERR_ARGUMENT, i, columns == NULL ? -1 : j,
+            sli_min(sli_min(i, j), 0), "a row or column is out of range");
       }
       at = sli_selected_position(Z, S->iperm[i], S->iperm[j]);
       if (at == -1) {
@@ -24103,7 +24107,7 @@ static sl_status sli_changes_check(const sl_factor *F, const sl_csc *A, const sl
   }
   for (k = 0, *entries = 0; k < c->count; k++) {
     if (c->columns[k] < 0 || c->columns[k] >= F->S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, c->columns[k], -1, 0.0,
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, c->columns[k], -1, sli_min(c->columns[k], 0),
           "a column is out of range");
     }
     *entries += (uint64_t)(A->p[c->columns[k] + 1] - A->p[c->columns[k]]);
@@ -25666,7 +25670,8 @@ static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const s
   }
   for (k = 0; k < count; k++) {
     if (rows[k] < 0 || rows[k] >= F->S->n || columns[k] < 0 || columns[k] >= F->S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], columns[k], deltas[k],
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], columns[k],
+          sli_min(sli_min(rows[k], columns[k]), 0),
           "a row or column is out of range");
     }
     if (!sli_is_finite(deltas[k])) {
@@ -25675,14 +25680,6 @@ static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const s
     }
   }
   return SL_OK;
-}
-
-static void sli_edges_begin(sli_rank *q, const sl_int *rows, const sl_int *columns,
-    const double *deltas, sl_int count) {
-  q->entry_rows = rows;
-  q->entry_columns = columns;
-  q->deltas = deltas;
-  q->n_entries = count;
 }
 
 /* src/impl/change/choose.h: sl_factor_change_entries: rank-one changes, the reach of the change, or all of L */
@@ -25839,13 +25836,6 @@ static void sli_choose_estimate(sli_change_choice *c, const sli_rank *q) {
       (double)SLI_TILE * passes * R.columns, c->flops_update);
 }
 
-static sl_status sli_choose_count(sli_change_choice *c, sli_rank *q, sl_work *W) {
-  const sl_status status = sli_work_stages(W, sli_edges_stages, 3, q);
-  c->flops_update = q->flops;
-  c->update = sli_choose_update(q, (double)q->entries, q->pivots, q->flops);
-  return status == SL_OK ? q->status : status;
-}
-
 static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc *A, sl_work *W,
     sl_change_method *method) {
   sl_factor *F = q->u.F;
@@ -25858,10 +25848,13 @@ static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc 
   }
   *method = q->n_entries == 0 && F->is_valid ? SL_CHANGE_NONE : sli_choose_make(c, F, can_update);
   if (*method == SL_CHANGE_UPDATE) {
-    status = sli_choose_count(c, q, W);
+    status = sli_work_stages(W, sli_edges_stages, 3, q);
+    status = status == SL_OK ? q->status : status;
     if (status != SL_OK) {
       return status;
     }
+    c->flops_update = q->flops;
+    c->update = sli_choose_update(q, (double)q->entries, q->pivots, q->flops);
     *method = sli_choose_make(c, F, 1);
   }
   if (*method == SL_CHANGE_UPDATE) {
@@ -25961,7 +25954,10 @@ SL_API sl_status sl_factor_change_entries(sl_factor *F, const sl_csc *A, const s
     return sli_report(stats, status);
   }
   sli_rank_begin(&q, F, stats);
-  sli_edges_begin(&q, rows, columns, deltas, count);
+  q.entry_rows = rows;
+  q.entry_columns = columns;
+  q.deltas = deltas;
+  q.n_entries = count;
   if (A != NULL) {
     return sli_report(stats, sli_choose_cheapest(&q, A, W, started));
   }
@@ -26917,7 +26913,7 @@ static sl_status sli_constraints_check_rows(const sl_constraints *P, const sl_in
   }
   for (k = 0; k < count && status == SL_OK; k++) {
     if (rows[k] < 0 || rows[k] >= P->F->S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0, "a row is out of range");
+      return sli_refuse_row(stats, rows[k]);
     }
     if (values != NULL && !sli_is_finite(values[k])) {
       return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k],
@@ -27263,7 +27259,7 @@ SLI_HOT static sl_status sli_constraints_block(sli_constraints_solve *w) {
   }
   sli_constraints_set(w, v.x);
   sli_unpack(F, q, &w->rhs, v.x);
-  return sli_sweep_is_finite(F, q, v.x, lanes) ? SL_OK : sli_not_finite();
+  return sli_sweep_is_finite(F, q, v.x, lanes) ? SL_OK : sli_not_finite(&w->rhs, q->nb);
 }
 
 SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *plan, double *X,
@@ -27283,10 +27279,10 @@ SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *pl
   all = sli_query_all(P->F->S);
   status = sli_rhs_check(&rhs, q->nx, q->nb);
   if (status == SL_OK && nrhs > 0 && P->n_pins > 0) {
-    status = sli_argument(G == NULL ? "G is NULL"
-        : !sli_dense_spans(ldg, P->n_pins, nrhs)
-        ? "ldg is below the number of pins (nrhs with SL_ROWS)"
-        : NULL);
+    status = G == NULL
+           ? sli_argument("G is NULL")
+           : sli_dense_check("ldg is below the number of pins, or nrhs with SL_ROWS", ldg,
+               P->n_pins, nrhs);
   }
   status = status == SL_OK ? sli_constraints_are_current(P) : status;
   status = status == SL_OK ? sli_query_check(q, P->F) : status;
@@ -27314,6 +27310,10 @@ SL_API sl_status sl_constraints_solve(const sl_constraints *P, const sl_plan *pl
       w.G = P->n_pins == 0 ? G : G + (size_t)r * w.g.column;
       status = sli_constraints_block(&w);
     }
+    if (status == SL_ERR_NOT_FINITE) {
+      status = sli_dense_finite("this value of G is not finite", G, ldg, P->n_pins, nrhs);
+      status = status == SL_OK ? sli_not_finite(&rhs, q->nb) : status;
+    }
   }
   sli_free(&own.allocator, own.block);
   return status;
@@ -27339,13 +27339,6 @@ static void sli_fill_relative_of(const sl_symbolic *S, sl_int s, sl_int *local) 
     for (at = S->rows_begin[c]; at < S->rows_begin[c + 1]; at++) {
       S->relative[at] = local[S->rows[at]];
     }
-  }
-}
-
-static void sli_fill_relative(sl_symbolic *S, sl_int *local) {
-  sl_int s;
-  for (s = 0; s < S->n_supers; s++) {
-    sli_fill_relative_of(S, s, local);
   }
 }
 
@@ -27437,7 +27430,7 @@ SLI_HOT static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, co
     const sl_int row = rows[k];
     const sl_int ahead = rows[sli_min(k + SLI_SUBSET_AHEAD, R->count - 1)];
     if (row < 0 || row >= S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, 0.0, "a row is out of range");
+      return sli_refuse_row(stats, row);
     }
     if (ahead >= 0 && ahead < S->n) {
       SLI_PREFETCH(S->iperm + ahead, 0);
@@ -27543,10 +27536,6 @@ static void sli_restriction_done(sli_restriction *r, const sl_allocator *a) {
     sli_free(a, r->blocks[k]);
     r->blocks[k] = NULL;
   }
-}
-
-SLI_INLINE sl_int sli_restriction_size(const sli_restriction *r, sl_int root) {
-  return r->kept[root] - r->S->first_descendant[r->kept[root]] + 1;
 }
 
 SLI_INLINE int sli_restriction_is_root(const sli_restriction *r, sl_int q) {
@@ -27745,8 +27734,8 @@ SLI_HOT static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *sta
       const sl_int i = A->i[p];
       sl_int other = own, is_there;
       if (i < 0 || i >= A->n_rows) {
-        return sli_fail_at(stats, SL_ERR_MALFORMED, i, j, 0.0,
-            "a row of A is out of range");
+        return sli_fail_at(stats, SL_ERR_MALFORMED, i, j, sli_min(i, 0),
+            "a row of A is out of range; rows count from 0");
       }
       is_there = sli_is_read(triangle, i, j);
       others |= !is_there;
@@ -27973,7 +27962,7 @@ static void sli_joint_add(sli_joint *j, sl_int width, sl_off below) {
 SLI_HOT static void sli_joint_add_kept(sli_joint *j, sli_restriction *r, sl_int root) {
   for (; root != -1; root = r->next[root]) {
     sl_int q, k;
-    for (q = root + 1 - sli_restriction_size(r, root); q <= root; q++) {
+    for (q = root + r->S->first_descendant[r->kept[root]] - r->kept[root]; q <= root; q++) {
       const sl_int s = r->kept[q], width = r->S->super_first[s + 1] - r->S->super_first[s];
       for (k = 0; k < width; k++) {
         r->column_of[r->first_rank[q] + k] = j->column + k;
@@ -28064,9 +28053,12 @@ static void sli_joint_fill_fresh(sl_symbolic *S, const sli_restriction *r, sl_in
 }
 
 static void sli_joint_complete(sl_symbolic *S, sl_int *scratch, sl_stats *stats) {
+  sl_int s;
   sli_fill_steps(S);
   sli_fill_descendants(S);
-  sli_fill_relative(S, scratch);
+  for (s = 0; s < S->n_supers; s++) {
+    sli_fill_relative_of(S, s, scratch);
+  }
   sli_fill_identity(S, stats->symbolic.triangle);
   stats->symbolic.nnz_a = S->scatter_begin[S->n_supers];
   sli_analyze_stats(S, scratch, stats);
@@ -29732,8 +29724,9 @@ SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const
   status = sli_begin(out);
   status = status == SL_OK ? sli_edit_arguments(S, A, B, new_of, opt) : status;
   status = status == SL_OK ? sl_csc_check(B, stats) : status;
-  if (status == SL_OK && B->n_rows != B->n_cols) {
-    status = sli_argument("B is not square");
+  if (status == SL_OK) {
+    status = sli_argument(B->n_rows != B->n_cols ? "B is not square"
+        : sli_order_options_wrong(opt, B->n_cols));
   }
   SLI_CLEAR(e);
   if (status == SL_OK) {
@@ -29808,8 +29801,8 @@ static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *s
 static int sli_reuse_is_suited(const sl_factor *F, const sl_factor *G) {
   const double a = F->rule.null_tolerance, b = G->rule.null_tolerance;
   return F->history.marks != NULL && G->history.marks != NULL && F->E == NULL && G->E == NULL &&
-       G->type->accepts == NULL && F->null.calls == G->null.calls && F->null.vectors == 1 &&
-       G->null.vectors == 1 && F->rule.regularization == G->rule.regularization &&
+       F->type == G->type && G->type->accepts == NULL && F->null.calls == G->null.calls &&
+       F->rule.regularization == G->rule.regularization &&
        (a == b || (sli_tolerance_is_default(F) && sli_tolerance_is_default(G)));
 }
 
@@ -29924,20 +29917,16 @@ static int sli_reuse_choose(sli_reuse *r) {
   return cost < SLI_REUSE_SHARE * (flop * r->flops_anew + SLI_COST_FRONT * (double)T->n_supers);
 }
 
-static void sli_reuse_drop(sli_reuse *r, sl_int s) {
-  for (; s != -1 && r->from[s] != -1; s = r->G->S->super_parent[s]) {
-    r->from[s] = -1;
-    r->flops += sli_front_flops(&r->G->S->steps[s]);
-  }
-}
-
 SLI_HOT static void sli_reuse_compare(sli_reuse *r, sl_int s) {
   int is_moved;
   const sl_int there = sli_reuse_candidate(r, s, &is_moved);
   if (there != -1 && sli_reuse_is_same(r, s, there, is_moved)) {
     r->from[s] = there;
-  } else {
-    sli_reuse_drop(r, s);
+    return;
+  }
+  for (; s != -1 && r->from[s] != -1; s = r->G->S->super_parent[s]) {
+    r->from[s] = -1;
+    r->flops += sli_front_flops(&r->G->S->steps[s]);
   }
 }
 
@@ -30309,7 +30298,7 @@ static sl_status sli_fixed_new(sl_fixed **out, const sl_csc *A, const sl_int *ro
   sl_int k, free_row = 0;
   const sl_int bad = sli_rows_invert(rows, draft->n_fixed, draft->n, where);
   if (bad >= 0) {
-    return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0,
+    return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, sli_min(rows[bad], 0),
         "a row is out of range or given twice");
   }
   for (k = 0; k < draft->n; k++) {
@@ -30502,8 +30491,7 @@ static sl_status sli_fixed_blocks(const sl_fixed *D, const sli_rhs *rhs, const d
   const sl_factor *F = D->F;
   const sli_dense g = sli_dense_of(ldg);
   sli_query q = sli_query_all(D->S);
-  sl_status status = SL_OK;
-  sl_int k, i = 0, r, c, count;
+  sl_int k, i = 0, r, c, count, is_finite = 1;
   for (k = 0; k < D->n_free; k++) {
     for (; i <= D->free_rows[k]; i++) {
       index[i] = D->S->iperm[k];
@@ -30534,11 +30522,9 @@ static sl_status sli_fixed_blocks(const sl_fixed *D, const sli_rhs *rhs, const d
     sli_sweep_forward(F, &q, &v, count);
     sli_sweep_backward(F, &q, &v, count);
     sli_unpack(F, &q, &block, v.x);
-    if (!sli_sweep_is_finite(F, &q, v.x, lanes)) {
-      status = sli_not_finite();
-    }
+    is_finite &= sli_sweep_is_finite(F, &q, v.x, lanes);
   }
-  return status;
+  return is_finite ? SL_OK : sli_not_finite(rhs, rhs->B == NULL ? 0 : i);
 }
 
 static sl_status sli_fixed_run(const sl_fixed *D, const sli_rhs *rhs, const double *G, size_t ldg,
@@ -30575,14 +30561,14 @@ SL_API sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx, const 
   sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sl_work own;
   sl_status status;
-  if (D == NULL ||
-      (nrhs > 0 && D->n_fixed > 0 && (G == NULL || !sli_dense_spans(ldg, D->n_fixed, nrhs)))) {
-    return sli_argument(D == NULL ? "D is NULL"
-        : G == NULL ? "G is NULL"
-        : "ldg is below the number of fixed rows, or with SL_ROWS "
-        "nrhs");
-  }
-  status = sli_rhs_check(&rhs, D->n, B == NULL ? 0 : D->n);
+  status = sli_argument(D == NULL ? "D is NULL"
+      : nrhs > 0 && D->n_fixed > 0 && G == NULL ? "G is NULL"
+      : NULL);
+  status = status == SL_OK && nrhs > 0
+         ? sli_dense_check("ldg is below the number of fixed rows, or nrhs with SL_ROWS",
+             ldg, D->n_fixed, nrhs)
+         : status;
+  status = status == SL_OK ? sli_rhs_check(&rhs, D->n, B == NULL ? 0 : D->n) : status;
   if (status != SL_OK || nrhs == 0 || D->n == 0) {
     return status;
   }
@@ -30593,8 +30579,8 @@ SL_API sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx, const 
   W = W == NULL ? &own : W;
   status = sli_fixed_run(D, &rhs, G, ldg, W);
   sli_free(&own.allocator, own.block);
-  if (status == SL_OK && !sli_fixed_set_fixed(D, &rhs, G, ldg)) {
-    status = sli_refuse(SL_ERR_NOT_FINITE, "a value of G is not finite");
+  if ((status == SL_OK || status == SL_ERR_NOT_FINITE) && !sli_fixed_set_fixed(D, &rhs, G, ldg)) {
+    status = sli_dense_finite("this value of G is not finite", G, ldg, D->n_fixed, nrhs);
   }
   return status;
 }
@@ -30868,7 +30854,7 @@ static sl_status sli_csc64_copy(const sl_csc64 *A, sl_matrix *M, sl_stats *stats
       const int64_t i = A->i[p];
       if (i < 0 || i >= A->n_rows) {
         const sl_int row = i < INT32_MIN || i > INT32_MAX ? -1 : (sl_int)i;
-        return sli_fail_at(stats, SL_ERR_MALFORMED, row, j, 0.0,
+        return sli_fail_at(stats, SL_ERR_MALFORMED, row, j, row < 0 ? (double)i : 0.0,
             "a row of A is out of range; rows count from 0");
       }
       M->i[p] = (sl_int)i;
@@ -32411,44 +32397,35 @@ typedef struct sli_sink {
   int has_failed;
 } sli_sink;
 
-static void sli_put(sli_sink *to, const void *data, size_t bytes) {
-  if (bytes == 0 || to->has_failed) {
+static void sli_put(sli_sink *to, sli_checksum *sum, const void *data, uint64_t bytes) {
+  if (to == NULL) {
+    sli_checksum_add(sum, data, (size_t)bytes);
+  } else if (bytes == 0 || to->has_failed) {
     return;
-  }
-  if (to->file != NULL) {
-    to->has_failed = fwrite(data, 1, bytes, to->file) != bytes;
+  } else if (to->file != NULL) {
+    to->has_failed = fwrite(data, 1, (size_t)bytes, to->file) != bytes;
   } else {
-    memcpy(to->memory, data, bytes);
+    memcpy(to->memory, data, (size_t)bytes);
     to->memory += bytes;
   }
 }
 
 SLI_HOT static void sli_put_filled(sli_sink *to, sli_checksum *sum, const void *data, uint64_t used,
     uint64_t bytes) {
-  static const unsigned char zeros[1024] = {0};
-  uint64_t left = bytes - used;
-  if (to == NULL) {
-    sli_checksum_add(sum, data, (size_t)used);
-    left = bytes - sum->bytes;
-  } else {
-    sli_put(to, data, (size_t)used);
-  }
-  while (left > 0) {
-    const size_t piece = left < sizeof zeros ? (size_t)left : sizeof zeros;
-    if (to == NULL) {
-      sli_checksum_add(sum, zeros, piece);
-    } else {
-      sli_put(to, zeros, piece);
-    }
-    left -= piece;
+  static const unsigned char zeros[128] = {0};
+  uint64_t left, piece;
+  sli_put(to, sum, data, used);
+  for (left = bytes - (to == NULL ? sum->bytes : used); left > 0; left -= piece) {
+    piece = left < sizeof zeros ? left : sizeof zeros;
+    sli_put(to, sum, zeros, piece);
   }
 }
 
 static void sli_put_piece(sli_sink *to, sli_checksum *sum, const void *data, uint64_t bytes) {
   if (to == NULL) {
-    sli_checksum_add(sum, data, (size_t)bytes);
+    sli_put(to, sum, data, bytes);
   } else {
-    sli_put_filled(to, NULL, data, bytes, sli_round_up(bytes));
+    sli_put_filled(to, sum, data, bytes, sli_round_up(bytes));
   }
 }
 
@@ -32576,7 +32553,7 @@ SLI_COLD static void sli_save_write(sli_saved *f, sli_sink *to) {
   memcpy(prefix + sizeof f->header, f->table, f->header.sections * sizeof(sli_section));
   f->header.checksum = sli_prefix_checksum(prefix, size);
   memcpy(prefix, &f->header, sizeof f->header);
-  sli_put(to, prefix, size);
+  sli_put(to, NULL, prefix, size);
   for (k = 0; k < f->header.sections; k++) {
     sli_put_section(f, k, to, NULL);
   }
@@ -33698,7 +33675,12 @@ static sl_status sli_solve_batch_run(sli_solve_batch *b, const sl_threads *threa
     memcpy(&failed, sli_solve_batch_memory(b, k), sizeof failed);
     *at = failed;
   }
-  return *at == -1 ? SL_OK : b->only_checks ? sli_inconsistent() : sli_not_finite();
+  if (*at != -1 && !b->only_checks) {
+    const sl_request *r = &b->requests[*at];
+    const sli_rhs rhs = sli_rhs_of(r->X, r->ldx, r->B, r->ldb, r->nrhs);
+    return sli_not_finite(&rhs, sli_request_query(sli_request_factor(b, r), r).nb);
+  }
+  return *at == -1 ? SL_OK : sli_inconsistent();
 }
 
 static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
@@ -34006,16 +33988,6 @@ static sl_status sli_factor_batch_check(sl_factor *const *factors, sl_int count,
   return SL_OK;
 }
 
-static sl_status sli_factor_batch_prepare(sl_factor *const *factors, sl_int count, sl_int *at) {
-  sl_status status = SL_OK;
-  sl_int k;
-  for (k = 0; k < count && status == SL_OK; k++) {
-    status = sli_factor_prepare(factors[k]);
-    *at = status == SL_OK ? -1 : k;
-  }
-  return status;
-}
-
 SL_API sl_status sl_factor_refactor_sums(sl_factor *const *factors, sl_int count,
     const double *coefficients, const double *const *values,
     sl_int terms, const sl_options *opt, sl_int *failed,
@@ -34037,7 +34009,10 @@ SL_API sl_status sl_factor_refactor_sums(sl_factor *const *factors, sl_int count
   if (status == SL_OK && count > 0) {
     status = sli_source_of_sum(factors[0]->S, coefficients, values, terms, &f.source);
   }
-  status = status == SL_OK ? sli_factor_batch_prepare(factors, count, &at) : status;
+  for (k = 0; k < count && status == SL_OK; k++) {
+    status = sli_factor_prepare(factors[k]);
+    at = status == SL_OK ? -1 : k;
+  }
   if (status == SL_OK && count > 0) {
     f.factors = factors;
     f.count = count;
@@ -34063,6 +34038,13 @@ typedef struct sli_complex_kernels {
   sli_sweeps sweeps;
   sli_front_kernels front;
 } sli_complex_kernels;
+
+SLI_NOINLINE static double sli_complex_by_rule(const sli_pivot_rule *rule, sl_int k, double d,
+    double magnitude) {
+  const double first = sli_pivot_by_rule(rule, k, d, magnitude),
+         second = sli_pivot_by_rule(rule, k + 1, d, magnitude);
+  return first < second || first > second ? 0.0 : first;
+}
 
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 1
@@ -34160,6 +34142,12 @@ static double sli_complex_entry(const void *values, sl_off at) {
   return at / SLI_TILE % 2 == 0 ? l[lane] : lane % 2 == 0 ? -l[lane + 1] : l[lane - 1];
 }
 
+static void sli_complex_entry_clear(void *values, sl_off at) {
+  if (at / SLI_TILE % 2 == 0) {
+    ((double *)values)[at / (2 * SLI_TILE) * SLI_TILE + at % SLI_TILE] = 0.0;
+  }
+}
+
 static int sli_are_pairs(const sl_int *rows, sl_int count) {
   sl_int k;
   for (k = 0; k + 1 < count; k += 2) {
@@ -34210,7 +34198,8 @@ static int sli_matrix_is_complex(const sl_csc *A) {
 }
 
 static int sli_complex_suits(const sl_factor *F) {
-  return !F->S->is_pivoted && !F->rule.replaces && sli_rows_are_paired(F->S);
+  return !F->S->is_pivoted && F->rule.regularization == 0.0 &&
+       (!F->rule.replaces || F->null.vectors % 2 == 0) && sli_rows_are_paired(F->S);
 }
 
 static int sli_complex_keeps(const sl_int *rows, sl_int count, const sl_symbolic *S) {
@@ -34218,22 +34207,11 @@ static int sli_complex_keeps(const sl_int *rows, sl_int count, const sl_symbolic
        sli_rows_are_paired(S); /* untested: the same */
 }
 
-static void sli_complex_accepts(const sl_symbolic *S, const sli_source *from,
+SLI_COLD static void sli_complex_accepts(const sl_symbolic *S, const sli_source *from,
     sli_failure *failure) {
-  sl_int s;
-  sl_off m;
-  if (from->A != NULL && sli_matrix_is_complex(from->A)) {
-    return;
-  }
-  (void)sli_fail(failure, SL_ERR_UNSUPPORTED, 0, -1, -1, 0.0);
-  for (s = 0; from->A != NULL && s < S->n_supers && failure->status != SL_ERR_NOT_FINITE; s++) {
-    for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
-      const double a = from->A->x[S->scatter_from[m]];
-      if (!sli_is_finite(a)) {
-        (void)sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
-        break;
-      }
-    }
+  if (from->A == NULL || !sli_matrix_is_complex(from->A)) {
+    (void)sli_fail(failure, SL_ERR_UNSUPPORTED, 0, -1, -1, 0.0);
+    sli_entries_finite_check(S, from, failure);
   }
 }
 
@@ -34273,7 +34251,7 @@ static const sli_storage_type sli_storage_complex = {
   sli_complex_own,
   NULL,
   sli_complex_entry,
-  NULL,
+  sli_complex_entry_clear,
   sli_complex_suits,
   sli_complex_accepts,
   sli_complex_keeps,
@@ -34429,18 +34407,6 @@ static void sli_complex_layout(sli_complex_set *set, sli_block *b) {
   set->real = SLI_TAKE(b, sl_int, set->rows == NULL ? 0 : 2 * (size_t)set->count);
 }
 
-static sl_int sli_complex_expand(const sl_int *rows, sl_int count, sl_int n, sl_int *real) {
-  sl_int k;
-  for (k = 0; k < count; k++) {
-    if (rows[k] < 0 || rows[k] >= n) {
-      return k;
-    }
-    real[2 * (size_t)k] = 2 * rows[k];
-    real[2 * (size_t)k + 1] = 2 * rows[k] + 1;
-  }
-  return -1;
-}
-
 typedef struct sli_complex_sets {
   sli_complex_set first, second;
   unsigned char *memory;
@@ -34458,11 +34424,16 @@ static sli_complex_sets sli_complex_sets_of(const sl_int *first, sl_int n_first,
 }
 
 static sl_status sli_complex_fill(const sli_complex_set *set, sl_int n, sl_stats *stats) {
-  const sl_int bad =
-    set->rows == NULL ? -1 : sli_complex_expand(set->rows, set->count, n, set->real);
-  return bad == -1 ? SL_OK
-           : sli_fail_at(stats, SL_ERR_ARGUMENT, set->rows[bad], -1, 0.0,
-               "a row is out of range");
+  sl_int k;
+  for (k = 0; k < set->count && set->rows != NULL; k++) {
+    const sl_int row = set->rows[k];
+    if (row < 0 || row >= n) {
+      return sli_refuse_row(stats, row);
+    }
+    set->real[2 * (size_t)k] = 2 * row;
+    set->real[2 * (size_t)k + 1] = 2 * row + 1;
+  }
+  return SL_OK;
 }
 
 static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n, const sl_allocator *a,
@@ -37325,7 +37296,11 @@ SLV_FUNCTION static void SLV_FRONT(product)(const double *panel, sl_int w, const
     SLV_BROADCAST(b, x + SLI_TILE * (k) + 2 * (i) + 1) \
     SLV_FNMA(a##i, e0, b) \
   }
-#define SLI_BY_RULE(k)
+#define SLI_BY_RULE(k) \
+  if (rule != NULL) { \
+    d = sli_complex_by_rule(rule, column + 2 * (k), d, sums[2 * (k)] + sums[2 * (k) + 1]); \
+    SLV_BROADCAST(b, &d) \
+  }
 #define SLI_TAKE_PIVOT(k, d) \
   D[2 * (k)] = D[2 * (k) + 1] = d; \
   magnitude[2 * (k)] = magnitude[2 * (k) + 1] = sums[2 * (k)] + sums[2 * (k) + 1];
@@ -37404,10 +37379,8 @@ SLV_FUNCTION static void SLV_FRONT(product)(const double *panel, sl_int w, const
 SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c, double *reciprocals) {
   const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first) / SLV_PARTS;
   const sl_int all = columns + (f->is_small ? f->below : 0);
-#if !SLV_COMPLEX
   const sl_int column = f->column + first;
   const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
-#endif
   double *p = f->panel + sli_tile_offset(f->width, c) / SLV_PARTS +
         SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
   double *update = f->update;

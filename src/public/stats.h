@@ -199,7 +199,7 @@ typedef struct sl_fixed_info {
 
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
  *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
- *  Seconds are processor time, the sum over all threads.
+ *  Seconds are processor time of all threads.
  */
 typedef struct sl_stats {
     sl_error error;

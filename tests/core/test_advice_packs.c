@@ -426,7 +426,38 @@ static sl_status edit_of_submatrix(int heeds) {
     return edited(heeds ? grid.S : S, &grid.M.view, S);
 }
 
+/* ---- complex storage ---- */
+
+/* [1 i; -i 1] has the null vector (1, i), which is two of the real matrix. */
+static sl_status null_in_complex(int heeds) {
+    static const sl_int p[] = {0, 2, 3}, i[] = {0, 1, 1};
+    static const double h[] = {1, 0, 0, -1, 1, 0}, z[] = {1, 0, 0, 1, 0, 1, -1, 0};
+    static const double right[] = {1, 0, 0, -1};
+    const sl_hermitian H = {2, p, i, h, NULL};
+    sl_options opt = skipping();
+    sl_matrix *M = NULL;
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    opt.storage = SL_STORAGE_COMPLEX;
+    opt.block_size = 2;
+    opt.null_vector = z;
+    opt.null_vector_count = heeds ? 2 : 1;
+    SL_CHECK(sl_matrix_from_hermitian(&M, &H, NULL, NULL));
+    const sl_csc A = sl_matrix_view(M);
+    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+    const sl_status status = sl_factor_create(&F, S, &A, &opt, NULL);
+    if (status == SL_OK) {
+        SL_CHECK(sl_factor_solve(F, x, 4, right, 4, 1, NULL));
+        assert_true(fabs(x[0] - x[3] - 1.0) + fabs(x[1] + x[2]) <= 1e-15);
+    }
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    sl_matrix_free(M);
+    return status;
+}
+
 static const advice_t advices[] = {
+    {"SL_STORAGE_COMPLEX: block_size 2, null_vector_count 2, not regularized", null_in_complex},
     {"F has changed since the pins were made: sl_constraints_refactor", stale_pins},
     {"Z is not of the present F: sl_selected_refactor", stale_inverse},
     {"the region of the plan is not of the present F: sl_region_refactor", stale_region},

@@ -51,17 +51,11 @@ $(foreach cxx,$(ADAPTER_CXX),$(foreach std,$(ADAPTER_STD),\
 ADAPTER_PROGRAMS = $(foreach cxx,$(ADAPTER_CXX),$(foreach std,$(ADAPTER_STD),\
 	$(ADAPTER_NAMES:%=build/adapters/$(cxx)-$(std)-%)))
 
-<<<<<<< HEAD
-# In C, with each pair of types of QDLDL and OSQP, whose headers are osqp_interface.h here.
-C_ADAPTER_PROGRAMS = $(foreach types,int_double long_double int_float long_float,build/adapters/test_qdldl-$(types) build/adapters/test_osqp-$(types)) $(patsubst %,build/adapters/test_%-c,mesh symmetric)
-C_ADAPTER_TYPES = $(if $(findstring long,$@),-DQDLDL_LONG -DOSQP_USE_LONG) $(if $(findstring float,$@),-DQDLDL_FLOAT -DOSQP_USE_FLOAT)
-=======
 # In C, with each pair of types of QDLDL and OSQP, whose headers are osqp_interface.h here; QDLDL also with the macros of SCS.
 C_ADAPTER_PROGRAMS = $(foreach types,int_double long_double int_float long_float,build/adapters/test_qdldl-$(types) build/adapters/test_osqp-$(types)) \
-	$(foreach types,DLONG_double int_SFLOAT DLONG_SFLOAT,build/adapters/test_qdldl-$(types)) build/adapters/test_mesh-c
+	$(foreach types,DLONG_double int_SFLOAT DLONG_SFLOAT,build/adapters/test_qdldl-$(types)) $(patsubst %,build/adapters/test_%-c,mesh symmetric)
 C_ADAPTER_TYPES = $(if $(findstring long,$@),-DQDLDL_LONG -DOSQP_USE_LONG) $(if $(findstring float,$@),-DQDLDL_FLOAT -DOSQP_USE_FLOAT) \
 	$(if $(findstring DLONG,$@),-DDLONG) $(if $(findstring SFLOAT,$@),-DSFLOAT)
->>>>>>> errors
 OSQP_HEADERS = $(addprefix build/adapters/osqp/,osqp.h lin_alg.h types.h printing.h qdldl_interface.h codegen.h)
 $(OSQP_HEADERS):
 	@mkdir -p $(@D)
