@@ -275,6 +275,50 @@ static void diagonal_entries_may_be_missing(void **state) {
     }
 }
 
+/* A random upper triangle whose entries are scaled by 1e200 or 1e-200: many pivots are no more than
+ * rounding errors of far larger numbers. */
+static sl_csc scaled_system(uint64_t *random, sl_int *p, sl_int *i, double *x) {
+    const sl_int n = 2 + gen_below(random, 10);
+    sl_int e = 0;
+    for (sl_int j = 0; j < n; j++) {
+        p[j] = e;
+        for (sl_int row = 0; row <= j; row++) {
+            if (row >= j - 1 || gen_below(random, 4) == 0) {
+                const double scale = gen_below(random, 2) == 0 ? 1e200 : 1e-200;
+                i[e] = row;
+                x[e++] = scale * (row == j ? 4.0 + n : gen_real(random));
+            }
+        }
+    }
+    p[n] = e;
+    const sl_csc A = {n, n, p, i, x};
+    return A;
+}
+
+/* Where rounding decides about the sign of a pivot, both ways give that of the rows. */
+static void scaled_systems_have_one_inertia(void **state) {
+    (void)state;
+    uint64_t random = 5;
+    sl_int p[13], i[80], compared = 0;
+    double x[80];
+    for (int run = 0; run < 20000 && sizeof(QDLDL_float) == sizeof(double); run++) {
+        const sl_csc A = scaled_system(&random, p, i, x);
+        system_t s = system_make(&A);
+        int finite = 1;
+        (void)system_tree(&s);
+        const QDLDL_int rows = system_factor(&s, by_rows);
+        for (QDLDL_int k = 0; k < s.n; k++) {
+            finite &= rows < 0 || isfinite(s.D[k]);
+        }
+        if (finite) {
+            assert_true(system_factor(&s, by_supernodes) == rows);
+            compared++;
+        }
+        system_free(&s);
+    }
+    assert_true(compared > 5000 || sizeof(QDLDL_float) != sizeof(double));
+}
+
 /* L of an arrow of 5 rows whose first row is full has 10 entries. */
 static void counts_do_not_overflow(void **state) {
     static const sl_int p[] = {0, 1, 2, 3, 4, 5}, i[] = {0, 0, 0, 0, 0};
@@ -325,6 +369,7 @@ int main(void) {
         cmocka_unit_test(ways_are_chosen),
         cmocka_unit_test(wrong_matrices_are_refused),
         cmocka_unit_test(diagonal_entries_may_be_missing),
+        cmocka_unit_test(scaled_systems_have_one_inertia),
         cmocka_unit_test(counts_do_not_overflow),
         cmocka_unit_test(arrays_of_scs_are_taken),
     };

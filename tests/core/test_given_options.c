@@ -239,12 +239,34 @@ static void a_restriction_keeps_the_limit_of_growth(void **state) {
     sl_symbolic_free(S);
 }
 
+/* The sign of a row that is computed again. */
+static void a_restriction_keeps_the_signs(void **state) {
+    (void)state;
+    static const sl_int p[4] = {0, 2, 4, 5}, i[5] = {0, 1, 1, 2, 2}, rows[2] = {1, 2};
+    static const sl_int signs[3] = {1, -1, 1};
+    static const double x[5] = {2.0, 1.0, 3.0, 1.0, 2.0};
+    const sl_csc A = {3, 3, p, i, x};
+    sl_options opt = options_none();
+    sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_NONE), *T = NULL;
+    sl_factor *F = NULL, *G = NULL;
+    opt.regularization = 1e-3;
+    opt.signs = signs;
+    SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
+    SL_CHECK(sl_factor_submatrix(&T, &G, F, &A, rows, 2, NULL, NULL));
+    assert_int_equal(sl_factor_view(G).info.negative, 1);
+    sl_factor_free(G);
+    sl_factor_free(F);
+    sl_symbolic_free(T);
+    sl_symbolic_free(S);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_factor_answers_as_a_new_one),
         cmocka_unit_test(a_factor_follows_any_other),
         cmocka_unit_test(a_restriction_has_the_options_of_its_factor),
         cmocka_unit_test(a_restriction_keeps_the_limit_of_growth),
+        cmocka_unit_test(a_restriction_keeps_the_signs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

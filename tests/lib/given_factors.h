@@ -150,7 +150,7 @@ static inline void world_make(world *w) {
         w->z[N + k] = k % 2 == 0 ? -sin(t) : cos(t);
         w->z[2 * N + k] = 1.0 + (double)(k % 5);
         w->mass[k] = 1.0 + (double)(k / 2 % 3);
-        w->signs[0][k] = k / 2 / NODES == 1 || k > N - 2 * WIDE ? -1 : 1;
+        w->signs[0][k] = k / 2 / NODES == 1 ? -1 : 1;
         w->same[k] = k;
     }
     for (sl_int k = 0; k < ROWS; k++) {

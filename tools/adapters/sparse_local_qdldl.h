@@ -260,7 +260,7 @@ static void sl_qdldl_copy(sl_csc *A, const sl_qdldl_job *q) {
 }
 
 /* By supernodes. Returns the number of positive pivots; -1: a pivot is 0 as a QDLDL_float; -2: it
- * cannot, and no array has changed. */
+ * cannot, or rounding decides about a pivot, and no array has changed. */
 static QDLDL_int sl_qdldl_by_supernodes(const sl_qdldl_job *q) {
     QDLDL_int positive = -2, k;
     sl_options opt;
@@ -272,7 +272,9 @@ static QDLDL_int sl_qdldl_by_supernodes(const sl_qdldl_job *q) {
     sl_options_init(&opt, sizeof opt);
     opt.ordering = SL_ORDERING_NATURAL;
     opt.triangle = SL_TRIANGLE_UPPER;
-    opt.null_tolerance = -1.0; /* only an exact 0 is refused */
+    /* A pivot that has cancelled to rounding errors, which earlier ones may have enlarged, has the
+     * sign that the order of additions gives it: that of QDLDL, by rows. */
+    opt.null_tolerance = 1e-10;
     opt.growth_limit = -1.0;
     if (A.p != NULL && sl_symbolic_create(&S, &A, &opt, NULL) == SL_OK &&
         sl_factor_create(&F, S, &A, &opt, &stats) == SL_OK) {
