@@ -33,24 +33,34 @@ class SymmetricLU:
         stats = self.factor.stats["symbolic"]
         return 2 * stats["nnz_l"] // self.factor._kind.width ** 2
 
-    def solve(self, b, trans="N"):
-        """x with A x = b; trans 'T': A' x = b, 'H': A^H x = b. b (n,) or (n, count)."""
+    def solve(self, b, trans="N", *, rows=None):
+        """x with A x = b; trans 'T': A' x = b, 'H': A^H x = b. b (n,) or (n, count), may be sparse.
+
+        rows  of x that are wanted, in this order; of a sparse b nothing else of their size is
+              allocated than these rows.
+        """
         if trans not in ("N", "T", "H"):
             raise ValueError("trans is 'N', 'T' or 'H', not %r" % (trans,))
-        b = np.asarray(b)
+        b = b if sparse.issparse(b) else np.asarray(b)
         is_conjugate = trans == "T" and self._dtype.kind == "c"  # A' is the conjugate of A
-        x = self.factor.solve(b.conj() if is_conjugate else b)
-        return (x.conj() if is_conjugate else x).astype(np.result_type(self._dtype, b, np.float32),
-                                                        copy=False)
+        x = self.factor.solve(b.conj() if is_conjugate else b, rows)
+        return (x.conj() if is_conjugate else x).astype(
+            np.result_type(self._dtype, b.dtype, np.float32), copy=False)
 
     __call__ = solve
 
 
-def _sparse(A):
+def _sparse(A, name="A"):
     if not sparse.issparse(A):
-        raise TypeError("A is %s, and not sparse: numpy.linalg.solve solves dense systems, and "
-                        "scipy.sparse.csc_matrix(A) makes a sparse matrix" % type(A).__name__)
+        raise TypeError("%s is %s, and not sparse: numpy.linalg.solve solves dense systems, and "
+                        "scipy.sparse.csc_matrix(%s) makes a sparse matrix" %
+                        (name, type(A).__name__, name))
     return A
+
+
+def _compressed(A):
+    """A as SciPy's spsolve takes it, whose class its sparse answer has."""
+    return A if A.format in ("csc", "csr") else sparse.csc_matrix(A)
 
 
 def _symmetric(A):
@@ -89,14 +99,14 @@ def factorized(A):
 
 def spsolve(A, b, permc_spec=None, use_umfpack=True):
     """x with A x = b, of the shape that scipy.sparse.linalg.spsolve gives it: (n,) for a b of one
-    column, (n, count) for others, sparse for a sparse b of several columns."""
+    column, (n, count) for others, sparse for a sparse b of several columns, in the class of A."""
     lu = _symmetric(_sparse(A))
     if lu is None:
-        return scipys.spsolve(A.tocsc(), b, permc_spec, use_umfpack)
+        return scipys.spsolve(_compressed(A), b, permc_spec, use_umfpack)
     if sparse.issparse(b):
         b = b.tocsc()
         if b.shape[1] != 1:
-            return _sparse_solution(lu, b)
+            return type(_compressed(A))(_sparse_solution(lu, b))
         b = b.toarray()
     b = np.asarray(b)
     return lu.solve(b.ravel() if b.ndim == 2 and b.shape[1] == 1 else b)
@@ -126,7 +136,8 @@ def shift_invert(A, sigma=0.0, M=None, **options):
     options  of Factor. Without any, pivots are chosen by the values where the order of the pattern
              does not suit. PivotError: sigma is an eigenvalue; take one nearby.
     """
-    M = sparse.identity(_sparse(A).shape[0], format="csc") if M is None else M
+    _sparse(A)
+    M = sparse.identity(A.shape[0], format="csc") if M is None else _sparse(M, "M")
     shifted = (A - sigma * M).tocsc() if sigma else A
     if options:
         return operator(Factor(shifted, **options))

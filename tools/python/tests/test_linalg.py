@@ -58,6 +58,25 @@ def test_any_matrix(name):
         assert abs(x - y).max() < tolerance * max(1, abs(y).max())
 
 
+@pytest.mark.parametrize("kind", [sp.csc_matrix, sp.csc_array, sp.csr_matrix, sp.csr_array,
+                                  sp.coo_matrix, sp.lil_array])
+@pytest.mark.filterwarnings("ignore::scipy.sparse.SparseEfficiencyWarning")
+def test_a_sparse_answer_has_the_class_that_scipy_gives_it(kind):
+    for A in (kind(grid(6)), kind(unsymmetric())):
+        for B in (sp.random(36, 5, 0.2, "csc"), sp.csr_array(sp.random(36, 5, 0.2))):
+            assert type(linalg.spsolve(A, B)) is type(scipys.spsolve(A, B))
+
+
+def test_splu_takes_sparse_right_hand_sides_and_rows():
+    for A in (grid(6), complex_grid(6)):
+        lu, B = linalg.splu(A), sp.random(36, 70, 0.1, format="coo", random_state=4)
+        X = np.linalg.solve(A.toarray(), B.toarray())
+        assert np.allclose(lu.solve(B), X) and np.allclose(linalg.factorized(A)(B), X)
+        assert np.allclose(lu.solve(B, rows=[5, 0]), X[[5, 0]])
+        assert np.allclose(lu.solve(B.toarray()[:, 0], rows=[7]), X[[7], 0])
+        assert np.allclose(A.T @ lu.solve(B, "T"), B.toarray())
+
+
 def test_slight_asymmetry_is_not_ignored():
     A = grid(6)
     rounded = A.copy()
@@ -70,6 +89,10 @@ def test_slight_asymmetry_is_not_ignored():
 def test_what_is_refused_is_refused_as_by_scipy():
     with pytest.raises(TypeError, match="numpy.linalg.solve"):
         linalg.spsolve(np.eye(3), np.ones(3))
+    for call in (linalg.splu, linalg.factorized, linalg.shift_invert,
+                 lambda A: linalg.shift_invert(sp.identity(3), 1, A)):
+        with pytest.raises(TypeError, match="numpy.linalg.solve"):
+            call(np.eye(3))
     with pytest.raises(RuntimeError, match="singular"):
         linalg.splu(sp.csc_matrix((3, 3)))
     with pytest.warns(scipys.MatrixRankWarning):
