@@ -5,7 +5,7 @@ Let A x = b, let l be a number computed from x, and g = dl/dx. With lambda = A^-
     dl/db = lambda,   dl/da(i, j) = -(lambda(i) x(j) + lambda(j) x(i)) for a pair a(i, j) = a(j, i),
     dl/da(i, i) = -lambda(i) x(i),
     d log |det A| / da(i, j) = 2 (A^-1)(i, j),   d log |det A| / da(i, i) = (A^-1)(i, i),
-    d sum g(r, c) (A^-1)(r, c) = -sum of the entries of A^-1 G A^-1 dA, with G = (g + g') / 2.
+    d sum g(r, c) (A^-1)(r, c) = -trace(A^-1 G A^-1 dA) with the matrix G = (g + g') / 2.
 
 Gradients by the stored values of a matrix have the order of A.data. Where A stores one triangle, a
 value is a pair of equal entries. Where it stores both, each of the two values gets half of the
@@ -24,7 +24,7 @@ from ._factor import Factor
 from ._matrix import Matrix, from_triplets
 from ._saved_set import Selected
 
-_SOLVED = 256  # columns of G up to which solves take less time than a factor of twice the size
+_SOLVED = 128  # columns of G up to which solves take less time than a factor of twice the size
 _TOGETHER = 64  # columns of such a solve
 _STEP = 1e-60  # its square is nothing beside 1, and its third power a normal number
 
