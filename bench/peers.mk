@@ -1,6 +1,6 @@
 # peers.mk: measurements against other libraries, tables and figures of them (a part of the Makefile)
 
-.PHONY: deps-peers deps-arpack bench-peers bench-eigenpairs speed-table figures
+.PHONY: deps-peers deps-arpack bench-peers bench-eigenpairs speed speed-pages figures
 
 PEERS := $(wildcard bench/peers/*.c bench/peers/*.cpp)
 
@@ -26,9 +26,27 @@ ARPACK_BENCH = B=build/arpack BENCH_ENV='$(PEER_ENV) OPENBLAS_NUM_THREADS=1' CFL
 bench-eigenpairs: deps deps-arpack sparse_local.h ## auto-diffusion by the eigenpairs of ARPACK, with our factor as its solver: digits and time
 	@+$(SUB_MAKE) run-bench QUESTION_DEFAULT=eigenpairs $(ARPACK_BENCH)
 
-speed-table: ## prints the measurements of the last bench-peers as Markdown tables
-	@awk -f tools/build/csv.awk -f tools/build/speed_table.awk build/bench-out/peers.machine.txt build/bench-out/peers.csv \
-	$(wildcard build/bench-out/peers_harmonic.csv build/bench-out/peers_kinds.csv)
+# ---- the figures of README.md and the manual ----
+
+## ALONE    command in front of each measurement that keeps other programs away: 'chrt -f 20 taskset -c 1'
+ALONE ?=
+
+# Two threads need both cores, and so ALONE is left out. What is compiled, is so between the measurements. OSQP needs its sources.
+SPEED = build/speed
+SPEED_RUN = BENCH_OUT=$(SPEED) MESH= BENCH=
+speed: deps deps-peers deps-arpack sparse_local.h build/amalgamate ## measures the figures of README.md and the manual anew: their files and the pages; with OSQP, QDLDL those of OSQP
+	@rm -rf $(SPEED)
+	@+$(SUB_MAKE) bench-peers $(SPEED_RUN) QUESTION='peers peers_harmonic peers_kinds peers_small peers_kkt'
+	@+$(SUB_MAKE) bench-eigenpairs $(SPEED_RUN)
+	@+$(SUB_MAKE) run-bench B=build/pool_O2 $(SPEED_RUN) QUESTION='cold two_threads' ALONE=
+	@+for o in O2 O0; do $(SUB_MAKE) run-bench B=build/pool_$$o OPT=-$$o MESH= BENCH=quick QUESTION=cold BENCH_OUT=$(SPEED)/$$o || exit 1; done
+	@$(if $(OSQP),+$(SUB_MAKE) bench-osqp ACCURACY=1e-3 && cp build/osqp/*.1e-3.?.csv $(SPEED) && BENCH_OUT=$(SPEED) build/pool_O2/bench --machine osqp)
+	@tools/build/size.sh && cp build/size/sizes.csv $(SPEED) && BENCH_OUT=$(SPEED) build/pool_O2/bench --machine sizes
+	@python3 -B tools/docs/figures.py record $(SPEED)
+	@python3 -B tools/docs/figures.py pages
+
+speed-pages: ## writes the figures of tools/docs/figures into README.md and the manual
+	@python3 -B tools/docs/figures.py pages
 
 # ---- the paper ----
 

@@ -156,7 +156,8 @@ double bench_peak(sl_isa isa);
 /** Measures the peak rates and prints them. */
 void bench_peak_measure(bench_run *run);
 
-/** Writes name.machine.txt beside the CSV file: date, processor, compiler, limits (machine.c). */
+/** Writes name.machine.txt beside the CSV file (machine.c): date, commit (BENCH_COMMIT of the
+ *  environment), processor, instruction set, compiler, limits. Every report has one. */
 void bench_machine_write(const bench_run *run, const char *name);
 
 /* ---- systems (systems.c) ---- */
