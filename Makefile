@@ -30,9 +30,7 @@ Q := $(if $(V),,@)
 say = $(eval SAID += x)@echo '  $(1)  [$(words $(SAID))$(EXPECTED)] $@'
 EXPECTED := $(if $(filter run-tests,$(MAKECMDGOALS)),$(if $(wildcard $(B)/obj),, of about $(words $(wildcard tests/*/*.c tests/*/*.c tools/*/*.c) sparse_local.o)))
 SL_DATA ?= $(wildcard $(DATA))
-# What the files of the bench name as the state that was measured.
-BENCH_COMMIT ?= $(shell git describe --always --dirty 2>/dev/null)
-export SL_DATA BENCH MESH BENCH_COMMIT
+export SL_DATA BENCH MESH
 
 # clang warns of constants of an enum in sums of doubles from version 19 on.
 WARN_BOTH = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror $(if $(findstring clang,$(CC)),-Wno-enum-float-conversion)
@@ -305,9 +303,11 @@ $(B)/bench: $(IMPL) $(call object,$(BENCH_SOURCES:.c=) $(BENCH_TOOLS:.c=)) $(PEE
 	$(call say,LINK)
 	$(Q)$(LINK) $(OPENMP) -o $@ $^ $(PEER_LIBS) $(LIBS) -lpthread
 
+# What the files of the bench name as the state that was measured.
+MEASURED = BENCH_COMMIT=$$(git rev-parse --short HEAD 2>/dev/null)$$(git status --porcelain sparse_local.h bench 2>/dev/null | sed 's/.*/-changed/; q')
 run-bench: $(B)/bench
 	@mkdir -p build/bench-out
-	$(BENCH_ENV) $(ALONE) $(B)/bench $(or $(QUESTION),$(QUESTION_DEFAULT))
+	$(Q)$(MEASURED) $(BENCH_ENV) $(ALONE) $(B)/bench $(or $(QUESTION),$(QUESTION_DEFAULT))
 
 bench: deps sparse_local.h ## times factorizations, full and local solves on this machine; CSV files and plots in build/bench-out
 	@+$(SUB_MAKE) run-bench B=build/timed CFLAGS='$(OPENMP) $(CFLAGS)'

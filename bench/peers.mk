@@ -1,6 +1,6 @@
 # peers.mk: measurements against other libraries, tables and figures of them (a part of the Makefile)
 
-.PHONY: deps-peers deps-arpack bench-peers bench-eigenpairs speed speed-pages figures
+.PHONY: deps-peers deps-arpack bench-peers bench-eigenpairs speed speed-pages speed-peers speed-eigenpairs speed-threads speed-optimization speed-sizes speed-osqp speed-pool figures
 
 PEERS := $(wildcard bench/peers/*.c bench/peers/*.cpp)
 
@@ -31,19 +31,42 @@ bench-eigenpairs: deps deps-arpack sparse_local.h ## auto-diffusion by the eigen
 ## ALONE    command in front of each measurement that keeps other programs away: 'chrt -f 20 taskset -c 1'
 ALONE ?=
 
-# Two threads need both cores, and so ALONE is left out. What is compiled, is so between the measurements. OSQP needs its sources.
+## MEASURE  what make speed measures; a file whose part is left out stays as it is
+MEASURE ?= peers eigenpairs threads optimization sizes $(if $(OSQP),osqp)
+
+# Two threads need both cores: ALONE is left out there, and where a compiler works, whose processor time is taken.
 SPEED = build/speed
 SPEED_RUN = BENCH_OUT=$(SPEED) MESH= BENCH=
-speed: deps deps-peers deps-arpack sparse_local.h build/amalgamate ## measures the figures of README.md and the manual anew: their files and the pages; with OSQP, QDLDL those of OSQP
+OF_POOL = CFLAGS='$(CFLAGS)' OPENMP=
+speed: deps deps-peers deps-arpack sparse_local.h build/amalgamate ## measures the figures of README.md and the manual anew and writes them there (needs a quiet machine; MEASURE, OSQP, QDLDL)
 	@rm -rf $(SPEED)
-	@+$(SUB_MAKE) bench-peers $(SPEED_RUN) QUESTION='peers peers_harmonic peers_kinds peers_small peers_kkt'
-	@+$(SUB_MAKE) bench-eigenpairs $(SPEED_RUN)
-	@+$(SUB_MAKE) run-bench B=build/pool_O2 $(SPEED_RUN) QUESTION='cold two_threads' ALONE=
-	@+for o in O2 O0; do $(SUB_MAKE) run-bench B=build/pool_$$o OPT=-$$o MESH= BENCH=quick QUESTION=cold BENCH_OUT=$(SPEED)/$$o || exit 1; done
-	@$(if $(OSQP),+$(SUB_MAKE) bench-osqp ACCURACY=1e-3 && cp build/osqp/*.1e-3.?.csv $(SPEED) && BENCH_OUT=$(SPEED) build/pool_O2/bench --machine osqp)
-	@tools/build/size.sh && cp build/size/sizes.csv $(SPEED) && BENCH_OUT=$(SPEED) build/pool_O2/bench --machine sizes
+	@+for part in $(MEASURE); do $(SUB_MAKE) speed-$$part || exit 1; done
 	@python3 -B tools/docs/figures.py record $(SPEED)
 	@python3 -B tools/docs/figures.py pages
+
+speed-peers:
+	@+$(SUB_MAKE) bench-peers $(SPEED_RUN) QUESTION='peers peers_harmonic peers_kinds peers_small peers_kkt'
+
+speed-eigenpairs:
+	@+$(SUB_MAKE) bench-eigenpairs $(SPEED_RUN) QUESTION=
+
+speed-threads:
+	@+$(SUB_MAKE) run-bench B=build/pool $(OF_POOL) $(SPEED_RUN) QUESTION='cold two_threads' ALONE=
+
+speed-optimization:
+	@+$(SUB_MAKE) run-bench B=build/pool $(OF_POOL) BENCH_OUT=$(SPEED)/O2 MESH= BENCH=quick QUESTION=cold
+	@+$(SUB_MAKE) run-bench B=build/pool_O0 OPT=-O0 $(OF_POOL) BENCH_OUT=$(SPEED)/O0 MESH= BENCH=quick QUESTION=cold
+
+speed-sizes: speed-pool
+	@tools/build/size.sh && cp build/size/sizes.csv $(SPEED) && $(MEASURED) BENCH_OUT=$(SPEED) build/pool/bench --machine sizes
+
+speed-osqp: speed-pool
+	@+$(SUB_MAKE) bench-osqp ACCURACY=1e-3 && cp build/osqp/*.1e-3.?.csv $(SPEED) && $(MEASURED) BENCH_OUT=$(SPEED) build/pool/bench --machine osqp
+
+# It names the machine of what is measured without it.
+speed-pool:
+	@mkdir -p $(SPEED)
+	@+$(SUB_MAKE) build/pool/bench B=build/pool $(OF_POOL)
 
 speed-pages: ## writes the figures of tools/docs/figures into README.md and the manual
 	@python3 -B tools/docs/figures.py pages

@@ -17,22 +17,24 @@
 #define COMPILER_VERSION "unknown"
 #endif
 
-/* The first "model name" of /proc/cpuinfo, or "unknown". */
-static void processor_name(char *name, size_t size) {
+/* The first value of a key in /proc/cpuinfo, or "unknown". */
+static const char *processor(const char *key, char *value, size_t size) {
+    const size_t length = strlen(key);
     char line[256];
     FILE *f = fopen("/proc/cpuinfo", "r");
-    snprintf(name, size, "unknown");
+    snprintf(value, size, "unknown");
     while (f && fgets(line, (int)sizeof line, f)) {
         const char *colon = strchr(line, ':');
-        if (colon && strncmp(line, "model name", 10) == 0) {
-            snprintf(name, size, "%s", colon + 2);
-            name[strcspn(name, "\n")] = '\0';
+        if (colon && strncmp(line, key, length) == 0 && line[length] == '\t') {
+            snprintf(value, size, "%s", colon + 2);
+            value[strcspn(value, "\n")] = '\0';
             break;
         }
     }
     if (f) {
         fclose(f);
     }
+    return value;
 }
 
 /* The widest instruction set that this processor has. */
@@ -49,23 +51,25 @@ static const char *best_isa(void) {
 void bench_machine_write(const bench_run *run, const char *name) {
     static const double sizes[] = {32e3, 512e3, 256e6};
     const char *commit = getenv("BENCH_COMMIT");
-    char path[512], processor[128], date[32];
+    char path[512], text[128], family[32], model[32], date[32];
     const time_t now = time(NULL);
     const struct tm *utc = gmtime(&now);
     snprintf(path, sizeof path, "%s/%s.machine.txt", run->out_dir, name);
     FILE *f = bench_create(path);
-    processor_name(processor, sizeof processor);
     strftime(date, sizeof date, "%Y-%m-%d", utc);
-    fprintf(f, "date: %s\ncommit: %s\nmachine: %s\ninstruction set: %s\n", date,
-            commit && commit[0] ? commit : "unknown", processor, best_isa());
-    fprintf(f, "compiler: %s%s\n", COMPILER, COMPILER_VERSION);
+    fprintf(f, "date: %s\ncommit: %s\nmachine: %s\nfamily, model: %s, %s\n", date,
+            commit && commit[0] ? commit : "unknown",
+            processor("model name", text, sizeof text),
+            processor("cpu family", family, sizeof family),
+            processor("model", model, sizeof model));
+    fprintf(f, "instruction set: %s\ncompiler: %s%s\n", best_isa(), COMPILER, COMPILER_VERSION);
     fprintf(f, "one core: %.0f GFlop/s", bench_peak(SL_ISA_AUTO) * 1e-9);
     if (bench_peak(SL_ISA_AVX512) > 0) {
         fprintf(f, " with AVX-512 and %.0f with AVX2", bench_peak(SL_ISA_AVX2) * 1e-9);
     }
     fprintf(f,
-            "; reads %.0f GB/s from the first-level cache, %.0f from the second-level cache, and "
-            "%.0f from memory\n",
+            "; it reads %.0f GB/s from the first-level cache, %.0f from the second-level cache, "
+            "and %.0f from memory\n",
             bench_bandwidth(sizes[0]) * 1e-9, bench_bandwidth(sizes[1]) * 1e-9,
             bench_bandwidth(sizes[2]) * 1e-9);
     bench_close(f);

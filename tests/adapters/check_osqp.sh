@@ -80,7 +80,8 @@ bench() {
     for accuracy in ${ACCURACY:-1e-3 1e-6}; do
         for turn in 1 2; do
             for folder in theirs ours; do
-                $ALONE "$out/$folder/classes" $accuracy >"$out/$folder.$accuracy.$turn.csv" || exit 1
+                $ALONE "$out/$folder/classes" $accuracy \
+                    >"$out/$folder.$accuracy.$turn.csv" || exit 1
             done
         done
         echo "eps_abs = eps_rel = $accuracy; ms of QDLDL, and ours divided by it"

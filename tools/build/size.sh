@@ -4,12 +4,12 @@
 #     [SIZE=full] tools/build/size.sh
 #
 # Compiled by gcc -O2: the core, the core with all packs, and the core without AVX-512, in plain C
-# and without null spaces; then the core in plain C by -O0, as for development. SIZE=full adds the core with each pack alone, as the difference to the
-# core; a pack that implies others has them in it. A header is that of make header PACKS=. The
-# time is processor time; its share is that of the header with all packs. Limits are on bytes:
-# headers, and the text of the objects, the latter only on x86-64, where the kernels of AVX2,
-# AVX-512 and plain C are in it. Of all packs the stack is limited, too: a frame, and a chain of
-# calls.
+# and without null spaces; then the core in plain C by -O0, as for development. SIZE=full adds the
+# core with each pack alone, as the difference to the core; a pack that implies others has them in
+# it. A header is that of make header PACKS=. The time is processor time; its share is that of the
+# header with all packs. Limits are on bytes: headers, and the text of the objects, the latter only
+# on x86-64, where the kernels of AVX2, AVX-512 and plain C are in it. Of all packs the stack is
+# limited, too: a frame, and a chain of calls.
 
 cd "$(dirname "$0")/../.." || exit 1
 header_limit=1372800      # sparse_local.h
