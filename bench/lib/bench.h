@@ -145,8 +145,8 @@ int bench_isa_is_present(sl_isa isa);
  */
 double bench_bandwidth(double bytes);
 
-/** Measures the bandwidth and prints it. */
-void bench_bandwidth_measure(void);
+/** Measures the bandwidth and prints it; checks that caches are not slower than memory. */
+void bench_bandwidth_measure(bench_run *run);
 
 /** Peak floating-point operations per second of one core, on registers alone; a fused multiply-add
  *  counts as 2. 0 if the instruction set is absent. SL_ISA_AUTO: the maximum over all.

@@ -179,7 +179,7 @@ static int describe_machine(int count, char **names) {
     if (!set_up(&run, 0)) {
         return 2;
     }
-    bench_bandwidth_measure();
+    bench_bandwidth_measure(&run);
     bench_peak_measure(&run);
     for (int k = 0; k < count; k++) {
         bench_machine_write(&run, names[k]);
@@ -215,7 +215,7 @@ int main(int argc, char **argv) {
         return 2;
     }
     double start = bench_now();
-    bench_bandwidth_measure();
+    bench_bandwidth_measure(&run);
     bench_peak_measure(&run);
     for (int k = 0; k < N_QUESTIONS; k++) {
         selected += is_selected(&run, k, argc, argv);
