@@ -3,7 +3,9 @@
 
 Each number of the pages, and each column of the files that a figure shows, is changed in turn.
 """
+import contextlib
 import copy
+import io
 import re
 import unittest
 
@@ -14,21 +16,19 @@ import figures
 NOT_SHOWN = {"system", "n", "step", "peer", "group", "call", "class", "size", "pairs", "what",
              "header_bytes", "ours_changes", "qdldl_changes"}
 
-PEERS = """system,threads,case,method,nrhs,median_s,limit_share
-a,1,vertex,"ours, solve on a plan",1,2e-6,0.5
-a,1,vertex,"ours, plan + solve",1,3e-6,0.4
-a,1,vertex,"ours, AVX2 forced",1,1e-6,0.4
-a,1,vertex,"CHOLMOD full solve, once",1,9e-6,0
-a,1,vertex,CHOLMOD solve2 Bset,1,8e-6,0
-a,2,vertex,CHOLMOD full solve,1,7e-6,0
-a,1,refactor,ours,0,1e-3,0.1
-a,2,refactor,ours,0,5e-4,0.1
+PEERS = """system,n,threads,case,method,nrhs,count,median_s,limit_share
+a,7,1,vertex,"ours, solve on a plan",1,9,2e-6,0.5
+a,7,1,vertex,"ours, plan + solve",1,9,3e-6,0.4
+a,7,1,vertex,"ours, AVX2 forced",1,9,1e-6,0.4
+a,7,1,vertex,"CHOLMOD full solve, once",1,1,9e-6,0
+a,7,1,vertex,CHOLMOD solve2 Bset,1,9,8e-6,0
+a,7,2,vertex,CHOLMOD full solve,1,9,7e-6,0
+a,7,1,refactor,ours,0,9,1e-3,0.1
+a,7,2,refactor,ours,0,9,5e-4,0.1
+b,7,1,order to factor,ours,0,1,3,0.1
+b,7,1,order to factor,CHOLMOD METIS,0,1,%s,0
+b,7,1,refactor,CHOLMOD defaults,0,1,2,0
 """
-
-
-def peers_with_sizes():
-    lines = PEERS.strip().split("\n")
-    return "\n".join([lines[0] + ",n"] + [line + ",7" for line in lines[1:]])
 
 
 def changed(number, k):
@@ -122,12 +122,19 @@ class Typed(unittest.TestCase):
 
 class Results(unittest.TestCase):
     def test_peers(self):
-        rows = figure_results.peer_rows(peers_with_sizes())
+        rows = figure_results.peer_rows(PEERS % 9)
         self.assertEqual([(row["step"], row["seconds"], row["peer"], row["peer_seconds"])
                           for row in rows],
                          [("one vertex, solve on a plan", 2e-6, "CHOLMOD solve2 Bset", 8e-6),
                           ("one vertex, plan + solve", 3e-6, "CHOLMOD solve2 Bset", 8e-6),
-                          ("refactor", 1e-3, "", 0.0)])
+                          ("refactor", 1e-3, "", 0.0),
+                          ("order + analyze + factor", 3.0, "CHOLMOD METIS", 9.0)])
+
+    def test_a_disturbed_peer_is_left_out(self):
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            rows = figure_results.peer_rows(PEERS % 11)
+        self.assertEqual((rows[-1]["seconds"], rows[-1]["peer"]), (3.0, ""))
+        self.assertIn("left out: b, order to factor, CHOLMOD METIS took 11 s", said.getvalue())
 
     def test_a_file_has_its_machine(self):
         machine = "".join("%s: x\n" % key for key in figures.KEYS)
