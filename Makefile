@@ -309,9 +309,11 @@ $(B)/bench: $(IMPL) $(call object,$(BENCH_SOURCES:.c=) $(BENCH_TOOLS:.c=)) $(PEE
 	$(call say,LINK)
 	$(Q)$(LINK) $(OPENMP) -o $@ $^ $(PEER_LIBS) $(LIBS) -lpthread
 
+# What the files of the bench name as the state that was measured.
+MEASURED = BENCH_COMMIT=$$(git rev-parse --short HEAD 2>/dev/null)$$(git status --porcelain sparse_local.h bench 2>/dev/null | sed 's/.*/-changed/; q')
 run-bench: $(B)/bench
 	@mkdir -p build/bench-out
-	$(BENCH_ENV) $(B)/bench $(or $(QUESTION),$(QUESTION_DEFAULT))
+	$(Q)$(MEASURED) $(BENCH_ENV) $(ALONE) $(B)/bench $(or $(QUESTION),$(QUESTION_DEFAULT))
 
 bench: deps sparse_local.h ## times factorizations, full and local solves on this machine; CSV files and plots in build/bench-out
 	@+$(SUB_MAKE) run-bench B=build/timed CFLAGS='$(OPENMP) $(CFLAGS)'

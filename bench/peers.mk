@@ -1,6 +1,6 @@
 # peers.mk: measurements against other libraries, tables and figures of them (a part of the Makefile)
 
-.PHONY: deps-peers deps-arpack bench-peers bench-eigenpairs speed-table figures
+.PHONY: deps-peers deps-arpack bench-peers bench-eigenpairs speed speed-pages speed-peers speed-eigenpairs speed-threads speed-optimization speed-sizes speed-osqp speed-pool figures
 
 PEERS := $(wildcard bench/peers/*.c bench/peers/*.cpp)
 
@@ -26,9 +26,50 @@ ARPACK_BENCH = B=build/arpack BENCH_ENV='$(PEER_ENV) OPENBLAS_NUM_THREADS=1' CFL
 bench-eigenpairs: deps deps-arpack sparse_local.h ## auto-diffusion by the eigenpairs of ARPACK, with our factor as its solver: digits and time
 	@+$(SUB_MAKE) run-bench QUESTION_DEFAULT=eigenpairs $(ARPACK_BENCH)
 
-speed-table: ## prints the measurements of the last bench-peers as Markdown tables
-	@awk -f tools/build/csv.awk -f tools/build/speed_table.awk build/bench-out/peers.machine.txt build/bench-out/peers.csv \
-	$(wildcard build/bench-out/peers_harmonic.csv build/bench-out/peers_kinds.csv)
+# ---- the figures of README.md and the manual ----
+
+## ALONE    command in front of each measurement that keeps other programs away: 'chrt -f 20 taskset -c 1'
+ALONE ?=
+
+## MEASURE  what make speed measures; a file whose part is left out stays as it is
+MEASURE ?= peers eigenpairs threads optimization sizes $(if $(OSQP),osqp)
+
+# Two threads need both cores: ALONE is left out there, and where a compiler works, whose processor time is taken.
+SPEED = build/speed
+SPEED_RUN = BENCH_OUT=$(SPEED) MESH= BENCH=
+OF_POOL = CFLAGS='$(CFLAGS)' OPENMP=
+speed: deps deps-peers deps-arpack sparse_local.h build/amalgamate ## measures the figures of README.md and the manual anew and writes them there (needs a quiet machine; MEASURE, OSQP, QDLDL)
+	@rm -rf $(SPEED)
+	@+for part in $(MEASURE); do $(SUB_MAKE) speed-$$part || exit 1; done
+	@python3 -B tools/docs/figures.py record $(SPEED)
+	@python3 -B tools/docs/figures.py pages
+
+speed-peers:
+	@+$(SUB_MAKE) bench-peers $(SPEED_RUN) QUESTION='peers peers_harmonic peers_kinds peers_small peers_kkt'
+
+speed-eigenpairs:
+	@+$(SUB_MAKE) bench-eigenpairs $(SPEED_RUN) QUESTION=
+
+speed-threads:
+	@+$(SUB_MAKE) run-bench B=build/pool $(OF_POOL) $(SPEED_RUN) QUESTION='cold two_threads' ALONE=
+
+speed-optimization:
+	@+$(SUB_MAKE) run-bench B=build/pool $(OF_POOL) BENCH_OUT=$(SPEED)/O2 MESH= BENCH=quick QUESTION=cold
+	@+$(SUB_MAKE) run-bench B=build/pool_O0 OPT=-O0 $(OF_POOL) BENCH_OUT=$(SPEED)/O0 MESH= BENCH=quick QUESTION=cold
+
+speed-sizes: speed-pool
+	@tools/build/size.sh && cp build/size/sizes.csv $(SPEED) && $(MEASURED) BENCH_OUT=$(SPEED) build/pool/bench --machine sizes
+
+speed-osqp: speed-pool
+	@+$(SUB_MAKE) bench-osqp ACCURACY=1e-3 && cp build/osqp/*.1e-3.?.csv $(SPEED) && $(MEASURED) BENCH_OUT=$(SPEED) build/pool/bench --machine osqp
+
+# It names the machine of what is measured without it.
+speed-pool:
+	@mkdir -p $(SPEED)
+	@+$(SUB_MAKE) build/pool/bench B=build/pool $(OF_POOL)
+
+speed-pages: ## writes the figures of tools/docs/figures into README.md and the manual
+	@python3 -B tools/docs/figures.py pages
 
 # ---- the paper ----
 

@@ -145,8 +145,8 @@ int bench_isa_is_present(sl_isa isa);
  */
 double bench_bandwidth(double bytes);
 
-/** Measures the bandwidth and prints it. */
-void bench_bandwidth_measure(void);
+/** Measures the bandwidth and prints it; checks that caches are not slower than memory. */
+void bench_bandwidth_measure(bench_run *run);
 
 /** Peak floating-point operations per second of one core, on registers alone; a fused multiply-add
  *  counts as 2. 0 if the instruction set is absent. SL_ISA_AUTO: the maximum over all.
@@ -156,7 +156,8 @@ double bench_peak(sl_isa isa);
 /** Measures the peak rates and prints them. */
 void bench_peak_measure(bench_run *run);
 
-/** Writes name.machine.txt beside the CSV file: date, processor, compiler, limits (machine.c). */
+/** Writes name.machine.txt beside the CSV file (machine.c): date, commit (BENCH_COMMIT of the
+ *  environment), processor, instruction set, compiler, limits. Every report has one. */
 void bench_machine_write(const bench_run *run, const char *name);
 
 /* ---- systems (systems.c) ---- */

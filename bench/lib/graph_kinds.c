@@ -284,6 +284,7 @@ static const kind kinds[KINDS] = {
     {KIND_NETWORKS, "random points, 3D", network_geometric, {20000, 3, 10}, AXES, 0, NULL, 0},
     {KIND_NETWORKS, "path", network_path, {100000, 0, 0}, AXES, 0, NULL, 0},
     {KIND_NETWORKS, "tree", network_tree, {100000, 0, 0}, AXES, 0, NULL, 0},
+    {KIND_NETWORKS, "pairs", network_pairs, {100000, 0, 0}, AXES, 0, NULL, 0},
     {KIND_NETWORKS, "star", network_hubs, {20000, 1, 0}, AXES, 0, NULL, 0},
     {KIND_DENSE_ROWS, "biharmonic 120^2", NULL, {120, 2, 0}, AXES, 0, NULL, 0},
     {KIND_DENSE_ROWS, "triharmonic 80^2", NULL, {80, 3, 0}, AXES, 0, NULL, 0},

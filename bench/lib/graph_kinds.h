@@ -15,7 +15,7 @@ typedef enum kind_group {
     KIND_GROUPS
 } kind_group;
 
-enum { KINDS = 34 };
+enum { KINDS = 35 };
 
 extern const char *const kind_group_names[KIND_GROUPS];
 

@@ -40,6 +40,7 @@ double graph_random_share(uint64_t *state);
 void network_geometric(graph *g, const kind *k);
 void network_roads(graph *g, const kind *k);
 void network_path(graph *g, const kind *k);
+void network_pairs(graph *g, const kind *k);
 void network_tree(graph *g, const kind *k);
 void network_hubs(graph *g, const kind *k);
 

@@ -1,4 +1,4 @@
-/* graph_networks.c: random points, roads, paths, trees and stars */
+/* graph_networks.c: random points, roads, paths, pairs, trees and stars */
 #include "graph_makers.h"
 
 #include <math.h>
@@ -78,6 +78,14 @@ void network_path(graph *g, const kind *k) {
         graph_add(g, name[v - 1], name[v]);
     }
     free(name);
+}
+
+/* Each row has one neighbor: a matrix that is nearly diagonal. */
+void network_pairs(graph *g, const kind *k) {
+    g->n = k->size[0];
+    for (sl_int v = 1; v < g->n; v += 2) {
+        graph_add(g, v, v - 1);
+    }
 }
 
 void network_tree(graph *g, const kind *k) {

@@ -1,5 +1,6 @@
 /* machine.c: writes what the bench ran on: date, processor, compiler, and the measured limits */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -16,41 +17,59 @@
 #define COMPILER_VERSION "unknown"
 #endif
 
-/* The first "model name" of /proc/cpuinfo, or "unknown". */
-static void processor_name(char *name, size_t size) {
+/* The first value of a key in /proc/cpuinfo, or "unknown". */
+static const char *processor(const char *key, char *value, size_t size) {
+    const size_t length = strlen(key);
     char line[256];
     FILE *f = fopen("/proc/cpuinfo", "r");
-    snprintf(name, size, "unknown");
+    snprintf(value, size, "unknown");
     while (f && fgets(line, (int)sizeof line, f)) {
         const char *colon = strchr(line, ':');
-        if (colon && strncmp(line, "model name", 10) == 0) {
-            snprintf(name, size, "%s", colon + 2);
-            name[strcspn(name, "\n")] = '\0';
+        if (colon && strncmp(line, key, length) == 0 && line[length] == '\t') {
+            snprintf(value, size, "%s", colon + 2);
+            value[strcspn(value, "\n")] = '\0';
             break;
         }
     }
     if (f) {
         fclose(f);
     }
+    return value;
+}
+
+/* The widest instruction set that this processor has. */
+static const char *best_isa(void) {
+    static const sl_isa isas[] = {SL_ISA_AVX512, SL_ISA_AVX2, SL_ISA_NEON};
+    for (size_t k = 0; k < sizeof isas / sizeof *isas; k++) {
+        if (bench_isa_is_present(isas[k])) {
+            return bench_isa_name(isas[k]);
+        }
+    }
+    return bench_isa_name(SL_ISA_SCALAR);
 }
 
 void bench_machine_write(const bench_run *run, const char *name) {
     static const double sizes[] = {32e3, 512e3, 256e6};
-    char path[512], processor[128], date[32];
+    const char *commit = getenv("BENCH_COMMIT");
+    char path[512], text[128], family[32], model[32], date[32];
     const time_t now = time(NULL);
     const struct tm *utc = gmtime(&now);
     snprintf(path, sizeof path, "%s/%s.machine.txt", run->out_dir, name);
     FILE *f = bench_create(path);
-    processor_name(processor, sizeof processor);
     strftime(date, sizeof date, "%Y-%m-%d", utc);
-    fprintf(f, "%s; %s; %s%s", date, processor, COMPILER, COMPILER_VERSION);
-    fprintf(f, "; one core: %.0f GFlop/s", bench_peak(SL_ISA_AUTO) * 1e-9);
+    fprintf(f, "date: %s\ncommit: %s\nmachine: %s\nfamily, model: %s, %s\n", date,
+            commit && commit[0] ? commit : "unknown",
+            processor("model name", text, sizeof text),
+            processor("cpu family", family, sizeof family),
+            processor("model", model, sizeof model));
+    fprintf(f, "instruction set: %s\ncompiler: %s%s\n", best_isa(), COMPILER, COMPILER_VERSION);
+    fprintf(f, "one core: %.0f GFlop/s", bench_peak(SL_ISA_AUTO) * 1e-9);
     if (bench_peak(SL_ISA_AVX512) > 0) {
-        fprintf(f, " with AVX-512, %.0f with AVX2", bench_peak(SL_ISA_AVX2) * 1e-9);
+        fprintf(f, " with AVX-512 and %.0f with AVX2", bench_peak(SL_ISA_AVX2) * 1e-9);
     }
     fprintf(f,
-            ", reads %.0f / %.0f / %.0f GB/s from the first-level cache / second-level cache / "
-            "memory\n",
+            "; it reads %.0f GB/s from the first-level cache, %.0f from the second-level cache, "
+            "and %.0f from memory\n",
             bench_bandwidth(sizes[0]) * 1e-9, bench_bandwidth(sizes[1]) * 1e-9,
             bench_bandwidth(sizes[2]) * 1e-9);
     bench_close(f);

@@ -101,8 +101,9 @@ static void list(FILE *out) {
 
 static int usage(FILE *out) {
     fprintf(out,
-            "usage: bench [--help] [--list] [name ...]\n"
-            "Runs the named questions, or the first %d, or all with BENCH:\n",
+            "usage: bench [--help] [--list] [--machine file ...] [name ...]\n"
+            "With --machine only writes on what machine other programs have measured a file. Runs\n"
+            "the named questions, or the first %d, or all with BENCH:\n",
             N_FIRST);
     list(out);
     fprintf(out,
@@ -172,10 +173,27 @@ static int set_up(bench_run *run, int is_named) {
     return 1;
 }
 
+/* Writes NAME.machine.txt for each name. */
+static int describe_machine(int count, char **names) {
+    bench_run run;
+    if (!set_up(&run, 0)) {
+        return 2;
+    }
+    bench_bandwidth_measure(&run);
+    bench_peak_measure(&run);
+    for (int k = 0; k < count; k++) {
+        bench_machine_write(&run, names[k]);
+    }
+    return run.failures > 0;
+}
+
 int main(int argc, char **argv) {
     bench_run run;
     int selected = 0, answered = 0;
     output_begin_program("bench");
+    if (argc > 1 && strcmp(argv[1], "--machine") == 0) {
+        return describe_machine(argc - 2, argv + 2);
+    }
     for (int a = 1; a < argc; a++) {
         int known = 0;
         if (strcmp(argv[a], "--help") == 0 || strcmp(argv[a], "-h") == 0) {
@@ -197,7 +215,7 @@ int main(int argc, char **argv) {
         return 2;
     }
     double start = bench_now();
-    bench_bandwidth_measure();
+    bench_bandwidth_measure(&run);
     bench_peak_measure(&run);
     for (int k = 0; k < N_QUESTIONS; k++) {
         selected += is_selected(&run, k, argc, argv);

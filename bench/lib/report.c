@@ -20,6 +20,7 @@ bench_report *bench_report_open(const bench_run *run, const char *name, const ch
     snprintf(report->name, sizeof report->name, "%s", name);
     snprintf(path, sizeof path, "%s/%s.csv", run->out_dir, name);
     report->csv = bench_create(path);
+    bench_machine_write(run, name);
     fprintf(report->csv,
             "question,system,n,nnz_l,nnz_panels,isa,threads,case,method,nrhs,b_columns,x_columns,b_"
             "entries,"

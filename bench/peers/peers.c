@@ -53,7 +53,6 @@ void bench_peers(bench_run *run) {
     bench_report *report = bench_report_open(
         run, "peers", "CHOLMOD and Eigen, in our permutation and with their defaults",
         "the first row of the step (refactor: on one thread)");
-    bench_machine_write(run, "peers");
     printf("   OpenBLAS kernels for CHOLMOD: %s\n", peer_cholmod_kernels());
     for (int k = 0; k < count; k++) {
         one_system(run, report, systems[k]);

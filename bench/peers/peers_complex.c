@@ -289,7 +289,6 @@ void bench_peers_complex(bench_run *run) {
     bench_report *report =
         bench_report_open(run, "peers_complex", "a connection Laplacian against CHOLMOD and Eigen",
                           "our real matrix of the mesh");
-    bench_machine_write(run, "peers_complex");
     if (run->mesh_path || (data && data[0])) {
         (void)snprintf(path, sizeof path, "%s%s", run->mesh_path ? run->mesh_path : data,
                        run->mesh_path ? "" : "/meshes/bunny.off.gz");

@@ -8,7 +8,6 @@ void bench_peers_harmonic(bench_run *run) {
     bench_report *report =
         bench_report_open(run, "peers_harmonic", "k-harmonic systems against CHOLMOD and Eigen",
                           "ours on one thread");
-    bench_machine_write(run, "peers_harmonic");
     for (int k = 1; k <= ORDERS; k++) {
         const bench_system *system = bench_k_harmonic(run, vertices, k);
         if (system) {

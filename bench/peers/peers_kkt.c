@@ -158,7 +158,6 @@ void bench_peers_kkt(bench_run *run) {
     bench_report *report = bench_report_open(
         run, "peers_kkt", "KKT systems of quadratic programs against an up-looking LDL' with AMD",
         "LDL's, with AMD");
-    bench_machine_write(run, "peers_kkt");
     for (int k = 0; k < sizes * KKT_KINDS; k++) {
         one_program(run, report, (kkt_kind)(k / sizes), k % sizes, &systems[k]);
     }

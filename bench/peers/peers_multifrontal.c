@@ -212,7 +212,6 @@ void bench_peers_multifrontal(bench_run *run) {
     bench_report *report =
         bench_report_open(run, "peers_multifrontal",
                           "MUMPS in our order: factor, solves, entries; orders of Scotch", "ours");
-    bench_machine_write(run, "peers_multifrontal");
     peer_cholmod_threads(1); /* of OpenBLAS, which MUMPS calls, too */
     if (!run->mesh_path) {
         systems[count++] = bench_volume(run->size == BENCH_QUICK ? 20 : 40);

@@ -75,7 +75,6 @@ void bench_peers_shifted(bench_run *run) {
     bench_report *report = bench_report_open(
         run, "peers_shifted", "eight refactorizations of M + t L against CHOLMOD, one analysis",
         "ours on one thread");
-    bench_machine_write(run, "peers_shifted");
     if (!run->mesh_path) {
         systems[count++] = bench_volume(run->size == BENCH_QUICK ? 20 : 30);
     }

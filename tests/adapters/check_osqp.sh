@@ -5,6 +5,8 @@
 #
 # QDLDL, OSQP, CATCH2  folders of their sources, which are not changed
 # CC, JOBS             the compiler, and compilations at a time
+# ACCURACY             of the runs of `bench`, as a list; nothing: 1e-3 1e-6
+# ALONE                what keeps other programs away from them
 # Builds in build/osqp. `test` prints what each test program says, and ends in `N passed, N failed`,
 # of programs. `bench` builds OSQP with QDLDL too, and prints ratios of processor time.
 
@@ -75,10 +77,11 @@ bench() {
             bench/osqp/osqp_classes.c "$out/$folder/out/libosqpstatic.a" -lm -ldl -lrt \
             -o "$out/$folder/classes" || exit 1
     done
-    for accuracy in 1e-3 1e-6; do
+    for accuracy in ${ACCURACY:-1e-3 1e-6}; do
         for turn in 1 2; do
             for folder in theirs ours; do
-                "$out/$folder/classes" $accuracy >"$out/$folder.$accuracy.$turn.csv" || exit 1
+                $ALONE "$out/$folder/classes" $accuracy \
+                    >"$out/$folder.$accuracy.$turn.csv" || exit 1
             done
         done
         echo "eps_abs = eps_rel = $accuracy; ms of QDLDL, and ours divided by it"

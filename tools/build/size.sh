@@ -4,12 +4,12 @@
 #     [SIZE=full] tools/build/size.sh
 #
 # Compiled by gcc -O2: the core, the core with all packs, and the core without AVX-512, in plain C
-# and without null spaces. SIZE=full adds the core with each pack alone, as the difference to the
-# core; a pack that implies others has them in it. A header is that of make header PACKS=. The
-# time is processor time; its share is that of the header with all packs. Limits are on bytes:
-# headers, and the text of the objects, the latter only on x86-64, where the kernels of AVX2,
-# AVX-512 and plain C are in it. Of all packs the stack is limited, too: a frame, and a chain of
-# calls.
+# and without null spaces; then the core in plain C by -O0, as for development. SIZE=full adds the
+# core with each pack alone, as the difference to the core; a pack that implies others has them in
+# it. A header is that of make header PACKS=. The time is processor time; its share is that of the
+# header with all packs. Limits are on bytes: headers, and the text of the objects, the latter only
+# on x86-64, where the kernels of AVX2, AVX-512 and plain C are in it. Of all packs the stack is
+# limited, too: a frame, and a chain of calls.
 
 cd "$(dirname "$0")/../.." || exit 1
 header_limit=1372800      # sparse_local.h
@@ -59,7 +59,9 @@ compile() {
 }
 
 # row NAME HEADER TEXT SECONDS [SIGN]: kB, and the share of the time of all packs. HEADER may be -.
+# Without SIGN the row is in $dir/sizes.csv, too.
 row() {
+    [ -n "$5" ] || echo "$1,${2/-/},$3,$4" >>$dir/sizes.csv
     awk -v name="$1" -v header="$2" -v text="$3" -v seconds="$4" -v all="$all_seconds" \
         -v sign="$5" 'BEGIN {
             kB = header == "-" ? "-" : sprintf("%" sign ".0f", header / 1000)
@@ -81,6 +83,7 @@ if grep SL_API $dir/messages; then
     failed=1
 fi
 all_text=$text all_seconds=$seconds
+echo 'what,header_bytes,object_bytes,compile_s' >$dir/sizes.csv
 printf '%-20s %10s %10s %10s %10s\n' '' 'header kB' 'object kB' 'compile s' 'of all'
 compile
 core_text=$text core_seconds=$seconds
@@ -100,6 +103,8 @@ for variant in SL_NO_AVX512 SL_NO_SIMD SL_NO_SINGULAR; do
     row "core $variant" - "$text" "$seconds"
 done
 singular_text=$text # of the last one
+compile -O0 -DSL_NO_SIMD
+row 'core -O0 SL_NO_SIMD' - "$text" "$seconds"
 
 check sparse_local.h "$header" $header_limit
 check 'the header of the core, with comments,' "$read_header" $core_header_limit

@@ -2,9 +2,10 @@
 
 .PHONY: docs pictures test-examples
 
-docs: ## build/manual/index.html: tutorial, tasks, API, background; fails if a link leads nowhere or there are too many words
+docs: ## build/manual/index.html: tutorial, tasks, API, background; fails if a link leads nowhere, a figure is of no file, or there are too many words
 	@rm -rf build/manual
 	@HOME_URL='$(HOME_URL)' python3 -B tools/docs/manual.py build/manual
+	@python3 -B tools/docs/test_figures.py -q
 
 pictures: programs test-examples ## the pictures of the manual, by the commands in its pages
 	@PROGRAM=$(B)/sparse-local tools/docs/pictures.sh

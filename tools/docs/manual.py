@@ -11,7 +11,8 @@ tools/docs/NAME.md. Programs are written as whole files too, examples/NAME.c. HO
 set, is the address of one more link at the top.
 
 Ends with 1 if a link leads nowhere, the index does not lead to a page, no page leads to a program,
-a program is shown twice, a contract has no comment or no use, or the pages have too many words.
+a program is shown twice, a contract has no comment or no use, a measured figure is not that of its
+file (figures.py), or the pages have too many words.
 """
 import html
 import json
@@ -20,6 +21,7 @@ import re
 import shutil
 import sys
 
+import figures
 from contracts import api_pages
 from markdown import anchor, markdown
 
@@ -213,6 +215,8 @@ class Manual:
         for name, file in rows:
             if self.page_of_name.get(name) != "api-" + file[:-2]:
                 PROBLEMS.append("intro.h: %s is not in %s" % (name, file))
+        pages = {path: read(path) for path in sorted(self.files) + ["README.md"]}
+        PROBLEMS.extend(figures.problems(pages))
         if self.words() > MOST_WORDS:
             PROBLEMS.append("the pages have %d words, at most %d" % (self.words(), MOST_WORDS))
 
