@@ -20,8 +20,8 @@
  *
  * A loaded or mapped factor solves like the saved one, with the same bits on the same instruction
  * set. It works with plans, regions and selected inverses that are made over the analysis that came
- * with it, and with those that were loaded with it: they have the bits of the saved ones. A plan of
- * another analysis is refused (SL_ERR_MISMATCH), also if both were loaded from one file.
+ * with it, and with those that were loaded with it. A plan of another analysis is refused
+ * (SL_ERR_MISMATCH), also if both were loaded from one file.
  *
  * Loaded objects can be refactored; the first refactorization of a factor allocates the memory of
  * its fronts. Mapped ones are immutable, and so are those in a file that a newer version has
@@ -67,8 +67,8 @@ typedef enum sl_load_flag {
  *
  *  A file gets its name only when it is complete and, on Linux, macOS and Windows, on its device.
  *  An error, a full disk or a crash leaves the old file as it was, and processes that have mapped
- *  the old file keep it. On Linux, a process that is killed leaves no temporary file on most file
- *  systems. A device or a symbolic link is written in place.
+ *  the old file keep it. On Linux a killed process leaves no temporary file on most file systems.
+ *  A device or a symbolic link is written in place.
  *
  *  path    [in]      the name of the file, or NULL.
  *  memory  [out]     of any alignment; SL_LOAD_MAPPED needs 64 bytes. Not written on error, nor

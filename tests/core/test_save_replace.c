@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 
 #include "tests/lib/gen_matrices.h"
 
@@ -197,6 +198,27 @@ static void permissions_are_respected(void **state) {
     }
 }
 
+#if defined(__linux__)
+extern int chroot(const char *path);
+
+/* Files without a name get one by way of /proc. */
+static void a_file_is_saved_without_proc(void **state) {
+    (void)state;
+    int code;
+    const pid_t child = fork();
+    if (child == 0) {
+        _exit(chroot(files_folder) != 0 ? 77 : write_grid(5, "/a.slf") != SL_OK);
+    }
+    assert_true(child > 0 && waitpid(child, &code, 0) == child && WIFEXITED(code));
+    if (WEXITSTATUS(code) == 77) {
+        TEST_SKIP("only root may call chroot");
+    }
+    assert_int_equal(WEXITSTATUS(code), 0);
+    assert_is_saved(files_path("a.slf"));
+    assert_int_equal(temporary_files(), 0);
+}
+#endif
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_existing_file_is_replaced_with_its_permissions),
@@ -204,6 +226,9 @@ int main(void) {
         cmocka_unit_test(taken_names_are_left_alone),
         cmocka_unit_test(links_pipes_and_devices_remain),
         cmocka_unit_test(permissions_are_respected),
+#if defined(__linux__)
+        cmocka_unit_test(a_file_is_saved_without_proc),
+#endif
     };
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
 }

@@ -114,7 +114,8 @@ static int sli_create_unnamed(sli_output *o, int exists) {
         return 0;
     }
     snprintf(name, sizeof name, "/proc/self/fd/%d", file);
-    o->file = !exists || sli_take_attributes(name, o->path) ? sli_fdopen(file, "wb") : NULL;
+    exists = exists ? sli_take_attributes(name, o->path) : sli_is_link(name); /* is /proc there? */
+    o->file = exists ? sli_fdopen(file, "wb") : NULL;
     if (o->file == NULL) {
         close(file);
     }
