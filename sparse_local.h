@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 5ad01e67c8cefae8
+ * FNV-1a of the lines after this comment, without the license: df461a7860a773c1
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -47,14 +47,14 @@
  *  23683 impl/ change: a factor that follows changes of its matrix
  *  25956 impl/ constraints: rows held at values, on a factor that stays
  *  27303 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30032 impl/ fixed: rows fixed at given values
- *  30591 impl/ io: files that are replaced only when they are complete
- *  30809 impl/ files: Matrix Market files, 64-bit indices
- *  31365 impl/ save: factors in files
- *  33336 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34022 impl/ complex: complex Hermitian systems over real factors
- *  34497 impl/ packs: the tables through which the core calls packs
- *  34921 impl/ templates: the header includes them from itself, once for each instruction set
+ *  30033 impl/ fixed: rows fixed at given values
+ *  30592 impl/ io: files that are replaced only when they are complete
+ *  30810 impl/ files: Matrix Market files, 64-bit indices
+ *  31366 impl/ save: factors in files
+ *  33337 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34023 impl/ complex: complex Hermitian systems over real factors
+ *  34498 impl/ packs: the tables through which the core calls packs
+ *  34922 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -29784,6 +29784,7 @@ static int sli_reuse_is_suited(const sl_factor *F, const sl_factor *G) {
   const double a = F->rule.null_tolerance, b = G->rule.null_tolerance;
   return F->history.marks != NULL && G->history.marks != NULL && F->E == NULL && G->E == NULL &&
        F->type == G->type && G->type->accepts == NULL && F->null.calls == G->null.calls &&
+       F->null.vectors == 1 && G->null.vectors == 1 &&
        F->rule.regularization == G->rule.regularization &&
        (a == b || (sli_tolerance_is_default(F) && sli_tolerance_is_default(G)));
 }
