@@ -82,6 +82,9 @@ static void what_is_not_complex_is_refused(void **state) {
     const double none = (double)NAN; /* a coefficient that is not finite is refused as such */
     assert_int_equal(sl_factor_create_sums(&G, 1, y.S, &none, term, 1, &opt, NULL, NULL),
                      SL_ERR_NOT_FINITE);
+    terms[7] = (double)NAN; /* and so is a term */
+    assert_int_equal(sl_factor_create_sums(&G, 1, y.S, &one, term, 1, &opt, NULL, NULL),
+                     SL_ERR_NOT_FINITE);
     assert_int_equal(create_pivoted(&y.A), SL_ERR_UNSUPPORTED);
     free(terms);
     free(x);

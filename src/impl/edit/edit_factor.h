@@ -67,6 +67,7 @@ static int sli_reuse_is_suited(const sl_factor *F, const sl_factor *G) {
     const double a = F->rule.null_tolerance, b = G->rule.null_tolerance;
     return F->history.marks != NULL && G->history.marks != NULL && F->E == NULL && G->E == NULL &&
            F->type == G->type && G->type->accepts == NULL && F->null.calls == G->null.calls &&
+           F->null.vectors == 1 && G->null.vectors == 1 &&
            F->rule.regularization == G->rule.regularization &&
            (a == b || (sli_tolerance_is_default(F) && sli_tolerance_is_default(G)));
 }
