@@ -37,6 +37,19 @@ static const char *processor(const char *key, char *value, size_t size) {
     return value;
 }
 
+/* Programs that ran in the last minute, this one among them; "unknown" without /proc. */
+static const char *load(char *value, size_t size) {
+    FILE *f = fopen("/proc/loadavg", "r");
+    snprintf(value, size, "unknown");
+    if (f && fgets(value, (int)size, f)) {
+        value[strcspn(value, " ")] = '\0';
+    }
+    if (f) {
+        fclose(f);
+    }
+    return value;
+}
+
 /* The widest instruction set that this processor has. */
 static const char *best_isa(void) {
     static const sl_isa isas[] = {SL_ISA_AVX512, SL_ISA_AVX2, SL_ISA_NEON};
@@ -51,7 +64,7 @@ static const char *best_isa(void) {
 void bench_machine_write(const bench_run *run, const char *name) {
     static const double sizes[] = {32e3, 512e3, 256e6};
     const char *commit = getenv("BENCH_COMMIT");
-    char path[512], text[128], family[32], model[32], date[32];
+    char path[512], text[128], family[32], model[32], running[64], date[32];
     const time_t now = time(NULL);
     const struct tm *utc = gmtime(&now);
     snprintf(path, sizeof path, "%s/%s.machine.txt", run->out_dir, name);
@@ -63,6 +76,7 @@ void bench_machine_write(const bench_run *run, const char *name) {
             processor("cpu family", family, sizeof family),
             processor("model", model, sizeof model));
     fprintf(f, "instruction set: %s\ncompiler: %s%s\n", best_isa(), COMPILER, COMPILER_VERSION);
+    fprintf(f, "load: %s\n", load(running, sizeof running));
     fprintf(f, "one core: %.0f GFlop/s", bench_peak(SL_ISA_AUTO) * 1e-9);
     if (bench_peak(SL_ISA_AVX512) > 0) {
         fprintf(f, " with AVX-512 and %.0f with AVX2", bench_peak(SL_ISA_AVX2) * 1e-9);

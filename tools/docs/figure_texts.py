@@ -20,6 +20,7 @@ SHORT_STEPS = {
     "one vertex, solve on a plan": "one vertex, on a plan",
     "patch of 1000, 2 rhs, solve on a plan": "patch of 1000, 2 right-hand sides, on a plan",
 }
+MOST_LOAD = 3  # processes, of a run of two threads
 KKT_CLASSES = 7  # those of OSQP, which come first
 
 
@@ -117,6 +118,14 @@ def threads_table(file):
         return "%.1f" % (float(row["one_thread"]) / float(row["two_threads"]))
     return rows_text([""] + systems, [[call] + [cell(call, name) for name in systems]
                                       for call in values(file, "call")])
+
+
+def threads_load(file):
+    """A warning if two threads had no two cores: alone they have a load of up to two."""
+    load = float(file.keys["load"].replace("unknown", "0"))
+    return "" if load < MOST_LOAD else (
+        " **Other programs ran at the same time (load %.0f): these rows are not those of two free "
+        "cores.**" % load)
 
 
 def mean_and_worst(rows, key):
@@ -246,6 +255,7 @@ TEXTS = {
     ("peers", "table"): peers_table,
     ("peers_harmonic", "table"): peers_table,
     ("two_threads", "table"): threads_table,
+    ("two_threads", "load"): threads_load,
     ("peers_kinds", "table"): kinds_table,
     ("peers_kinds", "slower"): slower_kinds,
     ("peers_small", "table"): small_table,

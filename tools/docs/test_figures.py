@@ -10,6 +10,7 @@ import re
 import unittest
 
 import figure_results
+import figure_texts
 import figures
 
 # Columns that no figure shows: names, sizes and sums are looked at otherwise.
@@ -135,6 +136,12 @@ class Results(unittest.TestCase):
             rows = figure_results.peer_rows(PEERS % 11)
         self.assertEqual((rows[-1]["seconds"], rows[-1]["peer"]), (3.0, ""))
         self.assertIn("left out: b, order to factor, CHOLMOD METIS took 11 s", said.getvalue())
+
+    def test_two_threads_on_a_busy_machine_are_named(self):
+        file = figures.Figures("# load: 1.87\na\n1\n")
+        self.assertEqual(figure_texts.threads_load(file), "")
+        file.keys["load"] = "8.10"
+        self.assertIn("load 8", figure_texts.threads_load(file))
 
     def test_a_file_has_its_machine(self):
         machine = "".join("%s: x\n" % key for key in figures.KEYS)
