@@ -327,4 +327,5 @@ include tests/platforms.mk
 include tests/packs.mk
 include bench/peers.mk
 include bench/last.mk
+include bench/world.mk
 include tools/release.mk
