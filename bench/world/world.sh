@@ -12,7 +12,7 @@
 # CC CXX PYTHON JOBS  compilers, Python with NumPy, SciPy and pytest, compilations at a time
 #
 # README.md says what a recipe is. The last line counts projects, `N passed, N failed`: one fails if
-# a step fails, if fewer of its own tests pass with ours than with theirs, or if a feature differs.
+# a step fails, if none of its own tests or fewer than with theirs pass, or if a feature differs.
 
 here=$PWD
 lib=$(cd "$(dirname "$0")/lib" && pwd) || exit 1
@@ -181,7 +181,7 @@ project() {
     echo "    features equal: $equal; time: $times, $timed"
     row "$changed" "$theirs, $ours" "$equal" "${times:--}, $timed"
     [ -n "$times" ] && [ "${equal%/*}" = "${equal#*/}" ] &&
-        [ "${ours%/*}" -ge "${theirs%/*}" ]
+        [ "${theirs%/*}" -gt 0 ] && [ "${ours%/*}" -ge "${theirs%/*}" ]
 }
 
 write_page() {

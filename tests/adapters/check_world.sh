@@ -96,6 +96,8 @@ project broken 'b /'
 project slow 'b == 4 ? 3 : b / 2'
 project other 'b / 2 + 0'
 sed -i 's/b \/ 2/b \/ 4 * 2/' "$dir/sources/other/solver.h"
+project untested 'b * 0.5'
+sed -i 's/printf.*/good++;/' "$dir/sources/untested/test.c"
 project later 'b * 0.5'
 commit later --allow-empty
 mkdir "$dir/sources/stranger" # a checkout without a recipe
@@ -109,7 +111,7 @@ check "equal features" "row same '$good' && last '1 passed, 0 failed'"
 check "rows of other projects are kept" "grep -x '$kept' $dir/page.md"
 world
 check "all that have a checkout" \
-    "last '2 passed, 7 failed' && grep 'absent: skipped' $dir/world.log"
+    "last '2 passed, 8 failed' && grep 'absent: skipped' $dir/world.log"
 check "one row each" "row same '$good' && [ \$(grep -c '| same |' $dir/page.md) = 1 ]"
 check "rounding, one of their tests less" "row near '1 | 2/2, 1/2 | 2/2 | 1, nothing'"
 check "one feature differs" "row odd '1 | 2/2, 2/2 | 1/2 | 1, nothing'"
@@ -118,6 +120,7 @@ check "what is not a number" "row nan '1 | 2/2, 2/2 | 1/2 | -, nothing'"
 check "what does not compile" "row broken '1 | no build with ours | - | -'"
 check "the time is ours by theirs" "row slow '1 | 2/2, 1/2 | 1/2 | 1.5, nothing'"
 check "a patch that does not apply" "row other '- | the patch does not apply | - | -'"
+check "no own tests" "row untested '1 | 0/0, 0/0 | 2/2 | 1, nothing'"
 check "another commit" "row later '$good' && grep 'was written for' $dir/world.log"
 check "sources are not changed" "git -C $dir/sources/same diff --exit-code"
 world stranger
