@@ -8,6 +8,7 @@
 # NAME     projects; none: all that have a recipe
 # RECIPES  folder of the recipes; default: bench/world/recipes
 # OUT      where copies are patched and built; default: build/world
+# BUILT    not empty: what the last run has built is run again, as while a recipe is written
 # LIBRARY  the object of sparse_local.h with all packs; default: made in OUT
 # CC CXX PYTHON JOBS  compilers, Python with NumPy, SciPy and pytest, compilations at a time
 #
@@ -150,15 +151,19 @@ project() {
     echo "$name at ${is:-an unknown commit}"
     [ "$is" = "$commit" ] || echo "    the recipe was written for $commit"
     row() { printf '| %s | %s | %s | %s | %s | %s |\n' "$name" "${is:-?}" "$@" >"$work/row"; }
-    if ! { make_side theirs && make_side ours; }; then
-        row - "the patch does not apply" - -
-        return 1
+    if [ -z "$BUILT" ]; then
+        if ! { make_side theirs && make_side ours; }; then
+            row - "the patch does not apply" - -
+            return 1
+        fi
+        lines_changed >"$work/changed"
+        for side in theirs ours; do
+            on $side
+            step build || { row "$(cat "$work/changed")" "no build with $side" - - && return 1; }
+        done
     fi
-    changed=$(lines_changed)
-    for side in theirs ours; do
-        on $side
-        step build || { row "$changed" "no build with $side" - - && return 1; }
-    done
+    rm -f "$work"/*/times
+    changed=$(cat "$work/changed")
     for side in theirs ours; do
         on $side
         step own

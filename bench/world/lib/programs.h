@@ -87,8 +87,9 @@ static program random_program(int n, int zero, int positive, int cones, int cone
         if (i < zero) {
             y[i] = v;
         } else if (i < zero + positive) {
-            s[i] = v > 0 ? v : 0;
-            y[i] = v < 0 ? -v : 0;
+            /* a linear program has one solution if n rows are active */
+            const int is_active = quadratic > 0 || cones > 0 ? v < 0 : i < n;
+            *(is_active ? &y[i] : &s[i]) = fabs(v);
         } else {
             s[i] = v;
         }
