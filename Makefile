@@ -83,7 +83,7 @@ REPLAYS = $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/tests/replay_%)
 all: check-header layers style parts test programs ## the checks, the tests, and the programs of tools/
 
 # The files with targets, the newcomer's first. The first line of each is the heading of its targets.
-MAKE_FILES = Makefile tools/docs/docs.mk tests/packs.mk tests/platforms.mk bench/peers.mk bench/last.mk tools/release.mk tools/packaging/packaging.mk tools/web/web.mk
+MAKE_FILES = Makefile tools/docs/docs.mk tests/packs.mk tests/platforms.mk bench/peers.mk bench/last.mk bench/world.mk tools/release.mk tools/packaging/packaging.mk tools/web/web.mk
 
 .DEFAULT_GOAL = help
 # head may close the pipe.
@@ -335,4 +335,5 @@ include tests/platforms.mk
 include tests/packs.mk
 include bench/peers.mk
 include bench/last.mk
+include bench/world.mk
 include tools/release.mk
