@@ -447,7 +447,8 @@ part='{"attributes":{"POSITION":0,"NORMAL":0}}'
 printf '{"asset":{"version":"2.0"},"meshes":[{"primitives":[%s,%s]}],"materials":[{}],
     "nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"accessors":[{"bufferView":0,"componentType":5126,
     "count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{
-    "byteLength":36,"uri":"data:application/octet-stream;base64,%s"}]}' "$part" "$part" "$point" >"$dir/parts.gltf"
+    "byteLength":36,"uri":"data:application/octet-stream;base64,%s"}]}' \
+    "$part" "$part" "$point" >"$dir/parts.gltf"
 "$program" adf "$dir/parts.gltf" --out "$dir/parts.obj" >"$dir/out" 2>"$dir/err"
 grep -q 'left out of .*: the division into 2 primitives, materials, normals' "$dir/out"
 record $? "the primitives of glTF are named"
