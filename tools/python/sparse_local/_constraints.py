@@ -9,8 +9,8 @@ from ._fixed import FixedRows
 from ._library import Handle, Stats, as_dict, check, lib
 
 
-# Beyond so many rows, measured on biharmonic systems of 4,000 and 12,000 rows, pins cost more than a
-# factor of the other rows; below half of it they are pins again.
+# Beyond so many rows, measured on biharmonic systems of 4,000 and 12,000 rows, pins cost more than
+# a factor of the other rows; below half of it they are pins again.
 MANY = 400
 
 
