@@ -427,6 +427,32 @@ gives 2 'U and V are 0 or more' geodesic grid:20x20 --from face:8,0.7,0.7
 gives 2 'expected face:F,U,V or point:X,Y,Z' geodesic grid:20x20 --from face:8,0.7
 gives 2 'expected face:F,U,V or point:X,Y,Z' geodesic grid:20x20 --from point:1,2,3x
 
+# What a file has beside triangles stays from OBJ to OBJ, and else is named.
+
+printf 'g top\nusemtl red\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1 2 3 4\n' \
+    >"$dir/quad.obj"
+for ending in ply vtk glb; do
+    gives 0 "quad.$ending has triangles only; left out of .*: 1 group, materials, text.*polyg" \
+        adf "$dir/quad.obj" --out "$dir/quad.$ending"
+done
+"$program" adf "$dir/quad.obj" --out "$dir/kept.obj" >"$dir/out" 2>&1 &&
+    ! grep -q 'left out' "$dir/out"
+record $? "from OBJ to OBJ nothing is left out"
+gives 0 'ply has triangles only; left out of .*: 1 more values of each vertex' adf "$dir/quad.ply" \
+    --out "$dir/again.ply"
+gives 0 'ply has triangles only; left out of .*: data at points and cells' adf "$dir/quad.vtk" \
+    --out "$dir/again.ply"
+point='AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA'
+part='{"attributes":{"POSITION":0,"NORMAL":0}}'
+printf '{"asset":{"version":"2.0"},"meshes":[{"primitives":[%s,%s]}],"materials":[{}],
+    "nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"accessors":[{"bufferView":0,"componentType":5126,
+    "count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{
+    "byteLength":36,"uri":"data:application/octet-stream;base64,%s"}]}' \
+    "$part" "$part" "$point" >"$dir/parts.gltf"
+"$program" adf "$dir/parts.gltf" --out "$dir/parts.obj" >"$dir/out" 2>"$dir/err"
+grep -q 'left out of .*: the division into 2 primitives, materials, normals' "$dir/out"
+record $? "the primitives of glTF are named"
+
 # Curves along edges, and lists from files.
 
 printf '3 5,7 # three\n\n9-11' >"$dir/list"

@@ -157,6 +157,9 @@ void app_mesh(mesh *out, const char *operand, bool faces_needed);
 /** The file of the last app_mesh, if the mesh has its vertices as they are; else NULL. */
 extern const char *app_source;
 
+/** Says in a line what the file of the last app_mesh has and the mesh in the file `out` has not. */
+void app_print_left(const char *out, const mesh_extra *extra);
+
 /** mesh_mean_edge_length (laplacian.h); dies if out of memory. */
 double app_mean_edge_length(const mesh *m);
 

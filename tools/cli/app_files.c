@@ -64,16 +64,28 @@ static void weld(mesh *m, const char *operand, bool is_file) {
 
 const char *app_source = NULL;
 
+/* What the file of the last mesh has and no mesh has, and its name; NULL: no file. */
+static char left[200];
+static const char *left_of;
+
+void app_print_left(const char *out, const mesh_extra *extra) {
+    if (left_of != NULL && left[0] != '\0' && !mesh_write_keeps_source(out, extra)) {
+        printf("%s has triangles only; left out of %s: %s.\n", out, left_of, left);
+    }
+}
+
 void app_mesh(mesh *out, const char *operand, bool faces_needed) {
     char message[512], note[512] = "";
     bool made = surface_is_specification(operand);
     if (made ? !surface_generate(out, operand, message, sizeof message)
-             : !mesh_read_noting(out, operand, message, sizeof message, note, sizeof note)) {
+             : !mesh_read_telling(out, operand, message, sizeof message, note, sizeof note, left,
+                                  sizeof left)) {
         app_die("%s", message);
     }
     if (note[0] != '\0') {
         app_warn("%s", note);
     }
+    left_of = made ? NULL : operand;
     weld(out, operand, !made);
     app_source = made || app_weld >= 0 || strcmp(operand, "-") == 0 ? NULL : operand;
     if (faces_needed && out->n_faces == 0) {

@@ -232,6 +232,9 @@ void app_write(const app_output *o, const mesh *m, const mesh_extra *extra,
     if (o->out != NULL && !mesh_write(o->out, m, &all, message, sizeof message)) {
         app_die("%s", message);
     }
+    if (o->out != NULL) {
+        app_print_left(o->out, &all);
+    }
     if (o->png != NULL) {
         render_view view;
         picture p;

@@ -170,6 +170,7 @@ static void write_mesh(const unwrap_command *cmd, const atlas *a) {
     if (!mesh_write(cmd->out, corners ? &cmd->m : &a->m, &extra, message, sizeof message)) {
         app_die("%s", message);
     }
+    app_print_left(cmd->out, &extra);
 }
 
 /* Draws the layout in the plane if `uv` is given, else a mesh in space. */

@@ -9,10 +9,8 @@
 
 enum { PAIRS = 8 }; /* of steps and changes of the gradient that are kept */
 
-/* After the start, so many steps are those with fixed rotations, which settles these; then the
- * Hessian has its turn. It is factored again after RENEWED steps, if the last one moved a vertex by
- * more than SETTLED diagonals. */
-enum { EARLY = 3, RENEWED = 2 };
+/* The Hessian is factored again after each step that moved a vertex by more than so many
+ * diagonals. */
 #define SETTLED 0.002
 
 typedef struct relaxation {
@@ -142,8 +140,7 @@ static sl_status iterate(relaxation *r, double tolerance, int limit, deformer_re
     how->moved = 1;
     while (status == SL_OK && !how->converged && how->solves < limit) {
         const double before = r->energy;
-        if (how->solves > EARLY && how->moved > SETTLED && !again &&
-            (!r->has_hessian || how->solves % RENEWED == 0)) {
+        if (how->moved > SETTLED && !again) {
             status = renew(r);
         }
         status = status == SL_OK ? find_direction(r) : status;

@@ -15,9 +15,9 @@ typedef struct deformer_rest {
 /** Lowers the energy of DEFORM_ARAP until a step moves no vertex farther than `tolerance`
  *  diagonals of the bounding box and lowers the energy by at most that part, twice in a row.
  *
- *  Steps are those of the limited-memory quasi-Newton method (L-BFGS) that takes the matrix of the
- *  global step, in which only the rotations are fixed, for the Hessian at first: a solve with the
- *  factor for each. They are shortened until the energy falls.
+ *  Steps are Newton's, each with a factor of the Hessian of its own, until they move no vertex far;
+ *  then those of the limited-memory quasi-Newton method (L-BFGS) with the last factor. They are
+ *  shortened until the energy falls.
  *
  *  d      [in,out]  positions d->Y; first those of held vertices move to their targets.
  *  limit  [in]      the largest number of solves, 1 or more.

@@ -155,13 +155,25 @@ bool mesh_build_strip(mesh_build *b) {
     return face != NULL && end_polygon(b, count);
 }
 
+/* Appends to a text of `size` bytes, after a separator of two characters. */
+static void append(char *text, size_t size, const char *between, const char *format, va_list list) {
+    const size_t used = strlen(text);
+    const size_t gap = used > 0 && used + 3 < size ? 2 : 0;
+    memcpy(text + used, between, gap);
+    (void)vsnprintf(text + used + gap, size - used - gap, format, list);
+}
+
 void mesh_build_note(mesh_build *b, const char *format, ...) {
-    const size_t used = strlen(b->note);
-    const size_t gap = used > 0 && used + 3 < sizeof b->note ? 2 : 0;
     va_list list;
     va_start(list, format);
-    memcpy(b->note + used, "; ", gap);
-    (void)vsnprintf(b->note + used + gap, sizeof b->note - used - gap, format, list);
+    append(b->note, sizeof b->note, "; ", format, list);
+    va_end(list);
+}
+
+void mesh_build_leave(mesh_build *b, const char *format, ...) {
+    va_list list;
+    va_start(list, format);
+    append(b->left, sizeof b->left, ", ", format, list);
     va_end(list);
 }
 
@@ -229,6 +241,12 @@ bool mesh_read(mesh *out, const char *path, char *message, size_t message_size) 
 
 bool mesh_read_noting(mesh *out, const char *path, char *message, size_t message_size, char *note,
                       size_t note_size) {
+    char left[2];
+    return mesh_read_telling(out, path, message, message_size, note, note_size, left, sizeof left);
+}
+
+bool mesh_read_telling(mesh *out, const char *path, char *message, size_t message_size, char *note,
+                       size_t note_size, char *left, size_t left_size) {
     static const struct {
         const char *ending;
         bool (*read)(mesh_build *b);
@@ -236,6 +254,7 @@ bool mesh_read_noting(mesh *out, const char *path, char *message, size_t message
                    {".stl", mesh_read_stl},  {".vtk", mesh_read_vtk}, {".glb", mesh_read_gltf},
                    {".gltf", mesh_read_gltf}};
     memset(out, 0, sizeof *out);
+    left[0] = '\0';
     if (note_size > 0) {
         note[0] = '\0';
     }
@@ -264,6 +283,10 @@ bool mesh_read_noting(mesh *out, const char *path, char *message, size_t message
     input_close(&in);
     if (ok) {
         *out = b.result;
+        if (b.n_polygon > 0) {
+            mesh_build_leave(&b, "polygons of more than three corners");
+        }
+        (void)snprintf(left, left_size, "%s", b.left);
         if (note_size > 0 && b.note[0] != '\0') {
             (void)snprintf(note, note_size, "%s: %s", path, b.note);
         }

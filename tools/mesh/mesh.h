@@ -80,6 +80,14 @@ bool mesh_read(mesh *out, const char *path, char *message, size_t message_size);
 bool mesh_read_noting(mesh *out, const char *path, char *message, size_t message_size, char *note,
                       size_t note_size);
 
+/** The same, and names what the file has beside vertices and triangles, and no mesh has: groups,
+ *  materials, texture coordinates, data.
+ *
+ *  left  [out]  "2 groups, normals", left_size >= 1 bytes; "" if there is nothing or on error.
+ */
+bool mesh_read_telling(mesh *out, const char *path, char *message, size_t message_size, char *note,
+                       size_t note_size, char *left, size_t left_size);
+
 /** Whether all corners of faces are vertices of the mesh. */
 bool mesh_faces_are_in_range(const mesh *m);
 

@@ -24,6 +24,7 @@ typedef struct mesh_build {
     int64_t largest_face; /* the polygon of that index, counted from 0 */
     int64_t polygons;
     char note[400]; /* of mesh_build_note, separated by semicolons */
+    char left[200]; /* of mesh_build_leave, separated by commas */
 } mesh_build;
 
 /** Adds a vertex. Like the next two functions, sets the message of b->in and returns false on
@@ -68,6 +69,9 @@ bool mesh_build_is_in_range(mesh_build *b);
 
 /** Notes what is odd about a file that can be read. A note beyond 400 bytes is cut. */
 void mesh_build_note(mesh_build *b, const char *format, ...) INPUT_PRINTF(2, 3);
+
+/** Names something that the file has and a mesh has not. */
+void mesh_build_leave(mesh_build *b, const char *format, ...) INPUT_PRINTF(2, 3);
 
 /* One reader per format. Each reads all of b->in into b; false: b->in has the message. */
 bool mesh_read_obj(mesh_build *b);

@@ -26,6 +26,8 @@ typedef struct gltf {
     bool *visited;       /* of the nodes */
     sl_int merged;
     int64_t others; /* primitives that are points or lines */
+    int64_t primitives, textured, with_normals,
+        colored; /* of triangles, and those that have these */
     /* the positions that the primitives of the current mesh have added: shared ones once */
     int64_t last_accessor;
     sl_int last_first;
@@ -188,6 +190,10 @@ static bool add_primitive(gltf *g, const cJSON *primitive, int64_t number, const
         g->others++;
         return true;
     }
+    g->primitives++;
+    g->textured += member(attributes, "TEXCOORD_0") != NULL;
+    g->with_normals += member(attributes, "NORMAL") != NULL;
+    g->colored += member(attributes, "COLOR_0") != NULL;
     if (!add_positions(g, positions, p, &c.first)) {
         return false;
     }
@@ -354,6 +360,21 @@ bool mesh_read_gltf(mesh_build *b) {
         const cJSON *maker = member(member(g.file.root, "asset"), "generator");
         g.keeps_vertices = cJSON_IsString(maker) && strcmp(maker->valuestring, "sparse-local") == 0;
         ok = add_scene(&g);
+    }
+    if (ok && g.primitives > 1) {
+        mesh_build_leave(b, "the division into %lld primitives", (long long)g.primitives);
+    }
+    if (ok && member(g.file.root, "materials") != NULL) {
+        mesh_build_leave(b, "materials");
+    }
+    if (ok && g.textured > 0) {
+        mesh_build_leave(b, "texture coordinates");
+    }
+    if (ok && g.with_normals > 0) {
+        mesh_build_leave(b, "normals");
+    }
+    if (ok && g.colored > 0) {
+        mesh_build_leave(b, "colors");
     }
     if (ok && g.others > 0) {
         mesh_build_note(b, "%lld primitives are points or lines, and ignored", (long long)g.others);

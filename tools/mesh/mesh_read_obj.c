@@ -45,10 +45,15 @@ bool mesh_read_obj(mesh_build *b) {
     input *in = b->in;
     in->comment = '#';
     in->continuation = true;
+    int64_t groups = 0, materials = 0, textures = 0, normals = 0;
     while (input_more(in)) {
         char word[4]; /* longer keywords are truncated and match none of the three below */
         input_word(in, word, sizeof word);
         /* fo: a face in files of before 1995 */
+        groups += strcmp(word, "g") == 0 || strcmp(word, "o") == 0;
+        materials += strcmp(word, "use") == 0; /* usemtl */
+        textures += strcmp(word, "vt") == 0;
+        normals += strcmp(word, "vn") == 0;
         const bool is_face = strcmp(word, "f") == 0 || strcmp(word, "fo") == 0;
         if (is_face ? !read_face(b) : strcmp(word, "v") == 0 && !read_vertex(b)) {
             return false;
@@ -60,6 +65,18 @@ bool mesh_read_obj(mesh_build *b) {
     if (b->result.n_vertices == 0) {
         in->line = 0;
         return input_error(in, "no vertices: not an OBJ mesh");
+    }
+    if (groups > 0) {
+        mesh_build_leave(b, "%lld group%s", (long long)groups, groups == 1 ? "" : "s");
+    }
+    if (materials > 0) {
+        mesh_build_leave(b, "materials");
+    }
+    if (textures > 0) {
+        mesh_build_leave(b, "texture coordinates");
+    }
+    if (normals > 0) {
+        mesh_build_leave(b, "normals");
     }
     return true;
 }

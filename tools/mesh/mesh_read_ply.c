@@ -303,6 +303,10 @@ static bool read_instances(ply *f, const ply_element *e) {
     bool vertex = strcmp(e->name, "vertex") == 0;
     bool face = strcmp(e->name, "face") == 0;
     bool strips = strcmp(e->name, "tristrips") == 0;
+    const int others = e->past - e->first - (vertex ? 3 : 1);
+    if ((vertex || face) && others > 0) {
+        mesh_build_leave(f->b, "%d more values of each %s", others, e->name);
+    }
     if (!vertex && !face && !strips && e->count > 0) {
         mesh_build_note(f->b, "element %s is ignored, %lld rows", e->name, (long long)e->count);
     }

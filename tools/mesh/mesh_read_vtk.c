@@ -319,6 +319,9 @@ bool mesh_read_vtk(mesh_build *b) {
     if (ok && f.others > 0) {
         mesh_build_note(b, "%lld cells are points or lines, and ignored", (long long)f.others);
     }
+    if (ok && f.has_data) {
+        mesh_build_leave(b, "data at points and cells");
+    }
     if (ok && f.has_data && (f.others > 0 || f.is_grid)) {
         mesh_build_note(b, "data at points and cells are not read");
     }

@@ -34,6 +34,9 @@ extern const char mesh_write_formats[];
 /** Whether the name of a file selects one of the formats of mesh_write. */
 bool mesh_write_knows(const char *path);
 
+/** Whether mesh_write writes the lines of `source`, if it is unchanged, to this file. */
+bool mesh_write_keeps_source(const char *path, const mesh_extra *extra);
+
 /** Writes a mesh. The file name selects the format: .obj, .ply, .vtk, .glb or .gltf, plain or
  *  with .gz.
  *

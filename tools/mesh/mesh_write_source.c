@@ -94,12 +94,16 @@ static bool put_face(mesh_sink *s, input *in, const mesh *m, const mesh_extra *e
     return input_next_line(in);
 }
 
+bool mesh_write_keeps_source(const char *path, const mesh_extra *extra) {
+    return extra->source != NULL && input_path_ends(path, ".obj") &&
+           input_path_ends(extra->source, ".obj") && extra->uv == NULL && extra->corner_uv == NULL;
+}
+
 bool mesh_write_source(mesh_sink *s, const mesh *m, const mesh_extra *extra) {
     input in;
     lines l;
     char word[8];
-    if (extra->source == NULL || !input_path_ends(extra->source, ".obj") || extra->uv != NULL ||
-        extra->corner_uv != NULL || !input_open(&in, extra->source, NULL, 0)) {
+    if (!mesh_write_keeps_source(".obj", extra) || !input_open(&in, extra->source, NULL, 0)) {
         return false;
     }
     const char *start = in.at;

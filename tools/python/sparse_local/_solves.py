@@ -119,9 +119,9 @@ class Solves:
         """A part of the matrix in which local solves do not depend on the rest; see Region."""
         return Region(self, rows, bytes)
 
-    def constraints(self, rows=()):
+    def constraints(self, rows=(), A=None):
         """Pins: rows that solves hold at given values, on top of this factor; see Constraints."""
-        return Constraints(self, rows)
+        return Constraints(self, rows, A)
 
     def solve_part(self, parts, B):
         """X = P' L'^-1 D^-1 L^-1 P B with only the parts that are named, as 'P L' or ['LT', 'PT'].

@@ -42,6 +42,50 @@ def test_constraints_hold_rows(A, F, count, renewed):
     assert np.allclose(P.solve(b, new), held(A, [5, 399, 17], b, new), atol=1e-12)
 
 
+@pytest.mark.parametrize("count", [None, 2])
+def test_many_held_rows_become_a_factor_of_the_others(count):
+    A = grid(40, 0.0)  # singular
+    F = sl.Factor(A, null_pivots="skip")
+    rows = list(np.random.default_rng(3).permutation(1600)[:900])
+    b = right_hand_sides(1600, count)
+    P, plain = F.constraints(rows[:100], A=A), F.constraints(rows[:100])
+    for step, kinds in ((rows[100:700], 1), (rows[700:], 1), (None, 1), (None, 0), ([1], 0)):
+        if step is None:  # the first half is released
+            gone = np.arange(len(P) // 3 if len(P) > 700 else len(P) - 150)
+            P.release(gone)
+            plain.release(gone)
+            rows = rows[len(gone):]
+        else:
+            step = [row for row in step if step != [1] or row not in rows]
+            P.add(step)
+            plain.add(step)
+            rows += [row for row in step if row not in rows]
+        values = right_hand_sides(len(P), count)
+        assert len(P) == len(plain) and P._is_many == bool(kinds)
+        x = P.solve(b, values)
+        assert np.allclose(x, plain.solve(b, values), atol=1e-9)
+        assert P._is_many == (P._fixed is not None)
+        assert np.array_equal(P.solve(b, values), x)
+    with pytest.raises(sl.PivotError):
+        P.add([rows[-1]])
+    P.add([row for row in range(1600) if row not in rows][:500])
+    with pytest.raises(sl.PivotError):
+        P.add([rows[0]])
+    with pytest.raises(sl.ArgumentError):
+        P.add([1600])
+    with pytest.raises(sl.ArgumentError):
+        P.add_equality([0, 1], [1.0, 1.0])
+    with pytest.raises(sl.ArgumentError):
+        P.solve(None, np.zeros(len(P)), plan=F.plan([7], [6]))
+    F.refactor(2 * A)
+    with pytest.raises(sl.ArgumentError):
+        P.update()
+    values = right_hand_sides(len(P))
+    x = P.update(2 * A).solve(b[:, 0] if count else b, values)
+    free = np.setdiff1d(np.arange(1600), P._rows)
+    assert np.allclose((2 * A @ x - (b[:, 0] if count else b))[free], 0, atol=1e-9)
+
+
 def test_equalities_and_singular_systems():
     A = grid(8, 0.0)
     F = sl.Factor(A, null_pivots="skip")
