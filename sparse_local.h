@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 6f46d12f636b5880
+ * FNV-1a of the lines after this comment, without the license: 4cc62ecddf083a23
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -19,34 +19,34 @@
  *   1485 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
  *   1524 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
  *   1624 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1702 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1772 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1860 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1960 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2002 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2123 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2265 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2351 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
- *   2460 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
- *   2502 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
- *   2577 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2667 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2731 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2774 impl/ base: the compiler, status, memory, sorting, threads
- *   4086 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4967 impl/ matrix: sparse matrices of the caller and of the library
- *   5828 impl/ ordering: fill-reducing orderings of a graph
- *  10585 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12827 impl/ factor: the numbers of L and D
- *  15413 impl/ solve: full and local solves
- *  16925 impl/ singular: null spaces of semidefinite matrices
- *  18176 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20215 impl/ pivots: the order of the pivots by the values of a matrix
- *  20619 impl/ float: L in single precision
- *  20802 impl/ inverse: entries of the inverse, regions
- *  23704 impl/ change: a factor that follows changes of its matrix
- *  25974 impl/ constraints: rows held at values, on a factor that stays
- *  27325 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *   1701 inverse.h    entries and blocks of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1771 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1859 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1959 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2001 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2122 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2264 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2350 constraints.h rows held at given values, on top of a factor that stays as it is (SL_WITH_CONSTRAINTS)
+ *   2459 submatrix.h  the factor of a principal submatrix, from that of the whole matrix (SL_WITH_EDIT)
+ *   2501 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_EDIT)
+ *   2576 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2666 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2730 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2773 impl/ base: the compiler, status, memory, sorting, threads
+ *   4085 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4966 impl/ matrix: sparse matrices of the caller and of the library
+ *   5827 impl/ ordering: fill-reducing orderings of a graph
+ *  10584 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12826 impl/ factor: the numbers of L and D
+ *  15412 impl/ solve: full and local solves
+ *  16924 impl/ singular: null spaces of semidefinite matrices
+ *  18175 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20214 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20618 impl/ float: L in single precision
+ *  20801 impl/ inverse: entries of the inverse, regions
+ *  23703 impl/ change: a factor that follows changes of its matrix
+ *  25973 impl/ constraints: rows held at values, on a factor that stays
+ *  27324 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
  *  30050 impl/ fixed: rows fixed at given values
  *  30606 impl/ io: files that are replaced only when they are complete
  *  30825 impl/ files: Matrix Market files, 64-bit indices
@@ -1676,8 +1676,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_certify(sl_factor *F, const sl_csc *A,
  *  stats   [out]     certificate.
  *  Returns  as sl_plan_solve; also SL_ERR_STALE: F is not certified; SL_ERR_UNSUPPORTED: a plan in
  *           a region.
- *  Cost     with scales of an earlier call 1.0 to 1.1 of sl_plan_solve. They take nx forward sweeps
- *           in blocks of 8: without them, 5 of its time for 20 rows.
+ *  Cost     that of sl_plan_solve with the scales of an earlier call; they take nx forward sweeps.
  *  Threads  as sl_plan_solve; scales are written by a call that computes them.
  *  Manual   tools/docs/bounds.md
  */
@@ -29802,6 +29801,7 @@ static int sli_reuse_is_suited(const sl_factor *F, const sl_factor *G) {
   const double a = F->rule.null_tolerance, b = G->rule.null_tolerance;
   return F->history.marks != NULL && G->history.marks != NULL && F->E == NULL && G->E == NULL &&
        F->type == G->type && G->type->accepts == NULL && F->null.calls == G->null.calls &&
+       F->null.vectors == 1 && G->null.vectors == 1 &&
        F->rule.regularization == G->rule.regularization &&
        (a == b || (sli_tolerance_is_default(F) && sli_tolerance_is_default(G)));
 }

@@ -59,8 +59,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_certify(sl_factor *F, const sl_csc *A,
  *  stats   [out]     certificate.
  *  Returns  as sl_plan_solve; also SL_ERR_STALE: F is not certified; SL_ERR_UNSUPPORTED: a plan in
  *           a region.
- *  Cost     with scales of an earlier call 1.0 to 1.1 of sl_plan_solve. They take nx forward sweeps
- *           in blocks of 8: without them, 5 of its time for 20 rows.
+ *  Cost     that of sl_plan_solve with the scales of an earlier call; they take nx forward sweeps.
  *  Threads  as sl_plan_solve; scales are written by a call that computes them.
  *  Manual   tools/docs/bounds.md
  */
