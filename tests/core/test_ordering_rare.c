@@ -100,6 +100,54 @@ static void bands_of_random_graphs_end(void **state) {
     }
 }
 
+static void bisect_into_all_and_nothing(sli_subgraph *sub, int is_first) {
+    (void)is_first;
+    memset(sub->side, 1, (size_t)sub->n);
+}
+
+static void bisect_into_halves(sli_subgraph *sub, int is_first) {
+    (void)is_first;
+    for (sl_int k = 0; k < sub->n; k++) {
+        sub->side[k] = k < sub->n / 2;
+    }
+}
+
+/* A split that leaves all on one side is no progress, and would be tried until the tree is full. */
+static void splits_have_two_sides(void **state) {
+    (void)state;
+    enum { N = 64 };
+    static sl_off begin[N + 1];
+    static sl_int to[2 * N];
+    const sl_allocator a = sli_allocator(NULL);
+    sli_team team = sli_team_of(1);
+    sli_dissection d;
+    sli_block b = {NULL, 0};
+    for (sl_int v = 0; v < N; v++) { /* a circle */
+        begin[v + 1] = begin[v] + 2;
+        to[2 * v] = (v + 1) % N;
+        to[2 * v + 1] = (v + N - 1) % N;
+    }
+    memset(&d, 0, sizeof d);
+    d.team = &team;
+    sli_dissection_layout(&d, &b, N, 2 * N); /* counts */
+    SL_CHECK(sli_block_alloc(&b, &a));
+    sli_dissection_layout(&d, &b, N, 2 * N);
+    for (sl_int v = 0; v < N; v++) {
+        d.workers->subgraph.local[v] = -1;
+    }
+    d.levels[0].n = d.total = N;
+    d.levels[0].begin = begin;
+    d.levels[0].to = to;
+    d.leaf_size = 1;
+    sli_dissect_start(&d);
+    assert_int_equal(sli_dissect_split(&d, 1, bisect_into_halves), 1);
+    assert_int_equal(sli_dissect_split(&d, 1, bisect_into_halves), 2);
+    assert_int_equal(sli_dissect_split(&d, 1, bisect_into_all_and_nothing), 0);
+    assert_int_equal(sli_dissect_split(&d, 1, bisect_into_halves), 4);
+    assert_int_equal(sli_dissect_split(&d, 1, bisect_into_halves), 8);
+    sli_free(&a, b.base);
+}
+
 /* What is before a cut that takes the first level as a whole is no part. */
 static void parts_without_rows_are_none(void **state) {
     (void)state;
@@ -140,6 +188,7 @@ int main(void) {
         cmocka_unit_test(a_hierarchy_that_does_not_shrink_ends),
         cmocka_unit_test(rows_of_equal_keys_may_differ),
         cmocka_unit_test(bands_of_random_graphs_end),
+        cmocka_unit_test(splits_have_two_sides),
         cmocka_unit_test(parts_without_rows_are_none),
         cmocka_unit_test(columns_of_too_many_rows_are_merged),
         cmocka_unit_test(the_null_tolerance_stays_small),
