@@ -103,7 +103,8 @@ def test_limits(tmp_path):
 @pytest.mark.parametrize("before, between", [
     (b"", b" % a comment after a blank\n"), (b"", b"\t\r%\n \n"), (b"\xef\xbb\xbf", b""),
     (b"", b" " * 65534), (b"", b" " * 65536), (b"", b"%" + b"x" * 65536 + b"\n"),
-    (b"", b"%" + b"\n" * 200)])
+    (b"", b"%" + b"\n" * 200)],
+                         ids=["blank", "tab", "mark", "almost a piece", "a piece", "long", "empty"])
 def test_limits_find_the_sizes_where_the_library_does(tmp_path, before, between):
     path = written(tmp_path / "a.mtx", before + BANNER + between + b"1000 1000 2\n1 1 1\n2 2 2\n")
     assert sl.read_matrix(path).shape == (1000, 1000)
