@@ -96,6 +96,29 @@ static inline void *sl_symmetric_array(size_t count, size_t size) {
     return count < SIZE_MAX / size - 1 ? malloc((count + 1) * size) : NULL;
 }
 
+/* x 2^exponent, as ldexp, which is slow. */
+static inline double sl_symmetric_times(double x, int exponent) {
+    if (exponent < -1000 || exponent > 1000) {
+        return ldexp(x, exponent);
+    }
+    const uint64_t bits = (uint64_t)(1023 + exponent) << 52;
+    double power;
+    memcpy(&power, &bits, sizeof power);
+    return x * power;
+}
+
+/* |x| is 1/2 to 1 times 2^this; 0 for 0. As frexp. */
+static inline int sl_symmetric_exponent(double x) {
+    uint64_t bits;
+    int exponent;
+    memcpy(&bits, &x, sizeof bits);
+    exponent = (int)(bits >> 52 & 2047) - 1022;
+    if (exponent == -1022) {
+        (void)frexp(x, &exponent);
+    }
+    return exponent;
+}
+
 static inline void sl_symmetric_free_shifted(sl_symmetric *M) {
     const sl_csc none = {0, 0, NULL, NULL, NULL};
     free((void *)(uintptr_t)M->shifted.p);
@@ -144,15 +167,14 @@ static inline void sl_symmetric_scale(sl_symmetric *M, const double *x, double *
             }
         }
         for (sl_int k = 0; k < n; k++) {
-            int exponent = 0; /* a row of zeros stays as it is */
-            (void)frexp(largest[k], &exponent);
+            int exponent = sl_symmetric_exponent(largest[k]); /* a row of zeros stays as it is */
             exponent = exponent >= 0 ? -(exponent / 2) : (1 - exponent) / 2;
             is_even &= exponent == 0;
             M->scale[k] += exponent;
         }
         for (sl_int j = 0; j < n && !is_even; j++) {
             for (sl_int k = M->p[j]; k < M->p[j + 1]; k++) {
-                M->x[k] = ldexp(x[k], M->scale[j] + M->scale[M->i[k]]);
+                M->x[k] = sl_symmetric_times(x[k], M->scale[j] + M->scale[M->i[k]]);
             }
         }
     }
@@ -235,13 +257,20 @@ static inline sl_status sl_symmetric_factor(sl_symmetric *M, int way, sl_stats *
     } else if (way == SL_SYMMETRIC_PIVOTED) {
         status = sl_symmetric_factor_shifted(M, &M->F, 0, stats);
     } else { /* an eigenvalue near -e needs another e */
-        double e = SL_SYMMETRIC_SHIFT;
-        for (int k = 0; k < 4 && status == SL_ERR_PIVOT; k++, e *= e > 0 ? -1 : -3) {
+        static const double shifts[4] = {SL_SYMMETRIC_SHIFT, -SL_SYMMETRIC_SHIFT,
+                                         3 * SL_SYMMETRIC_SHIFT, -3 * SL_SYMMETRIC_SHIFT};
+        int usable = -1;
+        for (int k = 0; k < 5 && status == SL_ERR_PIVOT; k++) {
+            const int e = k < 4 ? k : usable; /* at last one with a small pivot */
+            if (e < 0) {
+                break;
+            }
             sl_factor_free(M->F);
             M->F = NULL;
-            status = sl_symmetric_factor_shifted(M, &M->F, e, stats);
-            if (status == SL_OK && stats->factor.pivot_min < 0.01 * fabs(e) && k < 3) {
+            status = sl_symmetric_factor_shifted(M, &M->F, shifts[e], stats);
+            if (status == SL_OK && k < 4 && stats->factor.pivot_min < 0.01 * fabs(shifts[e])) {
                 status = SL_ERR_PIVOT;
+                usable = usable < 0 ? e : usable;
             }
         }
     }
@@ -476,19 +505,17 @@ static inline sl_status sl_symmetric_take(const sl_symmetric *M, double *to, int
         int is_zero = 1;
         top[c] = 0;
         for (size_t k = 0; k < n; k++) {
-            int exponent;
+            const int exponent = sl_symmetric_exponent(b[k]) + M->scale[k];
             if (!(fabs(b[k]) <= DBL_MAX)) {
                 return sl_symmetric_refuse(stats, SL_ERR_NOT_FINITE, "an entry of B", (sl_int)k);
             }
-            (void)frexp(b[k], &exponent);
-            exponent += M->scale[k];
             if (b[k] != 0 && (is_zero || exponent > top[c])) {
                 top[c] = exponent;
                 is_zero = 0;
             }
         }
         for (size_t k = 0; k < n; k++) {
-            to[k + (size_t)c * n] = ldexp(b[k], M->scale[k] - top[c]);
+            to[k + (size_t)c * n] = sl_symmetric_times(b[k], M->scale[k] - top[c]);
         }
     }
     return SL_OK;
@@ -503,9 +530,9 @@ static inline double sl_symmetric_hold(const sl_symmetric *M, double *work, cons
         double *b = work + n * (size_t)c, *y = b + size;
         int is_held = 1;
         for (size_t k = 0; k < n; k++) {
-            const double value = ldexp(y[k], M->scale[k] + top[c]);
+            const double value = sl_symmetric_times(y[k], M->scale[k] + top[c]);
             if (y[k] != 0 && !(fabs(value) >= DBL_MIN && fabs(value) <= DBL_MAX)) {
-                const double held = ldexp(value, -M->scale[k] - top[c]);
+                const double held = sl_symmetric_times(value, -M->scale[k] - top[c]);
                 is_held &= held == y[k];
                 y[k] = held;
             }
@@ -576,7 +603,7 @@ static inline sl_status sl_symmetric_solve(sl_symmetric *M, double *X, size_t ld
         for (sl_int c = 0; c < columns && status == SL_OK; c++) {
             const double *y = work + n * (size_t)(columns + c);
             for (size_t k = 0; k < n; k++) {
-                X[k + (size_t)(begin + c) * ldx] = ldexp(y[k], M->scale[k] + top[c]);
+                X[k + (size_t)(begin + c) * ldx] = sl_symmetric_times(y[k], M->scale[k] + top[c]);
             }
         }
     }
