@@ -536,6 +536,11 @@ static void blocks_in_place(void **state) {
     assert_int_equal(sl_symmetric_solve(M, X, 3, B, 3, 20, NULL), SL_OK);
     assert_int_equal(sl_symmetric_solve(M, B, 3, B, 2, 20, NULL), SL_ERR_ARGUMENT);
     assert_int_equal(sl_symmetric_solve(M, B, 4, B, 3, 15, NULL), SL_ERR_ARGUMENT);
+    for (sl_int nrhs = 1; nrhs < 3; nrhs++) {
+        const size_t by_rows = SL_ROWS(3);
+        assert_int_equal(sl_symmetric_solve(M, B, 3, X, by_rows, nrhs, NULL), SL_ERR_ARGUMENT);
+        assert_int_equal(sl_symmetric_solve(M, B, by_rows, X, 3, nrhs, NULL), SL_ERR_ARGUMENT);
+    }
     assert_int_equal(sl_symmetric_solve(M, B, 3, B, 3, 20, NULL), SL_OK);
     assert_memory_equal(X, B, sizeof X);
     sl_symmetric_free(M);

@@ -548,9 +548,9 @@ static inline double sl_symmetric_hold(const sl_symmetric *M, double *work, cons
 /** Solves A X = B by the first way that reaches SL_SYMMETRIC_ERROR. Of a singular A it finds a
  *  solution of each consistent system: about the shortest one of the scaled system.
  *
- *  X      [out]  n x nrhs, leading dimension ldx >= n; may be B (then ldx = ldb). After
- *                SL_ERR_INACCURATE the best that was found.
- *  B      [in]   n x nrhs, leading dimension ldb >= n.
+ *  X      [out]  n x nrhs by columns, leading dimension ldx >= n; may be B (then ldx = ldb).
+ *                After SL_ERR_INACCURATE the best that was found.
+ *  B      [in]   n x nrhs by columns, leading dimension ldb >= n.
  *  stats  [out]  refine: the largest backward error of a column.
  *  Returns  SL_OK; SL_ERR_INACCURATE: a column of B has no solution, or none that double holds;
  *           SL_ERR_NOT_FINITE: B at error.row; SL_ERR_ARGUMENT; SL_ERR_MEMORY;
@@ -563,11 +563,12 @@ static inline sl_status sl_symmetric_solve(sl_symmetric *M, double *X, size_t ld
     sl_stats own;
     stats = stats != NULL ? stats : &own;
     if (M == NULL || nrhs < 0 || (nrhs > 0 && M->A.n_cols > 0 && (X == NULL || B == NULL)) ||
+        (nrhs > 0 && ((ldx | ldb) & SL_ROW_MAJOR) != 0) ||
         (nrhs > 1 && (ldx < (size_t)M->A.n_cols || ldb < (size_t)M->A.n_cols ||
                       (X == B && ldx != ldb)))) {
         return sl_symmetric_refuse(stats, SL_ERR_ARGUMENT,
-                                   "an array is NULL, nrhs negative, ldx or ldb below n, or X is B "
-                                   "and ldx not ldb",
+                                   "an array is NULL, nrhs negative, ldx or ldb below n or one of "
+                                   "SL_ROWS, or X is B and ldx not ldb",
                                    -1);
     }
     if (M->F == NULL) {
