@@ -1,7 +1,17 @@
 /* test_symmetric.c: any symmetric system: the way it takes, its solution, its inertia */
 #include "tests/lib/dense_eigen.h"
 
+static long until_failure = -1; /* calls of malloc that succeed before one fails; -1: all */
+
+static int memory_ends(void) {
+    return until_failure >= 0 && until_failure-- == 0;
+}
+
+#define malloc(size) (memory_ends() ? NULL : malloc(size))
+#define calloc(count, size) (memory_ends() ? NULL : calloc(count, size))
 #include "tools/adapters/sparse_local_symmetric.h"
+#undef malloc
+#undef calloc
 
 enum { MOST = 24 };
 
@@ -65,9 +75,9 @@ static double backward_error(const sl_symmetric *M, const system_t *s, const dou
             residual -= s->dense[i + s->n * j] * x[j];
             size += fabs(s->dense[i + s->n * j] * x[j]);
         }
-        const double of = M->way == SL_SYMMETRIC_SINGULAR ? 1 / M->scale[i] : size;
+        const double of = M->way == SL_SYMMETRIC_SINGULAR ? ldexp(1, -M->scale[i]) : size;
         worst = residual == 0 ? worst : fmax(worst, fabs(residual) / of);
-        largest = fmax(largest, M->scale[i] * size);
+        largest = fmax(largest, ldexp(size, M->scale[i]));
     }
     return M->way == SL_SYMMETRIC_SINGULAR && largest > 0 ? worst / largest : worst;
 }
@@ -203,12 +213,12 @@ static void constrained(system_t *s, int kind, uint64_t *seed) {
 }
 
 /* The signs of the eigenvalues; is none of them near 0 without being it? */
-static int counted(const double *scale, const system_t *s, int sign[3]) {
+static int counted(const int *scale, const system_t *s, int sign[3]) {
     double D[MOST * MOST], V[MOST * MOST], largest = 0;
     int is_certain = 1;
     for (int j = 0; j < s->n; j++) {
         for (int i = 0; i < s->n; i++) {
-            D[i + s->n * j] = s->dense[i + s->n * j] * scale[i] * scale[j];
+            D[i + s->n * j] = ldexp(s->dense[i + s->n * j], scale[i] + scale[j]);
         }
     }
     eigen_all(D, V, s->n);
@@ -371,6 +381,217 @@ static void memory_that_ends_is_reported(void **state) {
     assert_true(failures > 5 && failures < 1000);
 }
 
+static sl_status solve_numbers(double a, double b, double *x, sl_stats *stats) {
+    const sl_int p[2] = {0, 1}, i[1] = {0};
+    const sl_csc A = {1, 1, p, i, &a};
+    sl_symmetric *M;
+    assert_true(sl_symmetric_create(&M, &A, NULL, stats) == SL_OK);
+    const sl_status status = sl_symmetric_solve(M, x, 1, &b, 1, 1, stats);
+    assert_int_equal(M->way, SL_SYMMETRIC_FIXED); /* that x is out of range says nothing of A */
+    check_inertia(M, 1, 0, 0);
+    sl_symmetric_free(M);
+    return status;
+}
+
+/* A, B and X near the ends of double; a solution beyond them is no solution. */
+static void numbers_near_the_ends_of_double(void **state) {
+    (void)state;
+    static const double solved[][3] = {{1e-320, 1e-320, 1}, {5e-324, 5e-324, 1},
+                                       {5e-324, 0, 0},      {0x1p-1070, 0x1p-70, 0x1p1000},
+                                       {1e300, 1e300, 1},   {0x1p1000, 1, 0x1p-1000},
+                                       {1e-300, 1e-300, 1}, {1, 5e-324, 5e-324}};
+    static const double unsolved[][2] = {{1e-300, 1e300}, {1e-300, 1e10}, {1e300, 1e-300},
+                                         {1e200, 1e-300}, {5e-324, 1},    {4, 5e-324}};
+    sl_stats stats;
+    double x;
+    for (size_t k = 0; k < sizeof solved / sizeof *solved; k++) {
+        assert_true(solve_numbers(solved[k][0], solved[k][1], &x, &stats) == SL_OK);
+        assert_true(x == solved[k][2]);
+    }
+    for (size_t k = 0; k < sizeof unsolved / sizeof *unsolved; k++) {
+        assert_int_equal(solve_numbers(unsolved[k][0], unsolved[k][1], &x, &stats),
+                         SL_ERR_INACCURATE);
+        assert_true(stats.refine.backward_error >= 1);
+    }
+
+    system_t s; /* scales beyond those of double: 2^-500, 2^-500, 2^1470 */
+    double b[3] = {0, 0x1p-500, 0};
+    begin(&s, 3);
+    set(&s, 1, 0, 0x1p1000);
+    set(&s, 2, 1, 0x1p-1000);
+    set(&s, 0, 0, 0x1p1000);
+    finish(&s);
+    sl_symmetric *M;
+    assert_true(sl_symmetric_create(&M, &s.A, NULL, &stats) == SL_OK);
+    assert_true(M->scale[2] > 1024);
+    assert_int_equal(sl_symmetric_solve(M, b, 3, b, 3, 1, &stats), SL_OK);
+    assert_true(b[0] == 0 && b[1] == 0 && b[2] == 0x1p500);
+    sl_symmetric_free(M);
+
+    begin(&s, 3); /* singular, with an x of 2^1089 in one row only */
+    set(&s, 0, 0, 1);
+    set(&s, 1, 1, 0x1p-1070);
+    finish(&s);
+    M = create(&s, SL_SYMMETRIC_SINGULAR);
+    double c[3] = {1, 0x1p19, 0};
+    assert_int_equal(sl_symmetric_solve(M, c, 3, c, 3, 1, &stats), SL_ERR_INACCURATE);
+    assert_true(stats.refine.backward_error > 1);
+    sl_symmetric_free(M);
+
+    begin(&s, 2);
+    set(&s, 0, 0, 1);
+    set(&s, 1, 1, 1);
+    set(&s, 1, 0, 1);
+    finish(&s);
+    M = create(&s, SL_SYMMETRIC_SINGULAR);
+    double d[2] = {1e300, -1e300}; /* inconsistent, but finite */
+    assert_int_equal(sl_symmetric_solve(M, d, 2, d, 2, 1, &stats), SL_ERR_INACCURATE);
+    sl_symmetric_free(M);
+}
+
+/* x(k) falls below the smallest double: no reason to leave the fixed order. */
+static void solutions_that_decay_to_zero(void **state) {
+    (void)state;
+    enum { LONG = 1000 };
+    sl_int p[LONG + 1], i[2 * LONG], count = 0;
+    double values[2 * LONG], b[LONG] = {1}, *x = (double *)malloc(sizeof b);
+    assert_non_null(x);
+    for (sl_int j = 0; j < LONG; j++) {
+        p[j] = count;
+        i[count] = j;
+        values[count++] = 3;
+        if (j + 1 < LONG) {
+            i[count] = j + 1;
+            values[count++] = -1;
+        }
+    }
+    p[LONG] = count;
+    const sl_csc A = {LONG, LONG, p, i, values};
+    sl_symmetric *M;
+    assert_true(sl_symmetric_create(&M, &A, NULL, NULL) == SL_OK);
+    assert_true(sl_symmetric_solve(M, x, LONG, b, LONG, 1, NULL) == SL_OK);
+    assert_int_equal(M->way, SL_SYMMETRIC_FIXED);
+    assert_true(x[700] > 0 && x[700] < 1e-290 && x[LONG - 1] < 1e-300);
+    sl_symmetric_free(M);
+    free(x);
+}
+
+/* With an eigenvalue of -e, A + e I is singular. */
+static void eigenvalues_at_the_shift(void **state) {
+    (void)state;
+    system_t s;
+    begin(&s, 4);
+    for (int k = 0; k < 4; k++) {
+        set(&s, k, k, k == 3 ? 1 - 2 * SL_SYMMETRIC_SHIFT : 1);
+    }
+    set(&s, 1, 0, 1);
+    set(&s, 3, 2, 1);
+    finish(&s);
+    sl_symmetric *M = create(&s, SL_SYMMETRIC_SINGULAR);
+    double b[4] = {1, 1, 1, 1}, x[4];
+    assert_int_equal(sl_symmetric_solve(M, x, 4, b, 4, 1, NULL), SL_OK);
+    assert_true(backward_error(M, &s, x, b) <= SL_SYMMETRIC_SINGULAR_ERROR);
+    check_inertia(M, 2, 1, 1);
+    sl_symmetric_free(M);
+}
+
+/* Both triangles with different values: options.triangle chooses one, and the other may be wild. */
+static void a_chosen_triangle_is_read(void **state) {
+    (void)state;
+    const sl_int p[3] = {0, 2, 4}, i[4] = {0, 1, 0, 1};
+    const double lower[4] = {2, 1, NAN, 3}, upper[4] = {2, 1e300, -4, 3}, b[2] = {6, 7};
+    for (int is_upper = 0; is_upper < 2; is_upper++) {
+        const sl_csc A = {2, 2, p, i, is_upper ? upper : lower};
+        const double e = is_upper ? -4 : 1;
+        sl_options opt;
+        sl_symmetric *M;
+        double x[2];
+        sl_options_init(&opt, sizeof opt);
+        assert_true(sl_symmetric_create(&M, &A, NULL, NULL) != SL_OK);
+        opt.triangle = is_upper ? SL_TRIANGLE_UPPER : SL_TRIANGLE_LOWER;
+        assert_int_equal(sl_symmetric_create(&M, &A, &opt, NULL), SL_OK);
+        assert_int_equal(sl_symmetric_solve(M, x, 2, b, 2, 1, NULL), SL_OK);
+        assert_true(fabs(2 * x[0] + e * x[1] - 6) < 1e-14);
+        assert_true(fabs(e * x[0] + 3 * x[1] - 7) < 1e-14);
+        check_inertia(M, is_upper ? 1 : 2, is_upper, 0);
+        sl_symmetric_free(M);
+    }
+}
+
+/* X is B, in three blocks; with another leading dimension it would write over the next ones. */
+static void blocks_in_place(void **state) {
+    (void)state;
+    system_t s;
+    double X[3 * 20], B[3 * 20];
+    begin(&s, 3);
+    for (int k = 0; k < 3; k++) {
+        set(&s, k, k, 4);
+        set(&s, k, (k + 1) % 3, 1);
+    }
+    finish(&s);
+    sl_symmetric *M = create(&s, SL_SYMMETRIC_FIXED);
+    for (int k = 0; k < 3 * 20; k++) {
+        B[k] = k % 7 - 3;
+    }
+    assert_int_equal(sl_symmetric_solve(M, X, 3, B, 3, 20, NULL), SL_OK);
+    assert_int_equal(sl_symmetric_solve(M, B, 3, B, 2, 20, NULL), SL_ERR_ARGUMENT);
+    assert_int_equal(sl_symmetric_solve(M, B, 4, B, 3, 15, NULL), SL_ERR_ARGUMENT);
+    for (sl_int nrhs = 1; nrhs < 3; nrhs++) {
+        const size_t by_rows = SL_ROWS(3);
+        assert_int_equal(sl_symmetric_solve(M, B, 3, X, by_rows, nrhs, NULL), SL_ERR_ARGUMENT);
+        assert_int_equal(sl_symmetric_solve(M, B, by_rows, X, 3, nrhs, NULL), SL_ERR_ARGUMENT);
+    }
+    assert_int_equal(sl_symmetric_solve(M, B, 3, B, 3, 20, NULL), SL_OK);
+    assert_memory_equal(X, B, sizeof X);
+    sl_symmetric_free(M);
+}
+
+/* Every malloc of this header fails once; then the object takes other values as before. */
+static void own_memory_that_ends_is_reported(void **state) {
+    (void)state;
+    system_t s, regular;
+    int failures = 0;
+    begin(&s, 2);
+    set(&s, 0, 0, 1);
+    set(&s, 1, 1, 1);
+    set(&s, 1, 0, 1);
+    finish(&s);
+    begin(&regular, 2);
+    set(&regular, 0, 0, 2);
+    set(&regular, 1, 1, 2);
+    set(&regular, 1, 0, 1);
+    finish(&regular);
+    for (long k = 0; k < 100; k++) {
+        sl_symmetric *M;
+        sl_stats stats;
+        double x[2], b[2] = {3, 3};
+        until_failure = k;
+        sl_status status = sl_symmetric_create(&M, &regular.A, NULL, &stats);
+        if (status == SL_OK) {
+            status = sl_symmetric_refactor(M, &s.A, &stats);
+            if (status != SL_OK) {
+                assert_true(sl_symmetric_solve(M, x, 2, b, 2, 1, NULL) == SL_ERR_STALE);
+            } else {
+                status = sl_symmetric_solve(M, x, 2, b, 2, 1, &stats);
+            }
+            const int has_ended = until_failure < 0;
+            until_failure = -1;
+            assert_true(sl_symmetric_refactor(M, &s.A, NULL) == SL_OK);
+            assert_true(sl_symmetric_solve(M, x, 2, b, 2, 1, NULL) == SL_OK);
+            assert_true(fabs(x[0] + x[1] - 3) < 1e-12);
+            check_inertia(M, 1, 0, 1);
+            sl_symmetric_free(M);
+            if (!has_ended) {
+                break;
+            }
+        }
+        assert_int_equal(status, SL_ERR_MEMORY);
+        failures++;
+    }
+    until_failure = -1;
+    assert_int_equal(failures, 5 + 2 + 3 + 1); /* arrays, twice to scale, shifted, solve */
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(definite_takes_the_fixed_order),
@@ -380,6 +601,12 @@ int main(void) {
         cmocka_unit_test(new_values_begin_again),
         cmocka_unit_test(wrong_calls_are_refused),
         cmocka_unit_test(memory_that_ends_is_reported),
+        cmocka_unit_test(numbers_near_the_ends_of_double),
+        cmocka_unit_test(solutions_that_decay_to_zero),
+        cmocka_unit_test(eigenvalues_at_the_shift),
+        cmocka_unit_test(a_chosen_triangle_is_read),
+        cmocka_unit_test(blocks_in_place),
+        cmocka_unit_test(own_memory_that_ends_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -33,7 +33,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/** SL_OK promises this backward error: componentwise, max_i |b - A x|_i / (|A| |x| + |b|)_i. */
+/** SL_OK promises this backward error: componentwise, max_i |b - A x|_i / (|A| |x| + |b|)_i.
+ *  Duplicates count one by one in |A|. Rows that scaling makes smaller than SL_SYMMETRIC_TINY times
+ *  the largest one count as that: what they lack may be below the smallest double. */
 #define SL_SYMMETRIC_ERROR 1e-12
 /** The same of a singular A, relative to the largest row of the scaled system:
  *  max_i |b - A x|_i / max_i (|A| |x| + |b|)_i. */
@@ -56,7 +58,7 @@ typedef struct sl_symmetric {
     sl_csc A; /* scaled, in memory of this object */
     sl_triangle triangle;
     sl_csc shifted; /* the arrays of A + e I; NULL before they are needed */
-    double *scale;  /* n: powers of two; row and column k of the caller's A are multiplied by it */
+    int *scale;     /* n: row and column k of the caller's A are multiplied by 2^scale[k] */
     sl_symbolic *S; /* of way FIXED; kept for new values */
     sl_factor *F;
     sl_work *W;
@@ -65,7 +67,7 @@ typedef struct sl_symmetric {
 } sl_symmetric;
 
 /** The eigenvalues of A by sign. Those of the scaled matrix up to `bound` count as zero; bound is 0
- *  where none is that small. */
+ *  where no pivot is small: the signs are then those of a matrix within rounding of A. */
 typedef struct sl_inertia {
     sl_int positive, negative, zero;
     double bound;
@@ -79,6 +81,7 @@ typedef struct sl_inertia {
  * those of A + e I are of an inconsistent b */
 #define SL_SYMMETRIC_LARGEST 1e13
 #define SL_SYMMETRIC_INCONSISTENT 1e8
+#define SL_SYMMETRIC_TINY 1e-280
 
 static inline sl_status sl_symmetric_refuse(sl_stats *stats, sl_status status, const char *what,
                                             sl_int row) {
@@ -93,6 +96,37 @@ static inline void *sl_symmetric_array(size_t count, size_t size) {
     return count < SIZE_MAX / size - 1 ? malloc((count + 1) * size) : NULL;
 }
 
+/* x 2^exponent, as ldexp, which is slow. */
+static inline double sl_symmetric_times(double x, int exponent) {
+    if (exponent < -1000 || exponent > 1000) {
+        return ldexp(x, exponent);
+    }
+    const uint64_t bits = (uint64_t)(1023 + exponent) << 52;
+    double power;
+    memcpy(&power, &bits, sizeof power);
+    return x * power;
+}
+
+/* |x| is 1/2 to 1 times 2^this; 0 for 0. As frexp. */
+static inline int sl_symmetric_exponent(double x) {
+    uint64_t bits;
+    int exponent;
+    memcpy(&bits, &x, sizeof bits);
+    exponent = (int)(bits >> 52 & 2047) - 1022;
+    if (exponent == -1022) {
+        (void)frexp(x, &exponent);
+    }
+    return exponent;
+}
+
+static inline void sl_symmetric_free_shifted(sl_symmetric *M) {
+    const sl_csc none = {0, 0, NULL, NULL, NULL};
+    free((void *)(uintptr_t)M->shifted.p);
+    free((void *)(uintptr_t)M->shifted.i);
+    free((void *)(uintptr_t)M->shifted.x);
+    M->shifted = none;
+}
+
 /** Releases it. */
 static inline void sl_symmetric_free(sl_symmetric *M) {
     if (M != NULL) {
@@ -103,42 +137,44 @@ static inline void sl_symmetric_free(sl_symmetric *M) {
         free(M->i);
         free(M->x);
         free(M->scale);
-        free((void *)(uintptr_t)M->shifted.p);
-        free((void *)(uintptr_t)M->shifted.i);
-        free((void *)(uintptr_t)M->shifted.x);
+        sl_symmetric_free_shifted(M);
         free(M);
     }
 }
 
+/* Does the factorization read this entry? */
+static inline int sl_symmetric_reads(const sl_symmetric *M, sl_int i, sl_int j) {
+    return M->triangle == SL_TRIANGLE_UPPER ? i <= j : i >= j;
+}
+
 /* Takes the values of A, and scales them until the largest entry of each row is about 1 [Ruiz01].
- * Powers of two change no digit. largest: n of scratch. */
+ * Powers of two change no digit, and may exceed those of double. largest: n of scratch. */
 static inline void sl_symmetric_scale(sl_symmetric *M, const double *x, double *largest) {
     const sl_int n = M->A.n_cols;
     int is_even = 0;
     memcpy(M->x, x, (size_t)M->p[n] * sizeof *x);
-    for (sl_int k = 0; k < n; k++) {
-        M->scale[k] = 1;
-    }
-    for (int round = 0; round < 6 && !is_even; round++) {
+    memset(M->scale, 0, (size_t)n * sizeof *M->scale);
+    for (int round = 0; round < 12 && !is_even; round++) {
         memset(largest, 0, (size_t)n * sizeof *largest);
         is_even = 1;
         for (sl_int j = 0; j < n; j++) {
             for (sl_int k = M->p[j]; k < M->p[j + 1]; k++) {
-                const double size = fabs(M->x[k]);
-                largest[j] = fmax(largest[j], size);
-                largest[M->i[k]] = fmax(largest[M->i[k]], size);
+                if (sl_symmetric_reads(M, M->i[k], j)) {
+                    const double size = fabs(M->x[k]);
+                    largest[j] = fmax(largest[j], size);
+                    largest[M->i[k]] = fmax(largest[M->i[k]], size);
+                }
             }
         }
         for (sl_int k = 0; k < n; k++) {
-            int exponent = 0; /* a row of zeros stays as it is */
-            (void)frexp(largest[k], &exponent);
-            largest[k] = ldexp(1, exponent >= 0 ? -(exponent / 2) : (1 - exponent) / 2);
-            is_even &= largest[k] == 1;
-            M->scale[k] *= largest[k];
+            int exponent = sl_symmetric_exponent(largest[k]); /* a row of zeros stays as it is */
+            exponent = exponent >= 0 ? -(exponent / 2) : (1 - exponent) / 2;
+            is_even &= exponent == 0;
+            M->scale[k] += exponent;
         }
-        for (sl_int j = 0; j < n; j++) {
+        for (sl_int j = 0; j < n && !is_even; j++) {
             for (sl_int k = M->p[j]; k < M->p[j + 1]; k++) {
-                M->x[k] *= largest[j] * largest[M->i[k]];
+                M->x[k] = sl_symmetric_times(x[k], M->scale[j] + M->scale[M->i[k]]);
             }
         }
     }
@@ -156,6 +192,7 @@ static inline int sl_symmetric_make_shifted(sl_symmetric *M) {
     M->shifted.i = i;
     M->shifted.x = x;
     if (p == NULL || i == NULL || x == NULL || count > INT32_MAX) {
+        sl_symmetric_free_shifted(M);
         return 0;
     }
     p[0] = 0;
@@ -208,7 +245,7 @@ static inline sl_status sl_symmetric_factor_fixed(sl_symmetric *M, sl_stats *sta
 
 /* Factors in one way. A pivot within rounding of 0 counts as null. */
 static inline sl_status sl_symmetric_factor(sl_symmetric *M, int way, sl_stats *stats) {
-    sl_status status;
+    sl_status status = SL_ERR_PIVOT;
     double rounding = 16 * DBL_EPSILON;
     if (way != SL_SYMMETRIC_FIXED || M->way != SL_SYMMETRIC_FIXED) {
         sl_factor_free(M->F);
@@ -217,9 +254,25 @@ static inline sl_status sl_symmetric_factor(sl_symmetric *M, int way, sl_stats *
     M->way = (sl_symmetric_way)way;
     if (way == SL_SYMMETRIC_FIXED) {
         status = sl_symmetric_factor_fixed(M, stats);
-    } else {
-        status = sl_symmetric_factor_shifted(
-            M, &M->F, way == SL_SYMMETRIC_PIVOTED ? 0 : SL_SYMMETRIC_SHIFT, stats);
+    } else if (way == SL_SYMMETRIC_PIVOTED) {
+        status = sl_symmetric_factor_shifted(M, &M->F, 0, stats);
+    } else { /* an eigenvalue near -e needs another e */
+        static const double shifts[4] = {SL_SYMMETRIC_SHIFT, -SL_SYMMETRIC_SHIFT,
+                                         3 * SL_SYMMETRIC_SHIFT, -3 * SL_SYMMETRIC_SHIFT};
+        int usable = -1;
+        for (int k = 0; k < 5 && status == SL_ERR_PIVOT; k++) {
+            const int e = k < 4 ? k : usable; /* at last one with a small pivot */
+            if (e < 0) {
+                break;
+            }
+            sl_factor_free(M->F);
+            M->F = NULL;
+            status = sl_symmetric_factor_shifted(M, &M->F, shifts[e], stats);
+            if (status == SL_OK && k < 4 && stats->factor.pivot_min < 0.01 * fabs(shifts[e])) {
+                status = SL_ERR_PIVOT;
+                usable = usable < 0 ? e : usable;
+            }
+        }
     }
     if (status != SL_OK || way == SL_SYMMETRIC_SINGULAR) {
         return status;
@@ -266,13 +319,15 @@ static inline sl_status sl_symmetric_refactor(sl_symmetric *M, const sl_csc *A, 
     }
     for (sl_int j = 0; j < n; j++) {
         for (sl_int k = M->p[j]; k < M->p[j + 1]; k++) {
-            if (!(fabs(A->x[k]) <= DBL_MAX)) {
+            if (sl_symmetric_reads(M, M->i[k], j) && !(fabs(A->x[k]) <= DBL_MAX)) {
                 return sl_symmetric_refuse(stats, SL_ERR_NOT_FINITE, "an entry of A", M->i[k]);
             }
         }
     }
     double *largest = (double *)sl_symmetric_array((size_t)n, sizeof *largest);
     if (largest == NULL) {
+        sl_factor_free(M->F);
+        M->F = NULL;
         return sl_symmetric_refuse(stats, SL_ERR_MEMORY, NULL, -1);
     }
     sl_symmetric_scale(M, A->x, largest);
@@ -284,10 +339,11 @@ static inline sl_status sl_symmetric_refactor(sl_symmetric *M, const sl_csc *A, 
  *
  *  out    [out]  the object; NULL on error.
  *  A      [in]   n x n, symmetric, one triangle or both, with values. It is copied.
- *  opt    [in]   allocator, threads, isa.
+ *  opt    [in]   allocator, threads, isa, triangle.
  *  stats  [out]  factor; the error.
  *  Returns  SL_OK, also for a singular A; SL_ERR_ARGUMENT: no values, not square;
- *           SL_ERR_NOT_FINITE: an entry; SL_ERR_MALFORMED; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           SL_ERR_NOT_FINITE: an entry; SL_ERR_MALFORMED; SL_ERR_TOO_LARGE; SL_ERR_MEMORY;
+ *           SL_ERR_PIVOT: A + e I is singular, too, for each of four e.
  *  Cost     of one analysis and factorization for each way that is tried. Keeps a copy of A.
  *  Threads  exclusive use of the object in all calls.
  *  Source   scaling [Ruiz01]; pivots: sl_symbolic_create_pivoted
@@ -318,19 +374,22 @@ static inline sl_status sl_symmetric_create(sl_symmetric **out, const sl_csc *A,
         M->opt.allocator = opt->allocator;
         M->opt.threads = opt->threads;
         M->opt.isa = opt->isa;
+        M->opt.triangle = opt->triangle;
     }
     M->opt.growth_limit = 1e10;
     M->triangle = triangle;
     M->p = (sl_int *)sl_symmetric_array(n, sizeof *M->p);
     M->i = (sl_int *)sl_symmetric_array(count, sizeof *M->i);
     M->x = (double *)sl_symmetric_array(count, sizeof *M->x);
-    M->scale = (double *)sl_symmetric_array(n, sizeof *M->scale);
+    M->scale = (int *)sl_symmetric_array(n, sizeof *M->scale);
     status = M->p == NULL || M->i == NULL || M->x == NULL || M->scale == NULL
                  ? sl_symmetric_refuse(stats, SL_ERR_MEMORY, NULL, -1)
                  : sl_work_create(&M->W, &M->opt);
     if (status == SL_OK) {
         memcpy(M->p, A->p, (n + 1) * sizeof *M->p);
-        memcpy(M->i, A->i, count * sizeof *M->i);
+        if (count > 0) {
+            memcpy(M->i, A->i, count * sizeof *M->i);
+        }
         M->A.n_rows = M->A.n_cols = A->n_cols;
         M->A.p = M->p;
         M->A.i = M->i;
@@ -362,8 +421,8 @@ static inline double sl_symmetric_residual(const sl_symmetric *M, double *r, dou
     for (sl_int j = 0; j < n; j++) {
         for (sl_int k = M->p[j]; k < M->p[j + 1]; k++) {
             const sl_int i = M->i[k];
-            if (M->triangle == SL_TRIANGLE_UPPER ? i > j : i < j) {
-                continue; /* the other triangle is read */
+            if (!sl_symmetric_reads(M, i, j)) {
+                continue;
             }
             r[i] -= M->x[k] * y[j];
             size[i] += fabs(M->x[k] * y[j]);
@@ -377,9 +436,11 @@ static inline double sl_symmetric_residual(const sl_symmetric *M, double *r, dou
         largest = fmax(largest, size[k]);
     }
     for (sl_int k = 0; k < n; k++) {
-        const double of = M->way == SL_SYMMETRIC_SINGULAR ? largest : size[k];
+        const double of = M->way == SL_SYMMETRIC_SINGULAR
+                              ? largest
+                              : fmax(size[k], SL_SYMMETRIC_TINY * largest);
         const double e = r[k] == 0 ? 0 : fabs(r[k]) / of;
-        error = e <= error ? error : e; /* NaN stays */
+        error = fmax(error, e <= DBL_MAX ? e : INFINITY);
     }
     return error;
 }
@@ -408,7 +469,7 @@ static inline sl_status sl_symmetric_refine(const sl_symmetric *M, double *work,
                 least[c] = error;
                 memcpy(best + at, Y + at, n * sizeof *Y);
             }
-            goes_on |= error > DBL_EPSILON && (step < 3 || error < 0.5 * before[c]);
+            goes_on |= error > DBL_EPSILON && (step < 3 || error < 0.75 * before[c]);
             before[c] = error;
         }
         goes_on &= step++ < SL_SYMMETRIC_STEPS;
@@ -433,32 +494,67 @@ static inline sl_status sl_symmetric_refine(const sl_symmetric *M, double *work,
     return status;
 }
 
-/* Copies a block of right-hand sides, scaled. */
-static inline sl_status sl_symmetric_take(const sl_symmetric *M, double *to, const double *B,
-                                          size_t ldb, sl_int columns, sl_stats *stats) {
-    const sl_int n = M->A.n_cols;
+/* Copies a block of right-hand sides, scaled: the largest number of column c is 2^top[c] times
+ * 1/2 to 1. */
+static inline sl_status sl_symmetric_take(const sl_symmetric *M, double *to, int *top,
+                                          const double *B, size_t ldb, sl_int columns,
+                                          sl_stats *stats) {
+    const size_t n = (size_t)M->A.n_cols;
     for (sl_int c = 0; c < columns; c++) {
-        for (sl_int k = 0; k < n; k++) {
-            const double value = B[(size_t)k + (size_t)c * ldb];
-            if (!(fabs(value) <= DBL_MAX)) {
-                return sl_symmetric_refuse(stats, SL_ERR_NOT_FINITE, "an entry of B", k);
+        const double *b = B + (size_t)c * ldb;
+        int is_zero = 1;
+        top[c] = 0;
+        for (size_t k = 0; k < n; k++) {
+            const int exponent = sl_symmetric_exponent(b[k]) + M->scale[k];
+            if (!(fabs(b[k]) <= DBL_MAX)) {
+                return sl_symmetric_refuse(stats, SL_ERR_NOT_FINITE, "an entry of B", (sl_int)k);
             }
-            to[(size_t)k + (size_t)c * (size_t)n] = value * M->scale[k];
+            if (b[k] != 0 && (is_zero || exponent > top[c])) {
+                top[c] = exponent;
+                is_zero = 0;
+            }
+        }
+        for (size_t k = 0; k < n; k++) {
+            to[k + (size_t)c * n] = sl_symmetric_times(b[k], M->scale[k] - top[c]);
         }
     }
     return SL_OK;
 }
 
+/* Y as X holds it, where it underflows or overflows. Returns the larger one of worst and its
+ * backward error. work: as that of sl_symmetric_refine. */
+static inline double sl_symmetric_hold(const sl_symmetric *M, double *work, const int *top,
+                                       sl_int columns, double worst) {
+    const size_t n = (size_t)M->A.n_cols, size = n * (size_t)columns;
+    for (sl_int c = 0; c < columns; c++) {
+        double *b = work + n * (size_t)c, *y = b + size;
+        int is_held = 1;
+        for (size_t k = 0; k < n; k++) {
+            const double value = sl_symmetric_times(y[k], M->scale[k] + top[c]);
+            if (y[k] != 0 && !(fabs(value) >= DBL_MIN && fabs(value) <= DBL_MAX)) {
+                const double held = sl_symmetric_times(value, -M->scale[k] - top[c]);
+                is_held &= held == y[k];
+                y[k] = held;
+            }
+        }
+        if (!is_held) {
+            const double error = sl_symmetric_residual(M, y + size, work + 4 * size, y, b);
+            worst = error <= worst ? worst : error <= DBL_MAX ? error : INFINITY;
+        }
+    }
+    return worst;
+}
+
 /** Solves A X = B by the first way that reaches SL_SYMMETRIC_ERROR. Of a singular A it finds a
  *  solution of each consistent system: about the shortest one of the scaled system.
  *
- *  X      [out]  n x nrhs, leading dimension ldx >= n; may be B. After SL_ERR_INACCURATE the best
- *                that was found.
- *  B      [in]   n x nrhs, leading dimension ldb >= n.
+ *  X      [out]  n x nrhs by columns, leading dimension ldx >= n; may be B (then ldx = ldb).
+ *                After SL_ERR_INACCURATE the best that was found.
+ *  B      [in]   n x nrhs by columns, leading dimension ldb >= n.
  *  stats  [out]  refine: the largest backward error of a column.
  *  Returns  SL_OK; SL_ERR_INACCURATE: a column of B has no solution, or none that double holds;
  *           SL_ERR_NOT_FINITE: B at error.row; SL_ERR_ARGUMENT; SL_ERR_MEMORY;
- *           SL_ERR_STALE: the last sl_symmetric_refactor has failed.
+ *           SL_ERR_STALE: sl_symmetric_refactor, or a way that a solve tried, has failed.
  *  Cost     of two to four solves with a factor; 20 where A is singular; and of the ways that are
  *           tried and not yet factored.
  */
@@ -467,9 +563,13 @@ static inline sl_status sl_symmetric_solve(sl_symmetric *M, double *X, size_t ld
     sl_stats own;
     stats = stats != NULL ? stats : &own;
     if (M == NULL || nrhs < 0 || (nrhs > 0 && M->A.n_cols > 0 && (X == NULL || B == NULL)) ||
-        (nrhs > 1 && (ldx < (size_t)M->A.n_cols || ldb < (size_t)M->A.n_cols))) {
+        (nrhs > 0 && ((ldx | ldb) & SL_ROW_MAJOR) != 0) ||
+        (nrhs > 1 && (ldx < (size_t)M->A.n_cols || ldb < (size_t)M->A.n_cols ||
+                      (X == B && ldx != ldb)))) {
         return sl_symmetric_refuse(stats, SL_ERR_ARGUMENT,
-                                   "an array is NULL, nrhs negative, or ldx or ldb below n", -1);
+                                   "an array is NULL, nrhs negative, ldx or ldb below n or one of "
+                                   "SL_ROWS, or X is B and ldx not ldb",
+                                   -1);
     }
     if (M->F == NULL) {
         return sl_symmetric_refuse(stats, SL_ERR_STALE, "its last factorization has failed", -1);
@@ -479,11 +579,12 @@ static inline sl_status sl_symmetric_solve(sl_symmetric *M, double *X, size_t ld
     double *work = (double *)sl_symmetric_array((4 * (size_t)most + 1) * n, sizeof *work),
            worst = 0;
     sl_status status = work == NULL ? SL_ERR_MEMORY : SL_OK;
+    int top[SL_SYMMETRIC_BLOCK];
     sl_int steps = 0;
     (void)sl_symmetric_refuse(stats, status, NULL, -1);
     for (sl_int begin = 0; begin < nrhs && status == SL_OK; begin += most) {
         const sl_int columns = nrhs - begin < most ? nrhs - begin : most;
-        status = sl_symmetric_take(M, work, B + (size_t)begin * ldb, ldb, columns, stats);
+        status = sl_symmetric_take(M, work, top, B + (size_t)begin * ldb, ldb, columns, stats);
         double error = 0;
         int way = (int)M->way;
         if (status == SL_OK) {
@@ -496,11 +597,14 @@ static inline sl_status sl_symmetric_solve(sl_symmetric *M, double *X, size_t ld
                 status = sl_symmetric_refine(M, work, columns, &steps, &error);
             }
         }
+        if (status == SL_OK) {
+            error = sl_symmetric_hold(M, work, top, columns, error);
+        }
         worst = error < worst ? worst : error;
         for (sl_int c = 0; c < columns && status == SL_OK; c++) {
             const double *y = work + n * (size_t)(columns + c);
             for (size_t k = 0; k < n; k++) {
-                X[k + (size_t)(begin + c) * ldx] = y[k] * M->scale[k];
+                X[k + (size_t)(begin + c) * ldx] = sl_symmetric_times(y[k], M->scale[k] + top[c]);
             }
         }
     }
@@ -544,7 +648,8 @@ static inline sl_status sl_symmetric_inertia(sl_symmetric *M, sl_inertia *out, s
     out->bound = 0;
     if (M->way == SL_SYMMETRIC_SINGULAR || M->factor.pivot_min < 1e-11 * M->factor.entry_max) {
         status = SL_ERR_PIVOT;
-        for (double e = 1e-13; status == SL_ERR_PIVOT && e < 1e-9; e *= 8) {
+        for (double e = 1e-13; (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE) && e < 1e-9;
+             e *= 8) {
             sl_factor *below = NULL, *above = NULL;
             status = sl_symmetric_factor_shifted(M, &below, -e, stats);
             out->positive = stats->factor.positive;

@@ -35,11 +35,17 @@ class Constraints:
         self._factor, self._lib = factor, factor._lib
         self._held = Handle("constraints", pointer.value, factor._factor, factor._symbolic)
         self._count = 0
+        self._check_size(A)
         self._A, self._rows, self._fixed, self._equalities = A, [], None, 0
         self._is_many = False
         self.stats = {}
         if len(np.asarray(rows)):
             self.add(rows)
+
+    def _check_size(self, A):
+        n = self._factor.n
+        if A is not None and getattr(A, "shape", None) != (n, n):
+            raise ArgumentError("A has to be the matrix of the factor, %d x %d" % (n, n))
 
     def __len__(self):
         return self._count
@@ -112,10 +118,16 @@ class Constraints:
         elif len(left) > MANY // 2:
             self._fix(left)
         else:
+            self._check_current()
             self._rows, self._count, self._fixed, self._is_many = [], 0, None, False
             if left:
                 self.add(left)
         return self
+
+    def _check_current(self):
+        """StaleError if the factor has changed since, also while other rows hold the pins."""
+        check(self._lib.sl_constraints_solve(self._held.pointer, None, None, 1, None, 1, None, 1, 0,
+                                             None))
 
     def _release(self, numbers):
         keep, address, count = self._factor._kind.set(numbers)
@@ -132,13 +144,13 @@ class Constraints:
         self._factor._pointer
         if self._A is not None and A is None:
             raise ArgumentError("constraints with a matrix need the new one")
+        self._check_size(A)
         self._A, self._fixed = A, None
-        stats = Stats()
-        if self._is_many:
-            return self
-        return self._done(self._lib.sl_constraints_refactor(self._held.pointer,
-                                                            ctypes.byref(stats)),
-                          stats, self._count)
+        stats, kept = Stats(), self.stats
+        self._done(self._lib.sl_constraints_refactor(self._held.pointer, ctypes.byref(stats)),
+                   stats, self._count)
+        self.stats = kept if self._is_many else self.stats
+        return self
 
     def solve(self, B, values, plan=None):
         """x with A x = B in all other rows and x = values in the pinned ones.
@@ -166,8 +178,11 @@ class Constraints:
             if plan is not None:
                 raise ArgumentError("a plan needs at most %d held rows" % MANY)
             self._factor._pointer
+            self._check_current()
             if self._fixed is None:
-                self._fixed = FixedRows(self._A, self._rows)
+                skips = factor.stats["factor"]["null"] > 0
+                self._fixed = FixedRows(self._A, self._rows,
+                                        null_pivots="skip" if skips else "refuse")
             return self._fixed.solve(held, B)
         # column-major: pins take no rows of right-hand sides
         dense = kind.dense(np.asfortranarray(B), n_b, n_x)

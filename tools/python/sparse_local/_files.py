@@ -116,13 +116,20 @@ def encoded(path):
     return name
 
 
+def check_limit(most, name):
+    """Raises ArgumentError unless it is None or a whole number from 0 on."""
+    try:
+        is_whole = most is None or not isinstance(most, bool) and int(most) == most and most >= 0
+    except (TypeError, ValueError, OverflowError):
+        is_whole = False
+    if not is_whole:
+        raise ArgumentError("%s is a whole number, not %r" % (name, most))
+
+
 def check_bytes(path, most):
     """Raises TooLargeError for a file with more bytes than these; None: any."""
-    if most is None:
-        return
-    if isinstance(most, bool) or int(most) != most or most < 0:
-        raise ArgumentError("max_bytes is a whole number, not %r" % (most,))
-    if os.path.isfile(path) and os.path.getsize(path) > most:
+    check_limit(most, "max_bytes")
+    if most is not None and os.path.isfile(path) and os.path.getsize(path) > most:
         raise TooLargeError("%d bytes, of which %d are allowed, %s" %
                             (os.path.getsize(path), most, os.fsdecode(path)))
 

@@ -4,8 +4,8 @@ import os
 
 import numpy as np
 
-from ._errors import ArgumentError, IoError, TooLargeError
-from ._files import check_bytes, encoded
+from ._errors import IoError, TooLargeError
+from ._files import check_bytes, check_limit, encoded
 from ._library import Handle, Stats, check, lib
 from ._matrix import csc_arrays, from_arrays
 
@@ -43,9 +43,14 @@ def read_matrix(path, *, max_rows=None, max_entries=None, max_bytes=None):
 def _claimed(path):
     """(rows, columns, entries) of the line of sizes; None: the library says what is wrong."""
     with open(path, "rb") as file:
-        line, is_begun = file.readline(_LINE), True
-        while line and (not is_begun or line[:1] == b"%" or not line.strip()):
-            is_begun = line[-1:] == b"\n"
+        line, is_comment = file.readline(_LINE), True  # the banner, even after a byte order mark
+        while line:
+            text = line.strip(b" \t\r\n")
+            is_comment = is_comment or text[:1] == b"%"
+            if text and not is_comment:
+                line += file.readline(_LINE) if line[-1:] != b"\n" else b""
+                break
+            is_comment = is_comment and line[-1:] != b"\n"
             line = file.readline(_LINE)
     try:
         sizes = tuple(int(word) for word in line.split())
@@ -59,8 +64,7 @@ def _check_claims(path, sizes, max_rows, max_entries):
     fitting = os.path.getsize(path) // 4 + 1
     for count, what, most in ((entries, "entries", max_entries),
                               (rows, "rows or columns", max_rows)):
-        if most is not None and (isinstance(most, bool) or int(most) != most or most < 0):
-            raise ArgumentError("limits are whole numbers, not %r" % (most,))
+        check_limit(most, "a limit")
         if most is not None and count > most:
             raise TooLargeError("%d %s, of which %d are allowed, %s" %
                                 (count, what, most, os.fsdecode(path)))

@@ -119,6 +119,7 @@ def entries_gradient(factor, A, rows, columns, g):
         raise ArgumentError("sets of rows are needed")
     rows, columns = (arrays.rows(s)[0].astype(np.int64) for s in (rows, columns))
     g = arrays.vector(g, rows.size, "g")
+    arrays.check_finite(g, "g")
     if columns.size != rows.size or A.shape != factor.shape:
         raise ArgumentError("rows, columns and A do not fit")
     if rows.size and not (0 <= min(rows.min(), columns.min()) and
@@ -163,7 +164,7 @@ def _by_twins(factor, A, stored, rows, columns, g):
         i, j, values = stored.rows[low], stored.columns[low], values[low]
     off, zeros = i > j, np.zeros(i.size)
     r, c = np.maximum(rows, columns), np.minimum(rows, columns)
-    g = np.where(r == c, 1.0, 0.5) * (t / size) * g
+    g = np.where(r == c, 1.0, 0.5) * (g / size) * t
     apart = r > c
     twins = from_triplets(
         np.concatenate([2 * i, 2 * i + 1, 2 * i + 1, 2 * i[off], 2 * r + 1, 2 * r[apart]]),
@@ -172,7 +173,7 @@ def _by_twins(factor, A, stored, rows, columns, g):
     order = np.stack([2 * factor.perm, 2 * factor.perm + 1], axis=1).ravel()
     inverse = Selected(Factor(twins, perm=order, threads=factor._threads))
     found = inverse.entries(2 * stored.rows + 1, 2 * stored.columns)
-    return 2.0 * stored.weights * (found * (size / t))
+    return 2.0 * stored.weights * (found / t) * size
 
 
 class LocalGradient:

@@ -86,6 +86,42 @@ def test_many_held_rows_become_a_factor_of_the_others(count):
     assert np.allclose((2 * A @ x - (b[:, 0] if count else b))[free], 0, atol=1e-9)
 
 
+def test_many_held_rows_follow_the_factor():
+    A = grid(30, 0.5)
+    F = sl.Factor(A)
+    rows = np.random.default_rng(5).permutation(900)[:500]
+    P = F.constraints(rows, A=A)
+    for wrong in (A[:400, :400], A[:, :400], "A"):
+        with pytest.raises(sl.ArgumentError):
+            F.constraints(rows, A=wrong)
+        with pytest.raises(sl.ArgumentError):
+            P.update(wrong)
+    values, count = right_hand_sides(500), P.stats["count"]
+    assert np.array_equal(P.solve(None, values)[rows], values)
+    F.refactor(2 * A)  # P has not been told
+    for call in (lambda: P.solve(None, values), lambda: P.release(range(400))):
+        with pytest.raises(sl.StateError):
+            call()
+    assert len(P) == 500 and P.update(2 * A).stats["count"] == count
+    assert np.allclose(P.solve(None, values), held(2 * A, rows, np.zeros(900), values), atol=1e-12)
+    P.release(range(400))
+    assert len(P) == 100
+    assert np.allclose(P.solve(None, values[400:]),
+                       held(2 * A, rows[400:], np.zeros(900), values[400:]), atol=1e-12)
+
+
+def test_many_held_rows_of_one_component_of_two():
+    A = sp.block_diag([grid(30, 0.0), grid(4, 0.0)]).tocsc()
+    F = sl.Factor(A, null_pivots="skip")
+    b = right_hand_sides(916)
+    b[900:] -= b[900:].mean()
+    for count in (390, 450):
+        x = F.constraints(range(count), A=A).solve(b, np.ones(count))
+        assert np.allclose((A @ x - b)[count:], 0, atol=1e-9)
+        with pytest.raises(sl.InconsistentError):
+            F.constraints(range(count), A=A).solve(b + 1, np.ones(count))
+
+
 def test_equalities_and_singular_systems():
     A = grid(8, 0.0)
     F = sl.Factor(A, null_pivots="skip")

@@ -117,6 +117,13 @@ def test_variances_of_many_rows(A, F):
     few = [gradients.entries_gradient(F, A, rows, rows, g[rows])
            for rows in np.split(np.arange(400), 4)]
     assert np.allclose(twins, sum(few), rtol=1e-12, atol=1e-13)
+    for size in (1e300, 1e-300):  # neither overflows nor underflows on its way
+        got = gradients.entries_gradient(F, A, range(400), range(400), size * g)
+        assert np.allclose(got / size, twins, rtol=1e-12, atol=1e-13)
+    for wrong in (np.nan, np.inf):
+        with pytest.raises(sl.NotFiniteError, match="in g, row 7"):
+            gradients.entries_gradient(F, A, range(400), range(400),
+                                       np.where(np.arange(400) == 7, wrong, g))
     H = A - 5.0 * sp.identity(400)  # indefinite
     indefinite = sl.Factor(H)
     assert min(indefinite.inertia[:2]) > 20

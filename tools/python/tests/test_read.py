@@ -86,6 +86,10 @@ def test_limits(tmp_path):
     for limits in (dict(max_rows=-1), dict(max_entries=1.5), dict(max_bytes=True)):
         with pytest.raises(sl.ArgumentError):
             sl.read_matrix(path, **limits)
+    for most in ("a", float("inf"), float("nan"), [5]):
+        for name in ("max_rows", "max_entries", "max_bytes"):
+            with pytest.raises(sl.ArgumentError):
+                sl.read_matrix(path, **{name: most})
     F = sl.Factor(grid(6))
     saved = str(tmp_path / "f.slf")
     sl.save_set(saved, F)
@@ -94,6 +98,20 @@ def test_limits(tmp_path):
             load(saved, map=is_mapped, max_bytes=10**6)
             with pytest.raises(sl.TooLargeError, match="bytes, of which 100 are allowed"):
                 load(saved, map=is_mapped, max_bytes=100)
+
+
+@pytest.mark.parametrize("before, between", [
+    (b"", b" % a comment after a blank\n"), (b"", b"\t\r%\n \n"), (b"\xef\xbb\xbf", b""),
+    (b"", b" " * 65534), (b"", b" " * 65536), (b"", b"%" + b"x" * 65536 + b"\n"),
+    (b"", b"%" + b"\n" * 200)],
+                         ids=["blank", "tab", "mark", "almost a piece", "a piece", "long", "empty"])
+def test_limits_find_the_sizes_where_the_library_does(tmp_path, before, between):
+    path = written(tmp_path / "a.mtx", before + BANNER + between + b"1000 1000 2\n1 1 1\n2 2 2\n")
+    assert sl.read_matrix(path).shape == (1000, 1000)
+    assert sl.read_matrix(path, max_rows=1000, max_entries=2).nnz == 2
+    for limit in (dict(max_rows=999), dict(max_entries=1)):
+        with pytest.raises(sl.TooLargeError):
+            sl.read_matrix(path, **limit)
 
 
 @pytest.mark.parametrize("sizes, kind", [
