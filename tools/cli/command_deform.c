@@ -131,6 +131,7 @@ static void solve_frame(deform_command *cmd, step_times *t) {
         t->solves = how.solves;
         t->moved = how.moved;
         cmd->unfinished += !how.converged;
+        cmd->lately = fmax(cmd->lately, how.lately);
         cmd->last = how;
         if (cmd->check) { /* of a global step */
             (void)deformer_rotations(&cmd->d);
@@ -279,10 +280,11 @@ static void open_command(deform_command *cmd, const char *operand) {
 
 static void warn_of_unfinished(const deform_command *cmd) {
     if (cmd->unfinished > 0) {
-        app_warn("%d of %d frames have not converged within %d solves: the last step moved a "
-                 "vertex by %.1e diagonals; raise --iterations",
+        app_warn("%d of %d frames have not converged within %d solves: the second half of them "
+                 "moved a vertex by %.2g %% of the diagonal, and the limit may be as far again; "
+                 "raise --iterations",
                  (int)cmd->unfinished, (int)cmd->script.n_frames, (int)cmd->iterations,
-                 cmd->last.moved);
+                 100 * cmd->lately);
     }
 }
 
