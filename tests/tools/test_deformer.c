@@ -131,7 +131,7 @@ static void relaxation_reaches_the_limit(void **state) {
                 SL_CHECK(deformer_hold(&d[run], &v, 1));
                 deformer_move(&d[run], v, moves ? to : x);
             }
-            deformer_rest how = {0, 0, 0, false};
+            deformer_rest how = {0, 0, 0, 0, false};
             for (int step = 0; step < 30 && run == 2; step++) {
                 (void)deformer_rotations(&d[run]);
                 SL_CHECK(deformer_solve(&d[run]));
@@ -154,6 +154,50 @@ static void relaxation_reaches_the_limit(void **state) {
         }
         mesh_free(&m);
     }
+}
+
+/* Seven vertices are turned by 69 degrees, seven stay: steps past points where the Hessian is near
+ * to indefinite are lengthened, or 30 solves do not settle. What ends before says how far it came
+ * lately, which tells how far the limit is. */
+static void large_turns_settle(void **state) {
+    (void)state;
+    mesh m;
+    deformer d[3];
+    deformer_rest how[3];
+    assert_true(surface_generate(&m, "star:4", NULL, 0));
+    const size_t n = (size_t)m.n_vertices;
+    for (int run = 0; run < 3; run++) { /* to the limit, 30 solves, 12 solves */
+        SL_CHECK(deformer_create(&d[run], &m, DEFORM_ARAP));
+        for (sl_int j = 0; j < 14; j++) {
+            const sl_int v = j * (m.n_vertices / 14);
+            const double *x = m.xyz + 3 * (size_t)v, c = cos(1.2043), s = sin(1.2043);
+            const double to[3] = {x[0] + 0.5, c * x[1] - s * x[2], s * x[1] + c * x[2]};
+            SL_CHECK(deformer_hold(&d[run], &v, 1));
+            deformer_move(&d[run], v, j < 7 ? x : to);
+        }
+        SL_CHECK(deformer_relax(&d[run], run == 0 ? 1e-10 : 1e-4,
+                                run == 0   ? 200
+                                : run == 1 ? 30
+                                           : 12,
+                                &how[run]));
+        double far = 0;
+        for (size_t v = 0; v < n; v++) {
+            double square = 0;
+            for (size_t c = 0; c < 3; c++) {
+                square += pow(d[run].Y[c * n + v] - d[0].Y[c * n + v], 2);
+            }
+            far = fmax(far, sqrt(square) / d[0].diameter);
+        }
+        print_message("%d solves: %.2g from the limit, %.2g lately\n", how[run].solves, far,
+                      how[run].lately);
+        assert_true(how[run].converged == (run < 2));
+        assert_true(run < 2 ? far < 1e-4 && how[run].lately == 0
+                            : far > 0.01 && far < 3 * how[run].lately && how[run].lately < 3 * far);
+    }
+    for (int run = 0; run < 3; run++) {
+        deformer_free(&d[run]);
+    }
+    mesh_free(&m);
 }
 
 /* Handles released and grabbed again, in any order, leave the same problem. */
@@ -428,6 +472,7 @@ int main(void) {
         cmocka_unit_test(rigid_motions_of_all_handles_move_everything),
         cmocka_unit_test(energies_fall),
         cmocka_unit_test(relaxation_reaches_the_limit),
+        cmocka_unit_test(large_turns_settle),
         cmocka_unit_test(handles_come_and_go),
         cmocka_unit_test(watched_vertices_are_those_of_the_surface),
         cmocka_unit_test(components_move_by_themselves),

@@ -131,6 +131,7 @@ static void solve_frame(deform_command *cmd, step_times *t) {
         t->solves = how.solves;
         t->moved = how.moved;
         cmd->unfinished += !how.converged;
+        cmd->lately = fmax(cmd->lately, how.lately);
         cmd->last = how;
         if (cmd->check) { /* of a global step */
             (void)deformer_rotations(&cmd->d);
@@ -197,12 +198,15 @@ static void run_script(deform_command *cmd) {
 
 /* ---- preparation ---- */
 
+/* Without --iterations: beyond LARGE vertices a factor of the Hessian takes about a second. */
+enum { BY_SIZE = -1, LARGE = 10000 };
+
 static void check_options(const deform_command *cmd) {
     char message[512];
     if (strcmp(cmd->method, "arap") != 0 && strcmp(cmd->method, "biharmonic") != 0) {
         app_die_usage("--method %s: expected arap or biharmonic", cmd->method);
     }
-    if (cmd->iterations < 1 || cmd->iterations > 1000000) {
+    if (cmd->iterations != BY_SIZE && (cmd->iterations < 1 || cmd->iterations > 1000000)) {
         app_die_usage("--iterations: expected 1 to 1000000");
     }
     if (!(cmd->tolerance >= 0)) {
@@ -228,6 +232,9 @@ static void check_options(const deform_command *cmd) {
 static void open_command(deform_command *cmd, const char *operand) {
     char message[512];
     app_mesh(&cmd->m, operand, true);
+    if (cmd->iterations == BY_SIZE) {
+        cmd->iterations = cmd->m.n_vertices > LARGE ? 30 : 200;
+    }
     app_set_up(&cmd->output, &cmd->m, cmd->output.png != NULL || cmd->frames != NULL);
     if (cmd->script_path == NULL) {
         app_die_usage("deform: --script FILE is missing");
@@ -279,10 +286,11 @@ static void open_command(deform_command *cmd, const char *operand) {
 
 static void warn_of_unfinished(const deform_command *cmd) {
     if (cmd->unfinished > 0) {
-        app_warn("%d of %d frames have not converged within %d solves: the last step moved a "
-                 "vertex by %.1e diagonals; raise --iterations",
+        app_warn("%d of %d frames have not converged within %d solves: the second half of them "
+                 "moved a vertex by %.2g %% of the diagonal, and the limit may be as far again; "
+                 "raise --iterations",
                  (int)cmd->unfinished, (int)cmd->script.n_frames, (int)cmd->iterations,
-                 cmd->last.moved);
+                 100 * cmd->lately);
     }
 }
 
@@ -291,7 +299,7 @@ int command_deform(int argc, char **argv) {
     const char *operand = NULL;
     memset(&cmd, 0, sizeof cmd);
     cmd.method = "arap";
-    cmd.iterations = 200;
+    cmd.iterations = BY_SIZE;
     cmd.tolerance = 1e-4;
     cmd.bound = 1e-6;
     const option options[] = {
@@ -299,7 +307,7 @@ int command_deform(int argc, char **argv) {
         {OPTION_TEXT, "method", &cmd.method, "arap|biharmonic",
          "as rigid as possible, or biharmonic displacements (arap)"},
         {OPTION_COUNT, "iterations", &cmd.iterations, "N",
-         "largest number of solves per frame, arap only (200)"},
+         "largest number of solves per frame, arap only (200; 30 beyond 10000 vertices)"},
         {OPTION_REAL, "tolerance", &cmd.tolerance, "D",
          "arap has converged when steps move no vertex by more than D diagonals of the bounding "
          "box and lower the energy by no more than that part of it (1e-4)"},

@@ -22,6 +22,7 @@ typedef struct deform_command {
     double bound, tolerance;
     deformer_rest last; /* of the last frame, ARAP */
     sl_int unfinished;  /* frames that have not converged */
+    double lately;      /* the farthest that the second half of their solves moved a vertex */
     app_output output;
     mesh m;
     deformer d;

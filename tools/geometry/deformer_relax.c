@@ -9,9 +9,15 @@
 
 enum { PAIRS = 8 }; /* of steps and changes of the gradient that are kept */
 
-/* The Hessian is factored again after each step that moved a vertex by more than so many
- * diagonals. */
+/* The Hessian is factored again after each step that moved a vertex by more than SETTLED
+ * diagonals, and after RENEWED shorter ones: where it bends on the way, the last factor leads on
+ * for hundreds. */
 #define SETTLED 0.002
+enum { RENEWED = 6 };
+
+/* A step is doubled while this part of the slope is left at its end: along a direction where the
+ * Hessian is close to indefinite its minimum says little about that of the energy. */
+#define SLOPE_LEFT 0.3
 
 typedef struct relaxation {
     deformer *d;
@@ -21,6 +27,7 @@ typedef struct relaxation {
     double product[PAIRS];               /* step' change */
     int count;                           /* of pairs so far */
     double energy;
+    double *halfway; /* n3: positions after half of the solves that are allowed */
     arap_hessian hessian;
     bool has_hessian; /* factored */
 } relaxation;
@@ -75,21 +82,46 @@ static sl_status find_direction(relaxation *r) {
     return status;
 }
 
+static double slope_of(const relaxation *r) {
+    return 2 * dot(r->gradient, r->direction, r->n3);
+}
+
+/* Evaluates at t times the direction from the start of the step. */
+static sl_status go_to(relaxation *r, double t) {
+    for (size_t k = 0; k < r->n3; k++) {
+        r->d->Y[k] = r->from[k] + t * r->direction[k];
+    }
+    return evaluate(r);
+}
+
+/* Doubles the full step, with the slope at its begin, while that lowers the energy. */
+static sl_status lengthen(relaxation *r, double slope) {
+    sl_status status = SL_OK;
+    for (double t = 1; status == SL_OK && t < 1000 && slope_of(r) < SLOPE_LEFT * slope; t *= 2) {
+        const double before = r->energy;
+        status = go_to(r, 2 * t);
+        if (status == SL_OK && !(r->energy < before)) {
+            return go_to(r, t);
+        }
+    }
+    return status;
+}
+
 /* Moves along the direction until the energy falls by a part of what the slope promises; keeps step
  * and change of the gradient. False: no step lowers it. */
 static bool advance(relaxation *r) {
     double *step = r->step[r->count % PAIRS], *change = r->change[r->count % PAIRS];
-    const double before = r->energy, slope = 2 * dot(r->gradient, r->direction, r->n3);
+    const double before = r->energy, slope = slope_of(r);
     memcpy(r->from, r->d->Y, r->n3 * sizeof *r->from);
     memcpy(change, r->gradient, r->n3 * sizeof *change);
     for (double t = 1; slope < 0 && t > 1e-10; t *= 0.5) {
-        for (size_t k = 0; k < r->n3; k++) {
-            r->d->Y[k] = r->from[k] + t * r->direction[k];
-        }
-        if (evaluate(r) != SL_OK) {
+        if (go_to(r, t) != SL_OK) {
             break;
         }
         if (r->energy <= before + 1e-4 * t * slope) {
+            if (t == 1 && lengthen(r, slope) != SL_OK) {
+                break;
+            }
             for (size_t k = 0; k < r->n3; k++) {
                 step[k] = r->d->Y[k] - r->from[k];
                 change[k] = r->gradient[k] - change[k];
@@ -104,11 +136,13 @@ static bool advance(relaxation *r) {
     return false;
 }
 
-static double farthest(const double *step, const deformer *d) {
+/* The largest distance between positions, in diagonals. */
+static double farthest(const double *A, const double *B, const deformer *d) {
     const size_t n = (size_t)d->n;
     double most = 0;
     for (size_t v = 0; v < n; v++) {
-        most = fmax(most, hypot(hypot(step[v], step[n + v]), step[2 * n + v]));
+        most =
+            fmax(most, hypot(hypot(A[v] - B[v], A[n + v] - B[n + v]), A[2 * n + v] - B[2 * n + v]));
     }
     return most / d->diameter;
 }
@@ -134,14 +168,19 @@ static sl_status renew(relaxation *r) {
 }
 
 static sl_status iterate(relaxation *r, double tolerance, int limit, deformer_rest *how) {
-    int small = 0;
-    bool again = false; /* the last direction led nowhere */
+    int small = 0, renewed = 0; /* at this solve */
+    bool again = false;         /* the last direction led nowhere */
     sl_status status = SL_OK;
     how->moved = 1;
+    memcpy(r->halfway, r->d->Y, r->n3 * sizeof *r->halfway);
     while (status == SL_OK && !how->converged && how->solves < limit) {
         const double before = r->energy;
-        if (how->moved > SETTLED && !again) {
+        if (!again && (how->moved > SETTLED || how->solves - renewed >= RENEWED)) {
             status = renew(r);
+            renewed = how->solves;
+        }
+        if (how->solves == limit / 2) {
+            memcpy(r->halfway, r->d->Y, r->n3 * sizeof *r->halfway);
         }
         status = status == SL_OK ? find_direction(r) : status;
         how->solves++;
@@ -153,7 +192,7 @@ static sl_status iterate(relaxation *r, double tolerance, int limit, deformer_re
             continue;
         }
         const int at = r->count % PAIRS;
-        how->moved = farthest(r->step[at], r->d);
+        how->moved = farthest(r->d->Y, r->from, r->d);
         const bool is_small =
             how->moved <= 1e-14 || /* where the energy is 0 it is rounding */
             (how->moved <= tolerance && before - r->energy <= tolerance * fabs(before));
@@ -164,6 +203,7 @@ static sl_status iterate(relaxation *r, double tolerance, int limit, deformer_re
         r->count = r->product[at] > 1e-14 * dot(r->step[at], r->step[at], r->n3) ? r->count + 1 : 0;
     }
     how->energy = r->energy;
+    how->lately = how->converged ? 0 : farthest(r->d->Y, r->halfway, r->d);
     return status;
 }
 
@@ -196,13 +236,14 @@ sl_status deformer_relax(deformer *d, double tolerance, int limit, deformer_rest
     memset(how, 0, sizeof *how);
     r.d = d;
     r.n3 = 3 * (size_t)d->n;
-    double *room = (double *)malloc((3 + 2 * PAIRS) * r.n3 * sizeof *room);
+    double *room = (double *)malloc((4 + 2 * PAIRS) * r.n3 * sizeof *room);
     if (room == NULL) {
         return SL_ERR_MEMORY;
     }
     r.gradient = room;
     r.direction = room + r.n3;
     r.from = room + 2 * r.n3;
+    r.halfway = room + (3 + 2 * PAIRS) * r.n3;
     for (int k = 0; k < PAIRS; k++) {
         r.step[k] = room + (3 + (size_t)k) * r.n3;
         r.change[k] = room + (3 + PAIRS + (size_t)k) * r.n3;

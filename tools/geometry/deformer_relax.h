@@ -9,6 +9,7 @@ typedef struct deformer_rest {
     int solves;
     double energy; /* ARAP: of the last positions */
     double moved;  /* largest displacement by the last step, relative to the diagonal */
+    double lately; /* the same by the second half of the solves; 0 if it has converged */
     bool converged;
 } deformer_rest;
 
@@ -16,8 +17,8 @@ typedef struct deformer_rest {
  *  diagonals of the bounding box and lowers the energy by at most that part, twice in a row.
  *
  *  Steps are Newton's, each with a factor of the Hessian of its own, until they move no vertex far;
- *  then those of the limited-memory quasi-Newton method (L-BFGS) with the last factor. They are
- *  shortened until the energy falls.
+ *  then those of the limited-memory quasi-Newton method (L-BFGS) with the last factor, which is
+ *  renewed now and then. They are shortened until the energy falls, or lengthened while it does.
  *
  *  d      [in,out]  positions d->Y; first those of held vertices move to their targets.
  *  limit  [in]      the largest number of solves, 1 or more.
