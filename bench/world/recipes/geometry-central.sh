@@ -33,6 +33,6 @@ build() {
         cxx "$dir"/objects/*.o -lgtest_main -lgtest -lpthread -o "$dir/tests"
 }
 
-own() { "$dir/tests"; }
+own() { cd "$dir" && ./tests; }
 features() { "$dir/program" 20; }
 size() { "$dir/program" 224 size; }
