@@ -5,8 +5,8 @@
  * which GC_NLINALG_DEBUG leaves out, and the same types of exceptions. Base is
  * geometrycentral::LinearSolver<T>.
  *
- * Or the edit of four lines in src/numerical/positive_definite_solvers.cpp that the manual shows
- * (tools/docs/doors.md): there the checks are geometry-central's own.
+ * Or the edit of two lines in src/numerical/positive_definite_solvers.cpp that
+ * bench/world/recipes/geometry-central.patch has: there the checks are geometry-central's own.
  */
 #ifndef SPARSE_LOCAL_GEOMETRY_CENTRAL_HPP
 #define SPARSE_LOCAL_GEOMETRY_CENTRAL_HPP
