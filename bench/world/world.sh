@@ -10,6 +10,7 @@
 # OUT      where copies are patched and built; default: build/world
 # BUILT    not empty: what the last run has built is run again, as while a recipe is written
 # LIBRARY  the object of sparse_local.h with all packs; default: made in OUT
+# LIBS     what LIBRARY needs, such as -lmetis; default: nothing
 # CC CXX PYTHON JOBS  compilers, Python with NumPy, SciPy and pytest, compilations at a time
 #
 # README.md says what a recipe is. The last line counts projects, `N passed, N failed`: one fails if
@@ -40,7 +41,7 @@ flags() {
     echo "-O2 -w -I$lib"
     [ "$side" = theirs ] || echo "-DWORLD_OURS -I$here -I$here/tools/adapters"
 }
-library() { [ "$side" = theirs ] || echo "$LIBRARY"; }
+library() { [ "$side" = theirs ] || echo "$LIBRARY" $LIBS; }
 c() { $CC -std=gnu99 $(flags) "$@" $(library) -lm; }
 cxx() { $CXX -std=c++20 $(flags) "$@" $(library); }
 cxx_object() { $CXX -std=c++20 $(flags) -c "$@"; }

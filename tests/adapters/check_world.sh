@@ -3,7 +3,7 @@
 #
 #     tests/adapters/check_world.sh
 #
-# CC, and LIBRARY, the object of the header, come from the Makefile. The last line is
+# CC, LIBRARY, the object of the header, and its LIBS come from the Makefile. The last line is
 # `N passed, N failed`.
 
 . tests/lib/checks.sh

@@ -67,7 +67,7 @@ $(C_ADAPTER_PROGRAMS): $(wildcard tests/adapters/*.[ch] tools/adapters/*.[ch]) $
 
 test-adapters: deps deps-eigen sparse_local.h ## the adapters: C++ and Eigen, for each of ADAPTER_CXX and ADAPTER_STD; QDLDL, OSQP
 	@$(MAKE) --no-print-directory $(ADAPTER_PROGRAMS) $(C_ADAPTER_PROGRAMS)
-	@CC='$(CC)' LIBRARY='$(IMPL)' tests/lib/run.sh build/adapters/log $(ADAPTER_PROGRAMS) $(C_ADAPTER_PROGRAMS) tests/adapters/check_world.sh
+	@CC='$(CC)' LIBRARY='$(IMPL)' LIBS='$(LIBS)' tests/lib/run.sh build/adapters/log $(ADAPTER_PROGRAMS) $(C_ADAPTER_PROGRAMS) tests/adapters/check_world.sh
 
 ## QDLDL, OSQP, CATCH2  folders of their sources, of which test-osqp and bench-osqp build OSQP: any QDLDL 0.1, OSQP 1.0, Catch2 2.13
 QDLDL ?=
