@@ -180,7 +180,7 @@ static const advice_t advices[] = {
     {"sl_symbolic_create_pivoted avoids pivot growth", growth},
     {"pivot growth exceeds options.growth_limit", growth_limit},
     {"SL_PIVOTS_SKIP_NULL with an analysis for 2x2 pivots", skipping_pairs},
-    {"options.storage does not suit the analysis or options", real_as_complex},
+    {"SL_STORAGE_COMPLEX: blocks of 2 rows, 2 null vectors, not regularized", real_as_complex},
     {"bounds with negative, regularized or 2x2 pivots or SL_STORAGE_COMPLEX", no_bounds},
     {"SL_GUARANTEED with a diagonal entry or pivot out of range", bounds_of_huge},
     {"a pivot within rounding of 0 was kept: stats.factor.weak", weak_pivot},

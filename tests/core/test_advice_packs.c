@@ -457,7 +457,7 @@ static sl_status null_in_complex(int heeds) {
 }
 
 static const advice_t advices[] = {
-    {"SL_STORAGE_COMPLEX: block_size 2, null_vector_count 2, not regularized", null_in_complex},
+    {"SL_STORAGE_COMPLEX: blocks of 2 rows, 2 null vectors, not regularized", null_in_complex},
     {"F has changed since the pins were made: sl_constraints_refactor", stale_pins},
     {"Z is not of the present F: sl_selected_refactor", stale_inverse},
     {"the region of the plan is not of the present F: sl_region_refactor", stale_region},

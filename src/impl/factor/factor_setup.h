@@ -208,7 +208,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
             ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_PIVOTS_SKIP_NULL with an analysis for 2x2 pivots")
         : draft.type->suits != NULL && !draft.type->suits(&draft)
             ? sli_refuse(SL_ERR_UNSUPPORTED,
-                         "SL_STORAGE_COMPLEX: block_size 2, null_vector_count 2, not regularized")
+                         "SL_STORAGE_COMPLEX: blocks of 2 rows, 2 null vectors, not regularized")
             : sli_factor_use(&draft, opt);
     SLI_LAYOUT(&b, &a, status) {
         (void)sli_take(&b, 1, sizeof(sl_factor));
