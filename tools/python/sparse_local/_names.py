@@ -28,6 +28,7 @@ NAMES = {
     "sl_region_refactor": "Region.update",
     "sl_selected_refactor": "Selected.update",
     "sl_fixed_refactor": "FixedRows.refactor",
+    "sl_factor_pivot_rows": "Factor.pivot_rows",
     "sl_factor_certify": "Factor.certify",
     "sl_factor_submatrix": "Factor.restrict",
     "sl_load copies without SL_LOAD_MAPPED": "Factor.load copies without map=True",
