@@ -97,7 +97,8 @@ check "no package has an empty address" \
 # ---- the version ----
 
 check "make header writes another version to the packages, Python's in its own spelling" \
-    "sed -i 's/\\(SL_VERSION_PATCH\\) [0-9]*/\\1 77/' src/public/config.h &&
+    "sed -i 's/\\(SL_VERSION_PATCH\\) [0-9]*/\\1 77/; s/\\(SL_VERSION_SUFFIX\\) .*/\\1 \"-dev\"/' \
+         src/public/config.h &&
      ! $quiet check-header && $quiet header && $quiet check-header &&
      grep 'version: .*[.]77-dev.,' meson.build &&
      grep 'semver.*[.]77-dev\"' tools/packaging/vcpkg/vcpkg.json &&
