@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4ecbf765806871bf
+ * FNV-1a of the lines after this comment, without the license: cd0f3e57322fbb58
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,26 +35,26 @@
  *   2773 impl/ base: the compiler, status, memory, sorting, threads
  *   4085 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   4966 impl/ matrix: sparse matrices of the caller and of the library
- *   5827 impl/ ordering: fill-reducing orderings of a graph
- *  10584 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12826 impl/ factor: the numbers of L and D
- *  15412 impl/ solve: full and local solves
- *  16924 impl/ singular: null spaces of semidefinite matrices
- *  18175 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20214 impl/ pivots: the order of the pivots by the values of a matrix
- *  20618 impl/ float: L in single precision
- *  20801 impl/ inverse: entries of the inverse, regions
- *  23703 impl/ change: a factor that follows changes of its matrix
- *  25973 impl/ constraints: rows held at values, on a factor that stays
- *  27324 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30050 impl/ fixed: rows fixed at given values
- *  30606 impl/ io: files that are replaced only when they are complete
- *  30825 impl/ files: Matrix Market files, 64-bit indices
- *  31381 impl/ save: factors in files
- *  33352 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34036 impl/ complex: complex Hermitian systems over real factors
- *  34504 impl/ packs: the tables through which the core calls packs
- *  34928 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5828 impl/ ordering: fill-reducing orderings of a graph
+ *  10585 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12827 impl/ factor: the numbers of L and D
+ *  15414 impl/ solve: full and local solves
+ *  16926 impl/ singular: null spaces of semidefinite matrices
+ *  18177 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20216 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20620 impl/ float: L in single precision
+ *  20803 impl/ inverse: entries of the inverse, regions
+ *  23705 impl/ change: a factor that follows changes of its matrix
+ *  25975 impl/ constraints: rows held at values, on a factor that stays
+ *  27326 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30052 impl/ fixed: rows fixed at given values
+ *  30608 impl/ io: files that are replaced only when they are complete
+ *  30827 impl/ files: Matrix Market files, 64-bit indices
+ *  31383 impl/ save: factors in files
+ *  33354 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34038 impl/ complex: complex Hermitian systems over real factors
+ *  34506 impl/ packs: the tables through which the core calls packs
+ *  34930 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5372,7 +5372,8 @@ SLI_NOINLINE static sl_status sli_dense_check(const char *wrong, size_t ld, sl_i
   sl_status status = SL_OK;
   if (rows > 0 && (elements < (size_t)least ||
       elements >= SL_ROW_MAJOR / 2)) {
-    status = sli_fail_at(NULL, SL_ERR_ARGUMENT, -1, -1, (double)elements, wrong);
+    status = sli_fail_at(NULL, SL_ERR_ARGUMENT, -1, -1, (double)(ptrdiff_t)(2 * elements) / 2.0,
+        wrong);
     sli_error_line(NULL, least);
   }
   return status;
@@ -14919,10 +14920,11 @@ SLI_COLD static const char *sli_advice(sl_factor *F, const sli_source *from, con
          ? "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite"
        : f->bound < 0.0 ? "there was no memory to judge the pivot"
        : !sli_skips_nulls(F) ? sli_advice_null(F, from, f->pivot)
-       : f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
-                   "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
-                 : "A is indefinite, or options.null_vector or options.mass does "
-                   "not suit its null vectors";
+       : f->bound > 0.0 && f->value != 0.0
+         ? "the pivot has the wrong sign, beyond options.null_tolerance: "
+         "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
+         : "A is indefinite, or options.null_vector or options.mass does not suit its null "
+         "vectors";
 }
 
 /* src/impl/factor/symmetry.h: are the values of both triangles the same? */

@@ -231,6 +231,7 @@ static void null_vectors_come_in_pairs(void **state) {
         opt.isa = isas.isa[k];
         SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, y.S, &y.A, &opt, &stats));
         assert_true(stats.error.row >= 0);
+        assert_non_null(strstr(stats.error.what, "options.null_vector"));
     }
     singular_free(&y);
 }

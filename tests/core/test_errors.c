@@ -28,6 +28,8 @@ static const struct {
     {no_factor, SL_ERR_ARGUMENT, "invalid argument: F is NULL"},
     {small_ldx, SL_ERR_ARGUMENT,
      "invalid argument: ldx is below the rows of X, or nrhs with SL_ROWS (least 100, value 99)"},
+    {negative_ldx, SL_ERR_ARGUMENT,
+     "invalid argument: ldx is below the rows of X, or nrhs with SL_ROWS (least 1, value -7)"},
     {small_ldb, SL_ERR_ARGUMENT,
      "invalid argument: ldb is below the rows of B, or nrhs with SL_ROWS (least 100, value 7)"},
     {small_ldx_of_rows, SL_ERR_ARGUMENT,

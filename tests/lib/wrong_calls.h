@@ -56,6 +56,12 @@ WRONG(small_ldx) {
     return sl_factor_solve(w.y.F, w.x, N - 1, w.b, N, 1, NULL);
 }
 
+/* A negative number that has become a size_t. */
+WRONG(negative_ldx) {
+    (void)stats;
+    return sl_factor_solve(w.y.F, w.x, (size_t)-7, w.b, N, 1, NULL);
+}
+
 WRONG(small_ldb) {
     const sl_int row = 3;
     return sl_local_solve(w.y.F, NULL, SL_ALL, &row, 1, w.x, 1, w.b, 7, 1, NULL, stats);

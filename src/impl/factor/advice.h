@@ -64,12 +64,13 @@ SLI_COLD static const char *sli_advice(sl_factor *F, const sli_source *from, con
     }
     return F->limits.is_definite && f->bound >= 0.0
                ? "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite"
-           : f->bound < 0.0       ? "there was no memory to judge the pivot"
+           : f->bound < 0.0      ? "there was no memory to judge the pivot"
            : !sli_skips_nulls(F) ? sli_advice_null(F, from, f->pivot)
-           : f->bound > 0.0      ? "the pivot has the wrong sign, beyond options.null_tolerance: "
-                                   "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
-                                 : "A is indefinite, or options.null_vector or options.mass does "
-                                   "not suit its null vectors";
+           : f->bound > 0.0 && f->value != 0.0 /* 0: one of two complex null vectors is missing */
+               ? "the pivot has the wrong sign, beyond options.null_tolerance: "
+                 "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"
+               : "A is indefinite, or options.null_vector or options.mass does not suit its null "
+                 "vectors";
 }
 
 #endif

@@ -37,7 +37,9 @@ SLI_NOINLINE static sl_status sli_dense_check(const char *wrong, size_t ld, sl_i
     sl_status status = SL_OK;
     if (rows > 0 && (elements < (size_t)least ||
                      elements >= SL_ROW_MAJOR / 2)) { /* that bit is for later layouts */
-        status = sli_fail_at(NULL, SL_ERR_ARGUMENT, -1, -1, (double)elements, wrong);
+        /* a number below 0 that became a size_t is reported as that number */
+        status = sli_fail_at(NULL, SL_ERR_ARGUMENT, -1, -1, (double)(ptrdiff_t)(2 * elements) / 2.0,
+                             wrong);
         sli_error_line(NULL, least);
     }
     return status;
