@@ -95,7 +95,7 @@ help: ## this list
 # ---- the header ----
 
 header: build/amalgamate ## makes sparse_local.h from src/; with PACKS a header of the core and these packs, in build
-	@tools/packaging/home.sh '$(HOME_URL)'
+	@tools/packaging/home.sh '$(HOME_URL)' $(FULL_VERSION)
 	$(AMALGAMATE) $(if $(strip $(PACKS)),$(SELECTION),src/sparse_local.in.h sparse_local.h) LICENSE
 
 sparse_local.h: build/amalgamate $(SRC) LICENSE
@@ -105,7 +105,7 @@ sparse_local.h: build/amalgamate $(SRC) LICENSE
 
 check-header: build/amalgamate ## is sparse_local.h what src/ makes?
 	@$(AMALGAMATE) --check src/sparse_local.in.h sparse_local.h LICENSE
-	@tools/packaging/home.sh --check '$(HOME_URL)'
+	@tools/packaging/home.sh --check '$(HOME_URL)' $(FULL_VERSION)
 	@echo 'check-header: sparse_local.h is what src/ makes'
 
 build/amalgamate: $(wildcard tools/build/*.[ch])

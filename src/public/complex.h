@@ -28,10 +28,10 @@
  * For other values in the same pattern, make another real matrix and call sl_factor_refactor.
  *
  * L has four times the entries of that of a real matrix with the pattern of H. It has the blocks
- * [a -b; b a] as well, and SL_STORAGE_COMPLEX (EXPERIMENTAL) computes and keeps the first column of
- * each: half the operations and half the memory. Solves read half as much, and share each read of L
- * as those of real matrices do: up to 32 right-hand sides. Every call on factors takes both
- * storages, except that L as complex is not changed in place or saved.
+ * [a -b; b a] as well, and SL_STORAGE_COMPLEX computes and keeps the first column of each: half the
+ * operations and half the memory. Solves read half as much, and share each read of L as those of
+ * real matrices do: up to 32 right-hand sides. Every call on factors takes both storages, except
+ * that L as complex is not changed in place or saved.
  *
  * A null vector z of H is two of the real matrix, z and i z: options.null_vector_count 2. */
 

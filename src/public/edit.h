@@ -5,7 +5,7 @@
 #include "options.h"
 #include "stats.h"
 
-/** EXPERIMENTAL. Analyzes an edited matrix B, starting from the analysis of A, the one before it.
+/** Analyzes an edited matrix B, starting from the analysis of A, the one before it.
  *
  *  This is for meshes that are remeshed or cut in places. The elimination tree of A is kept where
  *  no neighbors change. If edits are local, the order is about as good as the one before, and
@@ -41,7 +41,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
                                                  const sl_int *new_of, const sl_options *opt,
                                                  sl_stats *stats);
 
-/** EXPERIMENTAL. Factors an edited matrix B, starting from a factor of A, the one before it.
+/** Factors an edited matrix B, starting from a factor of A, the one before it.
  *
  *  Columns of L are copied where the supernode and all its descendants have the structure of F and
  *  were computed from the same entries; F knows these by hashes, so new_of and F decide about the

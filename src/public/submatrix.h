@@ -5,7 +5,7 @@
 #include "options.h"
 #include "stats.h"
 
-/** EXPERIMENTAL. Factors A[R, R], the matrix of the rows and columns R of A, from a factor of A.
+/** Factors A[R, R], the matrix of the rows and columns R of A, from a factor of A.
  *
  *  This is the system of a part of a mesh with zero Dirichlet values around it. Columns of L are
  *  copied if their supernode and all its descendants are in R. The others are computed again, in

@@ -126,8 +126,8 @@ typedef enum sl_method {
 typedef enum sl_storage {
     SL_STORAGE_DOUBLE = 0,
     SL_STORAGE_FLOAT,  /* half the bytes of L, its accuracy until refined */
-    SL_STORAGE_COMPLEX /* EXPERIMENTAL: half the bytes of L in full accuracy, of complex Hermitian
-                          matrices only, complex.h */
+    SL_STORAGE_COMPLEX /* half the bytes of L in full accuracy, of complex Hermitian matrices only,
+                          complex.h */
 } sl_storage;
 
 /** Which pivots are accepted. All others are refused with SL_ERR_PIVOT and their row. */

@@ -1,5 +1,6 @@
 #!/bin/bash
-# check_home.sh: HOME_URL reaches header, packages and manual; without it there is no address
+# check_home.sh: HOME_URL reaches header, packages and manual; without it there is no address. The
+# version of the header reaches the packages
 #
 #     tests/adapters/check_home.sh          (make test-home)
 #
@@ -92,5 +93,19 @@ check "no package has an empty address" \
      ! grep -F '>home</a>' build/manual/index.html && mkdir -p build/lib &&
      touch build/lib/libsparse_local.{a,so,so.1} && HOME_URL= installed &&
      ! grep -r URL $dir/to/usr/lib/pkgconfig"
+
+# ---- the version ----
+
+check "make header writes another version to the packages, Python's in its own spelling" \
+    "sed -i 's/\\(SL_VERSION_PATCH\\) [0-9]*/\\1 77/' src/public/config.h &&
+     ! $quiet check-header && $quiet header && $quiet check-header &&
+     grep 'version: .*[.]77-dev.,' meson.build &&
+     grep 'semver.*[.]77-dev\"' tools/packaging/vcpkg/vcpkg.json &&
+     grep '^version.*[.]77[.]dev0\"' tools/python/pyproject.toml"
+check "so it does with that of a release, without a suffix" \
+    "sed -i 's/\\(SL_VERSION_SUFFIX\\) .*/\\1 \"\"/' src/public/config.h &&
+     $quiet header && $quiet check-header && grep 'version: .*[.]77.,' meson.build &&
+     grep 'semver.*[.]77\"' tools/packaging/vcpkg/vcpkg.json &&
+     grep '^version.*[.]77\"' tools/python/pyproject.toml"
 
 checks_end

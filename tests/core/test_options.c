@@ -141,7 +141,7 @@ static void unknown_enum_values_are_refused(void **state) {
         const sl_reading reading = (sl_reading)unknown(k, SL_AS_STORED);
         sl_options opt = options_none();
         opt.perm = f->perm;
-        opt.ordering = (sl_ordering)(k == 3 ? 2 : unknown(k, SL_ORDERING_MINDEG));
+        opt.ordering = (sl_ordering)(k == 3 ? 2 : unknown(k, ORDERING_LAST));
         SL_EXPECT(SL_ERR_ARGUMENT, option_symbolic(f, &opt));
         opt = options_none();
         opt.purpose = (sl_purpose)unknown(k, SL_PURPOSE_ONE_FACTOR);

@@ -67,7 +67,7 @@ static void the_zoo_in_every_style_and_ordering(void **state) {
             for (int which = 0; which<GEN_STYLES; which += sizes[size]> 20 ? 5 : 1) {
                 gen_matrix_t M = gen_store(&t, gen_style(which), 4);
                 M.view.x = NULL; /* values are not read */
-                for (int ordering = SL_ORDERING_ND; ordering <= SL_ORDERING_MINDEG; ordering++) {
+                for (int ordering = SL_ORDERING_ND; ordering <= ORDERING_LAST; ordering++) {
                     if (!ordering_is_present((sl_ordering)ordering)) {
                         continue;
                     }

@@ -227,6 +227,9 @@ static inline sl_options options_for_rest(const sl_options *from, int plan, int 
 
 /* ---- orderings ---- */
 
+/* The last value of sl_ordering. */
+enum { ORDERING_LAST = SL_ORDERING_MINDEG };
+
 /* Is this an ordering, and compiled in? */
 static inline int ordering_is_present(sl_ordering ordering) {
 #if !defined(SL_METIS) || defined(SL_NO_METIS)

@@ -146,7 +146,7 @@ uninstall: ## removes what install put there
 	DESTDIR='$(DESTDIR)' tools/packaging/install.sh uninstall
 
 check-install: deps-packaging deps-cxx sparse_local.h ## strangers' projects by pkg-config, CMake and meson, outside the tree
-	@CC='$(CC)' CXX='$(CXX)' VERSION=$(VERSION) FULL_VERSION=$(FULL_VERSION) tests/adapters/check_install.sh $(INSTALL_PARTS)
+	@CC='$(CC)' CXX='$(CXX)' VERSION=$(VERSION) tests/adapters/check_install.sh $(INSTALL_PARTS)
 
 test-home: sparse_local.h ## does HOME_URL reach the header, the packages and the manual?
 	@CC='$(CC)' PYTHON='$(PYTHON)' tests/adapters/check_home.sh
