@@ -170,6 +170,7 @@ def test_parts_and_their_systems(A, order, make, lower):
                       sp.csc_array(right_hand_sides(25, 2))):
                 x = f.solve(b, system=system)
                 assert sp.issparse(x) == sp.issparse(b) and np.allclose(M @ dense(x), dense(b))
+            assert isinstance(x, sp.csc_array)  # whose * is not that of csc_matrix
     with pytest.raises(ValueError, match="system"):
         f.solve(np.ones(25), system="P")
     with pytest.raises(ValueError, match="read-only"):

@@ -369,11 +369,12 @@ class CholeskyFactor:
         self._f._ready()
         parts = _systems[self.is_ll][system]
         if parts == "":
-            return b.astype(self.dtype)
+            return self._typed(b) if sparse.issparse(b) else b.astype(self.dtype)
         if 0 < self.rcond < self.N * np.finfo(np.float64).eps:
             warnings.warn("nearly singular: rcond is %.2g" % self.rcond, CholmodWarning,
                           stacklevel=2)
-        return self._f._solve(b, parts).astype(self.dtype, copy=False)
+        x = self._f._solve(b, parts)
+        return self._typed(x) if sparse.issparse(b) else x.astype(self.dtype, copy=False)
 
     def logdet(self):
         """log det A, -inf if A is singular."""
