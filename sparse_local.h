@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 417ea4ad4ce79adf
+ * FNV-1a of the lines after this comment, without the license: 4f93c52037f58eae
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -458,8 +458,8 @@ typedef enum sl_method {
 typedef enum sl_storage {
     SL_STORAGE_DOUBLE = 0,
     SL_STORAGE_FLOAT,  /* half the bytes of L, its accuracy until refined */
-    SL_STORAGE_COMPLEX /* EXPERIMENTAL: half the bytes of L in full accuracy, of complex Hermitian
-                          matrices only, complex.h */
+    SL_STORAGE_COMPLEX /* half the bytes of L in full accuracy, of complex Hermitian matrices only,
+                          complex.h */
 } sl_storage;
 
 /** Which pivots are accepted. All others are refused with SL_ERR_PIVOT and their row. */
@@ -2458,7 +2458,7 @@ SL_API SL_WARN_UNUSED sl_status sl_constraints_solve(const sl_constraints *P, co
 #if defined(SL_WITH_EDIT)
 /* src/public/submatrix.h: the factor of a principal submatrix, from that of the whole matrix */
 
-/** EXPERIMENTAL. Factors A[R, R], the matrix of the rows and columns R of A, from a factor of A.
+/** Factors A[R, R], the matrix of the rows and columns R of A, from a factor of A.
  *
  *  This is the system of a part of a mesh with zero Dirichlet values around it. Columns of L are
  *  copied if their supernode and all its descendants are in R. The others are computed again, in
@@ -2500,7 +2500,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_submatrix(sl_symbolic **S, sl_factor *
 
 /* src/public/edit.h: analyses and factors that follow edits of the pattern: rows and entries come and go */
 
-/** EXPERIMENTAL. Analyzes an edited matrix B, starting from the analysis of A, the one before it.
+/** Analyzes an edited matrix B, starting from the analysis of A, the one before it.
  *
  *  This is for meshes that are remeshed or cut in places. The elimination tree of A is kept where
  *  no neighbors change. If edits are local, the order is about as good as the one before, and
@@ -2536,7 +2536,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
                                                  const sl_int *new_of, const sl_options *opt,
                                                  sl_stats *stats);
 
-/** EXPERIMENTAL. Factors an edited matrix B, starting from a factor of A, the one before it.
+/** Factors an edited matrix B, starting from a factor of A, the one before it.
  *
  *  Columns of L are copied where the supernode and all its descendants have the structure of F and
  *  were computed from the same entries; F knows these by hashes, so new_of and F decide about the
@@ -2598,10 +2598,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor 
  * For other values in the same pattern, make another real matrix and call sl_factor_refactor.
  *
  * L has four times the entries of that of a real matrix with the pattern of H. It has the blocks
- * [a -b; b a] as well, and SL_STORAGE_COMPLEX (EXPERIMENTAL) computes and keeps the first column of
- * each: half the operations and half the memory. Solves read half as much, and share each read of L
- * as those of real matrices do: up to 32 right-hand sides. Every call on factors takes both
- * storages, except that L as complex is not changed in place or saved.
+ * [a -b; b a] as well, and SL_STORAGE_COMPLEX computes and keeps the first column of each: half the
+ * operations and half the memory. Solves read half as much, and share each read of L as those of
+ * real matrices do: up to 32 right-hand sides. Every call on factors takes both storages, except
+ * that L as complex is not changed in place or saved.
  *
  * A null vector z of H is two of the real matrix, z and i z: options.null_vector_count 2. */
 

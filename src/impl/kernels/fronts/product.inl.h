@@ -217,7 +217,7 @@ SLV_FUNCTION static void SLV_FRONT(product)(const double *panel, sl_int w, const
 #endif
             double *C[SLV_TILES];
             m = 0;
-            do { /* up to `end`, no constant: else gcc -O3 makes vectors of addresses, and spills */
+            do { /* no constant end: gcc -O3 would make vectors of addresses, and spill sums */
                 r = t + m;
                 A[m] = panel + sli_tile_offset(w, r) / parts + SLI_TILE * (ptrdiff_t)j;
                 C[m] = target + sli_tile_offset(target_width, r - target_first) / parts;
