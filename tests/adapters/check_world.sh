@@ -98,6 +98,16 @@ project other 'b / 2 + 0'
 sed -i 's/b \/ 2/b \/ 4 * 2/' "$dir/sources/other/solver.h"
 project untested 'b * 0.5'
 sed -i 's/printf.*/good++;/' "$dir/sources/untested/test.c"
+project testless 'b * 0.5'
+echo 'has_tests=no' >>"$dir/recipes/testless.sh"
+project cmade 'b * 0.5'
+printf 'cmake_minimum_required(VERSION 3.5)\nproject(cmade C)\nadd_executable(tests test.c)\n' >"$dir/sources/cmade/CMakeLists.txt"
+cat >>"$dir/recipes/cmade.sh" <<'END'
+build() {
+    cmake_build tests && cp "$dir/build/tests" "$dir/test" &&
+        c -I"$src" "$recipes/cmade.c" -o "$dir/program"
+}
+END
 project later 'b * 0.5'
 commit later --allow-empty
 mkdir "$dir/sources/stranger" # a checkout without a recipe
@@ -111,7 +121,7 @@ check "equal features" "row same '$good' && last '1 passed, 0 failed'"
 check "rows of other projects are kept" "grep -x '$kept' $dir/page.md"
 world
 check "all that have a checkout" \
-    "last '2 passed, 8 failed' && grep 'absent: skipped' $dir/world.log"
+    "last '4 passed, 8 failed' && grep 'absent: skipped' $dir/world.log"
 check "one row each" "row same '$good' && [ \$(grep -c '| same |' $dir/page.md) = 1 ]"
 check "rounding, one of their tests less" "row near '1 | 2/2, 1/2 | 2/2 | 1, nothing'"
 check "one feature differs" "row odd '1 | 2/2, 2/2 | 1/2 | 1, nothing'"
@@ -121,8 +131,11 @@ check "what does not compile" "row broken '1 | no build with ours | - | -'"
 check "the time is ours by theirs" "row slow '1 | 2/2, 1/2 | 1/2 | 1.5, nothing'"
 check "a patch that does not apply" "row other '- | the patch does not apply | - | -'"
 check "no own tests" "row untested '1 | 0/0, 0/0 | 2/2 | 1, nothing'"
+check "a project that has none" "row testless '1 | none | 2/2 | 1, nothing'"
 check "another commit" "row later '$good' && grep 'was written for' $dir/world.log"
 check "sources are not changed" "git -C $dir/sources/same diff --exit-code"
+CC="env $CC" world cmade
+check "CMake, and a compiler of two words" "row cmade '$good'"
 world stranger
 check "a checkout without a recipe" "last '0 passed, 1 failed' && row same '$good'"
 checks_end

@@ -5,6 +5,7 @@
 #include "check.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace {
@@ -213,6 +214,12 @@ void matrices() {
     CHECK(M.from_triplets(3, 3, {}, {}, {}).ok() && M.view().p[3] == 0);
     CHECK(fails(SL_ERR_ARGUMENT, -1, [&] { return M.from_triplets(2, 2, {0}, {0, 1}, {1}); }));
     CHECK(M.view().n_rows == 3); /* as it was */
+    const std::int64_t p[] = {0, 2, 3}, i[] = {0, 1, 1}, outside[] = {0, 2, 1};
+    const double x[] = {4, 1, 3};
+    CHECK(M.from_csc64({2, 2, p, i, x}).ok() && M.view().n_rows == 2 && M.view().p[2] == 3);
+    CHECK(M.view().i[1] == 1 && M.view().x[2] == 3);
+    CHECK(fails(SL_ERR_MALFORMED, 2, [&] { return M.from_csc64({2, 2, p, outside, x}); }));
+    CHECK(M.from_csc64({2, 2, p, i, nullptr}).ok() && M.view().x == nullptr);
     CHECK(fails(SL_ERR_IO, -1, [&] { return M.read("no such file"); }));
 }
 

@@ -288,6 +288,13 @@ public:
                                                    data_of(x), options, &stats);
         return keep(made, Status(status, stats));
     }
+    /** A copy of 64-bit indices, as those of CHOLMOD's long interface. */
+    SL_RESULT from_csc64(const sl_csc64 &A, const sl_options *options = nullptr) {
+        sl_matrix *made = nullptr;
+        sl_stats stats;
+        sl_status status = sl_matrix_from_csc64(&made, &A, options, &stats);
+        return keep(made, Status(status, stats));
+    }
     SL_RESULT read(const std::string &path, const sl_options *options = nullptr) {
         sl_matrix *made = nullptr;
         sl_stats stats;

@@ -35,6 +35,9 @@
  *             in their rows, stats().factor.null counts them, and a b without a solution makes
  *             info() NumericalIssue. LocalLDLT and LocalLLT refuse singular matrices
  *             (setNullPivots). setZeroMean() gives the solution with mean zero.
+ *             Inverse iteration at a shift that is an eigenvalue, as 0 for a free body, needs
+ *             options().null_tolerance = -1, setNullPivots(false) and setPivoted(false): as with
+ *             Eigen's class, a pivot that is only rounding errors is then used.
  * Other differences from Eigen's classes:
  *             - factorize with another pattern than that of analyzePattern analyzes it, and compute
  *               with the pattern of the last analysis does not analyze it again; analyses() counts.

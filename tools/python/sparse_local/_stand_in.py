@@ -12,7 +12,8 @@ def stand_in(*names):
 
     After stand_in("sksparse"), `from sksparse.cholmod import cholesky` is
     sparse_local.sksparse.cholmod, with the names of scikit-sparse 0.4. A version may follow a name:
-    stand_in("sksparse", "0.5") offers those of 0.5, where cholesky returns a matrix. Needs SciPy.
+    stand_in("sksparse", "0.5") offers those of 0.5, where cholesky returns a matrix and its order.
+    Needs SciPy.
     RuntimeError: another module of that name is imported already. It holds for this process.
     """
     for name, version in _with_versions(names):

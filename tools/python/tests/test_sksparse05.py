@@ -112,25 +112,108 @@ def test_changes(A, order, make):
         assert np.allclose((whole + CC) @ f.update(C).solve(b), b)
         assert np.allclose(whole @ f.downdate(C).solve(b), b)
     f, p = make(A, order=order), make(A, order=order).get_perm()
-    column = sp.csc_array(A[:, [12]])
+    place = np.argsort(p)  # rows are numbered in the order of the factor
     for k in (12, 0, 24):
         without = whole.copy()
         without[k], without[:, k] = 0, 0
         without[k, k] = 1
-        assert np.allclose(without @ f.rowdel(k).solve(b), b)
-        f.rowadd(k, sp.csc_array(A[:, [k]]))
+        assert np.allclose(without @ f.rowdel(place[k]).solve(b), b)
+        f.rowadd(place[k], sp.csc_array(A[p][:, [k]]))
         assert np.allclose(whole @ f.solve(b), b)
     more = whole.copy()
     more[0, 24] = more[24, 0] = 0.05  # an entry that was not analyzed
-    assert np.allclose(more @ f.rowadd(24, sp.csc_array(more[:, [24]])).solve(b), b)
+    assert np.allclose(more @ f.rowadd(place[24], sp.csc_array(more[p][:, [24]])).solve(b), b)
     assert np.array_equal(f.get_perm(), p)
-    f.rowadd(24, sp.csc_array(A[:, [24]]))
+    f.rowadd(place[24], sp.csc_array(A[p][:, [24]]))
     fill = f.nnz
     f.resymbol(A[p][:, p]) if order else f.resymbol(A, is_permuted=False)
     assert f.nnz <= fill and np.allclose(whole @ f.solve(b), b)
     with pytest.raises(cholmod.CholmodInvalidInputError):
         f.resymbol(sp.identity(n, format="csc"))
-    assert np.allclose(whole @ f.solve(b), b) and column.shape == (n, 1)
+    assert np.allclose(whole @ f.solve(b), b)
+
+
+def test_the_order_is_one_of_little_fill_unless_none():
+    A = grid(30)
+    (R, p), (unit, D, q) = cholmod.cholesky(A), cholmod.ldl(A)
+    natural, f = cholmod.cholesky(A, order=None), cholmod.CholeskyFactor(A)
+    assert np.allclose((R.T @ R).toarray(), A[p][:, p].toarray()) and R.nnz < 0.7 * natural.nnz
+    assert np.allclose((unit @ D @ unit.T).toarray(), A[q][:, q].toarray())
+    assert np.allclose((natural.T @ natural).toarray(), A.toarray())
+    fills = [g.nnz for g in (f, cholmod.cho_factor(A), cholmod.ldl_factor(A))]
+    assert max(fills) < 0.7 * natural.nnz and f.order == "default"
+    assert len(cholmod.ldl(A, order=None)) == 2
+    x = cholmod.cho_solve(A, np.ones(900), 0.5)
+    assert np.allclose(A @ x + 0.5 * x, 1)
+    half = cholmod.cho_solve(sp.tril(A, format="csc"), np.ones((900, 2)), lower=True, order="amd")
+    assert np.allclose(A @ half, 1)
+
+
+@pytest.mark.parametrize("A", CASES, ids=["real", "complex"])
+@pytest.mark.parametrize("order", [None, "default"])
+@pytest.mark.parametrize("make", [cholmod.cho_factor, cholmod.ldl_factor])
+@pytest.mark.parametrize("lower", [False, True])
+def test_parts_and_their_systems(A, order, make, lower):
+    f = make(A, order=order, lower=lower)
+    for kind in (None, "LL", "LDL", "LDL"):
+        assert f.change_factor(kind) is f and f.is_ll == (kind == "LL" or kind is None and
+                                                          make is cholmod.ldl_factor)
+        L, R, D = f.L, f.R, f.D.toarray()
+        assert np.allclose(L.toarray(), np.tril(L.toarray())) and f.sym_kind == "sym"
+        assert np.allclose(R.toarray(), L.toarray().conj().T)
+        assert np.allclose(L @ D @ R, A[f.perm][:, f.perm].toarray())
+        assert (D == np.eye(25)).all() if f.is_ll else np.allclose(L.diagonal(), 1)
+        products = {"LDLt": L @ D @ R, "LD": L @ D, "DLt": D @ R, "L": L, "Lt": R, "D": D,
+                    "A": A}
+        for system, M in products.items():
+            for b in (right_hand_sides(25), right_hand_sides(25, 3),
+                      sp.csc_array(right_hand_sides(25, 2))):
+                x = f.solve(b, system=system)
+                assert sp.issparse(x) == sp.issparse(b) and np.allclose(M @ dense(x), dense(b))
+            assert isinstance(x, sp.csc_array)  # whose * is not that of csc_matrix
+    with pytest.raises(ValueError, match="system"):
+        f.solve(np.ones(25), system="P")
+    with pytest.raises(ValueError, match="read-only"):
+        f.factor.data[0] = 1.0
+    with pytest.raises(cholmod.CholmodNotPositiveDefiniteError):
+        cholmod.ldl_factor(-A).change_factor("LL")
+    with pytest.raises(cholmod.CholmodError):
+        cholmod.CholeskyFactor(A).change_factor()
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.complex64, np.float64, np.complex128, np.int64])
+def test_results_have_the_type_of_the_matrix(dtype):
+    A = (10 * grid(5) + 5 * sp.identity(25)).astype(np.int64).astype(dtype).tocsc()
+    of = np.dtype(dtype if dtype != np.int64 else np.float64)
+    f = cholmod.cho_factor(A)
+    b = np.ones(25, dtype=np.float16)
+    L, D = f.get_factor("LDL")
+    for part in (f, f.copy(), f.solve(b), f.solve(sp.csc_matrix(b[:, None])), f.factor, f.L, f.R,
+                 f.D, L, D, f.get_factor(), f.inv(), f.det(), f.slogdet()[0],
+                 f.solve(b, system="L"), f.solve(b, system="D"), cholmod.cholesky(A)[0]):
+        assert part.dtype == of
+    assert np.allclose(A @ f.solve(b), 1, rtol=1e-5)
+    with pytest.raises(TypeError, match="does not hold"):
+        f.solve(np.ones(25, np.complex64 if of.kind == "f" else np.longdouble))
+    if of.itemsize == 4:
+        with pytest.raises(TypeError):
+            f.solve(np.ones(25))
+
+
+def test_pivots_that_are_far_apart_are_a_warning():
+    A = sp.diags([1.0, 1e-15, 2.0, 1.0], format="csc")
+    f = cholmod.CholeskyFactor(A)
+    assert f.rcond == -1 and not f.is_numeric
+    f.factorize(A)
+    assert f.is_numeric and np.isclose(f.rcond, 0.5e-15, atol=0)
+    with pytest.warns(cholmod.CholmodWarning, match="nearly singular"):
+        f.solve(np.ones(4))
+    f.factorize(sp.identity(4, format="csc"))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert f.rcond == 1 and np.allclose(f.solve(np.ones(4)), 1)
+    C = sp.csc_matrix(([3.0], ([1], [0])), shape=(4, 1))
+    assert np.isclose(f.update(C).rcond, 0.1) and np.isclose(f.downdate(C).rcond, 1)
 
 
 def test_singular_matrices():
@@ -247,8 +330,8 @@ from sksparse.cholmod import cho_factor, cholesky
 from sksparse.amd import amd
 import scipy.sparse as sp, numpy as np
 A = sp.csc_matrix([[4.0, 1.0], [1.0, 3.0]])
-R = cholesky(A)
-assert np.allclose((R.T @ R).toarray(), A.toarray()) and len(amd(A)) == 2
+R, p = cholesky(A)
+assert np.allclose((R.T @ R).toarray(), A[p][:, p].toarray()) and len(amd(A)) == 2
 for wrong in (("sksparse", "0.6"), ("0.5",), ("qdldl", "0.5")):
     try:
         sparse_local.stand_in(*wrong)

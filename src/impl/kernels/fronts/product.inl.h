@@ -216,15 +216,16 @@ SLV_FUNCTION static void SLV_FRONT(product)(const double *panel, sl_int w, const
             const double *next[SLV_TILES];
 #endif
             double *C[SLV_TILES];
-            for (m = 0; m < step; m++) {
-                r = sli_min(t + m, end - 1);
+            m = 0;
+            do { /* no constant end: gcc -O3 would make vectors of addresses, and spill sums */
+                r = t + m;
                 A[m] = panel + sli_tile_offset(w, r) / parts + SLI_TILE * (ptrdiff_t)j;
                 C[m] = target + sli_tile_offset(target_width, r - target_first) / parts;
 #if SLV_TILES > SLV_VECTOR_TILES
                 r = sli_min(t + m + step, t1 - 1);
                 next[m] = panel + sli_tile_offset(w, r) / parts + SLI_TILE * (ptrdiff_t)j;
 #endif
-            }
+            } while (++m < end - t);
             for (c = c0; c < c1 && c < end; c++) {
                 const ptrdiff_t at = (ptrdiff_t)tile_size / parts * (c - target_first);
                 const double *b = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;

@@ -1,10 +1,13 @@
 """The names of sksparse.cholmod 0.5 on sparse_local: programs written for it run unchanged.
 
 sparse_local.stand_in("sksparse", "0.5") lets `from sksparse.cholmod import cho_factor` find this
-module. As there, the order is the natural one unless `order` is given, and one triangle is read:
-the upper one, if not lower. What 0.5 takes without a word, and what is done with singular matrices,
-is as in sparse_local.sksparse.cholmod. supernodal_mode chooses no algorithm.
+module. As there, one triangle is read: the upper one, if not lower. What 0.5 takes without a word,
+and what is done with singular matrices, is as in sparse_local.sksparse.cholmod. Unlike there, a
+matrix of single precision is decomposed in double precision, only results are rounded, and row
+numbers have 32 bits. supernodal_mode chooses no algorithm.
 """
+import warnings
+
 import numpy as np
 from scipy import sparse
 
@@ -22,13 +25,18 @@ from ._orders import (SeparatorTree, bisect, etree, matrix_of, metis, nesdis, sy
 __all__ = ["CholeskyFactor", "CholmodError", "CholmodGpuProblemError", "CholmodInvalidInputError",
            "CholmodNotInstalledError", "CholmodNotPositiveDefiniteError",
            "CholmodOutOfMemoryError", "CholmodOverflowError", "CholmodSmallDiagonalWarning",
-           "CholmodWarning", "SeparatorTree", "bisect", "cho_factor", "cholesky", "etree", "ldl",
-           "ldl_factor", "metis", "nesdis", "symbfact"]
+           "CholmodWarning", "SeparatorTree", "bisect", "cho_factor", "cho_solve", "cholesky",
+           "etree", "ldl", "ldl_factor", "metis", "nesdis", "symbfact"]
 
 _orders = {None: "natural", "natural": "natural", "postordered": "natural", "default": "nd",
            "best": "nd", "metis": "nd", "nesdis": "nd", "amd": "mindeg", "colamd": "mindeg"}
 _sym_kinds = (None, "sym", "row", "col")
 _modes = (None, "auto", "simplicial", "supernodal")
+# what solve_part calls the systems of L L^H, where D is the identity, and of L D L^H
+_systems = {True: {"A": None, "LDLt": "L D LT", "LD": "L sqrtD", "DLt": "sqrtD LT",
+                   "L": "L sqrtD", "Lt": "sqrtD LT", "D": ""},
+            False: {"A": None, "LDLt": "L D LT", "LD": "L D", "DLt": "D LT", "L": "L", "Lt": "LT",
+                    "D": "D"}}
 
 
 class CholmodSmallDiagonalWarning(CholmodWarning):
@@ -39,8 +47,10 @@ class _Numbers(_old.Factor):
     """The decomposition behind a CholeskyFactor. L L^H needs positive pivots, L D L^H does not."""
 
     is_ll = True
+    rcond = None  # not computed for these numbers
 
     def _judge(self):
+        self.rcond = None
         negative = self._numbers.inertia[1]
         if self.is_ll and negative:
             column = int(self.P()[int(np.argmax(self.D() < 0))])
@@ -58,12 +68,12 @@ def _one_of(value, names, what):
 class CholeskyFactor:
     """The analysis of A, and after factorize its decomposition L L^H or L D L^H = A[p][:, p].
 
-    order     None: the natural one; 'default', 'best', 'metis', 'nesdis' (nested dissection),
-              'amd', 'colamd' (minimum degree), 'postordered'.
+    order     'default', 'best', 'metis', 'nesdis' (nested dissection), 'amd', 'colamd' (minimum
+              degree); 'postordered'; None, 'natural': A itself is decomposed.
     sym_kind  'sym': A itself; 'row': A A^H; 'col': A^H A.
     """
 
-    def __init__(self, A, *, lower=True, order=None, sym_kind=None, supernodal_mode=None):
+    def __init__(self, A, *, lower=True, order="default", sym_kind=None, supernodal_mode=None):
         self._begin(A, 0.0, lower, order, sym_kind, supernodal_mode)
 
     def _begin(self, A, beta, lower, order, sym_kind, supernodal_mode):
@@ -71,6 +81,9 @@ class CholeskyFactor:
         _one_of(sym_kind, _sym_kinds, "sym_kind")
         _one_of(supernodal_mode, _modes, "supernodal_mode")
         self._order, self._sym_kind, self._is_lower = order, sym_kind, bool(lower)
+        A = matrix_of(A)
+        kind = A.dtype.char if A.dtype.char in "fF" else "D" if A.dtype.kind == "c" else "d"
+        self._dtype = np.dtype(kind)
         low = self._read(A, self._is_lower)
         natural = np.arange(low.shape[0], dtype=np.int32) if order in (None, "natural") else None
         self._analyze(Pattern(low, beta), {"ordering": _orders[order]}, natural)
@@ -127,23 +140,27 @@ class CholeskyFactor:
         if not sparse.issparse(C) or C.shape[0] != self.N:
             raise ValueError("C is a sparse matrix of %d rows" % self.N)
         self._f.update_inplace(C.tocsc(), subtract=is_less)
+        self._f.rcond = None
         return self
 
     def rowadd(self, k, C):
-        """Row and column k of the matrix become C, sparse, n x 1."""
+        """Row and column k of the matrix in the order of the factor, A[perm][:, perm], become C,
+        sparse, n x 1, whose rows are in this order, too."""
         if not sparse.issparse(C) or C.shape != (self.N, 1):
             raise ValueError("C is a sparse matrix of %d x 1" % self.N)
         C = C.tocoo()
         return self._with_row(k, C.row, C.data)
 
     def rowdel(self, k):
-        """Row and column k of the matrix become those of the identity."""
+        """Row and column k of A[perm][:, perm] become those of the identity."""
         return self._with_row(k, np.array([k]), np.ones(1))
 
     def _with_row(self, k, rows, values):
         if not 0 <= k < self.N:
             raise IndexError("row %r of a matrix of %d rows" % (k, self.N))
         self._f._ready()
+        p = self._f.P()
+        k, rows = p[k], p[rows]
         low = self._f._low.copy()
         at_row = low.indices == k
         columns = np.union1d(np.repeat(np.arange(self.N), np.diff(low.indptr))[at_row], [k])
@@ -214,6 +231,14 @@ class CholeskyFactor:
         return self._f.is_ll
 
     @property
+    def is_numeric(self):
+        return self._f._numbers is not None
+
+    @property
+    def sym_kind(self):
+        return self._sym_kind or "sym"
+
+    @property
     def is_lower(self):
         return self._is_lower
 
@@ -227,7 +252,7 @@ class CholeskyFactor:
 
     @property
     def dtype(self):
-        return np.dtype(np.complex128 if self._f._pattern.is_complex else np.float64)
+        return self._dtype
 
     @property
     def order(self):
@@ -259,24 +284,63 @@ class CholeskyFactor:
 
     @property
     def rcond(self):
-        """A rough reciprocal condition number, from the pivots: the smallest by the largest."""
-        d = abs(self._f.D())
-        return float(d.min() / d.max()) if d.size and d.max() > 0 else float(d.size == 0)
+        """A rough reciprocal condition number, from the pivots: the smallest by the largest; -1
+        before factorize."""
+        if not self.is_numeric:
+            return -1.0
+        if self._f.rcond is None:
+            d = abs(self._f.D())
+            self._f.rcond = (float(d.min() / d.max()) if d.size and d.max() > 0 else
+                             float(d.size == 0))
+        return self._f.rcond
 
     @property
     def factor(self):
-        """L of L L^H, or L with D in place of its unit diagonal; lower triangular."""
-        return sparse.csc_array(self._f.L() if self.is_ll else self._f.LD())
+        """L of L L^H, or L with D in place of its unit diagonal; lower triangular, read-only."""
+        view = self._typed(self._f.L() if self.is_ll else self._f.LD())
+        for array in (view.data, view.indices, view.indptr):
+            array.flags.writeable = False
+        return view
+
+    def _typed(self, matrix):
+        return sparse.csc_array(matrix, dtype=self.dtype)
+
+    @property
+    def L(self):
+        """L of L L^H or of L D L^H, as the factor is."""
+        return self._typed(self._f.L() if self.is_ll else self._f._lower())
+
+    @property
+    def R(self):
+        """L^H."""
+        return self.L.conj().T.tocsc()
+
+    @property
+    def D(self):
+        """D of L D L^H; the identity for L L^H."""
+        d = np.ones(self.N) if self.is_ll else self._f.D()
+        return sparse.dia_array((d[None, :].astype(self.dtype), [0]), shape=(self.N, self.N))
+
+    def change_factor(self, kind=None):
+        """Makes this L L^H ('LL') or L D L^H ('LDL'); None: the other one. Returns the object."""
+        _one_of(kind, (None, "LL", "LDL"), "kind")
+        is_ll = not self.is_ll if kind is None else kind == "LL"
+        self._f._ready()
+        if is_ll:
+            self._f._roots()  # raises an error where a pivot is negative
+        self._f.is_ll = is_ll
+        return self
 
     def get_factor(self, kind=None, lower=None):
         """L ('LL'), or L and D ('LDL'); None: as factorize made it. lower=False: L^H instead of L;
         None: as the triangle that was read."""
         _one_of(kind, (None, "LL", "LDL"), "kind")
         is_ll = self.is_ll if kind is None else kind == "LL"
-        L = sparse.csc_array(self._f.L() if is_ll else self._f._lower())
+        L = self._typed(self._f.L() if is_ll else self._f._lower())
         if not (self._is_lower if lower is None else lower):
             L = L.conj().T.tocsc()
-        return L if is_ll else (L, sparse.dia_array((self._f.D()[None, :], [0]), shape=L.shape))
+        d = self._f.D()[None, :].astype(self.dtype)
+        return L if is_ll else (L, sparse.dia_array((d, [0]), shape=L.shape))
 
     def get_perm(self):
         """p, with A[p][:, p] decomposed."""
@@ -287,13 +351,30 @@ class CholeskyFactor:
 
     # ---- solves and numbers ----
 
-    def solve(self, b):
-        """x with A x = b, dense or sparse as b, (n,) or (n, count)."""
+    def solve(self, b, system="A"):
+        """x with A x = b, dense or sparse as b, (n,) or (n, count).
+
+        system  'LDLt', 'LD', 'DLt', 'L', 'Lt', 'D': that product in place of A, in the order of the
+                factor, where b[perm] stands for b; of L L^H D is the identity.
+        TypeError: b has a type that the one of the matrix does not hold. CholmodWarning: the pivots
+        are so far apart that x may have no correct digit.
+        """
         if not isinstance(b, np.ndarray) and not sparse.issparse(b):
             raise ValueError("b is an array or a sparse matrix, not %s" % type(b).__name__)
         if b.ndim not in (1, 2) or b.shape[0] != self.N:
             raise ValueError("b needs %d rows, and has the shape %s" % (self.N, b.shape))
-        return self._f.solve_A(b)
+        if not np.can_cast(b.dtype, self.dtype):
+            raise TypeError("the matrix is %s, which does not hold b, %s" % (self.dtype, b.dtype))
+        _one_of(system, tuple(_systems[True]), "system")
+        self._f._ready()
+        parts = _systems[self.is_ll][system]
+        if parts == "":
+            return self._typed(b) if sparse.issparse(b) else b.astype(self.dtype)
+        if 0 < self.rcond < self.N * np.finfo(np.float64).eps:
+            warnings.warn("nearly singular: rcond is %.2g" % self.rcond, CholmodWarning,
+                          stacklevel=2)
+        x = self._f._solve(b, parts)
+        return self._typed(x) if sparse.issparse(b) else x.astype(self.dtype, copy=False)
 
     def logdet(self):
         """log det A, -inf if A is singular."""
@@ -301,15 +382,15 @@ class CholeskyFactor:
 
     def slogdet(self):
         """(1.0, log det A), as numpy.linalg.slogdet."""
-        return 1.0, self.logdet()
+        return self.dtype.type(1.0), self.logdet()
 
     def det(self):
         """det A, which may overflow."""
-        return float(np.exp(self.logdet()))
+        return self.dtype.type(np.exp(self.logdet()))
 
     def inv(self):
         """A^-1 as a sparse matrix."""
-        return self._f.inv()
+        return self._typed(self._f.inv())
 
 
 def _union(low, more):
@@ -320,12 +401,13 @@ def _union(low, more):
     return sparse.csc_matrix((values, (rows, columns)), shape=low.shape)
 
 
-def cho_factor(A, beta=0.0, *, lower=False, order=None, sym_kind=None, supernodal_mode=None):
+def cho_factor(A, beta=0.0, *, lower=False, order="default", sym_kind=None,
+               supernodal_mode=None):
     """The CholeskyFactor L L^H of A + beta I."""
     return _factored(A, False, beta, lower, order, sym_kind, supernodal_mode)
 
 
-def ldl_factor(A, beta=0.0, *, lower=True, order=None, sym_kind=None, supernodal_mode=None):
+def ldl_factor(A, beta=0.0, *, lower=True, order="default", sym_kind=None, supernodal_mode=None):
     """The CholeskyFactor L D L^H of A + beta I."""
     return _factored(A, True, beta, lower, order, sym_kind, supernodal_mode)
 
@@ -338,16 +420,25 @@ def _factored(A, ldl, beta, lower, order, sym_kind, supernodal_mode):
     return made
 
 
-def cholesky(A, beta=0.0, *, lower=False, order=None, sym_kind=None, supernodal_mode=None):
-    """R with R^H R = A + beta I, or L with L L^H if lower; (R, p) of A[p][:, p] with an order."""
+def cho_solve(A, b, beta=0.0, *, lower=False, order="default", sym_kind=None,
+              supernodal_mode=None):
+    """x with (A + beta I) x = b, dense or sparse as b."""
+    return cho_factor(A, beta, lower=lower, order=order, sym_kind=sym_kind,
+                      supernodal_mode=supernodal_mode).solve(b)
+
+
+def cholesky(A, beta=0.0, *, lower=False, order="default", sym_kind=None,
+             supernodal_mode=None):
+    """(R, p) with R^H R = (A + beta I)[p][:, p], or L with L L^H if lower; R alone if order is
+    None, where A itself is decomposed."""
     f = cho_factor(A, beta, lower=lower, order=order, sym_kind=sym_kind,
                    supernodal_mode=supernodal_mode)
     return f.get_factor() if order is None else (f.get_factor(), f.get_perm())
 
 
-def ldl(A, beta=0.0, *, lower=True, order=None, sym_kind=None, supernodal_mode=None):
-    """(L, D) with L D L^H = A + beta I, or L^H in place of L if not lower; (L, D, p) with an
-    order."""
+def ldl(A, beta=0.0, *, lower=True, order="default", sym_kind=None, supernodal_mode=None):
+    """(L, D, p) with L D L^H = (A + beta I)[p][:, p], or L^H in place of L if not lower; (L, D) if
+    order is None."""
     f = ldl_factor(A, beta, lower=lower, order=order, sym_kind=sym_kind,
                    supernodal_mode=supernodal_mode)
     return f.get_factor() if order is None else f.get_factor() + (f.get_perm(),)
