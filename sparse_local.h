@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: cd0f3e57322fbb58
+ * FNV-1a of the lines after this comment, without the license: 65a515c679a959f5
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -37211,15 +37211,16 @@ SLV_FUNCTION static void SLV_FRONT(product)(const double *panel, sl_int w, const
       const double *next[SLV_TILES];
 #endif
       double *C[SLV_TILES];
-      for (m = 0; m < step; m++) {
-        r = sli_min(t + m, end - 1);
+      m = 0;
+      do {
+        r = t + m;
         A[m] = panel + sli_tile_offset(w, r) / parts + SLI_TILE * (ptrdiff_t)j;
         C[m] = target + sli_tile_offset(target_width, r - target_first) / parts;
 #if SLV_TILES > SLV_VECTOR_TILES
         r = sli_min(t + m + step, t1 - 1);
         next[m] = panel + sli_tile_offset(w, r) / parts + SLI_TILE * (ptrdiff_t)j;
 #endif
-      }
+      } while (++m < end - t);
       for (c = c0; c < c1 && c < end; c++) {
         const ptrdiff_t at = (ptrdiff_t)tile_size / parts * (c - target_first);
         const double *b = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
