@@ -171,6 +171,7 @@ def test_parts_and_their_systems(A, order, make, lower):
                 x = f.solve(b, system=system)
                 assert sp.issparse(x) == sp.issparse(b) and np.allclose(M @ dense(x), dense(b))
             assert isinstance(x, sp.csc_array)  # whose * is not that of csc_matrix
+            assert not np.shares_memory(x.data, b.data)
     with pytest.raises(ValueError, match="system"):
         f.solve(np.ones(25), system="P")
     with pytest.raises(ValueError, match="read-only"):
