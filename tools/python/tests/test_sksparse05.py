@@ -261,6 +261,9 @@ def test_what_is_wrong_gives_a_signal():
     with pytest.raises(cholmod.CholmodInvalidInputError):
         f.factorize(bad)
     assert cholmod.cho_factor(A.toarray()).solve(b).shape == (25,)  # anything that SciPy takes
+    turned = sp.csc_matrix(np.array([[4, 1j], [-1j, 3 + 1e-3j]]))
+    with pytest.raises(cholmod.CholmodInvalidInputError, match="diagonal.* imaginary part.*row 1"):
+        cholmod.cho_factor(turned)
 
 
 def is_postorder(parent, post):
