@@ -40,19 +40,27 @@ NAMES = {
     "part is neither SL_PART_L nor SL_PART_LT": "part is neither 'L' nor 'LT'",
     "stats.factor.weak": "stats['factor']['weak'] of the factor",
     "size_t counts": "the system addresses",
-    # the arrays of a matrix
-    "A.p": "A.indptr", "A.i": "A.indices", "A.x": "A.data", "V.x": "V.data", "H.x": "A.data",
-    "a diagonal entry of H": "a diagonal entry of A", "H has more": "A has more",
     "Z does not have this entry": "Selected does not have this entry",
 }
+_ARRAYS = {  # of a matrix
+    "A.p": "A.indptr", "A.i": "A.indices", "A.x": "A.data", "V.x": "V.data", "H.x": "A.data",
+    "a diagonal entry of H": "a diagonal entry of A", "H has more": "A has more",
+}
+NAMES.update(_ARRAYS)
 NAMES.update(("options." + name, name) for name in (
     "block_size", "consistency_tolerance", "error_limit", "growth_limit", "mass", "null_tolerance",
     "null_vector", "ordering", "perm", "purpose", "region", "regularization", "signs", "storage",
     "triangle"))
 
-_WORDS = re.compile("|".join(r"(?<![\w.])%s(?!\w)" % re.escape(name) if name[0].isalpha() else
-                             re.escape(name) + r"(?!\w)"
-                             for name in sorted(NAMES, key=len, reverse=True)))
+
+
+def _any_of(names):
+    return re.compile("|".join(r"(?<![\w.])%s(?!\w)" % re.escape(name) if name[0].isalpha() else
+                               re.escape(name) + r"(?!\w)"
+                               for name in sorted(names, key=len, reverse=True)))
+
+
+_WORDS, _OF_ARRAYS = _any_of(NAMES), _any_of(_ARRAYS)
 # what is left of C in a sentence on what no call of this package passes
 _OF_C = re.compile(r"\b(?:sl|SL|sli|SLI)_\w|\b(?:options|stats\.\w+|set|threads)\.\w|\bNULL\b|"
                    r"\b[A-Z]\.(?:p|i|x|im|columns)\b|\bld[bgrxyz]\b|\bn_(?:rows|cols|columns)\b|"
@@ -60,7 +68,8 @@ _OF_C = re.compile(r"\b(?:sl|SL|sli|SLI)_\w|\b(?:options|stats\.\w+|set|threads)
 
 
 def names_c(text):
-    """Whether a sentence has names of C, as advice on options has."""
+    """Whether a sentence has names of C other than arrays of a matrix, as advice on options has."""
+    text = _OF_ARRAYS.sub("", text)
     return _WORDS.search(text) is not None or _OF_C.search(text) is not None
 
 

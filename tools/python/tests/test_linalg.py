@@ -86,6 +86,20 @@ def test_slight_asymmetry_is_not_ignored():
     assert not isinstance(linalg.splu(rounded), linalg.SymmetricLU)
 
 
+@pytest.mark.parametrize("kind", ["csc", "csr"])
+def test_rounding_errors_of_a_hermitian_diagonal_are_ignored(kind):
+    turn = sp.diags(np.exp(0.3j * np.arange(25)))
+    A = (turn @ (grid(5) + 0.7 * sp.identity(25)) @ turn.conj()).asformat(kind)
+    before = A.copy()
+    assert 0 < abs(A.diagonal().imag).max() < 1e-14
+    lu, b = linalg.splu(A), right_hand_sides(25) * (1 + 2j)
+    assert isinstance(lu, linalg.SymmetricLU) and np.allclose(A @ lu.solve(b), b)
+    assert np.array_equal(A.data, before.data)
+    A[3, 3] += 1e-6j
+    assert not isinstance(linalg.splu(A.tocsc()), linalg.SymmetricLU)
+    assert np.allclose(A @ linalg.spsolve(A, b), b)
+
+
 def test_what_is_refused_is_refused_as_by_scipy():
     with pytest.raises(TypeError, match="numpy.linalg.solve"):
         linalg.spsolve(np.eye(3), np.ones(3))

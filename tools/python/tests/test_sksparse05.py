@@ -171,6 +171,7 @@ def test_parts_and_their_systems(A, order, make, lower):
                 x = f.solve(b, system=system)
                 assert sp.issparse(x) == sp.issparse(b) and np.allclose(M @ dense(x), dense(b))
             assert isinstance(x, sp.csc_array)  # whose * is not that of csc_matrix
+            assert not np.shares_memory(x.data, b.data)
     with pytest.raises(ValueError, match="system"):
         f.solve(np.ones(25), system="P")
     with pytest.raises(ValueError, match="read-only"):
@@ -260,6 +261,9 @@ def test_what_is_wrong_gives_a_signal():
     with pytest.raises(cholmod.CholmodInvalidInputError):
         f.factorize(bad)
     assert cholmod.cho_factor(A.toarray()).solve(b).shape == (25,)  # anything that SciPy takes
+    turned = sp.csc_matrix(np.array([[4, 1j], [-1j, 3 + 1e-3j]]))
+    with pytest.raises(cholmod.CholmodInvalidInputError, match="diagonal.* imaginary part.*row 1"):
+        cholmod.cho_factor(turned)
 
 
 def is_postorder(parent, post):

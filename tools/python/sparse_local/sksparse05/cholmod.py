@@ -369,7 +369,7 @@ class CholeskyFactor:
         self._f._ready()
         parts = _systems[self.is_ll][system]
         if parts == "":
-            return self._typed(b) if sparse.issparse(b) else b.astype(self.dtype)
+            return self._typed(b.copy()) if sparse.issparse(b) else b.astype(self.dtype)
         if 0 < self.rcond < self.N * np.finfo(np.float64).eps:
             warnings.warn("nearly singular: rcond is %.2g" % self.rcond, CholmodWarning,
                           stacklevel=2)
