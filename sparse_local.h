@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a28b6a847f1e0131
+ * FNV-1a of the lines after this comment, without the license: 4aef36330bb52258
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,25 +36,25 @@
  *   4085 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   4966 impl/ matrix: sparse matrices of the caller and of the library
  *   5827 impl/ ordering: fill-reducing orderings of a graph
- *  10584 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12823 impl/ factor: the numbers of L and D
- *  15409 impl/ solve: full and local solves
- *  16921 impl/ singular: null spaces of semidefinite matrices
- *  18172 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20211 impl/ pivots: the order of the pivots by the values of a matrix
- *  20615 impl/ float: L in single precision
- *  20798 impl/ inverse: entries of the inverse, regions
- *  23700 impl/ change: a factor that follows changes of its matrix
- *  25970 impl/ constraints: rows held at values, on a factor that stays
- *  27321 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30047 impl/ fixed: rows fixed at given values
- *  30603 impl/ io: files that are replaced only when they are complete
- *  30822 impl/ files: Matrix Market files, 64-bit indices
- *  31378 impl/ save: factors in files
- *  33349 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34033 impl/ complex: complex Hermitian systems over real factors
- *  34501 impl/ packs: the tables through which the core calls packs
- *  34925 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10588 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12827 impl/ factor: the numbers of L and D
+ *  15413 impl/ solve: full and local solves
+ *  16925 impl/ singular: null spaces of semidefinite matrices
+ *  18176 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20215 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20619 impl/ float: L in single precision
+ *  20802 impl/ inverse: entries of the inverse, regions
+ *  23704 impl/ change: a factor that follows changes of its matrix
+ *  25974 impl/ constraints: rows held at values, on a factor that stays
+ *  27325 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30051 impl/ fixed: rows fixed at given values
+ *  30607 impl/ io: files that are replaced only when they are complete
+ *  30826 impl/ files: Matrix Market files, 64-bit indices
+ *  31382 impl/ save: factors in files
+ *  33353 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34037 impl/ complex: complex Hermitian systems over real factors
+ *  34505 impl/ packs: the tables through which the core calls packs
+ *  34929 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -6486,6 +6486,7 @@ static void sli_contract_range(void *data, const sli_range *r) {
     c->weight[k] = 0;
     for (m = clusters->start[k]; m < clusters->start[k + 1]; m++) {
       const sl_int v = clusters->member[m];
+      SLI_PREFETCH(g->to + g->begin[clusters->member[sli_min(m + 32, g->n - 1)]], 0);
       c->weight[k] += sli_level_weight(g, v);
       if (is_plain) {
         count = sli_contract_plain(g, c, v, at, first, count);
@@ -6713,7 +6714,10 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
   }
   clusters->start[0] = 0;
   for (k = 0; k < (sl_off)g->n + 511; k++) {
-    const sl_off at = sli_visited(k);
+    const sl_off at = sli_visited(k), ahead = at + 8192;
+    if (ahead < g->n) {
+      SLI_PREFETCH(g->to + g->begin[ahead], 0);
+    }
     if (at < g->n && g->coarse[at] == -1 && !sli_level_is_hub(g, (sl_int)at) &&
         (!has_balls || sli_cluster_is_free(g, (sl_int)at))) {
       weight[count] =
